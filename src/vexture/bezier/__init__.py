@@ -1,0 +1,1 @@
+"""Pure mathematics of cubic Bézier curves, one noun to a module."""

@@ -1,0 +1,1 @@
+"""Encodings: each turns a `CellTree` into textures and back."""

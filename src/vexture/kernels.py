@@ -1,0 +1,75 @@
+"""Compiled kernels: one decorator, one cache, one announcement.
+
+Numba's own cache watches only the file of the function itself, so a kernel would go on calling the old code of a
+kernel that it imports. The cache folder is therefore named after the text of all modules that hold kernels.
+"""
+
+import hashlib
+import os
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numba
+from numba.core import event
+
+__all__ = ["kernel"]
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def kernel_cache() -> Path:
+    """Folder of the compiled kernels: below ``VEXTURE_CACHE``, or the user's cache folder, or a temporary one."""
+    package = Path(__file__).parent
+    digest = hashlib.sha256(numba.__version__.encode())
+    for module in sorted(package.rglob("*.py")):
+        text = module.read_bytes()
+        if b"@kernel" in text:
+            digest.update(text)
+    default = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "vexture"
+    root = Path(os.environ.get("VEXTURE_CACHE") or default)
+    for base in (root, Path(tempfile.gettempdir()) / f"vexture-{os.getuid() if hasattr(os, 'getuid') else 0}"):
+        folder = base / f"kernels-{digest.hexdigest()[:12]}"
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError:
+            continue
+        if os.access(folder, os.W_OK):
+            return folder
+    return root
+
+
+class _Announcement(event.Listener):  # type: ignore[misc]
+    """Says once, on the first compilation of this process, why the first run takes longer."""
+
+    def __init__(self) -> None:
+        self.made = False
+
+    def on_start(self, event: Any) -> None:
+        dispatcher = event.data.get("dispatcher")
+        ours = getattr(dispatcher, "py_func", None)
+        if not self.made and ours is not None and ours.__module__.startswith("vexture."):
+            self.made = True
+            print("vexture: compiling its kernels, once on this machine (about 20 s) ...", file=sys.stderr, flush=True)
+
+    def on_end(self, event: Any) -> None:
+        pass
+
+
+numba.config.CACHE_DIR = str(kernel_cache())
+event.register("numba:compile", _Announcement())
+
+
+def kernel(function: F) -> F:
+    """Compile a scalar function over arrays with Numba, cached on disk.
+
+    Examples
+    --------
+    >>> from vexture.bezier.roots import cubic_at
+    >>> cubic_at(0.0, 0.0, 1.0, 1.0, 0.5)
+    0.5
+    """
+    compiled: F = numba.njit(cache=True, error_model="numpy")(function)
+    return compiled
