@@ -19,5 +19,5 @@ FINEST: Final = 1 / 20000
 DETAIL_SHARE: Final = 1 / 16
 """The automatic tolerance as a share of the extent of the drawing's smallest cubic (thesis 5.2.1)."""
 
-CELL_SHARE: Final = 1 / 16
+CELL_SHARE: Final = 1 / 8
 """And at most this share of the size of the cell (thesis 6.2.1)."""
