@@ -36,7 +36,8 @@ def extract(gshhs: Path) -> None:
             inside = np.flatnonzero(((degrees > (WEST, SOUTH)) & (degrees < (EAST, NORTH))).all(axis=1))
             if len(inside):
                 coast = degrees[inside[0] - 1 : inside[-1] + 2]
-                return np.savetxt(SHAPES / "ocean.csv", coast, "%.5f", ",", header=SOURCE)
+                np.savetxt(SHAPES / "ocean.csv", coast, "%.5f", ",", header=SOURCE)
+                return
     raise SystemExit(f"{gshhs}: no polygon passes through the window; is it the full-resolution file?")
 
 
