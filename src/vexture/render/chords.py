@@ -1,11 +1,11 @@
 """A drawing as straight chords in the image: the first half of the exact renderer, and its only approximation.
 
-Every cubic is cut into chords that leave it by less than a given *flatness* in pixels. Curves are homogeneous, so that
-projective views need no path of their own: a chord stays a chord. What lies above, below or to the right of the image is
-dropped; what lies to its left still counts in the windings and becomes a vertical chord on its left edge.
+Every cubic is cut into chords that leave it by less than a given *flatness* in pixels. Curves are homogeneous, so
+that projective views need no code of their own: a chord stays a chord. What lies above, below or to the right of the
+image is dropped; what lies to its left still counts in the windings and becomes a vertical chord on its left edge.
 
-Heights are rounded to a lattice of `SCANLINE` pixels, alike for all chords that meet in a point, so that closed contours
-stay closed.
+Heights are rounded to a lattice of `SCANLINE` pixels, alike for all chords that meet in a point, so that closed
+contours stay closed.
 """
 
 from typing import Final, NamedTuple
