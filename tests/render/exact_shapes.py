@@ -60,10 +60,9 @@ def straight(corners):
 
 @st.composite
 def degenerate_contours(draw, others):
-    """A polygon, loops and cusps on a coarse lattice, or one of the others again, reversed or moved by next to nothing."""
-    kind = draw(
-        st.sampled_from(["curved", "straight", "again", "reversed", "nearly"] if others else ["curved", "straight"])
-    )
+    """A polygon, loops and cusps on a coarse lattice, or one of the others again, reversed or moved by a hair."""
+    repeats = ["again", "reversed", "nearly"] if others else []
+    kind = draw(st.sampled_from(["curved", "straight", *repeats]))
     if kind in ("curved", "straight"):
         corners = np.array(draw(st.lists(points, min_size=2, max_size=5)))
         if kind == "straight":
@@ -88,3 +87,27 @@ def degenerate_drawings(draw):
         paths.append(Path(tuple(contours[:taken]), draw(st.sampled_from(FillRule))))
         contours = contours[taken:]
     return Drawing(tuple(paths))
+
+
+def camera(size, position, height, angles, focal):
+    """View of the plane of the unit square by a pinhole camera above it; `angles`: heading, pitch (0 = down), roll."""
+    heading, pitch, roll = angles
+
+    def turn(angle, i, j):
+        matrix = np.eye(3)
+        matrix[[i, j], [i, j]], matrix[i, j], matrix[j, i] = np.cos(angle), -np.sin(angle), np.sin(angle)
+        return matrix
+
+    to_ray = np.array([[1, 0, -size[0] / 2], [0, -1, size[1] / 2], [0, 0, -focal]]) / focal
+    ray = turn(heading, 0, 1) @ turn(pitch, 1, 2) @ turn(roll, 0, 1) @ to_ray
+    # a ray meets the plane at position + height (dx, dy)/(-dz)
+    return np.array([height * ray[0] - position[0] * ray[2], height * ray[1] - position[1] * ray[2], -ray[2]])
+
+
+@st.composite
+def cameras(draw, size):
+    """Cameras that see something of the plane: the drawing before, below and behind them, the horizon anywhere."""
+    number = st.floats(0, 1)
+    position, height = draw(st.tuples(number, number)), draw(st.floats(0.05, 1))
+    angles = draw(st.floats(0, 2 * np.pi)), draw(st.floats(0, 1.5)), draw(st.floats(0, 2 * np.pi))
+    return camera(size, position, height, angles, max(size) * draw(st.floats(0.3, 2)))
