@@ -75,8 +75,8 @@ def arc_length(cubics: NDArray[np.float64]) -> float:
     """
     t = (NODES + 1.0) / 2.0
     s = 1.0 - t
-    sides = 3.0 * np.diff(cubics, axis=1)
-    speed = sum(factor[:, None] * sides[:, None, k] for k, factor in enumerate((s * s, 2.0 * s * t, t * t)))
+    blend = 3.0 * np.stack([s * s, 2.0 * s * t, t * t], axis=1)
+    speed = blend @ np.diff(cubics, axis=1)
     lengths = np.sqrt((speed * speed).sum(axis=2)) @ WEIGHTS / 2.0
     return float(lengths.sum())
 

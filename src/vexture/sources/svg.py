@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 from fontTools.misc.transform import Identity, Transform
+from numpy.typing import NDArray
 
 from vexture.bezier.bounds import bounds
 from vexture.drawing import Drawing
@@ -54,7 +55,7 @@ def read_svg(path: str | os.PathLike[str]) -> Drawing:
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     file = Path(folder) / "half.svg"
-    ...     _ = file.write_text('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>')
+    ...     _ = file.write_text('<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>')
     ...     drawing = read_svg(file)
     >>> drawing.name, drawing.segments
     ('half', 4)
@@ -95,7 +96,7 @@ def drawing_of(scene: Scene, name: str) -> Drawing:
 
 
 def frame(scene: Scene) -> tuple[tuple[float, float], Viewport, Transform] | None:
-    """Size of the drawing in pixels, the root's viewport, and the map from user units to pixels; None without a size."""
+    """Size of the drawing in pixels, the root's viewport, and the map from user units to pixels; None if unsized."""
     root, style = scene.root, scene.style
     box = view_box(root.get("viewBox"))
     absolute = Viewport(0.0, 0.0, style.font_size)
@@ -119,7 +120,8 @@ def frame(scene: Scene) -> tuple[tuple[float, float], Viewport, Transform] | Non
     return (width, height), replace(absolute, width=width, height=height), Identity
 
 
-def after(first: np.ndarray, second: Transform) -> np.ndarray:
+def after(first: NDArray[np.float64], second: Transform) -> NDArray[np.float64]:
     """Affine map (2, 3) that applies one and then another."""
     a, b, c, d, e, f = second
-    return np.array([[a, c], [b, d]]) @ first + np.array([[0.0, 0.0, e], [0.0, 0.0, f]])
+    product: NDArray[np.float64] = np.array([[a, c], [b, d]]) @ first + np.array([[0.0, 0.0, e], [0.0, 0.0, f]])
+    return product

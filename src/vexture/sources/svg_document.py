@@ -58,7 +58,12 @@ def parse_svg(content: bytes) -> etree._Element:
     >>> parse_svg(b'<svg xmlns="http://www.w3.org/2000/svg"/>').tag
     '{http://www.w3.org/2000/svg}svg'
     """
-    parser = etree.XMLParser(resolve_entities="internal", no_network=True, huge_tree=False, remove_comments=True)
+    parser = etree.XMLParser(
+        resolve_entities="internal",  # type: ignore[arg-type]  # lxml-stubs knows only True and False
+        no_network=True,
+        huge_tree=False,
+        remove_comments=True,
+    )
     try:
         root = etree.fromstring(content, parser)
     except (etree.XMLSyntaxError, ValueError) as error:

@@ -40,8 +40,10 @@ def read_color(text: str) -> Color | str | None:
         parsed = tinycss2.color4.parse_color(text)
     except (ValueError, TypeError, AttributeError, KeyError):  # tinycss2 trips over some malformed functions
         return None
-    if parsed is None or parsed == "currentcolor":
-        return parsed
+    if parsed is None:
+        return None
+    if parsed == "currentcolor":
+        return "currentcolor"
     try:
         red, green, blue = (min(max(float(channel or 0), 0.0), 1.0) for channel in parsed.to("srgb").coordinates)
     except NotImplementedError:

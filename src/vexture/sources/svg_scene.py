@@ -23,7 +23,7 @@ from vexture.sources.svg_space import Place, Space
 from vexture.sources.svg_style import INITIAL, Cascade, Style
 from vexture.sources.svg_transform import parse_origin, parse_transform
 from vexture.sources.svg_values import Viewport
-from vexture.sources.svg_viewport import view_box, view_transform
+from vexture.sources.svg_viewport import CENTRED, Rectangle, parse_fit, view_box, view_transform
 
 __all__ = ["Scene"]
 
@@ -35,32 +35,15 @@ DEEPEST = 1_000
 
 CONTAINERS = frozenset({"a", "g", "svg", "switch", "symbol"})
 UNSEEN = frozenset(
-    [
-        "clipPath",
-        "color-profile",
-        "cursor",
-        "defs",
-        "desc",
-        "filter",
-        "font",
-        "font-face",
-        "hatch",
-        "linearGradient",
-        "marker",
-        "mask",
-        "metadata",
-        "meshgradient",
-        "pattern",
-        "radialGradient",
-        "solidcolor",
-        "style",
-        "title",
-        "view",
-    ]
+    {
+        *("clipPath", "color-profile", "cursor", "defs", "desc", "filter", "font", "font-face", "hatch"),
+        *("linearGradient", "marker", "mask", "meshgradient", "metadata", "pattern", "radialGradient"),
+        *("solidcolor", "style", "title", "view"),
+    }
 )
 """Elements that paint nothing where they stand."""
 
-ANIMATIONS = frozenset(["animate", "animateColor", "animateMotion", "animateTransform", "discard", "set"])
+ANIMATIONS = frozenset({"animate", "animateColor", "animateMotion", "animateTransform", "discard", "set"})
 EFFECTS = ("clip-path", "filter", "mask", "rotate", "scale", "translate")
 MARKED = frozenset({"line", "path", "polygon", "polyline"})
 LANGUAGE = "en"
@@ -197,17 +180,15 @@ class Scene:
         size = box[2:] if box else (width, height)
         return replace(place, viewport=replace(place.viewport, width=size[0], height=size[1]), space=space)
 
-    def fit(
-        self, element: etree._Element, box: tuple[float, float, float, float], width: float, height: float
-    ) -> Transform:
+    def fit(self, element: etree._Element, box: Rectangle, width: float, height: float) -> Transform:
         """Map a view box into a viewport as the element's `preserveAspectRatio` says."""
-        text = element.get("preserveAspectRatio", "")
-        found = view_transform(box, text, width, height)
-        if found is None:
-            self.report.invalid("preserveAspectRatio", text, element)
-            found = view_transform(box, "", width, height)
-        assert found is not None
-        return found
+        fit = CENTRED
+        text = element.get("preserveAspectRatio")
+        if text is not None:
+            fit = parse_fit(text) or CENTRED
+            if parse_fit(text) is None:
+                self.report.invalid("preserveAspectRatio", text, element)
+        return view_transform(box, fit, width, height)
 
     def lengths(self, style: Style, viewport: Viewport, across: str, down: str) -> tuple[float, float]:
         """Two lengths, along x and y; those that are "auto" are 0."""

@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 from lxml import etree
 
 from vexture.drawing import Paint
@@ -19,7 +20,7 @@ FRAGMENT = re.compile(r"\s*#(.*?)\s*", re.DOTALL)
 
 
 def reference(element: etree._Element) -> str | None:
-    """What an element refers to; None without a reference."""
+    """Find what an element refers to; None without a reference."""
     return next((element.get(name) for name in HREF if element.get(name)), None)
 
 
@@ -99,11 +100,9 @@ class Servers:
             seen.append(gradient)
             colors = [self.stop_color(stop) for stop in gradient if local_name(stop) == "stop"]
             if colors:
-                red, green, blue = (
-                    sum(channel) / len(colors) for channel in zip(*(c.rgb for c in colors), strict=True)
-                )
-                exact = all(color.exact for color in colors)
-                return Color((red, green, blue), sum(color.alpha for color in colors) / len(colors), exact)
+                red, green, blue = np.mean([color.rgb for color in colors], axis=0).tolist()
+                alpha = float(np.mean([color.alpha for color in colors]))
+                return Color((red, green, blue), alpha, all(color.exact for color in colors))
             gradient = self.target(reference(gradient) or "")
         return None
 
