@@ -10,6 +10,7 @@ __all__ = [
     "FINEST",
     "FLATNESS",
     "PARAMETER",
+    "ROUND",
     "SCANLINE",
 ]
 
@@ -36,3 +37,6 @@ FLATNESS: Final = 2e-5
 
 SCANLINE: Final = 2.0**-30
 """Pixels. Lattice of the heights at which the exact renderer's chords begin, end and cross (about 1e-9)."""
+
+ROUND: Final = 1e-5
+"""Unit-square units. Largest distance from the true curve of what a reader must approximate: arcs and strokes."""
