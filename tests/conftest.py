@@ -1,6 +1,1 @@
-"""Shared by all tests: helpers beside this file are importable by name."""
-
-import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).parent))
+"""Shared by all tests; its presence puts this folder on the import path, so that `strategies` can be imported."""
