@@ -138,7 +138,9 @@ def distance(outline: Floats, points: Floats) -> Floats:
     return np.sqrt(((offset - s[..., None] * step) ** 2).sum(2).min(1))
 
 
-def leaves(texture: ThesisTexture, footprint: float, row: int = 0, low: Any = (0, 0), size: float = 1) -> Iterator[Leaf]:
+def leaves(
+    texture: ThesisTexture, footprint: float, row: int = 0, low: Any = (0, 0), size: float = 1
+) -> Iterator[Leaf]:
     """All cells that a picture with pixels of this footprint shows."""
     quads, curves = (a / np.iinfo(a.dtype).max for a in (texture.quads, texture.curves))
     low = np.array(low, float)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.area import area_right_of, integral_x_dy
+from vexture.bezier.area import area_right_of, integral_x_dy, leaf_area, loop_area
 from vexture.bezier.fit import fit_cubic
 from vexture.bezier.monotone import Pieces
 from vexture.bezier.roots import cubic_at
@@ -113,29 +113,6 @@ def _expressible(curve: NDArray[np.float64]) -> bool:
 
 
 @kernel
-def _crosses_itself(curve: NDArray[np.float64]) -> bool:
-    """Whether a cubic has a loop within its parameters.
-
-    With B(t) = a t^3 + b t^2 + c t + d, B(s) = B(t) for s != t means a (m^2 - p) + b m + c = 0 with m = s + t and
-    p = s t; the cross products with a and with b give m and p.
-    """
-    p = curve
-    ax, ay = p[3, 0] - p[0, 0] + 3.0 * (p[1, 0] - p[2, 0]), p[3, 1] - p[0, 1] + 3.0 * (p[1, 1] - p[2, 1])
-    bx, by = 3.0 * (p[0, 0] - 2.0 * p[1, 0] + p[2, 0]), 3.0 * (p[0, 1] - 2.0 * p[1, 1] + p[2, 1])
-    cx, cy = 3.0 * (p[1, 0] - p[0, 0]), 3.0 * (p[1, 1] - p[0, 1])
-    a_b = ax * by - ay * bx
-    if a_b == 0.0:
-        return False
-    m = -(ax * cy - ay * cx) / a_b
-    product = m * m + (cx * by - cy * bx) / a_b
-    discriminant = m * m - 4.0 * product
-    if discriminant <= 0.0:
-        return False
-    root = np.sqrt(discriminant)
-    return 0.5 * (m - root) >= 0.0 and 0.5 * (m + root) <= 1.0
-
-
-@kernel
 def own_leaf(
     pieces: Pieces,
     first: int,
@@ -176,7 +153,7 @@ def own_leaf(
             return no_leaf()
     for k in range(4):
         curve[k, 0], curve[k, 1] = (curve[k, 0] - x0) / size, (curve[k, 1] - y0) / size
-    if not _expressible(curve) or (rule == 0 and last - first > 1 and _crosses_itself(curve)):
+    if not _expressible(curve) or (rule == 0 and last - first > 1 and loop_area(curve) != 0.0):
         return no_leaf()
     local = np.empty((last - first, 4, 2))
     for i in range(first, last):
@@ -190,10 +167,10 @@ def own_leaf(
     if right == left:
         return _constant_leaf(right)
     if right:
-        return Leaf(CURVE, curve, right_area, 0.0, True)
+        return Leaf(CURVE, curve, leaf_area(curve, False), 0.0, True)
     backwards = np.empty((4, 2))
     subcubic(curve, 1.0, 0.0, backwards)
-    return Leaf(CURVE, backwards, 1.0 - right_area, 0.0, True)
+    return Leaf(CURVE, backwards, leaf_area(backwards, False), 0.0, True)
 
 
 @kernel
@@ -212,7 +189,7 @@ def _own_chain(chain: Chain, cubics: NDArray[np.float64], x0: float, y0: float, 
         curve[k, 0], curve[k, 1] = (curve[k, 0] - x0) / size, (curve[k, 1] - y0) / size
     for end in (0, 3):
         snap_to_edge(curve[end])
-    if not _expressible(curve) or (n > 1 and _crosses_itself(curve)):
+    if not _expressible(curve) or (n > 1 and loop_area(curve) != 0.0):
         return no_leaf()
     return Leaf(CURVE, curve, 0.0, 0.0, True)
 
