@@ -1,0 +1,105 @@
+"""Pieces of cubics that are monotone in x and in y."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.bezier.roots import turning_points
+from vexture.bezier.split import copy_curve, split
+from vexture.kernels import kernel
+from vexture.tolerance import PARAMETER
+
+__all__ = ["Pieces", "empty_pieces", "monotone_pieces"]
+
+
+class Pieces(NamedTuple):
+    """Monotone pieces, as arrays of n; any horizontal or vertical line meets a piece at most once.
+
+    Attributes
+    ----------
+    points : (n, 4, 2) float64 array
+        P0 P1 P2 P3.
+    path, segment : (n,) int64 arrays
+        The path that a piece belongs to, and the cubic of the source that it is a part of.
+    span : (n, 2) float64 array
+        The part: its parameters t0 < t1 on that cubic.
+    """
+
+    points: NDArray[np.float64]
+    path: NDArray[np.int64]
+    segment: NDArray[np.int64]
+    span: NDArray[np.float64]
+
+
+@kernel
+def empty_pieces(count: int) -> Pieces:
+    """Room for pieces, to be filled."""
+    return Pieces(
+        np.empty((count, 4, 2), np.float64),
+        np.empty(count, np.int64),
+        np.empty(count, np.int64),
+        np.empty((count, 2), np.float64),
+    )
+
+
+@kernel
+def _turns(curve: NDArray[np.float64], turns: NDArray[np.float64]) -> int:
+    """Write the parameters at which x or y turns, in rising order; return how many (0 to 4)."""
+    count = turning_points(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], turns)
+    count += turning_points(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], turns[count:])
+    for i in range(1, count):
+        t, k = turns[i], i
+        while k > 0 and turns[k - 1] > t:
+            turns[k] = turns[k - 1]
+            k -= 1
+        turns[k] = t
+    return count
+
+
+@kernel
+def monotone_pieces(cubics: NDArray[np.float64], path: NDArray[np.int64]) -> Pieces:
+    """Split cubics where x or y turns.
+
+    Parameters
+    ----------
+    cubics : (m, 4, 2) float64 array
+        In the order of their contours.
+    path : (m,) int64 array
+        The path that each belongs to.
+
+    Returns
+    -------
+    Pieces
+        In the same order; pieces whose ends coincide are dropped, and common end points are equal bit for bit.
+
+    Examples
+    --------
+    >>> arch = np.array([[[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]])
+    >>> monotone_pieces(arch, np.zeros(1, np.int64)).span
+    array([[0. , 0.5],
+           [0.5, 1. ]])
+    """
+    out = empty_pieces(5 * len(cubics))
+    turns = np.empty(4)
+    rest = np.empty((4, 2))
+    count = 0
+    for i in range(len(cubics)):
+        copy_curve(cubics[i], rest)
+        turn_count = _turns(cubics[i], turns)
+        t0 = 0.0
+        for k in range(turn_count + 1):
+            t1 = turns[k] if k < turn_count else 1.0
+            if k < turn_count and t1 - t0 < PARAMETER:
+                continue
+            piece = out.points[count]
+            if k < turn_count:
+                split(rest, (t1 - t0) / (1.0 - t0), piece, rest)
+            else:
+                copy_curve(rest, piece)
+            out.path[count], out.segment[count] = path[i], i
+            out.span[count, 0], out.span[count, 1] = t0, t1
+            t0 = t1
+            if piece[0, 0] != piece[3, 0] or piece[0, 1] != piece[3, 1]:
+                count += 1
+    return Pieces(out.points[:count], out.path[:count], out.segment[:count], out.span[:count])

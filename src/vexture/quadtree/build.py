@@ -1,0 +1,267 @@
+"""From a drawing to a `CellTree`, level by level."""
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.bezier.monotone import Pieces, monotone_pieces
+from vexture.bezier.split import copy_curve
+from vexture.drawing import Drawing
+from vexture.errors import LimitError, SourceError
+from vexture.kernels import kernel
+from vexture.quadtree.boundary import crowded_area
+from vexture.quadtree.leaf import NO_LEAF, Leaf, cell_chain, chain_leaf, limit_leaf, nearest_constant, no_leaf, own_leaf
+from vexture.quadtree.level import Level, children
+from vexture.quadtree.sampled import build_sampled
+from vexture.quadtree.tree import CellKind, CellTree
+from vexture.tolerance import CELL_SHARE, CLOSED, COARSEST, DETAIL_SHARE, FINEST
+
+__all__ = ["DEFAULT_DEPTH", "DEPTH_RANGE", "auto_tolerance", "build", "gather"]
+
+DEPTH_RANGE = (1, 20)
+"""Depth limits that a caller may ask for; float32 shaders resolve no more."""
+
+DEFAULT_DEPTH = 10
+"""Cells of a thousandth of the drawing."""
+
+CROWDED = 8
+"""Pieces in a cell above which it is resolved only if its boundary meets the cell's edge exactly twice."""
+
+HOPELESS = 160
+"""Pieces in a cell above which it is not resolved at all: resolving looks at every pair."""
+
+CURVE, QUAD, CORNER, FULL, EMPTY = (int(kind) for kind in CellKind)
+
+
+@kernel
+def _ends_on_edge(pieces: Pieces, first: int, last: int, x0: float, y0: float, size: float) -> int:
+    """Number of ends of chains on the cell's edge: of ends there that the next piece does not go on from."""
+    count = 0
+    for i in range(first, last):
+        for end in (0, 3):
+            neighbour = i - 1 if end == 0 else i + 1
+            x, y = pieces.points[i, end, 0], pieces.points[i, end, 1]
+            if x != x0 and x != x0 + size and y != y0 and y != y0 + size:
+                continue
+            if first <= neighbour < last and (
+                pieces.points[neighbour, 3 - end, 0] == x and pieces.points[neighbour, 3 - end, 1] == y
+            ):
+                continue
+            count += 1
+    return count
+
+
+@kernel
+def _leaf_of(
+    level: Level,
+    c: int,
+    cubics: NDArray[np.float64],
+    rules: NDArray[np.int64],
+    size: float,
+    tolerance: float,
+    at_limit: bool,
+) -> Leaf:
+    """Leaf of cell c, or `NO_LEAF` to divide it."""
+    first, last = level.piece_at[c], level.piece_at[c + 1]
+    present = level.present[level.path_at[c] : level.path_at[c + 1]]
+    x0, y0 = level.origin[c, 0], level.origin[c, 1]
+    if len(present) == 1:
+        leaf = own_leaf(level.pieces, first, last, cubics, present[0, 1], rules[present[0, 0]], x0, y0, size)
+        if leaf.kind != NO_LEAF:
+            return leaf
+    if last - first > HOPELESS:
+        if at_limit:
+            return nearest_constant(crowded_area(level.pieces, first, last, present, rules, x0, y0, size))
+        return no_leaf()
+    if not at_limit and last - first > CROWDED and _ends_on_edge(level.pieces, first, last, x0, y0, size) != 2:
+        return no_leaf()
+    chain, area = cell_chain(level.pieces, first, last, present, rules, x0, y0, size)
+    leaf = chain_leaf(chain, area, cubics, x0, y0, size, tolerance / size)
+    if leaf.kind == NO_LEAF and at_limit:
+        leaf = limit_leaf(chain, area)
+    return leaf
+
+
+@kernel
+def _with_room(rows: NDArray[np.float64], count: int, room: int) -> NDArray[np.float64]:
+    """Array of rows with room for more behind the first `count`; itself if it has that, else twice as large."""
+    if count + room <= len(rows):
+        return rows
+    out = np.empty((2 * count + room, rows.shape[1], rows.shape[2]))
+    for i in range(count):
+        for j in range(rows.shape[1]):
+            for k in range(rows.shape[2]):
+                out[i, j, k] = rows[i, j, k]
+    return out
+
+
+@kernel
+def _add_quads(cells: NDArray[np.float64], level: Level, split_cells: NDArray[np.bool_], quad: int) -> int:
+    """Enter the quads that cells of a level become, their cells empty; return the new number of quads."""
+    for c in range(len(split_cells)):
+        if split_cells[c]:
+            if level.slot[c] >= 0:
+                slot = cells[level.slot[c] // 4, level.slot[c] % 4]
+                slot[0], slot[1] = QUAD, quad
+            for k in range(4):
+                cells[quad, k, 0], cells[quad, k, 1], cells[quad, k, 2] = EMPTY, -1.0, 0.0
+            quad += 1
+    return quad
+
+
+@kernel
+def grow(
+    level: Level,
+    cubics: NDArray[np.float64],
+    rules: NDArray[np.int64],
+    tolerance: float,
+    cell_share: float,
+    max_depth: int,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], float, int]:
+    """Divide the unit square level by level until every cell is a leaf.
+
+    Returned are the cells, (quads, 4, 3): kind, reference, coverage; the curves; deviation; unresolved.
+    """
+    cells, quads = np.empty((16, 4, 3)), 0
+    curves, curve_count = np.empty((16, 4, 2)), 0
+    unresolved, deviation, size = 0, 0.0, 1.0
+    for depth in range(max_depth + 1):
+        count = len(level.slot)
+        split_cells, split_count = np.zeros(count, np.bool_), 0
+        curves = _with_room(curves, curve_count, count)
+        for c in range(count):
+            limit = min(tolerance, cell_share * size)
+            leaf = no_leaf()
+            if depth > 0:  # the root is always a quad
+                leaf = _leaf_of(level, c, cubics, rules, size, limit, depth == max_depth)
+            if leaf.kind == NO_LEAF:
+                split_cells[c] = True
+                split_count += 1
+                continue
+            slot = cells[level.slot[c] // 4, level.slot[c] % 4]
+            slot[0], slot[2] = leaf.kind, leaf.coverage
+            deviation = max(deviation, leaf.distance * size)
+            unresolved += 0 if leaf.resolved else 1
+            if leaf.kind in (CURVE, CORNER):
+                slot[1] = curve_count
+                copy_curve(leaf.curve, curves[curve_count])
+                curve_count += 1
+        if split_count == 0:
+            break
+        cells = _with_room(cells, quads, split_count)
+        first_quad = quads
+        quads = _add_quads(cells, level, split_cells, first_quad)
+        level, full = children(level, split_cells, split_count, rules, size, first_quad)
+        for slot_index in full:
+            cell = cells[slot_index // 4, slot_index % 4]
+            cell[0], cell[2] = FULL, 1.0
+        size *= 0.5
+    for quad in range(quads - 1, -1, -1):
+        for k in range(4):
+            if cells[quad, k, 0] == QUAD:
+                below = cells[int(cells[quad, k, 1])]
+                cells[quad, k, 2] = 0.25 * (below[0, 2] + below[1, 2] + below[2, 2] + below[3, 2])
+    return cells[:quads], curves[:curve_count], deviation, unresolved
+
+
+def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+    """Cubics of a drawing, (n, 4, 2), the path of each, (n,), and the paths' fill rules, (paths,)."""
+    contours = [contour for path in drawing.paths for contour in path.contours]
+    cubics = np.concatenate(contours) if contours else np.empty((0, 4, 2))
+    lengths = [sum(map(len, path.contours)) for path in drawing.paths]
+    owner = np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
+    return cubics, owner, np.array([int(path.fill_rule) for path in drawing.paths], dtype=np.int64)
+
+
+def auto_tolerance(cubics: NDArray[np.float64]) -> float:
+    """Tolerance that follows the smallest detail of a drawing (thesis 5.2.1), in unit-square units.
+
+    A share of the extent of its smallest cubic, within limits: no coarser than what shows at usual sizes, no finer
+    than what a depth limit can use.
+
+    Examples
+    --------
+    >>> auto_tolerance(np.empty((0, 4, 2))) == COARSEST
+    True
+    """
+    if not len(cubics):
+        return COARSEST
+    extent = np.ptp(cubics, axis=1).max(axis=1)
+    return float(np.clip(DETAIL_SHARE * extent.min(), FINEST, COARSEST))
+
+
+def _root(drawing: Drawing, pieces: Pieces) -> Level:
+    """The unit square as the only cell of its level; every path has corner winding 0 there."""
+    ends = pieces.points[:, [0, 3]]
+    worst = np.abs(ends - np.clip(ends, 0.0, 1.0)).max()
+    if worst > CLOSED:
+        raise SourceError(f"{drawing.name}: a curve leaves the unit square by {worst:.3g}; clip or scale it first")
+    pieces.points[:, [0, 3]] = np.clip(ends, 0.0, 1.0)
+    paths = np.unique(pieces.path)
+    return Level(
+        np.zeros((1, 2)),
+        np.full(1, -1),
+        np.array([0, len(pieces.path)]),
+        np.array([0, len(paths)]),
+        pieces,
+        np.column_stack((paths, np.zeros_like(paths))),
+    )
+
+
+def build(
+    drawing: Drawing,
+    tolerance: float | Literal["auto"] = "auto",
+    max_depth: int = DEFAULT_DEPTH,
+    strategy: Literal["direct", "sampled"] = "direct",
+) -> CellTree:
+    """Quad-tree of a drawing's silhouette, with thesis leaves.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        In normal form.
+    tolerance : float or "auto"
+        Largest distance between the drawing's outline and a leaf's, in unit-square units. "auto" follows the
+        smallest detail of the drawing and the size of the cell.
+    max_depth : int
+        Cells of this depth are not divided further; the unit square has depth 0.
+    strategy : "direct" or "sampled"
+        Leaves found from the drawing's own cubics, or the thesis's original way by sampling and fitting.
+
+    Returns
+    -------
+    CellTree
+
+    Raises
+    ------
+    LimitError
+        If a parameter is out of range.
+    SourceError
+        If the drawing leaves the unit square.
+
+    Examples
+    --------
+    >>> tree = build(Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)]))
+    >>> len(tree.kind), len(tree.curves), round(float(tree.quad_coverage[0]), 4)
+    (1, 4, 0.36)
+    """
+    if tolerance != "auto" and not 0.0 < tolerance < 1.0:
+        raise LimitError(f"tolerance {tolerance} is not between 0 and 1 (unit-square units); use auto or e.g. 0.0005")
+    if strategy not in ("direct", "sampled"):
+        raise LimitError(f"strategy {strategy!r} is not known; use direct or sampled")
+    low, high = DEPTH_RANGE
+    if not low <= max_depth <= high:
+        raise LimitError(f"depth limit {max_depth} is outside {low}..{high}; the default is {DEFAULT_DEPTH}")
+    cubics, owner, rules = gather(drawing)
+    pieces = monotone_pieces(cubics, owner)
+    if not len(pieces.path):
+        nothing = np.full((1, 4), EMPTY, np.uint8)
+        return CellTree(nothing, np.full((1, 4), -1, np.int32), np.zeros((1, 4)), np.empty((0, 4, 2)), 0.0, 0)
+    share = CELL_SHARE if tolerance == "auto" else np.inf
+    distance = auto_tolerance(cubics) if tolerance == "auto" else float(tolerance)
+    if strategy == "sampled":
+        return build_sampled(drawing, cubics, owner, rules, distance, share, max_depth)
+    cells, curves, deviation, unresolved = grow(_root(drawing, pieces), cubics, rules, distance, share, max_depth)
+    kind, ref, coverage = cells[:, :, 0].astype(np.uint8), cells[:, :, 1].astype(np.int32), cells[:, :, 2].copy()
+    return CellTree(kind, ref, coverage, curves.copy(), deviation, unresolved)

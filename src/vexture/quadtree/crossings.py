@@ -1,0 +1,190 @@
+"""Heights at which two monotone pieces change their order."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.bezier.roots import cubic_at, solve_monotone
+from vexture.kernels import kernel
+
+__all__ = ["crossing_heights", "x_at"]
+
+MAX_STEPS = 200
+"""Intervals looked at for one pair; near-coincident curves could ask for many and would gain less than a unit."""
+
+PAIR_ROOM = 32
+"""Places kept free for the crossings of one pair: two cubics meet at most nine times."""
+
+STACK = 64
+"""Open intervals: bisection at integers of a 16-bit range goes 17 deep and keeps one sibling for each."""
+
+
+@kernel
+def x_at(curve: NDArray[np.float64], y: float) -> float:
+    """Place where a monotone piece that is not horizontal has height y."""
+    if y == curve[0, 1]:
+        return curve[0, 0]
+    if y == curve[3, 1]:
+        return curve[3, 0]
+    t = solve_monotone(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], y)
+    x = cubic_at(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], t)
+    return min(max(x, min(curve[0, 0], curve[3, 0])), max(curve[0, 0], curve[3, 0]))
+
+
+class Stretch(NamedTuple):
+    """What is known of x(y) of a piece over an interval of y: its ends, and bounds around their chord."""
+
+    x_low: float
+    x_high: float
+    below_chord: float
+    above_chord: float
+    least_slope: float
+    greatest_slope: float
+
+
+@kernel
+def _velocity(curve: NDArray[np.float64], axis: int, t: float) -> float:
+    """Derivative of a coordinate by t."""
+    s = 1.0 - t
+    p0, p1, p2, p3 = curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis]
+    return 3.0 * (s * s * (p1 - p0) + 2.0 * s * t * (p2 - p1) + t * t * (p3 - p2))
+
+
+@kernel
+def _stretch(curve: NDArray[np.float64], low: float, high: float) -> Stretch:
+    """Bound a piece over low <= y <= high, by the control polygon of that part.
+
+    A cubic's distance from its chord, measured along x, is at most 3/4 of its control points' (each of the two
+    inner Bernstein polynomials is at most 4/9, their sum at most 3/4).
+    """
+    t0 = solve_monotone(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], low)
+    t1 = solve_monotone(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], high)
+    x0 = cubic_at(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], t0)
+    x3 = cubic_at(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], t1)
+    third = (t1 - t0) / 3.0
+    ax, ay = third * _velocity(curve, 0, t0), third * _velocity(curve, 1, t0)  # P1 - P0
+    cx, cy = third * _velocity(curve, 0, t1), third * _velocity(curve, 1, t1)  # P3 - P2
+    bx, by = x3 - x0 - ax - cx, high - low - ay - cy  # P2 - P1
+    slope = (x3 - x0) / (high - low)
+    off1, off2 = ax - slope * ay, slope * cy - cx
+    below, above = 0.75 * min(0.0, off1, off2), 0.75 * max(0.0, off1, off2)
+    if ay > 0.0 and by > 0.0 and cy > 0.0:
+        s_a, s_b, s_c = ax / ay, bx / by, cx / cy
+        return Stretch(x0, x3, below, above, min(s_a, s_b, s_c), max(s_a, s_b, s_c))
+    return Stretch(x0, x3, below, above, -np.inf, np.inf)
+
+
+@kernel
+def _single_crossing(a: NDArray[np.float64], b: NDArray[np.float64], low: float, high: float) -> float:
+    """Integer y nearest to the one crossing of two pieces whose order differs at low and high."""
+    sign_low = x_at(a, low) > x_at(b, low)
+    while high - low > 1.0:
+        middle = np.floor(0.5 * (low + high))
+        if (x_at(a, middle) > x_at(b, middle)) == sign_low:
+            low = middle
+        else:
+            high = middle
+    gap_low, gap_high = abs(x_at(a, low) - x_at(b, low)), abs(x_at(a, high) - x_at(b, high))
+    return low if gap_low < gap_high else high
+
+
+@kernel
+def _pair_crossings(
+    a: NDArray[np.float64],
+    b: NDArray[np.float64],
+    low: float,
+    high: float,
+    near: float,
+    out: NDArray[np.float64],
+    count: int,
+) -> int:
+    """Append to out[count:] the heights at which two pieces change their order on low..high; return the new count.
+
+    An interval is done when the curves stay on their sides there within `near`, when their slopes' ranges are
+    disjoint (then they cross at most once), or when it is one unit high; else it is bisected.
+    """
+    lows, highs = np.empty(STACK), np.empty(STACK)
+    lows[0], highs[0] = low, high
+    open_count, steps = 1, 0
+    while open_count > 0 and count + 2 <= len(out):
+        open_count -= 1
+        steps += 1
+        low, high = lows[open_count], highs[open_count]
+        p, q = _stretch(a, low, high), _stretch(b, low, high)
+        gap_low, gap_high = p.x_low - q.x_low, p.x_high - q.x_high
+        least, greatest = p.below_chord - q.above_chord, p.above_chord - q.below_chord
+        if min(gap_low, gap_high) + least >= -near or max(gap_low, gap_high) + greatest <= near:
+            continue
+        apart = (gap_low > near and gap_high < -near) or (gap_low < -near and gap_high > near)
+        monotone = p.least_slope > q.greatest_slope or q.least_slope > p.greatest_slope
+        if monotone or high - low <= 1.0 or steps > MAX_STEPS:
+            if apart:
+                out[count] = _single_crossing(a, b, low, high)
+                count += 1
+            continue
+        middle = np.floor(0.5 * (low + high))
+        gap = x_at(a, middle) - x_at(b, middle)
+        if abs(gap) <= near and (abs(gap_low) > near or abs(gap_high) > near):
+            out[count] = middle  # the change of order may hide at the common border of the two halves
+            count += 1
+        lows[open_count], highs[open_count] = middle, high
+        lows[open_count + 1], highs[open_count + 1] = low, middle
+        open_count += 2
+    return count
+
+
+@kernel
+def _same_curve(a: NDArray[np.float64], b: NDArray[np.float64], near: float) -> bool:
+    """Whether two pieces coincide, in the same or in the opposite direction."""
+    same, opposite = True, True
+    for k in range(4):
+        for axis in range(2):
+            same = same and abs(a[k, axis] - b[k, axis]) <= 0.5 * near
+            opposite = opposite and abs(a[k, axis] - b[3 - k, axis]) <= 0.5 * near
+    return same or opposite
+
+
+@kernel
+def crossing_heights(curves: NDArray[np.float64], near: float, room: int) -> tuple[NDArray[np.float64], int]:
+    """Heights, as integers, at which monotone pieces on a lattice change their order by more than `near`.
+
+    Parameters
+    ----------
+    curves : (n, 4, 2) float64 array
+        Their ends are integers.
+    near : float
+        Lattice units below which an order has no meaning.
+    room : int
+        Number of places to leave free behind them, for heights of the caller's.
+
+    Returns
+    -------
+    array, int
+        The heights, in no order, and their number.
+
+    Examples
+    --------
+    >>> line = lambda x0, y0, x3, y3: np.linspace((x0, y0), (x3, y3), 4)
+    >>> heights, count = crossing_heights(np.array([line(0.0, 0.0, 99.0, 99.0), line(0.0, 99.0, 99.0, 0.0)]), 1.0, 0)
+    >>> heights[:count]
+    array([49.])
+    """
+    out = np.empty(PAIR_ROOM + room)
+    count = 0
+    for i in range(len(curves)):
+        a = curves[i]
+        for j in range(i):
+            b = curves[j]
+            low = max(min(a[0, 1], a[3, 1]), min(b[0, 1], b[3, 1]))
+            high = min(max(a[0, 1], a[3, 1]), max(b[0, 1], b[3, 1]))
+            beside = max(a[0, 0], a[3, 0]) <= min(b[0, 0], b[3, 0]) or max(b[0, 0], b[3, 0]) <= min(a[0, 0], a[3, 0])
+            if low >= high or beside or _same_curve(a, b, near):
+                continue
+            if count + PAIR_ROOM + room > len(out):
+                more = np.empty(2 * len(out) + PAIR_ROOM)
+                for k in range(count):
+                    more[k] = out[k]
+                out = more
+            count = _pair_crossings(a, b, low, high, near, out[: len(out) - room], count)
+    return out, count
