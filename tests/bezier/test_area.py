@@ -30,7 +30,6 @@ def even_odd_area(polygon: NDArray[np.float64], lines: int = 1000) -> float:
     return area
 
 
-@settings(deadline=None)  # the first call compiles
 @given(edge_cubics())
 def test_integral_is_that_of_quadrature(curve: NDArray[np.float64]) -> None:
     nodes, weights = np.polynomial.legendre.leggauss(3)  # exact up to degree 5
@@ -42,19 +41,18 @@ def test_integral_is_that_of_quadrature(curve: NDArray[np.float64]) -> None:
     assert integral_x_dy(curve) == pytest.approx(expected, abs=1e-12)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(edge_cubics())
 def test_area_of_a_curve_is_what_scan_lines_count(curve: NDArray[np.float64]) -> None:
     assert leaf_area(curve, False) == pytest.approx(even_odd_area(closed_clockwise(on_cubic(curve, T))), abs=4e-3)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(edge_corners())
 def test_area_of_a_corner_is_what_scan_lines_count(curve: NDArray[np.float64]) -> None:
     assert leaf_area(curve, True) == pytest.approx(even_odd_area(closed_clockwise(curve[[0, 1, 3]])), abs=4e-3)
 
 
-@settings(deadline=None)
 @given(edge_cubics())
 def test_the_reversed_curve_fills_the_rest(curve: NDArray[np.float64]) -> None:
     assert leaf_area(curve, False) + leaf_area(curve[::-1].copy(), False) == pytest.approx(1.0, abs=1e-9)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from strategies import cell_trees
@@ -17,7 +17,6 @@ from vexture.quadtree.tree import CellKind, CellTree
 
 BITS = st.sampled_from([8, 16])
 LEAF_KINDS = (CellKind.CURVE, CellKind.CORNER)
-slow = settings(suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large], deadline=None)
 
 
 def texture_of(tree: CellTree, bits: int) -> ThesisTexture:
@@ -35,7 +34,6 @@ def leaf_tree(*curves: list[list[float]], kind: CellKind = CellKind.CURVE) -> Ce
 ACROSS = [[0.0, 0.5], [0.3, 0.5], [0.6, 0.5], [1.0, 0.5]]
 
 
-@slow
 @given(cell_trees(), BITS)
 def test_every_quad_and_curve_is_reached_once_in_order(tree: CellTree, bits: int) -> None:
     decoded = decode(texture_of(tree, bits))
@@ -51,7 +49,6 @@ def test_every_quad_and_curve_is_reached_once_in_order(tree: CellTree, bits: int
     assert curves == list(range(len(tree.curves)))
 
 
-@slow
 @given(cell_trees(), BITS)
 def test_coverage_of_a_quad_is_the_mean_of_its_cells(tree: CellTree, bits: int) -> None:
     texture = texture_of(tree, bits)
@@ -63,7 +60,6 @@ def test_coverage_of_a_quad_is_the_mean_of_its_cells(tree: CellTree, bits: int) 
     assert decoded.coverage.max() <= 1.0
 
 
-@slow
 @given(cell_trees())
 def test_coverage_of_a_cell_comes_back(tree: CellTree) -> None:
     """Within the rounding of a leaf's curve, which moves it by up to a quantum along all of its length."""
@@ -71,7 +67,6 @@ def test_coverage_of_a_cell_comes_back(tree: CellTree) -> None:
     np.testing.assert_allclose(decoded.coverage, tree.coverage, rtol=0, atol=4e-3)
 
 
-@slow
 @given(cell_trees(), BITS)
 def test_a_tree_comes_back_within_half_a_quantum(tree: CellTree, bits: int) -> None:
     texture = texture_of(tree, bits)
@@ -93,7 +88,6 @@ def test_a_tree_comes_back_within_half_a_quantum(tree: CellTree, bits: int) -> N
     assert decoded.unresolved == 0
 
 
-@slow
 @given(cell_trees(), BITS, st.booleans())
 def test_a_texture_comes_back_bit_for_bit(tree: CellTree, bits: int, unresolved: bool) -> None:
     if unresolved:  # coverage that the leaves do not add up to, as a depth limit leaves behind
@@ -104,7 +98,6 @@ def test_a_texture_comes_back_bit_for_bit(tree: CellTree, bits: int, unresolved:
     np.testing.assert_array_equal(again.curves, texture.curves)
 
 
-@slow
 @given(cell_trees())
 def test_depth_is_that_of_the_deepest_quad(tree: CellTree) -> None:
     assert texture_of(tree, 16).depth == tree.quad_depth.max()
@@ -184,7 +177,7 @@ def test_bits_other_than_8_or_16() -> None:
         texture_of(leaf_tree(ACROSS), 12)
 
 
-@pytest.mark.parametrize("value", [CONTROL_MAX + 1e-6, CONTROL_MIN - 1e-6, np.nan, np.inf])
+@pytest.mark.parametrize("value", [CONTROL_MAX + 1e-4, CONTROL_MIN - 1e-4, np.nan, np.inf])
 @pytest.mark.parametrize("place", [1, 2])
 def test_inner_points_out_of_range_are_refused_not_clamped(value: float, place: int) -> None:
     tree = leaf_tree(ACROSS, ACROSS)

@@ -5,7 +5,6 @@ from numpy.typing import NDArray
 
 from vexture.bezier.split import subcubic
 from vexture.kernels import kernel
-from vexture.tolerance import PARAMETER
 
 __all__ = ["area_right_of", "edge_index", "edge_indices", "integral_x_dy", "leaf_area", "loop_area"]
 
@@ -101,8 +100,7 @@ def loop_area(curve: NDArray[np.float64]) -> float:
     """Area of the loop of a cubic, (4, 2), that crosses itself: positive if counter-clockwise, 0 without a loop.
 
     With B(t) = a t^3 + b t^2 + c t + d, two parameters s and t meet where a (s^2 + s t + t^2) + b (s + t) + c = 0.
-    The cross product with a leaves one linear equation in s + t, after which s t follows. A curve whose ends all but
-    meet may cross itself just before or just beyond them: `PARAMETER` beyond still counts.
+    The cross product with a leaves one linear equation in s + t, after which s t follows.
 
     Examples
     --------
@@ -124,7 +122,7 @@ def loop_area(curve: NDArray[np.float64]) -> float:
         return 0.0
     root = np.sqrt(discriminant)
     t0, t1 = 0.5 * (total - root), 0.5 * (total + root)
-    if t0 < -PARAMETER or t1 > 1.0 + PARAMETER:
+    if t0 < 0.0 or t1 > 1.0:
         return 0.0
     loop = np.empty((4, 2))
     subcubic(curve, t0, t1, loop)
@@ -161,8 +159,6 @@ def leaf_area(curve: NDArray[np.float64], corner: bool) -> float:
         y0, y1, y3 = curve[0, 1], curve[1, 1], curve[3, 1]
         area = area_right_of(curve[0], curve[3], 0.5 * ((x0 + x1) * (y1 - y0) + (x1 + x3) * (y3 - y1)))
     else:
-        area = area_right_of(curve[0], curve[3], integral_x_dy(curve))
-        changed = area + 2.0 * loop_area(curve)
-        if -PARAMETER <= changed <= 1.0 + PARAMETER:  # else that loop closes beyond the ends only
-            area = changed
-    return min(max(area, 0.0), 1.0)
+        area = area_right_of(curve[0], curve[3], integral_x_dy(curve)) + 2.0 * loop_area(curve)
+    # outside 0..1 it is the whole curve that is a loop, with ends that cross or not but for rounding
+    return max(1.0 - abs(1.0 - abs(area)), 0.0)

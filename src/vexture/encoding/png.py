@@ -39,9 +39,12 @@ def write_png(pixels: NDArray[Any], texts: dict[str, str]) -> bytes:
     deflated = [_deflate(image, zlib.Z_DEFAULT_STRATEGY) for image in images]
     data = min(deflated, key=len)
     data = min(data, _deflate(images[deflated.index(data)], zlib.Z_RLE), key=len)  # 5% less for many 8-bit images
+    return _framed((b"IHDR", header), *(_text_chunk(key, value) for key, value in texts.items()), (b"IDAT", data))
+
+
+def _framed(*chunks: tuple[bytes, bytes]) -> bytes:
     out = io.BytesIO()
-    texts_chunks = [_text_chunk(key, value) for key, value in texts.items()]
-    png.write_chunks(out, [(b"IHDR", header), *texts_chunks, (b"IDAT", data), (b"IEND", b"")])
+    png.write_chunks(out, (*chunks, (b"IEND", b"")))
     return out.getvalue()
 
 
@@ -107,8 +110,9 @@ def read_png(data: bytes, width: int, where: str) -> tuple[NDArray[Any], dict[st
     try:
         chunks = list(png.Reader(bytes=data).chunks())
         height, bits = _read_header(chunks, width, where)
-        _check_inflated(b"".join(body for tag, body in chunks if tag == b"IDAT"), width, height, bits)
-        rows = png.Reader(bytes=data).read()[2]
+        deflated = b"".join(body for tag, body in chunks if tag == b"IDAT")
+        _check_inflated(deflated, width, height, bits)
+        rows = png.Reader(bytes=_framed(chunks[0], (b"IDAT", deflated))).read()[2]  # without what others may add
         image = np.frombuffer(b"".join(bytes(row) for row in rows), np.uint8 if bits == 8 else np.uint16)
         return image.reshape(height, width, CHANNELS), _read_texts(chunks)
     except (png.Error, zlib.error, EOFError, UnicodeDecodeError) as error:

@@ -122,8 +122,8 @@ class ThesisTexture:
         ends = self.curves[layout.CONSTANT_ROWS :, :, 0] % self.maximum
         same = ends[:, 0] == ends[:, 1]
         if same.any():
-            curve = same.argmax()
-            raise FormatError(f"curve {curve} starts and ends at edge step {ends[curve, 0]}; ends differ; {REMEDY}")
+            row = same.argmax() + layout.CONSTANT_ROWS
+            raise FormatError(f"curve row {row}: P0 and P3 are both at edge step {ends[same][0, 0]}; {REMEDY}")
 
     @property
     def depth(self) -> int:

@@ -86,35 +86,30 @@ def _curve_pixels(tree: CellTree, dtype: np.dtype[Any], name: str) -> NDArray[An
     corner = _is_corner(tree.kind, tree.ref, len(tree.curves))
     low, span = _control_range(corner)
     ends, inner = tree.curves[:, [0, 3]], tree.curves[:, 1:3]
-    _check_expressible(ends, inner, low, span, 2.0 / maximum, name)
+    rounded = np.rint((inner - low) / span * maximum)
+    expressible = _on_edge(ends, 2.0 / maximum) & ((rounded >= 0.0) & (rounded <= maximum)).all(axis=(1, 2))
+    if not expressible.all():
+        curve = expressible.argmin()
+        raise LimitError(
+            f"{name}: curve {curve}, ends {ends[curve].tolist()}, inner points {inner[curve].tolist()}; ends must lie "
+            f"on the cell's edge, inner points in {low[curve].item()} to {(low + span)[curve].item()}; split it"
+        )
     index = edge_indices(ends.reshape(-1, 2)).reshape(-1, 2)
     (x1, y1), (x2, y2) = np.moveaxis(inner - ends[:, :1], 0, 2)
     pixels = np.zeros((layout.CONSTANT_ROWS + len(tree.curves), layout.CURVE_WIDTH, 3), dtype)
     written = pixels[layout.CONSTANT_ROWS :]
     written[:, :, 0] = quantised_ends(index, x1 * y2 < x2 * y1, maximum)
-    written[:, :, 1:] = np.rint((inner - low) / span * maximum).swapaxes(1, 2)  # pixels are axes, channels points
+    written[:, :, 1:] = rounded.swapaxes(1, 2)  # pixels are axes, channels points
     written[corner, :, 2] = 0
     return pixels
 
 
-def _check_expressible(
-    ends: NDArray[np.float64],
-    inner: NDArray[np.float64],
-    low: NDArray[np.float64],
-    span: NDArray[np.float64],
-    half_step: float,
-    name: str,
-) -> None:
-    """Refuse ends further from their cell's edge than half a step along it, and inner points out of range."""
+def _on_edge(ends: NDArray[np.float64], half_step: float) -> NDArray[np.bool_]:
+    """Which curves, (n,), have both ends, (n, 2, 2), on the edge of their cell but for half a step of rounding."""
     off = np.minimum(abs(ends), abs(1.0 - ends)).min(axis=2)
-    on_edge = (off <= half_step) & (abs(ends - 0.5) <= 0.5 + half_step).all(axis=2)
-    fits = on_edge.all(axis=1) & ((inner >= low) & (inner <= low + span)).all(axis=(1, 2))
-    if not fits.all():
-        curve = fits.argmin()
-        raise LimitError(
-            f"{name}: curve {curve}, ends {ends[curve].tolist()}, inner points {inner[curve].tolist()}; ends must "
-            f"lie on the cell's edge, inner points in {low[curve].item()} to {(low + span)[curve].item()}; split it"
-        )
+    near = (off <= half_step) & (abs(ends - 0.5) <= 0.5 + half_step).all(axis=2)
+    both: NDArray[np.bool_] = near.all(axis=1)
+    return both
 
 
 def _is_corner(kind: NDArray[np.uint8], ref: NDArray[np.int32], count: int) -> NDArray[np.bool_]:
