@@ -114,17 +114,15 @@ def cell_at(
     u: NDArray[np.float64],
     v: NDArray[np.float64],
 ) -> NDArray[np.int64]:
-    """Index of the leaf cell that holds each point (u, v), -1 outside the unit square.
+    """Rank, in Morton order, of the leaf cell that holds each point (u, v), -1 outside the unit square.
 
-    In the order of their Morton codes the cells come one after another, and a point's cell is the last that does not
+    In this order the cells come one after another, and a point's cell is the last that does not
     come after the point (Morton 1966; Gargantini, "An effective way to represent quadtrees", 1982).
     """
     depth = int(np.rint(-np.log2(side.min())))
-    codes = morton(x, y, depth)
-    order = np.argsort(codes)
     inside = (u >= 0.0) & (u < 1.0) & (v >= 0.0) & (v < 1.0)
     points = morton(np.where(inside, u, 0.0), np.where(inside, v, 0.0), depth)
-    return np.where(inside, order[np.searchsorted(codes[order], points, "right") - 1], -1)
+    return np.where(inside, np.searchsorted(np.sort(morton(x, y, depth)), points, "right") - 1, -1)
 
 
 def morton(x: NDArray[np.float64], y: NDArray[np.float64], depth: int) -> NDArray[np.int64]:
