@@ -140,13 +140,13 @@ def _convert_one(source: Path, output: Path, written: dict[Path, Path], **parame
 
 def _describe(conversion: "Conversion", size: int) -> str:
     """One line about a shape."""
-    from vexture.encoding import largest_step
+    from vexture.encoding import quantisation_step
 
     tree, texture = conversion.tree, conversion.texture
     line = (
         f"{texture.name}: {conversion.drawing.segments} segments, {len(tree.kind)} quads, {len(tree.curves)} curves, "
         f"{size} bytes, {1000 * conversion.seconds:.1f} ms, distance {tree.deviation:.1e} "
-        f"+ {largest_step(tree, texture.bits):.1e}"
+        f"+ {tree.widest_leaf * quantisation_step(texture.bits):.1e}"
     )
     return line + (f", {tree.unresolved} cells at the depth limit" if tree.unresolved else "")
 

@@ -48,7 +48,7 @@ def run(
 ) -> Conversion:
     """Convert and keep what lies between; see `convert`."""
     from vexture.drawing import Drawing
-    from vexture.encoding import encode
+    from vexture.encoding import encode, quantisation_step
     from vexture.quadtree.build import DEFAULT_DEPTH, build
     from vexture.sources.svg import read_svg
 
@@ -56,7 +56,9 @@ def run(
         raise LimitError(f"encoding {encoding!r} is not known; use thesis")
     start = time.perf_counter()
     drawing = source if isinstance(source, Drawing) else read_svg(source)
-    tree = build(drawing, tolerance, DEFAULT_DEPTH if max_depth is None else max_depth, strategy)
+    tree = build(
+        drawing, tolerance, DEFAULT_DEPTH if max_depth is None else max_depth, strategy, quantisation_step(bits)
+    )
     texture = encode(tree, bits, to_source=drawing.to_source, name=drawing.name)
     return Conversion(drawing, tree, texture, time.perf_counter() - start)
 

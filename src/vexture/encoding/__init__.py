@@ -2,6 +2,6 @@
 
 from vexture.encoding.files import target_of
 from vexture.encoding.texture import ThesisTexture, load
-from vexture.encoding.thesis import decode, encode, info, largest_step
+from vexture.encoding.thesis import decode, encode, info, quantisation_step
 
-__all__ = ["ThesisTexture", "decode", "encode", "info", "largest_step", "load", "target_of"]
+__all__ = ["ThesisTexture", "decode", "encode", "info", "load", "quantisation_step", "target_of"]

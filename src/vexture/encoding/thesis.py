@@ -1,5 +1,6 @@
 """The thesis encoding (FORMAT.md, part A): a `CellTree` to a pair of textures and back."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from vexture.encoding.texture import ThesisTexture
 from vexture.errors import LimitError
 from vexture.quadtree.tree import CellKind, CellTree
 
-__all__ = ["decode", "encode", "info", "largest_step"]
+__all__ = ["decode", "encode", "info", "quantisation_step"]
 
 
 def encode(
@@ -200,21 +201,16 @@ def info(texture: ThesisTexture) -> dict[str, Any]:
     }
 
 
-def largest_step(tree: CellTree, bits: int) -> float:
-    """Largest distance by which quantisation moves an outline, in unit-square units.
+def quantisation_step(bits: int) -> float:
+    """Largest distance by which quantisation moves an outline, as a share of its cell.
 
     Inner control points move by at most half a step in x and in y, ends by less, and no point of a cubic moves
     farther than its control points.
 
     Examples
     --------
-    >>> cells = np.full((1, 4), CellKind.EMPTY, np.uint8)
-    >>> largest_step(CellTree(cells, np.full((1, 4), -1, np.int32), np.zeros((1, 4)), np.zeros((0, 4, 2)), 0.0, 0), 8)
-    0.0
+    >>> round(quantisation_step(8), 4)
+    0.0097
     """
-    drawn = np.isin(tree.kind, (CellKind.CURVE, CellKind.CORNER)).any(axis=1)
-    if not drawn.any():
-        return 0.0
-    widest_cell = 0.5 ** (1 + int(tree.quad_depth[drawn].min()))
-    step = (layout.CONTROL_MAX - layout.CONTROL_MIN) / (2**bits - 1)
-    return float(widest_cell * step * np.sqrt(0.5))
+    step = (layout.CONTROL_MAX - layout.CONTROL_MIN) / int(2**bits - 1)
+    return step * math.sqrt(0.5)

@@ -10,14 +10,15 @@ from vexture.bezier.split import copy_curve
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
 from vexture.kernels import kernel
+from vexture.quadtree.accuracy import Accuracy, accuracy_of, cell_tolerance
 from vexture.quadtree.boundary import crowded_area
 from vexture.quadtree.leaf import NO_LEAF, Leaf, cell_chain, chain_leaf, limit_leaf, nearest_constant, no_leaf, own_leaf
 from vexture.quadtree.level import Level, children
 from vexture.quadtree.sampled import build_sampled
 from vexture.quadtree.tree import CellKind, CellTree
-from vexture.tolerance import CELL_SHARE, CLOSED, COARSEST, DETAIL_SHARE, FINEST
+from vexture.tolerance import CLOSED
 
-__all__ = ["DEFAULT_DEPTH", "DEPTH_RANGE", "auto_tolerance", "build", "gather"]
+__all__ = ["DEFAULT_DEPTH", "DEPTH_RANGE", "build", "gather"]
 
 DEPTH_RANGE = (1, 20)
 """Depth limits that a caller may ask for; float32 shaders resolve no more."""
@@ -115,8 +116,7 @@ def grow(
     level: Level,
     cubics: NDArray[np.float64],
     rules: NDArray[np.int64],
-    tolerance: float,
-    cell_share: float,
+    accuracy: Accuracy,
     max_depth: int,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float, int]:
     """Divide the unit square level by level until every cell is a leaf.
@@ -131,10 +131,10 @@ def grow(
         split_cells, split_count = np.zeros(count, np.bool_), 0
         curves = _with_room(curves, curve_count, count)
         for c in range(count):
-            limit = min(tolerance, cell_share * size)
+            tolerance = cell_tolerance(accuracy, size)
             leaf = no_leaf()
             if depth > 0:  # the root is always a quad
-                leaf = _leaf_of(level, c, cubics, rules, size, limit, depth == max_depth)
+                leaf = _leaf_of(level, c, cubics, rules, size, tolerance, depth == max_depth)
             if leaf.kind == NO_LEAF:
                 split_cells[c] = True
                 split_count += 1
@@ -174,23 +174,6 @@ def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], ND
     return cubics, owner, np.array([int(path.fill_rule) for path in drawing.paths], dtype=np.int64)
 
 
-def auto_tolerance(cubics: NDArray[np.float64]) -> float:
-    """Tolerance that follows the smallest detail of a drawing (thesis 5.2.1), in unit-square units.
-
-    A share of the extent of its smallest cubic, within limits: no coarser than what shows at usual sizes, no finer
-    than what a depth limit can use.
-
-    Examples
-    --------
-    >>> auto_tolerance(np.empty((0, 4, 2))) == COARSEST
-    True
-    """
-    if not len(cubics):
-        return COARSEST
-    extent = np.ptp(cubics, axis=1).max(axis=1)
-    return float(np.clip(DETAIL_SHARE * extent.min(), FINEST, COARSEST))
-
-
 def _root(drawing: Drawing, pieces: Pieces) -> Level:
     """The unit square as the only cell of its level; every path has corner winding 0 there."""
     ends = pieces.points[:, [0, 3]]
@@ -214,6 +197,7 @@ def build(
     tolerance: float | Literal["auto"] = "auto",
     max_depth: int = DEFAULT_DEPTH,
     strategy: Literal["direct", "sampled"] = "direct",
+    step: float = 0.0,
 ) -> CellTree:
     """Quad-tree of a drawing's silhouette, with thesis leaves.
 
@@ -228,6 +212,8 @@ def build(
         Cells of this depth are not divided further; the unit square has depth 0.
     strategy : "direct" or "sampled"
         Leaves found from the drawing's own cubics, or the thesis's original way by sampling and fitting.
+    step : float
+        Share of a cell by which an encoding's quantisation moves an outline: "auto" is no finer than that.
 
     Returns
     -------
@@ -246,22 +232,19 @@ def build(
     >>> len(tree.kind), len(tree.curves), round(float(tree.quad_coverage[0]), 4)
     (1, 4, 0.36)
     """
-    if tolerance != "auto" and not 0.0 < tolerance < 1.0:
-        raise LimitError(f"tolerance {tolerance} is not between 0 and 1 (unit-square units); use auto or e.g. 0.0005")
     if strategy not in ("direct", "sampled"):
         raise LimitError(f"strategy {strategy!r} is not known; use direct or sampled")
     low, high = DEPTH_RANGE
     if not low <= max_depth <= high:
         raise LimitError(f"depth limit {max_depth} is outside {low}..{high}; the default is {DEFAULT_DEPTH}")
     cubics, owner, rules = gather(drawing)
+    accuracy = accuracy_of(tolerance, cubics, step)
     pieces = monotone_pieces(cubics, owner)
     if not len(pieces.path):
         nothing = np.full((1, 4), EMPTY, np.uint8)
         return CellTree(nothing, np.full((1, 4), -1, np.int32), np.zeros((1, 4)), np.empty((0, 4, 2)), 0.0, 0)
-    share = CELL_SHARE if tolerance == "auto" else np.inf
-    distance = auto_tolerance(cubics) if tolerance == "auto" else float(tolerance)
     if strategy == "sampled":
-        return build_sampled(drawing, cubics, owner, rules, distance, share, max_depth)
-    cells, curves, deviation, unresolved = grow(_root(drawing, pieces), cubics, rules, distance, share, max_depth)
+        return build_sampled(drawing, cubics, owner, rules, accuracy, max_depth)
+    cells, curves, deviation, unresolved = grow(_root(drawing, pieces), cubics, rules, accuracy, max_depth)
     kind, ref, coverage = cells[:, :, 0].astype(np.uint8), cells[:, :, 1].astype(np.int32), cells[:, :, 2].copy()
     return CellTree(kind, ref, coverage, curves.copy(), deviation, unresolved)

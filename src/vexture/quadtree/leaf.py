@@ -40,6 +40,9 @@ CONTROL_LOW, CONTROL_HIGH = -1.25, 2.25
 SHORTEST_CHORD = 16.0 * JOIN
 """Cell-local units. A curve whose ends are nearer than this has no direction to build a basis on."""
 
+SLIVER = 1e-9
+"""Share of the cell. A curve that cuts off less lies along the cell's edge."""
+
 MAX_SAMPLES, SAMPLES_PER_PART = 96, 8
 """Points of a chain that a fit looks at: so many in all, and so many on each part of a short chain."""
 
@@ -164,8 +167,10 @@ def own_leaf(
     # the winding number is w on the right and w + 1 on the left: their mean over the cell tells w
     w = int(np.rint(winding_area(local, corner_winding) - 1.0 + right_area))
     right, left = inside(w, rule), inside(w + 1, rule)
-    if right == left:
+    if right == left or right_area >= 1.0 - SLIVER:
         return _constant_leaf(right)
+    if right_area <= SLIVER:
+        return _constant_leaf(left)
     if right:
         return Leaf(CURVE, curve, leaf_area(curve, False), 0.0, True)
     backwards = np.empty((4, 2))

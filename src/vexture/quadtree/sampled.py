@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vexture.bezier.area import area_right_of
 from vexture.drawing import Drawing
 from vexture.kernels import kernel
+from vexture.quadtree.accuracy import Accuracy, cell_tolerance
 from vexture.quadtree.leaf import CONTROL_HIGH, CONTROL_LOW, SHORTEST_CHORD, snap_to_edge
 from vexture.quadtree.tree import CellKind, CellTree
 from vexture.quadtree.winding import inside
@@ -31,7 +32,7 @@ GRAIN = 2.0**-40
 """Unit-square units. Samples are rounded to this, so that a straight side on a cell line stays on one side of it."""
 
 BESIDE = 1e-3
-"""Cell-local units: how far beside a curve inside and outside are tested."""
+"""Share of a chord's length: how far beside it inside and outside are tested."""
 
 Polyline = NDArray[np.float64]
 
@@ -163,6 +164,11 @@ class _Found:
     probe: NDArray[np.float64]  # two points, on the right and on the left of it, in unit-square units
 
 
+def _longest(runs: list[_Run]) -> _Run:
+    """The run whose ends are farthest apart."""
+    return max(runs, key=lambda run: float(np.hypot(*(run.points[-1] - run.points[0]))))
+
+
 def _leaf(
     runs: list[_Run], origin: NDArray[np.float64], size: float, tolerance: float, at_limit: bool
 ) -> tuple[NDArray[np.float64] | None, float] | None:
@@ -177,7 +183,7 @@ def _leaf(
             return curve, float(np.sqrt(squared))
     if not at_limit:
         return None
-    longest = max(runs, key=lambda run: float(np.hypot(*(run.points[-1] - run.points[0]))))
+    longest = _longest(runs)
     a, b = (longest.points[0] - origin) / size, (longest.points[-1] - origin) / size
     if longest.sampled[0] or longest.sampled[-1] or np.hypot(*(b - a)) < SHORTEST_CHORD:
         return None, float(np.sqrt(2.0))
@@ -194,18 +200,20 @@ def _too_coarse(runs: list[_Run], size: float) -> set[int]:
     }
 
 
-def _probe(curve: NDArray[np.float64] | None, origin: NDArray[np.float64], size: float) -> NDArray[np.float64]:
-    """Points just on the right and on the left of a curve at its middle; the cell's centre twice if there is none."""
-    if curve is None:
+def _probe(runs: list[_Run], origin: NDArray[np.float64], size: float) -> NDArray[np.float64]:
+    """Points just on the right and on the left of the longest chord in a cell; its centre twice if there is none."""
+    if not runs:
         return origin + np.full((2, 2), 0.5) * size
-    middle = (curve[0] + 3 * curve[1] + 3 * curve[2] + curve[3]) / 8
-    dx, dy = curve[3] + curve[2] - curve[1] - curve[0]
-    across = np.array([dy, -dx]) / max(float(np.hypot(dx, dy)), 1e-300) * BESIDE
-    return origin + np.stack([middle + across, middle - across]) * size
+    points = _longest(runs).points
+    step = np.diff(points, axis=0)
+    k = int(np.argmax((step**2).sum(axis=1)))
+    across = np.array([step[k, 1], -step[k, 0]]) * BESIDE
+    middle = 0.5 * (points[k] + points[k + 1])
+    return np.stack([middle + across, middle - across])
 
 
 def _divide(
-    outline: list[_Run], tolerance: float, cell_share: float, max_depth: int
+    outline: list[_Run], accuracy: Accuracy, max_depth: int
 ) -> tuple[list[list[int]], list[_Found], set[int], float, int]:
     """Divide breadth first: for each quad its four child quads or -1, the leaves, and what is too coarse."""
     quads: list[list[int]] = [[-1] * 4]
@@ -223,14 +231,14 @@ def _divide(
                 mine = _joined([p for part in column for p in _halves(part, 1, corner[1] + size)[cell >> 1]])
                 origin = corner + size * np.array([cell & 1, cell >> 1])
                 coarse |= _too_coarse(mine, size)
-                limit = min(tolerance, cell_share * size)
+                limit = cell_tolerance(accuracy, size)
                 leaf = _leaf(mine, origin, size, limit, depth == max_depth)
                 if leaf is None:
                     quads[quad][cell] = len(quads)
                     following.append((len(quads), origin, size, mine))
                     quads.append([-1] * 4)
                     continue
-                leaves.append(_Found(quad, cell, leaf[0], _probe(leaf[0], origin, size)))
+                leaves.append(_Found(quad, cell, leaf[0], _probe(mine, origin, size)))
                 unresolved += leaf[1] * size > limit
                 worst = max(worst, leaf[1] * size)
         queue = following
@@ -269,8 +277,7 @@ def build_sampled(
     cubics: NDArray[np.float64],
     owner: NDArray[np.int64],
     rules: NDArray[np.int64],
-    tolerance: float,
-    cell_share: float,
+    accuracy: Accuracy,
     max_depth: int,
 ) -> CellTree:
     """Quad-tree of a drawing by sampling and fitting, as the thesis does it.
@@ -281,8 +288,8 @@ def build_sampled(
         In normal form.
     cubics, owner, rules : arrays
         What `vexture.quadtree.build.gather` gives for it.
-    tolerance, cell_share : float
-        A fit is good if no sample is farther than the tolerance, nor than this share of the cell.
+    accuracy : Accuracy
+        A fit is good if no sample is farther from it.
     max_depth : int
         Cells of this depth are not divided further.
     """
@@ -291,7 +298,7 @@ def build_sampled(
     densest = DENSER * 2**max_depth
     while True:
         outline = _outline(drawing, cubics, density)
-        quads, leaves, coarse, worst, unresolved = _divide(outline, tolerance, cell_share, max_depth)
+        quads, leaves, coarse, worst, unresolved = _divide(outline, accuracy, max_depth)
         again = [s for s in coarse if density[s] < densest * max(extent[s], 2.0**-max_depth)]
         if not again:
             break

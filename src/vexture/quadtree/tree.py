@@ -64,3 +64,9 @@ class CellTree:
         for quad, cell in zip(*np.nonzero(self.kind == CellKind.QUAD), strict=True):
             depth[self.ref[quad, cell]] = depth[quad] + 1
         return depth
+
+    @property
+    def widest_leaf(self) -> float:
+        """Width of the largest cell with a curve or corner, in unit-square units; 0 if there is none."""
+        drawn = np.isin(self.kind, (CellKind.CURVE, CellKind.CORNER)).any(axis=1)
+        return 0.5 ** (1 + int(self.quad_depth[drawn].min())) if drawn.any() else 0.0

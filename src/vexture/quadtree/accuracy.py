@@ -1,0 +1,78 @@
+"""How far a leaf's outline may be from the drawing's."""
+
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.errors import LimitError
+from vexture.kernels import kernel
+from vexture.tolerance import CELL_SHARE, COARSEST, DETAIL_SHARE, FINEST
+
+__all__ = ["Accuracy", "accuracy_of", "cell_tolerance"]
+
+
+class Accuracy(NamedTuple):
+    """Largest distance between the outlines, before quantisation, as a rule for cells of any size.
+
+    Attributes
+    ----------
+    distance : float
+        Unit-square units; never more than this,
+    share : float
+        nor more than this share of the cell,
+    step : float
+        unless that is less than this share of it, by which quantisation moves the outline anyway.
+    """
+
+    distance: float
+    share: float
+    step: float
+
+
+@kernel
+def cell_tolerance(accuracy: Accuracy, size: float) -> float:
+    """Tolerance in a cell of a size, in unit-square units.
+
+    Examples
+    --------
+    >>> cell_tolerance(Accuracy(0.001, 0.125, 0.0), 0.5)
+    0.001
+    """
+    return max(min(accuracy.distance, accuracy.share * size), accuracy.step * size)
+
+
+def accuracy_of(tolerance: float | Literal["auto"], cubics: NDArray[np.float64], step: float = 0.0) -> Accuracy:
+    """Accuracy that a tolerance asks for.
+
+    A number is what it says. "auto" follows the smallest detail of the drawing (thesis 5.2.1), within limits: no
+    coarser than what shows at usual sizes, no finer than what a depth limit can use; and the size of the cell
+    (thesis 6.2.1).
+
+    Parameters
+    ----------
+    tolerance : float or "auto"
+        Unit-square units.
+    cubics : (n, 4, 2) float64 array
+        The drawing's.
+    step : float
+        Share of a cell by which quantisation moves an outline; "auto" is no finer.
+
+    Raises
+    ------
+    LimitError
+        If the tolerance is not between 0 and 1.
+
+    Examples
+    --------
+    >>> accuracy_of("auto", np.empty((0, 4, 2))).distance == COARSEST
+    True
+    """
+    if tolerance != "auto":
+        if not 0.0 < tolerance < 1.0:
+            raise LimitError(
+                f"tolerance {tolerance} is not between 0 and 1 (unit-square units); use auto or e.g. 0.0005"
+            )
+        return Accuracy(float(tolerance), np.inf, 0.0)
+    detail = np.ptp(cubics, axis=1).max(axis=1).min() if len(cubics) else np.inf
+    return Accuracy(float(np.clip(DETAIL_SHARE * detail, FINEST, COARSEST)), CELL_SHARE, step)
