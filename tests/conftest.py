@@ -1,6 +1,11 @@
-"""Shared by all tests: helpers beside this file are importable by name."""
+"""Shared by all tests; its presence puts this folder on the import path, so that `strategies` can be imported."""
 
-import sys
-from pathlib import Path
+from hypothesis import HealthCheck, settings
 
-sys.path.insert(0, str(Path(__file__).parent))
+# compiling a kernel and drawing a whole tree take long; a temporary folder may be shared by examples
+settings.register_profile(
+    "vexture",
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.function_scoped_fixture],
+)
+settings.load_profile("vexture")

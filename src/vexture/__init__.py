@@ -1,1 +1,49 @@
 """Vector textures: drawings that a GPU reads at random, sharp at every zoom."""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+__all__ = [
+    "DeviceError",
+    "Drawing",
+    "FillRule",
+    "FormatError",
+    "LimitError",
+    "Paint",
+    "Path",
+    "SourceError",
+    "SourceWarning",
+    "ThesisTexture",
+    "VextureError",
+    "convert",
+    "load",
+    "read_svg",
+    "render",
+]
+
+if TYPE_CHECKING:
+    from vexture.drawing import Drawing, FillRule, Paint, Path
+    from vexture.encoding import ThesisTexture, load
+    from vexture.errors import DeviceError, FormatError, LimitError, SourceError, SourceWarning, VextureError
+    from vexture.pipeline import convert
+    from vexture.render import render
+    from vexture.sources.svg import read_svg
+
+_HOMES = {
+    "vexture.drawing": ("Drawing", "FillRule", "Paint", "Path"),
+    "vexture.encoding": ("ThesisTexture", "load"),
+    "vexture.errors": ("DeviceError", "FormatError", "LimitError", "SourceError", "SourceWarning", "VextureError"),
+    "vexture.pipeline": ("convert",),
+    "vexture.render": ("render",),
+    "vexture.sources.svg": ("read_svg",),
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first used: the command line answers before NumPy is loaded (PEP 562)."""
+    for home, names in _HOMES.items():
+        if name in names:
+            value = getattr(import_module(home), name)
+            globals()[name] = value
+            return value
+    raise AttributeError(f"module 'vexture' has no attribute {name!r}")

@@ -8,15 +8,21 @@ one and two thirds.
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from enum import IntEnum
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.bezier.convert import line_cubics, straight
 from vexture.errors import SourceError
+from vexture.tolerance import CLOSED
 
-__all__ = ["Drawing", "FillRule", "Paint", "Path"]
+__all__ = ["FARTHEST", "Drawing", "FillRule", "Paint", "Path"]
 
 IDENTITY = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+
+FARTHEST: Final = 1e9
+"""Unit-square units. Beyond it, float64 cannot tell points within the drawing apart by 1e-6."""
 
 
 class FillRule(IntEnum):
@@ -121,6 +127,81 @@ class Drawing:
         closed = []
         for contour in contours:
             start = np.array(list(contour), dtype=np.float64)
-            end = np.roll(start, -1, axis=0)
-            closed.append(np.stack([start, start + (end - start) / 3, start + (end - start) * (2 / 3), end], axis=1))
+            closed.append(line_cubics(start, np.roll(start, -1, axis=0)))
         return cls((Path(tuple(closed), fill_rule),))
+
+    @classmethod
+    def from_source(
+        cls, paths: Iterable[Path], box: tuple[float, float, float, float], name: str = "drawing"
+    ) -> "Drawing":
+        """Bring the paths of a source into the normal form.
+
+        The source's box is centred in the unit square at its own aspect ratio and turned y up; what is outside the
+        box is clipped away; steps without length and contours that enclose nothing are dropped.
+
+        Parameters
+        ----------
+        paths : iterable of Path
+            In the units of the source, **y down**.
+        box : tuple of float
+            Least x, least y, width and height of what is visible, in the units of the source.
+        name : str
+            Names the drawing.
+
+        Raises
+        ------
+        SourceError
+            If the box has no area or a coordinate is too far from it.
+
+        Examples
+        --------
+        >>> wide = Path((line_cubics(*np.array([[(0, 0), (4, 0), (0, 2)], [(4, 0), (0, 2), (0, 0)]], float)),))
+        >>> drawing = Drawing.from_source([wide], (0, 0, 4, 2))
+        >>> drawing.paths[0].contours[0][:, 0]
+        array([[0.  , 0.75],
+               [1.  , 0.75],
+               [0.  , 0.25]])
+        >>> drawing.to_source @ (1, 0.75, 1)
+        array([4., 0.])
+        """
+        x, y, width, height = box
+        size = max(width, height)
+        if not (min(width, height) > 0.0 and np.isfinite(size) and np.isfinite(1.0 / size)):
+            raise SourceError(f"the drawing's box is {width:g} x {height:g}; both must be above 0")
+        to_source = np.array([[size, 0.0, x - (size - width) / 2], [0.0, -size, y + height + (size - height) / 2]])
+        margin = (1.0 - width / size) / 2, (1.0 - height / size) / 2
+        normal = []
+        for path in paths:
+            contours = []
+            for contour in path.contours:
+                unit = (contour - (x, y)) / size + margin
+                unit[..., 1] = 1.0 - unit[..., 1]
+                inside = enclosing(unit, margin, (1.0 - margin[0], 1.0 - margin[1]))
+                if len(inside):
+                    contours.append(inside)
+            if contours:
+                normal.append(Path(tuple(contours), path.fill_rule, path.paint))
+        return cls(tuple(normal), to_source, name)
+
+
+def enclosing(contour: NDArray[np.float64], low: tuple[float, float], high: tuple[float, float]) -> NDArray[np.float64]:
+    """Clip a contour and tidy it: no step without length, lines exact, closed bit for bit; empty if it is no loop."""
+    reach = np.abs(contour).max()
+    if not reach <= FARTHEST:
+        raise SourceError(
+            f"a coordinate is {reach:.3g} times the size of the drawing away; the limit is {FARTHEST:g}; "
+            "correct the coordinate or the view box"
+        )
+    outside = np.maximum(low - contour.min(axis=(0, 1)), contour.max(axis=(0, 1)) - high)
+    if outside.max() > CLOSED:
+        from vexture.bezier.clip import clip_contour  # compiled code, which most drawings never need
+
+        contour = clip_contour(contour, low, high)
+    contour[:, ::3] = np.clip(contour[:, ::3], low, high)
+    contour = contour[np.abs(contour - contour[:, :1]).max(axis=(1, 2), initial=0.0) > CLOSED]
+    lines = straight(contour)
+    if lines.all() and len(contour) < 3:
+        return contour[:0]
+    contour[:, 0] = np.roll(contour[:, 3], 1, axis=0)
+    contour[lines] = line_cubics(contour[lines, 0], contour[lines, 3])
+    return contour

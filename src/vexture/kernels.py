@@ -65,11 +65,15 @@ event.register("numba:compile", _Announcement())
 def kernel(function: F) -> F:
     """Compile a scalar function over arrays with Numba, cached on disk.
 
+    A name with a leading underscore says that only kernels call it.
+
     Examples
     --------
     >>> from vexture.bezier.roots import cubic_at
     >>> cubic_at(0.0, 0.0, 1.0, 1.0, 0.5)
     0.5
     """
-    compiled: F = numba.njit(cache=True, error_model="numpy")(function)
+    private = function.__name__.startswith("_")  # called by kernels only: Python needs no way in
+    compile_ = numba.njit(cache=True, error_model="numpy", no_cfunc_wrapper=True, no_cpython_wrapper=private)
+    compiled: F = compile_(function)
     return compiled

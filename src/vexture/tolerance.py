@@ -2,7 +2,17 @@
 
 from typing import Final
 
-__all__ = ["CELL_SHARE", "CLOSED", "COARSEST", "DETAIL_SHARE", "FINEST", "PARAMETER"]
+__all__ = [
+    "CELL_SHARE",
+    "CLOSED",
+    "COARSEST",
+    "DETAIL_SHARE",
+    "FINEST",
+    "FLATNESS",
+    "PARAMETER",
+    "ROUND",
+    "SCANLINE",
+]
 
 CLOSED: Final = 1e-9
 """Unit-square units. Ends of consecutive cubics closer than this are one point; the gap is closed exactly."""
@@ -19,5 +29,14 @@ FINEST: Final = 1 / 20000
 DETAIL_SHARE: Final = 1 / 16
 """The automatic tolerance as a share of the extent of the drawing's smallest cubic (thesis 5.2.1)."""
 
-CELL_SHARE: Final = 1 / 16
+CELL_SHARE: Final = 1 / 8
 """And at most this share of the size of the cell (thesis 6.2.1)."""
+
+FLATNESS: Final = 2e-5
+"""Pixels. The exact renderer's chords leave the curve by less: 0.007/255 in a pixel that one curve crosses."""
+
+SCANLINE: Final = 2.0**-30
+"""Pixels. Lattice of the heights at which the exact renderer's chords begin, end and cross (about 1e-9)."""
+
+ROUND: Final = 1e-5
+"""Unit-square units. Largest distance from the true curve of what a reader must approximate: arcs and strokes."""

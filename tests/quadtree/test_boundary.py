@@ -22,7 +22,7 @@ def levels(drawing, depth):
     for k in range(depth + 1):
         yield level, 2.0**-k, rules
         everything = np.ones(len(level.slot), bool)
-        level = children(level, everything, rules, 2.0**-k, 0, np.empty(4 * len(everything), np.int64))
+        level, _ = children(level, everything, len(everything), rules, 2.0**-k, 0)
 
 
 def in_cell(points, level, c, size):

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.roots import cubic_at
+from vexture.bezier.split import copy_curve
 from vexture.kernels import kernel
 
 __all__ = ["fit_cubic"]
@@ -112,6 +113,16 @@ def _project(points: NDArray[np.float64], t: NDArray[np.float64], curve: NDArray
 
 
 @kernel
+def _keep(
+    curve: NDArray[np.float64], t: NDArray[np.float64], kept: NDArray[np.float64], kept_t: NDArray[np.float64]
+) -> None:
+    """Copy a curve and its parameters."""
+    copy_curve(curve, kept)
+    for i in range(len(t)):
+        kept_t[i] = t[i]
+
+
+@kernel
 def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.float64]) -> float:
     """Cubic from the first to the last of a chain of points, nearest to all of them.
 
@@ -140,25 +151,25 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
     True
     """
     n = len(points)
-    curve[0], curve[3] = points[0], points[n - 1]
-    curve[1] = points[0] + (points[n - 1] - points[0]) / 3.0
-    curve[2] = points[n - 1] - (points[n - 1] - points[0]) / 3.0
+    for k in range(4):
+        for axis in range(2):
+            curve[k, axis] = points[0, axis] + (points[n - 1, axis] - points[0, axis]) * (k / 3.0)
     t = np.empty(n)
     _chord_parameters(points, t)
     best = np.inf
-    best_curve, best_t = curve.copy(), t.copy()
+    best_curve, best_t = np.empty((4, 2)), np.empty(n)
     along = ALONG
     for done in range(ROUNDS):
         worst = _project(points, t, curve)
         if worst < best:
             best = worst
-            best_curve[:], best_t[:] = curve, t
+            _keep(curve, t, best_curve, best_t)
         else:
-            curve[:], t[:] = best_curve, best_t
+            _keep(best_curve, best_t, curve, t)
             along *= 10.0
         if best <= tolerance or (done == HOPEFUL_ROUNDS and best > HOPELESS * tolerance):
             break
         if not _least_squares(points, t, along, curve):
             break
-    curve[:] = best_curve
+    copy_curve(best_curve, curve)
     return best

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.roots import turning_points
-from vexture.bezier.split import split
+from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 from vexture.tolerance import PARAMETER
 
@@ -85,7 +85,7 @@ def monotone_pieces(cubics: NDArray[np.float64], path: NDArray[np.int64]) -> Pie
     rest = np.empty((4, 2))
     count = 0
     for i in range(len(cubics)):
-        rest[:] = cubics[i]
+        copy_curve(cubics[i], rest)
         turn_count = _turns(cubics[i], turns)
         t0 = 0.0
         for k in range(turn_count + 1):
@@ -96,7 +96,7 @@ def monotone_pieces(cubics: NDArray[np.float64], path: NDArray[np.int64]) -> Pie
             if k < turn_count:
                 split(rest, (t1 - t0) / (1.0 - t0), piece, rest)
             else:
-                piece[:] = rest
+                copy_curve(rest, piece)
             out.path[count], out.segment[count] = path[i], i
             out.span[count, 0], out.span[count, 1] = t0, t1
             t0 = t1

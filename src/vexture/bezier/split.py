@@ -5,7 +5,23 @@ from numpy.typing import NDArray
 
 from vexture.kernels import kernel
 
-__all__ = ["split", "subcubic"]
+__all__ = ["copy_curve", "split", "subcubic"]
+
+
+@kernel
+def copy_curve(source: NDArray[np.float64], target: NDArray[np.float64]) -> None:
+    """Copy a cubic, (4, 2), number by number: an assignment of slices takes Numba a second to compile.
+
+    Examples
+    --------
+    >>> target = np.empty((4, 2))
+    >>> copy_curve(np.ones((4, 2)), target)
+    >>> target.sum()
+    np.float64(8.0)
+    """
+    for k in range(4):
+        target[k, 0] = source[k, 0]
+        target[k, 1] = source[k, 1]
 
 
 @kernel

@@ -10,20 +10,39 @@ __all__ = [
     "CONSTANT_ROWS",
     "CONTROL_MAX",
     "CONTROL_MIN",
+    "CURVES_SUFFIX",
     "CURVE_WIDTH",
     "EMPTY_ROW",
+    "ENCODING_THESIS",
+    "FILE_LIMIT",
     "FORMAT_VERSION",
     "FULL_ROW",
     "KIND_CORNER",
     "KIND_CURVE",
     "KIND_QUAD",
     "LIST_LIMIT",
+    "QUADS_SUFFIX",
     "QUAD_WIDTH",
+    "TEXT_CRS",
+    "TEXT_ENCODING",
+    "TEXT_TRANSFORM",
+    "TEXT_VERSION",
     "THRESHOLD_CORNER",
     "THRESHOLD_QUAD",
 ]
 
 FORMAT_VERSION: Final = "1"
+ENCODING_THESIS: Final = "thesis"
+
+TEXT_VERSION: Final = "vexture.version"
+TEXT_ENCODING: Final = "vexture.encoding"
+TEXT_TRANSFORM: Final = "vexture.transform"
+TEXT_CRS: Final = "vexture.crs"
+"""Keywords of the PNG text chunks."""
+
+QUADS_SUFFIX: Final = ".quads.png"
+CURVES_SUFFIX: Final = ".curves.png"
+"""What follows the name in the names of the two files."""
 
 QUAD_WIDTH: Final = 4
 """Pixels in a row of the quad texture: one for each cell."""
@@ -54,3 +73,6 @@ CONTROL_MAX: Final = 2.25
 
 LIST_LIMIT: Final = {8: 256, 16: 65_000}
 """Longest list for each number of bits; above 65,000 float32 no longer decodes every index."""
+
+FILE_LIMIT: Final = 2 * LIST_LIMIT[16] * QUAD_WIDTH * 3 * 2
+"""Bytes. A longer file is not read: twice the pixels of the longest list leave room for filters and texts."""

@@ -1,14 +1,23 @@
-"""The textures themselves, as arrays."""
+"""The textures themselves, as arrays, and their files."""
 
+import os
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import IDENTITY
+from vexture.encoding import layout
+from vexture.encoding.files import pair_of, read_file, target_of, write_together
+from vexture.encoding.png import read_png, write_png
+from vexture.errors import FormatError, LimitError
+from vexture.quadtree.tree import CellKind
 
-__all__ = ["ThesisTexture"]
+__all__ = ["ThesisTexture", "load"]
+
+REMEDY = "convert the drawing again"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,6 +36,11 @@ class ThesisTexture:
         Names the shape in messages and files.
     crs : str or None
         Coordinate reference system of the source units, where there is one.
+
+    Raises
+    ------
+    FormatError
+        If the arrays are of another shape or type, or longer than `layout.LIST_LIMIT`.
     """
 
     quads: NDArray[Any]
@@ -35,7 +49,192 @@ class ThesisTexture:
     name: str = "texture"
     crs: str | None = None
 
+    def __post_init__(self) -> None:
+        for pixels, width, least in ((self.quads, layout.QUAD_WIDTH, 1), (self.curves, layout.CURVE_WIDTH, 2)):
+            if pixels.ndim != 3 or pixels.shape[1:] != (width, 3) or pixels.dtype not in (np.uint8, np.uint16):
+                raise FormatError(
+                    f"pixels are {pixels.dtype}{pixels.shape}; they must be uint8 or uint16 (n, {width}, 3)"
+                )
+            most = layout.LIST_LIMIT[8 * pixels.dtype.itemsize]
+            if not least <= len(pixels) <= most:
+                raise FormatError(f"{len(pixels)} rows; there must be {least} to {most}; {REMEDY}")
+        if self.quads.dtype != self.curves.dtype:
+            other = 8 * self.curves.dtype.itemsize
+            raise FormatError(f"quads of {self.bits} bits with curves of {other}; a pair has one depth; {REMEDY}")
+
     @property
     def bits(self) -> int:
         """Bits per channel, 8 or 16."""
         return 8 * int(self.quads.dtype.itemsize)
+
+    @property
+    def maximum(self) -> int:
+        """The channel value that stands for 1."""
+        return (1 << self.bits) - 1
+
+    def cells(self) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
+        """Read what every cell is and which one; check that it is a tree.
+
+        Returns
+        -------
+        kind : (quads, 4) uint8 array
+            A `CellKind` for each cell, in the order of `CellTree`.
+        ref : (quads, 4) int32 array
+            Index of the quad or curve (without the constants); -1 for constant cells.
+
+        Raises
+        ------
+        FormatError
+            If a row is not reached exactly once, in order.
+        """
+        red, green, _ = np.moveaxis(self.quads[:, np.argsort(layout.CELL_ORDER)] / self.maximum, 2, 0)
+        is_quad = red > layout.THRESHOLD_QUAD
+        is_corner = (red > layout.THRESHOLD_CORNER) & ~is_quad
+        last = np.where(is_quad, len(self.quads) - 1, len(self.curves) - 1)
+        row = np.rint(green * last).astype(np.int32)
+        constant = ~is_quad & (row < layout.CONSTANT_ROWS)
+        _check_rising(row[is_quad], 1, len(self.quads), "quad")
+        _check_rising(row[~is_quad & ~constant], layout.CONSTANT_ROWS, len(self.curves), "curve")
+        for bad, fault in (
+            (is_quad & (row <= np.arange(len(row))[:, None]), "refers to itself or backwards"),
+            (is_corner & constant, "calls a constant a corner"),
+        ):
+            if bad.any():
+                quad, cell = np.argwhere(bad)[0]
+                raise FormatError(f"quad {quad}, cell {cell} {fault} (row {row[quad, cell]}); {REMEDY}")
+        kind = np.select(
+            [is_quad, is_corner, ~constant, row == layout.FULL_ROW],
+            [CellKind.QUAD, CellKind.CORNER, CellKind.CURVE, CellKind.FULL],
+            CellKind.EMPTY,
+        )
+        row = np.where(constant, -1, np.where(is_quad, row, row - layout.CONSTANT_ROWS))
+        return kind.astype(np.uint8), row.astype(np.int32)
+
+    def check(self) -> None:
+        """Raise a `FormatError` where the pixels contradict FORMAT.md."""
+        self.cells()
+        uneven = (self.quads[:, :, 2] != self.quads[:, :1, 2]).any(axis=1)
+        if uneven.any():
+            quad = uneven.argmax()
+            raise FormatError(
+                f"quad {quad} has coverages {self.quads[quad, :, 2].tolist()}; all must be equal; {REMEDY}"
+            )
+        ends = self.curves[layout.CONSTANT_ROWS :, :, 0] % self.maximum
+        same = ends[:, 0] == ends[:, 1]
+        if same.any():
+            row = same.argmax() + layout.CONSTANT_ROWS
+            raise FormatError(f"curve row {row}: P0 and P3 are both at edge step {ends[same][0, 0]}; {REMEDY}")
+
+    @property
+    def depth(self) -> int:
+        """Depth of the deepest quad; the unit square has depth 0. A shader descends at most this often."""
+        kind, ref = self.cells()
+        is_quad = kind == CellKind.QUAD
+        level = np.zeros(1, np.int32)
+        depth = -1
+        while level.size:
+            depth += 1
+            level = ref[level][is_quad[level]]
+        return depth
+
+    def texts(self) -> dict[str, str]:
+        """Text chunks of both files."""
+        texts = {
+            layout.TEXT_VERSION: layout.FORMAT_VERSION,
+            layout.TEXT_ENCODING: layout.ENCODING_THESIS,
+            layout.TEXT_TRANSFORM: " ".join(repr(float(v)).removesuffix(".0") for v in self.to_source.flat),
+        }
+        return texts if self.crs is None else {**texts, layout.TEXT_CRS: self.crs}
+
+    def to_png(self) -> tuple[bytes, bytes]:
+        """Return the contents of the two files, quads and curves."""
+        texts = self.texts()
+        files = write_png(self.quads, texts), write_png(self.curves, texts)
+        longest = max(map(len, files))
+        if longest > layout.FILE_LIMIT:
+            raise LimitError(f"{self.name}: a file of {longest} bytes exceeds {layout.FILE_LIMIT}; shorten its crs")
+        return files
+
+    def save(self, path: str | os.PathLike[str]) -> tuple[Path, Path]:
+        """Write the pair of files, both or none.
+
+        Parameters
+        ----------
+        path : path
+            A folder (that exists or ends with a separator): the files get the texture's name. Else their common
+            stem; ``.quads.png``, ``.curves.png`` or ``.png`` at its end are dropped.
+
+        Returns
+        -------
+        tuple of Path
+            The files of the quads and of the curves.
+
+        Raises
+        ------
+        DeviceError
+            If the disk refuses.
+        """
+        targets = target_of(path, self.name)
+        write_together(dict(zip(targets, self.to_png(), strict=True)))
+        return targets
+
+
+def _check_rising(rows: NDArray[np.int32], first: int, count: int, what: str) -> None:
+    """Every row of a list but the first few is referred to once, in order."""
+    if len(rows) != count - first:
+        raise FormatError(f"{len(rows)} references to {count - first} {what} rows; each must have one; {REMEDY}")
+    wrong = rows != np.arange(first, count)
+    if wrong.any():
+        place = wrong.argmax()
+        raise FormatError(
+            f"reference {place} to {what} rows is to row {rows[place]}; in order it must be {first + place}; {REMEDY}"
+        )
+
+
+def load(path: str | os.PathLike[str]) -> ThesisTexture:
+    """Read a pair of texture files.
+
+    Parameters
+    ----------
+    path : path
+        Either file of the pair, or their common stem.
+
+    Raises
+    ------
+    FormatError
+        If a file is missing, damaged or not a texture, or if the two do not belong together.
+    DeviceError
+        If a file may not be read.
+    """
+    quads_path, curves_path = pair_of(path)
+    quads, texts = read_png(read_file(quads_path), layout.QUAD_WIDTH, str(quads_path))
+    curves, other_texts = read_png(read_file(curves_path), layout.CURVE_WIDTH, str(curves_path))
+    try:
+        for key in (layout.TEXT_VERSION, layout.TEXT_ENCODING, layout.TEXT_TRANSFORM, layout.TEXT_CRS):
+            if texts.get(key) != other_texts.get(key):
+                raise FormatError(f"{key} differs from that of {curves_path.name}; {REMEDY}")
+        texture = ThesisTexture(
+            quads,
+            curves,
+            _read_transform(texts),
+            quads_path.name.removesuffix(layout.QUADS_SUFFIX),
+            texts.get(layout.TEXT_CRS),
+        )
+        texture.check()
+    except FormatError as error:
+        raise FormatError(f"{quads_path}: {error}") from None
+    return texture
+
+
+def _read_transform(texts: dict[str, str]) -> NDArray[np.float64]:
+    for key, known in ((layout.TEXT_VERSION, layout.FORMAT_VERSION), (layout.TEXT_ENCODING, layout.ENCODING_THESIS)):
+        if texts.get(key) != known:
+            raise FormatError(f"{key} is {texts.get(key)!r}; this program reads {known!r}; update it or {REMEDY}")
+    text = texts.get(layout.TEXT_TRANSFORM, "")
+    try:
+        transform = np.array([float(number) for number in text.split()])
+    except ValueError:
+        transform = np.empty(0)
+    if transform.shape != (6,) or not np.isfinite(transform).all():
+        raise FormatError(f"{layout.TEXT_TRANSFORM} is {text[:80]!r}; it must be six finite numbers; {REMEDY}")
+    return transform.reshape(2, 3)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from vexture.bezier.monotone import Pieces
 from vexture.kernels import kernel
 from vexture.quadtree.crossings import crossing_heights, x_at
+from vexture.quadtree.order import sort_order
 from vexture.quadtree.winding import inside
 
 __all__ = ["LATTICE", "Boundary", "crowded_area", "quantise", "resolve"]
@@ -57,7 +58,7 @@ def quantise(points: NDArray[np.float64], x0: float, y0: float, size: float) -> 
     ends on that edge.
     """
     scale = LATTICE / size
-    out = np.empty_like(points)
+    out = np.empty((len(points), 4, 2))
     for i in range(len(points)):
         for k in range(4):
             out[i, k, 0] = (points[i, k, 0] - x0) * scale
@@ -74,17 +75,20 @@ def quantise(points: NDArray[np.float64], x0: float, y0: float, size: float) -> 
 @kernel
 def _slab_heights(curves: NDArray[np.float64]) -> NDArray[np.float64]:
     """Heights of the slabs' borders: the leaf's own, every end's, every crossing's; sorted, each once."""
-    heights = np.empty(2 * len(curves) + 2)
-    heights[0], heights[1] = 0.0, LATTICE
-    for i in range(len(curves)):
-        heights[2 * i + 2], heights[2 * i + 3] = curves[i, 0, 1], curves[i, 3, 1]
-    heights = np.sort(np.concatenate((heights, crossing_heights(curves, NEAR))))
-    count = 1
-    for height in heights[1:]:
-        if height != heights[count - 1]:
-            heights[count] = height
-            count += 1
-    return heights[:count]
+    n = len(curves)
+    heights, count = crossing_heights(curves, NEAR, 2 * n + 2)
+    heights[count], heights[count + 1] = 0.0, LATTICE
+    count += 2
+    for i in range(n):
+        heights[count], heights[count + 1] = curves[i, 0, 1], curves[i, 3, 1]
+        count += 2
+    out = np.empty(count)
+    different = 0
+    for k in sort_order(heights, count):
+        if different == 0 or heights[k] != out[different - 1]:
+            out[different] = heights[k]
+            different += 1
+    return out[:different]
 
 
 @kernel
@@ -121,7 +125,8 @@ def _order_slab(
         x[i, 0], x[i, 2] = x_at(curves[i], low + 0.15 * height), x_at(curves[i], low + 0.85 * height)
     for k in range(1, count):
         i, m = active[k], k
-        while m > 0 and x[active[m - 1]].sum() > x[i].sum():
+        total = x[i, 0] + x[i, 1] + x[i, 2]
+        while m > 0 and x[active[m - 1], 0] + x[active[m - 1], 1] + x[active[m - 1], 2] > total:
             active[m] = active[m - 1]
             m -= 1
         active[m] = i
@@ -158,9 +163,10 @@ def _roles_in_slab(
     Neighbours that coincide form a group of which only inside-before and inside-after count: equal, all go;
     different, one stays, preferably one that had that role in the slab below, else the one that reaches highest.
     """
-    w = windings.copy()
+    w = np.empty(len(windings), np.int64)
     paths_inside = 0
     for p in range(len(w)):
+        w[p] = windings[p]
         paths_inside += 1 if inside(w[p], rules[p]) else 0
     left = 1 if paths_inside > 0 else 0
     first = 0
@@ -211,12 +217,15 @@ def resolve(
     run_y = np.empty((count * slabs, 2))
     role, previous = np.zeros(count, np.int64), np.zeros(count, np.int64)
     since = np.zeros(count)
-    windings = corner.copy()
+    windings = np.empty(len(corner), np.int64)
+    for p in range(len(corner)):
+        windings[p] = corner[p]
     active, x = np.empty(count, np.int64), np.empty((count, 3))
     runs = 0
     for slab in range(slabs + 1):
         low = heights[slab]
-        role[:] = 0
+        for i in range(count):
+            role[i] = 0
         if slab < slabs:
             for i in range(count):
                 for end, event in ((0, 1), (3, -1)):
@@ -283,7 +292,7 @@ def crowded_area(
         for k in range(len(present)):
             paths_inside += 1 if inside(windings[present[k, 0]], rules[present[k, 0]]) else 0
         x = x0
-        for k in np.argsort(crossing_x[:count]):
+        for k in sort_order(crossing_x, count):
             total += crossing_x[k] - x if paths_inside > 0 else 0.0
             x, i = crossing_x[k], crossing[k]
             path = pieces.path[i]

@@ -6,19 +6,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.monotone import Pieces, monotone_pieces
+from vexture.bezier.split import copy_curve
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
 from vexture.kernels import kernel
 from vexture.quadtree.boundary import crowded_area
-from vexture.quadtree.leaf import NO_LEAF, Leaf, limit_leaf, own_leaf, resolved_leaf
+from vexture.quadtree.leaf import NO_LEAF, Leaf, cell_chain, chain_leaf, limit_leaf, nearest_constant, no_leaf, own_leaf
 from vexture.quadtree.level import Level, children
+from vexture.quadtree.sampled import build_sampled
 from vexture.quadtree.tree import CellKind, CellTree
 from vexture.tolerance import CELL_SHARE, CLOSED, COARSEST, DETAIL_SHARE, FINEST
 
-__all__ = ["DEPTH_RANGE", "auto_tolerance", "build", "gather"]
+__all__ = ["DEFAULT_DEPTH", "DEPTH_RANGE", "auto_tolerance", "build", "gather"]
 
 DEPTH_RANGE = (1, 20)
 """Depth limits that a caller may ask for; float32 shaders resolve no more."""
+
+DEFAULT_DEPTH = 10
+"""Cells of a thousandth of the drawing."""
 
 CROWDED = 8
 """Pieces in a cell above which it is resolved only if its boundary meets the cell's edge exactly twice."""
@@ -61,103 +66,103 @@ def _leaf_of(
     first, last = level.piece_at[c], level.piece_at[c + 1]
     present = level.present[level.path_at[c] : level.path_at[c + 1]]
     x0, y0 = level.origin[c, 0], level.origin[c, 1]
-    leaf = Leaf(NO_LEAF, np.zeros((4, 2)), 0.0, 0.0)
     if len(present) == 1:
         leaf = own_leaf(level.pieces, first, last, cubics, present[0, 1], rules[present[0, 0]], x0, y0, size)
-    count = last - first
-    simple = count <= CROWDED or _ends_on_edge(level.pieces, first, last, x0, y0, size) == 2
-    if leaf.kind == NO_LEAF and count <= HOPELESS and (simple or at_limit):
-        leaf = resolved_leaf(level.pieces, first, last, present, cubics, rules, x0, y0, size, tolerance / size)
+        if leaf.kind != NO_LEAF:
+            return leaf
+    if last - first > HOPELESS:
+        if at_limit:
+            return nearest_constant(crowded_area(level.pieces, first, last, present, rules, x0, y0, size))
+        return no_leaf()
+    if not at_limit and last - first > CROWDED and _ends_on_edge(level.pieces, first, last, x0, y0, size) != 2:
+        return no_leaf()
+    chain, area = cell_chain(level.pieces, first, last, present, rules, x0, y0, size)
+    leaf = chain_leaf(chain, area, cubics, x0, y0, size, tolerance / size)
     if leaf.kind == NO_LEAF and at_limit:
-        if count <= HOPELESS:
-            leaf = limit_leaf(level.pieces, first, last, present, rules, x0, y0, size)
-        else:
-            area = crowded_area(level.pieces, first, last, present, rules, x0, y0, size)
-            leaf = Leaf(FULL if area > 0.5 else EMPTY, np.zeros((4, 2)), area, np.sqrt(2.0))
-        return Leaf(-2 - leaf.kind, leaf.curve, leaf.coverage, leaf.distance)  # marked as unresolved
+        leaf = limit_leaf(chain, area)
     return leaf
 
 
 @kernel
-def _add_quads(
-    kind: NDArray[np.uint8],
-    ref: NDArray[np.int32],
-    coverage: NDArray[np.float64],
-    level: Level,
-    split_cells: NDArray[np.bool_],
-    constant: NDArray[np.int64],
-    quad: int,
-) -> None:
-    """Enter the quads that cells of a level become, and those of their cells that are constant."""
-    new = 0
-    for c in range(len(split_cells)):
-        if split_cells[c]:
-            if level.slot[c] >= 0:
-                kind[level.slot[c] // 4, level.slot[c] % 4] = QUAD
-                ref[level.slot[c] // 4, level.slot[c] % 4] = quad + new
-            for k in range(4):
-                if constant[4 * new + k] >= 0:
-                    is_full = constant[4 * new + k] == 1
-                    kind[quad + new, k] = FULL if is_full else EMPTY
-                    coverage[quad + new, k] = 1.0 if is_full else 0.0
-            new += 1
+def _with_room(rows: NDArray[np.float64], count: int, room: int) -> NDArray[np.float64]:
+    """Array of rows with room for more behind the first `count`; itself if it has that, else twice as large."""
+    if count + room <= len(rows):
+        return rows
+    out = np.empty((2 * count + room, rows.shape[1], rows.shape[2]))
+    for i in range(count):
+        for j in range(rows.shape[1]):
+            for k in range(rows.shape[2]):
+                out[i, j, k] = rows[i, j, k]
+    return out
 
 
 @kernel
-def _grow(
+def _add_quads(cells: NDArray[np.float64], level: Level, split_cells: NDArray[np.bool_], quad: int) -> int:
+    """Enter the quads that cells of a level become, their cells empty; return the new number of quads."""
+    for c in range(len(split_cells)):
+        if split_cells[c]:
+            if level.slot[c] >= 0:
+                slot = cells[level.slot[c] // 4, level.slot[c] % 4]
+                slot[0], slot[1] = QUAD, quad
+            for k in range(4):
+                cells[quad, k, 0], cells[quad, k, 1], cells[quad, k, 2] = EMPTY, -1.0, 0.0
+            quad += 1
+    return quad
+
+
+@kernel
+def grow(
     level: Level,
     cubics: NDArray[np.float64],
     rules: NDArray[np.int64],
     tolerance: float,
     cell_share: float,
     max_depth: int,
-) -> tuple[NDArray[np.uint8], NDArray[np.int32], NDArray[np.float64], NDArray[np.float64], tuple[float, int]]:
-    """Divide the unit square level by level until every cell is a leaf."""
-    kind, ref = np.full((0, 4), EMPTY, np.uint8), np.full((0, 4), -1, np.int32)
-    coverage = np.zeros((0, 4))
-    curves = np.empty((0, 4, 2))
-    curve_count, unresolved, deviation, size = 0, 0, 0.0, 1.0
+) -> tuple[NDArray[np.float64], NDArray[np.float64], float, int]:
+    """Divide the unit square level by level until every cell is a leaf.
+
+    Returned are the cells, (quads, 4, 3): kind, reference, coverage; the curves; deviation; unresolved.
+    """
+    cells, quads = np.empty((16, 4, 3)), 0
+    curves, curve_count = np.empty((16, 4, 2)), 0
+    unresolved, deviation, size = 0, 0.0, 1.0
     for depth in range(max_depth + 1):
-        cells = len(level.slot)
-        split_cells = np.zeros(cells, np.bool_)
-        if curve_count + cells > len(curves):
-            curves = np.concatenate((curves, np.empty((curve_count + cells, 4, 2))))
-        for c in range(cells):
-            if depth == 0:  # the root is always a quad
+        count = len(level.slot)
+        split_cells, split_count = np.zeros(count, np.bool_), 0
+        curves = _with_room(curves, curve_count, count)
+        for c in range(count):
+            limit = min(tolerance, cell_share * size)
+            leaf = no_leaf()
+            if depth > 0:  # the root is always a quad
+                leaf = _leaf_of(level, c, cubics, rules, size, limit, depth == max_depth)
+            if leaf.kind == NO_LEAF:
                 split_cells[c] = True
+                split_count += 1
                 continue
-            cell_tolerance = min(tolerance, cell_share * size)
-            leaf = _leaf_of(level, c, cubics, rules, size, cell_tolerance, depth == max_depth)
-            leaf_kind = leaf.kind
-            if leaf_kind < NO_LEAF:
-                leaf_kind = -2 - leaf_kind
-                unresolved += 1
-            split_cells[c] = leaf_kind == NO_LEAF
-            if leaf_kind != NO_LEAF:
-                quad, k = level.slot[c] // 4, level.slot[c] % 4
-                kind[quad, k], coverage[quad, k] = leaf_kind, leaf.coverage
-                deviation = max(deviation, leaf.distance * size)
-                if leaf_kind in (CURVE, CORNER):
-                    ref[quad, k] = curve_count
-                    curves[curve_count] = leaf.curve
-                    curve_count += 1
-        new = split_cells.sum()
-        if new == 0:
+            slot = cells[level.slot[c] // 4, level.slot[c] % 4]
+            slot[0], slot[2] = leaf.kind, leaf.coverage
+            deviation = max(deviation, leaf.distance * size)
+            unresolved += 0 if leaf.resolved else 1
+            if leaf.kind in (CURVE, CORNER):
+                slot[1] = curve_count
+                copy_curve(leaf.curve, curves[curve_count])
+                curve_count += 1
+        if split_count == 0:
             break
-        quad = len(kind)
-        constant = np.empty(4 * new, np.int64)
-        below = children(level, split_cells, rules, size, quad, constant)
-        kind = np.concatenate((kind, np.full((new, 4), EMPTY, np.uint8)))
-        ref = np.concatenate((ref, np.full((new, 4), -1, np.int32)))
-        coverage = np.concatenate((coverage, np.zeros((new, 4))))
-        _add_quads(kind, ref, coverage, level, split_cells, constant, quad)
-        level = below
+        cells = _with_room(cells, quads, split_count)
+        first_quad = quads
+        quads = _add_quads(cells, level, split_cells, first_quad)
+        level, full = children(level, split_cells, split_count, rules, size, first_quad)
+        for slot_index in full:
+            cell = cells[slot_index // 4, slot_index % 4]
+            cell[0], cell[2] = FULL, 1.0
         size *= 0.5
-    for quad in range(len(kind) - 1, -1, -1):
+    for quad in range(quads - 1, -1, -1):
         for k in range(4):
-            if kind[quad, k] == QUAD:
-                coverage[quad, k] = coverage[ref[quad, k]].mean()
-    return kind, ref, coverage, curves[:curve_count].copy(), (deviation, unresolved)
+            if cells[quad, k, 0] == QUAD:
+                below = cells[int(cells[quad, k, 1])]
+                cells[quad, k, 2] = 0.25 * (below[0, 2] + below[1, 2] + below[2, 2] + below[3, 2])
+    return cells[:quads], curves[:curve_count], deviation, unresolved
 
 
 def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
@@ -204,8 +209,13 @@ def _root(drawing: Drawing, pieces: Pieces) -> Level:
     )
 
 
-def build(drawing: Drawing, tolerance: float | Literal["auto"] = "auto", max_depth: int = 10) -> CellTree:
-    """Quad-tree of a drawing's silhouette, with thesis leaves found directly from its cubics.
+def build(
+    drawing: Drawing,
+    tolerance: float | Literal["auto"] = "auto",
+    max_depth: int = DEFAULT_DEPTH,
+    strategy: Literal["direct", "sampled"] = "direct",
+) -> CellTree:
+    """Quad-tree of a drawing's silhouette, with thesis leaves.
 
     Parameters
     ----------
@@ -216,6 +226,8 @@ def build(drawing: Drawing, tolerance: float | Literal["auto"] = "auto", max_dep
         smallest detail of the drawing and the size of the cell.
     max_depth : int
         Cells of this depth are not divided further; the unit square has depth 0.
+    strategy : "direct" or "sampled"
+        Leaves found from the drawing's own cubics, or the thesis's original way by sampling and fitting.
 
     Returns
     -------
@@ -236,9 +248,11 @@ def build(drawing: Drawing, tolerance: float | Literal["auto"] = "auto", max_dep
     """
     if tolerance != "auto" and not 0.0 < tolerance < 1.0:
         raise LimitError(f"tolerance {tolerance} is not between 0 and 1 (unit-square units); use auto or e.g. 0.0005")
+    if strategy not in ("direct", "sampled"):
+        raise LimitError(f"strategy {strategy!r} is not known; use direct or sampled")
     low, high = DEPTH_RANGE
     if not low <= max_depth <= high:
-        raise LimitError(f"depth limit {max_depth} is outside {low}..{high}; the default is 10")
+        raise LimitError(f"depth limit {max_depth} is outside {low}..{high}; the default is {DEFAULT_DEPTH}")
     cubics, owner, rules = gather(drawing)
     pieces = monotone_pieces(cubics, owner)
     if not len(pieces.path):
@@ -246,7 +260,8 @@ def build(drawing: Drawing, tolerance: float | Literal["auto"] = "auto", max_dep
         return CellTree(nothing, np.full((1, 4), -1, np.int32), np.zeros((1, 4)), np.empty((0, 4, 2)), 0.0, 0)
     share = CELL_SHARE if tolerance == "auto" else np.inf
     distance = auto_tolerance(cubics) if tolerance == "auto" else float(tolerance)
-    kind, ref, coverage, curves, (deviation, unresolved) = _grow(
-        _root(drawing, pieces), cubics, rules, distance, share, max_depth
-    )
-    return CellTree(kind, ref, coverage, curves, deviation, unresolved)
+    if strategy == "sampled":
+        return build_sampled(drawing, cubics, owner, rules, distance, share, max_depth)
+    cells, curves, deviation, unresolved = grow(_root(drawing, pieces), cubics, rules, distance, share, max_depth)
+    kind, ref, coverage = cells[:, :, 0].astype(np.uint8), cells[:, :, 1].astype(np.int32), cells[:, :, 2].copy()
+    return CellTree(kind, ref, coverage, curves.copy(), deviation, unresolved)

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vexture.bezier.area import integral_x_dy
 from vexture.bezier.roots import solve_monotone
-from vexture.bezier.split import subcubic
+from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
 from vexture.quadtree.boundary import LATTICE, Boundary
 
@@ -31,18 +31,14 @@ class Chain(NamedTuple):
         Cubic of the source that each is a part of; -1 for a horizontal stretch.
     span : (n, 2) float64 array
         Its parameters on that cubic, in the direction of travel.
-    count : int
-        Number of chains that start on the cell's edge; closed ones add `CLOSED_CHAIN`. Only if it is 1 are the
-        cubics in order.
+    chains : int
+        0 if nothing bounds inside in the cell, 1 if the cubics are one open chain, in order, 2 if they are more.
     """
 
     curves: NDArray[np.float64]
     segment: NDArray[np.int64]
     span: NDArray[np.float64]
-    count: int
-
-
-CLOSED_CHAIN = 1000
+    chains: int
 
 
 @kernel
@@ -75,8 +71,10 @@ def _run_parts(
 ) -> Chain:
     """Runs as cubics in the cell's unit square, with room for connectors behind them."""
     runs = len(boundary.run_piece)
-    out = np.zeros((runs + room, 4, 2))
-    out_segment, out_span = np.full(runs + room, -1, np.int64), np.zeros((runs + room, 2))
+    out, out_span = np.zeros((runs + room, 4, 2)), np.zeros((runs + room, 2))
+    out_segment = np.empty(runs + room, np.int64)
+    for r in range(runs, runs + room):
+        out_segment[r] = -1
     for r in range(runs):
         i = boundary.run_piece[r]
         curve = curves[i]
@@ -231,15 +229,20 @@ def _travel(chain: Chain, parts: int, following: NDArray[np.int64]) -> Chain:
         length += 1
         head = following[head]
     if heads != 1 or length != parts:
-        closed = 0 if heads != 1 and heads > 0 else CLOSED_CHAIN * (1 if parts > length else 0)
-        return Chain(chain.curves[:parts], chain.segment[:parts], chain.span[:parts], heads + closed)
+        return Chain(chain.curves[:parts], chain.segment[:parts], chain.span[:parts], min(parts, 2))
     first, last = 0, length
     while first < last and _along_edge(chain.curves[order[first]]):
         first += 1
     while last > first and _along_edge(chain.curves[order[last - 1]]):
         last -= 1
-    order = order[first:last]
-    return Chain(chain.curves[order], chain.segment[order], chain.span[order], 1 if last > first else 0)
+    n = last - first
+    out = Chain(np.empty((n, 4, 2)), np.empty(n, np.int64), np.empty((n, 2)), min(n, 1))
+    for k in range(n):
+        part = order[first + k]
+        copy_curve(chain.curves[part], out.curves[k])
+        out.segment[k] = chain.segment[part]
+        out.span[k, 0], out.span[k, 1] = chain.span[part, 0], chain.span[part, 1]
+    return out
 
 
 @kernel
@@ -262,7 +265,9 @@ def link_chain(
     runs, slabs = len(boundary.run_piece), len(boundary.left)
     chain = _run_parts(curves, segment, span, boundary, 2 * runs + slabs + 2)
     area = boundary_area(boundary, chain.curves[:runs])
-    following = np.full(len(chain.curves), -1, np.int64)
+    following = np.empty(len(chain.curves), np.int64)
+    for k in range(len(following)):
+        following[k] = -1
     ends = np.empty(2 * runs + 2, np.int64)
     parts = runs
     for k in range(1, slabs):

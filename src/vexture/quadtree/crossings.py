@@ -13,6 +13,9 @@ __all__ = ["crossing_heights", "x_at"]
 MAX_STEPS = 200
 """Intervals looked at for one pair; near-coincident curves could ask for many and would gain less than a unit."""
 
+PAIR_ROOM = 32
+"""Places kept free for the crossings of one pair: two cubics meet at most nine times."""
+
 STACK = 64
 """Open intervals: bisection at integers of a 16-bit range goes 17 deep and keeps one sibling for each."""
 
@@ -143,7 +146,7 @@ def _same_curve(a: NDArray[np.float64], b: NDArray[np.float64], near: float) -> 
 
 
 @kernel
-def crossing_heights(curves: NDArray[np.float64], near: float) -> NDArray[np.float64]:
+def crossing_heights(curves: NDArray[np.float64], near: float, room: int) -> tuple[NDArray[np.float64], int]:
     """Heights, as integers, at which monotone pieces on a lattice change their order by more than `near`.
 
     Parameters
@@ -152,14 +155,22 @@ def crossing_heights(curves: NDArray[np.float64], near: float) -> NDArray[np.flo
         Their ends are integers.
     near : float
         Lattice units below which an order has no meaning.
+    room : int
+        Number of places to leave free behind them, for heights of the caller's.
+
+    Returns
+    -------
+    array, int
+        The heights, in no order, and their number.
 
     Examples
     --------
     >>> line = lambda x0, y0, x3, y3: np.linspace((x0, y0), (x3, y3), 4)
-    >>> crossing_heights(np.array([line(0.0, 0.0, 99.0, 99.0), line(0.0, 99.0, 99.0, 0.0)]), 1.0)
+    >>> heights, count = crossing_heights(np.array([line(0.0, 0.0, 99.0, 99.0), line(0.0, 99.0, 99.0, 0.0)]), 1.0, 0)
+    >>> heights[:count]
     array([49.])
     """
-    out = np.empty(64)
+    out = np.empty(PAIR_ROOM + room)
     count = 0
     for i in range(len(curves)):
         a = curves[i]
@@ -170,7 +181,10 @@ def crossing_heights(curves: NDArray[np.float64], near: float) -> NDArray[np.flo
             beside = max(a[0, 0], a[3, 0]) <= min(b[0, 0], b[3, 0]) or max(b[0, 0], b[3, 0]) <= min(a[0, 0], a[3, 0])
             if low >= high or beside or _same_curve(a, b, near):
                 continue
-            if count + 32 > len(out):
-                out = np.concatenate((out, np.empty(len(out))))
-            count = _pair_crossings(a, b, low, high, near, out, count)
-    return out[:count]
+            if count + PAIR_ROOM + room > len(out):
+                more = np.empty(2 * len(out) + PAIR_ROOM)
+                for k in range(count):
+                    more[k] = out[k]
+                out = more
+            count = _pair_crossings(a, b, low, high, near, out[: len(out) - room], count)
+    return out, count

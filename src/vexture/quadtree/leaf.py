@@ -9,17 +9,27 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.area import area_right_of, edge_index, integral_x_dy
+from vexture.bezier.area import area_right_of, integral_x_dy, leaf_area, loop_area
 from vexture.bezier.fit import fit_cubic
 from vexture.bezier.monotone import Pieces
 from vexture.bezier.roots import cubic_at
-from vexture.bezier.split import subcubic
+from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
 from vexture.quadtree.boundary import quantise, resolve
 from vexture.quadtree.chain import JOIN, Chain, link_chain, on_edge
 from vexture.quadtree.winding import inside, winding_area
 
-__all__ = ["NO_LEAF", "Leaf", "limit_leaf", "own_leaf", "resolved_leaf", "snap_to_edge"]
+__all__ = [
+    "NO_LEAF",
+    "Leaf",
+    "cell_chain",
+    "chain_leaf",
+    "limit_leaf",
+    "nearest_constant",
+    "no_leaf",
+    "own_leaf",
+    "snap_to_edge",
+]
 
 CURVE, CORNER, FULL, EMPTY = 0, 2, 3, 4  # CellKind, whose members a kernel cannot use
 NO_LEAF = -1
@@ -47,24 +57,33 @@ class Leaf(NamedTuple):
         Filled part of the cell, of the drawing rather than of the curve.
     distance : float
         Largest distance of the drawing's outline from the curve, in cell-local units.
+    resolved : bool
+        False if this is the best that a cell at the depth limit can say, rather than good enough.
     """
 
     kind: int
     curve: NDArray[np.float64]
     coverage: float
     distance: float
+    resolved: bool
 
 
 @kernel
 def no_leaf() -> Leaf:
     """Answer of an attempt that failed."""
-    return Leaf(NO_LEAF, np.zeros((4, 2)), 0.0, 0.0)
+    return Leaf(NO_LEAF, np.zeros((4, 2)), 0.0, 0.0, True)
 
 
 @kernel
 def _constant_leaf(is_full: bool) -> Leaf:
-    """Full or empty."""
-    return Leaf(FULL if is_full else EMPTY, np.zeros((4, 2)), 1.0 if is_full else 0.0, 0.0)
+    """Full or empty, because no boundary is in the cell."""
+    return Leaf(FULL if is_full else EMPTY, np.zeros((4, 2)), 1.0 if is_full else 0.0, 0.0, True)
+
+
+@kernel
+def nearest_constant(area: float) -> Leaf:
+    """Full or empty for want of anything better: an outline in the cell is up to its diagonal away."""
+    return Leaf(FULL if area > 0.5 else EMPTY, np.zeros((4, 2)), area, np.sqrt(2.0), False)
 
 
 @kernel
@@ -91,29 +110,6 @@ def _expressible(curve: NDArray[np.float64]) -> bool:
             if not CONTROL_LOW <= curve[k, axis] <= CONTROL_HIGH:
                 return False
     return np.hypot(curve[3, 0] - curve[0, 0], curve[3, 1] - curve[0, 1]) >= SHORTEST_CHORD
-
-
-@kernel
-def _crosses_itself(curve: NDArray[np.float64]) -> bool:
-    """Whether a cubic has a loop within its parameters.
-
-    With B(t) = a t^3 + b t^2 + c t + d, B(s) = B(t) for s != t means a (m^2 - p) + b m + c = 0 with m = s + t and
-    p = s t; the cross products with a and with b give m and p.
-    """
-    p = curve
-    ax, ay = p[3, 0] - p[0, 0] + 3.0 * (p[1, 0] - p[2, 0]), p[3, 1] - p[0, 1] + 3.0 * (p[1, 1] - p[2, 1])
-    bx, by = 3.0 * (p[0, 0] - 2.0 * p[1, 0] + p[2, 0]), 3.0 * (p[0, 1] - 2.0 * p[1, 1] + p[2, 1])
-    cx, cy = 3.0 * (p[1, 0] - p[0, 0]), 3.0 * (p[1, 1] - p[0, 1])
-    a_b = ax * by - ay * bx
-    if a_b == 0.0:
-        return False
-    m = -(ax * cy - ay * cx) / a_b
-    product = m * m + (cx * by - cy * bx) / a_b
-    discriminant = m * m - 4.0 * product
-    if discriminant <= 0.0:
-        return False
-    root = np.sqrt(discriminant)
-    return 0.5 * (m - root) >= 0.0 and 0.5 * (m + root) <= 1.0
 
 
 @kernel
@@ -149,14 +145,15 @@ def own_leaf(
             return no_leaf()
     curve = np.empty((4, 2))
     subcubic(cubics[pieces.segment[first]], pieces.span[first, 0], pieces.span[last - 1, 1], curve)
-    curve[0], curve[3] = pieces.points[first, 0], pieces.points[last - 1, 3]
+    for axis in range(2):
+        curve[0, axis], curve[3, axis] = pieces.points[first, 0, axis], pieces.points[last - 1, 3, axis]
     for end in (0, 3):
         x, y = curve[end, 0], curve[end, 1]
         if x != x0 and x != x0 + size and y != y0 and y != y0 + size:
             return no_leaf()
     for k in range(4):
         curve[k, 0], curve[k, 1] = (curve[k, 0] - x0) / size, (curve[k, 1] - y0) / size
-    if not _expressible(curve) or (rule == 0 and last - first > 1 and _crosses_itself(curve)):
+    if not _expressible(curve) or (rule == 0 and last - first > 1 and loop_area(curve) != 0.0):
         return no_leaf()
     local = np.empty((last - first, 4, 2))
     for i in range(first, last):
@@ -170,8 +167,10 @@ def own_leaf(
     if right == left:
         return _constant_leaf(right)
     if right:
-        return Leaf(CURVE, curve, right_area, 0.0)
-    return Leaf(CURVE, curve[::-1].copy(), 1.0 - right_area, 0.0)
+        return Leaf(CURVE, curve, leaf_area(curve, False), 0.0, True)
+    backwards = np.empty((4, 2))
+    subcubic(curve, 1.0, 0.0, backwards)
+    return Leaf(CURVE, backwards, leaf_area(backwards, False), 0.0, True)
 
 
 @kernel
@@ -190,9 +189,9 @@ def _own_chain(chain: Chain, cubics: NDArray[np.float64], x0: float, y0: float, 
         curve[k, 0], curve[k, 1] = (curve[k, 0] - x0) / size, (curve[k, 1] - y0) / size
     for end in (0, 3):
         snap_to_edge(curve[end])
-    if not _expressible(curve) or (n > 1 and _crosses_itself(curve)):
+    if not _expressible(curve) or (n > 1 and loop_area(curve) != 0.0):
         return no_leaf()
-    return Leaf(CURVE, curve, 0.0, 0.0)
+    return Leaf(CURVE, curve, 0.0, 0.0, True)
 
 
 @kernel
@@ -202,8 +201,8 @@ def _off_line(curves: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np
     length = np.hypot(dx, dy)
     worst = 0.0
     for curve in curves:
-        for point in curve:
-            px, py = point[0] - a[0], point[1] - a[1]
+        for k in range(4):
+            px, py = curve[k, 0] - a[0], curve[k, 1] - a[1]
             along = min(max((px * dx + py * dy) / (length * length), 0.0), 1.0) if length > 0.0 else 0.0
             worst = max(worst, np.hypot(px - along * dx, py - along * dy))
     return worst
@@ -225,11 +224,11 @@ def _corner(chain: Chain, tolerance: float) -> Leaf:
     if worst > tolerance:
         return no_leaf()
     curve = np.empty((4, 2))
-    curve[0], curve[3] = chain.curves[0, 0], chain.curves[n - 1, 3]
-    for k in (1, 2):
-        for axis in range(2):
-            curve[k, axis] = min(max(chain.curves[best, 0, axis], 0.0), 1.0)
-    return Leaf(CORNER, curve, 0.0, worst)
+    for axis in range(2):
+        curve[0, axis], curve[3, axis] = chain.curves[0, 0, axis], chain.curves[n - 1, 3, axis]
+        curve[1, axis] = min(max(chain.curves[best, 0, axis], 0.0), 1.0)
+        curve[2, axis] = curve[1, axis]
+    return Leaf(CORNER, curve, 0.0, worst, True)
 
 
 @kernel
@@ -242,7 +241,7 @@ def _sample(chain: Chain, per_part: int) -> NDArray[np.float64]:
         for m in range(per_part):
             for axis in range(2):
                 out[k * per_part + m, axis] = cubic_at(c[0, axis], c[1, axis], c[2, axis], c[3, axis], m / per_part)
-    out[n * per_part] = chain.curves[n - 1, 3]
+    out[n * per_part, 0], out[n * per_part, 1] = chain.curves[n - 1, 3, 0], chain.curves[n - 1, 3, 1]
     return out
 
 
@@ -254,11 +253,11 @@ def _fit(chain: Chain, tolerance: float) -> Leaf:
     distance = fit_cubic(_sample(chain, per_part), tolerance, curve)
     if distance > tolerance or not _expressible(curve):
         return no_leaf()
-    return Leaf(CURVE, curve, 0.0, distance)
+    return Leaf(CURVE, curve, 0.0, distance, True)
 
 
 @kernel
-def _chain_of(
+def cell_chain(
     pieces: Pieces,
     first: int,
     last: int,
@@ -268,33 +267,7 @@ def _chain_of(
     y0: float,
     size: float,
 ) -> tuple[Chain, float]:
-    """Resolved chain of a cell, and its filled area."""
-    owner = np.empty(last - first, np.int64)
-    path = 0
-    for i in range(first, last):
-        while present[path, 0] != pieces.path[i]:
-            path += 1
-        owner[i - first] = path
-    cell_rules = rules[present[:, 0]]
-    curves = quantise(pieces.points[first:last], x0, y0, size)
-    boundary = resolve(curves, owner, present[:, 1].copy(), cell_rules)
-    return link_chain(curves, pieces.segment[first:last], pieces.span[first:last], boundary)
-
-
-@kernel
-def resolved_leaf(
-    pieces: Pieces,
-    first: int,
-    last: int,
-    present: NDArray[np.int64],
-    cubics: NDArray[np.float64],
-    rules: NDArray[np.int64],
-    x0: float,
-    y0: float,
-    size: float,
-    tolerance: float,
-) -> Leaf:
-    """Leaf of a cell after its overlaps and crossings are resolved; `NO_LEAF` if none is good enough.
+    """Chain of a cell's boundary after its overlaps and crossings are resolved, and its filled part.
 
     Parameters
     ----------
@@ -302,21 +275,47 @@ def resolved_leaf(
         Those of the cell are first..last-1.
     present : (n, 2) int64 array
         The paths in the cell and their corner windings.
-    cubics : (m, 4, 2) float64 array
-        The source's.
     rules : (paths,) int64 array
         `FillRule` of each path of the drawing.
+    x0, y0, size : float
+        The cell.
+    """
+    owner = np.empty(last - first, np.int64)
+    path = 0
+    for i in range(first, last):
+        while present[path, 0] != pieces.path[i]:
+            path += 1
+        owner[i - first] = path
+    corner, cell_rules = np.empty(len(present), np.int64), np.empty(len(present), np.int64)
+    for k in range(len(present)):
+        corner[k], cell_rules[k] = present[k, 1], rules[present[k, 0]]
+    curves = quantise(pieces.points[first:last], x0, y0, size)
+    boundary = resolve(curves, owner, corner, cell_rules)
+    return link_chain(curves, pieces.segment[first:last], pieces.span[first:last], boundary)
+
+
+@kernel
+def chain_leaf(
+    chain: Chain, area: float, cubics: NDArray[np.float64], x0: float, y0: float, size: float, tolerance: float
+) -> Leaf:
+    """Leaf that describes a chain within tolerance; `NO_LEAF` if there is none.
+
+    Parameters
+    ----------
+    chain, area : Chain, float
+        What `cell_chain` gives.
+    cubics : (m, 4, 2) float64 array
+        The source's.
     x0, y0, size : float
         The cell.
     tolerance : float
         Largest distance between the outline and the leaf's, in cell-local units.
     """
-    chain, area = _chain_of(pieces, first, last, present, rules, x0, y0, size)
-    if chain.count == 0:
+    if chain.chains == 0:
         return _constant_leaf(area > 0.5)
-    if chain.count != 1:
+    if chain.chains != 1:
         return no_leaf()
-    start, stop = chain.curves[0, 0], chain.curves[-1, 3]
+    start, stop = chain.curves[0, 0], chain.curves[len(chain.curves) - 1, 3]
     if not (on_edge(start[0], start[1]) and on_edge(stop[0], stop[1])):
         return no_leaf()
     snap_to_edge(start)
@@ -328,28 +327,23 @@ def resolved_leaf(
         leaf = _corner(chain, tolerance)
     if leaf.kind == NO_LEAF:
         leaf = _fit(chain, tolerance)
-    return Leaf(leaf.kind, leaf.curve, area, leaf.distance)
+    return Leaf(leaf.kind, leaf.curve, area, leaf.distance, True)
 
 
 @kernel
-def limit_leaf(
-    pieces: Pieces,
-    first: int,
-    last: int,
-    present: NDArray[np.int64],
-    rules: NDArray[np.int64],
-    x0: float,
-    y0: float,
-    size: float,
-) -> Leaf:
+def limit_leaf(chain: Chain, area: float) -> Leaf:
     """Leaf of a cell at the depth limit: a straight line from edge to edge, or full, or empty.
 
     The one whose area is nearest; a line joins two points at which the boundary meets the cell's edge.
+
+    Parameters
+    ----------
+    chain, area : Chain, float
+        What `cell_chain` gives.
     """
-    chain, area = _chain_of(pieces, first, last, present, rules, x0, y0, size)
-    best = _constant_leaf(area > 0.5)
-    error = abs(best.coverage - area)
-    curve = np.empty((4, 2))
+    best = nearest_constant(area)
+    error = min(area, 1.0 - area)
+    line = np.empty((4, 2))
     for i in range(len(chain.curves)):
         for j in range(len(chain.curves)):
             a, b = chain.curves[i, 0], chain.curves[j, 3]
@@ -357,14 +351,15 @@ def limit_leaf(
                 continue
             for k in range(4):
                 for axis in range(2):
-                    curve[k, axis] = a[axis] + (b[axis] - a[axis]) * (k / 3.0)
-            snap_to_edge(curve[0])
-            snap_to_edge(curve[3])
-            if edge_index(curve[0, 0], curve[0, 1]) == edge_index(curve[3, 0], curve[3, 1]) or not _expressible(curve):
+                    line[k, axis] = a[axis] + (b[axis] - a[axis]) * (k / 3.0)
+            snap_to_edge(line[0])
+            snap_to_edge(line[3])
+            if not _expressible(line):
                 continue
-            off = abs(area_right_of(curve[0], curve[3], integral_x_dy(curve)) - area)
+            off = abs(area_right_of(line[0], line[3], integral_x_dy(line)) - area)
             if off < error:
                 error = off
-                best = Leaf(CURVE, curve.copy(), area, 0.0)
-    distance = np.sqrt(2.0) if best.kind != CURVE else _off_line(chain.curves, best.curve[0], best.curve[3])
-    return Leaf(best.kind, best.curve, area, distance)
+                kept = np.empty((4, 2))
+                copy_curve(line, kept)
+                best = Leaf(CURVE, kept, area, _off_line(chain.curves, kept[0], kept[3]), False)
+    return best

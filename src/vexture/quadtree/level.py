@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vexture.bezier.monotone import Pieces, empty_pieces
 from vexture.bezier.roots import solve_monotone
-from vexture.bezier.split import split
+from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 from vexture.quadtree.winding import child_windings, inside
 
@@ -51,10 +51,10 @@ class Level(NamedTuple):
 @kernel
 def _copy_piece(source: Pieces, i: int, target: Pieces, k: int) -> None:
     """Copy piece i to place k."""
-    target.points[k] = source.points[i]
+    copy_curve(source.points[i], target.points[k])
     target.path[k] = source.path[i]
     target.segment[k] = source.segment[i]
-    target.span[k] = source.span[i]
+    target.span[k, 0], target.span[k, 1] = source.span[i, 0], source.span[i, 1]
 
 
 @kernel
@@ -91,22 +91,6 @@ def _child_of(curve: NDArray[np.float64], xm: float, ym: float) -> int:
 
 
 @kernel
-def _count_cuts(level: Level, split_cells: NDArray[np.bool_], half: float) -> int:
-    """Upper bound of the number of pieces in all children; each line cuts a monotone piece once."""
-    count = 0
-    for c in range(len(split_cells)):
-        if split_cells[c]:
-            for i in range(level.piece_at[c], level.piece_at[c + 1]):
-                count += 1
-                for axis in range(2):
-                    line = level.origin[c, axis] + half
-                    a, d = level.pieces.points[i, 0, axis], level.pieces.points[i, 3, axis]
-                    if (a < line < d) or (d < line < a):
-                        count += 1
-    return count
-
-
-@kernel
 def _sort_by_child(
     cut: Pieces, count: int, xm: float, ym: float, target: Pieces, end: int, child_at: NDArray[np.int64]
 ) -> int:
@@ -124,87 +108,106 @@ def _sort_by_child(
 
 
 @kernel
+def _copy_present(
+    level: Level,
+    c: int,
+    child: int,
+    windings: NDArray[np.int64],
+    rules: NDArray[np.int64],
+    present: NDArray[np.int64],
+    end: int,
+) -> int:
+    """Append the paths that have pieces in a child; return the new end, or -1 if another path fills the child."""
+    for k in range(len(windings)):
+        path = level.present[level.path_at[c] + k, 0]
+        if windings[k, 4 + child]:
+            present[end, 0], present[end, 1] = path, windings[k, child]
+            end += 1
+        elif inside(windings[k, child], rules[path]):
+            return -1
+    return end
+
+
+@kernel
+def _room_for(level: Level, split_cells: NDArray[np.bool_], size: float) -> tuple[int, int, int]:
+    """Upper bounds: pieces of all children, pieces of one cell, paths of all children."""
+    pieces, widest, paths = 0, 0, 0
+    for c in range(len(split_cells)):
+        if split_cells[c]:
+            paths += 4 * (level.path_at[c + 1] - level.path_at[c])
+            widest = max(widest, level.piece_at[c + 1] - level.piece_at[c])
+            for i in range(level.piece_at[c], level.piece_at[c + 1]):
+                pieces += 1
+                for axis in range(2):  # each line cuts a monotone piece at most once
+                    line = level.origin[c, axis] + 0.5 * size
+                    a, d = level.pieces.points[i, 0, axis], level.pieces.points[i, 3, axis]
+                    if (a < line < d) or (d < line < a):
+                        pieces += 1
+    return pieces, widest, paths
+
+
+@kernel
 def children(
     level: Level,
     split_cells: NDArray[np.bool_],
+    split_count: int,
     rules: NDArray[np.int64],
     size: float,
     first_quad: int,
-    constant: NDArray[np.int64],
-) -> Level:
-    """Cut cells of a level into the cells of the next that have pieces; tell which of the others are full.
+) -> tuple[Level, NDArray[np.int64]]:
+    """Cut cells of a level into the cells of the next.
 
     Parameters
     ----------
     level : Level
         Of n cells, each `size` wide.
     split_cells : (n,) bool array
-        The cells to cut; each becomes a quad, numbered from `first_quad`.
+        The cells to cut, `split_count` of them; each becomes a quad, numbered from `first_quad`.
     rules : (paths,) int64 array
         `FillRule` of each path.
     size : float
         Width of this level's cells, in unit-square units.
-    first_quad : int
-        Number of the first new quad.
-    constant : (4 * new quads,) int64 array
-        Written: 1 for a child without pieces that is full, 0 for one that is empty, -1 for one in the next level.
 
     Returns
     -------
     Level
         Of the children that have pieces and are not covered by another path.
+    (m,) int64 array
+        Slots of the children that are full; all others are empty.
     """
     half = 0.5 * size
-    room = _count_cuts(level, split_cells, half)
-    quad_count = split_cells.sum()
-    out = empty_pieces(room)
-    most_paths = 0
-    widest = 0
-    for c in range(len(split_cells)):
-        if split_cells[c]:
-            most_paths += level.path_at[c + 1] - level.path_at[c]
-            widest = max(widest, level.piece_at[c + 1] - level.piece_at[c])
-    origin = np.empty((4 * quad_count, 2))
-    slot = np.empty(4 * quad_count, np.int64)
-    piece_at = np.empty(4 * quad_count + 1, np.int64)
-    path_at = np.empty(4 * quad_count + 1, np.int64)
-    present = np.empty((4 * most_paths, 2), np.int64)
-    once, twice = empty_pieces(2 * widest), empty_pieces(3 * widest)
+    piece_room, widest, path_room = _room_for(level, split_cells, size)
+    out, once, twice = empty_pieces(piece_room), empty_pieces(2 * widest), empty_pieces(3 * widest)
+    origin, slot = np.empty((4 * split_count, 2)), np.empty(4 * split_count, np.int64)
+    piece_at, path_at = np.empty(4 * split_count + 1, np.int64), np.empty(4 * split_count + 1, np.int64)
+    present, full = np.empty((path_room, 2), np.int64), np.empty(4 * split_count, np.int64)
     child_at = np.empty(5, np.int64)
-    cells, end, paths, quad = 0, 0, 0, first_quad
+    cells, end, paths, full_count, quad = 0, 0, 0, 0, first_quad
     for c in range(len(split_cells)):
         if not split_cells[c]:
             continue
-        xm, ym = level.origin[c, 0] + half, level.origin[c, 1] + half
+        x0, y0 = level.origin[c, 0], level.origin[c, 1]
+        xm, ym = x0 + half, y0 + half
         once_end = _cut(level.pieces, level.piece_at[c], level.piece_at[c + 1], 0, xm, once, 0)
         twice_end = _cut(once, 0, once_end, 1, ym, twice, 0)
         _sort_by_child(twice, twice_end, xm, ym, out, end, child_at)
-        windings = child_windings(
-            out, child_at, level.present[level.path_at[c] : level.path_at[c + 1]], xm - half, ym - half, xm, ym
-        )
+        parent_present = level.present[level.path_at[c] : level.path_at[c + 1]]
+        windings = child_windings(out, child_at, parent_present, x0, y0, xm, ym)
         for child in range(4):
-            here, is_full = paths, False
-            for k in range(len(windings)):
-                path, winding = level.present[level.path_at[c] + k, 0], windings[k, child]
-                if windings[k, 4 + child]:
-                    present[here, 0], present[here, 1] = path, winding
-                    here += 1
-                elif inside(winding, rules[path]):
-                    is_full = True
-            index = 4 * (quad - first_quad) + child
-            if is_full or child_at[child] == child_at[child + 1]:
-                constant[index] = 1 if is_full else 0
-                continue
-            constant[index] = -1
-            origin[cells, 0], origin[cells, 1] = xm - half + half * (child & 1), ym - half + half * (child >> 1)
-            slot[cells] = 4 * quad + child
-            piece_at[cells], path_at[cells] = end, paths
-            for i in range(child_at[child], child_at[child + 1]):
-                _copy_piece(out, i, out, end)
-                end += 1
-            paths = here
-            cells += 1
+            here = _copy_present(level, c, child, windings, rules, present, paths)
+            if here < 0:
+                full[full_count] = 4 * quad + child
+                full_count += 1
+            elif child_at[child] < child_at[child + 1]:
+                origin[cells, 0], origin[cells, 1] = x0 + half * (child & 1), y0 + half * (child >> 1)
+                slot[cells], piece_at[cells], path_at[cells] = 4 * quad + child, end, paths
+                for i in range(child_at[child], child_at[child + 1]):
+                    _copy_piece(out, i, out, end)
+                    end += 1
+                paths = here
+                cells += 1
         quad += 1
     piece_at[cells], path_at[cells] = end, paths
     pieces = Pieces(out.points[:end], out.path[:end], out.segment[:end], out.span[:end])
-    return Level(origin[:cells], slot[:cells], piece_at[: cells + 1], path_at[: cells + 1], pieces, present[:paths])
+    below = Level(origin[:cells], slot[:cells], piece_at[: cells + 1], path_at[: cells + 1], pieces, present[:paths])
+    return below, full[:full_count]

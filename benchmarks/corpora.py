@@ -1,0 +1,199 @@
+"""What the benchmarks and their tests measure: real SVG files, glyphs of real fonts, a coastline of any size.
+
+SVG files come from npm packages of pinned versions, installed on first use into the folder named by the environment
+variable VEXTURE_CORPORA, by default `~/.cache/vexture/corpora`. Everything drawn at random is drawn from a seed.
+"""
+
+import os
+import random
+import shutil
+import subprocess
+import tempfile
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from fontTools.pens.basePen import BasePen
+from fontTools.ttLib import TTFont
+from numpy.typing import NDArray
+
+from vexture import drawing
+from vexture.drawing import Drawing
+from vexture.errors import LimitError, SourceError, VextureError
+
+__all__ = ["dejavu_sans", "flags", "fractal_coastline", "glyphs", "mdi", "simple_icons"]
+
+FONTS = Path("/usr/share/fonts")
+HEXAGON_RADIUS = 0.4  # unit-square units
+ROUGHNESS = 0.18  # standard deviation of a midpoint's way along the normal, in edge lengths
+
+
+@dataclass(frozen=True, slots=True)
+class Package:
+    """A pinned npm package and the folder of its SVG files."""
+
+    name: str
+    version: str
+    folder: str
+
+    def files(self, count: int, seed: int) -> list[Path]:
+        """Return `count` of its SVG files, drawn at random without repetition."""
+        available = sorted((self.installed() / self.folder).glob("*.svg"))
+        if count > len(available):
+            raise LimitError(f"{count} files asked of {self.name}, which has {len(available)}; ask for fewer")
+        return random.Random(seed).sample(available, count)
+
+    def installed(self) -> Path:
+        """Return the package's folder, installed first if it is missing."""
+        corpora = Path(os.environ.get("VEXTURE_CORPORA", "~/.cache/vexture/corpora")).expanduser()
+        home = corpora / f"{self.name.replace('/', '-')}-{self.version}"
+        if not home.exists():
+            npm = shutil.which("npm")
+            if npm is None:
+                raise VextureError(
+                    f"npm is missing, which fetches {self.name} {self.version}; install Node.js with npm"
+                )
+            corpora.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryDirectory(dir=corpora) as scratch:
+                self.install(npm, Path(scratch) / "prefix")
+                try:
+                    os.rename(Path(scratch) / "prefix", home)  # complete or not there at all
+                except OSError:
+                    if not home.exists():  # else another process was faster
+                        raise
+        return home / "node_modules" / self.name
+
+    def install(self, npm: str, prefix: Path) -> None:
+        """Let npm fetch the package; none of its scripts is run."""
+        prefix.mkdir()
+        wanted = f"{self.name}@{self.version}"
+        command = [npm, "install", "--prefix", str(prefix), "--ignore-scripts", "--no-save", "--no-audit", wanted]
+        outcome = subprocess.run(command, capture_output=True, text=True, check=False)
+        if outcome.returncode:
+            reason = next((line for line in outcome.stderr.splitlines() if "npm error" in line), "npm says nothing")
+            raise VextureError(f"npm cannot install {wanted} ({reason}); check the network or the registry")
+
+
+MDI = Package("@mdi/svg", "7.4.47", "svg")
+SIMPLE_ICONS = Package("simple-icons", "16.37.0", "icons")
+FLAG_ICONS = Package("flag-icons", "7.5.0", "flags/4x3")
+
+
+def mdi(count: int, seed: int) -> list[Path]:
+    """Return icons of Material Design Icons (Apache-2.0): one path each, many arcs."""
+    return MDI.files(count, seed)
+
+
+def simple_icons(count: int, seed: int) -> list[Path]:
+    """Return logos of Simple Icons (CC0): one path each, fine detail."""
+    return SIMPLE_ICONS.files(count, seed)
+
+
+def flags(count: int, seed: int) -> list[Path]:
+    """Return flags of flag-icons (MIT): many colours, transforms, `use`, clip paths, coats of arms."""
+    return FLAG_ICONS.files(count, seed)
+
+
+def dejavu_sans() -> Path:
+    """Return the file of the font DejaVu Sans."""
+    found = next(FONTS.rglob("DejaVuSans.ttf"), None)
+    if found is None:
+        raise SourceError(f"no DejaVuSans.ttf under {FONTS}; install the Debian package fonts-dejavu-core")
+    return found
+
+
+class ContourPen(BasePen):
+    """Collects closed contours of cubics; BasePen resolves components and raises quadratics exactly."""
+
+    def __init__(self, glyphs: object) -> None:
+        super().__init__(glyphs)
+        self.contours: list[NDArray[np.float64]] = []
+
+    def _moveTo(self, point: tuple[float, float]) -> None:  # noqa: N802 (fontTools' names)
+        self.start = point
+        self.cubics: list[list[tuple[float, float]]] = []
+
+    def _lineTo(self, point: tuple[float, float]) -> None:  # noqa: N802
+        (x0, y0), (x3, y3) = self._getCurrentPoint(), point
+        if (x0, y0) != (x3, y3):
+            self._curveToOne((x0 + (x3 - x0) / 3, y0 + (y3 - y0) / 3), (x3 + (x0 - x3) / 3, y3 + (y0 - y3) / 3), point)
+
+    def _curveToOne(self, *points: tuple[float, float]) -> None:  # noqa: N802
+        self.cubics.append([self._getCurrentPoint(), *points])
+
+    def _closePath(self) -> None:  # noqa: N802
+        self._lineTo(self.start)
+        if self.cubics:
+            self.contours.append(np.array(self.cubics, dtype=np.float64))
+
+
+def glyphs(font: Path, text: str) -> list[Drawing]:
+    """Draw each character, its line height from descender to ascender as high as the unit square.
+
+    Parameters
+    ----------
+    font : Path
+        A TrueType or OpenType font.
+    text : str
+        Each character becomes a drawing of its own, centred by its advance width.
+
+    Returns
+    -------
+    list of Drawing
+        Their `to_source` maps the unit square to ems, baseline at 0: its first entry is the line height.
+
+    Raises
+    ------
+    SourceError
+        If the font lacks a character, or a glyph is larger than its line.
+    """
+    with TTFont(font) as opened:
+        outlines, characters, header = opened.getGlyphSet(), opened.getBestCmap(), opened["hhea"]
+        em = opened["head"].unitsPerEm
+        height = header.ascent - header.descent
+        drawings = []
+        for character in text:
+            if ord(character) not in characters:
+                raise SourceError(f"{font} has no glyph for {character!r}; choose another font or text")
+            glyph = outlines[characters[ord(character)]]
+            pen = ContourPen(outlines)
+            glyph.draw(pen)
+            corner = np.array([(glyph.width - height) / 2, header.descent])
+            path = drawing.Path(tuple((contour - corner) / height for contour in pen.contours))
+            to_source = np.column_stack([np.eye(2) * height, corner]) / em
+            drawings.append(Drawing((path,), to_source, character))
+    return drawings
+
+
+def fractal_coastline(edges: int, seed: int) -> Drawing:
+    """Draw an island of straight edges: a hexagon whose edges are broken in two, again and again.
+
+    Parameters
+    ----------
+    edges : int
+        Six times a power of two. The benchmarks use 768, 12,288 and 98,304.
+    seed : int
+        Of the normal deviates that move each midpoint along the normal of its edge.
+
+    Raises
+    ------
+    LimitError
+        If `edges` is another number.
+
+    Examples
+    --------
+    >>> fractal_coastline(768, seed=1).segments
+    768
+    """
+    if edges < 6 or edges % 6 or (edges // 6).bit_count() != 1:
+        raise LimitError(f"a coastline of {edges} edges cannot be made; ask for six times a power of two")
+    deviates = np.random.default_rng(seed)
+    angles = np.arange(6) * (np.pi / 3)
+    points = 0.5 + HEXAGON_RADIUS * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    while len(points) < edges:
+        step = np.roll(points, -1, axis=0) - points
+        normal = np.stack([-step[:, 1], step[:, 0]], axis=1)
+        middle = points + step / 2 + normal * deviates.normal(0.0, ROUGHNESS, (len(points), 1))
+        if middle.min() >= 0.0 and middle.max() <= 1.0:  # else draw again: one seed in ten leaves the unit square
+            points = np.stack([points, middle], axis=1).reshape(-1, 2)
+    return replace(Drawing.polygon(points), name=f"coastline-{edges}")

@@ -1,0 +1,33 @@
+"""The smallest box around cubics."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["bounds"]
+
+
+def bounds(cubics: NDArray[np.float64]) -> tuple[float, float, float, float]:
+    """Least x, least y, largest x and largest y on the curves themselves, not on their control points.
+
+    Parameters
+    ----------
+    cubics : (n, 4, 2) float64 array, n >= 1
+
+    Examples
+    --------
+    >>> bounds(np.array([[[0.0, 0.0], [0.0, 4.0], [1.0, 4.0], [1.0, 0.0]]]))
+    (0.0, 0.0, 1.0, 3.0)
+    """
+    p0, p1, p2, p3 = np.moveaxis(cubics, 1, 0)
+    a, b, c = p3 - p0 + 3.0 * (p1 - p2), 2.0 * (p0 - 2.0 * p1 + p2), p1 - p0
+    root = np.sqrt(np.maximum(b * b - 4.0 * a * c, 0.0))
+    q = -0.5 * (b + np.where(b >= 0.0, root, -root))
+    candidates = [p0, p3]
+    for numerator, denominator in ((q, a), (c, q)):
+        t = np.divide(numerator, denominator, out=np.zeros_like(q), where=denominator != 0.0)
+        t = np.clip(t, 0.0, 1.0)
+        s = 1.0 - t
+        candidates.append(s * s * (s * p0 + 3.0 * t * p1) + t * t * (3.0 * s * p2 + t * p3))
+    points = np.concatenate(candidates)
+    (left, low), (right, high) = points.min(axis=0), points.max(axis=0)
+    return float(left), float(low), float(right), float(high)

@@ -1,0 +1,232 @@
+"""Other curves as cubics: lines and quadratics exactly, circular things within a tolerance.
+
+A cubic with handles of length ``4/3 tan(angle/4) r`` touches its circle at both ends and at the middle and leaves it
+outward by at most `QUARTER_ERROR` r for a quarter turn; the error falls with the sixth power of the angle
+(Goldapp, "Approximation of circular arcs by cubic polynomials", CAGD 8, 1991).
+"""
+
+from math import acos, atan2, ceil, cos, hypot, pi, radians, sin, sqrt, tan
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["arc_cubics", "conic_cubics", "ellipse_cubics", "line_cubics", "quadratic_cubics", "straight"]
+
+QUARTER_ERROR = 2.7253e-4
+"""Largest distance of one cubic from a quarter of the unit circle."""
+
+FINEST = 1e-3
+"""Part of a quarter turn. The shortest cubic, a bound on the work for hostile radii: 4,000 cubics to a turn."""
+
+FLAT = 1e-7
+"""Half the chord over the radius. A shorter way round that is flatter than this is a line, to 1e-7 of its length."""
+
+STRAIGHT = 1e-12
+"""Relative. Inner control points this close to the thirds of the chord are those of a line, but for rounding."""
+
+Step = tuple[float, float, float, float, float, float]
+"""P1, P2 and P3 of a cubic that starts where the one before it ends."""
+
+
+def line_cubics(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Straight lines as cubics, with inner control points at one and two thirds.
+
+    Parameters
+    ----------
+    start, end : (..., 2) float64 arrays
+
+    Returns
+    -------
+    (..., 4, 2) float64 array
+
+    Examples
+    --------
+    >>> line_cubics(np.array([0.0, 0.0]), np.array([3.0, 6.0]))[1:3]
+    array([[1., 2.],
+           [2., 4.]])
+    """
+    chord = end - start
+    return np.stack([start, start + chord / 3.0, start + chord * (2.0 / 3.0), end], axis=-2)
+
+
+def straight(cubics: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Tell which cubics are lines in the sense of `line_cubics`, (n, 4, 2) -> (n,).
+
+    Examples
+    --------
+    >>> straight(line_cubics(np.zeros((1, 2)), np.ones((1, 2))))
+    array([ True])
+    """
+    ideal = line_cubics(cubics[..., 0, :], cubics[..., 3, :])
+    scale = np.abs(cubics).max(axis=(-2, -1))
+    near: NDArray[np.bool_] = np.abs(cubics - ideal).max(axis=(-2, -1)) <= STRAIGHT * scale
+    return near
+
+
+def quadratic_cubics(quadratics: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Raise quadratics to cubics, exactly: (..., 3, 2) -> (..., 4, 2).
+
+    Examples
+    --------
+    >>> quadratic_cubics(np.array([[0.0, 0.0], [1.5, 3.0], [3.0, 0.0]]))
+    array([[0., 0.],
+           [1., 2.],
+           [2., 2.],
+           [3., 0.]])
+    """
+    start, control, end = quadratics[..., 0, :], quadratics[..., 1, :], quadratics[..., 2, :]
+    return np.stack([start, start + (control - start) * (2 / 3), end + (control - end) * (2 / 3), end], axis=-2)
+
+
+def turn_steps(angle: float, radius: float, tolerance: float) -> int:
+    """Count the equal cubics that follow a turn of `angle` (radians) around a circle within the tolerance.
+
+    Examples
+    --------
+    >>> turn_steps(2 * pi, 1.0, 1e-3), turn_steps(2 * pi, 0.5, 1e-5)
+    (4, 7)
+    """
+    quarter = 1.0 if radius == 0.0 else min(1.0, (tolerance / (QUARTER_ERROR * radius)) ** (1 / 6))
+    return max(1, ceil(abs(angle) / (pi / 2 * max(quarter, FINEST)) - 1e-9))
+
+
+def turn_cubics(
+    center: tuple[float, float], u: tuple[float, float], v: tuple[float, float], start: float, angle: float, steps: int
+) -> list[Step]:
+    """Follow ``center + u cos a + v sin a`` for a = start .. start + angle (radians) in equal cubics."""
+    step = angle / steps
+    handle = 4 / 3 * tan(step / 4)
+    found = []
+    c0, s0 = cos(start), sin(start)
+    for k in range(1, steps + 1):
+        c1, s1 = cos(start + k * step), sin(start + k * step)
+        a1, b1, a2, b2 = c0 - handle * s0, s0 + handle * c0, c1 + handle * s1, s1 - handle * c1
+        found.append(
+            (
+                center[0] + u[0] * a1 + v[0] * b1,
+                center[1] + u[1] * a1 + v[1] * b1,
+                center[0] + u[0] * a2 + v[0] * b2,
+                center[1] + u[1] * a2 + v[1] * b2,
+                center[0] + u[0] * c1 + v[0] * s1,
+                center[1] + u[1] * c1 + v[1] * s1,
+            )
+        )
+        c0, s0 = c1, s1
+    return found
+
+
+def arc_cubics(
+    start: tuple[float, float],
+    radii: tuple[float, float],
+    rotation: float,
+    large: bool,
+    sweep: bool,
+    end: tuple[float, float],
+    tolerance: float,
+) -> list[Step]:
+    """Elliptical arc between two points, as SVG describes it (SVG 2, implementation notes B.2.4 and B.2.5).
+
+    Parameters
+    ----------
+    start, end : tuple of float
+        End points; radii too small to join them are enlarged, as the standard demands.
+    radii : tuple of float
+        Half axes, before the rotation. A zero radius gives the straight line.
+    rotation : float
+        Angle of the first axis, in degrees.
+    large, sweep : bool
+        Which of the four arcs.
+    tolerance : float
+        Largest distance from the true arc, in the units of the points.
+
+    Returns
+    -------
+    list of (x1, y1, x2, y2, x3, y3)
+        Empty if the arc ends where it starts.
+
+    Examples
+    --------
+    >>> [round(c, 4) for c in arc_cubics((1, 0), (1, 1), 0, False, True, (0, 1), 1e-3)[0]]
+    [1.0, 0.5523, 0.5523, 1.0, 0, 1]
+    """
+    rx, ry = abs(radii[0]), abs(radii[1])
+    (x0, y0), (x3, y3) = start, end
+    if start == end:
+        return []
+    line = [(x0 + (x3 - x0) / 3, y0 + (y3 - y0) / 3, x3 + (x0 - x3) / 3, y3 + (y0 - y3) / 3, x3, y3)]
+    if rx == 0.0 or ry == 0.0:
+        return line
+    turn = radians(rotation)
+    c, s = cos(turn), sin(turn)
+    # half the chord, and the centre q from its middle, in the frame where the ellipse is the unit circle
+    hx, hy = (x0 - x3) / 2.0, (y0 - y3) / 2.0
+    px, py = (c * hx + s * hy) / rx, (c * hy - s * hx) / ry
+    length = hypot(px, py)
+    if length == 0.0 or (length < FLAT and not large):
+        return line
+    if length > 1.0:
+        rx, ry, px, py = rx * length, ry * length, px / length, py / length
+        length = 1.0
+    height = sqrt((1.0 - length) * (1.0 + length)) / length * (1.0 if large != sweep else -1.0)
+    qx, qy = height * py, -height * px
+    u, v = (c * rx, s * rx), (-s * ry, c * ry)
+    center = ((x0 + x3) / 2.0 + u[0] * qx + v[0] * qy, (y0 + y3) / 2.0 + u[1] * qx + v[1] * qy)
+    first = atan2(py - qy, px - qx)
+    angle = atan2(-py - qy, -px - qx) - first
+    if sweep and angle <= 0.0:
+        angle += 2.0 * pi
+    elif not sweep and angle >= 0.0:
+        angle -= 2.0 * pi
+    found = turn_cubics(center, u, v, first, angle, turn_steps(angle, max(rx, ry), tolerance))
+    found[-1] = (*found[-1][:4], x3, y3)
+    return found
+
+
+def ellipse_cubics(center: tuple[float, float], radii: tuple[float, float], tolerance: float) -> NDArray[np.float64]:
+    """Whole ellipse, from its rightmost point towards +y, as a closed contour (n, 4, 2).
+
+    Parameters
+    ----------
+    center, radii : tuple of float
+        Middle and half axes along x and y.
+    tolerance : float
+        Largest distance from the true ellipse, in the units of the centre.
+
+    Examples
+    --------
+    >>> ellipse_cubics((0, 0), (1, 2), 1e-2)[1, 0]
+    array([0., 2.])
+    """
+    steps = turn_steps(2.0 * pi, max(radii), tolerance)
+    steps += -steps % 4  # so that cubics end exactly where the ellipse turns
+    quarter = turn_cubics((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), 0.0, pi / 2, steps // 4)
+    quarter[-1] = (*quarter[-1][:2], quarter[-1][2], 1.0, 0.0, 1.0)
+    ends = np.array([(1.0, 0.0)] + [step[4:] for step in quarter])
+    inner = np.array([step[:4] for step in quarter]).reshape(-1, 2, 2)
+    first = np.concatenate([ends[:-1, None], inner, ends[1:, None]], axis=1)
+    second = np.stack([-first[..., 1], first[..., 0]], axis=-1)
+    unit = np.concatenate([first, second, -first, -second])
+    return unit * np.array(radii, dtype=np.float64) + np.array(center, dtype=np.float64)
+
+
+def conic_cubics(p0: complex, p1: complex, p2: complex, weight: float, tolerance: float) -> list[complex]:
+    """Circular arc given as a rational quadratic of weight cos(half its angle), as cubics.
+
+    Points are complex numbers; the result lists P1, P2 and P3 of each cubic in turn. Halving follows Farin,
+    "Curves and Surfaces for CAGD", 13.
+
+    Examples
+    --------
+    >>> [complex(round(p.real, 4), round(p.imag, 4)) for p in conic_cubics(1, 1 + 1j, 1j, 0.5**0.5, 1e-3)]
+    [(1+0.5523j), (0.5523+1j), 1j]
+    """
+    half = acos(min(max(weight, -1.0), 1.0))
+    radius = abs(p1 - p0) / tan(half) if half > 0.0 else 0.0
+    if turn_steps(2.0 * half, radius, tolerance) == 1:
+        handle = 4.0 * weight / (3.0 * (1.0 + weight))
+        return [p0 + (p1 - p0) * handle, p2 + (p1 - p2) * handle, p2]
+    a = (p0 + weight * p1) / (1.0 + weight)
+    b = (weight * p1 + p2) / (1.0 + weight)
+    middle = (a + b) / 2.0
+    weight = sqrt((1.0 + weight) / 2.0)
+    return conic_cubics(p0, a, middle, weight, tolerance) + conic_cubics(middle, b, p2, weight, tolerance)

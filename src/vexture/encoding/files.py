@@ -1,0 +1,109 @@
+"""Names of a texture's pair of files; writing both or none."""
+
+import os
+import re
+import secrets
+from pathlib import Path
+
+from vexture.encoding.layout import CURVES_SUFFIX, FILE_LIMIT, QUADS_SUFFIX
+from vexture.errors import DeviceError, FormatError
+
+__all__ = ["file_name", "pair_of", "read_file", "target_of", "write_together"]
+
+NAME_BYTES = 200  # file systems allow 255, and suffixes are still to come
+
+
+def file_name(name: str) -> str:
+    """Return a file name for a drawing's name: of letters, digits, spaces and ``._-``, in no other folder.
+
+    Examples
+    --------
+    >>> file_name("../../etc/passwd"), file_name(""), file_name("kaart van Delft")
+    ('_.._etc_passwd', 'drawing', 'kaart van Delft')
+    """
+    safe = re.sub(r"[^\w .-]", "_", name).strip(". ")
+    return safe.encode()[:NAME_BYTES].decode(errors="ignore") or "drawing"
+
+
+def pair_of(path: str | os.PathLike[str]) -> tuple[Path, Path]:
+    """Both files of a pair, from either of them, their common stem, or that stem with ``.png``.
+
+    Examples
+    --------
+    >>> [str(file) for file in pair_of("maps/delft.curves.png")]
+    ['maps/delft.quads.png', 'maps/delft.curves.png']
+    """
+    given = Path(path)
+    stem = given.name
+    for suffix in (QUADS_SUFFIX, CURVES_SUFFIX, ".png"):
+        if stem != suffix and stem.endswith(suffix):
+            stem = stem.removesuffix(suffix)
+            break
+    return given.parent / (stem + QUADS_SUFFIX), given.parent / (stem + CURVES_SUFFIX)
+
+
+def target_of(path: str | os.PathLike[str], name: str) -> tuple[Path, Path]:
+    """Return the pair to write: named `name` in a folder, or as a stem says.
+
+    A path is a folder if it exists as one or ends with a separator.
+
+    Examples
+    --------
+    >>> [str(file) for file in target_of("maps/", "delft")]
+    ['maps/delft.quads.png', 'maps/delft.curves.png']
+    """
+    text = os.fspath(path)
+    if text.endswith(("/", os.sep)) or os.path.isdir(text):
+        folder = Path(text)
+        return folder / (file_name(name) + QUADS_SUFFIX), folder / (file_name(name) + CURVES_SUFFIX)
+    return pair_of(path)
+
+
+def write_together(files: dict[Path, bytes]) -> None:
+    """Write all the files or none, in folders that are made where they are missing.
+
+    Each is written under a temporary name beside its place; when all are complete they are moved.
+
+    Raises
+    ------
+    DeviceError
+        If the disk refuses.
+    """
+    token = secrets.token_hex(4)
+    temporary = {path: path.with_name(f".{path.name}.{token}.tmp") for path in files}
+    made: list[Path] = []
+    try:
+        for path, data in files.items():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with temporary[path].open("xb") as file:
+                made.append(temporary[path])
+                file.write(data)
+        for place, path in enumerate(files):
+            made[place] = made[place].replace(path)
+    except BaseException as error:
+        for file_made in made:
+            file_made.unlink(missing_ok=True)
+        if isinstance(error, OSError):
+            raise DeviceError(f"{path}: cannot be written ({error.strerror}); choose another place") from None
+        raise
+
+
+def read_file(path: Path) -> bytes:
+    """Return the bytes of a file, one more than `FILE_LIMIT` at most.
+
+    Raises
+    ------
+    FormatError
+        If there is no such file.
+    DeviceError
+        If the disk refuses.
+    """
+    try:
+        with path.open("rb") as file:
+            return file.read(FILE_LIMIT + 1)
+    except FileNotFoundError:
+        raise FormatError(
+            f"{path}: not found; a texture is the pair NAME{QUADS_SUFFIX} and NAME{CURVES_SUFFIX}, name either"
+        ) from None
+    except OSError as error:
+        raise DeviceError(f"{path}: cannot be read ({error.strerror}); check the file's permissions") from None

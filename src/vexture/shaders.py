@@ -1,0 +1,172 @@
+"""Shader text: the files of ``glsl/``, joined, below the numbers that they share with Python.
+
+A file names what it needs by ``#include "other.glsl"``; each is joined once. In front stand, as constants, the layout of
+the textures (`vexture.encoding.layout`), the numbers of the method (`vexture.shading`) and, since loops need constant
+bounds (thesis 4.4.2), the sizes of the texture that is to be drawn.
+"""
+
+import re
+from dataclasses import asdict, dataclass
+from functools import cache
+from importlib import resources
+from types import ModuleType
+from typing import Final
+
+import numpy as np
+
+from vexture import shading
+from vexture.encoding import layout
+from vexture.encoding.texture import ThesisTexture
+from vexture.errors import FormatError
+
+__all__ = ["FOLD_HEIGHT", "VERSIONS", "TextureSizes", "compose", "constants", "join", "source", "vertex_source"]
+
+VERSIONS: Final = {
+    "330": "#version 330\n",
+    "300 es": "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n",
+}
+"""How a shader begins in each dialect that the files are written in."""
+
+FOLD_HEIGHT: Final = 16384
+"""Rows; a list longer than a texture is high goes on in the columns to its right."""
+
+INCLUDE: Final = re.compile(r'^#include "(.*)"$', re.MULTILINE)
+
+
+@dataclass(frozen=True, slots=True)
+class TextureSizes:
+    """What a shader must know of a texture when it is compiled.
+
+    Parameters
+    ----------
+    levels : int
+        Number of quads on the longest way from the root to a leaf.
+    fold_height : int
+        Rows of each list that fit below one another; the next ones start again at the top, further right.
+    """
+
+    levels: int
+    fold_height: int
+
+    @classmethod
+    def of(cls, texture: ThesisTexture, fold_height: int = FOLD_HEIGHT) -> "TextureSizes":
+        """Sizes of a texture.
+
+        Raises
+        ------
+        FormatError
+            If its quads do not form a tree.
+        """
+        return cls(count_levels(texture), fold_height)
+
+
+def count_levels(texture: ThesisTexture) -> int:
+    """Follow all references from the root, level by level."""
+    cells = texture.quads.astype(np.float64) / np.iinfo(texture.quads.dtype).max
+    last = len(cells) - 1
+    below = np.rint(cells[:, :, 1] * last).astype(np.int64)
+    is_quad = cells[:, :, 0] > layout.THRESHOLD_QUAD
+    rows = np.zeros(1, np.int64)
+    for level in range(last + 2):
+        if not len(rows):
+            return level
+        rows = np.unique(below[rows][is_quad[rows]])
+    raise FormatError(f"{texture.name}: a quad of the texture lies below itself; convert the drawing again")
+
+
+def constants(module: ModuleType) -> str:
+    """GLSL declarations of a module's public numbers.
+
+    Examples
+    --------
+    >>> print(constants(layout).splitlines()[0])
+    const int CELL_ORDER[4] = int[4](2, 3, 0, 1);
+    """
+    lines = []
+    for name in module.__all__:
+        value = getattr(module, name)
+        if isinstance(value, tuple):
+            lines.append(f"const int {name}[{len(value)}] = int[{len(value)}]({', '.join(map(str, value))});")
+        elif isinstance(value, int | float):
+            lines.append(f"const {type(value).__name__} {name} = {value!r};")
+    return "\n".join(lines) + "\n"
+
+
+@cache
+def join(name: str) -> str:
+    """Text of a file of ``glsl/`` after the files that it includes, each once.
+
+    Raises
+    ------
+    FileNotFoundError
+        If a file includes one that does not exist.
+
+    Examples
+    --------
+    >>> join("inside.glsl").count("Roots solve_cubic(")
+    1
+    """
+    folder = resources.files("vexture") / "glsl"
+    joined: dict[str, str] = {}
+
+    def add(name: str, wanted_by: str) -> None:
+        if name in joined:
+            return
+        if not re.fullmatch(r"\w+\.glsl", name) or not (folder / name).is_file():
+            raise FileNotFoundError(f"{wanted_by} includes {name!r}, which is not in glsl/")
+        text = (folder / name).read_text(encoding="utf-8")
+        for other in INCLUDE.findall(text):
+            add(other, name)
+        joined[name] = INCLUDE.sub("", text)
+
+    add(name, "a caller")
+    return "\n".join(joined.values())
+
+
+def compose(version: str, file: str, main: str, sizes: TextureSizes | None = None) -> str:
+    """Whole shader: the version's first lines, the constants, a file with its includes, a main function.
+
+    Parameters
+    ----------
+    version : str
+        ``"330"`` or ``"300 es"``.
+    file : str
+        Name of the file in ``glsl/``.
+    main : str
+        What follows it: outputs and ``main``.
+    sizes : TextureSizes, optional
+        Of the texture that is read, if one is.
+    """
+    injected = "".join(f"const int {name.upper()} = {size};\n" for name, size in asdict(sizes).items()) if sizes else ""
+    return VERSIONS[version] + constants(layout) + constants(shading) + injected + join(file) + main
+
+
+def source(version: str, texture: ThesisTexture, fold_height: int = FOLD_HEIGHT) -> str:
+    """Fragment shader that draws a texture in one colour channel (``glsl/view.glsl``).
+
+    Parameters
+    ----------
+    version : str
+        ``"330"`` or ``"300 es"``.
+    texture : ThesisTexture
+        Whose sizes are injected.
+    fold_height : int
+        Rows of the textures that it will be given.
+
+    Raises
+    ------
+    FormatError
+        If the texture's quads do not form a tree.
+    """
+    return view_source(version, TextureSizes.of(texture, fold_height))
+
+
+def view_source(version: str, sizes: TextureSizes) -> str:
+    """Like `source`, for all textures of the same sizes."""
+    main = "out float coverage_of_pixel;\nvoid main() { coverage_of_pixel = view_coverage(gl_FragCoord.xy); }\n"
+    return compose(version, "view.glsl", main, sizes)
+
+
+def vertex_source(version: str) -> str:
+    """Vertex shader for three vertices without attributes, whose triangle covers the image."""
+    return compose(version, "triangle.glsl", "void main() { gl_Position = covering_triangle(gl_VertexID); }\n")

@@ -1,0 +1,54 @@
+"""What a pen draws before it is filled or stroked."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.bezier.convert import line_cubics
+
+__all__ = ["Outline"]
+
+SAME = 1e-12
+"""Relative to the outline's coordinates. An end this near to the start is the start, but for rounding."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Outline:
+    """Consecutive cubics, open or closed.
+
+    Parameters
+    ----------
+    cubics : (n, 4, 2) float64 array, n >= 1
+        Each starts, bit for bit, where the one before it ends.
+    closed : bool
+        Whether the last is joined to the first, which matters to a stroke.
+    """
+
+    cubics: NDArray[np.float64]
+    closed: bool
+
+    @classmethod
+    def polygon(cls, points: NDArray[np.float64], closed: bool) -> "Outline":
+        """Straight sides through the points, (n, 2).
+
+        Examples
+        --------
+        >>> len(Outline.polygon(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]), closed=True).cubics)
+        3
+        """
+        if closed or len(points) == 1:
+            points = np.concatenate([points, points[:1]])
+        return cls(line_cubics(points[:-1], points[1:]), closed)
+
+    @property
+    def loop(self) -> NDArray[np.float64]:
+        """Contour to fill, (n, 4, 2): closed by a straight line unless it ends where it starts."""
+        gap = np.abs(self.cubics[-1, 3] - self.cubics[0, 0]).max()
+        if gap == 0.0:
+            return self.cubics
+        if gap <= SAME * np.abs(self.cubics).max():
+            cubics = self.cubics.copy()
+            cubics[-1, 3] = cubics[0, 0]
+            return cubics
+        return np.concatenate([self.cubics, line_cubics(self.cubics[-1:, 3], self.cubics[:1, 0])])

@@ -1,0 +1,103 @@
+"""From a file to an XML tree, or one line that says why not: nothing outside the file is ever read or fetched."""
+
+import os
+import zlib
+from pathlib import Path
+
+from lxml import etree
+
+from vexture.errors import SourceError
+
+__all__ = ["SVG", "local_name", "parse_svg", "read_bytes"]
+
+SVG = "http://www.w3.org/2000/svg"
+
+LARGEST_FILE = 256 * 2**20
+"""Bytes, after decompression."""
+
+GZIP = b"\x1f\x8b"
+
+
+def read_bytes(path: str | os.PathLike[str]) -> bytes:
+    """Content of a file, decompressed if it is gzip (`.svgz`).
+
+    Raises
+    ------
+    SourceError
+        If it cannot be read or is too large.
+    """
+    try:
+        with Path(path).open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+    except (OSError, ValueError) as error:  # ValueError: a null character in the name
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise SourceError(f"cannot be read: {reason}; check the file's name and permissions") from None
+    if content.startswith(GZIP):
+        stream = zlib.decompressobj(wbits=zlib.MAX_WBITS | 16)
+        try:
+            content = stream.decompress(content, LARGEST_FILE + 1)
+        except zlib.error as error:
+            raise SourceError(f"the gzip data is damaged ({error}); save the file again") from None
+    if len(content) > LARGEST_FILE:
+        raise SourceError(f"the file is larger than {LARGEST_FILE:,} bytes; simplify or split the drawing")
+    return content
+
+
+def parse_svg(content: bytes) -> etree._Element:
+    """Root element of an SVG document.
+
+    Entities that the document itself defines are expanded within libxml2's limits; external ones are errors.
+
+    Raises
+    ------
+    SourceError
+        If it is not well-formed, exceeds a limit of libxml2, or is not SVG.
+
+    Examples
+    --------
+    >>> parse_svg(b'<svg xmlns="http://www.w3.org/2000/svg"/>').tag
+    '{http://www.w3.org/2000/svg}svg'
+    """
+    parser = etree.XMLParser(
+        resolve_entities="internal",  # type: ignore[arg-type]  # lxml-stubs knows only True and False
+        no_network=True,
+        huge_tree=False,
+        remove_comments=True,
+    )
+    try:
+        root = etree.fromstring(content, parser)
+    except (etree.XMLSyntaxError, ValueError) as error:
+        raise SourceError(explained(" ".join(str(error).split()))) from None
+    if local_name(root) != "svg":
+        raise SourceError(
+            f"the root element is <{etree.QName(root).localname[:40]}>, not <svg>; this is not an SVG file"
+        )
+    return root
+
+
+def explained(message: str) -> str:
+    """Say what libxml2 says, with the limit and the remedy where it met one of its limits."""
+    if "amplification" in message:
+        return "its entities expand to too much text (an entity bomb?); write the drawing without entities"
+    if "xcessive depth" in message:
+        return "its elements are nested more than 256 deep; flatten its groups"
+    if "XML_PARSE_HUGE" in message or "too long" in message or "too large" in message.lower():
+        return "an attribute or text is longer than 10,000,000 characters; split it, for instance one path into several"
+    if message.startswith("Entity"):
+        return f"{message[:120]}; only entities that the file itself defines are read, external ones never"
+    return f"not well-formed XML: {message[:160]}"
+
+
+def local_name(element: etree._Element) -> str | None:
+    """Name of an SVG element, also where the namespace was forgotten; None for comments and other namespaces.
+
+    Examples
+    --------
+    >>> local_name(etree.fromstring("<g/>")), local_name(etree.fromstring('<g xmlns="urn:other"/>'))
+    ('g', None)
+    """
+    tag = element.tag
+    if not isinstance(tag, str):
+        return None
+    namespace, _, name = tag[1:].rpartition("}") if tag[0] == "{" else ("", "", tag)
+    return name if namespace in (SVG, "") else None
