@@ -40,7 +40,7 @@ demo: .venv/for-demo
 	$(BIN)/vexture render $(SHAPES)/duck.svg -o demo/pictures/duck-exact.png --size 500 --renderer exact
 	$(BIN)/vexture render demo/duck -o demo/pictures/duck-1000.png --size 1000 --renderer cpu
 	$(BIN)/vexture render demo/duck -o demo/pictures/duck-50.png --size 50 --renderer cpu
-	$(BIN)/vexture render demo/ocean -o demo/pictures/ocean-detail.png --size 500 --renderer cpu --view 0.45,0.45,0.1,0.1
+	$(BIN)/vexture render demo/ocean -o demo/pictures/ocean-detail.png --size 500 --renderer cpu --view 0.8,0.26,0.12,0.12
 	$(BIN)/vexture render demo/font -o demo/pictures/font-turned.png --size 500 --renderer cpu --rotate 30
 	@echo '$(BIN)/vexture render demo/cake -o demo/pictures/cake-gpu.png --size 500 --renderer gpu'
 	@$(BIN)/vexture render demo/cake -o demo/pictures/cake-gpu.png --size 500 --renderer gpu || \

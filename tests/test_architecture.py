@@ -45,7 +45,7 @@ THE_TRUTH = {"render/exact.py", "render/chords.py", "render/view.py"}
 TRUTH_MAY_IMPORT = BASE | {"drawing", "render.chords", "render.view"}
 """The exact renderer judges the tree, so it shares nothing with it."""
 
-LAYOUT_NUMBERS = {abs(layout.CONTROL_MIN), layout.CONTROL_MAX, layout.LIST_LIMIT[16], 65535}
+LAYOUT_NUMBERS = {layout.CONTROL_MIN, layout.CONTROL_MAX, layout.LIST_LIMIT[16], 65535}
 """Numbers of the texture layout that mean nothing else anywhere."""
 
 SHADER_WORDS = re.compile(r"\b(texelFetch|gl_\w+|(uniform|varying|highp|mediump) \w+|[ib]?vec[234]\()|^#version", re.M)
@@ -91,11 +91,14 @@ def public_names(path):
 
 
 def numbers(path):
-    return {
-        node.value
-        for node in ast.walk(tree_of(path))
-        if isinstance(node, ast.Constant) and type(node.value) in (int, float)
-    }
+    """All numbers that are typed in a module, with their signs."""
+    found = set()
+    for node in ast.walk(tree_of(path)):
+        negative = isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub)
+        value = getattr(node.operand if negative else node, "value", None)
+        if type(value) in (int, float):
+            found.add(-value if negative else value)
+    return found
 
 
 def texts(path):
@@ -168,7 +171,7 @@ def test_shader_file_lists_its_exports_and_leaves_the_rest_to_shaders_py(path):
     header = [line for line in text.splitlines()[:20] if line.startswith("//")]
     assert any(line.startswith("// Exports:") for line in header), head
     assert not re.search(r"#version|void main\b", text)
-    assert not {float(number) for number in re.findall(r"(?<![\w.])\d+\.?\d*", text)} & LAYOUT_NUMBERS
+    assert not {float(number) for number in re.findall(r"(?<![\w.])-?\d+\.?\d*", text)} & LAYOUT_NUMBERS
     exports = re.search(r"^// Exports: (.*?)\.$", text, re.M)
     for name in exports.group(1).split(", "):
         assert re.search(rf"\b(struct {name} {{|\w+ {name}\()", text), f"{name} is not in the file"
@@ -183,6 +186,13 @@ def test_shader_names_are_each_defined_in_one_file():
     definition = re.compile(r"^(?:struct|[a-z]\w*) (\w+)(?:\([^;]*\))? {$", re.M | re.I)
     defined = Counter(name for path in SHADERS for name in set(definition.findall(path.read_text(encoding="utf-8"))))
     assert [name for name, count in defined.items() if count > 1] == []
+
+
+@pytest.mark.parametrize("first", ["vexture.convert", "vexture.render", "import vexture.render.view"])
+def test_function_render_is_not_hidden_by_the_package_of_its_name(first):
+    code = f"import vexture\n{first}\nimport vexture.render.view\nassert not hasattr(vexture.render, '__path__')"
+    outcome = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert outcome.returncode == 0, outcome.stderr
 
 
 @pytest.mark.parametrize("statement", ["import vexture", "import vexture.cli", "vexture --help"])

@@ -110,4 +110,3 @@ def convert(
     return run(
         source, encoding=encoding, bits=bits, strategy=strategy, tolerance=tolerance, max_depth=max_depth
     ).texture
-
