@@ -145,7 +145,8 @@ def test_no_module_is_a_dumping_ground():
 
 @pytest.mark.parametrize("path", MODULES + SCRIPTS, ids=lambda path: path.relative_to(ROOT).as_posix())
 def test_module_and_its_functions_are_of_a_readable_length(path):
-    assert len(path.read_text(encoding="utf-8").splitlines()) <= LONGEST_MODULE
+    lines = len(path.read_text(encoding="utf-8").splitlines())
+    assert lines <= LONGEST_MODULE
     for node in ast.walk(tree_of(path)):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             body = node.body[1:] if ast.get_docstring(node) else node.body
@@ -155,13 +156,14 @@ def test_module_and_its_functions_are_of_a_readable_length(path):
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
 def test_example_is_short(path):
-    assert len(path.read_text(encoding="utf-8").splitlines()) <= LONGEST_EXAMPLE
+    lines = len(path.read_text(encoding="utf-8").splitlines())
+    assert lines <= LONGEST_EXAMPLE
 
 
 @pytest.mark.parametrize("number", sorted(LAYOUT_NUMBERS))
 def test_layout_number_is_typed_once(number):
     homes = [name_of(path) for path in MODULES if number in numbers(path)]
-    assert len(homes) <= 1
+    assert homes in ([], ["encoding/layout.py"], ["quadtree/tree.py"])  # the tree states what range its curves keep to
 
 
 @pytest.mark.parametrize("path", SHADERS, ids=lambda path: path.name)
@@ -191,8 +193,7 @@ def test_shader_names_are_each_defined_in_one_file():
 @pytest.mark.parametrize("first", ["vexture.convert", "vexture.render", "import vexture.render.view"])
 def test_function_render_is_not_hidden_by_the_package_of_its_name(first):
     code = f"import vexture\n{first}\nimport vexture.render.view\nassert not hasattr(vexture.render, '__path__')"
-    outcome = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert outcome.returncode == 0, outcome.stderr
+    assert subprocess.run([sys.executable, "-c", code], stderr=subprocess.DEVNULL, check=False).returncode == 0
 
 
 @pytest.mark.parametrize("statement", ["import vexture", "import vexture.cli", "vexture --help"])

@@ -108,8 +108,8 @@ def provide(needs: tuple[Need, ...]) -> bool:
         reason = need.complaint()
         if reason:
             complete = False
-            remedy = f"; on Debian: apt-get install {' '.join(need.packages)}" if need.packages else ""
-            print(f"missing: {need.what} ({reason}){remedy}\n  skipped: {need.skipped}", flush=True)
+            remedy = f" (on Debian: apt-get install {' '.join(need.packages)})" if need.packages else ""
+            print(f"missing: {need.what}{remedy}\n  because: {reason}\n  skipped: {need.skipped}", flush=True)
     return complete
 
 
