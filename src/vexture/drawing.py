@@ -70,7 +70,7 @@ class Path:
                 raise SourceError(f"a contour is {contour.dtype}{contour.shape}; it must be float64 (n, 4, 2), n >= 1")
             if not np.isfinite(contour).all():
                 raise SourceError("a contour holds a coordinate that is not finite; correct the drawing")
-            if not np.array_equal(contour[:, 3], np.roll(contour[:, 0], -1, axis=0)):
+            if (contour[:-1, 3] != contour[1:, 0]).any() or (contour[-1, 3] != contour[0, 0]).any():
                 raise SourceError("a contour is open; every cubic must start exactly where the one before it ends")
 
 
@@ -169,39 +169,64 @@ class Drawing:
         if not (min(width, height) > 0.0 and np.isfinite(size) and np.isfinite(1.0 / size)):
             raise SourceError(f"the drawing's box is {width:g} x {height:g}; both must be above 0")
         to_source = np.array([[size, 0.0, x - (size - width) / 2], [0.0, -size, y + height + (size - height) / 2]])
-        margin = (1.0 - width / size) / 2, (1.0 - height / size) / 2
+        low = np.array([(1.0 - width / size) / 2, (1.0 - height / size) / 2])
+        listed = list(paths)
+        contours = [contour for path in listed for contour in path.contours]
+        if not contours:
+            return cls((), to_source, name)
+        joined = (np.concatenate(contours) - (x, y)) / size + low
+        joined[..., 1] = 1.0 - joined[..., 1]
+        ends = np.cumsum([len(contour) for contour in contours])
+        kept = tidied(*clipped(joined, ends, low, 1.0 - low))
         normal = []
-        for path in paths:
-            contours = []
-            for contour in path.contours:
-                unit = (contour - (x, y)) / size + margin
-                unit[..., 1] = 1.0 - unit[..., 1]
-                inside = enclosing(unit, margin, (1.0 - margin[0], 1.0 - margin[1]))
-                if len(inside):
-                    contours.append(inside)
-            if contours:
-                normal.append(Path(tuple(contours), path.fill_rule, path.paint))
+        at = 0
+        for path in listed:
+            after = at + len(path.contours)
+            inside = tuple(kept[k] for k in range(at, after) if k in kept)
+            at = after
+            if inside:
+                normal.append(Path(inside, path.fill_rule, path.paint))
         return cls(tuple(normal), to_source, name)
 
 
-def enclosing(contour: NDArray[np.float64], low: tuple[float, float], high: tuple[float, float]) -> NDArray[np.float64]:
-    """Clip a contour and tidy it: no step without length, lines exact, closed bit for bit; empty if it is no loop."""
-    reach = np.abs(contour).max()
+def clipped(
+    joined: NDArray[np.float64], ends: NDArray[np.intp], low: NDArray[np.float64], high: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+    """Clip contours to a box: all their cubics one after another, and the indices at which the contours end."""
+    reach = np.abs(joined).max()
     if not reach <= FARTHEST:
         raise SourceError(
             f"a coordinate is {reach:.3g} times the size of the drawing away; the limit is {FARTHEST:g}; "
             "correct the coordinate or the view box"
         )
-    outside = np.maximum(low - contour.min(axis=(0, 1)), contour.max(axis=(0, 1)) - high)
-    if outside.max() > CLOSED:
+    beyond = np.maximum(low - joined, joined - high).max(axis=(1, 2))
+    if beyond.max() > CLOSED:
         from vexture.bezier.clip import clip_contour  # compiled code, which most drawings never need
 
-        contour = clip_contour(contour, low, high)
-    contour[:, ::3] = np.clip(contour[:, ::3], low, high)
-    contour = contour[np.abs(contour - contour[:, :1]).max(axis=(1, 2), initial=0.0) > CLOSED]
-    lines = straight(contour)
-    if lines.all() and len(contour) < 3:
-        return contour[:0]
-    contour[:, 0] = np.roll(contour[:, 3], 1, axis=0)
-    contour[lines] = line_cubics(contour[lines, 0], contour[lines, 3])
-    return contour
+        starts = np.concatenate([[0], ends[:-1]])
+        outside = np.maximum.reduceat(beyond, starts) > CLOSED
+        contours = np.split(joined, ends[:-1])
+        for k in np.flatnonzero(outside):
+            contours[k] = clip_contour(contours[k], low, high)
+        joined, ends = np.concatenate(contours), np.cumsum([len(contour) for contour in contours])
+    joined[:, ::3] = np.clip(joined[:, ::3], low, high)
+    return joined, ends
+
+
+def tidied(joined: NDArray[np.float64], ends: NDArray[np.intp]) -> dict[int, NDArray[np.float64]]:
+    """Contours that enclose something, by index: no steps without length, closed bit for bit, lines exact.
+
+    The parameters are those that `clipped` returns.
+    """
+    keep = np.abs(joined - joined[:, :1]).max(axis=(1, 2)) > CLOSED
+    joined, owner = joined[keep], np.searchsorted(ends, np.flatnonzero(keep), side="right")
+    start = np.flatnonzero(np.diff(owner, prepend=-1))
+    end = np.append(start[1:], len(joined))[: len(start)]
+    previous = np.arange(-1, len(joined) - 1)
+    previous[start] = end - 1
+    joined[:, 0] = joined[previous, 3]
+    lines = straight(joined)
+    joined[lines] = line_cubics(joined[lines, 0], joined[lines, 3])
+    bent = np.append(0, np.cumsum(~lines))
+    encloses = (end - start > 2) | (bent[end] > bent[start])  # two straight sides enclose nothing
+    return {int(owner[s]): joined[s:e] for s, e in zip(start[encloses], end[encloses], strict=True)}

@@ -33,7 +33,7 @@ CELL_SHARE: Final = 1 / 8
 """And at most this share of the size of the cell (thesis 6.2.1)."""
 
 FLATNESS: Final = 2e-5
-"""Pixels. The exact renderer's chords leave the curve by less: 0.007/255 in a pixel that one curve crosses."""
+"""Pixels. The exact renderer's chords leave the curve by less: 0.005/255 in a pixel that one curve crosses."""
 
 SCANLINE: Final = 2.0**-30
 """Pixels. Lattice of the heights at which the exact renderer's chords begin, end and cross (about 1e-9)."""

@@ -3,6 +3,8 @@
 import dataclasses
 import shutil
 import struct
+import subprocess
+import sys
 import zlib
 from collections.abc import Callable
 from pathlib import Path
@@ -104,6 +106,10 @@ def test_missing_files(tmp_path: Path) -> None:
 
 def test_a_pair_of_two_depths(tmp_path: Path) -> None:
     assert "16 bits with curves of 8" in refusal(write(tmp_path, small(16).quads, small(8).curves))
+
+
+def test_a_list_without_its_constants(tmp_path: Path) -> None:
+    assert "1 rows of curves" in refusal(write(tmp_path, small().quads, small().curves[:1]))
 
 
 def test_files_of_two_pairs(tmp_path: Path) -> None:
@@ -253,3 +259,15 @@ def test_the_longest_lists_pass(tmp_path: Path) -> None:
     tree = CellTree(kind, ref, np.zeros((256, 4)), np.zeros((0, 4, 2)), 0.0, 0)
     encode(tree, 8, to_source=TRANSFORM, name="many").save(tmp_path)
     np.testing.assert_array_equal(decode(load(tmp_path / "many")).ref, ref)
+
+
+def test_reading_needs_no_compiler(tmp_path: Path) -> None:
+    """Numba takes 0.3 s to import, which `vexture info` must not cost."""
+    small().save(tmp_path)
+    program = (
+        "import sys; from vexture.encoding import info, load; info(load(sys.argv[1])); print('numba' in sys.modules)"
+    )
+    told = subprocess.run(
+        [sys.executable, "-c", program, str(tmp_path / "small")], capture_output=True, text=True, check=True
+    )
+    assert told.stdout.strip() == "False"

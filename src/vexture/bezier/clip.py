@@ -5,6 +5,8 @@ ends. Seen from a point inside, the line and the curve that it replaces turn by 
 number inside stays what it was, whatever the fill rule.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,17 +19,17 @@ __all__ = ["clip_contour"]
 MOST_PIECES = 4
 """A cubic meets a line at most three times."""
 
+Corner = Sequence[float] | NDArray[np.float64]
 
-def clip_contour(
-    contour: NDArray[np.float64], low: tuple[float, float], high: tuple[float, float]
-) -> NDArray[np.float64]:
+
+def clip_contour(contour: NDArray[np.float64], low: Corner, high: Corner) -> NDArray[np.float64]:
     """Clip a closed contour to a box.
 
     Parameters
     ----------
     contour : (n, 4, 2) float64 array
         Closed: each cubic starts, bit for bit, where the one before it ends.
-    low, high : tuple of float
+    low, high : (2,) sequence of float
         Least and largest x and y of the box.
 
     Returns

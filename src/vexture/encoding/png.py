@@ -37,8 +37,8 @@ def write_png(pixels: NDArray[Any], texts: dict[str, str]) -> bytes:
     header = HEADER.pack(width, height, 8 * pixels.dtype.itemsize, RGB, 0, 0, 0)
     images = _filtered(pixels)
     deflated = [_deflate(image, zlib.Z_DEFAULT_STRATEGY) for image in images]
-    data = min(deflated, key=len)
-    data = min(data, _deflate(images[deflated.index(data)], zlib.Z_RLE), key=len)  # 5% less for many 8-bit images
+    smallest = images[deflated.index(min(deflated, key=len))]
+    data = min(*deflated, _deflate(smallest, zlib.Z_FILTERED), _deflate(smallest, zlib.Z_RLE), key=len)
     return _framed((b"IHDR", header), *(_text_chunk(key, value) for key, value in texts.items()), (b"IDAT", data))
 
 
@@ -49,26 +49,24 @@ def _framed(*chunks: tuple[bytes, bytes]) -> bytes:
 
 
 def _deflate(image: bytes, strategy: int) -> bytes:
-    stream = zlib.compressobj(level=9, strategy=strategy)
+    """Deflate at zlib's default level: 9 saves 0.3% at most and takes ten times as long on the longest lists."""
+    stream = zlib.compressobj(strategy=strategy)
     return stream.compress(image) + stream.flush()
 
 
 def _filtered(pixels: NDArray[Any]) -> list[bytes]:
-    """Return the image under each of the five filters of PNG (its specification, 9.2), filter bytes included."""
+    """Return the image under the filters None, Sub and Up (PNG specification, 9.2), filter bytes included.
+
+    Average and Paeth make no texture of our drawings smaller.
+    """
     height, width, _ = pixels.shape
     step = CHANNELS * pixels.dtype.itemsize
     raw = pixels.astype(pixels.dtype.newbyteorder(">")).view(np.uint8).reshape(height, width * step)
-    padded = np.zeros((height + 1, (width + 1) * step), np.int16)
-    padded[1:, step:] = raw
-    here, left, above, corner = padded[1:, step:], padded[1:, :-step], padded[:-1, step:], padded[:-1, :-step]
-    to_left, to_above, to_corner = abs(above - corner), abs(left - corner), abs(left + above - 2 * corner)
-    paeth = np.where(
-        (to_left <= to_above) & (to_left <= to_corner), left, np.where(to_above <= to_corner, above, corner)
-    )
-    images = np.empty((5, height, 1 + width * step), np.uint8)
-    images[:, :, 0] = np.arange(5)[:, None]
-    for image, prediction in zip(images, (0, left, above, (left + above) >> 1, paeth), strict=True):
-        image[:, 1:] = (here - prediction) & 0xFF
+    images = np.zeros((3, height, 1 + width * step), np.uint8)
+    images[:, :, 0] = np.arange(3)[:, None]
+    images[:, :, 1:] = raw
+    images[1, :, 1 + step :] -= raw[:, :-step]  # modulo 256, as the specification wants
+    images[2, 1:, 1:] -= raw[:-1]
     return [image.tobytes() for image in images]
 
 

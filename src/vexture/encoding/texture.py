@@ -50,14 +50,17 @@ class ThesisTexture:
     crs: str | None = None
 
     def __post_init__(self) -> None:
-        for pixels, width, least in ((self.quads, layout.QUAD_WIDTH, 1), (self.curves, layout.CURVE_WIDTH, 2)):
+        for what, pixels, width, least in (
+            ("quads", self.quads, layout.QUAD_WIDTH, 1),
+            ("curves", self.curves, layout.CURVE_WIDTH, layout.CONSTANT_ROWS),
+        ):
             if pixels.ndim != 3 or pixels.shape[1:] != (width, 3) or pixels.dtype not in (np.uint8, np.uint16):
                 raise FormatError(
-                    f"pixels are {pixels.dtype}{pixels.shape}; they must be uint8 or uint16 (n, {width}, 3)"
+                    f"{what} are {pixels.dtype}{pixels.shape}; they must be uint8 or uint16 (n, {width}, 3)"
                 )
             most = layout.LIST_LIMIT[8 * pixels.dtype.itemsize]
             if not least <= len(pixels) <= most:
-                raise FormatError(f"{len(pixels)} rows; there must be {least} to {most}; {REMEDY}")
+                raise FormatError(f"{len(pixels)} rows of {what}; there must be {least} to {most}; {REMEDY}")
         if self.quads.dtype != self.curves.dtype:
             other = 8 * self.curves.dtype.itemsize
             raise FormatError(f"quads of {self.bits} bits with curves of {other}; a pair has one depth; {REMEDY}")

@@ -11,7 +11,7 @@ from vexture.encoding.texture import ThesisTexture
 from vexture.errors import LimitError
 from vexture.quadtree.tree import CellKind, CellTree
 
-__all__ = ["decode", "encode", "info"]
+__all__ = ["decode", "encode", "info", "largest_step"]
 
 
 def encode(
@@ -198,3 +198,23 @@ def info(texture: ThesisTexture) -> dict[str, Any]:
         "cells": {cell_kind.name.lower(): counts[cell_kind] for cell_kind in CellKind},
         "bytes": texture.quads.nbytes + texture.curves.nbytes,
     }
+
+
+def largest_step(tree: CellTree, bits: int) -> float:
+    """Largest distance by which quantisation moves an outline, in unit-square units.
+
+    Inner control points move by at most half a step in x and in y, ends by less, and no point of a cubic moves
+    farther than its control points.
+
+    Examples
+    --------
+    >>> cells = np.full((1, 4), CellKind.EMPTY, np.uint8)
+    >>> largest_step(CellTree(cells, np.full((1, 4), -1, np.int32), np.zeros((1, 4)), np.zeros((0, 4, 2)), 0.0, 0), 8)
+    0.0
+    """
+    drawn = np.isin(tree.kind, (CellKind.CURVE, CellKind.CORNER)).any(axis=1)
+    if not drawn.any():
+        return 0.0
+    widest_cell = 0.5 ** (1 + int(tree.quad_depth[drawn].min()))
+    step = (layout.CONTROL_MAX - layout.CONTROL_MIN) / (2**bits - 1)
+    return float(widest_cell * step * np.sqrt(0.5))

@@ -18,7 +18,7 @@ from vexture.quadtree.winding import inside
 
 __all__ = ["build_sampled"]
 
-SAMPLES_ACROSS = 64
+SAMPLES_ACROSS = 256
 """First density: so many samples on a line across the unit square."""
 
 DENSER = 3
@@ -26,6 +26,9 @@ DENSER = 3
 
 FINE = 1 / 9
 """A cell that is crossed by a chord shorter than this share of it needs no denser samples: its corner is cut."""
+
+GRAIN = 2.0**-40
+"""Unit-square units. Samples are rounded to this, so that a straight side on a cell line stays on one side of it."""
 
 BESIDE = 1e-3
 """Cell-local units: how far beside a curve inside and outside are tested."""
@@ -48,7 +51,8 @@ def _sample(cubics: NDArray[np.float64], density: NDArray[np.int64]) -> list[Pol
     for cubic, n in zip(cubics, density, strict=True):
         t = (np.arange(n) / n)[:, None]
         s = 1.0 - t
-        out.append(s * s * (s * cubic[0] + 3 * t * cubic[1]) + t * t * (3 * s * cubic[2] + t * cubic[3]))
+        points = s * s * (s * cubic[0] + 3 * t * cubic[1]) + t * t * (3 * s * cubic[2] + t * cubic[3])
+        out.append(np.rint(points / GRAIN) * GRAIN)
     return out
 
 

@@ -151,21 +151,18 @@ def feed(path: pathops.Path, cubics: NDArray[np.float64], closed: bool) -> None:
 
 
 def read(path: pathops.Path) -> list[NDArray[np.float64]]:
-    """Contours of Skia's path, closed bit for bit."""
-    contours: list[NDArray[np.float64]] = []
-    points: list[complex] = []
+    """Contours of Skia's path, closed bit for bit; Skia leaves the contours of some dashes open."""
+    contours: list[list[complex]] = []
     tolerance = RESOLUTION * ROUND
     for verb, arguments in path:
         if verb == pathops.PathVerb.MOVE:
-            points = [complex(*arguments[0])]
-        elif verb == pathops.PathVerb.CLOSE:
-            add_contour(contours, points)
+            contours.append([complex(*arguments[0])])
         elif verb == pathops.PathVerb.CONIC:
             p1, p2, weight = complex(*arguments[0]), complex(*arguments[1]), arguments[2]
-            points += conic_cubics(points[-1], p1, p2, weight, tolerance)
-        else:
-            points += raised([points[-1], *(complex(*point) for point in arguments)])
-    return contours
+            contours[-1] += conic_cubics(contours[-1][-1], p1, p2, weight, tolerance)
+        elif verb != pathops.PathVerb.CLOSE:
+            contours[-1] += raised([contours[-1][-1], *(complex(*point) for point in arguments)])
+    return [closed_contour(points) for points in contours if len(points) > 1]
 
 
 def raised(points: list[complex]) -> list[complex]:
@@ -178,11 +175,9 @@ def raised(points: list[complex]) -> list[complex]:
     return points[1:]
 
 
-def add_contour(contours: list[NDArray[np.float64]], points: list[complex]) -> None:
-    """Keep a contour given as its first point and P1, P2, P3 of its cubics, closed by a line if need be."""
+def closed_contour(points: list[complex]) -> NDArray[np.float64]:
+    """Contour from its first point and P1, P2, P3 of its cubics, closed by a line if need be."""
     if points[-1] != points[0]:
         points = points + raised([points[-1], points[0]])
-    if len(points) < 4:
-        return
     flat = np.array(points).view(np.float64).reshape(-1, 2)
-    contours.append(np.concatenate([flat[:-1:3, None], flat[1:].reshape(-1, 3, 2)], axis=1))
+    return np.concatenate([flat[:-1:3, None], flat[1:].reshape(-1, 3, 2)], axis=1)

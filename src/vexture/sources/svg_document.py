@@ -38,6 +38,8 @@ def read_bytes(path: str | os.PathLike[str]) -> bytes:
             content = stream.decompress(content, LARGEST_FILE + 1)
         except zlib.error as error:
             raise SourceError(f"the gzip data is damaged ({error}); save the file again") from None
+        if not stream.eof and len(content) <= LARGEST_FILE:
+            raise SourceError("the gzip data breaks off; save the file again")
     if len(content) > LARGEST_FILE:
         raise SourceError(f"the file is larger than {LARGEST_FILE:,} bytes; simplify or split the drawing")
     return content
@@ -66,8 +68,8 @@ def parse_svg(content: bytes) -> etree._Element:
     )
     try:
         root = etree.fromstring(content, parser)
-    except (etree.XMLSyntaxError, ValueError) as error:
-        raise SourceError(explained(" ".join(str(error).split()))) from None
+    except etree.XMLSyntaxError as error:
+        raise SourceError(explained(" ".join((error.msg or "it is empty").split()))) from None
     if local_name(root) != "svg":
         raise SourceError(
             f"the root element is <{etree.QName(root).localname[:40]}>, not <svg>; this is not an SVG file"

@@ -12,7 +12,7 @@ from vexture.drawing import FillRule, Paint, Path
 from vexture.errors import SourceError
 from vexture.sources.outline import Outline
 from vexture.sources.strokes import Stroke, arc_length, stroke_contours
-from vexture.sources.svg_report import Report, described
+from vexture.sources.svg_report import Report
 from vexture.sources.svg_servers import Servers
 from vexture.sources.svg_shapes import Shape, shape_outlines
 from vexture.sources.svg_space import Place
@@ -75,11 +75,11 @@ class Painter:
         """Paint the inside of the outlines."""
         if paint is not None:
             rule = FILL_RULES[shape.style["fill-rule"].lower()]
-            self.add([outline.loop for outline in outlines], place, rule, paint, shape.element)
+            self.add([outline.loop for outline in outlines], place, rule, paint)
 
     def stroke(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | None, size: float) -> None:
         """Paint along the outlines; `size` is the drawing's, in the shape's user units."""
-        stroke = stroke_of(shape, outlines)
+        stroke = stroke_of(shape, outlines) if paint is not None else None
         if paint is None or stroke is None:
             return
         effect = shape.style["vector-effect"].lower()
@@ -95,18 +95,13 @@ class Painter:
         contours = stroke_contours(outlines, stroke, size)
         if screen is not Identity:
             contours = [mapped(contour, screen.inverse()) for contour in contours]
-        self.add(contours, place, FillRule.NONZERO, paint, shape.element)
+        self.add(contours, place, FillRule.NONZERO, paint)
 
-    def add(
-        self, contours: list[NDArray[np.float64]], place: Place, rule: FillRule, paint: Paint, element: etree._Element
-    ) -> None:
+    def add(self, contours: list[NDArray[np.float64]], place: Place, rule: FillRule, paint: Paint) -> None:
         """Keep contours given in the units of a place."""
         self.segments += sum(map(len, contours))
         if self.segments > MOST_SEGMENTS:
-            raise SourceError(
-                f"with {described(element)} the drawing has {self.segments:,} segments; "
-                f"the limit is {MOST_SEGMENTS:,}; simplify it"
-            )
+            raise SourceError(f"here the drawing exceeds the limit of {MOST_SEGMENTS:,} segments; simplify it")
         shown = [place.space.to_drawing(contour) for contour in contours]
         shown = [contour for contour in shown if len(contour)]
         if shown:

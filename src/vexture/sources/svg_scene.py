@@ -27,7 +27,7 @@ from vexture.sources.svg_viewport import CENTRED, Rectangle, parse_fit, view_box
 
 __all__ = ["Scene"]
 
-MOST_USED = 100_000
+MOST_USED = 50_000
 """Elements that `use` may show, each time counted."""
 
 DEEPEST = 1_000
@@ -102,7 +102,10 @@ class Scene:
             used += place.used
             if used > MOST_USED:
                 raise SourceError(f"<use> shows more than {MOST_USED:,} elements (a use bomb?); draw fewer copies")
-            stack.extend(reversed(self.visit(element, place, painter)))
+            try:
+                stack.extend(reversed(self.visit(element, place, painter)))
+            except SourceError as error:
+                raise SourceError(f"{described(element)}: {error}") from None
         return painter.paths
 
     def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Standing]:
@@ -126,7 +129,7 @@ class Scene:
         if a * d == b * c:
             return []
         if place.depth >= DEEPEST:
-            raise SourceError(f"{described(element)} stands inside {DEEPEST:,} others; flatten the groups or the uses")
+            raise SourceError(f"it stands inside {DEEPEST:,} others; flatten the groups or the uses")
         inner = Place(
             place.viewport, place.space.moved(matrix), style, opacity, element, place, place.depth + 1, place.used
         )
@@ -151,7 +154,7 @@ class Scene:
             self.report.left_out(f"<use> of '{link[:40]}'")
             return []
         if place.inside(target):
-            raise SourceError(f"{described(element)} shows itself (a cycle through {described(target)}); break it")
+            raise SourceError(f"it shows itself (a cycle through {described(target)}); break the cycle")
         x, y = self.lengths(place.style, place.viewport, "x", "y")
         space = place.space.moved(Identity.translate(x, y))
         return [(target, replace(place, space=space, used=True, use=place.style))]

@@ -11,7 +11,7 @@ from vexture.bezier.convert import arc_cubics, ellipse_cubics
 from vexture.errors import SourceError
 from vexture.sources.outline import Outline
 from vexture.sources.svg_path import NUMBER, POINTS, path_outlines, valid_length
-from vexture.sources.svg_report import Report, described
+from vexture.sources.svg_report import Report
 from vexture.sources.svg_style import Style
 from vexture.sources.svg_values import LARGEST, Viewport
 
@@ -80,9 +80,7 @@ def shape_outlines(shape: Shape) -> list[Outline]:
     for outline in outlines:
         largest = np.abs(outline.cubics).max()
         if not largest <= LARGEST:
-            raise SourceError(
-                f"{described(shape.element)} has a coordinate of {largest:g}; the limit is {LARGEST:g}; correct it"
-            )
+            raise SourceError(f"it has a coordinate of {largest:g}; the limit is {LARGEST:g}; correct it")
     return outlines
 
 

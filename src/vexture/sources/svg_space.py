@@ -53,7 +53,8 @@ class Space:
         """Map a contour to the drawing's coordinates, clipped on its way; empty if nothing is left."""
         space: Space | None = self
         while space is not None:
-            contour = mapped(contour, space.matrix)
+            if space.matrix != Identity:
+                contour = mapped(contour, space.matrix)
             if space.clip is not None and len(contour):
                 x, y, width, height = space.clip
                 contour = clip_contour(contour, (x, y), (x + width, y + height))

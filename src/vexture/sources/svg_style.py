@@ -20,7 +20,9 @@ PLAIN = re.compile(r"[^\"'\\/(){}\[\]@!<&]*")
 """A style attribute of this kind needs no tokeniser: splitting at ; and : is the same."""
 
 SCREEN = re.compile(r"\s*(?:only\s+)?(?:all|screen)?\s*", re.IGNORECASE)
-"""Media queries that hold for a drawing on a screen whatever its size."""
+"""A media query that holds for a drawing on a screen, whatever its size."""
+
+OTHER_MEDIUM = re.compile(r"\s*(?:only\s+)?(?:print|speech)\b.*|\s*not\s+(?:all|screen)\s*", re.IGNORECASE | re.DOTALL)
 
 MARKERS = ("marker-start", "marker-mid", "marker-end")
 TEXT_SIZES = {
@@ -115,11 +117,19 @@ class Cascade:
                 for selector in selectors:
                     self.matcher.add_selector(selector, declarations)
             elif rule.type == "at-rule":
-                name = rule.lower_at_keyword
-                if name == "media" and rule.content and SCREEN.fullmatch(tinycss2.serialize(rule.prelude)):
-                    self.add_rules(tinycss2.parse_rule_list(rule.content, skip_comments=True, skip_whitespace=True))
-                elif name not in ("charset", "font-face", "namespace"):
-                    self.report.left_out(f"@{name[:40]}")
+                self.add_at_rule(rule)
+
+    def add_at_rule(self, rule: Any) -> None:
+        """Add what an at-rule holds, if it is a medium that applies."""
+        name = rule.lower_at_keyword
+        if name in ("charset", "font-face", "namespace"):
+            return
+        queries = tinycss2.serialize(rule.prelude).split(",")
+        if name == "media" and any(map(SCREEN.fullmatch, queries)):
+            content = rule.content or []
+            self.add_rules(tinycss2.parse_rule_list(content, skip_comments=True, skip_whitespace=True))
+        elif name != "media" or not all(map(OTHER_MEDIUM.fullmatch, queries)):
+            self.report.left_out(f"@{name[:40]}")
 
     def style(self, element: etree._Element, parent: Style) -> Style:
         """Style of an element whose parent, or the `use` that shows it, has the style `parent`."""
