@@ -17,6 +17,7 @@ from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
 from vexture.quadtree.boundary import quantise, resolve
 from vexture.quadtree.chain import JOIN, Chain, link_chain, on_edge
+from vexture.quadtree.tree import CONTROL_MAX, CONTROL_MIN
 from vexture.quadtree.winding import inside, winding_area
 
 __all__ = [
@@ -33,9 +34,6 @@ __all__ = [
 
 CURVE, CORNER, FULL, EMPTY = 0, 2, 3, 4  # CellKind, whose members a kernel cannot use
 NO_LEAF = -1
-
-CONTROL_LOW, CONTROL_HIGH = -1.25, 2.25
-"""Cell-local units: the range that the format gives to inner control points (thesis 4.2.4)."""
 
 SHORTEST_CHORD = 16.0 * JOIN
 """Cell-local units. A curve whose ends are nearer than this has no direction to build a basis on."""
@@ -110,7 +108,7 @@ def _expressible(curve: NDArray[np.float64]) -> bool:
     """Whether the format can hold a curve: its inner control points in range, its ends apart."""
     for k in (1, 2):
         for axis in range(2):
-            if not CONTROL_LOW <= curve[k, axis] <= CONTROL_HIGH:
+            if not CONTROL_MIN <= curve[k, axis] <= CONTROL_MAX:
                 return False
     return np.hypot(curve[3, 0] - curve[0, 0], curve[3, 1] - curve[0, 1]) >= SHORTEST_CHORD
 
