@@ -1,5 +1,6 @@
 """Every one-issue fixture looks like what resvg draws, or like a plainer file that says the same."""
 
+import gzip
 import warnings
 from pathlib import Path
 
@@ -142,8 +143,6 @@ def test_a_stroke_is_a_path_of_its_own(tmp_path: Path) -> None:
 
 
 def test_gzipped_and_utf16_files(tmp_path: Path) -> None:
-    import gzip
-
     text = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><rect width="5" height="5"/></svg>'
     packed, wide = tmp_path / "a.svgz", tmp_path / "b.svg"
     packed.write_bytes(gzip.compress(text.encode()))
