@@ -18,15 +18,15 @@ TOPICS = ("paths", "shapes", "strokes", "structure", "style", "transform", "view
 # what PyPI's resvg does not know, in words that it and we understand alike
 PLAINER = {
     "paths/data-in-css": '<path d="M10 10H90V90z"/>',
-    "strokes/dashes-path-length": '<path fill="none" stroke="#000" stroke-width="12" stroke-dasharray="8" d="M10 50H90"/>',
+    "strokes/dashes-path-length": '<path d="M10 44h8v12h-8zm16 0h8v12h-8zm16 0h8v12h-8zm16 0h8v12h-8zm16 0h8v12h-8z"/>',
     "strokes/not-scaling": '<path fill="none" stroke="black" stroke-width="10" d="M20 15L50 75L80 15"/>',
     "style/geometry-in-css": '<circle cx="50" cy="50" r="30"/>',
     "style/important": '<g fill="red"><path d="M10 10h30v30h-30z"/><path fill="blue" d="M50 50h30v30h-30z"/></g>',
     "style/invalid-color-inherits": '<rect x="10" y="10" width="30" height="30" fill="red"/>',
     "style/invalid-style-falls-back": '<rect x="10" y="10" width="30" height="30" fill="red"/>',
     "style/media": '<rect x="10" y="10" width="30" height="30" fill="red"/>',
-    "style/selectors": '<path fill="red" d="M10 10h30v30h-30z"/><rect x="50" y="50" width="30" height="30" fill="green" '
-    'fill-opacity="0.5" stroke="blue" stroke-width="4"/>',
+    "style/selectors": '<path fill="red" d="M10 10h30v30h-30z"/><rect x="50" y="50" width="30" height="30" fill="green"'
+    ' fill-opacity="0.5" stroke="blue" stroke-width="4"/>',
     "transform/css-fill-box": '<rect x="20" y="30" width="40" height="20" transform="rotate(45 40 40)"/>',
     "transform/css-origin": '<rect x="10" y="10" width="30" height="30" transform="rotate(45 50 50)"/>',
     "transform/css-origin-keywords": '<rect x="20" y="30" width="40" height="20" transform="rotate(30 50 50)"/>',
