@@ -59,7 +59,7 @@ def test_contours_of_many_paths_do_not_mix() -> None:
 
 @pytest.mark.parametrize("box", [(0, 0, 0, 5), (0, 0, 5, -1), (0, 0, np.nan, 1), (0, 0, np.inf, 1)])
 def test_a_box_without_area_is_refused(box: tuple[float, float, float, float]) -> None:
-    with pytest.raises(SourceError, match="the drawing's box is .*; both must be above 0"):
+    with pytest.raises(SourceError, match=r"the drawing.s box is .*; both must be above 0"):
         Drawing.from_source([], box)
 
 

@@ -64,6 +64,12 @@ def test_windings_inside_stay(seed: int, cubics: int, on_grid: bool) -> None:
     assert_clipped(contour, clip_contour(contour, LOW, HIGH))
 
 
+def test_a_touch_is_no_crossing() -> None:
+    """At its middle the cubic touches the side from outside, exactly."""
+    points = np.array([[[0.2, 1.75], [0.3, 0.25], [0.6, 0.75]], [[0.9, 1.25], [0.9, 1.5], [0.2, 1.5]]])
+    assert len(clip_contour(closed(points), LOW, HIGH)) == 0
+
+
 def test_a_contour_inside_is_not_touched() -> None:
     circle = ellipse_cubics((0.5, 0.5), (0.25, 0.25), 1e-3)
     assert clip_contour(circle, LOW, HIGH) is circle
