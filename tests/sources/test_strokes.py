@@ -82,7 +82,7 @@ def test_joins(join: str, limit: float, tip: float) -> None:
 def test_steps_without_length_make_no_joins() -> None:
     """Rounding in relative path data must not point a miter anywhere."""
     plain = stroke_contours([line((0, 0), (10, 0), (10, 10))], Stroke(2.0), 20.0)
-    noisy = stroke_contours([line((0, 0), (10, 0), (10 + 1e-9, -1e-9), (10, 10), (10, 10))], Stroke(2.0), 20.0)
+    noisy = stroke_contours([line((0, 0), (10, 0), (10 + 2e-6, -3e-6), (10, 10), (10, 10))], Stroke(2.0), 20.0)
     assert [len(contour) for contour in noisy] == [len(contour) for contour in plain]
     assert abs(area(noisy)) == pytest.approx(abs(area(plain)), rel=1e-6)
 

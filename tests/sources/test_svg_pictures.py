@@ -135,6 +135,22 @@ def test_colors_and_opacity(tmp_path: Path) -> None:
     assert paint.opacity == pytest.approx(0.1)
 
 
+@pytest.mark.parametrize(
+    ("keyword", "fills", "opacities"),
+    [
+        ("inherit", [(1, 0, 0)], [0.25]),
+        ("unset", [(1, 0, 0)], [0.5]),
+        ("initial", [(0, 0, 0)], [0.5]),
+        ("revert", [(1, 0, 0)], [0.5]),
+    ],
+)
+def test_keywords_of_the_cascade(tmp_path: Path, keyword: str, fills: list[object], opacities: list[float]) -> None:
+    rect = f'<rect width="9" height="9" style="fill: {keyword}; opacity: {keyword}" fill="blue" opacity="0.1"/>'
+    drawing = drawing_of(tmp_path, f'<g fill="red" opacity="0.5">{rect}</g>')
+    assert [path.paint.color for path in drawing.paths] == fills
+    assert [path.paint.opacity for path in drawing.paths] == opacities
+
+
 def test_a_stroke_is_a_path_of_its_own(tmp_path: Path) -> None:
     body = '<path d="M10 10H90V90z" fill="red" fill-rule="evenodd" stroke="blue" stroke-width="5"/>'
     fill, stroke = drawing_of(tmp_path, body).paths
