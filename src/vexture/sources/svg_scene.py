@@ -125,9 +125,6 @@ class Scene:
             return []
         self.note_effects(style)
         matrix = self.transform(element, style, place)
-        a, b, c, d = matrix[:4]
-        if a * d == b * c:
-            return []
         if place.depth >= DEEPEST:
             raise SourceError(f"it stands inside {DEEPEST:,} others; flatten the groups or the uses")
         inner = Place(
