@@ -142,6 +142,17 @@ def test_loop_under_even_odd_is_one_curve():
     assert abs(float(build(one_path(loop)).quad_coverage[0]) - area_of(one_path(loop))) < 1e-4
 
 
+def test_loop_that_outweighs_its_tail_is_kept():
+    loop = np.array([(0.5, 0.24), (0.0, 0.45), (0.0, 0.05), (0.5, 0.26)])
+    tail = [
+        degenerate.line(a, b)
+        for a, b in [((0.5, 0.26), (0.9, 0.26)), ((0.9, 0.26), (0.9, 0.24)), ((0.9, 0.24), (0.5, 0.24))]
+    ]
+    back = np.stack([loop, *tail])
+    drawing = one_path(back, rule=FillRule.EVENODD)
+    assert abs(float(build(drawing).quad_coverage[0]) - area_of(drawing)) < 1e-4
+
+
 def test_crossing_at_the_depth_limit_is_counted():
     tree = build(one_path(degenerate.star(5, 2), rule=FillRule.EVENODD), max_depth=6)
     assert tree.unresolved >= 5

@@ -161,16 +161,17 @@ def own_leaf(
         for k in range(4):
             local[i - first, k, 0] = (pieces.points[i, k, 0] - x0) / size
             local[i - first, k, 1] = (pieces.points[i, k, 1] - y0) / size
-    right_area = area_right_of(curve[0], curve[3], integral_x_dy(curve))
-    # the winding number is w on the right and w + 1 on the left: their mean over the cell tells w
-    w = int(np.rint(winding_area(local, corner_winding) - 1.0 + right_area))
+    signed_area = area_right_of(curve[0], curve[3], integral_x_dy(curve))
+    # the winding number is w on the right and w + 1 on the left, loops aside: its mean over the cell tells w
+    w = int(np.rint(winding_area(local, corner_winding) - 1.0 + signed_area))
     right, left = inside(w, rule), inside(w + 1, rule)
-    if right == left or right_area >= 1.0 - SLIVER:
+    area = leaf_area(curve, False)
+    if right == left or area >= 1.0 - SLIVER:
         return _constant_leaf(right)
-    if right_area <= SLIVER:
+    if area <= SLIVER:
         return _constant_leaf(left)
     if right:
-        return Leaf(CURVE, curve, leaf_area(curve, False), 0.0, True)
+        return Leaf(CURVE, curve, area, 0.0, True)
     backwards = np.empty((4, 2))
     subcubic(curve, 1.0, 0.0, backwards)
     return Leaf(CURVE, backwards, leaf_area(backwards, False), 0.0, True)
