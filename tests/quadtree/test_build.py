@@ -12,7 +12,6 @@ from vexture.quadtree.build import build
 from vexture.quadtree.tree import CellKind
 from vexture.render.exact import render_exact
 
-
 BLOB = (
     np.array([(0.2, 0.3), (0.8, 0.2), (0.7, 0.8)]),
     np.array([[(0.4, 0.5), (0.5, 0.0)], [(1.0, 0.5), (0.5, 0.6)], [(0.9, 1.0), (0.1, 0.9)]]),
