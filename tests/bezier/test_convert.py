@@ -66,6 +66,14 @@ def test_arcs_lie_on_one_ellipse(
         assert (abs(angles[-1] - angles[0]) > np.pi) == large
 
 
+@pytest.mark.parametrize("gap", [1e-3, 1e-9, 1e-18])
+@pytest.mark.parametrize("sweep", [False, True])
+def test_an_arc_that_nearly_closes_is_a_circle(gap: float, sweep: bool) -> None:
+    """The usual way to write a circle as a path; rounding must not lose it."""
+    steps = np.array(arc_cubics((0.0, 0.0), (1.0, 1.0), 0.0, True, sweep, (0.0, gap), 1e-3))
+    assert np.ptp(steps[:, 4:], axis=0).max() == pytest.approx(2.0, abs=1e-2)
+
+
 @pytest.mark.parametrize("radii", [(1e-300, 1.0), (1e100, 1e-100), (1e100, 1e100), (0.0, 5.0), (1e-9, 1e9)])
 @pytest.mark.parametrize("large", [False, True])
 def test_hostile_radii_cost_little(radii: tuple[float, float], large: bool) -> None:

@@ -73,3 +73,19 @@ def test_a_long_list_is_cut(tmp_path: Path) -> None:
     file.write_text('<svg viewBox="0 0 9 9">' + "".join(f"<thing{k}/>" for k in range(30)) + "</svg>")
     with pytest.warns(SourceWarning, match=r"<thing7>, and 22 more$"):
         read_svg(file)
+
+
+def test_a_file_without_size_is_reported_once(tmp_path: Path) -> None:
+    """It is painted twice, the first time to find its size."""
+    file = tmp_path / "a.svg"
+    file.write_text('<svg><text>a</text><rect width="9" height="9"/></svg>')
+    with pytest.warns(SourceWarning, match="left out: <text>$"):
+        read_svg(file)
+
+
+def test_gradients_that_lend_to_each_other_end(tmp_path: Path) -> None:
+    file = tmp_path / "a.svg"
+    gradients = '<linearGradient id="a" href="#b"/><linearGradient id="b" href="#a"/>'
+    file.write_text(f'<svg viewBox="0 0 9 9">{gradients}<rect width="9" height="9" fill="url(#a)"/></svg>')
+    with pytest.warns(SourceWarning, match="linearGradient"):
+        assert read_svg(file).paths == ()
