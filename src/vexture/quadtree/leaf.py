@@ -41,7 +41,7 @@ SHORTEST_CHORD = 16.0 * JOIN
 SLIVER = 1e-9
 """Share of the cell. A curve that cuts off less lies along the cell's edge."""
 
-MAX_SAMPLES, SAMPLES_PER_PART = 96, 8
+MAX_SAMPLES, SAMPLES_PER_PART = 64, 8
 """Points of a chain that a fit looks at: so many in all, and so many on each part of a short chain."""
 
 
