@@ -99,8 +99,9 @@ def test_fit_recovers_an_arch(curve):
 def test_fit_reports_the_true_distance():
     corner = np.concatenate([np.linspace((0, 0), (1, 0), 17), np.linspace((1, 0), (1, 1), 17)[1:]])
     fitted = np.empty((4, 2))
-    distance = fit_cubic(corner, 1e-6, fitted)
+    distance = fit_cubic(corner, 0.02, fitted)
     dense = polyline(fitted, 4000)
     true = max(np.hypot(*(dense - point).T).min() for point in corner)
-    assert abs(distance - true) < 2e-3
-    assert 0.005 < distance < 0.05  # a cubic rounds a right angle by about two per cent of its sides
+    assert true <= distance + 1e-3  # the points' parameters need not be the nearest ones
+    assert distance < true + 5e-3
+    assert 0.01 < true < 0.05  # a cubic rounds a right angle by some per cent of its sides

@@ -12,6 +12,11 @@ from vexture.quadtree.build import build
 from vexture.quadtree.tree import CellKind
 from vexture.render.exact import render_exact
 
+BLOB = (
+    np.array([(0.2, 0.3), (0.8, 0.2), (0.7, 0.8)]),
+    np.array([[(0.4, 0.5), (0.5, 0.0)], [(1.0, 0.5), (0.5, 0.6)], [(0.9, 1.0), (0.1, 0.9)]]),
+)
+
 
 def cells_of(tree):
     """Leaves: (quad, cell, origin, size)."""
@@ -110,20 +115,16 @@ def test_outline_is_within_tolerance(tolerance):
 
 
 def test_finer_tolerance_needs_more_leaves():
-    drawing = one_path(degenerate.contours(np.random.default_rng(11))[0])
+    drawing = one_path(degenerate.closed(*BLOB))
     assert len(build(drawing, 1e-2).curves) < len(build(drawing, 1e-4).curves)
 
 
 def test_union_of_overlapping_paths_is_one_outline():
     circles = [degenerate.circle((0.4, 0.5), 0.25), degenerate.circle((0.6, 0.5), 0.25)]
-    tree = build(Drawing(tuple(Path((c,)) for c in circles)))
-    assert tree.unresolved == 0
-    middle = [
-        tree.kind[q, c]
-        for q, c, origin, size in cells_of(tree)
-        if (origin <= 0.5).all() and (origin + size > 0.5).all()
-    ]
-    assert middle == [CellKind.FULL]
+    union = Drawing(tuple(Path((c,)) for c in circles))
+    tree = build(union)
+    assert tree.kind.tolist() == [[CellKind.CURVE] * 4]  # what one circle hides of the other is gone
+    assert abs(float(tree.quad_coverage[0]) - area_of(union)) < 1e-4
 
 
 def test_loop_under_even_odd_is_one_curve():
@@ -138,6 +139,17 @@ def test_loop_under_even_odd_is_one_curve():
         < 1e-4
     )
     assert abs(float(build(one_path(loop)).quad_coverage[0]) - area_of(one_path(loop))) < 1e-4
+
+
+def test_loop_that_outweighs_its_tail_is_kept():
+    loop = np.array([(0.5, 0.24), (0.0, 0.45), (0.0, 0.05), (0.5, 0.26)])
+    tail = [
+        degenerate.line(a, b)
+        for a, b in [((0.5, 0.26), (0.9, 0.26)), ((0.9, 0.26), (0.9, 0.24)), ((0.9, 0.24), (0.5, 0.24))]
+    ]
+    back = np.stack([loop, *tail])
+    drawing = one_path(back, rule=FillRule.EVENODD)
+    assert abs(float(build(drawing).quad_coverage[0]) - area_of(drawing)) < 1e-4
 
 
 def test_crossing_at_the_depth_limit_is_counted():

@@ -31,7 +31,7 @@ def test_coverage_is_that_of_straight_lines():
 
 def test_hole_is_empty_and_ring_is_full():
     ring = drawing_of(degenerate.circle((0.5, 0.5), 0.45), degenerate.circle((0.5, 0.5), 0.2), rule=FillRule.EVENODD)
-    tree = build(ring, strategy="sampled")
+    tree = build(ring, 1e-5, strategy="sampled")  # small cells, so that their straight lines are near
     truth = float(render_exact(ring, (128, 128)).mean())
     assert abs(float(tree.quad_coverage[0]) - truth) < 0.01
 
@@ -43,10 +43,10 @@ def test_a_thin_shape_between_samples_is_sampled_again():
     assert abs(float(tree.quad_coverage[0]) - truth) < 0.25 * truth
 
 
-def test_straight_sides_on_cell_lines_leave_no_trace():
+def test_straight_sides_on_cell_lines_stay_on_one_side():
     square = Drawing.polygon([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75)])
     tree = build(square, strategy="sampled", max_depth=6)
-    assert abs(float(tree.quad_coverage[0]) - 0.25) < 1e-6
+    assert abs(float(tree.quad_coverage[0]) - 0.25) <= 4 * 0.5 * 4.0**-6  # half a cell at each corner
 
 
 def test_empty_drawing():
