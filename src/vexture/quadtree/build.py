@@ -12,10 +12,24 @@ from vexture.errors import LimitError, SourceError
 from vexture.kernels import kernel
 from vexture.quadtree.accuracy import Accuracy, accuracy_of, cell_tolerance
 from vexture.quadtree.boundary import crowded_area
-from vexture.quadtree.leaf import NO_LEAF, Leaf, cell_chain, chain_leaf, limit_leaf, nearest_constant, no_leaf, own_leaf
+from vexture.quadtree.leaf import (
+    CORNER,
+    CURVE,
+    EMPTY,
+    FULL,
+    NO_LEAF,
+    QUAD,
+    Leaf,
+    cell_chain,
+    chain_leaf,
+    limit_leaf,
+    nearest_constant,
+    no_leaf,
+    own_leaf,
+)
 from vexture.quadtree.level import Level, children
 from vexture.quadtree.sampled import build_sampled
-from vexture.quadtree.tree import CellKind, CellTree
+from vexture.quadtree.tree import CellTree
 from vexture.tolerance import CLOSED
 
 __all__ = ["DEFAULT_DEPTH", "DEPTH_RANGE", "build", "gather"]
@@ -31,8 +45,6 @@ CROWDED = 8
 
 HOPELESS = 160
 """Pieces in a cell above which it is not resolved at all: resolving looks at every pair."""
-
-CURVE, QUAD, CORNER, FULL, EMPTY = (int(kind) for kind in CellKind)
 
 
 @kernel

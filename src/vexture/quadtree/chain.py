@@ -228,8 +228,8 @@ def _travel(chain: Chain, parts: int, following: NDArray[np.int64]) -> Chain:
         order[length] = head
         length += 1
         head = following[head]
-    if heads != 1 or length != parts:
-        return Chain(chain.curves[:parts], chain.segment[:parts], chain.span[:parts], min(parts, 2))
+    if heads != 1 or length != parts:  # none, several, or closed ones beside it
+        return Chain(chain.curves[:parts], chain.segment[:parts], chain.span[:parts], 0 if parts == 0 else 2)
     first, last = 0, length
     while first < last and _along_edge(chain.curves[order[first]]):
         first += 1
