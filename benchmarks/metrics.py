@@ -11,6 +11,9 @@ __all__ = ["LEVELS", "Errors", "border_ratio", "cell_border_pixels", "errors", "
 LEVELS = 255.0
 """Errors are given in steps of an 8-bit picture."""
 
+TRUTH = 0.03 / LEVELS
+"""Coverage. Truth is good to this much; below it a pixel is empty, and full as near to 1."""
+
 TOUCH = 1e-6
 """Pixels. A cell border that enters a pixel by less only touches it."""
 
@@ -37,7 +40,7 @@ def errors(image: ArrayLike, truth: ArrayLike) -> Errors:
     Errors(mae=25.5, rmse=36.06..., max=51.0)
     """
     image, truth = np.asarray(image, np.float64), np.asarray(truth, np.float64)
-    off = LEVELS * np.abs(image - truth)[(image > 0.0) | (truth > 0.0)]
+    off = LEVELS * np.abs(image - truth)[np.maximum(image, truth) > TRUTH]
     if not len(off):
         return Errors(0.0, 0.0, 0.0)
     return Errors(float(off.mean()), float(np.sqrt((off**2).mean())), float(off.max()))
@@ -155,7 +158,7 @@ def border_ratio(image: ArrayLike, truth: ArrayLike, border: NDArray[np.bool_]) 
     2.0...
     """
     image, truth = np.asarray(image, np.float64), np.asarray(truth, np.float64)
-    edge = (truth > 0.0) & (truth < 1.0)
+    edge = (truth > TRUTH) & (truth < 1.0 - TRUTH)
     on, off = np.abs(image - truth)[edge & border], np.abs(image - truth)[edge & ~border]
     if not len(on) or not off.any():
         return float("nan")

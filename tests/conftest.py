@@ -1,6 +1,12 @@
 """Shared by all tests; its presence puts this folder on the import path, so that `strategies` can be imported."""
 
+import sys
+from pathlib import Path
+
 from hypothesis import HealthCheck, settings
+
+# the benchmarks are scripts beside the package; they find each other in their own folder
+sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 
 # compiling a kernel and drawing a whole tree take long; a temporary folder may be shared by examples
 settings.register_profile(

@@ -3,6 +3,11 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+# the package of this name would replace the function of this name if it were imported later
+import vexture.render  # noqa: F401
+from vexture.errors import DeviceError, FormatError, LimitError, SourceError, SourceWarning, VextureError
+from vexture.pipeline import convert, render
+
 __all__ = [
     "DeviceError",
     "Drawing",
@@ -24,17 +29,11 @@ __all__ = [
 if TYPE_CHECKING:
     from vexture.drawing import Drawing, FillRule, Paint, Path
     from vexture.encoding import ThesisTexture, load
-    from vexture.errors import DeviceError, FormatError, LimitError, SourceError, SourceWarning, VextureError
-    from vexture.pipeline import convert
-    from vexture.render import render
     from vexture.sources.svg import read_svg
 
 _HOMES = {
     "vexture.drawing": ("Drawing", "FillRule", "Paint", "Path"),
     "vexture.encoding": ("ThesisTexture", "load"),
-    "vexture.errors": ("DeviceError", "FormatError", "LimitError", "SourceError", "SourceWarning", "VextureError"),
-    "vexture.pipeline": ("convert",),
-    "vexture.render": ("render",),
     "vexture.sources.svg": ("read_svg",),
 }
 

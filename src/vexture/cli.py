@@ -176,7 +176,7 @@ def render(
 ) -> None:
     """Render a drawing or a texture as a PNG: the shape black on white."""
     with _one_line():
-        from vexture.render import render as render_image
+        from vexture.pipeline import render as render_image
         from vexture.render.view import window
 
         shape = _shape_of(source)

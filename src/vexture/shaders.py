@@ -1,8 +1,9 @@
 """Shader text: the files of ``glsl/``, joined, below the numbers that they share with Python.
 
-A file names what it needs by ``#include "other.glsl"``; each is joined once. In front stand, as constants, the layout of
-the textures (`vexture.encoding.layout`), the numbers of the method (`vexture.shading`) and, since loops need constant
-bounds (thesis 4.4.2), the sizes of the texture that is to be drawn.
+A file names what it needs by ``#include "other.glsl"``; each is joined once. In front stand, as constants, the layout
+of the textures (`vexture.encoding.layout`), the numbers of the method (`vexture.shading`) and, since loops need
+constant bounds (thesis 4.4.2), the sizes of the texture that is to be drawn. The lengths of its lists bound no loop;
+they are uniforms, so that one program serves all textures of a depth: compiling takes longer than most pictures.
 """
 
 import re

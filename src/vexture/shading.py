@@ -3,7 +3,6 @@
 The solution paths are those of thesis Figure 3.5; QUADRATIC stands for two of its nine, one root or both on the curve.
 """
 
-import math
 from typing import Final
 
 __all__ = [
@@ -22,7 +21,6 @@ __all__ = [
     "STRAIGHT",
     "THREE",
     "TRIPLE",
-    "TURN",
 ]
 
 SAMPLES: Final = 4
@@ -51,6 +49,3 @@ NEARLY_EQUAL: Final = 2.0**-19
 
 SHORTEST_CHORD: Final = 2.0**-18
 """Perimeters of a cell; a quarter of the smallest step that 16 bits can write."""
-
-TURN: Final = 2.0 * math.pi
-"""Radians."""

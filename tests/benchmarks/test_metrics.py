@@ -28,6 +28,13 @@ def test_errors_are_over_touched_pixels_only():
     assert errors(np.float32([0.5]), np.float32([0.5])) == (0, 0, 0)
 
 
+def test_rounding_errors_of_the_truth_touch_no_pixel():
+    truth, border = np.array([[1e-10, 0.5, 0.5, 1.0 - 1e-7]]), np.array([[False, True, False, False]])
+    image = np.array([[0.0, 0.6, 0.7, 1.0]])
+    assert errors(image, truth).mae == pytest.approx(0.1 * 255)
+    assert border_ratio(image, truth, border) == pytest.approx(0.5)
+
+
 def test_ink_sd_sees_flicker_but_not_a_constant_bias():
     truths = [np.full((2, 2), level) for level in (0.2, 0.4, 0.5, 1.0)]
     assert ink_sd([0.9 * truth for truth in truths], truths) == pytest.approx(0, abs=1e-12)

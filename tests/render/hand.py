@@ -1,6 +1,6 @@
 """Textures made by hand from FORMAT.md, part A, and a truth that knows nothing of the renderers' method.
 
-A tree is `FULL`, `EMPTY`, a `Curve`, a `Corner`, or a list of four trees: top left, top right, bottom left, bottom right.
+A tree is `FULL`, `EMPTY`, a `Curve`, a `Corner`, or a list of four trees: top left and right, bottom left and right.
 The truth cuts every outline into chords, closes it along its cell's edge and counts crossings in float64.
 """
 
@@ -10,9 +10,12 @@ from typing import Any
 
 import numba
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 
 from vexture.encoding.texture import ThesisTexture
+from vexture.errors import DeviceError
+from vexture.render.gpu import context
 
 Floats = NDArray[np.float64]
 FULL, EMPTY = "full", "empty"
@@ -37,6 +40,22 @@ class Corner:
     edge0: float
     corner: tuple[float, float]
     edge3: float
+
+
+K = 0.5522847498  # of the cubic that is nearly a quarter circle
+QUARTERS = [
+    Curve(0.75, (0.0, K), (1.0 - K, 1.0), 0.25),
+    Curve(0.0, (K, 1.0), (1.0, K), 0.5),
+    Curve(0.5, (1.0 - K, 0.0), (0.0, 1.0 - K), 0.0),
+    Curve(0.25, (1.0, 1.0 - K), (K, 0.0), 0.75),
+]
+S_CURVE = Curve(0.8, (1.5, 1.6), (-0.5, -0.6), 0.3)
+LOOP = Curve(0.75, (1.9, 1.9), (-0.9, 1.9), 0.5)
+SWIRL = Curve(0.875, (2.2, 1.2), (-1.2, -0.2), 0.375)
+ROOF = Corner(0.7, (0.4, 0.9), 0.55)
+NOTCH = Corner(0.3, (0.2, 0.7), 0.9)
+TREE = [QUARTERS[0], [LOOP, SWIRL, ROOF, [FULL, EMPTY, S_CURVE, QUARTERS[3]]], [QUARTERS, ROOF, NOTCH, FULL], LOOP]
+"""Everything that a texture can hold, on several levels."""
 
 
 @dataclass(frozen=True)
@@ -205,3 +224,11 @@ def view_of(low: tuple[float, float], width: float, pixels: int) -> Floats:
     """View of a square of the unit square, (3, 3)."""
     pixel = width / pixels
     return np.array([[pixel, 0, low[0]], [0, -pixel, low[1] + width], [0, 0, 1]])
+
+
+def need_gpu() -> None:
+    """Skip the test, saying why, where there is no OpenGL."""
+    try:
+        context()
+    except DeviceError as error:
+        pytest.skip(str(error))

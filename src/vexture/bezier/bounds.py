@@ -24,7 +24,8 @@ def bounds(cubics: NDArray[np.float64]) -> tuple[float, float, float, float]:
     q = -0.5 * (b + np.where(b >= 0.0, root, -root))
     candidates = [p0, p3]
     for numerator, denominator in ((q, a), (c, q)):
-        t = np.divide(numerator, denominator, out=np.zeros_like(q), where=denominator != 0.0)
+        with np.errstate(over="ignore"):  # a root far outside [0, 1] may be infinite
+            t = np.divide(numerator, denominator, out=np.zeros_like(q), where=denominator != 0.0)
         t = np.clip(t, 0.0, 1.0)
         s = 1.0 - t
         candidates.append(s * s * (s * p0 + 3.0 * t * p1) + t * t * (3.0 * s * p2 + t * p3))

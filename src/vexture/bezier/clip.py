@@ -74,9 +74,6 @@ def cut_to_side(contour: NDArray[np.float64], axis: int, bound: float, side: flo
         last = crossings(curve, axis, bound, cuts)
         point = curve[0].copy()
         for n in range(last):
-            middle = cubic_at(
-                curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis], 0.5 * (cuts[n] + cuts[n + 1])
-            )
             piece = pieces[count]
             subcubic(curve, cuts[n], cuts[n + 1], piece)
             piece[0] = point
@@ -85,7 +82,9 @@ def cut_to_side(contour: NDArray[np.float64], axis: int, bound: float, side: flo
             else:
                 piece[3, axis] = bound
             point = piece[3].copy()
-            if (middle - bound) * side >= 0.0:
+            middle = cubic_at(piece[0, axis], piece[1, axis], piece[2, axis], piece[3, axis], 0.5)
+            # the piece does not cross; one of these three is off the line, however the others may touch it
+            if (piece[0, axis] + middle + piece[3, axis] - 3.0 * bound) * side >= 0.0:
                 in_shadow = False
                 count += 1
                 continue

@@ -124,25 +124,20 @@ def arc_cubics(
     end: tuple[float, float],
     tolerance: float,
 ) -> list[Step]:
-    """Elliptical arc between two points, as SVG describes it (SVG 2, implementation notes B.2.4 and B.2.5).
+    """Elliptical arc between two points, as SVG describes it (SVG 2, B.2.4 and B.2.5); none from a point to itself.
 
     Parameters
     ----------
     start, end : tuple of float
         End points; radii too small to join them are enlarged, as the standard demands.
     radii : tuple of float
-        Half axes, before the rotation. A zero radius gives the straight line.
+        Half axes; a zero gives the straight line.
     rotation : float
-        Angle of the first axis, in degrees.
+        Of the first axis, in degrees.
     large, sweep : bool
         Which of the four arcs.
     tolerance : float
-        Largest distance from the true arc, in the units of the points.
-
-    Returns
-    -------
-    list of (x1, y1, x2, y2, x3, y3)
-        Empty if the arc ends where it starts.
+        Largest distance from the true arc.
 
     Examples
     --------
@@ -173,10 +168,8 @@ def arc_cubics(
     center = ((x0 + x3) / 2.0 + u[0] * qx + v[0] * qy, (y0 + y3) / 2.0 + u[1] * qx + v[1] * qy)
     first = atan2(py - qy, px - qx)
     angle = atan2(-py - qy, -px - qx) - first
-    if sweep and angle <= 0.0:
-        angle += 2.0 * pi
-    elif not sweep and angle >= 0.0:
-        angle -= 2.0 * pi
+    if sweep != (angle > 0.0) or angle == 0.0:  # zero: all but a whole turn, which rounding has closed
+        angle += 2.0 * pi if sweep else -2.0 * pi
     found = turn_cubics(center, u, v, first, angle, turn_steps(angle, max(rx, ry), tolerance))
     found[-1] = (*found[-1][:4], x3, y3)
     return found

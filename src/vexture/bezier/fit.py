@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.roots import cubic_at
+from vexture.bezier.roots import cubic_at, velocity_at
 from vexture.bezier.split import copy_curve
 from vexture.kernels import kernel
 
@@ -12,8 +12,11 @@ __all__ = ["fit_cubic"]
 ROUNDS = 10
 """Projection and least squares alternate at most so often; more rounds gain little on chains of one cell."""
 
-HOPEFUL_ROUNDS, HOPELESS = 3, 20.0
-"""A fit that is still so many tolerances away after so many rounds is given up."""
+SLOW, SLOW_ROUNDS = 0.9, 4
+"""A fit is given up after so many rounds that left more than this share of its distance."""
+
+HOPELESS, HOPELESS_ROUND = 30.0, 3
+"""And if it is still so many tolerances away after so many rounds: a chain that is far more than one cubic."""
 
 ALONG = 0.001
 """First weight of squared distances along the curve, tenfold after each step that made it worse."""
@@ -60,29 +63,37 @@ def _least_squares(
     curvature-based squared distance minimization" (ACM TOG 25, 2006); it converges many times faster than
     distances to fixed parameters.
     """
-    a, b = np.zeros((4, 4)), np.zeros(4)
-    jacobian, off, tangent = np.zeros(4), np.empty(2), np.empty(2)
+    a11, a12, a22 = np.zeros(3), np.zeros(3), np.zeros(3)  # xx, xy, yy of the blocks for P1 P1, P1 P2, P2 P2
+    b = np.zeros(4)
     for i in range(1, len(points) - 1):
         s, u = 1.0 - t[i], t[i]
-        for axis in range(2):
-            p0, p1, p2, p3 = curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis]
-            off[axis] = points[i, axis] - cubic_at(p0, p1, p2, p3, u)
-            tangent[axis] = s * s * (p1 - p0) + 2.0 * s * u * (p2 - p1) + u * u * (p3 - p2)
-        length = np.hypot(tangent[0], tangent[1])
-        w1, w2 = 3.0 * s * s * u, 3.0 * s * u * u
-        for along in range(2):
-            weight = along_weight if along == 1 else 1.0
-            if length > 0.0:
-                dx = tangent[0] / length if along == 1 else -tangent[1] / length
-                dy = tangent[1] / length if along == 1 else tangent[0] / length
-            else:
-                dx, dy, weight = float(along), float(1 - along), 1.0
-            jacobian[0], jacobian[1], jacobian[2], jacobian[3] = w1 * dx, w1 * dy, w2 * dx, w2 * dy
-            rest = dx * off[0] + dy * off[1]
-            for k in range(4):
-                b[k] += weight * jacobian[k] * rest
-                for m in range(4):
-                    a[k, m] += weight * jacobian[k] * jacobian[m]
+        w0, w1, w2, w3 = s * s * s, 3.0 * s * s * u, 3.0 * s * u * u, u * u * u
+        off_x = points[i, 0] - w0 * curve[0, 0] - w1 * curve[1, 0] - w2 * curve[2, 0] - w3 * curve[3, 0]
+        off_y = points[i, 1] - w0 * curve[0, 1] - w1 * curve[1, 1] - w2 * curve[2, 1] - w3 * curve[3, 1]
+        dx = velocity_at(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], u)
+        dy = velocity_at(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], u)
+        square = dx * dx + dy * dy
+        xx, xy, yy = 1.0, 0.0, 1.0
+        if square > 0.0:  # n n^T + along_weight d d^T, with the unit tangent d and the unit normal n
+            xx = (dy * dy + along_weight * dx * dx) / square
+            yy = (dx * dx + along_weight * dy * dy) / square
+            xy = (along_weight - 1.0) * dx * dy / square
+        for k, value in enumerate((xx, xy, yy)):
+            a11[k] += w1 * w1 * value
+            a12[k] += w1 * w2 * value
+            a22[k] += w2 * w2 * value
+        rest_x, rest_y = xx * off_x + xy * off_y, xy * off_x + yy * off_y
+        b[0] += w1 * rest_x
+        b[1] += w1 * rest_y
+        b[2] += w2 * rest_x
+        b[3] += w2 * rest_y
+    a = np.empty((4, 4))
+    for row in range(2):
+        for column in range(2):
+            a[row, column] = a11[row + column]
+            a[row, 2 + column] = a12[row + column]
+            a[2 + row, column] = a12[row + column]
+            a[2 + row, 2 + column] = a22[row + column]
     if not _solve_symmetric(a, b):
         return False
     for k in range(4):
@@ -92,21 +103,21 @@ def _least_squares(
 
 @kernel
 def _project(points: NDArray[np.float64], t: NDArray[np.float64], curve: NDArray[np.float64]) -> float:
-    """Move each t to the nearest place on the curve by a Newton step; return the largest distance."""
+    """Move each t towards the nearest place on the curve by a Newton step; return the largest distance."""
     worst = 0.0
-    for i in range(len(points)):
-        for _ in range(2):
-            s, u = 1.0 - t[i], t[i]
+    for i in range(1, len(points) - 1):
+        for step in range(2):
+            u = t[i]
             numerator, denominator, square = 0.0, 0.0, 0.0
             for axis in range(2):
                 p0, p1, p2, p3 = curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis]
                 off = cubic_at(p0, p1, p2, p3, u) - points[i, axis]
-                first = 3.0 * (s * s * (p1 - p0) + 2.0 * s * u * (p2 - p1) + u * u * (p3 - p2))
-                second = 6.0 * (s * (p2 - 2.0 * p1 + p0) + u * (p3 - 2.0 * p2 + p1))
+                first = velocity_at(p0, p1, p2, p3, u)
+                second = 6.0 * ((1.0 - u) * (p2 - 2.0 * p1 + p0) + u * (p3 - 2.0 * p2 + p1))
                 numerator += off * first
                 denominator += first * first + off * second
                 square += off * off
-            if denominator > 0.0 and 0 < i < len(points) - 1:
+            if step == 0 and denominator > 0.0:
                 t[i] = min(max(u - numerator / denominator, 0.0), 1.0)
         worst = max(worst, square)
     return np.sqrt(worst)
@@ -159,15 +170,17 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
     best = np.inf
     best_curve, best_t = np.empty((4, 2)), np.empty(n)
     along = ALONG
-    for done in range(ROUNDS):
+    slow = 0
+    for done in range(1, ROUNDS + 1):
         worst = _project(points, t, curve)
+        slow += 1 if worst > SLOW * best else 0
         if worst < best:
             best = worst
             _keep(curve, t, best_curve, best_t)
         else:
             _keep(best_curve, best_t, curve, t)
             along *= 10.0
-        if best <= tolerance or (done == HOPEFUL_ROUNDS and best > HOPELESS * tolerance):
+        if best <= tolerance or slow == SLOW_ROUNDS or (done == HOPELESS_ROUND and best > HOPELESS * tolerance):
             break
         if not _least_squares(points, t, along, curve):
             break

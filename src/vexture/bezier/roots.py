@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from vexture.kernels import kernel
 from vexture.tolerance import PARAMETER
 
-__all__ = ["cubic_at", "solve_monotone", "turning_points"]
+__all__ = ["cubic_at", "solve_monotone", "turning_points", "velocity_at"]
 
 BISECTIONS = 60  # more than the 53 bits of a float64, so that the bracket always closes
 
@@ -22,6 +22,19 @@ def cubic_at(p0: float, p1: float, p2: float, p3: float, t: float) -> float:
     """
     s = 1.0 - t
     return s * s * (s * p0 + 3.0 * t * p1) + t * t * (3.0 * s * p2 + t * p3)
+
+
+@kernel
+def velocity_at(p0: float, p1: float, p2: float, p3: float, t: float) -> float:
+    """Derivative of a cubic's coordinate by t.
+
+    Examples
+    --------
+    >>> velocity_at(0.0, 0.0, 1.0, 1.0, 0.5)
+    1.5
+    """
+    s = 1.0 - t
+    return 3.0 * (s * s * (p1 - p0) + 2.0 * s * t * (p2 - p1) + t * t * (p3 - p2))
 
 
 @kernel

@@ -5,6 +5,8 @@ The thesis encoding (FORMAT.md, part A) is a pair of RGB textures whose channels
 
 from typing import Final
 
+from vexture.quadtree.tree import CONTROL_MAX, CONTROL_MIN
+
 __all__ = [
     "CELL_ORDER",
     "CONSTANT_ROWS",
@@ -66,10 +68,6 @@ FULL_ROW: Final = 0
 EMPTY_ROW: Final = 1
 CONSTANT_ROWS: Final = 2
 """The first rows of the curve texture stand for constant cells."""
-
-CONTROL_MIN: Final = -1.25
-CONTROL_MAX: Final = 2.25
-"""Range of P1 and P2 in their cell: 9/4, because max 3 (1 - t) t^2 = 4/9 (thesis 4.2.4)."""
 
 LIST_LIMIT: Final = {8: 256, 16: 65_000}
 """Longest list for each number of bits; above 65,000 float32 no longer decodes every index."""

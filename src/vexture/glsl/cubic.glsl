@@ -5,13 +5,14 @@
 // - The discriminant is evaluated in its direct form, because the thesis's (Delta_1^2 - 4 Delta_0^3) / (-27 a^2)
 //   cancels where a is small; and about the inflection, because near a triple root every form cancels elsewhere.
 //   A shift of t changes neither the discriminant nor Delta_0 and Delta_1.
-// - Every root is polished with the cubic itself.
+// - Of three roots only the farthest comes from the trigonometric equation; the others would drown in its size.
+// - Every root is polished with the cubic itself: GPUs need not compute cosines to better than 2^-11.
 // - No path gets the parity wrong: one or three roots of a cubic, none or two of a quadratic; a double root is left
 //   out (thesis 3.3.3). A wrong choice of path then only moves the curve by a rounding error.
 
 struct Roots {
-    int count;
-    vec3 t;  // in no order; the first `count` hold
+    int found;
+    vec3 t;  // in no order; the first `found` hold
 };
 
 float evaluate_cubic(float a, float b, float c, float d, float t) {
@@ -83,17 +84,14 @@ int solution_path(float a, float b, float c, float d) {
     return delta < 0.0 ? HYPERBOLIC_SINE : HYPERBOLIC_COSINE;
 }
 
-// Equations 3.5 and 3.6 in their stable form, q / a and d / q, for the quadratic that agrees with the cubic at 0, 1/2
-// and 1: there t^3 is 3/2 t^2 - t/2, and so a small a is not merely forgotten.
-Roots solve_quadratic(float a, float b, float c, float d) {
-    float a2 = b + 1.5 * a;
-    float b2 = c - 0.5 * a;
-    float square = b2 * b2 - 4.0 * a2 * d;
+// Equations 3.5 and 3.6 for a t^2 + b t + c, each root by the one of q / a and c / q that does not cancel.
+Roots solve_quadratic(float a, float b, float c) {
+    float square = b * b - 4.0 * a * c;
     if (square < 0.0) {
         return Roots(0, vec3(0.0));
     }
-    float q = -0.5 * (b2 + (b2 < 0.0 ? -sqrt(square) : sqrt(square)));
-    return Roots(2, vec3(q / a2, q != 0.0 ? d / q : 0.0, 0.0));
+    float q = -0.5 * (b + (b < 0.0 ? -sqrt(square) : sqrt(square)));
+    return Roots(2, vec3(a != 0.0 ? q / a : 0.0, q != 0.0 ? c / q : 0.0, 0.0));
 }
 
 // Equations 3.7, 3.8, 3.10 and 3.11: the root that stands alone.
@@ -118,13 +116,19 @@ float solve_single(int path, float a, float b, float c, float d) {
     return center - 2.0 * sign(q) * sqrt(-p / 3.0) * cosh(acosh(ratio) / 3.0);
 }
 
-// Equation 3.12. The cosine of the angle is the thesis's 3q / (2p) sqrt(-3 / p); taken from its sine as well, the angle
-// keeps its digits where the cosine is nearly 1, which is where a is small.
-vec3 solve_three(float a, float b, float c, float d) {
+// Equation 3.12 for the root farthest from 0, and the quadratic that is left of the cubic for the other two. For these
+// the equation would subtract numbers of the size of b / a; the quotient, built from d upwards, does not.
+// The cosine of the angle is the thesis's 3q / (2p) sqrt(-3 / p), turned to the far side; its sine keeps the digits.
+Roots solve_three(float a, float b, float c, float d) {
     float p = -delta_0(a, b, c) / (3.0 * a * a);
     float q = delta_1(a, b, c, d) / (27.0 * a * a * a);
-    float angle = atan(sqrt(discriminant(a, b, c, d).x / 27.0) / (a * a), -q);
-    return -b / (3.0 * a) + 2.0 * sqrt(-p / 3.0) * cos((angle - TURN * vec3(0.0, 1.0, 2.0)) / 3.0);
+    float side = a * b > 0.0 ? -1.0 : 1.0;
+    float angle = atan(sqrt(discriminant(a, b, c, d).x / 27.0) / (a * a), -side * q);
+    float far = polish(a, b, c, d, -b / (3.0 * a) + side * 2.0 * sqrt(-p / 3.0) * cos(angle / 3.0));
+    float c2 = -d / far;
+    float b2 = (c2 - c) / far;
+    Roots rest = solve_quadratic(b - b2, c - c2, d);
+    return Roots(1 + rest.found, vec3(far, rest.t.xy));
 }
 
 // All real roots that matter to parity.
@@ -142,13 +146,14 @@ Roots solve_cubic(float a, float b, float c, float d) {
     if (path == STRAIGHT) {
         roots = Roots(1, vec3(-d / c));
     } else if (path == QUADRATIC) {
-        roots = solve_quadratic(a, b, c, d);
+        // the quadratic that agrees with the cubic at 0, 1/2 and 1: there t^3 is 3/2 t^2 - t/2
+        roots = solve_quadratic(b + 1.5 * a, c - 0.5 * a, d);
     } else if (path == THREE) {
-        roots = Roots(3, solve_three(a, b, c, d));
+        roots = solve_three(a, b, c, d);
     } else {
         roots = Roots(1, vec3(solve_single(path, a, b, c, d)));
     }
-    for (int k = 0; k < roots.count; k++) {
+    for (int k = 0; k < roots.found; k++) {
         roots.t[k] = shift + polish(a, b, c, d, roots.t[k]);
     }
     return roots;

@@ -26,7 +26,7 @@ bool inside_curve(vec2 p1, vec2 p2, vec2 point) {
     Roots roots = solve_cubic(3.0 * (p1.x - p2.x) + 1.0, 3.0 * p2.x - 6.0 * p1.x, 3.0 * p1.x, -point.x);
     int crossings = 0;
     int above = 0;
-    for (int k = 0; k < roots.count; k++) {
+    for (int k = 0; k < roots.found; k++) {
         float t = roots.t[k];
         if (t >= 0.0 && t <= 1.0) {
             crossings++;

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.roots import cubic_at, solve_monotone
+from vexture.bezier.roots import cubic_at, solve_monotone, velocity_at
 from vexture.kernels import kernel
 
 __all__ = ["crossing_heights", "x_at"]
@@ -44,14 +44,6 @@ class Stretch(NamedTuple):
 
 
 @kernel
-def _velocity(curve: NDArray[np.float64], axis: int, t: float) -> float:
-    """Derivative of a coordinate by t."""
-    s = 1.0 - t
-    p0, p1, p2, p3 = curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis]
-    return 3.0 * (s * s * (p1 - p0) + 2.0 * s * t * (p2 - p1) + t * t * (p3 - p2))
-
-
-@kernel
 def _stretch(curve: NDArray[np.float64], low: float, high: float) -> Stretch:
     """Bound a piece over low <= y <= high, by the control polygon of that part.
 
@@ -63,8 +55,10 @@ def _stretch(curve: NDArray[np.float64], low: float, high: float) -> Stretch:
     x0 = cubic_at(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], t0)
     x3 = cubic_at(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], t1)
     third = (t1 - t0) / 3.0
-    ax, ay = third * _velocity(curve, 0, t0), third * _velocity(curve, 1, t0)  # P1 - P0
-    cx, cy = third * _velocity(curve, 0, t1), third * _velocity(curve, 1, t1)  # P3 - P2
+    ax = third * velocity_at(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], t0)  # P1 - P0
+    ay = third * velocity_at(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], t0)
+    cx = third * velocity_at(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], t1)  # P3 - P2
+    cy = third * velocity_at(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], t1)
     bx, by = x3 - x0 - ax - cx, high - low - ay - cy  # P2 - P1
     slope = (x3 - x0) / (high - low)
     off1, off2 = ax - slope * ay, slope * cy - cx

@@ -17,6 +17,7 @@ from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
 from vexture.quadtree.boundary import quantise, resolve
 from vexture.quadtree.chain import JOIN, Chain, link_chain, on_edge
+from vexture.quadtree.tree import CONTROL_MAX, CONTROL_MIN
 from vexture.quadtree.winding import inside, winding_area
 
 __all__ = [
@@ -34,16 +35,13 @@ __all__ = [
 CURVE, CORNER, FULL, EMPTY = 0, 2, 3, 4  # CellKind, whose members a kernel cannot use
 NO_LEAF = -1
 
-CONTROL_LOW, CONTROL_HIGH = -1.25, 2.25
-"""Cell-local units: the range that the format gives to inner control points (thesis 4.2.4)."""
-
 SHORTEST_CHORD = 16.0 * JOIN
 """Cell-local units. A curve whose ends are nearer than this has no direction to build a basis on."""
 
 SLIVER = 1e-9
 """Share of the cell. A curve that cuts off less lies along the cell's edge."""
 
-MAX_SAMPLES, SAMPLES_PER_PART = 96, 8
+MAX_SAMPLES, SAMPLES_PER_PART = 64, 8
 """Points of a chain that a fit looks at: so many in all, and so many on each part of a short chain."""
 
 
@@ -110,7 +108,7 @@ def _expressible(curve: NDArray[np.float64]) -> bool:
     """Whether the format can hold a curve: its inner control points in range, its ends apart."""
     for k in (1, 2):
         for axis in range(2):
-            if not CONTROL_LOW <= curve[k, axis] <= CONTROL_HIGH:
+            if not CONTROL_MIN <= curve[k, axis] <= CONTROL_MAX:
                 return False
     return np.hypot(curve[3, 0] - curve[0, 0], curve[3, 1] - curve[0, 1]) >= SHORTEST_CHORD
 
@@ -163,16 +161,17 @@ def own_leaf(
         for k in range(4):
             local[i - first, k, 0] = (pieces.points[i, k, 0] - x0) / size
             local[i - first, k, 1] = (pieces.points[i, k, 1] - y0) / size
-    right_area = area_right_of(curve[0], curve[3], integral_x_dy(curve))
-    # the winding number is w on the right and w + 1 on the left: their mean over the cell tells w
-    w = int(np.rint(winding_area(local, corner_winding) - 1.0 + right_area))
+    signed_area = area_right_of(curve[0], curve[3], integral_x_dy(curve))
+    # the winding number is w on the right and w + 1 on the left, loops aside: its mean over the cell tells w
+    w = int(np.rint(winding_area(local, corner_winding) - 1.0 + signed_area))
     right, left = inside(w, rule), inside(w + 1, rule)
-    if right == left or right_area >= 1.0 - SLIVER:
+    area = leaf_area(curve, False)
+    if right == left or area >= 1.0 - SLIVER:
         return _constant_leaf(right)
-    if right_area <= SLIVER:
+    if area <= SLIVER:
         return _constant_leaf(left)
     if right:
-        return Leaf(CURVE, curve, leaf_area(curve, False), 0.0, True)
+        return Leaf(CURVE, curve, area, 0.0, True)
     backwards = np.empty((4, 2))
     subcubic(curve, 1.0, 0.0, backwards)
     return Leaf(CURVE, backwards, leaf_area(backwards, False), 0.0, True)

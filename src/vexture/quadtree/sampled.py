@@ -13,8 +13,8 @@ from vexture.bezier.area import area_right_of
 from vexture.drawing import Drawing
 from vexture.kernels import kernel
 from vexture.quadtree.accuracy import Accuracy, cell_tolerance
-from vexture.quadtree.leaf import CONTROL_HIGH, CONTROL_LOW, SHORTEST_CHORD, snap_to_edge
-from vexture.quadtree.tree import CellKind, CellTree
+from vexture.quadtree.leaf import SHORTEST_CHORD, snap_to_edge
+from vexture.quadtree.tree import CONTROL_MAX, CONTROL_MIN, CellKind, CellTree
 from vexture.quadtree.winding import inside
 
 __all__ = ["build_sampled"]
@@ -169,15 +169,21 @@ def _longest(runs: list[_Run]) -> _Run:
     return max(runs, key=lambda run: float(np.hypot(*(run.points[-1] - run.points[0]))))
 
 
+def _from_edge_to_edge(run: _Run, origin: NDArray[np.float64], size: float) -> bool:
+    """Whether both ends of a run lie on the edge of a cell."""
+    ends = run.points[[0, -1]]
+    return bool(((ends == origin) | (ends == origin + size)).any(axis=1).all())
+
+
 def _leaf(
     runs: list[_Run], origin: NDArray[np.float64], size: float, tolerance: float, at_limit: bool
 ) -> tuple[NDArray[np.float64] | None, float] | None:
     """Curve of a cell, cell-local, and its distance from the samples; None to divide."""
     if not runs:
         return None, 0.0
-    if len(runs) == 1 and not runs[0].sampled[0] and not runs[0].sampled[-1]:
+    if len(runs) == 1 and _from_edge_to_edge(runs[0], origin, size):
         curve, squared = _fit((runs[0].points - origin) / size)
-        in_range = ((curve[1:3] >= CONTROL_LOW) & (curve[1:3] <= CONTROL_HIGH)).all()
+        in_range = ((curve[1:3] >= CONTROL_MIN) & (curve[1:3] <= CONTROL_MAX)).all()
         apart = np.hypot(*(curve[3] - curve[0])) >= SHORTEST_CHORD
         if squared <= (tolerance / size) ** 2 and in_range and apart:
             return curve, float(np.sqrt(squared))
@@ -185,7 +191,7 @@ def _leaf(
         return None
     longest = _longest(runs)
     a, b = (longest.points[0] - origin) / size, (longest.points[-1] - origin) / size
-    if longest.sampled[0] or longest.sampled[-1] or np.hypot(*(b - a)) < SHORTEST_CHORD:
+    if not _from_edge_to_edge(longest, origin, size) or np.hypot(*(b - a)) < SHORTEST_CHORD:
         return None, float(np.sqrt(2.0))
     return a + np.outer(np.arange(4) / 3, b - a), float(np.sqrt(2.0))
 

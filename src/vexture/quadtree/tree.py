@@ -2,11 +2,16 @@
 
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["CellKind", "CellTree"]
+__all__ = ["CONTROL_MAX", "CONTROL_MIN", "CellKind", "CellTree"]
+
+CONTROL_MIN: Final = -1.25
+CONTROL_MAX: Final = 2.25
+"""Range of P1 and P2 in their cell: 9/4, because max 3 (1 - t) t^2 = 4/9 (thesis 4.2.4)."""
 
 
 class CellKind(IntEnum):

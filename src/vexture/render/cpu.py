@@ -1,5 +1,7 @@
 """The shader's mirror on the CPU: every function of ``glsl/`` again, by the same name, in float64.
 
+The root solver's half is `vexture.render.cubic`.
+
 Whoever changes one side changes the other; a test compares names and arguments. What is written here in float64 the
 shader computes in float32, so their difference is what float32 costs. The reasons stand in the shader's comments.
 """
@@ -21,38 +23,15 @@ from vexture.encoding.layout import (
 )
 from vexture.encoding.texture import ThesisTexture
 from vexture.kernels import kernel
+from vexture.render.cubic import solve_cubic
 from vexture.render.view import check_size, view_matrix
-from vexture.shading import (
-    CONSTANT,
-    CORNER,
-    CUBE_ROOT,
-    CURVE,
-    DOUBLE,
-    HYPERBOLIC_COSINE,
-    HYPERBOLIC_SINE,
-    NEARLY_EQUAL,
-    NEARLY_ZERO,
-    QUADRATIC,
-    SAMPLES,
-    SHORTEST_CHORD,
-    STRAIGHT,
-    THREE,
-    TRIPLE,
-    TURN,
-)
+from vexture.shading import CONSTANT, CORNER, CURVE, SAMPLES, SHORTEST_CHORD
 
 __all__ = ["render_cpu"]
 
 Vec2 = tuple[float, float]
 Vec3 = tuple[float, float, float]
 List = NDArray[np.float64]
-
-
-class Roots(NamedTuple):
-    """Real roots, the first `count` of `t`."""
-
-    count: int
-    t: Vec3
 
 
 class Cell(NamedTuple):
@@ -67,139 +46,6 @@ class Cell(NamedTuple):
     p1: Vec2
     p2: Vec2
     heights: Vec2
-
-
-# --- cubic.glsl -------------------------------------------------------------------------------------------------------
-
-
-@kernel
-def evaluate_cubic(a: float, b: float, c: float, d: float, t: float) -> float:
-    return ((a * t + b) * t + c) * t + d
-
-
-@kernel
-def polish(a: float, b: float, c: float, d: float, t: float) -> float:
-    for _ in range(2):
-        error = evaluate_cubic(a, b, c, d, t)
-        slope = (3.0 * a * t + 2.0 * b) * t + c
-        closer = t - error / slope if slope != 0.0 else t
-        t = closer if abs(evaluate_cubic(a, b, c, d, closer)) < abs(error) else t
-    return t
-
-
-@kernel
-def inflection(a: float, b: float) -> float:
-    return min(max(-b / (3.0 * a), -1.0), 2.0)
-
-
-@kernel
-def shift_cubic(a: float, b: float, c: float, d: float, shift: float) -> Vec3:
-    return 3.0 * a * shift + b, (3.0 * a * shift + 2.0 * b) * shift + c, evaluate_cubic(a, b, c, d, shift)
-
-
-@kernel
-def delta_0(a: float, b: float, c: float) -> float:
-    return b * b - 3.0 * a * c
-
-
-@kernel
-def delta_1(a: float, b: float, c: float, d: float) -> float:
-    return b * (2.0 * b * b - 9.0 * a * c) + 27.0 * a * a * d
-
-
-@kernel
-def discriminant(a: float, b: float, c: float, d: float) -> Vec2:
-    bbcc = b * b * c * c
-    accc = 4.0 * a * c * c * c
-    bbbd = 4.0 * b * b * b * d
-    aadd = 27.0 * a * a * d * d
-    abcd = 18.0 * a * b * c * d
-    return bbcc - accc - bbbd - aadd + abcd, bbcc + abs(accc) + abs(bbbd) + aadd + abs(abcd)
-
-
-@kernel
-def solution_path(a: float, b: float, c: float, d: float) -> int:
-    size = max(abs(a), abs(b), abs(c))
-    if max(abs(a), abs(b)) <= NEARLY_ZERO * size:
-        return STRAIGHT
-    if abs(a) <= NEARLY_ZERO * abs(b):
-        return QUADRATIC
-    b, c, d = shift_cubic(a, b, c, d, inflection(a, b))
-    delta = delta_0(a, b, c)
-    if abs(delta) <= NEARLY_EQUAL * abs(a) * size:
-        return TRIPLE if abs(delta_1(a, b, c, d)) <= 27.0 * NEARLY_EQUAL * a * a * size else CUBE_ROOT
-    value, terms = discriminant(a, b, c, d)
-    if abs(value) <= NEARLY_EQUAL * terms:
-        return DOUBLE
-    if value > 0.0:
-        return THREE
-    return HYPERBOLIC_SINE if delta < 0.0 else HYPERBOLIC_COSINE
-
-
-@kernel
-def solve_quadratic(a: float, b: float, c: float, d: float) -> Roots:
-    a2 = b + 1.5 * a
-    b2 = c - 0.5 * a
-    square = b2 * b2 - 4.0 * a2 * d
-    if square < 0.0:
-        return Roots(0, (0.0, 0.0, 0.0))
-    q = -0.5 * (b2 + (-math.sqrt(square) if b2 < 0.0 else math.sqrt(square)))
-    return Roots(2, (q / a2, d / q if q != 0.0 else 0.0, 0.0))
-
-
-@kernel
-def solve_single(path: int, a: float, b: float, c: float, d: float) -> float:
-    center = -b / (3.0 * a)
-    p = -delta_0(a, b, c) / (3.0 * a * a)
-    q = delta_1(a, b, c, d) / (27.0 * a * a * a)
-    if path == TRIPLE:
-        return center
-    if path == DOUBLE:
-        return (4.0 * a * b * c - 9.0 * a * a * d - b * b * b) / (a * delta_0(a, b, c))
-    if path == CUBE_ROOT:
-        return center - math.copysign(abs(q) ** (1.0 / 3.0), q)
-    if path == HYPERBOLIC_SINE:
-        return center - 2.0 * math.sqrt(p / 3.0) * math.sinh(math.asinh(1.5 * q / p * math.sqrt(3.0 / p)) / 3.0)
-    ratio = max(-1.5 * abs(q) / p * math.sqrt(-3.0 / p), 1.0)
-    return center - 2.0 * math.copysign(math.sqrt(-p / 3.0), q) * math.cosh(math.acosh(ratio) / 3.0)
-
-
-@kernel
-def solve_three(a: float, b: float, c: float, d: float) -> Vec3:
-    p = -delta_0(a, b, c) / (3.0 * a * a)
-    q = delta_1(a, b, c, d) / (27.0 * a * a * a)
-    angle = math.atan2(math.sqrt(discriminant(a, b, c, d)[0] / 27.0) / (a * a), -q)
-    center, radius = -b / (3.0 * a), 2.0 * math.sqrt(-p / 3.0)
-    return (
-        center + radius * math.cos(angle / 3.0),
-        center + radius * math.cos((angle - TURN) / 3.0),
-        center + radius * math.cos((angle - 2.0 * TURN) / 3.0),
-    )
-
-
-@kernel
-def solve_cubic(a: float, b: float, c: float, d: float) -> Roots:
-    path = solution_path(a, b, c, d)
-    shift = 0.0
-    if path > QUADRATIC:
-        shift = inflection(a, b)
-        b, c, d = shift_cubic(a, b, c, d, shift)
-    if path == STRAIGHT:
-        roots = Roots(1, (-d / c, 0.0, 0.0))
-    elif path == QUADRATIC:
-        roots = solve_quadratic(a, b, c, d)
-    elif path == THREE:
-        roots = Roots(3, solve_three(a, b, c, d))
-    else:
-        roots = Roots(1, (solve_single(path, a, b, c, d), 0.0, 0.0))
-    return Roots(
-        roots.count,
-        (
-            shift + polish(a, b, c, d, roots.t[0]),
-            shift + polish(a, b, c, d, roots.t[1]),
-            shift + polish(a, b, c, d, roots.t[2]),
-        ),
-    )
 
 
 # --- inside.glsl ------------------------------------------------------------------------------------------------------
@@ -220,7 +66,7 @@ def inside_curve(p1: Vec2, p2: Vec2, point: Vec2) -> bool:
     roots = solve_cubic(3.0 * (p1[0] - p2[0]) + 1.0, 3.0 * p2[0] - 6.0 * p1[0], 3.0 * p1[0], -point[0])
     crossings = 0
     above = 0
-    for k in range(roots.count):
+    for k in range(roots.found):
         t = roots.t[k]
         if 0.0 <= t <= 1.0:
             crossings += 1

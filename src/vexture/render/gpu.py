@@ -36,7 +36,8 @@ def context() -> Any:
             "the gpu renderer needs the package moderngl: pip install vexture[gpu], or use --renderer cpu"
         ) from None
     try:
-        made = moderngl.create_context(standalone=True, backend="egl", require=330)
+        # its stubs take **settings for one dictionary each
+        made = moderngl.create_standalone_context(require=330, backend="egl")  # type: ignore[arg-type]
     except Exception as error:  # moderngl raises plain Exceptions
         reason = " ".join(str(error).split())
         raise DeviceError(
@@ -44,14 +45,23 @@ def context() -> Any:
             "libgl1-mesa-dri), or use --renderer cpu"
         ) from None
     made.gc_mode = "auto"  # a program that leaves the cache is released
+    with made:
+        pass  # leaves it current in no thread, so that any may use it
     return made
 
 
 @lru_cache(maxsize=64)
 def program(sizes: TextureSizes) -> Any:
     """Compiled shader for all textures of some sizes, with its triangle."""
-    compiled = context().program(vertex_shader=vertex_source(VERSION), fragment_shader=view_source(VERSION, sizes))
-    return context().vertex_array(compiled, [])
+    gl = context()
+    try:
+        compiled = gl.program(vertex_shader=vertex_source(VERSION), fragment_shader=view_source(VERSION, sizes))
+    except Exception as error:  # moderngl's own class is not to be imported before the context
+        reason = " ".join(str(error).split())[:200]
+        raise DeviceError(
+            f"the OpenGL driver refuses the shader ({reason}); update it, or use --renderer cpu"
+        ) from None
+    return gl.vertex_array(compiled, [])
 
 
 def fold(rows: NDArray[Any], height: int) -> NDArray[np.float32]:

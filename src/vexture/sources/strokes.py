@@ -177,7 +177,9 @@ def raised(points: list[complex]) -> list[complex]:
 
 def closed_contour(points: list[complex]) -> NDArray[np.float64]:
     """Contour from its first point and P1, P2, P3 of its cubics, closed by a line if need be."""
-    if points[-1] != points[0]:
+    if abs(points[-1] - points[0]) < SHORTEST:
+        points[-1] = points[0]
+    else:
         points = points + raised([points[-1], points[0]])
     flat = np.array(points).view(np.float64).reshape(-1, 2)
     return np.concatenate([flat[:-1:3, None], flat[1:].reshape(-1, 3, 2)], axis=1)

@@ -15,7 +15,7 @@ from vexture.sources.svg_document import parse_svg, read_bytes
 from vexture.sources.svg_report import Report
 from vexture.sources.svg_scene import Scene
 from vexture.sources.svg_values import Viewport
-from vexture.sources.svg_viewport import Rectangle, view_box
+from vexture.sources.svg_viewport import THINNEST, Rectangle, view_box
 
 __all__ = ["read_svg"]
 
@@ -84,7 +84,7 @@ def drawing_of(scene: Scene, name: str) -> Drawing:
         box: Rectangle = (0.0, 0.0, *size)
     else:
         viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
-        paths = scene.paint(viewport, matrix, None)
+        paths = Scene(scene.root, Report("")).paint(viewport, matrix, None)  # what it says, the second pass says
         if not paths:
             return Drawing((), name=name)
         left, top, right, bottom = bounds(np.concatenate([contour for path in paths for contour in path.contours]))
@@ -105,8 +105,10 @@ def frame(scene: Scene) -> tuple[tuple[float, float], Viewport, Transform] | Non
         text = style[name]
         relative = text.lower() == "auto" or text.endswith("%")
         side = None if relative else absolute.length(text, 0.0, style.font_size)
-        if side is not None and side <= 0.0:
-            raise SourceError(f"the {name} of the outermost <svg> is {text}; it must be above 0, or nothing is visible")
+        if side is not None and side < THINNEST:
+            raise SourceError(
+                f"the {name} of the outermost <svg> is {text}; it must be at least {THINNEST:g}, not zero"
+            )
         sides.append(side)
     width, height = sides
     if box is not None:

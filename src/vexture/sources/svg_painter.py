@@ -51,7 +51,7 @@ class Painter:
     def paint(self, element: etree._Element, place: Place) -> None:
         """Paint a shape that stands at a place, which has the shape's own style and transform."""
         style = place.style
-        if style["visibility"].lower() != "visible":
+        if style["visibility"].lower() != "visible" or place.space.flat:
             return
         fill = self.servers.paint(style, "fill", place.opacity)
         line = self.servers.paint(style, "stroke", place.opacity)

@@ -14,10 +14,10 @@ from vexture.sources.outline import Outline
 
 __all__ = ["GAP", "NUMBER", "POINTS", "SPACE", "path_outlines", "valid_length"]
 
-# possessive throughout: a number is never given up in part to make two of it
-NUMBER = r"[+-]?+(?:[0-9]*+\.[0-9]++|[0-9]++)(?:[eE][+-]?+[0-9]++)?+"
+# atomic: a number is never given up in part to make two of it
+NUMBER = r"(?>[+-]?(?:[0-9]*\.[0-9]+|[0-9]+)(?:[eE][+-]?[0-9]+)?)"
 SPACE = r"[ \t\n\r\f]*+"
-GAP = rf"(?>{SPACE},?+{SPACE})"
+GAP = rf"(?>{SPACE},?{SPACE})"
 
 
 def command(letters: str, *arguments: str) -> str:
@@ -40,8 +40,9 @@ DRAW = "|".join(
 PATH = re.compile(rf"{SPACE}(?:{MOVE}(?:{SPACE}(?:{DRAW}|{MOVE}))*+)?+{SPACE}")
 POINTS = re.compile(rf"{SPACE}(?:{NUMBER}{GAP}{NUMBER}(?:{GAP}{NUMBER}{GAP}{NUMBER})*+)?+{SPACE}")
 
-# fontTools takes "007" for three numbers; the flags of an arc are meant that way, so arcs are passed over
-ZEROS = re.compile(r"([Aa][^MmZzLlHhVvCcSsQqTt]*+)|(?<![0-9.])0+(?=[0-9])")
+ZEROS = re.compile(r"(?<![0-9.])0+(?=[0-9])")
+ARC = re.compile(r"[Aa][^MmZzLlHhVvCcSsQqTt]*+")
+ARC_ARGUMENTS = re.compile(GAP.join([f"({NUMBER})"] * 3 + ["([01])"] * 2 + [f"({NUMBER})"] * 2) + GAP)
 
 HUGE = 1e100
 """Numbers beyond this would overflow in the arithmetic of an arc; such a radius draws a line anyway."""
@@ -77,8 +78,20 @@ def path_outlines(data: str, tolerance: float) -> list[Outline]:
     """
     valid = data[: valid_length(data)]
     pen = CubicPen(tolerance)
-    parse_path(ZEROS.sub(r"\1", valid), pen)
+    parse_path(without_leading_zeros(valid) if ZEROS.search(valid) else valid, pen)
     return pen.outlines
+
+
+def without_leading_zeros(data: str) -> str:
+    """Path data in which fontTools cannot take "007" for three numbers; the flags of arcs are set apart before.
+
+    Examples
+    --------
+    >>> without_leading_zeros("M007 0a1 1 0 00010 020")
+    'M7 0a1 1 0 0 0 10 20 '
+    """
+    spaced = ARC.sub(lambda arc: ARC_ARGUMENTS.sub(r"\1 \2 \3 \4 \5 \6 \7 ", arc[0]), data)
+    return ZEROS.sub("", spaced)
 
 
 class CubicPen:

@@ -125,9 +125,6 @@ class Scene:
             return []
         self.note_effects(style)
         matrix = self.transform(element, style, place)
-        a, b, c, d = matrix[:4]
-        if a * d == b * c:
-            return []
         if place.depth >= DEEPEST:
             raise SourceError(f"it stands inside {DEEPEST:,} others; flatten the groups or the uses")
         inner = Place(
@@ -163,13 +160,12 @@ class Scene:
         """Place inside a nested `<svg>` or a shown `<symbol>`; None if it has no size."""
         style = place.style
         x, y = self.lengths(style, place.viewport, "x", "y")
-        sizes = [
-            (use["width"], use["height"])[k] if use is not None and use[name] != "auto" else style[name]
-            for k, name in enumerate(("width", "height"))
-        ]
         width, height = (
             whole if text.lower() == "auto" else place.viewport.length(text, whole, style.font_size) or 0.0
-            for text, whole in zip(sizes, (place.viewport.width, place.viewport.height), strict=True)
+            for text, whole in (
+                (use[name] if use is not None and use[name].lower() != "auto" else style[name], whole)
+                for name, whole in (("width", place.viewport.width), ("height", place.viewport.height))
+            )
         )
         if width <= 0.0 or height <= 0.0:
             return None

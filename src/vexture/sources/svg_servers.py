@@ -42,6 +42,7 @@ class Servers:
         self.cascade = cascade
         self.report = report
         self.by_id: dict[str, etree._Element] = {}
+        self.means: dict[etree._Element, Color | None] = {}
 
     def target(self, link: str) -> etree._Element | None:
         """Element of this document that a link like "#name" means; None if there is none."""
@@ -93,18 +94,18 @@ class Servers:
         self.report.left_out(f"paint '{link[:40]}'")
         return fallback
 
-    def mean_color(self, gradient: etree._Element | None) -> Color | None:
+    def mean_color(self, gradient: etree._Element) -> Color | None:
         """Mean of a gradient's stops, which another gradient may lend; None if there are none."""
-        seen: list[etree._Element] = []
-        while gradient is not None and gradient not in seen and len(seen) < len(self.by_id):
-            seen.append(gradient)
-            colors = [self.stop_color(stop) for stop in gradient if local_name(stop) == "stop"]
-            if colors:
-                red, green, blue = np.mean([color.rgb for color in colors], axis=0).tolist()
-                alpha = float(np.mean([color.alpha for color in colors]))
-                return Color((red, green, blue), alpha, all(color.exact for color in colors))
-            gradient = self.target(reference(gradient) or "")
-        return None
+        if gradient not in self.means:
+            lender: etree._Element | None = gradient
+            seen: set[etree._Element] = set()
+            colors: list[Color] = []
+            while lender is not None and lender not in seen and not colors:
+                seen.add(lender)
+                colors = [self.stop_color(stop) for stop in lender if local_name(stop) == "stop"]
+                lender = self.target(reference(lender) or "")
+            self.means[gradient] = mean(colors)
+        return self.means[gradient]
 
     def stop_color(self, stop: etree._Element) -> Color:
         """Colour of a gradient's stop."""
@@ -116,3 +117,12 @@ class Servers:
         if not isinstance(color, Color):
             color = style.color
         return color._replace(alpha=color.alpha * style.opacity("stop-opacity"))
+
+
+def mean(colors: list[Color]) -> Color | None:
+    """Mean of colours, None of none."""
+    if not colors:
+        return None
+    red, green, blue = np.mean([color.rgb for color in colors], axis=0).tolist()
+    alpha = float(np.mean([color.alpha for color in colors]))
+    return Color((red, green, blue), alpha, all(color.exact for color in colors))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from lxml import etree
+from numpy.typing import NDArray
 
 from vexture.bezier.convert import arc_cubics, ellipse_cubics
 from vexture.errors import SourceError
@@ -78,10 +79,15 @@ def shape_outlines(shape: Shape) -> list[Outline]:
     """
     outlines = SHAPES[etree.QName(shape.element).localname](shape)
     for outline in outlines:
-        largest = np.abs(outline.cubics).max()
-        if not largest <= LARGEST:
-            raise SourceError(f"it has a coordinate of {largest:g}; the limit is {LARGEST:g}; correct it")
+        check(outline.cubics)
     return outlines
+
+
+def check(coordinates: NDArray[np.float64]) -> None:
+    """Refuse coordinates that are too large to compute with."""
+    largest = np.abs(coordinates).max(initial=0.0)
+    if not largest <= LARGEST:
+        raise SourceError(f"it has a coordinate of {largest:g}; the limit is {LARGEST:g}; correct it")
 
 
 def path(shape: Shape) -> list[Outline]:
@@ -172,6 +178,7 @@ def corners(shape: Shape, closed: bool) -> list[Outline]:
     if valid < len(text):
         shape.report.invalid("points", f"...{text[valid:]}", shape.element)
     coordinates = np.array(re.findall(NUMBER, text[:valid]), dtype=np.float64)
+    check(coordinates)
     return [Outline.polygon(coordinates.reshape(-1, 2), closed)] if len(coordinates) > 2 else []
 
 

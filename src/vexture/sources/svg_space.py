@@ -16,6 +16,9 @@ from vexture.sources.svg_viewport import Rectangle
 
 __all__ = ["Place", "Space"]
 
+SMALLEST = 1 / LARGEST**4
+"""Of a determinant: with anything smaller, sizes in user units would be no numbers to compute with."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Space:
@@ -37,6 +40,12 @@ class Space:
     clip: Rectangle | None = None
     outer: "Space | None" = None
     whole: Transform = Identity
+
+    @property
+    def flat(self) -> bool:
+        """Whether everything in it has no area in the drawing (or so little that floats cannot hold it)."""
+        a, b, c, d = self.whole[:4]
+        return bool(abs(a * d - b * c) < SMALLEST)
 
     def moved(self, matrix: Transform) -> "Space":
         """Coordinate system of an element with a transform."""

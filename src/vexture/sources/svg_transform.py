@@ -70,7 +70,7 @@ def single_transform(name: str, arguments: list[str], length: Length) -> Transfo
     """One function of a transform list; None if it is unknown or has wrong arguments."""
     values: list[float | None]
     if name.startswith("translate"):
-        values = [length(text, 1 if name == "translatey" else axis) for axis, text in enumerate(arguments)]
+        values = [length(text, 1 if name == "translatey" else min(axis, 1)) for axis, text in enumerate(arguments)]
     elif name.startswith("skew") or (name == "rotate" and len(arguments) == 1):
         values = [angle(text) for text in arguments]
     else:

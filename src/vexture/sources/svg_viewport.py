@@ -1,14 +1,14 @@
 """Where a viewport shows its content: `viewBox` and `preserveAspectRatio` (SVG 2, 8.2)."""
 
 import re
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from fontTools.misc.transform import Transform
 
 from vexture.errors import SourceError
 from vexture.sources.svg_values import numbers
 
-__all__ = ["CENTRED", "Fit", "Rectangle", "parse_fit", "view_box", "view_transform"]
+__all__ = ["CENTRED", "THINNEST", "Fit", "Rectangle", "parse_fit", "view_box", "view_transform"]
 
 Rectangle = tuple[float, float, float, float]
 """Least x, least y, width and height."""
@@ -30,6 +30,9 @@ class Fit(NamedTuple):
     rule: str
 
 
+THINNEST: Final = 1e-9
+"""User units. A drawing less wide or high than this counts as having no size."""
+
 CENTRED = Fit(0.5, 0.5, "meet")
 """What the standard says where a document says nothing."""
 
@@ -43,7 +46,7 @@ def view_box(text: str | None) -> Rectangle | None:
     Raises
     ------
     SourceError
-        If it is not four numbers of which the last two are above 0.
+        If it is not four numbers, or has no size.
 
     Examples
     --------
@@ -56,8 +59,8 @@ def view_box(text: str | None) -> Rectangle | None:
     if values is None or len(values) != 4:
         raise SourceError(f"viewBox is '{text[:60]}'; it must be four numbers")
     x, y, width, height = values
-    if width <= 0.0 or height <= 0.0:
-        raise SourceError(f"viewBox is '{text[:60]}'; its width and height must be above 0, or nothing is visible")
+    if width < THINNEST or height < THINNEST:
+        raise SourceError(f"viewBox is '{text[:60]}'; its width and height must be at least {THINNEST:g}, not zero")
     return x, y, width, height
 
 

@@ -1,0 +1,70 @@
+# `make demo` and `make test` need nothing but Python 3.11 or newer: what they install goes into .venv, but for the
+# system libraries of the tests, which they install only as root on Debian and otherwise name.
+# Another Python: make PYTHON=python3.13 demo
+
+PYTHON ?= python3
+BIN := .venv/bin
+SHAPES := examples/shapes
+BENCHMARKS := fidelity conversion icons
+
+.NOTPARALLEL:
+.DELETE_ON_ERROR:
+.PHONY: help demo test bench clean
+
+help:
+	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
+	@echo 'make test    lint, types and tests, with all that they need'
+	@echo 'make bench   measure fidelity and speed; the figures come into benchmarks/results/'
+	@echo 'make clean   remove all of that again'
+
+.venv/made:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+		{ echo 'vexture needs Python 3.11 or newer; name one, as in: make PYTHON=python3.13 demo' >&2; exit 1; }
+	@$(PYTHON) tools/prepare.py venv
+	@touch $@
+
+.venv/for-demo: pyproject.toml | .venv/made
+	@echo 'installing vexture and its libraries into .venv (a minute or less) ...'
+	@$(BIN)/python -m pip install --quiet --editable '.[gpu]'
+	@touch $@
+
+.venv/for-test: pyproject.toml | .venv/made
+	@echo 'installing vexture, its libraries and the tools of its tests into .venv (a minute or two) ...'
+	@$(BIN)/python -m pip install --quiet --editable '.[gpu,test]'
+	@touch .venv/for-demo $@
+
+demo: .venv/for-demo
+	@mkdir -p demo/pictures
+	$(BIN)/vexture convert $(SHAPES)/*.svg -o demo
+	$(BIN)/vexture info demo/duck
+	$(BIN)/vexture render $(SHAPES)/duck.svg -o demo/pictures/duck-exact.png --size 500 --renderer exact
+	$(BIN)/vexture render demo/duck -o demo/pictures/duck-1000.png --size 1000 --renderer cpu
+	$(BIN)/vexture render demo/duck -o demo/pictures/duck-50.png --size 50 --renderer cpu
+	$(BIN)/vexture render demo/ocean -o demo/pictures/ocean-detail.png --size 500 --renderer cpu --view 0.8,0.26,0.12,0.12
+	$(BIN)/vexture render demo/font -o demo/pictures/font-turned.png --size 500 --renderer cpu --rotate 30
+	@echo '$(BIN)/vexture render demo/cake -o demo/pictures/cake-gpu.png --size 500 --renderer gpu'
+	@$(BIN)/vexture render demo/cake -o demo/pictures/cake-gpu.png --size 500 --renderer gpu || \
+		echo 'so there is no picture by the GPU this time; all the others are there'
+	@echo
+	@echo 'Open the pictures in demo/pictures/: duck-1000.png and duck-50.png are drawn from one and the same texture,'
+	@echo 'the pair demo/duck.quads.png and demo/duck.curves.png; duck-exact.png is what they must look like.'
+
+test: .venv/for-test
+	@$(BIN)/python tools/prepare.py system
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	@echo 'compiling the kernels once, before the tests run side by side ...'
+	@scratch=$$(mktemp -d) && trap 'rm -rf "$$scratch"' EXIT && \
+		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch" >"$$scratch/log" && \
+		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/sampled" --strategy sampled >>"$$scratch/log" && \
+		$(BIN)/vexture render "$$scratch/duck" -o "$$scratch/cpu.png" --size 16 --renderer cpu >>"$$scratch/log" && \
+		$(BIN)/vexture render $(SHAPES)/duck.svg -o "$$scratch/exact.png" --size 16 --renderer exact >>"$$scratch/log"
+	$(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4
+
+bench: .venv/for-test
+	@$(BIN)/python tools/prepare.py system
+	@for name in $(BENCHMARKS); do echo && $(BIN)/python "benchmarks/$$name.py" || exit 1; done
+
+clean:
+	rm -rf .venv demo build src/*.egg-info benchmarks/results .hypothesis .mypy_cache .pytest_cache .ruff_cache

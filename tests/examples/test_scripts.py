@@ -1,0 +1,63 @@
+"""The examples and the README's Python do what they say."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+ROOT = Path(__file__).parents[2]
+
+
+def run(*arguments, folder):
+    """Output of a Python process in a folder."""
+    command = [sys.executable, "-W", "error", *map(str, arguments)]
+    outcome = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert outcome.returncode == 0, outcome.stderr
+    return outcome.stdout
+
+
+def dark_share(path):
+    """Share of a picture that is dark, 0..1."""
+    with Image.open(path) as image:
+        return 1 - np.asarray(image.convert("L")).mean() / 255
+
+
+def test_convert_and_render(tmp_path):
+    run(ROOT / "examples" / "01_convert_and_render.py", tmp_path, folder=tmp_path)
+    assert {path.name for path in tmp_path.glob("*.*.png")} == {"duck.quads.png", "duck.curves.png"}
+    shares = [dark_share(tmp_path / f"duck-{size}.png") for size in (32, 128, 512)]
+    assert min(shares) > 0.1
+    assert max(shares) - min(shares) < 0.01
+
+
+def test_views(tmp_path):
+    run(ROOT / "examples" / "02_views.py", tmp_path, folder=tmp_path)
+    shares = {path.stem.removeprefix("cake-"): dark_share(path) for path in tmp_path.glob("*.png")}
+    assert set(shares) == {"whole", "turned", "near", "floor"}
+    assert shares["turned"] == pytest.approx(shares["whole"], abs=0.05)
+    assert shares["floor"] > 0.02
+
+
+def test_compare_with_the_truth(tmp_path):
+    lines = run(ROOT / "examples" / "03_compare_with_the_truth.py", folder=tmp_path).splitlines()
+    errors = [float(re.search(r"error ([\d.]+)/255", line).group(1)) for line in lines]
+    assert len(errors) == 4
+    assert max(errors) < 6
+
+
+def test_every_example_is_tested():
+    names = {path.name for path in (ROOT / "examples").glob("*.py")}
+    assert names == set(re.findall(r"\d\d_\w+\.py", Path(__file__).read_text(encoding="utf-8")))
+
+
+def test_python_of_the_readme(tmp_path):
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    (code,) = re.findall(r"^```python\n(.*?)^```", (ROOT / "README.md").read_text(encoding="utf-8"), re.M | re.S)
+    assert len(code.splitlines()) <= 8
+    run("-c", code, folder=tmp_path)
+    assert {path.name for path in tmp_path.glob("*.png")} == {"duck.quads.png", "duck.curves.png", "duck.png"}
+    assert 0.1 < dark_share(tmp_path / "duck.png") < 0.9

@@ -1,0 +1,96 @@
+import inspect
+import re
+from importlib import resources
+
+import pytest
+from hand import EMPTY, FULL, TREE, need_gpu, texture_of
+
+from vexture import shading
+from vexture.encoding import layout
+from vexture.errors import FormatError
+from vexture.render import cpu, cubic
+from vexture.render.gpu import context
+from vexture.shaders import VERSIONS, TextureSizes, constants, join, source, vertex_source
+
+FILES = {file.name: file.read_text() for file in (resources.files("vexture") / "glsl").iterdir()}
+DEFINITION = re.compile(r"^(?:\w+) (\w+)\((.*)\) \{$", re.MULTILINE)
+STRUCT = re.compile(r"^struct (\w+) \{(.*?)^\};", re.MULTILINE | re.DOTALL)
+MIRROR = dict.fromkeys(FILES, cpu) | {"cubic.glsl": cubic}
+ALONE = {"covering_triangle", "fetch"}  # functions of the shader for which the mirror has no use
+UNIFORMS = ["quads", "curves", "to_unit"]  # which the mirror passes on
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_shader_compiles_in_both_dialects(version: str) -> None:
+    need_gpu()
+    fragment = source(version, texture_of(TREE))
+    assert fragment.startswith(f"#version {version}\n")
+    with context() as gl:
+        gl.program(vertex_shader=vertex_source(version), fragment_shader=fragment).release()
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_file_defines_what_it_says_and_nothing_that_its_user_must(name: str) -> None:
+    text = FILES[name]
+    exports = re.search(r"^// Exports: (.*)\.$", text, re.MULTILINE)
+    assert exports, "the header lists the exports"
+    defined = {match[0] for match in DEFINITION.findall(text)} | {match[0] for match in STRUCT.findall(text)}
+    assert set(exports[1].split(", ")) <= defined
+    assert "#version" not in text
+    assert "void main" not in text
+
+
+def test_every_file_is_joined_once() -> None:
+    joined = join("view.glsl")
+    names = [match[0] for match in DEFINITION.findall(joined)]
+    assert len(names) == len(set(names))
+    assert "#include" not in joined
+    assert (
+        joined.index("Roots solve_cubic(") < joined.index("bool inside_curve(") < joined.index("float view_coverage(")
+    )
+
+
+@pytest.mark.parametrize("name", ["nowhere.glsl", "../shaders.py"])
+def test_an_unknown_include_is_refused(name: str) -> None:
+    with pytest.raises(FileNotFoundError, match=re.escape(name)):
+        join(name)
+
+
+def test_the_mirror_has_the_same_functions_with_the_same_arguments() -> None:
+    for file, text in FILES.items():
+        for name, arguments in DEFINITION.findall(text):
+            if name not in ALONE:
+                shader = [argument.split()[1] for argument in arguments.split(", ")]
+                mirror = list(inspect.signature(getattr(MIRROR[file], name)).parameters)
+                while mirror != shader and mirror[0] in UNIFORMS:
+                    del mirror[0]
+                assert mirror == shader, name
+
+
+def test_the_mirror_has_the_same_structures() -> None:
+    for file, text in FILES.items():
+        for name, body in STRUCT.findall(text):
+            assert tuple(re.findall(r"^ +\w+ (\w+);", body, re.MULTILINE)) == getattr(MIRROR[file], name)._fields
+
+
+@pytest.mark.parametrize("module", [layout, shading])
+def test_the_numbers_are_pythons(module: object) -> None:
+    text = constants(module)  # type: ignore[arg-type]
+    for kind, name, value in re.findall(r"^const (int|float) (\w+) = (.*);$", text, re.MULTILINE):
+        assert {"int": int, "float": float}[kind](value) == getattr(module, name)
+    assert "const int CELL_ORDER[4]" in constants(layout)
+    assert "const float CONTROL_MIN = -1.25;" in constants(layout)
+    assert "const int SAMPLES = 4;" in constants(shading)
+
+
+def test_the_bounds_of_the_loops_are_the_textures() -> None:
+    assert TextureSizes.of(texture_of([FULL, EMPTY, FULL, EMPTY])).levels == 1
+    assert TextureSizes.of(texture_of(TREE)).levels == 3
+    assert "const int LEVELS = 3;\nconst int FOLD_HEIGHT = 100;\n" in source("330", texture_of(TREE), 100)
+
+
+def test_a_quad_below_itself_is_refused() -> None:
+    texture = texture_of([[FULL] * 4, FULL, FULL, FULL])
+    texture.quads[1, 0] = 65535, 0, 0
+    with pytest.raises(FormatError, match="below itself"):
+        TextureSizes.of(texture)

@@ -1,0 +1,60 @@
+"""Other renderers' pictures of an SVG file and of a drawing, premultiplied RGBA in 0..1.
+
+Only for files that we wrote ourselves: both libraries crash on hostile ones.
+"""
+
+import io
+from pathlib import Path
+
+import numpy as np
+import resvg
+import skia
+from PIL import Image
+
+from vexture.drawing import Drawing, FillRule
+
+__all__ = ["difference", "render_drawing", "render_file"]
+
+FILL_TYPES = {FillRule.NONZERO: skia.PathFillType.kWinding, FillRule.EVENODD: skia.PathFillType.kEvenOdd}
+
+
+def render_file(text: str) -> np.ndarray:
+    """What resvg draws, (height, width, 4), at the file's own size."""
+    tree = resvg.usvg.Tree.from_str(text, resvg.usvg.Options.default())
+    png = bytes(resvg.render(tree, (1, 0, 0, 0, 1, 0)))
+    return premultiplied(np.array(Image.open(io.BytesIO(png)).convert("RGBA")))
+
+
+def render_drawing(drawing: Drawing, height: int, width: int) -> np.ndarray:
+    """What Skia draws from the contours of a drawing that fills a rectangle, (height, width, 4)."""
+    size = max(height, width)
+    pixels = np.zeros((size, size, 4), np.uint8)
+    with skia.Surface(pixels) as canvas:
+        for path in drawing.paths:
+            outline = skia.Path()
+            outline.setFillType(FILL_TYPES[path.fill_rule])
+            for contour in path.contours:
+                points = np.stack([contour[..., 0], 1.0 - contour[..., 1]], axis=-1) * size
+                outline.moveTo(*points[0, 0].tolist())
+                for cubic in points:
+                    outline.cubicTo(*cubic[1:].ravel().tolist())
+                outline.close()
+            color = skia.Color4f(*path.paint.color, path.paint.opacity)
+            canvas.drawPath(outline, skia.Paint(Color4f=color, AntiAlias=True))
+    top, left = (size - height) // 2, (size - width) // 2
+    return premultiplied(pixels)[top : top + height, left : left + width]
+
+
+def premultiplied(pixels: np.ndarray) -> np.ndarray:
+    scaled = pixels / 255.0
+    scaled[..., :3] *= scaled[..., 3:]
+    return scaled
+
+
+def difference(path: Path, drawing: Drawing, text: str | None = None) -> tuple[float, float]:
+    """Mean over the touched pixels and largest over all of the difference between file and drawing."""
+    theirs = render_file(text or path.read_text())
+    ours = render_drawing(drawing, *theirs.shape[:2])
+    gap = np.abs(theirs - ours).max(axis=2)
+    touched = (theirs[..., 3] > 0) | (ours[..., 3] > 0)
+    return (float(gap[touched].mean()) if touched.any() else 0.0), float(gap.max())

@@ -1,0 +1,141 @@
+"""Bad input: one line, no traceback, and nothing outside the file is touched."""
+
+import gzip
+import re
+import warnings
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from vexture.errors import SourceError, SourceWarning
+from vexture.sources.svg import read_svg
+
+FIXTURES = Path(__file__).parent / "fixtures"
+HEAD = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">'
+
+SAID = {
+    "arc-1e300": "coordinate of .*; the limit is 1e.12",
+    "coordinate-1e300": '<path id="far"> in line 2: it has a coordinate of 1e.300; the limit is 1e.12',
+    "coordinate-infinite": "<path> in line 2: it has a coordinate of (nan|inf); the limit is 1e.12",
+    "dash-bomb": "dashes; the limit is 100,000; lengthen",
+    "empty": "not well-formed XML",
+    "entity-bomb": "entities expand to too much text",
+    "external-dtd": "Entity .* external ones never",
+    "external-entity": "Entity .* external ones never",
+    "far-from-view-box": "the limit is 1e.09; correct the coordinate",
+    "html": "the root element is <html>, not <svg>",
+    "length-1e300": "<rect> in line 2: the number 1e300 is too large; the limit is 1e.12",
+    "not-xml": "not well-formed XML",
+    "transform-1e300": "the transforms multiply to 1e.22; the limit is 1e.12",
+    "truncated": "not well-formed XML: Premature end of data in tag g line 2",
+    "use-ancestor": 'shows itself .a cycle through <svg id="top"> in line 1.',
+    "use-bomb": "<use> shows more than 50,000 elements",
+    "use-cycle": "shows itself .a cycle",
+    "use-itself": "shows itself .a cycle",
+    "view-box-nan": "viewBox is '0 0 nan 10'; it must be four numbers",
+    "view-box-three": "viewBox is '0 0 10'; it must be four numbers",
+    "view-box-zero": "viewBox is '0 0 0 0'; its width and height must be at least",
+    "width-zero": "the width of the outermost <svg> is 0",
+}
+
+GENERATED = {
+    "nested.svg": (HEAD + "<g>" * 50_000 + "</g>" * 50_000 + "</svg>", "nested more than 256 deep"),
+    "unclosed.svg": (HEAD + "<g>" * 50_000, "nested more than 256 deep"),
+    "long.svg": (HEAD + f'<path d="M0 0{"L12.345 45.678" * 1_000_000}"/></svg>', "longer than 10,000,000 characters"),
+    "chain.svg": (
+        HEAD + "".join(f'<use id="u{k}" href="#u{k + 1}"/>' for k in range(2000)) + '<g id="u2000"/></svg>',
+        "stands inside 1,000 others",
+    ),
+    "brackets.svg": (HEAD + f"<rect style='fill:{'[' * 50_000}'/></svg>", "nests brackets too deeply"),
+    "cut.svgz": (gzip.compress(HEAD.encode() + b"</svg>")[:-9], "gzip data breaks off"),
+    "damaged.svgz": (b"\x1f\x8b" + b"\x07" * 50, "gzip data is damaged"),
+    "bomb.svgz": (gzip.compress(b" " * (2**28 + 9)), "larger than 268,435,456 bytes"),
+    "bytes.svg": (bytes(range(256)) * 9, "not well-formed XML"),
+}
+
+
+def message_of(path: Path | str) -> str:
+    with pytest.raises(SourceError) as caught:
+        read_svg(path)
+    message = str(caught.value)
+    assert message.startswith(f"{path}: ")
+    assert "\n" not in message
+    assert len(message) < len(str(path)) + 300
+    return message
+
+
+@pytest.mark.parametrize("path", sorted((FIXTURES / "bad").glob("*.svg")), ids=lambda path: path.stem)
+def test_bad_files_are_refused_in_one_line(path: Path) -> None:
+    message = message_of(path)
+    assert re.search(SAID[path.stem], message), message
+    assert "root:" not in message  # nothing of /etc/passwd
+
+
+@pytest.mark.parametrize("name", sorted(GENERATED))
+def test_bombs_are_refused_in_one_line(tmp_path: Path, name: str) -> None:
+    content, said = GENERATED[name]
+    file = tmp_path / name
+    file.write_bytes(content if isinstance(content, bytes) else content.encode())
+    assert said in message_of(file)
+
+
+def test_files_that_cannot_be_opened(tmp_path: Path) -> None:
+    assert "No such file" in message_of(tmp_path / "missing.svg")
+    assert "directory" in message_of(tmp_path).lower()
+    assert "cannot be read" in message_of("null\0character.svg")
+
+
+def test_an_external_entity_in_an_attribute_is_not_read(tmp_path: Path) -> None:
+    secret, file = tmp_path / "secret.txt", tmp_path / "a.svg"
+    secret.write_text("M0 0h9v9z")
+    file.write_text(f'<!DOCTYPE svg [<!ENTITY x SYSTEM "{secret.as_uri()}">]>{HEAD}<path d="&x;"/></svg>')
+    assert "Entity" in message_of(file)
+
+
+def test_a_path_of_a_million_segments_is_read(tmp_path: Path) -> None:
+    file = tmp_path / "a.svg"
+    steps = "h1v1" * 499_999
+    file.write_text(f'<svg viewBox="0 0 500000 500000"><path d="M0 0{steps}v-499999z"/></svg>')
+    assert read_svg(file).segments == 1_000_000
+
+
+def test_a_selector_that_cannot_be_read_is_named(tmp_path: Path) -> None:
+    file = tmp_path / "a.svg"
+    file.write_text(f"{HEAD}<style>{':not(' * 3000}g{')' * 3000} {{fill: red}} ::{{}}</style></svg>")
+    with pytest.warns(SourceWarning, match="CSS selector"):
+        read_svg(file)
+
+
+BENIGN = [path.read_bytes() for path in sorted(FIXTURES.glob("*/*.svg")) if "bomb" not in path.stem]
+TOKENS = [
+    *(b"0 -1 1e300 1e-300 nan 1e12 -1e12 1e9 00000 . - e % em auto none inherit currentColor z A M0 # url(#a)").split(),
+    *(b"< > / & ( ) { } [ ] : ; @ \" ' \\ rgb( hsl( color() var(--a) calc(1px) !important scale(0) \xff \x00").split(),
+]
+
+
+@st.composite
+def damaged(draw: st.DrawFn) -> bytes:
+    """A fixture with a few bytes replaced, inserted or removed."""
+    content = draw(st.sampled_from(BENIGN))
+    for _ in range(draw(st.integers(1, 5))):
+        at = draw(st.integers(0, len(content)))
+        removed = draw(st.integers(0, 6))
+        content = content[:at] + draw(st.sampled_from([b"", *TOKENS])) + content[at + removed :]
+    return content
+
+
+@settings(max_examples=400, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(content=damaged())
+def test_a_damaged_file_is_read_or_refused(tmp_path: Path, content: bytes) -> None:
+    file = tmp_path / "damaged.svg"
+    file.write_bytes(content)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SourceWarning)
+        try:
+            paths, message = read_svg(file).paths, ""
+        except SourceError as error:
+            paths, message = (), str(error)
+    assert "\n" not in message
+    assert all(contour[:, 0].min() >= 0 and contour[:, 0].max() <= 1 for path in paths for contour in path.contours)

@@ -1,0 +1,167 @@
+"""Every one-issue fixture looks like what resvg draws, or like a plainer file that says the same."""
+
+import gzip
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from svg_reference import difference
+
+from vexture.drawing import Drawing
+from vexture.errors import SourceWarning
+from vexture.sources.svg import read_svg
+
+FIXTURES = Path(__file__).parent / "fixtures"
+TOPICS = ("paths", "shapes", "strokes", "structure", "style", "transform", "viewport")
+
+# what PyPI's resvg does not know, in words that it and we understand alike
+PLAINER = {
+    "paths/data-in-css": '<path d="M10 10H90V90z"/>',
+    "strokes/dashes-path-length": '<path d="M10 44h8v12h-8zm16 0h8v12h-8zm16 0h8v12h-8zm16 0h8v12h-8zm16 0h8v12h-8z"/>',
+    "strokes/not-scaling": '<path fill="none" stroke="black" stroke-width="10" d="M20 15L50 75L80 15"/>',
+    "style/geometry-in-css": '<circle cx="50" cy="50" r="30"/>',
+    "style/important": '<g fill="red"><path d="M10 10h30v30h-30z"/><path fill="blue" d="M50 50h30v30h-30z"/></g>',
+    "style/invalid-color-inherits": '<rect x="10" y="10" width="30" height="30" fill="red"/>',
+    "style/invalid-style-falls-back": '<rect x="10" y="10" width="30" height="30" fill="red"/>',
+    "style/media": '<rect x="10" y="10" width="30" height="30" fill="red"/>',
+    "style/selectors": '<path fill="red" d="M10 10h30v30h-30z"/><rect x="50" y="50" width="30" height="30" fill="green"'
+    ' fill-opacity="0.5" stroke="blue" stroke-width="4"/>',
+    "transform/css-fill-box": '<rect x="20" y="30" width="40" height="20" transform="rotate(45 40 40)"/>',
+    "transform/css-origin": '<rect x="10" y="10" width="30" height="30" transform="rotate(45 50 50)"/>',
+    "transform/css-origin-keywords": '<rect x="20" y="30" width="40" height="20" transform="rotate(30 50 50)"/>',
+    "transform/css-over-attribute": '<rect x="20" y="40" width="30" height="30"/>',
+    "transform/css-percent": '<rect x="30" y="50" width="40" height="20"/>',
+    "transform/css-units": '<rect x="10" y="10" width="30" height="30" transform="translate(20 10) rotate(36)"/>',
+    "viewport/height-only": '<circle cx="50" cy="50" r="45"/>',
+    "viewport/width-only": '<circle cx="50" cy="50" r="45"/>',
+}
+
+
+def read_quietly(path: Path) -> Drawing:
+    """Read a file some of whose values are invalid on purpose."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SourceWarning)
+        return read_svg(path)
+
+
+def fixture_names() -> list[str]:
+    return [f"{topic}/{path.stem}" for topic in TOPICS for path in sorted((FIXTURES / topic).glob("*.svg"))]
+
+
+@pytest.mark.parametrize("name", fixture_names())
+def test_looks_like_the_reference(name: str) -> None:
+    path = FIXTURES / f"{name}.svg"
+    plainer = PLAINER.get(name)
+    text = plainer and f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box_of(path)}">{plainer}</svg>'
+    mean, most = difference(path, read_quietly(path), text)
+    assert mean < 0.04
+    assert most < 0.5
+
+
+def box_of(path: Path) -> str:
+    return "0 0 200 100" if path.stem == "height-only" else "0 0 100 100"
+
+
+def test_fixtures_are_all_there() -> None:
+    assert len(fixture_names()) > 140
+    assert set(PLAINER) <= set(fixture_names())
+
+
+def drawing_of(folder: Path, body: str, root: str = 'viewBox="0 0 100 100"') -> Drawing:
+    file = folder / "drawing.svg"
+    file.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" {root}>{body}</svg>')
+    return read_svg(file)
+
+
+def test_segments_are_counted_honestly(tmp_path: Path) -> None:
+    """A closing line counts if it draws something; a step without length never does."""
+    assert drawing_of(tmp_path, '<path d="M10 10h50v50z"/>').segments == 3
+    assert drawing_of(tmp_path, '<path d="M10 10h50v50L10 10z"/>').segments == 3
+    assert drawing_of(tmp_path, '<path d="M10 10h50l0 0v50c0 0 0 0 0 0z"/>').segments == 3
+    assert drawing_of(tmp_path, '<path d="M.1 .1l.2 0 0 .2 -.2 0 0 -.2z"/>').segments == 4
+    assert drawing_of(tmp_path, '<path d="M10 10L50 50"/><line x1="9" x2="50"/>').segments == 0
+
+
+def test_the_whole_viewport_fills_the_square(tmp_path: Path) -> None:
+    drawing = drawing_of(tmp_path, '<rect width="200" height="100"/>', 'viewBox="0 0 200 100"')
+    corners = drawing.paths[0].contours[0][:, 0]
+    assert corners.tolist() == [[0, 0.75], [1, 0.75], [1, 0.25], [0, 0.25]]
+
+
+@pytest.mark.parametrize(
+    "root",
+    [
+        'viewBox="-5 7 30 20"',
+        'viewBox="-5 7 30 20" width="300"',
+        'viewBox="-5 7 30 20" width="90" height="90" preserveAspectRatio="xMinYMax"',
+        'viewBox="-5 7 30 20" width="90" height="50" preserveAspectRatio="none"',
+        'width="40" height="60"',
+        "",
+    ],
+)
+def test_to_source_gives_user_units(tmp_path: Path, root: str) -> None:
+    drawing = drawing_of(tmp_path, '<path d="M3 9h8v4z"/>', root)
+    start = drawing.paths[0].contours[0][:, 0]
+    user = start @ drawing.to_source[:, :2].T + drawing.to_source[:, 2]
+    np.testing.assert_allclose(user, [[3, 9], [11, 9], [11, 13]], atol=1e-12)
+
+
+def test_a_file_without_size_is_as_large_as_what_it_paints(tmp_path: Path) -> None:
+    body = '<circle cx="50" cy="70" r="30" fill="none" stroke="red" stroke-width="20"/>'
+    drawing = drawing_of(tmp_path, body, "")
+    ends = np.concatenate([contour[:, 0] for contour in drawing.paths[0].contours])
+    np.testing.assert_allclose([ends.min(axis=0), ends.max(axis=0)], [[0, 0], [1, 1]], atol=1e-5)
+    np.testing.assert_allclose(drawing.to_source @ (0.5, 0.5, 1), [50, 70], atol=1e-3)
+
+
+def test_size_of_a_unitless_side_follows_the_view_box(tmp_path: Path) -> None:
+    drawing = drawing_of(tmp_path, '<rect width="20" height="10"/>', 'viewBox="0 0 20 10" height="30mm"')
+    assert np.ptp(drawing.paths[0].contours[0][:, 0], axis=0).tolist() == [1, 0.5]
+
+
+@pytest.mark.parametrize("body", ["", "<g/>", '<rect width="5"/>', '<path d=""/>', '<g display="none"><rect/></g>'])
+def test_nothing_painted_is_a_drawing(tmp_path: Path, body: str) -> None:
+    assert drawing_of(tmp_path, body).paths == ()
+    assert drawing_of(tmp_path, body, "").paths == ()
+
+
+def test_colors_and_opacity(tmp_path: Path) -> None:
+    drawing = drawing_of(
+        tmp_path, '<g opacity="0.5"><rect width="9" height="9" fill="#f80" fill-opacity="50%" opacity="0.4"/></g>'
+    )
+    paint = drawing.paths[0].paint
+    assert paint.color == pytest.approx((1, 136 / 255, 0))
+    assert paint.opacity == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize(
+    ("keyword", "fills", "opacities"),
+    [
+        ("inherit", [(1, 0, 0)], [0.25]),
+        ("unset", [(1, 0, 0)], [0.5]),
+        ("initial", [(0, 0, 0)], [0.5]),
+        ("revert", [(1, 0, 0)], [0.5]),
+    ],
+)
+def test_keywords_of_the_cascade(tmp_path: Path, keyword: str, fills: list[object], opacities: list[float]) -> None:
+    rect = f'<rect width="9" height="9" style="fill: {keyword}; opacity: {keyword}" fill="blue" opacity="0.1"/>'
+    drawing = drawing_of(tmp_path, f'<g fill="red" opacity="0.5">{rect}</g>')
+    assert [path.paint.color for path in drawing.paths] == fills
+    assert [path.paint.opacity for path in drawing.paths] == opacities
+
+
+def test_a_stroke_is_a_path_of_its_own(tmp_path: Path) -> None:
+    body = '<path d="M10 10H90V90z" fill="red" fill-rule="evenodd" stroke="blue" stroke-width="5"/>'
+    fill, stroke = drawing_of(tmp_path, body).paths
+    assert (fill.paint.color, stroke.paint.color) == ((1, 0, 0), (0, 0, 1))
+    assert (fill.fill_rule.name, stroke.fill_rule.name) == ("EVENODD", "NONZERO")
+
+
+def test_gzipped_and_utf16_files(tmp_path: Path) -> None:
+    text = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><rect width="5" height="5"/></svg>'
+    packed, wide = tmp_path / "a.svgz", tmp_path / "b.svg"
+    packed.write_bytes(gzip.compress(text.encode()))
+    wide.write_bytes(text.encode("utf-16"))
+    assert read_svg(packed).segments == read_svg(wide).segments == 4
+    assert read_svg(packed).name == "a"

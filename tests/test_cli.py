@@ -1,0 +1,244 @@
+"""The command line: what it prints and writes, and one line for everything that can go wrong."""
+
+import json
+import os
+import subprocess
+import sys
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+
+import vexture
+from vexture.cli import main
+
+SQUARE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><path d="M2 2h6v5h-6z"/></svg>'
+SVG = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 10 10">{}</svg>'
+
+
+def run(*arguments):
+    with warnings.catch_warnings():
+        warnings.simplefilter("default")
+        return CliRunner().invoke(main, [str(argument) for argument in arguments])
+
+
+@pytest.fixture
+def square(tmp_path):
+    file = tmp_path / "square.svg"
+    file.write_text(SQUARE)
+    return file
+
+
+def test_convert_prints_a_line_and_writes_a_pair(square, tmp_path):
+    result = run("convert", square, "-o", tmp_path / "out")
+    assert result.exit_code == 0
+    assert result.output.startswith("square: 4 segments, ")
+    for word in ("quads", "curves", "bytes", "ms", "distance"):
+        assert word in result.output
+    assert sorted(file.name for file in (tmp_path / "out").iterdir()) == ["square.curves.png", "square.quads.png"]
+
+
+@pytest.mark.parametrize("bits", [8, 16])
+@pytest.mark.parametrize("strategy", ["direct", "sampled"])
+def test_parameters_reach_the_conversion(square, tmp_path, bits, strategy):
+    arguments = ("--bits", bits, "--strategy", strategy, "--tolerance", "0.01", "--max-depth", "5")
+    assert run("convert", square, "-o", tmp_path, *arguments).exit_code == 0
+    texture = vexture.load(tmp_path / "square")
+    expected = vexture.convert(square, bits=bits, strategy=strategy, tolerance=0.01, max_depth=5)
+    assert texture.bits == bits
+    assert (texture.quads == expected.quads).all()
+    assert (texture.curves == expected.curves).all()
+
+
+def test_one_bad_file_among_many(square, tmp_path):
+    bad = tmp_path / "bad.svg"
+    bad.write_text("not xml")
+    other = tmp_path / "other.svg"
+    other.write_text(SQUARE)
+    result = run("convert", square, bad, other, "-o", tmp_path / "out")
+    assert result.exit_code == 1
+    assert "1 of 3 files failed" in result.output
+    assert len(list((tmp_path / "out").iterdir())) == 4
+
+
+def test_two_files_of_one_name_are_not_mixed_up(square, tmp_path):
+    (tmp_path / "b").mkdir()
+    twin = tmp_path / "b" / "square.svg"
+    twin.write_text(SQUARE.replace("h6", "h3"))
+    result = run("convert", square, twin, "-o", tmp_path / "out")
+    assert result.exit_code == 1
+    assert "is already what" in result.output
+    assert (vexture.load(tmp_path / "out" / "square").quads == vexture.convert(square).quads).all()
+
+
+@pytest.mark.parametrize("stem", ["square", "square.quads.png", "square.curves.png"])
+def test_render_takes_either_file_or_the_stem(square, tmp_path, stem):
+    run("convert", square, "-o", tmp_path)
+    picture = tmp_path / "picture.png"
+    result = run("render", tmp_path / stem, "-o", picture, "--size", 20, "--renderer", "cpu")
+    assert (result.exit_code, result.output) == (0, "")
+    image = np.asarray(Image.open(picture))
+    assert image.shape == (20, 20)
+    assert (image[8:10, 8:10] == 0).all()  # black inside
+    assert (image[0] == 255).all()  # white outside
+
+
+def test_view_and_rotation(square, tmp_path):
+    picture = tmp_path / "picture.png"
+    # the square spans x 0.2..0.8 and, y up, 0.3..0.8; this view shows its lower left corner in its middle
+    arguments = ("--size", 40, "--renderer", "exact", "--view", "0.1,0.2,0.2,0.2")
+    assert run("render", square, "-o", picture, *arguments).exit_code == 0
+    image = np.asarray(Image.open(picture))
+    assert image[10, 30] == 0
+    assert image[10, 10] == image[30, 10] == image[30, 30] == 255
+    run("render", square, "-o", picture, *arguments, "--rotate", 90)
+    turned = np.asarray(Image.open(picture))
+    assert (turned == np.rot90(image)).all()  # counter-clockwise, as NumPy turns
+    run("render", square, "-o", picture, "--size", 40, "--renderer", "exact", "--view", "0,0,1,0.5")
+    assert np.asarray(Image.open(picture)).shape == (20, 40)
+
+
+def test_info(square, tmp_path):
+    run("convert", square, "-o", tmp_path)
+    facts = json.loads(run("info", tmp_path / "square", "--json").output)
+    assert facts["encoding"] == "thesis"
+    assert facts["bits"] == 16
+    assert abs(facts["coverage"] - 0.3) < 1e-3
+    assert np.allclose(facts["transform"], [[10, 0, 0], [0, -10, 10]])
+    assert "quads" in run("info", tmp_path / "square").output
+
+
+def test_warnings_are_one_line(tmp_path):
+    file = tmp_path / "text.svg"
+    file.write_text(SVG.format('<text x="1" y="5">hello</text><text>again</text><path d="M2 2h6v5z"/>'))
+    result = run("convert", file, "-o", tmp_path)
+    assert result.exit_code == 0
+    lines = [line for line in result.output.splitlines() if "warning" in line]
+    assert len(lines) == 1
+    assert "text" in lines[0]
+
+
+def test_empty_drawing_is_an_empty_texture(tmp_path):
+    file = tmp_path / "empty.svg"
+    file.write_text(SVG.format(""))
+    assert run("convert", file, "-o", tmp_path).exit_code == 0
+    assert json.loads(run("info", tmp_path / "empty", "--json").output)["coverage"] == 0
+
+
+BOMB = "".join(f'<g id="g{k}">' + f'<use href="#g{k + 1}"/>' * 10 + "</g>" for k in range(12))
+BAD = {
+    "not xml": "this is not xml",
+    "truncated": SQUARE[:60],
+    "entity bomb": '<!DOCTYPE svg [<!ENTITY a "aaaaaaaaaa">'
+    + "".join(f'<!ENTITY {b} "{f"&{a};" * 10}">' for a, b in zip("abcdefghi", "bcdefghij", strict=True))
+    + f"]>{SVG.format('<desc>&j;</desc>')}",
+    "nested groups": SVG.format("<g>" * 50_000 + "</g>" * 50_000),
+    "use cycle": SVG.format('<g id="a"><use href="#b"/></g><g id="b"><use href="#a"/></g><use href="#a"/>'),
+    "use bomb": SVG.format(BOMB + '<path id="g12" d="M1 1h1v1z"/>'),
+    "huge": SVG.format('<path d="M1e300 0L1 1L0 1z"/>'),
+    "not finite": SVG.format('<path d="M1e999 0L1 1L0 1z"/>'),
+    "nan": SVG.format(
+        '<g transform="scale(NaN)"><path d="M1 0L1 1L0 1z"/></g><rect x="nan" width="1e400" height="3"/>'
+    ),
+    "zero viewBox": SQUARE.replace("0 0 10 10", "0 0 0 10"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_drawings_get_one_line(case, tmp_path):
+    file = tmp_path / "bad.svg"
+    file.write_text(BAD[case])
+    result = run("convert", file, "-o", tmp_path / "out")
+    assert result.exception is None or isinstance(result.exception, SystemExit)
+    assert "Traceback" not in result.output
+    assert result.output.count("\n") == 1
+    if result.exit_code == 0:  # what a reader must leave out it names
+        assert case in ("nan", "use cycle", "not finite", "huge")
+    else:
+        assert result.exit_code == 1
+        assert not any((tmp_path / "out").iterdir())
+
+
+def test_external_entity_is_never_read(tmp_path):
+    secret = tmp_path / "secret.txt"
+    secret.write_text("M2 2h6v6z")
+    file = tmp_path / "external.svg"
+    file.write_text(f'<!DOCTYPE svg [<!ENTITY x SYSTEM "{secret.as_uri()}">]>' + SVG.format('<path d="&x;"/>'))
+    result = run("convert", file, "-o", tmp_path / "out")
+    assert result.exit_code in (0, 1)
+    if result.exit_code == 0:
+        assert json.loads(run("info", tmp_path / "out" / "external", "--json").output)["coverage"] == 0
+
+
+@pytest.mark.parametrize("command", ["convert", "render", "info"])
+def test_missing_file(command, tmp_path):
+    target = () if command == "info" else ("-o", tmp_path / "out" / "x.png")
+    result = run(command, tmp_path / "missing.svg", *target)
+    assert result.exit_code == 1
+    assert "missing" in result.output
+    assert result.output.count("\n") == 1
+
+
+def test_lists_too_long_name_the_remedy(tmp_path):
+    hairline = Path(__file__).parents[1] / "examples" / "shapes" / "hairline.svg"
+    result = run("convert", hairline, "-o", tmp_path, "--bits", 8)
+    assert result.exit_code == 1
+    assert "256" in result.output
+    assert "--bits 16" in result.output
+    assert not list(tmp_path.iterdir())
+
+
+def test_folder_that_cannot_be_written(square, tmp_path):
+    (tmp_path / "file").write_text("")
+    result = run("convert", square, "-o", tmp_path / "file" / "out")
+    assert result.exit_code == 1
+    assert result.output.count("\n") == 1
+    assert "choose another folder" in result.output
+
+
+def test_picture_that_cannot_be_written(square, tmp_path):
+    result = run("render", square, "-o", tmp_path / "none" / "x.png", "--renderer", "exact", "--size", 8)
+    assert result.exit_code == 1
+    assert "choose another file" in result.output
+
+
+@pytest.mark.parametrize(
+    ("command", "arguments"),
+    [
+        ("render", ("--size", "0")),
+        ("render", ("--size", "100000")),
+        ("render", ("--view", "0,0,0,1")),
+        ("render", ("--view", "0,0,nan,1")),
+        ("render", ("--rotate", "inf")),
+        ("convert", ("--tolerance", "0")),
+        ("convert", ("--tolerance", "nan")),
+        ("convert", ("--max-depth", "99")),
+    ],
+)
+def test_numbers_out_of_range(square, tmp_path, command, arguments):
+    extra = ("--renderer", "exact") if command == "render" else ()
+    result = run(command, square, "-o", tmp_path / "out", *extra, *arguments)
+    assert result.exit_code == 1
+    assert result.output.count("\n") == 1
+
+
+def test_exact_renderer_needs_the_drawing(square, tmp_path):
+    run("convert", square, "-o", tmp_path)
+    result = run("render", tmp_path / "square", "-o", tmp_path / "x.png", "--renderer", "exact")
+    assert result.exit_code == 1
+    assert "drawing" in result.output
+
+
+def test_module_and_function_of_one_name():
+    code = "import vexture; vexture.convert; import vexture.render.view; assert callable(vexture.render)"
+    subprocess.run([sys.executable, "-c", code], check=True, env=os.environ)
+
+
+def test_public_names_are_there():
+    for name in vexture.__all__:
+        assert getattr(vexture, name).__name__ == name
+    with pytest.raises(AttributeError, match="nothing"):
+        _ = vexture.nothing

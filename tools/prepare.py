@@ -1,0 +1,141 @@
+"""Prepare this machine: `prepare.py venv` makes .venv, `prepare.py system` installs what the tests need beyond it.
+
+System packages are installed only by root, and only where there is apt-get; elsewhere they are named, together with
+the tests that are skipped without them. Whether something is there is found out by using it.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+__all__ = ["Need", "main"]
+
+ROOT = Path(__file__).resolve().parents[1]
+PIP = (str(ROOT / ".venv" / "bin" / "python"), "-m", "pip", "--version")
+
+
+@dataclass(frozen=True, slots=True)
+class Need:
+    """Something that this program uses but cannot bring along.
+
+    Parameters
+    ----------
+    what : str
+        Its name for people.
+    use : str
+        Python text that fails, in a process of its own, where it is missing.
+    packages : tuple of str
+        Debian packages that bring it; none where it comes from elsewhere.
+    skipped : str
+        What is not done without it.
+    """
+
+    what: str
+    use: str
+    packages: tuple[str, ...]
+    skipped: str
+
+    def complaint(self) -> str | None:
+        """Return why it cannot be used, in one line; None if it can."""
+        environment = {**os.environ, "PYTHONPATH": str(ROOT / "benchmarks")}
+        command = [sys.executable, "-c", self.use]
+        outcome = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+        if outcome.returncode == 0:
+            return None
+        *_, last = outcome.stderr.strip().splitlines() or [f"exit code {outcome.returncode}"]
+        return last.rpartition("Error: ")[2]
+
+
+VENV = Need(
+    "Python's venv",
+    "import ensurepip, venv",
+    (f"python{sys.version_info.major}.{sys.version_info.minor}-venv",),
+    "everything: no .venv can be made",
+)
+SYSTEM = (
+    Need(
+        "OpenGL without a window",
+        "from vexture.render.gpu import context; context()",
+        ("libegl1", "libgl1", "libgl1-mesa-dri", "libgles2", "libgbm1"),
+        "the tests of the gpu renderer",
+    ),
+    Need(
+        "the libraries of Skia",
+        "import skia",
+        ("libegl1", "libgl1", "libexpat1"),
+        "the comparisons with Skia",
+    ),
+    Need(
+        "the font DejaVu Sans",
+        "import corpora; corpora.dejavu_sans()",
+        ("fonts-dejavu-core",),
+        "the tests on glyphs",
+    ),
+    Need(
+        "the icon sets of npm",
+        "import corpora; corpora.mdi(1, 0); corpora.simple_icons(1, 0)",
+        (),
+        "the tests on real icons",
+    ),
+)
+
+
+def install(packages: list[str]) -> None:
+    """Let apt-get install packages, or print why it did not; asks nothing."""
+    print(f"installing {' '.join(packages)} ...", flush=True)
+    environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+    for arguments in (["update"], ["install", "--yes", "--no-install-recommends", *packages]):
+        command = ["apt-get", "--quiet", "--option", "DPkg::Lock::Timeout=120", *arguments]
+        outcome = subprocess.run(
+            command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
+        )
+        if outcome.returncode:
+            *_, reason = outcome.stderr.strip().splitlines() or ["it says nothing"]
+            print(f"apt-get {arguments[0]} failed: {reason}", flush=True)
+
+
+def provide(needs: tuple[Need, ...]) -> bool:
+    """Install what is missing where that is allowed, name what is still missing; whether nothing is."""
+    missing = [need for need in needs if need.complaint()]
+    packages = sorted({package for need in missing for package in need.packages})
+    if packages and os.geteuid() == 0 and shutil.which("apt-get"):
+        install(packages)
+    complete = True
+    for need in missing:
+        reason = need.complaint()
+        if reason:
+            complete = False
+            remedy = f" (on Debian: apt-get install {' '.join(need.packages)})" if need.packages else ""
+            print(f"missing: {need.what}{remedy}\n  because: {reason}\n  skipped: {need.skipped}", flush=True)
+    return complete
+
+
+def make_venv() -> int:
+    """Make .venv with pip, unless it is there; the exit code."""
+    try:
+        if subprocess.run(PIP, capture_output=True, check=False).returncode == 0:
+            return 0
+    except OSError:
+        pass
+    if not provide((VENV,)):
+        return 1
+    print("making .venv ...", flush=True)
+    return subprocess.run([sys.executable, "-m", "venv", str(ROOT / ".venv")], check=False).returncode
+
+
+def main() -> int:
+    """Do what the one argument says; the exit code."""
+    if sys.argv[1:] == ["venv"]:
+        return make_venv()
+    if sys.argv[1:] == ["system"]:
+        provide(SYSTEM)
+        return 0
+    print("usage: prepare.py venv | system", file=sys.stderr)
+    return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())
