@@ -118,15 +118,28 @@ def svg(chain: Array) -> str:
     def point(xy: Array) -> str:
         return ",".join(f"{coordinate:g}" for coordinate in xy.round(2))
 
-    curves = "\n".join("    C " + " ".join(map(point, cubic[1:])) for cubic in chain)
+    curves = "\n".join("      C " + " ".join(map(point, cubic[1:])) for cubic in chain)
     return f"""<?xml version="1.0" encoding="UTF-8"?>
 <svg xmlns="http://www.w3.org/2000/svg" version="1.1" width="256" height="256" viewBox="0 0 256 256">
   <title>Ocean</title>
   <desc>The Pacific at Santa Cruz, California, 22 km wide, fitted to the GSHHG coastline (LGPL-3.0-or-later).</desc>
-  <path fill="#2b7a9e" d="
-    M {point(chain[0, 0])}
+  <metadata>
+    <rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#"
+             xmlns:cc="http://creativecommons.org/ns#"
+             xmlns:dc="http://purl.org/dc/elements/1.1/">
+      <cc:Work rdf:about="">
+        <dc:title>Ocean</dc:title>
+        <dc:creator>Wessel and Smith; the vexture authors</dc:creator>
+        <cc:license rdf:resource="https://www.gnu.org/licenses/lgpl-3.0.html"/>
+      </cc:Work>
+    </rdf:RDF>
+  </metadata>
+  <g id="ocean">
+    <path style="fill:#2b7a9e" d="
+      M {point(chain[0, 0])}
 {curves}
-    V 256 H 0 Z"/>
+      V 256 H 0 Z"/>
+  </g>
 </svg>
 """
 
