@@ -27,7 +27,8 @@ float coverage(sampler2D quads, sampler2D curves, vec2 center, vec2 dx, vec2 dy)
     for (int i = 0; i < SAMPLES * SAMPLES; i++) {
         int row = i / SAMPLES;
         int column = row % 2 == 0 ? i % SAMPLES : SAMPLES - 1 - i % SAMPLES;  // to and fro, so that few steps leave a cell
-        vec2 offset = (vec2(column, row) + 0.5) / float(SAMPLES) - 0.5;
+        vec2 turned = (vec2(row, SAMPLES - 1 - column) + 0.5) / float(SAMPLES);
+        vec2 offset = (vec2(column, row) + turned) / float(SAMPLES) - 0.5;
         vec2 point = center + offset.x * dx + offset.y * dy;
         if (!cell_contains(cell, point, point)) {
             cell = find_cell(quads, curves, point, footprint);

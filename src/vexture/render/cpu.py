@@ -209,7 +209,8 @@ def coverage(quads: List, curves: List, center: Vec2, dx: Vec2, dy: Vec2) -> flo
     for i in range(SAMPLES * SAMPLES):
         row = i // SAMPLES
         column = i % SAMPLES if row % 2 == 0 else SAMPLES - 1 - i % SAMPLES
-        s, t = (column + 0.5) / SAMPLES - 0.5, (row + 0.5) / SAMPLES - 0.5
+        s = (column + (row + 0.5) / SAMPLES) / SAMPLES - 0.5
+        t = (row + (SAMPLES - column - 0.5) / SAMPLES) / SAMPLES - 0.5
         point = (center[0] + s * dx[0] + t * dy[0], center[1] + s * dx[1] + t * dy[1])
         if not cell_contains(cell, point, point):
             cell = find_cell(quads, curves, point, footprint)
