@@ -1,7 +1,8 @@
 """Compiled kernels: one decorator, one cache, one announcement.
 
 Numba's own cache watches only the file of the function itself, so a kernel would go on calling the old code of a
-kernel that it imports. The cache folder is therefore named after the text of all modules that hold kernels.
+kernel, or with the old value of a constant, that it imports. The cache folder is therefore named after the text of all
+modules that hold either.
 """
 
 import hashlib
@@ -26,7 +27,7 @@ def kernel_cache() -> Path:
     digest = hashlib.sha256(numba.__version__.encode())
     for module in sorted(package.rglob("*.py")):
         text = module.read_bytes()
-        if b"@kernel" in text:
+        if b"@kernel" in text or b": Final" in text:
             digest.update(text)
     default = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "vexture"
     root = Path(os.environ.get("VEXTURE_CACHE") or default)
@@ -58,7 +59,7 @@ class _Announcement(event.Listener):  # type: ignore[misc]
         pass
 
 
-numba.config.CACHE_DIR = str(kernel_cache())
+CACHE = str(kernel_cache())
 event.register("numba:compile", _Announcement())
 
 
@@ -73,7 +74,9 @@ def kernel(function: F) -> F:
     >>> cubic_at(0.0, 0.0, 1.0, 1.0, 0.5)
     0.5
     """
+    caller, numba.config.CACHE_DIR = numba.config.CACHE_DIR, CACHE  # read while decorating; others may use Numba too
     private = function.__name__.startswith("_")  # called by kernels only: Python needs no way in
     compile_ = numba.njit(cache=True, error_model="numpy", no_cfunc_wrapper=True, no_cpython_wrapper=private)
     compiled: F = compile_(function)
+    numba.config.CACHE_DIR = caller
     return compiled

@@ -17,11 +17,16 @@ from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
 from vexture.quadtree.boundary import quantise, resolve
 from vexture.quadtree.chain import JOIN, Chain, link_chain, on_edge
-from vexture.quadtree.tree import CONTROL_MAX, CONTROL_MIN
+from vexture.quadtree.tree import CONTROL_MAX, CONTROL_MIN, CellKind
 from vexture.quadtree.winding import inside, winding_area
 
 __all__ = [
+    "CORNER",
+    "CURVE",
+    "EMPTY",
+    "FULL",
     "NO_LEAF",
+    "QUAD",
     "Leaf",
     "cell_chain",
     "chain_leaf",
@@ -32,7 +37,7 @@ __all__ = [
     "snap_to_edge",
 ]
 
-CURVE, CORNER, FULL, EMPTY = 0, 2, 3, 4  # CellKind, whose members a kernel cannot use
+CURVE, QUAD, CORNER, FULL, EMPTY = (int(kind) for kind in CellKind)  # as kernels can use them
 NO_LEAF = -1
 
 SHORTEST_CHORD = 16.0 * JOIN
