@@ -5,13 +5,15 @@
 Every drawing of the table is converted by both strategies, 16 bits unless said otherwise. Sizes are in bytes: of the
 SVG file, of its path data alone, and of both texture files together. Times are medians in ms, with the kernels
 compiled and the file cached: *files* from the SVG file to the texture files, parsing and PNG included; *tree* of the
-quad-tree and its leaves alone; *sampled* the whole way by that strategy.
+quad-tree and its leaves alone; *sampled* the whole way by that strategy. Every time the files get new names: to replace
+a file that exists, some file systems wait for the disk (ext4, for up to 8 ms).
 """
 
 import argparse
 import tempfile
 import time
 from collections.abc import Callable, Iterable, Sequence
+from itertools import count
 from pathlib import Path
 from statistics import median
 from typing import Any, Literal, NamedTuple
@@ -125,10 +127,15 @@ def time_facts(name: str, repeat: int, folder: Path) -> dict[str, float]:
     """Times of one drawing's conversion."""
     svg = SHAPES / f"{name}.svg"
     drawing, step = read_svg(svg), quantisation_step(16)
+    places = (folder / f"{name}-{number}" for number in count())
+
+    def files(strategy: Strategy) -> None:
+        convert(svg, strategy=strategy).save(next(places))
+
     return {
-        "files_ms": median_ms(lambda: convert(svg).save(folder), repeat),
+        "files_ms": median_ms(lambda: files("direct"), repeat),
         "tree_ms": median_ms(lambda: build(drawing, step=step), repeat),
-        "sampled_ms": median_ms(lambda: convert(svg, strategy="sampled").save(folder), min(repeat, REPEAT_SAMPLED)),
+        "sampled_ms": median_ms(lambda: files("sampled"), min(repeat, REPEAT_SAMPLED)),
     }
 
 
@@ -199,7 +206,7 @@ LEGEND = "SVG to the first thesis: bytes; direct to the second thesis: curves/qu
 def line(facts: dict[str, Any]) -> list[str]:
     """The table's row of one drawing."""
 
-    def count(found: dict[str, Any]) -> str:
+    def counts(found: dict[str, Any]) -> str:
         return f"{found['curves']}/{found['quads']}"
 
     thesis = facts["thesis"]
@@ -211,9 +218,9 @@ def line(facts: dict[str, Any]) -> list[str]:
         str(facts["direct_8"]["bytes"]),
         str(facts["direct"]["bytes"]),
         f"{thesis['bytes_8']}, {thesis['bytes_16']}",
-        count(facts["direct"]),
-        count(facts["sampled"]),
-        count(thesis),
+        counts(facts["direct"]),
+        counts(facts["sampled"]),
+        counts(thesis),
         f"{facts['files_ms']:.1f}",
         f"{facts['tree_ms']:.2f}",
         f"{facts['sampled_ms']:.0f}",
