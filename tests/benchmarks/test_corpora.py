@@ -70,18 +70,18 @@ def test_failing_npm_leaves_nothing_behind(tmp_path, monkeypatch):
 
 
 def test_glyphs_are_the_outlines_of_the_example(dejavu):
-    """examples/shapes/font.svg says "Nile" in units of the same font, y down, 40 from the left, baseline at 2795."""
+    """examples/shapes/font.svg sets TI above DE in units of the bold font, y down, from these points to the right."""
     (path,) = etree.parse(ROOT / "examples" / "shapes" / "font.svg").getroot().iter("{*}path")
     pen = corpora.ContourPen(None)
     parse_path(path.get("d"), pen)
-    expected = [contour * (1, -1) + (-40, 2795) for contour in pen.contours]
-    drawn, advance = [], 0.0
-    for drawing in corpora.glyphs(dejavu, "Nile"):
-        em = drawing.to_source * 2048
-        drawn += [contour @ em[:, :2].T + em[:, 2] + (advance, 0) for contour in drawing.paths[0].contours]
-        advance += em[0] @ (1, 0, 1) + em[0, 2]  # centred: the two sides of the square add up to the advance
+    drawn = []
+    for text, x, y in (("TI", 880, 1811), ("DE", 410, 3602)):
+        for drawing in corpora.glyphs(dejavu.with_name("DejaVuSans-Bold.ttf"), text):
+            em = drawing.to_source * 2048
+            drawn += [(contour @ em[:, :2].T + em[:, 2]) * (1, -1) + (x, y) for contour in drawing.paths[0].contours]
+            x += em[0] @ (1, 0, 1) + em[0, 2]  # centred: the two sides of the square add up to the advance
     assert sum(map(len, drawn)) == 42
-    for one, other in zip(drawn, expected, strict=True):
+    for one, other in zip(drawn, pen.contours, strict=True):
         assert np.abs(one - other).max() < 1e-9
 
 

@@ -1,0 +1,40 @@
+"""What a benchmark ran on."""
+
+import os
+import platform
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+__all__ = ["machine_facts", "machine_line"]
+
+LIBRARIES = ("vexture", "numpy", "numba")
+CPUINFO = Path("/proc/cpuinfo")
+
+
+def processor() -> str:
+    """Model of the processor, where the system tells it."""
+    if CPUINFO.exists():
+        for line in CPUINFO.read_text().splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    return platform.processor() or platform.machine()
+
+
+def machine_facts() -> dict[str, Any]:
+    """Date, processor, system and versions, for a benchmark's JSON."""
+    return {
+        "date": datetime.now(UTC).isoformat(timespec="seconds"),
+        "processor": processor(),
+        "cores": os.cpu_count(),
+        "system": platform.platform(terse=True),
+        "python": platform.python_version(),
+        **{library: version(library) for library in LIBRARIES},
+    }
+
+
+def machine_line(facts: dict[str, Any]) -> str:
+    """The same in one line, to stand below a table."""
+    versions = ", ".join(f"{name} {facts[name]}" for name in ("python", *LIBRARIES))
+    return f"{facts['date'][:10]}, {facts['processor']}, {facts['cores']} cores, {facts['system']}; {versions}"
