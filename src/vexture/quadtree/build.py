@@ -12,6 +12,7 @@ from vexture.errors import LimitError, SourceError
 from vexture.kernels import kernel
 from vexture.quadtree.accuracy import Accuracy, accuracy_of, cell_tolerance
 from vexture.quadtree.boundary import crowded_area
+from vexture.quadtree.chain import Chain, plain_chain
 from vexture.quadtree.leaf import (
     CORNER,
     CURVE,
@@ -66,6 +67,24 @@ def _ends_on_edge(pieces: Pieces, first: int, last: int, x0: float, y0: float, s
 
 
 @kernel
+def _leaf_or_limit(
+    chain: Chain,
+    area: float,
+    cubics: NDArray[np.float64],
+    x0: float,
+    y0: float,
+    size: float,
+    tolerance: float,
+    at_limit: bool,
+) -> Leaf:
+    """Leaf of a chain; at the depth limit there always is one."""
+    leaf = chain_leaf(chain, area, cubics, x0, y0, size, tolerance / size)
+    if leaf.kind == NO_LEAF and at_limit:
+        return limit_leaf(chain, area)
+    return leaf
+
+
+@kernel
 def _leaf_of(
     level: Level,
     c: int,
@@ -83,6 +102,10 @@ def _leaf_of(
         leaf = own_leaf(level.pieces, first, last, cubics, present[0, 1], rules[present[0, 0]], x0, y0, size)
         if leaf.kind != NO_LEAF:
             return leaf
+        if last - first <= HOPELESS:
+            chain, area = plain_chain(level.pieces, first, last, present[0, 1], rules[present[0, 0]], x0, y0, size)
+            if chain.chains < 2:
+                return _leaf_or_limit(chain, area, cubics, x0, y0, size, tolerance, at_limit)
     if last - first > HOPELESS:
         if at_limit:
             return nearest_constant(crowded_area(level.pieces, first, last, present, rules, x0, y0, size))
@@ -90,10 +113,7 @@ def _leaf_of(
     if not at_limit and last - first > CROWDED and _ends_on_edge(level.pieces, first, last, x0, y0, size) != 2:
         return no_leaf()
     chain, area = cell_chain(level.pieces, first, last, present, rules, x0, y0, size)
-    leaf = chain_leaf(chain, area, cubics, x0, y0, size, tolerance / size)
-    if leaf.kind == NO_LEAF and at_limit:
-        leaf = limit_leaf(chain, area)
-    return leaf
+    return _leaf_or_limit(chain, area, cubics, x0, y0, size, tolerance, at_limit)
 
 
 @kernel

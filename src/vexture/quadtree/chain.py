@@ -1,17 +1,19 @@
-"""The resolved boundary in a leaf as one chain of cubics from edge to edge, if it is one."""
+"""The boundary in a leaf as one chain of cubics from edge to edge, if it is one."""
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.area import integral_x_dy
+from vexture.bezier.area import area_right_of, integral_x_dy
+from vexture.bezier.monotone import Pieces
 from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
 from vexture.quadtree.boundary import LATTICE, Boundary
+from vexture.quadtree.winding import inside, winding_area
 
-__all__ = ["JOIN", "Chain", "boundary_area", "link_chain", "on_edge"]
+__all__ = ["JOIN", "Chain", "boundary_area", "link_chain", "on_edge", "plain_chain"]
 
 JOIN = 3.0 / LATTICE
 """Cell-local units. Ends nearer than this are one point: runs that meet at a crossing may differ by two units."""
@@ -274,3 +276,84 @@ def link_chain(
         y = boundary.heights[k] / LATTICE
         parts = _link_at(chain, runs, parts, y, boundary.left[k - 1], boundary.left[k], following, ends)
     return _travel(chain, parts, following), area
+
+
+@kernel
+def _apart(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
+    """Whether the boxes of two monotone pieces, which their ends span, share no more than an edge."""
+    for axis in range(2):
+        if max(a[0, axis], a[3, axis]) <= min(b[0, axis], b[3, axis]):
+            return True
+        if max(b[0, axis], b[3, axis]) <= min(a[0, axis], a[3, axis]):
+            return True
+    return False
+
+
+@kernel
+def _is_plain(curves: NDArray[np.float64]) -> bool:
+    """Whether monotone pieces are one open chain from edge to edge that cannot cross itself nor follows the edge."""
+    n = len(curves)
+    for axis in range(2):
+        for i in range(n):
+            if curves[i, 0, axis] == curves[i, 3, axis] and (curves[i, 0, axis] == 0.0 or curves[i, 0, axis] == 1.0):
+                return False
+            if i > 0 and curves[i, 0, axis] != curves[i - 1, 3, axis]:
+                return False
+    for point in (curves[0, 0], curves[n - 1, 3]):
+        if point[0] != 0.0 and point[0] != 1.0 and point[1] != 0.0 and point[1] != 1.0:
+            return False
+    for i in range(n):
+        for j in range(i):
+            if not _apart(curves[i], curves[j]):
+                return False
+    return True
+
+
+@kernel
+def plain_chain(
+    pieces: Pieces, first: int, last: int, corner_winding: int, rule: int, x0: float, y0: float, size: float
+) -> tuple[Chain, float]:
+    """Chain of a cell in which nothing needs to be resolved, and its exact filled area.
+
+    Parameters
+    ----------
+    pieces : Pieces
+        Those of the cell, all of one path, are first..last-1.
+    corner_winding, rule : int
+        Of that path.
+    x0, y0, size : float
+        The cell.
+
+    Returns
+    -------
+    Chain
+        Of `chains` 1, or 0 if both sides are the same; 2 if the cell is not so simple.
+    float
+        Filled part of the cell.
+    """
+    n = last - first
+    curves = np.empty((n, 4, 2))
+    for i in range(n):
+        for k in range(4):
+            curves[i, k, 0] = (pieces.points[first + i, k, 0] - x0) / size
+            curves[i, k, 1] = (pieces.points[first + i, k, 1] - y0) / size
+    chain = Chain(curves, pieces.segment[first:last], pieces.span[first:last], 1)
+    if not _is_plain(curves):
+        return Chain(curves, chain.segment, chain.span, 2), 0.0
+    x_dy = 0.0
+    for curve in curves:
+        x_dy += integral_x_dy(curve)
+    area = area_right_of(curves[0, 0], curves[n - 1, 3], x_dy)
+    # the winding number is w on the right and w + 1 on the left: its mean over the cell tells w
+    w = int(np.rint(winding_area(curves, corner_winding) - 1.0 + area))
+    right, left = inside(w, rule), inside(w + 1, rule)
+    if right == left:
+        return Chain(curves, chain.segment, chain.span, 0), 1.0 if right else 0.0
+    if right:
+        return chain, area
+    turned = Chain(np.empty((n, 4, 2)), np.empty(n, np.int64), np.empty((n, 2)), 1)
+    for i in range(n):
+        subcubic(curves[n - 1 - i], 1.0, 0.0, turned.curves[i])
+        turned.segment[i] = chain.segment[n - 1 - i]
+        turned.span[i, 0], turned.span[i, 1] = chain.span[n - 1 - i, 1], chain.span[n - 1 - i, 0]
+    return turned, 1.0 - area
