@@ -1,82 +1,180 @@
-"""Make the README's picture with vexture itself: `python tools/make_pictures.py` writes docs/pictures/first.png.
+"""Draw the README's picture by the program itself: `python tools/make_pictures.py` writes docs/pictures/first.png.
 
-On the left the texture, its two images enlarged pixel by pixel; then the drawing as the shader's mirror draws it from
-that texture, whole and in two steps of magnification, each a detail of the one before.
+A drawing, the tree of cells that it becomes, the pair of textures that holds the tree, and what the shader's mirror
+draws from those textures: magnified, each time around the same point, and at small sizes.
 """
 
+from collections.abc import Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw
+from PIL import Image, ImageColor, ImageDraw, ImageFont
 
 import vexture
+from vexture.encoding import ThesisTexture, decode
+from vexture.quadtree.tree import CellKind, CellTree
+from vexture.render.view import window
 
-__all__ = ["picture"]
+__all__ = ["sheet"]
 
 ROOT = Path(__file__).resolve().parents[1]
 SHAPE = ROOT / "examples" / "shapes" / "duck.svg"
 TARGET = ROOT / "docs" / "pictures" / "first.png"
 
-SIDE = 360  # pixels, of each of the three views
-GAP = 24
-TEXEL = 9  # pixels, of the enlarged textures
-INK = np.array([224.0, 150.0, 0.0])
-PAPER = np.array([255.0, 255.0, 255.0])
-FRAME = (40, 40, 40)
-CENTER = (228 / 256, 1 - 90 / 256)  # unit-square units: where the duck's bill opens
-SPANS = (1.0, 1 / 8, 1 / 64)  # unit-square units, of the views
+PANEL, GAP, CAPTION = 360, 28, 44  # pixels
+FINER = 4  # times the pixels that lines are drawn in
+PAPER, INK, SHADE = "#ffffff", "#e09600", "#f7dfb0"  # SHADE: of a cell that is full
+TITLE, TEXT, FRAME, GRID, CURVE = "#14213d", "#6b7688", "#d5dae2", "#a9b2c0", "#1d3557"
+SIZES = (128, 64, 32, 16)  # pixels, of the small pictures
+ZOOMS = (1, 4, 32, 256)
+CENTER = (206 / 240, 1 - 79 / 240)  # unit-square units: where the duck opens its bill
 
-Pixels = NDArray[np.uint8]
-
-
-def corner(span: float) -> tuple[float, float]:
-    """Lower left corner of a view."""
-    return tuple(min(max(middle - span / 2, 0.0), 1.0 - span) for middle in CENTER)  # type: ignore[return-value]
+Panel = tuple[str, str, Image.Image]
 
 
-def view(texture: vexture.ThesisTexture, span: float) -> Image.Image:
-    """Draw a square part of the unit square."""
-    (x, y), pixel = corner(span), span / SIDE
-    to_unit = [[pixel, 0.0, x], [0.0, -pixel, y + span]]
-    coverage = vexture.render(texture, size=(SIDE, SIDE), to_unit=to_unit, renderer="cpu")[..., None]
-    return Image.fromarray(np.rint(INK * coverage + PAPER * (1.0 - coverage)).astype(np.uint8))
+class Cell(NamedTuple):
+    """A leaf: lower left corner, side, filled part, and its curve in the cell's unit square if it has one."""
+
+    x: float
+    y: float
+    side: float
+    coverage: float
+    curve: NDArray[np.float64] | None
 
 
-def enlarged(rows: NDArray[np.uint16]) -> Image.Image:
-    """Show a list of the texture, folded into columns as high as the views."""
-    height = SIDE // TEXEL
-    columns = [rows[start : start + height] for start in range(0, len(rows), height)]
-    gap = 1
-    width = sum(column.shape[1] + gap for column in columns) - gap
-    sheet = np.full((height, width, 3), 255, np.uint8)
-    at = 0
-    for column in columns:
-        sheet[: len(column), at : at + column.shape[1]] = column >> 8
-        at += column.shape[1] + gap
-    return Image.fromarray(sheet).resize((width * TEXEL, height * TEXEL), Image.Resampling.NEAREST)
+def leaves(tree: CellTree, quad: int = 0, x: float = 0.0, y: float = 0.0, side: float = 0.5) -> Iterator[Cell]:
+    """All leaves below a quad at (x, y) with cells of a side."""
+    for k in range(4):
+        left, low, kind, ref = x + side * (k & 1), y + side * (k >> 1), tree.kind[quad, k], tree.ref[quad, k]
+        if kind == CellKind.QUAD:
+            yield from leaves(tree, ref, left, low, side / 2)
+        else:
+            yield Cell(left, low, side, tree.coverage[quad, k], tree.curves[ref] if ref >= 0 else None)
 
 
-def picture(texture: vexture.ThesisTexture) -> Image.Image:
-    """Put the texture and its views side by side, with a frame around what the next view magnifies."""
-    views = [view(texture, span) for span in SPANS]
-    for image, span, inner in zip(views, SPANS, SPANS[1:], strict=False):
-        (x, y), (inner_x, inner_y) = corner(span), corner(inner)
-        left, top = (inner_x - x) / span * SIDE, (1 - (inner_y + inner - y) / span) * SIDE
-        ImageDraw.Draw(image).rectangle(
-            (left, top, left + inner / span * SIDE, top + inner / span * SIDE), outline=FRAME
-        )
-    for image in views[1:]:
-        ImageDraw.Draw(image).rectangle((0, 0, SIDE - 1, SIDE - 1), outline=FRAME)
-    parts = [enlarged(texture.quads), enlarged(texture.curves), *views]
-    whole = Image.new("RGB", (sum(part.width + GAP for part in parts) - GAP, SIDE), "white")
-    at = 0
-    for part in parts:
-        whole.paste(part, (at, 0))
-        at += part.width + GAP
-    return whole
+def points(cell: Cell, chords: int = 32) -> NDArray[np.float64]:
+    """Points along a cell's curve, in the unit square. A corner's is bent where P1 and P2 are."""
+    p0, p1, p2, p3 = cell.curve
+    if (p1 == p2).all():
+        line = np.stack([p0, p1, p3])
+    else:
+        t = np.linspace(0.0, 1.0, chords + 1)[:, None]
+        line = (1 - t) ** 3 * p0 + 3 * (1 - t) ** 2 * t * p1 + 3 * (1 - t) * t * t * p2 + t**3 * p3
+    return np.array((cell.x, cell.y)) + cell.side * line
+
+
+def inked(coverage: NDArray[np.float32]) -> Image.Image:
+    """Coverage as ink on paper."""
+    mask = Image.fromarray(np.rint(255.0 * coverage).astype(np.uint8))
+    return Image.composite(Image.new("RGB", mask.size, INK), Image.new("RGB", mask.size, PAPER), mask)
+
+
+def cells_panel(tree: CellTree) -> Image.Image:
+    """Every leaf, shaded by how much of it is filled, with its curve."""
+    size = PANEL * FINER
+    image = Image.new("RGB", (size, size), PAPER)
+    draw = ImageDraw.Draw(image)
+    paper, full = np.array(ImageColor.getrgb(PAPER)), np.array(ImageColor.getrgb(SHADE))
+    found = list(leaves(tree))
+    for cell in found:
+        box = [cell.x * size, (1 - cell.y - cell.side) * size, (cell.x + cell.side) * size, (1 - cell.y) * size]
+        shade = np.rint(paper + cell.coverage * (full - paper)).astype(int)
+        draw.rectangle(box, fill=tuple(shade.tolist()), outline=GRID, width=FINER // 2)
+    for cell in found:
+        if cell.curve is not None:
+            line = [(x * size, (1 - y) * size) for x, y in points(cell)]
+            draw.line(line, fill=CURVE, width=2 * FINER, joint="curve")
+    return image.resize((PANEL, PANEL), Image.Resampling.BOX)
+
+
+def texture_panel(texture: ThesisTexture) -> Image.Image:
+    """The two images, side by side, each texel a rectangle."""
+    image = Image.new("RGB", (PANEL, PANEL), PAPER)
+    wide = (PANEL - GAP) // (texture.quads.shape[1] + texture.curves.shape[1])
+    left = 0
+    for rows in (texture.quads, texture.curves):
+        pixels = Image.fromarray((rows // (texture.maximum // 255)).astype(np.uint8))
+        pixels = pixels.resize((wide * rows.shape[1], PANEL), Image.Resampling.NEAREST)
+        image.paste(pixels, (left, 0))
+        left += pixels.width + GAP
+    return image
+
+
+def sizes_panel(texture: ThesisTexture) -> Image.Image:
+    """Small pictures, pixel by pixel, and the smallest ones enlarged."""
+    image = Image.new("RGB", (PANEL, PANEL), PAPER)
+    smalls = [inked(vexture.render(texture, (size, size), renderer="cpu")) for size in SIZES]
+    space = (PANEL - sum(SIZES)) // (len(SIZES) + 1)
+    left = space
+    for small in smalls:
+        image.paste(small, (left, space + SIZES[0] - small.height))
+        left += small.width + space
+    side = SIZES[0] + SIZES[2]
+    space = (PANEL - 2 * side) // 3
+    for place, small in enumerate(smalls[-2:]):
+        large = small.resize((side, side), Image.Resampling.NEAREST)
+        image.paste(large, (space + place * (side + space), PANEL - space - side))
+    return image
+
+
+def view(zoom: int) -> NDArray[np.float64]:
+    """View of a panel: everything, or magnified around `CENTER`."""
+    side = 1.0 / zoom
+    x, y = (min(max(middle - side / 2, 0.0), 1.0 - side) for middle in CENTER)
+    return window((PANEL, PANEL), x, y, side, side)
+
+
+def zoom_panel(texture: ThesisTexture, zoom: int) -> Image.Image:
+    """A magnified picture, and a frame around what the next one shows of it."""
+    image = inked(vexture.render(texture, (PANEL, PANEL), view(zoom), "cpu"))
+    for following in ZOOMS[ZOOMS.index(zoom) + 1 :][:1]:
+        corners = view(following) @ np.array([(0, 0, 1), (PANEL, PANEL, 1)]).T
+        (left, right), (top, bottom), _ = np.linalg.inv(view(zoom)) @ corners
+        ImageDraw.Draw(image).rectangle([left, top, right, bottom], outline=CURVE, width=2)
+    return image
+
+
+def sheet(rows: list[list[Panel]]) -> Image.Image:
+    """Panels in rows, each with a title and a text below it."""
+    width = max(map(len, rows)) * (PANEL + GAP) + GAP
+    image = Image.new("RGB", (width, GAP + len(rows) * (PANEL + CAPTION + GAP)), PAPER)
+    draw = ImageDraw.Draw(image)
+    large, small = ImageFont.load_default(21), ImageFont.load_default(17)
+    for row, panels in enumerate(rows):
+        for column, (title, text, panel) in enumerate(panels):
+            left, top = GAP + column * (PANEL + GAP), GAP + row * (PANEL + CAPTION + GAP)
+            draw.rectangle([left - 1, top - 1, left + PANEL, top + PANEL], outline=FRAME)
+            image.paste(panel, (left, top))
+            line = top + PANEL + CAPTION // 2 + 8
+            draw.text((left, line), title, TITLE, large, anchor="ls")
+            draw.text((left + draw.textlength(title, large) + 10, line), text, TEXT, small, anchor="ls")
+    return image
+
+
+def panels() -> list[list[Panel]]:
+    """From a drawing to pixels."""
+    drawing = vexture.read_svg(SHAPE)
+    texture = vexture.convert(drawing)
+    tree = decode(texture)
+    quads, curves, size = len(texture.quads), len(texture.curves), sum(map(len, texture.to_png()))
+    source = inked(vexture.render(drawing, (PANEL, PANEL), renderer="exact"))
+    return [
+        [
+            ("A drawing", f"{drawing.segments} curves and lines", source),
+            ("a tree", f"{len(tree.curves)} cells hold a curve", cells_panel(tree)),
+            ("two textures", f"4 by {quads}, 2 by {curves}: {size:,} bytes", texture_panel(texture)),
+            ("pixels", "each finds its own cell", zoom_panel(texture, 1)),
+        ],
+        [
+            *((f"{zoom} times", "", zoom_panel(texture, zoom)) for zoom in ZOOMS[1:]),
+            ("small", f"{', '.join(map(str, SIZES))} pixels", sizes_panel(texture)),
+        ],
+    ]
 
 
 if __name__ == "__main__":
     TARGET.parent.mkdir(parents=True, exist_ok=True)
-    picture(vexture.convert(SHAPE)).save(TARGET, optimize=True)
+    sheet(panels()).save(TARGET, optimize=True)
+    print(TARGET)
