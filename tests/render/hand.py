@@ -181,12 +181,13 @@ def leaves(
 
 
 def samples(size: tuple[int, int], to_unit: Floats) -> Floats:
-    """The 16 points of every pixel of an affine view in the unit square, (height, width, 16, 2)."""
+    """The 16 points of every pixel of an affine view in the unit square, (height, width, 16, 2): a turned grid."""
     width, height = size
-    x = (np.arange(4 * width) + 0.5) / 4
-    y = (np.arange(4 * height) + 0.5) / 4
-    points = np.stack([*np.meshgrid(x, y), np.ones((4 * height, 4 * width))], axis=-1) @ to_unit[:2].T
-    return points.reshape(height, 4, width, 4, 2).swapaxes(1, 2).reshape(height, width, 16, 2)
+    row, column = np.divmod(np.arange(16), 4)
+    offset = np.column_stack([4 * column + row, 4 * row + 3 - column]) / 16 + 1 / 32
+    pixel = np.stack(np.meshgrid(np.arange(width), np.arange(height)), axis=-1)
+    points = pixel[:, :, None] + offset
+    return np.concatenate([points, np.ones((*points.shape[:-1], 1))], axis=-1) @ to_unit[:2].T
 
 
 def truth(texture: ThesisTexture, size: tuple[int, int], to_unit: Floats) -> Floats:

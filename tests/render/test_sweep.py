@@ -7,7 +7,7 @@ from typing import Any
 import numba
 import numpy as np
 import pytest
-from hand import EMPTY, Corner, Curve, Floats, decode, need_gpu, speckles, texture_of, view_of
+from hand import EMPTY, Corner, Curve, Floats, decode, need_gpu, samples, speckles, texture_of, view_of
 
 from vexture import shading
 from vexture.render import cpu
@@ -79,7 +79,8 @@ def aimed(curve: Curve, x: float, y: float) -> Frame:
     _, (start, along, across) = basis_of(curve)
     target = (start + x * along + y * across) / 2
     pixel = 0.5 / PIXELS
-    low = target - (np.floor(target / pixel) % PIXELS + 0.625) * pixel
+    one_of_16 = np.array([19, 21]) / 32  # column 2, row 1 of the grid, y up
+    low = target - (np.floor(target / pixel) % PIXELS + one_of_16) * pixel
     return [EMPTY, EMPTY, curve, EMPTY], view_of((low[0], low[1]), 0.5, PIXELS)
 
 
@@ -157,8 +158,7 @@ def test_the_sweep_takes_all_nine_paths() -> None:
     for sweep in SWEEPS.values():
         for tree, view in sweep():
             texture = texture_of(tree)
-            grid = (np.indices((4 * PIXELS, 4 * PIXELS)).reshape(2, -1).T + 0.5) / 4
-            points = np.column_stack([grid, np.ones(len(grid))]) @ view[:2].T
+            points = samples((PIXELS, PIXELS), view).reshape(-1, 2)
             count_paths(texture.quads / 65535, texture.curves / 65535, points, counts)
     taken = Counter({name: int(counts[getattr(shading, name), 0]) for name in PATHS if name != "QUADRATIC"})
     taken["QUADRATIC, one root"], taken["QUADRATIC, two roots"] = map(int, counts[shading.QUADRATIC, 1:])

@@ -2,7 +2,10 @@
 // Exports: coverage.
 #include "cells.glsl"
 
-// Mean of SAMPLES x SAMPLES regular points of a pixel (thesis 4.4.3).
+// Mean of SAMPLES x SAMPLES points of a pixel (thesis 4.4.3), one in each of as many equal squares.
+//
+// The thesis's grid is parallel to the pixels, and so an upright or level edge meets four points at once: it is wrong by
+// up to 32/255. This grid is turned (it is spanned by (4, -1)/16 and (1, 4)/16), so that such an edge meets one at a time.
 //
 // A point that leaves the cell of the one before it is looked up again. The thesis evaluates all points with the curve of
 // the pixel's centre, beyond the cell where that curve ends, and that draws the lines along its cells (thesis 6.3).
