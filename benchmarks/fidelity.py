@@ -6,9 +6,6 @@ Each drawing is rendered at each size with a random sub-pixel shift of its own. 
 that the shape touches in truth or in the picture. *cut* is the mean error where quads are smaller than a pixel, which
 the shader does not look into. *border* is, elsewhere, the mean error of the edge pixels on cell borders over that of
 the other edge pixels. *area* is how far the root's coverage is from the area of the shape.
-
-Sixteen samples miss a straight edge that is parallel to the pixels by up to 32, all along, and other edges by some 5.
-Where a picture exceeds a limit, it is therefore held against *perfect* samples, which all know in from out.
 """
 
 import argparse
@@ -28,14 +25,12 @@ from vexture.errors import DeviceError, LimitError
 from vexture.pipeline import run
 from vexture.quadtree.tree import CellKind, CellTree
 from vexture.render.view import fit
-from vexture.shading import SAMPLES
 
 __all__ = [
     "AREA_LIMIT",
     "BORDER_LIMIT",
     "MEAN_LIMIT",
     "SIZES",
-    "allowed",
     "area_error",
     "cut_pixels",
     "has_gpu",
@@ -53,9 +48,6 @@ MEAN_LIMIT = 6.0
 BORDER_LIMIT = 1.5
 AREA_LIMIT = 1.0
 """Mean error and area in 1/255."""
-
-OVER_PERFECT = 1.1
-"""The mean error may also be so many times that of perfect samples, the border ratio `BORDER_LIMIT` times."""
 
 NOT_GATED = ("hairline",)
 """Reported only: the cut at quads smaller than a pixel alone costs so thin a stroke 20 to 50."""
@@ -108,17 +100,6 @@ def area_error(drawing: Drawing, tree: CellTree) -> float:
     return LEVELS * abs(float(tree.quad_coverage[0]) - float(area))
 
 
-def perfect_samples(drawing: Drawing, view: View) -> NDArray[np.float64]:
-    """Picture of 4 x 4 samples a pixel that all know in from out.
-
-    A sample is inside if half of the sixteenth of the pixel around it is; of a straight edge that is the same.
-    """
-    finer = View(SAMPLES * view.size, view.to_unit @ np.diag([1.0 / SAMPLES, 1.0 / SAMPLES, 1.0]))
-    inside = render(drawing, finer, "exact") >= 0.5
-    blocks: NDArray[np.float64] = inside.reshape(view.size, SAMPLES, view.size, SAMPLES).mean(axis=(1, 3))
-    return blocks
-
-
 def cut_pixels(cells: tuple[NDArray[np.float64], ...], view: View) -> NDArray[np.bool_]:
     """Pixels in which a quad is smaller than a pixel."""
     x, y, side = (values[2.0 * cells[2] * view.size < 1.0] for values in cells)
@@ -150,25 +131,16 @@ def view_facts(
     images = {renderer: render(texture, view, renderer) for renderer in renderers}
     apart = LEVELS * np.ptp(list(images.values()), axis=0)
     facts: dict[str, Any] = {renderer: facts_of(image) for renderer, image in images.items()}
-    facts.update(size=view.size, apart={"mean": float(apart.mean()), "max": float(apart.max())}, perfect=None)
-    if not met(facts, renderers):
-        facts["perfect"] = facts_of(perfect_samples(drawing, view))
+    facts.update(size=view.size, apart={"mean": float(apart.mean()), "max": float(apart.max())})
     facts["met"] = met(facts, renderers)
     return facts
 
 
-def allowed(facts: dict[str, Any]) -> tuple[float, float]:
-    """Largest mean error and border ratio in a view, by its perfect samples if they were asked for."""
-    if facts["perfect"] is None:
-        return MEAN_LIMIT, BORDER_LIMIT
-    perfect = facts["perfect"]
-    return max(MEAN_LIMIT, OVER_PERFECT * perfect["mae"]), BORDER_LIMIT * np.fmax(1.0, perfect["border"])
-
-
 def met(facts: dict[str, Any], renderers: Sequence[str]) -> bool:
     """Whether the pictures of one view are within the limits; a ratio that cannot be told is."""
-    mean, border = allowed(facts)
-    return all(facts[renderer]["mae"] <= mean and not facts[renderer]["border"] > border for renderer in renderers)
+    return all(
+        facts[renderer]["mae"] <= MEAN_LIMIT and not facts[renderer]["border"] > BORDER_LIMIT for renderer in renderers
+    )
 
 
 def mean_error(drawing: Drawing, view: View, **parameters: Any) -> float | None:
@@ -203,26 +175,24 @@ def shape_facts(path: Path, sizes: Sequence[int], seed: int, renderers: Sequence
     }
 
 
-HEAD = ("shape", "px", "gpu", "cpu", "perfect", "rmse", "max", "cut", "border", "perfect", "gpu-cpu")
+HEAD = ("shape", "px", "gpu", "cpu", "rmse", "max", "cut", "border", "gpu-cpu")
 HEAD += ("8 bits", "sampled", "area", "limits")
 
 
 def lines(facts: dict[str, Any]) -> Iterator[list[str]]:
     """The table's rows of one drawing; all but the second mean are the GPU's if there is one."""
     for view in facts["views"]:
-        shown, perfect = view.get("gpu", view["cpu"]), view["perfect"] or {"mae": None, "border": None}
+        shown = view.get("gpu", view["cpu"])
         verdict = "met" if view["met"] and facts["area_met"] else "missed"
         yield [
             facts["shape"],
             str(view["size"]),
             cell(view["gpu"]["mae"] if "gpu" in view else None),
             cell(view["cpu"]["mae"]),
-            cell(perfect["mae"]),
             cell(shown["rmse"]),
             cell(shown["max"], 0),
             cell(shown["cut"]),
             cell(shown["border"]),
-            cell(perfect["border"]),
             cell(view["apart"]["max"], 0),
             cell(view["mae_8_bits"]),
             cell(view["mae_sampled"]),

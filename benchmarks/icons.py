@@ -17,7 +17,7 @@ from rich.console import Console
 from rich.progress import track
 
 import corpora
-from fidelity import AREA_LIMIT, BORDER_LIMIT, MEAN_LIMIT, allowed, area_error, has_gpu, shifted_view, view_facts
+from fidelity import AREA_LIMIT, BORDER_LIMIT, MEAN_LIMIT, area_error, has_gpu, shifted_view, view_facts
 from report import cell, table, write_json
 from vexture.errors import SourceWarning, VextureError
 from vexture.pipeline import run
@@ -96,15 +96,13 @@ def worst_icons(icons: Sequence[dict[str, Any]], renderers: Sequence[str]) -> st
     def share(icon: dict[str, Any]) -> tuple[float, dict[str, Any], str]:
         of_limit = [(icon["area"] / AREA_LIMIT, icon["views"][-1], "area")]
         for view in icon["views"]:
-            mean, border = allowed(view)
-            of_limit.append((worst_of(view, renderers, "mae") / mean, view, "mean"))
-            of_limit.append((worst_of(view, renderers, "border") / border, view, "border"))
+            of_limit.append((worst_of(view, renderers, "mae") / MEAN_LIMIT, view, "mean"))
+            of_limit.append((worst_of(view, renderers, "border") / BORDER_LIMIT, view, "border"))
         return max(of_limit, key=lambda entry: entry[0])
 
     ranked = sorted(((share(icon), icon) for icon in icons if "failed" not in icon), key=lambda entry: -entry[0][0])
     rows = []
     for (part, view, limit), icon in ranked[:WORST]:
-        perfect = view["perfect"] or {"mae": None, "border": None}
         rows.append(
             [
                 icon["icon"],
@@ -112,17 +110,15 @@ def worst_icons(icons: Sequence[dict[str, Any]], renderers: Sequence[str]) -> st
                 cell(part),
                 str(view["size"]),
                 cell(worst_of(view, renderers, "mae")),
-                cell(perfect["mae"]),
                 cell(worst_of(view, renderers, "cut")),
                 cell(worst_of(view, renderers, "border")),
-                cell(perfect["border"]),
                 cell(icon["area"], 3),
                 str(icon["segments"]),
                 str(icon["curves"]),
                 str(icon["unresolved"]),
             ]
         )
-    head = ("worst", "nearest to", "share", "px", "mean", "perfect", "cut", "border", "perfect", "area")
+    head = ("worst", "nearest to", "share", "px", "mean", "cut", "border", "area")
     return table((*head, "segments", "curves", "unresolved"), rows)
 
 
