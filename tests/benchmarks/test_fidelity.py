@@ -1,6 +1,7 @@
 """The fidelity benchmark measures what it says."""
 
 import doctest
+from argparse import Namespace
 
 import numpy as np
 import pytest
@@ -51,9 +52,22 @@ def test_limits(mean, border, within):
 
 def test_a_drawing_is_within_the_limits_and_a_wrong_picture_is_not():
     conversion = run(SQUARE)
-    view = fidelity.shifted_view(40, np.random.default_rng(3))
-    right = fidelity.view_facts(SQUARE, conversion.tree, conversion.texture, view, ["cpu"])
-    wrong = fidelity.view_facts(SQUARE, conversion.tree, run(NEEDLE).texture, view, ["cpu"])
+    views = fidelity.shifted_views("square", 40, Namespace(shifts=2, seed=3))
+    right = fidelity.size_facts(SQUARE, conversion.tree, conversion.texture, views, ["cpu"])
+    wrong = fidelity.size_facts(SQUARE, conversion.tree, run(NEEDLE).texture, views, ["cpu"])
     assert right["met"]
     assert not wrong["met"]
     assert right["apart"]["max"] == 0.0
+
+
+def test_shifts_are_parts_of_a_pixel_and_come_from_the_seed_and_the_name():
+    one, same, other = (
+        [view.to_unit for view in fidelity.shifted_views(name, 10, Namespace(shifts=3, seed=1))]
+        for name in ("duck", "duck", "cake")
+    )
+    np.testing.assert_array_equal(one, same)
+    assert (np.array(one) != other).any()
+    moved = (np.array(one)[:, :2, 2] - (0.0, 1.0)) * (10.0, -10.0)
+    assert (moved >= 0.0).all()
+    assert (moved < 1.0).all()
+    assert len(np.unique(moved)) == 6
