@@ -1,6 +1,6 @@
 """Whether every icon converts, and how well its pictures show it: 500 of Material Design, 200 of Simple Icons.
 
-    python benchmarks/icons.py [--mdi 500] [--simple 200] [--sizes 61 250] [--seed 1]
+    python benchmarks/icons.py [--mdi 500] [--simple 200] [--sizes 61 250] [--shifts 4] [--seed 1]
 
 The icons are drawn at random from a seed; what is measured, and the limits, are those of `fidelity.py`.
 """
@@ -17,7 +17,7 @@ from rich.console import Console
 from rich.progress import track
 
 import corpora
-from fidelity import AREA_LIMIT, BORDER_LIMIT, MEAN_LIMIT, allowed, area_error, has_gpu, shifted_view, view_facts
+from fidelity import AREA_LIMIT, BORDER_LIMIT, MEAN_LIMIT, area_error, has_gpu, parsed, shifted_views, size_facts
 from report import cell, table, write_json
 from vexture.errors import SourceWarning, VextureError
 from vexture.pipeline import run
@@ -26,7 +26,7 @@ SIZES = (61, 250)
 WORST = 10
 
 
-def icon_facts(path: Path, sizes: Sequence[int], seed: int, renderers: Sequence[str]) -> dict[str, Any]:
+def icon_facts(path: Path, arguments: argparse.Namespace, renderers: Sequence[str]) -> dict[str, Any]:
     """Everything measured of one icon, or why it failed."""
     facts: dict[str, Any] = {"icon": path.stem}
     try:
@@ -34,8 +34,10 @@ def icon_facts(path: Path, sizes: Sequence[int], seed: int, renderers: Sequence[
             warnings.simplefilter("ignore", SourceWarning)
             conversion = run(path)
         drawing, tree, texture = conversion.drawing, conversion.tree, conversion.texture
-        rng = np.random.default_rng([seed, *path.stem.encode()])
-        views = [view_facts(drawing, tree, texture, shifted_view(size, rng), renderers) for size in sizes]
+        sizes = [
+            size_facts(drawing, tree, texture, shifted_views(path.stem, size, arguments), renderers)
+            for size in arguments.sizes
+        ]
     except VextureError as error:
         return {**facts, "failed": str(error), "met": False}
     area = area_error(drawing, tree)
@@ -48,27 +50,27 @@ def icon_facts(path: Path, sizes: Sequence[int], seed: int, renderers: Sequence[
         "deviation": tree.deviation,
         "ms": 1000.0 * conversion.seconds,
         "area": area,
-        "views": views,
-        "met": area <= AREA_LIMIT and all(view["met"] for view in views),
+        "sizes": sizes,
+        "met": area <= AREA_LIMIT and all(of_size["met"] for of_size in sizes),
     }
 
 
-def worst_of(view: dict[str, Any], renderers: Sequence[str], figure: str) -> float:
-    return float(np.nanmax([view[renderer][figure] for renderer in renderers] + [0.0]))
+def worst_of(of_size: dict[str, Any], renderers: Sequence[str], figure: str) -> float:
+    return float(np.nanmax([of_size[renderer][figure] for renderer in renderers] + [0.0]))
 
 
 def summary(name: str, icons: Sequence[dict[str, Any]], renderers: Sequence[str]) -> list[list[str]]:
     """Rows of the table, one for each size: medians and worst values over a set of icons."""
     drawn = [icon for icon in icons if "failed" not in icon]
     rows = []
-    for index in range(len(drawn[0]["views"]) if drawn else 0):
-        views = [icon["views"][index] for icon in drawn]
-        means = [worst_of(view, renderers, "mae") for view in views]
-        borders = [worst_of(view, renderers, "border") for view in views]
+    for index in range(len(drawn[0]["sizes"]) if drawn else 0):
+        shown = [icon["sizes"][index] for icon in drawn]
+        means = [worst_of(of_size, renderers, "mae") for of_size in shown]
+        borders = [worst_of(of_size, renderers, "border") for of_size in shown]
         rows.append(
             [
                 name,
-                str(views[0]["size"]),
+                str(shown[0]["size"]),
                 str(len(icons)),
                 str(len(icons) - len(drawn)),
                 cell(float(np.median(means))),
@@ -76,11 +78,11 @@ def summary(name: str, icons: Sequence[dict[str, Any]], renderers: Sequence[str]
                 cell(float(np.median(borders))),
                 cell(max(borders)),
                 cell(max(icon["area"] for icon in drawn), 3),
-                cell(max(view["apart"]["mean"] for view in views), 3),
-                cell(max(view["apart"]["max"] for view in views), 0),
+                cell(max(of_size["apart"]["mean"] for of_size in shown), 3),
+                cell(max(of_size["apart"]["max"] for of_size in shown), 0),
                 str(sum(icon["unresolved"] for icon in drawn)),
                 cell(float(np.median([icon["ms"] for icon in drawn])), 1),
-                str(sum(not view["met"] for view in views)),
+                str(sum(not of_size["met"] for of_size in shown)),
             ]
         )
     return rows
@@ -94,35 +96,31 @@ def worst_icons(icons: Sequence[dict[str, Any]], renderers: Sequence[str]) -> st
     """Table of the icons that come nearest to a limit, or exceed it."""
 
     def share(icon: dict[str, Any]) -> tuple[float, dict[str, Any], str]:
-        of_limit = [(icon["area"] / AREA_LIMIT, icon["views"][-1], "area")]
-        for view in icon["views"]:
-            mean, border = allowed(view)
-            of_limit.append((worst_of(view, renderers, "mae") / mean, view, "mean"))
-            of_limit.append((worst_of(view, renderers, "border") / border, view, "border"))
+        of_limit = [(icon["area"] / AREA_LIMIT, icon["sizes"][-1], "area")]
+        for of_size in icon["sizes"]:
+            of_limit.append((worst_of(of_size, renderers, "mae") / MEAN_LIMIT, of_size, "mean"))
+            of_limit.append((worst_of(of_size, renderers, "border") / BORDER_LIMIT, of_size, "border"))
         return max(of_limit, key=lambda entry: entry[0])
 
     ranked = sorted(((share(icon), icon) for icon in icons if "failed" not in icon), key=lambda entry: -entry[0][0])
     rows = []
-    for (part, view, limit), icon in ranked[:WORST]:
-        perfect = view["perfect"] or {"mae": None, "border": None}
+    for (part, of_size, limit), icon in ranked[:WORST]:
         rows.append(
             [
                 icon["icon"],
                 limit,
                 cell(part),
-                str(view["size"]),
-                cell(worst_of(view, renderers, "mae")),
-                cell(perfect["mae"]),
-                cell(worst_of(view, renderers, "cut")),
-                cell(worst_of(view, renderers, "border")),
-                cell(perfect["border"]),
+                str(of_size["size"]),
+                cell(worst_of(of_size, renderers, "mae")),
+                cell(worst_of(of_size, renderers, "cut")),
+                cell(worst_of(of_size, renderers, "border")),
                 cell(icon["area"], 3),
                 str(icon["segments"]),
                 str(icon["curves"]),
                 str(icon["unresolved"]),
             ]
         )
-    head = ("worst", "nearest to", "share", "px", "mean", "perfect", "cut", "border", "perfect", "area")
+    head = ("worst", "nearest to", "share", "px", "mean", "cut", "border", "area")
     return table((*head, "segments", "curves", "unresolved"), rows)
 
 
@@ -135,16 +133,14 @@ def measured(
 ) -> list[dict[str, Any]]:
     paths = choose(count, arguments.seed)
     shown = track(paths, name, console=Console(stderr=True), transient=True)
-    return [icon_facts(path, arguments.sizes, arguments.seed, renderers) for path in shown]
+    return [icon_facts(path, arguments, renderers) for path in shown]
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Errors of many icons' pictures.")
     parser.add_argument("--mdi", type=int, default=500)
     parser.add_argument("--simple", type=int, default=200)
-    parser.add_argument("--sizes", type=int, nargs="+", default=SIZES)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    arguments = parsed(parser, SIZES)
     renderers = ("cpu", "gpu") if has_gpu() else ("cpu",)
     start = time.perf_counter()
     sets = {
@@ -164,7 +160,7 @@ def main() -> None:
         f"{len(icons) - len(missed)} of {len(icons)} in {time.perf_counter() - start:.0f} s"
         + (f"; missed: {', '.join(missed)}" if missed else "")
     )
-    print(write_json("icons", {"seed": arguments.seed, "renderers": renderers, **sets}))
+    print(write_json("icons", {**vars(arguments), "renderers": renderers, "sets": sets}))
 
 
 if __name__ == "__main__":

@@ -236,11 +236,19 @@ def big_loop(rule):
     return Drawing((Outline((np.concatenate([lasso, line_cubics(tail[:-1], tail[1:])]),), rule),))
 
 
+def hole_on_a_line(start):
+    """A hole that lies in one cell of a quarter of the square and touches its edge where the contour starts."""
+    hole = degenerate.backwards(degenerate.circle((0.40625, 0.375), 0.09375))
+    frame = degenerate.polygon([(0.01, 0.01), (0.9, 0.01), (0.9, 0.9), (0.01, 0.9)])
+    return Drawing((Outline((frame, np.roll(hole, start, axis=0))),))
+
+
 SOURCES = {
     **{path.stem: (read_svg, path) for path in SHAPES},
     **{f"letter {letter}": (glyph, letter) for letter in LETTERS},
     **{f"icon {index}": (icon, index) for index in ICONS},
     **{f"big loop, {rule.name}": (big_loop, rule) for rule in FillRule},
+    **{f"hole on a line, {start}": (hole_on_a_line, start) for start in range(2)},
 }
 
 
