@@ -67,8 +67,7 @@ event.register("numba:compile", _Announcement())
 def kernel(function: F) -> F:
     """Compile a scalar function over arrays with Numba, cached on disk.
 
-    A name with a leading underscore says that only kernels call it. Counters that a kernel hands to another start
-    at ``np.int64(0)``: for a plain 0 Numba compiles the other twice, for that very number and for any.
+    A name with a leading underscore says that only kernels call it.
 
     Examples
     --------
