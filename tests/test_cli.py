@@ -35,9 +35,9 @@ def square(tmp_path):
 def test_convert_prints_a_line_and_writes_a_pair(square, tmp_path):
     result = run("convert", square, "-o", tmp_path / "out")
     assert result.exit_code == 0
-    assert result.output.startswith("square: 4 segments, ")
+    assert result.stdout.startswith("square: 4 segments, ")
     for word in ("quads", "curves", "bytes", "ms", "distance"):
-        assert word in result.output
+        assert word in result.stdout
     assert sorted(file.name for file in (tmp_path / "out").iterdir()) == ["square.curves.png", "square.quads.png"]
 
 

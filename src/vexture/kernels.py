@@ -53,7 +53,8 @@ class _Announcement(event.Listener):  # type: ignore[misc]
         ours = getattr(dispatcher, "py_func", None)
         if not self.made and ours is not None and ours.__module__.startswith("vexture."):
             self.made = True
-            print("vexture: compiling its kernels, once on this machine (about 20 s) ...", file=sys.stderr, flush=True)
+            line = "vexture: compiling its kernels, once on this machine (half a minute or less) ..."
+            print(line, file=sys.stderr, flush=True)
 
     def on_end(self, event: Any) -> None:
         pass
@@ -66,7 +67,8 @@ event.register("numba:compile", _Announcement())
 def kernel(function: F) -> F:
     """Compile a scalar function over arrays with Numba, cached on disk.
 
-    A name with a leading underscore says that only kernels call it.
+    A name with a leading underscore says that only kernels call it. Counters that a kernel hands to another start
+    at ``np.int64(0)``: for a plain 0 Numba compiles the other twice, for that very number and for any.
 
     Examples
     --------

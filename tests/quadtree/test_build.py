@@ -152,6 +152,12 @@ def test_loop_that_outweighs_its_tail_is_kept():
     assert abs(float(build(drawing).quad_coverage[0]) - area_of(drawing)) < 1e-4
 
 
+def test_hole_that_starts_on_a_cell_line_is_kept():
+    plate = degenerate.polygon([(0.01, 0.01), (0.9, 0.01), (0.9, 0.9), (0.01, 0.9)])
+    drawing = one_path(plate, degenerate.backwards(degenerate.circle((0.40625, 0.375), 0.09375)))
+    assert abs(float(build(drawing).quad_coverage[0]) - area_of(drawing)) < 1e-4
+
+
 def test_crossing_at_the_depth_limit_is_counted():
     tree = build(one_path(degenerate.star(5, 2), rule=FillRule.EVENODD), max_depth=6)
     assert tree.unresolved >= 5

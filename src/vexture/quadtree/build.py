@@ -155,12 +155,13 @@ def grow(
 
     Returned are the cells, (quads, 4, 3): kind, reference, coverage; the curves; deviation; unresolved.
     """
-    cells, quads = np.empty((16, 4, 3)), 0
-    curves, curve_count = np.empty((16, 4, 2)), 0
+    none = np.int64(0)
+    cells, quads = np.empty((16, 4, 3)), none
+    curves, curve_count = np.empty((16, 4, 2)), none
     unresolved, deviation, size = 0, 0.0, 1.0
     for depth in range(max_depth + 1):
         count = len(level.slot)
-        split_cells, split_count = np.zeros(count, np.bool_), 0
+        split_cells, split_count = np.zeros(count, np.bool_), none
         curves = _with_room(curves, curve_count, count)
         for c in range(count):
             tolerance = cell_tolerance(accuracy, size)

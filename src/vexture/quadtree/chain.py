@@ -302,6 +302,8 @@ def _is_plain(curves: NDArray[np.float64]) -> bool:
     for point in (curves[0, 0], curves[n - 1, 3]):
         if point[0] != 0.0 and point[0] != 1.0 and point[1] != 0.0 and point[1] != 1.0:
             return False
+    if curves[0, 0, 0] == curves[n - 1, 3, 0] and curves[0, 0, 1] == curves[n - 1, 3, 1]:
+        return False
     for i in range(n):
         for j in range(i):
             if not _apart(curves[i], curves[j]):

@@ -165,7 +165,7 @@ def crossing_heights(curves: NDArray[np.float64], near: float, room: int) -> tup
     array([49.])
     """
     out = np.empty(PAIR_ROOM + room)
-    count = 0
+    count = np.int64(0)
     for i in range(len(curves)):
         a = curves[i]
         for j in range(i):

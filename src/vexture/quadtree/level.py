@@ -182,14 +182,15 @@ def children(
     piece_at, path_at = np.empty(4 * split_count + 1, np.int64), np.empty(4 * split_count + 1, np.int64)
     present, full = np.empty((path_room, 2), np.int64), np.empty(4 * split_count, np.int64)
     child_at = np.empty(5, np.int64)
-    cells, end, paths, full_count, quad = 0, 0, 0, 0, first_quad
+    none = np.int64(0)
+    cells, end, paths, full_count, quad = none, none, none, none, first_quad
     for c in range(len(split_cells)):
         if not split_cells[c]:
             continue
         x0, y0 = level.origin[c, 0], level.origin[c, 1]
         xm, ym = x0 + half, y0 + half
-        once_end = _cut(level.pieces, level.piece_at[c], level.piece_at[c + 1], 0, xm, once, 0)
-        twice_end = _cut(once, 0, once_end, 1, ym, twice, 0)
+        once_end = _cut(level.pieces, level.piece_at[c], level.piece_at[c + 1], none, xm, once, none)
+        twice_end = _cut(once, none, once_end, none + 1, ym, twice, none)
         _sort_by_child(twice, twice_end, xm, ym, out, end, child_at)
         parent_present = level.present[level.path_at[c] : level.path_at[c + 1]]
         windings = child_windings(out, child_at, parent_present, x0, y0, xm, ym)

@@ -33,9 +33,10 @@ def sort_order(keys: NDArray[np.float64], count: int) -> NDArray[np.int64]:
     order = np.empty(count, np.int64)
     for k in range(count):
         order[k] = k
+    top = np.int64(0)
     for root in range(count // 2 - 1, -1, -1):
         _sift(keys, order, root, count)
     for last in range(count - 1, 0, -1):
-        order[0], order[last] = order[last], order[0]
-        _sift(keys, order, 0, last)
+        order[top], order[last] = order[last], order[top]
+        _sift(keys, order, top, last)
     return order
