@@ -1,6 +1,6 @@
 """How well textures show the example drawings: every renderer against the exact coverage.
 
-    python benchmarks/fidelity.py [--sizes 61 250 1000] [--shifts 4] [--seed 1]
+    python benchmarks/fidelity.py [--sizes 61 250 1000] [--shifts 8] [--seed 1]
 
 Each drawing is rendered at each size with random sub-pixel shifts of its own. Errors are in 1/255, over the pixels of
 all these pictures that the shape touches in truth or in the picture. *cut* is the mean error where quads are smaller
@@ -42,7 +42,7 @@ __all__ = [
 
 SHAPES = Path(__file__).parents[1] / "examples" / "shapes"
 SIZES = (61, 250, 1000)
-SHIFTS = 4
+SHIFTS = 8
 """Pictures of each size: all pixels along an upright or level edge have one error, which in one picture says little."""
 
 AREA_SIZE = 500

@@ -1,6 +1,6 @@
 """Whether every icon converts, and how well its pictures show it: 500 of Material Design, 200 of Simple Icons.
 
-    python benchmarks/icons.py [--mdi 500] [--simple 200] [--sizes 61 250] [--shifts 4] [--seed 1]
+    python benchmarks/icons.py [--mdi 500] [--simple 200] [--sizes 61 250] [--shifts 8] [--seed 1]
 
 The icons are drawn at random from a seed; what is measured, and the limits, are those of `fidelity.py`.
 """
