@@ -53,7 +53,7 @@ class _Announcement(event.Listener):  # type: ignore[misc]
         ours = getattr(dispatcher, "py_func", None)
         if not self.made and ours is not None and ours.__module__.startswith("vexture."):
             self.made = True
-            line = "vexture: compiling its kernels, once on this machine (half a minute or less) ..."
+            line = "vexture: compiling kernels for their first use on this machine (half a minute or less) ..."
             print(line, file=sys.stderr, flush=True)
 
     def on_end(self, event: Any) -> None:
