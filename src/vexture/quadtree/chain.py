@@ -13,7 +13,17 @@ from vexture.kernels import kernel
 from vexture.quadtree.boundary import LATTICE, Boundary
 from vexture.quadtree.winding import inside, winding_area
 
-__all__ = ["JOIN", "Chain", "boundary_area", "link_chain", "on_edge", "plain_chain"]
+__all__ = [
+    "JOIN",
+    "Chain",
+    "boundary_area",
+    "filled_sides",
+    "link_chain",
+    "on_edge",
+    "plain_chain",
+    "to_cell",
+    "touches_edge",
+]
 
 JOIN = 3.0 / LATTICE
 """Cell-local units. Ends nearer than this are one point: runs that meet at a crossing may differ by two units."""
@@ -279,6 +289,42 @@ def link_chain(
 
 
 @kernel
+def to_cell(points: NDArray[np.float64], x0: float, y0: float, size: float) -> NDArray[np.float64]:
+    """Cubics, (n, 4, 2), in the unit square of a cell; exactly 0 or 1 for what lies on its edge."""
+    out = np.empty((len(points), 4, 2))
+    for i in range(len(points)):
+        for k in range(4):
+            out[i, k, 0] = (points[i, k, 0] - x0) / size
+            out[i, k, 1] = (points[i, k, 1] - y0) / size
+    return out
+
+
+@kernel
+def touches_edge(point: NDArray[np.float64]) -> bool:
+    """Whether a point lies exactly on a line of the unit square's edge."""
+    return point[0] == 0.0 or point[0] == 1.0 or point[1] == 0.0 or point[1] == 1.0
+
+
+@kernel
+def filled_sides(curves: NDArray[np.float64], corner_winding: int, rule: int, signed_area: float) -> tuple[bool, bool]:
+    """Whether the right and the left side of one chain from edge to edge are filled.
+
+    The winding number is w on the right and w + 1 on the left, loops aside; its mean over the cell tells w.
+
+    Parameters
+    ----------
+    curves : (n, 4, 2) float64 array
+        The chain's monotone pieces in the cell's unit square: all that is in the cell of its path.
+    corner_winding, rule : int
+        Of that path.
+    signed_area : float
+        Area on the right of the chain, that of its loops counted by their direction.
+    """
+    w = int(np.rint(winding_area(curves, corner_winding) - 1.0 + signed_area))
+    return inside(w, rule), inside(w + 1, rule)
+
+
+@kernel
 def _apart(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
     """Whether the boxes of two monotone pieces, which their ends span, share no more than an edge."""
     for axis in range(2):
@@ -299,10 +345,9 @@ def _is_plain(curves: NDArray[np.float64]) -> bool:
                 return False
             if i > 0 and curves[i, 0, axis] != curves[i - 1, 3, axis]:
                 return False
-    for point in (curves[0, 0], curves[n - 1, 3]):
-        if point[0] != 0.0 and point[0] != 1.0 and point[1] != 0.0 and point[1] != 1.0:
-            return False
-    if curves[0, 0, 0] == curves[n - 1, 3, 0] and curves[0, 0, 1] == curves[n - 1, 3, 1]:
+    if not (touches_edge(curves[0, 0]) and touches_edge(curves[n - 1, 3])):
+        return False
+    if curves[0, 0, 0] == curves[n - 1, 3, 0] and curves[0, 0, 1] == curves[n - 1, 3, 1]:  # closed
         return False
     for i in range(n):
         for j in range(i):
@@ -334,11 +379,7 @@ def plain_chain(
         Filled part of the cell.
     """
     n = last - first
-    curves = np.empty((n, 4, 2))
-    for i in range(n):
-        for k in range(4):
-            curves[i, k, 0] = (pieces.points[first + i, k, 0] - x0) / size
-            curves[i, k, 1] = (pieces.points[first + i, k, 1] - y0) / size
+    curves = to_cell(pieces.points[first:last], x0, y0, size)
     chain = Chain(curves, pieces.segment[first:last], pieces.span[first:last], 1)
     if not _is_plain(curves):
         return Chain(curves, chain.segment, chain.span, 2), 0.0
@@ -346,9 +387,7 @@ def plain_chain(
     for curve in curves:
         x_dy += integral_x_dy(curve)
     area = area_right_of(curves[0, 0], curves[n - 1, 3], x_dy)
-    # the winding number is w on the right and w + 1 on the left: its mean over the cell tells w
-    w = int(np.rint(winding_area(curves, corner_winding) - 1.0 + area))
-    right, left = inside(w, rule), inside(w + 1, rule)
+    right, left = filled_sides(curves, corner_winding, rule, area)
     if right == left:
         return Chain(curves, chain.segment, chain.span, 0), 1.0 if right else 0.0
     if right:

@@ -16,9 +16,8 @@ from vexture.bezier.roots import cubic_at
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
 from vexture.quadtree.boundary import quantise, resolve
-from vexture.quadtree.chain import JOIN, Chain, link_chain, on_edge
+from vexture.quadtree.chain import JOIN, Chain, filled_sides, link_chain, on_edge, to_cell, touches_edge
 from vexture.quadtree.tree import CONTROL_MAX, CONTROL_MIN, CellKind
-from vexture.quadtree.winding import inside, winding_area
 
 __all__ = [
     "CORNER",
@@ -149,27 +148,19 @@ def own_leaf(
     for i in range(first + 1, last):
         if pieces.segment[i] != pieces.segment[first] or pieces.span[i, 0] != pieces.span[i - 1, 1]:
             return no_leaf()
+    local = to_cell(pieces.points[first:last], x0, y0, size)
     curve = np.empty((4, 2))
     subcubic(cubics[pieces.segment[first]], pieces.span[first, 0], pieces.span[last - 1, 1], curve)
-    for axis in range(2):
-        curve[0, axis], curve[3, axis] = pieces.points[first, 0, axis], pieces.points[last - 1, 3, axis]
-    for end in (0, 3):
-        x, y = curve[end, 0], curve[end, 1]
-        if x != x0 and x != x0 + size and y != y0 and y != y0 + size:
-            return no_leaf()
-    for k in range(4):
-        curve[k, 0], curve[k, 1] = (curve[k, 0] - x0) / size, (curve[k, 1] - y0) / size
-    if not _expressible(curve) or (rule == 0 and last - first > 1 and loop_area(curve) != 0.0):
+    for axis, corner in ((0, x0), (1, y0)):
+        curve[0, axis], curve[3, axis] = local[0, 0, axis], local[last - first - 1, 3, axis]
+        for k in (1, 2):
+            curve[k, axis] = (curve[k, axis] - corner) / size
+    if not (touches_edge(curve[0]) and touches_edge(curve[3]) and _expressible(curve)):
         return no_leaf()
-    local = np.empty((last - first, 4, 2))
-    for i in range(first, last):
-        for k in range(4):
-            local[i - first, k, 0] = (pieces.points[i, k, 0] - x0) / size
-            local[i - first, k, 1] = (pieces.points[i, k, 1] - y0) / size
+    if rule == 0 and last - first > 1 and loop_area(curve) != 0.0:
+        return no_leaf()
     signed_area = area_right_of(curve[0], curve[3], integral_x_dy(curve))
-    # the winding number is w on the right and w + 1 on the left, loops aside: its mean over the cell tells w
-    w = int(np.rint(winding_area(local, corner_winding) - 1.0 + signed_area))
-    right, left = inside(w, rule), inside(w + 1, rule)
+    right, left = filled_sides(local, corner_winding, rule, signed_area)
     area = leaf_area(curve, False)
     if right == left or area >= 1.0 - SLIVER:
         return _constant_leaf(right)
