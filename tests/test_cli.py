@@ -205,6 +205,24 @@ def test_picture_that_cannot_be_written(square, tmp_path):
     assert "choose another file" in result.output
 
 
+@pytest.mark.parametrize("name", ["", ".", "square.svg/x.png", "x" * 300 + ".png"])
+def test_picture_that_cannot_have_its_name(square, tmp_path, name, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = run("render", square, "-o", name, "--renderer", "exact", "--size", 8)
+    assert result.exit_code == 1
+    assert result.output.count("\n") == 1
+    assert [file.name for file in tmp_path.iterdir()] == ["square.svg"]
+
+
+def test_a_failed_pair_leaves_the_old_one(square, tmp_path):
+    run("convert", square, "-o", tmp_path)
+    (tmp_path / "square.curves.png").unlink()
+    (tmp_path / "square.curves.png").mkdir()
+    old = (tmp_path / "square.quads.png").read_bytes()
+    assert run("convert", square, "-o", tmp_path, "--max-depth", 3).exit_code == 1
+    assert (tmp_path / "square.quads.png").read_bytes() == old
+
+
 @pytest.mark.parametrize(
     ("command", "arguments"),
     [

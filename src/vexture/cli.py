@@ -5,7 +5,7 @@ import os
 import sys
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -205,12 +205,15 @@ def _write_png(image: Any, output: Path) -> None:
     import numpy as np
     from PIL import Image
 
+    if not output.name:
+        raise DeviceError(f"{str(output)!r} is no file to write to; name one with -o")
     partial = output.with_name(f".{output.name}.{os.getpid()}.part")
     try:
         Image.fromarray(np.rint(255.0 * (1.0 - image)).astype(np.uint8)).save(partial, format="PNG")
         partial.replace(output)
     except OSError as error:
-        partial.unlink(missing_ok=True)
+        with suppress(OSError):
+            partial.unlink()
         raise DeviceError(f"{output}: cannot be written ({error.strerror}); choose another file with -o") from None
 
 

@@ -101,6 +101,8 @@ class Drawing:
     name: str = "drawing"
 
     def __post_init__(self) -> None:
+        if np.shape(self.to_source) != (2, 3) or not np.isfinite(self.to_source).all():
+            raise SourceError(f"{self.name}: to_source must be a finite (2, 3) array")
         for path in self.paths:
             for contour in path.contours:
                 ends = contour[:, 0]

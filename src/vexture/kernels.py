@@ -34,10 +34,12 @@ def kernel_cache() -> Path:
     for base in (root, Path(tempfile.gettempdir()) / f"vexture-{os.getuid() if hasattr(os, 'getuid') else 0}"):
         folder = base / f"kernels-{digest.hexdigest()[:12]}"
         try:
-            folder.mkdir(parents=True, exist_ok=True)
+            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         except OSError:
             continue
-        if os.access(folder, os.W_OK):
+        # the cache holds code: a folder that someone else made is not trusted
+        mine = not hasattr(os, "getuid") or folder.stat().st_uid == os.getuid()
+        if mine and os.access(folder, os.W_OK):
             return folder
     return root
 

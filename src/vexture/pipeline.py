@@ -55,6 +55,7 @@ def run(
     """Convert and keep what lies between; see `convert`."""
     from vexture.drawing import Drawing
     from vexture.encoding import encode, quantisation_step
+    from vexture.encoding.layout import LIST_LIMIT
     from vexture.quadtree.build import DEFAULT_DEPTH, build
     from vexture.sources.svg import read_svg
 
@@ -62,9 +63,10 @@ def run(
         raise LimitError(f"encoding {encoding!r} is not known; use thesis")
     start = time.perf_counter()
     drawing = source if isinstance(source, Drawing) else read_svg(source)
-    tree = build(
-        drawing, tolerance, DEFAULT_DEPTH if max_depth is None else max_depth, strategy, quantisation_step(bits)
-    )
+    if bits not in LIST_LIMIT:
+        raise LimitError(f"{bits!r} bits; a texture has 8 or 16")
+    depth = DEFAULT_DEPTH if max_depth is None else max_depth
+    tree = build(drawing, tolerance, depth, strategy, quantisation_step(bits), LIST_LIMIT[bits])
     texture = encode(tree, bits, to_source=drawing.to_source, name=drawing.name)
     return Conversion(drawing, tree, texture, time.perf_counter() - start)
 

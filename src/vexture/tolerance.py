@@ -9,6 +9,7 @@ __all__ = [
     "DETAIL_SHARE",
     "FINEST",
     "FLATNESS",
+    "GRAIN",
     "PARAMETER",
     "ROUND",
     "SCANLINE",
@@ -16,6 +17,9 @@ __all__ = [
 
 CLOSED: Final = 1e-9
 """Unit-square units. Ends of consecutive cubics closer than this are one point; the gap is closed exactly."""
+
+GRAIN: Final = 2.0**-40
+"""Unit-square units. Points on curves are rounded to this, so that one on a cell line to within rounding lies on it."""
 
 PARAMETER: Final = 1e-9
 """Parameter t. A cut nearer than this to an end of a cubic would make a piece too short to have a direction."""

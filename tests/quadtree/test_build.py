@@ -158,6 +158,28 @@ def test_hole_that_starts_on_a_cell_line_is_kept():
     assert abs(float(build(drawing).quad_coverage[0]) - area_of(drawing)) < 1e-4
 
 
+@pytest.mark.parametrize("corner", [(0, 1), (1, 1)])
+def test_side_through_the_corners_of_cells_needs_no_division(corner):
+    tree = build(Drawing.polygon([(0, 0), (1, 0), corner]))
+    assert len(tree.kind) == 1
+    assert np.count_nonzero(tree.kind == CellKind.CURVE) == 2
+    assert tree.unresolved == 0
+
+
+def test_a_path_painted_again_adds_nothing():
+    circle = degenerate.circle((0.47, 0.48), 0.4)
+    once, often = build(one_path(circle)), build(Drawing((Path((circle,)),) * 300))
+    assert (once.kind == often.kind).all()
+    assert (once.curves == often.curves).all()
+
+
+def test_a_tree_too_large_is_given_up():
+    rng = np.random.default_rng(3)
+    drawing = Drawing(tuple(Path((degenerate.circle(0.1 + 0.8 * rng.random(2), 0.01),)) for _ in range(50)))
+    with pytest.raises(LimitError, match=r"quads at least; the limit is 20; use .* --max-depth"):
+        build(drawing, most_quads=20)
+
+
 def test_crossing_at_the_depth_limit_is_counted():
     tree = build(one_path(degenerate.star(5, 2), rule=FillRule.EVENODD), max_depth=6)
     assert tree.unresolved >= 5

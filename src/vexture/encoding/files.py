@@ -1,5 +1,6 @@
 """Names of a texture's pair of files; writing both or none."""
 
+import errno
 import os
 import re
 import secrets
@@ -78,6 +79,9 @@ def write_together(files: dict[Path, bytes]) -> None:
             with temporary[path].open("xb") as file:
                 made.append(temporary[path])
                 file.write(data)
+        for path in files:  # seen before anything is replaced
+            if path.is_dir():
+                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
         for place, path in enumerate(files):
             made[place] = made[place].replace(path)
     except BaseException as error:

@@ -69,9 +69,9 @@ def accuracy_of(tolerance: float | Literal["auto"], cubics: NDArray[np.float64],
     True
     """
     if tolerance != "auto":
-        if not 0.0 < tolerance < 1.0:
+        if not (isinstance(tolerance, int | float) and 0.0 < tolerance < 1.0):
             raise LimitError(
-                f"tolerance {tolerance} is not between 0 and 1 (unit-square units); use auto or e.g. 0.0005"
+                f"tolerance {tolerance!r} is not between 0 and 1 (unit-square units); use auto or e.g. 0.0005"
             )
         return Accuracy(float(tolerance), np.inf, 0.0)
     detail = np.ptp(cubics, axis=1).max(axis=1).min() if len(cubics) else np.inf

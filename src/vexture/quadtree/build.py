@@ -12,7 +12,7 @@ from vexture.errors import LimitError, SourceError
 from vexture.kernels import kernel
 from vexture.quadtree.accuracy import Accuracy, accuracy_of, cell_tolerance
 from vexture.quadtree.boundary import crowded_area
-from vexture.quadtree.chain import Chain, plain_chain
+from vexture.quadtree.chain import Chain
 from vexture.quadtree.leaf import (
     CORNER,
     CURVE,
@@ -29,6 +29,7 @@ from vexture.quadtree.leaf import (
     own_leaf,
 )
 from vexture.quadtree.level import Level, children
+from vexture.quadtree.plain import plain_chain
 from vexture.quadtree.sampled import build_sampled
 from vexture.quadtree.tree import CellTree
 from vexture.tolerance import CLOSED
@@ -40,6 +41,9 @@ DEPTH_RANGE = (1, 20)
 
 DEFAULT_DEPTH = 10
 """Cells of a thousandth of the drawing."""
+
+MOST_QUADS = 2_000_000
+"""Largest tree that is built, some 200 MB."""
 
 CROWDED = 8
 """Pieces in a cell above which it is resolved only if its boundary meets the cell's edge exactly twice."""
@@ -150,10 +154,12 @@ def grow(
     rules: NDArray[np.int64],
     accuracy: Accuracy,
     max_depth: int,
+    most_quads: int,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float, int]:
     """Divide the unit square level by level until every cell is a leaf.
 
-    Returned are the cells, (quads, 4, 3): kind, reference, coverage; the curves; deviation; unresolved.
+    Returned are the cells, (quads, 4, 3): kind, reference, coverage; the curves; deviation; unresolved. If that
+    takes more than `most_quads`, nothing but the number needed so far, negative, as the last.
     """
     cells, quads = np.empty((16, 4, 3)), 0
     curves, curve_count = np.empty((16, 4, 2)), 0
@@ -181,6 +187,8 @@ def grow(
                 curve_count += 1
         if split_count == 0:
             break
+        if quads + split_count > most_quads:
+            return cells[:0], curves[:0], 0.0, -(quads + split_count)
         cells = _with_room(cells, quads, split_count)
         first_quad = quads
         quads = _add_quads(cells, level, split_cells, first_quad)
@@ -198,19 +206,24 @@ def grow(
 
 
 def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
-    """Cubics of a drawing, (n, 4, 2), the path of each, (n,), and the paths' fill rules, (paths,)."""
-    contours = [contour for path in drawing.paths for contour in path.contours]
+    """Cubics of a drawing, (n, 4, 2), the path of each, (n,), and the paths' fill rules, (paths,).
+
+    A path that is painted again, bit for bit the same, adds nothing to the silhouette and is left out.
+    """
+    different = {(path.fill_rule, *(contour.tobytes() for contour in path.contours)): path for path in drawing.paths}
+    paths = list(different.values())
+    contours = [contour for path in paths for contour in path.contours]
     cubics = np.concatenate(contours) if contours else np.empty((0, 4, 2))
-    lengths = [sum(map(len, path.contours)) for path in drawing.paths]
+    lengths = [sum(map(len, path.contours)) for path in paths]
     owner = np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
-    return cubics, owner, np.array([int(path.fill_rule) for path in drawing.paths], dtype=np.int64)
+    return cubics, owner, np.array([int(path.fill_rule) for path in paths], dtype=np.int64)
 
 
 def _root(drawing: Drawing, pieces: Pieces) -> Level:
     """The unit square as the only cell of its level; every path has corner winding 0 there."""
     ends = pieces.points[:, [0, 3]]
     worst = np.abs(ends - np.clip(ends, 0.0, 1.0)).max()
-    if worst > CLOSED:
+    if not worst <= CLOSED:  # not a number counts as outside
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {worst:.3g}; clip or scale it first")
     pieces.points[:, [0, 3]] = np.clip(ends, 0.0, 1.0)
     paths = np.unique(pieces.path)
@@ -230,6 +243,7 @@ def build(
     max_depth: int = DEFAULT_DEPTH,
     strategy: Literal["direct", "sampled"] = "direct",
     step: float = 0.0,
+    most_quads: int = MOST_QUADS,
 ) -> CellTree:
     """Quad-tree of a drawing's silhouette, with thesis leaves.
 
@@ -246,6 +260,8 @@ def build(
         Leaves found from the drawing's own cubics, or the thesis's original way by sampling and fitting.
     step : float
         Share of a cell by which an encoding's quantisation moves an outline: "auto" is no finer than that.
+    most_quads : int
+        A tree that needs more is given up.
 
     Returns
     -------
@@ -254,7 +270,7 @@ def build(
     Raises
     ------
     LimitError
-        If a parameter is out of range.
+        If a parameter is out of range, or the tree too large.
     SourceError
         If the drawing leaves the unit square.
 
@@ -267,7 +283,7 @@ def build(
     if strategy not in ("direct", "sampled"):
         raise LimitError(f"strategy {strategy!r} is not known; use direct or sampled")
     low, high = DEPTH_RANGE
-    if not low <= max_depth <= high:
+    if not (isinstance(max_depth, int | np.integer) and low <= max_depth <= high):
         raise LimitError(f"depth limit {max_depth} is outside {low}..{high}; the default is {DEFAULT_DEPTH}")
     cubics, owner, rules = gather(drawing)
     accuracy = accuracy_of(tolerance, cubics, step)
@@ -277,6 +293,11 @@ def build(
         return CellTree(nothing, np.full((1, 4), -1, np.int32), np.zeros((1, 4)), np.empty((0, 4, 2)), 0.0, 0)
     if strategy == "sampled":
         return build_sampled(drawing, cubics, owner, rules, accuracy, max_depth)
-    cells, curves, deviation, unresolved = grow(_root(drawing, pieces), cubics, rules, accuracy, max_depth)
+    cells, curves, deviation, unresolved = grow(_root(drawing, pieces), cubics, rules, accuracy, max_depth, most_quads)
+    if unresolved < 0:
+        raise LimitError(
+            f"{drawing.name}: {-unresolved} quads at least; the limit is {most_quads}; "
+            "use --bits 16, a smaller --max-depth or a larger --tolerance"
+        )
     kind, ref, coverage = cells[:, :, 0].astype(np.uint8), cells[:, :, 1].astype(np.int32), cells[:, :, 2].copy()
     return CellTree(kind, ref, coverage, curves.copy(), deviation, unresolved)

@@ -16,7 +16,8 @@ from vexture.bezier.roots import cubic_at
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
 from vexture.quadtree.boundary import quantise, resolve
-from vexture.quadtree.chain import JOIN, Chain, filled_sides, link_chain, on_edge, to_cell, touches_edge
+from vexture.quadtree.chain import JOIN, Chain, link_chain, on_edge
+from vexture.quadtree.plain import filled_sides, to_cell, touches_edge
 from vexture.quadtree.tree import CONTROL_MAX, CONTROL_MIN, CellKind
 
 __all__ = [

@@ -1,7 +1,8 @@
 """The cells of one depth, and how they are cut into the cells of the next.
 
 A cell is cut at its middle lines, x first. The cut coordinate is set exactly in both halves, so that neighbouring
-cells share the very same floating-point point and no seam can open between them. A piece goes to the upper (right)
+cells share the very same floating-point point and no seam can open between them; the other coordinate is rounded to a
+fine grain, so that a line through a cell's corner does not leave a sliver beside it. A piece goes to the upper (right)
 child iff **both** its ends are at or beyond the line: a decision by their midpoint fails where it rounds up.
 """
 
@@ -15,6 +16,7 @@ from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 from vexture.quadtree.winding import child_windings, inside
+from vexture.tolerance import GRAIN
 
 __all__ = ["Level", "children"]
 
@@ -71,7 +73,7 @@ def _cut(source: Pieces, first: int, last: int, axis: int, line: float, target: 
             split(curve, t, before, after)
             other = 1 - axis
             low, high = min(curve[0, other], curve[3, other]), max(curve[0, other], curve[3, other])
-            point = min(max(before[3, other], low), high)
+            point = min(max(np.rint(before[3, other] / GRAIN) * GRAIN, low), high)
             before[3, axis], after[0, axis] = line, line
             before[3, other], after[0, other] = point, point
             t0, t1 = source.span[i, 0], source.span[i, 1]

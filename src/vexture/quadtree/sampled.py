@@ -16,6 +16,7 @@ from vexture.quadtree.accuracy import Accuracy, cell_tolerance
 from vexture.quadtree.leaf import SHORTEST_CHORD, snap_to_edge
 from vexture.quadtree.tree import CONTROL_MAX, CONTROL_MIN, CellKind, CellTree
 from vexture.quadtree.winding import inside
+from vexture.tolerance import GRAIN
 
 __all__ = ["build_sampled"]
 
@@ -27,9 +28,6 @@ DENSER = 3
 
 FINE = 1 / 9
 """A cell that is crossed by a chord shorter than this share of it needs no denser samples: its corner is cut."""
-
-GRAIN = 2.0**-40
-"""Unit-square units. Samples are rounded to this, so that a straight side on a cell line stays on one side of it."""
 
 BESIDE = 1e-3
 """Share of a chord's length: how far beside it inside and outside are tested."""

@@ -18,6 +18,9 @@ __all__ = ["CONDITION_LIMIT", "SIZE_LIMIT", "check_size", "fit", "view_matrix", 
 SIZE_LIMIT: Final = 16384
 """Pixels; longest side of an image, which is also what GPUs allow."""
 
+HOMOGENEOUS_RANGE: Final = 20
+"""Powers of two; a view whose largest entry is outside is scaled."""
+
 CONDITION_LIMIT: Final = 1e8
 """Largest condition number of the map from the whole image to the unit square: a singular map lies beyond, and so does
 a magnification that leaves float64 too few bits for 1e-4 pixel."""
@@ -146,6 +149,9 @@ def view_matrix(to_unit: ArrayLike | None, size: tuple[int, int]) -> NDArray[np.
         raise LimitError(f"to_unit has the shape {matrix.shape}; it must be 2x3 (affine) or 3x3 (projective)")
     if not np.isfinite(matrix).all():
         raise LimitError("to_unit holds a number that is not finite; give finite numbers")
+    scale = np.frexp(np.abs(matrix).max())[1]
+    if abs(scale) > HOMOGENEOUS_RANGE:  # a homogeneous matrix may have any scale, but a shader's floats have not
+        matrix = np.ldexp(matrix, -scale)
     corners = np.array([[0, width, 0, width], [0, 0, height, height], [1, 1, 1, 1]])
     condition = np.linalg.cond(matrix * (width, height, 1.0))
     if not condition <= CONDITION_LIMIT:
