@@ -1,9 +1,10 @@
-"""Draw the README's picture by the program itself: `python tools/make_pictures.py` writes docs/pictures/first.png.
+"""Draw the README's pictures by the program itself: `python tools/make_pictures.py` writes docs/pictures/*.png.
 
 A drawing, the tree of cells that it becomes, the pair of textures that holds the tree, and what the shader's mirror
 draws from those textures: magnified, each time around the same point, and at small sizes.
 """
 
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -22,6 +23,7 @@ __all__ = ["sheet"]
 ROOT = Path(__file__).resolve().parents[1]
 SHAPE = ROOT / "examples" / "shapes" / "duck.svg"
 TARGET = ROOT / "docs" / "pictures" / "first.png"
+ICONS_TARGET = TARGET.with_name("icons.png")
 
 PANEL, GAP, CAPTION = 360, 28, 44  # pixels
 FINER = 4  # times the pixels that lines are drawn in
@@ -29,6 +31,7 @@ PAPER, INK, SHADE = "#ffffff", "#e09600", "#f7dfb0"  # SHADE: of a cell that is 
 TITLE, TEXT, FRAME, GRID, CURVE = "#14213d", "#6b7688", "#d5dae2", "#a9b2c0", "#1d3557"
 SIZES = (128, 64, 32, 16)  # pixels, of the small pictures
 ZOOMS = (1, 4, 32, 256)
+ICON, ICON_GRID = 72, (14, 4)  # pixels; columns and rows
 CENTER = (206 / 240, 1 - 79 / 240)  # unit-square units: where the duck opens its bill
 
 Panel = tuple[str, str, Image.Image]
@@ -174,7 +177,23 @@ def panels() -> list[list[Panel]]:
     ]
 
 
+def icons() -> Image.Image:
+    """Icons of those that benchmarks/icons.py measures, each drawn from its texture."""
+    sys.path.insert(0, str(ROOT / "benchmarks"))
+    import corpora
+
+    columns, rows = ICON_GRID
+    out = Image.new("RGB", (columns * (ICON + GAP) + GAP, rows * (ICON + GAP) + GAP), PAPER)
+    for place, file in enumerate(corpora.mdi(columns * rows, 1)):
+        row, column = divmod(place, columns)
+        image = inked(vexture.render(vexture.convert(file), (ICON, ICON), renderer="cpu"))
+        out.paste(image, (GAP + column * (ICON + GAP), GAP + row * (ICON + GAP)))
+    return out
+
+
 if __name__ == "__main__":
     TARGET.parent.mkdir(parents=True, exist_ok=True)
     sheet(panels()).save(TARGET, optimize=True)
     print(TARGET)
+    icons().save(ICONS_TARGET, optimize=True)
+    print(ICONS_TARGET)
