@@ -21,9 +21,8 @@ from vexture.encoding import ThesisTexture, decode, encode, quantisation_step
 from vexture.errors import LimitError, SourceError, VextureError
 from vexture.pipeline import run
 from vexture.quadtree.accuracy import accuracy_of, cell_tolerance
-from vexture.quadtree.boundary import LATTICE
 from vexture.quadtree.build import DEFAULT_DEPTH
-from vexture.quadtree.tree import CellTree
+from vexture.quadtree.tree import LATTICE, CellTree
 from vexture.render.exact import render_exact
 
 ROOT = Path(__file__).parents[1]

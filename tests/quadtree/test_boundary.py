@@ -6,10 +6,12 @@ from hypothesis import strategies as st
 
 import degenerate
 from vexture.bezier.monotone import monotone_pieces
-from vexture.quadtree.boundary import LATTICE, crowded_area, quantise, resolve
-from vexture.quadtree.build import _root, gather
+from vexture.quadtree.boundary import crowded_area, quantise, resolve
+from vexture.quadtree.build import gather, root_level
 from vexture.quadtree.crossings import x_at
 from vexture.quadtree.level import children
+from vexture.quadtree.tree import LATTICE
+from vexture.tolerance import GRAIN
 
 CLEAR = 2.6  # lattice units: nearer to an outline than this no answer is wrong
 SAGITTA = 2e-5  # of the brute force's chords
@@ -18,11 +20,11 @@ SAGITTA = 2e-5  # of the brute force's chords
 def levels(drawing, depth):
     """Levels 0..depth of a drawing with every cell divided, and the sizes of their cells."""
     cubics, owner, rules = gather(drawing)
-    level = _root(drawing, monotone_pieces(cubics, owner))
+    level = root_level(drawing, monotone_pieces(cubics, owner))
     for k in range(depth + 1):
         yield level, 2.0**-k, rules
         everything = np.ones(len(level.slot), bool)
-        level, _ = children(level, everything, len(everything), rules, 2.0**-k, 0)
+        level, _ = children(level, everything, len(everything), rules, 2.0**-k, GRAIN, 0)
 
 
 def in_cell(points, level, c, size):

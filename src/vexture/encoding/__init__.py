@@ -1,7 +1,20 @@
 """Encodings: each turns a `CellTree` into textures and back."""
 
 from vexture.encoding.files import target_of
+from vexture.encoding.packed import encode_packed
+from vexture.encoding.packed_texture import PackedTexture, Root
 from vexture.encoding.texture import ThesisTexture, load
 from vexture.encoding.thesis import decode, encode, info, quantisation_step
 
-__all__ = ["ThesisTexture", "decode", "encode", "info", "load", "quantisation_step", "target_of"]
+__all__ = [
+    "PackedTexture",
+    "Root",
+    "ThesisTexture",
+    "decode",
+    "encode",
+    "encode_packed",
+    "info",
+    "load",
+    "quantisation_step",
+    "target_of",
+]

@@ -1,20 +1,27 @@
 """The one owner of the textures' bits; shader text gets its constants from here (`vexture.shaders`).
 
-The thesis encoding (FORMAT.md, part A) is a pair of RGB textures whose channels are read as numbers in [0, 1].
+The thesis encoding (FORMAT.md, part A) is a pair of RGB textures whose channels are read as numbers in [0, 1]. The
+packed encoding (part B) is one texture of four 32-bit words to a texel, in which quads and curves share one index.
 """
 
 from typing import Final
 
-from vexture.quadtree.tree import CONTROL_MAX, CONTROL_MIN
+from vexture.quadtree.tree import CONTROL_MAX, CONTROL_MIN, LATTICE, MOST_CURVES, MOST_DEPTH
 
 __all__ = [
+    "CELL_BITS",
     "CELL_ORDER",
     "CONSTANT_ROWS",
     "CONTROL_MAX",
     "CONTROL_MIN",
+    "CONTROL_OFFSET",
+    "COORDINATE_BITS",
+    "COUNT_SHIFT",
+    "COVERAGE_ONE",
     "CURVES_SUFFIX",
     "CURVE_WIDTH",
     "EMPTY_ROW",
+    "ENCODING_PACKED",
     "ENCODING_THESIS",
     "FILE_LIMIT",
     "FORMAT_VERSION",
@@ -22,15 +29,23 @@ __all__ = [
     "KIND_CORNER",
     "KIND_CURVE",
     "KIND_QUAD",
+    "LATTICE",
     "LIST_LIMIT",
+    "MOST_CURVES",
+    "MOST_DEPTH",
+    "MOST_ROWS",
+    "PACKED_SUFFIX",
     "QUADS_SUFFIX",
+    "QUAD_FLAG",
     "QUAD_WIDTH",
+    "ROW_BITS",
     "TEXT_CRS",
     "TEXT_ENCODING",
     "TEXT_TRANSFORM",
     "TEXT_VERSION",
     "THRESHOLD_CORNER",
     "THRESHOLD_QUAD",
+    "WINDING_OFFSET",
 ]
 
 FORMAT_VERSION: Final = "1"
@@ -74,3 +89,34 @@ LIST_LIMIT: Final = {8: 256, 16: 65_000}
 
 FILE_LIMIT: Final = 2 * LIST_LIMIT[16] * QUAD_WIDTH * 3 * 2
 """Bytes. A longer file is not read: twice the pixels of the longest list leave room for filters and texts."""
+
+ENCODING_PACKED: Final = "packed"
+
+PACKED_SUFFIX: Final = ".ktx2"
+"""What follows the name in the name of a packed texture's file."""
+
+ROW_BITS: Final = 11
+"""Texel i lies in row i >> ROW_BITS; a texture of one row may be narrower. Every WebGL2 device takes this width."""
+
+MOST_ROWS: Final = 16384
+"""Height that most devices take."""
+
+CELL_BITS: Final = 8
+"""Each of a quad's cells has one byte in the word of cells and one in the word of coverages."""
+
+QUAD_FLAG: Final = 1 << 7
+"""Cell byte of a quad. In a leaf's, the number of curves stands above COUNT_SHIFT bits of corner winding."""
+
+COUNT_SHIFT: Final = 3
+
+WINDING_OFFSET: Final = 4
+"""Added to the corner winding of a leaf with curves, -3 to 3; a constant leaf has 0 there."""
+
+COVERAGE_ONE: Final = 255
+"""Coverage byte of a full cell."""
+
+COORDINATE_BITS: Final = 16
+"""A point is one word: x in its low bits, y above."""
+
+CONTROL_OFFSET: Final = 16384
+"""Lattice units added to the coordinates of P1 and P2, which so span -1/2 to 3/2 of the leaf."""

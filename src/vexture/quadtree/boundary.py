@@ -15,12 +15,10 @@ from vexture.bezier.monotone import Pieces
 from vexture.kernels import kernel
 from vexture.quadtree.crossings import crossing_heights, x_at
 from vexture.quadtree.order import sort_order
+from vexture.quadtree.tree import LATTICE
 from vexture.quadtree.winding import inside
 
-__all__ = ["LATTICE", "Boundary", "crowded_area", "quantise", "resolve"]
-
-LATTICE = 32768.0
-"""Lattice units across a leaf; a power of two, so that the lattices of all depths nest."""
+__all__ = ["Boundary", "cell_paths", "crowded_area", "quantise", "resolve"]
 
 NEAR = 1.0
 """Lattice units: curves that stay closer than this are one boundary."""
@@ -242,6 +240,33 @@ def resolve(
                     runs += 1
                 previous[i], since[i] = role[i], low
     return Boundary(heights, left, run_piece[:runs], run_role[:runs], run_y[:runs])
+
+
+@kernel
+def cell_paths(
+    pieces: Pieces, first: int, last: int, present: NDArray[np.int64], rules: NDArray[np.int64]
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Paths of a cell, numbered from 0: the one of each piece, their corner windings, their fill rules.
+
+    Parameters
+    ----------
+    pieces : Pieces
+        Those of the cell are first..last-1, in the order of `present`.
+    present : (n, 2) int64 array
+        The paths in the cell and their corner windings.
+    rules : (paths,) int64 array
+        `FillRule` of each path of the drawing.
+    """
+    owner = np.empty(last - first, np.int64)
+    path = 0
+    for i in range(first, last):
+        while present[path, 0] != pieces.path[i]:
+            path += 1
+        owner[i - first] = path
+    corner, cell_rules = np.empty(len(present), np.int64), np.empty(len(present), np.int64)
+    for k in range(len(present)):
+        corner[k], cell_rules[k] = present[k, 1], rules[present[k, 0]]
+    return owner, corner, cell_rules
 
 
 SCANLINES = 64

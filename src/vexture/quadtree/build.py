@@ -31,13 +31,13 @@ from vexture.quadtree.leaf import (
 from vexture.quadtree.level import Level, children
 from vexture.quadtree.plain import plain_chain
 from vexture.quadtree.sampled import build_sampled
-from vexture.quadtree.tree import CellTree
-from vexture.tolerance import CLOSED
+from vexture.quadtree.tree import MOST_DEPTH, CellTree
+from vexture.tolerance import CLOSED, GRAIN
 
-__all__ = ["DEFAULT_DEPTH", "DEPTH_RANGE", "build", "gather"]
+__all__ = ["DEFAULT_DEPTH", "DEPTH_RANGE", "build", "gather", "root_level", "with_room"]
 
-DEPTH_RANGE = (1, 20)
-"""Depth limits that a caller may ask for; float32 shaders resolve no more."""
+DEPTH_RANGE = (1, MOST_DEPTH)
+"""Depth limits that a caller may ask for."""
 
 DEFAULT_DEPTH = 10
 """Cells of a thousandth of the drawing."""
@@ -121,7 +121,7 @@ def _leaf_of(
 
 
 @kernel
-def _with_room(rows: NDArray[np.float64], count: int, room: int) -> NDArray[np.float64]:
+def with_room(rows: NDArray[np.float64], count: int, room: int) -> NDArray[np.float64]:
     """Array of rows with room for more behind the first `count`; itself if it has that, else twice as large."""
     if count + room <= len(rows):
         return rows
@@ -167,7 +167,7 @@ def grow(
     for depth in range(max_depth + 1):
         count = len(level.slot)
         split_cells, split_count = np.zeros(count, np.bool_), 0
-        curves = _with_room(curves, curve_count, count)
+        curves = with_room(curves, curve_count, count)
         for c in range(count):
             tolerance = cell_tolerance(accuracy, size)
             leaf = no_leaf()
@@ -189,10 +189,10 @@ def grow(
             break
         if quads + split_count > most_quads:
             return cells[:0], curves[:0], 0.0, -(quads + split_count)
-        cells = _with_room(cells, quads, split_count)
+        cells = with_room(cells, quads, split_count)
         first_quad = quads
         quads = _add_quads(cells, level, split_cells, first_quad)
-        level, full = children(level, split_cells, split_count, rules, size, first_quad)
+        level, full = children(level, split_cells, split_count, rules, size, GRAIN, first_quad)
         for slot_index in full:
             cell = cells[slot_index // 4, slot_index % 4]
             cell[0], cell[2] = FULL, 1.0
@@ -219,7 +219,7 @@ def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], ND
     return cubics, owner, np.array([int(path.fill_rule) for path in paths], dtype=np.int64)
 
 
-def _root(drawing: Drawing, pieces: Pieces) -> Level:
+def root_level(drawing: Drawing, pieces: Pieces) -> Level:
     """The unit square as the only cell of its level; every path has corner winding 0 there."""
     ends = pieces.points[:, [0, 3]]
     worst = np.abs(ends - np.clip(ends, 0.0, 1.0)).max()
@@ -293,7 +293,9 @@ def build(
         return CellTree(nothing, np.full((1, 4), -1, np.int32), np.zeros((1, 4)), np.empty((0, 4, 2)), 0.0, 0)
     if strategy == "sampled":
         return build_sampled(drawing, cubics, owner, rules, accuracy, max_depth)
-    cells, curves, deviation, unresolved = grow(_root(drawing, pieces), cubics, rules, accuracy, max_depth, most_quads)
+    cells, curves, deviation, unresolved = grow(
+        root_level(drawing, pieces), cubics, rules, accuracy, max_depth, most_quads
+    )
     if unresolved < 0:
         raise LimitError(
             f"{drawing.name}: {-unresolved} quads at least; the limit is {most_quads}; "

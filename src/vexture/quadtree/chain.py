@@ -9,7 +9,8 @@ from vexture.bezier.area import integral_x_dy
 from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
-from vexture.quadtree.boundary import LATTICE, Boundary
+from vexture.quadtree.boundary import Boundary
+from vexture.quadtree.tree import LATTICE
 
 __all__ = [
     "JOIN",

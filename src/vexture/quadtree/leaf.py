@@ -15,7 +15,7 @@ from vexture.bezier.monotone import Pieces
 from vexture.bezier.roots import cubic_at
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
-from vexture.quadtree.boundary import quantise, resolve
+from vexture.quadtree.boundary import cell_paths, quantise, resolve
 from vexture.quadtree.chain import JOIN, Chain, link_chain, on_edge
 from vexture.quadtree.plain import filled_sides, to_cell, touches_edge
 from vexture.quadtree.tree import CONTROL_MAX, CONTROL_MIN, CellKind
@@ -281,15 +281,7 @@ def cell_chain(
     x0, y0, size : float
         The cell.
     """
-    owner = np.empty(last - first, np.int64)
-    path = 0
-    for i in range(first, last):
-        while present[path, 0] != pieces.path[i]:
-            path += 1
-        owner[i - first] = path
-    corner, cell_rules = np.empty(len(present), np.int64), np.empty(len(present), np.int64)
-    for k in range(len(present)):
-        corner[k], cell_rules[k] = present[k, 1], rules[present[k, 0]]
+    owner, corner, cell_rules = cell_paths(pieces, first, last, present, rules)
     curves = quantise(pieces.points[first:last], x0, y0, size)
     boundary = resolve(curves, owner, corner, cell_rules)
     return link_chain(curves, pieces.segment[first:last], pieces.span[first:last], boundary)

@@ -2,8 +2,9 @@
 
 A cell is cut at its middle lines, x first. The cut coordinate is set exactly in both halves, so that neighbouring
 cells share the very same floating-point point and no seam can open between them; the other coordinate is rounded to a
-fine grain, so that a line through a cell's corner does not leave a sliver beside it. A piece goes to the upper (right)
-child iff **both** its ends are at or beyond the line: a decision by their midpoint fails where it rounds up.
+lattice, so that a line through a cell's corner does not leave a sliver beside it and that leaves of any depth can say
+the point exactly. So is that of an end which lies on the line already. A piece goes to the upper (right) child iff
+**both** its ends are at or beyond the line: a decision by their midpoint fails where it rounds up.
 """
 
 from typing import NamedTuple
@@ -16,7 +17,6 @@ from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 from vexture.quadtree.winding import child_windings, inside
-from vexture.tolerance import GRAIN
 
 __all__ = ["Level", "children"]
 
@@ -60,22 +60,33 @@ def _copy_piece(source: Pieces, i: int, target: Pieces, k: int) -> None:
 
 
 @kernel
-def _cut(source: Pieces, first: int, last: int, axis: int, line: float, target: Pieces, end: int) -> int:
+def _snap(curve: NDArray[np.float64], end: int, axis: int, grain: float) -> None:
+    """Round one coordinate of an end to a lattice; the control point beside it moves along."""
+    snapped = np.rint(curve[end, axis] / grain) * grain
+    curve[1 if end == 0 else 2, axis] += snapped - curve[end, axis]
+    curve[end, axis] = snapped
+
+
+@kernel
+def _cut(source: Pieces, first: int, last: int, axis: int, line: float, grain: float, target: Pieces, end: int) -> int:
     """Append pieces first..last-1 to target[end:], cut where they cross a line; return the new end."""
+    other = 1 - axis
     for i in range(first, last):
         curve = source.points[i]
         a, d = curve[0, axis], curve[3, axis]
         _copy_piece(source, i, target, end)
+        if a == line:
+            _snap(target.points[end], 0, other, grain)
+        if d == line:
+            _snap(target.points[end], 3, other, grain)
         if (a < line < d) or (d < line < a):
             t = solve_monotone(a, curve[1, axis], curve[2, axis], d, line)
             _copy_piece(source, i, target, end + 1)
             before, after = target.points[end], target.points[end + 1]
             split(curve, t, before, after)
-            other = 1 - axis
-            low, high = min(curve[0, other], curve[3, other]), max(curve[0, other], curve[3, other])
-            point = min(max(np.rint(before[3, other] / GRAIN) * GRAIN, low), high)
             before[3, axis], after[0, axis] = line, line
-            before[3, other], after[0, other] = point, point
+            _snap(before, 3, other, grain)
+            _snap(after, 0, other, grain)
             t0, t1 = source.span[i, 0], source.span[i, 1]
             middle = t0 + t * (t1 - t0)
             target.span[end, 1], target.span[end + 1, 0] = middle, middle
@@ -155,6 +166,7 @@ def children(
     split_count: int,
     rules: NDArray[np.int64],
     size: float,
+    grain: float,
     first_quad: int,
 ) -> tuple[Level, NDArray[np.int64]]:
     """Cut cells of a level into the cells of the next.
@@ -169,6 +181,8 @@ def children(
         `FillRule` of each path.
     size : float
         Width of this level's cells, in unit-square units.
+    grain : float
+        Spacing of the lattice that points on the middle lines are rounded to, a power of two.
 
     Returns
     -------
@@ -190,8 +204,8 @@ def children(
             continue
         x0, y0 = level.origin[c, 0], level.origin[c, 1]
         xm, ym = x0 + half, y0 + half
-        once_end = _cut(level.pieces, level.piece_at[c], level.piece_at[c + 1], 0, xm, once, 0)
-        twice_end = _cut(once, 0, once_end, 1, ym, twice, 0)
+        once_end = _cut(level.pieces, level.piece_at[c], level.piece_at[c + 1], 0, xm, grain, once, 0)
+        twice_end = _cut(once, 0, once_end, 1, ym, grain, twice, 0)
         _sort_by_child(twice, twice_end, xm, ym, out, end, child_at)
         parent_present = level.present[level.path_at[c] : level.path_at[c + 1]]
         windings = child_windings(out, child_at, parent_present, x0, y0, xm, ym)

@@ -1,0 +1,65 @@
+"""The packed encoding (FORMAT.md, part B): trees to one texture and back."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.encoding import layout
+from vexture.encoding.packed_texture import PackedTexture, Root
+from vexture.quadtree.tree import PackedTree
+
+__all__ = ["encode_packed"]
+
+
+def encode_packed(
+    trees: Sequence[PackedTree], roots: Sequence[Root], *, name: str, source: str | None = None
+) -> PackedTexture:
+    """Texture of some trees, one after another: the quads of each, then its curves.
+
+    Parameters
+    ----------
+    trees : sequence of PackedTree
+        Numbered as its docstring says.
+    roots : sequence of Root
+        What to say of each; their `quad` is filled in here.
+    name, source : str
+        Of the texture.
+    """
+    texels = []
+    placed = []
+    at = 0
+    for tree, root in zip(trees, roots, strict=True):
+        placed.append(replace(root, quad=at))
+        texels += [_quad_texels(tree, at), _curve_texels(tree.curves)]
+        at += len(tree.count) + len(tree.curves)
+    return PackedTexture(_rows(np.concatenate(texels)), tuple(placed), name, source)
+
+
+def _quad_texels(tree: PackedTree, at: int) -> NDArray[np.uint32]:
+    winding = np.where(tree.count > 0, tree.winding + layout.WINDING_OFFSET, 0)
+    cells = np.where(tree.is_quad, layout.QUAD_FLAG, (tree.count.astype(np.int64) << layout.COUNT_SHIFT) + winding)
+    coverage = np.rint(tree.coverage.clip(0.0, 1.0) * layout.COVERAGE_ONE).astype(np.int64)
+    shift = layout.CELL_BITS * np.arange(4)
+    texels = np.empty((len(tree.count), 4), np.uint32)
+    texels[:, 0] = at + tree.first_quad
+    texels[:, 1] = at + len(tree.count) + tree.first_curve
+    texels[:, 2] = (cells << shift).sum(axis=1)
+    texels[:, 3] = (coverage << shift).sum(axis=1)
+    return texels
+
+
+def _curve_texels(curves: NDArray[np.int32]) -> NDArray[np.uint32]:
+    offset = np.array([0, layout.CONTROL_OFFSET, layout.CONTROL_OFFSET, 0])[:, None]
+    stored = curves + offset
+    return (stored[:, :, 0] | (stored[:, :, 1] << layout.COORDINATE_BITS)).astype(np.uint32)
+
+
+def _rows(texels: NDArray[np.uint32]) -> NDArray[np.uint32]:
+    """Texels in rows, the last one filled up with zeros."""
+    width = min(1 << (len(texels) - 1).bit_length(), 1 << layout.ROW_BITS)
+    rows = -(-len(texels) // width)
+    out = np.zeros((rows * width, 4), np.uint32)
+    out[: len(texels)] = texels
+    return out.reshape(rows, width, 4)
