@@ -53,7 +53,8 @@ def _quad_texels(tree: PackedTree, at: int) -> NDArray[np.uint32]:
 def _curve_texels(curves: NDArray[np.int32]) -> NDArray[np.uint32]:
     offset = np.array([0, layout.CONTROL_OFFSET, layout.CONTROL_OFFSET, 0])[:, None]
     stored = curves + offset
-    return (stored[:, :, 0] | (stored[:, :, 1] << layout.COORDINATE_BITS)).astype(np.uint32)
+    texels: NDArray[np.uint32] = (stored[:, :, 0] | (stored[:, :, 1] << layout.COORDINATE_BITS)).astype(np.uint32)
+    return texels
 
 
 def _rows(texels: NDArray[np.uint32]) -> NDArray[np.uint32]:

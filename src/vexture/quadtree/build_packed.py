@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.monotone import monotone_pieces
-from vexture.bezier.split import copy_curve
 from vexture.drawing import Drawing
 from vexture.errors import LimitError
 from vexture.kernels import kernel
@@ -61,13 +60,13 @@ def grow_packed(
                 depth == max_depth,
                 curves[curve_count:],
             )
-            if leaf.count == DIVIDE:
+            if leaf.size == DIVIDE:
                 split_cells[c] = True
                 split_count += 1
                 continue
             cell = cells[level.slot[c] // 4, level.slot[c] % 4]
-            cell[COUNT], cell[WINDING], cell[COVERAGE] = leaf.count, leaf.winding, leaf.coverage
-            curve_count += leaf.count
+            cell[COUNT], cell[WINDING], cell[COVERAGE] = leaf.size, leaf.winding, leaf.coverage
+            curve_count += leaf.size
             unresolved += 0 if leaf.resolved else 1
         if split_count == 0:
             break

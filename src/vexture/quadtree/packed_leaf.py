@@ -42,7 +42,7 @@ class PackedLeaf(NamedTuple):
 
     Attributes
     ----------
-    count : int
+    size : int
         Number of pieces, or `DIVIDE`.
     winding : int
         Corner winding, 0 if there are no pieces.
@@ -52,7 +52,7 @@ class PackedLeaf(NamedTuple):
         False if this is the best that a cell at the depth limit can say, rather than all.
     """
 
-    count: int
+    size: int
     winding: int
     coverage: float
     resolved: bool
@@ -169,11 +169,8 @@ def _keep_run(curve: NDArray[np.float64], role: int, low: float, high: float, ou
     u1 = solve_monotone(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], stop)
     subcubic(curve, u0, u1, out)
     for end, control, u, y in ((0, 1, u0, start), (3, 2, u1, stop)):
-        x = out[end, 0]
-        if u != 0.0 and u != 1.0:
-            x = min(max(np.rint(x), 1.0), LATTICE)
-        else:
-            x = np.rint(x)
+        inner = u != 0.0 and u != 1.0
+        x = max(np.rint(out[end, 0]), 1.0) if inner else np.rint(out[end, 0])
         out[control, 0] += x - out[end, 0]
         out[control, 1] += y - out[end, 1]
         out[end, 0], out[end, 1] = x, y
