@@ -14,6 +14,7 @@ __all__ = [
     "FillRule",
     "FormatError",
     "LimitError",
+    "PackedTexture",
     "Paint",
     "Path",
     "SourceError",
@@ -28,12 +29,12 @@ __all__ = [
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing, FillRule, Paint, Path
-    from vexture.encoding import ThesisTexture, load
+    from vexture.encoding import PackedTexture, ThesisTexture, load
     from vexture.sources.svg import read_svg
 
 _HOMES = {
     "vexture.drawing": ("Drawing", "FillRule", "Paint", "Path"),
-    "vexture.encoding": ("ThesisTexture", "load"),
+    "vexture.encoding": ("PackedTexture", "ThesisTexture", "load"),
     "vexture.sources.svg": ("read_svg",),
 }
 
