@@ -22,7 +22,7 @@ ALONG = 0.001
 """First weight of squared distances along the curve, tenfold after each step that made it worse."""
 
 
-@kernel
+@kernel(allocates=False)
 def _chord_parameters(points: NDArray[np.float64], t: NDArray[np.float64]) -> None:
     """Write each point's share of the polyline's length."""
     t[0] = 0.0
@@ -33,7 +33,7 @@ def _chord_parameters(points: NDArray[np.float64], t: NDArray[np.float64]) -> No
         t[i] = t[i] / total if total > 0.0 else 0.0
 
 
-@kernel
+@kernel(allocates=False)
 def _solve_symmetric(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
     """Overwrite b, (n,), by the solution of a x = b for a positive definite (n, n); False if it is not."""
     n = len(b)
@@ -101,7 +101,7 @@ def _least_squares(
     return True
 
 
-@kernel
+@kernel(allocates=False)
 def _project(points: NDArray[np.float64], t: NDArray[np.float64], curve: NDArray[np.float64]) -> float:
     """Move each t towards the nearest place on the curve by a Newton step; return the largest distance."""
     worst = 0.0
@@ -123,7 +123,7 @@ def _project(points: NDArray[np.float64], t: NDArray[np.float64], curve: NDArray
     return np.sqrt(worst)
 
 
-@kernel
+@kernel(allocates=False)
 def _keep(
     curve: NDArray[np.float64], t: NDArray[np.float64], kept: NDArray[np.float64], kept_t: NDArray[np.float64]
 ) -> None:

@@ -8,7 +8,7 @@ from vexture.kernels import kernel
 __all__ = ["sort_order"]
 
 
-@kernel
+@kernel(allocates=False)
 def _sift(keys: NDArray[np.float64], order: NDArray[np.int64], root: int, count: int) -> None:
     """Restore the heap below a place."""
     while 2 * root + 1 < count:
