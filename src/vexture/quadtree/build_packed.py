@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.monotone import monotone_pieces
-from vexture.bezier.split import copy_curve
 from vexture.drawing import Drawing
 from vexture.errors import LimitError
 from vexture.kernels import kernel
