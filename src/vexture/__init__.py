@@ -29,16 +29,19 @@ __all__ = [
     "read_svg",
     "render",
     "render_layers",
+    "shader_source",
 ]
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing, FillRule, Paint, Path
     from vexture.encoding import PackedTexture, Root, ThesisTexture, load
+    from vexture.shaders import shader_source
     from vexture.sources.svg import read_svg
 
 _HOMES = {
     "vexture.drawing": ("Drawing", "FillRule", "Paint", "Path"),
     "vexture.encoding": ("PackedTexture", "Root", "ThesisTexture", "load"),
+    "vexture.shaders": ("shader_source",),
     "vexture.sources.svg": ("read_svg",),
 }
 

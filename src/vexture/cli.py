@@ -111,7 +111,7 @@ def main() -> None:
 def convert(
     sources: tuple[Path, ...], output: Path | None, atlas: Path | None, bits: str | None, **parameters: Any
 ) -> None:
-    """Convert SVG drawings into textures: a file or a pair for each, or one atlas of all."""
+    """Convert SVG drawings into textures."""
     with _one_line():
         settings = Settings(bits=None if bits is None else int(bits), **parameters)
         if atlas is None:
@@ -128,7 +128,7 @@ def convert(
 
 def _convert_each(sources: tuple[Path, ...], output: Path, settings: Settings) -> int:
     """Convert each file to files of its own, print a line for each, return how many failed."""
-    from vexture.encoding import packed_target, target_of
+    from vexture.encoding.files import packed_target, target_of
     from vexture.pipeline import run
 
     try:
@@ -154,7 +154,8 @@ def _convert_each(sources: tuple[Path, ...], output: Path, settings: Settings) -
 
 def _convert_together(sources: tuple[Path, ...], atlas: Path, settings: Settings) -> int:
     """Convert all files to one texture, written if none failed; print a line for each, return how many failed."""
-    from vexture.encoding.layout import PACKED_SUFFIX, TEXEL_BYTES
+    from vexture.encoding.ktx2 import TEXEL_BYTES
+    from vexture.encoding.layout import PACKED_SUFFIX
     from vexture.pipeline import Shapes, join, shapes_of
 
     if settings.encoding != "packed":
@@ -252,7 +253,10 @@ def render(
     select: str | None,
     **options: Any,
 ) -> None:
-    """Render a drawing or a texture as a PNG: in its colours if it was split by paint, else black on white."""
+    """Draw an SVG or a texture as a PNG.
+
+    A texture that was split by paint is drawn in its colours, else a shape is black; on white.
+    """
     with _one_line():
         from vexture.pictures import on_white
         from vexture.render.view import window

@@ -61,8 +61,10 @@ def render(
     Raises
     ------
     LimitError
-        If the renderer is unknown, "exact" is given a texture, the texture has no such shape or several and none is
-        named, or the size or view is out of range.
+        If the renderer is unknown, "exact" is given a texture, a texture holds several shapes and none is named, or
+        the size or view is out of range.
+    FormatError
+        If the texture has no such shape.
     DeviceError
         If there is no GPU.
 
@@ -124,7 +126,7 @@ def render_layers(
 
     Raises
     ------
-    LimitError, DeviceError
+    LimitError, FormatError, DeviceError
         As in `vexture.render`.
 
     Examples
@@ -191,7 +193,7 @@ def on_white(
 
     Raises
     ------
-    LimitError, DeviceError
+    LimitError, FormatError, DeviceError
         As in `vexture.render`.
     """
     from vexture.encoding import PackedTexture
@@ -218,21 +220,17 @@ def find_root(texture: "PackedTexture", root: str | int | None) -> int:
 
     Raises
     ------
+    FormatError
+        If there is none.
     LimitError
-        If there is none, or none is named and there are several.
+        If none is named and there are several.
     """
-    names = [shape.name for shape in texture.roots]
-    if root is None:
-        if len(names) > 1:
-            raise LimitError(f"{texture.name} holds {len(names)} shapes ({_listed(names)}); choose one by root")
-        return 0
-    if isinstance(root, str):
-        if root not in names:
-            raise LimitError(f"{texture.name} has no root {root!r}; it has {_listed(names)}")
-        return names.index(root)
-    if not 0 <= root < len(names):
-        raise LimitError(f"{texture.name} has no root {root}; they are counted from 0 to {len(names) - 1}")
-    return root
+    if root is not None:
+        return texture.roots.index(texture.root(root))
+    if len(texture.roots) > 1:
+        names = _listed([shape.name for shape in texture.roots])
+        raise LimitError(f"{texture.name} holds {len(texture.roots)} shapes ({names}); choose one by root")
+    return 0
 
 
 def layers_of(texture: "PackedTexture", drawing: str | None = None) -> list[int]:

@@ -1,4 +1,4 @@
-"""Names of a texture's pair of files; writing both or none."""
+"""Names of a texture's file or pair of files; writing all of them or none."""
 
 import errno
 import os
@@ -6,10 +6,10 @@ import re
 import secrets
 from pathlib import Path
 
-from vexture.encoding.layout import CURVES_SUFFIX, FILE_LIMIT, QUADS_SUFFIX
+from vexture.encoding.layout import CURVES_SUFFIX, FILE_LIMIT, PACKED_SUFFIX, QUADS_SUFFIX
 from vexture.errors import DeviceError, FormatError
 
-__all__ = ["file_name", "pair_of", "read_file", "target_of", "write_together"]
+__all__ = ["file_name", "packed_target", "pair_of", "read_file", "target_of", "write_together"]
 
 NAME_BYTES = 200  # file systems allow 255, and suffixes are still to come
 
@@ -53,11 +53,26 @@ def target_of(path: str | os.PathLike[str], name: str) -> tuple[Path, Path]:
     >>> [str(file) for file in target_of("maps/", "delft")]
     ['maps/delft.quads.png', 'maps/delft.curves.png']
     """
-    text = os.fspath(path)
-    if text.endswith(("/", os.sep)) or os.path.isdir(text):
-        folder = Path(text)
-        return folder / (file_name(name) + QUADS_SUFFIX), folder / (file_name(name) + CURVES_SUFFIX)
+    if _is_folder(path):
+        stem = Path(path) / file_name(name)
+        return stem.with_name(stem.name + QUADS_SUFFIX), stem.with_name(stem.name + CURVES_SUFFIX)
     return pair_of(path)
+
+
+def packed_target(path: str | os.PathLike[str], name: str) -> Path:
+    """Return the packed texture's file to write: named `name` in a folder, or the path itself.
+
+    Examples
+    --------
+    >>> str(packed_target("maps/", "delft")), str(packed_target("maps/all.ktx2", "delft"))
+    ('maps/delft.ktx2', 'maps/all.ktx2')
+    """
+    return Path(path) / (file_name(name) + PACKED_SUFFIX) if _is_folder(path) else Path(path)
+
+
+def _is_folder(path: str | os.PathLike[str]) -> bool:
+    """Whether a path to write to exists as a folder, or says by its end that it shall be one."""
+    return os.fspath(path).endswith(("/", os.sep)) or os.path.isdir(path)
 
 
 def write_together(files: dict[Path, bytes]) -> None:
@@ -92,8 +107,8 @@ def write_together(files: dict[Path, bytes]) -> None:
         raise
 
 
-def read_file(path: Path) -> bytes:
-    """Return the bytes of a file, one more than `FILE_LIMIT` at most.
+def read_file(path: Path, limit: int = FILE_LIMIT) -> bytes:
+    """Return the bytes of a file, one more than `limit` at most.
 
     Raises
     ------
@@ -104,10 +119,11 @@ def read_file(path: Path) -> bytes:
     """
     try:
         with path.open("rb") as file:
-            return file.read(FILE_LIMIT + 1)
+            return file.read(limit + 1)
     except FileNotFoundError:
         raise FormatError(
-            f"{path}: not found; a texture is the pair NAME{QUADS_SUFFIX} and NAME{CURVES_SUFFIX}, name either"
+            f"{path}: not found; a texture is NAME{PACKED_SUFFIX}, or the pair NAME{QUADS_SUFFIX} and "
+            f"NAME{CURVES_SUFFIX}, name either"
         ) from None
     except OSError as error:
         raise DeviceError(f"{path}: cannot be read ({error.strerror}); check the file's permissions") from None

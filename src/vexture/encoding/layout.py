@@ -34,15 +34,22 @@ __all__ = [
     "MOST_CURVES",
     "MOST_DEPTH",
     "MOST_ROWS",
+    "MOST_TEXT_BYTES",
+    "PACKED_FILE_LIMIT",
     "PACKED_SUFFIX",
+    "PACKED_VERSION",
     "QUADS_SUFFIX",
     "QUAD_FLAG",
     "QUAD_WIDTH",
     "ROW_BITS",
     "TEXT_CRS",
     "TEXT_ENCODING",
+    "TEXT_NAME",
+    "TEXT_ROOTS",
+    "TEXT_SOURCE",
     "TEXT_TRANSFORM",
     "TEXT_VERSION",
+    "TEXT_WRITER",
     "THRESHOLD_CORNER",
     "THRESHOLD_QUAD",
     "WINDING_OFFSET",
@@ -55,7 +62,13 @@ TEXT_VERSION: Final = "vexture.version"
 TEXT_ENCODING: Final = "vexture.encoding"
 TEXT_TRANSFORM: Final = "vexture.transform"
 TEXT_CRS: Final = "vexture.crs"
-"""Keywords of the PNG text chunks."""
+"""Keywords of the PNG text chunks; the first two also of the packed file's key/value data."""
+
+TEXT_WRITER: Final = "KTXwriter"
+TEXT_NAME: Final = "vexture.name"
+TEXT_SOURCE: Final = "vexture.source"
+TEXT_ROOTS: Final = "vexture.roots"
+"""Further keys of the packed file."""
 
 QUADS_SUFFIX: Final = ".quads.png"
 CURVES_SUFFIX: Final = ".curves.png"
@@ -91,6 +104,7 @@ FILE_LIMIT: Final = 2 * LIST_LIMIT[16] * QUAD_WIDTH * 3 * 2
 """Bytes. A longer file is not read: twice the pixels of the longest list leave room for filters and texts."""
 
 ENCODING_PACKED: Final = "packed"
+PACKED_VERSION: Final = "1"
 
 PACKED_SUFFIX: Final = ".ktx2"
 """What follows the name in the name of a packed texture's file."""
@@ -100,6 +114,12 @@ ROW_BITS: Final = 11
 
 MOST_ROWS: Final = 16384
 """Height that most devices take."""
+
+MOST_TEXT_BYTES: Final = 1 << 24
+"""Bytes of key/value data: room for 100,000 roots."""
+
+PACKED_FILE_LIMIT: Final = (MOST_ROWS << ROW_BITS) * 16 + 2 * MOST_TEXT_BYTES
+"""Bytes. A longer file is not read: the most texels, not deflated, and the longest texts."""
 
 CELL_BITS: Final = 8
 """Each of a quad's cells has one byte in the word of cells and one in the word of coverages."""

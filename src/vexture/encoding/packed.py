@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from vexture.encoding import layout
 from vexture.encoding.packed_texture import PackedTexture, Root
+from vexture.errors import LimitError
 from vexture.quadtree.tree import PackedTree
 
 __all__ = ["encode_packed"]
@@ -26,14 +27,24 @@ def encode_packed(
         What to say of each; their `quad` is filled in here.
     name, source : str
         Of the texture.
+
+    Raises
+    ------
+    LimitError
+        If there is no tree, or they take more texels than a texture has.
     """
-    texels = []
-    placed = []
+    texels: list[NDArray[np.uint32]] = []
+    placed: list[Root] = []
     at = 0
     for tree, root in zip(trees, roots, strict=True):
         placed.append(replace(root, quad=at))
         texels += [_quad_texels(tree, at), _curve_texels(tree.curves)]
         at += len(tree.count) + len(tree.curves)
+    most = layout.MOST_ROWS << layout.ROW_BITS
+    if at > most:
+        raise LimitError(f"{name}: {at} texels; the limit is {most}; use several textures, or a larger --tolerance")
+    if not placed:
+        raise LimitError(f"{name}: no shapes; a texture has at least one")
     return PackedTexture(_rows(np.concatenate(texels)), tuple(placed), name, source)
 
 
@@ -53,7 +64,8 @@ def _quad_texels(tree: PackedTree, at: int) -> NDArray[np.uint32]:
 def _curve_texels(curves: NDArray[np.int32]) -> NDArray[np.uint32]:
     offset = np.array([0, layout.CONTROL_OFFSET, layout.CONTROL_OFFSET, 0])[:, None]
     stored = curves + offset
-    return (stored[:, :, 0] | (stored[:, :, 1] << layout.COORDINATE_BITS)).astype(np.uint32)
+    texels: NDArray[np.uint32] = (stored[:, :, 0] | (stored[:, :, 1] << layout.COORDINATE_BITS)).astype(np.uint32)
+    return texels
 
 
 def _rows(texels: NDArray[np.uint32]) -> NDArray[np.uint32]:

@@ -1,42 +1,24 @@
-"""The packed texture itself: one array of texels, any number of shapes."""
+"""The packed texture itself: one array of texels, any number of shapes, one file."""
 
-from dataclasses import dataclass, field
+import difflib
+import os
+from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import IDENTITY, Paint
-from vexture.errors import FormatError
+from vexture.encoding import layout
+from vexture.encoding.files import packed_target, read_file, write_together
+from vexture.encoding.ktx2 import read_ktx2, write_ktx2
+from vexture.encoding.packed_walk import walk
+from vexture.encoding.root import Root, read_roots, roots_text
+from vexture.errors import FormatError, LimitError
 
-__all__ = ["PackedTexture", "Root"]
+__all__ = ["PackedTexture", "Root", "load_packed"]
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Root:
-    """One shape of a packed texture.
-
-    Parameters
-    ----------
-    name : str
-        Names the shape within its texture.
-    quad : int
-        Index of its root quad's texel: all that a shader needs.
-    to_source : (2, 3) float64 array
-        Affine map from the unit square to the units of the source.
-    tolerance : float
-        Largest distance between the drawing's outline and the texture's before quantisation, in unit-square units.
-    crs : str or None
-        Coordinate reference system of the source units, where there is one.
-    paint : Paint or None
-        Its colour, where it is one layer of a drawing; None for a silhouette.
-    """
-
-    name: str
-    quad: int = 0
-    to_source: NDArray[np.float64] = field(default_factory=IDENTITY.copy)
-    tolerance: float = 0.0
-    crs: str | None = None
-    paint: Paint | None = None
+REMEDY = "convert the drawing again"
+WRITER = "vexture"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,3 +52,164 @@ class PackedTexture:
             raise FormatError(
                 f"texels are {self.texels.dtype}{self.texels.shape}; they must be uint32 (rows, width, 4)"
             )
+        rows, width, _ = self.texels.shape
+        full = width == 1 << layout.ROW_BITS
+        if width.bit_count() != 1 or width > 1 << layout.ROW_BITS or not 1 <= rows <= (layout.MOST_ROWS if full else 1):
+            raise FormatError(
+                f"{width} x {rows} texels; a texture is {1 << layout.ROW_BITS} wide and 1 to {layout.MOST_ROWS} high, "
+                "or one row of a smaller power of two"
+            )
+        if not self.roots:
+            raise FormatError("a texture has at least one root; give one for each shape")
+
+    @property
+    def flat(self) -> NDArray[np.uint32]:
+        """The texels by their index, (n, 4)."""
+        return self.texels.reshape(-1, 4)
+
+    @property
+    def quads(self) -> NDArray[np.int64]:
+        """Index of each root's quad."""
+        return np.array([root.quad for root in self.roots], np.int64)
+
+    @property
+    def depth(self) -> int:
+        """Depth of the deepest quad; a root has depth 0. A shader descends at most this often."""
+        return len(walk(self.flat, self.quads)) - 1
+
+    @property
+    def nbytes(self) -> int:
+        """Size in memory, of a GPU too."""
+        return self.texels.nbytes
+
+    def root(self, which: str | int = 0) -> Root:
+        """One of the shapes, by its name or its place.
+
+        Raises
+        ------
+        FormatError
+            If there is none of that name or place.
+
+        Examples
+        --------
+        >>> texture = PackedTexture(np.zeros((1, 1, 4), np.uint32), (Root("anchor"), Root("apple")))
+        >>> texture.root("anchor").quad
+        0
+        >>> texture.root("anker")
+        Traceback (most recent call last):
+        vexture.errors.FormatError: texture: no root 'anker'; near names are 'anchor', 'apple'; there are 2
+        """
+        if isinstance(which, str):
+            for root in self.roots:
+                if root.name == which:
+                    return root
+            names = [root.name for root in self.roots]
+            near = difflib.get_close_matches(which, names, n=5) or names[:5]
+            listed = ", ".join(map(repr, near))
+            raise FormatError(f"{self.name}: no root {which!r}; near names are {listed}; there are {len(names)}")
+        if not 0 <= which < len(self.roots):
+            raise FormatError(f"{self.name}: no root {which}; they are numbered 0 to {len(self.roots) - 1}")
+        return self.roots[which]
+
+    def check(self) -> None:
+        """Raise a `FormatError` where the texels contradict FORMAT.md; takes time in proportion to their number."""
+        flat = self.flat
+        levels = walk(flat, self.quads)
+        met = np.zeros(len(flat), np.bool_)
+        for level in levels:
+            met[level.quads], met[level.curves] = True, True
+        unmet = flat.any(axis=1) & ~met
+        if unmet.any():
+            raise FormatError(f"texel {unmet.argmax()} belongs to no root and is not 0; {REMEDY}")
+        curves = np.concatenate([level.curves for level in levels])
+        ends = flat[curves][:, [0, 3]]
+        most = np.maximum(ends & ((1 << layout.COORDINATE_BITS) - 1), ends >> layout.COORDINATE_BITS).max(
+            axis=1, initial=0
+        )
+        if len(most) and most.max() > layout.LATTICE:
+            raise FormatError(
+                f"curve {curves[most.argmax()]} has an end at {most.max()}; the limit is {layout.LATTICE:.0f}; {REMEDY}"
+            )
+
+    def texts(self) -> dict[str, str]:
+        """Key/value data of the file."""
+        texts = {
+            layout.TEXT_WRITER: WRITER,
+            layout.TEXT_VERSION: layout.PACKED_VERSION,
+            layout.TEXT_ENCODING: layout.ENCODING_PACKED,
+            layout.TEXT_NAME: self.name,
+            layout.TEXT_SOURCE: self.source,
+            layout.TEXT_ROOTS: roots_text(self.roots),
+        }
+        return {key: text.encode(errors="replace").decode() for key, text in texts.items() if text is not None}
+
+    def to_ktx2(self) -> bytes:
+        """Return the contents of the file.
+
+        Raises
+        ------
+        LimitError
+            If the names and transforms of the roots are too long.
+        """
+        texts = self.texts()
+        length = sum(len(key.encode()) + len(text.encode()) + 16 for key, text in texts.items())
+        if length > layout.MOST_TEXT_BYTES:
+            raise LimitError(
+                f"{self.name}: {length} bytes say what its {len(self.roots)} roots are; the limit is "
+                f"{layout.MOST_TEXT_BYTES}; use several textures"
+            )
+        return write_ktx2(self.texels, texts)
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the file.
+
+        Parameters
+        ----------
+        path : path
+            A folder (that exists or ends with a separator): the file gets the texture's name and ``.ktx2``. Else
+            the file itself.
+
+        Returns
+        -------
+        Path
+            The file.
+
+        Raises
+        ------
+        DeviceError
+            If the disk refuses.
+        """
+        target = packed_target(path, self.name)
+        write_together({target: self.to_ktx2()})
+        return target
+
+
+def load_packed(path: Path) -> PackedTexture:
+    """Read a packed texture's file.
+
+    Raises
+    ------
+    FormatError
+        If it is missing, damaged or not a packed texture.
+    DeviceError
+        If it may not be read.
+    """
+    data = read_file(path, layout.PACKED_FILE_LIMIT)
+    if len(data) > layout.PACKED_FILE_LIMIT:
+        raise FormatError(f"{path}: longer than {layout.PACKED_FILE_LIMIT} bytes, so not a texture; {REMEDY}")
+    texels, texts = read_ktx2(data, str(path))
+    try:
+        for key, known in (
+            (layout.TEXT_ENCODING, layout.ENCODING_PACKED),
+            (layout.TEXT_VERSION, layout.PACKED_VERSION),
+        ):
+            if texts.get(key) != known:
+                found = repr(texts.get(key))[:80]
+                raise FormatError(f"{key} is {found}; this program reads {known!r}; update it or {REMEDY}")
+        name = texts.get(layout.TEXT_NAME) or path.name.removesuffix(layout.PACKED_SUFFIX)
+        roots = read_roots(texts.get(layout.TEXT_ROOTS, ""))
+        texture = PackedTexture(texels, roots, name, texts.get(layout.TEXT_SOURCE))
+        texture.check()
+    except FormatError as error:
+        raise FormatError(f"{path}: {error}") from None
+    return texture

@@ -15,7 +15,7 @@ from vexture.encoding.png import read_png, write_png
 from vexture.errors import FormatError, LimitError
 from vexture.quadtree.tree import CellKind
 
-__all__ = ["ThesisTexture", "load"]
+__all__ = ["ThesisTexture", "load_thesis"]
 
 REMEDY = "convert the drawing again"
 
@@ -194,7 +194,7 @@ def _check_rising(rows: NDArray[np.int32], first: int, count: int, what: str) ->
         )
 
 
-def load(path: str | os.PathLike[str]) -> ThesisTexture:
+def load_thesis(path: str | os.PathLike[str]) -> ThesisTexture:
     """Read a pair of texture files.
 
     Parameters
