@@ -64,7 +64,7 @@ def test_packed_is_the_default(logo: File) -> None:
     [
         {"capacity": 2},
         {"capacity": 12},
-        {"max_depth": 4},
+        {"max_depth": 2},
         {"precision": 1e-7},
         {"precision": 1e-6, "capacity": 1, "max_depth": 9},
     ],
