@@ -11,7 +11,7 @@ import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, overload
 
 import numba
 from numba.core import event
@@ -66,10 +66,26 @@ CACHE = str(kernel_cache())
 event.register("numba:compile", _Announcement())
 
 
-def kernel(function: F) -> F:
+@overload
+def kernel(function: F) -> F: ...
+
+
+@overload
+def kernel(*, allocates: bool) -> Callable[[F], F]: ...
+
+
+def kernel(function: F | None = None, *, allocates: bool = True) -> F | Callable[[F], F]:
     """Compile a scalar function over arrays with Numba, cached on disk.
 
     A name with a leading underscore says that only kernels call it.
+
+    Parameters
+    ----------
+    function : function
+        What is decorated.
+    allocates : bool
+        False for a function that makes no arrays: Numba then counts no references in it, which for short functions
+        costs more than what they do.
 
     Examples
     --------
@@ -77,9 +93,16 @@ def kernel(function: F) -> F:
     >>> cubic_at(0.0, 0.0, 1.0, 1.0, 0.5)
     0.5
     """
-    caller, numba.config.CACHE_DIR = numba.config.CACHE_DIR, CACHE  # read while decorating; others may use Numba too
-    private = function.__name__.startswith("_")  # called by kernels only: Python needs no way in
-    compile_ = numba.njit(cache=True, error_model="numpy", no_cfunc_wrapper=True, no_cpython_wrapper=private)
-    compiled: F = compile_(function)
-    numba.config.CACHE_DIR = caller
-    return compiled
+
+    def compiled(function: F) -> F:
+        caller, numba.config.CACHE_DIR = (
+            numba.config.CACHE_DIR,
+            CACHE,
+        )  # read while decorating; others may use Numba too
+        private = function.__name__.startswith("_")  # called by kernels only: Python needs no way in
+        options = {"cache": True, "error_model": "numpy", "no_cfunc_wrapper": True, "no_cpython_wrapper": private}
+        result: F = numba.njit(**options, _nrt=allocates)(function)
+        numba.config.CACHE_DIR = caller
+        return result
+
+    return compiled if function is None else compiled(function)

@@ -106,5 +106,5 @@ def test_crowded_area_is_the_mean_over_the_cell():
     points = np.random.default_rng(1).random((20_000, 2))
     truth = degenerate.silhouette(drawing, degenerate.path_windings(drawing, points, 64)[0])
     level, size, rules = next(levels(drawing, 0))
-    area = crowded_area(level.pieces, 0, len(level.pieces.path), level.present, rules, 0.0, 0.0, size)
+    area = crowded_area(level.pieces.points, level.pieces.path, level.present, rules, 0.0, 0.0, size)
     assert abs(area - truth.mean()) < 0.02

@@ -9,7 +9,7 @@ from vexture.kernels import kernel
 __all__ = ["area_right_of", "edge_index", "edge_indices", "integral_x_dy", "leaf_area", "loop_area"]
 
 
-@kernel
+@kernel(allocates=False)
 def integral_x_dy(curve: NDArray[np.float64]) -> float:
     """Integral of x dy along a cubic, (4, 2): the signed area between it and the y axis.
 
@@ -32,7 +32,7 @@ def integral_x_dy(curve: NDArray[np.float64]) -> float:
     return integral
 
 
-@kernel
+@kernel(allocates=False)
 def edge_index(x: float, y: float) -> float:
     """Place of a point on the edge of the unit square: distance clockwise from its top-left corner, over 4.
 
@@ -69,7 +69,7 @@ def edge_indices(points: NDArray[np.float64]) -> NDArray[np.float64]:
     return indices
 
 
-@kernel
+@kernel(allocates=False)
 def area_right_of(p0: NDArray[np.float64], p3: NDArray[np.float64], x_dy: float) -> float:
     """Area of the part of the unit square on the right of a curve from edge to edge.
 

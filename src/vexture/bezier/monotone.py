@@ -43,7 +43,7 @@ def empty_pieces(count: int) -> Pieces:
     )
 
 
-@kernel
+@kernel(allocates=False)
 def _turns(curve: NDArray[np.float64], turns: NDArray[np.float64]) -> int:
     """Write the parameters at which x or y turns, in rising order; return how many (0 to 4)."""
     count = turning_points(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], turns)

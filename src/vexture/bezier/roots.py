@@ -11,7 +11,7 @@ __all__ = ["cubic_at", "solve_monotone", "turning_points", "velocity_at"]
 BISECTIONS = 60  # more than the 53 bits of a float64, so that the bracket always closes
 
 
-@kernel
+@kernel(allocates=False)
 def cubic_at(p0: float, p1: float, p2: float, p3: float, t: float) -> float:
     """Coordinate of a cubic at t.
 
@@ -24,7 +24,7 @@ def cubic_at(p0: float, p1: float, p2: float, p3: float, t: float) -> float:
     return s * s * (s * p0 + 3.0 * t * p1) + t * t * (3.0 * s * p2 + t * p3)
 
 
-@kernel
+@kernel(allocates=False)
 def velocity_at(p0: float, p1: float, p2: float, p3: float, t: float) -> float:
     """Derivative of a cubic's coordinate by t.
 
@@ -37,7 +37,7 @@ def velocity_at(p0: float, p1: float, p2: float, p3: float, t: float) -> float:
     return 3.0 * (s * s * (p1 - p0) + 2.0 * s * t * (p2 - p1) + t * t * (p3 - p2))
 
 
-@kernel
+@kernel(allocates=False)
 def solve_monotone(p0: float, p1: float, p2: float, p3: float, value: float) -> float:
     """Parameter t in [0, 1] at which a monotone coordinate takes a value.
 
@@ -83,7 +83,7 @@ def solve_monotone(p0: float, p1: float, p2: float, p3: float, value: float) -> 
     return t
 
 
-@kernel
+@kernel(allocates=False)
 def turning_points(p0: float, p1: float, p2: float, p3: float, out: NDArray[np.float64]) -> int:
     """Write the parameters in (0, 1) at which a coordinate turns; return how many (0, 1 or 2), in rising order.
 

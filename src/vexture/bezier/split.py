@@ -8,7 +8,7 @@ from vexture.kernels import kernel
 __all__ = ["copy_curve", "split", "subcubic"]
 
 
-@kernel
+@kernel(allocates=False)
 def copy_curve(source: NDArray[np.float64], target: NDArray[np.float64]) -> None:
     """Copy a cubic, (4, 2), number by number: an assignment of slices takes Numba a second to compile.
 
@@ -24,7 +24,7 @@ def copy_curve(source: NDArray[np.float64], target: NDArray[np.float64]) -> None
         target[k, 1] = source[k, 1]
 
 
-@kernel
+@kernel(allocates=False)
 def split(curve: NDArray[np.float64], t: float, left: NDArray[np.float64], right: NDArray[np.float64]) -> None:
     """Write the parts before and after t, (4, 2) each; they share their common point bit for bit.
 
@@ -50,7 +50,7 @@ def split(curve: NDArray[np.float64], t: float, left: NDArray[np.float64], right
         right[0, axis], right[1, axis], right[2, axis], right[3, axis] = f, e, c, p3
 
 
-@kernel
+@kernel(allocates=False)
 def subcubic(curve: NDArray[np.float64], t0: float, t1: float, out: NDArray[np.float64]) -> None:
     """Write the part of a cubic from t0 to t1, (4, 2); t0 > t1 gives it reversed (blossoming).
 

@@ -11,14 +11,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.monotone import Pieces
 from vexture.kernels import kernel
 from vexture.quadtree.crossings import crossing_heights, x_at
 from vexture.quadtree.order import sort_order
 from vexture.quadtree.tree import LATTICE
 from vexture.quadtree.winding import inside
 
-__all__ = ["Boundary", "cell_paths", "crowded_area", "quantise", "resolve"]
+__all__ = ["Boundary", "cell_paths", "crowded_area", "quantise", "quantise_piece", "resolve"]
 
 NEAR = 1.0
 """Lattice units: curves that stay closer than this are one boundary."""
@@ -55,19 +54,25 @@ def quantise(points: NDArray[np.float64], x0: float, y0: float, size: float) -> 
     A point on the left edge stays on it and no other point may come to lie there: the rule of windings counts
     ends on that edge.
     """
-    scale = LATTICE / size
     out = np.empty((len(points), 4, 2))
     for i in range(len(points)):
-        for k in range(4):
-            out[i, k, 0] = (points[i, k, 0] - x0) * scale
-            out[i, k, 1] = (points[i, k, 1] - y0) * scale
-        for end, control in ((0, 1), (3, 2)):
-            x = 0.0 if points[i, end, 0] == x0 else min(max(np.rint(out[i, end, 0]), 1.0), LATTICE)
-            y = min(max(np.rint(out[i, end, 1]), 0.0), LATTICE)
-            out[i, control, 0] += x - out[i, end, 0]
-            out[i, control, 1] += y - out[i, end, 1]
-            out[i, end, 0], out[i, end, 1] = x, y
+        quantise_piece(points[i], x0, y0, size, out[i])
     return out
+
+
+@kernel(allocates=False)
+def quantise_piece(points: NDArray[np.float64], x0: float, y0: float, size: float, out: NDArray[np.float64]) -> None:
+    """Write one piece, (4, 2), on its cell's lattice; see `quantise`."""
+    scale = LATTICE / size
+    for k in range(4):
+        out[k, 0] = (points[k, 0] - x0) * scale
+        out[k, 1] = (points[k, 1] - y0) * scale
+    for end, control in ((0, 1), (3, 2)):
+        x = 0.0 if points[end, 0] == x0 else min(max(np.rint(out[end, 0]), 1.0), LATTICE)
+        y = min(max(np.rint(out[end, 1]), 0.0), LATTICE)
+        out[control, 0] += x - out[end, 0]
+        out[control, 1] += y - out[end, 1]
+        out[end, 0], out[end, 1] = x, y
 
 
 @kernel
@@ -89,7 +94,7 @@ def _slab_heights(curves: NDArray[np.float64]) -> NDArray[np.float64]:
     return out[:different]
 
 
-@kernel
+@kernel(allocates=False)
 def _order_slab(
     curves: NDArray[np.float64], low: float, high: float, active: NDArray[np.int64], x: NDArray[np.float64]
 ) -> int:
@@ -131,7 +136,7 @@ def _order_slab(
     return count
 
 
-@kernel
+@kernel(allocates=False)
 def _coincide(x: NDArray[np.float64], i: int, j: int, height: float) -> bool:
     """Whether two pieces of a slab are one boundary: nearer than a unit, measured across them, at three heights."""
     if x[i, 0] == np.inf:
@@ -242,31 +247,35 @@ def resolve(
     return Boundary(heights, left, run_piece[:runs], run_role[:runs], run_y[:runs])
 
 
-@kernel
+@kernel(allocates=False)
 def cell_paths(
-    pieces: Pieces, first: int, last: int, present: NDArray[np.int64], rules: NDArray[np.int64]
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
-    """Paths of a cell, numbered from 0: the one of each piece, their corner windings, their fill rules.
+    path: NDArray[np.int64],
+    present: NDArray[np.int64],
+    rules: NDArray[np.int64],
+    owner: NDArray[np.int64],
+    corner: NDArray[np.int64],
+    cell_rules: NDArray[np.int64],
+) -> None:
+    """Write the paths of a cell, numbered from 0: the one of each piece, their corner windings, their fill rules.
 
     Parameters
     ----------
-    pieces : Pieces
-        Those of the cell are first..last-1, in the order of `present`.
+    path : (n,) int64 array
+        The path of each piece, in the order of `present`.
     present : (n, 2) int64 array
         The paths in the cell and their corner windings.
     rules : (paths,) int64 array
         `FillRule` of each path of the drawing.
+    owner, corner, cell_rules : int64 arrays
+        Written.
     """
-    owner = np.empty(last - first, np.int64)
-    path = 0
-    for i in range(first, last):
-        while present[path, 0] != pieces.path[i]:
-            path += 1
-        owner[i - first] = path
-    corner, cell_rules = np.empty(len(present), np.int64), np.empty(len(present), np.int64)
+    k = 0
+    for i in range(len(path)):
+        while present[k, 0] != path[i]:
+            k += 1
+        owner[i] = k
     for k in range(len(present)):
         corner[k], cell_rules[k] = present[k, 1], rules[present[k, 0]]
-    return owner, corner, cell_rules
 
 
 SCANLINES = 64
@@ -275,9 +284,8 @@ SCANLINES = 64
 
 @kernel
 def crowded_area(
-    pieces: Pieces,
-    first: int,
-    last: int,
+    points: NDArray[np.float64],
+    path: NDArray[np.int64],
     present: NDArray[np.int64],
     rules: NDArray[np.int64],
     x0: float,
@@ -288,9 +296,11 @@ def crowded_area(
 
     Parameters
     ----------
-    pieces : Pieces
-        Those of the cell are first..last-1.
-    present : (n, 2) int64 array
+    points : (n, 4, 2) float64 array
+        The cell's pieces.
+    path : (n,) int64 array
+        The path of each.
+    present : (m, 2) int64 array
         The paths in it and their corner windings.
     rules : (paths,) int64 array
         `FillRule` of each path of the drawing.
@@ -298,18 +308,18 @@ def crowded_area(
         The cell.
     """
     windings = np.zeros(len(rules), np.int64)
-    crossing_x, crossing = np.empty(last - first), np.empty(last - first, np.int64)
+    crossing_x, crossing = np.empty(len(path)), np.empty(len(path), np.int64)
     total = 0.0
     for line in range(SCANLINES):
         y = y0 + size * (line + 0.5) / SCANLINES
         for k in range(len(present)):
             windings[present[k, 0]] = present[k, 1]
         count = 0
-        for i in range(first, last):
-            curve = pieces.points[i]
+        for i in range(len(path)):
+            curve = points[i]
             for end, event in ((0, 1), (3, -1)):
                 if curve[end, 0] == x0 and curve[end, 1] <= y:
-                    windings[pieces.path[i]] += event
+                    windings[path[i]] += event
             if min(curve[0, 1], curve[3, 1]) <= y < max(curve[0, 1], curve[3, 1]):
                 crossing_x[count], crossing[count] = x_at(curve, y), i
                 count += 1
@@ -320,9 +330,9 @@ def crowded_area(
         for k in sort_order(crossing_x, count):
             total += crossing_x[k] - x if paths_inside > 0 else 0.0
             x, i = crossing_x[k], crossing[k]
-            path = pieces.path[i]
-            paths_inside -= 1 if inside(windings[path], rules[path]) else 0
-            windings[path] += -1 if pieces.points[i, 3, 1] > pieces.points[i, 0, 1] else 1
-            paths_inside += 1 if inside(windings[path], rules[path]) else 0
+            p = path[i]
+            paths_inside -= 1 if inside(windings[p], rules[p]) else 0
+            windings[p] += -1 if points[i, 3, 1] > points[i, 0, 1] else 1
+            paths_inside += 1 if inside(windings[p], rules[p]) else 0
         total += x0 + size - x if paths_inside > 0 else 0.0
     return total / (size * SCANLINES)

@@ -112,7 +112,11 @@ def _leaf_of(
                 return _leaf_or_limit(chain, area, cubics, x0, y0, size, tolerance, at_limit)
     if last - first > HOPELESS:
         if at_limit:
-            return nearest_constant(crowded_area(level.pieces, first, last, present, rules, x0, y0, size))
+            return nearest_constant(
+                crowded_area(
+                    level.pieces.points[first:last], level.pieces.path[first:last], present, rules, x0, y0, size
+                )
+            )
         return no_leaf()
     if not at_limit and last - first > CROWDED and _ends_on_edge(level.pieces, first, last, x0, y0, size) != 2:
         return no_leaf()

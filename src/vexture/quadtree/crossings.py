@@ -20,7 +20,7 @@ STACK = 64
 """Open intervals: bisection at integers of a 16-bit range goes 17 deep and keeps one sibling for each."""
 
 
-@kernel
+@kernel(allocates=False)
 def x_at(curve: NDArray[np.float64], y: float) -> float:
     """Place where a monotone piece that is not horizontal has height y."""
     if y == curve[0, 1]:
@@ -43,7 +43,7 @@ class Stretch(NamedTuple):
     greatest_slope: float
 
 
-@kernel
+@kernel(allocates=False)
 def _stretch(curve: NDArray[np.float64], low: float, high: float) -> Stretch:
     """Bound a piece over low <= y <= high, by the control polygon of that part.
 
@@ -69,7 +69,7 @@ def _stretch(curve: NDArray[np.float64], low: float, high: float) -> Stretch:
     return Stretch(x0, x3, below, above, -np.inf, np.inf)
 
 
-@kernel
+@kernel(allocates=False)
 def _single_crossing(a: NDArray[np.float64], b: NDArray[np.float64], low: float, high: float) -> float:
     """Integer y nearest to the one crossing of two pieces whose order differs at low and high."""
     sign_low = x_at(a, low) > x_at(b, low)
@@ -128,7 +128,7 @@ def _pair_crossings(
     return count
 
 
-@kernel
+@kernel(allocates=False)
 def _same_curve(a: NDArray[np.float64], b: NDArray[np.float64], near: float) -> bool:
     """Whether two pieces coincide, in the same or in the opposite direction."""
     same, opposite = True, True

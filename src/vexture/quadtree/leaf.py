@@ -281,7 +281,9 @@ def cell_chain(
     x0, y0, size : float
         The cell.
     """
-    owner, corner, cell_rules = cell_paths(pieces, first, last, present, rules)
+    owner = np.empty(last - first, np.int64)
+    corner, cell_rules = np.empty(len(present), np.int64), np.empty(len(present), np.int64)
+    cell_paths(pieces.path[first:last], present, rules, owner, corner, cell_rules)
     curves = quantise(pieces.points[first:last], x0, y0, size)
     boundary = resolve(curves, owner, corner, cell_rules)
     return link_chain(curves, pieces.segment[first:last], pieces.span[first:last], boundary)

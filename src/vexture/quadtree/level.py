@@ -18,7 +18,7 @@ from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 from vexture.quadtree.winding import child_windings, inside
 
-__all__ = ["Level", "children"]
+__all__ = ["Level", "child_of", "children", "snap"]
 
 
 class Level(NamedTuple):
@@ -50,7 +50,7 @@ class Level(NamedTuple):
     present: NDArray[np.int64]
 
 
-@kernel
+@kernel(allocates=False)
 def _copy_piece(source: Pieces, i: int, target: Pieces, k: int) -> None:
     """Copy piece i to place k."""
     copy_curve(source.points[i], target.points[k])
@@ -59,15 +59,15 @@ def _copy_piece(source: Pieces, i: int, target: Pieces, k: int) -> None:
     target.span[k, 0], target.span[k, 1] = source.span[i, 0], source.span[i, 1]
 
 
-@kernel
-def _snap(curve: NDArray[np.float64], end: int, axis: int, grain: float) -> None:
+@kernel(allocates=False)
+def snap(curve: NDArray[np.float64], end: int, axis: int, grain: float) -> None:
     """Round one coordinate of an end to a lattice; the control point beside it moves along."""
     snapped = np.rint(curve[end, axis] / grain) * grain
     curve[1 if end == 0 else 2, axis] += snapped - curve[end, axis]
     curve[end, axis] = snapped
 
 
-@kernel
+@kernel(allocates=False)
 def _cut(source: Pieces, first: int, last: int, axis: int, line: float, grain: float, target: Pieces, end: int) -> int:
     """Append pieces first..last-1 to target[end:], cut where they cross a line; return the new end."""
     other = 1 - axis
@@ -76,17 +76,17 @@ def _cut(source: Pieces, first: int, last: int, axis: int, line: float, grain: f
         a, d = curve[0, axis], curve[3, axis]
         _copy_piece(source, i, target, end)
         if a == line:
-            _snap(target.points[end], 0, other, grain)
+            snap(target.points[end], 0, other, grain)
         if d == line:
-            _snap(target.points[end], 3, other, grain)
+            snap(target.points[end], 3, other, grain)
         if (a < line < d) or (d < line < a):
             t = solve_monotone(a, curve[1, axis], curve[2, axis], d, line)
             _copy_piece(source, i, target, end + 1)
             before, after = target.points[end], target.points[end + 1]
             split(curve, t, before, after)
             before[3, axis], after[0, axis] = line, line
-            _snap(before, 3, other, grain)
-            _snap(after, 0, other, grain)
+            snap(before, 3, other, grain)
+            snap(after, 0, other, grain)
             t0, t1 = source.span[i, 0], source.span[i, 1]
             middle = t0 + t * (t1 - t0)
             target.span[end, 1], target.span[end + 1, 0] = middle, middle
@@ -95,15 +95,15 @@ def _cut(source: Pieces, first: int, last: int, axis: int, line: float, grain: f
     return end
 
 
-@kernel
-def _child_of(curve: NDArray[np.float64], xm: float, ym: float) -> int:
+@kernel(allocates=False)
+def child_of(curve: NDArray[np.float64], xm: float, ym: float) -> int:
     """Child that a piece which crosses no middle line belongs to: (x half) + 2 (y half)."""
     right = 1 if curve[0, 0] >= xm and curve[3, 0] >= xm else 0
     upper = 2 if curve[0, 1] >= ym and curve[3, 1] >= ym else 0
     return right + upper
 
 
-@kernel
+@kernel(allocates=False)
 def _sort_by_child(
     cut: Pieces, count: int, xm: float, ym: float, target: Pieces, end: int, child_at: NDArray[np.int64]
 ) -> int:
@@ -113,14 +113,14 @@ def _sort_by_child(
         for i in range(count):
             curve = cut.points[i]
             point_like = curve[0, 0] == curve[3, 0] and curve[0, 1] == curve[3, 1]
-            if not point_like and _child_of(curve, xm, ym) == child:
+            if not point_like and child_of(curve, xm, ym) == child:
                 _copy_piece(cut, i, target, end)
                 end += 1
     child_at[4] = end
     return end
 
 
-@kernel
+@kernel(allocates=False)
 def _copy_present(
     level: Level,
     c: int,
@@ -141,7 +141,7 @@ def _copy_present(
     return end
 
 
-@kernel
+@kernel(allocates=False)
 def _room_for(level: Level, split_cells: NDArray[np.bool_], size: float) -> tuple[int, int, int]:
     """Upper bounds: pieces of all children, pieces of one cell, paths of all children."""
     pieces, widest, paths = 0, 0, 0
@@ -197,7 +197,7 @@ def children(
     origin, slot = np.empty((4 * split_count, 2)), np.empty(4 * split_count, np.int64)
     piece_at, path_at = np.empty(4 * split_count + 1, np.int64), np.empty(4 * split_count + 1, np.int64)
     present, full = np.empty((path_room, 2), np.int64), np.empty(4 * split_count, np.int64)
-    child_at = np.empty(5, np.int64)
+    child_at, places = np.empty(5, np.int64), np.arange(piece_room)
     cells, end, paths, full_count, quad = 0, 0, 0, 0, first_quad
     for c in range(len(split_cells)):
         if not split_cells[c]:
@@ -208,7 +208,8 @@ def children(
         twice_end = _cut(once, 0, once_end, 1, ym, grain, twice, 0)
         _sort_by_child(twice, twice_end, xm, ym, out, end, child_at)
         parent_present = level.present[level.path_at[c] : level.path_at[c + 1]]
-        windings = child_windings(out, child_at, parent_present, x0, y0, xm, ym)
+        windings = np.empty((len(parent_present), 8), np.int64)
+        child_windings(out.points, out.path, places, child_at, parent_present, x0, y0, xm, ym, windings)
         for child in range(4):
             here = _copy_present(level, c, child, windings, rules, present, paths)
             if here < 0:

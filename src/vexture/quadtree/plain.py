@@ -24,7 +24,7 @@ def to_cell(points: NDArray[np.float64], x0: float, y0: float, size: float) -> N
     return out
 
 
-@kernel
+@kernel(allocates=False)
 def touches_edge(point: NDArray[np.float64]) -> bool:
     """Whether a point lies exactly on a line of the unit square's edge."""
     return point[0] == 0.0 or point[0] == 1.0 or point[1] == 0.0 or point[1] == 1.0
@@ -45,11 +45,11 @@ def filled_sides(curves: NDArray[np.float64], corner_winding: int, rule: int, si
     signed_area : float
         Area on the right of the chain, that of its loops counted by their direction.
     """
-    w = int(np.rint(winding_area(curves, corner_winding) - 1.0 + signed_area))
+    w = int(np.rint(winding_area(curves, corner_winding, 1.0) - 1.0 + signed_area))
     return inside(w, rule), inside(w + 1, rule)
 
 
-@kernel
+@kernel(allocates=False)
 def _apart(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
     """Whether the boxes of two monotone pieces, which their ends span, share no more than an edge."""
     for axis in range(2):
@@ -60,7 +60,7 @@ def _apart(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
     return False
 
 
-@kernel
+@kernel(allocates=False)
 def _is_plain(curves: NDArray[np.float64]) -> bool:
     """Whether monotone pieces are one open chain from edge to edge that cannot cross itself nor follows the edge."""
     n = len(curves)

@@ -91,11 +91,11 @@ class CellTree:
 class PackedTree:
     """A quad-tree with packed leaves: up to a few monotone pieces in each, on the leaf's own lattice.
 
-    Quads are numbered breadth first, quad 0 is the unit square; cell k of a quad is its (x half) + 2 (y half),
-    y up. The quads below one quad are numbered one after another in the order of its cells, leaves left out; so are
-    the curves of its leaves, quads left out. In every leaf the winding number is 0 or 1 and 1 means filled: a piece
-    has the filled side on its left. At a point p of a leaf it is the leaf's corner winding, plus the starts minus the
-    ends on the leaf's left edge at or below p, plus the sum of -sign(dy) over the pieces left of p.
+    Quad 0 is the unit square; cell k of a quad is its (x half) + 2 (y half), y up. The quads below one quad are
+    numbered one after another, after it, in the order of its cells, leaves left out; so are the curves of its leaves,
+    quads left out. In every leaf the winding number is 0 or 1 and 1 means filled: a piece has the filled side on its
+    left. At a point p of a leaf it is the leaf's corner winding, plus the starts minus the ends on the leaf's left edge
+    at or below p, plus the sum of -sign(dy) over the pieces left of p.
 
     Parameters
     ----------

@@ -14,13 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.area import integral_x_dy
-from vexture.bezier.monotone import Pieces
 from vexture.kernels import kernel
 
 __all__ = ["child_windings", "inside", "winding_area"]
 
 
-@kernel
+@kernel(allocates=False)
 def inside(winding: int, rule: int) -> bool:
     """Whether a winding number is inside by a `FillRule`.
 
@@ -34,86 +33,95 @@ def inside(winding: int, rule: int) -> bool:
     return winding != 0
 
 
-@kernel
+@kernel(allocates=False)
 def child_windings(
-    pieces: Pieces,
+    points: NDArray[np.float64],
+    path: NDArray[np.int64],
+    numbers: NDArray[np.int64],
     child_at: NDArray[np.int64],
     present: NDArray[np.int64],
     x0: float,
     y0: float,
     xm: float,
     ym: float,
-) -> NDArray[np.int64]:
+    out: NDArray[np.int64],
+) -> None:
     """Corner windings of a cell's four children.
 
     Parameters
     ----------
-    pieces : Pieces
-        Those of child c are ``child_at[c] .. child_at[c + 1] - 1``, in the order of `present`.
+    points : (n, 4, 2) float64 array
+        Pieces.
+    path : (n,) int64 array
+        The path of each.
+    numbers : (m,) int64 array
+        Lists of pieces, one for each child, in the order of `present`.
     child_at : (5,) int64 array
-        Where each child's pieces start.
+        Where each child's list starts; the last entry is where that of the last ends.
     present : (n, 2) int64 array
         The paths in the cell and their corner windings.
     x0, y0, xm, ym : float
         The cell's bottom-left corner and its middle.
-
-    Returns
-    -------
-    (n, 8) int64 array
-        For each path the four corner windings, then whether it has a piece in each child.
+    out : (n or more, 8) int64 array
+        Written: for each path the four corner windings, then whether it has a piece in each child.
     """
-    out = np.zeros((len(present), 8), np.int64)
-    at = child_at[:4].copy()
     for k in range(len(present)):
-        low_edge = 0  # events on the left edge of child 0, its top included
-        corner = np.zeros(4, np.int64)  # events on child c's left edge, at its bottom
-        bottom = np.zeros(4, np.int64)  # sum of -sign(dy) over child c's pieces that start from its bottom
-        for child in range(4):
-            cx = x0 if (child & 1) == 0 else xm
-            cy = y0 if child < 2 else ym
-            while at[child] < child_at[child + 1] and pieces.path[at[child]] == present[k, 0]:
-                curve = pieces.points[at[child]]
-                at[child] += 1
-                out[k, 4 + child] = 1
-                for end, event in ((0, 1), (3, -1)):
-                    if curve[end, 0] == cx:
-                        if child == 0:
-                            low_edge += event
-                        if curve[end, 1] == cy:
-                            corner[child] += event
-                if curve[0, 1] != curve[3, 1] and min(curve[0, 1], curve[3, 1]) == cy:
-                    bottom[child] += -1 if curve[3, 1] > curve[0, 1] else 1
+        for column in range(8):
+            out[k, column] = 0
+    for child in range(4):
+        cx = x0 if (child & 1) == 0 else xm
+        cy = y0 if child < 2 else ym
+        k = 0
+        for place in range(child_at[child], child_at[child + 1]):
+            i = numbers[place]
+            while present[k, 0] != path[i]:
+                k += 1
+            out[k, 4 + child] = 1
+            for end, event in ((0, 1), (3, -1)):
+                if points[i, end, 0] == cx:
+                    at_bottom = points[i, end, 1] == cy
+                    if child == 0:
+                        out[k, 2] += event  # the left edge of child 0, its top included, is all that is below child 2
+                        out[k, 1] += event if at_bottom else 0
+                    elif at_bottom:
+                        out[k, child] += -event if child != 2 else 0
+                        out[k, 3] += event if child == 2 else 0
+            a, d = points[i, 0, 1], points[i, 3, 1]
+            if a != d and min(a, d) == cy and (child == 0 or child == 2):
+                out[k, child + 1] += -1 if d > a else 1
+    for k in range(len(present)):
         out[k, 0] = present[k, 1]
-        out[k, 1] = out[k, 0] + corner[0] + bottom[0] - corner[1]
-        out[k, 2] = out[k, 0] + low_edge
-        out[k, 3] = out[k, 2] + corner[2] + bottom[2] - corner[3]
-    return out
+        out[k, 1] += out[k, 0]
+        out[k, 2] += out[k, 0]
+        out[k, 3] += out[k, 2]
 
 
-@kernel
-def winding_area(curves: NDArray[np.float64], corner_winding: int) -> float:
-    """Integral of the winding number over a cell, from its pieces in cell-local coordinates.
+@kernel(allocates=False)
+def winding_area(curves: NDArray[np.float64], corner_winding: int, side: float) -> float:
+    """Mean of the winding number over a cell, from its pieces in cell-local coordinates.
 
     Where the winding number is 0 or 1 this is the exact coverage.
 
     Parameters
     ----------
     curves : (n, 4, 2) float64 array
-        Pieces of one path in the cell's unit square; x is exactly 0 for points on its left edge.
+        Pieces in the cell, its bottom left at the origin; x is exactly 0 for points on its left edge.
     corner_winding : int
-        The path's Wc.
+        Wc.
+    side : float
+        Width of the cell.
 
     Examples
     --------
     >>> rising = np.array([[[0.25, 0.0], [0.25, 1 / 3], [0.25, 2 / 3], [0.25, 1.0]]])
-    >>> winding_area(rising, 1)
+    >>> winding_area(rising, 1, 1.0)
     0.25
     """
-    area = float(corner_winding)
-    for curve in curves:
-        if curve[0, 0] == 0.0:
-            area += 1.0 - curve[0, 1]
-        if curve[3, 0] == 0.0:
-            area -= 1.0 - curve[3, 1]
-        area += curve[0, 1] - curve[3, 1] + integral_x_dy(curve)
-    return area
+    area = corner_winding * side * side
+    for i in range(len(curves)):
+        if curves[i, 0, 0] == 0.0:
+            area += side * (side - curves[i, 0, 1])
+        if curves[i, 3, 0] == 0.0:
+            area -= side * (side - curves[i, 3, 1])
+        area += side * (curves[i, 0, 1] - curves[i, 3, 1]) + integral_x_dy(curves[i])
+    return area / (side * side)
