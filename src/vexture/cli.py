@@ -316,5 +316,6 @@ def info(texture: Path, as_json: bool) -> None:
             click.echo(json.dumps(facts, indent=2))
             return
         for key, value in facts.items():
-            text = ", ".join(f"{name} {count}" for name, count in value.items()) if isinstance(value, dict) else value
-            click.echo(f"{key:<12}{text}")
+            for line in value if isinstance(value, list) and key == "roots" else [value]:
+                text = ", ".join(f"{name} {count}" for name, count in line.items()) if isinstance(line, dict) else line
+                click.echo(f"{key:<12}{text}")

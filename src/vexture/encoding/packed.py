@@ -1,17 +1,19 @@
-"""The packed encoding (FORMAT.md, part B): trees to one texture and back."""
+"""The packed encoding (FORMAT.md, part B): trees to one texture and back, what a texture says of itself."""
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.encoding import layout
 from vexture.encoding.packed_texture import PackedTexture, Root
+from vexture.encoding.packed_walk import WalkLevel, walk
 from vexture.errors import LimitError
 from vexture.quadtree.tree import PackedTree
 
-__all__ = ["encode_packed"]
+__all__ = ["curve_points", "decode_packed", "encode_packed", "info_packed"]
 
 
 def encode_packed(
@@ -75,3 +77,105 @@ def _rows(texels: NDArray[np.uint32]) -> NDArray[np.uint32]:
     out = np.zeros((rows * width, 4), np.uint32)
     out[: len(texels)] = texels
     return out.reshape(rows, width, 4)
+
+
+def decode_packed(texture: PackedTexture, root: str | int = 0) -> PackedTree:
+    """Tree of one shape of a texture, with `deviation` and `unresolved` 0.
+
+    What `encode_packed` has written comes back as it was but for the rounding of coverages, and becomes the same
+    texels again. In what others have written quads and curves may lie in another order; here they are numbered as
+    `PackedTree` says.
+
+    Parameters
+    ----------
+    texture : PackedTexture
+    root : str or int
+        Name or place of the shape.
+
+    Raises
+    ------
+    FormatError
+        If there is no such shape, or its texels are no tree.
+
+    Examples
+    --------
+    >>> texels = np.array([[[0, 0, 0, 0xFF]]], np.uint32)
+    >>> decode_packed(PackedTexture(texels, (Root("a quarter"),))).coverage
+    array([[1., 0., 0., 0.]])
+    """
+    flat = texture.flat
+    levels = walk(flat, np.array([texture.root(root).quad]))
+    is_quad, count = _joined(levels, "is_quad"), _joined(levels, "counts")
+    quads_in, curves_in = is_quad.sum(axis=1), count.sum(axis=1)
+    return PackedTree(
+        is_quad,
+        count.astype(np.uint8),
+        _joined(levels, "windings").astype(np.int8),
+        (1 + np.cumsum(quads_in) - quads_in).astype(np.int32),
+        (np.cumsum(curves_in) - curves_in).astype(np.int32),
+        _joined(levels, "coverages") / layout.COVERAGE_ONE,
+        curve_points(flat[_joined(levels, "curves")]),
+        deviation=0.0,
+        unresolved=0,
+    )
+
+
+def _joined(levels: list[WalkLevel], what: str) -> NDArray[Any]:
+    return np.concatenate([getattr(level, what) for level in levels])
+
+
+def curve_points(texels: NDArray[np.uint32]) -> NDArray[np.int32]:
+    """Points of curves in lattice units of their leaf, (n, 4) -> (n, 4, 2)."""
+    mask = (1 << layout.COORDINATE_BITS) - 1
+    points = np.stack([texels & mask, texels >> layout.COORDINATE_BITS], axis=2).astype(np.int32)
+    points[:, 1:3] -= layout.CONTROL_OFFSET
+    return points
+
+
+def info_packed(texture: PackedTexture) -> dict[str, Any]:
+    """Describe a texture, ready for JSON.
+
+    Examples
+    --------
+    >>> texels = np.array([[[0, 0, 0, 0xFF]]], np.uint32)
+    >>> info_packed(PackedTexture(texels, (Root("a quarter"),)))["roots"][0]["coverage"]
+    0.25
+    """
+    levels = walk(texture.flat, texture.quads)
+    trees = len(levels[0].quads)
+    quads, curves, depth = np.zeros((3, trees), np.int64)
+    for below, level in enumerate(levels):
+        here = np.bincount(level.tree, minlength=trees)
+        quads += here
+        curves += np.bincount(level.tree, level.counts.sum(axis=1), trees).astype(np.int64)
+        depth[here > 0] = below
+    coverage = levels[0].coverages.mean(axis=1) / layout.COVERAGE_ONE
+    roots = []
+    for root in texture.roots:
+        tree = np.searchsorted(levels[0].quads, root.quad)
+        roots.append(
+            {
+                "name": root.name,
+                "quad": root.quad,
+                "coverage": float(coverage[tree]),
+                "quads": int(quads[tree]),
+                "curves": int(curves[tree]),
+                "depth": int(depth[tree]),
+                "transform": root.to_source.tolist(),
+                "crs": root.crs,
+                "tolerance": root.tolerance,
+                "paint": None if root.paint is None else {"color": [*root.paint.color], "opacity": root.paint.opacity},
+            }
+        )
+    return {
+        "encoding": layout.ENCODING_PACKED,
+        "version": layout.PACKED_VERSION,
+        "name": texture.name,
+        "source": texture.source,
+        "width": texture.texels.shape[1],
+        "height": texture.texels.shape[0],
+        "texels": int(quads.sum() + curves.sum()),
+        "depth": int(depth.max()),
+        "bytes": texture.nbytes,
+        "roots": roots,
+    }

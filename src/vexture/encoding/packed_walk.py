@@ -30,7 +30,7 @@ class WalkLevel(NamedTuple):
         Number of curves of each leaf.
     windings : (n, 4) int64 array
         Corner winding of each leaf with curves; 0 elsewhere.
-    coverage : (n, 4) int64 array
+    coverages : (n, 4) int64 array
         Coverage byte of each cell.
     curves : (m,) int64 array
         Index of each curve's texel, in the order of the quads and their cells.
@@ -41,7 +41,7 @@ class WalkLevel(NamedTuple):
     is_quad: NDArray[np.bool_]
     counts: NDArray[np.int64]
     windings: NDArray[np.int64]
-    coverage: NDArray[np.int64]
+    coverages: NDArray[np.int64]
     curves: NDArray[np.int64]
 
 
