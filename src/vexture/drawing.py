@@ -35,10 +35,20 @@ class FillRule(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Paint:
-    """A flat colour: sRGB components and opacity, each in 0..1."""
+    """A flat colour: sRGB components and opacity, each in 0..1.
+
+    Raises
+    ------
+    SourceError
+        If one of them is not.
+    """
 
     color: tuple[float, float, float] = (0.0, 0.0, 0.0)
     opacity: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not all(0.0 <= part <= 1.0 for part in (*self.color, self.opacity)):
+            raise SourceError(f"a paint is {self.color} with opacity {self.opacity}; all must be in 0..1")
 
     @property
     def hex(self) -> str:
@@ -50,7 +60,7 @@ class Paint:
         ('#ff8000', '#00000080')
         """
         channels = (*self.color, self.opacity) if self.opacity < 1.0 else self.color
-        return "#" + "".join(f"{round(255.0 * min(max(channel, 0.0), 1.0)):02x}" for channel in channels)
+        return "#" + "".join(f"{round(255.0 * channel):02x}" for channel in channels)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

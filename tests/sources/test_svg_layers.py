@@ -11,7 +11,7 @@ from svg_reference import render_drawing, render_file
 from corpora import flags
 from vexture.drawing import Drawing, FillRule, Paint
 from vexture.drawing import Path as Filled
-from vexture.errors import SourceWarning, VextureError
+from vexture.errors import SourceError, SourceWarning, VextureError
 from vexture.render.exact import render_exact
 from vexture.sources.svg import read_svg
 
@@ -113,6 +113,12 @@ def test_translucent_paths_share_a_layer_only_if_they_are_apart(x: float, layers
     drawing = Drawing((square(0.1, 0.1, 0.2, glass), square(0.7, 0.1, 0.2, glass), square(x, 0.1, 0.2, glass)))
     assert len(drawing.layers()) == layers
     assert np.abs(stacked(drawing.layers(), 40, 40) - render_drawing(drawing, 40, 40)).max() < 0.01
+
+
+@pytest.mark.parametrize(("color", "opacity"), [((0.0, 0.0, 1.5), 1.0), ((0.0, 0.0, 0.0), -0.1), ((np.nan, 0, 0), 1.0)])
+def test_paint_out_of_range_is_refused(color: tuple[float, float, float], opacity: float) -> None:
+    with pytest.raises(SourceError, match=r"must be in 0\.\.1"):
+        Paint(color, opacity)
 
 
 def test_nothing_painted_has_no_layers() -> None:
