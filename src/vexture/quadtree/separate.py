@@ -39,39 +39,59 @@ class CellPieces(NamedTuple):
 
 
 @kernel(allocates=False)
-def _beside(curves: NDArray[np.float64], i: int, j: int, line: int) -> bool:
-    """Whether pieces i and j lie on different sides of the direction of `line`, which is one of them."""
+def _shares(curves: NDArray[np.float64], i: int, end: int, j: int) -> bool:
+    """Whether an end of piece i is an end of piece j."""
+    x, y = curves[i, end, 0], curves[i, end, 1]
+    return (curves[j, 0, 0] == x and curves[j, 0, 1] == y) or (curves[j, 3, 0] == x and curves[j, 3, 1] == y)
+
+
+@kernel(allocates=False)
+def _beside(curves: NDArray[np.float64], line: int, other: int) -> bool:
+    """Whether the hulls of two pieces lie on different sides of a line along the first one's chord.
+
+    They may touch it in one end of the other piece, if that is an end of the first one as well.
+    """
     x0, y0 = curves[line, 0, 0], curves[line, 0, 1]
     dx, dy = curves[line, 3, 0] - x0, curves[line, 3, 1] - y0
-    i_low, i_high, j_low, j_high = np.inf, -np.inf, np.inf, -np.inf
+    low, high, other_low, other_high = 0.0, 0.0, np.inf, -np.inf
     for k in range(4):
-        across = dx * (curves[i, k, 1] - y0) - dy * (curves[i, k, 0] - x0)
-        i_low, i_high = min(i_low, across), max(i_high, across)
-        across = dx * (curves[j, k, 1] - y0) - dy * (curves[j, k, 0] - x0)
-        j_low, j_high = min(j_low, across), max(j_high, across)
-    return (i_high <= j_low and i_low < j_high) or (j_high <= i_low and j_low < i_high)
+        across = dx * (curves[line, k, 1] - y0) - dy * (curves[line, k, 0] - x0)
+        low, high = min(low, across), max(high, across)
+        across = dx * (curves[other, k, 1] - y0) - dy * (curves[other, k, 0] - x0)
+        other_low, other_high = min(other_low, across), max(other_high, across)
+    if other_low < high and low < other_high:
+        return False
+    border = high if other_low >= high else low
+    touching = 0
+    for end in (0, 3):
+        if dx * (curves[other, end, 1] - y0) - dy * (curves[other, end, 0] - x0) == border:
+            touching += 1
+            if not _shares(curves, other, end, line):
+                return False
+    return touching < 2
 
 
 @kernel(allocates=False)
 def _separate(curves: NDArray[np.float64], i: int, j: int) -> bool:
-    """Whether two monotone pieces surely touch at most at their ends: their boxes, or their hulls, do."""
+    """Whether two monotone pieces surely have no point in common but an end of both: by their boxes or hulls."""
     for axis in range(2):
         a, b = curves[i, 0, axis], curves[i, 3, axis]
         c, d = curves[j, 0, axis], curves[j, 3, axis]
         i_low, i_high, j_low, j_high = min(a, b), max(a, b), min(c, d), max(c, d)
-        if (i_high <= j_low and i_low < j_high) or (j_high <= i_low and j_low < i_high):
+        if i_high < j_low or j_high < i_low:
             return True
-    return _beside(curves, i, j, i) or _beside(curves, i, j, j)
+        if (i_high == j_low or j_high == i_low) and i_low < i_high and j_low < j_high:
+            return True
+    return _beside(curves, i, j) or _beside(curves, j, i)
 
 
 @kernel(allocates=False)
 def all_separate(curves: NDArray[np.float64]) -> bool:
-    """Whether no two pieces, horizontal ones aside, touch but at their ends."""
+    """Whether no two pieces have a point in common but an end of both; of horizontal ones among themselves no word."""
     for i in range(len(curves)):
-        if curves[i, 0, 1] == curves[i, 3, 1]:
-            continue
         for j in range(i):
-            if curves[j, 0, 1] != curves[j, 3, 1] and not _separate(curves, i, j):
+            both_level = curves[i, 0, 1] == curves[i, 3, 1] and curves[j, 0, 1] == curves[j, 3, 1]
+            if not both_level and not _separate(curves, i, j):
                 return False
     return True
 
