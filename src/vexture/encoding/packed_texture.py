@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from vexture.encoding import layout
 from vexture.encoding.files import packed_target, read_file, write_together
@@ -130,6 +130,65 @@ class PackedTexture:
             raise FormatError(
                 f"curve {curves[most.argmax()]} has an end at {most.max()}; the limit is {layout.LATTICE:.0f}; {REMEDY}"
             )
+
+    def contains(self, points: ArrayLike, root: str | int = 0) -> NDArray[np.bool_]:
+        """Which points are inside a shape, by the outlines as they are stored.
+
+        Parameters
+        ----------
+        points : (n, 2) array
+            In unit-square units, y up. Nothing is inside beyond 0 <= x < 1, 0 <= y < 1.
+        root : str or int
+            Name or place of the shape.
+
+        Returns
+        -------
+        (n,) bool array
+
+        Raises
+        ------
+        LimitError
+            If the points are of another shape.
+        FormatError
+            If there is no such shape.
+
+        Examples
+        --------
+        >>> from vexture.drawing import Drawing
+        >>> import vexture.encoding
+        >>> from vexture.quadtree.build_packed import build_packed
+        >>> square = Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)])
+        >>> texture = vexture.encoding.encode_packed([build_packed(square)], [Root("square")], name="square")
+        >>> texture.contains([(0.5, 0.5), (0.1, 0.5)])
+        array([ True, False])
+        """
+        from vexture.encoding.contains import points_inside  # late: compiled code, which readers need not wait for
+
+        wanted = np.asarray(points, np.float64)
+        if wanted.ndim != 2 or wanted.shape[1] != 2:
+            raise LimitError(f"points have the shape {wanted.shape}; it must be (n, 2)")
+        inside = np.empty(len(wanted), np.bool_)
+        points_inside(self.flat, self.root(root).quad, wanted, inside)
+        return inside
+
+    def to_svg(self, root: str | int | None = None) -> str:
+        """Return the outlines as an SVG document in the units of the source.
+
+        Parameters
+        ----------
+        root : str, int or None
+            Name or place of a shape; None draws all of them, one above the other.
+
+        Raises
+        ------
+        FormatError
+            If there is no such shape.
+        """
+        from vexture.encoding.outlines import outlines
+        from vexture.encoding.svg_text import svg_document
+
+        roots = self.roots if root is None else (self.root(root),)
+        return svg_document(((one, outlines(self.flat, one.quad)) for one in roots), self.name)
 
     def texts(self) -> dict[str, str]:
         """Key/value data of the file."""
