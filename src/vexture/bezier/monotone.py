@@ -10,7 +10,7 @@ from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 from vexture.tolerance import PARAMETER
 
-__all__ = ["Pieces", "empty_pieces", "monotone_pieces"]
+__all__ = ["Pieces", "empty_pieces", "monotone_pieces", "turns"]
 
 
 class Pieces(NamedTuple):
@@ -44,16 +44,16 @@ def empty_pieces(count: int) -> Pieces:
 
 
 @kernel(allocates=False)
-def _turns(curve: NDArray[np.float64], turns: NDArray[np.float64]) -> int:
+def turns(curve: NDArray[np.float64], out: NDArray[np.float64]) -> int:
     """Write the parameters at which x or y turns, in rising order; return how many (0 to 4)."""
-    count = turning_points(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], turns)
-    count += turning_points(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], turns[count:])
+    count = turning_points(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], out)
+    count += turning_points(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], out[count:])
     for i in range(1, count):
-        t, k = turns[i], i
-        while k > 0 and turns[k - 1] > t:
-            turns[k] = turns[k - 1]
+        t, k = out[i], i
+        while k > 0 and out[k - 1] > t:
+            out[k] = out[k - 1]
             k -= 1
-        turns[k] = t
+        out[k] = t
     return count
 
 
@@ -81,15 +81,15 @@ def monotone_pieces(cubics: NDArray[np.float64], path: NDArray[np.int64]) -> Pie
            [0.5, 1. ]])
     """
     out = empty_pieces(5 * len(cubics))
-    turns = np.empty(4)
+    at = np.empty(4)
     rest = np.empty((4, 2))
     count = 0
     for i in range(len(cubics)):
         copy_curve(cubics[i], rest)
-        turn_count = _turns(cubics[i], turns)
+        turn_count = turns(cubics[i], at)
         t0 = 0.0
         for k in range(turn_count + 1):
-            t1 = turns[k] if k < turn_count else 1.0
+            t1 = at[k] if k < turn_count else 1.0
             if k < turn_count and t1 - t0 < PARAMETER:
                 continue
             piece = out.points[count]

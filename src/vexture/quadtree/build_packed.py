@@ -68,9 +68,10 @@ class Growth(NamedTuple):
 
 
 class Bounds(NamedTuple):
-    """Limits of a tree: pieces in a leaf, depths at which leaves may be, number of quads."""
+    """Limits of a tree: pieces in a leaf, distance, depths at which leaves may be, number of quads."""
 
     capacity: int
+    tolerance: float
     least_depth: int
     max_depth: int
     most_quads: int
@@ -89,6 +90,8 @@ class Work(NamedTuple):
         Where each child's list of pieces starts.
     windings : (paths, 8) int64 array
         What `child_windings` writes.
+    deviation : (1,) float64 array
+        Largest distance of a leaf's outline from the drawing's.
     leaf : Workspace
         Of `packed_leaf`.
     """
@@ -97,6 +100,7 @@ class Work(NamedTuple):
     corner: NDArray[np.float64]
     child_at: NDArray[np.int64]
     windings: NDArray[np.int64]
+    deviation: NDArray[np.float64]
     leaf: Workspace
 
 
@@ -191,12 +195,13 @@ def _grow_quad(
         if here < 0 or child_at[child] == child_at[child + 1]:
             continue
         x, y, end = x0 + half * (child & 1), y0 + half * (child >> 1), child_at[child + 1]
-        leaf = PackedLeaf(DIVIDE, 0, 0.0, True)
+        leaf = PackedLeaf(DIVIDE, 0, 0.0, 0.0, True)
         if depth + 1 >= bounds.least_depth:
             paths, target = present[end_path:here], tree.curves[counts[CURVES] :]
             at_limit = depth + 1 == bounds.max_depth
+            capacity, tolerance, first = bounds.capacity, bounds.tolerance, child_at[child]
             leaf = packed_leaf(
-                pool, child_at[child], end, paths, rules, x, y, half, bounds.capacity, at_limit, work.leaf, target
+                pool, first, end, paths, rules, x, y, half, capacity, tolerance, at_limit, work.leaf, target
             )
         if leaf.size == DIVIDE:
             cells[quad, child, IS_QUAD] = 1.0
@@ -210,6 +215,7 @@ def _grow_quad(
             cells[quad, child, COVERAGE] = leaf.coverage
             counts[CURVES] += leaf.size
             counts[UNRESOLVED] += 0 if leaf.resolved else 1
+            work.deviation[0] = max(work.deviation[0], leaf.distance)
     counts[WAITING] = top
 
 
@@ -259,11 +265,11 @@ def _typed(tree: Growth, quads: int, curves: int) -> Arrays:
 @kernel
 def grow_packed(
     cubics: NDArray[np.float64], owner: NDArray[np.int64], rules: NDArray[np.int64], bounds: Bounds
-) -> tuple[Arrays, int, float]:
+) -> tuple[Arrays, float, int, float]:
     """Divide the unit square, depth first, until every cell is a leaf.
 
-    Returned are the arrays of the tree; the number of unresolved leaves, or the number of quads so far, negative, if
-    there are too many; and how far the outline lies outside the unit square.
+    Returned are the arrays of the tree; its deviation; the number of unresolved leaves, or the number of quads so far,
+    negative, if there are too many; and how far the outline lies outside the unit square.
     """
     pieces = monotone_pieces(cubics, owner)
     present, outside = _root(pieces.points, pieces.path)
@@ -274,6 +280,7 @@ def grow_packed(
         np.zeros((4 * bounds.max_depth + 4, 2)),
         np.empty(5, np.int64),
         np.empty((len(present), 8), np.int64),
+        np.zeros(1),
         new_workspace(),
     )
     counts = np.array([1, 0, 0, 1])
@@ -291,9 +298,9 @@ def grow_packed(
             tree = _room_for_quad(tree, counts[QUADS], counts[CURVES])
         _grow_quad(pool, present, rules, bounds, work, tree, counts)
         if counts[QUADS] > bounds.most_quads:
-            return _typed(tree, 0, 0), -counts[QUADS], outside
+            return _typed(tree, 0, 0), 0.0, -counts[QUADS], outside
     _mean_coverages(tree, counts[QUADS])
-    return _typed(tree, counts[QUADS], counts[CURVES]), counts[UNRESOLVED], outside
+    return _typed(tree, counts[QUADS], counts[CURVES]), work.deviation[0], counts[UNRESOLVED], outside
 
 
 def build_packed(
@@ -351,8 +358,10 @@ def build_packed(
             f"precision {precision:g} is outside {finest:.1e}..1; allow a larger --max-depth for a finer one"
         )
     least_depth = 1 if precision is None else max(math.ceil(-math.log2(precision * LATTICE)), 1)
-    bounds = Bounds(capacity, least_depth, max_depth, most_quads)
-    arrays, unresolved, outside = grow_packed(*gather(drawing), bounds)
+    if not 0.0 <= tolerance < 1.0:
+        raise LimitError(f"tolerance {tolerance} is outside 0 to 1, in drawing sizes; 0 keeps every piece")
+    bounds = Bounds(capacity, float(tolerance), least_depth, max_depth, most_quads)
+    arrays, deviation, unresolved, outside = grow_packed(*gather(drawing), bounds)
     if not outside <= CLOSED:  # not a number counts as outside
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {outside:.3g}; clip or scale it first")
     if unresolved < 0:
@@ -360,4 +369,4 @@ def build_packed(
             f"{drawing.name}: {-unresolved} quads at least; the limit is {most_quads}; "
             "use a smaller --max-depth, a larger --tolerance or a larger --precision"
         )
-    return PackedTree(*arrays, deviation=0.0, unresolved=unresolved)
+    return PackedTree(*arrays, deviation=deviation, unresolved=unresolved)

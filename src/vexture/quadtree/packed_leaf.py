@@ -15,6 +15,7 @@ from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
 from vexture.quadtree.boundary import Boundary, cell_paths, crowded_area, quantise_piece, resolve
 from vexture.quadtree.left_edge import corner_winding
+from vexture.quadtree.merge import MOST_MERGED, merge_chains
 from vexture.quadtree.pool import Pool
 from vexture.quadtree.separate import UNSURE, CellPieces, all_separate, clean_pieces
 from vexture.quadtree.tree import LATTICE, MOST_CURVES
@@ -46,6 +47,8 @@ class PackedLeaf(NamedTuple):
         Corner winding, 0 if there are no pieces.
     coverage : float
         Filled part of the cell.
+    distance : float
+        Largest distance by which merging moved the outline, in unit-square units.
     resolved : bool
         False if this is the best that a cell at the depth limit can say, rather than all.
     """
@@ -53,6 +56,7 @@ class PackedLeaf(NamedTuple):
     size: int
     winding: int
     coverage: float
+    distance: float
     resolved: bool
 
 
@@ -61,6 +65,7 @@ class Workspace(NamedTuple):
 
     cell: CellPieces
     path: NDArray[np.int64]
+    merged_path: NDArray[np.int64]
     out: NDArray[np.float64]
 
 
@@ -133,6 +138,7 @@ def new_workspace() -> Workspace:
             np.empty(HOPELESS, np.int64),
         ),
         np.empty(HOPELESS, np.int64),
+        np.empty(HOPELESS, np.int64),
         np.empty((MOST_RUNS + 2 * HOPELESS, 4, 2)),
     )
 
@@ -180,6 +186,7 @@ def packed_leaf(
     y0: float,
     size: float,
     capacity: int,
+    tolerance: float,
     at_limit: bool,
     workspace: Workspace,
     target: NDArray[np.float64],
@@ -198,6 +205,8 @@ def packed_leaf(
         The cell.
     capacity : int
         Pieces that a leaf may hold; more only at the depth limit, or where dividing would not separate them.
+    tolerance : float
+        Largest distance by which merging may move the outline, in unit-square units; 0 merges nothing.
     at_limit : bool
         Whether the cell may not be divided: then there always is a leaf.
     workspace : Workspace
@@ -207,20 +216,25 @@ def packed_leaf(
     """
     n, paths = last - first, len(present)
     if n > HOPELESS and at_limit:
-        return PackedLeaf(0, 0, _crowded_area(pool, first, last, present, rules, x0, y0, size), False)
-    if n > 2 * MOST_CURVES and not at_limit:
-        return PackedLeaf(DIVIDE, 0, 0.0, True)
-    room, path, out = workspace.cell, workspace.path[:n], workspace.out
-    cell = CellPieces(room.curves[:n], room.owner[:n], room.corner[:paths], room.rules[:paths], room.windings[:paths])
-    points, paths_of, numbers, curves = pool.points, pool.path, pool.numbers, cell.curves
+        return PackedLeaf(0, 0, _crowded_area(pool, first, last, present, rules, x0, y0, size), 0.0, False)
+    if n > (MOST_MERGED if tolerance > 0.0 else 2 * MOST_CURVES) and not at_limit:
+        return PackedLeaf(DIVIDE, 0, 0.0, 0.0, True)
+    room, out, path, distance = workspace.cell, workspace.out, workspace.path[:n], 0.0
+    points, paths_of, numbers, curves = pool.points, pool.path, pool.numbers, room.curves[:n]
     for k in range(n):
         i = numbers[first + k]
         quantise_piece(points[i], x0, y0, size, curves[k])
         path[k] = paths_of[i]
+    if tolerance > 0.0 and 1 < n <= MOST_MERGED:
+        n, distance = merge_chains(curves, path, tolerance * LATTICE / size, out, workspace.merged_path)
+        curves, path = room.curves[:n], workspace.merged_path[:n]
+        for k in range(n):
+            copy_curve(out[k], curves[k])
     upright = _upright(curves)
     most = capacity + (SPARE if paths > 1 else 0)
     if not at_limit and upright > most and (upright > MOST_CURVES or not _meet(curves, n)):
-        return PackedLeaf(DIVIDE, 0, 0.0, True)
+        return PackedLeaf(DIVIDE, 0, 0.0, 0.0, True)
+    cell = CellPieces(curves, room.owner[:n], room.corner[:paths], room.rules[:paths], room.windings[:paths])
     cell_paths(path, present, rules, cell.owner, cell.corner, cell.rules)
     _round_controls(curves, n)
     count = clean_pieces(cell, out) if all_separate(curves) else UNSURE
@@ -229,10 +243,11 @@ def packed_leaf(
     count, winding = corner_winding(cell, out, count)
     _round_controls(out, count)
     area = min(max(winding_area(out[:count], winding, LATTICE), 0.0), 1.0)
+    distance *= size / LATTICE
     if count == 0:
-        return PackedLeaf(0, 0, area, True)
+        return PackedLeaf(0, 0, area, distance, True)
     if count > capacity and not (count <= MOST_CURVES and (at_limit or _meet(out, count))):
-        return PackedLeaf(0 if at_limit else DIVIDE, 0, area, False)
+        return PackedLeaf(0 if at_limit else DIVIDE, 0, area, distance, False)
     for k in range(count):
         copy_curve(out[k], target[k])
-    return PackedLeaf(count, winding, area, True)
+    return PackedLeaf(count, winding, area, distance, True)
