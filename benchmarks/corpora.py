@@ -1,7 +1,8 @@
-"""What the benchmarks and their tests measure: real SVG files, glyphs of real fonts, a coastline of any size.
+"""What the benchmarks and tests work on: real SVG files, glyphs of real fonts, a coastline of any size, a KTX2 reader.
 
-SVG files come from npm packages of pinned versions, installed on first use into the folder named by the environment
-variable VEXTURE_CORPORA, by default `~/.cache/vexture/corpora`. Everything drawn at random is drawn from a seed.
+SVG files and the reader come from npm packages of pinned versions, installed on first use into the folder named by
+the environment variable VEXTURE_CORPORA, by default `~/.cache/vexture/corpora`. Everything drawn at random is drawn
+from a seed.
 """
 
 import os
@@ -21,7 +22,7 @@ from vexture import drawing
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError, VextureError
 
-__all__ = ["dejavu_sans", "flags", "fractal_coastline", "glyphs", "mdi", "simple_icons"]
+__all__ = ["dejavu_sans", "flags", "fractal_coastline", "glyphs", "ktx_parse", "mdi", "simple_icons"]
 
 FONTS = Path("/usr/share/fonts")
 HEXAGON_RADIUS = 0.4  # unit-square units
@@ -77,6 +78,7 @@ class Package:
 MDI = Package("@mdi/svg", "7.4.47", "svg")
 SIMPLE_ICONS = Package("simple-icons", "16.37.0", "icons")
 FLAG_ICONS = Package("flag-icons", "7.5.0", "flags/4x3")
+KTX_PARSE = Package("ktx-parse", "1.1.0", "dist")
 
 
 def mdi(count: int, seed: int) -> list[Path]:
@@ -92,6 +94,11 @@ def simple_icons(count: int, seed: int) -> list[Path]:
 def flags(count: int, seed: int) -> list[Path]:
     """Return flags of flag-icons (MIT): many colours, transforms, `use`, clip paths, coats of arms."""
     return FLAG_ICONS.files(count, seed)
+
+
+def ktx_parse() -> Path:
+    """Return the folder of ktx-parse (MIT), a KTX2 reader in JavaScript that shares nothing with ours."""
+    return KTX_PARSE.installed()
 
 
 def dejavu_sans() -> Path:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from vexture.bezier.area import leaf_area
 from vexture.encoding.edge import edge_point
 from vexture.encoding.layout import CONTROL_MAX, CONTROL_MIN
-from vexture.quadtree.tree import CellKind, CellTree
+from vexture.quadtree.tree import LATTICE, MOST_CURVES, CellKind, CellTree, PackedTree
 
 LEAVES = [CellKind.CURVE, CellKind.CORNER, CellKind.FULL, CellKind.EMPTY]
 SAMPLES = np.linspace(0.0, 1.0, 65)[:, None]
@@ -91,3 +91,33 @@ def _coverage(
                 case CellKind.CURVE | CellKind.CORNER as leaf:
                     coverage[quad, cell] = leaf_area(curves[ref[quad, cell]], bool(leaf == CellKind.CORNER))
     return coverage
+
+
+@st.composite
+def packed_trees(draw: st.DrawFn, max_depth: int = 5, max_quads: int = 24) -> PackedTree:
+    """Valid packed trees, numbered as `PackedTree` says; their pieces lie anywhere and bound nothing."""
+    depths = [0]
+    cells: list[tuple[bool, int, int]] = []
+    for depth in depths:  # grows while it is walked: breadth first
+        for _ in range(4):
+            may_split = depth < max_depth and len(depths) < max_quads
+            count = draw(st.sampled_from([0, 0, 1, 2, 4, MOST_CURVES]))
+            is_quad = may_split and draw(st.booleans())
+            cells.append((True, 0, 0) if is_quad else (False, count, draw(st.integers(-3, 3)) if count else 0))
+            depths += [depth + 1] * is_quad
+    is_quad, count, winding = (np.array(column).reshape(-1, 4) for column in zip(*cells, strict=True))
+    random = np.random.default_rng(draw(st.integers(0, 2**32)))
+    curves = random.integers(0, LATTICE, (count.sum(), 4, 2), endpoint=True)
+    curves[:, 1:3] = random.integers(-LATTICE / 2, 3 * LATTICE / 2, (count.sum(), 2, 2))
+    quads_in, curves_in = is_quad.sum(axis=1), count.sum(axis=1)
+    return PackedTree(
+        is_quad,
+        count.astype(np.uint8),
+        winding.astype(np.int8),
+        (1 + np.cumsum(quads_in) - quads_in).astype(np.int32),
+        (np.cumsum(curves_in) - curves_in).astype(np.int32),
+        random.random(is_quad.shape),
+        curves.astype(np.int32),
+        0.0,
+        0,
+    )

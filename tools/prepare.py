@@ -80,6 +80,12 @@ SYSTEM = (
         (),
         "the tests on real icons",
     ),
+    Need(
+        "the KTX2 reader of npm",
+        "import corpora, subprocess; corpora.ktx_parse(); subprocess.run(['node', '--version'], check=True)",
+        (),
+        "the tests that another program reads packed textures",
+    ),
 )
 
 

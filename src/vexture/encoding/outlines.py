@@ -22,6 +22,9 @@ __all__ = ["outlines"]
 SIDE = int(LATTICE) << MOST_DEPTH
 """Of the unit square, in units of the finest lattice."""
 
+HALVES = np.array([(0, 0), (1, 0), (0, 1), (1, 1)])
+"""Place of each cell in its quad."""
+
 STRAIGHT = 1.0
 """Lattice units of the leaf. Inner control points this close to those of a line are a line's but for rounding."""
 
@@ -99,7 +102,7 @@ def _leaves(flat: NDArray[np.uint32], root: int) -> Leaves:
     low, sides, corner, pieces, owner, on_left, is_line = [], [], [], [], [], [], []
     total = 0
     for depth, level in enumerate(walk(flat, np.array([root]))):
-        cells = (2 * origins[:, None] + [(0, 0), (1, 0), (0, 1), (1, 1)]).reshape(-1, 2)
+        cells = (2 * origins[:, None] + HALVES).reshape(-1, 2)
         full = ~level.is_quad & (level.counts == 0) & (2 * level.coverages > COVERAGE_ONE)
         counts = level.counts.ravel()
         kept = (counts > 0) | full.ravel()

@@ -118,7 +118,7 @@ def _read_root(entry: Any, place: int) -> Root:
     name, quad, crs = entry.get("name"), entry.get("quad"), entry.get("crs")
     if not isinstance(name, str):
         raise FormatError(f"root {place} has the name {_line(name)}; it must be a text; {REMEDY}")
-    if type(quad) is not int or quad < 0:
+    if type(quad) is not int or not 0 <= quad < 1 << 32:
         raise FormatError(f"root {place} has the quad {_line(quad)}; it must be an index of a texel; {REMEDY}")
     if crs is not None and not isinstance(crs, str):
         raise FormatError(f"root {place} has the crs {_line(crs)}; it must be a text; {REMEDY}")

@@ -1,0 +1,182 @@
+"""For those who bring their own renderer: points inside, and outlines back as SVG."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import corpora
+import degenerate
+from strategies import packed_trees
+from vexture import read_svg
+from vexture.bezier.convert import line_cubics
+from vexture.drawing import Drawing, Paint
+from vexture.drawing import Path as Outline
+from vexture.encoding import PackedTexture, Root, encode, encode_packed
+from vexture.encoding.outlines import outlines
+from vexture.errors import LimitError, VextureError
+from vexture.quadtree.build_packed import build_packed
+from vexture.quadtree.tree import PackedTree
+from vexture.render.exact import render_exact
+
+SIZE = (128, 128)
+ONE_LEVEL = 1 / 255
+POINTS = 2_000
+CLEAR = 1e-4  # unit-square units: chords of the brute force, rounding to leaves of half the square
+
+CONTRADICT = {23, 30, 34}
+SEEDS = [
+    pytest.param(seed, marks=pytest.mark.xfail(reason="a leaf contradicts itself")) if seed in CONTRADICT else seed
+    for seed in range(40)
+]
+SQUARE = Drawing.polygon([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75)])
+
+
+def converted(drawing: Drawing) -> PackedTexture:
+    return encode(build_packed(drawing), to_source=drawing.to_source, name=drawing.name)
+
+
+def back(texture: PackedTexture, folder: Path) -> Drawing:
+    path = folder / "back.svg"
+    path.write_text(texture.to_svg(), encoding="utf-8")
+    return read_svg(path)
+
+
+def letters() -> list[Drawing]:
+    try:
+        return corpora.glyphs(corpora.dejavu_sans(), "agR&8@")
+    except VextureError as error:
+        pytest.skip(str(error))
+
+
+def icons() -> list[Drawing]:
+    try:
+        return [read_svg(path) for path in corpora.mdi(4, seed=3) + corpora.simple_icons(4, seed=3)]
+    except VextureError as error:
+        pytest.skip(str(error))
+
+
+@pytest.mark.parametrize("drawings", [letters, icons])
+def test_svg_of_real_drawings(tmp_path: Path, drawings) -> None:
+    for drawing in drawings():
+        found = back(converted(drawing), tmp_path)
+        assert abs(render_exact(found, SIZE) - render_exact(drawing, SIZE)).max() < ONE_LEVEL
+        at = drawing.to_source @ (0.3, 0.6, 1.0)
+        upwards = np.linalg.det(drawing.to_source[:, :2]) > 0.0  # fonts are drawn upwards, and turned in the document
+        np.testing.assert_allclose(found.to_source @ (0.3, 0.6, 1.0), at * (1, -1) if upwards else at, atol=1e-6)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_svg_of_degenerate_drawings(tmp_path: Path, seed: int) -> None:
+    drawing = degenerate.drawing(seed)
+    texture = converted(drawing)
+    closed = Drawing((Outline(tuple(outlines(texture.flat, 0))),))
+    expected = render_exact(drawing, SIZE)
+    assert abs(render_exact(closed, SIZE) - expected).max() < ONE_LEVEL
+    if expected.any():  # an empty document has nothing to warn of but its emptiness
+        assert abs(render_exact(back(texture, tmp_path), SIZE) - expected).max() < ONE_LEVEL
+
+
+def with_lines(tree: PackedTree) -> PackedTree:
+    """Tree whose pieces are straight."""
+    lines = np.rint(line_cubics(*np.moveaxis(tree.curves[:, [0, 3]].astype(float), 1, 0)))
+    return replace(tree, curves=lines.astype(np.int32))
+
+
+@given(packed_trees(max_depth=2, max_quads=4).map(with_lines), st.integers(0, 2**32))
+def test_outlines_are_closed_and_wind_as_the_leaves_say(tree: PackedTree, seed: int) -> None:
+    """Even where pieces and corner windings are random, so that windings are anything."""
+    texture = encode(tree, to_source=np.eye(2, 3), name="x")
+    points = np.random.default_rng(seed).random((200, 2))
+    closed = Drawing((Outline(tuple(outlines(texture.flat, 0))),))
+    (windings,), distance = degenerate.path_windings(closed, points, chords=1)
+    clear = distance > CLEAR
+    np.testing.assert_array_equal(texture.contains(points)[clear], windings[clear] > 0)
+
+
+@pytest.mark.parametrize("seed", [seed for seed in range(40) if seed not in CONTRADICT])
+def test_points_inside(seed: int) -> None:
+    drawing = degenerate.drawing(seed)
+    if drawing.paths:
+        points = degenerate.points_near(drawing, np.random.default_rng(seed), POINTS)
+        windings, distance = degenerate.path_windings(drawing, points)
+        clear = distance > CLEAR
+        truth = degenerate.silhouette(drawing, windings)
+        np.testing.assert_array_equal(converted(drawing).contains(points)[clear], truth[clear])
+
+
+def test_heights_are_compared_exactly() -> None:
+    """The square's sides lie on lattices of all depths: the lower and left ones are inside, the others are not."""
+    texture = converted(SQUARE)
+    below, above = np.nextafter([0.25, 0.75], 0.0), np.nextafter([0.25, 0.75], 1.0)
+    for axis in range(2):
+        values = [below[0], 0.25, above[0], below[1], 0.75, above[1]]
+        points = np.full((6, 2), 0.4)
+        points[:, axis] = values
+        assert texture.contains(points).tolist() == [False, True, True, True, False, False]
+
+
+def test_points_beyond_the_square_and_no_points() -> None:
+    full = encode_packed([build_packed(Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]))], [Root("x")], name="x")
+    edge = [(0, 0), (1, 0.5), (0.5, 1), (-1e-300, 0.5), (np.nan, 0.5), (0.5, np.inf), (1e300, -1e300), (0.5, 0.5)]
+    assert full.contains(edge).tolist() == [True, False, False, False, False, False, False, True]
+    assert full.contains(np.zeros((0, 2))).shape == (0,)
+    for wrong in (np.zeros(2), np.zeros((3, 3)), 0.5):
+        with pytest.raises(LimitError, match=r"points have the shape .*; it must be \(n, 2\)"):
+            full.contains(wrong)
+
+
+def test_unchecked_texels_lead_nowhere() -> None:
+    """Random texels given by hand: an answer, not a crash."""
+    random = np.random.default_rng(5)
+    texels = random.integers(0, 2**32, (1, 64, 4), np.uint32)
+    texels[:, ::2, :2] %= 70
+    texture = PackedTexture(texels, (Root("x"), Root("y", 10**6)))
+    for root in (0, 1):
+        assert texture.contains(random.random((1000, 2)), root).shape == (1000,)
+
+
+def painted() -> PackedTexture:
+    to_source = np.array([[20.0, 0.0, 3.0], [0.0, -20.0, 25.0]])
+    triangle = Drawing.polygon([(0.1, 0.1), (0.9, 0.1), (0.5, 0.9)])
+    roots = [
+        Root("<back> & \0", to_source=to_source, paint=Paint((0.0, 51 / 255, 1.0))),
+        Root("front", to_source=to_source, paint=Paint((0.3, 0.55555, 1.0), 0.25)),
+        Root("outline", to_source=to_source),
+    ]
+    return encode_packed([build_packed(SQUARE), build_packed(triangle), build_packed(triangle)], roots, name='a "b"')
+
+
+def test_layers_keep_their_paint(tmp_path: Path) -> None:
+    texture = painted()
+    found = back(texture, tmp_path)
+    assert [path.paint.opacity for path in found.paths] == [1.0, 0.25, 1.0]
+    colors = [path.paint.color for path in found.paths]
+    np.testing.assert_allclose(colors, [(0.0, 0.2, 1.0), (0.3, 0.55555, 1.0), (0.0, 0.0, 0.0)], atol=1e-9)
+    np.testing.assert_array_equal(found.to_source, texture.root().to_source)
+
+
+def test_the_document_as_text() -> None:
+    text = painted().to_svg(0)
+    assert text.splitlines() == [
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="3 5 20 20">',
+        '<title>a "b"</title>',
+        '<path fill="#0033ff" d="M8 20L18 20L18 10L8 10Z"><title>&lt;back&gt; &amp; \ufffd</title></path>',
+        "</svg>",
+    ]
+
+
+def test_one_shape_of_many() -> None:
+    texture = painted()
+    assert texture.to_svg("front") == texture.to_svg(1)
+    assert texture.to_svg().count("<path ") == 3
+    assert texture.to_svg("front").count("<path ") == 1
+
+
+def test_nothing_at_all() -> None:
+    texture = PackedTexture(np.zeros((1, 1, 4), np.uint32), (Root("x"),))
+    assert outlines(texture.flat, 0) == []
+    assert 'd=""' in texture.to_svg()
