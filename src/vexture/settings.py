@@ -1,6 +1,5 @@
 """The parameters of a conversion: what each may be, and which encoding each belongs to."""
 
-import math
 from dataclasses import dataclass
 from typing import Final, Literal
 
@@ -62,8 +61,6 @@ class Settings:
                 )
         if self.split not in (None, "paint"):
             raise LimitError(f"split={self.split!r} is not known; drawings can be split by paint")
-        if self.encoding == "packed" and not 0.0 <= self.packed_tolerance < math.inf:
-            raise LimitError(f"tolerance {self.tolerance} must be a finite number of at least 0; 0 loses nothing")
 
     @property
     def packed_tolerance(self) -> float:
