@@ -60,10 +60,10 @@ test: .venv/for-test
 	@echo 'compiling the kernels once, before the tests run side by side ...'
 	@scratch=$$(mktemp -d) && trap 'rm -rf "$$scratch"' EXIT && \
 		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch" >"$$scratch/log" && \
-		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch" --encoding thesis >>"$$scratch/log" && \
+		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/thesis" --encoding thesis >>"$$scratch/log" && \
 		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/sampled" --encoding thesis --strategy sampled >>"$$scratch/log" && \
 		$(BIN)/vexture render "$$scratch/duck.ktx2" -o "$$scratch/packed.png" --size 16 --renderer cpu >>"$$scratch/log" && \
-		$(BIN)/vexture render "$$scratch/duck" -o "$$scratch/cpu.png" --size 16 --renderer cpu >>"$$scratch/log" && \
+		$(BIN)/vexture render "$$scratch/thesis/duck" -o "$$scratch/cpu.png" --size 16 --renderer cpu >>"$$scratch/log" && \
 		$(BIN)/vexture render $(SHAPES)/duck.svg -o "$$scratch/exact.png" --size 16 --renderer exact >>"$$scratch/log"
 	$(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4
 
