@@ -1,0 +1,86 @@
+// The pixel's footprint: a parallelogram, and the frame in which it is the square from -1/2 to 1/2.
+// Exports: VextureFrame, vexture_frame, vexture_into_frame, vexture_beside, vexture_beside_box.
+//
+// exact: the footprint is the parallelogram that dx and dy span.
+// fast: one with two horizontal sides and the same second moments. In its frame the heights of the drawing are those of
+// the pixel, so that nothing is due for horizontal lines.
+
+struct VextureFrame {
+    vec2 right;   // its rows: from the drawing's plane to the frame
+    vec2 up;
+    vec2 reach;   // half the footprint's box
+    float turned; // 1 or -1: whether the frame keeps orientation
+    float extent; // of the footprint, the lesser
+};
+
+VextureFrame vexture_frame(vec2 dx, vec2 dy) {
+    float larger = max(dot(dx, dx), dot(dy, dy));
+    if (!(larger > VEXTURE_SMALLEST_PIXEL * VEXTURE_SMALLEST_PIXEL)) {
+        dx = vec2(VEXTURE_SMALLEST_PIXEL, 0.0);
+        dy = vec2(0.0, VEXTURE_SMALLEST_PIXEL);
+        larger = dot(dx, dx);
+    }
+    float area = dx.x * dy.y - dx.y * dy.x;
+    float least = VEXTURE_THINNEST_PIXEL * larger;
+    if (abs(area) < least) {  // a line, seen from its edge
+        vec2 along = dot(dx, dx) >= dot(dy, dy) ? dx : dy;
+        vec2 across = vec2(-along.y, along.x) * (least / dot(along, along));
+        dx = along;
+        dy = across;
+        area = least;
+    }
+#if VEXTURE_QUALITY == VEXTURE_EXACT
+    vec2 reach = 0.5 * (abs(dx) + abs(dy));
+    float extent = abs(area) / sqrt(larger);
+    return VextureFrame(vec2(dy.y, -dy.x) / area, vec2(-dx.y, dx.x) / area, reach, sign(area), extent);
+#else
+    float height = sqrt(dx.y * dx.y + dy.y * dy.y);
+    height = max(height, VEXTURE_THINNEST_PIXEL * sqrt(larger));
+    float width = abs(area) / height;
+    float lean = (dx.x * dx.y + dy.x * dy.y) / height;
+    vec2 reach = 0.5 * vec2(width + abs(lean), height);
+    return VextureFrame(vec2(1.0, -lean / height) / width, vec2(0.0, 1.0 / height), reach, 1.0, min(width, height));
+#endif
+}
+
+vec2 vexture_into_frame(VextureFrame frame, vec2 point) {
+    return vec2(dot(frame.right, point), dot(frame.up, point));
+}
+
+// Integral of clamp(u, 0, 1).
+float vexture_ramp(float u) {
+    float held = clamp(u, 0.0, 1.0);
+    return held * (u - 0.5 * held);
+}
+
+// Mean of clamp(u, 0, 1) while u runs from one value to another.
+float vexture_mean_clamped(float u0, float u1) {
+    float way = u1 - u0;
+    bool short_way = abs(way) < VEXTURE_SHORT_WAY;
+    float mean = (vexture_ramp(u1) - vexture_ramp(u0)) / (short_way ? 1.0 : way);
+    return short_way ? clamp(0.5 * (u0 + u1), 0.0, 1.0) : mean;
+}
+
+// Area of the pixel on the right of a straight line from p to q, both in the frame; negative if the line goes up.
+float vexture_beside(vec2 p, vec2 q) {
+    float y0 = clamp(p.y, -0.5, 0.5);
+    float y1 = clamp(q.y, -0.5, 0.5);
+    float rise = q.y - p.y;
+    float slope = rise != 0.0 ? (q.x - p.x) / rise : 0.0;
+    float u0 = 0.5 - p.x - (y0 - p.y) * slope;
+    float u1 = 0.5 - p.x - (y1 - p.y) * slope;
+    return (y0 - y1) * vexture_mean_clamped(u0, u1);
+}
+
+// Area of the pixel in a box, positive where the frame keeps orientation.
+float vexture_beside_box(VextureFrame frame, vec2 low, vec2 high) {
+    vec2 p = vexture_into_frame(frame, low);
+    vec2 q = vexture_into_frame(frame, vec2(high.x, low.y));
+    vec2 r = vexture_into_frame(frame, high);
+    vec2 s = vexture_into_frame(frame, vec2(low.x, high.y));
+    float area = vexture_beside(q, r) + vexture_beside(s, p);
+#if VEXTURE_QUALITY == VEXTURE_EXACT
+    area += vexture_beside(p, q) + vexture_beside(r, s);
+#endif
+    return area;
+}
