@@ -9,6 +9,7 @@ __all__ = [
     "CHORDS",
     "CONSTANT",
     "CORNER",
+    "CROSSING",
     "CUBE_ROOT",
     "CURVE",
     "DOUBLE",
@@ -78,10 +79,10 @@ SMALLEST_PIXEL: Final = 2.0**-40
 THINNEST_PIXEL: Final = 2.0**-6
 """A footprint seen from its edge is made this wide, in its lengths."""
 
-STEPS: Final = 3
-"""Newton's steps for the t of a coordinate, after a quadratic start."""
+STEPS: Final = 2
+"""Laguerre's steps for the t of a coordinate, after a quadratic start."""
 
-CHORDS: Final = 4
+CHORDS: Final = 2
 """Chords for a piece within one footprint's box."""
 
 SHORT_WAY: Final = 2.0**-10
@@ -92,6 +93,9 @@ LEVELS_BELOW: Final = 2
 
 LEVEL_BIAS: Final = 2.0**-8
 """Without it drivers would disagree on the level of a footprint whose size is a power of two."""
+
+CROSSING: Final = 2
+"""Side of a piece that is not clear."""
 
 MOST_CELLS: Final = 256
 """Cells that one pixel looks at."""
