@@ -7,6 +7,7 @@ from typing import Final
 
 __all__ = [
     "CHORDS",
+    "CLOSE",
     "CONSTANT",
     "CORNER",
     "CROSSING",
@@ -23,6 +24,7 @@ __all__ = [
     "MOST_CELLS",
     "NEARLY_EQUAL",
     "NEARLY_ZERO",
+    "NO_SIZE",
     "POSITION_BITS",
     "QUADRATIC",
     "SAMPLES",
@@ -79,8 +81,14 @@ SMALLEST_PIXEL: Final = 2.0**-40
 THINNEST_PIXEL: Final = 2.0**-6
 """A footprint seen from its edge is made this wide, in its lengths."""
 
-STEPS: Final = 2
+STEPS: Final = 6
 """Laguerre's steps for the t of a coordinate, after a quadratic start."""
+
+CLOSE: Final = 0.1
+"""Pixels. A step that moves a point on a piece by less was the last."""
+
+NO_SIZE: Final = 2.0**-10
+"""Lattice units: less than the least size of a piece that has one."""
 
 CHORDS: Final = 2
 """Chords for a piece within one footprint's box."""

@@ -16,6 +16,7 @@ VextureLattice vexture_lattice(ivec2 origin, int level, VexturePlace place, Vext
     float unit = VEXTURE_LATTICE * float(1 << level);  // lattice units in the unit square
     vec2 center = (vec2(place.point - origin) + place.rest) * scale;
     vec2 reach = frame.reach * unit;
+    frame.extent *= unit;
     frame.right /= unit;
     frame.up /= unit;
     return VextureLattice(center, max(-center, -reach), min(VEXTURE_LATTICE - center, reach), frame);
@@ -47,7 +48,7 @@ float vexture_cell_area(VextureCell cell, VextureLattice lattice) {
         int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
         crossing ^= lowest;
         VexturePiece piece = vexture_piece(vexture_texel(curve + uint(i)), lattice.center);
-        area += vexture_piece_area(piece, lattice.frame, low, high);
+        area += vexture_piece_area(piece, lattice.frame, lattice.frame.extent, low, high);
     }
     return area;
 }

@@ -61,41 +61,19 @@ int vexture_clear_side(VexturePiece piece, vec2 low, vec2 high) {
     return none ? 0 : passes && box_after ? (rises ? -1 : 1) : VEXTURE_CROSSING;
 }
 
-// Start of the way to the t at which a rising monotone cubic has a value: by the quadratic that agrees with it at 0, 1/2
-// and 1, where t^3 is 3/2 t^2 - t/2.
-float vexture_first_t(vec4 k, float value) {
-    float a = k.y + 1.5 * k.x;
-    float b = k.z - 0.5 * k.x;
-    float c = k.w - value;
-    float q = -0.5 * (b + sqrt(max(b * b - 4.0 * a * c, 0.0)));
-    return c >= 0.0 ? 0.0 : q < 0.0 ? clamp(c / q, 0.0, 1.0) : 1.0;
-}
-
-// One of Laguerre's steps, which near a turning point gets as far as several of Newton's.
-float vexture_better_t(vec4 k, float value, float t) {
-    float error = vexture_evaluate(k, t) - value;
-    float slope = (3.0 * k.x * t + 2.0 * k.y) * t + k.z;
-    float bend = 6.0 * k.x * t + 2.0 * k.y;
+// One of Laguerre's steps, which near a turning point gets as far as several of Newton's, toward the t at which both
+// coordinates of a piece, mirrored so that they rise, have passed a corner of the box; or, for the earlier, one of them.
+float vexture_better_t(vec4 kx, vec4 ky, vec2 corner, bool later, float t) {
+    float x_error = vexture_evaluate(kx, t) - corner.x;
+    float y_error = vexture_evaluate(ky, t) - corner.y;
+    float x_slope = (3.0 * kx.x * t + 2.0 * kx.y) * t + kx.z;
+    float y_slope = (3.0 * ky.x * t + 2.0 * ky.y) * t + ky.z;
+    bool x_decides = (y_error * x_slope > x_error * y_slope) == later;
+    float error = x_decides ? x_error : y_error;
+    float slope = x_decides ? x_slope : y_slope;
+    float bend = x_decides ? 6.0 * kx.x * t + 2.0 * kx.y : 6.0 * ky.x * t + 2.0 * ky.y;
     float divisor = slope + sqrt(max(4.0 * slope * slope - 6.0 * error * bend, 0.0));
     return divisor > 0.0 ? clamp(t - 3.0 * error / divisor, 0.0, 1.0) : t;
-}
-
-// Both of a piece's coordinates, mirrored so that they rise, pass values: t of the later one.
-float vexture_later_t(vec4 kx, vec4 ky, vec2 value) {
-    float t = max(vexture_first_t(kx, value.x), vexture_first_t(ky, value.y));
-    for (int i = 0; i < VEXTURE_STEPS; i++) {
-        t = max(vexture_better_t(kx, value.x, t), vexture_better_t(ky, value.y, t));
-    }
-    return t;
-}
-
-// t of the earlier one.
-float vexture_earlier_t(vec4 kx, vec4 ky, vec2 value) {
-    float t = min(vexture_first_t(kx, value.x), vexture_first_t(ky, value.y));
-    for (int i = 0; i < VEXTURE_STEPS; i++) {
-        t = min(vexture_better_t(kx, value.x, t), vexture_better_t(ky, value.y, t));
-    }
-    return t;
 }
 
 // Area between a curve and its chord, of a cubic with these differences of control points (P1 - P0, P3 - P2, P3 - P0);
@@ -106,15 +84,26 @@ float vexture_bulge(vec2 first, vec2 last, vec2 chord) {
 }
 
 // Minus the area on the right of a piece that goes up, plus that of one that goes down, inside the box from low to high.
-float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 high) {
+float vexture_piece_area(VexturePiece piece, VextureFrame frame, float extent, vec2 low, vec2 high) {
     vec2 way = piece.p3 - piece.p0;
     vec2 mirror = vec2(way.x < 0.0 ? -1.0 : 1.0, way.y < 0.0 ? -1.0 : 1.0);
     vec4 kx = vexture_polynomial(piece.p0.x, piece.p1.x, piece.p2.x, piece.p3.x) * mirror.x;
     vec4 ky = vexture_polynomial(piece.p0.y, piece.p1.y, piece.p2.y, piece.p3.y) * mirror.y;
     vec2 from = vec2(way.x < 0.0 ? -high.x : low.x, way.y < 0.0 ? -high.y : low.y);
     vec2 to = vec2(way.x < 0.0 ? -low.x : high.x, way.y < 0.0 ? -low.y : high.y);
-    float t0 = vexture_later_t(kx, ky, from);
-    float t1 = max(t0, vexture_earlier_t(kx, ky, to));
+    vec2 size = max(abs(way), VEXTURE_NO_SIZE);
+    float t0 = clamp(max((from.x - kx.w) / size.x, (from.y - ky.w) / size.y), 0.0, 1.0);
+    float t1 = clamp(min((to.x - kx.w) / size.x, (to.y - ky.w) / size.y), 0.0, 1.0);
+    float close = VEXTURE_CLOSE * extent / (size.x + size.y);
+    int steps = VEXTURE_STEPS;
+    while (steps > 0) {
+        float before0 = t0;
+        float before1 = t1;
+        t0 = vexture_better_t(kx, ky, from, true, t0);
+        t1 = vexture_better_t(kx, ky, to, false, t1);
+        steps = abs(t0 - before0) + abs(t1 - before1) > close ? steps - 1 : 0;
+    }
+    t1 = max(t0, t1);
     float step_t = (t1 - t0) / float(VEXTURE_CHORDS);
 
     float y0 = clamp(piece.p0.y, low.y, high.y);
