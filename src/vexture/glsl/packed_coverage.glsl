@@ -16,7 +16,6 @@ VextureLattice vexture_lattice(ivec2 origin, int level, VexturePlace place, Vext
     float unit = VEXTURE_LATTICE * float(1 << level);  // lattice units in the unit square
     vec2 center = (vec2(place.point - origin) + place.rest) * scale;
     vec2 reach = frame.reach * unit;
-    frame.extent *= unit;
     frame.right /= unit;
     frame.up /= unit;
     return VextureLattice(center, max(-center, -reach), min(VEXTURE_LATTICE - center, reach), frame);
@@ -48,7 +47,7 @@ float vexture_cell_area(VextureCell cell, VextureLattice lattice) {
         int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
         crossing ^= lowest;
         VexturePiece piece = vexture_piece(vexture_texel(curve + uint(i)), lattice.center);
-        area += vexture_piece_area(piece, lattice.frame, lattice.frame.extent, low, high);
+        area += vexture_piece_area(piece, lattice.frame, low, high);
     }
     return area;
 }
@@ -62,7 +61,7 @@ float vextureCoverage(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VextureFrame frame = vexture_frame(dx, dy);
     VexturePlace place = vexture_place(base, offset, frame.reach);
     int shared_levels = vexture_shared_levels(place.low, place.high);
-    int finest = vexture_finest_level(frame.extent);
+    int finest = vexture_finest_level(frame.size);
     VextureTop top = VextureTop(root, 0);
     ivec2 position = place.low;
     int row = place.low.y;

@@ -13,7 +13,7 @@ struct VexturePiece {
 };
 
 vec2 vexture_lattice_point(uint word) {
-    return vec2(float(word & 0xffffu), float(word >> VEXTURE_COORDINATE_BITS));
+    return vec2(int(word & 0xffffu), int(word >> VEXTURE_COORDINATE_BITS));
 }
 
 VexturePiece vexture_piece(uvec4 texel, vec2 center) {
@@ -84,7 +84,7 @@ float vexture_bulge(vec2 first, vec2 last, vec2 chord) {
 }
 
 // Minus the area on the right of a piece that goes up, plus that of one that goes down, inside the box from low to high.
-float vexture_piece_area(VexturePiece piece, VextureFrame frame, float extent, vec2 low, vec2 high) {
+float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 high) {
     vec2 way = piece.p3 - piece.p0;
     vec2 mirror = vec2(way.x < 0.0 ? -1.0 : 1.0, way.y < 0.0 ? -1.0 : 1.0);
     vec4 kx = vexture_polynomial(piece.p0.x, piece.p1.x, piece.p2.x, piece.p3.x) * mirror.x;
@@ -94,7 +94,7 @@ float vexture_piece_area(VexturePiece piece, VextureFrame frame, float extent, v
     vec2 size = max(abs(way), VEXTURE_NO_SIZE);
     float t0 = clamp(max((from.x - kx.w) / size.x, (from.y - ky.w) / size.y), 0.0, 1.0);
     float t1 = clamp(min((to.x - kx.w) / size.x, (to.y - ky.w) / size.y), 0.0, 1.0);
-    float close = VEXTURE_CLOSE * extent / (size.x + size.y);
+    float close = VEXTURE_CLOSE / max(size.x * abs(frame.right.x), size.y * abs(frame.up.y));
     int steps = VEXTURE_STEPS;
     while (steps > 0) {
         float before0 = t0;

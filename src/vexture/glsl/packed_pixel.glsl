@@ -10,7 +10,7 @@ struct VextureFrame {
     vec2 up;
     vec2 reach;   // half the footprint's box
     float turned; // 1 or -1: whether the frame keeps orientation
-    float extent; // of a square of the same area
+    float size;    // the footprint's area
 };
 
 VextureFrame vexture_frame(vec2 dx, vec2 dy) {
@@ -21,25 +21,24 @@ VextureFrame vexture_frame(vec2 dx, vec2 dy) {
         larger = dot(dx, dx);
     }
     float area = dx.x * dy.y - dx.y * dy.x;
-    float least = VEXTURE_THINNEST_PIXEL * larger;
-    if (abs(area) < least) {  // a line, seen from its edge
-        vec2 along = dot(dx, dx) >= dot(dy, dy) ? dx : dy;
-        vec2 across = vec2(-along.y, along.x) * (least / dot(along, along));
-        dx = along;
-        dy = across;
-        area = least;
+    if (abs(area) < VEXTURE_THINNEST_PIXEL * larger) {  // a line, seen from its edge
+        dx = dot(dx, dx) == larger ? dx : dy;
+        dy = vec2(-dx.y, dx.x) * VEXTURE_THINNEST_PIXEL;
+        area = VEXTURE_THINNEST_PIXEL * larger;
     }
 #if VEXTURE_QUALITY == VEXTURE_EXACT
     vec2 reach = 0.5 * (abs(dx) + abs(dy));
-    float extent = sqrt(abs(area));
-    return VextureFrame(vec2(dy.y, -dy.x) / area, vec2(-dx.y, dx.x) / area, reach, sign(area), extent);
+    float shrink = 1.0 / area;
+    return VextureFrame(vec2(dy.y, -dy.x) * shrink, vec2(-dx.y, dx.x) * shrink, reach, sign(area), abs(area));
 #else
-    float height = sqrt(dx.y * dx.y + dy.y * dy.y);
-    height = max(height, VEXTURE_THINNEST_PIXEL * sqrt(larger));
-    float width = abs(area) / height;
-    float lean = (dx.x * dx.y + dy.x * dy.y) / height;
+    float square = max(dx.y * dx.y + dy.y * dy.y, VEXTURE_THINNEST_PIXEL * VEXTURE_THINNEST_PIXEL * larger);
+    float up = inversesqrt(square);
+    float height = square * up;
+    float width = abs(area) * up;
+    float right = 1.0 / width;
+    float lean = (dx.x * dx.y + dy.x * dy.y) * up;
     vec2 reach = 0.5 * vec2(width + abs(lean), height);
-    return VextureFrame(vec2(1.0, -lean / height) / width, vec2(0.0, 1.0 / height), reach, 1.0, sqrt(abs(area)));
+    return VextureFrame(vec2(right, -lean * up * right), vec2(0.0, up), reach, 1.0, abs(area));
 #endif
 }
 

@@ -41,7 +41,7 @@ VexturePlace vexture_place(uvec2 base, vec2 offset, vec2 reach) {
     vec2 scaled = clamp(offset, -VEXTURE_FARTHEST, VEXTURE_FARTHEST) * one;
     vec2 whole = floor(scaled);
     ivec2 point = ivec2(base >> spare) + ivec2(whole);
-    vec2 rest = scaled - whole + vec2(base & uvec2((1 << spare) - 1)) / float(1 << spare);
+    vec2 rest = scaled - whole + vec2(ivec2(base & uvec2((1 << spare) - 1))) / float(1 << spare);
     vec2 extent = min(reach, VEXTURE_FARTHEST) * one;
     int last = (1 << VEXTURE_POSITION_BITS) - 1;
     ivec2 low = max(point + ivec2(floor(rest - extent)), 0);
@@ -56,10 +56,10 @@ int vexture_shared_levels(ivec2 low, ivec2 high) {
     return clamp(VEXTURE_POSITION_BITS - bits, 0, VEXTURE_MOST_DEPTH);
 }
 
-// The level whose cells are no smaller than a footprint, and LEVELS_BELOW more.
-int vexture_finest_level(float extent) {
-    float level = floor(VEXTURE_LEVEL_BIAS - log2(extent));
-    return int(clamp(level + float(VEXTURE_LEVELS_BELOW), 1.0, float(VEXTURE_MOST_DEPTH)));
+// The level whose cells are no smaller than a footprint of this area, and LEVELS_BELOW more.
+int vexture_finest_level(float area) {
+    int exponent = (floatBitsToInt(area * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127;
+    return clamp(VEXTURE_LEVELS_BELOW - 1 - (exponent >> 1), 1, VEXTURE_MOST_DEPTH);
 }
 
 // The cell at a position: a leaf, or a quad of the level `finest`. `top` moves down to the quad of the level `shared`.
@@ -85,7 +85,7 @@ VextureCell vexture_descend(inout VextureTop top, int shared, int finest, ivec2 
 }
 
 float vexture_stored_coverage(VextureCell cell) {
-    return float((cell.texel.w >> cell.shift) & 255u) / float(VEXTURE_COVERAGE_ONE);
+    return float(int((cell.texel.w >> cell.shift) & 255u)) / float(VEXTURE_COVERAGE_ONE);
 }
 
 int vexture_count(VextureCell cell) {
