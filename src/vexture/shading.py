@@ -6,7 +6,7 @@ The solution paths are those of thesis Figure 3.5; QUADRATIC stands for two of i
 from typing import Final
 
 __all__ = [
-    "CHORDS",
+    "BEND",
     "CLOSE",
     "CONSTANT",
     "CORNER",
@@ -22,6 +22,7 @@ __all__ = [
     "LEVELS_BELOW",
     "LEVEL_BIAS",
     "MOST_CELLS",
+    "MOST_CHORDS",
     "NEARLY_EQUAL",
     "NEARLY_ZERO",
     "NO_SIZE",
@@ -90,8 +91,11 @@ CLOSE: Final = 0.1
 NO_SIZE: Final = 2.0**-10
 """Lattice units: less than the least size of a piece that has one."""
 
-CHORDS: Final = 2
-"""Chords for a piece within one footprint's box."""
+BEND: Final = 8.0
+"""Chords for each unit by which the directions at the ends of a piece differ (their cross product, in pixels)."""
+
+MOST_CHORDS: Final = 4.0
+"""Chords of a piece within one footprint's box."""
 
 SHORT_WAY: Final = 2.0**-10
 """Pixels. The mean over a shorter way is taken in its middle, because the quotient would lose its digits."""

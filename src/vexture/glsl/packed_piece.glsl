@@ -83,6 +83,42 @@ float vexture_bulge(vec2 first, vec2 last, vec2 chord) {
     return 0.15 * (2.0 * turned - (first.x * last.y - first.y * last.x));
 }
 
+// Point of a piece whose coordinates were mirrored, moved into the box.
+vec2 vexture_point(vec4 kx, vec4 ky, float t, vec2 mirror, vec2 low, vec2 high) {
+    return clamp(vec2(vexture_evaluate(kx, t), vexture_evaluate(ky, t)) * mirror, low, high);
+}
+
+// Derivative of the same in the frame.
+vec2 vexture_speed(vec4 kx, vec4 ky, float t, vec2 mirror, VextureFrame frame) {
+    vec2 speed = vec2((3.0 * kx.x * t + 2.0 * kx.y) * t + kx.z, (3.0 * ky.x * t + 2.0 * ky.y) * t + ky.z);
+    return vexture_into_frame(frame, speed * mirror);
+}
+
+// Area beside a piece from one t to another: beside its chords, as many as its bend asks for, and between it and them.
+float vexture_curve_area(
+    vec4 kx, vec4 ky, float t0, float t1, vec2 mirror, VextureFrame frame, vec2 low, vec2 high
+) {
+    vec2 p = vexture_into_frame(frame, vexture_point(kx, ky, t0, mirror, low, high));
+    vec2 first = vexture_speed(kx, ky, t0, mirror, frame);
+    vec2 end = vexture_speed(kx, ky, t1, mirror, frame);
+    float bend = abs(first.x * end.y - first.y * end.x) * (t1 - t0) * (t1 - t0);
+    int chords = 1 + int(min(VEXTURE_BEND * bend, VEXTURE_MOST_CHORDS - 1.0));
+    float step_t = (t1 - t0) / float(chords);
+    float t = t0;
+    float area = 0.0;
+    while (chords > 0) {
+        chords--;
+        t += step_t;
+        vec2 q = vexture_into_frame(frame, vexture_point(kx, ky, t, mirror, low, high));
+        vec2 last = vexture_speed(kx, ky, t, mirror, frame);
+        float bulge = vexture_bulge(first * (step_t / 3.0), last * (step_t / 3.0), q - p);
+        area += vexture_beside(p, q) + bulge * vexture_part_inside(p, q);
+        p = q;
+        first = last;
+    }
+    return area;
+}
+
 // Minus the area on the right of a piece that goes up, plus that of one that goes down, inside the box from low to high.
 float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 high) {
     vec2 way = piece.p3 - piece.p0;
@@ -94,7 +130,8 @@ float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 
     vec2 size = max(abs(way), VEXTURE_NO_SIZE);
     float t0 = clamp(max((from.x - kx.w) / size.x, (from.y - ky.w) / size.y), 0.0, 1.0);
     float t1 = clamp(min((to.x - kx.w) / size.x, (to.y - ky.w) / size.y), 0.0, 1.0);
-    float close = VEXTURE_CLOSE / max(size.x * abs(frame.right.x), size.y * abs(frame.up.y));
+    vec2 pixels = size.x * abs(vec2(frame.right.x, frame.up.x)) + size.y * abs(vec2(frame.right.y, frame.up.y));
+    float close = VEXTURE_CLOSE / max(pixels.x, pixels.y);
     int steps = VEXTURE_STEPS;
     while (steps > 0) {
         float before0 = t0;
@@ -104,28 +141,12 @@ float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 
         steps = abs(t0 - before0) + abs(t1 - before1) > close ? steps - 1 : 0;
     }
     t1 = max(t0, t1);
-    float step_t = (t1 - t0) / float(VEXTURE_CHORDS);
 
     float y0 = clamp(piece.p0.y, low.y, high.y);
     float y3 = clamp(piece.p3.y, low.y, high.y);
-    vec2 at = clamp(vec2(vexture_evaluate(kx, t0), vexture_evaluate(ky, t0)) * mirror, low, high);
-    vec2 enter = at;
-    float t = t0;
-    vec2 p = vexture_into_frame(frame, at);
-    vec2 speed = vec2((3.0 * kx.x * t + 2.0 * kx.y) * t + kx.z, (3.0 * ky.x * t + 2.0 * ky.y) * t + ky.z) * mirror;
-    vec2 first = vexture_into_frame(frame, speed) * (step_t / 3.0);
-    float area = 0.0;
-    for (int i = 0; i < VEXTURE_CHORDS; i++) {
-        t += step_t;
-        at = clamp(vec2(vexture_evaluate(kx, t), vexture_evaluate(ky, t)) * mirror, low, high);
-        speed = vec2((3.0 * kx.x * t + 2.0 * kx.y) * t + kx.z, (3.0 * ky.x * t + 2.0 * ky.y) * t + ky.z) * mirror;
-        vec2 q = vexture_into_frame(frame, at);
-        vec2 last = vexture_into_frame(frame, speed) * (step_t / 3.0);
-        area += vexture_beside(p, q) + vexture_bulge(first, last, q - p) * vexture_part_inside(p, q);
-        p = q;
-        first = last;
-    }
-    vec2 leave = at;
+    vec2 enter = vexture_point(kx, ky, t0, mirror, low, high);
+    vec2 leave = vexture_point(kx, ky, t1, mirror, low, high);
+    float area = vexture_curve_area(kx, ky, t0, t1, mirror, frame, low, high);
 
     // the way along the box's sides: on its left while the piece is left of it, and back on its right
     float left_start = way.x < 0.0 ? leave.y : y0;
