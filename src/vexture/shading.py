@@ -6,9 +6,11 @@ The solution paths are those of thesis Figure 3.5; QUADRATIC stands for two of i
 from typing import Final
 
 __all__ = [
-    "CHORDS",
+    "BEND",
+    "CLOSE",
     "CONSTANT",
     "CORNER",
+    "CROSSING",
     "CUBE_ROOT",
     "CURVE",
     "DOUBLE",
@@ -20,8 +22,10 @@ __all__ = [
     "LEVELS_BELOW",
     "LEVEL_BIAS",
     "MOST_CELLS",
+    "MOST_CHORDS",
     "NEARLY_EQUAL",
     "NEARLY_ZERO",
+    "NO_SIZE",
     "POSITION_BITS",
     "QUADRATIC",
     "SAMPLES",
@@ -78,11 +82,20 @@ SMALLEST_PIXEL: Final = 2.0**-40
 THINNEST_PIXEL: Final = 2.0**-6
 """A footprint seen from its edge is made this wide, in its lengths."""
 
-STEPS: Final = 3
-"""Newton's steps for the t of a coordinate, after a quadratic start."""
+STEPS: Final = 6
+"""Laguerre's steps for the t of a coordinate, after a quadratic start."""
 
-CHORDS: Final = 4
-"""Chords for a piece within one footprint's box."""
+CLOSE: Final = 0.1
+"""Pixels. A step that moves a point on a piece by less was the last."""
+
+NO_SIZE: Final = 2.0**-10
+"""Lattice units: less than the least size of a piece that has one."""
+
+BEND: Final = 8.0
+"""Chords for each unit by which the directions at the ends of a piece differ (their cross product, in pixels)."""
+
+MOST_CHORDS: Final = 4.0
+"""Chords of a piece within one footprint's box."""
 
 SHORT_WAY: Final = 2.0**-10
 """Pixels. The mean over a shorter way is taken in its middle, because the quotient would lose its digits."""
@@ -92,6 +105,9 @@ LEVELS_BELOW: Final = 2
 
 LEVEL_BIAS: Final = 2.0**-8
 """Without it drivers would disagree on the level of a footprint whose size is a power of two."""
+
+CROSSING: Final = 2
+"""Side of a piece that is not clear."""
 
 MOST_CELLS: Final = 256
 """Cells that one pixel looks at."""

@@ -1,5 +1,5 @@
 // The pixel's footprint: a parallelogram, and the frame in which it is the square from -1/2 to 1/2.
-// Exports: VextureFrame, vexture_frame, vexture_into_frame, vexture_beside, vexture_beside_box.
+// Exports: VextureFrame, vexture_frame, vexture_into_frame, vexture_beside, vexture_box_area.
 //
 // exact: the footprint is the parallelogram that dx and dy span.
 // fast: one with two horizontal sides and the same second moments. In its frame the heights of the drawing are those of
@@ -10,7 +10,7 @@ struct VextureFrame {
     vec2 up;
     vec2 reach;   // half the footprint's box
     float turned; // 1 or -1: whether the frame keeps orientation
-    float extent; // of the footprint, the lesser
+    float size;    // the footprint's area
 };
 
 VextureFrame vexture_frame(vec2 dx, vec2 dy) {
@@ -21,25 +21,24 @@ VextureFrame vexture_frame(vec2 dx, vec2 dy) {
         larger = dot(dx, dx);
     }
     float area = dx.x * dy.y - dx.y * dy.x;
-    float least = VEXTURE_THINNEST_PIXEL * larger;
-    if (abs(area) < least) {  // a line, seen from its edge
-        vec2 along = dot(dx, dx) >= dot(dy, dy) ? dx : dy;
-        vec2 across = vec2(-along.y, along.x) * (least / dot(along, along));
-        dx = along;
-        dy = across;
-        area = least;
+    if (abs(area) < VEXTURE_THINNEST_PIXEL * larger) {  // a line, seen from its edge
+        dx = dot(dx, dx) == larger ? dx : dy;
+        dy = vec2(-dx.y, dx.x) * VEXTURE_THINNEST_PIXEL;
+        area = VEXTURE_THINNEST_PIXEL * larger;
     }
 #if VEXTURE_QUALITY == VEXTURE_EXACT
     vec2 reach = 0.5 * (abs(dx) + abs(dy));
-    float extent = abs(area) / sqrt(larger);
-    return VextureFrame(vec2(dy.y, -dy.x) / area, vec2(-dx.y, dx.x) / area, reach, sign(area), extent);
+    float shrink = 1.0 / area;
+    return VextureFrame(vec2(dy.y, -dy.x) * shrink, vec2(-dx.y, dx.x) * shrink, reach, sign(area), abs(area));
 #else
-    float height = sqrt(dx.y * dx.y + dy.y * dy.y);
-    height = max(height, VEXTURE_THINNEST_PIXEL * sqrt(larger));
-    float width = abs(area) / height;
-    float lean = (dx.x * dx.y + dy.x * dy.y) / height;
+    float square = max(dx.y * dx.y + dy.y * dy.y, VEXTURE_THINNEST_PIXEL * VEXTURE_THINNEST_PIXEL * larger);
+    float up = inversesqrt(square);
+    float height = square * up;
+    float width = abs(area) * up;
+    float right = 1.0 / width;
+    float lean = (dx.x * dx.y + dy.x * dy.y) * up;
     vec2 reach = 0.5 * vec2(width + abs(lean), height);
-    return VextureFrame(vec2(1.0, -lean / height) / width, vec2(0.0, 1.0 / height), reach, 1.0, min(width, height));
+    return VextureFrame(vec2(right, -lean * up * right), vec2(0.0, up), reach, 1.0, abs(area));
 #endif
 }
 
@@ -72,8 +71,17 @@ float vexture_beside(vec2 p, vec2 q) {
     return (y0 - y1) * vexture_mean_clamped(u0, u1);
 }
 
+// Part of a straight line that lies in the pixel, by and large: what it is multiplied with is small.
+float vexture_part_inside(vec2 p, vec2 q) {
+    vec2 way = q - p;
+    vec2 held = clamp(q, -0.5, 0.5) - clamp(p, -0.5, 0.5);
+    float x = abs(way.x) > 0.0 ? held.x / way.x : 1.0;
+    float y = abs(way.y) > 0.0 ? held.y / way.y : 1.0;
+    return x * y;
+}
+
 // Area of the pixel in a box, positive where the frame keeps orientation.
-float vexture_beside_box(VextureFrame frame, vec2 low, vec2 high) {
+float vexture_box_area(VextureFrame frame, vec2 low, vec2 high) {
     vec2 p = vexture_into_frame(frame, low);
     vec2 q = vexture_into_frame(frame, vec2(high.x, low.y));
     vec2 r = vexture_into_frame(frame, high);

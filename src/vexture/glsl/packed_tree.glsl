@@ -1,5 +1,6 @@
 // Reading the packed texture (FORMAT.md, part B): positions, and the cells down the tree.
-// Exports: VexturePlace, VextureCell, vexture_place, vexture_shared_levels, vexture_texel, vexture_root, vexture_below.
+// Exports: VexturePlace, VextureCell, VextureTop, vexture_place, vexture_shared_levels, vexture_texel, vexture_descend,
+// vexture_stored_coverage, vexture_count, vexture_winding_code, vexture_first_curve.
 //
 // Positions are whole numbers of 2^-POSITION_BITS of the unit square, signed, so that a pixel around the square's edge
 // has one too; a float holds what is left.
@@ -14,15 +15,18 @@ struct VexturePlace {
     ivec2 high;  // the last position in it; if last < first it lies outside
 };
 
-// A cell of a quad.
+// A cell, as the byte of a texel.
 struct VextureCell {
-    uint quad;    // index of the quad that holds it; if the cell itself is one, of its own
-    uint texel_x; // words of the holder's texel
-    uint texel_y;
-    uint texel_z;
-    uint texel_w;
-    uint shift;   // of the cell's bytes
+    uvec4 texel;  // of the quad that holds it
+    uint shift;   // of its byte
+    int level;    // 1 is a quarter of the unit square
     bool is_quad;
+};
+
+// Where a way down the tree begins: a quad, and the number of levels above it.
+struct VextureTop {
+    uint quad;
+    int level;
 };
 
 uvec4 vexture_texel(uint index) {
@@ -37,7 +41,7 @@ VexturePlace vexture_place(uvec2 base, vec2 offset, vec2 reach) {
     vec2 scaled = clamp(offset, -VEXTURE_FARTHEST, VEXTURE_FARTHEST) * one;
     vec2 whole = floor(scaled);
     ivec2 point = ivec2(base >> spare) + ivec2(whole);
-    vec2 rest = scaled - whole + vec2(base & uvec2((1 << spare) - 1)) / float(1 << spare);
+    vec2 rest = scaled - whole + vec2(ivec2(base & uvec2((1 << spare) - 1))) / float(1 << spare);
     vec2 extent = min(reach, VEXTURE_FARTHEST) * one;
     int last = (1 << VEXTURE_POSITION_BITS) - 1;
     ivec2 low = max(point + ivec2(floor(rest - extent)), 0);
@@ -52,35 +56,48 @@ int vexture_shared_levels(ivec2 low, ivec2 high) {
     return clamp(VEXTURE_POSITION_BITS - bits, 0, VEXTURE_MOST_DEPTH);
 }
 
-VextureCell vexture_root(uint root) {
-    return VextureCell(root, 0u, 0u, 0u, 0u, 0u, true);
+// The level whose cells are no smaller than a footprint of this area, and LEVELS_BELOW more.
+int vexture_finest_level(float area) {
+    int exponent = (floatBitsToInt(area * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127;
+    return clamp(VEXTURE_LEVELS_BELOW - 1 - (exponent >> 1), 1, VEXTURE_MOST_DEPTH);
 }
 
-// One level down, from a quad of this level to its cell at a position.
-VextureCell vexture_below(VextureCell cell, int level, ivec2 position) {
-    uvec4 texel = vexture_texel(cell.quad);
-    int bit = VEXTURE_POSITION_BITS - 1 - level;
-    uint shift = uint(((position.x >> bit) & 1) + 2 * ((position.y >> bit) & 1)) * uint(VEXTURE_CELL_BITS);
-    uint flags = (texel.z >> 7) & 0x01010101u;
-    uint quad = texel.x + (((flags * 0x01010100u) >> shift) & 3u);
-    bool is_quad = ((texel.z >> shift) & uint(VEXTURE_QUAD_FLAG)) != 0u;
-    return VextureCell(is_quad ? quad : cell.quad, texel.x, texel.y, texel.z, texel.w, shift, is_quad);
+// The cell at a position: a leaf, or a quad of the level `finest`. `top` moves down to the quad of the level `shared`.
+VextureCell vexture_descend(inout VextureTop top, int shared, int finest, ivec2 position) {
+    uvec4 texel = uvec4(0u);
+    uint shift = 0u;
+    uint quad = top.quad;
+    bool is_quad = true;
+    int bit = VEXTURE_POSITION_BITS - 1 - top.level;
+    int last = VEXTURE_POSITION_BITS - finest;
+    while (is_quad && bit >= last) {
+        texel = vexture_texel(quad);
+        shift = ((uint(position.x) >> bit) & 1u) * 8u + ((uint(position.y) >> bit) & 1u) * 16u;
+        is_quad = ((texel.z >> shift) & uint(VEXTURE_QUAD_FLAG)) != 0u;
+        uint flags = (texel.z >> 7) & 0x01010101u;  // a byte for each cell: whether it is a quad
+        quad = texel.x + (((flags * 0x01010100u) >> shift) & 3u);
+        bit--;
+        bool above = VEXTURE_POSITION_BITS - 1 - bit == shared && is_quad;
+        top.quad = above ? quad : top.quad;
+        top.level = above ? shared : top.level;
+    }
+    return VextureCell(texel, shift, VEXTURE_POSITION_BITS - 1 - bit, is_quad);
 }
 
 float vexture_stored_coverage(VextureCell cell) {
-    return float((cell.texel_w >> cell.shift) & 255u) / float(VEXTURE_COVERAGE_ONE);
+    return float(int((cell.texel.w >> cell.shift) & 255u)) / float(VEXTURE_COVERAGE_ONE);
 }
 
 int vexture_count(VextureCell cell) {
-    return int((cell.texel_z >> (cell.shift + uint(VEXTURE_COUNT_SHIFT))) & uint(VEXTURE_MOST_CURVES));
+    return int((cell.texel.z >> (cell.shift + uint(VEXTURE_COUNT_SHIFT))) & uint(VEXTURE_MOST_CURVES));
 }
 
 // 0 marks a constant leaf.
 int vexture_winding_code(VextureCell cell) {
-    return int((cell.texel_z >> cell.shift) & 7u);
+    return int((cell.texel.z >> cell.shift) & 7u);
 }
 
 uint vexture_first_curve(VextureCell cell) {
-    uint counts = (cell.texel_z >> VEXTURE_COUNT_SHIFT) & 0x0f0f0f0fu;
-    return cell.texel_y + (((counts * 0x01010100u) >> cell.shift) & 255u);
+    uint counts = (cell.texel.z >> VEXTURE_COUNT_SHIFT) & 0x0f0f0f0fu;
+    return cell.texel.y + (((counts * 0x01010100u) >> cell.shift) & 255u);
 }
