@@ -8,7 +8,6 @@ from PIL import Image
 
 import vexture
 from test_cli import SQUARE, SVG, run
-from vexture.errors import DeviceError
 
 LOGO = SVG.format(
     '<rect width="10" height="10" fill="#00f"/><path id="word" d="M2 2h6v4h-6z" fill="white"/>'
@@ -16,15 +15,7 @@ LOGO = SVG.format(
 )
 STAR = SVG.format('<path d="M5 0 2 9 9 3 1 3 8 9z"/><circle cx="5" cy="5" r="3"/>')
 
-
-def need_gpu():
-    """Skip the test, saying why, where there is no OpenGL."""
-    from vexture.render.gpu import context
-
-    try:
-        context()
-    except DeviceError as error:
-        pytest.skip(str(error))
+CPU = ("--renderer", "cpu")
 
 
 @pytest.fixture
@@ -133,7 +124,7 @@ def test_options_that_do_not_fit_get_one_line(square, tmp_path, monkeypatch, arg
 
 
 def drawn(folder, *arguments):
-    """Picture that the GPU or the exact renderer draws."""
+    """Picture that a renderer other than the GPU draws."""
     picture = folder / "picture.png"
     result = run("render", *arguments, "-o", picture, "--size", 20)
     assert (result.exit_code, result.output) == (0, "")
@@ -157,20 +148,21 @@ def test_render_of_colours_and_parts_of_a_drawing(tmp_path):
 
 
 def test_render_of_an_atlas(square, tmp_path):
-    need_gpu()
     logo, atlas = tmp_path / "logo.svg", tmp_path / "all.ktx2"
     logo.write_text(LOGO)
     run("convert", square, logo, "--atlas", atlas, "--split", "paint")
     colours = drawn(tmp_path, logo, "--split", "paint", "--renderer", "exact")
     for quality in ("fast", "exact"):
-        assert np.abs(drawn(tmp_path, atlas, "--root", "logo", "--quality", quality) - colours).max() <= 3
+        assert np.abs(drawn(tmp_path, atlas, *CPU, "--root", "logo", "--quality", quality) - colours).max() <= 3
     word = drawn(tmp_path, logo, "--select", "#word", "--renderer", "exact")
     for root in ("logo/2-#ffffff", "2"):
-        assert np.abs(drawn(tmp_path, atlas, "--root", root) - word).max() <= 3
+        assert np.abs(drawn(tmp_path, atlas, *CPU, "--root", root) - word).max() <= 3
     run("convert", logo, "-o", tmp_path, "--split", "paint")
-    assert np.abs(drawn(tmp_path, tmp_path / "logo.ktx2") - colours).max() <= 3
+    assert np.abs(drawn(tmp_path, tmp_path / "logo.ktx2", *CPU) - colours).max() <= 3
     run("convert", square, "-o", tmp_path)
-    assert np.abs(drawn(tmp_path, tmp_path / "square") - drawn(tmp_path, square, "--renderer", "exact")).max() <= 3
+    assert (
+        np.abs(drawn(tmp_path, tmp_path / "square", *CPU) - drawn(tmp_path, square, "--renderer", "exact")).max() <= 3
+    )
 
 
 @pytest.mark.parametrize(

@@ -48,33 +48,44 @@ def test_opacity_is_kept_where_nothing_is_below() -> None:
     np.testing.assert_allclose(image, np.broadcast_to((0.0, 0.25, 0.5, 0.5), (2, 2, 4)))
 
 
-def test_layers_of_a_texture_are_those_of_the_drawing() -> None:
-    need_gpu()
+@pytest.mark.parametrize("renderer", ["cpu", "gpu"])
+def test_layers_of_a_texture_are_those_of_the_drawing(renderer: str) -> None:
+    if renderer == "gpu":
+        need_gpu()
     texture = vexture.atlas([flag(), flag("other"), replace(flag(), paths=flag().paths[:1], name="red")], split="paint")
     for quality in ("fast", "exact"):
-        image = on_white(texture, SIZE, root="other", quality=quality)
+        image = on_white(texture, SIZE, None, renderer, root="other", quality=quality)
         np.testing.assert_allclose(image, stacked(flag()), atol=0.01)
-    np.testing.assert_allclose(render_layers(flag(), SIZE), render_layers(texture, SIZE, root="flag"), atol=1e-6)
-    one = on_white(texture, SIZE, root="other/3-#0080ff80")
+    np.testing.assert_allclose(
+        render_layers(flag(), SIZE, None, renderer),
+        render_layers(texture, SIZE, None, renderer, root="flag"),
+        atol=1e-6,
+    )
+    one = on_white(texture, SIZE, None, renderer, root="other/3-#0080ff80")
     assert one.shape == (30, 40)
     alone = Drawing(flag().paths[2:])
     np.testing.assert_allclose(one, 1.0 - render(alone, SIZE, renderer="exact"), atol=0.01)
-    np.testing.assert_array_equal(on_white(texture, SIZE, root="5"), one)
-    np.testing.assert_array_equal(1.0 - render(texture, SIZE, root=5), one)
+    np.testing.assert_array_equal(on_white(texture, SIZE, None, renderer, root="5"), one)
+    np.testing.assert_array_equal(1.0 - render(texture, SIZE, None, renderer, root=5), one)
 
 
-def test_a_texture_of_one_shape_needs_no_root() -> None:
-    need_gpu()
-    image = render(flag(), SIZE)
+@pytest.mark.parametrize("renderer", ["cpu", "gpu"])
+def test_a_texture_of_one_shape_needs_no_root(renderer: str) -> None:
+    if renderer == "gpu":
+        need_gpu()
+    image = render(flag(), SIZE, None, renderer)
     np.testing.assert_allclose(image, render(flag(), SIZE, renderer="exact"), atol=0.01)
     texture = vexture.convert(flag())
-    np.testing.assert_array_equal(render(texture, SIZE), image)
-    np.testing.assert_array_equal(render(texture, SIZE, root="flag"), image)
-    np.testing.assert_array_equal(on_white(texture, SIZE), 1.0 - image)
-    np.testing.assert_array_equal(render_layers(texture, SIZE)[..., 3], image)  # a shape without paint is black
-    assert not render_layers(texture, SIZE)[..., :3].any()
+    np.testing.assert_array_equal(render(texture, SIZE, None, renderer), image)
+    np.testing.assert_array_equal(render(texture, SIZE, None, renderer, root="flag"), image)
+    np.testing.assert_array_equal(on_white(texture, SIZE, None, renderer), 1.0 - image)
+    black = render_layers(texture, SIZE, None, renderer)
+    np.testing.assert_array_equal(black[..., 3], image)
+    assert not black[..., :3].any()
     colours = vexture.convert(Drawing(flag().paths[:1]), split="paint")
-    np.testing.assert_allclose(on_white(colours, (4, 4)), np.broadcast_to((1.0, 0.0, 0.0), (4, 4, 3)), atol=0.01)
+    np.testing.assert_allclose(
+        on_white(colours, (4, 4), None, renderer), np.broadcast_to((1.0, 0.0, 0.0), (4, 4, 3)), atol=0.01
+    )
 
 
 def test_shapes_are_found_by_name_or_place() -> None:
