@@ -112,9 +112,9 @@ def test_heights_are_compared_exactly() -> None:
     """The square's sides lie on lattices of all depths: the lower and left ones are inside, the others are not."""
     texture = converted(SQUARE)
     below, above = np.nextafter([0.25, 0.75], 0.0), np.nextafter([0.25, 0.75], 1.0)
-    for axis in range(2):
+    for axis, other in ((0, 0.4), (0, 0.6), (1, 0.4), (1, 0.6)):
         values = [below[0], 0.25, above[0], below[1], 0.75, above[1]]
-        points = np.full((6, 2), 0.4)
+        points = np.full((6, 2), other)
         points[:, axis] = values
         assert texture.contains(points).tolist() == [False, True, True, True, False, False]
 

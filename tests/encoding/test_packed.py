@@ -179,6 +179,13 @@ def test_a_root_inside_another_or_beyond() -> None:
             PackedTexture(texture.texels, (Root("a"), Root("b", quad))).check()
 
 
+def test_quads_of_one_depth_that_share() -> None:
+    texels = np.zeros((1, 4, 4), np.uint32)
+    texels[0, :3] = (1, 0, 0x80_80, 0), (0, 3, 0x0C, 0), (0, 3, 0x0C, 0)
+    with pytest.raises(FormatError, match="texel 3 is referred to twice, as a curve now"):
+        PackedTexture(texels, (Root("a"),)).check()
+
+
 def test_the_depth_limit() -> None:
     texture_of([chain(layout.MOST_DEPTH)]).check()
     with pytest.raises(FormatError, match="lies at depth 20; the limit is 19"):

@@ -7,13 +7,15 @@ from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_packed import TRANSFORM, chain
 
 from strategies import packed_trees
+from vexture.cli import main
 from vexture.drawing import Paint
-from vexture.encoding import PackedTexture, Root, ThesisTexture, encode_packed, load
+from vexture.encoding import PackedTexture, Root, ThesisTexture, encode_packed, info, load
 from vexture.encoding.ktx2 import write_ktx2
 from vexture.errors import DeviceError, FormatError
 from vexture.quadtree.tree import PackedTree
@@ -229,3 +231,11 @@ def test_flipped_words(tmp_path: Path, tree: PackedTree, data: st.DataObject) ->
         words[data.draw(st.integers(0, len(words) - 1))] ^= np.uint32(1 << data.draw(st.integers(0, 31)))
     (tmp_path / "bad.ktx2").write_bytes(texture.to_ktx2())
     read_or_refused(tmp_path / "bad.ktx2")
+
+
+def test_the_command_line_describes_it(tmp_path: Path) -> None:
+    path = str(shape().save(tmp_path))
+    as_json, as_text = (CliRunner().invoke(main, ["info", path, *flags]) for flags in (["--json"], []))
+    assert (as_json.exit_code, as_text.exit_code) == (0, 0)
+    assert json.loads(as_json.output) == info(load(path))
+    assert "roots       name shape, quad 0, coverage 0.0, quads 2, curves 0" in as_text.output

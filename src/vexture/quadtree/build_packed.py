@@ -25,6 +25,9 @@ DEFAULT_CAPACITY = 4
 DEFAULT_DEPTH = 16
 """Cells of a leaf's lattice at most: 1.5e-5 of the drawing."""
 
+DISPLACEMENT = 2.0
+"""Lattice units by which a curve may move: its ends and control points are rounded when it is cut, and in its leaf."""
+
 IS_QUAD, COUNT, WINDING, COVERAGE = range(4)
 """Columns of the cells while the tree grows."""
 
@@ -352,12 +355,12 @@ def build_packed(
         raise LimitError(f"depth limit {max_depth} is outside 1..{MOST_DEPTH}; the default is {DEFAULT_DEPTH}")
     if not 1 <= capacity <= MOST_CURVES:
         raise LimitError(f"capacity {capacity} is outside 1..{MOST_CURVES}; the default is {DEFAULT_CAPACITY}")
-    finest = 0.5**max_depth / LATTICE
+    finest = DISPLACEMENT * 0.5**max_depth / LATTICE
     if precision is not None and not finest <= precision <= 1.0:
         raise LimitError(
             f"precision {precision:g} is outside {finest:.1e}..1; allow a larger --max-depth for a finer one"
         )
-    least_depth = 1 if precision is None else max(math.ceil(-math.log2(precision * LATTICE)), 1)
+    least_depth = 1 if precision is None else max(math.ceil(math.log2(DISPLACEMENT / (precision * LATTICE))), 1)
     if not 0.0 <= tolerance < 1.0:
         raise LimitError(f"tolerance {tolerance} is outside 0 to 1, in drawing sizes; 0 keeps every piece")
     bounds = Bounds(capacity, float(tolerance), least_depth, max_depth, most_quads)
