@@ -36,18 +36,21 @@ help:
 demo: .venv/for-demo
 	@mkdir -p demo/pictures
 	$(BIN)/vexture convert $(SHAPES)/*.svg -o demo
-	$(BIN)/vexture info demo/duck
+	$(BIN)/vexture convert $(SHAPES)/*.svg --atlas demo/all.ktx2 >demo/all.log
+	$(BIN)/vexture convert $(SHAPES)/duck.svg -o demo/thesis --encoding thesis
+	$(BIN)/vexture info demo/duck.ktx2
 	$(BIN)/vexture render $(SHAPES)/duck.svg -o demo/pictures/duck-exact.png --size 500 --renderer exact
-	$(BIN)/vexture render demo/duck -o demo/pictures/duck-1000.png --size 1000 --renderer cpu
-	$(BIN)/vexture render demo/duck -o demo/pictures/duck-50.png --size 50 --renderer cpu
-	$(BIN)/vexture render demo/ocean -o demo/pictures/ocean-detail.png --size 500 --renderer cpu --view 0.8,0.26,0.12,0.12
-	$(BIN)/vexture render demo/font -o demo/pictures/font-turned.png --size 500 --renderer cpu --rotate 30
-	@echo '$(BIN)/vexture render demo/cake -o demo/pictures/cake-gpu.png --size 500 --renderer gpu'
-	@$(BIN)/vexture render demo/cake -o demo/pictures/cake-gpu.png --size 500 --renderer gpu || \
+	$(BIN)/vexture render demo/duck.ktx2 -o demo/pictures/duck-1000.png --size 1000 --renderer cpu
+	$(BIN)/vexture render demo/all.ktx2 --root duck -o demo/pictures/duck-50.png --size 50 --renderer cpu
+	$(BIN)/vexture render demo/ocean.ktx2 -o demo/pictures/ocean-detail.png --size 500 --renderer cpu --view 0.8,0.26,0.12,0.12
+	$(BIN)/vexture render demo/font.ktx2 -o demo/pictures/font-turned.png --size 500 --renderer cpu --rotate 30
+	$(BIN)/vexture render demo/thesis/duck -o demo/pictures/duck-thesis.png --size 1000 --renderer cpu
+	@echo '$(BIN)/vexture render demo/cake.ktx2 -o demo/pictures/cake-gpu.png --size 500 --renderer gpu'
+	@$(BIN)/vexture render demo/cake.ktx2 -o demo/pictures/cake-gpu.png --size 500 --renderer gpu || \
 		echo 'so there is no picture by the GPU this time; all the others are there'
 	@echo
-	@echo 'Open the pictures in demo/pictures/: duck-1000.png and duck-50.png are drawn from one and the same texture,'
-	@echo 'the pair demo/duck.quads.png and demo/duck.curves.png; duck-exact.png is what they must look like.'
+	@echo 'Open the pictures in demo/pictures/: duck-1000.png is drawn from the texture demo/duck.ktx2, duck-50.png from'
+	@echo 'demo/all.ktx2, which holds all the drawings; duck-exact.png is what they must look like.'
 
 test: .venv/for-test
 	@$(BIN)/python tools/prepare.py system
@@ -57,8 +60,10 @@ test: .venv/for-test
 	@echo 'compiling the kernels once, before the tests run side by side ...'
 	@scratch=$$(mktemp -d) && trap 'rm -rf "$$scratch"' EXIT && \
 		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch" >"$$scratch/log" && \
-		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/sampled" --strategy sampled >>"$$scratch/log" && \
-		$(BIN)/vexture render "$$scratch/duck" -o "$$scratch/cpu.png" --size 16 --renderer cpu >>"$$scratch/log" && \
+		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/thesis" --encoding thesis >>"$$scratch/log" && \
+		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/sampled" --encoding thesis --strategy sampled >>"$$scratch/log" && \
+		$(BIN)/vexture render "$$scratch/duck.ktx2" -o "$$scratch/packed.png" --size 16 --renderer cpu >>"$$scratch/log" && \
+		$(BIN)/vexture render "$$scratch/thesis/duck" -o "$$scratch/cpu.png" --size 16 --renderer cpu >>"$$scratch/log" && \
 		$(BIN)/vexture render $(SHAPES)/duck.svg -o "$$scratch/exact.png" --size 16 --renderer exact >>"$$scratch/log"
 	$(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4
 

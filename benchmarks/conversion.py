@@ -89,7 +89,7 @@ def path_bytes(svg: Path) -> int:
 
 def sizes(svg: Path, strategy: Strategy, bits: int) -> dict[str, int]:
     """Curves, quads and bytes of the pair of files that a drawing becomes."""
-    conversion = run(svg, strategy=strategy, bits=bits)
+    conversion = run(svg, encoding="thesis", strategy=strategy, bits=bits)
     return {
         "curves": len(conversion.tree.curves),
         "quads": len(conversion.tree.kind),
@@ -130,7 +130,7 @@ def time_facts(name: str, repeat: int, folder: Path) -> dict[str, float]:
     places = (folder / f"{name}-{number}" for number in count())
 
     def files(strategy: Strategy) -> None:
-        convert(svg, strategy=strategy).save(next(places))
+        convert(svg, encoding="thesis", strategy=strategy).save(next(places))
 
     return {
         "files_ms": median_ms(lambda: files("direct"), repeat),

@@ -152,7 +152,7 @@ def met(facts: dict[str, Any], renderers: Sequence[str]) -> bool:
 def mean_error(drawing: Drawing, views: Sequence[View], **parameters: Any) -> float | None:
     """Mean error, on the CPU, of another conversion; None if the drawing is too much for it."""
     try:
-        texture = run(drawing, **parameters).texture
+        texture = run(drawing, encoding="thesis", **parameters).texture
     except LimitError:
         return None
     return errors(render(texture, views, "cpu"), render(drawing, views, "exact")).mae
@@ -160,7 +160,7 @@ def mean_error(drawing: Drawing, views: Sequence[View], **parameters: Any) -> fl
 
 def shape_facts(path: Path, arguments: argparse.Namespace, renderers: Sequence[str]) -> dict[str, Any]:
     """Everything measured of one drawing."""
-    conversion = run(path)
+    conversion = run(path, encoding="thesis")
     drawing, tree, texture = conversion.drawing, conversion.tree, conversion.texture
     sizes = []
     for size in arguments.sizes:

@@ -32,7 +32,7 @@ def icon_facts(path: Path, arguments: argparse.Namespace, renderers: Sequence[st
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SourceWarning)
-            conversion = run(path)
+            conversion = run(path, encoding="thesis")
         drawing, tree, texture = conversion.drawing, conversion.tree, conversion.texture
         sizes = [
             size_facts(drawing, tree, texture, shifted_views(path.stem, size, arguments), renderers)

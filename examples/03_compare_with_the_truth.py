@@ -1,4 +1,4 @@
-"""A drawing made of coordinates, converted with 8 and with 16 bits, and how far each is from exact coverage.
+"""A drawing made of coordinates, in the thesis's encoding with 8 and with 16 bits, and how far each is from the truth.
 
 python examples/03_compare_with_the_truth.py
 """
@@ -14,7 +14,7 @@ for rule in vexture.FillRule:
     star = vexture.Drawing.polygon(corners, fill_rule=rule)
     truth = vexture.render(star, size=(250, 250), renderer="exact")
     for bits in (8, 16):
-        texture = vexture.convert(star, bits=bits)
+        texture = vexture.convert(star, encoding="thesis", bits=bits)
         image = vexture.render(texture, size=(250, 250), renderer="cpu")
         touched = np.maximum(truth, image) > 0
         error = 255 * float(np.abs(image - truth)[touched].mean())

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 import warnings
@@ -32,22 +33,32 @@ def square(tmp_path):
     return file
 
 
-def test_convert_prints_a_line_and_writes_a_pair(square, tmp_path):
-    result = run("convert", square, "-o", tmp_path / "out")
+@pytest.mark.parametrize(
+    ("encoding", "files", "bits"),
+    [("packed", ["square.ktx2"], 15), ("thesis", ["square.curves.png", "square.quads.png"], 14)],
+)
+def test_convert_prints_a_line_and_writes_its_files(square, tmp_path, encoding, files, bits):
+    result = run("convert", square, "-o", tmp_path / "out", "--encoding", encoding)
     assert result.exit_code == 0
-    assert result.stdout.startswith("square: 4 segments, ")
-    for word in ("quads", "curves", "bytes", "ms", "distance"):
-        assert word in result.stdout
-    assert sorted(file.name for file in (tmp_path / "out").iterdir()) == ["square.curves.png", "square.quads.png"]
+    assert sorted(file.name for file in (tmp_path / "out").iterdir()) == files
+    size = sum(file.stat().st_size for file in (tmp_path / "out").iterdir())
+    line = rf"square: 4 segments, \d+ quads, \d curves, {size} bytes, [\d.]+ ms, distance [\d.e+-]+ \+ ([\d.e-]+)\n"
+    match = re.fullmatch(line, result.stdout)
+    assert 0.25 <= float(match[1]) * 2**bits <= 1.0
+
+
+def test_packed_is_the_default(square, tmp_path):
+    assert run("convert", square, "-o", tmp_path).exit_code == 0
+    np.testing.assert_array_equal(vexture.load(tmp_path / "square.ktx2").texels, vexture.convert(square).texels)
 
 
 @pytest.mark.parametrize("bits", [8, 16])
 @pytest.mark.parametrize("strategy", ["direct", "sampled"])
 def test_parameters_reach_the_conversion(square, tmp_path, bits, strategy):
-    arguments = ("--bits", bits, "--strategy", strategy, "--tolerance", "0.01", "--max-depth", "5")
-    assert run("convert", square, "-o", tmp_path, *arguments).exit_code == 0
+    arguments = ("--encoding", "thesis", "--bits", bits, "--strategy", strategy)
+    assert run("convert", square, "-o", tmp_path, *arguments, "--tolerance", "0.01", "--max-depth", 5).exit_code == 0
     texture = vexture.load(tmp_path / "square")
-    expected = vexture.convert(square, bits=bits, strategy=strategy, tolerance=0.01, max_depth=5)
+    expected = vexture.convert(square, encoding="thesis", bits=bits, strategy=strategy, tolerance=0.01, max_depth=5)
     assert texture.bits == bits
     assert (texture.quads == expected.quads).all()
     assert (texture.curves == expected.curves).all()
@@ -61,7 +72,7 @@ def test_one_bad_file_among_many(square, tmp_path):
     result = run("convert", square, bad, other, "-o", tmp_path / "out")
     assert result.exit_code == 1
     assert "1 of 3 files failed" in result.output
-    assert len(list((tmp_path / "out").iterdir())) == 4
+    assert sorted(file.name for file in (tmp_path / "out").iterdir()) == ["other.ktx2", "square.ktx2"]
 
 
 def test_two_files_of_one_name_are_not_mixed_up(square, tmp_path):
@@ -71,12 +82,16 @@ def test_two_files_of_one_name_are_not_mixed_up(square, tmp_path):
     result = run("convert", square, twin, "-o", tmp_path / "out")
     assert result.exit_code == 1
     assert "is already what" in result.output
-    assert (vexture.load(tmp_path / "out" / "square").quads == vexture.convert(square).quads).all()
+    written = vexture.load(tmp_path / "out" / "square.ktx2")
+    np.testing.assert_array_equal(written.texels, vexture.convert(square).texels)
+    result = run("convert", square, twin, "-o", tmp_path / "out", "--encoding", "thesis")
+    assert result.exit_code == 1
+    assert "is already what" in result.output
 
 
 @pytest.mark.parametrize("stem", ["square", "square.quads.png", "square.curves.png"])
 def test_render_takes_either_file_or_the_stem(square, tmp_path, stem):
-    run("convert", square, "-o", tmp_path)
+    run("convert", square, "-o", tmp_path, "--encoding", "thesis")
     picture = tmp_path / "picture.png"
     result = run("render", tmp_path / stem, "-o", picture, "--size", 20, "--renderer", "cpu")
     assert (result.exit_code, result.output) == (0, "")
@@ -102,7 +117,7 @@ def test_view_and_rotation(square, tmp_path):
 
 
 def test_info(square, tmp_path):
-    run("convert", square, "-o", tmp_path)
+    run("convert", square, "-o", tmp_path, "--encoding", "thesis")
     facts = json.loads(run("info", tmp_path / "square", "--json").output)
     assert facts["encoding"] == "thesis"
     assert facts["bits"] == 16
@@ -124,8 +139,11 @@ def test_warnings_are_one_line(tmp_path):
 def test_empty_drawing_is_an_empty_texture(tmp_path):
     file = tmp_path / "empty.svg"
     file.write_text(SVG.format(""))
-    assert run("convert", file, "-o", tmp_path).exit_code == 0
+    assert run("convert", file, "-o", tmp_path, "--encoding", "thesis").exit_code == 0
     assert json.loads(run("info", tmp_path / "empty", "--json").output)["coverage"] == 0
+    for split in ((), ("--split", "paint")):
+        assert run("convert", file, "-o", tmp_path, *split).exit_code == 0
+        assert not vexture.load(tmp_path / "empty.ktx2").texels[0, 0, 2:].any()
 
 
 BOMB = "".join(f'<g id="g{k}">' + f'<use href="#g{k + 1}"/>' * 10 + "</g>" for k in range(12))
@@ -170,7 +188,7 @@ def test_external_entity_is_never_read(tmp_path):
     result = run("convert", file, "-o", tmp_path / "out")
     assert result.exit_code in (0, 1)
     if result.exit_code == 0:
-        assert json.loads(run("info", tmp_path / "out" / "external", "--json").output)["coverage"] == 0
+        assert not vexture.load(tmp_path / "out" / "external.ktx2").texels[0, 0, 2:].any()
 
 
 @pytest.mark.parametrize("command", ["convert", "render", "info"])
@@ -184,7 +202,7 @@ def test_missing_file(command, tmp_path):
 
 def test_lists_too_long_name_the_remedy(tmp_path):
     hairline = Path(__file__).parents[1] / "examples" / "shapes" / "hairline.svg"
-    result = run("convert", hairline, "-o", tmp_path, "--bits", 8)
+    result = run("convert", hairline, "-o", tmp_path, "--encoding", "thesis", "--bits", 8)
     assert result.exit_code == 1
     assert "256" in result.output
     assert "--bits 16" in result.output
@@ -215,11 +233,11 @@ def test_picture_that_cannot_have_its_name(square, tmp_path, name, monkeypatch):
 
 
 def test_a_failed_pair_leaves_the_old_one(square, tmp_path):
-    run("convert", square, "-o", tmp_path)
+    run("convert", square, "-o", tmp_path, "--encoding", "thesis")
     (tmp_path / "square.curves.png").unlink()
     (tmp_path / "square.curves.png").mkdir()
     old = (tmp_path / "square.quads.png").read_bytes()
-    assert run("convert", square, "-o", tmp_path, "--max-depth", 3).exit_code == 1
+    assert run("convert", square, "-o", tmp_path, "--encoding", "thesis", "--max-depth", 3).exit_code == 1
     assert (tmp_path / "square.quads.png").read_bytes() == old
 
 
@@ -231,7 +249,7 @@ def test_a_failed_pair_leaves_the_old_one(square, tmp_path):
         ("render", ("--view", "0,0,0,1")),
         ("render", ("--view", "0,0,nan,1")),
         ("render", ("--rotate", "inf")),
-        ("convert", ("--tolerance", "0")),
+        ("convert", ("--encoding", "thesis", "--tolerance", "0")),
         ("convert", ("--tolerance", "nan")),
         ("convert", ("--max-depth", "99")),
     ],
@@ -245,7 +263,7 @@ def test_numbers_out_of_range(square, tmp_path, command, arguments):
 
 def test_exact_renderer_needs_the_drawing(square, tmp_path):
     run("convert", square, "-o", tmp_path)
-    result = run("render", tmp_path / "square", "-o", tmp_path / "x.png", "--renderer", "exact")
+    result = run("render", tmp_path / "square.ktx2", "-o", tmp_path / "x.png", "--renderer", "exact")
     assert result.exit_code == 1
     assert "drawing" in result.output
 

@@ -67,7 +67,7 @@ class Converted(NamedTuple):
 
 
 def converted(drawing, bits, max_depth=DEFAULT_DEPTH, tolerance="auto"):
-    conversion = run(drawing, bits=bits, max_depth=max_depth, tolerance=tolerance)
+    conversion = run(drawing, encoding="thesis", bits=bits, max_depth=max_depth, tolerance=tolerance)
     texture = conversion.texture
     return Converted(drawing, conversion.tree, texture, decoded.walk(texture), max_depth, tolerance)
 

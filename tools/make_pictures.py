@@ -159,7 +159,7 @@ def sheet(rows: list[list[Panel]]) -> Image.Image:
 def panels() -> list[list[Panel]]:
     """From a drawing to pixels."""
     drawing = vexture.read_svg(SHAPE)
-    texture = vexture.convert(drawing)
+    texture = vexture.convert(drawing, encoding="thesis")
     tree = decode(texture)
     quads, curves, size = len(texture.quads), len(texture.curves), sum(map(len, texture.to_png()))
     source = inked(vexture.render(drawing, (PANEL, PANEL), renderer="exact"))
@@ -186,7 +186,7 @@ def icons() -> Image.Image:
     out = Image.new("RGB", (columns * (ICON + GAP) + GAP, rows * (ICON + GAP) + GAP), PAPER)
     for place, file in enumerate(corpora.mdi(columns * rows, 1)):
         row, column = divmod(place, columns)
-        image = inked(vexture.render(vexture.convert(file), (ICON, ICON), renderer="cpu"))
+        image = inked(vexture.render(vexture.convert(file, encoding="thesis"), (ICON, ICON), renderer="cpu"))
         out.paste(image, (GAP + column * (ICON + GAP), GAP + row * (ICON + GAP)))
     return out
 

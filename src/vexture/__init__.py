@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 # the package of this name would replace the function of this name if it were imported later
 import vexture.render  # noqa: F401
 from vexture.errors import DeviceError, FormatError, LimitError, SourceError, SourceWarning, VextureError
-from vexture.pipeline import convert, render
+from vexture.pictures import render, render_layers
+from vexture.pipeline import atlas, convert
 
 __all__ = [
     "DeviceError",
@@ -17,24 +18,30 @@ __all__ = [
     "PackedTexture",
     "Paint",
     "Path",
+    "Root",
     "SourceError",
     "SourceWarning",
     "ThesisTexture",
     "VextureError",
+    "atlas",
     "convert",
     "load",
     "read_svg",
     "render",
+    "render_layers",
+    "shader_source",
 ]
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing, FillRule, Paint, Path
-    from vexture.encoding import PackedTexture, ThesisTexture, load
+    from vexture.encoding import PackedTexture, Root, ThesisTexture, load
+    from vexture.shaders import shader_source
     from vexture.sources.svg import read_svg
 
 _HOMES = {
     "vexture.drawing": ("Drawing", "FillRule", "Paint", "Path"),
-    "vexture.encoding": ("PackedTexture", "ThesisTexture", "load"),
+    "vexture.encoding": ("PackedTexture", "Root", "ThesisTexture", "load"),
+    "vexture.shaders": ("shader_source",),
     "vexture.sources.svg": ("read_svg",),
 }
 

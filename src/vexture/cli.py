@@ -6,17 +6,19 @@ import sys
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from vexture.errors import DeviceError, LimitError, VextureError
+from vexture.settings import Settings
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
-    from vexture.encoding import ThesisTexture
-    from vexture.pipeline import Conversion
+    from vexture.encoding import PackedTexture, ThesisTexture
+    from vexture.quadtree.tree import CellTree, PackedTree
 
 __all__ = ["main"]
 
@@ -78,77 +80,143 @@ def main() -> None:
 
 @main.command()
 @click.argument("sources", metavar="SOURCE...", nargs=-1, required=True, type=click.Path(path_type=Path))
-@click.option("-o", "--output", metavar="DIR", default=".", type=click.Path(path_type=Path), help="Folder to write to.")
-@click.option("--encoding", type=click.Choice(["thesis"]), default="thesis", show_default=True)
-@click.option("--bits", type=click.Choice(["8", "16"]), default="16", show_default=True, help="Bits per channel.")
 @click.option(
-    "--strategy",
-    type=click.Choice(["direct", "sampled"]),
-    default="direct",
-    show_default=True,
-    help="Take leaves from the drawing's own cubics, or sample and fit as the thesis does.",
+    "-o", "--output", metavar="DIR", type=click.Path(path_type=Path), help="Folder to write to.  [default: .]"
 )
+@click.option(
+    "--atlas",
+    metavar="FILE.ktx2",
+    type=click.Path(path_type=Path),
+    help="Write one texture of all the drawings instead, each a shape of its file's name.",
+)
+@click.option("--encoding", type=click.Choice(["packed", "thesis"]), default="packed", show_default=True)
+@click.option("--split", type=click.Choice(["paint"]), help="Make each colour a shape of its own, in painting order.")
+@click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
 @click.option(
     "--tolerance",
     type=_Tolerance(),
     default="auto",
     show_default=True,
-    help="Largest distance from the drawing's outline, in drawing sizes.",
+    help="Largest distance from the drawing's outline, in drawing sizes; for packed, auto is 0.",
 )
-@click.option("--max-depth", metavar="D", type=int, default=None, help="Divide no further than this.  [default: 10]")
-def convert(sources: tuple[Path, ...], output: Path, bits: str, **parameters: Any) -> None:
-    """Convert SVG drawings into pairs of texture files."""
+@click.option("--max-depth", metavar="D", type=int, help="Divide no further.  [default: 16; for thesis 10]")
+@click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15 (packed).  [default: 4]")
+@click.option("--precision", metavar="P", type=float, help="Largest shift by rounding, in drawing sizes (packed).")
+@click.option("--bits", type=click.Choice(["8", "16"]), help="Bits per channel (thesis).  [default: 16]")
+@click.option(
+    "--strategy",
+    type=click.Choice(["direct", "sampled"]),
+    help="Take leaves from the drawing's own cubics, or sample and fit (thesis).  [default: direct]",
+)
+def convert(
+    sources: tuple[Path, ...], output: Path | None, atlas: Path | None, bits: str | None, **parameters: Any
+) -> None:
+    """Convert SVG drawings into textures."""
     with _one_line():
-        try:
-            output.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise DeviceError(f"{output}: cannot be made ({error.strerror}); choose another folder with -o") from None
-        written: dict[Path, Path] = {}
-        failed = 0
-
-        def convert_one(source: Path) -> str | None:
-            nonlocal failed
-            try:
-                return _convert_one(source, output, written, bits=int(bits), **parameters)
-            except VextureError as error:
-                failed += 1
-                _say(str(error))
-                return None
-
-        for line in _with_progress(sources, convert_one):
-            if line:
-                click.echo(line)
+        settings = Settings(bits=None if bits is None else int(bits), **parameters)
+        if atlas is None:
+            failed = _convert_each(sources, output or Path(), settings)
+        elif output is not None:
+            raise LimitError(f"--output {output} and --atlas {atlas}: an atlas is one file; leave --output out")
+        else:
+            failed = _convert_together(sources, atlas, settings)
     if failed:
         if len(sources) > 1:
-            _say(f"{failed} of {len(sources)} files failed")
+            _say(f"{failed} of {len(sources)} files failed{'' if atlas is None else f'; {atlas} is not written'}")
         sys.exit(1)
 
 
-def _convert_one(source: Path, output: Path, written: dict[Path, Path], **parameters: Any) -> str:
-    """Convert one file and describe the result."""
-    from vexture.encoding import target_of
+def _convert_each(sources: tuple[Path, ...], output: Path, settings: Settings) -> int:
+    """Convert each file to files of its own, print a line for each, return how many failed."""
+    from vexture.encoding.files import packed_target, target_of
     from vexture.pipeline import run
 
-    conversion = run(source, **parameters)
-    first = target_of(output, conversion.texture.name)[0]
-    if first in written:
-        raise LimitError(f"{source}: {first} is already what {written[first]} became; convert it to another folder")
-    files = conversion.texture.save(output)
-    written[first] = source
-    return _describe(conversion, sum(file.stat().st_size for file in files))
+    try:
+        output.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise DeviceError(f"{output}: cannot be made ({error.strerror}); choose another folder with -o") from None
+    written: dict[Path, Path] = {}
+
+    def convert_one(source: Path) -> str:
+        conversion = run(source, **asdict(settings))
+        name = conversion.texture.name
+        first = packed_target(output, name) if settings.encoding == "packed" else target_of(output, name)[0]
+        if first in written:
+            raise LimitError(f"{source}: {first} is already what {written[first]} became; convert it to another folder")
+        saved = conversion.texture.save(output)
+        files = saved if isinstance(saved, tuple) else (saved,)
+        written[first] = source
+        size = sum(file.stat().st_size for file in files)
+        return _described(conversion.drawing, conversion.trees, size, conversion.seconds, settings)
+
+    return _work_through(sources, convert_one)
 
 
-def _describe(conversion: "Conversion", size: int) -> str:
-    """One line about a shape."""
+def _convert_together(sources: tuple[Path, ...], atlas: Path, settings: Settings) -> int:
+    """Convert all files to one texture, written if none failed; print a line for each, return how many failed."""
+    from vexture.encoding.ktx2 import TEXEL_BYTES
+    from vexture.encoding.layout import PACKED_SUFFIX
+    from vexture.pipeline import Shapes, join, shapes_of
+
+    if settings.encoding != "packed":
+        raise LimitError(f"--atlas {atlas}: the encoding {settings.encoding} holds one shape; use the encoding packed")
+    if atlas.suffix.lower() != PACKED_SUFFIX or atlas.is_dir():
+        raise LimitError(f"--atlas {atlas}: a packed texture is a file whose name ends in {PACKED_SUFFIX}; name one")
+    parts: list[Shapes] = []
+
+    def convert_one(source: Path) -> str:
+        part = shapes_of(source, settings)
+        parts.append(part)
+        texels = sum(len(tree.count) + len(tree.curves) for tree in part.trees)
+        return _described(part.drawing, part.trees, TEXEL_BYTES * texels, part.seconds, settings)
+
+    failed = _work_through(sources, convert_one)
+    if not failed:
+        texture = join(parts, atlas.stem)
+        texture.save(atlas)
+        click.echo(f"{atlas}: {len(texture.roots)} shapes, {atlas.stat().st_size} bytes")
+    return failed
+
+
+def _work_through(sources: tuple[Path, ...], work: Callable[[Path], str]) -> int:
+    """Print what becomes of each file, or in one line why nothing does; return how many failed."""
+    failed = 0
+
+    def attempt(source: Path) -> str | None:
+        nonlocal failed
+        try:
+            return work(source)
+        except VextureError as error:
+            failed += 1
+            _say(str(error))
+            return None
+
+    for line in _with_progress(sources, attempt):
+        if line:
+            click.echo(line)
+    return failed
+
+
+def _described(
+    drawing: "Drawing",
+    trees: "tuple[PackedTree, ...] | tuple[CellTree, ...]",
+    size: int,
+    seconds: float,
+    settings: Settings,
+) -> str:
+    """One line about a source."""
     from vexture.encoding import quantisation_step
+    from vexture.quadtree.tree import LATTICE
 
-    tree, texture = conversion.tree, conversion.texture
+    step = 1.0 / LATTICE if settings.encoding == "packed" else quantisation_step(settings.bits or 16)
+    unresolved = sum(tree.unresolved for tree in trees)
+    layers = f"{len(trees)} layers, " if len(trees) > 1 else ""
     line = (
-        f"{texture.name}: {conversion.drawing.segments} segments, {len(tree.kind)} quads, {len(tree.curves)} curves, "
-        f"{size} bytes, {1000 * conversion.seconds:.1f} ms, distance {tree.deviation:.1e} "
-        f"+ {tree.widest_leaf * quantisation_step(texture.bits):.1e}"
+        f"{drawing.name}: {drawing.segments} segments, {layers}{sum(len(tree.coverage) for tree in trees)} quads, "
+        f"{sum(len(tree.curves) for tree in trees)} curves, {size} bytes, {1000 * seconds:.1f} ms, "
+        f"distance {max(tree.deviation for tree in trees):.1e} + {max(tree.widest_leaf for tree in trees) * step:.1e}"
     )
-    return line + (f", {tree.unresolved} cells at the depth limit" if tree.unresolved else "")
+    return line + (f", {unresolved} cells at the depth limit" if unresolved else "")
 
 
 def _with_progress(items: tuple[Path, ...], work: Callable[[Path], str | None]) -> Iterator[str | None]:
@@ -169,39 +237,56 @@ def _with_progress(items: tuple[Path, ...], work: Callable[[Path], str | None]) 
 @click.option("-o", "--output", metavar="PNG", required=True, type=click.Path(path_type=Path), help="File to write.")
 @click.option("--size", metavar="N", type=int, default=DEFAULT_SIZE, show_default=True, help="Longer side in pixels.")
 @click.option("--renderer", type=click.Choice(["exact", "cpu", "gpu"]), default="gpu", show_default=True)
+@click.option("--quality", type=click.Choice(["fast", "exact"]), default="exact", show_default=True)
 @click.option("--view", type=_View(), default="0,0,1,1", show_default=True, help="Part of the unit square, y up.")
 @click.option("--rotate", metavar="DEG", type=float, default=0.0, help="Turn the picture counter-clockwise.")
+@click.option("--root", metavar="NAME_OR_INDEX", help="Shape of a texture, or drawing of an atlas of layers.")
+@click.option("--split", type=click.Choice(["paint"]), help="Draw an SVG in its flat colours.")
+@click.option("--select", metavar="SELECTOR", help="Draw only the elements of an SVG that a CSS selector matches.")
 def render(
-    source: Path, output: Path, size: int, renderer: str, view: tuple[float, float, float, float], rotate: float
+    source: Path,
+    output: Path,
+    size: int,
+    view: tuple[float, float, float, float],
+    rotate: float,
+    split: str | None,
+    select: str | None,
+    **options: Any,
 ) -> None:
-    """Render a drawing or a texture as a PNG: the shape black on white."""
+    """Draw an SVG or a texture as a PNG.
+
+    A texture that was split by paint is drawn in its colours, else a shape is black; on white.
+    """
     with _one_line():
-        from vexture.pipeline import render as render_image
+        from vexture.pictures import on_white
         from vexture.render.view import window
 
-        shape = _shape_of(source)
+        shape = _shape_of(source, split, select)
         _, _, w, h = view
         longer = max(w, h)
         ratio = (w / longer, h / longer) if longer > 0.0 else (1.0, 1.0)
-        pixels = tuple(max(round(size * side), min(size, 1)) for side in ratio)
-        to_unit = window((pixels[0], pixels[1]), *view, rotate)
-        image = render_image(shape, (pixels[0], pixels[1]), to_unit, renderer)
-        _write_png(image, output)
+        width, height = (max(round(size * side), min(size, 1)) for side in ratio)
+        to_unit = window((width, height), *view, rotate)
+        _write_png(on_white(shape, (width, height), to_unit, split=split, **options), output)
 
 
-def _shape_of(path: Path) -> "Drawing | ThesisTexture":
-    """Read a drawing, or load a texture by either of its files or their common stem."""
-    if path.is_file() and path.suffix.lower() != ".png":
+def _shape_of(path: Path, split: str | None, select: str | None) -> "Drawing | PackedTexture | ThesisTexture":
+    """Read a drawing, or load a texture by one of its files or its stem."""
+    if path.is_file() and path.suffix.lower() not in (".png", ".ktx2"):
         from vexture.sources.svg import read_svg
 
-        return read_svg(path)
+        return read_svg(path, select)
     from vexture.encoding import load
 
-    return load(path)
+    texture = load(path)
+    for option, value in (("split", split), ("select", select)):
+        if value is not None:
+            raise LimitError(f"{path}: --{option} {value} needs the drawing; give it to vexture convert")
+    return texture
 
 
 def _write_png(image: Any, output: Path) -> None:
-    """Write coverage as black on white, by a temporary name."""
+    """Write a picture of values 0..1, by a temporary name."""
     import numpy as np
     from PIL import Image
 
@@ -209,7 +294,7 @@ def _write_png(image: Any, output: Path) -> None:
         raise DeviceError(f"{str(output)!r} is no file to write to; name one with -o")
     partial = output.with_name(f".{output.name}.{os.getpid()}.part")
     try:
-        Image.fromarray(np.rint(255.0 * (1.0 - image)).astype(np.uint8)).save(partial, format="PNG")
+        Image.fromarray(np.rint(255.0 * image).astype(np.uint8)).save(partial, format="PNG")
         partial.replace(output)
     except OSError as error:
         with suppress(OSError):

@@ -6,8 +6,9 @@ one and two thirds.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -34,10 +35,32 @@ class FillRule(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Paint:
-    """A flat colour: sRGB components and opacity, each in 0..1."""
+    """A flat colour: sRGB components and opacity, each in 0..1.
+
+    Raises
+    ------
+    SourceError
+        If one of them is not.
+    """
 
     color: tuple[float, float, float] = (0.0, 0.0, 0.0)
     opacity: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not all(0.0 <= part <= 1.0 for part in (*self.color, self.opacity)):
+            raise SourceError(f"a paint is {self.color} with opacity {self.opacity}; all must be in 0..1")
+
+    @property
+    def hex(self) -> str:
+        """The colour as CSS writes it, rounded to 8 bits: ``#rrggbb``, and ``#rrggbbaa`` where it is translucent.
+
+        Examples
+        --------
+        >>> Paint((1.0, 0.5, 0.0)).hex, Paint(opacity=0.5).hex
+        ('#ff8000', '#00000080')
+        """
+        channels = (*self.color, self.opacity) if self.opacity < 1.0 else self.color
+        return "#" + "".join(f"{round(255.0 * channel):02x}" for channel in channels)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,6 +95,14 @@ class Path:
                 raise SourceError("a contour holds a coordinate that is not finite; correct the drawing")
             if (contour[:-1, 3] != contour[1:, 0]).any() or (contour[-1, 3] != contour[0, 0]).any():
                 raise SourceError("a contour is open; every cubic must start exactly where the one before it ends")
+
+    @property
+    def box(self) -> NDArray[np.float64]:
+        """Least and greatest coordinates of all control points, (2, 2): no part of the path is outside."""
+        if not self.contours:
+            return np.array([[np.inf, np.inf], [-np.inf, -np.inf]])
+        points = np.concatenate(self.contours)
+        return np.stack([points.min(axis=(0, 1)), points.max(axis=(0, 1))])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -113,6 +144,40 @@ class Drawing:
     def segments(self) -> int:
         """Number of cubics."""
         return sum(len(contour) for path in self.paths for contour in path.contours)
+
+    def layers(self) -> "tuple[Drawing, ...]":
+        """Take the drawing apart by paint: stacked in this order, the layers are the flat-coloured drawing.
+
+        Consecutive paths of one opaque paint are one layer. Of a translucent paint, which shows twice where two
+        paths overlap, only paths whose boxes are apart from one another share a layer.
+
+        Returns
+        -------
+        tuple of Drawing
+            In painting order, each of one paint and named ``name/number-colour``, counted from 1; an empty tuple if
+            nothing is painted.
+
+        Examples
+        --------
+        >>> square = Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]).paths[0].contours
+        >>> red, blue = Paint((1.0, 0.0, 0.0)), Paint((0.0, 0.0, 1.0), 0.5)
+        >>> logo = Drawing(tuple(Path(square, paint=paint) for paint in (red, red, blue, blue)), name="logo")
+        >>> [(layer.name, len(layer.paths)) for layer in logo.layers()]
+        [('logo/1-#ff0000', 2), ('logo/2-#0000ff80', 1), ('logo/3-#0000ff80', 1)]
+        """
+        boxes = np.array([path.box for path in self.paths]).reshape(-1, 2, 2)
+        starts: list[int] = []
+        for place, path in enumerate(self.paths):
+            if starts and path.paint == self.paths[starts[-1]].paint:
+                above, below = boxes[place], boxes[starts[-1] : place]
+                apart = (above[0] > below[:, 1]) | (above[1] < below[:, 0])
+                if path.paint.opacity >= 1.0 or apart.any(axis=1).all():
+                    continue
+            starts.append(place)
+        return tuple(
+            replace(self, paths=self.paths[start:end], name=f"{self.name}/{number}-{self.paths[start].paint.hex}")
+            for number, (start, end) in enumerate(pairwise([*starts, len(self.paths)]), 1)
+        )
 
     @classmethod
     def polygon(cls, *contours: Iterable[tuple[float, float]], fill_rule: FillRule = FillRule.NONZERO) -> "Drawing":

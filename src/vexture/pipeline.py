@@ -1,24 +1,48 @@
-"""From a source to a texture to pixels: the arrows of the architecture, one after the other."""
+"""From a source to a texture: the arrows of the architecture, one after the other."""
 
 import os
 import time
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final, Literal
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 from vexture.errors import LimitError
+from vexture.settings import Settings
 
 if TYPE_CHECKING:  # at run time they come when they are needed: compiler, parser and driver take their time
-    import numpy as np
-    from numpy.typing import ArrayLike, NDArray
-
     from vexture.drawing import Drawing
-    from vexture.encoding.texture import ThesisTexture
-    from vexture.quadtree.tree import CellTree
+    from vexture.encoding import PackedTexture, Root, ThesisTexture
+    from vexture.quadtree.tree import CellTree, PackedTree
 
-__all__ = ["RENDERERS", "Conversion", "convert", "render", "run"]
+    Source = Drawing | str | os.PathLike[str]
 
-RENDERERS: Final = ("exact", "cpu", "gpu")
-"""From a drawing; from a texture on the CPU, on the GPU."""
+__all__ = ["Conversion", "Shapes", "atlas", "convert", "join", "run", "shapes_of"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shapes:
+    """What one source became, not yet in a packed texture.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        What was read.
+    trees : tuple of PackedTree
+        What it became: one tree, or one for each of its layers.
+    roots : tuple of Root
+        What a texture says of each.
+    seconds : float
+        Time from the source to the trees.
+    source : str
+        Names the source in messages.
+    """
+
+    drawing: "Drawing"
+    trees: "tuple[PackedTree, ...]"
+    roots: "tuple[Root, ...]"
+    seconds: float
+    source: str
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -28,58 +52,118 @@ class Conversion:
     Parameters
     ----------
     drawing : Drawing
-        What was read.
-    tree : CellTree
-        What it became.
-    texture : ThesisTexture
+        What was read; if it was split, `drawing.layers()` are what became trees.
+    trees : tuple of PackedTree or of CellTree
+        What it became: one tree, or one for each of its layers.
+    texture : PackedTexture or ThesisTexture
         What is saved.
     seconds : float
         Time from the source to the texture.
     """
 
     drawing: "Drawing"
-    tree: "CellTree"
-    texture: "ThesisTexture"
+    trees: "tuple[PackedTree, ...] | tuple[CellTree, ...]"
+    texture: "PackedTexture | ThesisTexture"
     seconds: float
 
+    @property
+    def tree(self) -> "PackedTree | CellTree":
+        """The first tree: the only one, unless the drawing was split."""
+        return self.trees[0]
 
-def run(
-    source: "Drawing | str | os.PathLike[str]",
-    *,
-    encoding: str = "thesis",
-    bits: int = 16,
-    strategy: Literal["direct", "sampled"] = "direct",
-    tolerance: float | Literal["auto"] = "auto",
-    max_depth: int | None = None,
-) -> Conversion:
+
+def run(source: "Source", **parameters: Any) -> Conversion:
     """Convert and keep what lies between; see `convert`."""
-    from vexture.drawing import Drawing
+    settings = Settings(**parameters)
+    start = time.perf_counter()
+    if settings.encoding == "packed":
+        shapes = shapes_of(source, settings)
+        origin = None if _is_drawing(source) else Path(shapes.source).name
+        packed = join([shapes], shapes.drawing.name, origin)
+        return Conversion(shapes.drawing, shapes.trees, packed, time.perf_counter() - start)
     from vexture.encoding import encode, quantisation_step
     from vexture.encoding.layout import LIST_LIMIT
     from vexture.quadtree.build import DEFAULT_DEPTH, build
-    from vexture.sources.svg import read_svg
 
-    if encoding != "thesis":
-        raise LimitError(f"encoding {encoding!r} is not known; use thesis")
-    start = time.perf_counter()
-    drawing = source if isinstance(source, Drawing) else read_svg(source)
+    drawing = _drawing_of(source, settings)
+    bits = 16 if settings.bits is None else settings.bits
     if bits not in LIST_LIMIT:
         raise LimitError(f"{bits!r} bits; a texture has 8 or 16")
-    depth = DEFAULT_DEPTH if max_depth is None else max_depth
-    tree = build(drawing, tolerance, depth, strategy, quantisation_step(bits), LIST_LIMIT[bits])
+    depth = DEFAULT_DEPTH if settings.max_depth is None else settings.max_depth
+    strategy = settings.strategy or "direct"
+    tree = build(drawing, settings.tolerance, depth, strategy, quantisation_step(bits), LIST_LIMIT[bits])
     texture = encode(tree, bits, to_source=drawing.to_source, name=drawing.name)
-    return Conversion(drawing, tree, texture, time.perf_counter() - start)
+    return Conversion(drawing, (tree,), texture, time.perf_counter() - start)
+
+
+def shapes_of(source: "Source", settings: Settings) -> Shapes:
+    """Read one source, take it apart if the settings say so, and grow its packed trees."""
+    from vexture.encoding import Root
+    from vexture.quadtree.build_packed import DEFAULT_CAPACITY, DEFAULT_DEPTH, build_packed
+
+    start = time.perf_counter()
+    drawing = _drawing_of(source, settings)
+    tolerance = settings.packed_tolerance
+    layers = drawing.layers() if settings.split else ()
+    trees = tuple(
+        build_packed(
+            layer,
+            tolerance=tolerance,
+            max_depth=DEFAULT_DEPTH if settings.max_depth is None else settings.max_depth,
+            capacity=DEFAULT_CAPACITY if settings.capacity is None else settings.capacity,
+            precision=settings.precision,
+        )
+        for layer in layers or (drawing,)
+    )
+    if layers:
+        roots = tuple(
+            Root(layer.name, to_source=layer.to_source, tolerance=tolerance, paint=layer.paths[0].paint)
+            for layer in layers
+        )
+    else:
+        roots = (Root(drawing.name, to_source=drawing.to_source, tolerance=tolerance),)
+    named = drawing.name if _is_drawing(source) else os.fspath(cast("str | os.PathLike[str]", source))
+    return Shapes(drawing, trees, roots, time.perf_counter() - start, named)
+
+
+def join(parts: Sequence[Shapes], name: str, source: str | None = None) -> "PackedTexture":
+    """One texture of the shapes of some sources.
+
+    Raises
+    ------
+    LimitError
+        If there are none, or two of one name.
+    """
+    from vexture.encoding import encode_packed
+
+    owner: dict[str, str] = {}
+    for part in parts:
+        for root in part.roots:
+            if root.name in owner:
+                raise LimitError(
+                    f"{part.source}: the texture has a shape {root.name!r} already, from {owner[root.name]}; "
+                    "rename one of the two"
+                )
+            owner[root.name] = part.source
+    if not owner:
+        raise LimitError("an atlas of no drawings; give at least one")
+    trees = [tree for part in parts for tree in part.trees]
+    return encode_packed(trees, [root for part in parts for root in part.roots], name=name, source=source)
 
 
 def convert(
-    source: "Drawing | str | os.PathLike[str]",
+    source: "Source",
     *,
-    encoding: str = "thesis",
-    bits: int = 16,
-    strategy: Literal["direct", "sampled"] = "direct",
+    encoding: str = "packed",
+    split: Literal["paint"] | None = None,
+    select: str | None = None,
     tolerance: float | Literal["auto"] = "auto",
     max_depth: int | None = None,
-) -> "ThesisTexture":
+    capacity: int | None = None,
+    precision: float | None = None,
+    bits: int | None = None,
+    strategy: Literal["direct", "sampled"] | None = None,
+) -> "PackedTexture | ThesisTexture":
     """Turn a drawing into a texture.
 
     Parameters
@@ -87,97 +171,132 @@ def convert(
     source : Drawing or path
         A drawing, or a file that `vexture.read_svg` reads.
     encoding : str
-        ``"thesis"``.
-    bits : int
-        Bits per channel, 8 or 16.
-    strategy : str
-        ``"direct"`` takes leaves from the drawing's own cubics, ``"sampled"`` samples and fits as the thesis does.
+        ``"packed"``: several exact pieces in each leaf, one KTX2 file. ``"thesis"``: one curve in each leaf, a pair
+        of PNG files.
+    split : str, optional
+        ``"paint"`` makes each layer of the drawing (`Drawing.layers`) a shape of its own, with its colour. None
+        converts the silhouette. Packed only.
+    select : str, optional
+        Convert only what a CSS selector chooses of the file; see `vexture.read_svg`.
     tolerance : float or "auto"
-        Largest distance between the drawing's outline and the texture's before quantisation, in unit-square units;
-        "auto" follows the smallest detail of the drawing and the size of each cell.
+        Largest distance between the drawing's outline and the texture's before quantisation, in unit-square units.
+        Packed: pieces that one cubic describes within it become one; "auto" is 0, which loses nothing but by
+        quantisation. Thesis: "auto" follows the smallest detail of the drawing and the size of each cell.
     max_depth : int, optional
-        Cells of this depth are not divided further.
+        Cells of this depth are not divided further; 16 by default, in the encoding thesis 10.
+    capacity : int, optional
+        Pieces in a leaf, 1 to 15; 4 by default. Packed only.
+    precision : float, optional
+        Largest displacement by quantisation, in unit-square units; by default no leaf is made smaller for it. Packed
+        only.
+    bits : int, optional
+        Bits per channel, 8 or 16; 16 by default. Thesis only.
+    strategy : str, optional
+        ``"direct"``, the default, takes leaves from the drawing's own cubics; ``"sampled"`` samples and fits as the
+        thesis does. Thesis only.
 
     Returns
     -------
-    ThesisTexture
+    PackedTexture or ThesisTexture
 
     Raises
     ------
     SourceError
         If the drawing cannot be read.
     LimitError
-        If a parameter is out of range, or a list is too long for the bits.
+        If a parameter is out of range or belongs to the other encoding, a selector chooses nothing, or the tree is
+        too large.
 
     Examples
     --------
     >>> from vexture.drawing import Drawing
     >>> triangle = Drawing.polygon([(0.1, 0.1), (0.9, 0.1), (0.5, 0.9)])
-    >>> texture = convert(triangle, bits=8)
-    >>> texture.quads.shape[0], texture.bits
-    (1, 8)
+    >>> [root.name for root in convert(triangle).roots]
+    ['drawing']
+    >>> convert(triangle, encoding="thesis", bits=8).quads.shape[0]
+    1
     """
     return run(
-        source, encoding=encoding, bits=bits, strategy=strategy, tolerance=tolerance, max_depth=max_depth
+        source,
+        encoding=encoding,
+        split=split,
+        select=select,
+        tolerance=tolerance,
+        max_depth=max_depth,
+        capacity=capacity,
+        precision=precision,
+        bits=bits,
+        strategy=strategy,
     ).texture
 
 
-def render(
-    texture_or_drawing: "ThesisTexture | Drawing",
-    size: tuple[int, int],
-    to_unit: "ArrayLike | None" = None,
-    renderer: str = "gpu",
-) -> "NDArray[np.float32]":
-    """Render a picture.
+def atlas(
+    sources: "Iterable[Source]",
+    *,
+    name: str = "atlas",
+    split: Literal["paint"] | None = None,
+    select: str | None = None,
+    tolerance: float | Literal["auto"] = "auto",
+    max_depth: int | None = None,
+    capacity: int | None = None,
+    precision: float | None = None,
+) -> "PackedTexture":
+    """Turn many drawings into one packed texture: a root for each, or with `split` for each layer of each.
 
     Parameters
     ----------
-    texture_or_drawing : ThesisTexture or Drawing
-        ``"exact"`` draws a drawing; ``"cpu"`` and ``"gpu"`` draw a texture, and convert a drawing with the defaults
-        of `vexture.convert` first.
-    size : tuple of int
-        Width and height of the image in pixels.
-    to_unit : (2, 3) or (3, 3) array, optional
-        From pixel coordinates (x right, y down, centres at +0.5) to the unit square (y up); None fits the square.
-    renderer : str
-        ``"exact"``, ``"cpu"`` or ``"gpu"``.
+    sources : iterable of Drawing or path
+        Each is found by its name in the texture: that of the drawing, for a file that before its first dot. Layers
+        are ``name/layer``.
+    name : str
+        Names the texture.
+    split, select, tolerance, max_depth, capacity, precision
+        As in `vexture.convert`, for each source.
 
     Returns
     -------
-    (height, width) float32 array
-        Coverage, 0..1, top row first.
+    PackedTexture
 
     Raises
     ------
+    SourceError
+        If a drawing cannot be read.
     LimitError
-        If the renderer is unknown, "exact" is given a texture, or the size or view is out of range.
-    DeviceError
-        If there is no GPU.
+        If two shapes have one name, there is no source, or as `vexture.convert` says.
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from vexture.encoding import ThesisTexture
-    >>> full = ThesisTexture(np.zeros((1, 4, 3), np.uint8), np.zeros((2, 2, 3), np.uint8))
-    >>> render(full, (2, 1), renderer="cpu")
-    array([[0.5, 0.5]], dtype=float32)
+    >>> from dataclasses import replace
+    >>> from vexture.drawing import Drawing
+    >>> half = Drawing.polygon([(0, 0), (1, 0), (0, 1)])
+    >>> both = atlas([replace(half, name="a"), replace(half, name="b")])
+    >>> [root.name for root in both.roots]
+    ['a', 'b']
     """
-    if renderer not in RENDERERS:
-        raise LimitError(f"renderer is {renderer!r}; it must be one of {', '.join(RENDERERS)}")
+    settings = Settings(
+        split=split, select=select, tolerance=tolerance, max_depth=max_depth, capacity=capacity, precision=precision
+    )
+    listed = [sources] if isinstance(sources, str | os.PathLike) or _is_drawing(sources) else sources
+    return join([shapes_of(cast("Source", source), settings) for source in listed], name)
+
+
+def _is_drawing(source: Any) -> bool:
     from vexture.drawing import Drawing
 
-    if isinstance(texture_or_drawing, Drawing):
-        if renderer == "exact":
-            from vexture.render.exact import render_exact
+    return isinstance(source, Drawing)
 
-            return render_exact(texture_or_drawing, size, to_unit)
-        texture_or_drawing = convert(texture_or_drawing)
-    if renderer == "exact":
-        raise LimitError("the exact renderer draws drawings; give the drawing, or use cpu or gpu for a texture")
-    if renderer == "cpu":
-        from vexture.render.cpu import render_cpu
 
-        return render_cpu(texture_or_drawing, size, to_unit)
-    from vexture.render.gpu import render_gpu
+def _drawing_of(source: "Source", settings: Settings) -> "Drawing":
+    """Drawing that a source is or holds."""
+    from vexture.drawing import Drawing
 
-    return render_gpu(texture_or_drawing, size, to_unit)
+    if not isinstance(source, Drawing):
+        from vexture.sources.svg import read_svg
+
+        return read_svg(source, settings.select)
+    if settings.select is not None:
+        raise LimitError(
+            f"{source.name}: select={settings.select!r} chooses elements of a file, which a drawing has no longer; "
+            "read the file with read_svg(path, select=...)"
+        )
+    return source

@@ -18,9 +18,21 @@ import numpy as np
 from vexture import shading
 from vexture.encoding import layout
 from vexture.encoding.texture import ThesisTexture
-from vexture.errors import FormatError
+from vexture.errors import FormatError, LimitError
 
-__all__ = ["FOLD_HEIGHT", "VERSIONS", "TextureSizes", "compose", "constants", "join", "source", "vertex_source"]
+__all__ = [
+    "FOLD_HEIGHT",
+    "QUALITIES",
+    "VERSIONS",
+    "TextureSizes",
+    "compose",
+    "constants",
+    "join",
+    "packed_view_source",
+    "shader_source",
+    "source",
+    "vertex_source",
+]
 
 VERSIONS: Final = {
     "330": "#version 330\n",
@@ -30,6 +42,12 @@ VERSIONS: Final = {
 
 FOLD_HEIGHT: Final = 16384
 """Rows; a list longer than a texture is high goes on in the columns to its right."""
+
+QUALITIES: Final = {"fast": shading.FAST, "exact": shading.EXACT}
+"""What the packed texture's shader can be compiled for."""
+
+PREFIXED: Final = re.compile(r"\bVEXTURE_(\w+)")
+"""A number as the packed texture's files name it: other people's shaders have names of their own."""
 
 INCLUDE: Final = re.compile(r'^#include "(.*)"$', re.MULTILINE)
 
@@ -80,7 +98,7 @@ def constants(module: ModuleType) -> str:
 
     Examples
     --------
-    >>> print(constants(layout).splitlines()[0])
+    >>> print(next(line for line in constants(layout).splitlines() if "CELL_ORDER" in line))
     const int CELL_ORDER[4] = int[4](2, 3, 0, 1);
     """
     lines = []
@@ -171,3 +189,52 @@ def view_source(version: str, sizes: TextureSizes) -> str:
 def vertex_source(version: str) -> str:
     """Vertex shader for three vertices without attributes, whose triangle covers the image."""
     return compose(version, "triangle.glsl", "void main() { gl_Position = covering_triangle(gl_VertexID); }\n")
+
+
+def shader_source(version: str = "300 es", quality: str = "exact") -> str:
+    """Text that gives a fragment shader the function ``vextureCoverage``, to stand before its own.
+
+    It holds neither ``#version`` nor a default precision: put it below those, or hand it to an engine that writes them.
+    The shader declares ``uniform highp usampler2D vextureTexels`` and reads a `PackedTexture` from it. All other names
+    begin with ``vexture``, ``Vexture`` or ``VEXTURE``.
+
+    Parameters
+    ----------
+    version : str
+        ``"300 es"`` or ``"330"``; the dialect of the shader. The text is the same for both.
+    quality : str
+        ``"exact"`` integrates the pixel's footprint, whatever its shape; ``"fast"`` one of the same second moments.
+
+    Raises
+    ------
+    LimitError
+        If there is no such version or quality.
+
+    Examples
+    --------
+    >>> "float vextureCoverage(uint root, vec2 uv, vec2 dx, vec2 dy)" in shader_source()
+    True
+    """
+    if version not in VERSIONS:
+        raise LimitError(f"version is {version!r}; there are {', '.join(map(repr, VERSIONS))}")
+    return packed_text("packed_coverage.glsl", quality)
+
+
+def packed_text(file: str, quality: str) -> str:
+    """Text of one of the packed texture's files, below the numbers that it and its includes name."""
+    if quality not in QUALITIES:
+        raise LimitError(f"quality is {quality!r}; there are {', '.join(map(repr, QUALITIES))}")
+    text = join(file)
+    lines = []
+    for name in sorted(set(PREFIXED.findall(text))):
+        value = QUALITIES[quality] if name == "QUALITY" else getattr(shading, name, getattr(layout, name, None))
+        if value is None:
+            raise NameError(f"{file} names VEXTURE_{name}, which neither shading.py nor layout.py defines")
+        lines.append(f"#define VEXTURE_{name} {value!r}\n")
+    return "".join(lines) + text
+
+
+def packed_view_source(version: str, quality: str) -> str:
+    """Fragment shader that draws one shape of a packed texture in one colour channel (``glsl/packed_view.glsl``)."""
+    main = "out float coverage_of_pixel;\nvoid main() { coverage_of_pixel = packed_view_coverage(gl_FragCoord.xy); }\n"
+    return VERSIONS[version] + packed_text("packed_view.glsl", quality) + main

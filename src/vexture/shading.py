@@ -6,19 +6,35 @@ The solution paths are those of thesis Figure 3.5; QUADRATIC stands for two of i
 from typing import Final
 
 __all__ = [
+    "BEND",
+    "CLOSE",
     "CONSTANT",
     "CORNER",
+    "CROSSING",
     "CUBE_ROOT",
     "CURVE",
     "DOUBLE",
+    "EXACT",
+    "FARTHEST",
+    "FAST",
     "HYPERBOLIC_COSINE",
     "HYPERBOLIC_SINE",
+    "LEVELS_BELOW",
+    "LEVEL_BIAS",
+    "MOST_CELLS",
+    "MOST_CHORDS",
     "NEARLY_EQUAL",
     "NEARLY_ZERO",
+    "NO_SIZE",
+    "POSITION_BITS",
     "QUADRATIC",
     "SAMPLES",
     "SHORTEST_CHORD",
+    "SHORT_WAY",
+    "SMALLEST_PIXEL",
+    "STEPS",
     "STRAIGHT",
+    "THINNEST_PIXEL",
     "THREE",
     "TRIPLE",
 ]
@@ -49,3 +65,49 @@ NEARLY_EQUAL: Final = 2.0**-19
 
 SHORTEST_CHORD: Final = 2.0**-18
 """Perimeters of a cell; a quarter of the smallest step that 16 bits can write."""
+
+FAST: Final = 0
+EXACT: Final = 1
+"""Qualities of the packed texture's shader: the footprint's second moments, or the footprint itself."""
+
+POSITION_BITS: Final = 28
+"""The packed shader's positions are whole numbers of 2^-28 of the unit square: eight squares fit 32 bits."""
+
+FARTHEST: Final = 3.0
+"""Unit squares from the base, in each direction; a pixel is looked up as if its centre were no farther away."""
+
+SMALLEST_PIXEL: Final = 2.0**-40
+"""Unit-square units."""
+
+THINNEST_PIXEL: Final = 2.0**-6
+"""A footprint seen from its edge is made this wide, in its lengths."""
+
+STEPS: Final = 6
+"""Laguerre's steps for the t of a coordinate, after a quadratic start."""
+
+CLOSE: Final = 0.1
+"""Pixels. A step that moves a point on a piece by less was the last."""
+
+NO_SIZE: Final = 2.0**-10
+"""Lattice units: less than the least size of a piece that has one."""
+
+BEND: Final = 8.0
+"""Chords for each unit by which the directions at the ends of a piece differ (their cross product, in pixels)."""
+
+MOST_CHORDS: Final = 4.0
+"""Chords of a piece within one footprint's box."""
+
+SHORT_WAY: Final = 2.0**-10
+"""Pixels. The mean over a shorter way is taken in its middle, because the quotient would lose its digits."""
+
+LEVELS_BELOW: Final = 2
+"""Levels that the sum over cells goes below the footprint's own."""
+
+LEVEL_BIAS: Final = 2.0**-8
+"""Without it drivers would disagree on the level of a footprint whose size is a power of two."""
+
+CROSSING: Final = 2
+"""Side of a piece that is not clear."""
+
+MOST_CELLS: Final = 256
+"""Cells that one pixel looks at."""

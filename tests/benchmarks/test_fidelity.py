@@ -23,7 +23,7 @@ def test_examples_in_the_docstrings():
 
 
 def test_leaf_cells_tile_the_unit_square():
-    x, y, side = fidelity.leaf_cells(run(NEEDLE).tree)
+    x, y, side = fidelity.leaf_cells(run(NEEDLE, encoding="thesis").tree)
     assert (side**2).sum() == 1.0
     assert len(set(zip(x, y, strict=True))) == len(x)
     assert x.min() == y.min() == 0.0
@@ -37,7 +37,7 @@ def test_cut_pixels_are_those_with_small_quads():
 
 
 def test_area_error_is_in_255ths():
-    tree = run(SQUARE).tree
+    tree = run(SQUARE, encoding="thesis").tree
     assert fidelity.area_error(SQUARE, tree) < 0.01
     assert fidelity.area_error(NEEDLE, tree) == pytest.approx(255 * (0.36 - 0.8 * 0.001 / 2), abs=0.01)
 
@@ -51,10 +51,10 @@ def test_limits(mean, border, within):
 
 
 def test_a_drawing_is_within_the_limits_and_a_wrong_picture_is_not():
-    conversion = run(SQUARE)
+    conversion = run(SQUARE, encoding="thesis")
     views = fidelity.shifted_views("square", 40, Namespace(shifts=2, seed=3))
     right = fidelity.size_facts(SQUARE, conversion.tree, conversion.texture, views, ["cpu"])
-    wrong = fidelity.size_facts(SQUARE, conversion.tree, run(NEEDLE).texture, views, ["cpu"])
+    wrong = fidelity.size_facts(SQUARE, conversion.tree, run(NEEDLE, encoding="thesis").texture, views, ["cpu"])
     assert right["met"]
     assert not wrong["met"]
     assert right["apart"]["max"] == 0.0

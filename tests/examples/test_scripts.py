@@ -28,7 +28,7 @@ def dark_share(path):
 
 def test_convert_and_render(tmp_path):
     run(ROOT / "examples" / "01_convert_and_render.py", tmp_path, folder=tmp_path)
-    assert {path.name for path in tmp_path.glob("*.*.png")} == {"duck.quads.png", "duck.curves.png"}
+    assert (tmp_path / "duck.ktx2").is_file()
     shares = [dark_share(tmp_path / f"duck-{size}.png") for size in (32, 128, 512)]
     assert min(shares) > 0.1
     assert max(shares) - min(shares) < 0.01
@@ -49,6 +49,16 @@ def test_compare_with_the_truth(tmp_path):
     assert max(errors) < 6
 
 
+def test_colours_and_atlas(tmp_path):
+    lines = run(ROOT / "examples" / "04_colours_and_atlas.py", tmp_path, folder=tmp_path).splitlines()
+    assert [line.split(":")[0] for line in lines[:3]] == ["logo/1-#0066cc", "logo/2-#ffffff", "logo/3-#ffcc00cc"]
+    with Image.open(tmp_path / "logo.png") as image:
+        assert image.getpixel((30, 150)) == (0, 102, 204)
+        assert image.getpixel((150, 80)) == (255, 255, 255)
+        assert image.getpixel((150, 150)) == (255, 214, 51)
+    assert 0.1 < dark_share(tmp_path / "duck.png") < 0.9
+
+
 def test_every_example_is_tested():
     names = {path.name for path in (ROOT / "examples").glob("*.py")}
     assert names == set(re.findall(r"\d\d_\w+\.py", Path(__file__).read_text(encoding="utf-8")))
@@ -59,5 +69,5 @@ def test_python_of_the_readme(tmp_path):
     (code,) = re.findall(r"^```python\n(.*?)^```", (ROOT / "README.md").read_text(encoding="utf-8"), re.M | re.S)
     assert len(code.splitlines()) <= 8
     run("-c", code, folder=tmp_path)
-    assert {path.name for path in tmp_path.glob("*.png")} == {"duck.quads.png", "duck.curves.png", "duck.png"}
+    assert {path.name for path in tmp_path.glob("duck.*")} == {"duck.ktx2", "duck.png"}
     assert 0.1 < dark_share(tmp_path / "duck.png") < 0.9

@@ -24,7 +24,7 @@ from hand import (
 from vexture import shading
 from vexture.encoding.texture import ThesisTexture
 from vexture.errors import LimitError
-from vexture.pipeline import render
+from vexture.pictures import render
 from vexture.render.cpu import render_cpu
 from vexture.render.cubic import solution_path, solve_cubic
 from vexture.render.view import fit

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vexture.encoding.texture import ThesisTexture
 from vexture.errors import FormatError, LimitError
-from vexture.pipeline import render
+from vexture.pictures import render
 from vexture.render.cpu import render_cpu
 from vexture.render.gpu import context, fold, program, render_gpu
 from vexture.shaders import compose, vertex_source
@@ -108,7 +108,7 @@ ONE_LINE = """
 import numpy as np
 from vexture.encoding.texture import ThesisTexture
 from vexture.errors import DeviceError
-from vexture.pipeline import render
+from vexture.pictures import render
 try:
     render(ThesisTexture(np.zeros((1, 4, 3), np.uint8), np.zeros((2, 2, 3), np.uint8)), (1, 1))
 except DeviceError as error:

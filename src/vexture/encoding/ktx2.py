@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from vexture.encoding.layout import MOST_ROWS, MOST_TEXT_BYTES, ROW_BITS
 from vexture.errors import FormatError
 
-__all__ = ["MAGIC", "read_ktx2", "write_ktx2"]
+__all__ = ["MAGIC", "TEXEL_BYTES", "read_ktx2", "write_ktx2"]
 
 MAGIC: Final = b"\xabKTX 20\xbb\r\n\x1a\n"
 

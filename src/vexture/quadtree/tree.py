@@ -127,3 +127,15 @@ class PackedTree:
     curves: NDArray[np.int32]
     deviation: float
     unresolved: int
+
+    @property
+    def widest_leaf(self) -> float:
+        """Width of the largest leaf with pieces, in unit-square units; 0 if there is none."""
+        level, width = np.zeros(1, np.int64), 0.5
+        while len(level):
+            if self.count[level].any():
+                return width
+            below = self.is_quad[level].sum(axis=1)
+            within = np.arange(below.sum()) - np.repeat(np.cumsum(below) - below, below)
+            level, width = np.repeat(self.first_quad[level], below) + within, width / 2
+        return 0.0

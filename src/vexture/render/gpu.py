@@ -12,7 +12,7 @@ from vexture.errors import DeviceError, LimitError
 from vexture.render.view import check_size, view_matrix
 from vexture.shaders import TextureSizes, vertex_source, view_source
 
-__all__ = ["context", "fold", "render_gpu"]
+__all__ = ["ONE_AT_A_TIME", "VERSION", "compiled", "context", "draw", "fold", "render_gpu"]
 
 VERSION: Final = "330"
 
@@ -53,15 +53,42 @@ def context() -> Any:
 @lru_cache(maxsize=64)
 def program(sizes: TextureSizes) -> Any:
     """Compiled shader for all textures of some sizes, with its triangle."""
+    return compiled(view_source(VERSION, sizes))
+
+
+def compiled(fragment_source: str) -> Any:
+    """Compile a fragment shader; what is returned draws it on a triangle that covers the image.
+
+    Raises
+    ------
+    DeviceError
+        If the driver refuses it.
+    """
     gl = context()
     try:
-        compiled = gl.program(vertex_shader=vertex_source(VERSION), fragment_shader=view_source(VERSION, sizes))
+        made = gl.program(vertex_shader=vertex_source(VERSION), fragment_shader=fragment_source)
     except Exception as error:  # moderngl's own class is not to be imported before the context
         reason = " ".join(str(error).split())[:200]
         raise DeviceError(
             f"the OpenGL driver refuses the shader ({reason}); update it, or use --renderer cpu"
         ) from None
-    return gl.vertex_array(compiled, [])
+    return gl.vertex_array(made, [])
+
+
+def draw(gl: Any, triangle: Any, size: tuple[int, int]) -> NDArray[np.float32]:
+    """Draw a compiled shader whose uniforms are set, (height, width); its first row is the image's top."""
+    width, height = size
+    limit = gl.info["GL_MAX_TEXTURE_SIZE"]
+    if max(width, height) > limit:
+        raise LimitError(f"size is {width} x {height}; this device draws up to {limit}, give a smaller --size")
+    image = gl.texture((width, height), 1, dtype="f4")
+    target = gl.framebuffer([image])
+    target.use()
+    triangle.render(vertices=3)
+    pixels = np.frombuffer(target.read(components=1, dtype="f4"), np.float32).reshape(height, width).copy()
+    for made in (target, image):
+        made.release()
+    return pixels
 
 
 def fold(rows: NDArray[Any], height: int) -> NDArray[np.float32]:
@@ -122,13 +149,10 @@ def render_gpu(
     FormatError
         If the texture's quads do not form a tree.
     """
-    width, height = check_size(size)
+    size = check_size(size)
     matrix = view_matrix(to_unit, size)
     with ONE_AT_A_TIME, context() as gl:
-        limit = gl.info["GL_MAX_TEXTURE_SIZE"]
-        if max(width, height) > limit:
-            raise LimitError(f"size is {width} x {height}; this device draws up to {limit}, give a smaller --size")
-        sizes = TextureSizes.of(texture, fold_height or limit)
+        sizes = TextureSizes.of(texture, fold_height or gl.info["GL_MAX_TEXTURE_SIZE"])
         triangle = program(sizes)
         lists = []
         for unit, (name, rows) in enumerate((("quads", texture.quads), ("curves", texture.curves))):
@@ -140,11 +164,7 @@ def render_gpu(
             lists.append(uploaded)
         triangle.program["list_lengths"] = (len(texture.quads), len(texture.curves))
         triangle.program["to_unit"].write(matrix.T.astype(np.float32).tobytes())
-        image = gl.texture((width, height), 1, dtype="f4")
-        target = gl.framebuffer([image])
-        target.use()
-        triangle.render(vertices=3)
-        pixels = np.frombuffer(target.read(components=1, dtype="f4"), np.float32).reshape(height, width).copy()
-        for made in (target, image, *lists):
-            made.release()
+        pixels = draw(gl, triangle, size)
+        for uploaded in lists:
+            uploaded.release()
     return pixels

@@ -10,17 +10,18 @@ from numpy.typing import NDArray
 
 from vexture.bezier.bounds import bounds
 from vexture.drawing import Drawing
-from vexture.errors import SourceError
+from vexture.errors import LimitError, SourceError
 from vexture.sources.svg_document import parse_svg, read_bytes
 from vexture.sources.svg_report import Report
 from vexture.sources.svg_scene import Scene
+from vexture.sources.svg_select import chosen, nothing_painted
 from vexture.sources.svg_values import Viewport
 from vexture.sources.svg_viewport import THINNEST, Rectangle, view_box
 
 __all__ = ["read_svg"]
 
 
-def read_svg(path: str | os.PathLike[str]) -> Drawing:
+def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing:
     """Read an SVG file, plain or gzipped.
 
     Shapes, paths, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as browsers
@@ -33,6 +34,9 @@ def read_svg(path: str | os.PathLike[str]) -> Drawing:
     ----------
     path : str or path-like
         The file.
+    select : str, optional
+        A CSS selector: only elements that match are painted, with all that is inside them, `use` followed. The rest
+        stays as it is, the box of the whole drawing above all, so that parts of one drawing lie on one another.
 
     Returns
     -------
@@ -44,6 +48,8 @@ def read_svg(path: str | os.PathLike[str]) -> Drawing:
     ------
     SourceError
         If the file cannot be read, is not SVG or exceeds a limit.
+    LimitError
+        If `select` is no selector or matches nothing that is painted.
 
     Warns
     -----
@@ -67,9 +73,13 @@ def read_svg(path: str | os.PathLike[str]) -> Drawing:
     """
     report = Report(os.fspath(path))
     try:
-        drawing = drawing_of(Scene(parse_svg(read_bytes(path)), report), Path(path).name.partition(".")[0])
-    except SourceError as error:
-        raise SourceError(f"{os.fspath(path)}: {error}") from None
+        root = parse_svg(read_bytes(path))
+        part = None if select is None else chosen(root, select)
+        drawing = drawing_of(Scene(root, report, part), Path(path).name.partition(".")[0])
+        if select is not None and part is not None and not drawing.paths:
+            raise nothing_painted(select, len(part))
+    except (SourceError, LimitError) as error:
+        raise type(error)(f"{os.fspath(path)}: {error}") from None
     except RecursionError:  # tinycss2 and cssselect2 follow nested brackets by calling themselves
         raise SourceError(f"{os.fspath(path)}: its style sheet nests brackets too deeply; simplify it") from None
     report.warn(stacklevel=2)

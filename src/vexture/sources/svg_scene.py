@@ -61,10 +61,13 @@ class Scene:
         The outermost `<svg>`.
     report : Report
         Told what is not supported.
+    chosen : set of lxml elements, optional
+        Those that are painted, with all that is inside them; None paints everything.
     """
 
-    def __init__(self, root: etree._Element, report: Report) -> None:
+    def __init__(self, root: etree._Element, report: Report, chosen: set[etree._Element] | None = None) -> None:
         self.root = root
+        self.chosen = chosen
         self.report = report
         self.cascade = Cascade(root, report)
         self.servers = Servers(root, self.cascade, report)
@@ -94,7 +97,8 @@ class Scene:
         self.note_effects(self.style)
         if "transform" in self.style.own:
             self.report.left_out("transform of the outermost <svg>")
-        place = Place(viewport, Space().moved(matrix), self.style, opacity, self.root)
+        chosen = self.chosen is None or self.root in self.chosen
+        place = Place(viewport, Space().moved(matrix), self.style, opacity, self.root, chosen=chosen)
         used = 0
         stack = [(child, place) for child in reversed(self.root)]
         while stack:
@@ -113,23 +117,27 @@ class Scene:
         name = local_name(element)
         if name is None or name in UNSEEN or (name == "symbol" and place.use is None) or not applies(element):
             return []
+        chosen = place.chosen or (self.chosen is not None and element in self.chosen)
         if name in ANIMATIONS or name == "script":
-            self.report.left_out("script" if name == "script" else "animation")
+            if chosen:
+                self.report.left_out("script" if name == "script" else "animation")
             return []
         style = self.cascade.style(element, place.style)
         opacity = place.opacity * style.opacity("opacity")
         if style["display"].lower() == "none" or opacity == 0.0:
             return []
         if name not in SHAPES and name not in CONTAINERS and name != "use":
-            self.report.left_out(f"<{name[:40]}>")
+            if chosen:
+                self.report.left_out(f"<{name[:40]}>")
+            return []
+        if name in SHAPES and not chosen:
             return []
         self.note_effects(style)
         matrix = self.transform(element, style, place)
         if place.depth >= DEEPEST:
             raise SourceError(f"it stands inside {DEEPEST:,} others; flatten the groups or the uses")
-        inner = Place(
-            place.viewport, place.space.moved(matrix), style, opacity, element, place, place.depth + 1, place.used
-        )
+        space, depth = place.space.moved(matrix), place.depth + 1
+        inner = Place(place.viewport, space, style, opacity, element, place, depth, place.used, chosen=chosen)
         if name in SHAPES:
             self.note_children(element, name, style)
             painter.paint(element, inner)

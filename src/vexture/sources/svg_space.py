@@ -95,6 +95,8 @@ class Place:
         Whether one of them is a `use`.
     use : Style or None
         Style of the `use` whose very target stands here.
+    chosen : bool
+        Whether what stands here is painted: all of it, unless only a part of the document was asked for.
     """
 
     viewport: Viewport
@@ -106,6 +108,7 @@ class Place:
     depth: int = 0
     used: bool = False
     use: Style | None = None
+    chosen: bool = True
 
     def inside(self, element: etree._Element) -> bool:
         """Tell whether an element is around this place."""

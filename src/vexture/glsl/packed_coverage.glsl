@@ -1,0 +1,92 @@
+// Coverage of a pixel by a shape in a packed texture: the exact area of the shape in the pixel's footprint.
+// Exports: vextureCoverage.
+#include "packed_tree.glsl"
+#include "packed_piece.glsl"
+
+// Where a cell's lattice stands to the pixel.
+struct VextureLattice {
+    vec2 center;  // of the pixel, in lattice units
+    vec2 low;     // the part of the footprint's box that lies in the cell, relative to that
+    vec2 high;
+    VextureFrame frame;  // from offsets in lattice units
+};
+
+VextureLattice vexture_lattice(ivec2 origin, int level, VexturePlace place, VextureFrame frame) {
+    float scale = VEXTURE_LATTICE / float(1 << (VEXTURE_POSITION_BITS - level));
+    float unit = VEXTURE_LATTICE * float(1 << level);  // lattice units in the unit square
+    vec2 center = (vec2(place.point - origin) + place.rest) * scale;
+    vec2 reach = frame.reach * unit;
+    frame.right /= unit;
+    frame.up /= unit;
+    return VextureLattice(center, max(-center, -reach), min(VEXTURE_LATTICE - center, reach), frame);
+}
+
+// Filled area of the pixel within one cell.
+float vexture_cell_area(VextureCell cell, VextureLattice lattice) {
+    int code = cell.is_quad ? 0 : vexture_winding_code(cell);
+    uint curve = vexture_first_curve(cell);
+    int count = code == 0 ? 0 : vexture_count(cell);
+    int winding = code - VEXTURE_WINDING_OFFSET;
+    vec2 low = lattice.low;
+    vec2 high = lattice.high;
+    int crossing = 0;  // a bit for each piece that must be looked at closely
+    for (int i = 0; i < count; i++) {
+        VexturePiece piece = vexture_piece(vexture_texel(curve + uint(i)), lattice.center);
+        winding += piece.starts_left && piece.p0.y <= low.y ? 1 : 0;
+        winding -= piece.ends_left && piece.p3.y <= low.y ? 1 : 0;
+        bool turns = (piece.starts_left && piece.p0.y > low.y && piece.p0.y < high.y)
+            || (piece.ends_left && piece.p3.y > low.y && piece.p3.y < high.y);
+        int side = vexture_clear_side(piece, low, high);
+        bool crosses = turns || side == VEXTURE_CROSSING;
+        winding += crosses ? 0 : side;
+        crossing |= crosses ? 1 << i : 0;
+    }
+    float area = (code == 0 ? vexture_stored_coverage(cell) : float(winding)) * vexture_box_area(lattice.frame, low, high);
+    while (crossing != 0) {
+        int lowest = crossing & -crossing;
+        int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
+        crossing ^= lowest;
+        VexturePiece piece = vexture_piece(vexture_texel(curve + uint(i)), lattice.center);
+        area += vexture_piece_area(piece, lattice.frame, low, high);
+    }
+    return area;
+}
+
+// Parameters: the shape's root quad; the pixel's centre, as 32-bit fixed point (1.0 = 2^32) and an offset from it; the
+// steps to the next pixels (dFdx, dFdy of the position), taken where all pixels of a group still run together.
+//
+// The cells that the footprint touches are visited row by row from below; for most pixels there is but one. A row is as
+// high as its lowest cell; cells that reach into it from below have been counted.
+float vextureCoverage(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
+    VextureFrame frame = vexture_frame(dx, dy);
+    VexturePlace place = vexture_place(base, offset, frame.reach);
+    int shared_levels = vexture_shared_levels(place.low, place.high);
+    int finest = vexture_finest_level(frame.size);
+    VextureTop top = VextureTop(root, 0);
+    ivec2 position = place.low;
+    int row = place.low.y;
+    int next_row = place.high.y + 1;
+    int cells = place.low.x <= place.high.x && place.low.y <= place.high.y ? VEXTURE_MOST_CELLS : 0;
+    float area = 0.0;
+    while (cells > 0) {
+        VextureCell cell = vexture_descend(top, shared_levels, finest, position);
+        int bits = VEXTURE_POSITION_BITS - cell.level;
+        ivec2 origin = (position >> bits) << bits;
+        ivec2 beyond = origin + (1 << bits);
+        VextureLattice lattice = vexture_lattice(origin, cell.level, place, frame);
+        bool counted = (origin.y < row && row != place.low.y) || any(greaterThanEqual(lattice.low, lattice.high));
+        float more = vexture_cell_area(cell, lattice);
+        area += counted ? 0.0 : more;
+        next_row = min(next_row, beyond.y);
+        bool row_ends = beyond.x > place.high.x;
+        row = row_ends ? next_row : row;
+        position = row_ends ? ivec2(place.low.x, row) : ivec2(beyond.x, row);
+        next_row = row_ends ? place.high.y + 1 : next_row;
+        cells = row > place.high.y ? 0 : cells - 1;
+    }
+    return clamp(frame.turned * area, 0.0, 1.0);
+}
+
+float vextureCoverage(uint root, vec2 uv, vec2 dx, vec2 dy) {
+    return vextureCoverage(root, uvec2(0u), uv, dx, dy);
+}

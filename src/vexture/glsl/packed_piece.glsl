@@ -1,0 +1,173 @@
+// What one piece of outline takes from a pixel: the part of it on the piece's right.
+// Exports: VexturePiece, vexture_piece, vexture_clear_side, vexture_piece_area.
+#include "packed_pixel.glsl"
+
+// Monotone in x and y; P0 to P3 relative to the pixel's centre, in lattice units of the leaf.
+struct VexturePiece {
+    vec2 p0;
+    vec2 p1;
+    vec2 p2;
+    vec2 p3;
+    bool starts_left;  // on the leaf's left edge
+    bool ends_left;
+};
+
+vec2 vexture_lattice_point(uint word) {
+    return vec2(int(word & 0xffffu), int(word >> VEXTURE_COORDINATE_BITS));
+}
+
+VexturePiece vexture_piece(uvec4 texel, vec2 center) {
+    vec2 p0 = vexture_lattice_point(texel.x);
+    vec2 p3 = vexture_lattice_point(texel.w);
+    vec2 off = center + float(VEXTURE_CONTROL_OFFSET);
+    vec2 p1 = vexture_lattice_point(texel.y) - off;
+    vec2 p2 = vexture_lattice_point(texel.z) - off;
+    return VexturePiece(p0 - center, p1, p2, p3 - center, p0.x == 0.0, p3.x == 0.0);
+}
+
+// Coefficients of t^3, t^2, t and 1.
+vec4 vexture_polynomial(float p0, float p1, float p2, float p3) {
+    return vec4(p3 - p0 + 3.0 * (p1 - p2), 3.0 * (p0 - 2.0 * p1 + p2), 3.0 * (p1 - p0), p0);
+}
+
+float vexture_evaluate(vec4 k, float t) {
+    return ((k.x * t + k.y) * t + k.z) * t + k.w;
+}
+
+// The side of the box on which a piece that passes it lies, if that is clear without solving for t.
+//
+// The curve keeps to a strip along its chord, as wide as 3/4 of its control points' distances at most.
+// Returned are -1, 0 or 1, what the whole box takes from it, or CROSSING.
+int vexture_clear_side(VexturePiece piece, vec2 low, vec2 high) {
+    float bottom = min(piece.p0.y, piece.p3.y);
+    float top = max(piece.p0.y, piece.p3.y);
+    float left = min(piece.p0.x, piece.p3.x);
+    float right = max(piece.p0.x, piece.p3.x);
+    vec2 way = piece.p3 - piece.p0;
+    float h1 = way.x * (piece.p1.y - piece.p0.y) - way.y * (piece.p1.x - piece.p0.x);
+    float h2 = way.x * (piece.p2.y - piece.p0.y) - way.y * (piece.p2.x - piece.p0.x);
+    vec2 middle = 0.5 * (low + high) - piece.p0;
+    vec2 half_box = 0.5 * (high - low);
+    float h = way.x * middle.y - way.y * middle.x;
+    float spread = abs(way.x) * half_box.y + abs(way.y) * half_box.x;
+    bool beyond_left = h - spread >= 0.75 * max(0.0, max(h1, h2));   // the box lies left of the piece's direction
+    bool beyond_right = h + spread <= 0.75 * min(0.0, min(h1, h2));
+    bool rises = way.y > 0.0;
+    bool box_before = (rises ? beyond_left : beyond_right) || left >= high.x;
+    bool box_after = (rises ? beyond_right : beyond_left) || right <= low.x;
+    bool passes = bottom <= low.y && top >= high.y;
+    bool apart = top <= low.y || bottom >= high.y;
+    bool none = apart || box_before;
+    return none ? 0 : passes && box_after ? (rises ? -1 : 1) : VEXTURE_CROSSING;
+}
+
+// One of Laguerre's steps, which near a turning point gets as far as several of Newton's, toward the t at which both
+// coordinates of a piece, mirrored so that they rise, have passed a corner of the box; or, for the earlier, one of them.
+float vexture_better_t(vec4 kx, vec4 ky, vec2 corner, bool later, float t) {
+    float x_error = vexture_evaluate(kx, t) - corner.x;
+    float y_error = vexture_evaluate(ky, t) - corner.y;
+    float x_slope = (3.0 * kx.x * t + 2.0 * kx.y) * t + kx.z;
+    float y_slope = (3.0 * ky.x * t + 2.0 * ky.y) * t + ky.z;
+    bool x_decides = (y_error * x_slope > x_error * y_slope) == later;
+    float error = x_decides ? x_error : y_error;
+    float slope = x_decides ? x_slope : y_slope;
+    float bend = x_decides ? 6.0 * kx.x * t + 2.0 * kx.y : 6.0 * ky.x * t + 2.0 * ky.y;
+    float divisor = slope + sqrt(max(4.0 * slope * slope - 6.0 * error * bend, 0.0));
+    return divisor > 0.0 ? clamp(t - 3.0 * error / divisor, 0.0, 1.0) : t;
+}
+
+// Area between a curve and its chord, of a cubic with these differences of control points (P1 - P0, P3 - P2, P3 - P0);
+// positive where the curve lies on the right.
+float vexture_bulge(vec2 first, vec2 last, vec2 chord) {
+    float turned = first.x * chord.y - first.y * chord.x + chord.x * last.y - chord.y * last.x;
+    return 0.15 * (2.0 * turned - (first.x * last.y - first.y * last.x));
+}
+
+// Point of a piece whose coordinates were mirrored, moved into the box.
+vec2 vexture_point(vec4 kx, vec4 ky, float t, vec2 mirror, vec2 low, vec2 high) {
+    return clamp(vec2(vexture_evaluate(kx, t), vexture_evaluate(ky, t)) * mirror, low, high);
+}
+
+// Derivative of the same in the frame.
+vec2 vexture_speed(vec4 kx, vec4 ky, float t, vec2 mirror, VextureFrame frame) {
+    vec2 speed = vec2((3.0 * kx.x * t + 2.0 * kx.y) * t + kx.z, (3.0 * ky.x * t + 2.0 * ky.y) * t + ky.z);
+    return vexture_into_frame(frame, speed * mirror);
+}
+
+// Area beside a piece from one t to another: beside its chords, as many as its bend asks for, and between it and them.
+float vexture_curve_area(
+    vec4 kx, vec4 ky, float t0, float t1, vec2 mirror, VextureFrame frame, vec2 low, vec2 high
+) {
+    vec2 p = vexture_into_frame(frame, vexture_point(kx, ky, t0, mirror, low, high));
+    vec2 first = vexture_speed(kx, ky, t0, mirror, frame);
+    vec2 end = vexture_speed(kx, ky, t1, mirror, frame);
+    float bend = abs(first.x * end.y - first.y * end.x) * (t1 - t0) * (t1 - t0);
+    int chords = 1 + int(min(VEXTURE_BEND * bend, VEXTURE_MOST_CHORDS - 1.0));
+    float step_t = (t1 - t0) / float(chords);
+    float t = t0;
+    float area = 0.0;
+    while (chords > 0) {
+        chords--;
+        t += step_t;
+        vec2 q = vexture_into_frame(frame, vexture_point(kx, ky, t, mirror, low, high));
+        vec2 last = vexture_speed(kx, ky, t, mirror, frame);
+        float bulge = vexture_bulge(first * (step_t / 3.0), last * (step_t / 3.0), q - p);
+        area += vexture_beside(p, q) + bulge * vexture_part_inside(p, q);
+        p = q;
+        first = last;
+    }
+    return area;
+}
+
+// Minus the area on the right of a piece that goes up, plus that of one that goes down, inside the box from low to high.
+float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 high) {
+    vec2 way = piece.p3 - piece.p0;
+    vec2 mirror = vec2(way.x < 0.0 ? -1.0 : 1.0, way.y < 0.0 ? -1.0 : 1.0);
+    vec4 kx = vexture_polynomial(piece.p0.x, piece.p1.x, piece.p2.x, piece.p3.x) * mirror.x;
+    vec4 ky = vexture_polynomial(piece.p0.y, piece.p1.y, piece.p2.y, piece.p3.y) * mirror.y;
+    vec2 from = vec2(way.x < 0.0 ? -high.x : low.x, way.y < 0.0 ? -high.y : low.y);
+    vec2 to = vec2(way.x < 0.0 ? -low.x : high.x, way.y < 0.0 ? -low.y : high.y);
+    vec2 size = max(abs(way), VEXTURE_NO_SIZE);
+    float t0 = clamp(max((from.x - kx.w) / size.x, (from.y - ky.w) / size.y), 0.0, 1.0);
+    float t1 = clamp(min((to.x - kx.w) / size.x, (to.y - ky.w) / size.y), 0.0, 1.0);
+    vec2 pixels = size.x * abs(vec2(frame.right.x, frame.up.x)) + size.y * abs(vec2(frame.right.y, frame.up.y));
+    float close = VEXTURE_CLOSE / max(pixels.x, pixels.y);
+    int steps = VEXTURE_STEPS;
+    while (steps > 0) {
+        float before0 = t0;
+        float before1 = t1;
+        t0 = vexture_better_t(kx, ky, from, true, t0);
+        t1 = vexture_better_t(kx, ky, to, false, t1);
+        steps = abs(t0 - before0) + abs(t1 - before1) > close ? steps - 1 : 0;
+    }
+    t1 = max(t0, t1);
+
+    float y0 = clamp(piece.p0.y, low.y, high.y);
+    float y3 = clamp(piece.p3.y, low.y, high.y);
+    vec2 enter = vexture_point(kx, ky, t0, mirror, low, high);
+    vec2 leave = vexture_point(kx, ky, t1, mirror, low, high);
+    float area = vexture_curve_area(kx, ky, t0, t1, mirror, frame, low, high);
+
+    // the way along the box's sides: on its left while the piece is left of it, and back on its right
+    float left_start = way.x < 0.0 ? leave.y : y0;
+    float left_end = way.x < 0.0 ? y3 : enter.y;
+    float right_start = way.x < 0.0 ? y3 : leave.y;
+    float right_end = way.x < 0.0 ? enter.y : y0;
+    bool starts = piece.starts_left && piece.p0.y > low.y && piece.p0.y < high.y;
+    bool ends = piece.ends_left && piece.p3.y > low.y && piece.p3.y < high.y;
+    left_start = starts && way.x >= 0.0 ? high.y : left_start;
+    right_end = starts && way.x >= 0.0 ? high.y : right_end;
+    left_end = ends ? high.y : left_end;
+    right_start = ends ? high.y : right_start;
+    vec2 l0 = vexture_into_frame(frame, vec2(low.x, left_start));
+    vec2 l1 = vexture_into_frame(frame, vec2(low.x, left_end));
+    vec2 r0 = vexture_into_frame(frame, vec2(high.x, right_start));
+    vec2 r1 = vexture_into_frame(frame, vec2(high.x, right_end));
+    area += vexture_beside(l0, l1) + vexture_beside(r0, r1);
+#if VEXTURE_QUALITY == VEXTURE_EXACT
+    vec2 f = vexture_into_frame(frame, vec2(enter.x, right_end));
+    vec2 g = vexture_into_frame(frame, vec2(leave.x, right_start));
+    area += vexture_beside(g, r0) + vexture_beside(r1, f);
+#endif
+    return area;
+}

@@ -1,0 +1,103 @@
+// Reading the packed texture (FORMAT.md, part B): positions, and the cells down the tree.
+// Exports: VexturePlace, VextureCell, VextureTop, vexture_place, vexture_shared_levels, vexture_texel, vexture_descend,
+// vexture_stored_coverage, vexture_count, vexture_winding_code, vexture_first_curve.
+//
+// Positions are whole numbers of 2^-POSITION_BITS of the unit square, signed, so that a pixel around the square's edge
+// has one too; a float holds what is left.
+
+uniform highp usampler2D vextureTexels;
+
+// A point and the box of a pixel around it.
+struct VexturePlace {
+    ivec2 point;
+    vec2 rest;   // of the point, in the same unit, 0 or a little more
+    ivec2 low;   // the box, cut to the unit square: the first and
+    ivec2 high;  // the last position in it; if last < first it lies outside
+};
+
+// A cell, as the byte of a texel.
+struct VextureCell {
+    uvec4 texel;  // of the quad that holds it
+    uint shift;   // of its byte
+    int level;    // 1 is a quarter of the unit square
+    bool is_quad;
+};
+
+// Where a way down the tree begins: a quad, and the number of levels above it.
+struct VextureTop {
+    uint quad;
+    int level;
+};
+
+uvec4 vexture_texel(uint index) {
+    ivec2 last = textureSize(vextureTexels, 0) - 1;
+    ivec2 at = ivec2(int(index & uint((1 << VEXTURE_ROW_BITS) - 1)), int(index >> VEXTURE_ROW_BITS));
+    return texelFetch(vextureTexels, min(at, last), 0);
+}
+
+VexturePlace vexture_place(uvec2 base, vec2 offset, vec2 reach) {
+    int spare = 32 - VEXTURE_POSITION_BITS;
+    float one = float(1 << VEXTURE_POSITION_BITS);
+    vec2 scaled = clamp(offset, -VEXTURE_FARTHEST, VEXTURE_FARTHEST) * one;
+    vec2 whole = floor(scaled);
+    ivec2 point = ivec2(base >> spare) + ivec2(whole);
+    vec2 rest = scaled - whole + vec2(ivec2(base & uvec2((1 << spare) - 1))) / float(1 << spare);
+    vec2 extent = min(reach, VEXTURE_FARTHEST) * one;
+    int last = (1 << VEXTURE_POSITION_BITS) - 1;
+    ivec2 low = max(point + ivec2(floor(rest - extent)), 0);
+    ivec2 high = min(point + ivec2(ceil(rest + extent)) - 1, last);
+    return VexturePlace(point, rest, low, high);
+}
+
+// Number of levels on which one cell holds both positions.
+int vexture_shared_levels(ivec2 low, ivec2 high) {
+    int differ = (low.x ^ high.x) | (low.y ^ high.y);
+    int bits = (floatBitsToInt(float(differ)) >> 23) - 126;  // of the largest one in it
+    return clamp(VEXTURE_POSITION_BITS - bits, 0, VEXTURE_MOST_DEPTH);
+}
+
+// The level whose cells are no smaller than a footprint of this area, and LEVELS_BELOW more.
+int vexture_finest_level(float area) {
+    int exponent = (floatBitsToInt(area * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127;
+    return clamp(VEXTURE_LEVELS_BELOW - 1 - (exponent >> 1), 1, VEXTURE_MOST_DEPTH);
+}
+
+// The cell at a position: a leaf, or a quad of the level `finest`. `top` moves down to the quad of the level `shared`.
+VextureCell vexture_descend(inout VextureTop top, int shared, int finest, ivec2 position) {
+    uvec4 texel = uvec4(0u);
+    uint shift = 0u;
+    uint quad = top.quad;
+    bool is_quad = true;
+    int bit = VEXTURE_POSITION_BITS - 1 - top.level;
+    int last = VEXTURE_POSITION_BITS - finest;
+    while (is_quad && bit >= last) {
+        texel = vexture_texel(quad);
+        shift = ((uint(position.x) >> bit) & 1u) * 8u + ((uint(position.y) >> bit) & 1u) * 16u;
+        is_quad = ((texel.z >> shift) & uint(VEXTURE_QUAD_FLAG)) != 0u;
+        uint flags = (texel.z >> 7) & 0x01010101u;  // a byte for each cell: whether it is a quad
+        quad = texel.x + (((flags * 0x01010100u) >> shift) & 3u);
+        bit--;
+        bool above = VEXTURE_POSITION_BITS - 1 - bit == shared && is_quad;
+        top.quad = above ? quad : top.quad;
+        top.level = above ? shared : top.level;
+    }
+    return VextureCell(texel, shift, VEXTURE_POSITION_BITS - 1 - bit, is_quad);
+}
+
+float vexture_stored_coverage(VextureCell cell) {
+    return float(int((cell.texel.w >> cell.shift) & 255u)) / float(VEXTURE_COVERAGE_ONE);
+}
+
+int vexture_count(VextureCell cell) {
+    return int((cell.texel.z >> (cell.shift + uint(VEXTURE_COUNT_SHIFT))) & uint(VEXTURE_MOST_CURVES));
+}
+
+// 0 marks a constant leaf.
+int vexture_winding_code(VextureCell cell) {
+    return int((cell.texel.z >> cell.shift) & 7u);
+}
+
+uint vexture_first_curve(VextureCell cell) {
+    uint counts = (cell.texel.z >> VEXTURE_COUNT_SHIFT) & 0x0f0f0f0fu;
+    return cell.texel.y + (((counts * 0x01010100u) >> cell.shift) & 255u);
+}

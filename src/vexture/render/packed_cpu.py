@@ -1,0 +1,315 @@
+"""The packed shader's mirror on the CPU: the functions of ``glsl/packed_*.glsl`` again, in float64.
+
+They have the shader's names without the prefix that keeps those apart from other people's: ``vexture_place`` is
+`place`, ``vextureCoverage`` is `coverage`. The mathematics of one piece of outline is `vexture.render.packed_piece`.
+
+Whoever changes one side changes the other; a test compares names and arguments. What is written here in float64 the
+shader computes in float32, so their difference is what float32 costs. The reasons stand in the shader's comments.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vexture.encoding.layout import (
+    COUNT_SHIFT,
+    COVERAGE_ONE,
+    LATTICE,
+    MOST_CURVES,
+    MOST_DEPTH,
+    QUAD_FLAG,
+    ROW_BITS,
+    WINDING_OFFSET,
+)
+from vexture.encoding.packed_texture import PackedTexture
+from vexture.errors import LimitError
+from vexture.kernels import kernel
+from vexture.render.packed_gpu import view_base
+from vexture.render.packed_piece import Frame, Texel, Vec2, box_area, clear_side, frame, piece, piece_area
+from vexture.render.view import check_size, view_matrix
+from vexture.shaders import QUALITIES
+from vexture.shading import CROSSING, FARTHEST, LEVEL_BIAS, LEVELS_BELOW, MOST_CELLS, POSITION_BITS
+
+__all__ = ["render_packed_cpu"]
+
+Texels = NDArray[np.uint32]
+Whole2 = tuple[int, int]
+
+
+class Place(NamedTuple):
+    """A point and the box of a pixel around it."""
+
+    point: Whole2
+    rest: Vec2
+    low: Whole2
+    high: Whole2
+
+
+class Cell(NamedTuple):
+    """A cell, as the byte of a texel."""
+
+    texel: Texel
+    shift: int
+    level: int
+    is_quad: bool
+
+
+class Top(NamedTuple):
+    """Where a way down the tree begins."""
+
+    quad: int
+    level: int
+
+
+class Lattice(NamedTuple):
+    """Where a cell's lattice stands to the pixel."""
+
+    center: Vec2
+    low: Vec2
+    high: Vec2
+    frame: Frame
+
+
+# --- packed_tree.glsl -------------------------------------------------------------------------------------------------
+
+
+@kernel(allocates=False)
+def texel(texels: Texels, index: int) -> Texel:
+    index &= 0xFFFFFFFF
+    row = min(index >> ROW_BITS, texels.shape[0] - 1)
+    column = min(index & ((1 << ROW_BITS) - 1), texels.shape[1] - 1)
+    found = texels[row, column]
+    return int(found[0]), int(found[1]), int(found[2]), int(found[3])
+
+
+@kernel(allocates=False)
+def place(base: Whole2, offset: Vec2, reach: Vec2) -> Place:
+    x, rest_x, low_x, high_x = place_coordinate(base[0], offset[0], reach[0])
+    y, rest_y, low_y, high_y = place_coordinate(base[1], offset[1], reach[1])
+    return Place((x, y), (rest_x, rest_y), (low_x, low_y), (high_x, high_y))
+
+
+@kernel(allocates=False)
+def place_coordinate(base: int, offset: float, reach: float) -> tuple[int, float, int, int]:
+    """One coordinate of what GLSL computes as vectors."""
+    spare = 32 - POSITION_BITS
+    one = float(1 << POSITION_BITS)
+    scaled = min(max(offset, -FARTHEST), FARTHEST) * one
+    whole = math.floor(scaled)
+    point = (base >> spare) + int(whole)
+    rest = scaled - whole + (base & ((1 << spare) - 1)) / float(1 << spare)
+    extent = min(reach, FARTHEST) * one
+    low = max(point + int(math.floor(rest - extent)), 0)
+    high = min(point + int(math.ceil(rest + extent)) - 1, (1 << POSITION_BITS) - 1)
+    return point, rest, low, high
+
+
+@kernel(allocates=False)
+def shared_levels(low: Whole2, high: Whole2) -> int:
+    differ = (low[0] ^ high[0]) | (low[1] ^ high[1])
+    bits = math.frexp(float(differ))[1]
+    return min(max(POSITION_BITS - bits, 0), MOST_DEPTH)
+
+
+@kernel(allocates=False)
+def finest_level(area: float) -> int:
+    exponent = math.frexp(area * (1.0 - LEVEL_BIAS))[1] - 1
+    return min(max(LEVELS_BELOW - 1 - (exponent >> 1), 1), MOST_DEPTH)
+
+
+@kernel(allocates=False)
+def descend(texels: Texels, top: Top, shared: int, finest: int, position: Whole2) -> tuple[Cell, Top]:
+    """What GLSL changes in its argument `top` is returned."""
+    found = (0, 0, 0, 0)
+    shift = 0
+    quad = top.quad
+    is_quad = True
+    bit = POSITION_BITS - 1 - top.level
+    last = POSITION_BITS - finest
+    while is_quad and bit >= last:
+        found = texel(texels, quad)
+        shift = ((position[0] >> bit) & 1) * 8 + ((position[1] >> bit) & 1) * 16
+        is_quad = ((found[2] >> shift) & QUAD_FLAG) != 0
+        flags = (found[2] >> 7) & 0x01010101
+        quad = found[0] + ((((flags * 0x01010100) & 0xFFFFFFFF) >> shift) & 3)
+        bit -= 1
+        if POSITION_BITS - 1 - bit == shared and is_quad:
+            top = Top(quad, shared)
+    return Cell(found, shift, POSITION_BITS - 1 - bit, is_quad), top
+
+
+@kernel(allocates=False)
+def stored_coverage(cell: Cell) -> float:
+    return ((cell.texel[3] >> cell.shift) & 255) / COVERAGE_ONE
+
+
+@kernel(allocates=False)
+def count(cell: Cell) -> int:
+    return (cell.texel[2] >> (cell.shift + COUNT_SHIFT)) & MOST_CURVES
+
+
+@kernel(allocates=False)
+def winding_code(cell: Cell) -> int:
+    return (cell.texel[2] >> cell.shift) & 7
+
+
+@kernel(allocates=False)
+def first_curve(cell: Cell) -> int:
+    counts = (cell.texel[2] >> COUNT_SHIFT) & 0x0F0F0F0F
+    return cell.texel[1] + ((((counts * 0x01010100) & 0xFFFFFFFF) >> cell.shift) & 255)
+
+
+# --- packed_coverage.glsl ---------------------------------------------------------------------------------------------
+
+
+@kernel(allocates=False)
+def lattice(origin: Whole2, level: int, place: Place, frame: Frame) -> Lattice:
+    scale = LATTICE / float(1 << (POSITION_BITS - level))
+    unit = LATTICE * float(1 << level)
+    x = (place.point[0] - origin[0] + place.rest[0]) * scale
+    y = (place.point[1] - origin[1] + place.rest[1]) * scale
+    reach_x, reach_y = frame.reach[0] * unit, frame.reach[1] * unit
+    right, up = frame.right, frame.up
+    return Lattice(
+        (x, y),
+        (max(-x, -reach_x), max(-y, -reach_y)),
+        (min(LATTICE - x, reach_x), min(LATTICE - y, reach_y)),
+        Frame((right[0] / unit, right[1] / unit), (up[0] / unit, up[1] / unit), frame.reach, frame.turned, frame.size),
+    )
+
+
+@kernel(allocates=False)
+def cell_area(texels: Texels, quality: int, cell: Cell, lattice: Lattice) -> float:
+    code = 0 if cell.is_quad else winding_code(cell)
+    curve = first_curve(cell)
+    winding = code - WINDING_OFFSET
+    low, high = lattice.low, lattice.high
+    area = 0.0
+    for i in range(0 if code == 0 else count(cell)):
+        one = piece(texel(texels, curve + i), lattice.center)
+        winding += 1 if one.starts_left and one.p0[1] <= low[1] else 0
+        winding -= 1 if one.ends_left and one.p3[1] <= low[1] else 0
+        starts = one.starts_left and low[1] < one.p0[1] < high[1]
+        ends = one.ends_left and low[1] < one.p3[1] < high[1]
+        side = CROSSING if starts or ends else clear_side(one, low, high)
+        if side == CROSSING:
+            area += piece_area(quality, one, lattice.frame, low, high)
+        else:
+            winding += side
+    whole = stored_coverage(cell) if code == 0 else float(winding)
+    return area + whole * box_area(quality, lattice.frame, low, high)
+
+
+@kernel(allocates=False)
+def coverage(texels: Texels, quality: int, root: int, base: Whole2, offset: Vec2, dx: Vec2, dy: Vec2) -> float:
+    pixel = frame(quality, dx, dy)
+    there = place(base, offset, pixel.reach)
+    low, high = there.low, there.high
+    shared = shared_levels(low, high)
+    finest = finest_level(pixel.size)
+    top = Top(root, 0)
+    x, row, next_row = low[0], low[1], high[1] + 1
+    cells = MOST_CELLS if low[0] <= high[0] and low[1] <= high[1] else 0
+    area = 0.0
+    while cells > 0:
+        cell, top = descend(texels, top, shared, finest, (x, row))
+        bits = POSITION_BITS - cell.level
+        origin = ((x >> bits) << bits, (row >> bits) << bits)
+        beyond_x, beyond_y = origin[0] + (1 << bits), origin[1] + (1 << bits)
+        local = lattice(origin, cell.level, there, pixel)
+        counted = origin[1] < row != low[1]
+        if not counted and local.low[0] < local.high[0] and local.low[1] < local.high[1]:
+            area += cell_area(texels, quality, cell, local)
+        next_row = min(next_row, beyond_y)
+        x = beyond_x
+        if x > high[0]:
+            x, row, next_row = low[0], next_row, high[1] + 1
+        cells = 0 if row > high[1] else cells - 1
+    return min(max(pixel.turned * area, 0.0), 1.0)
+
+
+# --- packed_view.glsl -------------------------------------------------------------------------------------------------
+
+
+@kernel(allocates=False)
+def packed_view_coverage(
+    texels: Texels, quality: int, root: int, base: Whole2, to_unit: NDArray[np.float64], pixel: Vec2
+) -> float:
+    x, y = pixel
+    w = to_unit[2, 0] * x + to_unit[2, 1] * y + to_unit[2, 2]
+    if w <= 0.5 * (abs(to_unit[2, 0]) + abs(to_unit[2, 1])):
+        return 0.0
+    u = (to_unit[0, 0] * x + to_unit[0, 1] * y + to_unit[0, 2]) / w
+    v = (to_unit[1, 0] * x + to_unit[1, 1] * y + to_unit[1, 2]) / w
+    dx = ((to_unit[0, 0] - u * to_unit[2, 0]) / w, (to_unit[1, 0] - v * to_unit[2, 0]) / w)
+    dy = ((to_unit[0, 1] - u * to_unit[2, 1]) / w, (to_unit[1, 1] - v * to_unit[2, 1]) / w)
+    return coverage(texels, quality, root, base, (u, v), dx, dy)
+
+
+@kernel(allocates=False)
+def draw(
+    texels: Texels, quality: int, root: int, base: Whole2, to_unit: NDArray[np.float64], image: NDArray[np.float32]
+) -> None:
+    for row in range(image.shape[0]):
+        for column in range(image.shape[1]):
+            pixel = (column + 0.5, row + 0.5)
+            image[row, column] = packed_view_coverage(texels, quality, root, base, to_unit, pixel)
+
+
+def render_packed_cpu(
+    texture: PackedTexture,
+    size: tuple[int, int],
+    to_unit: ArrayLike | None = None,
+    *,
+    root: int = 0,
+    quality: str = "exact",
+    base: tuple[int, int] | None = None,
+) -> NDArray[np.float32]:
+    """Render one shape of a packed texture as its shader would with exact arithmetic.
+
+    Parameters
+    ----------
+    texture : PackedTexture
+        What to draw.
+    size : tuple of int
+        Width and height of the image in pixels.
+    to_unit : (2, 3) or (3, 3) array, optional
+        From pixel coordinates (x right, y down, centres at +0.5) to the unit square; None fits the square.
+    root : int
+        Which of the texture's roots, from 0.
+    quality : str
+        ``"exact"`` or ``"fast"`` (`vexture.shaders.shader_source`).
+    base : tuple of int, optional
+        Point that positions are relative to, 1.0 = 2^32, as for `vexture.render.packed_gpu.render_packed_gpu`.
+
+    Returns
+    -------
+    (height, width) float32 array
+        Coverage, 0..1, top row first.
+
+    Raises
+    ------
+    LimitError
+        If the size or the view is out of range, or there is no such root or quality.
+
+    Examples
+    --------
+    >>> from vexture.encoding.packed_texture import Root
+    >>> full_cells = np.array([[[0, 0, 0, 0xFFFFFFFF]]], np.uint32)
+    >>> render_packed_cpu(PackedTexture(full_cells, (Root("full"),)), (1, 1))
+    array([[1.]], dtype=float32)
+    """
+    width, height = check_size(size)
+    matrix = view_matrix(to_unit, size)
+    if not 0 <= root < len(texture.roots):
+        raise LimitError(f"root is {root}; {texture.name} has {len(texture.roots)}, numbered from 0")
+    if quality not in QUALITIES:
+        raise LimitError(f"quality is {quality!r}; there are {', '.join(map(repr, QUALITIES))}")
+    base = view_base(matrix, size) if base is None else base
+    relative = matrix.copy()
+    relative[:2] -= np.outer(base, matrix[2]) / 2.0**32
+    image = np.empty((height, width), np.float32)
+    draw(texture.texels, QUALITIES[quality], texture.roots[root].quad, base, relative, image)
+    return image

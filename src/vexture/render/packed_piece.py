@@ -1,0 +1,297 @@
+"""The mirror of ``glsl/packed_pixel.glsl`` and ``glsl/packed_piece.glsl`` (see `vexture.render.packed_cpu`).
+
+What the shader's text has twice, for its two qualities, is chosen here by the argument `quality`.
+"""
+
+import math
+from typing import NamedTuple
+
+from vexture.encoding.layout import CONTROL_OFFSET, COORDINATE_BITS
+from vexture.kernels import kernel
+from vexture.shading import (
+    BEND,
+    CLOSE,
+    CROSSING,
+    EXACT,
+    MOST_CHORDS,
+    NO_SIZE,
+    SHORT_WAY,
+    SMALLEST_PIXEL,
+    STEPS,
+    THINNEST_PIXEL,
+)
+
+__all__ = ["Frame", "Piece", "Texel", "Vec2", "beside", "box_area", "clear_side", "frame", "piece", "piece_area"]
+
+Vec2 = tuple[float, float]
+Vec4 = tuple[float, float, float, float]
+Texel = tuple[int, int, int, int]
+
+
+class Frame(NamedTuple):
+    """In which the pixel's footprint is the square from -1/2 to 1/2."""
+
+    right: Vec2
+    up: Vec2
+    reach: Vec2
+    turned: float
+    size: float
+
+
+class Piece(NamedTuple):
+    """Monotone in x and y, relative to the pixel's centre, in lattice units of the leaf."""
+
+    p0: Vec2
+    p1: Vec2
+    p2: Vec2
+    p3: Vec2
+    starts_left: bool
+    ends_left: bool
+
+
+@kernel(allocates=False)
+def clamp(value: float, low: float, high: float) -> float:
+    return min(max(value, low), high)
+
+
+# --- packed_pixel.glsl ------------------------------------------------------------------------------------------------
+
+
+@kernel(allocates=False)
+def frame(quality: int, dx: Vec2, dy: Vec2) -> Frame:
+    larger = max(dx[0] * dx[0] + dx[1] * dx[1], dy[0] * dy[0] + dy[1] * dy[1])
+    if not larger > SMALLEST_PIXEL * SMALLEST_PIXEL:
+        dx = (SMALLEST_PIXEL, 0.0)
+        dy = (0.0, SMALLEST_PIXEL)
+        larger = SMALLEST_PIXEL * SMALLEST_PIXEL
+    area = dx[0] * dy[1] - dx[1] * dy[0]
+    if abs(area) < THINNEST_PIXEL * larger:
+        dx = dx if dx[0] * dx[0] + dx[1] * dx[1] == larger else dy
+        dy = (-dx[1] * THINNEST_PIXEL, dx[0] * THINNEST_PIXEL)
+        area = THINNEST_PIXEL * larger
+    if quality == EXACT:
+        reach = (0.5 * (abs(dx[0]) + abs(dy[0])), 0.5 * (abs(dx[1]) + abs(dy[1])))
+        shrink = 1.0 / area
+        turned = 1.0 if area > 0.0 else -1.0
+        return Frame((dy[1] * shrink, -dy[0] * shrink), (-dx[1] * shrink, dx[0] * shrink), reach, turned, abs(area))
+    square = max(dx[1] * dx[1] + dy[1] * dy[1], THINNEST_PIXEL * THINNEST_PIXEL * larger)
+    up = 1.0 / math.sqrt(square)
+    height = square * up
+    width = abs(area) * up
+    right = 1.0 / width
+    lean = (dx[0] * dx[1] + dy[0] * dy[1]) * up
+    reach = (0.5 * (width + abs(lean)), 0.5 * height)
+    return Frame((right, -lean * up * right), (0.0, up), reach, 1.0, abs(area))
+
+
+@kernel(allocates=False)
+def into_frame(frame: Frame, point: Vec2) -> Vec2:
+    right, up = frame.right, frame.up
+    return right[0] * point[0] + right[1] * point[1], up[0] * point[0] + up[1] * point[1]
+
+
+@kernel(allocates=False)
+def ramp(u: float) -> float:
+    held = clamp(u, 0.0, 1.0)
+    return held * (u - 0.5 * held)
+
+
+@kernel(allocates=False)
+def mean_clamped(u0: float, u1: float) -> float:
+    way = u1 - u0
+    if abs(way) < SHORT_WAY:
+        return clamp(0.5 * (u0 + u1), 0.0, 1.0)
+    return (ramp(u1) - ramp(u0)) / way
+
+
+@kernel(allocates=False)
+def beside(p: Vec2, q: Vec2) -> float:
+    y0 = clamp(p[1], -0.5, 0.5)
+    y1 = clamp(q[1], -0.5, 0.5)
+    rise = q[1] - p[1]
+    slope = (q[0] - p[0]) / rise if rise != 0.0 else 0.0
+    u0 = 0.5 - p[0] - (y0 - p[1]) * slope
+    u1 = 0.5 - p[0] - (y1 - p[1]) * slope
+    return (y0 - y1) * mean_clamped(u0, u1)
+
+
+@kernel(allocates=False)
+def part_inside(p: Vec2, q: Vec2) -> float:
+    way_x, way_y = q[0] - p[0], q[1] - p[1]
+    held_x = clamp(q[0], -0.5, 0.5) - clamp(p[0], -0.5, 0.5)
+    held_y = clamp(q[1], -0.5, 0.5) - clamp(p[1], -0.5, 0.5)
+    return (held_x / way_x if abs(way_x) > 0.0 else 1.0) * (held_y / way_y if abs(way_y) > 0.0 else 1.0)
+
+
+@kernel(allocates=False)
+def box_area(quality: int, frame: Frame, low: Vec2, high: Vec2) -> float:
+    p = into_frame(frame, low)
+    q = into_frame(frame, (high[0], low[1]))
+    r = into_frame(frame, high)
+    s = into_frame(frame, (low[0], high[1]))
+    area = beside(q, r) + beside(s, p)
+    if quality == EXACT:
+        area += beside(p, q) + beside(r, s)
+    return area
+
+
+# --- packed_piece.glsl ------------------------------------------------------------------------------------------------
+
+
+@kernel(allocates=False)
+def lattice_point(word: int) -> Vec2:
+    return float(word & ((1 << COORDINATE_BITS) - 1)), float(word >> COORDINATE_BITS)
+
+
+@kernel(allocates=False)
+def piece(texel: Texel, center: Vec2) -> Piece:
+    p0 = lattice_point(texel[0])
+    p1 = lattice_point(texel[1])
+    p2 = lattice_point(texel[2])
+    p3 = lattice_point(texel[3])
+    x, y = center
+    off_x, off_y = x + CONTROL_OFFSET, y + CONTROL_OFFSET
+    return Piece(
+        (p0[0] - x, p0[1] - y),
+        (p1[0] - off_x, p1[1] - off_y),
+        (p2[0] - off_x, p2[1] - off_y),
+        (p3[0] - x, p3[1] - y),
+        p0[0] == 0.0,
+        p3[0] == 0.0,
+    )
+
+
+@kernel(allocates=False)
+def polynomial(p0: float, p1: float, p2: float, p3: float) -> Vec4:
+    return p3 - p0 + 3.0 * (p1 - p2), 3.0 * (p0 - 2.0 * p1 + p2), 3.0 * (p1 - p0), p0
+
+
+@kernel(allocates=False)
+def evaluate(k: Vec4, t: float) -> float:
+    return ((k[0] * t + k[1]) * t + k[2]) * t + k[3]
+
+
+@kernel(allocates=False)
+def clear_side(piece: Piece, low: Vec2, high: Vec2) -> int:
+    p0, p1, p2, p3 = piece.p0, piece.p1, piece.p2, piece.p3
+    bottom, top = min(p0[1], p3[1]), max(p0[1], p3[1])
+    left, right = min(p0[0], p3[0]), max(p0[0], p3[0])
+    way = (p3[0] - p0[0], p3[1] - p0[1])
+    h1 = way[0] * (p1[1] - p0[1]) - way[1] * (p1[0] - p0[0])
+    h2 = way[0] * (p2[1] - p0[1]) - way[1] * (p2[0] - p0[0])
+    h = way[0] * (0.5 * (low[1] + high[1]) - p0[1]) - way[1] * (0.5 * (low[0] + high[0]) - p0[0])
+    spread = 0.5 * (abs(way[0]) * (high[1] - low[1]) + abs(way[1]) * (high[0] - low[0]))
+    beyond_left = h - spread >= 0.75 * max(0.0, max(h1, h2))
+    beyond_right = h + spread <= 0.75 * min(0.0, min(h1, h2))
+    rises = way[1] > 0.0
+    box_before = (beyond_left if rises else beyond_right) or left >= high[0]
+    box_after = (beyond_right if rises else beyond_left) or right <= low[0]
+    if top <= low[1] or bottom >= high[1] or box_before:
+        return 0
+    if bottom <= low[1] and top >= high[1] and box_after:
+        return -1 if rises else 1
+    return CROSSING
+
+
+@kernel(allocates=False)
+def better_t(kx: Vec4, ky: Vec4, corner: Vec2, later: bool, t: float) -> float:
+    x_error = evaluate(kx, t) - corner[0]
+    y_error = evaluate(ky, t) - corner[1]
+    x_slope = (3.0 * kx[0] * t + 2.0 * kx[1]) * t + kx[2]
+    y_slope = (3.0 * ky[0] * t + 2.0 * ky[1]) * t + ky[2]
+    x_decides = (y_error * x_slope > x_error * y_slope) == later
+    error = x_error if x_decides else y_error
+    slope = x_slope if x_decides else y_slope
+    bend = 6.0 * kx[0] * t + 2.0 * kx[1] if x_decides else 6.0 * ky[0] * t + 2.0 * ky[1]
+    divisor = slope + math.sqrt(max(4.0 * slope * slope - 6.0 * error * bend, 0.0))
+    return clamp(t - 3.0 * error / divisor, 0.0, 1.0) if divisor > 0.0 else t
+
+
+@kernel(allocates=False)
+def bulge(first: Vec2, last: Vec2, chord: Vec2) -> float:
+    turned = first[0] * chord[1] - first[1] * chord[0] + chord[0] * last[1] - chord[1] * last[0]
+    return 0.15 * (2.0 * turned - (first[0] * last[1] - first[1] * last[0]))
+
+
+@kernel(allocates=False)
+def point(kx: Vec4, ky: Vec4, t: float, mirror: Vec2, low: Vec2, high: Vec2) -> Vec2:
+    x = clamp(evaluate(kx, t) * mirror[0], low[0], high[0])
+    return x, clamp(evaluate(ky, t) * mirror[1], low[1], high[1])
+
+
+@kernel(allocates=False)
+def speed(kx: Vec4, ky: Vec4, t: float, mirror: Vec2, frame: Frame) -> Vec2:
+    x = (3.0 * kx[0] * t + 2.0 * kx[1]) * t + kx[2]
+    y = (3.0 * ky[0] * t + 2.0 * ky[1]) * t + ky[2]
+    return into_frame(frame, (x * mirror[0], y * mirror[1]))
+
+
+@kernel(allocates=False)
+def curve_area(kx: Vec4, ky: Vec4, t0: float, t1: float, mirror: Vec2, frame: Frame, low: Vec2, high: Vec2) -> float:
+    p = into_frame(frame, point(kx, ky, t0, mirror, low, high))
+    first = speed(kx, ky, t0, mirror, frame)
+    end = speed(kx, ky, t1, mirror, frame)
+    bend = abs(first[0] * end[1] - first[1] * end[0]) * (t1 - t0) * (t1 - t0)
+    chords = 1 + int(min(BEND * bend, MOST_CHORDS - 1.0))
+    step_t = (t1 - t0) / chords
+    third = step_t / 3.0
+    t = t0
+    area = 0.0
+    while chords > 0:
+        chords -= 1
+        t += step_t
+        q = into_frame(frame, point(kx, ky, t, mirror, low, high))
+        last = speed(kx, ky, t, mirror, frame)
+        more = bulge(
+            (first[0] * third, first[1] * third), (last[0] * third, last[1] * third), (q[0] - p[0], q[1] - p[1])
+        )
+        area += beside(p, q) + more * part_inside(p, q)
+        p = q
+        first = last
+    return area
+
+
+@kernel(allocates=False)
+def piece_area(quality: int, piece: Piece, frame: Frame, low: Vec2, high: Vec2) -> float:
+    p0, p1, p2, p3 = piece.p0, piece.p1, piece.p2, piece.p3
+    way = (p3[0] - p0[0], p3[1] - p0[1])
+    mirror = (-1.0 if way[0] < 0.0 else 1.0, -1.0 if way[1] < 0.0 else 1.0)
+    mx, my = mirror
+    kx = polynomial(mx * p0[0], mx * p1[0], mx * p2[0], mx * p3[0])
+    ky = polynomial(my * p0[1], my * p1[1], my * p2[1], my * p3[1])
+    start = (-high[0] if mx < 0.0 else low[0], -high[1] if my < 0.0 else low[1])
+    to = (-low[0] if mx < 0.0 else high[0], -low[1] if my < 0.0 else high[1])
+    size_x, size_y = max(abs(way[0]), NO_SIZE), max(abs(way[1]), NO_SIZE)
+    t0 = clamp(max((start[0] - kx[3]) / size_x, (start[1] - ky[3]) / size_y), 0.0, 1.0)
+    t1 = clamp(min((to[0] - kx[3]) / size_x, (to[1] - ky[3]) / size_y), 0.0, 1.0)
+    pixels_x = size_x * abs(frame.right[0]) + size_y * abs(frame.right[1])
+    pixels_y = size_x * abs(frame.up[0]) + size_y * abs(frame.up[1])
+    close = CLOSE / max(pixels_x, pixels_y)
+    for _ in range(STEPS):
+        before0, before1 = t0, t1
+        t0 = better_t(kx, ky, start, True, t0)
+        t1 = better_t(kx, ky, to, False, t1)
+        if not abs(t0 - before0) + abs(t1 - before1) > close:
+            break
+    t1 = max(t0, t1)
+
+    y0 = clamp(p0[1], low[1], high[1])
+    y3 = clamp(p3[1], low[1], high[1])
+    enter = point(kx, ky, t0, mirror, low, high)
+    leave = point(kx, ky, t1, mirror, low, high)
+    area = curve_area(kx, ky, t0, t1, mirror, frame, low, high)
+
+    left_start, left_end = (leave[1], y3) if mx < 0.0 else (y0, enter[1])
+    right_start, right_end = (y3, enter[1]) if mx < 0.0 else (leave[1], y0)
+    if piece.starts_left and low[1] < p0[1] < high[1] and mx > 0.0:
+        left_start = right_end = high[1]
+    if piece.ends_left and low[1] < p3[1] < high[1]:
+        left_end = right_start = high[1]
+    area += beside(into_frame(frame, (low[0], left_start)), into_frame(frame, (low[0], left_end)))
+    r0 = into_frame(frame, (high[0], right_start))
+    r1 = into_frame(frame, (high[0], right_end))
+    area += beside(r0, r1)
+    if quality == EXACT:
+        area += beside(into_frame(frame, (leave[0], right_start)), r0)
+        area += beside(r1, into_frame(frame, (enter[0], right_end)))
+    return area

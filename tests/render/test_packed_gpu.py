@@ -1,0 +1,135 @@
+import math
+
+import numpy as np
+import pytest
+from hand import need_gpu
+from numpy.typing import NDArray
+
+from vexture.drawing import Drawing
+from vexture.encoding.packed import encode_packed
+from vexture.encoding.packed_texture import PackedTexture, Root
+from vexture.errors import LimitError
+from vexture.quadtree.build_packed import build_packed
+from vexture.render.exact import render_exact
+from vexture.render.packed_gpu import render_packed_gpu
+from vexture.render.view import window
+from vexture.shaders import packed_text, shader_source
+
+QUALITIES = ["fast", "exact"]
+K = 0.5522847498
+STEP = 1 / 255
+
+
+def blob() -> Drawing:
+    """A ring of cubics with a straight-edged hole: curves, corners and a winding of both signs."""
+    arcs = []
+    for quarter in range(4):
+        turn = np.linalg.matrix_power(np.array([[0.0, -1.0], [1.0, 0.0]]), quarter)
+        arcs.append(np.array([(1, 0), (1, K), (K, 1), (0, 1)]) @ turn.T * 0.41 + (0.52, 0.47))
+    for arc, following in zip(arcs, arcs[1:] + arcs[:1], strict=True):
+        arc[3] = following[0]
+    hole = Drawing.polygon([(0.4, 0.35), (0.45, 0.61), (0.66, 0.52)]).paths[0].contours[0]
+    path = type(Drawing.polygon([(0, 0), (1, 0), (0, 1)]).paths[0])((np.array(arcs), hole))
+    return Drawing((path,), name="blob")
+
+
+def texture_of(drawing: Drawing, **options: float) -> PackedTexture:
+    return encode_packed([build_packed(drawing, **options)], [Root(drawing.name)], name=drawing.name)
+
+
+def turned(pixels: float, degrees: float, narrow: float = 1.0) -> tuple[tuple[int, int], NDArray[np.float64]]:
+    """View of the turned unit square at so many pixels to its side, `narrow` times fewer from top to bottom."""
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    ahead = np.array([[pixels * c, -pixels * s, 0.0], [pixels * s / narrow, pixels * c / narrow, 0.0], [0.0, 0.0, 1.0]])
+    corners = (ahead @ np.array([[0, 1, 0, 1], [0, 0, 1, 1], [1, 1, 1, 1]]))[:2]
+    size = np.ceil(np.ptp(corners, axis=1)).astype(int) + 3
+    ahead[:2, 2] = 1.37 - corners.min(axis=1)
+    return (int(size[0]), int(size[1])), np.linalg.inv(ahead)
+
+
+def mean_error(
+    drawing: Drawing, size: tuple[int, int], view: NDArray[np.float64], quality: str, **options: float
+) -> float:
+    truth = render_exact(drawing, size, view)
+    image = render_packed_gpu(texture_of(drawing, **options), size, view, quality=quality)
+    assert np.isfinite(image).all()
+    touched = np.maximum(image, truth) > 0.0001
+    return float(np.abs(image - truth)[touched].mean() / STEP)
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+@pytest.mark.parametrize("pixels", [1, 4, 16, 90, 400])
+def test_upright_pixels_get_their_exact_coverage(quality: str, pixels: float) -> None:
+    need_gpu()
+    assert mean_error(blob(), *turned(pixels, 0.0), quality) < (0.5 if pixels > 2 else 1.2)
+
+
+@pytest.mark.parametrize(("degrees", "narrow"), [(30, 1), (45, 8), (-70, 3)])
+@pytest.mark.parametrize("pixels", [12, 90])
+def test_exact_is_exact_at_every_tilt(pixels: float, degrees: float, narrow: float) -> None:
+    need_gpu()
+    assert mean_error(blob(), *turned(pixels, degrees, narrow), "exact") < 1.5
+
+
+@pytest.mark.parametrize(("degrees", "narrow", "limit"), [(30, 1, 1.5), (45, 8, 2.5)])
+def test_fast_is_near_at_a_tilt(degrees: float, narrow: float, limit: float) -> None:
+    need_gpu()
+    assert mean_error(blob(), *turned(90, degrees, narrow), "fast") < limit
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_a_plane_to_the_horizon(quality: str) -> None:
+    need_gpu()
+    view = np.array([[0.02, 0.0, -0.5], [0.001, -0.02, 1.1], [0.0, 0.012, 0.1]])
+    assert mean_error(blob(), (97, 64), view, quality) < 2.0
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_deep_zoom_shows_a_straight_edge_where_it_is(quality: str) -> None:
+    need_gpu()
+    drawing = Drawing.polygon([(0.1, 0.2), (0.9, 0.41), (0.3, 0.93)])
+    x = 0.5 - 2.0**-14
+    view = window((64, 64), x, 0.2 + 0.21 * (0.5 - 0.1) / 0.8 - 2.0**-14, 2.0**-13, 2.0**-13)
+    assert mean_error(drawing, (64, 64), view, quality, precision=1e-7) < 3.0
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_nothing_lies_outside_the_square_and_its_edge_is_smoothed(quality: str) -> None:
+    need_gpu()
+    everything = texture_of(Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]))
+    image = render_packed_gpu(everything, (6, 4), [[0.25, 0, -0.125], [0, -0.25, 1.0625]], quality=quality)
+    np.testing.assert_allclose(image[1:-1], [[0.5, 1, 1, 1, 0.5, 0]] * 2, atol=1e-6)
+    np.testing.assert_allclose(image[:, 2], [0.75, 1, 1, 1], atol=1e-6)
+
+
+def test_one_texture_holds_many_shapes() -> None:
+    need_gpu()
+    shapes = [Drawing.polygon([(0.1, 0.1), (0.8, 0.2), (0.4, 0.9)]), blob()]
+    together = encode_packed([build_packed(shape) for shape in shapes], [Root("a"), Root("b")], name="both")
+    for root, shape in enumerate(shapes):
+        alone = render_packed_gpu(texture_of(shape), (50, 50))
+        np.testing.assert_array_equal(render_packed_gpu(together, (50, 50), root=root), alone)
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_random_bits_end_and_are_numbers(quality: str) -> None:
+    need_gpu()
+    bits = np.random.default_rng(7).integers(0, 1 << 32, (3, 2048, 4), dtype=np.uint32)
+    image = render_packed_gpu(PackedTexture(bits, (Root("noise"),)), (40, 40), quality=quality)
+    assert np.isfinite(image).all()
+    assert image.min() >= 0.0
+    assert image.max() <= 1.0
+
+
+def test_a_quality_that_does_not_exist_is_named() -> None:
+    with pytest.raises(LimitError, match="'best'"):
+        shader_source(quality="best")
+    with pytest.raises(LimitError, match="'100'"):
+        shader_source("100")
+
+
+def test_the_text_can_be_pasted() -> None:
+    text = shader_source()
+    assert "#version" not in text
+    assert "VEXTURE_QUALITY 1" in text
+    assert "VEXTURE_QUALITY 0" in packed_text("packed_coverage.glsl", "fast")

@@ -1,0 +1,189 @@
+"""The command line on shapes: colours, parts of drawings, atlases."""
+
+import re
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import vexture
+from test_cli import SQUARE, SVG, run
+
+LOGO = SVG.format(
+    '<rect width="10" height="10" fill="#00f"/><path id="word" d="M2 2h6v4h-6z" fill="white"/>'
+    '<path d="M2 5h6v4h-6z" fill="red" fill-opacity="0.5"/>'
+)
+STAR = SVG.format('<path d="M5 0 2 9 9 3 1 3 8 9z"/><circle cx="5" cy="5" r="3"/>')
+
+CPU = ("--renderer", "cpu")
+
+
+@pytest.fixture
+def square(tmp_path):
+    file = tmp_path / "square.svg"
+    file.write_text(SQUARE)
+    return file
+
+
+def test_parameters_of_packed_reach_the_conversion(tmp_path):
+    star = tmp_path / "star.svg"
+    star.write_text(STAR)
+    arguments = ("--capacity", 2, "--precision", 1e-6, "--max-depth", 12, "--tolerance", 1e-3)
+    assert run("convert", star, "-o", tmp_path, *arguments).exit_code == 0
+    texture = vexture.load(tmp_path / "star.ktx2")
+    expected = vexture.convert(star, capacity=2, precision=1e-6, max_depth=12, tolerance=1e-3)
+    np.testing.assert_array_equal(texture.texels, expected.texels)
+    assert texture.roots[0].tolerance == 1e-3
+
+
+def test_colours_and_parts(tmp_path):
+    logo = tmp_path / "logo.svg"
+    logo.write_text(LOGO)
+    result = run("convert", logo, "-o", tmp_path, "--split", "paint")
+    assert result.exit_code == 0
+    assert "12 segments, 3 layers, " in result.stdout
+    roots = vexture.load(tmp_path / "logo.ktx2").roots
+    assert [root.name for root in roots] == ["logo/1-#0000ff", "logo/2-#ffffff", "logo/3-#ff000080"]
+    assert roots[2].paint == vexture.Paint((1.0, 0.0, 0.0), 0.5)
+    result = run("convert", logo, "-o", tmp_path, "--select", "#word", "--encoding", "thesis")
+    assert (result.exit_code, result.stdout[:19]) == (0, "logo: 4 segments, 1")
+    result = run("convert", logo, "-o", tmp_path, "--select", "#wrod")
+    assert (result.exit_code, result.output.count("\n")) == (1, 1)
+    assert "'#wrod' matches no element" in result.output
+    assert [root.name for root in vexture.load(tmp_path / "logo.ktx2").roots] == [root.name for root in roots]
+
+
+def test_atlas(square, tmp_path):
+    logo = tmp_path / "logo.svg"
+    logo.write_text(LOGO)
+    target = tmp_path / "new" / "all.ktx2"
+    result = run("convert", square, logo, "--atlas", target)
+    assert result.exit_code == 0
+    first, second, last = result.stdout.splitlines()
+    assert first.startswith("square: 4 segments, ")
+    assert second.startswith("logo: 12 segments, ")
+    assert last == f"{target}: 2 shapes, {target.stat().st_size} bytes"
+    assert [file.name for file in target.parent.iterdir()] == ["all.ktx2"]
+    texture = vexture.load(target)
+    assert texture.name == "all"
+    np.testing.assert_array_equal(texture.texels, vexture.atlas([square, logo]).texels)
+    sizes = [int(re.search(r"(\d+) bytes", line)[1]) for line in (first, second)]
+    assert texture.roots[1].quad * 16 == sizes[0]
+    assert sum(sizes) <= texture.nbytes
+    assert run("convert", square, logo, "--atlas", target, "--split", "paint").exit_code == 0
+    names = [root.name for root in vexture.load(target).roots]
+    assert names == ["square/1-#000000", "logo/1-#0000ff", "logo/2-#ffffff", "logo/3-#ff000080"]
+
+
+def test_an_atlas_is_whole_or_not_written(square, tmp_path):
+    bad = tmp_path / "bad.svg"
+    bad.write_text("not xml")
+    target = tmp_path / "all.ktx2"
+    result = run("convert", bad, square, tmp_path / "gone.svg", "--atlas", target)
+    assert result.exit_code == 1
+    assert f"{bad}: not well-formed" in result.output
+    assert "gone.svg: cannot be read" in result.output
+    assert f"2 of 3 files failed; {target} is not written" in result.output
+    run("convert", square, "--atlas", target)
+    old = target.read_bytes()
+    assert run("convert", square, square, "--atlas", target).exit_code == 1
+    assert run("convert", square, bad, "--atlas", target).exit_code == 1
+    assert target.read_bytes() == old
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["all.ktx2", "bad.svg", "square.svg"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (("--bits", "8"), "use the encoding thesis"),
+        (("--strategy", "sampled"), "use the encoding thesis"),
+        (("--encoding", "thesis", "--split", "paint"), "use the encoding packed"),
+        (("--encoding", "thesis", "--capacity", "4"), "use the encoding packed"),
+        (("--encoding", "thesis", "--precision", "1e-3"), "use the encoding packed"),
+        (("--encoding", "thesis", "--atlas", "all.ktx2"), "use the encoding packed"),
+        (("--atlas", "all.png"), "ends in .ktx2"),
+        (("--atlas", "out"), "ends in .ktx2"),
+        (("--atlas", "folder.ktx2"), "name one"),
+        (("--atlas", "all.ktx2", "-o", "out"), "leave --output out"),
+        (("--atlas", "square.svg/all.ktx2"), "choose another place"),
+        (("--capacity", "0"), "1..15"),
+        (("--capacity", "16"), "1..15"),
+        (("--precision", "nan"), "precision nan"),
+        (("--max-depth", "21"), "1..20"),
+        (("--tolerance", "-1"), "tolerance -1.0 is outside 0 to 1"),
+        (("--select", "g >"), "no CSS selector"),
+    ],
+)
+def test_options_that_do_not_fit_get_one_line(square, tmp_path, monkeypatch, arguments, says):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "folder.ktx2").mkdir()
+    result = run("convert", square, *arguments)
+    assert (result.exit_code, result.stderr.count("\n")) == (1, 1)
+    assert says in result.stderr
+    assert sorted(file.name for file in tmp_path.rglob("*")) == ["folder.ktx2", "square.svg"]
+
+
+def drawn(folder, *arguments):
+    """Picture that a renderer other than the GPU draws."""
+    picture = folder / "picture.png"
+    result = run("render", *arguments, "-o", picture, "--size", 20)
+    assert (result.exit_code, result.output) == (0, "")
+    with Image.open(picture) as image:
+        return np.asarray(image).astype(int)
+
+
+def test_render_of_colours_and_parts_of_a_drawing(tmp_path):
+    logo = tmp_path / "logo.svg"
+    logo.write_text(LOGO)
+    colours = drawn(tmp_path, logo, "--split", "paint", "--renderer", "exact")
+    assert colours.shape == (20, 20, 3)
+    assert colours[10, 1].tolist() == [0, 0, 255]
+    assert colours[8, 6].tolist() == [255, 255, 255]
+    assert colours[12, 14].tolist() == [128, 0, 128]
+    assert colours[10, 6].tolist() == [255, 128, 128]
+    part = drawn(tmp_path, logo, "--select", "#word", "--renderer", "exact")
+    assert part.shape == (20, 20)
+    assert part.min() == part[8, 6] == 0
+    assert part[10, 1] == 255
+
+
+def test_render_of_an_atlas(square, tmp_path):
+    logo, atlas = tmp_path / "logo.svg", tmp_path / "all.ktx2"
+    logo.write_text(LOGO)
+    run("convert", square, logo, "--atlas", atlas, "--split", "paint")
+    colours = drawn(tmp_path, logo, "--split", "paint", "--renderer", "exact")
+    for quality in ("fast", "exact"):
+        assert np.abs(drawn(tmp_path, atlas, *CPU, "--root", "logo", "--quality", quality) - colours).max() <= 3
+    word = drawn(tmp_path, logo, "--select", "#word", "--renderer", "exact")
+    for root in ("logo/2-#ffffff", "2"):
+        assert np.abs(drawn(tmp_path, atlas, *CPU, "--root", root) - word).max() <= 3
+    run("convert", logo, "-o", tmp_path, "--split", "paint")
+    assert np.abs(drawn(tmp_path, tmp_path / "logo.ktx2", *CPU) - colours).max() <= 3
+    run("convert", square, "-o", tmp_path)
+    assert (
+        np.abs(drawn(tmp_path, tmp_path / "square", *CPU) - drawn(tmp_path, square, "--renderer", "exact")).max() <= 3
+    )
+
+
+@pytest.mark.parametrize(
+    ("shown", "arguments", "says"),
+    [
+        ("all.ktx2", (), "2 drawings (square, logo); choose one by root"),
+        ("all.ktx2", ("--root", "lgo"), "lgo"),
+        ("all.ktx2", ("--root", "7"), "7"),
+        ("all.ktx2", ("--root", "logo", "--split", "paint"), "needs the drawing"),
+        ("all.ktx2", ("--select", "#word"), "needs the drawing"),
+        ("all.ktx2", ("--root", "logo", "--renderer", "exact"), "draws drawings"),
+        ("logo.svg", ("--root", "logo"), "leave it out"),
+        ("logo.svg", ("--select", "#wrod"), "matches no element"),
+        ("logo.svg", ("--quality", "fast", "--renderer", "exact"), "knows no quality"),
+    ],
+)
+def test_what_cannot_be_drawn_gets_one_line(square, tmp_path, shown, arguments, says):
+    logo = tmp_path / "logo.svg"
+    logo.write_text(LOGO)
+    run("convert", square, logo, "--atlas", tmp_path / "all.ktx2", "--split", "paint")
+    result = run("render", tmp_path / shown, *arguments, "-o", tmp_path / "x.png")
+    assert (result.exit_code, result.output.count("\n")) == (1, 1)
+    assert says in result.output
+    assert not (tmp_path / "x.png").exists()
