@@ -92,13 +92,28 @@ def _separate(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
 
 
 @kernel
-def _all_separate(curves: NDArray[np.float64]) -> bool:
-    """Whether no two pieces, horizontal ones aside, touch but at their ends."""
-    for i in range(len(curves)):
-        if curves[i, 0, 1] == curves[i, 3, 1]:
+def _ends_on(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
+    """Whether an end of one piece may lie on another that is not horizontal, between its ends."""
+    if b[0, 1] == b[3, 1]:
+        return False
+    for end in (0, 3):
+        x, y = a[end, 0], a[end, 1]
+        if (x == b[0, 0] and y == b[0, 1]) or (x == b[3, 0] and y == b[3, 1]):
             continue
+        if min(b[0, 0], b[3, 0]) <= x <= max(b[0, 0], b[3, 0]) and min(b[0, 1], b[3, 1]) <= y <= max(b[0, 1], b[3, 1]):
+            return True
+    return False
+
+
+@kernel
+def _all_separate(curves: NDArray[np.float64]) -> bool:
+    """Whether no two pieces touch but at their ends, two horizontal ones aside: then each has one role all along."""
+    for i in range(len(curves)):
         for j in range(i):
-            if curves[j, 0, 1] != curves[j, 3, 1] and not _separate(curves[i], curves[j]):
+            a, b = curves[i], curves[j]
+            if a[0, 1] == a[3, 1] and b[0, 1] == b[3, 1]:
+                continue
+            if not _separate(a, b) or _ends_on(a, b) or _ends_on(b, a):
                 return False
     return True
 
