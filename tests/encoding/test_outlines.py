@@ -27,7 +27,8 @@ ONE_LEVEL = 1 / 255
 POINTS = 2_000
 CLEAR = 1e-4  # unit-square units: chords of the brute force, rounding to leaves of half the square
 
-SEEDS = range(40)
+T_JUNCTIONS = (155, 157, 277, 300, 322, 331, 339, 356, 365)
+SEEDS = [*range(40), *T_JUNCTIONS]  # in these, pieces end on others
 SQUARE = Drawing.polygon([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75)])
 
 
