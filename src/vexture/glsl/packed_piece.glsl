@@ -157,11 +157,9 @@ float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 
     vec2 l1 = vexture_into_frame(frame, vec2(low.x, left_end));
     vec2 r0 = vexture_into_frame(frame, vec2(high.x, right_start));
     vec2 r1 = vexture_into_frame(frame, vec2(high.x, right_end));
-    area += vexture_beside(l0, l1) + vexture_beside(r0, r1);
-#if VEXTURE_QUALITY == VEXTURE_EXACT
-    vec2 f = vexture_into_frame(frame, vec2(enter.x, right_end));
-    vec2 g = vexture_into_frame(frame, vec2(leave.x, right_start));
-    area += vexture_beside(g, r0) + vexture_beside(r1, f);
-#endif
+    vec2 e0 = vexture_into_frame(frame, vec2(enter.x, right_end));
+    vec2 e1 = vexture_into_frame(frame, vec2(leave.x, right_start));
+    area += vexture_beside_sloped(l0, l1.y, frame.upright) + vexture_beside_sloped(r0, r1.y, frame.upright);
+    area += vexture_beside_sloped(e1, r0.y, frame.level) + vexture_beside_sloped(r1, e0.y, frame.level);
     return area;
 }
