@@ -92,7 +92,8 @@ float vextureCoverage(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
         next_row = row_ends ? place.high.y + 1 : next_row;
         cells = row > place.high.y ? 0 : cells - 1;
     }
-    return clamp(frame.turned * area, 0.0, 1.0);
+    area *= frame.turned;
+    return area > 0.0 ? min(area, 1.0) : 0.0;  // 0 too if the parameters were not numbers
 }
 
 float vextureCoverage(uint root, vec2 uv, vec2 dx, vec2 dy) {

@@ -1,5 +1,5 @@
 // The pixel's footprint: a parallelogram, and the frame in which it is the square from -1/2 to 1/2.
-// Exports: VextureFrame, vexture_frame, vexture_into_frame, vexture_beside, vexture_box_area.
+// Exports: VextureFrame, vexture_frame, vexture_into_frame, vexture_beside, vexture_part_inside, vexture_box_area.
 
 struct VextureFrame {
     vec2 right;   // its rows: from the drawing's plane to the frame
