@@ -23,6 +23,7 @@ __all__ = [
     "LEVELS_BELOW_EXACT",
     "LEVELS_BELOW_FAST",
     "LEVEL_BIAS",
+    "LONG",
     "MOST_CELLS",
     "MOST_PARTS",
     "NEARLY_EQUAL",
@@ -108,6 +109,9 @@ SHORT_WAY: Final = 2.0**-10
 LEVELS_BELOW_FAST: Final = 1
 LEVELS_BELOW_EXACT: Final = 2
 """Levels that the sum over cells goes below the footprint's own; there a divided cell counts by its stored coverage."""
+
+LONG: Final = 0.64
+"""Part of the reach of a footprint's box that its cells, before LEVELS_BELOW, are no smaller than: 14 to a row at most."""
 
 LEVEL_BIAS: Final = 2.0**-8
 """Without it drivers would disagree on the level of a footprint whose size is a power of two."""

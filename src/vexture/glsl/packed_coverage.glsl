@@ -49,7 +49,8 @@ float vexture_cell_area(VextureCell cell, VextureLattice lattice) {
         winding += crosses ? 0 : side;
         crossing |= crosses ? 1 << i : 0;
     }
-    float area = (code == 0 ? vexture_stored_coverage(cell) : float(winding)) * vexture_box_area(lattice.frame, low, high);
+    float filled = code == 0 ? vexture_stored_coverage(cell) : float(winding);
+    float area = filled * vexture_box_area(lattice.frame, low, high);
     while (crossing != 0) {
         int lowest = crossing & -crossing;
         int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
@@ -69,7 +70,7 @@ float vextureCoverage(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VextureFrame frame = vexture_frame(dx, dy);
     VexturePlace place = vexture_place(base, offset, frame.reach);
     int shared_levels = vexture_shared_levels(place.low, place.high);
-    int finest = vexture_finest_level(frame.size);
+    int finest = vexture_finest_level(frame.size, frame.reach);
     VextureTop top = VextureTop(root, 0);
     ivec2 position = place.low;
     int row = place.low.y;

@@ -55,9 +55,11 @@ int vexture_shared_levels(ivec2 low, ivec2 high) {
     return clamp(VEXTURE_POSITION_BITS - bits, 0, VEXTURE_MOST_DEPTH);
 }
 
-// The level whose cells are no smaller than a footprint of this area, and some more levels.
-int vexture_finest_level(float area) {
-    int exponent = (floatBitsToInt(area * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127;
+// The level whose cells are no smaller than a square of the footprint's area, and some more levels; fewer for a long
+// footprint, lest its box touch more cells than are looked at.
+int vexture_finest_level(float area, vec2 reach) {
+    float length = VEXTURE_LONG * max(reach.x, reach.y);
+    int exponent = (floatBitsToInt(max(area, length * length) * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127;
     int below = VEXTURE_QUALITY == VEXTURE_EXACT ? VEXTURE_LEVELS_BELOW_EXACT : VEXTURE_LEVELS_BELOW_FAST;
     return clamp(below - 1 - (exponent >> 1), 1, VEXTURE_MOST_DEPTH);
 }
