@@ -19,10 +19,13 @@ __all__ = [
     "FAST",
     "HYPERBOLIC_COSINE",
     "HYPERBOLIC_SINE",
-    "LEVELS_BELOW",
+    "LATTICE_BITS",
+    "LEVELS_BELOW_EXACT",
+    "LEVELS_BELOW_FAST",
     "LEVEL_BIAS",
+    "LONG",
     "MOST_CELLS",
-    "MOST_CHORDS",
+    "MOST_PARTS",
     "NEARLY_EQUAL",
     "NEARLY_ZERO",
     "NO_SIZE",
@@ -68,10 +71,13 @@ SHORTEST_CHORD: Final = 2.0**-18
 
 FAST: Final = 0
 EXACT: Final = 1
-"""Qualities of the packed texture's shader: the footprint's second moments, or the footprint itself."""
+"""Qualities of the packed texture's shader: how finely it looks at bent pieces and at cells smaller than a pixel."""
 
 POSITION_BITS: Final = 28
 """The packed shader's positions are whole numbers of 2^-28 of the unit square: eight squares fit 32 bits."""
+
+LATTICE_BITS: Final = 15
+"""Bits of a coordinate in a leaf: the packed texture's lattice is 2^15 wide."""
 
 FARTHEST: Final = 3.0
 """Unit squares from the base, in each direction; a pixel is looked up as if its centre were no farther away."""
@@ -83,25 +89,29 @@ THINNEST_PIXEL: Final = 2.0**-6
 """A footprint seen from its edge is made this wide, in its lengths."""
 
 STEPS: Final = 6
-"""Laguerre's steps for the t of a coordinate, after a quadratic start."""
+"""Laguerre's steps, at most, to where a piece enters and leaves a footprint's box; a line needs one."""
 
-CLOSE: Final = 0.1
+CLOSE: Final = 0.02
 """Pixels. A step that moves a point on a piece by less was the last."""
 
 NO_SIZE: Final = 2.0**-10
 """Lattice units: less than the least size of a piece that has one."""
 
 BEND: Final = 8.0
-"""Chords for each unit by which the directions at the ends of a piece differ (their cross product, in pixels)."""
+"""Parts for each square pixel of the cross product of a piece's derivatives at the ends of what a box holds of it."""
 
-MOST_CHORDS: Final = 4.0
-"""Chords of a piece within one footprint's box."""
+MOST_PARTS: Final = 4.0
+"""Parts into which such a piece is divided at most."""
 
 SHORT_WAY: Final = 2.0**-10
 """Pixels. The mean over a shorter way is taken in its middle, because the quotient would lose its digits."""
 
-LEVELS_BELOW: Final = 2
-"""Levels that the sum over cells goes below the footprint's own."""
+LEVELS_BELOW_FAST: Final = 1
+LEVELS_BELOW_EXACT: Final = 2
+"""Levels that the sum over cells goes below the footprint's own; there a divided cell counts by its stored coverage."""
+
+LONG: Final = 0.64
+"""Part of the reach of a footprint's box that cells are no smaller than, before LEVELS_BELOW: 14 to a row at most."""
 
 LEVEL_BIAS: Final = 2.0**-8
 """Without it drivers would disagree on the level of a footprint whose size is a power of two."""
