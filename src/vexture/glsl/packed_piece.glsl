@@ -34,31 +34,15 @@ float vexture_evaluate(vec4 k, float t) {
     return ((k.x * t + k.y) * t + k.z) * t + k.w;
 }
 
-// The side of the box on which a piece that passes it lies, if that is clear without solving for t.
-//
-// The curve keeps to a strip along its chord, as wide as 3/4 of its control points' distances at most.
-// Returned are -1, 0 or 1, what the whole box takes from it, or CROSSING.
+// What a whole box takes from a piece that is clear of it: -1, 0 or 1; or CROSSING.
 int vexture_clear_side(VexturePiece piece, vec2 low, vec2 high) {
     float bottom = min(piece.p0.y, piece.p3.y);
     float top = max(piece.p0.y, piece.p3.y);
     float left = min(piece.p0.x, piece.p3.x);
     float right = max(piece.p0.x, piece.p3.x);
-    vec2 way = piece.p3 - piece.p0;
-    float h1 = way.x * (piece.p1.y - piece.p0.y) - way.y * (piece.p1.x - piece.p0.x);
-    float h2 = way.x * (piece.p2.y - piece.p0.y) - way.y * (piece.p2.x - piece.p0.x);
-    vec2 middle = 0.5 * (low + high) - piece.p0;
-    vec2 half_box = 0.5 * (high - low);
-    float h = way.x * middle.y - way.y * middle.x;
-    float spread = abs(way.x) * half_box.y + abs(way.y) * half_box.x;
-    bool beyond_left = h - spread >= 0.75 * max(0.0, max(h1, h2));   // the box lies left of the piece's direction
-    bool beyond_right = h + spread <= 0.75 * min(0.0, min(h1, h2));
-    bool rises = way.y > 0.0;
-    bool box_before = (rises ? beyond_left : beyond_right) || left >= high.x;
-    bool box_after = (rises ? beyond_right : beyond_left) || right <= low.x;
-    bool passes = bottom <= low.y && top >= high.y;
-    bool apart = top <= low.y || bottom >= high.y;
-    bool none = apart || box_before;
-    return none ? 0 : passes && box_after ? (rises ? -1 : 1) : VEXTURE_CROSSING;
+    bool apart = top <= low.y || bottom >= high.y || left >= high.x;
+    bool passes_left = bottom <= low.y && top >= high.y && right <= low.x;
+    return apart ? 0 : !passes_left ? VEXTURE_CROSSING : piece.p3.y > piece.p0.y ? -1 : 1;
 }
 
 // One of Laguerre's steps, which near a turning point gets as far as several of Newton's, toward the t at which both
@@ -94,13 +78,18 @@ vec2 vexture_speed(vec4 kx, vec4 ky, float t, vec2 mirror, VextureFrame frame) {
     return vexture_into_frame(frame, speed * mirror);
 }
 
-// Area beside a piece from one t to another: beside its chords, as many as its bend asks for, and between it and them.
+// Area beside a piece from one t to another.
+//
+// fast: beside its chord, and between it and that.
+// exact: the same for as many chords as its bend asks for; what lies between them and it counts by the part of a chord
+// that lies in the pixel.
 float vexture_curve_area(
     vec4 kx, vec4 ky, float t0, float t1, vec2 mirror, VextureFrame frame, vec2 low, vec2 high
 ) {
     vec2 p = vexture_into_frame(frame, vexture_point(kx, ky, t0, mirror, low, high));
     vec2 first = vexture_speed(kx, ky, t0, mirror, frame);
     vec2 end = vexture_speed(kx, ky, t1, mirror, frame);
+#if VEXTURE_QUALITY == VEXTURE_EXACT
     float bend = abs(first.x * end.y - first.y * end.x) * (t1 - t0) * (t1 - t0);
     int chords = 1 + int(min(VEXTURE_BEND * bend, VEXTURE_MOST_CHORDS - 1.0));
     float step_t = (t1 - t0) / float(chords);
@@ -117,6 +106,11 @@ float vexture_curve_area(
         first = last;
     }
     return area;
+#else
+    vec2 q = vexture_into_frame(frame, vexture_point(kx, ky, t1, mirror, low, high));
+    float third = (t1 - t0) / 3.0;
+    return vexture_beside(p, q) + vexture_bulge(first * third, end * third, q - p) * vexture_part_inside(p, q);
+#endif
 }
 
 // Minus the area on the right of a piece that goes up, plus that of one that goes down, inside the box from low to high.
