@@ -101,8 +101,8 @@ def place_coordinate(base: int, offset: float, reach: float) -> tuple[int, float
     point = (base >> spare) + int(whole)
     rest = scaled - whole + (base & ((1 << spare) - 1)) / float(1 << spare)
     extent = min(reach, FARTHEST) * one
-    low = max(point + int(math.floor(rest - extent)), 0)
-    high = min(point + int(math.ceil(rest + extent)) - 1, (1 << POSITION_BITS) - 1)
+    low = max(point + math.floor(rest - extent), 0)
+    high = min(point + math.ceil(rest + extent) - 1, (1 << POSITION_BITS) - 1)
     return point, rest, low, high
 
 

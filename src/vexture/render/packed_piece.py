@@ -59,6 +59,7 @@ def clamp(value: float, low: float, high: float) -> float:
 
 @kernel(allocates=False)
 def frame(quality: int, dx: Vec2, dy: Vec2) -> Frame:
+    """The frame of the footprint that two steps span, or for "fast" of one like it."""
     larger = max(dx[0] * dx[0] + dx[1] * dx[1], dy[0] * dy[0] + dy[1] * dy[1])
     if not larger > SMALLEST_PIXEL * SMALLEST_PIXEL:
         dx = (SMALLEST_PIXEL, 0.0)
@@ -106,6 +107,7 @@ def mean_clamped(u0: float, u1: float) -> float:
 
 @kernel(allocates=False)
 def beside(p: Vec2, q: Vec2) -> float:
+    """Area of the pixel on the right of a straight line in the frame; negative if the line goes up."""
     y0 = clamp(p[1], -0.5, 0.5)
     y1 = clamp(q[1], -0.5, 0.5)
     rise = q[1] - p[1]
@@ -125,6 +127,7 @@ def part_inside(p: Vec2, q: Vec2) -> float:
 
 @kernel(allocates=False)
 def box_area(quality: int, frame: Frame, low: Vec2, high: Vec2) -> float:
+    """Area of the pixel in a box, positive where the frame keeps orientation."""
     p = into_frame(frame, low)
     q = into_frame(frame, (high[0], low[1]))
     r = into_frame(frame, high)
@@ -145,6 +148,7 @@ def lattice_point(word: int) -> Vec2:
 
 @kernel(allocates=False)
 def piece(texel: Texel, center: Vec2) -> Piece:
+    """The piece in a texel, relative to a point of the lattice."""
     p0 = lattice_point(texel[0])
     p1 = lattice_point(texel[1])
     p2 = lattice_point(texel[2])
@@ -173,24 +177,15 @@ def evaluate(k: Vec4, t: float) -> float:
 
 @kernel(allocates=False)
 def clear_side(piece: Piece, low: Vec2, high: Vec2) -> int:
-    p0, p1, p2, p3 = piece.p0, piece.p1, piece.p2, piece.p3
+    """What a whole box takes from a piece that is clear of it: -1, 0 or 1; or CROSSING."""
+    p0, p3 = piece.p0, piece.p3
     bottom, top = min(p0[1], p3[1]), max(p0[1], p3[1])
     left, right = min(p0[0], p3[0]), max(p0[0], p3[0])
-    way = (p3[0] - p0[0], p3[1] - p0[1])
-    h1 = way[0] * (p1[1] - p0[1]) - way[1] * (p1[0] - p0[0])
-    h2 = way[0] * (p2[1] - p0[1]) - way[1] * (p2[0] - p0[0])
-    h = way[0] * (0.5 * (low[1] + high[1]) - p0[1]) - way[1] * (0.5 * (low[0] + high[0]) - p0[0])
-    spread = 0.5 * (abs(way[0]) * (high[1] - low[1]) + abs(way[1]) * (high[0] - low[0]))
-    beyond_left = h - spread >= 0.75 * max(0.0, max(h1, h2))
-    beyond_right = h + spread <= 0.75 * min(0.0, min(h1, h2))
-    rises = way[1] > 0.0
-    box_before = (beyond_left if rises else beyond_right) or left >= high[0]
-    box_after = (beyond_right if rises else beyond_left) or right <= low[0]
-    if top <= low[1] or bottom >= high[1] or box_before:
+    if top <= low[1] or bottom >= high[1] or left >= high[0]:
         return 0
-    if bottom <= low[1] and top >= high[1] and box_after:
-        return -1 if rises else 1
-    return CROSSING
+    if not (bottom <= low[1] and top >= high[1] and right <= low[0]):
+        return CROSSING
+    return -1 if p3[1] > p0[1] else 1
 
 
 @kernel(allocates=False)
@@ -227,25 +222,27 @@ def speed(kx: Vec4, ky: Vec4, t: float, mirror: Vec2, frame: Frame) -> Vec2:
 
 
 @kernel(allocates=False)
-def curve_area(kx: Vec4, ky: Vec4, t0: float, t1: float, mirror: Vec2, frame: Frame, low: Vec2, high: Vec2) -> float:
+def curve_area(
+    quality: int, kx: Vec4, ky: Vec4, t0: float, t1: float, mirror: Vec2, frame: Frame, low: Vec2, high: Vec2
+) -> float:
     p = into_frame(frame, point(kx, ky, t0, mirror, low, high))
     first = speed(kx, ky, t0, mirror, frame)
     end = speed(kx, ky, t1, mirror, frame)
-    bend = abs(first[0] * end[1] - first[1] * end[0]) * (t1 - t0) * (t1 - t0)
-    chords = 1 + int(min(BEND * bend, MOST_CHORDS - 1.0))
+    chords = 1
+    if quality == EXACT:
+        bend = abs(first[0] * end[1] - first[1] * end[0]) * (t1 - t0) * (t1 - t0)
+        chords = 1 + int(min(BEND * bend, MOST_CHORDS - 1.0))
     step_t = (t1 - t0) / chords
     third = step_t / 3.0
     t = t0
     area = 0.0
-    while chords > 0:
-        chords -= 1
+    for _ in range(chords):
         t += step_t
         q = into_frame(frame, point(kx, ky, t, mirror, low, high))
         last = speed(kx, ky, t, mirror, frame)
-        more = bulge(
-            (first[0] * third, first[1] * third), (last[0] * third, last[1] * third), (q[0] - p[0], q[1] - p[1])
-        )
-        area += beside(p, q) + more * part_inside(p, q)
+        chord = (q[0] - p[0], q[1] - p[1])
+        beyond = bulge((first[0] * third, first[1] * third), (last[0] * third, last[1] * third), chord)
+        area += beside(p, q) + beyond * part_inside(p, q)
         p = q
         first = last
     return area
@@ -253,6 +250,7 @@ def curve_area(kx: Vec4, ky: Vec4, t0: float, t1: float, mirror: Vec2, frame: Fr
 
 @kernel(allocates=False)
 def piece_area(quality: int, piece: Piece, frame: Frame, low: Vec2, high: Vec2) -> float:
+    """Minus the area on the right of a piece that goes up, plus that of one that goes down, inside a box."""
     p0, p1, p2, p3 = piece.p0, piece.p1, piece.p2, piece.p3
     way = (p3[0] - p0[0], p3[1] - p0[1])
     mirror = (-1.0 if way[0] < 0.0 else 1.0, -1.0 if way[1] < 0.0 else 1.0)
@@ -279,7 +277,7 @@ def piece_area(quality: int, piece: Piece, frame: Frame, low: Vec2, high: Vec2) 
     y3 = clamp(p3[1], low[1], high[1])
     enter = point(kx, ky, t0, mirror, low, high)
     leave = point(kx, ky, t1, mirror, low, high)
-    area = curve_area(kx, ky, t0, t1, mirror, frame, low, high)
+    area = curve_area(quality, kx, ky, t0, t1, mirror, frame, low, high)
 
     left_start, left_end = (leave[1], y3) if mx < 0.0 else (y0, enter[1])
     right_start, right_end = (y3, enter[1]) if mx < 0.0 else (leave[1], y0)
