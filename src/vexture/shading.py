@@ -22,7 +22,7 @@ __all__ = [
     "LEVELS_BELOW",
     "LEVEL_BIAS",
     "MOST_CELLS",
-    "MOST_CHORDS",
+    "MOST_PARTS",
     "NEARLY_EQUAL",
     "NEARLY_ZERO",
     "NO_SIZE",
@@ -92,10 +92,10 @@ NO_SIZE: Final = 2.0**-10
 """Lattice units: less than the least size of a piece that has one."""
 
 BEND: Final = 8.0
-"""Chords for each unit by which the directions at the ends of a piece differ (their cross product, in pixels)."""
+"""Parts for each square pixel of the cross product of the derivatives at the ends of a piece within a footprint's box."""
 
-MOST_CHORDS: Final = 4.0
-"""Chords of a piece within one footprint's box."""
+MOST_PARTS: Final = 4.0
+"""Parts into which such a piece is divided at most."""
 
 SHORT_WAY: Final = 2.0**-10
 """Pixels. The mean over a shorter way is taken in its middle, because the quotient would lose its digits."""

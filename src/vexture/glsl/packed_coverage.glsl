@@ -18,6 +18,7 @@ VextureLattice vexture_lattice(ivec2 origin, int level, VexturePlace place, Vext
     vec2 reach = frame.reach * unit;
     frame.right /= unit;
     frame.up /= unit;
+    frame.size *= unit * unit;
     return VextureLattice(center, max(-center, -reach), min(VEXTURE_LATTICE - center, reach), frame);
 }
 

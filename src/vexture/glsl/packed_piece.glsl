@@ -72,44 +72,45 @@ vec2 vexture_point(vec4 kx, vec4 ky, float t, vec2 mirror, vec2 low, vec2 high) 
     return clamp(vec2(vexture_evaluate(kx, t), vexture_evaluate(ky, t)) * mirror, low, high);
 }
 
-// Derivative of the same in the frame.
-vec2 vexture_speed(vec4 kx, vec4 ky, float t, vec2 mirror, VextureFrame frame) {
-    vec2 speed = vec2((3.0 * kx.x * t + 2.0 * kx.y) * t + kx.z, (3.0 * ky.x * t + 2.0 * ky.y) * t + ky.z);
-    return vexture_into_frame(frame, speed * mirror);
+// Derivative of the same.
+vec2 vexture_speed(vec4 kx, vec4 ky, float t, vec2 mirror) {
+    return vec2((3.0 * kx.x * t + 2.0 * kx.y) * t + kx.z, (3.0 * ky.x * t + 2.0 * ky.y) * t + ky.z) * mirror;
 }
 
-// Area beside a piece from one t to another.
-//
-// fast: beside its chord, and between it and that.
-// exact: the same for as many chords as its bend asks for; what lies between them and it counts by the part of a chord
-// that lies in the pixel.
+// Area beside a part of a piece: beside its chord, and, as far as that lies in the pixel, between it and the chord.
+// Given are the part's ends in the plane, and the derivatives there times a third of the part's share of t.
+float vexture_part_area(vec2 p, vec2 q, vec2 first, vec2 last, VextureFrame frame) {
+    vec2 from = vexture_into_frame(frame, p);
+    vec2 to = vexture_into_frame(frame, q);
+    float scale = frame.turned / frame.size;
+    return vexture_beside(from, to) + scale * vexture_bulge(first, last, q - p) * vexture_part_inside(from, to);
+}
+
+// Area beside a piece from t0 to t1, which is at p and q. fast: as one part; exact: as many as its bend asks for.
 float vexture_curve_area(
-    vec4 kx, vec4 ky, float t0, float t1, vec2 mirror, VextureFrame frame, vec2 low, vec2 high
+    vec4 kx, vec4 ky, float t0, float t1, vec2 p, vec2 q, vec2 mirror, VextureFrame frame, vec2 low, vec2 high
 ) {
-    vec2 p = vexture_into_frame(frame, vexture_point(kx, ky, t0, mirror, low, high));
-    vec2 first = vexture_speed(kx, ky, t0, mirror, frame);
-    vec2 end = vexture_speed(kx, ky, t1, mirror, frame);
+    vec2 first = vexture_speed(kx, ky, t0, mirror);
+    vec2 last = vexture_speed(kx, ky, t1, mirror);
+    float step_t = t1 - t0;
 #if VEXTURE_QUALITY == VEXTURE_EXACT
-    float bend = abs(first.x * end.y - first.y * end.x) * (t1 - t0) * (t1 - t0);
-    int chords = 1 + int(min(VEXTURE_BEND * bend, VEXTURE_MOST_CHORDS - 1.0));
-    float step_t = (t1 - t0) / float(chords);
-    float t = t0;
+    float bend = abs(first.x * last.y - first.y * last.x) * step_t * step_t / frame.size;
+    int parts = 1 + int(min(VEXTURE_BEND * bend, VEXTURE_MOST_PARTS - 1.0));
+    step_t /= float(parts);
     float area = 0.0;
-    while (chords > 0) {
-        chords--;
+    float t = t0;
+    while (parts > 0) {
+        parts--;
         t += step_t;
-        vec2 q = vexture_into_frame(frame, vexture_point(kx, ky, t, mirror, low, high));
-        vec2 last = vexture_speed(kx, ky, t, mirror, frame);
-        float bulge = vexture_bulge(first * (step_t / 3.0), last * (step_t / 3.0), q - p);
-        area += vexture_beside(p, q) + bulge * vexture_part_inside(p, q);
-        p = q;
+        vec2 next = vexture_point(kx, ky, t, mirror, low, high);
+        last = vexture_speed(kx, ky, t, mirror);
+        area += vexture_part_area(p, next, first * (step_t / 3.0), last * (step_t / 3.0), frame);
+        p = next;
         first = last;
     }
     return area;
 #else
-    vec2 q = vexture_into_frame(frame, vexture_point(kx, ky, t1, mirror, low, high));
-    float third = (t1 - t0) / 3.0;
-    return vexture_beside(p, q) + vexture_bulge(first * third, end * third, q - p) * vexture_part_inside(p, q);
+    return vexture_part_area(p, q, first * (step_t / 3.0), last * (step_t / 3.0), frame);
 #endif
 }
 
@@ -122,17 +123,20 @@ float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 
     vec2 from = vec2(way.x < 0.0 ? -high.x : low.x, way.y < 0.0 ? -high.y : low.y);
     vec2 to = vec2(way.x < 0.0 ? -low.x : high.x, way.y < 0.0 ? -low.y : high.y);
     vec2 size = max(abs(way), VEXTURE_NO_SIZE);
-    float t0 = clamp(max((from.x - kx.w) / size.x, (from.y - ky.w) / size.y), 0.0, 1.0);
-    float t1 = clamp(min((to.x - kx.w) / size.x, (to.y - ky.w) / size.y), 0.0, 1.0);
+    vec2 begin = (from - vec2(kx.w, ky.w)) / size;
+    vec2 end = (to - vec2(kx.w, ky.w)) / size;
+    float t0 = clamp(max(begin.x, begin.y), 0.0, 1.0);
+    float t1 = clamp(min(end.x, end.y), 0.0, 1.0);
     vec2 pixels = size.x * abs(vec2(frame.right.x, frame.up.x)) + size.y * abs(vec2(frame.right.y, frame.up.y));
-    float close = VEXTURE_CLOSE / max(pixels.x, pixels.y);
+    float pixels_most = max(pixels.x, pixels.y);
     int steps = VEXTURE_STEPS;
     while (steps > 0) {
-        float before0 = t0;
-        float before1 = t1;
-        t0 = vexture_better_t(kx, ky, from, true, t0);
-        t1 = vexture_better_t(kx, ky, to, false, t1);
-        steps = abs(t0 - before0) + abs(t1 - before1) > close ? steps - 1 : 0;
+        float better0 = vexture_better_t(kx, ky, from, true, t0);
+        float better1 = vexture_better_t(kx, ky, to, false, t1);
+        float moved = max(abs(better0 - t0), abs(better1 - t1)) * pixels_most;
+        t0 = better0;
+        t1 = better1;
+        steps = moved > VEXTURE_CLOSE ? steps - 1 : 0;
     }
     t1 = max(t0, t1);
 
@@ -140,7 +144,7 @@ float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 
     float y3 = clamp(piece.p3.y, low.y, high.y);
     vec2 enter = vexture_point(kx, ky, t0, mirror, low, high);
     vec2 leave = vexture_point(kx, ky, t1, mirror, low, high);
-    float area = vexture_curve_area(kx, ky, t0, t1, mirror, frame, low, high);
+    float area = vexture_curve_area(kx, ky, t0, t1, enter, leave, mirror, frame, low, high);
 
     // the way along the box's sides: on its left while the piece is left of it, and back on its right
     float left_start = way.x < 0.0 ? leave.y : y0;
@@ -157,11 +161,9 @@ float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 
     vec2 l1 = vexture_into_frame(frame, vec2(low.x, left_end));
     vec2 r0 = vexture_into_frame(frame, vec2(high.x, right_start));
     vec2 r1 = vexture_into_frame(frame, vec2(high.x, right_end));
-    area += vexture_beside(l0, l1) + vexture_beside(r0, r1);
-#if VEXTURE_QUALITY == VEXTURE_EXACT
-    vec2 f = vexture_into_frame(frame, vec2(enter.x, right_end));
-    vec2 g = vexture_into_frame(frame, vec2(leave.x, right_start));
-    area += vexture_beside(g, r0) + vexture_beside(r1, f);
-#endif
+    vec2 e0 = vexture_into_frame(frame, vec2(enter.x, right_end));
+    vec2 e1 = vexture_into_frame(frame, vec2(leave.x, right_start));
+    area += vexture_beside_sloped(l0, l1.y, frame.upright) + vexture_beside_sloped(r0, r1.y, frame.upright);
+    area += vexture_beside_sloped(e1, r0.y, frame.level) + vexture_beside_sloped(r1, e0.y, frame.level);
     return area;
 }

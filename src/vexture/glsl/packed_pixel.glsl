@@ -1,17 +1,20 @@
 // The pixel's footprint: a parallelogram, and the frame in which it is the square from -1/2 to 1/2.
 // Exports: VextureFrame, vexture_frame, vexture_into_frame, vexture_beside, vexture_box_area.
-//
-// exact: the footprint is the parallelogram that dx and dy span.
-// fast: one with two horizontal sides and the same second moments. In its frame the heights of the drawing are those of
-// the pixel, so that nothing is due for horizontal lines.
 
 struct VextureFrame {
     vec2 right;   // its rows: from the drawing's plane to the frame
     vec2 up;
+    vec2 level;   // slopes, in the frame, of the plane's level
+    vec2 upright; // and upright lines
     vec2 reach;   // half the footprint's box
     float turned; // 1 or -1: whether the frame keeps orientation
     float size;    // the footprint's area
 };
+
+// dx / dy and dy / dx of a direction; 0 for what is infinite.
+vec2 vexture_slopes(float dx, float dy) {
+    return vec2(dy != 0.0 ? dx / dy : 0.0, dx != 0.0 ? dy / dx : 0.0);
+}
 
 VextureFrame vexture_frame(vec2 dx, vec2 dy) {
     float larger = max(dot(dx, dx), dot(dy, dy));
@@ -26,20 +29,12 @@ VextureFrame vexture_frame(vec2 dx, vec2 dy) {
         dy = vec2(-dx.y, dx.x) * VEXTURE_THINNEST_PIXEL;
         area = VEXTURE_THINNEST_PIXEL * larger;
     }
-#if VEXTURE_QUALITY == VEXTURE_EXACT
-    vec2 reach = 0.5 * (abs(dx) + abs(dy));
     float shrink = 1.0 / area;
-    return VextureFrame(vec2(dy.y, -dy.x) * shrink, vec2(-dx.y, dx.x) * shrink, reach, sign(area), abs(area));
-#else
-    float square = max(dx.y * dx.y + dy.y * dy.y, VEXTURE_THINNEST_PIXEL * VEXTURE_THINNEST_PIXEL * larger);
-    float up = inversesqrt(square);
-    float height = square * up;
-    float width = abs(area) * up;
-    float right = 1.0 / width;
-    float lean = (dx.x * dx.y + dy.x * dy.y) * up;
-    vec2 reach = 0.5 * vec2(width + abs(lean), height);
-    return VextureFrame(vec2(right, -lean * up * right), vec2(0.0, up), reach, 1.0, abs(area));
-#endif
+    vec2 right = vec2(dy.y, -dy.x) * shrink;
+    vec2 up = vec2(-dx.y, dx.x) * shrink;
+    vec2 level = vexture_slopes(right.x, up.x);
+    vec2 upright = vexture_slopes(right.y, up.y);
+    return VextureFrame(right, up, level, upright, 0.5 * (abs(dx) + abs(dy)), sign(area), abs(area));
 }
 
 vec2 vexture_into_frame(VextureFrame frame, vec2 point) {
@@ -52,32 +47,27 @@ float vexture_ramp(float u) {
     return held * (u - 0.5 * held);
 }
 
-// Mean of clamp(u, 0, 1) while u runs from one value to another.
-float vexture_mean_clamped(float u0, float u1) {
-    float way = u1 - u0;
-    bool short_way = abs(way) < VEXTURE_SHORT_WAY;
-    float mean = (vexture_ramp(u1) - vexture_ramp(u0)) / (short_way ? 1.0 : way);
-    return short_way ? clamp(0.5 * (u0 + u1), 0.0, 1.0) : mean;
+// Area of the pixel on the right of a straight line that goes from p to a height, both in the frame, with the direction's
+// `vexture_slopes`; negative if the line goes up.
+float vexture_beside_sloped(vec2 p, float end, vec2 slopes) {
+    float y0 = clamp(p.y, -0.5, 0.5);
+    float y1 = clamp(end, -0.5, 0.5);
+    float u0 = 0.5 - p.x - (y0 - p.y) * slopes.x;
+    float u1 = 0.5 - p.x - (y1 - p.y) * slopes.x;
+    float steep = (y0 - y1) * clamp(0.5 * (u0 + u1), 0.0, 1.0);
+    return abs(u1 - u0) < VEXTURE_SHORT_WAY ? steep : (vexture_ramp(u1) - vexture_ramp(u0)) * slopes.y;
 }
 
-// Area of the pixel on the right of a straight line from p to q, both in the frame; negative if the line goes up.
 float vexture_beside(vec2 p, vec2 q) {
-    float y0 = clamp(p.y, -0.5, 0.5);
-    float y1 = clamp(q.y, -0.5, 0.5);
-    float rise = q.y - p.y;
-    float slope = rise != 0.0 ? (q.x - p.x) / rise : 0.0;
-    float u0 = 0.5 - p.x - (y0 - p.y) * slope;
-    float u1 = 0.5 - p.x - (y1 - p.y) * slope;
-    return (y0 - y1) * vexture_mean_clamped(u0, u1);
+    return vexture_beside_sloped(p, q.y, vexture_slopes(q.x - p.x, q.y - p.y));
 }
 
 // Part of a straight line that lies in the pixel, by and large: what it is multiplied with is small.
 float vexture_part_inside(vec2 p, vec2 q) {
     vec2 way = q - p;
     vec2 held = clamp(q, -0.5, 0.5) - clamp(p, -0.5, 0.5);
-    float x = abs(way.x) > 0.0 ? held.x / way.x : 1.0;
-    float y = abs(way.y) > 0.0 ? held.y / way.y : 1.0;
-    return x * y;
+    float whole = way.x * way.y;
+    return whole != 0.0 ? held.x * held.y / whole : 1.0;
 }
 
 // Area of the pixel in a box, positive where the frame keeps orientation.
@@ -86,9 +76,6 @@ float vexture_box_area(VextureFrame frame, vec2 low, vec2 high) {
     vec2 q = vexture_into_frame(frame, vec2(high.x, low.y));
     vec2 r = vexture_into_frame(frame, high);
     vec2 s = vexture_into_frame(frame, vec2(low.x, high.y));
-    float area = vexture_beside(q, r) + vexture_beside(s, p);
-#if VEXTURE_QUALITY == VEXTURE_EXACT
-    area += vexture_beside(p, q) + vexture_beside(r, s);
-#endif
-    return area;
+    return vexture_beside_sloped(p, q.y, frame.level) + vexture_beside_sloped(q, r.y, frame.upright)
+        + vexture_beside_sloped(r, s.y, frame.level) + vexture_beside_sloped(s, p.y, frame.upright);
 }
