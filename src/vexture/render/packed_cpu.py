@@ -176,7 +176,15 @@ def lattice(origin: Whole2, level: int, place: Place, frame: Frame) -> Lattice:
         (x, y),
         (max(-x, -reach_x), max(-y, -reach_y)),
         (min(LATTICE - x, reach_x), min(LATTICE - y, reach_y)),
-        Frame((right[0] / unit, right[1] / unit), (up[0] / unit, up[1] / unit), frame.reach, frame.turned, frame.size),
+        Frame(
+            (right[0] / unit, right[1] / unit),
+            (up[0] / unit, up[1] / unit),
+            frame.level,
+            frame.upright,
+            frame.reach,
+            frame.turned,
+            frame.size * unit * unit,
+        ),
     )
 
 
@@ -199,12 +207,12 @@ def cell_area(texels: Texels, quality: int, cell: Cell, lattice: Lattice) -> flo
         else:
             winding += side
     whole = stored_coverage(cell) if code == 0 else float(winding)
-    return area + whole * box_area(quality, lattice.frame, low, high)
+    return area + whole * box_area(lattice.frame, low, high)
 
 
 @kernel(allocates=False)
 def coverage(texels: Texels, quality: int, root: int, base: Whole2, offset: Vec2, dx: Vec2, dy: Vec2) -> float:
-    pixel = frame(quality, dx, dy)
+    pixel = frame(dx, dy)
     there = place(base, offset, pixel.reach)
     low, high = there.low, there.high
     shared = shared_levels(low, high)

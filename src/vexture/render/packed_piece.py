@@ -13,7 +13,7 @@ from vexture.shading import (
     CLOSE,
     CROSSING,
     EXACT,
-    MOST_CHORDS,
+    MOST_PARTS,
     NO_SIZE,
     SHORT_WAY,
     SMALLEST_PIXEL,
@@ -33,6 +33,8 @@ class Frame(NamedTuple):
 
     right: Vec2
     up: Vec2
+    level: Vec2
+    upright: Vec2
     reach: Vec2
     turned: float
     size: float
@@ -58,8 +60,13 @@ def clamp(value: float, low: float, high: float) -> float:
 
 
 @kernel(allocates=False)
-def frame(quality: int, dx: Vec2, dy: Vec2) -> Frame:
-    """The frame of the footprint that two steps span, or for "fast" of one like it."""
+def slopes(dx: float, dy: float) -> Vec2:
+    return dx / dy if dy != 0.0 else 0.0, dy / dx if dx != 0.0 else 0.0
+
+
+@kernel(allocates=False)
+def frame(dx: Vec2, dy: Vec2) -> Frame:
+    """The frame of the footprint that two steps span."""
     larger = max(dx[0] * dx[0] + dx[1] * dx[1], dy[0] * dy[0] + dy[1] * dy[1])
     if not larger > SMALLEST_PIXEL * SMALLEST_PIXEL:
         dx = (SMALLEST_PIXEL, 0.0)
@@ -70,19 +77,13 @@ def frame(quality: int, dx: Vec2, dy: Vec2) -> Frame:
         dx = dx if dx[0] * dx[0] + dx[1] * dx[1] == larger else dy
         dy = (-dx[1] * THINNEST_PIXEL, dx[0] * THINNEST_PIXEL)
         area = THINNEST_PIXEL * larger
-    if quality == EXACT:
-        reach = (0.5 * (abs(dx[0]) + abs(dy[0])), 0.5 * (abs(dx[1]) + abs(dy[1])))
-        shrink = 1.0 / area
-        turned = 1.0 if area > 0.0 else -1.0
-        return Frame((dy[1] * shrink, -dy[0] * shrink), (-dx[1] * shrink, dx[0] * shrink), reach, turned, abs(area))
-    square = max(dx[1] * dx[1] + dy[1] * dy[1], THINNEST_PIXEL * THINNEST_PIXEL * larger)
-    up = 1.0 / math.sqrt(square)
-    height = square * up
-    width = abs(area) * up
-    right = 1.0 / width
-    lean = (dx[0] * dx[1] + dy[0] * dy[1]) * up
-    reach = (0.5 * (width + abs(lean)), 0.5 * height)
-    return Frame((right, -lean * up * right), (0.0, up), reach, 1.0, abs(area))
+    shrink = 1.0 / area
+    right = (dy[1] * shrink, -dy[0] * shrink)
+    up = (-dx[1] * shrink, dx[0] * shrink)
+    level = slopes(right[0], up[0])
+    upright = slopes(right[1], up[1])
+    reach = (0.5 * (abs(dx[0]) + abs(dy[0])), 0.5 * (abs(dx[1]) + abs(dy[1])))
+    return Frame(right, up, level, upright, reach, 1.0 if area > 0.0 else -1.0, abs(area))
 
 
 @kernel(allocates=False)
@@ -98,44 +99,39 @@ def ramp(u: float) -> float:
 
 
 @kernel(allocates=False)
-def mean_clamped(u0: float, u1: float) -> float:
-    way = u1 - u0
-    if abs(way) < SHORT_WAY:
-        return clamp(0.5 * (u0 + u1), 0.0, 1.0)
-    return (ramp(u1) - ramp(u0)) / way
+def beside_sloped(p: Vec2, end: float, slopes: Vec2) -> float:
+    y0 = clamp(p[1], -0.5, 0.5)
+    y1 = clamp(end, -0.5, 0.5)
+    u0 = 0.5 - p[0] - (y0 - p[1]) * slopes[0]
+    u1 = 0.5 - p[0] - (y1 - p[1]) * slopes[0]
+    if abs(u1 - u0) < SHORT_WAY:
+        return (y0 - y1) * clamp(0.5 * (u0 + u1), 0.0, 1.0)
+    return (ramp(u1) - ramp(u0)) * slopes[1]
 
 
 @kernel(allocates=False)
 def beside(p: Vec2, q: Vec2) -> float:
     """Area of the pixel on the right of a straight line in the frame; negative if the line goes up."""
-    y0 = clamp(p[1], -0.5, 0.5)
-    y1 = clamp(q[1], -0.5, 0.5)
-    rise = q[1] - p[1]
-    slope = (q[0] - p[0]) / rise if rise != 0.0 else 0.0
-    u0 = 0.5 - p[0] - (y0 - p[1]) * slope
-    u1 = 0.5 - p[0] - (y1 - p[1]) * slope
-    return (y0 - y1) * mean_clamped(u0, u1)
+    return beside_sloped(p, q[1], slopes(q[0] - p[0], q[1] - p[1]))
 
 
 @kernel(allocates=False)
 def part_inside(p: Vec2, q: Vec2) -> float:
-    way_x, way_y = q[0] - p[0], q[1] - p[1]
     held_x = clamp(q[0], -0.5, 0.5) - clamp(p[0], -0.5, 0.5)
     held_y = clamp(q[1], -0.5, 0.5) - clamp(p[1], -0.5, 0.5)
-    return (held_x / way_x if abs(way_x) > 0.0 else 1.0) * (held_y / way_y if abs(way_y) > 0.0 else 1.0)
+    whole = (q[0] - p[0]) * (q[1] - p[1])
+    return held_x * held_y / whole if whole != 0.0 else 1.0
 
 
 @kernel(allocates=False)
-def box_area(quality: int, frame: Frame, low: Vec2, high: Vec2) -> float:
+def box_area(frame: Frame, low: Vec2, high: Vec2) -> float:
     """Area of the pixel in a box, positive where the frame keeps orientation."""
     p = into_frame(frame, low)
     q = into_frame(frame, (high[0], low[1]))
     r = into_frame(frame, high)
     s = into_frame(frame, (low[0], high[1]))
-    area = beside(q, r) + beside(s, p)
-    if quality == EXACT:
-        area += beside(p, q) + beside(r, s)
-    return area
+    level = beside_sloped(p, q[1], frame.level) + beside_sloped(r, s[1], frame.level)
+    return level + beside_sloped(q, r[1], frame.upright) + beside_sloped(s, p[1], frame.upright)
 
 
 # --- packed_piece.glsl ------------------------------------------------------------------------------------------------
@@ -215,35 +211,52 @@ def point(kx: Vec4, ky: Vec4, t: float, mirror: Vec2, low: Vec2, high: Vec2) -> 
 
 
 @kernel(allocates=False)
-def speed(kx: Vec4, ky: Vec4, t: float, mirror: Vec2, frame: Frame) -> Vec2:
+def speed(kx: Vec4, ky: Vec4, t: float, mirror: Vec2) -> Vec2:
     x = (3.0 * kx[0] * t + 2.0 * kx[1]) * t + kx[2]
     y = (3.0 * ky[0] * t + 2.0 * ky[1]) * t + ky[2]
-    return into_frame(frame, (x * mirror[0], y * mirror[1]))
+    return x * mirror[0], y * mirror[1]
+
+
+@kernel(allocates=False)
+def part_area(p: Vec2, q: Vec2, first: Vec2, last: Vec2, frame: Frame) -> float:
+    start = into_frame(frame, p)
+    to = into_frame(frame, q)
+    scale = frame.turned / frame.size
+    return beside(start, to) + scale * bulge(first, last, (q[0] - p[0], q[1] - p[1])) * part_inside(start, to)
 
 
 @kernel(allocates=False)
 def curve_area(
-    quality: int, kx: Vec4, ky: Vec4, t0: float, t1: float, mirror: Vec2, frame: Frame, low: Vec2, high: Vec2
+    quality: int,
+    kx: Vec4,
+    ky: Vec4,
+    t0: float,
+    t1: float,
+    p: Vec2,
+    q: Vec2,
+    mirror: Vec2,
+    frame: Frame,
+    low: Vec2,
+    high: Vec2,
 ) -> float:
-    p = into_frame(frame, point(kx, ky, t0, mirror, low, high))
-    first = speed(kx, ky, t0, mirror, frame)
-    end = speed(kx, ky, t1, mirror, frame)
-    chords = 1
+    first = speed(kx, ky, t0, mirror)
+    last = speed(kx, ky, t1, mirror)
+    parts = 1
     if quality == EXACT:
-        bend = abs(first[0] * end[1] - first[1] * end[0]) * (t1 - t0) * (t1 - t0)
-        chords = 1 + int(min(BEND * bend, MOST_CHORDS - 1.0))
-    step_t = (t1 - t0) / chords
+        bend = abs(first[0] * last[1] - first[1] * last[0]) * (t1 - t0) * (t1 - t0) / frame.size
+        parts = 1 + int(min(BEND * bend, MOST_PARTS - 1.0))
+    step_t = (t1 - t0) / parts
     third = step_t / 3.0
-    t = t0
     area = 0.0
-    for _ in range(chords):
+    t = t0
+    for k in range(parts):
         t += step_t
-        q = into_frame(frame, point(kx, ky, t, mirror, low, high))
-        last = speed(kx, ky, t, mirror, frame)
-        chord = (q[0] - p[0], q[1] - p[1])
-        beyond = bulge((first[0] * third, first[1] * third), (last[0] * third, last[1] * third), chord)
-        area += beside(p, q) + beyond * part_inside(p, q)
-        p = q
+        following = q
+        if k < parts - 1 or quality == EXACT:
+            following = point(kx, ky, t, mirror, low, high)
+            last = speed(kx, ky, t, mirror)
+        area += part_area(p, following, (first[0] * third, first[1] * third), (last[0] * third, last[1] * third), frame)
+        p = following
         first = last
     return area
 
@@ -264,12 +277,12 @@ def piece_area(quality: int, piece: Piece, frame: Frame, low: Vec2, high: Vec2) 
     t1 = clamp(min((to[0] - kx[3]) / size_x, (to[1] - ky[3]) / size_y), 0.0, 1.0)
     pixels_x = size_x * abs(frame.right[0]) + size_y * abs(frame.right[1])
     pixels_y = size_x * abs(frame.up[0]) + size_y * abs(frame.up[1])
-    close = CLOSE / max(pixels_x, pixels_y)
     for _ in range(STEPS):
-        before0, before1 = t0, t1
-        t0 = better_t(kx, ky, start, True, t0)
-        t1 = better_t(kx, ky, to, False, t1)
-        if not abs(t0 - before0) + abs(t1 - before1) > close:
+        better0 = better_t(kx, ky, start, True, t0)
+        better1 = better_t(kx, ky, to, False, t1)
+        moved = max(abs(better0 - t0), abs(better1 - t1)) * max(pixels_x, pixels_y)
+        t0, t1 = better0, better1
+        if not moved > CLOSE:
             break
     t1 = max(t0, t1)
 
@@ -277,7 +290,7 @@ def piece_area(quality: int, piece: Piece, frame: Frame, low: Vec2, high: Vec2) 
     y3 = clamp(p3[1], low[1], high[1])
     enter = point(kx, ky, t0, mirror, low, high)
     leave = point(kx, ky, t1, mirror, low, high)
-    area = curve_area(quality, kx, ky, t0, t1, mirror, frame, low, high)
+    area = curve_area(quality, kx, ky, t0, t1, enter, leave, mirror, frame, low, high)
 
     left_start, left_end = (leave[1], y3) if mx < 0.0 else (y0, enter[1])
     right_start, right_end = (y3, enter[1]) if mx < 0.0 else (leave[1], y0)
@@ -285,11 +298,8 @@ def piece_area(quality: int, piece: Piece, frame: Frame, low: Vec2, high: Vec2) 
         left_start = right_end = high[1]
     if piece.ends_left and low[1] < p3[1] < high[1]:
         left_end = right_start = high[1]
-    area += beside(into_frame(frame, (low[0], left_start)), into_frame(frame, (low[0], left_end)))
-    r0 = into_frame(frame, (high[0], right_start))
-    r1 = into_frame(frame, (high[0], right_end))
-    area += beside(r0, r1)
-    if quality == EXACT:
-        area += beside(into_frame(frame, (leave[0], right_start)), r0)
-        area += beside(r1, into_frame(frame, (enter[0], right_end)))
-    return area
+    l0, l1 = into_frame(frame, (low[0], left_start)), into_frame(frame, (low[0], left_end))
+    r0, r1 = into_frame(frame, (high[0], right_start)), into_frame(frame, (high[0], right_end))
+    e0, e1 = into_frame(frame, (enter[0], right_end)), into_frame(frame, (leave[0], right_start))
+    area += beside_sloped(l0, l1[1], frame.upright) + beside_sloped(r0, r1[1], frame.upright)
+    return area + beside_sloped(e1, r0[1], frame.level) + beside_sloped(r1, e0[1], frame.level)
