@@ -27,15 +27,14 @@ from vexture.encoding.packed_texture import PackedTexture
 from vexture.errors import LimitError
 from vexture.kernels import kernel
 from vexture.render.packed_gpu import view_base
-from vexture.render.packed_piece import Frame, Texel, Vec2, box_area, clear_side, frame, piece, piece_area
+from vexture.render.packed_piece import Frame, Texel, Vec2, Whole2, box_area, clear_side, frame, piece, piece_area
 from vexture.render.view import check_size, view_matrix
 from vexture.shaders import QUALITIES
-from vexture.shading import CROSSING, FARTHEST, LEVEL_BIAS, LEVELS_BELOW, MOST_CELLS, POSITION_BITS
+from vexture.shading import CROSSING, FARTHEST, LATTICE_BITS, LEVEL_BIAS, LEVELS_BELOW, MOST_CELLS, POSITION_BITS
 
 __all__ = ["render_packed_cpu"]
 
 Texels = NDArray[np.uint32]
-Whole2 = tuple[int, int]
 
 
 class Place(NamedTuple):
@@ -66,7 +65,8 @@ class Top(NamedTuple):
 class Lattice(NamedTuple):
     """Where a cell's lattice stands to the pixel."""
 
-    center: Vec2
+    whole: Whole2
+    part: Vec2
     low: Vec2
     high: Vec2
     frame: Frame
@@ -166,14 +166,21 @@ def first_curve(cell: Cell) -> int:
 
 @kernel(allocates=False)
 def lattice(origin: Whole2, level: int, place: Place, frame: Frame) -> Lattice:
-    scale = LATTICE / float(1 << (POSITION_BITS - level))
+    finer = POSITION_BITS - level - LATTICE_BITS
+    coarser = max(-finer, 0)
+    finer = max(finer, 0)
     unit = LATTICE * float(1 << level)
-    x = (place.point[0] - origin[0] + place.rest[0]) * scale
-    y = (place.point[1] - origin[1] + place.rest[1]) * scale
+    scale = float(1 << coarser) / float(1 << finer)
+    below = (1 << finer) - 1
+    way_x, way_y = place.point[0] - origin[0], place.point[1] - origin[1]
+    whole = ((way_x >> finer) << coarser, (way_y >> finer) << coarser)
+    part = (((way_x & below) + place.rest[0]) * scale, ((way_y & below) + place.rest[1]) * scale)
+    x, y = whole[0] + part[0], whole[1] + part[1]
     reach_x, reach_y = frame.reach[0] * unit, frame.reach[1] * unit
     right, up = frame.right, frame.up
     return Lattice(
-        (x, y),
+        whole,
+        part,
         (max(-x, -reach_x), max(-y, -reach_y)),
         (min(LATTICE - x, reach_x), min(LATTICE - y, reach_y)),
         Frame(
@@ -196,7 +203,7 @@ def cell_area(texels: Texels, quality: int, cell: Cell, lattice: Lattice) -> flo
     low, high = lattice.low, lattice.high
     area = 0.0
     for i in range(0 if code == 0 else count(cell)):
-        one = piece(texel(texels, curve + i), lattice.center)
+        one = piece(texel(texels, curve + i), lattice.whole, lattice.part)
         winding += 1 if one.starts_left and one.p0[1] <= low[1] else 0
         winding -= 1 if one.ends_left and one.p3[1] <= low[1] else 0
         starts = one.starts_left and low[1] < one.p0[1] < high[1]

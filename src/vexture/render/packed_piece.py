@@ -21,10 +21,23 @@ from vexture.shading import (
     THINNEST_PIXEL,
 )
 
-__all__ = ["Frame", "Piece", "Texel", "Vec2", "beside", "box_area", "clear_side", "frame", "piece", "piece_area"]
+__all__ = [
+    "Frame",
+    "Piece",
+    "Texel",
+    "Vec2",
+    "Whole2",
+    "beside",
+    "box_area",
+    "clear_side",
+    "frame",
+    "piece",
+    "piece_area",
+]
 
 Vec2 = tuple[float, float]
 Vec4 = tuple[float, float, float, float]
+Whole2 = tuple[int, int]
 Texel = tuple[int, int, int, int]
 
 
@@ -41,12 +54,13 @@ class Frame(NamedTuple):
 
 
 class Piece(NamedTuple):
-    """Monotone in x and y, relative to the pixel's centre, in lattice units of the leaf."""
+    """Monotone in x and y, in lattice units of the leaf."""
 
     p0: Vec2
-    p1: Vec2
-    p2: Vec2
     p3: Vec2
+    d1: Vec2
+    d2: Vec2
+    d3: Vec2
     starts_left: bool
     ends_left: bool
 
@@ -138,32 +152,32 @@ def box_area(frame: Frame, low: Vec2, high: Vec2) -> float:
 
 
 @kernel(allocates=False)
-def lattice_point(word: int) -> Vec2:
-    return float(word & ((1 << COORDINATE_BITS) - 1)), float(word >> COORDINATE_BITS)
+def lattice_point(word: int) -> Whole2:
+    return word & ((1 << COORDINATE_BITS) - 1), word >> COORDINATE_BITS
 
 
 @kernel(allocates=False)
-def piece(texel: Texel, center: Vec2) -> Piece:
+def piece(texel: Texel, whole: Whole2, part: Vec2) -> Piece:
     """The piece in a texel, relative to a point of the lattice."""
-    p0 = lattice_point(texel[0])
-    p1 = lattice_point(texel[1])
-    p2 = lattice_point(texel[2])
-    p3 = lattice_point(texel[3])
-    x, y = center
-    off_x, off_y = x + CONTROL_OFFSET, y + CONTROL_OFFSET
+    x0, y0 = lattice_point(texel[0])
+    x1, y1 = lattice_point(texel[1])
+    x2, y2 = lattice_point(texel[2])
+    x3, y3 = lattice_point(texel[3])
+    x1, y1, x2, y2 = x1 - CONTROL_OFFSET, y1 - CONTROL_OFFSET, x2 - CONTROL_OFFSET, y2 - CONTROL_OFFSET
     return Piece(
-        (p0[0] - x, p0[1] - y),
-        (p1[0] - off_x, p1[1] - off_y),
-        (p2[0] - off_x, p2[1] - off_y),
-        (p3[0] - x, p3[1] - y),
-        p0[0] == 0.0,
-        p3[0] == 0.0,
+        (x0 - whole[0] - part[0], y0 - whole[1] - part[1]),
+        (x3 - whole[0] - part[0], y3 - whole[1] - part[1]),
+        (float(x1 - x0), float(y1 - y0)),
+        (float(x2 - x1), float(y2 - y1)),
+        (float(x3 - x2), float(y3 - y2)),
+        x0 == 0,
+        x3 == 0,
     )
 
 
 @kernel(allocates=False)
-def polynomial(p0: float, p1: float, p2: float, p3: float) -> Vec4:
-    return p3 - p0 + 3.0 * (p1 - p2), 3.0 * (p0 - 2.0 * p1 + p2), 3.0 * (p1 - p0), p0
+def polynomial(p0: float, d1: float, d2: float, d3: float) -> Vec4:
+    return (d3 - d2) - (d2 - d1), 3.0 * (d2 - d1), 3.0 * d1, p0
 
 
 @kernel(allocates=False)
@@ -264,12 +278,13 @@ def curve_area(
 @kernel(allocates=False)
 def piece_area(quality: int, piece: Piece, frame: Frame, low: Vec2, high: Vec2) -> float:
     """Minus the area on the right of a piece that goes up, plus that of one that goes down, inside a box."""
-    p0, p1, p2, p3 = piece.p0, piece.p1, piece.p2, piece.p3
-    way = (p3[0] - p0[0], p3[1] - p0[1])
+    p0, p3 = piece.p0, piece.p3
+    d1, d2, d3 = piece.d1, piece.d2, piece.d3
+    way = (d1[0] + d2[0] + d3[0], d1[1] + d2[1] + d3[1])
     mirror = (-1.0 if way[0] < 0.0 else 1.0, -1.0 if way[1] < 0.0 else 1.0)
     mx, my = mirror
-    kx = polynomial(mx * p0[0], mx * p1[0], mx * p2[0], mx * p3[0])
-    ky = polynomial(my * p0[1], my * p1[1], my * p2[1], my * p3[1])
+    kx = polynomial(mx * p0[0], mx * d1[0], mx * d2[0], mx * d3[0])
+    ky = polynomial(my * p0[1], my * d1[1], my * d2[1], my * d3[1])
     start = (-high[0] if mx < 0.0 else low[0], -high[1] if my < 0.0 else low[1])
     to = (-low[0] if mx < 0.0 else high[0], -low[1] if my < 0.0 else high[1])
     size_x, size_y = max(abs(way[0]), NO_SIZE), max(abs(way[1]), NO_SIZE)
