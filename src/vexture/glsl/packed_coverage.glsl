@@ -5,21 +5,28 @@
 
 // Where a cell's lattice stands to the pixel.
 struct VextureLattice {
-    vec2 center;  // of the pixel, in lattice units
-    vec2 low;     // the part of the footprint's box that lies in the cell, relative to that
+    ivec2 whole;  // the pixel's centre in lattice units: whole ones
+    vec2 part;    // and what is left, for floats hold no more than either
+    vec2 low;     // the part of the footprint's box that lies in the cell, relative to the centre
     vec2 high;
     VextureFrame frame;  // from offsets in lattice units
 };
 
 VextureLattice vexture_lattice(ivec2 origin, int level, VexturePlace place, VextureFrame frame) {
-    float scale = VEXTURE_LATTICE / float(1 << (VEXTURE_POSITION_BITS - level));
+    int finer = VEXTURE_POSITION_BITS - level - VEXTURE_LATTICE_BITS;  // bits of a position below a lattice unit
+    int coarser = max(-finer, 0);
+    finer = max(finer, 0);
+    ivec2 way = place.point - origin;
+    ivec2 whole = (way >> finer) << coarser;
+    vec2 part = (vec2(way & ((1 << finer) - 1)) + place.rest) * (float(1 << coarser) / float(1 << finer));
     float unit = VEXTURE_LATTICE * float(1 << level);  // lattice units in the unit square
-    vec2 center = (vec2(place.point - origin) + place.rest) * scale;
     vec2 reach = frame.reach * unit;
     frame.right /= unit;
     frame.up /= unit;
     frame.size *= unit * unit;
-    return VextureLattice(center, max(-center, -reach), min(VEXTURE_LATTICE - center, reach), frame);
+    vec2 low = max(vec2(-whole) - part, -reach);
+    vec2 high = min(vec2((1 << VEXTURE_LATTICE_BITS) - whole) - part, reach);
+    return VextureLattice(whole, part, low, high, frame);
 }
 
 // Filled area of the pixel within one cell.
@@ -32,7 +39,7 @@ float vexture_cell_area(VextureCell cell, VextureLattice lattice) {
     vec2 high = lattice.high;
     int crossing = 0;  // a bit for each piece that must be looked at closely
     for (int i = 0; i < count; i++) {
-        VexturePiece piece = vexture_piece(vexture_texel(curve + uint(i)), lattice.center);
+        VexturePiece piece = vexture_piece(vexture_texel(curve + uint(i)), lattice.whole, lattice.part);
         winding += piece.starts_left && piece.p0.y <= low.y ? 1 : 0;
         winding -= piece.ends_left && piece.p3.y <= low.y ? 1 : 0;
         bool turns = (piece.starts_left && piece.p0.y > low.y && piece.p0.y < high.y)
@@ -47,7 +54,7 @@ float vexture_cell_area(VextureCell cell, VextureLattice lattice) {
         int lowest = crossing & -crossing;
         int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
         crossing ^= lowest;
-        VexturePiece piece = vexture_piece(vexture_texel(curve + uint(i)), lattice.center);
+        VexturePiece piece = vexture_piece(vexture_texel(curve + uint(i)), lattice.whole, lattice.part);
         area += vexture_piece_area(piece, lattice.frame, low, high);
     }
     return area;

@@ -2,32 +2,35 @@
 // Exports: VexturePiece, vexture_piece, vexture_clear_side, vexture_piece_area.
 #include "packed_pixel.glsl"
 
-// Monotone in x and y; P0 to P3 relative to the pixel's centre, in lattice units of the leaf.
+// Monotone in x and y, in lattice units of the leaf.
 struct VexturePiece {
-    vec2 p0;
-    vec2 p1;
-    vec2 p2;
+    vec2 p0;  // relative to the pixel's centre
     vec2 p3;
+    vec2 d1;  // P1 - P0, P2 - P1, P3 - P2: whole numbers, so that nothing is lost in them
+    vec2 d2;
+    vec2 d3;
     bool starts_left;  // on the leaf's left edge
     bool ends_left;
 };
 
-vec2 vexture_lattice_point(uint word) {
-    return vec2(int(word & 0xffffu), int(word >> VEXTURE_COORDINATE_BITS));
+ivec2 vexture_lattice_point(uint word) {
+    return ivec2(int(word & 0xffffu), int(word >> VEXTURE_COORDINATE_BITS));
 }
 
-VexturePiece vexture_piece(uvec4 texel, vec2 center) {
-    vec2 p0 = vexture_lattice_point(texel.x);
-    vec2 p3 = vexture_lattice_point(texel.w);
-    vec2 off = center + float(VEXTURE_CONTROL_OFFSET);
-    vec2 p1 = vexture_lattice_point(texel.y) - off;
-    vec2 p2 = vexture_lattice_point(texel.z) - off;
-    return VexturePiece(p0 - center, p1, p2, p3 - center, p0.x == 0.0, p3.x == 0.0);
+// Relative to a point that is given as whole lattice units and the rest.
+VexturePiece vexture_piece(uvec4 texel, ivec2 whole, vec2 part) {
+    ivec2 p0 = vexture_lattice_point(texel.x);
+    ivec2 p1 = vexture_lattice_point(texel.y) - VEXTURE_CONTROL_OFFSET;
+    ivec2 p2 = vexture_lattice_point(texel.z) - VEXTURE_CONTROL_OFFSET;
+    ivec2 p3 = vexture_lattice_point(texel.w);
+    vec2 r0 = vec2(p0 - whole) - part;
+    vec2 r3 = vec2(p3 - whole) - part;
+    return VexturePiece(r0, r3, vec2(p1 - p0), vec2(p2 - p1), vec2(p3 - p2), p0.x == 0, p3.x == 0);
 }
 
 // Coefficients of t^3, t^2, t and 1.
-vec4 vexture_polynomial(float p0, float p1, float p2, float p3) {
-    return vec4(p3 - p0 + 3.0 * (p1 - p2), 3.0 * (p0 - 2.0 * p1 + p2), 3.0 * (p1 - p0), p0);
+vec4 vexture_polynomial(float p0, float d1, float d2, float d3) {
+    return vec4((d3 - d2) - (d2 - d1), 3.0 * (d2 - d1), 3.0 * d1, p0);
 }
 
 float vexture_evaluate(vec4 k, float t) {
@@ -45,19 +48,37 @@ int vexture_clear_side(VexturePiece piece, vec2 low, vec2 high) {
     return apart ? 0 : !passes_left ? VEXTURE_CROSSING : piece.p3.y > piece.p0.y ? -1 : 1;
 }
 
-// One of Laguerre's steps, which near a turning point gets as far as several of Newton's, toward the t at which both
-// coordinates of a piece, mirrored so that they rise, have passed a corner of the box; or, for the earlier, one of them.
+// Whether x, and not y, is the coordinate by which a piece is the last to have passed a corner of the box (`later`), or the
+// first; as far as one can tell from t. Both coordinates rise, for they were mirrored.
+bool vexture_x_decides(vec2 error, vec2 slope, bool later) {
+    return (error.y * slope.x > error.x * slope.y) == later;
+}
+
+vec2 vexture_slope(vec4 kx, vec4 ky, float t) {
+    return vec2((3.0 * kx.x * t + 2.0 * kx.y) * t + kx.z, (3.0 * ky.x * t + 2.0 * ky.y) * t + ky.z);
+}
+
+// One of Laguerre's steps, which near a turning point gets as far as several of Newton's, toward the t at which a piece
+// has passed a corner by both coordinates (`later`), or by one.
 float vexture_better_t(vec4 kx, vec4 ky, vec2 corner, bool later, float t) {
-    float x_error = vexture_evaluate(kx, t) - corner.x;
-    float y_error = vexture_evaluate(ky, t) - corner.y;
-    float x_slope = (3.0 * kx.x * t + 2.0 * kx.y) * t + kx.z;
-    float y_slope = (3.0 * ky.x * t + 2.0 * ky.y) * t + ky.z;
-    bool x_decides = (y_error * x_slope > x_error * y_slope) == later;
-    float error = x_decides ? x_error : y_error;
-    float slope = x_decides ? x_slope : y_slope;
+    vec2 errors = vec2(vexture_evaluate(kx, t), vexture_evaluate(ky, t)) - corner;
+    vec2 slopes = vexture_slope(kx, ky, t);
+    bool x_decides = vexture_x_decides(errors, slopes, later);
+    float error = x_decides ? errors.x : errors.y;
+    float slope = x_decides ? slopes.x : slopes.y;
     float bend = x_decides ? 6.0 * kx.x * t + 2.0 * kx.y : 6.0 * ky.x * t + 2.0 * ky.y;
     float divisor = slope + sqrt(max(4.0 * slope * slope - 6.0 * error * bend, 0.0));
     return divisor > 0.0 ? clamp(t - 3.0 * error / divisor, 0.0, 1.0) : t;
+}
+
+// Point of a piece, which at t passes a corner of the box from `from` to `to`. The coordinate that decides t is the
+// corner's to the last bit, for a step of t may be a large part of a small pixel; unless t is an end of the piece.
+vec2 vexture_passing_point(vec4 kx, vec4 ky, float t, vec2 corner, bool later, bool is_end, vec2 from, vec2 to) {
+    vec2 point = vec2(vexture_evaluate(kx, t), vexture_evaluate(ky, t));
+    bool x_decides = vexture_x_decides(point - corner, vexture_slope(kx, ky, t), later);
+    point.x = !is_end && x_decides ? corner.x : point.x;
+    point.y = !is_end && !x_decides ? corner.y : point.y;
+    return clamp(point, from, to);
 }
 
 // Area between a curve and its chord, of a cubic with these differences of control points (P1 - P0, P3 - P2, P3 - P0);
@@ -70,11 +91,6 @@ float vexture_bulge(vec2 first, vec2 last, vec2 chord) {
 // Point of a piece whose coordinates were mirrored, moved into the box.
 vec2 vexture_point(vec4 kx, vec4 ky, float t, vec2 mirror, vec2 low, vec2 high) {
     return clamp(vec2(vexture_evaluate(kx, t), vexture_evaluate(ky, t)) * mirror, low, high);
-}
-
-// Derivative of the same.
-vec2 vexture_speed(vec4 kx, vec4 ky, float t, vec2 mirror) {
-    return vec2((3.0 * kx.x * t + 2.0 * kx.y) * t + kx.z, (3.0 * ky.x * t + 2.0 * ky.y) * t + ky.z) * mirror;
 }
 
 // Area beside a part of a piece: beside its chord, and, as far as that lies in the pixel, between it and the chord.
@@ -90,8 +106,8 @@ float vexture_part_area(vec2 p, vec2 q, vec2 first, vec2 last, VextureFrame fram
 float vexture_curve_area(
     vec4 kx, vec4 ky, float t0, float t1, vec2 p, vec2 q, vec2 mirror, VextureFrame frame, vec2 low, vec2 high
 ) {
-    vec2 first = vexture_speed(kx, ky, t0, mirror);
-    vec2 last = vexture_speed(kx, ky, t1, mirror);
+    vec2 first = vexture_slope(kx, ky, t0) * mirror;
+    vec2 last = vexture_slope(kx, ky, t1) * mirror;
     float step_t = t1 - t0;
 #if VEXTURE_QUALITY == VEXTURE_EXACT
     float bend = abs(first.x * last.y - first.y * last.x) * step_t * step_t / frame.size;
@@ -103,7 +119,7 @@ float vexture_curve_area(
         parts--;
         t += step_t;
         vec2 next = vexture_point(kx, ky, t, mirror, low, high);
-        last = vexture_speed(kx, ky, t, mirror);
+        last = vexture_slope(kx, ky, t) * mirror;
         area += vexture_part_area(p, next, first * (step_t / 3.0), last * (step_t / 3.0), frame);
         p = next;
         first = last;
@@ -116,10 +132,10 @@ float vexture_curve_area(
 
 // Minus the area on the right of a piece that goes up, plus that of one that goes down, inside the box from low to high.
 float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 high) {
-    vec2 way = piece.p3 - piece.p0;
+    vec2 way = piece.d1 + piece.d2 + piece.d3;
     vec2 mirror = vec2(way.x < 0.0 ? -1.0 : 1.0, way.y < 0.0 ? -1.0 : 1.0);
-    vec4 kx = vexture_polynomial(piece.p0.x, piece.p1.x, piece.p2.x, piece.p3.x) * mirror.x;
-    vec4 ky = vexture_polynomial(piece.p0.y, piece.p1.y, piece.p2.y, piece.p3.y) * mirror.y;
+    vec4 kx = vexture_polynomial(piece.p0.x, piece.d1.x, piece.d2.x, piece.d3.x) * mirror.x;
+    vec4 ky = vexture_polynomial(piece.p0.y, piece.d1.y, piece.d2.y, piece.d3.y) * mirror.y;
     vec2 from = vec2(way.x < 0.0 ? -high.x : low.x, way.y < 0.0 ? -high.y : low.y);
     vec2 to = vec2(way.x < 0.0 ? -low.x : high.x, way.y < 0.0 ? -low.y : high.y);
     vec2 size = max(abs(way), VEXTURE_NO_SIZE);
@@ -138,12 +154,14 @@ float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 
         t1 = better1;
         steps = moved > VEXTURE_CLOSE ? steps - 1 : 0;
     }
+    bool misses = t0 >= t1;  // enters and leaves at one point, on a side or a corner of the box
     t1 = max(t0, t1);
 
     float y0 = clamp(piece.p0.y, low.y, high.y);
     float y3 = clamp(piece.p3.y, low.y, high.y);
-    vec2 enter = vexture_point(kx, ky, t0, mirror, low, high);
-    vec2 leave = vexture_point(kx, ky, t1, mirror, low, high);
+    vec2 enter = vexture_passing_point(kx, ky, t0, from, true, t0 == 0.0, from, to) * mirror;
+    vec2 leave = vexture_passing_point(kx, ky, t1, to, false, t1 == 1.0, from, to) * mirror;
+    leave = misses ? enter : leave;
     float area = vexture_curve_area(kx, ky, t0, t1, enter, leave, mirror, frame, low, high);
 
     // the way along the box's sides: on its left while the piece is left of it, and back on its right
