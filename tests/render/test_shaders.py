@@ -23,7 +23,7 @@ MIRROR = dict.fromkeys(FILES, cpu) | {
 }
 ALONE = {"covering_triangle", "fetch"}  # functions of the shader for which the mirror has no use
 UNIFORMS = ["texels", "quality", "root", "base", "quads", "curves", "to_unit"]  # which the mirror passes on
-PLAIN = {"vextureCoverage": "coverage"}
+PLAIN = {"vextureCoverage": "coverage", "from": "start"}  # which Python would name otherwise, or not at all
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -70,7 +70,7 @@ def plain(name: str) -> str:
 def test_the_mirror_has_the_same_functions_with_the_same_arguments() -> None:
     for file, text in FILES.items():
         for name, arguments in DEFINITION.findall(text):
-            shader = [argument.split()[-1] for argument in arguments.split(",")]
+            shader = [PLAIN.get(argument, argument) for argument in re.findall(r"(\w+)(?:,|$)", arguments)]
             if name not in ALONE and shader != ["root", "uv", "dx", "dy"]:  # the short form of vextureCoverage
                 mirror = list(inspect.signature(getattr(MIRROR[file], plain(name))).parameters)
                 while mirror != shader and mirror[0] in UNIFORMS:

@@ -175,14 +175,13 @@ def lattice(origin: Whole2, level: int, place: Place, frame: Frame) -> Lattice:
     way_x, way_y = place.point[0] - origin[0], place.point[1] - origin[1]
     whole = ((way_x >> finer) << coarser, (way_y >> finer) << coarser)
     part = (((way_x & below) + place.rest[0]) * scale, ((way_y & below) + place.rest[1]) * scale)
-    x, y = whole[0] + part[0], whole[1] + part[1]
     reach_x, reach_y = frame.reach[0] * unit, frame.reach[1] * unit
     right, up = frame.right, frame.up
     return Lattice(
         whole,
         part,
-        (max(-x, -reach_x), max(-y, -reach_y)),
-        (min(LATTICE - x, reach_x), min(LATTICE - y, reach_y)),
+        (max(-whole[0] - part[0], -reach_x), max(-whole[1] - part[1], -reach_y)),
+        (min(LATTICE - whole[0] - part[0], reach_x), min(LATTICE - whole[1] - part[1], reach_y)),
         Frame(
             (right[0] / unit, right[1] / unit),
             (up[0] / unit, up[1] / unit),

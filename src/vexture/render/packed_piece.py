@@ -27,7 +27,6 @@ __all__ = [
     "Texel",
     "Vec2",
     "Whole2",
-    "beside",
     "box_area",
     "clear_side",
     "frame",
@@ -199,17 +198,34 @@ def clear_side(piece: Piece, low: Vec2, high: Vec2) -> int:
 
 
 @kernel(allocates=False)
+def x_decides(error: Vec2, slope: Vec2, later: bool) -> bool:
+    return (error[1] * slope[0] > error[0] * slope[1]) == later
+
+
+@kernel(allocates=False)
+def slope(kx: Vec4, ky: Vec4, t: float) -> Vec2:
+    return (3.0 * kx[0] * t + 2.0 * kx[1]) * t + kx[2], (3.0 * ky[0] * t + 2.0 * ky[1]) * t + ky[2]
+
+
+@kernel(allocates=False)
 def better_t(kx: Vec4, ky: Vec4, corner: Vec2, later: bool, t: float) -> float:
-    x_error = evaluate(kx, t) - corner[0]
-    y_error = evaluate(ky, t) - corner[1]
-    x_slope = (3.0 * kx[0] * t + 2.0 * kx[1]) * t + kx[2]
-    y_slope = (3.0 * ky[0] * t + 2.0 * ky[1]) * t + ky[2]
-    x_decides = (y_error * x_slope > x_error * y_slope) == later
-    error = x_error if x_decides else y_error
-    slope = x_slope if x_decides else y_slope
-    bend = 6.0 * kx[0] * t + 2.0 * kx[1] if x_decides else 6.0 * ky[0] * t + 2.0 * ky[1]
-    divisor = slope + math.sqrt(max(4.0 * slope * slope - 6.0 * error * bend, 0.0))
+    errors = (evaluate(kx, t) - corner[0], evaluate(ky, t) - corner[1])
+    rises = slope(kx, ky, t)
+    by_x = x_decides(errors, rises, later)
+    error = errors[0] if by_x else errors[1]
+    rise = rises[0] if by_x else rises[1]
+    bend = 6.0 * kx[0] * t + 2.0 * kx[1] if by_x else 6.0 * ky[0] * t + 2.0 * ky[1]
+    divisor = rise + math.sqrt(max(4.0 * rise * rise - 6.0 * error * bend, 0.0))
     return clamp(t - 3.0 * error / divisor, 0.0, 1.0) if divisor > 0.0 else t
+
+
+@kernel(allocates=False)
+def passing_point(kx: Vec4, ky: Vec4, t: float, corner: Vec2, later: bool, is_end: bool, start: Vec2, to: Vec2) -> Vec2:
+    x, y = evaluate(kx, t), evaluate(ky, t)
+    if not is_end:
+        by_x = x_decides((x - corner[0], y - corner[1]), slope(kx, ky, t), later)
+        x, y = (corner[0], y) if by_x else (x, corner[1])
+    return clamp(x, start[0], to[0]), clamp(y, start[1], to[1])
 
 
 @kernel(allocates=False)
@@ -222,13 +238,6 @@ def bulge(first: Vec2, last: Vec2, chord: Vec2) -> float:
 def point(kx: Vec4, ky: Vec4, t: float, mirror: Vec2, low: Vec2, high: Vec2) -> Vec2:
     x = clamp(evaluate(kx, t) * mirror[0], low[0], high[0])
     return x, clamp(evaluate(ky, t) * mirror[1], low[1], high[1])
-
-
-@kernel(allocates=False)
-def speed(kx: Vec4, ky: Vec4, t: float, mirror: Vec2) -> Vec2:
-    x = (3.0 * kx[0] * t + 2.0 * kx[1]) * t + kx[2]
-    y = (3.0 * ky[0] * t + 2.0 * ky[1]) * t + ky[2]
-    return x * mirror[0], y * mirror[1]
 
 
 @kernel(allocates=False)
@@ -253,8 +262,10 @@ def curve_area(
     low: Vec2,
     high: Vec2,
 ) -> float:
-    first = speed(kx, ky, t0, mirror)
-    last = speed(kx, ky, t1, mirror)
+    rise = slope(kx, ky, t0)
+    first = (rise[0] * mirror[0], rise[1] * mirror[1])
+    rise = slope(kx, ky, t1)
+    last = (rise[0] * mirror[0], rise[1] * mirror[1])
     parts = 1
     if quality == EXACT:
         bend = abs(first[0] * last[1] - first[1] * last[0]) * (t1 - t0) * (t1 - t0) / frame.size
@@ -268,7 +279,8 @@ def curve_area(
         following = q
         if k < parts - 1 or quality == EXACT:
             following = point(kx, ky, t, mirror, low, high)
-            last = speed(kx, ky, t, mirror)
+            rise = slope(kx, ky, t)
+            last = (rise[0] * mirror[0], rise[1] * mirror[1])
         area += part_area(p, following, (first[0] * third, first[1] * third), (last[0] * third, last[1] * third), frame)
         p = following
         first = last
@@ -299,12 +311,15 @@ def piece_area(quality: int, piece: Piece, frame: Frame, low: Vec2, high: Vec2) 
         t0, t1 = better0, better1
         if not moved > CLOSE:
             break
+    misses = t0 >= t1
     t1 = max(t0, t1)
 
     y0 = clamp(p0[1], low[1], high[1])
     y3 = clamp(p3[1], low[1], high[1])
-    enter = point(kx, ky, t0, mirror, low, high)
-    leave = point(kx, ky, t1, mirror, low, high)
+    passed = passing_point(kx, ky, t0, start, True, t0 == 0.0, start, to)
+    enter = (mx * passed[0], my * passed[1])
+    passed = passing_point(kx, ky, t1, to, False, t1 == 1.0, start, to)
+    leave = enter if misses else (mx * passed[0], my * passed[1])
     area = curve_area(quality, kx, ky, t0, t1, enter, leave, mirror, frame, low, high)
 
     left_start, left_end = (leave[1], y3) if mx < 0.0 else (y0, enter[1])
