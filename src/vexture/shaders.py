@@ -194,7 +194,8 @@ def vertex_source(version: str) -> str:
 def shader_source(version: str = "300 es", quality: str = "exact") -> str:
     """Text that gives a fragment shader the function ``vextureCoverage``, to stand before its own.
 
-    It holds neither ``#version`` nor a default precision: put it below those, or hand it to an engine that writes them.
+    It holds neither ``#version`` nor a default precision, so that it can be handed to an engine that writes them; in
+    ``300 es`` the defaults of float and int must be highp.
     The shader declares ``uniform highp usampler2D vextureTexels`` and reads a `PackedTexture` from it. All other names
     begin with ``vexture``, ``Vexture`` or ``VEXTURE``.
 
@@ -203,7 +204,8 @@ def shader_source(version: str = "300 es", quality: str = "exact") -> str:
     version : str
         ``"300 es"`` or ``"330"``; the dialect of the shader. The text is the same for both.
     quality : str
-        ``"exact"`` integrates the pixel's footprint, whatever its shape; ``"fast"`` one of the same second moments.
+        Both integrate over the pixel's footprint, whatever its shape. ``"exact"`` cuts pieces that bend within it into
+        parts and goes a level deeper into a shape that is finer than the pixels.
 
     Raises
     ------

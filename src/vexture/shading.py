@@ -20,8 +20,10 @@ __all__ = [
     "HYPERBOLIC_COSINE",
     "HYPERBOLIC_SINE",
     "LATTICE_BITS",
-    "LEVELS_BELOW",
+    "LEVELS_BELOW_EXACT",
+    "LEVELS_BELOW_FAST",
     "LEVEL_BIAS",
+    "LONG",
     "MOST_CELLS",
     "MOST_PARTS",
     "NEARLY_EQUAL",
@@ -69,7 +71,7 @@ SHORTEST_CHORD: Final = 2.0**-18
 
 FAST: Final = 0
 EXACT: Final = 1
-"""Qualities of the packed texture's shader: the footprint's second moments, or the footprint itself."""
+"""Qualities of the packed texture's shader: how finely it looks at bent pieces and at cells smaller than a pixel."""
 
 POSITION_BITS: Final = 28
 """The packed shader's positions are whole numbers of 2^-28 of the unit square: eight squares fit 32 bits."""
@@ -87,16 +89,16 @@ THINNEST_PIXEL: Final = 2.0**-6
 """A footprint seen from its edge is made this wide, in its lengths."""
 
 STEPS: Final = 6
-"""Laguerre's steps for the t of a coordinate, after a quadratic start."""
+"""Laguerre's steps, at most, to where a piece enters and leaves a footprint's box; a line needs one."""
 
-CLOSE: Final = 0.1
+CLOSE: Final = 0.02
 """Pixels. A step that moves a point on a piece by less was the last."""
 
 NO_SIZE: Final = 2.0**-10
 """Lattice units: less than the least size of a piece that has one."""
 
 BEND: Final = 8.0
-"""Parts for each square pixel of the cross product of the derivatives at the ends of a piece within a footprint's box."""
+"""Parts for each square pixel of the cross product of a piece's derivatives at the ends of what a box holds of it."""
 
 MOST_PARTS: Final = 4.0
 """Parts into which such a piece is divided at most."""
@@ -104,8 +106,12 @@ MOST_PARTS: Final = 4.0
 SHORT_WAY: Final = 2.0**-10
 """Pixels. The mean over a shorter way is taken in its middle, because the quotient would lose its digits."""
 
-LEVELS_BELOW: Final = 2
-"""Levels that the sum over cells goes below the footprint's own."""
+LEVELS_BELOW_FAST: Final = 1
+LEVELS_BELOW_EXACT: Final = 2
+"""Levels that the sum over cells goes below the footprint's own; there a divided cell counts by its stored coverage."""
+
+LONG: Final = 0.64
+"""Part of the reach of a footprint's box that its cells, before LEVELS_BELOW, are no smaller than: 14 to a row at most."""
 
 LEVEL_BIAS: Final = 2.0**-8
 """Without it drivers would disagree on the level of a footprint whose size is a power of two."""

@@ -49,7 +49,8 @@ float vexture_cell_area(VextureCell cell, VextureLattice lattice) {
         winding += crosses ? 0 : side;
         crossing |= crosses ? 1 << i : 0;
     }
-    float area = (code == 0 ? vexture_stored_coverage(cell) : float(winding)) * vexture_box_area(lattice.frame, low, high);
+    float filled = code == 0 ? vexture_stored_coverage(cell) : float(winding);
+    float area = filled * vexture_box_area(lattice.frame, low, high);
     while (crossing != 0) {
         int lowest = crossing & -crossing;
         int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
@@ -69,7 +70,7 @@ float vextureCoverage(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VextureFrame frame = vexture_frame(dx, dy);
     VexturePlace place = vexture_place(base, offset, frame.reach);
     int shared_levels = vexture_shared_levels(place.low, place.high);
-    int finest = vexture_finest_level(frame.size);
+    int finest = vexture_finest_level(frame.size, frame.reach);
     VextureTop top = VextureTop(root, 0);
     ivec2 position = place.low;
     int row = place.low.y;
@@ -92,7 +93,8 @@ float vextureCoverage(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
         next_row = row_ends ? place.high.y + 1 : next_row;
         cells = row > place.high.y ? 0 : cells - 1;
     }
-    return clamp(frame.turned * area, 0.0, 1.0);
+    area *= frame.turned;
+    return area > 0.0 ? min(area, 1.0) : 0.0;  // 0 too if the parameters were not numbers
 }
 
 float vextureCoverage(uint root, vec2 uv, vec2 dx, vec2 dy) {

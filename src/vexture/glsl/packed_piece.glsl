@@ -48,8 +48,8 @@ int vexture_clear_side(VexturePiece piece, vec2 low, vec2 high) {
     return apart ? 0 : !passes_left ? VEXTURE_CROSSING : piece.p3.y > piece.p0.y ? -1 : 1;
 }
 
-// Whether x, and not y, is the coordinate by which a piece is the last to have passed a corner of the box (`later`), or the
-// first; as far as one can tell from t. Both coordinates rise, for they were mirrored.
+// Whether x, and not y, is the coordinate by which a piece is the last to have passed a corner of the box (`later`), or
+// the first; as far as one can tell from t. Both coordinates rise, for they were mirrored.
 bool vexture_x_decides(vec2 error, vec2 slope, bool later) {
     return (error.y * slope.x > error.x * slope.y) == later;
 }
@@ -130,7 +130,8 @@ float vexture_curve_area(
 #endif
 }
 
-// Minus the area on the right of a piece that goes up, plus that of one that goes down, inside the box from low to high.
+// Minus the area on the right of a piece that goes up, plus that of one that goes down, inside the box from low to
+// high; and, if an end of it on the leaf's left edge lies in the box, what the box's part above that end adds or takes.
 float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 high) {
     vec2 way = piece.d1 + piece.d2 + piece.d3;
     vec2 mirror = vec2(way.x < 0.0 ? -1.0 : 1.0, way.y < 0.0 ? -1.0 : 1.0);

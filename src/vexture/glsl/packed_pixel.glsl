@@ -1,5 +1,5 @@
 // The pixel's footprint: a parallelogram, and the frame in which it is the square from -1/2 to 1/2.
-// Exports: VextureFrame, vexture_frame, vexture_into_frame, vexture_beside, vexture_box_area.
+// Exports: VextureFrame, vexture_frame, vexture_into_frame, vexture_beside, vexture_part_inside, vexture_box_area.
 
 struct VextureFrame {
     vec2 right;   // its rows: from the drawing's plane to the frame
@@ -47,8 +47,8 @@ float vexture_ramp(float u) {
     return held * (u - 0.5 * held);
 }
 
-// Area of the pixel on the right of a straight line that goes from p to a height, both in the frame, with the direction's
-// `vexture_slopes`; negative if the line goes up.
+// Area of the pixel on the right of a straight line that goes from p to a height, both in the frame, with the
+// direction's `vexture_slopes`; negative if the line goes up.
 float vexture_beside_sloped(vec2 p, float end, vec2 slopes) {
     float y0 = clamp(p.y, -0.5, 0.5);
     float y1 = clamp(end, -0.5, 0.5);

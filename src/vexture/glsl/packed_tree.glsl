@@ -1,6 +1,5 @@
 // Reading the packed texture (FORMAT.md, part B): positions, and the cells down the tree.
-// Exports: VexturePlace, VextureCell, VextureTop, vexture_place, vexture_shared_levels, vexture_texel, vexture_descend,
-// vexture_stored_coverage, vexture_count, vexture_winding_code, vexture_first_curve.
+// Exports: VexturePlace, VextureCell, VextureTop, vexture_place, vexture_finest_level, vexture_texel, vexture_descend.
 //
 // Positions are whole numbers of 2^-POSITION_BITS of the unit square, signed, so that a pixel around the square's edge
 // has one too; a float holds what is left.
@@ -56,10 +55,13 @@ int vexture_shared_levels(ivec2 low, ivec2 high) {
     return clamp(VEXTURE_POSITION_BITS - bits, 0, VEXTURE_MOST_DEPTH);
 }
 
-// The level whose cells are no smaller than a footprint of this area, and LEVELS_BELOW more.
-int vexture_finest_level(float area) {
-    int exponent = (floatBitsToInt(area * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127;
-    return clamp(VEXTURE_LEVELS_BELOW - 1 - (exponent >> 1), 1, VEXTURE_MOST_DEPTH);
+// The level whose cells are no smaller than a square of the footprint's area, and some more levels; fewer for a long
+// footprint, lest its box touch more cells than are looked at.
+int vexture_finest_level(float area, vec2 reach) {
+    float length = VEXTURE_LONG * max(reach.x, reach.y);
+    int exponent = (floatBitsToInt(max(area, length * length) * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127;
+    int below = VEXTURE_QUALITY == VEXTURE_EXACT ? VEXTURE_LEVELS_BELOW_EXACT : VEXTURE_LEVELS_BELOW_FAST;
+    return clamp(below - 1 - (exponent >> 1), 1, VEXTURE_MOST_DEPTH);
 }
 
 // The cell at a position: a leaf, or a quad of the level `finest`. `top` moves down to the quad of the level `shared`.
