@@ -116,13 +116,14 @@ def deepest(tree: PackedTree) -> int:
 
 
 def errors(drawing: Drawing, view: View, quality: str, precision: float = 1e-6) -> tuple[float, float, bool]:
-    """Mean and largest error in 1/255, and whether every pixel sees the leaves themselves."""
+    """Mean and largest error in 1/255, and whether every pixel of an affine view sees the leaves themselves."""
     size, matrix = view
     tree = build_packed(drawing, precision=precision)
     texture = texture_of(drawing, precision=precision)
     error = np.abs(render_packed_cpu(texture, size, matrix, quality=quality) - render_exact(drawing, size, matrix))
-    pixel = abs(np.linalg.det(matrix[:2, :2])) if matrix[2, 0] == matrix[2, 1] == 0.0 else 1.0
-    return float(error.mean() / STEP), float(error.max() / STEP), deepest(tree) <= finest_level(pixel)
+    steps = matrix[:2, :2]
+    level = finest_level(QUALITIES[quality], abs(np.linalg.det(steps)), tuple(0.5 * np.abs(steps).sum(axis=1)))
+    return float(error.mean() / STEP), float(error.max() / STEP), deepest(tree) <= level
 
 
 @st.composite

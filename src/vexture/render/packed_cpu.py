@@ -30,7 +30,18 @@ from vexture.render.packed_gpu import view_base
 from vexture.render.packed_piece import Frame, Texel, Vec2, Whole2, box_area, clear_side, frame, piece, piece_area
 from vexture.render.view import check_size, view_matrix
 from vexture.shaders import QUALITIES
-from vexture.shading import CROSSING, FARTHEST, LATTICE_BITS, LEVEL_BIAS, LEVELS_BELOW, MOST_CELLS, POSITION_BITS
+from vexture.shading import (
+    CROSSING,
+    EXACT,
+    FARTHEST,
+    LATTICE_BITS,
+    LEVEL_BIAS,
+    LEVELS_BELOW_EXACT,
+    LEVELS_BELOW_FAST,
+    LONG,
+    MOST_CELLS,
+    POSITION_BITS,
+)
 
 __all__ = ["render_packed_cpu"]
 
@@ -114,9 +125,11 @@ def shared_levels(low: Whole2, high: Whole2) -> int:
 
 
 @kernel(allocates=False)
-def finest_level(area: float) -> int:
-    exponent = math.frexp(area * (1.0 - LEVEL_BIAS))[1] - 1
-    return min(max(LEVELS_BELOW - 1 - (exponent >> 1), 1), MOST_DEPTH)
+def finest_level(quality: int, area: float, reach: Vec2) -> int:
+    length = LONG * max(reach[0], reach[1])
+    exponent = math.frexp(max(area, length * length) * (1.0 - LEVEL_BIAS))[1] - 1
+    below = LEVELS_BELOW_EXACT if quality == EXACT else LEVELS_BELOW_FAST
+    return min(max(below - 1 - (exponent >> 1), 1), MOST_DEPTH)
 
 
 @kernel(allocates=False)
@@ -203,6 +216,8 @@ def cell_area(texels: Texels, quality: int, cell: Cell, lattice: Lattice) -> flo
     area = 0.0
     for i in range(0 if code == 0 else count(cell)):
         one = piece(texel(texels, curve + i), lattice.whole, lattice.part)
+        if one.starts_left and one.ends_left:
+            continue
         winding += 1 if one.starts_left and one.p0[1] <= low[1] else 0
         winding -= 1 if one.ends_left and one.p3[1] <= low[1] else 0
         starts = one.starts_left and low[1] < one.p0[1] < high[1]
@@ -222,7 +237,7 @@ def coverage(texels: Texels, quality: int, root: int, base: Whole2, offset: Vec2
     there = place(base, offset, pixel.reach)
     low, high = there.low, there.high
     shared = shared_levels(low, high)
-    finest = finest_level(pixel.size)
+    finest = finest_level(quality, pixel.size, pixel.reach)
     top = Top(root, 0)
     x, row, next_row = low[0], low[1], high[1] + 1
     cells = MOST_CELLS if low[0] <= high[0] and low[1] <= high[1] else 0
@@ -241,7 +256,8 @@ def coverage(texels: Texels, quality: int, root: int, base: Whole2, offset: Vec2
         if x > high[0]:
             x, row, next_row = low[0], next_row, high[1] + 1
         cells = 0 if row > high[1] else cells - 1
-    return min(max(pixel.turned * area, 0.0), 1.0)
+    area *= pixel.turned
+    return min(area, 1.0) if area > 0.0 else 0.0
 
 
 # --- packed_view.glsl -------------------------------------------------------------------------------------------------

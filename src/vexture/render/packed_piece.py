@@ -132,8 +132,10 @@ def beside(p: Vec2, q: Vec2) -> float:
 def part_inside(p: Vec2, q: Vec2) -> float:
     held_x = clamp(q[0], -0.5, 0.5) - clamp(p[0], -0.5, 0.5)
     held_y = clamp(q[1], -0.5, 0.5) - clamp(p[1], -0.5, 0.5)
-    whole = (q[0] - p[0]) * (q[1] - p[1])
-    return held_x * held_y / whole if whole != 0.0 else 1.0
+    way_x, way_y = q[0] - p[0], q[1] - p[1]
+    x = held_x / way_x if way_x != 0.0 else 1.0 if abs(p[0]) < 0.5 else 0.0
+    y = held_y / way_y if way_y != 0.0 else 1.0 if abs(p[1]) < 0.5 else 0.0
+    return x * y
 
 
 @kernel(allocates=False)
@@ -199,7 +201,9 @@ def clear_side(piece: Piece, low: Vec2, high: Vec2) -> int:
 
 @kernel(allocates=False)
 def x_decides(error: Vec2, slope: Vec2, later: bool) -> bool:
-    return (error[1] * slope[0] > error[0] * slope[1]) == later
+    x_before = error[0] < 0.0
+    x_slower = error[1] * slope[0] > error[0] * slope[1]
+    return (x_before if x_before != (error[1] < 0.0) else x_slower) == later
 
 
 @kernel(allocates=False)
