@@ -98,7 +98,7 @@ def constants(module: ModuleType) -> str:
 
     Examples
     --------
-    >>> print(constants(layout).splitlines()[0])
+    >>> print(constants(layout).splitlines()[1])
     const int CELL_ORDER[4] = int[4](2, 3, 0, 1);
     """
     lines = []

@@ -111,7 +111,7 @@ LEVELS_BELOW_EXACT: Final = 2
 """Levels that the sum over cells goes below the footprint's own; there a divided cell counts by its stored coverage."""
 
 LONG: Final = 0.64
-"""Part of the reach of a footprint's box that its cells, before LEVELS_BELOW, are no smaller than: 14 to a row at most."""
+"""Part of the reach of a footprint's box that cells are no smaller than, before LEVELS_BELOW: 14 to a row at most."""
 
 LEVEL_BIAS: Final = 2.0**-8
 """Without it drivers would disagree on the level of a footprint whose size is a power of two."""

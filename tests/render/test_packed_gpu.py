@@ -108,6 +108,18 @@ def test_no_step_where_the_outline_crosses_a_cell_border(quality: str, zoom: flo
 
 
 @pytest.mark.parametrize("quality", QUALITIES)
+def test_the_inside_is_plain_though_a_step_of_t_is_a_part_of_a_pixel(quality: str) -> None:
+    need_gpu()
+    steep = np.array([(0.1, 0.1), (0.1, 0.85), (0.9, 0.15), (0.9, 0.9)])
+    contour = np.array([steep, straight((0.9, 0.9), (0.9, 0.1)), straight((0.9, 0.1), (0.1, 0.1))])
+    view = window((200, 200), 0.4999, 0.0999, 2e-4, 2e-4)  # on the straight side, far from the curve in the same leaf
+    drawing = Drawing((Path((contour,)),), name="s")
+    image = render_packed_gpu(texture_of(drawing), (200, 200), view, quality=quality)
+    assert render_exact(drawing, (200, 200), view)[:90].min() == 1.0
+    assert image[:90].min() > 0.999
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
 @pytest.mark.parametrize("upright", [False, True])
 @pytest.mark.parametrize("backwards", [False, True])
 def test_an_s_curve_has_no_speckles(quality: str, upright: bool, backwards: bool) -> None:
