@@ -8,17 +8,22 @@ from hand import EMPTY, FULL, TREE, need_gpu, texture_of
 from vexture import shading
 from vexture.encoding import layout
 from vexture.errors import FormatError
-from vexture.render import cpu, cubic
+from vexture.render import cpu, cubic, packed_cpu, packed_piece
 from vexture.render.gpu import context
 from vexture.shaders import VERSIONS, TextureSizes, constants, join, source, vertex_source
 
 FILES = {file.name: file.read_text() for file in (resources.files("vexture") / "glsl").iterdir()}
-DEFINITION = re.compile(r"^(?:\w+) (\w+)\((.*)\) \{$", re.MULTILINE)
+DEFINITION = re.compile(r"^\w+ (\w+)\(\s*([^()]*?)\s*\) \{$", re.MULTILINE)
 STRUCT = re.compile(r"^struct (\w+) \{(.*?)^\};", re.MULTILINE | re.DOTALL)
-MIRROR = dict.fromkeys(FILES, cpu) | {"cubic.glsl": cubic}
-MIRRORED = {name: text for name, text in FILES.items() if not name.startswith("packed_")}
+MIRROR = dict.fromkeys(FILES, cpu) | {
+    "cubic.glsl": cubic,
+    **{name: packed_cpu for name in FILES if name.startswith("packed_")},
+    "packed_pixel.glsl": packed_piece,
+    "packed_piece.glsl": packed_piece,
+}
 ALONE = {"covering_triangle", "fetch"}  # functions of the shader for which the mirror has no use
-UNIFORMS = ["quads", "curves", "to_unit"]  # which the mirror passes on
+UNIFORMS = ["texels", "quality", "root", "base", "quads", "curves", "to_unit"]  # which the mirror passes on
+PLAIN = {"vextureCoverage": "coverage", "from": "start"}  # which Python would name otherwise, or not at all
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -57,21 +62,27 @@ def test_an_unknown_include_is_refused(name: str) -> None:
         join(name)
 
 
+def plain(name: str) -> str:
+    """What the mirror calls it: it needs no prefix to keep its names apart from other people's."""
+    return PLAIN.get(name, re.sub("^(vexture_|Vexture)", "", name))
+
+
 def test_the_mirror_has_the_same_functions_with_the_same_arguments() -> None:
-    for file, text in MIRRORED.items():
+    for file, text in FILES.items():
         for name, arguments in DEFINITION.findall(text):
-            if name not in ALONE:
-                shader = [argument.split()[1] for argument in arguments.split(", ")]
-                mirror = list(inspect.signature(getattr(MIRROR[file], name)).parameters)
+            shader = [PLAIN.get(argument, argument) for argument in re.findall(r"(\w+)(?:,|$)", arguments)]
+            if name not in ALONE and shader != ["root", "uv", "dx", "dy"]:  # the short form of vextureCoverage
+                mirror = list(inspect.signature(getattr(MIRROR[file], plain(name))).parameters)
                 while mirror != shader and mirror[0] in UNIFORMS:
                     del mirror[0]
                 assert mirror == shader, name
 
 
 def test_the_mirror_has_the_same_structures() -> None:
-    for file, text in MIRRORED.items():
+    for file, text in FILES.items():
         for name, body in STRUCT.findall(text):
-            assert tuple(re.findall(r"^ +\w+ (\w+);", body, re.MULTILINE)) == getattr(MIRROR[file], name)._fields
+            fields = tuple(re.findall(r"^ +\w+ (\w+);", body, re.MULTILINE))
+            assert fields == getattr(MIRROR[file], plain(name))._fields
 
 
 @pytest.mark.parametrize("module", [layout, shading])

@@ -40,6 +40,9 @@ float vexture_cell_area(VextureCell cell, VextureLattice lattice) {
     int crossing = 0;  // a bit for each piece that must be looked at closely
     for (int i = 0; i < count; i++) {
         VexturePiece piece = vexture_piece(vexture_texel(curve + uint(i)), lattice.whole, lattice.part);
+        if (piece.starts_left && piece.ends_left) {
+            continue;  // on the left edge: its ends there say the contrary of itself
+        }
         winding += piece.starts_left && piece.p0.y <= low.y ? 1 : 0;
         winding -= piece.ends_left && piece.p3.y <= low.y ? 1 : 0;
         bool turns = (piece.starts_left && piece.p0.y > low.y && piece.p0.y < high.y)

@@ -49,9 +49,11 @@ int vexture_clear_side(VexturePiece piece, vec2 low, vec2 high) {
 }
 
 // Whether x, and not y, is the coordinate by which a piece is the last to have passed a corner of the box (`later`), or
-// the first; as far as one can tell from t. Both coordinates rise, for they were mirrored.
+// the first. Both coordinates rise, for they were mirrored. If one has passed, which one is clear; else the speeds tell.
 bool vexture_x_decides(vec2 error, vec2 slope, bool later) {
-    return (error.y * slope.x > error.x * slope.y) == later;
+    bool x_before = error.x < 0.0;
+    bool x_slower = error.y * slope.x > error.x * slope.y;
+    return (x_before != (error.y < 0.0) ? x_before : x_slower) == later;
 }
 
 vec2 vexture_slope(vec4 kx, vec4 ky, float t) {

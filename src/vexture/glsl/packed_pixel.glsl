@@ -66,8 +66,9 @@ float vexture_beside(vec2 p, vec2 q) {
 float vexture_part_inside(vec2 p, vec2 q) {
     vec2 way = q - p;
     vec2 held = clamp(q, -0.5, 0.5) - clamp(p, -0.5, 0.5);
-    float whole = way.x * way.y;
-    return whole != 0.0 ? held.x * held.y / whole : 1.0;
+    float x = way.x != 0.0 ? held.x / way.x : abs(p.x) < 0.5 ? 1.0 : 0.0;
+    float y = way.y != 0.0 ? held.y / way.y : abs(p.y) < 0.5 ? 1.0 : 0.0;
+    return x * y;
 }
 
 // Area of the pixel in a box, positive where the frame keeps orientation.

@@ -27,15 +27,25 @@ from vexture.encoding.packed_texture import PackedTexture
 from vexture.errors import LimitError
 from vexture.kernels import kernel
 from vexture.render.packed_gpu import view_base
-from vexture.render.packed_piece import Frame, Texel, Vec2, box_area, clear_side, frame, piece, piece_area
+from vexture.render.packed_piece import Frame, Texel, Vec2, Whole2, box_area, clear_side, frame, piece, piece_area
 from vexture.render.view import check_size, view_matrix
 from vexture.shaders import QUALITIES
-from vexture.shading import CROSSING, FARTHEST, LEVEL_BIAS, LEVELS_BELOW, MOST_CELLS, POSITION_BITS
+from vexture.shading import (
+    CROSSING,
+    EXACT,
+    FARTHEST,
+    LATTICE_BITS,
+    LEVEL_BIAS,
+    LEVELS_BELOW_EXACT,
+    LEVELS_BELOW_FAST,
+    LONG,
+    MOST_CELLS,
+    POSITION_BITS,
+)
 
 __all__ = ["render_packed_cpu"]
 
 Texels = NDArray[np.uint32]
-Whole2 = tuple[int, int]
 
 
 class Place(NamedTuple):
@@ -66,7 +76,8 @@ class Top(NamedTuple):
 class Lattice(NamedTuple):
     """Where a cell's lattice stands to the pixel."""
 
-    center: Vec2
+    whole: Whole2
+    part: Vec2
     low: Vec2
     high: Vec2
     frame: Frame
@@ -101,8 +112,8 @@ def place_coordinate(base: int, offset: float, reach: float) -> tuple[int, float
     point = (base >> spare) + int(whole)
     rest = scaled - whole + (base & ((1 << spare) - 1)) / float(1 << spare)
     extent = min(reach, FARTHEST) * one
-    low = max(point + int(math.floor(rest - extent)), 0)
-    high = min(point + int(math.ceil(rest + extent)) - 1, (1 << POSITION_BITS) - 1)
+    low = max(point + math.floor(rest - extent), 0)
+    high = min(point + math.ceil(rest + extent) - 1, (1 << POSITION_BITS) - 1)
     return point, rest, low, high
 
 
@@ -114,9 +125,11 @@ def shared_levels(low: Whole2, high: Whole2) -> int:
 
 
 @kernel(allocates=False)
-def finest_level(area: float) -> int:
-    exponent = math.frexp(area * (1.0 - LEVEL_BIAS))[1] - 1
-    return min(max(LEVELS_BELOW - 1 - (exponent >> 1), 1), MOST_DEPTH)
+def finest_level(quality: int, area: float, reach: Vec2) -> int:
+    length = LONG * max(reach[0], reach[1])
+    exponent = math.frexp(max(area, length * length) * (1.0 - LEVEL_BIAS))[1] - 1
+    below = LEVELS_BELOW_EXACT if quality == EXACT else LEVELS_BELOW_FAST
+    return min(max(below - 1 - (exponent >> 1), 1), MOST_DEPTH)
 
 
 @kernel(allocates=False)
@@ -166,17 +179,31 @@ def first_curve(cell: Cell) -> int:
 
 @kernel(allocates=False)
 def lattice(origin: Whole2, level: int, place: Place, frame: Frame) -> Lattice:
-    scale = LATTICE / float(1 << (POSITION_BITS - level))
+    finer = POSITION_BITS - level - LATTICE_BITS
+    coarser = max(-finer, 0)
+    finer = max(finer, 0)
     unit = LATTICE * float(1 << level)
-    x = (place.point[0] - origin[0] + place.rest[0]) * scale
-    y = (place.point[1] - origin[1] + place.rest[1]) * scale
+    scale = float(1 << coarser) / float(1 << finer)
+    below = (1 << finer) - 1
+    way_x, way_y = place.point[0] - origin[0], place.point[1] - origin[1]
+    whole = ((way_x >> finer) << coarser, (way_y >> finer) << coarser)
+    part = (((way_x & below) + place.rest[0]) * scale, ((way_y & below) + place.rest[1]) * scale)
     reach_x, reach_y = frame.reach[0] * unit, frame.reach[1] * unit
     right, up = frame.right, frame.up
     return Lattice(
-        (x, y),
-        (max(-x, -reach_x), max(-y, -reach_y)),
-        (min(LATTICE - x, reach_x), min(LATTICE - y, reach_y)),
-        Frame((right[0] / unit, right[1] / unit), (up[0] / unit, up[1] / unit), frame.reach, frame.turned, frame.size),
+        whole,
+        part,
+        (max(-whole[0] - part[0], -reach_x), max(-whole[1] - part[1], -reach_y)),
+        (min(LATTICE - whole[0] - part[0], reach_x), min(LATTICE - whole[1] - part[1], reach_y)),
+        Frame(
+            (right[0] / unit, right[1] / unit),
+            (up[0] / unit, up[1] / unit),
+            frame.level,
+            frame.upright,
+            frame.reach,
+            frame.turned,
+            frame.size * unit * unit,
+        ),
     )
 
 
@@ -188,7 +215,9 @@ def cell_area(texels: Texels, quality: int, cell: Cell, lattice: Lattice) -> flo
     low, high = lattice.low, lattice.high
     area = 0.0
     for i in range(0 if code == 0 else count(cell)):
-        one = piece(texel(texels, curve + i), lattice.center)
+        one = piece(texel(texels, curve + i), lattice.whole, lattice.part)
+        if one.starts_left and one.ends_left:
+            continue
         winding += 1 if one.starts_left and one.p0[1] <= low[1] else 0
         winding -= 1 if one.ends_left and one.p3[1] <= low[1] else 0
         starts = one.starts_left and low[1] < one.p0[1] < high[1]
@@ -199,16 +228,16 @@ def cell_area(texels: Texels, quality: int, cell: Cell, lattice: Lattice) -> flo
         else:
             winding += side
     whole = stored_coverage(cell) if code == 0 else float(winding)
-    return area + whole * box_area(quality, lattice.frame, low, high)
+    return area + whole * box_area(lattice.frame, low, high)
 
 
 @kernel(allocates=False)
 def coverage(texels: Texels, quality: int, root: int, base: Whole2, offset: Vec2, dx: Vec2, dy: Vec2) -> float:
-    pixel = frame(quality, dx, dy)
+    pixel = frame(dx, dy)
     there = place(base, offset, pixel.reach)
     low, high = there.low, there.high
     shared = shared_levels(low, high)
-    finest = finest_level(pixel.size)
+    finest = finest_level(quality, pixel.size, pixel.reach)
     top = Top(root, 0)
     x, row, next_row = low[0], low[1], high[1] + 1
     cells = MOST_CELLS if low[0] <= high[0] and low[1] <= high[1] else 0
@@ -227,7 +256,8 @@ def coverage(texels: Texels, quality: int, root: int, base: Whole2, offset: Vec2
         if x > high[0]:
             x, row, next_row = low[0], next_row, high[1] + 1
         cells = 0 if row > high[1] else cells - 1
-    return min(max(pixel.turned * area, 0.0), 1.0)
+    area *= pixel.turned
+    return min(area, 1.0) if area > 0.0 else 0.0
 
 
 # --- packed_view.glsl -------------------------------------------------------------------------------------------------

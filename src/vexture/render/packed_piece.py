@@ -13,7 +13,7 @@ from vexture.shading import (
     CLOSE,
     CROSSING,
     EXACT,
-    MOST_CHORDS,
+    MOST_PARTS,
     NO_SIZE,
     SHORT_WAY,
     SMALLEST_PIXEL,
@@ -21,10 +21,22 @@ from vexture.shading import (
     THINNEST_PIXEL,
 )
 
-__all__ = ["Frame", "Piece", "Texel", "Vec2", "beside", "box_area", "clear_side", "frame", "piece", "piece_area"]
+__all__ = [
+    "Frame",
+    "Piece",
+    "Texel",
+    "Vec2",
+    "Whole2",
+    "box_area",
+    "clear_side",
+    "frame",
+    "piece",
+    "piece_area",
+]
 
 Vec2 = tuple[float, float]
 Vec4 = tuple[float, float, float, float]
+Whole2 = tuple[int, int]
 Texel = tuple[int, int, int, int]
 
 
@@ -33,18 +45,21 @@ class Frame(NamedTuple):
 
     right: Vec2
     up: Vec2
+    level: Vec2
+    upright: Vec2
     reach: Vec2
     turned: float
     size: float
 
 
 class Piece(NamedTuple):
-    """Monotone in x and y, relative to the pixel's centre, in lattice units of the leaf."""
+    """Monotone in x and y, in lattice units of the leaf."""
 
     p0: Vec2
-    p1: Vec2
-    p2: Vec2
     p3: Vec2
+    d1: Vec2
+    d2: Vec2
+    d3: Vec2
     starts_left: bool
     ends_left: bool
 
@@ -58,7 +73,13 @@ def clamp(value: float, low: float, high: float) -> float:
 
 
 @kernel(allocates=False)
-def frame(quality: int, dx: Vec2, dy: Vec2) -> Frame:
+def slopes(dx: float, dy: float) -> Vec2:
+    return dx / dy if dy != 0.0 else 0.0, dy / dx if dx != 0.0 else 0.0
+
+
+@kernel(allocates=False)
+def frame(dx: Vec2, dy: Vec2) -> Frame:
+    """The frame of the footprint that two steps span."""
     larger = max(dx[0] * dx[0] + dx[1] * dx[1], dy[0] * dy[0] + dy[1] * dy[1])
     if not larger > SMALLEST_PIXEL * SMALLEST_PIXEL:
         dx = (SMALLEST_PIXEL, 0.0)
@@ -69,19 +90,13 @@ def frame(quality: int, dx: Vec2, dy: Vec2) -> Frame:
         dx = dx if dx[0] * dx[0] + dx[1] * dx[1] == larger else dy
         dy = (-dx[1] * THINNEST_PIXEL, dx[0] * THINNEST_PIXEL)
         area = THINNEST_PIXEL * larger
-    if quality == EXACT:
-        reach = (0.5 * (abs(dx[0]) + abs(dy[0])), 0.5 * (abs(dx[1]) + abs(dy[1])))
-        shrink = 1.0 / area
-        turned = 1.0 if area > 0.0 else -1.0
-        return Frame((dy[1] * shrink, -dy[0] * shrink), (-dx[1] * shrink, dx[0] * shrink), reach, turned, abs(area))
-    square = max(dx[1] * dx[1] + dy[1] * dy[1], THINNEST_PIXEL * THINNEST_PIXEL * larger)
-    up = 1.0 / math.sqrt(square)
-    height = square * up
-    width = abs(area) * up
-    right = 1.0 / width
-    lean = (dx[0] * dx[1] + dy[0] * dy[1]) * up
-    reach = (0.5 * (width + abs(lean)), 0.5 * height)
-    return Frame((right, -lean * up * right), (0.0, up), reach, 1.0, abs(area))
+    shrink = 1.0 / area
+    right = (dy[1] * shrink, -dy[0] * shrink)
+    up = (-dx[1] * shrink, dx[0] * shrink)
+    level = slopes(right[0], up[0])
+    upright = slopes(right[1], up[1])
+    reach = (0.5 * (abs(dx[0]) + abs(dy[0])), 0.5 * (abs(dx[1]) + abs(dy[1])))
+    return Frame(right, up, level, upright, reach, 1.0 if area > 0.0 else -1.0, abs(area))
 
 
 @kernel(allocates=False)
@@ -97,73 +112,73 @@ def ramp(u: float) -> float:
 
 
 @kernel(allocates=False)
-def mean_clamped(u0: float, u1: float) -> float:
-    way = u1 - u0
-    if abs(way) < SHORT_WAY:
-        return clamp(0.5 * (u0 + u1), 0.0, 1.0)
-    return (ramp(u1) - ramp(u0)) / way
+def beside_sloped(p: Vec2, end: float, slopes: Vec2) -> float:
+    y0 = clamp(p[1], -0.5, 0.5)
+    y1 = clamp(end, -0.5, 0.5)
+    u0 = 0.5 - p[0] - (y0 - p[1]) * slopes[0]
+    u1 = 0.5 - p[0] - (y1 - p[1]) * slopes[0]
+    if abs(u1 - u0) < SHORT_WAY:
+        return (y0 - y1) * clamp(0.5 * (u0 + u1), 0.0, 1.0)
+    return (ramp(u1) - ramp(u0)) * slopes[1]
 
 
 @kernel(allocates=False)
 def beside(p: Vec2, q: Vec2) -> float:
-    y0 = clamp(p[1], -0.5, 0.5)
-    y1 = clamp(q[1], -0.5, 0.5)
-    rise = q[1] - p[1]
-    slope = (q[0] - p[0]) / rise if rise != 0.0 else 0.0
-    u0 = 0.5 - p[0] - (y0 - p[1]) * slope
-    u1 = 0.5 - p[0] - (y1 - p[1]) * slope
-    return (y0 - y1) * mean_clamped(u0, u1)
+    """Area of the pixel on the right of a straight line in the frame; negative if the line goes up."""
+    return beside_sloped(p, q[1], slopes(q[0] - p[0], q[1] - p[1]))
 
 
 @kernel(allocates=False)
 def part_inside(p: Vec2, q: Vec2) -> float:
-    way_x, way_y = q[0] - p[0], q[1] - p[1]
     held_x = clamp(q[0], -0.5, 0.5) - clamp(p[0], -0.5, 0.5)
     held_y = clamp(q[1], -0.5, 0.5) - clamp(p[1], -0.5, 0.5)
-    return (held_x / way_x if abs(way_x) > 0.0 else 1.0) * (held_y / way_y if abs(way_y) > 0.0 else 1.0)
+    way_x, way_y = q[0] - p[0], q[1] - p[1]
+    x = held_x / way_x if way_x != 0.0 else 1.0 if abs(p[0]) < 0.5 else 0.0
+    y = held_y / way_y if way_y != 0.0 else 1.0 if abs(p[1]) < 0.5 else 0.0
+    return x * y
 
 
 @kernel(allocates=False)
-def box_area(quality: int, frame: Frame, low: Vec2, high: Vec2) -> float:
+def box_area(frame: Frame, low: Vec2, high: Vec2) -> float:
+    """Area of the pixel in a box, positive where the frame keeps orientation."""
     p = into_frame(frame, low)
     q = into_frame(frame, (high[0], low[1]))
     r = into_frame(frame, high)
     s = into_frame(frame, (low[0], high[1]))
-    area = beside(q, r) + beside(s, p)
-    if quality == EXACT:
-        area += beside(p, q) + beside(r, s)
-    return area
+    level = beside_sloped(p, q[1], frame.level) + beside_sloped(r, s[1], frame.level)
+    return level + beside_sloped(q, r[1], frame.upright) + beside_sloped(s, p[1], frame.upright)
 
 
 # --- packed_piece.glsl ------------------------------------------------------------------------------------------------
 
 
 @kernel(allocates=False)
-def lattice_point(word: int) -> Vec2:
-    return float(word & ((1 << COORDINATE_BITS) - 1)), float(word >> COORDINATE_BITS)
+def lattice_point(word: int) -> Whole2:
+    return word & ((1 << COORDINATE_BITS) - 1), word >> COORDINATE_BITS
 
 
 @kernel(allocates=False)
-def piece(texel: Texel, center: Vec2) -> Piece:
-    p0 = lattice_point(texel[0])
-    p1 = lattice_point(texel[1])
-    p2 = lattice_point(texel[2])
-    p3 = lattice_point(texel[3])
-    x, y = center
-    off_x, off_y = x + CONTROL_OFFSET, y + CONTROL_OFFSET
+def piece(texel: Texel, whole: Whole2, part: Vec2) -> Piece:
+    """The piece in a texel, relative to a point of the lattice."""
+    x0, y0 = lattice_point(texel[0])
+    x1, y1 = lattice_point(texel[1])
+    x2, y2 = lattice_point(texel[2])
+    x3, y3 = lattice_point(texel[3])
+    x1, y1, x2, y2 = x1 - CONTROL_OFFSET, y1 - CONTROL_OFFSET, x2 - CONTROL_OFFSET, y2 - CONTROL_OFFSET
     return Piece(
-        (p0[0] - x, p0[1] - y),
-        (p1[0] - off_x, p1[1] - off_y),
-        (p2[0] - off_x, p2[1] - off_y),
-        (p3[0] - x, p3[1] - y),
-        p0[0] == 0.0,
-        p3[0] == 0.0,
+        (x0 - whole[0] - part[0], y0 - whole[1] - part[1]),
+        (x3 - whole[0] - part[0], y3 - whole[1] - part[1]),
+        (float(x1 - x0), float(y1 - y0)),
+        (float(x2 - x1), float(y2 - y1)),
+        (float(x3 - x2), float(y3 - y2)),
+        x0 == 0,
+        x3 == 0,
     )
 
 
 @kernel(allocates=False)
-def polynomial(p0: float, p1: float, p2: float, p3: float) -> Vec4:
-    return p3 - p0 + 3.0 * (p1 - p2), 3.0 * (p0 - 2.0 * p1 + p2), 3.0 * (p1 - p0), p0
+def polynomial(p0: float, d1: float, d2: float, d3: float) -> Vec4:
+    return (d3 - d2) - (d2 - d1), 3.0 * (d2 - d1), 3.0 * d1, p0
 
 
 @kernel(allocates=False)
@@ -173,38 +188,48 @@ def evaluate(k: Vec4, t: float) -> float:
 
 @kernel(allocates=False)
 def clear_side(piece: Piece, low: Vec2, high: Vec2) -> int:
-    p0, p1, p2, p3 = piece.p0, piece.p1, piece.p2, piece.p3
+    """What a whole box takes from a piece that is clear of it: -1, 0 or 1; or CROSSING."""
+    p0, p3 = piece.p0, piece.p3
     bottom, top = min(p0[1], p3[1]), max(p0[1], p3[1])
     left, right = min(p0[0], p3[0]), max(p0[0], p3[0])
-    way = (p3[0] - p0[0], p3[1] - p0[1])
-    h1 = way[0] * (p1[1] - p0[1]) - way[1] * (p1[0] - p0[0])
-    h2 = way[0] * (p2[1] - p0[1]) - way[1] * (p2[0] - p0[0])
-    h = way[0] * (0.5 * (low[1] + high[1]) - p0[1]) - way[1] * (0.5 * (low[0] + high[0]) - p0[0])
-    spread = 0.5 * (abs(way[0]) * (high[1] - low[1]) + abs(way[1]) * (high[0] - low[0]))
-    beyond_left = h - spread >= 0.75 * max(0.0, max(h1, h2))
-    beyond_right = h + spread <= 0.75 * min(0.0, min(h1, h2))
-    rises = way[1] > 0.0
-    box_before = (beyond_left if rises else beyond_right) or left >= high[0]
-    box_after = (beyond_right if rises else beyond_left) or right <= low[0]
-    if top <= low[1] or bottom >= high[1] or box_before:
+    if top <= low[1] or bottom >= high[1] or left >= high[0]:
         return 0
-    if bottom <= low[1] and top >= high[1] and box_after:
-        return -1 if rises else 1
-    return CROSSING
+    if not (bottom <= low[1] and top >= high[1] and right <= low[0]):
+        return CROSSING
+    return -1 if p3[1] > p0[1] else 1
+
+
+@kernel(allocates=False)
+def x_decides(error: Vec2, slope: Vec2, later: bool) -> bool:
+    x_before = error[0] < 0.0
+    x_slower = error[1] * slope[0] > error[0] * slope[1]
+    return (x_before if x_before != (error[1] < 0.0) else x_slower) == later
+
+
+@kernel(allocates=False)
+def slope(kx: Vec4, ky: Vec4, t: float) -> Vec2:
+    return (3.0 * kx[0] * t + 2.0 * kx[1]) * t + kx[2], (3.0 * ky[0] * t + 2.0 * ky[1]) * t + ky[2]
 
 
 @kernel(allocates=False)
 def better_t(kx: Vec4, ky: Vec4, corner: Vec2, later: bool, t: float) -> float:
-    x_error = evaluate(kx, t) - corner[0]
-    y_error = evaluate(ky, t) - corner[1]
-    x_slope = (3.0 * kx[0] * t + 2.0 * kx[1]) * t + kx[2]
-    y_slope = (3.0 * ky[0] * t + 2.0 * ky[1]) * t + ky[2]
-    x_decides = (y_error * x_slope > x_error * y_slope) == later
-    error = x_error if x_decides else y_error
-    slope = x_slope if x_decides else y_slope
-    bend = 6.0 * kx[0] * t + 2.0 * kx[1] if x_decides else 6.0 * ky[0] * t + 2.0 * ky[1]
-    divisor = slope + math.sqrt(max(4.0 * slope * slope - 6.0 * error * bend, 0.0))
+    errors = (evaluate(kx, t) - corner[0], evaluate(ky, t) - corner[1])
+    rises = slope(kx, ky, t)
+    by_x = x_decides(errors, rises, later)
+    error = errors[0] if by_x else errors[1]
+    rise = rises[0] if by_x else rises[1]
+    bend = 6.0 * kx[0] * t + 2.0 * kx[1] if by_x else 6.0 * ky[0] * t + 2.0 * ky[1]
+    divisor = rise + math.sqrt(max(4.0 * rise * rise - 6.0 * error * bend, 0.0))
     return clamp(t - 3.0 * error / divisor, 0.0, 1.0) if divisor > 0.0 else t
+
+
+@kernel(allocates=False)
+def passing_point(kx: Vec4, ky: Vec4, t: float, corner: Vec2, later: bool, is_end: bool, start: Vec2, to: Vec2) -> Vec2:
+    x, y = evaluate(kx, t), evaluate(ky, t)
+    if not is_end:
+        by_x = x_decides((x - corner[0], y - corner[1]), slope(kx, ky, t), later)
+        x, y = (corner[0], y) if by_x else (x, corner[1])
+    return clamp(x, start[0], to[0]), clamp(y, start[1], to[1])
 
 
 @kernel(allocates=False)
@@ -220,45 +245,62 @@ def point(kx: Vec4, ky: Vec4, t: float, mirror: Vec2, low: Vec2, high: Vec2) -> 
 
 
 @kernel(allocates=False)
-def speed(kx: Vec4, ky: Vec4, t: float, mirror: Vec2, frame: Frame) -> Vec2:
-    x = (3.0 * kx[0] * t + 2.0 * kx[1]) * t + kx[2]
-    y = (3.0 * ky[0] * t + 2.0 * ky[1]) * t + ky[2]
-    return into_frame(frame, (x * mirror[0], y * mirror[1]))
+def part_area(p: Vec2, q: Vec2, first: Vec2, last: Vec2, frame: Frame) -> float:
+    start = into_frame(frame, p)
+    to = into_frame(frame, q)
+    scale = frame.turned / frame.size
+    return beside(start, to) + scale * bulge(first, last, (q[0] - p[0], q[1] - p[1])) * part_inside(start, to)
 
 
 @kernel(allocates=False)
-def curve_area(kx: Vec4, ky: Vec4, t0: float, t1: float, mirror: Vec2, frame: Frame, low: Vec2, high: Vec2) -> float:
-    p = into_frame(frame, point(kx, ky, t0, mirror, low, high))
-    first = speed(kx, ky, t0, mirror, frame)
-    end = speed(kx, ky, t1, mirror, frame)
-    bend = abs(first[0] * end[1] - first[1] * end[0]) * (t1 - t0) * (t1 - t0)
-    chords = 1 + int(min(BEND * bend, MOST_CHORDS - 1.0))
-    step_t = (t1 - t0) / chords
+def curve_area(
+    quality: int,
+    kx: Vec4,
+    ky: Vec4,
+    t0: float,
+    t1: float,
+    p: Vec2,
+    q: Vec2,
+    mirror: Vec2,
+    frame: Frame,
+    low: Vec2,
+    high: Vec2,
+) -> float:
+    rise = slope(kx, ky, t0)
+    first = (rise[0] * mirror[0], rise[1] * mirror[1])
+    rise = slope(kx, ky, t1)
+    last = (rise[0] * mirror[0], rise[1] * mirror[1])
+    parts = 1
+    if quality == EXACT:
+        bend = abs(first[0] * last[1] - first[1] * last[0]) * (t1 - t0) * (t1 - t0) / frame.size
+        parts = 1 + int(min(BEND * bend, MOST_PARTS - 1.0))
+    step_t = (t1 - t0) / parts
     third = step_t / 3.0
-    t = t0
     area = 0.0
-    while chords > 0:
-        chords -= 1
+    t = t0
+    for k in range(parts):
         t += step_t
-        q = into_frame(frame, point(kx, ky, t, mirror, low, high))
-        last = speed(kx, ky, t, mirror, frame)
-        more = bulge(
-            (first[0] * third, first[1] * third), (last[0] * third, last[1] * third), (q[0] - p[0], q[1] - p[1])
-        )
-        area += beside(p, q) + more * part_inside(p, q)
-        p = q
+        following = q
+        if k < parts - 1 or quality == EXACT:
+            following = point(kx, ky, t, mirror, low, high)
+            rise = slope(kx, ky, t)
+            last = (rise[0] * mirror[0], rise[1] * mirror[1])
+        area += part_area(p, following, (first[0] * third, first[1] * third), (last[0] * third, last[1] * third), frame)
+        p = following
         first = last
     return area
 
 
 @kernel(allocates=False)
 def piece_area(quality: int, piece: Piece, frame: Frame, low: Vec2, high: Vec2) -> float:
-    p0, p1, p2, p3 = piece.p0, piece.p1, piece.p2, piece.p3
-    way = (p3[0] - p0[0], p3[1] - p0[1])
+    """Minus the area on the right of a piece that goes up, plus that of one that goes down, inside a box."""
+    p0, p3 = piece.p0, piece.p3
+    d1, d2, d3 = piece.d1, piece.d2, piece.d3
+    way = (d1[0] + d2[0] + d3[0], d1[1] + d2[1] + d3[1])
     mirror = (-1.0 if way[0] < 0.0 else 1.0, -1.0 if way[1] < 0.0 else 1.0)
     mx, my = mirror
-    kx = polynomial(mx * p0[0], mx * p1[0], mx * p2[0], mx * p3[0])
-    ky = polynomial(my * p0[1], my * p1[1], my * p2[1], my * p3[1])
+    kx = polynomial(mx * p0[0], mx * d1[0], mx * d2[0], mx * d3[0])
+    ky = polynomial(my * p0[1], my * d1[1], my * d2[1], my * d3[1])
     start = (-high[0] if mx < 0.0 else low[0], -high[1] if my < 0.0 else low[1])
     to = (-low[0] if mx < 0.0 else high[0], -low[1] if my < 0.0 else high[1])
     size_x, size_y = max(abs(way[0]), NO_SIZE), max(abs(way[1]), NO_SIZE)
@@ -266,20 +308,23 @@ def piece_area(quality: int, piece: Piece, frame: Frame, low: Vec2, high: Vec2) 
     t1 = clamp(min((to[0] - kx[3]) / size_x, (to[1] - ky[3]) / size_y), 0.0, 1.0)
     pixels_x = size_x * abs(frame.right[0]) + size_y * abs(frame.right[1])
     pixels_y = size_x * abs(frame.up[0]) + size_y * abs(frame.up[1])
-    close = CLOSE / max(pixels_x, pixels_y)
     for _ in range(STEPS):
-        before0, before1 = t0, t1
-        t0 = better_t(kx, ky, start, True, t0)
-        t1 = better_t(kx, ky, to, False, t1)
-        if not abs(t0 - before0) + abs(t1 - before1) > close:
+        better0 = better_t(kx, ky, start, True, t0)
+        better1 = better_t(kx, ky, to, False, t1)
+        moved = max(abs(better0 - t0), abs(better1 - t1)) * max(pixels_x, pixels_y)
+        t0, t1 = better0, better1
+        if not moved > CLOSE:
             break
+    misses = t0 >= t1
     t1 = max(t0, t1)
 
     y0 = clamp(p0[1], low[1], high[1])
     y3 = clamp(p3[1], low[1], high[1])
-    enter = point(kx, ky, t0, mirror, low, high)
-    leave = point(kx, ky, t1, mirror, low, high)
-    area = curve_area(kx, ky, t0, t1, mirror, frame, low, high)
+    passed = passing_point(kx, ky, t0, start, True, t0 == 0.0, start, to)
+    enter = (mx * passed[0], my * passed[1])
+    passed = passing_point(kx, ky, t1, to, False, t1 == 1.0, start, to)
+    leave = enter if misses else (mx * passed[0], my * passed[1])
+    area = curve_area(quality, kx, ky, t0, t1, enter, leave, mirror, frame, low, high)
 
     left_start, left_end = (leave[1], y3) if mx < 0.0 else (y0, enter[1])
     right_start, right_end = (y3, enter[1]) if mx < 0.0 else (leave[1], y0)
@@ -287,11 +332,8 @@ def piece_area(quality: int, piece: Piece, frame: Frame, low: Vec2, high: Vec2) 
         left_start = right_end = high[1]
     if piece.ends_left and low[1] < p3[1] < high[1]:
         left_end = right_start = high[1]
-    area += beside(into_frame(frame, (low[0], left_start)), into_frame(frame, (low[0], left_end)))
-    r0 = into_frame(frame, (high[0], right_start))
-    r1 = into_frame(frame, (high[0], right_end))
-    area += beside(r0, r1)
-    if quality == EXACT:
-        area += beside(into_frame(frame, (leave[0], right_start)), r0)
-        area += beside(r1, into_frame(frame, (enter[0], right_end)))
-    return area
+    l0, l1 = into_frame(frame, (low[0], left_start)), into_frame(frame, (low[0], left_end))
+    r0, r1 = into_frame(frame, (high[0], right_start)), into_frame(frame, (high[0], right_end))
+    e0, e1 = into_frame(frame, (enter[0], right_end)), into_frame(frame, (leave[0], right_start))
+    area += beside_sloped(l0, l1[1], frame.upright) + beside_sloped(r0, r1[1], frame.upright)
+    return area + beside_sloped(e1, r0[1], frame.level) + beside_sloped(r1, e0[1], frame.level)

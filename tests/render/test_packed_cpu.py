@@ -1,0 +1,200 @@
+"""The packed shader's mirror: against the shader, against the truth, and on random bits."""
+
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hand import need_gpu
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from packed_views import View, texture_of, turned, views, zoomed
+
+import corpora
+import degenerate
+from vexture.drawing import Drawing
+from vexture.drawing import Path as Outline
+from vexture.encoding.packed_texture import PackedTexture
+from vexture.errors import LimitError, VextureError
+from vexture.quadtree.build_packed import build_packed
+from vexture.quadtree.tree import PackedTree
+from vexture.render.exact import render_exact
+from vexture.render.packed_cpu import finest_level, render_packed_cpu
+from vexture.render.packed_gpu import render_packed_gpu
+from vexture.render.view import window
+from vexture.shaders import QUALITIES
+from vexture.sources.svg import read_svg
+
+STEP = 1 / 255
+SHAPES = sorted((Path(__file__).parents[2] / "examples" / "shapes").glob("*.svg"))
+EVERYWHERE = np.uint32(0xFFFFFFFF)
+
+
+def circles(across: int) -> Drawing:
+    """A square grid of circles: many cells in every pixel, and chords at 45 degrees in every cell."""
+    steps = (np.arange(across) + 0.5) / across
+    return Drawing(tuple(Outline((degenerate.circle((x, y), 0.35 / across),)) for x in steps for y in steps))
+
+
+def icon(index: int) -> Drawing:
+    return read_svg(corpora.mdi(index + 1, seed=2)[index])
+
+
+def letter(character: str) -> Drawing:
+    return corpora.glyphs(corpora.dejavu_sans(), character)[0]
+
+
+SOURCES: dict[str, tuple[Callable[..., Drawing], object]] = {
+    **{path.stem: (read_svg, path) for path in SHAPES},
+    **{f"letter {character}": (letter, character) for character in "g&8"},
+    **{f"icon {index}": (icon, index) for index in range(3)},
+    **{f"degenerate {seed}": (degenerate.drawing, seed) for seed in (5, 8, 12, 19, 21)},
+    "circles": (circles, 8),
+}
+
+
+@cache
+def source(name: str) -> tuple[Drawing, PackedTexture]:
+    read, what = SOURCES[name]
+    try:
+        drawing = read(what)
+    except VextureError as error:
+        pytest.skip(str(error))
+    return drawing, texture_of(drawing)
+
+
+def difference(texture: PackedTexture, view: View, quality: str) -> float:
+    size, matrix = view
+    cpu = render_packed_cpu(texture, size, matrix, quality=quality)
+    return float(np.abs(cpu - render_packed_gpu(texture, size, matrix, quality=quality)).max() / STEP)
+
+
+@pytest.mark.parametrize("name", SOURCES)
+def test_the_shader_draws_what_its_mirror_draws(name: str) -> None:
+    need_gpu()
+    drawing, texture = source(name)
+    for title, view in views(drawing):
+        for quality in QUALITIES:
+            assert difference(texture, view, quality) < 0.5, (title, quality)
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+@pytest.mark.parametrize("name", ["duck", "letter g"])
+def test_so_it_does_at_a_thousand_pixels(name: str, quality: str) -> None:
+    need_gpu()
+    assert difference(source(name)[1], turned(1000, 0), quality) < 1.0
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_so_it_does_in_deep_zoom(quality: str) -> None:
+    need_gpu()
+    drawing = source("duck")[0]
+    assert difference(texture_of(drawing, precision=1e-7), zoomed(drawing, 2.0**-14, 100), quality) < 1.0
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+@pytest.mark.parametrize("zoom", [10, 12, 14])
+def test_deep_zoom_shows_no_line_where_pieces_meet_beside_the_view(zoom: int, quality: str) -> None:
+    need_gpu()
+    width = 2.0**-zoom
+    view = window((128, 128), 0.5 - width / 2, 0.5 - width / 2, width, width)
+    image = render_packed_gpu(source("simple-big")[1], (128, 128), view, quality=quality)
+    np.testing.assert_allclose(image, 1.0, atol=0.5 * STEP)
+
+
+# --- the truth --------------------------------------------------------------------------------------------------------
+
+
+def deepest(tree: PackedTree) -> int:
+    """Level of the smallest leaves."""
+    depth = np.ones(len(tree.is_quad), np.int64)
+    for quad, cells in enumerate(tree.is_quad):
+        below = tree.first_quad[quad] + np.arange(cells.sum())
+        depth[below] = depth[quad] + 1
+    return int(depth.max())
+
+
+def errors(drawing: Drawing, view: View, quality: str, precision: float = 1e-6) -> tuple[float, float, bool]:
+    """Mean and largest error in 1/255, and whether every pixel of an affine view sees the leaves themselves."""
+    size, matrix = view
+    tree = build_packed(drawing, precision=precision)
+    texture = texture_of(drawing, precision=precision)
+    error = np.abs(render_packed_cpu(texture, size, matrix, quality=quality) - render_exact(drawing, size, matrix))
+    steps = matrix[:2, :2]
+    level = finest_level(QUALITIES[quality], abs(np.linalg.det(steps)), tuple(0.5 * np.abs(steps).sum(axis=1)))
+    return float(error.mean() / STEP), float(error.max() / STEP), deepest(tree) <= level
+
+
+@st.composite
+def plain_drawings(draw: st.DrawFn) -> Drawing:
+    """A few contours: polygons on a coarse grid, circles, random cubics that may cross themselves and one another."""
+    rng = np.random.default_rng(draw(st.integers(0, 10**9)))
+    paths = []
+    for kind in draw(st.lists(st.sampled_from(["polygon", "circle", "cubics"]), min_size=1, max_size=3)):
+        if kind == "polygon":
+            contour = degenerate.polygon(rng.permutation(81)[:5, None] // (9, 1) % 9 / 8)
+        elif kind == "circle":
+            contour = degenerate.circle(rng.integers(3, 6, 2) / 8, rng.integers(1, 4) / 8)
+        else:
+            n = int(rng.integers(2, 5))
+            contour = degenerate.closed(rng.random((n, 2)) * 0.9 + 0.05, rng.random((n, 2, 2)) * 0.96 + 0.02)
+        paths.append(Outline((contour,)))
+    return Drawing(tuple(paths))
+
+
+sizes = st.floats(8.0, 200.0)
+angles = st.floats(0.0, 360.0) | st.sampled_from([0.0, 30.0, 45.0, 90.0, 180.0, 270.0])
+
+
+@settings(max_examples=40)
+@given(plain_drawings(), sizes, angles, st.floats(1.0, 12.0))
+def test_exact_is_the_footprints_exact_coverage(drawing: Drawing, pixels: float, degrees: float, narrow: float) -> None:
+    mean, largest, leaves = errors(drawing, turned(pixels, degrees, narrow), "exact")
+    assert mean < 1.0
+    if leaves:
+        assert largest < 8.0
+
+
+@settings(max_examples=25)
+@given(plain_drawings(), sizes, st.sampled_from([0.0, 90.0, 180.0, 270.0]))
+def test_fast_is_so_too_where_pixels_are_upright(drawing: Drawing, pixels: float, degrees: float) -> None:
+    mean, largest, leaves = errors(drawing, turned(pixels, degrees), "fast")
+    assert mean < 1.0
+    if leaves:
+        assert largest < 16.0
+
+
+@settings(max_examples=15)
+@given(plain_drawings(), st.floats(0.005, 0.03), st.floats(0.0, 0.02), st.sampled_from(sorted(QUALITIES)))
+def test_tilted_planes(drawing: Drawing, step: float, tilt: float, quality: str) -> None:
+    view = (97, 64), np.array([[step, 0.0, -0.3], [0.001, -step, 1.1], [0.0, tilt, 0.3]])
+    assert errors(drawing, view, quality)[0] < 2.0
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+@pytest.mark.parametrize("view", [turned(250, 0), turned(150, 30), turned(150, 45, 8)])
+def test_a_piece_on_a_leafs_left_edge_counts_once(view: View, quality: str) -> None:
+    box = Drawing.polygon([(0.25, 0.11), (0.75, 0.11), (0.75, 0.9163), (0.25, 0.9163)])
+    assert errors(box, view, quality)[1] < 2.0
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+@pytest.mark.parametrize(("pixels", "narrow"), [(60, 8), (130, 32)])
+def test_what_lies_beside_a_long_pixel_does_not_count(pixels: float, narrow: float, quality: str) -> None:
+    assert errors(circles(64), turned(pixels, 45, narrow), quality)[0] < 3.0
+
+
+def test_without_a_base_and_with_one_it_is_the_same() -> None:
+    texture = source("duck")[1]
+    near = render_packed_cpu(texture, (80, 80))
+    np.testing.assert_allclose(render_packed_cpu(texture, (80, 80), base=(0, 0)), near, atol=1e-6)
+    np.testing.assert_allclose(render_packed_cpu(texture, (80, 80), base=(123456789, 1 << 31)), near, atol=1e-6)
+
+
+def test_a_root_or_a_quality_that_does_not_exist_is_named() -> None:
+    texture = source("duck")[1]
+    with pytest.raises(LimitError, match="root is 1; duck has 1"):
+        render_packed_cpu(texture, (2, 2), root=1)
+    with pytest.raises(LimitError, match="'best'"):
+        render_packed_cpu(texture, (2, 2), quality="best")
