@@ -7,7 +7,6 @@ import pytest
 from hand import need_gpu
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 from packed_views import TILTED, View, turned
 
 from vexture.encoding.layout import MOST_CURVES, MOST_DEPTH
@@ -19,8 +18,6 @@ from vexture.render.packed_gpu import render_packed_gpu
 from vexture.render.view import fit, window
 from vexture.shaders import QUALITIES, packed_view_source
 from vexture.shading import MOST_CELLS, MOST_PARTS, STEPS
-
-Words = NDArray[np.uint32]
 
 ALL_ONES = 0xFFFFFFFF
 QUADS = 0x80808080

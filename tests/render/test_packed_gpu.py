@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hand import need_gpu
 from numpy.typing import NDArray
+from packed_views import texture_of, turned
 
 from vexture.drawing import Drawing, Path
 from vexture.encoding.packed import encode_packed
@@ -36,20 +37,6 @@ def blob() -> Drawing:
 
 def straight(a: tuple[float, float], b: tuple[float, float]) -> NDArray[np.float64]:
     return np.linspace(a, b, 4)
-
-
-def texture_of(drawing: Drawing, **options: float) -> PackedTexture:
-    return encode_packed([build_packed(drawing, **options)], [Root(drawing.name)], name=drawing.name)
-
-
-def turned(pixels: float, degrees: float, narrow: float = 1.0) -> tuple[tuple[int, int], NDArray[np.float64]]:
-    """View of the turned unit square at so many pixels to its side, `narrow` times fewer from top to bottom."""
-    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-    ahead = np.array([[pixels * c, -pixels * s, 0.0], [pixels * s / narrow, pixels * c / narrow, 0.0], [0.0, 0.0, 1.0]])
-    corners = (ahead @ np.array([[0, 1, 0, 1], [0, 0, 1, 1], [1, 1, 1, 1]]))[:2]
-    size = np.ceil(np.ptp(corners, axis=1)).astype(int) + 3
-    ahead[:2, 2] = 1.37 - corners.min(axis=1)
-    return (int(size[0]), int(size[1])), np.linalg.inv(ahead)
 
 
 def mean_error(
