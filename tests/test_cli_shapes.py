@@ -53,6 +53,15 @@ def test_colours_and_parts(tmp_path):
     assert [root.name for root in vexture.load(tmp_path / "logo.ktx2").roots] == [root.name for root in roots]
 
 
+def test_output_may_name_the_file_of_one_drawing(square, tmp_path):
+    target = tmp_path / "new" / "box.ktx2"
+    assert run("convert", square, "-o", target).exit_code == 0
+    assert [file.name for file in target.parent.iterdir()] == ["box.ktx2"]
+    result = run("convert", square, square, "-o", target)
+    assert result.exit_code == 1
+    assert "one file for 2 drawings; use --atlas" in result.stderr
+
+
 def test_atlas(square, tmp_path):
     logo = tmp_path / "logo.svg"
     logo.write_text(LOGO)

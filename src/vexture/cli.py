@@ -81,7 +81,11 @@ def main() -> None:
 @main.command()
 @click.argument("sources", metavar="SOURCE...", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option(
-    "-o", "--output", metavar="DIR", type=click.Path(path_type=Path), help="Folder to write to.  [default: .]"
+    "-o",
+    "--output",
+    metavar="DIR|FILE.ktx2",
+    type=click.Path(path_type=Path),
+    help="Folder to write to, or the file for one drawing.  [default: .]",
 )
 @click.option(
     "--atlas",
@@ -129,12 +133,17 @@ def convert(
 def _convert_each(sources: tuple[Path, ...], output: Path, settings: Settings) -> int:
     """Convert each file to files of its own, print a line for each, return how many failed."""
     from vexture.encoding.files import packed_target, target_of
+    from vexture.encoding.layout import PACKED_SUFFIX
     from vexture.pipeline import run
 
+    is_file = settings.encoding == "packed" and output.suffix.lower() == PACKED_SUFFIX and not output.is_dir()
+    if is_file and len(sources) > 1:
+        raise LimitError(f"--output {output}: one file for {len(sources)} drawings; use --atlas, or name a folder")
+    folder = output.parent if is_file else output
     try:
-        output.mkdir(parents=True, exist_ok=True)
+        folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise DeviceError(f"{output}: cannot be made ({error.strerror}); choose another folder with -o") from None
+        raise DeviceError(f"{folder}: cannot be made ({error.strerror}); choose another folder with -o") from None
     written: dict[Path, Path] = {}
 
     def convert_one(source: Path) -> str:
