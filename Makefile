@@ -1,11 +1,13 @@
 # `make demo` and `make test` need nothing but Python 3.11 or newer: what they install goes into .venv, but for the
 # system libraries of the tests, which they install only as root on Debian and otherwise name.
 # Another Python: make PYTHON=python3.13 demo
+# Less of the benchmarks: make bench QUICK=--quick
 
 PYTHON ?= python3
 BIN := .venv/bin
 SHAPES := examples/shapes
-BENCHMARKS := fidelity conversion icons
+BENCHMARKS := packed_fidelity speed packed_conversion size fidelity conversion icons
+QUICK ?=
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
@@ -14,7 +16,7 @@ BENCHMARKS := fidelity conversion icons
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
 	@echo 'make test    lint, types and tests, with all that they need'
-	@echo 'make bench   measure fidelity and speed; the figures come into benchmarks/results/'
+	@echo 'make bench   measure fidelity, speed and size; the figures come into benchmarks/results/'
 	@echo 'make clean   remove all of that again'
 
 .venv/made:
@@ -69,7 +71,7 @@ test: .venv/for-test
 
 bench: .venv/for-test
 	@$(BIN)/python tools/prepare.py system
-	@for name in $(BENCHMARKS); do echo && $(BIN)/python "benchmarks/$$name.py" || exit 1; done
+	@for name in $(BENCHMARKS); do echo && $(BIN)/python "benchmarks/$$name.py" $(QUICK) || exit 1; done
 
 clean:
 	rm -rf .venv demo build src/*.egg-info benchmarks/results .hypothesis .mypy_cache .pytest_cache .ruff_cache

@@ -1,6 +1,6 @@
 """How small and how fast the conversion of the thesis's examples is, beside what its Table 5.1 says.
 
-    python benchmarks/conversion.py [--repeat 50]
+    python benchmarks/conversion.py [--repeat 50] [--quick]
 
 Every drawing of the table is converted by both strategies, 16 bits unless said otherwise. Sizes are in bytes: of the
 SVG file, of its path data alone, and of both texture files together. Times are medians in ms, with the kernels
@@ -240,7 +240,10 @@ def verdicts(found: Iterable[Check]) -> list[str]:
 def main() -> None:
     parser = argparse.ArgumentParser(description="Sizes and times of the conversion of the thesis's examples.")
     parser.add_argument("--repeat", type=int, default=REPEAT, help="conversions that a median is taken of")
+    parser.add_argument("--quick", action="store_true", help="few repetitions: whether it works, not how fast")
     arguments = parser.parse_args()
+    if arguments.quick:
+        arguments.repeat = min(arguments.repeat, 3)
     with tempfile.TemporaryDirectory() as folder:
         shapes = [size_facts(name) | time_facts(name, arguments.repeat, Path(folder)) for name in PRINTED]
     found = [*size_checks(shapes), *time_checks(shapes)]

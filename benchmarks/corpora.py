@@ -8,6 +8,7 @@ from a seed.
 import os
 import random
 import shutil
+import string
 import subprocess
 import tempfile
 from dataclasses import dataclass, replace
@@ -22,9 +23,21 @@ from vexture import drawing
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError, VextureError
 
-__all__ = ["dejavu_sans", "flags", "fractal_coastline", "glyphs", "ktx_parse", "mdi", "simple_icons"]
+__all__ = [
+    "ALPHANUMERICS",
+    "dejavu_sans",
+    "flags",
+    "fractal_coastline",
+    "glyphs",
+    "ktx_parse",
+    "mdi",
+    "round_shapes",
+    "simple_icons",
+    "stix",
+]
 
 FONTS = Path("/usr/share/fonts")
+ALPHANUMERICS = string.ascii_letters + string.digits
 HEXAGON_RADIUS = 0.4  # unit-square units
 ROUGHNESS = 0.18  # standard deviation of a midpoint's way along the normal, in edge lengths
 
@@ -102,10 +115,20 @@ def ktx_parse() -> Path:
 
 
 def dejavu_sans() -> Path:
-    """Return the file of the font DejaVu Sans."""
-    found = next(FONTS.rglob("DejaVuSans.ttf"), None)
+    """Return the file of the font DejaVu Sans: TrueType, quadratics."""
+    return installed_font("DejaVuSans.ttf", "fonts-dejavu-core")
+
+
+def stix() -> Path:
+    """Return the file of the font STIXGeneral: CFF, cubics, serifs."""
+    return installed_font("STIXGeneral-Regular.otf", "fonts-stix")
+
+
+def installed_font(file: str, package: str) -> Path:
+    """Return a font's file, or say which Debian package brings it."""
+    found = next(FONTS.rglob(file), None)
     if found is None:
-        raise SourceError(f"no DejaVuSans.ttf under {FONTS}; install the Debian package fonts-dejavu-core")
+        raise SourceError(f"no {file} under {FONTS}; install the Debian package {package}")
     return found
 
 
@@ -170,6 +193,32 @@ def glyphs(font: Path, text: str) -> list[Drawing]:
             to_source = np.column_stack([np.eye(2) * height, corner]) / em
             drawings.append(Drawing((path,), to_source, character))
     return drawings
+
+
+def round_shapes() -> list[Drawing]:
+    """Draw a circle and a ribbon with the sides of an S, each counter-clockwise and clockwise.
+
+    Examples
+    --------
+    >>> [shape.name for shape in round_shapes()]
+    ['circle', 'circle, clockwise', 's-curve', 's-curve, clockwise']
+    """
+    arm = 0.4 * 4.0 / 3.0 * (np.sqrt(2.0) - 1.0)  # of a quarter circle
+    quarter = np.array([[0.4, 0.0], [0.4, arm], [arm, 0.4], [0.0, 0.4]])
+    turn = np.array([[0.0, -1.0], [1.0, 0.0]])
+    circle = np.stack([0.5 + quarter @ np.linalg.matrix_power(turn, k).T for k in range(4)])
+    circle[:, 3] = np.roll(circle[:, 0], -1, axis=0)
+    bend = np.array([[0.1, 0.15], [1.1, 0.35], [-0.3, 0.65], [0.7, 0.85]])
+    side = np.array([0.2, 0.0])
+    (upper, lower) = (
+        [p, p + (q - p) / 3.0, q - (q - p) / 3.0, q] for p, q in ((bend[3] + side, bend[3]), (bend[0], bend[0] + side))
+    )
+    ribbon = np.stack([bend + side, np.array(upper), bend[::-1], np.array(lower)])
+    shapes = []
+    for name, contour in (("circle", circle), ("s-curve", ribbon)):
+        shapes.append(Drawing((drawing.Path((contour,)),), name=name))
+        shapes.append(Drawing((drawing.Path((contour[::-1, ::-1].copy(),)),), name=f"{name}, clockwise"))
+    return shapes
 
 
 def fractal_coastline(edges: int, seed: int) -> Drawing:

@@ -1,6 +1,6 @@
 """How well textures show the example drawings: every renderer against the exact coverage.
 
-    python benchmarks/fidelity.py [--sizes 61 250 1000] [--shifts 8] [--seed 1]
+    python benchmarks/fidelity.py [--sizes 61 250 1000] [--shifts 8] [--seed 1] [--quick]
 
 Each drawing is rendered at each size with random sub-pixel shifts of its own. Errors are in 1/255, over the pixels of
 all these pictures that the shape touches in truth or in the picture. *cut* is the mean error where quads are smaller
@@ -211,7 +211,11 @@ def parsed(parser: argparse.ArgumentParser, sizes: Sequence[int]) -> argparse.Na
     parser.add_argument("--sizes", type=int, nargs="+", default=sizes, help="sides of the pictures, in pixels")
     parser.add_argument("--shifts", type=int, default=SHIFTS, help="pictures of each size")
     parser.add_argument("--seed", type=int, default=1)
-    return parser.parse_args()
+    parser.add_argument("--quick", action="store_true", help="less of everything: whether it works, not how well")
+    arguments = parser.parse_args()
+    if arguments.quick:
+        arguments.sizes, arguments.shifts = arguments.sizes[:1], min(arguments.shifts, 2)
+    return arguments
 
 
 def main() -> None:

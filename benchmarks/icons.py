@@ -1,6 +1,6 @@
 """Whether every icon converts, and how well its pictures show it: 500 of Material Design, 200 of Simple Icons.
 
-    python benchmarks/icons.py [--mdi 500] [--simple 200] [--sizes 61 250] [--shifts 8] [--seed 1]
+    python benchmarks/icons.py [--mdi 500] [--simple 200] [--sizes 61 250] [--shifts 8] [--seed 1] [--quick]
 
 The icons are drawn at random from a seed; what is measured, and the limits, are those of `fidelity.py`.
 """
@@ -141,6 +141,8 @@ def main() -> None:
     parser.add_argument("--mdi", type=int, default=500)
     parser.add_argument("--simple", type=int, default=200)
     arguments = parsed(parser, SIZES)
+    if arguments.quick:
+        arguments.mdi, arguments.simple = min(arguments.mdi, 20), min(arguments.simple, 10)
     renderers = ("cpu", "gpu") if has_gpu() else ("cpu",)
     start = time.perf_counter()
     sets = {

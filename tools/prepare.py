@@ -75,6 +75,12 @@ SYSTEM = (
         "the tests on glyphs",
     ),
     Need(
+        "the font STIXGeneral",
+        "import corpora; corpora.stix()",
+        ("fonts-stix",),
+        "the benchmarks on a font of cubics",
+    ),
+    Need(
         "the icon sets of npm",
         "import corpora; corpora.mdi(1, 0); corpora.simple_icons(1, 0)",
         (),

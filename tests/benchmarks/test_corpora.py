@@ -152,3 +152,30 @@ def test_no_seed_leaves_the_unit_square():
 def test_other_numbers_of_edges_are_refused(edges):
     with pytest.raises(LimitError, match=rf"^a coastline of {edges} edges cannot be made; ask for six times"):
         corpora.fractal_coastline(edges, seed=0)
+
+
+def test_round_shapes_come_in_both_directions():
+    shapes = corpora.round_shapes()
+    areas = [sum(area_beside(cubic) for cubic in shape.paths[0].contours[0]) for shape in shapes]
+    assert areas[0] == pytest.approx(np.pi * 0.16, rel=1e-3)
+    assert areas[1] == pytest.approx(-areas[0])
+    assert areas[3] == pytest.approx(-areas[2])
+    assert areas[2] > 0.1
+
+
+def area_beside(cubic):
+    """Integral of x dy by a fine polyline."""
+    t = np.linspace(0, 1, 401)[:, None]
+    x, y = (
+        (1 - t) ** 3 * cubic[0] + 3 * t * (1 - t) ** 2 * cubic[1] + 3 * t**2 * (1 - t) * cubic[2] + t**3 * cubic[3]
+    ).T
+    return float((0.5 * (x[1:] + x[:-1]) * np.diff(y)).sum())
+
+
+def test_stix_has_cubics():
+    try:
+        font = corpora.stix()
+    except SourceError as error:
+        pytest.skip(str(error))
+    (o,) = corpora.glyphs(font, "o")
+    assert np.abs(np.diff(np.concatenate(o.paths[0].contours), n=3, axis=1)).max() > 1e-4
