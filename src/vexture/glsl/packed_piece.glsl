@@ -120,7 +120,7 @@ float vexture_curve_area(
     while (parts > 0) {
         parts--;
         t += step_t;
-        vec2 next = vexture_point(kx, ky, t, mirror, low, high);
+        vec2 next = parts == 0 ? q : vexture_point(kx, ky, t, mirror, low, high);
         last = vexture_slope(kx, ky, t) * mirror;
         area += vexture_part_area(p, next, first * (step_t / 3.0), last * (step_t / 3.0), frame);
         p = next;

@@ -280,11 +280,9 @@ def curve_area(
     t = t0
     for k in range(parts):
         t += step_t
-        following = q
-        if k < parts - 1 or quality == EXACT:
-            following = point(kx, ky, t, mirror, low, high)
-            rise = slope(kx, ky, t)
-            last = (rise[0] * mirror[0], rise[1] * mirror[1])
+        following = point(kx, ky, t, mirror, low, high) if k < parts - 1 else q
+        rise = slope(kx, ky, t)
+        last = (rise[0] * mirror[0], rise[1] * mirror[1])
         area += part_area(p, following, (first[0] * third, first[1] * third), (last[0] * third, last[1] * third), frame)
         p = following
         first = last
