@@ -113,7 +113,7 @@ def drawing_facts(drawing: Drawing, bands: int, rounds: int, seed: int) -> dict[
 
 
 def growth(coarse: Drawing, fine: Drawing, rounds: int, seed: int) -> dict[str, float]:
-    """Each quality's time on a fine drawing over that on a coarse one, taken in turns: geometric mean over the views."""
+    """Each quality's time on a fine drawing over a coarse one, taken in turns: geometric mean over the views."""
     textures, seen = [packed_texture(drawing) for drawing in (coarse, fine)], views_of(coarse, seed)
     found = {}
     for quality in ("fast", "exact"):
