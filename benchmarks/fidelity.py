@@ -206,10 +206,10 @@ def lines(facts: dict[str, Any]) -> Iterator[list[str]]:
         ]
 
 
-def parsed(parser: argparse.ArgumentParser, sizes: Sequence[int]) -> argparse.Namespace:
+def parsed(parser: argparse.ArgumentParser, sizes: Sequence[int], shifts: int = SHIFTS) -> argparse.Namespace:
     """Command line, with what the benchmarks of pictures share."""
     parser.add_argument("--sizes", type=int, nargs="+", default=sizes, help="sides of the pictures, in pixels")
-    parser.add_argument("--shifts", type=int, default=SHIFTS, help="pictures of each size")
+    parser.add_argument("--shifts", type=int, default=shifts, help="pictures of each size")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--quick", action="store_true", help="less of everything: whether it works, not how well")
     arguments = parser.parse_args()
