@@ -20,6 +20,7 @@ __all__ = [
     "HYPERBOLIC_COSINE",
     "HYPERBOLIC_SINE",
     "LATTICE_BITS",
+    "LEAST_FINEST",
     "LEVELS_BELOW_EXACT",
     "LEVELS_BELOW_FAST",
     "LEVEL_BIAS",
@@ -109,6 +110,9 @@ SHORT_WAY: Final = 2.0**-10
 LEVELS_BELOW_FAST: Final = 1
 LEVELS_BELOW_EXACT: Final = 2
 """Levels that the sum over cells goes below the footprint's own; there a divided cell counts by its stored coverage."""
+
+LEAST_FINEST: Final = 4
+"""Level that this sum reaches at least: a picture of a few pixels sees the leaves themselves of most drawings."""
 
 LONG: Final = 0.64
 """Part of the reach of a footprint's box that cells are no smaller than, before LEVELS_BELOW: 14 to a row at most."""

@@ -61,7 +61,7 @@ int vexture_finest_level(float area, vec2 reach) {
     float length = VEXTURE_LONG * max(reach.x, reach.y);
     int exponent = (floatBitsToInt(max(area, length * length) * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127;
     int below = VEXTURE_QUALITY == VEXTURE_EXACT ? VEXTURE_LEVELS_BELOW_EXACT : VEXTURE_LEVELS_BELOW_FAST;
-    return clamp(below - 1 - (exponent >> 1), 1, VEXTURE_MOST_DEPTH);
+    return clamp(below - 1 - (exponent >> 1), VEXTURE_LEAST_FINEST, VEXTURE_MOST_DEPTH);
 }
 
 // The cell at a position: a leaf, or a quad of the level `finest`. `top` moves down to the quad of the level `shared`.

@@ -35,6 +35,7 @@ from vexture.shading import (
     EXACT,
     FARTHEST,
     LATTICE_BITS,
+    LEAST_FINEST,
     LEVEL_BIAS,
     LEVELS_BELOW_EXACT,
     LEVELS_BELOW_FAST,
@@ -129,7 +130,7 @@ def finest_level(quality: int, area: float, reach: Vec2) -> int:
     length = LONG * max(reach[0], reach[1])
     exponent = math.frexp(max(area, length * length) * (1.0 - LEVEL_BIAS))[1] - 1
     below = LEVELS_BELOW_EXACT if quality == EXACT else LEVELS_BELOW_FAST
-    return min(max(below - 1 - (exponent >> 1), 1), MOST_DEPTH)
+    return min(max(below - 1 - (exponent >> 1), LEAST_FINEST), MOST_DEPTH)
 
 
 @kernel(allocates=False)
