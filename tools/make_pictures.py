@@ -23,7 +23,9 @@ __all__ = ["sheet"]
 ROOT = Path(__file__).resolve().parents[1]
 SHAPE = ROOT / "examples" / "shapes" / "duck.svg"
 TARGET = ROOT / "docs" / "pictures" / "first.png"
+PACKED_TARGET = TARGET.with_name("packed.png")
 ICONS_TARGET = TARGET.with_name("icons.png")
+LETTERING = SHAPE.with_name("font.svg")
 
 PANEL, GAP, CAPTION = 360, 28, 44  # pixels
 FINER = 4  # times the pixels that lines are drawn in
@@ -32,6 +34,10 @@ TITLE, TEXT, FRAME, GRID, CURVE = "#14213d", "#6b7688", "#d5dae2", "#a9b2c0", "#
 SIZES = (128, 64, 32, 16)  # pixels, of the small pictures
 ZOOMS = (1, 4, 32, 256)
 ICON, ICON_GRID = 72, (14, 4)  # pixels; columns and rows
+LEANING = np.array([[0.9, 0.0, -0.45], [0.0, -0.26, 0.26], [0.0, 0.75, 0.25]]) @ np.diag([1 / PANEL, 1 / PANEL, 1.0])
+LEANING[0] += 0.5 * LEANING[2]  # a plane that leans back, its far end at the top; the third row is its nearness
+COAST_EDGES, COAST_POINT, COAST_ZOOMS = 98_304, 40_000, (1, 100, 10_000)
+
 CENTER = (206 / 240, 1 - 79 / 240)  # unit-square units: where the duck opens its bill
 
 Panel = tuple[str, str, Image.Image]
@@ -177,6 +183,28 @@ def panels() -> list[list[Panel]]:
     ]
 
 
+def packed_panels() -> list[list[Panel]]:
+    """What the packed encoding adds: planes seen from the side, maps, deep zoom."""
+    sys.path.insert(0, str(ROOT / "benchmarks"))
+    import corpora
+
+    lettering = vexture.convert(LETTERING)
+    coast = corpora.fractal_coastline(COAST_EDGES, seed=1)
+    x, y = coast.paths[0].contours[0][COAST_POINT, 0]
+    texture = vexture.convert(coast, precision=1e-7)
+    row = [
+        ("on a plane", f"{lettering.nbytes:,} bytes", inked(vexture.render(lettering, (PANEL, PANEL), LEANING, "cpu")))
+    ]
+    for zoom in COAST_ZOOMS:
+        side = 1.0 / zoom
+        whole = window((PANEL, PANEL), 0.0, 0.0, 1.0, 1.0)
+        near = window((PANEL, PANEL), x - side / 2, y - side / 2, side, side)
+        image = inked(vexture.render(texture, (PANEL, PANEL), whole if zoom == 1 else near, "cpu"))
+        title = f"{COAST_EDGES:,} edges" if zoom == 1 else f"{zoom:,} times"
+        row.append((title, "", image))
+    return [row]
+
+
 def icons() -> Image.Image:
     """Icons of those that benchmarks/icons.py measures, each drawn from its texture."""
     sys.path.insert(0, str(ROOT / "benchmarks"))
@@ -186,7 +214,7 @@ def icons() -> Image.Image:
     out = Image.new("RGB", (columns * (ICON + GAP) + GAP, rows * (ICON + GAP) + GAP), PAPER)
     for place, file in enumerate(corpora.mdi(columns * rows, 1)):
         row, column = divmod(place, columns)
-        image = inked(vexture.render(vexture.convert(file, encoding="thesis"), (ICON, ICON), renderer="cpu"))
+        image = inked(vexture.render(vexture.convert(file), (ICON, ICON), renderer="cpu"))
         out.paste(image, (GAP + column * (ICON + GAP), GAP + row * (ICON + GAP)))
     return out
 
@@ -195,5 +223,7 @@ if __name__ == "__main__":
     TARGET.parent.mkdir(parents=True, exist_ok=True)
     sheet(panels()).save(TARGET, optimize=True)
     print(TARGET)
+    sheet(packed_panels()).save(PACKED_TARGET, optimize=True)
+    print(PACKED_TARGET)
     icons().save(ICONS_TARGET, optimize=True)
     print(ICONS_TARGET)
