@@ -29,6 +29,7 @@ __all__ = [
     "MOST_PARTS",
     "NEARLY_EQUAL",
     "NEARLY_ZERO",
+    "NOISE",
     "NO_SIZE",
     "POSITION_BITS",
     "QUADRATIC",
@@ -98,6 +99,9 @@ CLOSE: Final = 0.02
 NO_SIZE: Final = 2.0**-10
 """Lattice units: less than the least size of a piece that has one."""
 
+NOISE: Final = 2.0**-10
+"""Lattice units: what float32 may take from a point of a piece far from the pixel."""
+
 BEND: Final = 8.0
 """Parts for each square pixel of the cross product of a piece's derivatives at the ends of what a box holds of it."""
 
@@ -107,15 +111,15 @@ MOST_PARTS: Final = 4.0
 SHORT_WAY: Final = 2.0**-10
 """Pixels. The mean over a shorter way is taken in its middle, because the quotient would lose its digits."""
 
-LEVELS_BELOW_FAST: Final = 1
-LEVELS_BELOW_EXACT: Final = 2
+LEVELS_BELOW_FAST: Final = 2
+LEVELS_BELOW_EXACT: Final = 3
 """Levels that the sum over cells goes below the footprint's own; there a divided cell counts by its stored coverage."""
 
 LEAST_FINEST: Final = 4
 """Level that this sum reaches at least: a picture of a few pixels sees the leaves themselves of most drawings."""
 
-LONG: Final = 0.64
-"""Part of the reach of a footprint's box that cells are no smaller than, before LEVELS_BELOW: 14 to a row at most."""
+LONG: Final = 0.16
+"""Part of the reach of a footprint's box that cells are no smaller than, lest they be more than 14 to a row."""
 
 LEVEL_BIAS: Final = 2.0**-8
 """Without it drivers would disagree on the level of a footprint whose size is a power of two."""

@@ -32,7 +32,8 @@ def crossings(cubic, heights):
     """Where a cubic (pixel coordinates) meets horizontal lines: number of the line, x, direction."""
     x, y = cubic.T
     slope = np.polynomial.Polynomial([y[1] - y[0], 2 * (y[2] - 2 * y[1] + y[0]), y[3] - y[0] + 3 * (y[1] - y[2])])
-    turns = [t.real for t in slope.trim(1e-12 * np.abs(slope.coef).max()).roots() if abs(t.imag) < 1e-12 and 0 < t.real < 1]
+    roots = slope.trim(1e-12 * np.abs(slope.coef).max()).roots()
+    turns = [t.real for t in roots if abs(t.imag) < 1e-12 and 0 < t.real < 1]
     parts = []
 
     def bernstein(p, t):

@@ -203,3 +203,15 @@ def test_a_root_or_a_quality_that_does_not_exist_is_named() -> None:
         render_packed_cpu(texture, (2, 2), root=1)
     with pytest.raises(LimitError, match="'best'"):
         render_packed_cpu(texture, (2, 2), quality="best")
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_a_piece_that_turns_on_the_side_of_the_box_leaves_there(quality: str) -> None:
+    """There its speed is nothing, and a rounding error decides whether it has come to the side."""
+    need_gpu()
+    round_corner = np.array([[(0.0, 0.125), (0.0, 0.0561), (0.0561, 0.0), (0.12506, 0.0)]])
+    sides = degenerate.polygon([(0.12506, 0.0), (0.9, 0.0), (0.9, 0.9), (0.0, 0.9), (0.0, 0.125)])
+    texture = texture_of(Drawing((Outline((np.concatenate([round_corner, sides[1:]]),)),)))
+    for shift in np.linspace(0.0, 4e-9, 41):
+        view = np.array([[0.0625, 0.0, -0.04458777259142641], [0.0, -0.0625, 1.0201982216418346 + shift]])
+        assert difference(texture, ((18, 18), view), quality) < 0.5

@@ -58,9 +58,9 @@ int vexture_shared_levels(ivec2 low, ivec2 high) {
 // The level whose cells are no smaller than a square of the footprint's area, and some more levels; fewer for a long
 // footprint, lest its box touch more cells than are looked at.
 int vexture_finest_level(float area, vec2 reach) {
-    float length = VEXTURE_LONG * max(reach.x, reach.y);
-    int exponent = (floatBitsToInt(max(area, length * length) * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127;
     int below = VEXTURE_QUALITY == VEXTURE_EXACT ? VEXTURE_LEVELS_BELOW_EXACT : VEXTURE_LEVELS_BELOW_FAST;
+    float length = VEXTURE_LONG * float(1 << below) * max(reach.x, reach.y);
+    int exponent = (floatBitsToInt(max(area, length * length) * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127;
     return clamp(below - 1 - (exponent >> 1), VEXTURE_LEAST_FINEST, VEXTURE_MOST_DEPTH);
 }
 

@@ -127,9 +127,9 @@ def shared_levels(low: Whole2, high: Whole2) -> int:
 
 @kernel(allocates=False)
 def finest_level(quality: int, area: float, reach: Vec2) -> int:
-    length = LONG * max(reach[0], reach[1])
-    exponent = math.frexp(max(area, length * length) * (1.0 - LEVEL_BIAS))[1] - 1
     below = LEVELS_BELOW_EXACT if quality == EXACT else LEVELS_BELOW_FAST
+    length = LONG * (1 << below) * max(reach[0], reach[1])
+    exponent = math.frexp(max(area, length * length) * (1.0 - LEVEL_BIAS))[1] - 1
     return min(max(below - 1 - (exponent >> 1), LEAST_FINEST), MOST_DEPTH)
 
 

@@ -15,6 +15,7 @@ from vexture.shading import (
     EXACT,
     MOST_PARTS,
     NO_SIZE,
+    NOISE,
     SHORT_WAY,
     SMALLEST_PIXEL,
     STEPS,
@@ -227,7 +228,7 @@ def better_t(kx: Vec4, ky: Vec4, corner: Vec2, later: bool, t: float) -> float:
 def passing_point(kx: Vec4, ky: Vec4, t: float, corner: Vec2, later: bool, is_end: bool, start: Vec2, to: Vec2) -> Vec2:
     x, y = evaluate(kx, t), evaluate(ky, t)
     if not is_end:
-        by_x = x_decides((x - corner[0], y - corner[1]), slope(kx, ky, t), later)
+        by_x = x_decides((x - corner[0] + NOISE, y - corner[1] + NOISE), slope(kx, ky, t), later)
         x, y = (corner[0], y) if by_x else (x, corner[1])
     return clamp(x, start[0], to[0]), clamp(y, start[1], to[1])
 
