@@ -1,5 +1,6 @@
 """The command line on shapes: colours, parts of drawings, atlases."""
 
+import os
 import re
 
 import numpy as np
@@ -196,3 +197,39 @@ def test_what_cannot_be_drawn_gets_one_line(square, tmp_path, shown, arguments, 
     assert (result.exit_code, result.output.count("\n")) == (1, 1)
     assert says in result.output
     assert not (tmp_path / "x.png").exists()
+
+
+def test_pictures_replace_nothing_but_pictures(square, tmp_path):
+    for target, words in ((square, "pictures are PNG files"), (tmp_path / "x.jpg", "pictures are PNG files")):
+        result = run("render", square, "-o", target, "--renderer", "exact", "--size", 8)
+        assert result.exit_code == 1
+        assert words in result.stderr
+    assert square.read_text().lstrip().startswith("<svg")
+    pipe = tmp_path / "pipe.png"
+    os.mkfifo(pipe)
+    for command in (
+        ("render", square, "--renderer", "exact", "-o", pipe),
+        ("convert", square, "-o", tmp_path / "p.ktx2"),
+    ):
+        if command[0] == "convert":
+            pipe.rename(tmp_path / "p.ktx2")
+        result = run(*command)
+        assert result.exit_code == 1
+        assert "not a regular file" in result.stderr
+    assert (tmp_path / "p.ktx2").is_fifo()
+
+
+def test_a_link_stays_one(square, tmp_path):
+    file, link = tmp_path / "file.png", tmp_path / "link.png"
+    file.write_bytes(b"old")
+    link.symlink_to(file)
+    assert run("render", square, "-o", link, "--renderer", "exact", "--size", 8).exit_code == 0
+    assert link.is_symlink()
+    assert file.read_bytes().startswith(b"\x89PNG")
+
+
+def test_names_keep_their_dots(square, tmp_path):
+    for version in "ab":
+        (tmp_path / f"logo.{version}.svg").write_text(square.read_text())
+    assert run("convert", tmp_path / "logo.a.svg", tmp_path / "logo.b.svg", "-o", tmp_path).exit_code == 0
+    assert {file.name for file in tmp_path.glob("*.ktx2")} == {"logo.a.ktx2", "logo.b.ktx2"}

@@ -67,6 +67,9 @@ def _one_line() -> Iterator[None]:
         except VextureError as error:
             _say(str(error))
             sys.exit(1)
+        except OSError as error:
+            _say(f"{error.filename or 'the output'}: {error.strerror}; choose another file")
+            sys.exit(1)
         except MemoryError:
             _say("out of memory; use a smaller drawing or a smaller --size")
             sys.exit(1)
@@ -215,15 +218,18 @@ def _described(
 ) -> str:
     """One line about a source."""
     from vexture.encoding import quantisation_step
-    from vexture.quadtree.tree import LATTICE
+    from vexture.quadtree.build_packed import largest_shift
 
-    step = 1.0 / LATTICE if settings.encoding == "packed" else quantisation_step(settings.bits or 16)
+    if settings.encoding == "packed":
+        shift = largest_shift(settings.precision)
+    else:
+        shift = max(tree.widest_leaf for tree in trees) * quantisation_step(settings.bits or 16)
     unresolved = sum(tree.unresolved for tree in trees)
     layers = f"{len(trees)} layers, " if len(trees) > 1 else ""
     line = (
         f"{drawing.name}: {drawing.segments} segments, {layers}{sum(len(tree.coverage) for tree in trees)} quads, "
         f"{sum(len(tree.curves) for tree in trees)} curves, {size} bytes, {1000 * seconds:.1f} ms, "
-        f"distance {max(tree.deviation for tree in trees):.1e} + {max(tree.widest_leaf for tree in trees) * step:.1e}"
+        f"distance {max(tree.deviation for tree in trees):.1e} + {shift:.1e}"
     )
     return line + (f", {unresolved} cells at the depth limit" if unresolved else "")
 
@@ -299,8 +305,11 @@ def _write_png(image: Any, output: Path) -> None:
     import numpy as np
     from PIL import Image
 
-    if not output.name:
-        raise DeviceError(f"{str(output)!r} is no file to write to; name one with -o")
+    if output.suffix.lower() != ".png":
+        raise LimitError(f"--output {output}: pictures are PNG files; name one that ends in .png")
+    output = output.resolve()  # a link is not replaced, but what it stands for
+    if output.exists() and not output.is_file():
+        raise DeviceError(f"{output}: cannot be written (not a regular file); choose another file with -o")
     partial = output.with_name(f".{output.name}.{os.getpid()}.part")
     try:
         Image.fromarray(np.rint(255.0 * image).astype(np.uint8)).save(partial, format="PNG")

@@ -78,9 +78,11 @@ def render(
     """
     _check(renderer, quality)
     from vexture.drawing import Drawing
-    from vexture.encoding import ThesisTexture
+    from vexture.encoding import PackedTexture, ThesisTexture
 
     shown = texture_or_drawing
+    if not isinstance(shown, Drawing | PackedTexture | ThesisTexture):
+        raise LimitError(f"{shown!r} is no texture or drawing; read it by vexture.load or vexture.read_svg")
     if isinstance(shown, Drawing):
         if root is not None:
             raise LimitError(f"root={root!r} chooses a shape of a texture; a drawing is one: leave root out")
@@ -229,7 +231,7 @@ def find_root(texture: "PackedTexture", root: str | int | None) -> int:
         return texture.roots.index(texture.root(root))
     if len(texture.roots) > 1:
         names = _listed([shape.name for shape in texture.roots])
-        raise LimitError(f"{texture.name} holds {len(texture.roots)} shapes ({names}); choose one by root")
+        raise LimitError(f"{texture.name} holds {len(texture.roots)} shapes ({names}); choose one by root (--root)")
     return 0
 
 
@@ -254,7 +256,7 @@ def layers_of(texture: "PackedTexture", drawing: str | None = None) -> list[int]
     if drawing is None:
         if len(different) > 1:
             raise LimitError(
-                f"{texture.name} holds {len(different)} drawings ({_listed(different)}); choose one by root"
+                f"{texture.name} holds {len(different)} drawings ({_listed(different)}); choose one by root (--root)"
             )
         return list(range(len(owners)))
     if drawing not in different:

@@ -27,9 +27,9 @@ __all__ = [
     "LONG",
     "MOST_CELLS",
     "MOST_PARTS",
+    "NEAR",
     "NEARLY_EQUAL",
     "NEARLY_ZERO",
-    "NOISE",
     "NO_SIZE",
     "POSITION_BITS",
     "QUADRATIC",
@@ -99,8 +99,8 @@ CLOSE: Final = 0.02
 NO_SIZE: Final = 2.0**-10
 """Lattice units: less than the least size of a piece that has one."""
 
-NOISE: Final = 2.0**-10
-"""Lattice units: what float32 may take from a point of a piece far from the pixel."""
+NEAR: Final = 0.125
+"""Part of a footprint's box: a point that is to be on its side is nearer."""
 
 BEND: Final = 8.0
 """Parts for each square pixel of the cross product of a piece's derivatives at the ends of what a box holds of it."""

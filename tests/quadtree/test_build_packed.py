@@ -222,6 +222,10 @@ def test_full_and_empty_cells_are_exact():
     ("parameters", "words"),
     [
         ({"max_depth": 21}, "depth limit 21"),
+        ({"max_depth": 4.5}, "depth limit 4.5"),
+        ({"capacity": 2.5}, "capacity 2.5"),
+        ({"tolerance": None}, "tolerance None"),
+        ({"precision": 0.0}, "precision 0 is outside"),
         ({"capacity": 0}, "capacity 0"),
         ({"capacity": 16}, "capacity 16"),
         ({"precision": 1e-12}, "precision 1e-12"),

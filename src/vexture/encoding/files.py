@@ -85,6 +85,7 @@ def write_together(files: dict[Path, bytes]) -> None:
     DeviceError
         If the disk refuses.
     """
+    files = {path.resolve(): data for path, data in files.items()}  # links are not replaced, but what they stand for
     token = secrets.token_hex(4)
     temporary = {path: path.with_name(f".{path.name}.{token}.tmp") for path in files}
     made: list[Path] = []
@@ -97,6 +98,8 @@ def write_together(files: dict[Path, bytes]) -> None:
         for path in files:  # seen before anything is replaced
             if path.is_dir():
                 raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+            if path.exists() and not path.is_file():
+                raise OSError(errno.EINVAL, "not a regular file")
         for place, path in enumerate(files):
             made[place] = made[place].replace(path)
     except BaseException as error:

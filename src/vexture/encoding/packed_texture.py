@@ -131,15 +131,15 @@ class PackedTexture:
                 f"curve {curves[most.argmax()]} has an end at {most.max()}; the limit is {layout.LATTICE:.0f}; {REMEDY}"
             )
 
-    def contains(self, points: ArrayLike, root: str | int = 0) -> NDArray[np.bool_]:
+    def contains(self, points: ArrayLike, root: str | int | None = None) -> NDArray[np.bool_]:
         """Which points are inside a shape, by the outlines as they are stored.
 
         Parameters
         ----------
         points : (n, 2) array
             In unit-square units, y up. Nothing is inside beyond 0 <= x < 1, 0 <= y < 1.
-        root : str or int
-            Name or place of the shape.
+        root : str, int or None
+            Name or place of the shape; not needed if there is only one.
 
         Returns
         -------
@@ -148,7 +148,7 @@ class PackedTexture:
         Raises
         ------
         LimitError
-            If the points are of another shape.
+            If the points are of another shape, or no shape is named where there are several.
         FormatError
             If there is no such shape.
 
@@ -167,8 +167,10 @@ class PackedTexture:
         wanted = np.asarray(points, np.float64)
         if wanted.ndim != 2 or wanted.shape[1] != 2:
             raise LimitError(f"points have the shape {wanted.shape}; it must be (n, 2)")
+        if root is None and len(self.roots) > 1:
+            raise LimitError(f"{self.name} holds {len(self.roots)} shapes; choose one by root")
         inside = np.empty(len(wanted), np.bool_)
-        points_inside(self.flat, self.root(root).quad, wanted, inside)
+        points_inside(self.flat, self.root(root or 0).quad, wanted, inside)
         return inside
 
     def to_svg(self, root: str | int | None = None) -> str:

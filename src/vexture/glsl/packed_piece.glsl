@@ -74,13 +74,14 @@ float vexture_better_t(vec4 kx, vec4 ky, vec2 corner, bool later, float t) {
 }
 
 // Point of a piece, which at t passes a corner of the box from `from` to `to`. The coordinate that decides t is the
-// corner's to the last bit, for a step of t may be a large part of a small pixel; unless t is an end of the piece. What
-// lacks no more than rounding may have cost has passed: speeds say nothing where a piece turns on the side of the box.
+// corner's to the last bit, for a step of t may be a large part of a small pixel; unless t is an end of the piece, or that
+// coordinate is not near the corner's at all: where a piece turns on the side of the box, its speeds say nothing.
 vec2 vexture_passing_point(vec4 kx, vec4 ky, float t, vec2 corner, bool later, bool is_end, vec2 from, vec2 to) {
     vec2 point = vec2(vexture_evaluate(kx, t), vexture_evaluate(ky, t));
-    bool x_decides = vexture_x_decides(point - corner + VEXTURE_NOISE, vexture_slope(kx, ky, t), later);
-    point.x = !is_end && x_decides ? corner.x : point.x;
-    point.y = !is_end && !x_decides ? corner.y : point.y;
+    bool x_decides = vexture_x_decides(point - corner, vexture_slope(kx, ky, t), later);
+    bvec2 near = lessThan(abs(point - corner), VEXTURE_NEAR * (to - from));
+    point.x = !is_end && x_decides && near.x ? corner.x : point.x;
+    point.y = !is_end && !x_decides && near.y ? corner.y : point.y;
     return clamp(point, from, to);
 }
 

@@ -17,7 +17,7 @@ from vexture.quadtree.tree import LATTICE, MOST_CURVES, MOST_DEPTH, PackedTree
 from vexture.quadtree.winding import child_windings, inside
 from vexture.tolerance import CLOSED
 
-__all__ = ["DEFAULT_CAPACITY", "DEFAULT_DEPTH", "build_packed"]
+__all__ = ["DEFAULT_CAPACITY", "DEFAULT_DEPTH", "build_packed", "largest_shift"]
 
 DEFAULT_CAPACITY = 4
 """Pieces in a leaf."""
@@ -306,6 +306,17 @@ def grow_packed(
     return _typed(tree, counts[QUADS], counts[CURVES]), work.deviation[0], counts[UNRESOLVED], outside
 
 
+def largest_shift(precision: float | None) -> float:
+    """Largest distance by which rounding moves an outline, in unit-square units, at a `precision` of `build_packed`.
+
+    Examples
+    --------
+    >>> largest_shift(1e-7), round(largest_shift(None), 7)
+    (1e-07, 3.05e-05)
+    """
+    return 0.5 * DISPLACEMENT / LATTICE if precision is None else precision
+
+
 def build_packed(
     drawing: Drawing,
     *,
@@ -351,17 +362,18 @@ def build_packed(
     >>> len(tree.count), len(tree.curves), round(float(tree.coverage[0].mean()), 4)
     (1, 6, 0.36)
     """
-    if not 1 <= max_depth <= MOST_DEPTH:
+    if not (isinstance(max_depth, int | np.integer) and 1 <= max_depth <= MOST_DEPTH):
         raise LimitError(f"depth limit {max_depth} is outside 1..{MOST_DEPTH}; the default is {DEFAULT_DEPTH}")
-    if not 1 <= capacity <= MOST_CURVES:
+    if not (isinstance(capacity, int | np.integer) and 1 <= capacity <= MOST_CURVES):
         raise LimitError(f"capacity {capacity} is outside 1..{MOST_CURVES}; the default is {DEFAULT_CAPACITY}")
     finest = DISPLACEMENT * 0.5**max_depth / LATTICE
     if precision is not None and not finest <= precision <= 1.0:
         raise LimitError(
-            f"precision {precision:g} is outside {finest:.1e}..1; allow a larger --max-depth for a finer one"
+            f"precision {precision:g} is outside {finest:.1e}..1, in drawing sizes, at the depth limit {max_depth}; "
+            "leave it out for views up to 1,000 times, or give 1e-7 for 10,000"
         )
     least_depth = 1 if precision is None else max(math.ceil(math.log2(DISPLACEMENT / (precision * LATTICE))), 1)
-    if not 0.0 <= tolerance < 1.0:
+    if not (isinstance(tolerance, float | int | np.number) and 0.0 <= tolerance < 1.0):
         raise LimitError(f"tolerance {tolerance} is outside 0 to 1, in drawing sizes; 0 keeps every piece")
     bounds = Bounds(capacity, float(tolerance), least_depth, max_depth, most_quads)
     arrays, deviation, unresolved, outside = grow_packed(*gather(drawing), bounds)

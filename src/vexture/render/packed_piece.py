@@ -14,8 +14,8 @@ from vexture.shading import (
     CROSSING,
     EXACT,
     MOST_PARTS,
+    NEAR,
     NO_SIZE,
-    NOISE,
     SHORT_WAY,
     SMALLEST_PIXEL,
     STEPS,
@@ -228,8 +228,9 @@ def better_t(kx: Vec4, ky: Vec4, corner: Vec2, later: bool, t: float) -> float:
 def passing_point(kx: Vec4, ky: Vec4, t: float, corner: Vec2, later: bool, is_end: bool, start: Vec2, to: Vec2) -> Vec2:
     x, y = evaluate(kx, t), evaluate(ky, t)
     if not is_end:
-        by_x = x_decides((x - corner[0] + NOISE, y - corner[1] + NOISE), slope(kx, ky, t), later)
-        x, y = (corner[0], y) if by_x else (x, corner[1])
+        by_x = x_decides((x - corner[0], y - corner[1]), slope(kx, ky, t), later)
+        x_near, y_near = abs(x - corner[0]) < NEAR * (to[0] - start[0]), abs(y - corner[1]) < NEAR * (to[1] - start[1])
+        x, y = (corner[0] if by_x and x_near else x), (corner[1] if not by_x and y_near else y)
     return clamp(x, start[0], to[0]), clamp(y, start[1], to[1])
 
 

@@ -75,7 +75,7 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
     try:
         root = parse_svg(read_bytes(path))
         part = None if select is None else chosen(root, select)
-        drawing = drawing_of(Scene(root, report, part), Path(path).name.partition(".")[0])
+        drawing = drawing_of(Scene(root, report, part), Path(path).stem)
         if select is not None and part is not None and not drawing.paths:
             raise nothing_painted(select, len(part))
     except (SourceError, LimitError) as error:

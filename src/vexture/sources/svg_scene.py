@@ -138,6 +138,8 @@ class Scene:
             raise SourceError(f"it stands inside {DEEPEST:,} others; flatten the groups or the uses")
         space, depth = place.space.moved(matrix), place.depth + 1
         inner = Place(place.viewport, space, style, opacity, element, place, depth, place.used, chosen=chosen)
+        if opacity < place.opacity and name not in SHAPES and len(element) > 1:
+            self.report.simplified("opacity of a group, which each of its shapes has by itself")
         if name in SHAPES:
             self.note_children(element, name, style)
             painter.paint(element, inner)
