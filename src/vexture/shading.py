@@ -21,8 +21,7 @@ __all__ = [
     "HYPERBOLIC_SINE",
     "LATTICE_BITS",
     "LEAST_FINEST",
-    "LEVELS_BELOW_EXACT",
-    "LEVELS_BELOW_FAST",
+    "LEVELS_BELOW",
     "LEVEL_BIAS",
     "LONG",
     "MOST_CELLS",
@@ -37,6 +36,7 @@ __all__ = [
     "SHORTEST_CHORD",
     "SHORT_WAY",
     "SMALLEST_PIXEL",
+    "SMALL_FINEST",
     "STEPS",
     "STRAIGHT",
     "THINNEST_PIXEL",
@@ -111,15 +111,17 @@ MOST_PARTS: Final = 4.0
 SHORT_WAY: Final = 2.0**-10
 """Pixels. The mean over a shorter way is taken in its middle, because the quotient would lose its digits."""
 
-LEVELS_BELOW_FAST: Final = 2
-LEVELS_BELOW_EXACT: Final = 3
+LEVELS_BELOW: Final = 2
 """Levels that the sum over cells goes below the footprint's own; there a divided cell counts by its stored coverage."""
+
+SMALL_FINEST: Final = 8
+"""Level down to which it goes one deeper."""
 
 LEAST_FINEST: Final = 4
 """Level that this sum reaches at least: a picture of a few pixels sees the leaves themselves of most drawings."""
 
-LONG: Final = 0.16
-"""Part of the reach of a footprint's box that cells are no smaller than, lest they be more than 14 to a row."""
+LONG: Final = 0.64
+"""Part of the reach of a footprint's box that cells are no smaller than, before LEVELS_BELOW: 14 to a row at most."""
 
 LEVEL_BIAS: Final = 2.0**-8
 """Without it drivers would disagree on the level of a footprint whose size is a power of two."""

@@ -127,7 +127,7 @@ def errors(drawing: Drawing, view: View, quality: str) -> tuple[float, float, bo
     texture = texture_of(drawing)
     error = np.abs(render_packed_cpu(texture, size, matrix, quality=quality) - render_exact(drawing, size, matrix))
     steps = matrix[:2, :2]
-    level = finest_level(QUALITIES[quality], abs(np.linalg.det(steps)), tuple(0.5 * np.abs(steps).sum(axis=1)))
+    level = finest_level(abs(np.linalg.det(steps)), tuple(0.5 * np.abs(steps).sum(axis=1)))
     return float(error.mean() / STEP), float(error.max() / STEP), deepest(tree) <= level
 
 

@@ -55,13 +55,19 @@ int vexture_shared_levels(ivec2 low, ivec2 high) {
     return clamp(VEXTURE_POSITION_BITS - bits, 0, VEXTURE_MOST_DEPTH);
 }
 
-// The level whose cells are no smaller than a square of the footprint's area, and some more levels; fewer for a long
-// footprint, lest its box touch more cells than are looked at.
+// The level whose cells are no smaller than a square of an area.
+int vexture_level_of(float area) {
+    return -1 - (((floatBitsToInt(area * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127) >> 1);
+}
+
+// The level of the footprint's area, and some more levels; one more again in pictures of few pixels, where a map is
+// looked at as seldom as a drawing has deep cells; fewer for a long footprint, lest its box touch more cells than are
+// looked at.
 int vexture_finest_level(float area, vec2 reach) {
-    int below = VEXTURE_QUALITY == VEXTURE_EXACT ? VEXTURE_LEVELS_BELOW_EXACT : VEXTURE_LEVELS_BELOW_FAST;
-    float length = VEXTURE_LONG * float(1 << below) * max(reach.x, reach.y);
-    int exponent = (floatBitsToInt(max(area, length * length) * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127;
-    return clamp(below - 1 - (exponent >> 1), VEXTURE_LEAST_FINEST, VEXTURE_MOST_DEPTH);
+    float length = VEXTURE_LONG * max(reach.x, reach.y);
+    int usual = vexture_level_of(max(area, length * length)) + VEXTURE_LEVELS_BELOW;
+    int small = vexture_level_of(max(area, 4.0 * length * length)) + VEXTURE_LEVELS_BELOW + 1;
+    return clamp(max(usual, min(small, VEXTURE_SMALL_FINEST)), VEXTURE_LEAST_FINEST, VEXTURE_MOST_DEPTH);
 }
 
 // The cell at a position: a leaf, or a quad of the level `finest`. `top` moves down to the quad of the level `shared`.

@@ -32,16 +32,15 @@ from vexture.render.view import check_size, view_matrix
 from vexture.shaders import QUALITIES
 from vexture.shading import (
     CROSSING,
-    EXACT,
     FARTHEST,
     LATTICE_BITS,
     LEAST_FINEST,
     LEVEL_BIAS,
-    LEVELS_BELOW_EXACT,
-    LEVELS_BELOW_FAST,
+    LEVELS_BELOW,
     LONG,
     MOST_CELLS,
     POSITION_BITS,
+    SMALL_FINEST,
 )
 
 __all__ = ["render_packed_cpu"]
@@ -126,11 +125,16 @@ def shared_levels(low: Whole2, high: Whole2) -> int:
 
 
 @kernel(allocates=False)
-def finest_level(quality: int, area: float, reach: Vec2) -> int:
-    below = LEVELS_BELOW_EXACT if quality == EXACT else LEVELS_BELOW_FAST
-    length = LONG * (1 << below) * max(reach[0], reach[1])
-    exponent = math.frexp(max(area, length * length) * (1.0 - LEVEL_BIAS))[1] - 1
-    return min(max(below - 1 - (exponent >> 1), LEAST_FINEST), MOST_DEPTH)
+def level_of(area: float) -> int:
+    return -1 - ((math.frexp(area * (1.0 - LEVEL_BIAS))[1] - 1) >> 1)
+
+
+@kernel(allocates=False)
+def finest_level(area: float, reach: Vec2) -> int:
+    length = LONG * max(reach[0], reach[1])
+    usual = level_of(max(area, length * length)) + LEVELS_BELOW
+    small = level_of(max(area, 4.0 * length * length)) + LEVELS_BELOW + 1
+    return min(max(max(usual, min(small, SMALL_FINEST)), LEAST_FINEST), MOST_DEPTH)
 
 
 @kernel(allocates=False)
@@ -238,7 +242,7 @@ def coverage(texels: Texels, quality: int, root: int, base: Whole2, offset: Vec2
     there = place(base, offset, pixel.reach)
     low, high = there.low, there.high
     shared = shared_levels(low, high)
-    finest = finest_level(quality, pixel.size, pixel.reach)
+    finest = finest_level(pixel.size, pixel.reach)
     top = Top(root, 0)
     x, row, next_row = low[0], low[1], high[1] + 1
     cells = MOST_CELLS if low[0] <= high[0] and low[1] <= high[1] else 0
