@@ -19,7 +19,6 @@ __all__ = [
     "FAST",
     "HYPERBOLIC_COSINE",
     "HYPERBOLIC_SINE",
-    "LATTICE_BITS",
     "LEAST_FINEST",
     "LEVELS_BELOW",
     "LEVEL_BIAS",
@@ -77,9 +76,6 @@ EXACT: Final = 1
 
 POSITION_BITS: Final = 28
 """The packed shader's positions are whole numbers of 2^-28 of the unit square: eight squares fit 32 bits."""
-
-LATTICE_BITS: Final = 15
-"""Bits of a coordinate in a leaf: the packed texture's lattice is 2^15 wide."""
 
 FARTHEST: Final = 3.0
 """Unit squares from the base, in each direction; a pixel is looked up as if its centre were no farther away."""

@@ -30,6 +30,7 @@ __all__ = [
     "KIND_CURVE",
     "KIND_QUAD",
     "LATTICE",
+    "LATTICE_BITS",
     "LIST_LIMIT",
     "MOST_CURVES",
     "MOST_DEPTH",
@@ -120,6 +121,9 @@ MOST_TEXT_BYTES: Final = 1 << 24
 
 PACKED_FILE_LIMIT: Final = (MOST_ROWS << ROW_BITS) * 16 + 2 * MOST_TEXT_BYTES
 """Bytes. A longer file is not read: the most texels, not deflated, and the longest texts."""
+
+LATTICE_BITS: Final = int(LATTICE).bit_length() - 1
+"""A lattice unit is 2^-LATTICE_BITS of its leaf."""
 
 CELL_BITS: Final = 8
 """Each of a quad's cells has one byte in the word of cells and one in the word of coverages."""

@@ -17,10 +17,14 @@ from vexture.quadtree.order import sort_order
 from vexture.quadtree.tree import LATTICE
 from vexture.quadtree.winding import inside
 
-__all__ = ["Boundary", "cell_paths", "crowded_area", "quantise", "quantise_piece", "resolve"]
+__all__ = ["HOPELESS", "Boundary", "cell_paths", "crowded_area", "quantise", "quantise_piece", "resolve"]
 
 NEAR = 1.0
 """Lattice units: curves that stay closer than this are one boundary."""
+
+
+HOPELESS = 160
+"""Pieces in a cell above which it is not resolved at all: resolving looks at every pair."""
 
 
 class Boundary(NamedTuple):

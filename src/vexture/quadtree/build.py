@@ -11,7 +11,7 @@ from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
 from vexture.kernels import kernel
 from vexture.quadtree.accuracy import Accuracy, accuracy_of, cell_tolerance
-from vexture.quadtree.boundary import crowded_area
+from vexture.quadtree.boundary import HOPELESS, crowded_area
 from vexture.quadtree.chain import Chain
 from vexture.quadtree.leaf import (
     CORNER,
@@ -47,9 +47,6 @@ MOST_QUADS = 2_000_000
 
 CROWDED = 8
 """Pieces in a cell above which it is resolved only if its boundary meets the cell's edge exactly twice."""
-
-HOPELESS = 160
-"""Pieces in a cell above which it is not resolved at all: resolving looks at every pair."""
 
 
 @kernel

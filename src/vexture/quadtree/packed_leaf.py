@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
-from vexture.quadtree.boundary import Boundary, cell_paths, crowded_area, quantise_piece, resolve
+from vexture.quadtree.boundary import HOPELESS, Boundary, cell_paths, crowded_area, quantise_piece, resolve
 from vexture.quadtree.left_edge import corner_winding
 from vexture.quadtree.merge import MOST_MERGED, merge_chains
 from vexture.quadtree.pool import Pool
@@ -28,9 +28,6 @@ DIVIDE = -1
 
 SPARE = 4
 """Pieces above the capacity with which a cell is still looked at: horizontal ones and overlaps will vanish."""
-
-HOPELESS = 160
-"""Pieces in a cell above which it is not resolved at all: resolving looks at every pair."""
 
 MOST_RUNS = 1000
 """Parts of resolved pieces that are kept to measure a cell's area."""

@@ -17,6 +17,7 @@ from vexture.encoding.layout import (
     COUNT_SHIFT,
     COVERAGE_ONE,
     LATTICE,
+    LATTICE_BITS,
     MOST_CURVES,
     MOST_DEPTH,
     QUAD_FLAG,
@@ -33,7 +34,6 @@ from vexture.shaders import QUALITIES
 from vexture.shading import (
     CROSSING,
     FARTHEST,
-    LATTICE_BITS,
     LEAST_FINEST,
     LEVEL_BIAS,
     LEVELS_BELOW,
