@@ -27,12 +27,12 @@ help:
 
 .venv/for-demo: pyproject.toml | .venv/made
 	@echo 'installing vexture and its libraries into .venv (a minute or less) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[gpu]'
+	@$(BIN)/python -m pip install --quiet --editable '.[gpu,live]'
 	@touch $@
 
 .venv/for-test: pyproject.toml | .venv/made
 	@echo 'installing vexture, its libraries and the tools of its tests into .venv (a minute or two) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[gpu,test]'
+	@$(BIN)/python -m pip install --quiet --editable '.[gpu,live,test]'
 	@touch .venv/for-demo $@
 
 demo: .venv/for-demo

@@ -28,6 +28,7 @@ __all__ = [
     "compose",
     "constants",
     "join",
+    "packed_text",
     "packed_view_source",
     "shader_source",
     "source",
@@ -222,14 +223,21 @@ def shader_source(version: str = "300 es", quality: str = "exact") -> str:
     return packed_text("packed_coverage.glsl", quality)
 
 
-def packed_text(file: str, quality: str) -> str:
-    """Text of one of the packed texture's files, below the numbers that it and its includes name."""
-    if quality not in QUALITIES:
+def packed_text(file: str, quality: str | None) -> str:
+    """Text of one of the packed texture's files, below the numbers that it and its includes name.
+
+    Without a quality ``VEXTURE_QUALITY`` is left to whoever compiles it, one of the values of `QUALITIES`.
+    """
+    if quality is not None and quality not in QUALITIES:
         raise LimitError(f"quality is {quality!r}; there are {', '.join(map(repr, QUALITIES))}")
     text = join(file)
     lines = []
     for name in sorted(set(PREFIXED.findall(text))):
-        value = QUALITIES[quality] if name == "QUALITY" else getattr(shading, name, getattr(layout, name, None))
+        if name == "QUALITY" and quality is None:
+            continue
+        value = (
+            QUALITIES.get(quality or "") if name == "QUALITY" else getattr(shading, name, getattr(layout, name, None))
+        )
         if value is None:
             raise NameError(f"{file} names VEXTURE_{name}, which neither shading.py nor layout.py defines")
         lines.append(f"#define VEXTURE_{name} {value!r}\n")

@@ -1,0 +1,65 @@
+"""The browser, started once for each process of tests, and pages in it."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from browser import CHROMIUM, FLAGS, SCREENSHOTS, WEB
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Any]:
+    """Debian's chromium, or a skip that says what is missing."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    if not Path(CHROMIUM).is_file():
+        pytest.skip("no chromium (on Debian: apt-get install chromium)")
+    if not (WEB / "node_modules" / "three").is_dir():
+        pytest.skip("the packages of web/ are not installed (npm ci --prefix web)")
+    with playwright.sync_playwright() as started:
+        browser = started.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def open_page(chromium: Any, request: pytest.FixtureRequest) -> Iterator[Callable[..., Any]]:
+    """Open pages by their address; errors of their scripts fail the test, unless `errors=True` expects some.
+
+    ``page.errors`` is the list of them.
+    """
+    contexts, checked = [], []
+
+    def opened(url: str, size: tuple[int, int] = (512, 512), *, errors: bool = False, **options: Any) -> Any:
+        context = chromium.new_context(
+            viewport={"width": size[0], "height": size[1]}, device_scale_factor=1, color_scheme="light", **options
+        )
+        contexts.append(context)
+        page = context.new_page()
+        page.errors = []
+        page.on("pageerror", lambda error: page.errors.append(str(error)))
+        page.on("console", lambda message: page.errors.append(message.text) if message.type == "error" else None)
+        if not errors:
+            checked.append(page)
+        page.goto(url)
+        return page
+
+    yield opened
+    found = [error for page in checked for error in page.errors]
+    for context in contexts:
+        context.close()
+    assert found == []
+
+
+@pytest.fixture
+def screenshot(request: pytest.FixtureRequest) -> Callable[..., Path]:
+    """Keep a picture of a page, or of an element of it, where people can look at it."""
+
+    def taken(target: Any, label: str = "") -> Path:
+        SCREENSHOTS.mkdir(exist_ok=True)
+        name = request.node.name.replace("/", "_") + (f"-{label}" if label else "")
+        path = SCREENSHOTS / f"{name}.png"
+        target.screenshot(path=path)
+        return path
+
+    return taken

@@ -1,0 +1,79 @@
+"""Write web/generated/: the shaders' text and the textures' layout, as JavaScript modules.
+
+Their owners are src/vexture/glsl/ and src/vexture/encoding/layout.py; nothing in web/ types any of it again.
+`make_web.py --check` writes nothing and fails when a file is not what it would write.
+"""
+
+import json
+import re
+import sys
+from pathlib import Path
+from typing import Final
+
+from vexture import shading
+from vexture.encoding import layout
+from vexture.shaders import FOLD_HEIGHT, QUALITIES, constants, join, packed_text
+
+__all__ = ["main"]
+
+FOLDER: Final = Path(__file__).resolve().parents[1] / "web" / "generated"
+HEADER: Final = "// Made by tools/make_web.py; change {owner} and run it again.\n"
+
+PACKED_FILES: Final = {"packed": "packed_coverage.glsl"}
+"""Exports that read a packed texture, and the file whose functions each offers."""
+
+COMMENT: Final = re.compile(r"[ \t]*//.*$", re.MULTILINE)
+
+
+def bare(text: str) -> str:
+    """Shader text without comments, empty lines and indentation: nobody reads it in a bundle."""
+    lines = (line.strip() for line in COMMENT.sub("", text).splitlines())
+    return "\n".join(line for line in lines if line) + "\n"
+
+
+def shaders() -> str:
+    """Text of the module with the shaders."""
+    parts = [HEADER.format(owner="src/vexture/glsl/")]
+    for name, file in PACKED_FILES.items():
+        parts.append(f"/** {file}; VEXTURE_QUALITY must be defined before it. */\n")
+        parts.append(f"export const {name} = {json.dumps(bare(packed_text(file, None)))};\n")
+    thesis = constants(layout) + constants(shading) + join("coverage.glsl")
+    parts.append("/** coverage.glsl; the constants LEVELS and FOLD_HEIGHT must stand before it. */\n")
+    parts.append(f"export const thesis = {json.dumps(bare(thesis))};\n")
+    parts.append("/** Values of VEXTURE_QUALITY. */\n")
+    parts.append(f"export const QUALITIES = Object.freeze({json.dumps(QUALITIES)});\n")
+    parts.append("/** Rows of a thesis texture on the GPU: a longer list goes on in the columns to its right. */\n")
+    parts.append(f"export const FOLD_HEIGHT = {FOLD_HEIGHT};\n")
+    return "".join(parts)
+
+
+def layout_module() -> str:
+    """Text of the module with the layout."""
+    parts = [HEADER.format(owner="src/vexture/encoding/layout.py")]
+    for name in layout.__all__:
+        value = getattr(layout, name)
+        text = json.dumps(value)
+        frozen = f"Object.freeze({text})" if isinstance(value, tuple | dict) else text
+        parts.append(f"export const {name} = {frozen};\n")
+    return "".join(parts)
+
+
+def main() -> int:
+    """Write the files, or with --check compare them; the exit code."""
+    stale = []
+    for name, text in (("layout.js", layout_module()), ("shaders.js", shaders())):
+        path = FOLDER / name
+        if path.is_file() and path.read_text(encoding="utf-8") == text:
+            continue
+        if sys.argv[1:] == ["--check"]:
+            stale.append(str(path.relative_to(FOLDER.parents[1])))
+        else:
+            path.parent.mkdir(exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+    if stale:
+        print(f"stale: {', '.join(stale)}; run python tools/make_web.py", file=sys.stderr)
+    return 1 if stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
