@@ -103,7 +103,7 @@ def frame_times(drawings: Sequence[Drawing], bands: int, rounds: int, seed: int,
         with served(Path(folder)) as address:
             page = browser.new_page()
             page.goto(address)
-            page.wait_for_function("window.measure")
+            page.wait_for_function("() => window.measure !== undefined")
             found = page.evaluate("order => measure(order)", order)
     for view, times in found["times"].items():
         for method, picture in zip(METHODS, times.pop("pictures"), strict=True):
