@@ -7,7 +7,7 @@ const versions = ['three', 'three-floor'];
 export default defineConfig({
   test: {
     projects: versions.map((three) => ({
-      resolve: { alias: [{ find: /^three$/, replacement: fileURLToPath(new URL(`node_modules/${three}`, import.meta.url)) }] },
+      resolve: { alias: [{ find: /^three$/, replacement: fileURLToPath(new URL(`node_modules/${three}/build/three.module.js`, import.meta.url)) }] },
       test: { name: three, include: ['test/**/*.test.js'] },
     })),
   },
