@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from browser import ROOT
 from numpy.typing import NDArray
-from packed_walk import leaf_at, leaves
 
 import vexture
+from packed_walk import leaf_at, leaves
 from vexture.encoding.packed import decode_packed, info_packed
 from vexture.encoding.packed_texture import PackedTexture, load_packed
 
