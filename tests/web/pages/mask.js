@@ -1,21 +1,14 @@
 // Scenes with masked materials, drawn one at a time as a test describes them.
 import * as THREE from 'three';
-import { VectorMaterial, VectorTexture, VextureError, applyVectorMask, readPacked, rootAttribute } from 'vexture';
-import { readThesis } from '../../../web/src/thesis.js';
+import { VectorMaterial, VectorTextureLoader, VextureError, applyVectorMask, rootAttribute } from 'vexture';
 
 const textures = {};
 const renderers = {};
 
-async function bytes(url) {
-  return (await fetch(url)).arrayBuffer();
-}
+const loader = new VectorTextureLoader();
 
-async function load(name) {
-  const data =
-    name === 'thesis'
-      ? await readThesis(await bytes('thesis.quads.png'), await bytes('thesis.curves.png'), name)
-      : await readPacked(await bytes(`${name}.ktx2`), name);
-  return new VectorTexture(data);
+function load(name) {
+  return loader.loadAsync(name === 'thesis' ? name : `${name}.ktx2`);
 }
 
 async function textureOf(name) {
