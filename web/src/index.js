@@ -5,3 +5,5 @@ export { readThesis } from './thesis.js';
 export { VectorTextureLoader } from './vector-texture-loader.js';
 export { VectorTexture } from './vector-texture.js';
 export { bounds, cellAt, contains, counts } from './walk.js';
+export { VectorMask, applyVectorMask, rootAttribute } from './vector-mask.js';
+export { VectorMaterial } from './vector-material.js';
