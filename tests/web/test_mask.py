@@ -139,7 +139,7 @@ def test_a_tilted_plane_is_filtered_as_its_perspective_asks(page: Any, screensho
 
 def test_a_repeated_shape_has_no_seams(page: Any, screenshot: Callable[..., Path]) -> None:
     ink = {"color": 0}
-    for scale, tiles in ((3.7, range(-1, 5)), (41.3, range(-1, 42))):
+    for scale, tiles in ((3.7, range(-1, 5)), (11.3, range(-1, 12))):
         matrix = np.array([[scale, 0, -0.83], [0, scale, -0.41]])
         mask = {"wrap": "repeat", "transform": [*matrix.ravel().tolist(), 0, 0, 1]}
         view = matrix @ np.vstack([FIT, [0, 0, 1]])
@@ -147,10 +147,7 @@ def test_a_repeated_shape_has_no_seams(page: Any, screenshot: Callable[..., Path
         assert full.max() <= 1 / 255
         repeated = draw(page, parameters=ink, mask=mask, texture="border")
         screenshot(page.locator("canvas"), f"{scale}")
-        if scale < 10:
-            assert distance(repeated, 1.0 - tiled("border", 512, view, tiles)) <= HALF_STEP
-        else:
-            assert distance(repeated, 1.0 - tiled("border", 512, view, tiles)) <= 2 * HALF_STEP
+        assert distance(repeated, 1.0 - tiled("border", 512, view, tiles)) <= HALF_STEP
     tiny = draw(page, parameters=ink, mask={"wrap": "repeat", "transform": [900, 0, 0, 0, 900, 0, 0, 0, 1]})
     assert distance(tiny, np.full_like(tiny, 1.0 - exact("duck").mean())) <= 1.0
     magnified = [0.0001, 0, 0.99995, 0, 0.0001, 0.99995, 0, 0, 1]
