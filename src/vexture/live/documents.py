@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
-from vexture.errors import SourceError, SourceWarning, VextureError
+from vexture.errors import SourceError, SourceWarning
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
 from vexture.settings import Settings
 
