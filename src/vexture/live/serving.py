@@ -37,8 +37,6 @@ def bind(host: str, port: int) -> socket.socket:
     ...     address(first).startswith("http://127.0.0.1:")
     True
     """
-    if not 0 <= port <= 65535:
-        raise LimitError(f"port {port}; it must be in 0..65535")
     try:
         family, kind, protocol, _, where = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
         taken = socket.socket(family, kind, protocol)
@@ -48,7 +46,9 @@ def bind(host: str, port: int) -> socket.socket:
         taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         taken.bind(where)
         taken.listen(WAITING)
-        taken.set_inheritable(False)
+    except OverflowError:
+        taken.close()
+        raise LimitError(f"port {port} is none: a port has 16 bits; choose another --port") from None
     except OSError as error:
         taken.close()
         raise DeviceError(
@@ -77,7 +77,7 @@ class _Server(uvicorn.Server):
 
 def server_of(app: ASGIApp, stop: Callable[[], None]) -> uvicorn.Server:
     """Server of an application; `stop` is called when it is to end, before it waits for its clients."""
-    AppStatus.disable_automatic_graceful_drain()  # it would cut streams off in the middle; `stop` ends them
+    AppStatus.enable_automatic_graceful_drain = False  # it would cut streams off in the middle; `stop` ends them
     config = uvicorn.Config(
         app,
         log_level="warning",
