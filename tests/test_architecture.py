@@ -49,7 +49,12 @@ LAYOUT_NUMBERS = {layout.CONTROL_MIN, layout.CONTROL_MAX, layout.LIST_LIMIT[16],
 """Numbers of the texture layout that mean nothing else anywhere."""
 
 SHADER_WORDS = re.compile(r"\b(texelFetch|gl_\w+|(uniform|varying|highp|mediump) \w+|[ib]?vec[234]\()|^#version", re.M)
-HEAVY = {"PIL", "cssselect2", "fontTools", "lxml", "moderngl", "numba", "pathops", "png", "scipy", "tinycss2"}
+HEAVY = {"PIL", "cssselect2", "fontTools", "lxml", "moderngl", "numba", "pathops", "png", "scipy", "tinycss2"} | {
+    "sse_starlette",
+    "starlette",
+    "uvicorn",
+    "watchfiles",
+}
 
 
 def name_of(path):

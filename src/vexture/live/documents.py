@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from vexture.drawing import Drawing
 
-__all__ = ["SVG_TYPE", "VIEWER_SETTINGS", "shape_of", "thesis_pair"]
+__all__ = ["SVG_TYPE", "THESIS_BITS", "VIEWER_SETTINGS", "shape_of", "thesis_pair"]
 
 SVG_TYPE = "image/svg+xml"
 
@@ -29,6 +29,9 @@ VIEW_PRECISION = 1e-7
 
 VIEWER_SETTINGS = Settings(split="paint", precision=VIEW_PRECISION)
 """How the viewer converts: in its colours, and good for the deepest zoom."""
+
+THESIS_BITS = {"thesis16": 16, "thesis8": 8}
+"""Bits per channel of each view in the thesis encoding."""
 
 ANONYMOUS_WINDOW = (300.0, 150.0)
 """Pixels: how large browsers show an SVG that says no size (CSS 2.1, 10.3.2)."""
