@@ -15,6 +15,7 @@ __all__ = [
     "CURVE",
     "DOUBLE",
     "EXACT",
+    "FADED_CELL",
     "FARTHEST",
     "FAST",
     "HYPERBOLIC_COSINE",
@@ -127,3 +128,6 @@ CROSSING: Final = 2
 
 MOST_CELLS: Final = 256
 """Cells that one pixel looks at."""
+
+FADED_CELL: Final = 4.0
+"""Pixels. Borders of cells that are no larger are not drawn, else small views turn grey; at twice that they are there."""
