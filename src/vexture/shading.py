@@ -130,4 +130,4 @@ MOST_CELLS: Final = 256
 """Cells that one pixel looks at."""
 
 FADED_CELL: Final = 4.0
-"""Pixels. Borders of cells that are no larger are not drawn, else small views turn grey; at twice that they are there."""
+"""Pixels. The borders of cells of this size are not drawn, lest small views turn grey; from twice that on they are."""
