@@ -1,8 +1,7 @@
 // What is inside a packed texture, drawn over a picture of it: the borders of cells, their stored coverage, their depth,
 // and where stored coverage would stand for curves if pixels were larger.
 // Exports: vextureOverlay.
-#include "packed_tree.glsl"
-#include "packed_pixel.glsl"
+#include "packed_layers.glsl"
 
 uniform highp uint vextureOverlayRoot;    // the quad whose tree is shown
 uniform vec3 vextureOverlayShow;          // opacity of borders, coverage and depth; 0 hides them
@@ -34,10 +33,10 @@ vec4 vexture_over(vec4 color, vec3 paint, float opacity) {
 
 // Dark on light colours, light on dark ones.
 vec3 vexture_contrast(vec4 color) {
-    return vec3(dot(color.rgb, vec3(0.299, 0.587, 0.114)) + 1.0 - color.a > 0.5 ? 0.0 : 1.0);
+    return vec3(dot(color.rgb, vec3(0.299, 0.587, 0.114)) > 0.5 ? 0.0 : 1.0);
 }
 
-// The picture's colour, premultiplied, with what is switched on; the other parameters are those of vextureCoverage.
+// The picture's colour on its paper, with what is switched on; the other parameters are those of vextureCoverage.
 // The tree is followed to the leaf, or to a quad at the cut-off, which is one pixel if it is not exaggerated.
 vec4 vextureOverlay(vec4 color, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VextureFrame frame = vexture_frame(dx, dy);
