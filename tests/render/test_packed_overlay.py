@@ -13,13 +13,14 @@ from vexture.encoding.layout import MOST_DEPTH
 from vexture.encoding.packed_texture import PackedTexture
 from vexture.encoding.packed_walk import walk
 from vexture.pipeline import convert
-from vexture.render.gpu import VERSION, compiled, context
+from vexture.render.gpu import context
 from vexture.render.packed_gpu import view_base
 from vexture.render.view import window
-from vexture.shaders import VERSIONS, packed_text
+from vexture.shaders import VERSIONS, packed_text, vertex_source
 
 SHAPES = Path(__file__).parents[2] / "examples" / "shapes"
 SIZE = (210, 210)
+WEB = "300 es"
 
 MAIN = """
 uniform mat3 to_unit;
@@ -37,7 +38,9 @@ DEPTHS = np.stack([np.arange(MOST_DEPTH + 1) / MOST_DEPTH, *np.zeros((2, MOST_DE
 
 @cache
 def program() -> Any:
-    return compiled(VERSIONS[VERSION] + packed_text("packed_overlay.glsl", "exact") + MAIN)
+    gl = context()
+    fragment = VERSIONS[WEB] + packed_text("packed_overlay.glsl", "exact") + MAIN
+    return gl.vertex_array(gl.program(vertex_shader=vertex_source(WEB), fragment_shader=fragment), [])
 
 
 def overlay(
