@@ -36,6 +36,10 @@ THESIS_BITS = {"thesis16": 16, "thesis8": 8}
 ANONYMOUS_WINDOW = (300.0, 150.0)
 """Pixels: how large browsers show an SVG that says no size (CSS 2.1, 10.3.2)."""
 
+SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
+<path fill="red" d="M2 2C9 2 2 9 7 7S1 6 2 2zM-1 4A3 3 0 0 1 5 4z"/></svg>"""
+"""Of everything a little: corners, curves, crossings, two colours, something outside."""
+
 GEOJSON_SUFFIXES = (".geojson", ".json")
 PNG_SUFFIX = ".png"
 
@@ -143,11 +147,10 @@ def _collected() -> Iterator[list[str]]:
 @cache
 def _warm() -> None:
     """Load the kernels, which only the first conversion of a process waits for: it is no part of any file's time."""
-    from vexture.drawing import Drawing
     from vexture.pipeline import convert
+    from vexture.sources.svg import svg_drawing
 
-    star = Drawing.polygon([(0.2, 0.1), (0.5, 0.9), (0.8, 0.1), (0.1, 0.6), (0.9, 0.6)])  # crosses itself
-    convert(star, split="paint")
+    convert(svg_drawing(SMALL, "small.svg"), split="paint", precision=VIEW_PRECISION)
 
 
 def _is_geojson(data: bytes, file_name: str) -> bool:
