@@ -118,7 +118,7 @@ def main() -> None:
 def convert(
     sources: tuple[Path, ...], output: Path | None, atlas: Path | None, bits: str | None, **parameters: Any
 ) -> None:
-    """Convert SVG drawings into textures."""
+    """Convert drawings (SVG, GeoJSON) into textures."""
     with _one_line():
         settings = Settings(bits=None if bits is None else int(bits), **parameters)
         if atlas is None:
@@ -288,9 +288,9 @@ def render(
 def _shape_of(path: Path, split: str | None, select: str | None) -> "Drawing | PackedTexture | ThesisTexture":
     """Read a drawing, or load a texture by one of its files or its stem."""
     if path.is_file() and path.suffix.lower() not in (".png", ".ktx2"):
-        from vexture.sources.svg import read_svg
+        from vexture.sources.reading import read_drawing
 
-        return read_svg(path, select)
+        return read_drawing(path, select)
     from vexture.encoding import load
 
     texture = load(path)
