@@ -2,10 +2,12 @@
 
 import os
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
-from vexture.drawing import Drawing
 from vexture.errors import LimitError
+
+if TYPE_CHECKING:
+    from vexture.drawing import Drawing
 
 __all__ = ["BYTE_ORDER_MARK", "is_geojson", "read_drawing"]
 
@@ -25,7 +27,7 @@ def is_geojson(start: bytes, file_name: str | os.PathLike[str]) -> bool:
     return by_name or start.removeprefix(BYTE_ORDER_MARK).lstrip()[:1] == b"{"
 
 
-def read_drawing(path: str | os.PathLike[str], select: str | None = None) -> Drawing:
+def read_drawing(path: str | os.PathLike[str], select: str | None = None) -> "Drawing":
     """Read a drawing of any kind of file that there is a reader for.
 
     Parameters
