@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from vexture.arguments import Tolerance
 from vexture.cli_view import export, view
 from vexture.errors import DeviceError, LimitError, VextureError
+from vexture.messages import one_line, say
 from vexture.settings import Settings
-from vexture.terminal import Tolerance, one_line, say
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
@@ -82,7 +83,7 @@ def main() -> None:
 def convert(
     sources: tuple[Path, ...], output: Path | None, atlas: Path | None, bits: str | None, **parameters: Any
 ) -> None:
-    """Convert SVG drawings into textures."""
+    """Convert drawings (SVG, GeoJSON) into textures."""
     with one_line():
         settings = Settings(bits=None if bits is None else int(bits), **parameters)
         if atlas is None:
@@ -252,9 +253,9 @@ def render(
 def _shape_of(path: Path, split: str | None, select: str | None) -> "Drawing | PackedTexture | ThesisTexture":
     """Read a drawing, or load a texture by one of its files or its stem."""
     if path.is_file() and path.suffix.lower() not in (".png", ".ktx2"):
-        from vexture.sources.svg import read_svg
+        from vexture.sources.reading import read_drawing
 
-        return read_svg(path, select)
+        return read_drawing(path, select)
     from vexture.encoding import load
 
     texture = load(path)

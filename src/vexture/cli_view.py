@@ -7,8 +7,9 @@ from typing import Any
 
 import click
 
+from vexture.arguments import Tolerance
+from vexture.messages import one_line, say
 from vexture.settings import Settings
-from vexture.terminal import Tolerance, one_line, say
 
 __all__ = ["export", "view"]
 

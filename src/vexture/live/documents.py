@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from vexture.errors import SourceError, SourceWarning
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
 from vexture.settings import Settings
+from vexture.sources.reading import is_geojson
 
 if TYPE_CHECKING:
     import numpy as np
@@ -40,7 +41,6 @@ SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
 <path fill="red" d="M2 2C9 2 2 9 7 7S1 6 2 2zM-1 4A3 3 0 0 1 5 4z"/></svg>"""
 """Of everything a little: corners, curves, crossings, two colours, something outside."""
 
-GEOJSON_SUFFIXES = (".geojson", ".json")
 PNG_SUFFIX = ".png"
 
 ONE_AT_A_TIME = threading.Lock()
@@ -95,7 +95,7 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
         shape = _converted(drawing, file_name, replace(settings, select=None), start)
     facts = {**shape.facts, "warnings": said}
     views = {}
-    if not _is_geojson(data, file_name):
+    if not is_geojson(data, file_name):
         from vexture.sources.svg_document import decompressed
 
         plain = decompressed(data)
@@ -153,12 +153,8 @@ def _warm() -> None:
     convert(svg_drawing(SMALL, "small.svg"), split="paint", precision=VIEW_PRECISION)
 
 
-def _is_geojson(data: bytes, file_name: str) -> bool:
-    return PurePath(file_name).suffix.lower() in GEOJSON_SUFFIXES or data.lstrip()[:1] == b"{"
-
-
 def _read(data: bytes, file_name: str, settings: Settings) -> "Drawing":
-    if _is_geojson(data, file_name):
+    if is_geojson(data, file_name):
         from vexture.sources.geojson import read_geojson
 
         if settings.select is not None:

@@ -1,35 +1,21 @@
-"""What the commands share: errors and warnings as one line each, and what arguments may be."""
+"""What the command line says to people: one line for each thing."""
 
 import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
 
 import click
 
-from vexture.errors import VextureError
+from vexture.errors import DeviceError, VextureError
 
-__all__ = ["Tolerance", "one_line", "say"]
+__all__ = ["one_line", "say", "with_servers"]
 
-
-class Tolerance(click.ParamType[Any]):
-    """A number, or auto."""
-
-    name = "T"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the number, or the word."""
-        if value == "auto" or isinstance(value, float):
-            return value
-        try:
-            return float(value)
-        except ValueError:
-            self.fail(f"{value!r} is neither a number nor auto", param, ctx)
+SERVERS = ("sse_starlette", "starlette", "uvicorn", "watchfiles")
 
 
 def say(message: str) -> None:
-    """Tell the user one line, beside the output."""
+    """Print a line where errors go."""
     click.echo(f"vexture: {message}", err=True)
 
 
@@ -50,3 +36,14 @@ def one_line() -> Iterator[None]:
         except MemoryError:
             say("out of memory; use a smaller drawing or a smaller --size")
             sys.exit(1)
+
+
+@contextmanager
+def with_servers(command: str) -> Iterator[None]:
+    """Say what to install where the packages of servers are missing."""
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        if (error.name or "").split(".")[0] not in SERVERS:
+            raise
+        raise DeviceError(f"vexture {command} needs the package {error.name}: pip install 'vexture[live]'") from None
