@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
-from vexture.errors import SourceError, SourceWarning
+from vexture.errors import LimitError, SourceError, SourceWarning
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
 from vexture.settings import Settings
 from vexture.sources.reading import is_geojson
@@ -158,8 +158,11 @@ def _read(data: bytes, file_name: str, settings: Settings) -> "Drawing":
         from vexture.sources.geojson import read_geojson
 
         if settings.select is not None:
-            raise SourceError(f"{file_name}: select={settings.select!r} chooses elements of an SVG; leave it out")
-        return read_geojson(data)
+            raise LimitError(f"{file_name}: select={settings.select!r} chooses elements of an SVG; leave it out")
+        try:
+            return read_geojson(data)
+        except (SourceError, LimitError) as error:
+            raise type(error)(f"{file_name}: {error}") from None
     from vexture.sources.svg import svg_drawing
 
     return svg_drawing(data, file_name, settings.select)

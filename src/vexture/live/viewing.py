@@ -10,7 +10,7 @@ from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from vexture.errors import DeviceError, LimitError, VextureError
+from vexture.errors import LimitError, VextureError
 from vexture.live.documents import shape_of
 from vexture.live.shelf import Shape, Shelf
 from vexture.live.watch import Source, named, read_source, watch
@@ -78,16 +78,13 @@ def view(
     VextureError
         If the page is not built, the port is taken, or none of the files can be shown.
     """
-    try:
-        from starlette.applications import Starlette
-        from starlette.middleware import Middleware
-        from starlette.routing import Mount
+    from starlette.applications import Starlette
+    from starlette.middleware import Middleware
+    from starlette.routing import Mount
 
-        from vexture.live.routes import application, routes
-        from vexture.live.serving import address, bind, serve_until_stopped
-        from vexture.live.viewer import KnownHosts, dropping_routes, page_routes, thesis_addresses, thesis_routes
-    except ModuleNotFoundError as error:
-        raise DeviceError(f"{error.name} is not installed; run `pip install 'vexture[live]'`") from None
+    from vexture.live.routes import application, routes
+    from vexture.live.serving import address, bind, serve_until_stopped
+    from vexture.live.viewer import KnownHosts, dropping_routes, page_routes, thesis_addresses, thesis_routes
 
     page = page_routes()
     with bind(host, port) as taken:

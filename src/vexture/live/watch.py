@@ -17,9 +17,16 @@ STEP_MILLISECONDS = 10
 DEBOUNCE_MILLISECONDS = 50
 """How often is looked for changes, and how long at most they are gathered."""
 
+CHECK_MILLISECONDS = 1000
+"""How often files are looked at without being told: what was saved before watching began, or on a disk that tells
+nothing, is not missed."""
+
 SETTLING_SECONDS = (0.03, 0.15, 0.5)
 """How long a file that cannot be read, or is no drawing, is given to become one: editors delete it or write it in
 pieces while they save."""
+
+
+_Stamp = tuple[int, int, int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,6 +102,7 @@ async def watch(shelf: Shelf, sources: Sequence[Source], settings: Settings, see
     from watchfiles import awatch
 
     content: dict[str, bytes | None] = dict(seen)
+    read: dict[str, _Stamp | None] = {}
     owners: dict[Path, list[Source]] = {}
     for source in sources:
         for place in source.places:
@@ -103,12 +111,30 @@ async def watch(shelf: Shelf, sources: Sequence[Source], settings: Settings, see
     def ours(_change: Any, path: str) -> bool:
         return Path(path) in owners
 
-    folders = {place.parent for place in owners}
     async for changes in awatch(
-        *folders, watch_filter=ours, step=STEP_MILLISECONDS, debounce=DEBOUNCE_MILLISECONDS, recursive=False
+        *{place.parent for place in owners},
+        watch_filter=ours,
+        step=STEP_MILLISECONDS,
+        debounce=DEBOUNCE_MILLISECONDS,
+        rust_timeout=CHECK_MILLISECONDS,
+        yield_on_timeout=True,
+        recursive=False,
     ):
         changed = {source for _, path in changes for source in owners[Path(path)]}
-        await asyncio.gather(*(_publish(shelf, source, settings, content) for source in changed))
+        for source in changed or sources:
+            stamp = _stamp(source.path)
+            if source in changed or read.get(source.name, ()) != stamp:
+                read[source.name] = stamp
+                await _publish(shelf, source, settings, content)
+
+
+def _stamp(path: Path) -> _Stamp | None:
+    """What tells one content of a file from another without reading it; None if it is not there."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_ino, found.st_size, found.st_mtime_ns
 
 
 async def _publish(shelf: Shelf, source: Source, settings: Settings, content: dict[str, bytes | None]) -> None:
