@@ -1,5 +1,6 @@
-"""Prepare this machine: `prepare.py venv` makes .venv, `prepare.py system` installs what the tests need beyond it,
-`prepare.py web` what building web/ needs, and fails where that is not to be had.
+"""Prepare this machine: `prepare.py venv` makes .venv, `prepare.py system` installs what the tests need beyond it.
+
+`prepare.py web` installs what building web/ needs, and fails where that is not to be had.
 
 System packages are installed only by root, and only where there is apt-get; elsewhere they are named, together with
 the tests that are skipped without them. Whether something is there is found out by using it.

@@ -7,11 +7,11 @@ import subprocess
 
 import httpx
 import pytest
-from viewing import SHAPES, VEXTURE, viewing
 
 from vexture.encoding.packed_texture import packed_from
 from vexture.encoding.png import read_png
 from vexture.live import viewer as server
+from viewing import SHAPES, VEXTURE, viewing
 
 DUCK = (SHAPES / "duck.svg").read_bytes()
 

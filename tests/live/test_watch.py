@@ -3,6 +3,7 @@
 import os
 
 import pytest
+
 from viewing import SHAPES, until, viewing
 
 DUCK, CAKE = ((SHAPES / f"{name}.svg").read_bytes() for name in ("duck", "cake"))
