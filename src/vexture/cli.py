@@ -3,16 +3,17 @@
 import json
 import os
 import sys
-import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from vexture.cli_live import push, serve
 from vexture.errors import DeviceError, LimitError, VextureError
+from vexture.messages import one_line, say
 from vexture.settings import Settings
 
 if TYPE_CHECKING:
@@ -50,29 +51,6 @@ class _View(click.ParamType[Any]):
         except ValueError:
             self.fail(f"{value!r} is not four numbers X,Y,W,H", param, ctx)
         return x, y, w, h
-
-
-def _say(message: str) -> None:
-    click.echo(f"vexture: {message}", err=True)
-
-
-@contextmanager
-def _one_line() -> Iterator[None]:
-    """Errors that are the user's to mend, and warnings, become one line each."""
-    with warnings.catch_warnings():
-        warnings.showwarning = lambda message, *_args, **_kwargs: _say(f"warning: {message}")
-        warnings.simplefilter("always")
-        try:
-            yield
-        except VextureError as error:
-            _say(str(error))
-            sys.exit(1)
-        except OSError as error:
-            _say(f"{error.filename or 'the output'}: {error.strerror}; choose another file")
-            sys.exit(1)
-        except MemoryError:
-            _say("out of memory; use a smaller drawing or a smaller --size")
-            sys.exit(1)
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
@@ -119,7 +97,7 @@ def convert(
     sources: tuple[Path, ...], output: Path | None, atlas: Path | None, bits: str | None, **parameters: Any
 ) -> None:
     """Convert drawings (SVG, GeoJSON) into textures."""
-    with _one_line():
+    with one_line():
         settings = Settings(bits=None if bits is None else int(bits), **parameters)
         if atlas is None:
             failed = _convert_each(sources, output or Path(), settings)
@@ -129,7 +107,7 @@ def convert(
             failed = _convert_together(sources, atlas, settings)
     if failed:
         if len(sources) > 1:
-            _say(f"{failed} of {len(sources)} files failed{'' if atlas is None else f'; {atlas} is not written'}")
+            say(f"{failed} of {len(sources)} files failed{'' if atlas is None else f'; {atlas} is not written'}")
         sys.exit(1)
 
 
@@ -200,7 +178,7 @@ def _work_through(sources: tuple[Path, ...], work: Callable[[Path], str]) -> int
             return work(source)
         except VextureError as error:
             failed += 1
-            _say(str(error))
+            say(str(error))
             return None
 
     for line in _with_progress(sources, attempt):
@@ -272,7 +250,7 @@ def render(
 
     A texture that was split by paint is drawn in its colours, else a shape is black; on white.
     """
-    with _one_line():
+    with one_line():
         from vexture.pictures import on_white
         from vexture.render.view import window
 
@@ -325,7 +303,7 @@ def _write_png(image: Any, output: Path) -> None:
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 def info(texture: Path, as_json: bool) -> None:
     """Describe a texture."""
-    with _one_line():
+    with one_line():
         from vexture.encoding import info as describe
         from vexture.encoding import load
 
@@ -337,3 +315,7 @@ def info(texture: Path, as_json: bool) -> None:
             for line in value if isinstance(value, list) and key == "roots" else [value]:
                 text = ", ".join(f"{name} {count}" for name, count in line.items()) if isinstance(line, dict) else line
                 click.echo(f"{key:<12}{text}")
+
+
+main.add_command(serve)
+main.add_command(push)
