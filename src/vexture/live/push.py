@@ -3,7 +3,7 @@
 import json
 from http.client import HTTPException
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 from urllib.error import HTTPError, URLError
 from urllib.parse import quote, unquote, urlsplit, urlunsplit
 from urllib.request import Request, urlopen
@@ -26,7 +26,7 @@ TYPES: Final = {
 }
 
 
-def push(path: Path, url: str, token: str) -> dict[str, Any]:
+def push(path: Path, url: str, token: str) -> dict[str, str]:
     """Publish a file.
 
     Parameters
@@ -39,8 +39,8 @@ def push(path: Path, url: str, token: str) -> dict[str, Any]:
 
     Returns
     -------
-    dict
-        The manifest, and under ``url`` where it is.
+    dict of str
+        ``url``, where its manifest is; ``name``, ``version`` and ``bytes``.
 
     Raises
     ------
@@ -59,12 +59,7 @@ def push(path: Path, url: str, token: str) -> dict[str, Any]:
     try:
         with urlopen(Request(target, data, headers, method="PUT"), timeout=SECONDS) as answer:
             manifest = json.loads(answer.read(LONGEST_ANSWER))
-        return {
-            "url": target,
-            "name": str(manifest["name"]),
-            "version": str(manifest["version"]),
-            "bytes": manifest.get("bytes"),
-        }
+        return {"url": target, **{key: str(manifest[key]) for key in ("name", "version", "bytes")}}
     except HTTPError as error:
         raise _refused(target, error) from None
     except URLError as error:

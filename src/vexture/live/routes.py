@@ -27,16 +27,13 @@ SEND_SECONDS: Final = 30
 FOREVER: Final = "public, max-age=31536000, immutable"
 SVG_POLICY: Final = "sandbox; default-src 'none'; style-src 'unsafe-inline'"
 
+Lifespan = Callable[[Starlette], AbstractAsyncContextManager[None]]
+
 Views = Callable[[Shape], Mapping[str, Any]]
 """What a manifest names beside the files of a shape, relative to the manifest."""
 
 
-def application(
-    listed: list[BaseRoute],
-    *,
-    open_to_all: bool,
-    lifespan: Callable[[Starlette], AbstractAsyncContextManager[None]] | None = None,
-) -> Starlette:
+def application(listed: list[BaseRoute], *, open_to_all: bool, lifespan: Lifespan | None = None) -> Starlette:
     """Make routes an application whose errors are JSON.
 
     Parameters
