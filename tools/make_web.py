@@ -12,17 +12,30 @@ from typing import Final
 
 from vexture import shading
 from vexture.encoding import layout
-from vexture.shaders import FOLD_HEIGHT, QUALITIES, constants, join, packed_text
+from vexture.shaders import FOLD_HEIGHT, QUALITIES, WRAPS, constants, join, packed_text
 
 __all__ = ["main"]
 
 FOLDER: Final = Path(__file__).resolve().parents[1] / "web" / "generated"
 HEADER: Final = "// Made by tools/make_web.py; change {owner} and run it again.\n"
 
-PACKED_FILES: Final = {"packed": "packed_coverage.glsl"}
+PACKED_FILES: Final = {"packed": "packed_layers.glsl", "packedOverlay": "packed_overlay.glsl"}
 """Exports that read a packed texture, and the file whose functions each offers."""
 
 COMMENT: Final = re.compile(r"[ \t]*//.*$", re.MULTILINE)
+
+GLOBAL: Final = re.compile(
+    r"^(?:const |uniform |struct )?(?:\w+ )?(\w+)(?=\(.*[,{]$|\[\d+\] = | = .*;$|;| \{$)", re.MULTILINE
+)
+"""The name that a line defines outside of functions, where nothing stands before it."""
+
+THESIS_PREFIX: Final = "thesis_"
+
+
+def apart(text: str) -> str:
+    """Shader text whose global names begin with a prefix, to stand in one program with other people's."""
+    names = set(GLOBAL.findall(COMMENT.sub("", text))) | {"LEVELS", "FOLD_HEIGHT"}
+    return re.sub(rf"\b({'|'.join(sorted(names))})\b", rf"{THESIS_PREFIX}\1", text)
 
 
 def bare(text: str) -> str:
@@ -35,13 +48,18 @@ def shaders() -> str:
     """Text of the module with the shaders."""
     parts = [HEADER.format(owner="src/vexture/glsl/")]
     for name, file in PACKED_FILES.items():
-        parts.append(f"/** {file}; VEXTURE_QUALITY must be defined before it. */\n")
+        parts.append(f"/** {file}; VEXTURE_QUALITY must be defined before it, and VEXTURE_WRAP may be. */\n")
         parts.append(f"export const {name} = {json.dumps(bare(packed_text(file, None)))};\n")
     thesis = constants(layout) + constants(shading) + join("coverage.glsl")
-    parts.append("/** coverage.glsl; the constants LEVELS and FOLD_HEIGHT must stand before it. */\n")
-    parts.append(f"export const thesis = {json.dumps(bare(thesis))};\n")
+    parts.append(
+        "/** coverage.glsl; its names begin with thesis_, and const int thesis_LEVELS and thesis_FOLD_HEIGHT must\n"
+    )
+    parts.append(" * stand before it. */\n")
+    parts.append(f"export const thesis = {json.dumps(bare(apart(thesis)))};\n")
     parts.append("/** Values of VEXTURE_QUALITY. */\n")
     parts.append(f"export const QUALITIES = Object.freeze({json.dumps(QUALITIES)});\n")
+    parts.append("/** Values of VEXTURE_WRAP. */\n")
+    parts.append(f"export const WRAPS = Object.freeze({json.dumps(WRAPS)});\n")
     parts.append("/** Rows of a thesis texture on the GPU: a longer list goes on in the columns to its right. */\n")
     parts.append(f"export const FOLD_HEIGHT = {FOLD_HEIGHT};\n")
     return "".join(parts)

@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from vexture.arguments import Tolerance
 from vexture.cli_live import push, serve
+from vexture.cli_view import export, view
 from vexture.errors import DeviceError, LimitError, VextureError
 from vexture.messages import one_line, say
 from vexture.settings import Settings
@@ -24,20 +26,6 @@ if TYPE_CHECKING:
 __all__ = ["main"]
 
 DEFAULT_SIZE = 512
-
-
-class _Tolerance(click.ParamType[Any]):
-    """A number, or auto."""
-
-    name = "T"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        if value == "auto" or isinstance(value, float):
-            return value
-        try:
-            return float(value)
-        except ValueError:
-            self.fail(f"{value!r} is neither a number nor auto", param, ctx)
 
 
 class _View(click.ParamType[Any]):
@@ -79,7 +67,7 @@ def main() -> None:
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
 @click.option(
     "--tolerance",
-    type=_Tolerance(),
+    type=Tolerance(),
     default="auto",
     show_default=True,
     help="Largest distance from the drawing's outline, in drawing sizes; for packed, auto is 0.",
@@ -319,3 +307,5 @@ def info(texture: Path, as_json: bool) -> None:
 
 main.add_command(serve)
 main.add_command(push)
+main.add_command(view)
+main.add_command(export)

@@ -24,6 +24,7 @@ __all__ = [
     "FOLD_HEIGHT",
     "QUALITIES",
     "VERSIONS",
+    "WRAPS",
     "TextureSizes",
     "compose",
     "constants",
@@ -46,6 +47,12 @@ FOLD_HEIGHT: Final = 16384
 
 QUALITIES: Final = {"fast": shading.FAST, "exact": shading.EXACT}
 """What the packed texture's shader can be compiled for."""
+
+WRAPS: Final = {"none": shading.WRAP_NONE, "clamp": shading.WRAP_CLAMP, "repeat": shading.WRAP_REPEAT}
+"""What ``glsl/packed_wrap.glsl`` can be compiled for."""
+
+CHOSEN: Final = {"QUALITY", "WRAP"}
+"""Names whose value is chosen for each program."""
 
 PREFIXED: Final = re.compile(r"\bVEXTURE_(\w+)")
 """A number as the packed texture's files name it: other people's shaders have names of their own."""
@@ -226,18 +233,15 @@ def shader_source(version: str = "300 es", quality: str = "exact") -> str:
 def packed_text(file: str, quality: str | None) -> str:
     """Text of one of the packed texture's files, below the numbers that it and its includes name.
 
-    Without a quality ``VEXTURE_QUALITY`` is left to whoever compiles it, one of the values of `QUALITIES`.
+    Without a quality ``VEXTURE_QUALITY`` is left to whoever compiles it, one of the values of `QUALITIES`; and so is
+    ``VEXTURE_WRAP`` always, one of the values of `WRAPS`.
     """
     if quality is not None and quality not in QUALITIES:
         raise LimitError(f"quality is {quality!r}; there are {', '.join(map(repr, QUALITIES))}")
     text = join(file)
-    lines = []
-    for name in sorted(set(PREFIXED.findall(text))):
-        if name == "QUALITY" and quality is None:
-            continue
-        value = (
-            QUALITIES.get(quality or "") if name == "QUALITY" else getattr(shading, name, getattr(layout, name, None))
-        )
+    lines = [] if quality is None else [f"#define VEXTURE_QUALITY {QUALITIES[quality]!r}\n"]
+    for name in sorted(set(PREFIXED.findall(text)) - CHOSEN):
+        value = getattr(shading, name, getattr(layout, name, None))
         if value is None:
             raise NameError(f"{file} names VEXTURE_{name}, which neither shading.py nor layout.py defines")
         lines.append(f"#define VEXTURE_{name} {value!r}\n")

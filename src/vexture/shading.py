@@ -7,14 +7,17 @@ from typing import Final
 
 __all__ = [
     "BEND",
+    "BORDER",
     "CLOSE",
     "CONSTANT",
     "CORNER",
+    "COVERED",
     "CROSSING",
     "CUBE_ROOT",
     "CURVE",
     "DOUBLE",
     "EXACT",
+    "FADED_CELL",
     "FARTHEST",
     "FAST",
     "HYPERBOLIC_COSINE",
@@ -27,6 +30,7 @@ __all__ = [
     "MOST_PARTS",
     "NEAR",
     "NEARLY_EQUAL",
+    "NEARLY_TILE",
     "NEARLY_ZERO",
     "NO_SIZE",
     "POSITION_BITS",
@@ -41,6 +45,10 @@ __all__ = [
     "THINNEST_PIXEL",
     "THREE",
     "TRIPLE",
+    "WHOLE_TILE",
+    "WRAP_CLAMP",
+    "WRAP_NONE",
+    "WRAP_REPEAT",
 ]
 
 SAMPLES: Final = 4
@@ -127,3 +135,22 @@ CROSSING: Final = 2
 
 MOST_CELLS: Final = 256
 """Cells that one pixel looks at."""
+
+WRAP_NONE: Final = 0
+WRAP_CLAMP: Final = 1
+WRAP_REPEAT: Final = 2
+"""What lies beyond the unit square: nothing, what its border shows, or the shape again."""
+
+BORDER: Final = 2.0**-22
+"""Unit-square units; more than float32 loses of a position near the square's border."""
+
+NEARLY_TILE: Final = 0.375
+WHOLE_TILE: Final = 0.5
+"""Half the length of a footprint, in tiles of a repeated shape, from which its coverage fades into the tile's mean, and
+at which nothing else is left."""
+
+COVERED: Final = 1.0 - 2.0**-10
+"""Opacity of what has been painted over a pixel from which layers below do not show."""
+
+FADED_CELL: Final = 4.0
+"""Pixels. The borders of cells of this size are not drawn, lest small views turn grey; from twice that on they are."""

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from vexture.drawing import Drawing
 
-__all__ = ["SVG_TYPE", "VIEWER_SETTINGS", "shape_of", "thesis_pair"]
+__all__ = ["SVG_TYPE", "THESIS_BITS", "VIEWER_SETTINGS", "shape_of", "thesis_pair"]
 
 SVG_TYPE = "image/svg+xml"
 
@@ -31,8 +31,15 @@ VIEW_PRECISION = 1e-7
 VIEWER_SETTINGS = Settings(split="paint", precision=VIEW_PRECISION)
 """How the viewer converts: in its colours, and good for the deepest zoom."""
 
+THESIS_BITS = {"thesis16": 16, "thesis8": 8}
+"""Bits per channel of each view in the thesis encoding."""
+
 ANONYMOUS_WINDOW = (300.0, 150.0)
 """Pixels: how large browsers show an SVG that says no size (CSS 2.1, 10.3.2)."""
+
+SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
+<path fill="red" d="M2 2C9 2 2 9 7 7S1 6 2 2zM-1 4A3 3 0 0 1 5 4z"/></svg>"""
+"""Of everything a little: corners, curves, crossings, two colours, something outside."""
 
 PNG_SUFFIX = ".png"
 
@@ -140,11 +147,10 @@ def _collected() -> Iterator[list[str]]:
 @cache
 def _warm() -> None:
     """Load the kernels, which only the first conversion of a process waits for: it is no part of any file's time."""
-    from vexture.drawing import Drawing
     from vexture.pipeline import convert
+    from vexture.sources.svg import svg_drawing
 
-    star = Drawing.polygon([(0.2, 0.1), (0.5, 0.9), (0.8, 0.1), (0.1, 0.6), (0.9, 0.6)])  # crosses itself
-    convert(star, split="paint")
+    convert(svg_drawing(SMALL, "small.svg"), split="paint", precision=VIEW_PRECISION)
 
 
 def _read(data: bytes, file_name: str, settings: Settings) -> "Drawing":

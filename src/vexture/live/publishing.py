@@ -16,8 +16,9 @@ from vexture.errors import DeviceError, LimitError, VextureError
 from vexture.live.converter import BusyError, Converter
 from vexture.live.folder import Folder, FullError
 from vexture.live.limits import Limits, Pace
+from vexture.live.manifest import manifest
 from vexture.live.names import checked_name
-from vexture.live.routes import entity_tag, manifest, refusal
+from vexture.live.routes import entity_tag, refusal
 
 __all__ = ["publishing_routes", "working"]
 

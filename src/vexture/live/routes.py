@@ -16,9 +16,10 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import BaseRoute, Route
 
+from vexture.live.manifest import manifest
 from vexture.live.shelf import Shape, Shelf
 
-__all__ = ["application", "manifest", "refusal", "routes"]
+__all__ = ["FOREVER", "application", "refusal", "routes"]
 
 PING_SECONDS: Final = 15
 SEND_SECONDS: Final = 30
@@ -77,20 +78,6 @@ async def _told(request: Request, error: Exception) -> Response:
 async def _failed(request: Request, error: Exception) -> Response:
     """Answer that the server has a fault; the traceback is in its log, not here."""
     return refusal(500, f"the server failed ({type(error).__name__}); its log says more")
-
-
-def manifest(shape: Shape, note: str | None, views: Mapping[str, Any]) -> dict[str, Any]:
-    """What clients are told of a shape; addresses are relative to the manifest's own."""
-    return {
-        "name": shape.name,
-        "version": shape.version,
-        "texture": f"../files/{shape.texture.name}",
-        "bytes": len(shape.texture.data),
-        "events": "../events",
-        "facts": dict(shape.facts),
-        "views": {what: f"../files/{file.name}" for what, file in shape.views.items()} | dict(views),
-        "note": note,
-    }
 
 
 def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[BaseRoute]:

@@ -1,10 +1,13 @@
 """`vexture serve`: the shapes of a folder, for who reads and who publishes."""
 
 from collections.abc import Callable
-from contextlib import closing
+from contextlib import closing, suppress
 from functools import partial
 from pathlib import Path
 
+from starlette.routing import BaseRoute
+
+from vexture.errors import DeviceError
 from vexture.live.converter import Converter
 from vexture.live.folder import Folder
 from vexture.live.limits import Limits
@@ -12,6 +15,7 @@ from vexture.live.publishing import publishing_routes, working
 from vexture.live.routes import application, routes
 from vexture.live.serving import address, bind, serve_until_stopped
 from vexture.live.tokens import read_token
+from vexture.live.viewer import page_routes
 
 __all__ = ["serve"]
 
@@ -43,7 +47,7 @@ def serve(
         folder = Folder(path, limits, say)
         converter = Converter(limits)
         app = application(
-            [*routes(folder), *publishing_routes(folder, converter, limits, token)],
+            [*routes(folder), *publishing_routes(folder, converter, limits, token), *_page()],
             open_to_all=True,
             lifespan=partial(working, folder, converter),
         )
@@ -54,3 +58,10 @@ def serve(
 
         say(f"serving {len(folder.names)} shapes of {path} at {address(taken)}")
         serve_until_stopped(app, taken, stop)
+
+
+def _page() -> list[BaseRoute]:
+    """Routes of the viewer's page, if it is built."""
+    with suppress(DeviceError):
+        return page_routes()
+    return []

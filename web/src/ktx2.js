@@ -1,0 +1,259 @@
+// One image of four unsigned 32-bit words to a texel, with texts, from KTX 2.0; safe to read from strangers.
+// The container is that of the Khronos KTX File Format Specification, version 2.0. Numbers are little-endian, as those
+// of every machine with WebGL are.
+import { MOST_ROWS, MOST_TEXT_BYTES, ROW_BITS } from '../generated/layout.js';
+import { REMEDY, VextureError, line } from './errors.js';
+
+/** How every KTX 2.0 file begins. */
+export const MAGIC = Object.freeze([0xab, 0x4b, 0x54, 0x58, 0x20, 0x32, 0x30, 0xbb, 0x0d, 0x0a, 0x1a, 0x0a]);
+
+const HEADER_BYTES = 80;
+const LEVEL_BYTES = 24;
+const TEXEL_BYTES = 16;
+const LENGTH_BYTES = 4;
+
+/** VK_FORMAT_R32G32B32A32_UINT. */
+const R32G32B32A32_UINT = 107;
+
+const NONE = 0;
+const ZLIB = 3;
+
+/** Bytes that one byte of a deflate stream can become at most (zlib's technical details). */
+const DEFLATE_RATIO = 1032;
+
+/** Bytes handed to the inflater at once, which may hand out all that they become: 1032 times as many. */
+const SLICE = 1 << 14;
+
+/** Where the header has fields that must have one of some values. */
+const FIXED = /** @type {const} */ ([
+  ['vkFormat', 12, [R32G32B32A32_UINT]],
+  ['typeSize', 16, [4]],
+  ['pixelDepth', 28, [0]],
+  ['layerCount', 32, [0]],
+  ['faceCount', 36, [1]],
+  ['levelCount', 40, [1, 0]],
+  ['supercompressionScheme', 44, [ZLIB, NONE]],
+]);
+
+/**
+ * @typedef {object} Ktx2Image
+ * @property {number} width texels in a row
+ * @property {number} height rows
+ * @property {Uint32Array} texels four words each, row by row
+ * @property {Map<string, string>} texts values by key, without the zero byte at their end; those not UTF-8 are left out
+ */
+
+/**
+ * Whether bytes begin like a KTX 2.0 file.
+ *
+ * @param {ArrayBuffer | Uint8Array} file
+ */
+export function isKtx2(file) {
+  const bytes = asBytes(file);
+  return bytes.length >= MAGIC.length && MAGIC.every((byte, place) => bytes[place] === byte);
+}
+
+/**
+ * Texels and texts of a file. What costs memory is bounded by the header, and the header by the format's limits.
+ *
+ * @param {ArrayBuffer | Uint8Array} file
+ * @returns {Promise<Ktx2Image>}
+ */
+export async function readKtx2(file) {
+  const bytes = asBytes(file);
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const { width, height } = readHeader(bytes, view);
+  const dfd = part(bytes, view.getUint32(48, true), view.getUint32(52, true), 'dfdByteOffset');
+  if (dfd.length && (dfd.length % 4 || view.getUint32(dfd.byteOffset - bytes.byteOffset, true) !== dfd.length)) {
+    throw new VextureError(`the data format descriptor is not as long as it says; ${REMEDY}`, 'dfdTotalSize');
+  }
+  const kvdLength = view.getUint32(60, true);
+  if (kvdLength > MOST_TEXT_BYTES) {
+    throw new VextureError(
+      `${kvdLength} bytes of key/value data; the limit is ${MOST_TEXT_BYTES}; ${REMEDY}`,
+      'kvdByteLength',
+    );
+  }
+  const texts = readTexts(part(bytes, view.getUint32(56, true), kvdLength, 'kvdByteOffset'));
+  const raw = await readImage(bytes, view, width * height * TEXEL_BYTES);
+  return { width, height, texels: new Uint32Array(raw), texts };
+}
+
+/**
+ * @param {ArrayBuffer | Uint8Array} file
+ */
+function asBytes(file) {
+  return file instanceof Uint8Array ? file : new Uint8Array(file);
+}
+
+/**
+ * @param {Uint8Array} bytes
+ * @param {DataView} view of them
+ */
+function readHeader(bytes, view) {
+  if (!isKtx2(bytes)) {
+    const found = line(String.fromCharCode(...bytes.subarray(0, MAGIC.length)));
+    throw new VextureError(`begins with ${found}; a packed texture is a KTX 2.0 file; ${REMEDY}`, 'identifier');
+  }
+  if (bytes.length < HEADER_BYTES + LEVEL_BYTES) {
+    throw new VextureError(
+      `${bytes.length} bytes; the header alone has ${HEADER_BYTES + LEVEL_BYTES}; load the whole file`,
+      'header',
+    );
+  }
+  for (const [name, at, allowed] of FIXED) {
+    const value = view.getUint32(at, true);
+    if (!allowed.some((one) => one === value)) {
+      throw new VextureError(`${name} is ${value}; it must be ${allowed.join(' or ')}; ${REMEDY}`, name);
+    }
+  }
+  if (view.getBigUint64(72, true) !== 0n) {
+    throw new VextureError(`sgdByteLength is ${view.getBigUint64(72, true)}; it must be 0; ${REMEDY}`, 'sgdByteLength');
+  }
+  const width = view.getUint32(20, true);
+  const height = view.getUint32(24, true);
+  const widest = 1 << ROW_BITS;
+  const wide = width >= 1 && width <= widest && (width & (width - 1)) === 0;
+  if (!wide || height < 1 || height > (width === widest ? MOST_ROWS : 1)) {
+    throw new VextureError(
+      `${width} x ${height} texels; a texture is ${widest} wide and 1 to ${MOST_ROWS} high, or one row of a ` +
+        `smaller power of two; ${REMEDY}`,
+      wide ? 'pixelHeight' : 'pixelWidth',
+    );
+  }
+  return { width, height };
+}
+
+/**
+ * Bytes of the file, if it has so many.
+ *
+ * @param {Uint8Array} bytes
+ * @param {number} offset
+ * @param {number} length
+ * @param {string} field
+ */
+function part(bytes, offset, length, field) {
+  if (length && (offset < HEADER_BYTES || offset + length > bytes.length)) {
+    throw new VextureError(
+      `bytes ${offset} to ${offset + length} of a file of ${bytes.length} (${field}); it is cut off or damaged; ` +
+        'load the whole file',
+      field,
+    );
+  }
+  return bytes.subarray(offset, offset + length);
+}
+
+/**
+ * @param {Uint8Array} pairs
+ */
+function readTexts(pairs) {
+  const decoder = new TextDecoder('utf-8', { fatal: true, ignoreBOM: true });
+  const view = new DataView(pairs.buffer, pairs.byteOffset, pairs.byteLength);
+  /** @type {Map<string, string>} */
+  const texts = new Map();
+  for (let at = 0; at < pairs.length; ) {
+    const length = at + LENGTH_BYTES <= pairs.length ? view.getUint32(at, true) : 0;
+    at += LENGTH_BYTES;
+    const pair = pairs.subarray(at, at + length);
+    const zero = pair.indexOf(0);
+    if (zero < 1 || at + length > pairs.length) {
+      throw new VextureError(
+        `key/value data are damaged at byte ${at} of ${pairs.length}; ${REMEDY}`,
+        'keyAndValueByteLength',
+      );
+    }
+    const value = pair.subarray(zero + 1, pair.at(-1) === 0 && pair.length > zero + 1 ? -1 : undefined);
+    const key = decoded(decoder, pair.subarray(0, zero));
+    if (key !== undefined && texts.has(key)) {
+      throw new VextureError(`key ${line(key)} is there twice; each may be there once; ${REMEDY}`, key);
+    }
+    const text = decoded(decoder, value); // other writers may store anything under their own keys
+    if (key !== undefined && text !== undefined) texts.set(key, text);
+    at += length + (-length & 3);
+  }
+  return texts;
+}
+
+/**
+ * @param {TextDecoder} decoder
+ * @param {Uint8Array} bytes
+ */
+function decoded(decoder, bytes) {
+  try {
+    return decoder.decode(bytes);
+  } catch {
+    return undefined;
+  }
+}
+
+/**
+ * @param {Uint8Array} bytes
+ * @param {DataView} view of them
+ * @param {number} size in bytes
+ */
+async function readImage(bytes, view, size) {
+  const [offset, length, inflated] = [0, 8, 16].map((at) => Number(view.getBigUint64(HEADER_BYTES + at, true)));
+  const stored = part(bytes, offset, length, 'byteLength');
+  if (view.getUint32(44, true) === NONE) {
+    if (stored.length !== size) {
+      throw new VextureError(
+        `the image has ${stored.length} bytes; its size in texels makes it ${size}; ${REMEDY}`,
+        'byteLength',
+      );
+    }
+    return stored.slice().buffer; // texels must begin at a multiple of four bytes
+  }
+  if (inflated !== size) {
+    throw new VextureError(
+      `uncompressedByteLength is ${inflated}; the size in texels makes it ${size}; ${REMEDY}`,
+      'uncompressedByteLength',
+    );
+  }
+  if (size > DEFLATE_RATIO * (length + 1)) {
+    throw new VextureError(`${length} bytes of image; they cannot inflate to ${size}; ${REMEDY}`, 'byteLength');
+  }
+  return inflate(stored, size);
+}
+
+/**
+ * Inflate to so many bytes, and never to many more.
+ *
+ * @param {Uint8Array} stored
+ * @param {number} size
+ */
+async function inflate(stored, size) {
+  let at = 0;
+  /** @type {ReadableStream<BufferSource>} */
+  const slices = new ReadableStream({
+    pull(controller) {
+      controller.enqueue(/** @type {Uint8Array<ArrayBuffer>} */ (stored.subarray(at, at + SLICE)));
+      at += SLICE;
+      if (at >= stored.length) controller.close();
+    },
+  });
+  const raw = new Uint8Array(size);
+  let filled = 0;
+  const reader = slices.pipeThrough(new DecompressionStream('deflate')).getReader();
+  try {
+    for (;;) {
+      const { done, value } = await reader.read();
+      if (done) break;
+      if (filled + value.length > size) {
+        throw new VextureError(`the image inflates to more than ${size} bytes; ${REMEDY}`, 'uncompressedByteLength');
+      }
+      raw.set(value, filled);
+      filled += value.length;
+    }
+  } catch (error) {
+    reader.cancel().catch(() => {}); // what the stream says of its own end is no news
+    if (error instanceof VextureError) throw error;
+    throw new VextureError(`the image cannot be inflated (${line(error)}); ${REMEDY}`, 'image', { cause: error });
+  }
+  if (filled !== size) {
+    throw new VextureError(
+      `the image inflates to ${filled} bytes; its size in texels makes it ${size}; ${REMEDY}`,
+      'uncompressedByteLength',
+    );
+  }
+  return raw.buffer;
+}

@@ -1,0 +1,86 @@
+// What a packed texture's file says of its shapes (FORMAT.md, B.5).
+import { TEXT_ROOTS } from '../generated/layout.js';
+import { REMEDY, VextureError, line } from './errors.js';
+
+const MOST_INDEX = 2 ** 32;
+
+/**
+ * Roots from their JSON text; members that are not known are ignored.
+ *
+ * @param {string} text
+ * @returns {import('./data.js').Root[]}
+ */
+export function readRoots(text) {
+  let entries;
+  try {
+    entries = JSON.parse(text);
+  } catch (error) {
+    throw new VextureError(`${TEXT_ROOTS} is not JSON (${line(error)}); ${REMEDY}`, TEXT_ROOTS, { cause: error });
+  }
+  if (!Array.isArray(entries) || !entries.length) {
+    throw new VextureError(`${TEXT_ROOTS} is ${line(text)}; it must be a list of at least one root; ${REMEDY}`, TEXT_ROOTS);
+  }
+  return entries.map(readRoot);
+}
+
+/**
+ * @param {any} entry
+ * @param {number} place
+ * @returns {import('./data.js').Root}
+ */
+function readRoot(entry, place) {
+  if (!isObject(entry)) refuse(`root ${place}`, entry, 'an object', place);
+  const { name, quad, crs = null, tolerance = 0, transform, paint = null } = entry;
+  if (typeof name !== 'string') refuse(`root ${place}: name`, name, 'a text', place, 'name');
+  if (!Number.isInteger(quad) || quad < 0 || quad >= MOST_INDEX) {
+    refuse(`root ${place}: quad`, quad, 'an index of a texel', place, 'quad');
+  }
+  if (crs !== null && typeof crs !== 'string') refuse(`root ${place}: crs`, crs, 'a text', place, 'crs');
+  if (!areNumbers(transform, 6)) refuse(`root ${place}: transform`, transform, '6 finite numbers', place, 'transform');
+  if (!areNumbers([tolerance], 1) || tolerance < 0) {
+    refuse(`root ${place}: tolerance`, tolerance, 'a finite number of at least 0', place, 'tolerance');
+  }
+  return { name, quad, transform, tolerance, crs, paint: paint === null ? null : readPaint(paint, place) };
+}
+
+/**
+ * @param {any} paint
+ * @param {number} place
+ * @returns {import('./data.js').RootPaint}
+ */
+function readPaint(paint, place) {
+  if (!isObject(paint)) refuse(`root ${place}: paint`, paint, 'an object', place, 'paint');
+  const { color, opacity = 1 } = paint;
+  if (!areNumbers(color, 3) || !areNumbers([opacity], 1) || ![...color, opacity].every((one) => one >= 0 && one <= 1)) {
+    refuse(`root ${place}: paint`, paint, 'a color of 3 numbers and an opacity, all in 0..1', place, 'paint');
+  }
+  return { color, opacity };
+}
+
+/**
+ * @param {unknown} value
+ */
+function isObject(value) {
+  return typeof value === 'object' && value !== null && !Array.isArray(value);
+}
+
+/**
+ * @param {unknown} values
+ * @param {number} count
+ */
+function areNumbers(values, count) {
+  return Array.isArray(values) && values.length === count && values.every(Number.isFinite);
+}
+
+/**
+ * @param {string} what
+ * @param {unknown} value
+ * @param {string} must
+ * @param {number} place
+ * @param {string} [member]
+ * @returns {never}
+ */
+function refuse(what, value, must, place, member) {
+  const field = `${TEXT_ROOTS}[${place}]${member ? `.${member}` : ''}`;
+  throw new VextureError(`${what} is ${line(value)}; it must be ${must}; ${REMEDY}`, field);
+}

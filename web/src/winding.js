@@ -1,0 +1,56 @@
+// Winding numbers at a point, counted from the pieces of outline at or left of it; cubics as x0 y0 x1 y1 x2 y2 x3 y3.
+
+/** Halvings of the interval of t: as many as a float64 has bits. */
+const HALVINGS = 53;
+
+/**
+ * @param {number[]} cubic
+ * @param {number} axis 0 for x, 1 for y
+ * @param {number} t
+ */
+function cubicAt(cubic, axis, t) {
+  const s = 1 - t;
+  return (
+    s * s * (s * cubic[axis] + 3 * t * cubic[axis + 2]) + t * t * (3 * s * cubic[axis + 4] + t * cubic[axis + 6])
+  );
+}
+
+/**
+ * Place where a cubic that is monotone in y, but for rounding, has a height between those of its ends.
+ *
+ * @param {number[]} cubic
+ * @param {number} y
+ */
+export function xAt(cubic, y) {
+  if (y === cubic[1]) return cubic[0];
+  if (y === cubic[7]) return cubic[6];
+  const rising = cubic[7] > cubic[1];
+  let [low, high] = [0, 1];
+  for (let i = 0; i < HALVINGS; i++) {
+    const t = (low + high) / 2;
+    if (cubicAt(cubic, 1, t) > y === rising) high = t;
+    else low = t;
+  }
+  return cubicAt(cubic, 0, (low + high) / 2);
+}
+
+/**
+ * Winding number at a point of a packed leaf (FORMAT.md, B.6).
+ *
+ * @param {number[][]} curves of the leaf, in its lattice units
+ * @param {number} corner winding number at its lower left corner
+ * @param {number} x
+ * @param {number} y
+ */
+export function winding(curves, corner, x, y) {
+  let sum = corner;
+  for (const curve of curves) {
+    const [x0, y0, , , , , x3, y3] = curve;
+    if (x0 === 0 && y0 <= y) sum++;
+    if (x3 === 0 && y3 <= y) sum--;
+    if (Math.min(y0, y3) > y || y >= Math.max(y0, y3)) continue;
+    const left = Math.max(x0, x3) <= x || (Math.min(x0, x3) <= x && xAt(curve, y) <= x);
+    if (left) sum += y3 > y0 ? -1 : 1;
+  }
+  return sum;
+}
