@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vexture.arguments import Tolerance
+from vexture.cli_live import push, serve
 from vexture.cli_view import export, view
 from vexture.errors import DeviceError, LimitError, VextureError
 from vexture.messages import one_line, say
@@ -304,5 +305,7 @@ def info(texture: Path, as_json: bool) -> None:
                 click.echo(f"{key:<12}{text}")
 
 
+main.add_command(serve)
+main.add_command(push)
 main.add_command(view)
 main.add_command(export)

@@ -2,7 +2,9 @@
 
 import hashlib
 import json
+import unicodedata
 from collections.abc import AsyncIterator, Callable, Mapping
+from contextlib import AbstractAsyncContextManager
 from typing import Any, Final
 
 from sse_starlette import EventSourceResponse, ServerSentEvent
@@ -26,11 +28,13 @@ SEND_SECONDS: Final = 30
 FOREVER: Final = "public, max-age=31536000, immutable"
 SVG_POLICY: Final = "sandbox; default-src 'none'; style-src 'unsafe-inline'"
 
+Lifespan = Callable[[Starlette], AbstractAsyncContextManager[None]]
+
 Views = Callable[[Shape], Mapping[str, Any]]
 """What a manifest names beside the files of a shape, relative to the manifest."""
 
 
-def application(listed: list[BaseRoute], *, open_to_all: bool) -> Starlette:
+def application(listed: list[BaseRoute], *, open_to_all: bool, lifespan: Lifespan | None = None) -> Starlette:
     """Make routes an application whose errors are JSON.
 
     Parameters
@@ -38,6 +42,8 @@ def application(listed: list[BaseRoute], *, open_to_all: bool) -> Starlette:
     listed : list of route
     open_to_all : bool
         Whether pages of other origins may read (`GET` only).
+    lifespan : callable, optional
+        Context in which it runs.
     """
     reading = Middleware(
         CORSMiddleware,
@@ -50,6 +56,7 @@ def application(listed: list[BaseRoute], *, open_to_all: bool) -> Starlette:
     return Starlette(
         routes=listed,
         middleware=[reading] if open_to_all else [],
+        lifespan=lifespan,
         exception_handlers={HTTPException: _told, Exception: _failed},
     )
 
@@ -87,7 +94,7 @@ def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[BaseRoute]:
         return JSONResponse({"shapes": shelf.names}, headers={"Cache-Control": "no-cache"})
 
     async def one(request: Request) -> Response:
-        name = request.path_params["name"]
+        name = unicodedata.normalize("NFC", request.path_params["name"])
         shape = shelf.shape(name)
         if shape is None:
             return refusal(404, f"no shape {name[:100]!r}; /shapes lists the names")
