@@ -106,6 +106,8 @@ export class BrowserSvg {
         this.#shown = made;
         this.element.replaceChildren(image);
         this.#place();
+      } catch {
+        this.element.replaceChildren('The browser cannot draw this SVG.');
       } finally {
         URL.revokeObjectURL(url);
       }
