@@ -1,0 +1,164 @@
+/** The canvas: what is on it, and when it is drawn. */
+import { SRGBColorSpace, WebGLRenderer } from 'three';
+import { shownDrawing } from './drawing.js';
+import { Flat } from './flat.js';
+import { pictureColors } from './theme.js';
+import { panned, toScreen, toUnit, zoomed } from './view.js';
+
+/**
+ * @typedef {import('./state.js').State} State
+ * @typedef {import('./view.js').Size} Size
+ */
+
+const TURN_RATE = 0.008; // radians to a CSS pixel
+
+/**
+ * Draws what the state says, when it changes. Events: `view` when the point of view or the size changes, `shape` when
+ * another texture or drawing is shown, `frame` after each picture, with `detail.milliseconds`; `lost` and `restored`.
+ */
+export class Engine extends EventTarget {
+  /** Uniforms of packed_overlay.glsl, to be filled before the first picture. @type {Record<string, {value: any}>} */
+  overlayUniforms = {};
+  /** @type {import('./drawing.js').ShownDrawing | null} */
+  drawing = null;
+  /** @type {import('./scene.js').Document | null} */
+  document = null;
+  /** @type {Size} */
+  size = { width: 1, height: 1 };
+  /** Device pixels of a CSS pixel. */
+  ratio = 1;
+  #colors = pictureColors();
+  #frame = 0;
+  #lost = false;
+
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {State} state
+   * @throws {Error} without WebGL 2
+   */
+  constructor(canvas, state) {
+    super();
+    this.canvas = canvas;
+    this.state = state;
+    this.renderer = new WebGLRenderer({ canvas, antialias: false, alpha: false, powerPreference: 'high-performance' });
+    this.renderer.outputColorSpace = SRGBColorSpace;
+    this.renderer.autoClear = false;
+    this.renderer.info.autoReset = true;
+    this.flat = new Flat(this.overlayUniforms);
+    state.addEventListener('change', (event) => this.#stateChanged(/** @type {CustomEvent} */ (event).detail.changed));
+    canvas.addEventListener('webglcontextlost', () => {
+      this.#lost = true;
+      this.dispatchEvent(new CustomEvent('lost'));
+    });
+    canvas.addEventListener('webglcontextrestored', () => {
+      this.#lost = false;
+      this.dispatchEvent(new CustomEvent('restored'));
+      this.requestFrame();
+    });
+    const box = /** @type {HTMLElement} */ (canvas.parentElement);
+    new ResizeObserver(() => this.resize(box.clientWidth, box.clientHeight)).observe(box);
+    this.resize(box.clientWidth, box.clientHeight);
+  }
+
+  /** The texture whose drawing is shown. */
+  get texture() {
+    return this.drawing?.texture ?? null;
+  }
+
+  /**
+   * Show a shape; what was shown stays on the canvas until this can be drawn.
+   *
+   * @param {import('./scene.js').Document} document
+   */
+  async show(document) {
+    this.document = document;
+    this.drawing = shownDrawing(document.texture, this.state.value.drawing);
+    this.flat.setDrawing(this.drawing, this.#colors);
+    await this.flat.plain.compile(this.renderer);
+    this.dispatchEvent(new CustomEvent('shape'));
+    this.requestFrame();
+  }
+
+  /** @param {number} width @param {number} height of the stage, in CSS pixels */
+  resize(width, height) {
+    this.ratio = window.devicePixelRatio;
+    this.size = { width: Math.max(1, width), height: Math.max(1, height) };
+    this.renderer.setPixelRatio(this.ratio);
+    this.renderer.setSize(this.size.width, this.size.height);
+    this.dispatchEvent(new CustomEvent('view'));
+    if (this.drawing && this.flat.plain.ready) this.render(); // a resized canvas is blank until it is drawn
+  }
+
+  /** Take the theme's colours again. */
+  recolor() {
+    this.#colors = pictureColors();
+    if (this.drawing) this.flat.setDrawing(this.drawing, this.#colors);
+    this.requestFrame();
+  }
+
+  requestFrame() {
+    if (this.#frame !== 0) return;
+    this.#frame = requestAnimationFrame(() => {
+      this.#frame = 0;
+      this.render();
+    });
+  }
+
+  /** Draw now. */
+  render() {
+    const { drawing, flat, renderer, state } = this;
+    if (!drawing || this.#lost || !flat.plain.ready) return;
+    const begin = performance.now();
+    flat.setView(state.value, this.size, this.ratio);
+    flat.plain.draw(renderer);
+    const milliseconds = performance.now() - begin;
+    this.dispatchEvent(new CustomEvent('frame', { detail: { milliseconds } }));
+  }
+
+  /**
+   * Point of the unit square at a place on the canvas; null where the surface is none.
+   *
+   * @param {number} px @param {number} py
+   * @returns {[number, number] | null}
+   */
+  toUnit(px, py) {
+    return this.state.value.mode === 'flat' ? toUnit(this.state.value, this.size, px, py) : null;
+  }
+
+  /**
+   * Place on the canvas of a point of the unit square, in the flat view.
+   *
+   * @param {number} u @param {number} v
+   */
+  toScreen(u, v) {
+    return toScreen(this.state.value, this.size, u, v);
+  }
+
+  /** @param {number} dx @param {number} dy CSS pixels */
+  drag(dx, dy) {
+    const { value } = this.state;
+    if (value.mode === 'flat') this.state.update(panned(value, this.size, dx, dy));
+    else this.state.update({ yaw: value.yaw + dx * TURN_RATE, pitch: value.pitch + dy * TURN_RATE });
+  }
+
+  /** @param {number} px @param {number} py @param {number} factor */
+  zoom(px, py, factor) {
+    const { value } = this.state;
+    if (value.mode === 'flat') this.state.update(zoomed(value, this.size, px, py, factor));
+    else this.state.update({ distance: value.distance * factor });
+  }
+
+  /** @param {number} factor */
+  zoomMiddle(factor) {
+    this.zoom(this.size.width / 2, this.size.height / 2, factor);
+  }
+
+  /** @param {Set<string>} changed */
+  #stateChanged(changed) {
+    if (changed.has('drawing') && this.document) void this.show(this.document);
+    if (['center', 'zoom', 'mode', 'yaw', 'pitch', 'distance'].some((key) => changed.has(key))) {
+      this.dispatchEvent(new CustomEvent('view'));
+    }
+    this.requestFrame();
+  }
+}
