@@ -110,9 +110,18 @@ export class Engine extends EventTarget {
     if (!drawing || this.#lost || !flat.plain.ready) return;
     const begin = performance.now();
     flat.setView(state.value, this.size, this.ratio);
-    flat.plain.draw(renderer);
+    this.#flatPass().draw(renderer);
     const milliseconds = performance.now() - begin;
     this.dispatchEvent(new CustomEvent('frame', { detail: { milliseconds } }));
+  }
+
+  /** With overlays once their program is compiled; until then without. */
+  #flatPass() {
+    const { plain, overlaid } = this.flat;
+    const { cells, coverage, depth, cutoff } = this.state.overlays;
+    if (!cells && !coverage && !depth && cutoff === 0) return plain;
+    if (!overlaid.ready) void overlaid.compile(this.renderer).then(() => this.requestFrame());
+    return overlaid.ready ? overlaid : plain;
   }
 
   /**

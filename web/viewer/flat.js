@@ -1,6 +1,6 @@
 /** The flat picture of a packed texture, its layers on the theme's paper. */
 import { Vector2, Vector3 } from 'three';
-import { QUALITIES, packed } from '../generated/shaders.js';
+import { QUALITIES, packed, packedOverlay } from '../generated/shaders.js';
 import { Pass } from './pass.js';
 import { shaderView } from './view.js';
 
@@ -21,10 +21,10 @@ void main() {
   vec2 offset = start + gl_FragCoord.xy * side;
   vec4 color = vextureLayers(first, count, base, offset, vec2(side, 0.0), vec2(0.0, side));
   if (silhouette) color.rgb = ink * color.a;
-  #ifdef OVERLAY
-    color = vextureOverlay(color, base, offset, vec2(side, 0.0), vec2(0.0, side));
-  #endif
   pixel = color + paper * (1.0 - color.a);
+  #ifdef OVERLAY
+    pixel = vextureOverlay(pixel, base, offset, vec2(side, 0.0), vec2(0.0, side));
+  #endif
 }
 `;
 
@@ -46,7 +46,7 @@ export class Flat {
     });
     const text = `#define VEXTURE_QUALITY ${QUALITIES.exact}\n`;
     this.plain = new Pass(text + packed + OUTPUT, this.uniforms);
-    this.overlaid = this.plain;
+    this.overlaid = new Pass(text + packedOverlay + OUTPUT, this.uniforms, { OVERLAY: true });
   }
 
   /**

@@ -80,7 +80,7 @@ export function create(engine, state) {
     pointer = null;
     if (state.overlays.inspect) update();
   });
-  engine.canvas.addEventListener('keydown', () => {
+  engine.canvas.parentElement?.addEventListener('keydown', () => {
     pointer = null; // whoever moves the picture by keys looks at its middle
   });
   state.addEventListener('change', update);
