@@ -95,7 +95,7 @@ export function create(engine, state) {
 
   function highlight() {
     const place = map && selected >= 0 && state.value.mode === 'flat' ? map.texel(selected).place : null;
-    layer.replaceChildren(...(place ? [cellRect(engine, place, 'texel-cell')] : []));
+    layer.replaceChildren(...(place ? [cellRect((u, v) => engine.toScreen(u, v), place, 'texel-cell')] : []));
   }
 
   function showPair() {

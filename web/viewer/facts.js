@@ -24,7 +24,10 @@ function bytes(value) {
 const milliseconds = (value) => (value === null || value === undefined ? 'not known' : `${value.toPrecision(3)} ms`);
 
 /** @param {number | null | undefined} value parts of the unit square's side */
-const distance = (value) => (value ? `1/${count(Math.round(1 / value))} of the square` : 'not known');
+function distance(value) {
+  if (value === null || value === undefined) return 'not known';
+  return value === 0 ? 'exact' : `1/${count(Math.round(1 / value))}`;
+}
 
 /**
  * @param {Engine} engine
@@ -60,8 +63,8 @@ export function create(engine, _state) {
       ['File', bytes(facts.bytes ?? opened.manifest.bytes)],
       ['GPU memory', bytes(drawing.texture.nbytes)],
       ['Conversion', milliseconds(facts.milliseconds)],
-      ['Tolerance', distance(Math.max(...layers.map(({ tolerance }) => tolerance)))],
-      ['Deviation', distance(facts.distance)],
+      ['Tolerance, of side', distance(Math.max(...layers.map(({ tolerance }) => tolerance)))],
+      ['Deviation, of side', distance(facts.distance)],
     ];
     list.replaceChildren(...rows.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
     const said = facts.warnings ?? [];

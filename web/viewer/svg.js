@@ -27,14 +27,14 @@ export function svgLayer(engine, name) {
 }
 
 /**
- * Rectangle of a cell of the flat view.
+ * Rectangle of a cell.
  *
- * @param {import('./engine.js').Engine} engine
+ * @param {(u: number, v: number) => [number, number]} toScreen
  * @param {{x: number, y: number, size: number}} cell in the unit square
  * @param {string} name class of it
  */
-export function cellRect(engine, { x, y, size }, name) {
-  const [left, bottom] = engine.toScreen(x, y);
-  const [right, top] = engine.toScreen(x + size, y + size);
+export function cellRect(toScreen, { x, y, size }, name) {
+  const [left, bottom] = toScreen(x, y);
+  const [right, top] = toScreen(x + size, y + size);
   return svgElement('rect', { class: name, x: left, y: top, width: right - left, height: bottom - top });
 }
