@@ -26,10 +26,10 @@ void main() {
   vec2 offset = start + gl_FragCoord.xy * side;
   vec4 color = vextureLayers(first, count, base, offset, vec2(side, 0.0), vec2(0.0, side));
   if (silhouette) color.rgb = ink * color.a;
-  #ifdef OVERLAY
-    color = vextureOverlay(color, base, offset, vec2(side, 0.0), vec2(0.0, side));
-  #endif
   pixel = color + paper * (1.0 - color.a);
+  #ifdef OVERLAY
+    pixel = vextureOverlay(pixel, base, offset, vec2(side, 0.0), vec2(0.0, side));
+  #endif
 }
 `;
 
