@@ -3,6 +3,7 @@
 // of every machine with WebGL are.
 import { MOST_ROWS, MOST_TEXT_BYTES, ROW_BITS } from '../generated/layout.js';
 import { REMEDY, VextureError, line } from './errors.js';
+import { inflate } from './inflate.js';
 
 /** How every KTX 2.0 file begins. */
 export const MAGIC = Object.freeze([0xab, 0x4b, 0x54, 0x58, 0x20, 0x32, 0x30, 0xbb, 0x0d, 0x0a, 0x1a, 0x0a]);
@@ -17,12 +18,6 @@ const R32G32B32A32_UINT = 107;
 
 const NONE = 0;
 const ZLIB = 3;
-
-/** Bytes that one byte of a deflate stream can become at most (zlib's technical details). */
-const DEFLATE_RATIO = 1032;
-
-/** Bytes handed to the inflater at once, which may hand out all that they become: 1032 times as many. */
-const SLICE = 1 << 14;
 
 /** Where the header has fields that must have one of some values. */
 const FIXED = /** @type {const} */ ([
@@ -209,51 +204,5 @@ async function readImage(bytes, view, size) {
       'uncompressedByteLength',
     );
   }
-  if (size > DEFLATE_RATIO * (length + 1)) {
-    throw new VextureError(`${length} bytes of image; they cannot inflate to ${size}; ${REMEDY}`, 'byteLength');
-  }
-  return inflate(stored, size);
-}
-
-/**
- * Inflate to so many bytes, and never to many more.
- *
- * @param {Uint8Array} stored
- * @param {number} size
- */
-async function inflate(stored, size) {
-  let at = 0;
-  /** @type {ReadableStream<BufferSource>} */
-  const slices = new ReadableStream({
-    pull(controller) {
-      controller.enqueue(/** @type {Uint8Array<ArrayBuffer>} */ (stored.subarray(at, at + SLICE)));
-      at += SLICE;
-      if (at >= stored.length) controller.close();
-    },
-  });
-  const raw = new Uint8Array(size);
-  let filled = 0;
-  const reader = slices.pipeThrough(new DecompressionStream('deflate')).getReader();
-  try {
-    for (;;) {
-      const { done, value } = await reader.read();
-      if (done) break;
-      if (filled + value.length > size) {
-        throw new VextureError(`the image inflates to more than ${size} bytes; ${REMEDY}`, 'uncompressedByteLength');
-      }
-      raw.set(value, filled);
-      filled += value.length;
-    }
-  } catch (error) {
-    reader.cancel().catch(() => {}); // what the stream says of its own end is no news
-    if (error instanceof VextureError) throw error;
-    throw new VextureError(`the image cannot be inflated (${line(error)}); ${REMEDY}`, 'image', { cause: error });
-  }
-  if (filled !== size) {
-    throw new VextureError(
-      `the image inflates to ${filled} bytes; its size in texels makes it ${size}; ${REMEDY}`,
-      'uncompressedByteLength',
-    );
-  }
-  return raw.buffer;
+  return inflate(stored, size, 'image');
 }

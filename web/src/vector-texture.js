@@ -140,8 +140,11 @@ export class VectorTexture extends EventDispatcher {
     const before = this.#textures;
     this.#textures = upload(data);
     this.#data = data;
-    this.dispatchEvent({ type: 'change' });
-    disposeAll(before);
+    try {
+      this.dispatchEvent({ type: 'change' });
+    } finally {
+      disposeAll(before); // whatever a listener does
+    }
   }
 
   /** Free the GPU's memory. What still draws with it uploads it again. */

@@ -3,6 +3,7 @@
  *
  * @typedef {object} ShownDrawing
  * @property {import('../src/vector-texture.js').VectorTexture} texture a packed one
+ * @property {string} name
  * @property {number} first layer
  * @property {number} count of layers
  * @property {boolean} silhouette whether it is drawn in the theme's ink
@@ -45,5 +46,6 @@ export function shownDrawing(texture, name) {
   const first = texture.roots.findIndex((root) => owner(root) === wanted);
   let end = first + 1;
   while (end < texture.roots.length && owner(texture.roots[end]) === wanted) end++;
-  return { texture, first, count: end - first, silhouette: end - first === 1 && isBlack(texture.roots[first]) };
+  const count = end - first;
+  return { texture, name: wanted, first, count, silhouette: count === 1 && isBlack(texture.roots[first]) };
 }

@@ -2,6 +2,9 @@
 import { SRGBColorSpace, WebGLRenderer } from 'three';
 import { shownDrawing } from './drawing.js';
 import { Flat } from './flat.js';
+import { FrameClock } from './frame-clock.js';
+import { setRivalView } from './rivals.js';
+import { Solid } from './solid.js';
 import { pictureColors } from './theme.js';
 import { panned, toScreen, toUnit, zoomed } from './view.js';
 
@@ -27,7 +30,12 @@ export class Engine extends EventTarget {
   size = { width: 1, height: 1 };
   /** Device pixels of a CSS pixel. */
   ratio = 1;
+  #clock = new FrameClock();
   #colors = pictureColors();
+  /** What is drawn right of the divider. @type {import('./rivals.js').Rival | null} */
+  rival = null;
+  /** @type {Solid | null} */
+  #solid = null;
   #frame = 0;
   #lost = false;
 
@@ -40,7 +48,7 @@ export class Engine extends EventTarget {
     super();
     this.canvas = canvas;
     this.state = state;
-    this.renderer = new WebGLRenderer({ canvas, antialias: false, alpha: false, powerPreference: 'high-performance' });
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, powerPreference: 'high-performance' });
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = true;
@@ -75,7 +83,26 @@ export class Engine extends EventTarget {
     this.drawing = shownDrawing(document.texture, this.state.value.drawing);
     this.flat.setDrawing(this.drawing, this.#colors);
     await this.flat.plain.compile(this.renderer);
+    await this.#raise();
     this.dispatchEvent(new CustomEvent('shape'));
+    this.requestFrame();
+  }
+
+  /** @param {import('./rivals.js').Rival | null} rival whose program is compiled */
+  setRival(rival) {
+    this.rival?.dispose();
+    this.rival = rival;
+  }
+
+  /** Have the surface that the state asks for; what is on the canvas stays until it can be drawn. */
+  async #raise() {
+    const { mode } = this.state.value;
+    if (mode === 'flat' || !this.drawing) return;
+    if (this.#solid?.surface === mode && this.#solid.drawing === this.drawing) return;
+    const solid = new Solid(mode, this.drawing);
+    await solid.compile(this.renderer);
+    this.#solid?.dispose();
+    this.#solid = solid;
     this.requestFrame();
   }
 
@@ -106,13 +133,42 @@ export class Engine extends EventTarget {
 
   /** Draw now. */
   render() {
-    const { drawing, flat, renderer, state } = this;
+    const { drawing, flat, state } = this;
     if (!drawing || this.#lost || !flat.plain.ready) return;
     const begin = performance.now();
-    flat.setView(state.value, this.size, this.ratio);
-    flat.plain.draw(renderer);
-    const milliseconds = performance.now() - begin;
-    this.dispatchEvent(new CustomEvent('frame', { detail: { milliseconds } }));
+    if (state.value.mode === 'flat') this.#drawFlat();
+    else if (!this.#drawSolid(state.value.mode)) return;
+    this.#clock.measure(this.renderer, begin, (milliseconds) => {
+      this.dispatchEvent(new CustomEvent('frame', { detail: { milliseconds } }));
+    });
+  }
+
+  #drawFlat() {
+    const { flat, renderer, rival, size, state } = this;
+    const { overlays, split, compare } = state.value;
+    const wanted = overlays.cells || overlays.coverage || overlays.depth || overlays.cutoff > 0;
+    if (wanted && !flat.overlaid.ready) void flat.overlaid.compile(renderer).then(() => this.requestFrame());
+    const pass = wanted && flat.overlaid.ready ? flat.overlaid : flat.plain;
+    flat.setView(state.value, size, this.ratio);
+    const halves = compare !== null && rival !== null;
+    const at = Math.round(split * size.width * this.ratio) / this.ratio;
+    renderer.setScissorTest(halves);
+    if (halves) renderer.setScissor(0, 0, at, size.height);
+    pass.draw(renderer);
+    if (!halves) return;
+    setRivalView(rival, state.value, size, this.ratio, this.#colors);
+    renderer.setScissor(at, 0, size.width - at, size.height);
+    rival.pass.draw(renderer);
+    renderer.setScissorTest(false);
+  }
+
+  /** @param {string} mode @returns {boolean} whether it could be drawn */
+  #drawSolid(mode) {
+    const solid = this.#solid;
+    if (!solid?.ready || solid.surface !== mode || solid.drawing !== this.drawing) return false;
+    solid.place(this.state.value, this.size);
+    solid.draw(this.renderer, this.#colors);
+    return true;
   }
 
   /**
@@ -122,7 +178,9 @@ export class Engine extends EventTarget {
    * @returns {[number, number] | null}
    */
   toUnit(px, py) {
-    return this.state.value.mode === 'flat' ? toUnit(this.state.value, this.size, px, py) : null;
+    const { mode } = this.state.value;
+    if (mode === 'flat') return toUnit(this.state.value, this.size, px, py);
+    return this.#solid?.toUnit(px, py, this.size) ?? null;
   }
 
   /**
@@ -155,6 +213,7 @@ export class Engine extends EventTarget {
 
   /** @param {Set<string>} changed */
   #stateChanged(changed) {
+    if (changed.has('mode')) void this.#raise();
     if (changed.has('drawing') && this.document) void this.show(this.document);
     if (['center', 'zoom', 'mode', 'yaw', 'pitch', 'distance'].some((key) => changed.has(key))) {
       this.dispatchEvent(new CustomEvent('view'));

@@ -1,3 +1,8 @@
+import { create as createContents } from './contents.js';
+import { create as createFacts } from './facts.js';
+import { create as createInspector } from './inspector.js';
+import { create as createOverlays } from './overlays.js';
+
 /**
  * What is added to the page beside its engine, in the order in which it stands there.
  *
@@ -7,4 +12,9 @@
  */
 
 /** @type {Extra[]} */
-export const EXTRAS = [];
+export const EXTRAS = [
+  { create: createOverlays, place: 'panel' },
+  { create: createInspector, place: 'panel' },
+  { create: createContents, place: 'panel' },
+  { create: createFacts, place: 'panel' },
+];

@@ -19,8 +19,9 @@ export class Notes {
 
   /** A message that stays until it is taken back by ''. @param {string} message */
   keep(message) {
+    const taken = this.#lasting;
     this.#lasting = message;
-    this.#show(message);
+    if (message || this.element.textContent === taken) this.#show(message);
   }
 
   /** @param {string} message */

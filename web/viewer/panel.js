@@ -54,10 +54,14 @@ function viewSection(engine, state) {
   const rival = select('Compare with', RIVALS, (value) => {
     state.update({ compare: /** @type {import('./state.js').Rival | null} */ (value || null) });
   });
+  const why = element('p', { class: 'why', id: 'why-flat', hidden: true }, 'Comparisons are made on the flat surface.');
+  rival.list.setAttribute('aria-describedby', 'why-flat');
   const drawing = select('Drawing', [], (value) => state.update({ drawing: value }));
   const follow = () => {
     surface.list.value = state.value.mode;
     rival.list.value = state.value.compare ?? '';
+    rival.list.disabled = state.value.mode !== 'flat';
+    why.hidden = !rival.list.disabled;
     drawing.list.value = state.value.drawing || drawing.list.options[0]?.value || '';
   };
   engine.addEventListener('shape', () => {
@@ -69,7 +73,7 @@ function viewSection(engine, state) {
   drawing.row.hidden = true;
   state.addEventListener('change', follow);
   follow();
-  return { box: section('View', drawing.row, surface.row, rival.row), rival: rival.list };
+  return { box: section('View', drawing.row, surface.row, rival.row, why), rival: rival.list };
 }
 
 /**
@@ -93,7 +97,7 @@ export function createPanel(engine, state, actions) {
   const panel = element(
     'aside', { id: 'panel', class: 'panel', 'aria-label': 'Controls' }, title, shapes.box, view.box, extras, foot,
   );
-  return { panel, extras, rival: view.rival, showShapes: shapes.show, setTitle: (/** @type {string} */ name) => {
+  return { panel, extras, foot, rival: view.rival, showShapes: shapes.show, setTitle: (/** @type {string} */ name) => {
     title.textContent = name;
     document.title = `${name} · vexture`;
   } };

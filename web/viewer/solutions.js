@@ -11,6 +11,7 @@
  */
 
 const HALVINGS = 60;
+const SAMPLES = 24;
 
 /**
  * One coordinate of a point of a curve.
@@ -49,6 +50,24 @@ export function solutionsAt(cell, u) {
     found.push({ curve: index, t, height: coordinateAt(curve, 1, t), filledAbove: rising });
   });
   return found.sort((one, other) => one.height - other.height);
+}
+
+/**
+ * Which of some curves is the nearest one to a point; -1 without curves.
+ *
+ * @param {number[][]} curves
+ * @param {readonly [number, number]} point
+ */
+export function nearestCurve(curves, [u, v]) {
+  let [best, nearest] = [Infinity, -1];
+  curves.forEach((curve, index) => {
+    for (let i = 0; i <= SAMPLES; i++) {
+      const t = i / SAMPLES;
+      const distance = Math.hypot(coordinateAt(curve, 0, t) - u, coordinateAt(curve, 1, t) - v);
+      if (distance < best) [best, nearest] = [distance, index];
+    }
+  });
+  return nearest;
 }
 
 /**

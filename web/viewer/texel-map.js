@@ -44,6 +44,7 @@ export class TexelMap {
     const { texels } = data;
     const length = texels.length / 4;
     this.data = data;
+    this.root = root;
     /** What each texel is: UNUSED, OTHER, QUAD or CURVE. */
     this.kinds = new Uint8Array(length);
     for (let i = 0; i < length; i++) {

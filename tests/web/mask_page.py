@@ -1,0 +1,98 @@
+"""The page of masked materials as its tests use it: textures, pictures, and what the exact renderer says of them."""
+
+import base64
+from functools import cache
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from browser import ROOT, bundle
+from numpy.typing import ArrayLike, NDArray
+
+import vexture
+from vexture.drawing import Drawing
+
+SHAPES: Final = ROOT / "examples" / "shapes"
+
+ATLAS: Final = ("holes", "flame", "cake", "thumb")
+
+PAGE: Final = Path(__file__).parent / "pages" / "mask.js"
+
+THREES: Final = ("three-floor", "three")
+
+Picture = NDArray[np.float64]
+
+
+@cache
+def drawing(name: str) -> Drawing:
+    """One of the example drawings; or a drawing that fills the square, and one that crosses its border."""
+    if name == "full":
+        return Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
+    if name == "border":
+        return Drawing.polygon([(0, 0.1), (0.35, 0), (0.8, 0.3), (1, 0.25), (1, 0.7), (0.6, 1), (0.2, 1), (0, 0.6)])
+    return vexture.read_svg(SHAPES / f"{name}.svg")
+
+
+def prepare(folder: Path) -> None:
+    """Write the textures, and a page for each version of three.js."""
+    for name in ("duck", "full", "border"):
+        vexture.convert(drawing(name)).save(folder / f"{name}.ktx2")
+    vexture.convert(drawing("duck"), split="paint").save(folder / "paint.ktx2")
+    vexture.atlas([SHAPES / f"{name}.svg" for name in ATLAS]).save(folder / "atlas.ktx2")
+    vexture.convert(drawing("duck"), encoding="thesis").save(folder / "thesis")
+    for three in THREES:
+        bundle(PAGE, folder / f"{three}.js", three)
+        script = f'<!doctype html><link rel="icon" href="data:,"><body style="margin:0"><script type="module" src="{three}.js"></script>'
+        (folder / f"{three}.html").write_text(script, encoding="utf-8")
+
+
+def decode(text: str) -> Picture:
+    """Picture of the page, RGB in 0..1, top row first."""
+    data = np.frombuffer(base64.b64decode(text), np.uint8)
+    size = round((len(data) / 4) ** 0.5)
+    return data.reshape(size, size, 4)[::-1, :, :3] / 255.0
+
+
+def draw(page: Any, **config: Any) -> Picture:
+    """Draw one scene."""
+    return decode(page.evaluate("config => page.draw(config)", config)["picture"])
+
+
+@cache
+def _exact(name: str, size: int, to_unit: tuple[float, ...] | None) -> Picture:
+    matrix = None if to_unit is None else np.reshape(to_unit, (-1, 3))
+    return vexture.render(drawing(name), (size, size), matrix, renderer="exact").astype(np.float64)[..., None]
+
+
+def exact(name: str, size: int = 512, to_unit: ArrayLike | None = None) -> Picture:
+    """Exact coverage of each pixel, (size, size, 1)."""
+    return _exact(name, size, None if to_unit is None else tuple(np.ravel(to_unit).tolist()))
+
+
+def tiled(name: str, size: int, to_unit: ArrayLike, tiles: range) -> Picture:
+    """Exact coverage by a drawing that is repeated."""
+    pictures = []
+    for x in tiles:
+        for y in tiles:
+            shifted = np.array(to_unit, float)
+            shifted[:, 2] -= (x, y)
+            pictures.append(exact(name, size, shifted))
+    return np.sum(pictures, axis=0)
+
+
+def linear(encoded: ArrayLike) -> Picture:
+    """From sRGB."""
+    value = np.asarray(encoded, float)
+    return np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)
+
+
+def encoded(value: ArrayLike) -> Picture:
+    """To sRGB."""
+    value = np.asarray(value, float)
+    return np.where(value <= 0.0031308, 12.92 * value, 1.055 * np.maximum(value, 1e-9) ** (1 / 2.4) - 0.055)
+
+
+def distance(one: Picture, other: Picture) -> float:
+    """Mean absolute difference, in units of 1/255."""
+    assert one.shape[:2] == other.shape[:2]
+    return float(255.0 * np.abs(one - other).mean())

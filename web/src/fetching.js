@@ -1,0 +1,123 @@
+// Files over HTTP, with progress, limits and errors that say which address and why.
+import { VextureError, line } from './errors.js';
+
+/**
+ * @typedef {object} FetchOptions
+ * @property {AbortSignal} signal
+ * @property {Record<string, string>} [headers]
+ * @property {RequestCredentials} [credentials]
+ * @property {RequestCache} [cache]
+ * @property {'high' | 'low' | 'auto'} [priority]
+ */
+
+/**
+ * @callback OnBytes
+ * @param {number} loaded
+ * @param {number} total 0 if it is not known
+ * @returns {void}
+ */
+
+/** Node has none. */
+const ProgressEventClass =
+  globalThis.ProgressEvent ??
+  class ProgressEvent extends Event {
+    /** @param {string} type @param {ProgressEventInit} init */
+    constructor(type, { lengthComputable, loaded, total }) {
+      super(type);
+      Object.assign(this, { lengthComputable, loaded, total });
+    }
+  };
+
+/**
+ * @param {number} loaded
+ * @param {number} total 0 if it is not known
+ * @returns {ProgressEvent}
+ */
+export function progressEvent(loaded, total) {
+  return /** @type {ProgressEvent} */ (new ProgressEventClass('progress', { lengthComputable: total > 0, loaded, total }));
+}
+
+/**
+ * A response that is no error.
+ *
+ * @param {string} url
+ * @param {FetchOptions} options
+ * @param {number[]} [accepted] further status codes
+ */
+export async function fetchResponse(url, options, accepted = []) {
+  let response;
+  try {
+    response = await fetch(url, options);
+  } catch (error) {
+    throw failure(url, options.signal, error);
+  }
+  if (!response.ok && !accepted.includes(response.status)) {
+    response.body?.cancel().catch(() => {});
+    const status = `HTTP ${response.status} ${response.statusText}`.trim();
+    throw new VextureError(`${shown(url)}: ${status}; check the address and the server`, `status ${response.status}`);
+  }
+  return response;
+}
+
+/**
+ * All bytes of a file.
+ *
+ * @param {string} url
+ * @param {FetchOptions} options
+ * @param {number} most bytes; a longer file is not read to its end
+ * @param {OnBytes} [onBytes]
+ */
+export async function fetchBytes(url, options, most, onBytes) {
+  const response = await fetchResponse(url, options);
+  const said = response.headers.has('Content-Encoding') ? 0 : Number(response.headers.get('Content-Length')) || 0;
+  const parts = [];
+  let loaded = 0;
+  try {
+    const reader = /** @type {ReadableStream<Uint8Array<ArrayBuffer>>} */ (response.body ?? new Blob([]).stream()).getReader();
+    for (;;) {
+      const { done, value } = await reader.read();
+      if (done) break;
+      loaded += value.length;
+      if (Math.max(loaded, said) > most) {
+        reader.cancel().catch(() => {});
+        throw new VextureError(`${shown(url)}: longer than ${most} bytes, so not a texture; check the address`, 'byteLength');
+      }
+      parts.push(value);
+      onBytes?.(loaded, said);
+    }
+  } catch (error) {
+    throw error instanceof VextureError ? error : failure(url, options.signal, error);
+  }
+  return new Uint8Array(await new Blob(parts).arrayBuffer());
+}
+
+/**
+ * Whether an error says that a file could not be had, rather than that it is wrong.
+ *
+ * @param {unknown} error
+ */
+export function isTransport(error) {
+  return !(error instanceof VextureError) || error.field === 'url' || error.field.startsWith('status ');
+}
+
+/**
+ * @param {string} url
+ * @param {AbortSignal} signal
+ * @param {unknown} error
+ */
+function failure(url, signal, error) {
+  if (signal.aborted) return error; // three's loaders hand on an AbortError as it is
+  const cause = error instanceof Error && error.cause instanceof Error ? error.cause : error;
+  return new VextureError(`${shown(url)}: cannot be fetched (${line(cause)}); check the address and the network`, 'url', {
+    cause: error,
+  });
+}
+
+/**
+ * An address in a message: those that hold their own content are long.
+ *
+ * @param {string} url
+ */
+export function shown(url) {
+  return url.startsWith('data:') ? `${url.slice(0, 40)}...` : url;
+}

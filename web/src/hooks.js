@@ -1,0 +1,133 @@
+// Where text goes into three.js' own shaders, by names that say what for.
+import { Material, ShaderLib } from 'three';
+import { VextureError } from './errors.js';
+
+/**
+ * @typedef {'vertexDeclare' | 'vertexUv' | 'fragmentDeclare' | 'fragmentCut' | 'fragmentColor'} HookName
+ *
+ * @typedef {object} Shader
+ * @property {string} vertexShader
+ * @property {string} fragmentShader
+ *
+ * @typedef {import('three').WebGLProgramParametersWithUniforms} Program
+ */
+
+/**
+ * The include that each text follows. vertexDeclare and fragmentDeclare stand outside of functions; at vertexUv the
+ * attribute uv is known; at fragmentCut nothing has been computed; at fragmentColor `diffuseColor` is complete and has
+ * not been tested against alphaTest.
+ *
+ * @type {Readonly<Record<HookName, { stage: 'vertexShader' | 'fragmentShader', include: string }>>}
+ */
+const HOOKS = Object.freeze({
+  vertexDeclare: { stage: 'vertexShader', include: 'common' },
+  vertexUv: { stage: 'vertexShader', include: 'uv_vertex' },
+  fragmentDeclare: { stage: 'fragmentShader', include: 'clipping_planes_pars_fragment' },
+  fragmentCut: { stage: 'fragmentShader', include: 'clipping_planes_fragment' },
+  fragmentColor: { stage: 'fragmentShader', include: 'alphamap_fragment' },
+});
+
+/**
+ * Materials whose shader has another include in its place.
+ *
+ * @type {Readonly<Record<string, Partial<Record<HookName, string>>>>}
+ */
+const EXCEPTIONS = Object.freeze({ MeshNormalMaterial: { fragmentColor: 'clipping_planes_fragment' } });
+
+/**
+ * Names of three.js' shaders; those of distances have had two.
+ *
+ * @type {Readonly<Record<string, string[]>>}
+ */
+const SHADERS = Object.freeze({
+  MeshBasicMaterial: ['basic'],
+  MeshLambertMaterial: ['lambert'],
+  MeshPhongMaterial: ['phong'],
+  MeshStandardMaterial: ['standard'],
+  MeshPhysicalMaterial: ['physical'],
+  MeshToonMaterial: ['toon'],
+  MeshMatcapMaterial: ['matcap'],
+  MeshNormalMaterial: ['normal'],
+  MeshDepthMaterial: ['depth'],
+  MeshDistanceMaterial: ['distance', 'distanceRGBA'],
+  SpriteMaterial: ['sprite'],
+  PointsMaterial: ['points'],
+  ShadowMaterial: ['shadow'],
+});
+
+/**
+ * @param {Material} material
+ * @returns {Shader | undefined} what it is compiled from, where that can be known before
+ */
+function shaderOf(material) {
+  if ('isShaderMaterial' in material) return /** @type {import('three').ShaderMaterial} */ (material);
+  const library = /** @type {Record<string, Shader>} */ (/** @type {unknown} */ (ShaderLib));
+  const name = SHADERS[material.type]?.find((one) => one in library);
+  return name === undefined ? undefined : library[name];
+}
+
+/**
+ * Put texts into a shader, each behind its hook's include.
+ *
+ * @param {Shader} shader
+ * @param {string} type of its material
+ * @param {Partial<Record<HookName, string>>} texts
+ * @throws {VextureError} if the shader lacks an include
+ */
+export function insert(shader, type, texts) {
+  for (const [key, text] of Object.entries(texts)) {
+    const name = /** @type {HookName} */ (key);
+    const { stage, include } = HOOKS[name];
+    const line = `#include <${EXCEPTIONS[type]?.[name] ?? include}>`;
+    if (!shader[stage].includes(line)) {
+      throw new VextureError(
+        `${type}: its ${stage} lacks '${line}', which the hook ${name} needs; use a built-in mesh material`,
+        name,
+      );
+    }
+    shader[stage] = shader[stage].replace(line, () => `${line}\n${text}`);
+  }
+}
+
+/**
+ * Check that a material's shader has the includes for some texts.
+ *
+ * @param {Material} material
+ * @param {Partial<Record<HookName, string>>} texts
+ */
+export function check(material, texts) {
+  const shader = shaderOf(material);
+  if (shader) insert({ vertexShader: shader.vertexShader, fragmentShader: shader.fragmentShader }, material.type, texts);
+}
+
+/**
+ * Take part in a material's compilation, after whatever takes part in it already.
+ *
+ * @param {Material} material
+ * @param {() => string} key names what is done to the program: programs of one key are shared
+ * @param {(program: Program) => void} compile
+ * @returns {() => void} takes it back
+ */
+export function takePart(material, key, compile) {
+  const { onBeforeCompile, customProgramCacheKey } = material;
+  const isDefault = customProgramCacheKey === Material.prototype.customProgramCacheKey;
+  let taken = true;
+  /** @type {Material['onBeforeCompile']} */
+  const chained = (program, renderer) => {
+    onBeforeCompile.call(material, program, renderer);
+    if (taken) compile(program);
+  };
+  const chainedKey = () => {
+    const before = isDefault ? onBeforeCompile.toString() : customProgramCacheKey.call(material);
+    return taken ? `${before} ${key()}` : before;
+  };
+  material.onBeforeCompile = chained;
+  material.customProgramCacheKey = chainedKey;
+  material.needsUpdate = true;
+  return () => {
+    taken = false; // whoever chained theirs to these still calls them
+    if (material.onBeforeCompile === chained) material.onBeforeCompile = onBeforeCompile;
+    if (material.customProgramCacheKey === chainedKey) material.customProgramCacheKey = customProgramCacheKey;
+    material.needsUpdate = true;
+  };
+}

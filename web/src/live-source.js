@@ -1,0 +1,142 @@
+import { VextureError } from './errors.js';
+import { fetchResponse, isTransport } from './fetching.js';
+import { withTimeLimit } from './patience.js';
+
+/**
+ * @typedef {object} Manifest What a server says of a shape; addresses in it are relative to its own.
+ * @property {string} name
+ * @property {string} version
+ * @property {string} texture address of its packed texture
+ * @property {string} [events] address of the stream of events
+ * @property {string | null} [note] why the last update was refused
+ * @property {Record<string, unknown>} [facts]
+ * @property {Record<string, string | string[]>} [views]
+ */
+
+const NOT_MODIFIED = 304;
+
+/** Times that a texture is asked for because it was replaced while its manifest was on the way. */
+const OVERTAKEN = 3;
+
+/** A shape on a server: its manifest, its texture, its events. */
+export class Source {
+  /** @type {Manifest} */
+  manifest = { name: '', version: '', texture: '' };
+  #etag = '';
+  #loaded = '';
+  #loader;
+  #url;
+
+  /**
+   * @param {string} url of the manifest
+   * @param {import('./vector-texture-loader.js').VectorTextureLoader} loader
+   */
+  constructor(url, loader) {
+    const base = globalThis.document?.baseURI ?? globalThis.location?.href;
+    const address = loader.addressOf(url);
+    try {
+      this.#url = new URL(address, base).href;
+    } catch (error) {
+      throw new VextureError(`${address}: no address; give one such as https://example.org/shapes/duck`, 'url', {
+        cause: error,
+      });
+    }
+    this.#loader = loader;
+  }
+
+  /** Whether there are events, and the platform has what listens to them. */
+  get hasEvents() {
+    return this.manifest.events !== undefined && typeof EventSource === 'function';
+  }
+
+  listen() {
+    const url = new URL(/** @type {string} */ (this.manifest.events), this.#url);
+    return new EventSource(url, { withCredentials: this.#loader.withCredentials });
+  }
+
+  /**
+   * Ask for the manifest.
+   *
+   * @param {AbortSignal} signal
+   * @returns {Promise<boolean>} whether it is another one than before
+   */
+  async look(signal) {
+    const { headers, ...options } = this.#loader.requestOptions();
+    const limited = withTimeLimit(signal, this.#url);
+    try {
+      const asking = this.#etag ? { ...headers, 'If-None-Match': this.#etag } : headers;
+      const request = { ...options, headers: asking, signal: limited.signal, cache: /** @type {const} */ ('no-store') };
+      const response = await fetchResponse(this.#url, request, [NOT_MODIFIED]);
+      if (response.status === NOT_MODIFIED) return false;
+      this.manifest = checked(parsed(await response.text()), this.#url);
+      this.#etag = response.headers.get('ETag') ?? '';
+      return true;
+    } finally {
+      limited.done();
+    }
+  }
+
+  /** Whether the texture that the manifest names has been loaded, or found to be damaged. */
+  get isLoaded() {
+    return this.#loaded === this.manifest.texture;
+  }
+
+  /**
+   * Whether this version is what has been loaded.
+   *
+   * @param {unknown} version
+   */
+  has(version) {
+    return this.isLoaded && this.manifest.version === version;
+  }
+
+  /**
+   * Load the texture that the manifest names.
+   *
+   * @param {AbortSignal} signal
+   */
+  async load(signal) {
+    for (let attempt = 1; ; attempt++) {
+      const { texture } = this.manifest;
+      try {
+        const data = await this.#loader.loadData(new URL(texture, this.#url).href, undefined, signal);
+        this.#loaded = texture;
+        return data;
+      } catch (error) {
+        if (!isTransport(error)) this.#loaded = texture;
+        const isGone = error instanceof VextureError && error.field === 'status 404';
+        if (isTransport(error)) this.#etag = ''; // so that it is asked for again
+        if (!isGone || attempt === OVERTAKEN) throw error;
+        await this.look(signal);
+      }
+    }
+  }
+}
+
+/**
+ * What a JSON text says.
+ *
+ * @param {string} text
+ * @returns {any} undefined if it is not JSON
+ */
+export function parsed(text) {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return undefined;
+  }
+}
+
+/**
+ * @param {any} manifest
+ * @param {string} url
+ * @returns {Manifest}
+ */
+function checked(manifest, url) {
+  for (const field of ['name', 'version', 'texture']) {
+    if (typeof manifest?.[field] !== 'string') {
+      throw new VextureError(`${url}: is no manifest (its ${field} is no text); check the address`, `manifest.${field}`);
+    }
+  }
+  return manifest;
+}

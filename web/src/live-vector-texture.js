@@ -1,0 +1,233 @@
+import { isTransport } from './fetching.js';
+import { Source, parsed } from './live-source.js';
+import { backOff, sleep } from './patience.js';
+import { VectorTextureLoader } from './vector-texture-loader.js';
+import { VectorTexture } from './vector-texture.js';
+
+/**
+ * @typedef {object} LiveOptions
+ * @property {VectorTextureLoader} [loader] with headers and credentials that the server wants
+ * @property {boolean} [events] whether to listen to the server's events; without them it is polled
+ * @property {number} [interval] milliseconds between two looks where there are no events
+ */
+
+const INTERVAL = 2000;
+/** Milliseconds for the stream of events to open; some proxies hold it back until it ends. */
+const OPENING = 10000;
+
+/**
+ * A shape of a server that stays what the server has: an update takes the place of the last one in one go, and whatever
+ * goes wrong leaves the last good one where it is.
+ *
+ * Its events: `change` (another shape is in place), `note` (why an update is not shown), `offline`, `online`.
+ */
+export class LiveVectorTexture extends VectorTexture {
+  #source;
+  #manifest;
+  #closing = new AbortController();
+  #online = true;
+  /** @type {string | null} */
+  #note = null;
+  /** @type {Promise<void> | null} */
+  #refreshing = null;
+  #again = false;
+
+  /**
+   * Connect to a server; gives the texture once it holds a shape.
+   *
+   * @param {string} manifestUrl such as `https://example.org/shapes/duck`
+   * @param {LiveOptions} [options]
+   * @returns {Promise<LiveVectorTexture>}
+   * @throws {VextureError} if the server cannot be reached, or has no such shape
+   */
+  static async connect(manifestUrl, { loader = new VectorTextureLoader(), events = true, interval = INTERVAL } = {}) {
+    const source = new Source(manifestUrl, loader);
+    const signal = new AbortController().signal;
+    await source.look(signal);
+    const texture = new LiveVectorTexture(await source.load(signal), source);
+    texture.#follow(events, Math.max(1, interval));
+    return texture;
+  }
+
+  /**
+   * Use `LiveVectorTexture.connect`.
+   *
+   * @param {import('./data.js').TextureData} data
+   * @param {Source} source
+   */
+  constructor(data, source) {
+    super(data);
+    this.#source = source;
+    this.#manifest = source.manifest;
+  }
+
+  /** What the server said of the shape that is in place: facts, views and more. */
+  get manifest() {
+    return this.#manifest;
+  }
+
+  /** Whether the server could be reached when it was last tried. */
+  get online() {
+    return this.#online;
+  }
+
+  get closed() {
+    return this.#closing.signal.aborted;
+  }
+
+  /** Stop following the server; the last shape stays. */
+  close() {
+    this.#closing.abort();
+  }
+
+  dispose() {
+    this.close();
+    super.dispose();
+  }
+
+  /**
+   * Until closed: be up to date, listen to events while there are some, look again after a while.
+   *
+   * @param {boolean} events
+   * @param {number} interval
+   */
+  async #follow(events, interval) {
+    const { signal } = this.#closing;
+    let failures = 0;
+    let refusals = 0; // of the stream of events
+    let listenAt = 0;
+    this.#tell(this.#source.manifest.note ?? null);
+    while (!signal.aborted) {
+      try {
+        if (events && this.#source.hasEvents && performance.now() >= listenAt) {
+          const opened = await this.#listen(signal);
+          if (opened) failures = refusals = 0;
+          else listenAt = performance.now() + backOff(++refusals);
+        }
+        await this.#refresh();
+        this.#setOnline(true);
+        failures = 0;
+        await sleep(interval, signal);
+      } catch (error) {
+        if (signal.aborted) return;
+        this.#setOnline(false, error);
+        listenAt = 0; // events come first when it is back
+        await sleep(backOff(++failures), signal);
+      }
+    }
+  }
+
+  /**
+   * Listen to the server's events for as long as they come and what they tell of can be had.
+   *
+   * @param {AbortSignal} signal
+   * @returns {Promise<boolean>} whether they came at all
+   */
+  #listen(signal) {
+    return new Promise((resolve) => {
+      const stream = this.#source.listen();
+      let opened = false;
+      const end = () => {
+        stream.close();
+        clearTimeout(timer);
+        signal.removeEventListener('abort', end);
+        resolve(opened);
+      };
+      const timer = setTimeout(() => opened || end(), OPENING);
+      const refresh = () => this.#refresh().then(() => this.#setOnline(true), end);
+      /** @type {(kind: string, heard: (data: any) => void) => void} */
+      const on = (kind, heard) =>
+        stream.addEventListener(kind, (event) => {
+          const data = parsed(/** @type {MessageEvent} */ (event).data);
+          if (data) heard(data);
+        });
+      stream.onopen = () => {
+        opened = true;
+      };
+      stream.onerror = end; // its own retries know neither bounds nor that it is polled meanwhile
+      signal.addEventListener('abort', end);
+      const { name } = this.#manifest;
+      on('hello', ({ versions }) => {
+        if (versions?.[name] !== undefined && !this.#source.has(versions[name])) refresh();
+        else this.#setOnline(true);
+      });
+      on('shape', (shape) => {
+        if (shape.name === name && !this.#source.has(shape.version)) refresh();
+      });
+      on('note', (note) => {
+        if (note.name === name) this.#tell(String(note.message));
+      });
+    });
+  }
+
+  /** Be what the server has; one at a time, and once more if asked meanwhile. */
+  #refresh() {
+    this.#again = true;
+    this.#refreshing ??= this.#refreshWhileAsked().finally(() => {
+      this.#refreshing = null;
+    });
+    return this.#refreshing;
+  }
+
+  async #refreshWhileAsked() {
+    while (this.#again) {
+      this.#again = false;
+      await this.#refreshOnce();
+    }
+  }
+
+  async #refreshOnce() {
+    const { signal } = this.#closing;
+    const source = this.#source;
+    if (!(await source.look(signal))) return;
+    if (!source.isLoaded) {
+      let data;
+      try {
+        data = await source.load(signal);
+      } catch (error) {
+        if (signal.aborted || isTransport(error)) throw error;
+        this.#tell(/** @type {Error} */ (error).message);
+        return;
+      }
+      signal.throwIfAborted();
+      this.#manifest = source.manifest;
+      this.#note = null;
+      guarded(() => this.replace(data));
+    }
+    this.#manifest = source.manifest;
+    this.#tell(source.manifest.note ?? null);
+  }
+
+  /**
+   * @param {string | null} message
+   */
+  #tell(message) {
+    const isNews = message !== this.#note;
+    this.#note = message;
+    if (isNews && message !== null && !this.closed) guarded(() => this.dispatchEvent({ type: 'note', message }));
+  }
+
+  /**
+   * @param {boolean} online
+   * @param {unknown} [error]
+   */
+  #setOnline(online, error) {
+    if (online === this.#online || this.closed) return;
+    this.#online = online;
+    const message = error instanceof Error ? error.message : String(error);
+    guarded(() => this.dispatchEvent(online ? { type: 'online' } : { type: 'offline', message }));
+  }
+}
+
+/**
+ * Call what calls others' listeners: what goes wrong there must not look like a server that cannot be reached.
+ *
+ * @param {() => void} call
+ */
+function guarded(call) {
+  try {
+    call();
+  } catch (error) {
+    console.error(error);
+  }
+}

@@ -1,0 +1,80 @@
+// A mesh that is seen, casts shadows and is hit by rays only where its mask lets it.
+import { MeshDepthMaterial, MeshDistanceMaterial, RGBADepthPacking } from 'three';
+import { VextureError } from './errors.js';
+import { takePart } from './hooks.js';
+
+/**
+ * @typedef {object} Cut What the mask of a mesh offers.
+ * @property {import('three').Material} material
+ * @property {() => boolean} cuts whether light passes where the shape is not
+ * @property {(u: number, v: number, instance?: number) => boolean} hits
+ * @property {() => string} key
+ * @property {(program: import('./hooks.js').Program, type: string) => void} compile for depths and distances
+ *
+ * @typedef {import('three').Object3D & {
+ *   material: import('three').Material | import('three').Material[],
+ *   geometry: import('three').BufferGeometry
+ * }} Masked
+ */
+
+/** One mesh under a mask, until it is released. */
+export class MaskedMesh {
+  #mesh;
+  #cut;
+  #before;
+  #depth = new MeshDepthMaterial({ depthPacking: RGBADepthPacking });
+  #distance = new MeshDistanceMaterial();
+
+  /**
+   * @param {Masked} mesh
+   * @param {Cut} cut
+   */
+  constructor(mesh, cut) {
+    this.#mesh = mesh;
+    this.#cut = cut;
+    this.#before = {
+      raycast: Object.hasOwn(mesh, 'raycast') ? mesh.raycast : null,
+      depth: mesh.customDepthMaterial,
+      distance: mesh.customDistanceMaterial,
+    };
+    for (const material of [this.#depth, this.#distance]) {
+      takePart(material, cut.key, (program) => cut.compile(program, material.type));
+    }
+    const raycast = mesh.raycast;
+    mesh.raycast = (raycaster, hits) => {
+      /** @type {import('three').Intersection[]} */
+      const found = [];
+      raycast.call(mesh, raycaster, found);
+      hits.push(...found.filter((hit) => this.#isHit(hit)));
+    };
+    this.update();
+  }
+
+  /** @param {import('three').Intersection} hit */
+  #isHit({ uv, face, instanceId }) {
+    const { material } = this.#mesh;
+    const one = Array.isArray(material) ? material[face?.materialIndex ?? 0] : material;
+    return uv === undefined || one !== this.#cut.material || this.#cut.hits(uv.x, uv.y, instanceId);
+  }
+
+  /** After a change of the mask. */
+  update() {
+    const cuts = this.#cut.cuts();
+    if (cuts && Array.isArray(this.#mesh.material)) {
+      throw new VextureError('mesh has several materials, of which its shadow shows one; give each a mesh', 'mesh');
+    }
+    this.#mesh.customDepthMaterial = cuts ? this.#depth : this.#before.depth;
+    this.#mesh.customDistanceMaterial = cuts ? this.#distance : this.#before.distance;
+    for (const material of [this.#depth, this.#distance]) material.needsUpdate = true;
+  }
+
+  release() {
+    const { raycast, depth, distance } = this.#before;
+    if (raycast) this.#mesh.raycast = raycast;
+    else delete (/** @type {Partial<Masked>} */ (this.#mesh).raycast);
+    this.#mesh.customDepthMaterial = depth;
+    this.#mesh.customDistanceMaterial = distance;
+    this.#depth.dispose();
+    this.#distance.dispose();
+  }
+}

@@ -1,0 +1,399 @@
+import { Color, InstancedBufferAttribute, Vector2 } from 'three';
+import { MOST_ROWS } from '../generated/layout.js';
+import { VextureError } from './errors.js';
+import { check, insert, takePart } from './hooks.js';
+import { MaskedMesh } from './mask-mesh.js';
+import { checkOptions, complete, isTranslucent } from './mask-options.js';
+import { ROOT_ATTRIBUTE, texts } from './mask-shader.js';
+
+/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('./mask-shader.js').Variant} Variant */
+
+/** @typedef {import('./mask-options.js').MaskOptions} MaskOptions */
+
+/** Where clamped places end: the upper and right borders of the square are outside. */
+const BORDER = 2 ** -32;
+
+/** @type {WeakMap<import('three').Material, VectorMask>} */
+const MASKS = new WeakMap();
+
+/** A shape as a mask of a material. Made by `applyVectorMask`; what is set here shows in the next picture. */
+export class VectorMask {
+  #material;
+  #texture;
+  #options;
+  #transparent;
+  #takeBack;
+  #inside = new Color();
+  #isListening = false;
+  #compiled = '';
+  /** @type {Map<import('./mask-mesh.js').Masked, MaskedMesh>} */
+  #meshes = new Map();
+  /** @type {Record<string, { value: any }>} */
+  #uniforms = {};
+  #range = { first: 0, count: 1 };
+  #onChange = () => this.#refresh();
+  #onDispose = () => this.#listen(false);
+
+  /**
+   * @param {import('three').Material} material
+   * @param {VectorTexture} texture
+   * @param {MaskOptions} [options]
+   */
+  constructor(material, texture, options = {}) {
+    if (MASKS.has(material)) {
+      throw new VextureError(
+        `${material.name || material.type} has a vector mask already; change that one, or remove() it first`,
+        'material',
+      );
+    }
+    this.#material = material;
+    this.#texture = texture;
+    this.#transparent = material.transparent;
+    this.#options = complete(options);
+    this.#check();
+    check(material, texts(this.#variant()));
+    this.#resolve();
+    this.#takeBack = takePart(
+      material,
+      () => JSON.stringify(this.#variant()),
+      (program) => this.#compile(program, this.#variant()),
+    );
+    MASKS.set(material, this);
+    this.#refresh();
+    this.#listen(true);
+    material.addEventListener('dispose', this.#onDispose);
+  }
+
+  #check() {
+    checkOptions(this.#options, this.#material.type, this.#texture);
+  }
+
+  /** @returns {Variant} */
+  #variant() {
+    const { mode, wrap, quality, invert, background, instanced, map } = this.#options;
+    const { data } = this.#texture;
+    return {
+      encoding: data.encoding,
+      levels: data.encoding === 'thesis' ? data.levels : 0,
+      mode,
+      inLayers: mode === 'paint',
+      wrap,
+      quality,
+      invert,
+      background,
+      instanced,
+      hasMap: mode === 'mix' && map !== null,
+    };
+  }
+
+  /** Find the root in the texture. */
+  #resolve() {
+    const { root, mode } = this.#options;
+    const inLayers = mode === 'paint' && this.#texture.encoding === 'packed';
+    this.#range = inLayers ? this.#texture.layersOf(root) : { first: this.#texture.index(root ?? 0), count: 1 };
+  }
+
+  /** Give the shader what the texture and the options are now. */
+  #refresh() {
+    try {
+      this.#resolve();
+    } catch (error) {
+      if (!(error instanceof VextureError)) throw error; // the new shapes lack this one: show the first, and say so
+      this.#range = { first: 0, count: 1 };
+      this.#texture.dispatchEvent({ type: 'note', message: error.message });
+    }
+    const { data, textures } = this.#texture;
+    const { transform, threshold, color, map } = this.#options;
+    const { first, count } = this.#range;
+    this.#inside.set(color);
+    /** @type {Record<string, unknown>} */
+    const values = {
+      vextureTexels: textures.texels ?? null,
+      vexturePaints: textures.layers ?? null,
+      vextureQuads: textures.quads ?? null,
+      vextureCurves: textures.curves ?? null,
+      thesis_list_lengths: data.encoding === 'thesis' ? [data.quadCount, data.curveCount] : [0, 0],
+      vextureRootQuad: data.roots[first].quad,
+      vextureFirst: first,
+      vextureCount: count,
+      vextureTransform: transform,
+      vextureThreshold: threshold,
+      vextureInside: this.#inside,
+      vextureInsideMap: map,
+      vextureMapTransform: map?.matrix ?? transform,
+    };
+    if (map?.matrixAutoUpdate) map.updateMatrix();
+    for (const [name, value] of Object.entries(values)) (this.#uniforms[name] ??= { value }).value = value;
+    this.#material.transparent = isTranslucent(this.#options) || this.#transparent;
+    const key = JSON.stringify(this.#variant());
+    if (key !== this.#compiled) this.#material.needsUpdate = true;
+    for (const mesh of this.#meshes.values()) mesh.update();
+  }
+
+  /**
+   * @param {import('./hooks.js').Program} program
+   * @param {Variant} variant
+   */
+  #compile(program, variant, type = this.#material.type) {
+    this.#compiled = JSON.stringify(this.#variant());
+    this.#listen(true);
+    insert(program, type, texts(variant));
+    Object.assign(program.uniforms, this.#uniforms);
+  }
+
+  /** @param {boolean} wanted */
+  #listen(wanted) {
+    if (wanted === this.#isListening) return;
+    this.#isListening = wanted;
+    if (wanted) this.#texture.addEventListener('change', this.#onChange);
+    else this.#texture.removeEventListener('change', this.#onChange);
+  }
+
+  /**
+   * @template {keyof MaskOptions} Name
+   * @param {Name} name
+   * @param {MaskOptions[Name]} value
+   */
+  #set(name, value) {
+    const before = this.#options;
+    this.#options = { ...before, [name]: value };
+    try {
+      this.#check();
+      this.#resolve();
+    } catch (error) {
+      this.#options = before;
+      throw error;
+    }
+    this.#refresh();
+  }
+
+  /** All of it, as `applyVectorMask` takes it. */
+  get options() {
+    return { ...this.#options };
+  }
+
+  /** Whether the material was transparent before. */
+  get ownTransparent() {
+    return this.#transparent;
+  }
+
+  get material() {
+    return this.#material;
+  }
+
+  get texture() {
+    return this.#texture;
+  }
+
+  set texture(texture) {
+    const before = this.#texture;
+    this.#listen(false);
+    this.#texture = texture;
+    try {
+      this.#check();
+      this.#resolve();
+    } catch (error) {
+      this.#texture = before;
+      throw error;
+    } finally {
+      this.#listen(true);
+      this.#refresh();
+    }
+  }
+
+  get root() {
+    return this.#options.root;
+  }
+
+  set root(root) {
+    this.#set('root', root);
+  }
+
+  get transform() {
+    return this.#options.transform;
+  }
+
+  set transform(transform) {
+    this.#set('transform', transform);
+  }
+
+  get mode() {
+    return this.#options.mode;
+  }
+
+  set mode(mode) {
+    this.#set('mode', mode);
+  }
+
+  get wrap() {
+    return this.#options.wrap;
+  }
+
+  set wrap(wrap) {
+    this.#set('wrap', wrap);
+  }
+
+  get quality() {
+    return this.#options.quality;
+  }
+
+  set quality(quality) {
+    this.#set('quality', quality);
+  }
+
+  get invert() {
+    return this.#options.invert;
+  }
+
+  set invert(invert) {
+    this.#set('invert', invert);
+  }
+
+  get color() {
+    return this.#options.color;
+  }
+
+  set color(color) {
+    this.#set('color', color);
+  }
+
+  get map() {
+    return this.#options.map;
+  }
+
+  set map(map) {
+    this.#set('map', map);
+  }
+
+  get threshold() {
+    return this.#options.threshold;
+  }
+
+  set threshold(threshold) {
+    this.#set('threshold', threshold);
+  }
+
+  get background() {
+    return this.#options.background;
+  }
+
+  set background(background) {
+    this.#set('background', background);
+  }
+
+  get instanced() {
+    return this.#options.instanced;
+  }
+
+  /**
+   * Whether the masked surface is at a place of a mesh: a click on a hole misses.
+   *
+   * @param {number} u
+   * @param {number} v the mesh's uv
+   * @param {number} [root] place of another root than the mask's
+   * @returns {boolean}
+   */
+  hits(u, v, root) {
+    const { mode, background, transform, wrap, invert } = this.#options;
+    if (mode === 'mix' || (mode === 'paint' && background === 'own')) return true;
+    const place = new Vector2(u, v).applyMatrix3(transform);
+    const { x, y } = wrap === 'none' ? place : wrapped(place, wrap);
+    const first = root ?? this.#range.first;
+    const end = root === undefined ? first + this.#range.count : root + 1;
+    for (let shape = first; shape < end; shape++) {
+      if (this.#texture.contains(x, y, shape)) return !invert;
+    }
+    return invert;
+  }
+
+  /**
+   * Let rays through a mesh where the shape is not, and light where the mask draws nothing.
+   *
+   * @param {import('./mask-mesh.js').Masked} mesh that has this material
+   * @returns {this}
+   */
+  attach(mesh) {
+    if (this.#meshes.has(mesh)) return this;
+    const isInstanced = this.#options.instanced;
+    this.#meshes.set(
+      mesh,
+      new MaskedMesh(mesh, {
+        material: this.#material,
+        cuts: () => this.#options.mode === 'cut' || isTranslucent(this.#options),
+        hits: (u, v, instance) => {
+          const roots = isInstanced && instance !== undefined ? mesh.geometry.getAttribute(ROOT_ATTRIBUTE) : null;
+          return this.hits(u, v, roots?.getX(instance ?? 0));
+        },
+        key: () => JSON.stringify({ ...this.#variant(), mode: 'cut' }),
+        compile: (program, type) => this.#compile(program, { ...this.#variant(), mode: 'cut' }, type),
+      }),
+    );
+    return this;
+  }
+
+  /**
+   * Take back what `attach` did.
+   *
+   * @param {import('./mask-mesh.js').Masked} mesh
+   */
+  detach(mesh) {
+    this.#meshes.get(mesh)?.release();
+    this.#meshes.delete(mesh);
+  }
+
+  /** Make the material and all meshes what they were. The texture stays: others may use it. */
+  remove() {
+    for (const mesh of [...this.#meshes.keys()]) this.detach(mesh);
+    this.#takeBack();
+    this.#listen(false);
+    this.#material.removeEventListener('dispose', this.#onDispose);
+    this.#material.transparent = this.#transparent;
+    if (MASKS.get(this.#material) === this) MASKS.delete(this.#material);
+  }
+
+  /** The same as `remove`: it frees what the mask itself has on the GPU. */
+  dispose() {
+    this.remove();
+  }
+}
+
+/**
+ * Place in the unit square that is shown at one outside of it.
+ *
+ * @param {Vector2} place
+ * @param {'clamp' | 'repeat'} wrap
+ */
+function wrapped(place, wrap) {
+  if (wrap === 'clamp') return place.clampScalar(0, 1 - BORDER);
+  return place.set(place.x - Math.floor(place.x), place.y - Math.floor(place.y));
+}
+
+/**
+ * Make a shape the mask of any built-in mesh material, or of a sprite's.
+ *
+ * @param {import('three').Material} material which may have an `onBeforeCompile` of its own: it runs first
+ * @param {VectorTexture} texture
+ * @param {MaskOptions} [options]
+ * @returns {VectorMask}
+ * @throws {VextureError} if the material has a mask, or a shader that cannot be masked; if there is no such root
+ */
+export function applyVectorMask(material, texture, options) {
+  return new VectorMask(material, texture, options);
+}
+
+/**
+ * Attribute for the geometry of an `InstancedMesh`, by the name `vextureRoot`: which shape each instance shows.
+ *
+ * @param {VectorTexture} texture
+ * @param {readonly (string | number)[]} roots names or places in `texture.roots`, one for each instance
+ * @returns {InstancedBufferAttribute}
+ */
+export function rootAttribute(texture, roots) {
+  const places = roots.map((root) => texture.index(root));
+  const most = places.findIndex((place) => place >= MOST_ROWS);
+  if (most >= 0) {
+    throw new VextureError(`${texture.name}: root ${places[most]}; instances can show the first ${MOST_ROWS}`, 'root');
+  }
+  return new InstancedBufferAttribute(new Uint32Array(places), 1);
+}

@@ -1,0 +1,86 @@
+import { MeshBasicMaterial } from 'three';
+import { VectorMask } from './vector-mask.js';
+
+/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
+
+/**
+ * @typedef {object} ShapeParameters
+ * @property {VectorTexture} [texture]
+ * @property {'alpha' | 'paint' | 'cut'} [mode] the shape in `color`, the drawing in its own colours, or the shape in
+ *   `color` without blending
+ *
+ * @typedef {import('three').MeshBasicMaterialParameters & Omit<import('./mask-options.js').MaskOptions,
+ *   'mode' | 'color' | 'map'> & ShapeParameters} VectorMaterialParameters
+ */
+
+/**
+ * A shape in a colour, or a drawing in its colours, on any mesh; not lit. Fog, tone mapping, colour space, logarithmic
+ * depth, clipping and skinning are `MeshBasicMaterial`'s. For other materials there is `applyVectorMask`.
+ */
+export class VectorMaterial extends MeshBasicMaterial {
+  /** @type {VectorMask | null} */
+  #mask = null;
+  /** @type {import('./mask-options.js').MaskOptions} */
+  #options = {};
+
+  /** @param {VectorMaterialParameters} [parameters] */
+  constructor(parameters = {}) {
+    const { texture, root, transform, mode, wrap, quality, invert, threshold, background, instanced, ...basic } =
+      parameters;
+    super(basic);
+    this.#options = { root, transform, mode, wrap, quality, invert, threshold, instanced };
+    this.#options.background = background ?? 'none';
+    if (texture) this.texture = texture;
+  }
+
+  get isVectorMaterial() {
+    return true;
+  }
+
+  /** All that can be changed, once there is a texture; `mask.attach(mesh)` cuts shadows and lets rays through. */
+  get mask() {
+    return this.#mask;
+  }
+
+  /** @returns {VectorTexture | null} */
+  get texture() {
+    return this.#mask?.texture ?? null;
+  }
+
+  /** What it shows; without one it is a `MeshBasicMaterial`. */
+  set texture(texture) {
+    if (texture === null) {
+      this.#mask?.remove();
+      this.#mask = null;
+    } else if (this.#mask) {
+      this.#mask.texture = texture;
+    } else {
+      this.#mask = new VectorMask(this, texture, this.#options);
+    }
+  }
+
+  get root() {
+    return this.#mask ? this.#mask.root : this.#options.root;
+  }
+
+  set root(root) {
+    this.#options.root = root;
+    if (this.#mask) this.#mask.root = root;
+  }
+
+  /**
+   * @param {MeshBasicMaterial} source
+   * @returns {this}
+   */
+  copy(source) {
+    super.copy(source);
+    if (source instanceof VectorMaterial) {
+      this.texture = null;
+      this.#options = source.#mask ? source.#mask.options : { ...source.#options };
+      this.#options.transform = this.#options.transform?.clone();
+      this.transparent = source.#mask ? source.#mask.ownTransparent : source.transparent;
+      this.texture = source.texture;
+    }
+    return this;
+  }
+}
