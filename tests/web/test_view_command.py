@@ -43,7 +43,7 @@ def shown(page, color, *, corner):
 
 
 def note(page):
-    return page.get_by_role("status").inner_text()
+    return page.locator("[role=status]").text_content()  # where it is empty it is not shown, so has no role
 
 
 def ready(page):
@@ -148,11 +148,13 @@ def test_page_says_when_the_server_is_gone_and_keeps_its_picture(tmp_path, logo,
 def test_thesis_encoding_of_the_server_can_be_compared_with(tmp_path, open_page, screenshot):
     with viewing(tmp_path, SHAPES / "duck.svg") as running:
         page = ready(open_page(running.url, (900, 600)))
-        asked = []
-        page.on("request", lambda request: asked.append(request.url))
-        page.get_by_label("Compare with").select_option("Thesis 8 bit")
-        until(lambda: len([url for url in asked if re.search(r"/thesis8\.(quads|curves)\.png$", url)]) == 2)
-        page.wait_for_timeout(500)
+        with (
+            page.expect_response(re.compile(r"/thesis8\.quads\.png$")) as quads,
+            page.expect_response(re.compile(r"/thesis8\.curves\.png$")) as curves,
+        ):
+            page.get_by_label("Compare with").select_option("Thesis 8 bit")
+        assert (quads.value.status, curves.value.status) == (200, 200)
+        until(lambda: page.get_by_role("slider", name="Divider").is_visible())
         screenshot(page)
 
 
