@@ -19,7 +19,7 @@ __all__ = ["main"]
 FOLDER: Final = Path(__file__).resolve().parents[1] / "web" / "generated"
 HEADER: Final = "// Made by tools/make_web.py; change {owner} and run it again.\n"
 
-PACKED_FILES: Final = {"packed": "packed_layers.glsl"}
+PACKED_FILES: Final = {"packed": "packed_layers.glsl", "packedOverlay": "packed_overlay.glsl"}
 """Exports that read a packed texture, and the file whose functions each offers."""
 
 COMMENT: Final = re.compile(r"[ \t]*//.*$", re.MULTILINE)

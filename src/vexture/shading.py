@@ -17,6 +17,7 @@ __all__ = [
     "CURVE",
     "DOUBLE",
     "EXACT",
+    "FADED_CELL",
     "FARTHEST",
     "FAST",
     "HYPERBOLIC_COSINE",
@@ -150,3 +151,6 @@ at which nothing else is left."""
 
 COVERED: Final = 1.0 - 2.0**-10
 """Opacity of what has been painted over a pixel from which layers below do not show."""
+
+FADED_CELL: Final = 4.0
+"""Pixels. The borders of cells of this size are not drawn, lest small views turn grey; from twice that on they are."""

@@ -21,7 +21,8 @@ MIRROR = dict.fromkeys(FILES, cpu) | {
     "packed_pixel.glsl": packed_piece,
     "packed_piece.glsl": packed_piece,
 }
-WITHOUT_MIRROR = {"packed_wrap.glsl", "packed_layers.glsl"}  # only the web's, judged by its pixels (tests/web)
+# only the web's, judged by its pixels (tests/web) and by decoded trees (test_packed_overlay.py)
+WITHOUT_MIRROR = {"packed_wrap.glsl", "packed_layers.glsl", "packed_overlay.glsl"}
 MIRRORED = {name: text for name, text in FILES.items() if name not in WITHOUT_MIRROR}
 ALONE = {"covering_triangle", "fetch"}  # functions of the shader for which the mirror has no use
 UNIFORMS = ["texels", "quality", "root", "base", "quads", "curves", "to_unit"]  # which the mirror passes on

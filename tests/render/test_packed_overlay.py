@@ -1,0 +1,178 @@
+"""The overlays' shader against the texture's tree as Python reads it, cell by cell."""
+
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hand import need_gpu
+from numpy.typing import NDArray
+
+from vexture.encoding.layout import MOST_DEPTH
+from vexture.encoding.packed_texture import PackedTexture
+from vexture.encoding.packed_walk import walk
+from vexture.pipeline import convert
+from vexture.render.gpu import context
+from vexture.render.packed_gpu import view_base
+from vexture.render.view import window
+from vexture.shaders import VERSIONS, packed_text, vertex_source
+
+SHAPES = Path(__file__).parents[2] / "examples" / "shapes"
+SIZE = (210, 210)
+WEB = "300 es"
+
+MAIN = """
+uniform mat3 to_unit;
+uniform uvec2 base;
+out vec4 shown;
+void main() {
+    vec2 offset = (to_unit * vec3(gl_FragCoord.xy, 1.0)).xy;
+    shown = vextureOverlay(vec4(0.25, 0.5, 0.75, 1.0), base, offset, to_unit[0].xy, to_unit[1].xy);
+}
+"""
+PICTURE = np.array([0.25, 0.5, 0.75])
+EMPTY, FULL = np.array([1.0, 0.9, 0.8]), np.array([0.0, 0.2, 0.4])
+DEPTHS = np.stack([np.arange(MOST_DEPTH + 1) / MOST_DEPTH, *np.zeros((2, MOST_DEPTH + 1))], axis=1)
+
+
+@cache
+def program() -> Any:
+    gl = context()
+    fragment = VERSIONS[WEB] + packed_text("packed_overlay.glsl", "exact") + MAIN
+    return gl.vertex_array(gl.program(vertex_shader=vertex_source(WEB), fragment_shader=fragment), [])
+
+
+def overlay(
+    texture: PackedTexture,
+    matrix: NDArray[np.float64],
+    show: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    cutoff: float = 0.0,
+) -> NDArray[np.float32]:
+    need_gpu()
+    base = view_base(matrix, SIZE)
+    relative = matrix.copy()
+    relative[:2] -= np.outer(base, matrix[2]) / 2.0**32
+    with context() as gl:
+        triangle = program()
+        uniforms = triangle.program
+        rows, width = texture.texels.shape[:2]
+        uploaded = gl.texture((width, rows), 4, np.ascontiguousarray(texture.texels).tobytes(), dtype="u4")
+        uploaded.filter = (gl.NEAREST, gl.NEAREST)
+        uploaded.use(0)
+        uniforms["vextureTexels"] = 0
+        uniforms["to_unit"].write(relative.T.astype(np.float32).tobytes())
+        uniforms["base"] = base
+        uniforms["vextureOverlayRoot"] = texture.roots[0].quad
+        uniforms["vextureOverlayShow"] = show
+        uniforms["vextureOverlayCutoff"] = cutoff
+        uniforms["vextureOverlayCoverage"].write(np.array([EMPTY, FULL], np.float32).tobytes())
+        uniforms["vextureOverlayStored"].write(np.array([FULL, EMPTY], np.float32).tobytes())
+        uniforms["vextureOverlayDepth"].write(DEPTHS.astype(np.float32).tobytes())
+        image = gl.texture(SIZE, 4, dtype="f4")
+        target = gl.framebuffer([image])
+        target.use()
+        triangle.render(vertices=3)
+        pixels = np.frombuffer(target.read(components=4, dtype="f4"), np.float32).reshape(*SIZE[::-1], 4).copy()
+        for made in (target, image, uploaded):
+            made.release()
+    assert (pixels[..., 3] == 1.0).all()
+    return pixels[..., :3]
+
+
+class Cells:
+    """The cell at the centre of each pixel, no deeper than a level: depth, side, stored coverage, whether a quad."""
+
+    def __init__(self, texture: PackedTexture, matrix: NDArray[np.float64], finest: int) -> None:
+        x, y = np.meshgrid(np.arange(SIZE[0]) + 0.5, np.arange(SIZE[1]) + 0.5)
+        self.points = np.stack([x, y, np.ones_like(x)], axis=-1) @ matrix.T[:, :2]
+        self.inside = ((self.points >= 0.0) & (self.points < 1.0)).all(axis=-1)
+        shape = x.shape
+        self.depth, self.coverage = np.zeros(shape, int), np.zeros(shape)
+        self.is_quad = self.inside.copy()
+        self.border = self._border_of(1.0, matrix)
+        flat = texture.texels.reshape(-1, 4)
+        quad = np.zeros(shape, np.int64)
+        for level in walk(flat, np.array([texture.roots[0].quad]))[:finest]:
+            side = 0.5 ** (self.depth.max() + 1)
+            k = (np.floor(self.points / side).astype(np.int64) & 1) @ [1, 2]
+            now = self.is_quad
+            k, at = k[now], quad[now]
+            self.depth[now] += 1
+            self.coverage[now] = level.coverages[at, k] / 255
+            self.border[now] = np.maximum(self.border, self._border_of(side, matrix))[now]
+            before = np.cumsum(level.is_quad.ravel()) - 1
+            quad[now] = before[at * 4 + k]
+            self.is_quad[now] = level.is_quad[at, k]
+
+    def _border_of(self, side: float, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+        pixel = abs(matrix[0, 0])
+        distance = np.abs(self.points - side * np.round(self.points / side)).min(axis=-1) / pixel
+        return np.clip(1.0 - distance, 0.0, 1.0) * np.clip(side / pixel / 4.0 - 1.0, 0.0, 1.0)
+
+
+@cache
+def texture_of(name: str) -> PackedTexture:
+    texture = convert(SHAPES / f"{name}.svg")
+    assert isinstance(texture, PackedTexture)
+    return texture
+
+
+def pixel_level(matrix: NDArray[np.float64], cutoff: float = 0.0) -> int:
+    return max(1, int(np.ceil(-np.log2(abs(matrix[0, 0])) - cutoff)))
+
+
+WINDOWS = {
+    "whole": window(SIZE, -0.1, -0.1, 1.2, 1.2),
+    "100x": window(SIZE, 0.4937, 0.17, 0.01, 0.01),
+    "10,000x": window(SIZE, 0.5 - 3e-5, 0.25 - 2e-5, 1e-4, 1e-4),
+}
+
+
+@pytest.mark.parametrize("name", ["duck", "ocean", "font"])
+@pytest.mark.parametrize("view", WINDOWS)
+def test_coverage_and_depth_are_those_of_the_cell_at_the_pixel(name: str, view: str) -> None:
+    texture, matrix = texture_of(name), WINDOWS[view]
+    cells = Cells(texture, matrix, pixel_level(matrix))
+    depth = overlay(texture, matrix, (0.0, 0.0, 1.0))
+    assert np.abs(depth - DEPTHS[cells.depth])[cells.inside].max() < 1e-5
+    shade = overlay(texture, matrix, (0.0, 0.5, 0.0))
+    expected = 0.5 * PICTURE + 0.5 * (EMPTY + cells.coverage[..., None] * (FULL - EMPTY))
+    assert np.abs(shade - expected)[cells.inside].max() < 1e-5
+    for shown in (depth, shade):
+        assert (shown[~cells.inside] == PICTURE.astype(np.float32)).all()
+
+
+@pytest.mark.parametrize("name", ["duck", "ocean"])
+@pytest.mark.parametrize("view", WINDOWS)
+def test_borders_are_one_pixel_wide_at_each_zoom(name: str, view: str) -> None:
+    texture, matrix = texture_of(name), WINDOWS[view]
+    cells = Cells(texture, matrix, pixel_level(matrix))
+    shown = overlay(texture, matrix, (1.0, 0.0, 0.0))
+    drawn = 1.0 - shown[..., 0] / PICTURE[0] if shown[..., 0].max() <= PICTURE[0] + 1e-6 else None
+    light = (shown[..., 0] - PICTURE[0]) / (1.0 - PICTURE[0]) if drawn is None else drawn
+    assert cells.border[cells.inside].max() > 0.5
+    assert np.abs(light - cells.border)[cells.inside].max() < 0.01
+
+
+@pytest.mark.parametrize("cutoff", [3.6, 5.0, 8.0])
+def test_at_the_cut_off_quads_show_what_they_store(cutoff: float) -> None:
+    texture, matrix = texture_of("ocean"), WINDOWS["whole"]
+    cells = Cells(texture, matrix, pixel_level(matrix, cutoff))
+    shown = overlay(texture, matrix, cutoff=cutoff)
+    stored = FULL + cells.coverage[..., None] * (EMPTY - FULL)
+    expected = np.where(cells.is_quad[..., None], stored, PICTURE)
+    assert cells.is_quad.any()
+    assert np.abs(shown - expected)[cells.inside].max() < 1e-5
+
+
+def test_many_small_cells_do_not_turn_a_view_grey() -> None:
+    texture, matrix = texture_of("ocean"), window(SIZE, -2.0, -2.0, 5.0, 5.0)
+    shown = overlay(texture, matrix, (1.0, 0.0, 0.0))
+    cells = Cells(texture, matrix, pixel_level(matrix))
+    assert np.abs(shown - PICTURE)[cells.inside].mean() < 0.15
+
+
+def test_nothing_switched_on_changes_nothing() -> None:
+    shown = overlay(texture_of("duck"), WINDOWS["whole"])
+    assert (shown == PICTURE.astype(np.float32)).all()

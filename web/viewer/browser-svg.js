@@ -1,0 +1,118 @@
+/** The source as the browser itself draws it, in step with the picture: an image, so nothing in it runs. */
+import { element } from './dom.js';
+import { toUnit } from './view.js';
+
+/**
+ * @typedef {import('./view.js').View} View
+ * @typedef {import('./view.js').Size} Size
+ */
+
+const SVG = 'http://www.w3.org/2000/svg';
+
+/**
+ * The source's outermost element, made to stand in another one with its user units kept.
+ *
+ * @param {string} text
+ */
+function nested(text) {
+  const parsed = new DOMParser().parseFromString(text, 'image/svg+xml');
+  const root = parsed.documentElement;
+  if (root.namespaceURI !== SVG || root.localName !== 'svg' || parsed.querySelector('parsererror')) {
+    throw new Error('the browser cannot read this SVG');
+  }
+  const box = (root.getAttribute('viewBox') ?? '').trim().split(/[\s,]+/).map(Number);
+  if (box.length === 4 && box.every(Number.isFinite)) {
+    ['x', 'y', 'width', 'height'].forEach((name, i) => root.setAttribute(name, String(box[i])));
+    root.setAttribute('preserveAspectRatio', 'none');
+    const style = /** @type {SVGSVGElement} */ (/** @type {unknown} */ (root)).style;
+    style.setProperty('width', `${box[2]}px`, 'important');
+    style.setProperty('height', `${box[3]}px`, 'important');
+  }
+  root.setAttribute('overflow', 'visible');
+  return new XMLSerializer().serializeToString(root);
+}
+
+export class BrowserSvg {
+  /** @type {{view: View, size: Size} | null} what the shown image was made for */
+  #shown = null;
+  #busy = false;
+  #again = false;
+  /** @type {View} */
+  #view = { center: [0.5, 0.5], zoom: 1 };
+  /** @type {Size} */
+  #size = { width: 1, height: 1 };
+
+  /**
+   * @param {string} text the source
+   * @param {number[]} transform from the unit square to its user units, row by row
+   */
+  constructor(text, transform) {
+    this.content = nested(text);
+    this.transform = transform;
+    this.element = element('div', { class: 'browser-svg' });
+    /** @type {HTMLImageElement | null} */
+    this.image = null;
+  }
+
+  /** The whole document that shows what the canvas shows. */
+  #document() {
+    const [a, b, c, d, e, f] = this.transform;
+    /** @param {[number, number]} point */
+    const user = ([u, v]) => [a * u + b * v + c, d * u + e * v + f];
+    const [x0, y0] = user(toUnit(this.#view, this.#size, 0, 0));
+    const [x1, y1] = user(toUnit(this.#view, this.#size, this.#size.width, this.#size.height));
+    const { width, height } = this.#size;
+    return `<svg xmlns="${SVG}" width="${width}" height="${height}" preserveAspectRatio="none" `
+      + `viewBox="${x0} ${y0} ${x1 - x0} ${y1 - y0}">${this.content}</svg>`;
+  }
+
+  /**
+   * @param {View} view
+   * @param {Size} size
+   */
+  show(view, size) {
+    this.#view = view;
+    this.#size = size;
+    this.#place();
+    if (this.#busy) this.#again = true;
+    else void this.#draw();
+  }
+
+  /** Until an image of this view is there, the last one is moved to where it belongs. */
+  #place() {
+    if (!this.#shown || !this.image) return;
+    const { view, size } = this.#shown;
+    const [left, top] = toUnit(view, size, 0, 0);
+    const [from, to] = [toUnit(this.#view, this.#size, 0, 0), toUnit(this.#view, this.#size, 1, 1)];
+    const scale = (toUnit(view, size, 1, 1)[0] - left) / (to[0] - from[0]);
+    const x = (left - from[0]) / (to[0] - from[0]);
+    const y = (top - from[1]) / (to[1] - from[1]);
+    this.image.style.transform = `matrix(${scale}, 0, 0, ${scale}, ${x}, ${y})`;
+  }
+
+  async #draw() {
+    this.#busy = true;
+    do {
+      this.#again = false;
+      const made = { view: this.#view, size: this.#size };
+      const url = URL.createObjectURL(new Blob([this.#document()], { type: 'image/svg+xml' }));
+      const image = new Image(made.size.width, made.size.height);
+      image.alt = '';
+      image.draggable = false;
+      image.src = url;
+      try {
+        await image.decode();
+        this.image = image;
+        this.#shown = made;
+        this.element.replaceChildren(image);
+        this.#place();
+      } catch {
+        this.element.replaceChildren('The browser cannot draw this SVG.');
+      } finally {
+        URL.revokeObjectURL(url);
+      }
+    } while (this.#again);
+    this.#busy = false;
+    this.element.dispatchEvent(new Event('shown'));
+  }
+}

@@ -1,0 +1,126 @@
+/** The cell under the pointer: its curves with their control points, and how a point's being inside is found. */
+import { cellAt, contains } from '../src/walk.js';
+import { chosenLayer } from './chosen-layer.js';
+import { drawCell } from './cell-drawing.js';
+import { element, section } from './dom.js';
+import { nearestCurve, solutionsAt } from './solutions.js';
+import { svgElement, svgLayer } from './svg.js';
+
+/**
+ * @typedef {import('./engine.js').Engine} Engine
+ * @typedef {import('./state.js').State} State
+ * @typedef {[number, number]} Point
+ * @typedef {import('./cell-drawing.js').Found} Found
+ */
+
+/** Milliseconds between two texts that a screen reader is given. */
+const QUIET = 300;
+/** CSS pixels: the plot in the panel, and the room around the cell in it. */
+const PLOT = 280;
+const MARGIN = 34;
+
+/**
+ * @param {Engine} engine
+ * @param {State} state
+ */
+export function create(engine, state) {
+  const chosen = chosenLayer(engine);
+  const layer = svgLayer(engine, 'inspector-layer');
+  const button = element('button', {
+    type: 'button', title: 'The cell under the pointer, or in the middle of the picture, and its curves',
+    onclick: () => state.updateOverlays({ inspect: !state.overlays.inspect }),
+  }, 'Inspect cell');
+  const plot = svgElement('svg', { class: 'plot', viewBox: `0 0 ${PLOT} ${PLOT}`, 'aria-hidden': 'true' });
+  const text = element('div', { class: 'inspected', 'aria-live': 'polite' });
+  /** @type {Point | null} */
+  let pointer = null;
+  let timer = 0;
+
+  /** @returns {Found | null} */
+  function find() {
+    const { data, root } = chosen;
+    const { width, height } = engine.size;
+    const point = engine.toUnit(...(pointer ?? /** @type {Point} */ ([width / 2, height / 2])));
+    const cell = data && root && point ? cellAt(data, root.quad, ...point) : null;
+    if (!data || !root || !point || !cell) return null;
+    return {
+      cell, point, inside: contains(data, root.quad, ...point), solutions: solutionsAt(cell, point[0]),
+      nearest: nearestCurve(cell.curves, point),
+    };
+  }
+
+  function write() {
+    timer = 0;
+    const found = state.overlays.inspect && state.value.mode === 'flat' ? find() : null;
+    text.replaceChildren(...(found ? described(found) : []));
+    if (!found && state.overlays.inspect) {
+      text.append(element('p', { class: 'hint' },
+        state.value.mode === 'flat' ? 'There is no cell here.' : 'Cells are inspected in the flat view.'));
+    }
+  }
+
+  function update() {
+    const { inspect } = state.overlays;
+    button.setAttribute('aria-pressed', String(inspect));
+    const found = inspect && state.value.mode === 'flat' ? find() : null;
+    layer.replaceChildren(...(found ? drawCell(found, (u, v) => engine.toScreen(u, v)) : []));
+    plot.toggleAttribute('hidden', !found);
+    plot.replaceChildren(...(found ? drawCell(found, plotted(found.cell)) : []));
+    timer ||= window.setTimeout(write, QUIET);
+  }
+
+  engine.canvas.addEventListener('pointermove', ({ offsetX, offsetY }) => {
+    pointer = [offsetX, offsetY];
+    if (state.overlays.inspect) update();
+  });
+  engine.canvas.addEventListener('pointerleave', () => {
+    pointer = null;
+    if (state.overlays.inspect) update();
+  });
+  engine.canvas.parentElement?.addEventListener('keydown', () => {
+    pointer = null; // whoever moves the picture by keys looks at its middle
+  });
+  state.addEventListener('change', update);
+  chosen.addEventListener('change', update);
+  for (const event of ['view', 'shape']) engine.addEventListener(event, update);
+  update();
+  return section('Cell', element('div', { class: 'buttons' }, button), plot, text);
+}
+
+/**
+ * From the unit square to the plot, which shows a cell always as large.
+ *
+ * @param {Found['cell']} cell
+ * @returns {(u: number, v: number) => Point}
+ */
+function plotted({ x, y, size }) {
+  const scale = (PLOT - 2 * MARGIN) / size;
+  return (u, v) => [MARGIN + (u - x) * scale, PLOT - MARGIN - (v - y) * scale];
+}
+
+/**
+ * The texts of the panel.
+ *
+ * @param {Found} found
+ */
+function described({ cell, point, inside, solutions }) {
+  const rows = [
+    ['x', point[0].toFixed(8)],
+    ['y', point[1].toFixed(8)],
+    ['Depth', String(cell.depth)],
+    ['Side', `1/${2 ** cell.depth}`],
+    ['Coverage', cell.coverage.toFixed(3)],
+    ['Corner winding', cell.curves.length ? String(cell.winding) : 'none: constant'],
+    ['Curves', String(cell.curves.length)],
+  ];
+  const list = element('dl', {}, ...rows.flatMap(([name, value]) => [
+    element('dt', {}, name), element('dd', {}, value)]));
+  const verdict = element('p', { class: 'verdict' }, inside ? 'The point is inside.' : 'The point is outside.');
+  if (!solutions.length) return [list, verdict];
+  const lines = solutions.map(({ curve, t, height, filledAbove }) => element('tr', {},
+    element('td', {}, String(curve + 1)), element('td', {}, t.toFixed(5)), element('td', {}, height.toFixed(8)),
+    element('td', {}, filledAbove ? 'above' : 'below')));
+  const head = ['Curve', 't', 'Height', 'Filled'].map((name) => element('th', { scope: 'col' }, name));
+  return [list, element('table', {}, element('caption', {}, 'Curves at the x of the point'),
+    element('thead', {}, element('tr', {}, ...head)), element('tbody', {}, ...lines)), verdict];
+}

@@ -1,0 +1,133 @@
+/** The side panel: which shape, on which surface, against what; and the page's buttons. */
+import { element, section, select } from './dom.js';
+import { drawingNames } from './drawing.js';
+
+/**
+ * @typedef {import('./state.js').State} State
+ * @typedef {import('./engine.js').Engine} Engine
+ */
+
+/** @type {[import('./state.js').Mode, string][]} */
+const SURFACES = [['flat', 'Flat'], ['plane', 'Plane'], ['sphere', 'Sphere'], ['cube', 'Cube']];
+
+/** @type {[import('./state.js').Rival | '', string][]} */
+const RIVALS = [
+  ['', 'Nothing'], ['thesis16', 'Thesis 16 bit'], ['thesis8', 'Thesis 8 bit'], ['raster', 'Raster of equal bytes'],
+  ['svg', 'Browser SVG'],
+];
+
+/**
+ * The list of shapes; hidden while there is only one.
+ *
+ * @param {State} state
+ */
+function shapesSection(state) {
+  const list = element('ul', { 'aria-label': 'Shapes', role: 'list', class: 'shapes' });
+  const box = section('Shapes', list);
+  /** @type {string[]} */
+  let names = [];
+  const mark = () => {
+    for (const button of list.querySelectorAll('button')) {
+      button.setAttribute('aria-current', String(button.textContent === (state.value.shape || names[0])));
+    }
+  };
+  state.addEventListener('change', mark);
+  const show = (/** @type {string[]} */ shown) => {
+    names = shown;
+    box.hidden = names.length < 2;
+    list.replaceChildren(...names.map((name) => element('li', {}, element('button', {
+      type: 'button', onclick: () => state.update({ shape: name, drawing: '' }),
+    }, name))));
+    mark();
+  };
+  return { box, show };
+}
+
+/**
+ * @param {Engine} engine
+ * @param {State} state
+ */
+function viewSection(engine, state) {
+  const surface = select('Surface', SURFACES, (value) => {
+    state.update({ mode: /** @type {import('./state.js').Mode} */ (value) });
+  });
+  const rival = select('Compare with', RIVALS, (value) => {
+    state.update({ compare: /** @type {import('./state.js').Rival | null} */ (value || null) });
+  });
+  const why = element('p', { class: 'why', id: 'why-flat', hidden: true }, 'Comparisons are made on the flat surface.');
+  rival.list.setAttribute('aria-describedby', 'why-flat');
+  const drawing = select('Drawing', [], (value) => state.update({ drawing: value }));
+  const follow = () => {
+    surface.list.value = state.value.mode;
+    rival.list.value = state.value.compare ?? '';
+    rival.list.disabled = state.value.mode !== 'flat';
+    why.hidden = !rival.list.disabled;
+    drawing.list.value = state.value.drawing || drawing.list.options[0]?.value || '';
+  };
+  engine.addEventListener('shape', () => {
+    const names = engine.texture ? drawingNames(engine.texture) : [];
+    drawing.list.replaceChildren(...names.map((name) => element('option', { value: name }, name)));
+    drawing.row.hidden = names.length < 2;
+    follow();
+  });
+  drawing.row.hidden = true;
+  state.addEventListener('change', follow);
+  follow();
+  return { box: section('View', drawing.row, surface.row, rival.row, why), rival: rival.list };
+}
+
+/**
+ * @typedef {object} Action
+ * @property {string} label
+ * @property {() => void} act
+ */
+
+/**
+ * @param {Engine} engine
+ * @param {State} state
+ * @param {Action[]} actions buttons at its foot
+ */
+export function createPanel(engine, state, actions) {
+  const title = element('h1', {}, 'vexture');
+  const shapes = shapesSection(state);
+  const view = viewSection(engine, state);
+  const extras = element('div', { class: 'extras' });
+  const buttons = actions.map(({ label, act }) => element('button', { type: 'button', onclick: act }, label));
+  const foot = element('div', { class: 'actions' }, ...buttons);
+  const panel = element(
+    'aside', { id: 'panel', class: 'panel', 'aria-label': 'Controls' }, title, shapes.box, view.box, extras, foot,
+  );
+  return { panel, extras, foot, rival: view.rival, showShapes: shapes.show, setTitle: (/** @type {string} */ name) => {
+    title.textContent = name;
+    document.title = `${name} · vexture`;
+  } };
+}
+
+/**
+ * Buttons over the picture: zoom, and the fold of the panel.
+ *
+ * @param {Engine} engine
+ * @param {{zoom: (factor: number) => void, reset: () => void, fold: () => boolean, folded: boolean, step: number}} how
+ */
+export function createTools(engine, how) {
+  const shown = element('output', { class: 'zoom', 'aria-label': 'Zoom' });
+  const follow = () => {
+    const { mode, zoom, distance } = engine.state.value;
+    const value = mode === 'flat' ? zoom : distance;
+    shown.textContent = `${value < 10 ? value.toFixed(1).replace(/\.0$/, '') : Math.round(value).toLocaleString('en')}×`;
+  };
+  engine.addEventListener('view', follow);
+  follow();
+  const tool = (/** @type {string} */ label, /** @type {string} */ sign, /** @type {() => void} */ act) =>
+    element('button', { type: 'button', 'aria-label': label, title: label, onclick: act }, sign);
+  const zoom = element(
+    'div', { class: 'tools', role: 'group', 'aria-label': 'Zoom' },
+    tool('Zoom out', '−', () => how.zoom(1 / how.step)), shown, tool('Zoom in', '+', () => how.zoom(how.step)),
+    tool('Reset view', '⌂', how.reset),
+  );
+  const fold = element('button', {
+    type: 'button', class: 'fold', 'aria-controls': 'panel', 'aria-expanded': !how.folded ? 'true' : 'false',
+    onclick: () => fold.setAttribute('aria-expanded', String(!how.fold())),
+  }, 'Controls');
+  return { zoom, fold };
+}

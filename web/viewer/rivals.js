@@ -1,0 +1,130 @@
+/** Other ways to hold the same drawing, drawn for comparison: the thesis's textures, and pixels. */
+import { LinearFilter, LinearMipmapLinearFilter, RGBAFormat, RedFormat, Vector2, Vector3, Vector4, WebGLRenderTarget } from 'three';
+import { CURVE_WIDTH, QUAD_WIDTH } from '../generated/layout.js';
+import { FOLD_HEIGHT, thesis } from '../generated/shaders.js';
+import { Pass } from './pass.js';
+import { pixelSide, toUnit } from './view.js';
+
+/**
+ * @typedef {import('./theme.js').Colors} Colors
+ * @typedef {import('three').WebGLRenderer} WebGLRenderer
+ *
+ * @typedef {object} Rival
+ * @property {Pass} pass
+ * @property {string} label
+ * @property {() => void} dispose
+ */
+
+const HEAD = `
+uniform vec2 start;
+uniform float side;
+uniform vec3 ink;
+uniform vec4 paper;
+out vec4 pixel;
+`;
+
+const THESIS = `
+uniform sampler2D quads;
+uniform sampler2D curves;
+void main() {
+  vec2 center = start + gl_FragCoord.xy * side;
+  float cover = thesis_coverage(quads, curves, center, vec2(side, 0.0), vec2(0.0, side));
+  pixel = mix(paper, vec4(ink, 1.0), cover);
+}
+`;
+
+const RASTER = `
+uniform sampler2D raster;
+uniform bool silhouette;
+void main() {
+  vec2 uv = start + gl_FragCoord.xy * side;
+  vec4 color = textureGrad(raster, uv, vec2(side, 0.0), vec2(0.0, side));
+  color = silhouette ? vec4(ink, 1.0) * color.r : color;
+  color *= uv == clamp(uv, 0.0, 1.0) ? 1.0 : 0.0;
+  pixel = color + paper * (1.0 - color.a);
+}
+`;
+
+const MIPS = 4 / 3; // all levels of a texture to its largest
+
+/** @param {Record<string, {value: any}>} own */
+function uniforms(own) {
+  return {
+    start: { value: new Vector2() }, side: { value: 1 }, ink: { value: new Vector3() }, paper: { value: new Vector4() },
+    ...own,
+  };
+}
+
+/**
+ * Set what all rivals need.
+ *
+ * @param {Rival} rival
+ * @param {import('./view.js').View} view @param {import('./view.js').Size} size @param {number} ratio
+ * @param {Colors} colors
+ */
+export function setRivalView(rival, view, size, ratio, colors) {
+  const { start, side, ink, paper } = rival.pass.uniforms;
+  start.value.fromArray(toUnit(view, size, 0, size.height));
+  side.value = pixelSide(view.zoom, size) / ratio;
+  ink.value.fromArray(colors.ink);
+  paper.value.set(...colors.paper, 1);
+}
+
+/**
+ * @param {import('../src/vector-texture.js').VectorTexture} texture of thesis data
+ * @returns {Rival}
+ */
+export function thesisRival(texture) {
+  const data = /** @type {import('../src/data.js').ThesisData} */ (texture.data);
+  const sizes = `const int thesis_LEVELS = ${data.levels};\nconst int thesis_FOLD_HEIGHT = ${FOLD_HEIGHT};\n`;
+  const pass = new Pass(sizes + thesis + HEAD + THESIS, uniforms({
+    quads: { value: texture.textures.quads }, curves: { value: texture.textures.curves },
+    thesis_list_lengths: { value: [data.quadCount, data.curveCount] },
+  }));
+  return {
+    pass, label: `Thesis, ${data.bits} bit`, dispose: () => {
+      pass.dispose();
+      texture.dispose();
+    },
+  };
+}
+
+/** Bytes of the thesis's files on the GPU, as it counts them: three channels to a pixel. */
+/** @param {import('../src/data.js').ThesisData} data */
+export function thesisBytes(data) {
+  return (data.quadCount * QUAD_WIDTH + data.curveCount * CURVE_WIDTH) * 3 * (data.bits / 8);
+}
+
+/**
+ * Side of a square of pixels that takes, with its mip levels, so many bytes.
+ *
+ * @param {number} bytes
+ * @param {number} texel bytes of a pixel
+ */
+export function rasterSide(bytes, texel) {
+  return Math.max(1, Math.floor(Math.sqrt(bytes / (texel * MIPS))));
+}
+
+/**
+ * @param {WebGLRenderer} renderer
+ * @param {import('./flat.js').Flat} flat ready, its drawing set
+ * @param {import('./drawing.js').ShownDrawing} drawing
+ * @returns {Rival}
+ */
+export function rasterRival(renderer, flat, { texture, silhouette }) {
+  const side = Math.min(rasterSide(texture.nbytes, silhouette ? 1 : 4), renderer.capabilities.maxTextureSize);
+  const target = new WebGLRenderTarget(side, side, {
+    format: silhouette ? RedFormat : RGBAFormat, depthBuffer: false, generateMipmaps: true,
+    minFilter: LinearMipmapLinearFilter, magFilter: LinearFilter, // not anisotropic: in the flat view pixels are square
+  });
+  flat.drawSquare(renderer, target);
+  const pass = new Pass(HEAD + RASTER, uniforms({
+    raster: { value: target.texture }, silhouette: { value: silhouette },
+  }));
+  return {
+    pass, label: `Raster, ${side} × ${side}`, dispose: () => {
+      pass.dispose();
+      target.dispose();
+    },
+  };
+}

@@ -1,0 +1,169 @@
+/**
+ * What the page shows: shapes of a server, or those embedded in the page itself.
+ *
+ * @typedef {object} Facts
+ * @property {number | null} [segments]
+ * @property {number | null} [layers]
+ * @property {number | null} [quads]
+ * @property {number | null} [curves]
+ * @property {number | null} [bytes]
+ * @property {number | null} [milliseconds]
+ * @property {number | null} [distance]
+ * @property {string[]} [warnings]
+ *
+ * @typedef {object} Manifest as the server and the exported page write it
+ * @property {string} name
+ * @property {string} [version]
+ * @property {string} texture URL
+ * @property {number} [bytes]
+ * @property {string} [events] URL
+ * @property {Facts} [facts]
+ * @property {{svg?: string | Missing, thesis16?: [string, string] | Missing, thesis8?: [string, string] | Missing}} [views]
+ * @property {string | null} [note]
+ *
+ * @typedef {{error: string}} Missing why a view is not there
+ *
+ * @typedef {object} Document
+ * @property {string} name
+ * @property {Manifest} manifest
+ * @property {VectorTexture} texture
+ * @property {string} base what the manifest's URLs are relative to
+ */
+import { LiveVectorTexture } from '../src/live-vector-texture.js';
+import { readPacked } from '../src/packed.js';
+import { VectorTexture } from '../src/vector-texture.js';
+
+/**
+ * Bytes behind a URL. A data: URL is decoded here: a page from disk may not be allowed to fetch it.
+ *
+ * @param {string} url
+ * @param {string} base
+ * @returns {Promise<ArrayBuffer>}
+ */
+export async function bytesOf(url, base) {
+  const embedded = /^data:[^,]*;base64,/.exec(url);
+  if (embedded) return Uint8Array.from(atob(url.slice(embedded[0].length)), (letter) => letter.charCodeAt(0)).buffer;
+  const response = await fetch(new URL(url, base));
+  if (!response.ok) {
+    const answer = await response.json().catch(() => ({}));
+    throw new Error(answer.error ?? `the server answers ${response.status}`);
+  }
+  return response.arrayBuffer();
+}
+
+/** Shapes by name. `names` events say that there are others; open documents of a server follow it. */
+export class Library extends EventTarget {
+  /** @type {Map<string, Manifest>} */
+  #embedded = new Map();
+  /** Opened here: embedded ones and dropped textures. @type {Map<string, Document>} */
+  #own = new Map();
+  /** @type {string[]} */
+  #served = [];
+  /** The one that follows the server: browsers allow few connections to one. @type {LiveVectorTexture | null} */
+  #live = null;
+
+  /** @param {{server?: string, shapes?: Manifest[]}} scene */
+  constructor(scene) {
+    super();
+    for (const manifest of scene.shapes ?? []) this.#embedded.set(manifest.name, manifest);
+    /** URL of the server, if there is one. @type {string | null} */
+    this.server = scene.server ? new URL(scene.server, document.baseURI).href : null;
+  }
+
+  /** Names of the shapes. */
+  get names() {
+    return [...new Set([...this.#served, ...this.#embedded.keys(), ...this.#own.keys()])];
+  }
+
+  /** Ask the server what it has, and listen for more. */
+  async start() {
+    if (!this.server) return;
+    const answer = JSON.parse(new TextDecoder().decode(await bytesOf('shapes', this.server)));
+    this.#setServed(answer.shapes);
+    const stream = new EventSource(new URL('events', this.server));
+    /** @param {string} kind @param {(data: any) => string[]} names */
+    const on = (kind, names) => stream.addEventListener(kind, (event) => {
+      this.#setServed(names(JSON.parse(/** @type {MessageEvent} */ (event).data)));
+    });
+    on('hello', (data) => [...this.#served.filter((name) => name in data.versions), ...Object.keys(data.versions)]);
+    on('shape', (data) => [...this.#served, data.name]);
+    on('gone', (data) => this.#served.filter((name) => name !== data.name));
+  }
+
+  /** @param {string[]} names */
+  #setServed(names) {
+    const before = this.#served.join('\n');
+    this.#served = [...new Set(names)];
+    if (this.#served.join('\n') !== before) this.dispatchEvent(new CustomEvent('names'));
+  }
+
+  /**
+   * @param {string} name
+   * @returns {Promise<Document>}
+   */
+  async open(name) {
+    const own = this.#own.get(name);
+    if (own) return own;
+    const manifest = this.#embedded.get(name);
+    if (!manifest && this.server) return this.#connect(name, this.server);
+    if (!manifest) throw new Error(`There is no shape ${name}.`);
+    return this.#keep(manifest, await readPacked(await bytesOf(manifest.texture, document.baseURI), name));
+  }
+
+  /**
+   * Add a texture's file to the shapes.
+   *
+   * @param {ArrayBuffer} file KTX2
+   * @param {string} name
+   * @returns {Promise<string>} the name that it got
+   */
+  async add(file, name) {
+    while (this.names.includes(name)) name += ' (dropped)';
+    const data = await readPacked(file, name);
+    const manifest = { name, texture: '', bytes: file.byteLength, facts: { bytes: file.byteLength }, views: {} };
+    this.#keep(manifest, data);
+    this.dispatchEvent(new CustomEvent('names'));
+    return name;
+  }
+
+  /** @param {Manifest} manifest @param {import('../src/data.js').PackedData} data @returns {Document} */
+  #keep(manifest, data) {
+    const { name } = manifest;
+    const opened = { name, manifest, texture: new VectorTexture(data), base: document.baseURI };
+    this.#own.set(name, opened);
+    return opened;
+  }
+
+  /** @param {string} name @param {string} server @returns {Promise<Document>} */
+  async #connect(name, server) {
+    const base = new URL(`shapes/${encodeURIComponent(name)}`, server).href;
+    const texture = await LiveVectorTexture.connect(base);
+    this.#live?.close();
+    this.#live = texture;
+    const manifest = () => /** @type {Manifest} */ (/** @type {unknown} */ (texture.manifest));
+    return { name, texture, base, get manifest() { return manifest(); } };
+  }
+
+  /**
+   * Have the server convert a drawing.
+   *
+   * @param {File} file
+   * @returns {Promise<string>} name of the shape
+   */
+  async convert(file) {
+    if (!this.server) throw new Error('This page has no server: open the file with `vexture view`.');
+    const url = new URL('convert', this.server);
+    url.searchParams.set('name', file.name);
+    const response = await fetch(url, { method: 'POST', body: file });
+    const answer = await response.json().catch(() => ({}));
+    if (!response.ok) throw new Error(answer.error ?? `the server answers ${response.status}`);
+    this.#setServed([...this.#served, answer.name]);
+    return answer.name;
+  }
+}
+
+/** The scene that the page was given. @returns {{server?: string, shapes?: Manifest[]}} */
+export function readScene() {
+  const text = document.getElementById('vexture-scene')?.textContent ?? '{}';
+  return JSON.parse(text);
+}
