@@ -12,8 +12,9 @@ FADED = 4.0  # pixels: borders of cells up to this size are not drawn, from twic
 class Cells:
     """The cell at the centre of each pixel, no deeper than a level.
 
-    Attributes: `points`, `inside` the unit square, `depth`, `coverage` as it is stored, `is_quad`, and `border`, the
-    share of the pixel that a border of one pixel's width takes.
+    Attributes: `points`, `inside` the unit square, `depth`, `coverage` as it is stored, `is_quad`; `border`, the share of
+    the pixel that a border of one pixel's width takes; `clear`: inside, and not so near to a border that rounding
+    decides which cell it is.
     """
 
     def __init__(
@@ -25,6 +26,7 @@ class Cells:
         self.depth, self.coverage = np.zeros(x.shape, int), np.zeros(x.shape)
         self.is_quad = self.inside.copy()
         self.border = self._border_of(1.0, matrix)
+        self.clear = self.inside.copy()
         quad = np.zeros(x.shape, np.int64)
         for level in walk(texture.texels.reshape(-1, 4), np.array([texture.roots[root].quad]))[:finest]:
             side = 0.5 ** (self.depth.max() + 1)
@@ -34,15 +36,21 @@ class Cells:
             self.depth[now] += 1
             self.coverage[now] = level.coverages[at, k] / 255
             self.border[now] = np.maximum(self.border, self._border_of(side, matrix))[now]
+            self.clear &= ~now | (self._distance(side, matrix) > 1e-3)
             before = np.cumsum(level.is_quad.ravel()) - 1
             quad[now] = before[at * 4 + k]
             self.is_quad[now] = level.is_quad[at, k]
 
     def _border_of(self, side: float, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
         pixel = abs(matrix[0, 0])
-        distance = np.abs(self.points - side * np.round(self.points / side)).min(axis=-1) / pixel
+        distance = self._distance(side, matrix)
         border: NDArray[np.float64] = np.clip(1.0 - distance, 0.0, 1.0) * np.clip(side / pixel / FADED - 1.0, 0.0, 1.0)
         return border
+
+    def _distance(self, side: float, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+        way = self.points - side * np.round(self.points / side)
+        distance: NDArray[np.float64] = np.abs(way).min(axis=-1) / abs(matrix[0, 0])
+        return distance
 
 
 def finest_level(matrix: NDArray[np.float64], cutoff: float = 0.0) -> int:
