@@ -31,6 +31,12 @@ GLOBAL: Final = re.compile(
 
 THESIS_PREFIX: Final = "thesis_"
 
+NUMBER: Final = re.compile(r"^#define (VEXTURE_\w+) ([0-9.e-]+)$", re.MULTILINE)
+"""A number that has a name."""
+
+SPACES: Final = re.compile(r"(?<![+-]) +(?=[^\w\s])|(?<=[^\w\s]) +(?![+-])")
+"""Those between two words, and between two signs, stay."""
+
 
 def apart(text: str) -> str:
     """Shader text whose global names begin with a prefix, to stand in one program with other people's."""
@@ -39,9 +45,25 @@ def apart(text: str) -> str:
 
 
 def bare(text: str) -> str:
-    """Shader text without comments, empty lines and indentation: nobody reads it in a bundle."""
-    lines = (line.strip() for line in COMMENT.sub("", text).splitlines())
-    return "\n".join(line for line in lines if line) + "\n"
+    """Shader text without comments, empty lines and spaces that separate nothing: nobody reads it in a bundle."""
+    lines = []
+    for line in COMMENT.sub("", text).splitlines():
+        stripped = line.strip()
+        if stripped:
+            lines.append(stripped if stripped.startswith("#") else SPACES.sub("", stripped))
+    return "\n".join(lines) + "\n"
+
+
+def inlined(text: str) -> str:
+    """Shader text with the values of its defined numbers in place of their names."""
+    values = dict(NUMBER.findall(text))
+    return re.sub(r"\bVEXTURE_\w+", lambda name: values.get(name[0], name[0]), NUMBER.sub("", text))
+
+
+def used(declarations: str, text: str) -> str:
+    """Those declarations of constants that a text names."""
+    names = set(re.findall(r"\w+", text))
+    return "".join(f"{line}\n" for line in declarations.splitlines() if names & set(re.findall(r"\w+(?= =|\[)", line)))
 
 
 def shaders() -> str:
@@ -49,8 +71,9 @@ def shaders() -> str:
     parts = [HEADER.format(owner="src/vexture/glsl/")]
     for name, file in PACKED_FILES.items():
         parts.append(f"/** {file}; VEXTURE_QUALITY must be defined before it, and VEXTURE_WRAP may be. */\n")
-        parts.append(f"export const {name} = {json.dumps(bare(packed_text(file, None)))};\n")
-    thesis = constants(layout) + constants(shading) + join("coverage.glsl")
+        parts.append(f"export const {name} = {json.dumps(bare(inlined(packed_text(file, None))))};\n")
+    coverage = join("coverage.glsl")
+    thesis = used(constants(layout) + constants(shading), coverage) + coverage
     parts.append(
         "/** coverage.glsl; its names begin with thesis_, and const int thesis_LEVELS and thesis_FOLD_HEIGHT must\n"
     )

@@ -218,7 +218,13 @@ def test_a_click_on_a_hole_misses(page: Any) -> None:
 def test_what_is_changed_shows_in_the_next_picture(page: Any) -> None:
     config = {"texture": "atlas", "mask": {}, "parameters": {"color": 0}, "size": 256}
     steps = [{"root": "cake"}, {"replace": "atlas"}, {"replace": "duck"}, {"root": 0}, {"texture": "thesis"}]
-    steps += [{"texture": "border"}, {"transform": [1, 0, 1, 0, 1, 0, 0, 0, 1]}, {"wrap": "repeat"}, {"invert": True}, {"remove": True}]
+    steps += [
+        {"texture": "border"},
+        {"transform": [1, 0, 1, 0, 1, 0, 0, 0, 1]},
+        {"wrap": "repeat"},
+        {"invert": True},
+        {"remove": True},
+    ]
     texts = page.evaluate("([config, steps]) => page.changes(config, steps)", [config, steps])
     nothing = np.zeros((256, 256, 1))
     border = exact("border", 256)
@@ -230,7 +236,9 @@ def test_what_is_changed_shows_in_the_next_picture(page: Any) -> None:
 
 def test_a_lost_context_comes_back(address: str, open_page: Callable[..., Any]) -> None:
     for three in THREES:
-        page = open_page(f"{address}/{three}.html", errors=True)  # three.js reports the loss as one, depending on version
+        page = open_page(
+            f"{address}/{three}.html", errors=True
+        )  # three.js reports the loss as one, depending on version
         config = {"texture": "paint", "material": "VectorMaterial", "parameters": {"mode": "paint"}}
         before, after = page.evaluate("config => page.loss(config)", config)
         assert np.ptp(decode(before)) > 0.5
@@ -255,6 +263,7 @@ def test_what_cannot_be_is_refused_in_one_line(page: Any) -> None:
         "colorless": ("mode", "use alpha or cut"),
         "root": ("root", "duck"),
         "thesis": ("encoding", "convert the drawing to KTX2"),
+        "mesh": ("mesh", "give each a mesh of its own"),
         "setter": ("wrap", "must be one of none, clamp, repeat"),
     }
     for name, (field, part) in words.items():

@@ -215,6 +215,7 @@ async function refusals() {
     colorless: () => applyVectorMask(new THREE.MeshNormalMaterial(), texture, { mode: 'paint' }),
     root: () => applyVectorMask(new THREE.MeshBasicMaterial(), texture, { root: 'dukc' }),
     thesis: () => applyVectorMask(new THREE.MeshBasicMaterial(), thesis, { wrap: 'repeat' }),
+    mesh: () => first.attach(new THREE.Mesh(new THREE.BoxGeometry(), [masked, masked])),
     setter: () => (first.wrap = 'mirror'),
   };
   const outcomes = {};
