@@ -108,6 +108,11 @@ def test_a_drawing_is_painted_in_its_colours(page: Any, screenshot: Callable[...
         alone = draw(page, material="VectorMaterial", parameters=parameters, texture="paint")
         assert distance(alone, on_white) <= HALF_STEP
     screenshot(page.locator("canvas"))
+    twice = {"mode": "paint", "wrap": "repeat", "transform": [2, 0, 0, 0, 2, 0, 0, 0, 1]}
+    repeated = draw(page, material="VectorMaterial", parameters=twice, texture="paint")
+    screenshot(page.locator("canvas"), "repeated")
+    small = vexture.render_layers(drawing("cake"), (256, 256), renderer="exact")
+    assert distance(repeated, np.tile(small[..., :3] + 1.0 - small[..., 3:], (2, 2, 1))) <= HALF_STEP
     own = draw(page, parameters={"color": 0x4080A0}, mask={"mode": "paint"}, texture="paint")
     screenshot(page.locator("canvas"), "own")
     alpha = layers[..., 3:].astype(float)
