@@ -38,24 +38,42 @@ def apart(text: str) -> str:
     return re.sub(rf"\b({'|'.join(sorted(names))})\b", rf"{THESIS_PREFIX}\1", text)
 
 
+NUMBER: Final = re.compile(r"^#define (VEXTURE_\w+) ([0-9.e-]+)$", re.MULTILINE)
+"""A number that has a name."""
+
+SPACES: Final = re.compile(r"\s*([*/=<>!&|^?:;,(){}\[\]])\s*")
+"""Spaces that separate nothing; those at + and - may keep two signs apart."""
+
+
 def bare(text: str) -> str:
-    """Shader text without comments, empty lines and indentation: nobody reads it in a bundle."""
+    """Shader text without comments and what else only people need: nobody reads it in a bundle."""
     lines = (line.strip() for line in COMMENT.sub("", text).splitlines())
-    return "\n".join(line for line in lines if line) + "\n"
+    return "\n".join(line if line.startswith("#") else SPACES.sub(r"\1", line) for line in lines if line) + "\n"
+
+
+def inlined(text: str) -> str:
+    """Shader text with the values of its defined numbers in place of their names."""
+    values = dict(NUMBER.findall(text))
+    return re.sub(r"\bVEXTURE_\w+", lambda name: values.get(name[0], name[0]), NUMBER.sub("", text))
+
+
+def used(declarations: str, text: str) -> str:
+    """Those declarations of constants that a text names."""
+    names = set(re.findall(r"\w+", text))
+    return "".join(f"{line}\n" for line in declarations.splitlines() if names & set(re.findall(r"\w+(?= =|\[)", line)))
+
+
+def module_text(name: str, text: str, comment: str) -> str:
+    """Return an export of shader text; its type keeps the text out of the package's declarations."""
+    return f"/**\n * {comment}\n *\n * @type {{string}}\n */\nexport const {name} = {json.dumps(text)};\n"
 
 
 def shaders() -> str:
     """Text of the module with the shaders."""
     parts = [HEADER.format(owner="src/vexture/glsl/")]
     for name, file in PACKED_FILES.items():
-        parts.append(f"/** {file}; VEXTURE_QUALITY must be defined before it, and VEXTURE_WRAP may be. */\n")
-        parts.append(f"export const {name} = {json.dumps(bare(packed_text(file, None)))};\n")
-    thesis = constants(layout) + constants(shading) + join("coverage.glsl")
-    parts.append(
-        "/** coverage.glsl; its names begin with thesis_, and const int thesis_LEVELS and thesis_FOLD_HEIGHT must\n"
-    )
-    parts.append(" * stand before it. */\n")
-    parts.append(f"export const thesis = {json.dumps(bare(apart(thesis)))};\n")
+        comment = f"{file}; VEXTURE_QUALITY must be defined before it, and VEXTURE_WRAP may be."
+        parts.append(module_text(name, bare(inlined(packed_text(file, None))), comment))
     parts.append("/** Values of VEXTURE_QUALITY. */\n")
     parts.append(f"export const QUALITIES = Object.freeze({json.dumps(QUALITIES)});\n")
     parts.append("/** Values of VEXTURE_WRAP. */\n")
@@ -63,6 +81,17 @@ def shaders() -> str:
     parts.append("/** Rows of a thesis texture on the GPU: a longer list goes on in the columns to its right. */\n")
     parts.append(f"export const FOLD_HEIGHT = {FOLD_HEIGHT};\n")
     return "".join(parts)
+
+
+def thesis_module() -> str:
+    """Text of the module with the thesis's shader: apart, since most pages have no use for it."""
+    coverage = join("coverage.glsl")
+    text = bare(apart(used(constants(layout) + constants(shading), coverage) + coverage))
+    comment = (
+        "coverage.glsl; its names begin with thesis_, and const int thesis_LEVELS and thesis_FOLD_HEIGHT must\n"
+        " * stand before it."
+    )
+    return HEADER.format(owner="src/vexture/glsl/") + module_text("thesis", text, comment)
 
 
 def layout_module() -> str:
@@ -79,7 +108,8 @@ def layout_module() -> str:
 def main() -> int:
     """Write the files, or with --check compare them; the exit code."""
     stale = []
-    for name, text in (("layout.js", layout_module()), ("shaders.js", shaders())):
+    modules = {"layout.js": layout_module(), "shaders.js": shaders(), "thesis-shader.js": thesis_module()}
+    for name, text in modules.items():
         path = FOLDER / name
         if path.is_file() and path.read_text(encoding="utf-8") == text:
             continue

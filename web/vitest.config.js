@@ -8,7 +8,7 @@ export default defineConfig({
   test: {
     projects: versions.map((three) => ({
       resolve: { alias: [{ find: /^three$/, replacement: fileURLToPath(new URL(`node_modules/${three}/build/three.module.js`, import.meta.url)) }] },
-      test: { name: three, include: ['test/**/*.test.js'] },
+      test: { name: three, include: ['test/**/*.test.js'], testTimeout: 30000 },
     })),
   },
 });

@@ -1,6 +1,7 @@
 """The page of masked materials as its tests use it: textures, pictures, and what the exact renderer says of them."""
 
 import base64
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any, Final
@@ -10,7 +11,7 @@ from browser import ROOT, bundle
 from numpy.typing import ArrayLike, NDArray
 
 import vexture
-from vexture.drawing import Drawing
+from vexture.drawing import Drawing, Paint
 
 SHAPES: Final = ROOT / "examples" / "shapes"
 
@@ -25,9 +26,21 @@ Picture = NDArray[np.float64]
 
 @cache
 def drawing(name: str) -> Drawing:
-    """One of the example drawings; or a drawing that fills the square, and one that crosses its border."""
+    """One of the example drawings; or one that fills the square, one that crosses its border, or four together."""
     if name == "full":
         return Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
+    if name == "glass":
+        names = ("flame", "holes", "duck", "cake")
+        paints = (
+            Paint((0.9, 0.3, 0.1)),
+            Paint((0.1, 0.2, 0.8)),
+            Paint((1.0, 0.8, 0.0), 0.5),
+            Paint((0.0, 0.5, 0.3), 0.8),
+        )
+        pairs = zip(names, paints, strict=True)
+        return Drawing(
+            tuple(replace(path, paint=paint) for one, paint in pairs for path in drawing(one).paths), name=name
+        )
     if name == "border":
         return Drawing.polygon([(0, 0.1), (0.35, 0), (0.8, 0.3), (1, 0.25), (1, 0.7), (0.6, 1), (0.2, 1), (0, 0.6)])
     return vexture.read_svg(SHAPES / f"{name}.svg")
@@ -37,13 +50,15 @@ def prepare(folder: Path) -> None:
     """Write the textures, and a page for each version of three.js."""
     for name in ("duck", "full", "border"):
         vexture.convert(drawing(name)).save(folder / f"{name}.ktx2")
-    vexture.convert(drawing("cake"), split="paint").save(folder / "paint.ktx2")
+    vexture.convert(drawing("glass"), split="paint").save(folder / "paint.ktx2")
     vexture.atlas([SHAPES / f"{name}.svg" for name in ATLAS]).save(folder / "atlas.ktx2")
     vexture.convert(drawing("duck"), encoding="thesis").save(folder / "thesis")
     for three in THREES:
         bundle(PAGE, folder / f"{three}.js", three)
-        script = f'<!doctype html><link rel="icon" href="data:,"><body style="margin:0"><script type="module" src="{three}.js"></script>'
-        (folder / f"{three}.html").write_text(script, encoding="utf-8")
+        icon = '<!doctype html><link rel="icon" href="data:,"><body style="margin:0">'
+        (folder / f"{three}.html").write_text(
+            f'{icon}<script type="module" src="{three}.js"></script>', encoding="utf-8"
+        )
 
 
 def decode(text: str) -> Picture:

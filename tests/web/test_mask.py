@@ -101,13 +101,18 @@ def test_inside_is_another_colour_or_map(page: Any, screenshot: Callable[..., Pa
 
 
 def test_a_drawing_is_painted_in_its_colours(page: Any, screenshot: Callable[..., Path]) -> None:
-    layers = vexture.render_layers(drawing("cake"), (512, 512), renderer="exact")
+    layers = vexture.render_layers(drawing("glass"), (512, 512), renderer="exact")
     on_white = layers[..., :3] + 1.0 - layers[..., 3:]
     for premultiplied in (False, True):
         parameters = {"mode": "paint", "premultipliedAlpha": premultiplied}
         alone = draw(page, material="VectorMaterial", parameters=parameters, texture="paint")
         assert distance(alone, on_white) <= HALF_STEP
     screenshot(page.locator("canvas"))
+    twice = {"mode": "paint", "wrap": "repeat", "transform": [2, 0, 0, 0, 2, 0, 0, 0, 1]}
+    repeated = draw(page, material="VectorMaterial", parameters=twice, texture="paint")
+    screenshot(page.locator("canvas"), "repeated")
+    small = vexture.render_layers(drawing("glass"), (256, 256), renderer="exact")
+    assert distance(repeated, np.tile(small[..., :3] + 1.0 - small[..., 3:], (2, 2, 1))) <= HALF_STEP
     own = draw(page, parameters={"color": 0x4080A0}, mask={"mode": "paint"}, texture="paint")
     screenshot(page.locator("canvas"), "own")
     alpha = layers[..., 3:].astype(float)
@@ -212,13 +217,19 @@ def test_a_click_on_a_hole_misses(page: Any) -> None:
     surface = {"texture": "duck", "mask": {"mode": "mix"}}
     assert set(page.evaluate("config => page.rays(config, 8)", surface)) == {1}
     painted = {"texture": "paint", "material": "VectorMaterial", "parameters": {"mode": "paint"}}
-    check_hits(page.evaluate("config => page.rays(config, 64)", painted), exact("cake"))
+    check_hits(page.evaluate("config => page.rays(config, 64)", painted), exact("glass"))
 
 
 def test_what_is_changed_shows_in_the_next_picture(page: Any) -> None:
     config = {"texture": "atlas", "mask": {}, "parameters": {"color": 0}, "size": 256}
     steps = [{"root": "cake"}, {"replace": "atlas"}, {"replace": "duck"}, {"root": 0}, {"texture": "thesis"}]
-    steps += [{"texture": "border"}, {"transform": [1, 0, 1, 0, 1, 0, 0, 0, 1]}, {"wrap": "repeat"}, {"invert": True}, {"remove": True}]
+    steps += [
+        {"texture": "border"},
+        {"transform": [1, 0, 1, 0, 1, 0, 0, 0, 1]},
+        {"wrap": "repeat"},
+        {"invert": True},
+        {"remove": True},
+    ]
     texts = page.evaluate("([config, steps]) => page.changes(config, steps)", [config, steps])
     nothing = np.zeros((256, 256, 1))
     border = exact("border", 256)
@@ -257,6 +268,7 @@ def test_what_cannot_be_is_refused_in_one_line(page: Any) -> None:
         "colorless": ("mode", "use alpha or cut"),
         "root": ("root", "duck"),
         "thesis": ("encoding", "convert the drawing to KTX2"),
+        "mesh": ("mesh", "give each a mesh of its own"),
         "setter": ("wrap", "must be one of none, clamp, repeat"),
     }
     for name, (field, part) in words.items():

@@ -30,6 +30,7 @@
  * @property {Uint8Array | Uint16Array} quads RGB, four pixels to a row
  * @property {Uint8Array | Uint16Array} curves RGB, two pixels to a row
  * @property {number} levels levels of quads: a descent takes no more steps
+ * @property {string} glsl functions that read it in a shader (generated/thesis-shader.js)
  * @property {Root[]} roots one
  *
  * @typedef {PackedData | ThesisData} TextureData

@@ -1,7 +1,7 @@
 export { VextureError } from './errors.js';
 export { LiveVectorTexture } from './live-vector-texture.js';
 export { readPacked } from './packed.js';
-export { readThesis } from './thesis.js';
+export { readThesis } from './read-thesis.js';
 export { VectorTextureLoader } from './vector-texture-loader.js';
 export { VectorTexture } from './vector-texture.js';
 export { bounds, cellAt, contains, counts } from './walk.js';

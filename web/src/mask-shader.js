@@ -1,10 +1,10 @@
 // What a mask adds to a material's shader: declarations, and lines that call the functions of src/vexture/glsl.
-import { FOLD_HEIGHT, QUALITIES, WRAPS, packed, thesis } from '../generated/shaders.js';
+import { FOLD_HEIGHT, QUALITIES, WRAPS, packed } from '../generated/shaders.js';
 
 /**
  * @typedef {object} Variant All that makes one program differ from another.
  * @property {'packed' | 'thesis'} encoding
- * @property {number} levels of a thesis texture
+ * @property {string} thesis what reads a thesis texture
  * @property {'alpha' | 'mix' | 'cut' | 'paint'} mode
  * @property {boolean} inLayers whether the shape is a drawing's layers together
  * @property {'none' | 'clamp' | 'repeat'} wrap
@@ -38,14 +38,24 @@ function paint({ encoding, instanced }) {
 }
 
 /** @param {Variant} variant */
-function reader({ encoding, levels, wrap, quality }) {
+function reader({ encoding, thesis, wrap, quality }) {
   if (encoding === 'packed') {
     const declared = 'uniform uint vextureRootQuad;\nuniform int vextureFirst;\nuniform int vextureCount;\n';
     return `#define VEXTURE_QUALITY ${QUALITIES[quality]}\n#define VEXTURE_WRAP ${WRAPS[wrap]}\n${packed}${declared}`;
   }
-  const sizes = `const int thesis_LEVELS = ${levels};\nconst int thesis_FOLD_HEIGHT = ${FOLD_HEIGHT};\n`;
+  return thesis;
+}
+
+/**
+ * What reads a thesis texture; nothing for others.
+ *
+ * @param {import('./data.js').TextureData} data
+ */
+export function thesisReader(data) {
+  if (data.encoding !== 'thesis') return '';
+  const sizes = `const int thesis_LEVELS = ${data.levels};\nconst int thesis_FOLD_HEIGHT = ${FOLD_HEIGHT};\n`;
   const lists = 'precision highp sampler2D;\nuniform sampler2D vextureQuads;\nuniform sampler2D vextureCurves;\n';
-  return sizes + lists + thesis;
+  return sizes + lists + data.glsl;
 }
 
 /** @param {Variant} variant */

@@ -10,6 +10,7 @@ import {
   TEXT_TRANSFORM,
   TEXT_VERSION,
 } from '../generated/layout.js';
+import { thesis as glsl } from '../generated/thesis-shader.js';
 import { REMEDY, VextureError, line } from './errors.js';
 import { readPng } from './png.js';
 import { thesisCell } from './thesis-walk.js';
@@ -17,15 +18,14 @@ import { thesisCell } from './thesis-walk.js';
 const NUMBER = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
 
 /**
- * Read a pair of thesis textures and check them.
+ * What `readThesis` gives.
  *
- * @param {ArrayBuffer | Uint8Array} quadsPng contents of `NAME.quads.png`
- * @param {ArrayBuffer | Uint8Array} curvesPng contents of `NAME.curves.png`
+ * @param {ArrayBuffer | Uint8Array} quadsPng
+ * @param {ArrayBuffer | Uint8Array} curvesPng
  * @param {string} [name]
  * @returns {Promise<import('./data.js').ThesisData>}
- * @throws {VextureError} if a file is damaged, or the two do not belong together
  */
-export async function readThesis(quadsPng, curvesPng, name = 'texture') {
+export async function checkedThesis(quadsPng, curvesPng, name = 'texture') {
   try {
     const [quads, curves] = await Promise.all([
       readList(quadsPng, QUAD_WIDTH, 'quads'),
@@ -57,6 +57,7 @@ export async function readThesis(quadsPng, curvesPng, name = 'texture') {
       quads: quads.pixels,
       curves: curves.pixels,
       levels: 0,
+      glsl,
       roots: [{ name, quad: 0, transform, tolerance: 0, crs, paint: null }],
     };
     data.levels = checkTree(data);

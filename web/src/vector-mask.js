@@ -4,7 +4,7 @@ import { VextureError } from './errors.js';
 import { check, insert, takePart } from './hooks.js';
 import { MaskedMesh } from './mask-mesh.js';
 import { checkOptions, complete, isTranslucent } from './mask-options.js';
-import { ROOT_ATTRIBUTE, texts } from './mask-shader.js';
+import { ROOT_ATTRIBUTE, texts, thesisReader } from './mask-shader.js';
 
 /** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
 /** @typedef {import('./mask-shader.js').Variant} Variant */
@@ -75,7 +75,7 @@ export class VectorMask {
     const { data } = this.#texture;
     return {
       encoding: data.encoding,
-      levels: data.encoding === 'thesis' ? data.levels : 0,
+      thesis: thesisReader(data),
       mode,
       inLayers: mode === 'paint',
       wrap,
@@ -370,9 +370,9 @@ function wrapped(place, wrap) {
 }
 
 /**
- * Make a shape the mask of any built-in mesh material, or of a sprite's.
+ * Make a shape the mask of any built-in mesh material, or of a sprite's. A clone of the material has none.
  *
- * @param {import('three').Material} material which may have an `onBeforeCompile` of its own: it runs first
+ * @param {import('three').Material} material which may have an `onBeforeCompile` of its own already: it runs first
  * @param {VectorTexture} texture
  * @param {MaskOptions} [options]
  * @returns {VectorMask}

@@ -2,7 +2,7 @@ import { DataTexture, FloatType, NearestFilter, NoColorSpace, RGBAIntegerFormat,
 import { describe, expect, test } from 'vitest';
 import { FOLD_HEIGHT } from '../generated/shaders.js';
 import { readPacked } from '../src/packed.js';
-import { readThesis } from '../src/thesis.js';
+import { readThesis } from '../src/read-thesis.js';
 import { listTexture } from '../src/upload.js';
 import { VectorTexture } from '../src/vector-texture.js';
 import { fixture } from './files.js';

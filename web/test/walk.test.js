@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { readPacked } from '../src/packed.js';
-import { readThesis } from '../src/thesis.js';
+import { readThesis } from '../src/read-thesis.js';
 import { VectorTexture } from '../src/vector-texture.js';
 import { bounds, cellAt, contains, counts } from '../src/walk.js';
 import { fixture, ktx2 } from './files.js';

@@ -1,0 +1,106 @@
+"""The npm package as a stranger gets it: its tarball, its types, its size in a bundle."""
+
+import gzip
+import re
+import subprocess
+import tarfile
+from pathlib import Path
+
+import pytest
+from browser import ROOT, WEB
+
+MODULES = WEB / "node_modules"
+
+FIRST_LOAD_LIMIT = 20_000
+"""Bytes, minified and deflated, of what a page with packed textures loads, without three.js."""
+
+USE = """
+import { Mesh, PlaneGeometry } from 'three';
+import { LiveVectorTexture, VectorMaterial, VectorTextureLoader, VextureError, cellAt, readPacked } from 'vexture';
+
+const loader = new VectorTextureLoader().setPath('textures/');
+const texture = await loader.loadAsync('logo.ktx2', (event) => event.loaded);
+const live: LiveVectorTexture = await LiveVectorTexture.connect('shapes/logo', { loader, interval: 1000 });
+live.addEventListener('note', (event) => event.message.length + event.target.name.length);
+const mesh = new Mesh(new PlaneGeometry(), new VectorMaterial({ texture }));
+const inside: boolean = texture.contains(0.5, 0.5, 'logo');
+const data = await readPacked(new Uint8Array()).catch((error: VextureError) => error.field);
+if (typeof data !== 'string') cellAt(data, data.roots[0].quad, 0.5, 0.5)?.curves.length;
+// @ts-expect-error there is no such event
+live.addEventListener('changed', () => {});
+"""
+
+
+def _run(*command: str | Path, cwd: Path) -> str:
+    outcome = subprocess.run([*map(str, command)], cwd=cwd, capture_output=True, text=True, check=False)
+    assert outcome.returncode == 0, outcome.stdout + outcome.stderr
+    return outcome.stdout
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A project in which the package's tarball and what it depends on are installed."""
+    if not (MODULES / "three").is_dir():
+        pytest.skip("the packages of web/ are not installed (npm ci --prefix web)")
+    folder = tmp_path_factory.mktemp("project")
+    name = _run("npm", "pack", "--silent", "--pack-destination", folder, cwd=WEB).split()[-1]
+    (folder / "package.json").write_text('{"name": "project", "type": "module"}', encoding="utf-8")
+    modules = folder / "node_modules"
+    modules.mkdir()
+    for one in MODULES.iterdir():
+        if one.name not in ("vexture", ".bin"):
+            (modules / one.name).symlink_to(one)
+    with tarfile.open(folder / name) as tarball:
+        tarball.extractall(folder, filter="data")
+    (folder / "package").rename(modules / "vexture")
+    return folder
+
+
+def test_the_tarball_has_what_it_needs_and_nothing_else(project: Path) -> None:
+    package = project / "node_modules" / "vexture"
+    assert (package / "LICENSE").read_text() == (ROOT / "LICENSE").read_text()
+    folders = {path.name for path in package.iterdir()}
+    assert folders == {"LICENSE", "README.md", "generated", "package.json", "src", "types"}
+    for module in (package / "src").glob("*.js"):
+        assert (package / "types" / "src" / f"{module.stem}.d.ts").is_file()
+
+
+def test_its_types_serve_a_strict_project(project: Path) -> None:
+    (project / "use.ts").write_text(USE, encoding="utf-8")
+    options = ["--strict", "--noEmit", "--target", "es2022", "--module", "esnext", "--moduleResolution", "bundler"]
+    _run(
+        MODULES / ".bin" / "tsc",
+        *options,
+        "--lib",
+        "es2022,dom",
+        "--skipLibCheck",
+        "--types",
+        "",
+        "use.ts",
+        cwd=project,
+    )
+
+
+def test_its_modules_import_nothing_until_they_are_asked(project: Path) -> None:
+    (project / "nothing.js").write_text(
+        "import 'vexture';\nimport { VectorTexture } from 'vexture';\n", encoding="utf-8"
+    )
+    bundle = _run(MODULES / ".bin" / "esbuild", "nothing.js", "--bundle", "--format=esm", "--minify", cwd=project)
+    assert bundle.strip() == ""
+
+
+def test_a_page_with_packed_textures_loads_little(project: Path) -> None:
+    (project / "page.js").write_text(
+        "export { VectorMaterial, VectorTextureLoader } from 'vexture';\n", encoding="utf-8"
+    )
+    options = ["--bundle", "--minify", "--splitting", "--format=esm", "--external:three", "--outdir=out"]
+    _run(MODULES / ".bin" / "esbuild", "page.js", *options, cwd=project)
+    first, wanted = set[str](), ["page.js"]
+    while wanted:
+        first.add(name := wanted.pop())
+        text = (project / "out" / name).read_text(encoding="utf-8")
+        wanted += [other for other in re.findall(r'(?:from|import) ?"\./([^"]+)"', text) if other not in first]
+    size = sum(len(gzip.compress((project / "out" / name).read_bytes(), 9)) for name in first)
+    assert 10_000 < size <= FIRST_LOAD_LIMIT
+    later = "".join(path.read_text(encoding="utf-8") for path in (project / "out").iterdir() if path.name not in first)
+    assert "thesis_coverage" in later
