@@ -31,6 +31,12 @@ GLOBAL: Final = re.compile(
 
 THESIS_PREFIX: Final = "thesis_"
 
+NUMBER: Final = re.compile(r"^#define (VEXTURE_\w+) ([0-9.e-]+)$", re.MULTILINE)
+"""A number that has a name."""
+
+SPACES: Final = re.compile(r"(?<![+-]) +(?=[^\w\s])|(?<=[^\w\s]) +(?![+-])")
+"""Those between two words, and between two signs, stay."""
+
 
 def apart(text: str) -> str:
     """Shader text whose global names begin with a prefix, to stand in one program with other people's."""
@@ -38,14 +44,26 @@ def apart(text: str) -> str:
     return re.sub(rf"\b({'|'.join(sorted(names))})\b", rf"{THESIS_PREFIX}\1", text)
 
 
-SPACES: Final = re.compile(r"\s*([*/=<>!&|^?:;,(){}\[\]])\s*")
-"""Spaces that separate nothing; those at + and - may keep two signs apart."""
-
-
 def bare(text: str) -> str:
-    """Shader text without comments and what else only people need: nobody reads it in a bundle."""
-    lines = (line.strip() for line in COMMENT.sub("", text).splitlines())
-    return "\n".join(line if line.startswith("#") else SPACES.sub(r"\1", line) for line in lines if line) + "\n"
+    """Shader text without comments, empty lines and spaces that separate nothing: nobody reads it in a bundle."""
+    lines = []
+    for line in COMMENT.sub("", text).splitlines():
+        stripped = line.strip()
+        if stripped:
+            lines.append(stripped if stripped.startswith("#") else SPACES.sub("", stripped))
+    return "\n".join(lines) + "\n"
+
+
+def inlined(text: str) -> str:
+    """Shader text with the values of its defined numbers in place of their names."""
+    values = dict(NUMBER.findall(text))
+    return re.sub(r"\bVEXTURE_\w+", lambda name: values.get(name[0], name[0]), NUMBER.sub("", text))
+
+
+def used(declarations: str, text: str) -> str:
+    """Those declarations of constants that a text names."""
+    names = set(re.findall(r"\w+", text))
+    return "".join(f"{line}\n" for line in declarations.splitlines() if names & set(re.findall(r"\w+(?= =|\[)", line)))
 
 
 def module_text(name: str, text: str, comment: str) -> str:
@@ -58,7 +76,7 @@ def shaders() -> str:
     parts = [HEADER.format(owner="src/vexture/glsl/")]
     for name, file in PACKED_FILES.items():
         comment = f"{file}; VEXTURE_QUALITY must be defined before it, and VEXTURE_WRAP may be."
-        parts.append(module_text(name, bare(packed_text(file, None)), comment))
+        parts.append(module_text(name, bare(inlined(packed_text(file, None))), comment))
     parts.append("/** Values of VEXTURE_QUALITY. */\n")
     parts.append(f"export const QUALITIES = Object.freeze({json.dumps(QUALITIES)});\n")
     parts.append("/** Values of VEXTURE_WRAP. */\n")
@@ -70,7 +88,8 @@ def shaders() -> str:
 
 def thesis_module() -> str:
     """Text of the module with the thesis's shader: apart, since most pages have no use for it."""
-    text = bare(apart(constants(layout) + constants(shading) + join("coverage.glsl")))
+    coverage = join("coverage.glsl")
+    text = bare(apart(used(constants(layout) + constants(shading), coverage) + coverage))
     comment = (
         "coverage.glsl; its names begin with thesis_, and const int thesis_LEVELS and thesis_FOLD_HEIGHT must\n"
         " * stand before it."

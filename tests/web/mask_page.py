@@ -42,8 +42,10 @@ def prepare(folder: Path) -> None:
     vexture.convert(drawing("duck"), encoding="thesis").save(folder / "thesis")
     for three in THREES:
         bundle(PAGE, folder / f"{three}.js", three)
-        script = f'<!doctype html><link rel="icon" href="data:,"><body style="margin:0"><script type="module" src="{three}.js"></script>'
-        (folder / f"{three}.html").write_text(script, encoding="utf-8")
+        icon = '<!doctype html><link rel="icon" href="data:,"><body style="margin:0">'
+        (folder / f"{three}.html").write_text(
+            f'{icon}<script type="module" src="{three}.js"></script>', encoding="utf-8"
+        )
 
 
 def decode(text: str) -> Picture:

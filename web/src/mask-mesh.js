@@ -17,6 +17,18 @@ import { takePart } from './hooks.js';
  * }} Masked
  */
 
+/**
+ * @param {Masked} mesh
+ * @param {Cut} cut
+ * @returns {boolean} whether its shadow has to be cut
+ */
+function cutsOne({ material }, cut) {
+  if (cut.cuts() && Array.isArray(material)) {
+    throw new VextureError('mesh has several materials, which share one shadow; give each a mesh of its own', 'mesh');
+  }
+  return cut.cuts();
+}
+
 /** One mesh under a mask, until it is released. */
 export class MaskedMesh {
   #mesh;
@@ -30,6 +42,7 @@ export class MaskedMesh {
    * @param {Cut} cut
    */
   constructor(mesh, cut) {
+    cutsOne(mesh, cut);
     this.#mesh = mesh;
     this.#cut = cut;
     this.#before = {
@@ -59,10 +72,7 @@ export class MaskedMesh {
 
   /** After a change of the mask. */
   update() {
-    const cuts = this.#cut.cuts();
-    if (cuts && Array.isArray(this.#mesh.material)) {
-      throw new VextureError('mesh has several materials, of which its shadow shows one; give each a mesh', 'mesh');
-    }
+    const cuts = cutsOne(this.#mesh, this.#cut);
     this.#mesh.customDepthMaterial = cuts ? this.#depth : this.#before.depth;
     this.#mesh.customDistanceMaterial = cuts ? this.#distance : this.#before.distance;
     for (const material of [this.#depth, this.#distance]) material.needsUpdate = true;

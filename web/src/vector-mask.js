@@ -370,9 +370,9 @@ function wrapped(place, wrap) {
 }
 
 /**
- * Make a shape the mask of any built-in mesh material, or of a sprite's.
+ * Make a shape the mask of any built-in mesh material, or of a sprite's. A clone of the material has none.
  *
- * @param {import('three').Material} material which may have an `onBeforeCompile` of its own: it runs first
+ * @param {import('three').Material} material which may have an `onBeforeCompile` of its own already: it runs first
  * @param {VectorTexture} texture
  * @param {MaskOptions} [options]
  * @returns {VectorMask}

@@ -65,7 +65,9 @@ function meshOf(config, material, texture) {
   if (!config.instances) return new THREE.Mesh(geometry, material);
   geometry.setAttribute('vextureRoot', rootAttribute(texture, config.instances));
   const mesh = new THREE.InstancedMesh(geometry, material, 4);
-  for (let i = 0; i < 4; i++) mesh.setMatrixAt(i, new THREE.Matrix4().makeTranslation(i % 2 ? 0.5 : -0.5, i < 2 ? 0.5 : -0.5, 0));
+  for (let i = 0; i < 4; i++) {
+    mesh.setMatrixAt(i, new THREE.Matrix4().makeTranslation(i % 2 ? 0.5 : -0.5, i < 2 ? 0.5 : -0.5, 0));
+  }
   return mesh;
 }
 
@@ -147,8 +149,9 @@ async function shadow(config) {
   mesh.position.z = 1;
   const ground = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), new THREE.MeshLambertMaterial());
   ground.receiveShadow = true;
-  const light = config.shadow === 'point' ? new THREE.PointLight(0xffffff, 20, 0, 0) : new THREE.DirectionalLight(0xffffff, 3);
-  light.position.set(0, 0, config.shadow === 'point' ? 3 : 4);
+  const isPoint = config.shadow === 'point';
+  const light = isPoint ? new THREE.PointLight(0xffffff, 20, 0, 0) : new THREE.DirectionalLight(0xffffff, 3);
+  light.position.set(0, 0, isPoint ? 3 : 4);
   light.castShadow = true;
   light.shadow.mapSize.set(1024, 1024);
   if (light.isDirectionalLight) Object.assign(light.shadow.camera, { left: -1.2, right: 1.2, top: 1.2, bottom: -1.2 });
@@ -215,6 +218,7 @@ async function refusals() {
     colorless: () => applyVectorMask(new THREE.MeshNormalMaterial(), texture, { mode: 'paint' }),
     root: () => applyVectorMask(new THREE.MeshBasicMaterial(), texture, { root: 'dukc' }),
     thesis: () => applyVectorMask(new THREE.MeshBasicMaterial(), thesis, { wrap: 'repeat' }),
+    mesh: () => first.attach(new THREE.Mesh(new THREE.BoxGeometry(), [masked, masked])),
     setter: () => (first.wrap = 'mirror'),
   };
   const outcomes = {};
