@@ -31,6 +31,12 @@ GLOBAL: Final = re.compile(
 
 THESIS_PREFIX: Final = "thesis_"
 
+NUMBER: Final = re.compile(r"^#define (VEXTURE_\w+) ([0-9.e-]+)$", re.MULTILINE)
+"""A number that has a name."""
+
+SPACES: Final = re.compile(r"(?<![+-]) +(?=[^\w\s])|(?<=[^\w\s]) +(?![+-])")
+"""Those between two words, and between two signs, stay."""
+
 
 def apart(text: str) -> str:
     """Shader text whose global names begin with a prefix, to stand in one program with other people's."""
@@ -38,17 +44,14 @@ def apart(text: str) -> str:
     return re.sub(rf"\b({'|'.join(sorted(names))})\b", rf"{THESIS_PREFIX}\1", text)
 
 
-NUMBER: Final = re.compile(r"^#define (VEXTURE_\w+) ([0-9.e-]+)$", re.MULTILINE)
-"""A number that has a name."""
-
-SPACES: Final = re.compile(r"\s*([*/=<>!&|^?:;,(){}\[\]])\s*")
-"""Spaces that separate nothing; those at + and - may keep two signs apart."""
-
-
 def bare(text: str) -> str:
-    """Shader text without comments and what else only people need: nobody reads it in a bundle."""
-    lines = (line.strip() for line in COMMENT.sub("", text).splitlines())
-    return "\n".join(line if line.startswith("#") else SPACES.sub(r"\1", line) for line in lines if line) + "\n"
+    """Shader text without comments, empty lines and spaces that separate nothing: nobody reads it in a bundle."""
+    lines = []
+    for line in COMMENT.sub("", text).splitlines():
+        stripped = line.strip()
+        if stripped:
+            lines.append(stripped if stripped.startswith("#") else SPACES.sub("", stripped))
+    return "\n".join(lines) + "\n"
 
 
 def inlined(text: str) -> str:

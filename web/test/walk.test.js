@@ -123,6 +123,13 @@ describe('bounds and counts', () => {
     for (const [at, expected] of [[x0, 0.125], [y0, 0.125], [x1, 0.125], [y1, 0.25]]) expect(at).toBeCloseTo(expected, 3);
   });
 
+  test('of a leaf that is filled above its only, horizontal curve', async () => {
+    const level = [0x40000000, 0x80006aab, 0x80009555, 0x40008000]; // y = 1/2 of the leaf, from its left edge
+    const [x0, y0, x1, y1] = bounds(await readPacked(ktx2([[0, 1, 0x0c, 0x7f], level])), 0);
+    expect([x0, x1, y1]).toEqual([0, 0.5, 0.5]);
+    expect(y0).toBeCloseTo(0.25, 4);
+  });
+
   test('go down no deeper than cells of 1/256', async () => {
     const texels = Array.from({ length: 16 }, (_, quad) => (quad < 15 ? [quad + 1, 0, 0x80, 0] : [0, 0, 0, 0xff]));
     const deep = await readPacked(ktx2(texels));
