@@ -159,7 +159,10 @@ def _read(data: bytes, file_name: str, settings: Settings) -> "Drawing":
 
         if settings.select is not None:
             raise SourceError(f"{file_name}: select={settings.select!r} chooses elements of an SVG; leave it out")
-        return read_geojson(data)
+        try:
+            return read_geojson(data)
+        except SourceError as error:
+            raise SourceError(f"{file_name}: {error}") from None
     from vexture.sources.svg import svg_drawing
 
     return svg_drawing(data, file_name, settings.select)
