@@ -9,9 +9,9 @@ import pytest
 from hand import need_gpu
 from numpy.typing import NDArray
 
+from cells import Cells, finest_level
 from vexture.encoding.layout import MOST_DEPTH
 from vexture.encoding.packed_texture import PackedTexture
-from vexture.encoding.packed_walk import walk
 from vexture.pipeline import convert
 from vexture.render.gpu import context
 from vexture.render.packed_gpu import view_base
@@ -80,46 +80,11 @@ def overlay(
     return pixels[..., :3]
 
 
-class Cells:
-    """The cell at the centre of each pixel, no deeper than a level: depth, side, stored coverage, whether a quad."""
-
-    def __init__(self, texture: PackedTexture, matrix: NDArray[np.float64], finest: int) -> None:
-        x, y = np.meshgrid(np.arange(SIZE[0]) + 0.5, np.arange(SIZE[1]) + 0.5)
-        self.points = np.stack([x, y, np.ones_like(x)], axis=-1) @ matrix.T[:, :2]
-        self.inside = ((self.points >= 0.0) & (self.points < 1.0)).all(axis=-1)
-        shape = x.shape
-        self.depth, self.coverage = np.zeros(shape, int), np.zeros(shape)
-        self.is_quad = self.inside.copy()
-        self.border = self._border_of(1.0, matrix)
-        flat = texture.texels.reshape(-1, 4)
-        quad = np.zeros(shape, np.int64)
-        for level in walk(flat, np.array([texture.roots[0].quad]))[:finest]:
-            side = 0.5 ** (self.depth.max() + 1)
-            k = (np.floor(self.points / side).astype(np.int64) & 1) @ [1, 2]
-            now = self.is_quad
-            k, at = k[now], quad[now]
-            self.depth[now] += 1
-            self.coverage[now] = level.coverages[at, k] / 255
-            self.border[now] = np.maximum(self.border, self._border_of(side, matrix))[now]
-            before = np.cumsum(level.is_quad.ravel()) - 1
-            quad[now] = before[at * 4 + k]
-            self.is_quad[now] = level.is_quad[at, k]
-
-    def _border_of(self, side: float, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
-        pixel = abs(matrix[0, 0])
-        distance = np.abs(self.points - side * np.round(self.points / side)).min(axis=-1) / pixel
-        return np.clip(1.0 - distance, 0.0, 1.0) * np.clip(side / pixel / 4.0 - 1.0, 0.0, 1.0)
-
-
 @cache
 def texture_of(name: str) -> PackedTexture:
     texture = convert(SHAPES / f"{name}.svg")
     assert isinstance(texture, PackedTexture)
     return texture
-
-
-def pixel_level(matrix: NDArray[np.float64], cutoff: float = 0.0) -> int:
-    return max(1, int(np.ceil(-np.log2(abs(matrix[0, 0])) - cutoff)))
 
 
 WINDOWS = {
@@ -133,7 +98,7 @@ WINDOWS = {
 @pytest.mark.parametrize("view", WINDOWS)
 def test_coverage_and_depth_are_those_of_the_cell_at_the_pixel(name: str, view: str) -> None:
     texture, matrix = texture_of(name), WINDOWS[view]
-    cells = Cells(texture, matrix, pixel_level(matrix))
+    cells = Cells(texture, matrix, SIZE, finest_level(matrix))
     depth = overlay(texture, matrix, (0.0, 0.0, 1.0))
     assert np.abs(depth - DEPTHS[cells.depth])[cells.inside].max() < 1e-5
     shade = overlay(texture, matrix, (0.0, 0.5, 0.0))
@@ -147,7 +112,7 @@ def test_coverage_and_depth_are_those_of_the_cell_at_the_pixel(name: str, view: 
 @pytest.mark.parametrize("view", WINDOWS)
 def test_borders_are_one_pixel_wide_at_each_zoom(name: str, view: str) -> None:
     texture, matrix = texture_of(name), WINDOWS[view]
-    cells = Cells(texture, matrix, pixel_level(matrix))
+    cells = Cells(texture, matrix, SIZE, finest_level(matrix))
     shown = overlay(texture, matrix, (1.0, 0.0, 0.0))
     drawn = 1.0 - shown[..., 0] / PICTURE[0] if shown[..., 0].max() <= PICTURE[0] + 1e-6 else None
     light = (shown[..., 0] - PICTURE[0]) / (1.0 - PICTURE[0]) if drawn is None else drawn
@@ -158,7 +123,7 @@ def test_borders_are_one_pixel_wide_at_each_zoom(name: str, view: str) -> None:
 @pytest.mark.parametrize("cutoff", [3.6, 5.0, 8.0])
 def test_at_the_cut_off_quads_show_what_they_store(cutoff: float) -> None:
     texture, matrix = texture_of("ocean"), WINDOWS["whole"]
-    cells = Cells(texture, matrix, pixel_level(matrix, cutoff))
+    cells = Cells(texture, matrix, SIZE, finest_level(matrix, cutoff))
     shown = overlay(texture, matrix, cutoff=cutoff)
     stored = FULL + cells.coverage[..., None] * (EMPTY - FULL)
     expected = np.where(cells.is_quad[..., None], stored, PICTURE)
@@ -169,7 +134,7 @@ def test_at_the_cut_off_quads_show_what_they_store(cutoff: float) -> None:
 def test_many_small_cells_do_not_turn_a_view_grey() -> None:
     texture, matrix = texture_of("ocean"), window(SIZE, -2.0, -2.0, 5.0, 5.0)
     shown = overlay(texture, matrix, (1.0, 0.0, 0.0))
-    cells = Cells(texture, matrix, pixel_level(matrix))
+    cells = Cells(texture, matrix, SIZE, finest_level(matrix))
     assert np.abs(shown - PICTURE)[cells.inside].mean() < 0.15
 
 
