@@ -2,6 +2,7 @@
 
 import asyncio
 import os
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from itertools import cycle, islice
 from pathlib import Path
@@ -145,7 +146,8 @@ def test_change_is_noticed_when_it_happens(tmp_path, monkeypatch):
             await task
         return event
 
-    event = asyncio.run(notice())
+    with ThreadPoolExecutor(1) as thread:  # in this one Playwright may have a loop of its own
+        event = thread.submit(asyncio.run, notice()).result()
     assert (event.kind, event.data["name"]) == ("shape", "logo")
 
 
