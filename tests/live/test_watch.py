@@ -1,9 +1,17 @@
 """Files that are saved as editors save them, while a viewer watches them."""
 
+import asyncio
 import os
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from itertools import cycle, islice
+from pathlib import Path
 
 import pytest
 
+from vexture.live import watch as watching
+from vexture.live.documents import VIEWER_SETTINGS
+from vexture.live.shelf import Shelf
 from viewing import SHAPES, until, viewing
 
 DUCK, CAKE = ((SHAPES / f"{name}.svg").read_bytes() for name in ("duck", "cake"))
@@ -113,3 +121,38 @@ def test_link_is_followed(view, folder):
     other.symlink_to(folder / "same.svg")
     other.replace(folder / "elsewhere" / "link.svg")
     until(lambda: shown(view, "link") == DUCK)
+
+
+def test_change_is_noticed_when_it_happens(tmp_path, monkeypatch):
+    """Not only when files are looked at anyway, which here is never."""
+    monkeypatch.setattr(watching, "CHECK_MILLISECONDS", 3_600_000)
+    path = tmp_path / "logo.svg"
+    path.write_bytes(DUCK)
+
+    async def notice():
+        shelf = Shelf()
+        task = asyncio.create_task(watching.watch(shelf, watching.named([path]), VIEWER_SETTINGS, {"logo": DUCK}))
+        with shelf.events() as listener:
+            for content in islice(cycle([CAKE, DUCK]), 20):  # the first may come before watching has begun
+                path.write_bytes(content)
+                with suppress(TimeoutError):
+                    async with asyncio.timeout(1.0):
+                        event = await listener.next()
+                        break
+            else:
+                pytest.fail("no change was noticed")
+        task.cancel()
+        with suppress(asyncio.CancelledError):
+            await task
+        return event
+
+    with ThreadPoolExecutor(1) as thread:  # in this one Playwright may have a loop of its own
+        event = thread.submit(asyncio.run, notice()).result()
+    assert (event.kind, event.data["name"]) == ("shape", "logo")
+
+
+def test_one_name_each():
+    names = [
+        source.name for source in watching.named([Path("a/b.svg"), Path("b.svg"), Path("b-2.svg"), Path("b.ktx2")])
+    ]
+    assert len(set(names)) == 4

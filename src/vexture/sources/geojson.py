@@ -136,7 +136,7 @@ class _Reader:
         drawing = Drawing.from_source(paths, (float(low[0]), -float(high[1]), width, height), name)
         if not drawing.paths:
             raise SourceError("its polygons enclose no area; correct their coordinates")
-        turned = drawing.to_source * [[1.0], [-1.0]]  # from_source takes y down
+        turned = drawing.to_source * [[1.0], [-1.0]] + 0.0  # from_source takes y down; no -0.0
         return replace(drawing, to_source=turned, crs=_crs(value.get("crs")))
 
     def _met(self) -> str:

@@ -1,0 +1,246 @@
+"""`vexture serve` and `vexture push` as people and browsers use them: real processes, real sockets."""
+
+import json
+import signal
+import subprocess
+
+import pytest
+from server import COMMAND, TOKEN, Server, Stream, serving, square
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("serve") / "shapes"
+    folder.mkdir()
+    (folder / "by hand.svg").write_bytes(square(3))
+    (folder / "broken.svg").write_bytes(b"<svg")
+    with serving(folder, "--max-bytes", 100_000, "--rate", 1000) as running:
+        yield running
+
+
+def run(*arguments):
+    return subprocess.run([*COMMAND, *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+def error(content):
+    line = json.loads(content)["error"]
+    assert "\n" not in line
+    return line
+
+
+def test_a_published_shape_is_read_back(server):
+    status, published = server.put("square", square())
+    assert status == 201
+    status, headers, content = server.ask("GET", "/shapes/square")
+    assert (status, json.loads(content)) == (200, published)
+    assert headers["ETag"] == f'"{published["version"]}"'
+    assert headers["Cache-Control"] == "no-cache"
+    assert published["facts"]["segments"] == 4
+    texture, svg = published["texture"][2:], published["views"]["svg"][2:]
+    status, headers, content = server.ask("GET", texture)
+    assert content.startswith(b"\xabKTX 20\xbb")
+    assert "immutable" in headers["Cache-Control"]
+    assert headers["X-Content-Type-Options"] == "nosniff"
+    status, headers, content = server.ask("GET", svg)
+    assert content == square()
+    assert "sandbox" in headers["Content-Security-Policy"]
+    assert "square" in json.loads(server.ask("GET", "/shapes")[2])["shapes"]
+    assert server.put("square", square())[0] == 200
+
+
+def test_unchanged_shapes_are_not_sent_again(server):
+    version = server.put("tagged", square())[1]["version"]
+    for tag in (f'"{version}"', f'W/"{version}"', f'"other", "{version}"', "*"):
+        status, headers, content = server.ask("GET", "/shapes/tagged", headers={"If-None-Match": tag})
+        assert (status, content, headers["ETag"]) == (304, b"", f'"{version}"')
+    assert server.ask("GET", "/shapes/tagged", headers={"If-None-Match": '"other"'})[0] == 200
+
+
+def test_head_answers_as_get_without_content(server):
+    server.put("head", square())
+    for path in ("/shapes", "/shapes/head", server.manifest("head")["texture"][2:]):
+        status, headers, _ = server.ask("GET", path)
+        asked, bare, content = server.ask("HEAD", path)
+        assert (asked, content) == (status, b"")
+        assert bare["Content-Length"] == headers["Content-Length"]
+    assert server.ask("HEAD", "/events")[0] == 200
+
+
+def test_what_is_not_there_is_json(server):
+    for path in ("/nothing", "/shapes/nothing", "/files/nothing.ktx2", "/files/..%2f..%2ftoken", "/shapes/../../token"):
+        status, headers, content = server.ask("GET", path)
+        assert (status, headers["Content-Type"]) == (404, "application/json")
+        assert error(content)
+    assert server.ask("DELETE", "/shapes/square")[0] == 405
+
+
+def test_every_origin_may_read_and_none_may_write(server):
+    origin = {"Origin": "https://example.org"}
+    assert server.ask("GET", "/shapes", headers=origin)[1]["Access-Control-Allow-Origin"] == "*"
+    for method, status in (("GET", 200), ("PUT", 400)):
+        asked = {**origin, "Access-Control-Request-Method": method, "Access-Control-Request-Headers": "if-none-match"}
+        assert server.ask("OPTIONS", "/shapes/square", headers=asked)[0] == status
+
+
+def test_files_put_there_by_hand_are_served(server):
+    assert server.wait_for("by%20hand")["facts"]["segments"] == 4
+
+
+def test_geojson_and_textures_are_published_too(server):
+    ring = [[4, 52], [6, 52], [6, 53], [4, 53], [4, 52]]
+    status, published = server.put("map", json.dumps({"type": "Polygon", "coordinates": [ring]}))
+    assert (status, published["facts"]["segments"]) == (201, 4)
+    texture = server.ask("GET", published["texture"][2:])[2]
+    status, again = server.put("copy", texture)
+    assert (status, again["texture"]) == (201, published["texture"])
+    status, refused = server.put("copy", texture[:-20])
+    assert status == 422
+    assert server.manifest("copy")["version"] == again["version"]
+
+
+@pytest.mark.parametrize(
+    "body", [b"", b" \n", b"hello", b"<html/>", b"{}", b"[[[[", b"\xabKTX 20\xbb\r\n\x1a\n", b"\0\xff"]
+)
+def test_a_bad_update_never_replaces_a_good_shape(server, body):
+    good = server.put("good", square())[1]
+    status, refused = server.put("good", body)
+    assert status == 422
+    assert "\n" not in refused["error"]
+    after = server.manifest("good")
+    assert {**after, "note": None} == good
+    assert after["note"] == refused["error"]
+    assert server.put("good", square())[1]["note"] is None
+
+
+def test_without_the_right_token_nothing_is_written(server):
+    before = server.ask("GET", "/shapes")[2]
+    for given in (
+        None,
+        "",
+        "Bearer",
+        "Bearer ",
+        f"Basic {TOKEN}",
+        f"Bearer {TOKEN[:-1]}",
+        f"Bearer {TOKEN}x",
+        "Bearer é",
+    ):
+        headers = {} if given is None else {"Authorization": given}
+        status, answered, content = server.ask("PUT", "/shapes/stranger", square(), headers)
+        assert (status, bool(error(content))) == (401, True)
+        assert answered["WWW-Authenticate"].startswith("Bearer")
+    assert server.ask("GET", "/shapes")[2] == before
+
+
+def test_large_uploads_are_refused(server):
+    large = b" " * 100_001
+    status, refused = server.put("large", large)
+    assert (status, "100000 bytes" in refused["error"]) == (413, True)
+    chunks = iter([large[:60_000], large[:60_000]])
+    headers = {"Authorization": f"Bearer {TOKEN}"}
+    assert server.ask("PUT", "/shapes/large", chunks, headers)[0] == 413  # no Content-Length says so before
+    assert server.ask("GET", "/shapes/large")[0] == 404
+
+
+def test_a_client_is_told_all_and_catches_up(server):
+    first = server.put("told", square(1))[1]["version"]
+    stream = Stream(server)
+    kind, data = stream.next()
+    assert (kind, data["versions"]["told"]) == ("hello", first)
+    while kind != "shape":  # notes of other tests
+        second = server.put("told", square(2))[1]["version"] if kind == "hello" else second
+        kind, data = stream.next()
+    assert data == {"name": "told", "version": second}
+    server.put("told", b"hello")
+    kind, data = stream.next()
+    assert (kind, data["name"]) == ("note", "told")
+    again = Stream(server)
+    assert again.next()[1]["versions"]["told"] == second
+
+
+def test_push_publishes_and_says_so_in_one_line(server, tmp_path):
+    secret, drawing = tmp_path / "token", tmp_path / "Köln 1.svg"
+    secret.write_text(TOKEN)
+    drawing.write_bytes(square())
+    result = run("push", drawing, server.url, "--token-file", secret)
+    assert (result.returncode, result.stderr) == (0, "")
+    assert result.stdout.startswith(f"Köln 1: {server.url}shapes/K%C3%B6ln%201, ")
+    assert server.manifest("K%C3%B6ln%201")["name"] == "Köln 1"
+    assert run("push", drawing, f"{server.url}shapes/cologne", "--token-file", secret).returncode == 0
+    assert server.manifest("cologne")["name"] == "cologne"
+    secret.write_text(TOKEN + "x")
+    wrong = run("push", drawing, server.url, "--token-file", secret)
+    drawing.write_bytes(b"hello")
+    for result, says in (
+        (wrong, r"the token is wrong (401)"),
+        (run("push", drawing, "http://127.0.0.1:1", "--token-file", secret), "cannot be reached"),
+        (run("push", drawing, "ftp://127.0.0.1", "--token-file", secret), "is no address of a server"),
+        (run("push", tmp_path / "none.svg", server.url, "--token-file", secret), "cannot be read"),
+        (run("push", drawing, server.url, "--token-file", tmp_path / "none"), "name the file that holds the token"),
+    ):
+        assert (result.returncode, result.stdout, result.stderr.count("\n")) == (1, "", 1)
+        assert says in result.stderr
+
+
+def test_what_cannot_start_says_why_in_one_line(server, tmp_path):
+    short = tmp_path / "short"
+    short.write_text("only-15-letters\n")
+    (tmp_path / "file").touch()
+    for arguments, says in (
+        ((tmp_path / "new", "--port", server.port), f"port {server.port} on 127.0.0.1 cannot be had"),
+        ((tmp_path / "new", "--port", 0, "--token-file", short), "the token has 15 characters"),
+        ((tmp_path / "new", "--port", 70_000), "70000"),
+        ((tmp_path / "file", "--port", 0), "choose another folder"),
+        ((tmp_path / "new", "--port", 0, "--rate", 0), "the limit rate is 0"),
+        ((tmp_path / "new", "--port", 0, "--rate", "nan"), "the limit rate is nan"),
+    ):
+        result = run("serve", *arguments)
+        assert (result.returncode, result.stdout, result.stderr.count("\n")) == (1, "", 1)
+        assert says in result.stderr
+    assert not (tmp_path / "new").exists()
+
+
+def test_one_server_has_a_folder(tmp_path):
+    with serving(tmp_path / "shapes") as first:
+        result = run("serve", tmp_path / "shapes", "--port", 0)
+        assert (result.returncode, result.stderr.count("\n")) == (1, 1)
+        assert "another server has this folder" in result.stderr
+        assert first.ask("GET", "/shapes")[0] == 200
+
+
+def test_without_a_token_file_nothing_is_written(tmp_path):
+    with serving(tmp_path / "shapes", token=False) as server:
+        status, refused = server.put("square", square())
+        assert (status, "--token-file" in refused["error"]) == (403, True)
+
+
+def test_haste_is_refused_until_later(tmp_path):
+    with serving(tmp_path / "shapes", "--rate", 0.01) as server:
+        answers = [server.ask("PUT", "/shapes/a", b"", {"Authorization": f"Bearer {TOKEN}"}) for _ in range(21)]
+        assert [status for status, _, _ in answers] == [422] * 20 + [429]
+        assert 0 < int(answers[-1][1]["Retry-After"]) <= 100
+
+
+def test_bounds_of_all_shapes(tmp_path):
+    with serving(tmp_path / "shapes", "--max-shapes", 1, "--max-total", 5000) as server:
+        assert server.put("a", square())[0] == 201
+        assert server.put("b", square(4))[0] == 507
+        assert server.put("a", square(4))[0] == 200
+        large = b'<svg viewBox="0 0 9 9"><path d="M1 1h7v7z"/><!--' + b"x" * 6000 + b"--></svg>"
+        assert server.put("a", large)[0] == 507
+        assert server.manifest("a")["facts"]["segments"] == 4
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_it_stops_cleanly_while_clients_listen_and_drawings_are_converted(tmp_path, number):
+    server = Server(tmp_path / "shapes")
+    stream = Stream(server)
+    assert stream.next() == ("hello", {"versions": {}})
+    waiting = server.connect()
+    waiting.putrequest("PUT", "/shapes/slow")
+    waiting.putheader("Authorization", f"Bearer {TOKEN}")
+    waiting.putheader("Content-Length", "1000")
+    waiting.endheaders(b"<svg")  # the rest never comes
+    server.process.send_signal(number)
+    assert stream.next() is None
+    _, errors = server.process.communicate(timeout=30)
+    assert (server.process.returncode, errors) == (0, "")
