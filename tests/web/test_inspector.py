@@ -185,8 +185,8 @@ def test_texture_contents_show_each_texel_and_where_it_is(
     assert float(page.locator(".texel-cell").get_attribute("width")) == pytest.approx(side, rel=1e-9)
     screenshot(page)
     image.focus()
-    page.keyboard.press("ArrowLeft")
-    region.get_by_text(f"Texel {index - 1}: a curve").wait_for()
+    page.keyboard.press("ArrowRight")
+    region.get_by_text(f"Texel {index + 1}: a curve").wait_for()
 
 
 def test_the_thesis_pair_is_shown_while_it_is_compared_with(show: Callable[..., Shown]) -> None:

@@ -52,11 +52,10 @@ export function create(engine, state) {
   function write() {
     timer = 0;
     const found = state.overlays.inspect && state.value.mode === 'flat' ? find() : null;
-    text.replaceChildren(...(found ? described(found) : []));
-    if (!found && state.overlays.inspect) {
-      text.append(element('p', { class: 'hint' },
-        state.value.mode === 'flat' ? 'There is no cell here.' : 'Cells are inspected in the flat view.'));
-    }
+    const hint = state.value.mode === 'flat' ? 'There is no cell here.' : 'Cells are inspected in the flat view.';
+    const parts = found ? described(found) : state.overlays.inspect ? [element('p', { class: 'hint' }, hint)] : [];
+    const said = parts.map((part) => part.textContent).join('');
+    if (said !== text.textContent) text.replaceChildren(...parts); // not to be read out again
   }
 
   function update() {
