@@ -48,7 +48,7 @@ export class Engine extends EventTarget {
     super();
     this.canvas = canvas;
     this.state = state;
-    this.renderer = new WebGLRenderer({ canvas, antialias: false, alpha: false, powerPreference: 'high-performance' });
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, powerPreference: 'high-performance' });
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = true;

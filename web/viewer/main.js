@@ -23,6 +23,8 @@ const stage = element('div', {
   class: 'stage', tabindex: 0, role: 'application', 'aria-label':
     'Picture. Drag or press the arrow keys to move, + and − to zoom, 0 to see all of it.',
 }, canvas);
+/** The picture and what stands over it. */
+const scene = element('main', { class: 'scene' });
 
 /** @param {State} state */
 function nextTheme(state) {
@@ -72,7 +74,9 @@ function build(engine, state, library) {
     fold: () => app.classList.toggle('folded'),
   });
   app.classList.toggle('folded', NARROW.matches);
-  if (!bare) app.append(tools.zoom, tools.fold, panel.panel);
+  if (bare) return panel;
+  scene.append(tools.zoom, tools.fold);
+  app.append(panel.panel);
   return panel;
 }
 
@@ -184,7 +188,8 @@ const linked = linkedView();
 const state = new State(linked ?? START);
 applyTheme(state.value.theme);
 app.classList.toggle('bare', bare);
-app.append(stage, notes.element);
+scene.append(stage, notes.element);
+app.append(scene);
 if (linked === undefined) notes.say('This link is damaged; the whole shape is shown.');
 
 /** For tests and for the curious. */

@@ -115,7 +115,7 @@ export function rasterRival(renderer, flat, { texture, silhouette }) {
   const side = Math.min(rasterSide(texture.nbytes, silhouette ? 1 : 4), renderer.capabilities.maxTextureSize);
   const target = new WebGLRenderTarget(side, side, {
     format: silhouette ? RedFormat : RGBAFormat, depthBuffer: false, generateMipmaps: true,
-    minFilter: LinearMipmapLinearFilter, magFilter: LinearFilter, anisotropy: renderer.capabilities.getMaxAnisotropy(),
+    minFilter: LinearMipmapLinearFilter, magFilter: LinearFilter, // not anisotropic: in the flat view pixels are square
   });
   flat.drawSquare(renderer, target);
   const pass = new Pass(HEAD + RASTER, uniforms({

@@ -42,8 +42,8 @@ export class Solid {
     this.mesh = new Mesh(geometryOf(surface), this.material);
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.05, 50);
-    const sun = new DirectionalLight('#ffffff', 1.7);
-    sun.position.set(-1.2, 2, 3);
+    const sun = new DirectionalLight('#ffffff', 1.8);
+    sun.position.set(-0.8, 1.2, 3);
     this.scene.add(this.mesh, sun, new HemisphereLight('#ffffff', '#c9c4ba', 1.6));
     this.ready = false;
     /** @type {Promise<void> | null} */

@@ -50,7 +50,7 @@ const SWITCHES = /** @type {const} */ (['cells', 'coverage', 'depth', 'inspect',
 /** @type {Readonly<ViewState>} */
 export const START = Object.freeze({
   shape: '', drawing: '', center: Object.freeze(/** @type {[number, number]} */ ([0.5, 0.5])), zoom: 1, mode: 'flat',
-  yaw: 0.5, pitch: 0.35, distance: 1, theme: 'system', compare: null, split: 0.5, overlays: NO_OVERLAYS,
+  yaw: -0.4, pitch: 0.3, distance: 1, theme: 'system', compare: null, split: 0.5, overlays: NO_OVERLAYS,
 });
 
 /** @param {ViewState} value @returns {Readonly<ViewState>} */
