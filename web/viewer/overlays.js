@@ -5,6 +5,7 @@ import { counts } from '../src/walk.js';
 import { chosenLayer } from './chosen-layer.js';
 import { element, section, select } from './dom.js';
 import { OPACITY, RAMPS, css, depthRamp } from './overlay-palette.js';
+import { watchPointer } from './pointer.js';
 import { MOST_CUTOFF } from './state.js';
 
 /**
@@ -89,9 +90,9 @@ export function create(engine, state) {
     descend();
   }
 
-  engine.canvas.addEventListener('pointermove', ({ offsetX, offsetY }) => {
+  watchPointer(engine, (px, py) => {
     const { cells, coverage, depth, cutoff: levels, inspect, contents } = state.overlays;
-    const at = cells || coverage || depth || levels > 0 || inspect || contents ? engine.toUnit(offsetX, offsetY) : null;
+    const at = cells || coverage || depth || levels > 0 || inspect || contents ? engine.toUnit(px, py) : null;
     if (at) chosen.point(...at);
   });
   state.addEventListener('change', (event) => {
