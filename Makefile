@@ -1,20 +1,24 @@
 # `make demo` and `make test` need nothing but Python 3.11 or newer: what they install goes into .venv, but for the
-# system libraries of the tests, which they install only as root on Debian and otherwise name.
+# system libraries of the tests, which they install only as root on Debian and otherwise name. The viewer's page is
+# built where there are Node.js and npm; what they install goes into web/node_modules.
 # Another Python: make PYTHON=python3.13 demo
 # Less of the benchmarks: make bench QUICK=--quick
 
 PYTHON ?= python3
 BIN := .venv/bin
 SHAPES := examples/shapes
-BENCHMARKS := packed_fidelity speed packed_conversion size fidelity conversion icons
+BENCHMARKS := packed_fidelity speed packed_conversion size fidelity conversion icons editing
+VIEWER := src/vexture/live/built/viewer.js
+WEB_SOURCES := $(shell find web/src web/viewer web/generated -name '*.js' -o -name '*.css')
 QUICK ?=
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help demo test bench clean
+.PHONY: help demo viewer test test-web bench clean
 
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
+	@echo 'make viewer  build the page of `vexture view` and `vexture export`, with node and npm'
 	@echo 'make test    lint, types and tests, with all that they need'
 	@echo 'make bench   measure fidelity, speed and size; the figures come into benchmarks/results/'
 	@echo 'make clean   remove all of that again'
@@ -35,6 +39,17 @@ help:
 	@$(BIN)/python -m pip install --quiet --editable '.[gpu,live,test]'
 	@touch .venv/for-demo $@
 
+web/node_modules/made: web/package.json web/package-lock.json
+	@$(PYTHON) tools/prepare.py web
+	@echo 'installing the packages of web/ into web/node_modules ...'
+	@npm ci --prefix web --no-audit --no-fund --loglevel error
+	@touch $@
+
+$(VIEWER): web/node_modules/made $(WEB_SOURCES)
+	@npm run --silent viewer --prefix web
+
+viewer: $(VIEWER)
+
 demo: .venv/for-demo
 	@mkdir -p demo/pictures
 	$(BIN)/vexture convert $(SHAPES)/*.svg -o demo
@@ -50,6 +65,14 @@ demo: .venv/for-demo
 	@echo '$(BIN)/vexture render demo/cake.ktx2 -o demo/pictures/cake-gpu.png --size 500 --renderer gpu'
 	@$(BIN)/vexture render demo/cake.ktx2 -o demo/pictures/cake-gpu.png --size 500 --renderer gpu || \
 		echo 'so there is no picture by the GPU this time; all the others are there'
+	@if ! command -v node >/dev/null || ! command -v npm >/dev/null; then \
+		echo 'node or npm is missing, so the viewer cannot be built, and there is no demo/duck.html this time'; \
+	elif $(MAKE) --no-print-directory viewer; then \
+		$(BIN)/vexture export $(SHAPES)/duck.svg -o demo/duck.html && \
+		echo 'Open demo/duck.html in a browser to look at the duck from nearby; $(BIN)/vexture view shows any drawing so.'; \
+	else \
+		echo 'so the viewer is not built, and there is no demo/duck.html this time'; \
+	fi
 	@echo
 	@echo 'Open the pictures in demo/pictures/: duck-1000.png is drawn from the texture demo/duck.ktx2, duck-50.png from'
 	@echo 'demo/all.ktx2, which holds all the drawings; duck-exact.png is what they must look like.'
@@ -59,6 +82,12 @@ test: .venv/for-test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/python tools/make_web.py --check
+	@if $(MAKE) --no-print-directory web/node_modules/made; then \
+		$(MAKE) --no-print-directory test-web; \
+	else \
+		echo 'skipped, as said above: the tests of web/, the viewer and the tests of its page'; \
+	fi
 	@echo 'compiling the kernels once, before the tests run side by side ...'
 	@scratch=$$(mktemp -d) && trap 'rm -rf "$$scratch"' EXIT && \
 		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch" >"$$scratch/log" && \
@@ -69,9 +98,15 @@ test: .venv/for-test
 		$(BIN)/vexture render $(SHAPES)/duck.svg -o "$$scratch/exact.png" --size 16 --renderer exact >>"$$scratch/log"
 	$(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4
 
+test-web: viewer
+	npm run --silent check --prefix web
+	npm run --silent test --prefix web
+
 bench: .venv/for-test
 	@$(BIN)/python tools/prepare.py system
+	@$(MAKE) --no-print-directory viewer || echo 'so what needs the viewer is not measured'
 	@for name in $(BENCHMARKS); do echo && $(BIN)/python "benchmarks/$$name.py" $(QUICK) || exit 1; done
 
 clean:
-	rm -rf .venv demo build src/*.egg-info benchmarks/results .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -rf .venv demo build src/*.egg-info benchmarks/results .hypothesis .mypy_cache .pytest_cache .ruff_cache \
+		web/node_modules web/types src/vexture/live/built tests/web/screenshots

@@ -1,5 +1,7 @@
 """Prepare this machine: `prepare.py venv` makes .venv, `prepare.py system` installs what the tests need beyond it.
 
+`prepare.py web` installs what building web/ needs, and fails where that is not to be had.
+
 System packages are installed only by root, and only where there is apt-get; elsewhere they are named, together with
 the tests that are skipped without them. Whether something is there is found out by using it.
 """
@@ -55,6 +57,28 @@ VENV = Need(
     (f"python{sys.version_info.major}.{sys.version_info.minor}-venv",),
     "everything: no .venv can be made",
 )
+OLDEST_NODE = 20
+NODE = f"""
+import subprocess
+version = subprocess.run(["node", "--version"], capture_output=True, text=True, check=True).stdout.strip()
+assert int(version[1:].split(".")[0]) >= {OLDEST_NODE}, f"node {{version}} is too old; install {OLDEST_NODE} or newer"
+"""
+WEB = (
+    Need("Node.js", NODE, ("nodejs",), "the viewer's page, the JavaScript package and their tests"),
+    Need(
+        "npm",
+        "import subprocess; subprocess.run(['npm', '--version'], capture_output=True, check=True)",
+        ("npm",),
+        "the viewer's page, the JavaScript package and their tests",
+    ),
+)
+CHROMIUM = """
+import subprocess
+from playwright.sync_api import sync_playwright
+subprocess.run(["chromium", "--version"], capture_output=True, check=True)
+with sync_playwright() as started:
+    started.chromium.launch(executable_path="/usr/bin/chromium", args=["--headless=new", "--no-sandbox"]).close()
+"""
 SYSTEM = (
     Need(
         "OpenGL without a window",
@@ -92,6 +116,7 @@ SYSTEM = (
         (),
         "the tests that another program reads packed textures",
     ),
+    Need("Chromium", CHROMIUM, ("chromium",), "the tests in a browser"),
 )
 
 
@@ -145,7 +170,9 @@ def main() -> int:
     if sys.argv[1:] == ["system"]:
         provide(SYSTEM)
         return 0
-    print("usage: prepare.py venv | system", file=sys.stderr)
+    if sys.argv[1:] == ["web"]:
+        return 0 if provide(WEB) else 1
+    print("usage: prepare.py venv | system | web", file=sys.stderr)
     return 2
 
 

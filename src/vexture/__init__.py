@@ -26,6 +26,7 @@ __all__ = [
     "atlas",
     "convert",
     "load",
+    "read_geojson",
     "read_svg",
     "render",
     "render_layers",
@@ -36,12 +37,14 @@ if TYPE_CHECKING:
     from vexture.drawing import Drawing, FillRule, Paint, Path
     from vexture.encoding import PackedTexture, Root, ThesisTexture, load
     from vexture.shaders import shader_source
+    from vexture.sources.geojson import read_geojson
     from vexture.sources.svg import read_svg
 
 _HOMES = {
     "vexture.drawing": ("Drawing", "FillRule", "Paint", "Path"),
     "vexture.encoding": ("PackedTexture", "Root", "ThesisTexture", "load"),
     "vexture.shaders": ("shader_source",),
+    "vexture.sources.geojson": ("read_geojson",),
     "vexture.sources.svg": ("read_svg",),
 }
 

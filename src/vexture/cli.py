@@ -3,16 +3,19 @@
 import json
 import os
 import sys
-import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from vexture.arguments import Tolerance
+from vexture.cli_live import push, serve
+from vexture.cli_view import export, view
 from vexture.errors import DeviceError, LimitError, VextureError
+from vexture.messages import one_line, say
 from vexture.settings import Settings
 
 if TYPE_CHECKING:
@@ -23,20 +26,6 @@ if TYPE_CHECKING:
 __all__ = ["main"]
 
 DEFAULT_SIZE = 512
-
-
-class _Tolerance(click.ParamType[Any]):
-    """A number, or auto."""
-
-    name = "T"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        if value == "auto" or isinstance(value, float):
-            return value
-        try:
-            return float(value)
-        except ValueError:
-            self.fail(f"{value!r} is neither a number nor auto", param, ctx)
 
 
 class _View(click.ParamType[Any]):
@@ -50,29 +39,6 @@ class _View(click.ParamType[Any]):
         except ValueError:
             self.fail(f"{value!r} is not four numbers X,Y,W,H", param, ctx)
         return x, y, w, h
-
-
-def _say(message: str) -> None:
-    click.echo(f"vexture: {message}", err=True)
-
-
-@contextmanager
-def _one_line() -> Iterator[None]:
-    """Errors that are the user's to mend, and warnings, become one line each."""
-    with warnings.catch_warnings():
-        warnings.showwarning = lambda message, *_args, **_kwargs: _say(f"warning: {message}")
-        warnings.simplefilter("always")
-        try:
-            yield
-        except VextureError as error:
-            _say(str(error))
-            sys.exit(1)
-        except OSError as error:
-            _say(f"{error.filename or 'the output'}: {error.strerror}; choose another file")
-            sys.exit(1)
-        except MemoryError:
-            _say("out of memory; use a smaller drawing or a smaller --size")
-            sys.exit(1)
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
@@ -101,7 +67,7 @@ def main() -> None:
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
 @click.option(
     "--tolerance",
-    type=_Tolerance(),
+    type=Tolerance(),
     default="auto",
     show_default=True,
     help="Largest distance from the drawing's outline, in drawing sizes; for packed, auto is 0.",
@@ -118,8 +84,8 @@ def main() -> None:
 def convert(
     sources: tuple[Path, ...], output: Path | None, atlas: Path | None, bits: str | None, **parameters: Any
 ) -> None:
-    """Convert SVG drawings into textures."""
-    with _one_line():
+    """Convert drawings (SVG, GeoJSON) into textures."""
+    with one_line():
         settings = Settings(bits=None if bits is None else int(bits), **parameters)
         if atlas is None:
             failed = _convert_each(sources, output or Path(), settings)
@@ -129,7 +95,7 @@ def convert(
             failed = _convert_together(sources, atlas, settings)
     if failed:
         if len(sources) > 1:
-            _say(f"{failed} of {len(sources)} files failed{'' if atlas is None else f'; {atlas} is not written'}")
+            say(f"{failed} of {len(sources)} files failed{'' if atlas is None else f'; {atlas} is not written'}")
         sys.exit(1)
 
 
@@ -200,7 +166,7 @@ def _work_through(sources: tuple[Path, ...], work: Callable[[Path], str]) -> int
             return work(source)
         except VextureError as error:
             failed += 1
-            _say(str(error))
+            say(str(error))
             return None
 
     for line in _with_progress(sources, attempt):
@@ -272,7 +238,7 @@ def render(
 
     A texture that was split by paint is drawn in its colours, else a shape is black; on white.
     """
-    with _one_line():
+    with one_line():
         from vexture.pictures import on_white
         from vexture.render.view import window
 
@@ -288,9 +254,9 @@ def render(
 def _shape_of(path: Path, split: str | None, select: str | None) -> "Drawing | PackedTexture | ThesisTexture":
     """Read a drawing, or load a texture by one of its files or its stem."""
     if path.is_file() and path.suffix.lower() not in (".png", ".ktx2"):
-        from vexture.sources.svg import read_svg
+        from vexture.sources.reading import read_drawing
 
-        return read_svg(path, select)
+        return read_drawing(path, select)
     from vexture.encoding import load
 
     texture = load(path)
@@ -325,7 +291,7 @@ def _write_png(image: Any, output: Path) -> None:
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 def info(texture: Path, as_json: bool) -> None:
     """Describe a texture."""
-    with _one_line():
+    with one_line():
         from vexture.encoding import info as describe
         from vexture.encoding import load
 
@@ -337,3 +303,9 @@ def info(texture: Path, as_json: bool) -> None:
             for line in value if isinstance(value, list) and key == "roots" else [value]:
                 text = ", ".join(f"{name} {count}" for name, count in line.items()) if isinstance(line, dict) else line
                 click.echo(f"{key:<12}{text}")
+
+
+main.add_command(serve)
+main.add_command(push)
+main.add_command(view)
+main.add_command(export)

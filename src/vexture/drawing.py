@@ -119,6 +119,8 @@ class Drawing:
         Affine map from the unit square to the units of the source, so that a user can map back.
     name : str
         Names the shape in messages and files.
+    crs : str or None
+        Coordinate reference system of the units of the source, where there is one.
 
     Examples
     --------
@@ -130,6 +132,7 @@ class Drawing:
     paths: tuple[Path, ...]
     to_source: NDArray[np.float64] = field(default_factory=IDENTITY.copy)
     name: str = "drawing"
+    crs: str | None = None
 
     def __post_init__(self) -> None:
         if np.shape(self.to_source) != (2, 3) or not np.isfinite(self.to_source).all():

@@ -92,7 +92,7 @@ def run(source: "Source", **parameters: Any) -> Conversion:
     depth = DEFAULT_DEPTH if settings.max_depth is None else settings.max_depth
     strategy = settings.strategy or "direct"
     tree = build(drawing, settings.tolerance, depth, strategy, quantisation_step(bits), LIST_LIMIT[bits])
-    texture = encode(tree, bits, to_source=drawing.to_source, name=drawing.name)
+    texture = encode(tree, bits, to_source=drawing.to_source, name=drawing.name, crs=drawing.crs)
     return Conversion(drawing, (tree,), texture, time.perf_counter() - start)
 
 
@@ -117,11 +117,10 @@ def shapes_of(source: "Source", settings: Settings) -> Shapes:
     )
     if layers:
         roots = tuple(
-            Root(layer.name, to_source=layer.to_source, tolerance=tolerance, paint=layer.paths[0].paint)
-            for layer in layers
+            Root(layer.name, 0, layer.to_source, tolerance, layer.crs, layer.paths[0].paint) for layer in layers
         )
     else:
-        roots = (Root(drawing.name, to_source=drawing.to_source, tolerance=tolerance),)
+        roots = (Root(drawing.name, 0, drawing.to_source, tolerance, drawing.crs),)
     named = drawing.name if _is_drawing(source) else os.fspath(cast("str | os.PathLike[str]", source))
     return Shapes(drawing, trees, roots, time.perf_counter() - start, named)
 
@@ -169,7 +168,7 @@ def convert(
     Parameters
     ----------
     source : Drawing or path
-        A drawing, or a file that `vexture.read_svg` reads.
+        A drawing, or a file that `vexture.read_svg` or `vexture.read_geojson` reads.
     encoding : str
         ``"packed"``: several exact pieces in each leaf, one KTX2 file. ``"thesis"``: one curve in each leaf, a pair
         of PNG files.
@@ -291,9 +290,9 @@ def _drawing_of(source: "Source", settings: Settings) -> "Drawing":
     from vexture.drawing import Drawing
 
     if not isinstance(source, Drawing):
-        from vexture.sources.svg import read_svg
+        from vexture.sources.reading import read_drawing
 
-        return read_svg(source, settings.select)
+        return read_drawing(source, settings.select)
     if settings.select is not None:
         raise LimitError(
             f"{source.name}: select={settings.select!r} chooses elements of a file, which a drawing has no longer; "

@@ -230,7 +230,9 @@ def test_what_is_changed_shows_in_the_next_picture(page: Any) -> None:
 
 def test_a_lost_context_comes_back(address: str, open_page: Callable[..., Any]) -> None:
     for three in THREES:
-        page = open_page(f"{address}/{three}.html", errors=True)  # three.js reports the loss as one, depending on version
+        page = open_page(
+            f"{address}/{three}.html", errors=True
+        )  # three.js reports the loss as one, depending on version
         config = {"texture": "paint", "material": "VectorMaterial", "parameters": {"mode": "paint"}}
         before, after = page.evaluate("config => page.loss(config)", config)
         assert np.ptp(decode(before)) > 0.5

@@ -16,7 +16,7 @@ FIT = 0.9  # of the canvas's shorter side is the unit square at zoom 1 (web/view
 
 PAGE = """<!doctype html>
 <html lang="en">
-<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>vexture</title>
+<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>vexture</title><link rel="icon" href="data:,">
 <style>{css}</style>
 <div id="app"></div>
 <script type="application/json" id="vexture-scene">{scene}</script>
@@ -34,15 +34,20 @@ def manifest(texture: Any, **more: Any) -> dict[str, Any]:
     """What the page is told of a packed texture."""
     content = texture.to_ktx2()
     url = data_url("image/ktx2", content)
-    return {"name": texture.name, "version": "1", "texture": url, "bytes": len(content), "facts": {}, "views": {}} | more
+    return {
+        "name": texture.name,
+        "version": "1",
+        "texture": url,
+        "bytes": len(content),
+        "facts": {},
+        "views": {},
+    } | more
 
 
 def thesis_view(texture: Any, folder: Path) -> list[str]:
     """Thesis pair of a manifest's views."""
     texture.save(folder / texture.name)
-    return [
-        data_url("image/png", (folder / f"{texture.name}.{part}.png").read_bytes()) for part in ("quads", "curves")
-    ]
+    return [data_url("image/png", (folder / f"{texture.name}.{part}.png").read_bytes()) for part in ("quads", "curves")]
 
 
 def build_viewer() -> None:

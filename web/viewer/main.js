@@ -181,6 +181,7 @@ async function start(state) {
   });
   await open();
   notes.keep('');
+  if (linked === undefined) notes.say('This link is damaged; the whole shape is shown.');
   engine.render();
 }
 
@@ -190,7 +191,6 @@ applyTheme(state.value.theme);
 app.classList.toggle('bare', bare);
 scene.append(stage, notes.element);
 app.append(scene);
-if (linked === undefined) notes.say('This link is damaged; the whole shape is shown.');
 
 /** For tests and for the curious. */
 const viewer = {

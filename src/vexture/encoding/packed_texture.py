@@ -15,7 +15,7 @@ from vexture.encoding.packed_walk import walk
 from vexture.encoding.root import Root, read_roots, roots_text
 from vexture.errors import FormatError, LimitError
 
-__all__ = ["PackedTexture", "Root", "load_packed"]
+__all__ = ["PackedTexture", "Root", "load_packed", "packed_from"]
 
 REMEDY = "convert the drawing again"
 WRITER = "vexture"
@@ -255,10 +255,26 @@ def load_packed(path: Path) -> PackedTexture:
     DeviceError
         If it may not be read.
     """
-    data = read_file(path, layout.PACKED_FILE_LIMIT)
+    return packed_from(read_file(path, layout.PACKED_FILE_LIMIT), str(path))
+
+
+def packed_from(data: bytes, source: str) -> PackedTexture:
+    """Read the content of a packed texture's file, and check it.
+
+    Parameters
+    ----------
+    data : bytes
+    source : str
+        Name of the file, for messages, and for a texture that says no name.
+
+    Raises
+    ------
+    FormatError
+        If it is damaged or not a packed texture.
+    """
     if len(data) > layout.PACKED_FILE_LIMIT:
-        raise FormatError(f"{path}: longer than {layout.PACKED_FILE_LIMIT} bytes, so not a texture; {REMEDY}")
-    texels, texts = read_ktx2(data, str(path))
+        raise FormatError(f"{source}: longer than {layout.PACKED_FILE_LIMIT} bytes, so not a texture; {REMEDY}")
+    texels, texts = read_ktx2(data, source)
     try:
         for key, known in (
             (layout.TEXT_ENCODING, layout.ENCODING_PACKED),
@@ -267,10 +283,10 @@ def load_packed(path: Path) -> PackedTexture:
             if texts.get(key) != known:
                 found = repr(texts.get(key))[:80]
                 raise FormatError(f"{key} is {found}; this program reads {known!r}; update it or {REMEDY}")
-        name = texts.get(layout.TEXT_NAME) or path.name.removesuffix(layout.PACKED_SUFFIX)
+        name = texts.get(layout.TEXT_NAME) or Path(source).name.removesuffix(layout.PACKED_SUFFIX)
         roots = read_roots(texts.get(layout.TEXT_ROOTS, ""))
         texture = PackedTexture(texels, roots, name, texts.get(layout.TEXT_SOURCE))
         texture.check()
     except FormatError as error:
-        raise FormatError(f"{path}: {error}") from None
+        raise FormatError(f"{source}: {error}") from None
     return texture

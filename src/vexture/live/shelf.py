@@ -3,23 +3,28 @@
 import asyncio
 import hashlib
 import json
-from collections.abc import AsyncIterator, Mapping
-from contextlib import asynccontextmanager
+from collections import Counter, OrderedDict
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Final, NamedTuple
 
-__all__ = ["TEXTURE_TYPE", "Event", "File", "Shape", "Shelf"]
+__all__ = ["TEXTURE_TYPE", "Event", "File", "Listener", "Shape", "Shelf"]
 
 TEXTURE_TYPE: Final = "image/ktx2"
 
 DIGEST_LENGTH: Final = 32  # hexadecimal digits: 128 bits are enough to name a file after its content
 
+REPLACED_BYTES: Final = 32 * 2**20
+"""Of files that were replaced and are still served, for clients that have just read the manifest before."""
 
-class File(NamedTuple):
+
+@dataclass(frozen=True)
+class File:
     """Bytes that are served under a name made of their digest, and so never change.
 
-    Attributes
+    Parameters
     ----------
     data : bytes
     media_type : str
@@ -31,7 +36,7 @@ class File(NamedTuple):
     media_type: str
     suffix: str
 
-    @property
+    @cached_property
     def name(self) -> str:
         """Digest and suffix.
 
@@ -69,6 +74,11 @@ class Shape:
         seen = [self.name, self.texture.name, {what: file.name for what, file in self.views.items()}]
         return hashlib.sha256(json.dumps(seen, sort_keys=True).encode()).hexdigest()[:DIGEST_LENGTH]
 
+    @property
+    def files(self) -> tuple[File, ...]:
+        """All files that it consists of."""
+        return (self.texture, *self.views.values())
+
 
 class Event(NamedTuple):
     """Something that happened: ``shape`` (name, version), ``gone`` (name) or ``note`` (name, message)."""
@@ -77,18 +87,81 @@ class Event(NamedTuple):
     data: Mapping[str, Any]
 
 
+class Listener:
+    """What one client has still to be told: of each name the newest only, so that a slow client costs no more.
+
+    Examples
+    --------
+    >>> listener = Listener()
+    >>> for version in "abc":
+    ...     listener.tell(Event("shape", {"name": "duck", "version": version}))
+    >>> listener.close()
+    >>> asyncio.run(listener.next()), asyncio.run(listener.next())
+    (Event(kind='shape', data={'name': 'duck', 'version': 'c'}), None)
+    """
+
+    def __init__(self) -> None:
+        self._pending: OrderedDict[tuple[str, str], Event] = OrderedDict()
+        self._something = asyncio.Event()
+        self._closed = False
+
+    def __len__(self) -> int:
+        return len(self._pending)
+
+    def tell(self, event: Event) -> None:
+        """Add an event, in the place of those that it makes pointless."""
+        name = event.data["name"]
+        for kind in ("note",) if event.kind == "note" else ("shape", "gone", "note"):
+            self._pending.pop((kind, name), None)
+        self._pending[event.kind, name] = event
+        self._something.set()
+
+    def close(self) -> None:
+        """Nothing more will come."""
+        self._closed = True
+        self._something.set()
+
+    async def next(self) -> Event | None:
+        """Wait for the next event; None when the server stops."""
+        while not self._pending:
+            if self._closed:
+                return None
+            self._something.clear()
+            await self._something.wait()
+        return self._pending.popitem(last=False)[1]
+
+
 class Shelf:
     """Shapes in memory. All methods belong to the event loop's thread."""
 
     def __init__(self) -> None:
         self._shapes: dict[str, Shape] = {}
         self._notes: dict[str, str] = {}
-        self._waiting: set[asyncio.Queue[Event]] = set()
+        self._files: dict[str, File] = {}
+        self._owners: Counter[str] = Counter()
+        self._replaced: OrderedDict[str, File] = OrderedDict()
+        self._listeners: set[Listener] = set()
+        self._closed = False
 
     @property
     def names(self) -> list[str]:
         """Names of the shapes, in the order in which they came."""
         return list(self._shapes)
+
+    @property
+    def versions(self) -> dict[str, str]:
+        """Version of each shape."""
+        return {name: shape.version for name, shape in self._shapes.items()}
+
+    @property
+    def notes(self) -> dict[str, str]:
+        """Why the last update of a name was refused, of each of which it was."""
+        return dict(self._notes)
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes of all files of the shapes."""
+        return sum(len(file.data) for file in self._files.values())
 
     def shape(self, name: str) -> Shape | None:
         """The shape of a name, if there is one."""
@@ -99,34 +172,67 @@ class Shelf:
         return self._notes.get(name)
 
     def file(self, name: str) -> File | None:
-        """One of the files that the shapes consist of."""
-        for shape in self._shapes.values():
-            for file in (shape.texture, *shape.views.values()):
-                if file.name == name:
-                    return file
-        return None
+        """One of the files that the shapes consist of, or consisted of a moment ago."""
+        return self._files.get(name) or self._replaced.get(name)
+
+    def owners(self, file: str) -> int:
+        """How often the shapes use a file."""
+        return self._owners[file]
 
     def put(self, shape: Shape) -> None:
         """Publish a shape, in the place of the one of its name."""
         self._notes.pop(shape.name, None)
+        for file in shape.files:
+            self._files[file.name] = file
+            self._owners[file.name] += 1
+            self._replaced.pop(file.name, None)
+        before = self._shapes.get(shape.name)
         self._shapes[shape.name] = shape
+        self._release(before)
         self._tell(Event("shape", {"name": shape.name, "version": shape.version}))
+
+    def remove(self, name: str) -> None:
+        """Take a shape away, if there is one of that name."""
+        shape = self._shapes.pop(name, None)
+        self._notes.pop(name, None)
+        if shape is not None:
+            self._release(shape)
+            self._tell(Event("gone", {"name": name}))
 
     def refuse(self, name: str, message: str) -> None:
         """Tell everyone why an update is not published; the last good shape stays."""
         self._notes[name] = message
         self._tell(Event("note", {"name": name, "message": message}))
 
-    def _tell(self, event: Event) -> None:
-        for queue in self._waiting:
-            queue.put_nowait(event)
+    def close(self) -> None:
+        """End the streams of all who wait, now and from now on."""
+        self._closed = True
+        for listener in self._listeners:
+            listener.close()
 
-    @asynccontextmanager
-    async def events(self) -> AsyncIterator[asyncio.Queue[Event]]:
-        """Queue of what happens from now on."""
-        queue: asyncio.Queue[Event] = asyncio.Queue()
-        self._waiting.add(queue)
+    def _release(self, shape: Shape | None) -> None:
+        """Keep files that no shape uses any more for a while."""
+        for file in () if shape is None else shape.files:
+            self._owners[file.name] -= 1
+            if not self._owners[file.name]:
+                del self._owners[file.name]
+                self._replaced[file.name] = self._files.pop(file.name)
+        size = sum(len(file.data) for file in self._replaced.values())
+        while size > REPLACED_BYTES:
+            size -= len(self._replaced.popitem(last=False)[1].data)
+
+    def _tell(self, event: Event) -> None:
+        for listener in self._listeners:
+            listener.tell(event)
+
+    @contextmanager
+    def events(self) -> Iterator[Listener]:
+        """Listen to what happens from now on."""
+        listener = Listener()
+        self._listeners.add(listener)
+        if self._closed:
+            listener.close()
         try:
-            yield queue
+            yield listener
         finally:
-            self._waiting.discard(queue)
+            self._listeners.discard(listener)

@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 from vexture.bezier.bounds import bounds
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
-from vexture.sources.svg_document import parse_svg, read_bytes
+from vexture.sources.svg_document import decompressed, parse_svg, read_bytes
 from vexture.sources.svg_report import Report
 from vexture.sources.svg_scene import Scene
 from vexture.sources.svg_select import chosen, nothing_painted
 from vexture.sources.svg_values import Viewport
 from vexture.sources.svg_viewport import THINNEST, Rectangle, view_box
 
-__all__ = ["read_svg"]
+__all__ = ["read_svg", "svg_drawing"]
 
 
 def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing:
@@ -71,19 +71,55 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
            [1. , 0.5],
            [0. , 0.5]])
     """
-    report = Report(os.fspath(path))
     try:
-        root = parse_svg(read_bytes(path))
+        content = read_bytes(path)
+    except SourceError as error:
+        raise SourceError(f"{os.fspath(path)}: {error}") from None
+    drawing, report = _read(content, os.fspath(path), select)
+    report.warn(stacklevel=2)
+    return drawing
+
+
+def svg_drawing(content: bytes, source: str, select: str | None = None) -> Drawing:
+    """Read the content of an SVG file, as `read_svg` does.
+
+    Parameters
+    ----------
+    content : bytes
+        Plain or gzipped.
+    source : str
+        Name of the file: it is nowhere opened, but names the drawing and stands in messages.
+    select : str, optional
+        As for `read_svg`.
+
+    Examples
+    --------
+    >>> svg_drawing(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "half.svg").name
+    'half'
+    """
+    try:
+        plain = decompressed(content)
+    except SourceError as error:
+        raise SourceError(f"{source}: {error}") from None
+    drawing, report = _read(plain, source, select)
+    report.warn(stacklevel=2)
+    return drawing
+
+
+def _read(content: bytes, source: str, select: str | None) -> tuple[Drawing, Report]:
+    """Drawing of an SVG document, and what could not be honoured."""
+    report = Report(source)
+    try:
+        root = parse_svg(content)
         part = None if select is None else chosen(root, select)
-        drawing = drawing_of(Scene(root, report, part), Path(path).stem)
+        drawing = drawing_of(Scene(root, report, part), Path(source).stem)
         if select is not None and part is not None and not drawing.paths:
             raise nothing_painted(select, len(part))
     except (SourceError, LimitError) as error:
-        raise type(error)(f"{os.fspath(path)}: {error}") from None
+        raise type(error)(f"{source}: {error}") from None
     except RecursionError:  # tinycss2 and cssselect2 follow nested brackets by calling themselves
-        raise SourceError(f"{os.fspath(path)}: its style sheet nests brackets too deeply; simplify it") from None
-    report.warn(stacklevel=2)
-    return drawing
+        raise SourceError(f"{source}: its style sheet nests brackets too deeply; simplify it") from None
+    return drawing, report
 
 
 def drawing_of(scene: Scene, name: str) -> Drawing:

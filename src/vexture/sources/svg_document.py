@@ -8,7 +8,7 @@ from lxml import etree
 
 from vexture.errors import SourceError
 
-__all__ = ["SVG", "local_name", "parse_svg", "read_bytes"]
+__all__ = ["SVG", "decompressed", "local_name", "parse_svg", "read_bytes"]
 
 SVG = "http://www.w3.org/2000/svg"
 
@@ -32,6 +32,23 @@ def read_bytes(path: str | os.PathLike[str]) -> bytes:
     except (OSError, ValueError) as error:  # ValueError: a null character in the name
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise SourceError(f"cannot be read: {reason}; check the file's name and permissions") from None
+    return decompressed(content)
+
+
+def decompressed(content: bytes) -> bytes:
+    """Content of a file that may be gzip, as it is or decompressed.
+
+    Raises
+    ------
+    SourceError
+        If the data is damaged or too large.
+
+    Examples
+    --------
+    >>> import gzip
+    >>> decompressed(gzip.compress(b"<svg/>")), decompressed(b"<svg/>")
+    (b'<svg/>', b'<svg/>')
+    """
     if content.startswith(GZIP):
         stream = zlib.decompressobj(wbits=zlib.MAX_WBITS | 16)
         try:

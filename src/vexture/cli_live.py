@@ -1,0 +1,58 @@
+"""The command line of servers: arguments and messages only."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from vexture.live.limits import Limits
+from vexture.messages import one_line, with_servers
+
+__all__ = ["push", "serve"]
+
+DEFAULTS = Limits()
+PATH: Any = click.Path(path_type=Path)
+
+
+@click.command()
+@click.argument("folder", metavar="DIR", type=PATH)
+@click.option("--token-file", metavar="F", type=PATH, help="File with the token of those who may publish; else nobody.")
+@click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen on.")
+@click.option("--port", type=int, default=8000, show_default=True, help="Port to listen on; 0 takes any.")
+@click.option("--max-bytes", type=int, default=DEFAULTS.body_bytes, show_default=True, help="Largest upload.")
+@click.option("--max-total", type=int, default=DEFAULTS.total_bytes, show_default=True, help="Bytes of all shapes.")
+@click.option("--max-shapes", type=int, default=DEFAULTS.shapes, show_default=True, help="Number of shapes.")
+@click.option("--rate", type=float, default=DEFAULTS.rate, show_default=True, help="Uploads a second from one address.")
+def serve(
+    folder: Path,
+    token_file: Path | None,
+    host: str,
+    port: int,
+    max_bytes: int,
+    max_total: int,
+    max_shapes: int,
+    rate: float,
+) -> None:
+    """Serve the shapes of a folder, and take new ones from those who have the token."""
+    with one_line(), with_servers("serve"):
+        from vexture.live.serve import serve as run
+
+        limits = Limits(body_bytes=max_bytes, total_bytes=max_total, shapes=max_shapes, rate=rate)
+        run(folder, token_file, host, port, limits, click.echo)
+
+
+@click.command()
+@click.argument("file", metavar="FILE", type=PATH)
+@click.argument("url", metavar="URL")
+@click.option("--token-file", metavar="F", type=PATH, required=True, help="File with the token of the server.")
+def push(file: Path, url: str, token_file: Path) -> None:
+    """Publish an SVG, GeoJSON or a packed texture on a server (vexture serve).
+
+    URL is that of the server, or SERVER/shapes/NAME; the name is otherwise the file's.
+    """
+    with one_line():
+        from vexture.live.push import push as send
+        from vexture.live.tokens import read_token
+
+        manifest = send(file, url, read_token(token_file))
+        click.echo(f"{manifest['name']}: {manifest['url']}, {manifest['bytes']} bytes, version {manifest['version']}")

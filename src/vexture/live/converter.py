@@ -1,0 +1,163 @@
+"""Conversion in a process of its own: a drawing that takes too long or too much memory cannot harm the server."""
+
+import asyncio
+import multiprocessing
+import os
+import resource
+import signal
+import threading
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from multiprocessing.connection import wait
+from typing import Final
+
+from vexture.errors import LimitError, VextureError
+from vexture.live.limits import Limits
+from vexture.live.shelf import Shape
+
+__all__ = ["BusyError", "Converter"]
+
+MEMORY_BYTES: Final = 4 * 2**30
+"""Address space of the process."""
+
+
+class BusyError(VextureError):
+    """Too many conversions wait: try again later."""
+
+
+class Converter:
+    """Converts one upload after the other.
+
+    Parameters
+    ----------
+    limits : Limits
+        Its ``conversion_seconds``, ``texture_bytes`` and ``conversions`` are kept to.
+    """
+
+    def __init__(self, limits: Limits) -> None:
+        self._limits = limits
+        self._waiting = 0
+        self._turn = asyncio.Lock()
+        self._pool: ProcessPoolExecutor | None = None
+        self._ended = False
+
+    async def warm(self) -> None:
+        """Start the process, which only the first conversion would wait for."""
+        async with self._turn:
+            await asyncio.get_running_loop().run_in_executor(self._running(), _nothing)
+
+    @contextmanager
+    def place(self) -> Iterator[None]:
+        """Take a place for an upload that is on its way.
+
+        Raises
+        ------
+        BusyError
+            If there is none.
+        """
+        if self._waiting >= self._limits.conversions:
+            raise BusyError(f"{self._waiting} drawings wait to be converted already; try again in a few seconds")
+        self._waiting += 1
+        try:
+            yield
+        finally:
+            self._waiting -= 1
+
+    async def shape_of(self, data: bytes, name: str) -> Shape:
+        """Shape of an upload; its content says what kind it is.
+
+        Raises
+        ------
+        BusyError
+            If the server stops.
+        VextureError
+            If it is no drawing and no texture, or exceeds a limit.
+        """
+        async with self._turn:
+            try:
+                return await self._converted(data, name)
+            except LimitError:
+                if self._ended:
+                    raise BusyError("the server stops; try again later") from None
+                raise
+
+    async def _converted(self, data: bytes, name: str) -> Shape:
+        seconds = self._limits.conversion_seconds
+        loop = asyncio.get_running_loop()
+        work = loop.run_in_executor(self._running(), _convert, data, name, self._limits.texture_bytes)
+        try:
+            async with asyncio.timeout(seconds):
+                return await work
+        except TimeoutError:
+            self._kill()
+            raise LimitError(f"{name}: its conversion takes longer than {seconds:g} s; simplify the drawing") from None
+        except (BrokenProcessPool, MemoryError):
+            self._kill()
+            raise LimitError(f"{name}: its conversion needs too much memory; simplify the drawing") from None
+        except asyncio.CancelledError:
+            self._kill()
+            raise
+
+    def _running(self) -> ProcessPoolExecutor:
+        if self._ended:
+            raise BusyError("the server stops; try again later")
+        if self._pool is None:
+            clean = multiprocessing.get_context("spawn")  # nothing of the server, its sockets above all, goes along
+            self._pool = ProcessPoolExecutor(1, clean, _prepare)
+        return self._pool
+
+    def close(self) -> None:
+        """End it for ever, whatever it does."""
+        self._ended = True
+        self._kill()
+
+    def _kill(self) -> None:
+        pool, self._pool = self._pool, None
+        if pool is not None:
+            for process in list(pool._processes.values()):  # before Python 3.14 there is no kill_workers
+                process.kill()
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _prepare() -> None:
+    """Set up the process: it ends with the server, never by its own Ctrl-C, and takes no more than its memory."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, resource.getrlimit(resource.RLIMIT_AS)[1]))
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    sentinel = parent.sentinel
+
+    def end_with_the_server() -> None:
+        wait([sentinel])
+        os._exit(1)
+
+    threading.Thread(target=end_with_the_server, daemon=True).start()
+
+
+def _nothing() -> None:
+    """Compile or load what a conversion needs."""
+    from vexture.live.documents import VIEWER_SETTINGS, shape_of
+
+    shape_of(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "warm.svg", "warm", VIEWER_SETTINGS)
+
+
+def _convert(data: bytes, name: str, most: int) -> Shape:
+    """Convert an upload, in the process."""
+    from vexture.encoding.ktx2 import MAGIC, TEXEL_BYTES
+    from vexture.encoding.packed_texture import packed_from
+    from vexture.live.documents import VIEWER_SETTINGS, shape_of
+    from vexture.sources.reading import is_geojson
+
+    if not data.strip():
+        raise LimitError(f"{name}: the upload is empty; send an SVG, GeoJSON or a packed texture")
+    suffix = ".ktx2" if data.startswith(MAGIC) else ".geojson" if is_geojson(data, "") else ".svg"
+    shape = shape_of(data, name + suffix, name, VIEWER_SETTINGS)
+    size = packed_from(shape.texture.data, name).nbytes
+    if size > most:
+        raise LimitError(
+            f"{name}: its texture has {size // TEXEL_BYTES} texels; the limit is {most // TEXEL_BYTES}; simplify it"
+        )
+    return shape

@@ -1,0 +1,233 @@
+"""From the content of a file, whatever kind it is, to a shape that is published."""
+
+import threading
+import time
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import cache
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any
+
+from vexture.errors import LimitError, SourceError, SourceWarning
+from vexture.live.shelf import TEXTURE_TYPE, File, Shape
+from vexture.settings import Settings
+from vexture.sources.reading import is_geojson
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from vexture.drawing import Drawing
+
+__all__ = ["SVG_TYPE", "THESIS_BITS", "VIEWER_SETTINGS", "shape_of", "thesis_pair"]
+
+SVG_TYPE = "image/svg+xml"
+
+VIEW_PRECISION = 1e-7
+"""Unit-square units. At 10,000x a window of 1000 pixels shows 1e-4 of the square: the outline is within a pixel."""
+
+VIEWER_SETTINGS = Settings(split="paint", precision=VIEW_PRECISION)
+"""How the viewer converts: in its colours, and good for the deepest zoom."""
+
+THESIS_BITS = {"thesis16": 16, "thesis8": 8}
+"""Bits per channel of each view in the thesis encoding."""
+
+ANONYMOUS_WINDOW = (300.0, 150.0)
+"""Pixels: how large browsers show an SVG that says no size (CSS 2.1, 10.3.2)."""
+
+SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
+<path fill="red" d="M2 2C9 2 2 9 7 7S1 6 2 2zM-1 4A3 3 0 0 1 5 4z"/></svg>"""
+"""Of everything a little: corners, curves, crossings, two colours, something outside."""
+
+PNG_SUFFIX = ".png"
+
+ONE_AT_A_TIME = threading.Lock()
+"""Warnings are caught for the whole process, so one thread at a time may do it."""
+
+
+def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shape:
+    """Convert the content of a file into a shape that can be published.
+
+    Parameters
+    ----------
+    data : bytes
+        An SVG, plain or gzipped; GeoJSON; or a packed texture, which is checked and published as it is.
+    file_name : str
+        What the file is called: its suffix says what it is, messages name it. It is nowhere opened.
+    name : str
+        Name of the shape, and of its drawing: its layers are ``NAME/...``.
+    settings : Settings
+        How a drawing is converted; for a texture it means nothing.
+
+    Returns
+    -------
+    Shape
+        With what could not be honoured as text in its facts, and for an SVG with the source to compare with.
+
+    Raises
+    ------
+    VextureError
+        If it is no drawing and no texture, or exceeds a limit.
+
+    Examples
+    --------
+    >>> shape = shape_of(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "half.svg", "half", Settings())
+    >>> shape.facts["segments"], shape.facts["box"]
+    (4, [0.0, 0.0, 1.0, 1.0])
+    """
+    from vexture.encoding.ktx2 import MAGIC
+    from vexture.encoding.layout import PACKED_SUFFIX
+
+    suffix = PurePath(file_name).suffix.lower()
+    if data.startswith(MAGIC) or suffix == PACKED_SUFFIX:
+        return _texture(data, file_name, name)
+    if suffix == PNG_SUFFIX:
+        raise SourceError(
+            f"{file_name}: pictures and textures of the encoding thesis are not shown by themselves; "
+            "give the drawing, with which the viewer compares them"
+        )
+    with ONE_AT_A_TIME, _collected() as said:
+        _warm()
+        start = time.perf_counter()
+        drawing = replace(_read(data, file_name, settings), name=name)
+        shape = _converted(drawing, file_name, replace(settings, select=None), start)
+    facts = {**shape.facts, "warnings": said}
+    views = {}
+    if not is_geojson(data, file_name):
+        from vexture.sources.svg_document import decompressed
+
+        plain = decompressed(data)
+        views["svg"] = File(plain, SVG_TYPE, ".svg")
+        facts["box"] = _box_in_browsers(plain, drawing.to_source)
+    return replace(shape, facts=facts, views=views)
+
+
+def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, bytes]:
+    """Convert a shape's source in the thesis encoding: both files, quads and curves.
+
+    The source is converted again each time; who serves it keeps it.
+
+    Parameters
+    ----------
+    shape : Shape
+        One with a source: ``views["svg"]``.
+    bits : int
+        Bits per channel, 8 or 16.
+
+    Raises
+    ------
+    VextureError
+        If there is no source, or it does not fit into so many bits.
+    """
+    from vexture.encoding import ThesisTexture
+    from vexture.pipeline import convert
+
+    source = shape.views.get("svg")
+    if source is None:
+        raise SourceError(f"{shape.name}: a texture without its drawing cannot be compared; publish the drawing")
+    with ONE_AT_A_TIME, _collected():
+        drawing = replace(_read(source.data, f"{shape.name}.svg", Settings()), name=shape.name)
+        texture = convert(drawing, encoding="thesis", bits=bits)
+    assert isinstance(texture, ThesisTexture)
+    return texture.to_png()
+
+
+@contextmanager
+def _collected() -> Iterator[list[str]]:
+    """List of the texts of warnings about sources."""
+    texts: list[str] = []
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", SourceWarning)
+        yield texts
+    texts += [str(warning.message) for warning in caught if issubclass(warning.category, SourceWarning)]
+
+
+@cache
+def _warm() -> None:
+    """Load the kernels, which only the first conversion of a process waits for: it is no part of any file's time."""
+    from vexture.pipeline import convert
+    from vexture.sources.svg import svg_drawing
+
+    convert(svg_drawing(SMALL, "small.svg"), split="paint", precision=VIEW_PRECISION)
+
+
+def _read(data: bytes, file_name: str, settings: Settings) -> "Drawing":
+    if is_geojson(data, file_name):
+        from vexture.sources.geojson import read_geojson
+
+        if settings.select is not None:
+            raise LimitError(f"{file_name}: select={settings.select!r} chooses elements of an SVG; leave it out")
+        try:
+            return read_geojson(data)
+        except (SourceError, LimitError) as error:
+            raise type(error)(f"{file_name}: {error}") from None
+    from vexture.sources.svg import svg_drawing
+
+    return svg_drawing(data, file_name, settings.select)
+
+
+def _converted(drawing: "Drawing", file_name: str, settings: Settings, start: float) -> Shape:
+    """Shape of a drawing, with the facts of its conversion."""
+    from vexture.pipeline import join, shapes_of
+    from vexture.quadtree.build_packed import largest_shift
+
+    part = shapes_of(drawing, settings)
+    texture = join([part], drawing.name, PurePath(file_name).name)
+    milliseconds = 1000.0 * (time.perf_counter() - start)
+    data = texture.to_ktx2()
+    facts = {
+        "segments": drawing.segments,
+        "layers": len(part.trees),
+        "quads": sum(len(tree.count) for tree in part.trees),
+        "curves": sum(len(tree.curves) for tree in part.trees),
+        "bytes": len(data),
+        "milliseconds": round(milliseconds, 2),
+        "distance": max(tree.deviation for tree in part.trees) + largest_shift(settings.precision),
+        "to_source": drawing.to_source.ravel().tolist(),
+        "box": None,
+    }
+    return Shape(drawing.name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
+
+
+def _texture(data: bytes, file_name: str, name: str) -> Shape:
+    """Shape of a texture that is there already: what it does not say is None."""
+    from vexture.encoding import info
+    from vexture.encoding.packed_texture import packed_from
+
+    texture = packed_from(data, file_name)
+    roots: list[dict[str, Any]] = info(texture)["roots"]
+    facts = {
+        "segments": None,
+        "layers": len(roots),
+        "quads": sum(root["quads"] for root in roots),
+        "curves": sum(root["curves"] for root in roots),
+        "bytes": len(data),
+        "milliseconds": None,
+        "distance": max(root["tolerance"] for root in roots),
+        "to_source": texture.roots[0].to_source.ravel().tolist(),
+        "box": None,
+        "warnings": [],
+    }
+    return Shape(name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
+
+
+def _box_in_browsers(content: bytes, to_source: "NDArray[np.float64]") -> list[float]:
+    """Where in the unit square a browser's picture of an SVG stands: x0, y0, x1, y1."""
+    import numpy as np
+
+    from vexture.sources.svg import frame
+    from vexture.sources.svg_document import parse_svg
+    from vexture.sources.svg_report import Report
+    from vexture.sources.svg_scene import Scene
+
+    framed = frame(Scene(parse_svg(content), Report("")))
+    size, matrix = ANONYMOUS_WINDOW, np.eye(2, 3)
+    if framed is not None:
+        size, _, (a, b, c, d, e, f) = framed
+        matrix = np.array([[a, c, e], [b, d, f]])
+    to_pixels = matrix[:, :2] @ to_source + np.array([[0.0, 0.0, matrix[0, 2]], [0.0, 0.0, matrix[1, 2]]])
+    corners = np.array([(0.0, size[1]), (size[0], 0.0)])
+    places = np.linalg.solve(to_pixels[:, :2], (corners - to_pixels[:, 2]).T).T
+    return [float(number) + 0.0 for number in places.ravel()]  # no -0.0

@@ -1,0 +1,235 @@
+"""Shapes that outlive their server: every file is complete or not there, whenever the machine stops."""
+
+import asyncio
+import fcntl
+import json
+import os
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import IO, Final
+
+from vexture.errors import DeviceError, LimitError, VextureError
+from vexture.live.converter import Converter
+from vexture.live.limits import Limits
+from vexture.live.names import checked_name, manifest_name
+from vexture.live.shelf import File, Shape, Shelf
+
+__all__ = ["Folder", "FullError"]
+
+STATE: Final = ".vexture"
+TEMPORARY: Final = ".tmp"
+DRAWINGS: Final = (".svg", ".svgz", ".geojson", ".ktx2")
+
+Say = Callable[[str], None]
+
+
+class FullError(LimitError):
+    """There is no room for a shape: remove others or raise the limit."""
+
+
+class Folder(Shelf):
+    """The shapes of a folder.
+
+    What is published is kept in ``.vexture`` inside it: ``files/DIGEST.ext``, named after their content, and
+    ``shapes/DIGEST.json`` for each shape, named after its name. A manifest is written after the files that it names;
+    each is written under a temporary name, brought to the disk and then renamed. So at any moment the folder holds the
+    last state that was complete, and what `publish` has returned from is there after a crash.
+
+    Drawings and textures that people put beside ``.vexture`` (``NAME.svg``, ``.svgz``, ``.geojson``, ``.ktx2``) are
+    converted at each start (`take_drawings`) and served under their names, unless a shape of that name was published;
+    they are never written to.
+
+    Parameters
+    ----------
+    path : path
+        Made if it is not there.
+    limits : Limits
+        Its ``shapes`` and ``total_bytes`` are kept to.
+    say : callable
+        Takes one line about each thing that is damaged or not served.
+
+    Raises
+    ------
+    DeviceError
+        If it cannot be written to, or another server has it.
+    """
+
+    def __init__(self, path: Path, limits: Limits, say: Say) -> None:
+        super().__init__()
+        self._path, self._limits, self._say = path, limits, say
+        self._shapes_folder, self._files_folder = path / STATE / "shapes", path / STATE / "files"
+        self._turn = asyncio.Lock()
+        try:
+            for folder in (self._shapes_folder, self._files_folder):
+                folder.mkdir(parents=True, exist_ok=True)
+            self._lock = _locked(path / STATE / "lock")
+            self._load()
+        except OSError as error:
+            raise DeviceError(f"{path}: cannot be used ({error.strerror}); choose another folder") from None
+
+    def release(self) -> None:
+        """Let another server have the folder."""
+        self._lock.close()
+
+    async def publish(self, shape: Shape) -> None:
+        """Keep a shape and tell everyone of it.
+
+        Raises
+        ------
+        FullError
+            If there are too many shapes, or too many bytes.
+        DeviceError
+            If the disk refuses; what was there stays.
+        """
+        async with self._turn:
+            self._make_sure_of_room(shape)
+            fresh = [file for file in shape.files if not self.owners(file.name)]
+            before = self.shape(shape.name)
+            try:
+                await asyncio.to_thread(self._write, shape, fresh)
+            except OSError as error:
+                raise DeviceError(f"{shape.name}: cannot be kept ({error.strerror}); make room on the disk") from None
+            self.put(shape)
+            stale = [file.name for file in (before.files if before else ()) if not self.owners(file.name)]
+            await asyncio.to_thread(self._remove, stale)
+
+    async def take_drawings(self, converter: Converter) -> None:
+        """Serve the drawings and textures that people have put into the folder."""
+        for path in sorted(self._path.iterdir()):
+            if path.suffix.lower() not in DRAWINGS or path.name.startswith(".") or not path.is_file():
+                continue
+            try:
+                await self._take(path, converter)
+            except VextureError as error:
+                self._say(f"{path.name} is not served: {error}")
+            except OSError as error:
+                self._say(f"{path.name} is not served: it cannot be read ({error.strerror}); check its permissions")
+
+    async def _take(self, path: Path, converter: Converter) -> None:
+        name = checked_name(path.stem)
+        taken = f"{path.name} is not served: another shape {name!r} is; remove one of the two"
+        if self.shape(name) is not None:
+            self._say(taken)
+            return
+        with path.open("rb") as file:
+            data = file.read(self._limits.body_bytes + 1)
+        if len(data) > self._limits.body_bytes:
+            raise LimitError(f"it is larger than {self._limits.body_bytes} bytes; raise --max-bytes")
+        shape = await converter.shape_of(data, name)
+        async with self._turn:
+            if self.shape(name) is not None:  # published while it was converted
+                self._say(taken)
+                return
+            self._make_sure_of_room(shape)
+            self.put(shape)
+
+    def _make_sure_of_room(self, shape: Shape) -> None:
+        before = self.shape(shape.name)
+        if before is None and len(self.names) >= self._limits.shapes:
+            raise FullError(f"{shape.name}: there are {len(self.names)} shapes, the limit; replace one of them")
+        new = {file.name: len(file.data) for file in shape.files}
+        old = {file.name: len(file.data) for file in (before.files if before else ()) if self.owners(file.name) == 1}
+        size = self.nbytes - sum(old[name] for name in old.keys() - new.keys())
+        size += sum(new[name] for name in new if not self.owners(name))
+        if size > self._limits.total_bytes:
+            raise FullError(f"{shape.name}: all shapes then have {size} bytes; the limit is {self._limits.total_bytes}")
+
+    def _write(self, shape: Shape, fresh: list[File]) -> None:
+        """Bring a shape to the disk: first its files, then what names them."""
+        for file in fresh:
+            _write_whole(self._files_folder / file.name, file.data)
+        if fresh:
+            _bring_to_disk(self._files_folder)
+        record = {
+            "name": shape.name,
+            "texture": _entry(shape.texture),
+            "views": {what: _entry(file) for what, file in shape.views.items()},
+            "facts": dict(shape.facts),
+        }
+        _write_whole(self._shapes_folder / manifest_name(shape.name), json.dumps(record).encode())
+        _bring_to_disk(self._shapes_folder)
+
+    def _remove(self, names: list[str]) -> None:
+        for name in names:
+            with suppress(OSError):
+                (self._files_folder / name).unlink()
+
+    def _load(self) -> None:
+        """Read all shapes, and remove what a crash has left."""
+        whole = True
+        for path in sorted(self._shapes_folder.iterdir()):
+            if path.name.endswith(TEMPORARY):
+                path.unlink()
+                continue
+            try:
+                self.put(self._read(path))
+            except (OSError, ValueError, KeyError, TypeError, AttributeError, LimitError, RecursionError) as error:
+                whole = False
+                self._say(f"{path}: damaged ({_reason(error)}); the others are served; publish its shape again")
+        for path in self._files_folder.iterdir():
+            # whoever mends a damaged manifest by hand needs the files that it names
+            if path.name.endswith(TEMPORARY) or (whole and not self.owners(path.name)):
+                path.unlink()
+
+    def _read(self, path: Path) -> Shape:
+        record = json.loads(path.read_bytes())
+        name = checked_name(record["name"])
+        if path.name != manifest_name(name):
+            raise ValueError(f"it names the shape {name!r}, which is kept elsewhere")
+        views = {str(what): self._file(entry) for what, entry in record["views"].items()}
+        return Shape(name, self._file(record["texture"]), dict(record["facts"]), views)
+
+    def _file(self, entry: dict[str, str]) -> File:
+        name, media_type = entry["file"], entry["type"]
+        if Path(name).name != name:
+            raise ValueError(f"{name!r} is no name of a file")
+        file = File((self._files_folder / name).read_bytes(), media_type, "".join(Path(name).suffixes))
+        if file.name != name:
+            raise ValueError(f"{name} is not what was written")
+        return file
+
+
+def _entry(file: File) -> dict[str, str]:
+    return {"file": file.name, "type": file.media_type}
+
+
+def _reason(error: Exception) -> str:
+    """What is wrong with a manifest, in a few words."""
+    if isinstance(error, OSError):
+        return f"{Path(error.filename or '').name}: {error.strerror}"
+    return f"it has no {error}" if isinstance(error, KeyError) else " ".join(str(error).split())[:200]
+
+
+def _locked(path: Path) -> IO[bytes]:
+    """Open a file that one process at a time may have."""
+    file = path.open("ab")
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        file.close()
+        raise DeviceError(f"{path.parent.parent}: another server has this folder; stop it or choose another") from None
+    return file
+
+
+def _write_whole(path: Path, data: bytes) -> None:
+    """Write a file so that its name never stands for a part of it."""
+    partial = path.with_name(path.name + TEMPORARY)
+    try:
+        with partial.open("wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        partial.replace(path)
+    except BaseException:
+        partial.unlink(missing_ok=True)
+        raise
+
+
+def _bring_to_disk(folder: Path) -> None:
+    """Make sure that renames in a folder survive a loss of power."""
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)

@@ -1,0 +1,58 @@
+"""Names of shapes: what they may be made of, and what they are on disk."""
+
+import hashlib
+import unicodedata
+from typing import Final
+
+from vexture.errors import LimitError
+
+__all__ = ["checked_name", "manifest_name"]
+
+MOST_BYTES: Final = 100
+OTHERS: Final = frozenset(" ._-")
+CATEGORIES: Final = ("L", "M", "N")
+"""Of Unicode: letters, their marks, and digits."""
+
+
+def checked_name(name: str) -> str:
+    """Name of a shape in its one form (Unicode's NFC).
+
+    Raises
+    ------
+    LimitError
+        If it holds anything but letters, digits, spaces and ``._-``, starts with a dot, starts or ends with a space,
+        or is longer than 100 bytes.
+
+    Examples
+    --------
+    >>> checked_name("kaart van Delft")
+    'kaart van Delft'
+    >>> checked_name("../etc/passwd")
+    Traceback (most recent call last):
+    vexture.errors.LimitError: name '../etc/passwd': it must not start with a dot; choose another name
+    """
+    normal = unicodedata.normalize("NFC", name[: 4 * MOST_BYTES])
+    shown = ascii(name if len(name) <= MOST_BYTES else name[:MOST_BYTES] + "...")
+    if not normal:
+        raise LimitError("the name is empty; choose one of letters and digits")
+    if len(normal.encode(errors="replace")) > MOST_BYTES or len(name) > 4 * MOST_BYTES:
+        raise LimitError(f"name {shown}: it is longer than {MOST_BYTES} bytes; choose a shorter one")
+    if normal[0] == ".":
+        raise LimitError(f"name {shown}: it must not start with a dot; choose another name")
+    if normal != normal.strip(" "):
+        raise LimitError(f"name {shown}: it must not start or end with a space; choose another name")
+    for letter in normal:
+        if letter not in OTHERS and unicodedata.category(letter)[0] not in CATEGORIES:
+            raise LimitError(f"name {shown}: {letter!a} is not a letter, a digit, a space or one of '._-'")
+    return normal
+
+
+def manifest_name(name: str) -> str:
+    """Name of the file that says what a shape is: the same on every file system, whatever the shape's name.
+
+    Examples
+    --------
+    >>> manifest_name("duck")
+    '2d2370db2447ff8cf4f3accd68c85aa1.json'
+    """
+    return hashlib.sha256(name.encode()).hexdigest()[:32] + ".json"

@@ -1,0 +1,170 @@
+"""Publishing: who may, how much and how often, and what each refusal says."""
+
+import asyncio
+import hmac
+from collections.abc import AsyncIterator
+from contextlib import ExitStack, asynccontextmanager, suppress
+from math import ceil
+from typing import Final
+
+from starlette.applications import Starlette
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import JSONResponse, Response
+from starlette.routing import BaseRoute, Route
+
+from vexture.errors import DeviceError, LimitError, VextureError
+from vexture.live.converter import BusyError, Converter
+from vexture.live.folder import Folder, FullError
+from vexture.live.limits import Limits, Pace
+from vexture.live.manifest import manifest
+from vexture.live.names import checked_name
+from vexture.live.routes import entity_tag, refusal
+
+__all__ = ["publishing_routes", "working"]
+
+DRAINED: Final = 4
+"""Of a body that is refused, this many times the limit is read, so that the client gets to see why."""
+
+CHALLENGE: Final = {"WWW-Authenticate": 'Bearer realm="vexture"'}
+WRONG: Final = {"WWW-Authenticate": 'Bearer realm="vexture", error="invalid_token"'}
+SOON: Final = {"Retry-After": "5"}
+
+
+class _RefusedError(Exception):
+    """An upload that is answered with one line."""
+
+    def __init__(self, status: int, line: str, headers: dict[str, str] | None = None) -> None:
+        super().__init__(line)
+        self.status, self.line, self.headers = status, line, headers
+
+
+def publishing_routes(folder: Folder, converter: Converter, limits: Limits, token: str | None) -> list[BaseRoute]:
+    """Routes to publish shapes in a folder.
+
+    Parameters
+    ----------
+    folder : Folder
+    converter : Converter
+    limits : Limits
+    token : str or None
+        What who publishes must know; without one nobody can.
+    """
+    pace = Pace(limits.rate, limits.burst)
+
+    def admitted(request: Request) -> str:
+        _check_token(request, token)
+        name = _name_of(request)
+        if wait := pace.wait(request.client.host if request.client else ""):
+            line = f"more than {limits.rate:g} uploads a second; wait {wait:.1f} s"
+            raise _RefusedError(429, line, {"Retry-After": str(ceil(wait))})
+        return name
+
+    async def put(request: Request) -> Response:
+        with ExitStack() as stack:
+            try:
+                name = admitted(request)
+                stack.enter_context(converter.place())
+            except (_RefusedError, BusyError) as error:
+                with suppress(TimeoutError, ClientDisconnect):
+                    await _received(request, limits, 0)
+                return _answer(error)
+            try:
+                return await published(name, await _body(request, limits))
+            except (_RefusedError, BusyError) as error:
+                return _answer(error)
+
+    async def published(name: str, data: bytes) -> Response:
+        try:
+            shape = await converter.shape_of(data, name)
+        except BusyError:
+            raise
+        except VextureError as error:
+            if folder.shape(name) is not None:
+                folder.refuse(name, str(error))
+            return refusal(422, str(error))
+        is_new = folder.shape(name) is None
+        try:
+            await folder.publish(shape)
+        except (FullError, DeviceError) as error:
+            return refusal(507, str(error))
+        headers = {"ETag": entity_tag(shape.version, None), "Cache-Control": "no-store"}
+        return JSONResponse(manifest(shape, None, {}), 201 if is_new else 200, headers)
+
+    return [Route("/shapes/{name:path}", put, methods=["PUT"])]
+
+
+def _answer(error: _RefusedError | BusyError) -> Response:
+    if isinstance(error, BusyError):
+        return refusal(503, str(error), SOON)
+    return refusal(error.status, error.line, error.headers)
+
+
+def _check_token(request: Request, token: str | None) -> None:
+    if token is None:
+        raise _RefusedError(403, "this server takes no uploads; start it with --token-file")
+    scheme, _, given = request.headers.get("authorization", "").partition(" ")
+    if scheme.lower() != "bearer":
+        raise _RefusedError(401, "uploads need the header Authorization: Bearer TOKEN", CHALLENGE)
+    if not hmac.compare_digest(given.strip().encode(), token.encode()):
+        raise _RefusedError(
+            401, "the token is wrong", {"WWW-Authenticate": CHALLENGE["WWW-Authenticate"] + ', error="invalid_token"'}
+        )
+
+
+def _name_of(request: Request) -> str:
+    try:
+        return checked_name(request.path_params["name"])
+    except LimitError as error:
+        raise _RefusedError(400, str(error)) from None
+
+
+async def _body(request: Request, limits: Limits) -> bytes:
+    """Content of an upload, if it is not too large and comes in time."""
+    most = limits.body_bytes
+    length = request.headers.get("content-length", "0")
+    too_large = int(length[:20]) > most if length.isdecimal() else True
+    try:
+        body, size = await _received(request, limits, 0 if too_large else most)
+    except TimeoutError:
+        raise _RefusedError(408, f"the upload took longer than {limits.body_seconds:g} s; try again") from None
+    except ClientDisconnect:
+        raise _RefusedError(400, "the upload broke off; try again") from None
+    if too_large or size > most:
+        raise _RefusedError(413, f"the upload is larger than {most} bytes, the limit here; simplify the drawing")
+    return body
+
+
+async def _received(request: Request, limits: Limits, kept: int) -> tuple[bytes, int]:
+    """Read a body: what is kept of it, and how long it is as far as it is read.
+
+    What is too large is read on up to a limit: a client that still sends does not see the answer.
+    """
+    body, size = bytearray(), 0
+    async with asyncio.timeout(limits.body_seconds):
+        async for chunk in request.stream():
+            size += len(chunk)
+            if size <= kept:
+                body += chunk
+            elif size > DRAINED * limits.body_bytes:
+                break
+    return bytes(body), size
+
+
+@asynccontextmanager
+async def working(folder: Folder, converter: Converter, app: Starlette) -> AsyncIterator[None]:
+    """Convert what lies in the folder while the server answers already; end with it."""
+
+    async def start() -> None:
+        with suppress(BusyError):
+            await converter.warm()
+            await folder.take_drawings(converter)
+
+    task = asyncio.create_task(start())
+    try:
+        yield
+    finally:
+        converter.close()
+        task.cancel()
+        with suppress(asyncio.CancelledError):
+            await task
+        folder.release()

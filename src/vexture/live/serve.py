@@ -1,0 +1,67 @@
+"""`vexture serve`: the shapes of a folder, for who reads and who publishes."""
+
+from collections.abc import Callable
+from contextlib import closing, suppress
+from functools import partial
+from pathlib import Path
+
+from starlette.routing import BaseRoute
+
+from vexture.errors import DeviceError
+from vexture.live.converter import Converter
+from vexture.live.folder import Folder
+from vexture.live.limits import Limits
+from vexture.live.publishing import publishing_routes, working
+from vexture.live.routes import application, routes
+from vexture.live.serving import address, bind, serve_until_stopped
+from vexture.live.tokens import read_token
+from vexture.live.viewer import page_routes
+
+__all__ = ["serve"]
+
+
+def serve(
+    path: Path, token_file: Path | None, host: str, port: int, limits: Limits, say: Callable[[str], None]
+) -> None:
+    """Serve a folder until Ctrl-C or SIGTERM.
+
+    Parameters
+    ----------
+    path : path
+        The folder.
+    token_file : path or None
+        Holds what who publishes must know; without one nothing can be published.
+    host, port : str, int
+        Where to listen.
+    limits : Limits
+    say : callable
+        Takes one line: first where the server is.
+
+    Raises
+    ------
+    VextureError
+        If it cannot start.
+    """
+    token = None if token_file is None else read_token(token_file)
+    with closing(bind(host, port)) as taken:
+        folder = Folder(path, limits, say)
+        converter = Converter(limits)
+        app = application(
+            [*routes(folder), *publishing_routes(folder, converter, limits, token), *_page()],
+            open_to_all=True,
+            lifespan=partial(working, folder, converter),
+        )
+
+        def stop() -> None:
+            folder.close()
+            converter.close()
+
+        say(f"serving {len(folder.names)} shapes of {path} at {address(taken)}")
+        serve_until_stopped(app, taken, stop)
+
+
+def _page() -> list[BaseRoute]:
+    """Routes of the viewer's page, if it is built."""
+    with suppress(DeviceError):
+        return page_routes()
+    return []

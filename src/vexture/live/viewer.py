@@ -1,0 +1,216 @@
+"""What the viewer's server answers beside its shapes: the page, comparisons with the thesis, files dropped on it."""
+
+import asyncio
+import hashlib
+import ipaddress
+from collections import OrderedDict
+from collections.abc import Collection, Mapping
+from urllib.parse import quote, urlsplit
+
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import JSONResponse, Response
+from starlette.routing import BaseRoute, Route
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from vexture.encoding.layout import CURVES_SUFFIX, QUADS_SUFFIX
+from vexture.errors import VextureError
+from vexture.live.documents import THESIS_BITS, shape_of, thesis_pair
+from vexture.live.manifest import manifest
+from vexture.live.page import PNG_TYPE, SCRIPT, SERVED_POLICY, STYLE, built, served_page
+from vexture.live.routes import FOREVER, refusal
+from vexture.live.shelf import Shape, Shelf
+from vexture.settings import Settings
+
+__all__ = ["KnownHosts", "dropping_routes", "page_routes", "thesis_addresses", "thesis_routes"]
+
+DROPPED_BYTES = 64 * 2**20
+"""How large a file may be that is dropped on the page."""
+
+MOST_DROPPED = 64
+"""Dropped files that are kept; the oldest goes."""
+
+MOST_PAIRS = 32
+"""Thesis encodings that are kept, each a few kilobytes."""
+
+MOST_NAME_LENGTH = 200
+PAIR_SUFFIXES = (QUADS_SUFFIX, CURVES_SUFFIX)
+
+
+class KnownHosts:
+    """Answers only to those who know where they are: by an IP address, ``localhost`` or names of ours.
+
+    A page of a stranger can let a name of its own stand for this machine (DNS rebinding); then it would be of the same
+    origin as the viewer and could read drawings. It cannot be of the same origin as an address.
+
+    Parameters
+    ----------
+    app : ASGI application
+    names : collection of str
+        Further names that this server may be called by.
+    """
+
+    def __init__(self, app: ASGIApp, names: Collection[str] = ()) -> None:
+        self.app = app
+        self.names = {"localhost", *(name.lower() for name in names)}
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass on, or refuse."""
+        if scope["type"] == "http":
+            host = dict(scope["headers"]).get(b"host", b"").decode("latin-1")
+            if not self.knows(host):
+                answer = refusal(421, f"host {host[:100]!r} is not this server; open it by the address that it printed")
+                await answer(scope, receive, send)
+                return
+        await self.app(scope, receive, send)
+
+    def knows(self, host: str) -> bool:
+        """Whether a ``Host`` header means us.
+
+        Examples
+        --------
+        >>> known = KnownHosts(None, ["studio"])
+        >>> [known.knows(host) for host in ("127.0.0.1:80", "[::1]:80", "Studio", "evil.example:80", "")]
+        [True, True, True, False, False]
+        """
+        try:
+            name = urlsplit(f"//{host}").hostname or ""
+        except ValueError:
+            return False
+        if name in self.names:
+            return True
+        try:
+            ipaddress.ip_address(name)
+        except ValueError:
+            return False
+        return True
+
+
+def page_routes() -> list[BaseRoute]:
+    """Routes of the viewer's page, script and style.
+
+    Raises
+    ------
+    DeviceError
+        If it is not built.
+    """
+    common = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff", "Referrer-Policy": "no-referrer"}
+    contents: tuple[tuple[str, bytes, str, dict[str, str]], ...] = (
+        ("/", served_page(), "text/html", {"Content-Security-Policy": SERVED_POLICY}),
+        (f"/{SCRIPT}", built(SCRIPT), "text/javascript", {}),
+        (f"/{STYLE}", built(STYLE), "text/css", {}),
+    )
+    return [_fixed(path, content, kind, {**common, **headers}) for path, content, kind, headers in contents]
+
+
+def _fixed(path: str, content: bytes, media_type: str, headers: Mapping[str, str]) -> Route:
+    """Route of something that never changes while the server runs."""
+    tag = f'"{hashlib.sha256(content).hexdigest()[:32]}"'
+
+    async def answer(request: Request) -> Response:
+        if request.headers.get("if-none-match") == tag:
+            return Response(status_code=304, headers={"ETag": tag, **headers})
+        return Response(content, media_type=media_type, headers={"ETag": tag, **headers})
+
+    return Route(path, answer)
+
+
+def thesis_addresses(shape: Shape) -> dict[str, list[str]]:
+    """Addresses of a shape's thesis encodings, relative to its manifest; none without its drawing.
+
+    Examples
+    --------
+    >>> from vexture.live.shelf import File
+    >>> thesis_addresses(Shape("duck", File(b"", "image/ktx2", ".ktx2")))
+    {}
+    """
+    if "svg" not in shape.views:
+        return {}
+    return {view: [f"../views/{shape.version}/{view}{suffix}" for suffix in PAIR_SUFFIXES] for view in THESIS_BITS}
+
+
+def thesis_routes(shelf: Shelf) -> list[BaseRoute]:
+    """Routes of the thesis encodings of a shelf's shapes, which are made when someone wants to see them."""
+    files = {
+        view + suffix: (bits, place) for view, bits in THESIS_BITS.items() for place, suffix in enumerate(PAIR_SUFFIXES)
+    }
+    pairs: OrderedDict[tuple[str, int], asyncio.Future[tuple[bytes, bytes]]] = OrderedDict()
+
+    async def view(request: Request) -> Response:
+        version, name = request.path_params["version"], request.path_params["name"]
+        shape = next((one for one in map(shelf.shape, shelf.names) if one and one.version == version), None)
+        if shape is None or name not in files:
+            return refusal(404, f"no view {name[:100]!r} of that version; the manifest of its shape names the newest")
+        bits, place = files[name]
+        if (version, bits) not in pairs:
+            pairs[version, bits] = asyncio.ensure_future(asyncio.to_thread(thesis_pair, shape, bits))
+            if len(pairs) > MOST_PAIRS:
+                pairs.popitem(last=False)
+        try:
+            pair = await asyncio.shield(pairs[version, bits])
+        except VextureError as error:
+            return refusal(422, str(error))
+        headers = {"Cache-Control": FOREVER, "X-Content-Type-Options": "nosniff"}
+        return Response(pair[place], media_type=PNG_TYPE, headers=headers)
+
+    return [Route("/views/{version}/{name}", view)]
+
+
+def dropping_routes(shelf: Shelf, settings: Settings, given: Collection[str]) -> list[BaseRoute]:
+    """Route that converts a file dropped on the page, and publishes it.
+
+    Parameters
+    ----------
+    shelf : Shelf
+    settings : Settings
+        How drawings are converted.
+    given : collection of str
+        Names of shapes that stay: a dropped file of such a name gets another one.
+    """
+    dropped: OrderedDict[str, None] = OrderedDict()
+
+    async def convert(request: Request) -> Response:
+        if not _is_ours(request):
+            return refusal(403, "only the viewer's own page may send drawings here")
+        file_name = request.query_params.get("name", "").replace("\\", "/").rpartition("/")[2]
+        if not file_name or len(file_name) > MOST_NAME_LENGTH or not file_name.isprintable():
+            return refusal(422, f"the name of the file must have 1 to {MOST_NAME_LENGTH} characters; rename it")
+        name = file_name.partition(".")[0] or "drawing"
+        while name in given:
+            name += " (dropped)"
+        try:
+            data = await _body(request)
+            if data is None:
+                return refusal(413, f"the file is larger than {DROPPED_BYTES:,} bytes; start `vexture view` with it")
+            shape = await asyncio.to_thread(shape_of, data, file_name, name, settings)
+        except ClientDisconnect:
+            return refusal(400, "the file did not arrive")
+        except VextureError as error:
+            return refusal(422, str(error))
+        shelf.put(shape)
+        dropped[name] = None
+        dropped.move_to_end(name)
+        if len(dropped) > MOST_DROPPED:
+            shelf.remove(dropped.popitem(last=False)[0])
+        place = f"shapes/{quote(shape.name, safe='')}"
+        return JSONResponse(manifest(shape, None, thesis_addresses(shape)), 201, {"Location": place})
+
+    return [Route("/convert", convert, methods=["POST"])]
+
+
+async def _body(request: Request) -> bytes | None:
+    """Read the body of a request; None if it is too long."""
+    parts, length = [], 0
+    async for part in request.stream():
+        length += len(part)
+        if length > DROPPED_BYTES:
+            return None
+        parts.append(part)
+    return b"".join(parts)
+
+
+def _is_ours(request: Request) -> bool:
+    """Whether a request comes from the page of this server, or from a program that is no browser."""
+    if request.headers.get("sec-fetch-site", "same-origin") != "same-origin":
+        return False
+    origin = request.headers.get("origin")
+    return origin is None or urlsplit(origin).netloc == request.headers.get("host")

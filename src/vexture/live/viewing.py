@@ -1,0 +1,152 @@
+"""`vexture view` and `vexture export`: from files to a server that shows them, or to one page that holds them."""
+
+import asyncio
+import os
+import sys
+import threading
+import webbrowser
+from collections.abc import AsyncIterator, Callable, Sequence
+from contextlib import asynccontextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+from vexture.errors import LimitError, VextureError
+from vexture.live.documents import shape_of
+from vexture.live.shelf import Shape, Shelf
+from vexture.live.watch import Source, named, read_source, watch
+from vexture.settings import Settings
+
+__all__ = ["export", "view"]
+
+PAGE_SUFFIXES = (".html", ".htm")
+
+Say = Callable[[str], None]
+"""Tells the user one line."""
+
+
+def export(paths: Sequence[Path], output: Path, title: str | None, settings: Settings, say: Say) -> int:
+    """Write one page that shows files and needs nothing else; return its size.
+
+    Raises
+    ------
+    VextureError
+        If a file is no drawing, the page is not built or cannot be written.
+    """
+    from vexture.encoding.files import write_together
+    from vexture.live.page import SCRIPT, built, exported_page
+
+    if output.suffix.lower() not in PAGE_SUFFIXES:
+        raise LimitError(f"--output {output}: the page is an HTML file; name one that ends in {PAGE_SUFFIXES[0]}")
+    built(SCRIPT)  # said before anything is converted
+    shapes = [_converted(source, read_source(source.path), settings, say) for source in named(paths)]
+    page = exported_page(shapes, title or ", ".join(shape.name for shape in shapes))
+    write_together({output: page})
+    return len(page)
+
+
+def view(
+    paths: Sequence[Path],
+    settings: Settings,
+    *,
+    host: str,
+    port: int,
+    watching: bool,
+    opening: bool,
+    say: Say,
+    show: Say,
+) -> None:
+    """Serve files to browsers until someone presses Ctrl-C.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+    settings : Settings
+        How drawings are converted.
+    host, port : str, int
+        Where to listen; port 0 is any that is free.
+    watching : bool
+        Whether files that change are shown anew.
+    opening : bool
+        Whether to open a browser.
+    say : callable
+        Is told of files that cannot be shown, and of warnings.
+    show : callable
+        Is told the address.
+
+    Raises
+    ------
+    VextureError
+        If the page is not built, the port is taken, or none of the files can be shown.
+    """
+    from starlette.applications import Starlette
+    from starlette.middleware import Middleware
+    from starlette.routing import Mount
+
+    from vexture.live.routes import application, routes
+    from vexture.live.serving import address, bind, serve_until_stopped
+    from vexture.live.viewer import KnownHosts, dropping_routes, page_routes, thesis_addresses, thesis_routes
+
+    page = page_routes()
+    with bind(host, port) as taken:
+        shelf = Shelf()
+        sources = named(paths)
+        seen = _published(shelf, sources, settings, say)
+        listed = [
+            *page,
+            *routes(shelf, thesis_addresses),
+            *thesis_routes(shelf),
+            *dropping_routes(shelf, settings, frozenset(source.name for source in sources)),
+        ]
+
+        @asynccontextmanager
+        async def lifespan(_app: Any) -> AsyncIterator[None]:
+            if not watching:
+                yield
+                return
+            task = asyncio.create_task(watch(shelf, sources, settings, seen))
+            try:
+                yield
+            finally:
+                task.cancel()
+                with suppress(asyncio.CancelledError):
+                    await task
+
+        inner = application(listed, open_to_all=False)
+        guard = Middleware(KnownHosts, names=(host,))
+        app = Starlette(routes=[Mount("/", inner)], middleware=[guard], lifespan=lifespan)
+        where = address(taken)
+        show(where)
+        if opening and _has_display():
+            threading.Thread(target=webbrowser.open, args=(where,), daemon=True).start()
+        serve_until_stopped(app, taken, shelf.close)
+
+
+def _published(shelf: Shelf, sources: Sequence[Source], settings: Settings, say: Say) -> dict[str, bytes | None]:
+    """Publish all files that can be; return the content of each, None where it is not published."""
+    seen: dict[str, bytes | None] = {}
+    for source in sources:
+        try:
+            data = read_source(source.path)
+            shelf.put(_converted(source, data, settings, say))
+            seen[source.name] = data
+        except VextureError as error:
+            if len(sources) == 1:
+                raise
+            say(str(error))
+            shelf.refuse(source.name, str(error))
+            seen[source.name] = None
+    if not shelf.names:
+        raise LimitError(f"none of the {len(sources)} files can be shown; correct one of them")
+    return seen
+
+
+def _converted(source: Source, data: bytes, settings: Settings, say: Say) -> Shape:
+    shape = shape_of(data, str(source.path), source.name, settings)
+    for warning in shape.facts["warnings"]:
+        say(f"warning: {warning}")
+    return shape
+
+
+def _has_display() -> bool:
+    """Whether a browser has somewhere to appear; a text browser would take the terminal."""
+    return sys.platform in ("darwin", "win32") or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))

@@ -1,0 +1,158 @@
+"""Files that are converted again whenever someone saves them."""
+
+import asyncio
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from vexture.errors import SourceError, VextureError
+from vexture.live.documents import shape_of
+from vexture.live.shelf import Shelf
+from vexture.settings import Settings
+
+__all__ = ["Source", "named", "read_source", "watch"]
+
+STEP_MILLISECONDS = 10
+DEBOUNCE_MILLISECONDS = 50
+"""How often is looked for changes, and how long at most they are gathered."""
+
+CHECK_MILLISECONDS = 1000
+"""How often files are looked at without being told: what was saved before watching began, or on a disk that tells
+nothing, is not missed."""
+
+SETTLING_SECONDS = (0.03, 0.15, 0.5)
+"""How long a file that cannot be read, or is no drawing, is given to become one: editors delete it or write it in
+pieces while they save."""
+
+
+_Stamp = tuple[int, int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A file that is shown.
+
+    Parameters
+    ----------
+    path : Path
+        As the user gave it: messages name it so.
+    name : str
+        Name of its shape.
+    """
+
+    path: Path
+    name: str
+
+    @property
+    def places(self) -> set[Path]:
+        """Where a change of the file shows: its own place and, where that is a link, what it stands for."""
+        return {self.path.parent.resolve() / self.path.name, self.path.resolve()}
+
+
+def named(paths: Sequence[Path], taken: Sequence[str] = ()) -> list[Source]:
+    """Name files by their stems, each differently.
+
+    Examples
+    --------
+    >>> [source.name for source in named([Path("a/duck.svg"), Path("b/duck.svg"), Path("cake.svg")])]
+    ['duck', 'duck-2', 'cake']
+    """
+    names = set(taken)
+    sources = []
+    for path in paths:
+        stem = path.stem or "drawing"
+        name, number = stem, 1
+        while name in names:
+            number += 1
+            name = f"{stem}-{number}"
+        names.add(name)
+        sources.append(Source(path, name))
+    return sources
+
+
+def read_source(path: Path) -> bytes:
+    """Content of a drawing's file or a texture's.
+
+    Raises
+    ------
+    SourceError
+        If it cannot be read or is too large.
+    """
+    from vexture.sources.svg_document import read_bytes
+
+    try:
+        return read_bytes(path)
+    except SourceError as error:
+        raise SourceError(f"{path}: {error}") from None
+
+
+async def watch(shelf: Shelf, sources: Sequence[Source], settings: Settings, seen: Mapping[str, bytes | None]) -> None:
+    """Publish each file again when it changes, or the reason why not; ends only when it is cancelled.
+
+    Parameters
+    ----------
+    shelf : Shelf
+    sources : sequence of Source
+    settings : Settings
+        How they are converted.
+    seen : mapping
+        By name, the content that is published already.
+    """
+    from watchfiles import awatch
+
+    content: dict[str, bytes | None] = dict(seen)
+    read: dict[str, _Stamp | None] = {}
+    owners: dict[Path, list[Source]] = {}
+    for source in sources:
+        for place in source.places:
+            owners.setdefault(place, []).append(source)
+
+    def ours(_change: Any, path: str) -> bool:
+        return Path(path) in owners
+
+    async for changes in awatch(
+        *{place.parent for place in owners},
+        watch_filter=ours,
+        step=STEP_MILLISECONDS,
+        debounce=DEBOUNCE_MILLISECONDS,
+        rust_timeout=CHECK_MILLISECONDS,
+        yield_on_timeout=True,
+        recursive=False,
+    ):
+        changed = {source for _, path in changes for source in owners[Path(path)]}
+        for source in changed or sources:
+            stamp = _stamp(source.path)
+            if source in changed or read.get(source.name, ()) != stamp:
+                read[source.name] = stamp
+                await _publish(shelf, source, settings, content)
+
+
+def _stamp(path: Path) -> _Stamp | None:
+    """What tells one content of a file from another without reading it; None if it is not there."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_ino, found.st_size, found.st_mtime_ns
+
+
+async def _publish(shelf: Shelf, source: Source, settings: Settings, content: dict[str, bytes | None]) -> None:
+    """Publish a file as it is now, once it is a drawing, or after a while say why it is none."""
+    line = ""
+    for delay in (*SETTLING_SECONDS, None):
+        try:
+            data = await asyncio.to_thread(read_source, source.path)
+            if data == content[source.name]:
+                return
+            shape = await asyncio.to_thread(shape_of, data, str(source.path), source.name, settings)
+        except VextureError as error:
+            line = str(error)
+            if delay is not None:
+                await asyncio.sleep(delay)
+            continue
+        content[source.name] = data
+        shelf.put(shape)
+        return
+    content[source.name] = None  # so that the last good content, once it is back, is published and clears the note
+    shelf.refuse(source.name, line)

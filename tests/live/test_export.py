@@ -1,0 +1,116 @@
+"""One page that holds everything."""
+
+import base64
+import hashlib
+import html
+import json
+import re
+import subprocess
+
+import pytest
+
+from vexture.encoding.packed_texture import packed_from
+from vexture.encoding.png import read_png
+from vexture.errors import DeviceError
+from vexture.live.page import SCRIPT, STYLE, built, served_page
+from viewing import SHAPES, VEXTURE
+
+LARGEST_DUCK = 900_000
+
+
+@pytest.fixture(autouse=True)
+def page_is_built():
+    try:
+        built(SCRIPT)
+    except DeviceError as error:
+        pytest.skip(str(error))
+
+
+def export(*arguments):
+    return subprocess.run([*VEXTURE, "export", *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+def scene(text):
+    return json.loads(re.search(r'<script type="application/json" id="vexture-scene">(.*?)</script>', text, re.S)[1])
+
+
+def content(address):
+    head, _, data = address.partition(";base64,")
+    return head, base64.b64decode(data, validate=True)
+
+
+def test_page_holds_textures_sources_and_comparisons(tmp_path):
+    page = tmp_path / "page.html"
+    outcome = export(SHAPES / "duck.svg", SHAPES / "hairline.svg", "-o", page, "--title", "Birds & <lines>")
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stdout == f"{page}: 2 files, {page.stat().st_size} bytes\n"
+    text = page.read_text(encoding="utf-8")
+    assert "<title>Birds &amp; &lt;lines&gt;</title>" in text
+    duck, hairline = scene(text)["shapes"]
+    head, texture = content(duck["texture"])
+    assert head == "data:image/ktx2"
+    assert packed_from(texture, "page").roots[0].name == "duck/1-#e8b100"
+    assert content(duck["views"]["svg"]) == ("data:image/svg+xml", (SHAPES / "duck.svg").read_bytes())
+    for bits in (8, 16):
+        for address, width in zip(duck["views"][f"thesis{bits}"], (4, 2), strict=True):
+            assert read_png(content(address)[1], width, "page")[0].dtype.itemsize * 8 == bits
+    assert duck["facts"]["segments"] == 21
+    assert duck["events"] is None
+    assert "the limit is 256" in hairline["views"]["thesis8"]["error"]
+
+
+def test_page_fetches_nothing(tmp_path):
+    page = tmp_path / "duck.html"
+    assert export(SHAPES / "duck.svg", "-o", page).returncode == 0
+    assert page.stat().st_size <= LARGEST_DUCK
+    text = page.read_text(encoding="utf-8")
+    policy = html.unescape(re.search(r'<meta http-equiv="Content-Security-Policy" content="(.*?)">', text)[1])
+    assert policy.startswith("default-src 'none'; ")
+    assert not re.search(r"https?:|'self'|\*", policy)
+    (script,) = re.findall(r'<script type="module">(.*?)</script>', text, re.S)
+    assert f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'" in policy
+    assert not re.search(r"<(?:script|link|img)[^>]*(?:src|href)=\"(?!data:)", text)
+
+
+def test_names_and_texts_of_strangers_end_no_element(tmp_path):
+    drawing = tmp_path / "a<!--<script>.svg"
+    drawing.write_text('<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z" id="&lt;/script>" fill="&lt;/script>"/></svg>')
+    page = tmp_path / "page.html"
+    assert export(drawing, "-o", page).returncode == 0
+    text = page.read_text(encoding="utf-8")
+    assert text.lower().count("<script") == text.lower().count("</script") == 2
+    assert "<!--" not in text
+    assert scene(text)["shapes"][0]["name"] == "a<!--<script>"
+
+
+@pytest.mark.parametrize("output", ["page.svg", "page"])
+def test_output_must_be_html_and_other_files_stay(tmp_path, output):
+    target = tmp_path / output
+    target.write_text("mine")
+    outcome = export(SHAPES / "duck.svg", "-o", target)
+    assert outcome.returncode == 1
+    assert ".html" in outcome.stderr
+    assert target.read_text() == "mine"
+
+
+def test_file_that_is_no_drawing_leaves_the_page_as_it_was(tmp_path):
+    page, drawing = tmp_path / "page.html", tmp_path / "broken.svg"
+    page.write_text("before")
+    drawing.write_text("<svg")
+    outcome = export(SHAPES / "duck.svg", drawing, "-o", page)
+    assert outcome.returncode == 1
+    assert outcome.stderr.startswith(f"vexture: {drawing}: not well-formed XML")
+    assert len(outcome.stderr.splitlines()) == 1
+    assert [path.name for path in tmp_path.iterdir() if path.suffix != ".svg"] == ["page.html"]
+    assert page.read_text() == "before"
+
+
+def test_page_that_is_not_built_names_the_remedy():
+    with pytest.raises(DeviceError, match=r"not built; run `make viewer` \(needs node and npm\)$"):
+        built("nothing.js")
+
+
+def test_served_page_names_its_files():
+    text = served_page().decode()
+    assert f'src="{SCRIPT}"' in text
+    assert f'href="{STYLE}"' in text

@@ -1,0 +1,213 @@
+"""The viewer's server, as its page and as strangers meet it."""
+
+import base64
+import json
+import re
+import subprocess
+
+import httpx
+import pytest
+
+from vexture.encoding.packed_texture import packed_from
+from vexture.encoding.png import read_png
+from vexture.live import viewer as server
+from viewing import SHAPES, VEXTURE, viewing
+
+DUCK = (SHAPES / "duck.svg").read_bytes()
+
+
+@pytest.fixture(scope="module")
+def view(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("view")
+    (folder / "more").mkdir()
+    (folder / "more" / "duck.svg").write_bytes((SHAPES / "cake.svg").read_bytes())
+    files = [SHAPES / "duck.svg", folder / "more" / "duck.svg", SHAPES / "hairline.svg"]
+    with viewing(folder, *files) as running:
+        yield running
+
+
+def test_page_is_made_of_files_of_the_server_alone(view):
+    page = view.get("")
+    assert page.headers["content-type"].startswith("text/html")
+    assert "default-src 'none'" in page.headers["content-security-policy"]
+    assert json.loads(re.search(r'id="vexture-scene">(.*?)<', page.text)[1]) == {"server": "./"}
+    for name in re.findall(r'(?:href|src)="(viewer[^"]*)"', page.text):
+        file = view.get(name)
+        assert file.status_code == 200
+        assert len(file.content) > 1000
+        again = view.get(name, headers={"If-None-Match": file.headers["etag"]})
+        assert (again.status_code, again.content) == (304, b"")
+
+
+def test_files_of_one_name_are_told_apart(view):
+    assert view.get("shapes").json()["shapes"] == ["duck", "duck-2", "hairline"]
+    names = [root.name for name in ("duck", "duck-2") for root in packed_of(view, view.manifest(name)).roots]
+    assert names[0].startswith("duck/1-#")
+    assert names[-1].startswith("duck-2/")
+
+
+def packed_of(view, manifest):
+    return packed_from(view.get(manifest["texture"].removeprefix("../")).content, "answer")
+
+
+def test_manifest_says_what_people_ask(view):
+    manifest = view.manifest("duck")
+    facts = manifest["facts"]
+    assert facts["segments"] == 21
+    assert facts["bytes"] == manifest["bytes"] == len(view.get(manifest["texture"].removeprefix("../")).content)
+    assert 1e-7 <= facts["distance"] < 1.1e-7  # the precision of the deepest zoom
+    assert facts["to_source"] == [240, 0, 0, 0, -240, 240]
+    assert facts["milliseconds"] > 0
+    assert view.get(manifest["views"]["svg"].removeprefix("../")).content == DUCK
+
+
+@pytest.mark.parametrize("bits", [8, 16])
+def test_thesis_encodings_are_made_when_they_are_asked_for(view, bits):
+    quads, curves = (view.get(path.removeprefix("../")) for path in view.manifest("duck")["views"][f"thesis{bits}"])
+    assert "immutable" in quads.headers["cache-control"]
+    for file, width in ((quads, 4), (curves, 2)):
+        pixels, texts = read_png(file.content, width, "answer")
+        assert 8 * pixels.dtype.itemsize == bits
+        assert texts["vexture.encoding"] == "thesis"
+
+
+def test_thesis_encoding_that_does_not_fit_is_one_line(view):
+    for path in view.manifest("hairline")["views"]["thesis8"]:
+        answer = view.get(path.removeprefix("../"))
+        assert answer.status_code == 422
+        assert "the limit is 256" in answer.json()["error"]
+
+
+@pytest.mark.parametrize("path", ["views/0/thesis8.quads.png", "views/{version}/thesis9.quads.png"])
+def test_view_that_is_none_is_not_found(view, path):
+    answer = view.get(path.format(version=view.manifest("duck")["version"]))
+    assert answer.status_code == 404
+    assert "no view" in answer.json()["error"]
+
+
+def test_dropped_drawing_is_published_and_takes_no_name_of_others(view):
+    before = view.manifest("duck")
+    with view.events() as events:
+        assert next(events)[0] == "hello"
+        answer = view.post("duck.svg", (SHAPES / "thumb.svg").read_bytes())
+        assert answer.status_code == 201
+        kind, data = next(events)
+    manifest = answer.json()
+    assert (kind, data["name"]) == ("shape", manifest["name"])
+    assert manifest["name"] not in ("duck", "duck-2", "hairline")
+    assert httpx.get(httpx.URL(view.url).join(answer.headers["location"])).json() == manifest
+    assert packed_of(view, manifest).roots[0].name.startswith(manifest["name"] + "/")
+    assert view.manifest("duck") == before
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "error"),
+    [
+        ("notes.txt", b"no drawing", "notes.txt: not well-formed XML"),
+        ("empty.svg", b"", "empty.svg: not well-formed XML"),
+        ("broken.ktx2", DUCK, "broken.ktx2: begins with"),
+        ("photo.png", b"\x89PNG", "photo.png"),
+        ("map.geojson", b"{", "map.geojson"),
+        ("", DUCK, "the name of the file must have"),
+        ("a\nb.svg", DUCK, "the name of the file must have"),
+    ],
+)
+def test_dropped_file_that_is_no_drawing_changes_nothing(view, name, content, error):
+    before = view.get("shapes").json()
+    answer = view.post(name, content)
+    assert answer.status_code == 422
+    line = answer.json()["error"]
+    assert error in line
+    assert "\n" not in line
+    assert view.get("shapes").json() == before
+
+
+@pytest.mark.parametrize(
+    "headers", [{"Origin": "http://evil.example"}, {"Sec-Fetch-Site": "cross-site"}, {"Origin": "null"}]
+)
+def test_page_of_a_stranger_can_publish_nothing(view, headers):
+    before = view.get("shapes").json()
+    assert view.post("own.svg", DUCK, **headers).status_code == 403
+    assert view.get("shapes").json() == before
+
+
+def test_own_page_may_publish(view):
+    origin = view.url.rstrip("/")
+    answer = view.post("own.svg", DUCK, **{"Origin": origin, "Sec-Fetch-Site": "same-origin"})
+    assert answer.status_code == 201
+
+
+def test_name_of_a_stranger_reads_nothing(view):
+    """A page can let its name stand for this machine; it is then of one origin with what answers to that name."""
+    for path in ("", "shapes", "shapes/duck", "events"):
+        answer = view.get(path, headers={"Host": "evil.example"})
+        assert answer.status_code == 421
+        assert "evil.example" in answer.json()["error"]
+    assert "access-control-allow-origin" not in view.get("shapes", headers={"Origin": "http://evil.example"}).headers
+
+
+def test_body_that_is_too_long_is_refused(view):
+    def endless():
+        for _ in range(server.DROPPED_BYTES // 2**20 + 1):
+            yield bytes(2**20)
+
+    answer = view.post("long.svg", endless())
+    assert answer.status_code == 413
+    assert f"{server.DROPPED_BYTES:,}" in answer.json()["error"]
+
+
+def test_port_that_is_taken_is_one_line(view):
+    port = httpx.URL(view.url).port
+    command = [*VEXTURE, "view", str(SHAPES / "duck.svg"), "--no-open", "--port", str(port)]
+    outcome = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert outcome.returncode == 1
+    assert outcome.stdout == ""
+    assert len(outcome.stderr.splitlines()) == 1
+    assert str(port) in outcome.stderr
+    assert "--port" in outcome.stderr
+
+
+def test_ctrl_c_ends_it_without_a_traceback_though_clients_listen(tmp_path):
+    with viewing(tmp_path, SHAPES / "duck.svg") as running, running.events() as events:
+        assert next(events)[0] == "hello"
+        assert running.stop() == 0
+        assert running.complaints.read_text() == ""
+
+
+def test_file_that_is_no_drawing_does_not_hide_the_others(tmp_path):
+    broken = tmp_path / "broken.svg"
+    broken.write_text("<svg")
+    with viewing(tmp_path, broken, SHAPES / "duck.svg") as running:
+        assert running.get("shapes").json()["shapes"] == ["duck"]
+        assert str(broken) in running.complaints.read_text()
+
+
+def test_warnings_are_facts(tmp_path):
+    drawing = tmp_path / "label.svg"
+    drawing.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><path d="M1 1h5v5z"/><text>a</text></svg>'
+    )
+    with viewing(tmp_path, drawing) as running:
+        (warning,) = running.manifest("label")["facts"]["warnings"]
+        assert "left out: <text>" in warning
+        assert warning in running.complaints.read_text()
+
+
+def test_picture_of_the_browser_is_placed(tmp_path):
+    """A wide drawing is centred in the unit square; the page puts the browser's own picture where it stands."""
+    (tmp_path / "wide.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="400" height="100" viewBox="10 20 40 10">'
+        '<path d="M10 20h9v9z"/></svg>'
+    )
+    (tmp_path / "unsized.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"><path d="M30 30h60v60h-60z"/></svg>')
+    with viewing(tmp_path, tmp_path / "wide.svg", tmp_path / "unsized.svg") as running:
+        assert running.manifest("wide")["facts"]["box"] == pytest.approx([0, 0.375, 1, 0.625])
+        # browsers draw it in 300 x 150 pixels, of which the drawing is the part from 30 to 90
+        assert running.manifest("unsized")["facts"]["box"] == pytest.approx([-0.5, -1.0, 4.5, 1.5])
+
+
+def test_data_addresses_hold_what_was_served():
+    from vexture.live.page import data_address
+    from vexture.live.shelf import File
+
+    assert base64.b64decode(data_address(File(DUCK, "image/svg+xml", ".svg")).partition(",")[2]) == DUCK
