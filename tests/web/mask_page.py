@@ -37,7 +37,7 @@ def prepare(folder: Path) -> None:
     """Write the textures, and a page for each version of three.js."""
     for name in ("duck", "full", "border"):
         vexture.convert(drawing(name)).save(folder / f"{name}.ktx2")
-    vexture.convert(drawing("duck"), split="paint").save(folder / "paint.ktx2")
+    vexture.convert(drawing("cake"), split="paint").save(folder / "paint.ktx2")
     vexture.atlas([SHAPES / f"{name}.svg" for name in ATLAS]).save(folder / "atlas.ktx2")
     vexture.convert(drawing("duck"), encoding="thesis").save(folder / "thesis")
     for three in THREES:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from browser import served
-from mask_page import ATLAS, THREES, decode, distance, draw, encoded, exact, linear, prepare, tiled
+from mask_page import ATLAS, THREES, decode, distance, draw, drawing, encoded, exact, linear, prepare, tiled
 
 import vexture
 
@@ -51,7 +51,7 @@ def test_a_shape_in_a_colour_is_what_the_exact_renderer_draws(page: Any, screens
     for quality in ("exact", "fast"):
         picture = draw(page, material="VectorMaterial", parameters={**ink, "quality": quality})
         assert distance(picture, over_white(exact("duck"), 0xC03020)) <= HALF_STEP
-    screenshot(page)
+    screenshot(page.locator("canvas"))
     inverted = draw(page, parameters=ink, mask={"invert": True})
     assert distance(inverted, over_white(1.0 - exact("duck"), 0xC03020)) <= HALF_STEP
     copy = draw(page, material="VectorMaterial", parameters={**ink, "root": 2}, texture="atlas", clone=True)
@@ -75,18 +75,17 @@ def test_every_material_shows_where_the_shape_is(page: Any, scene: str, screensh
         background = draw(page, material=material, parameters={**parameters, "visible": False}, **settings)
         assert distance(whole, background) > 10.0
         masked = draw(page, material=material, parameters=parameters, mask={}, **settings)
-        screenshot(page, material)
+        screenshot(page.locator("canvas"), material)
         assert distance(masked, background + coverage * (whole - background)) <= HALF_STEP, material
         cut = draw(page, material=material, parameters=parameters, mask={"mode": "cut"}, **settings)
         assert distance(cut, np.where(coverage >= 0.5, whole, background)) <= HALF_STEP, material
 
 
 def test_depth_is_cut(page: Any) -> None:
-    for material in ("MeshDepthMaterial", "MeshDistanceMaterial"):
-        settings = {"material": material, "size": 256, "background": 0x800000}
-        whole, background = draw(page, **settings), draw(page, parameters={"visible": False}, **settings)
-        cut = draw(page, mask={"mode": "cut"}, **settings)
-        assert distance(cut, np.where(exact("duck", 256) >= 0.5, whole, background)) <= HALF_STEP
+    settings = {"material": "MeshDepthMaterial", "size": 256, "background": 0x800000}
+    whole, background = draw(page, **settings), draw(page, parameters={"visible": False}, **settings)
+    cut = draw(page, mask={"mode": "cut"}, **settings)
+    assert distance(cut, np.where(exact("duck", 256) >= 0.5, whole, background)) <= HALF_STEP
 
 
 def test_inside_is_another_colour_or_map(page: Any, screenshot: Callable[..., Path]) -> None:
@@ -97,26 +96,26 @@ def test_inside_is_another_colour_or_map(page: Any, screenshot: Callable[..., Pa
     lit = {"material": "MeshStandardMaterial"}
     outside, inside = (draw(page, parameters={"map": seed}, **lit) for seed in (3, 7))
     mixed = draw(page, parameters={"map": 3}, mask={"mode": "mix", "map": 7}, **lit)
-    screenshot(page)
+    screenshot(page.locator("canvas"))
     assert distance(mixed, encoded(linear(outside) * (1 - coverage) + linear(inside) * coverage)) <= 2 * HALF_STEP
 
 
 def test_a_drawing_is_painted_in_its_colours(page: Any, screenshot: Callable[..., Path]) -> None:
-    layers = vexture.render_layers(vexture.read_svg("examples/shapes/duck.svg"), (512, 512), renderer="exact")
+    layers = vexture.render_layers(drawing("cake"), (512, 512), renderer="exact")
     on_white = layers[..., :3] + 1.0 - layers[..., 3:]
     for premultiplied in (False, True):
         parameters = {"mode": "paint", "premultipliedAlpha": premultiplied}
         alone = draw(page, material="VectorMaterial", parameters=parameters, texture="paint")
         assert distance(alone, on_white) <= HALF_STEP
-    screenshot(page)
+    screenshot(page.locator("canvas"))
     own = draw(page, parameters={"color": 0x4080A0}, mask={"mode": "paint"}, texture="paint")
-    screenshot(page, "own")
+    screenshot(page.locator("canvas"), "own")
     alpha = layers[..., 3:].astype(float)
     straight = linear(layers[..., :3] / np.maximum(alpha, 1e-6))
     expected = linear(np.array([0x40, 0x80, 0xA0]) / 255) * (1 - alpha) + straight * alpha
     assert distance(own, encoded(expected)) <= HALF_STEP
     lit = draw(page, material="MeshStandardMaterial", mask={"mode": "paint"}, texture="paint")
-    screenshot(page, "lit")
+    screenshot(page.locator("canvas"), "lit")
     plain = draw(page, material="MeshStandardMaterial")
     assert distance(np.where(alpha == 0, lit, plain), plain) == 0.0
     assert distance(lit, plain) > 10.0
@@ -126,7 +125,7 @@ def test_a_tilted_plane_is_filtered_as_its_perspective_asks(page: Any, screensho
     mask = {"transform": [2, 0, -0.5, 0, 2, -0.5, 0, 0, 1]}
     config = {"camera": "tilted", "plane": [4, 4], "parameters": {"color": 0}, "mask": mask}
     drawn = page.evaluate("config => page.draw(config)", config)
-    screenshot(page)
+    screenshot(page.locator("canvas"))
     clip = np.reshape(drawn["matrix"], (4, 4)).T[[0, 1, 3]][:, [0, 1, 3]]  # of (x, y, 1) on the plane
     to_plane = np.array([[2.0, 0, -1], [0, 2, -1], [0, 0, 1]])  # from the unit square
     to_pixels = np.array([[256.0, 0, 256], [0, -256, 256], [0, 0, 1]])
@@ -140,18 +139,15 @@ def test_a_tilted_plane_is_filtered_as_its_perspective_asks(page: Any, screensho
 
 def test_a_repeated_shape_has_no_seams(page: Any, screenshot: Callable[..., Path]) -> None:
     ink = {"color": 0}
-    for scale, tiles in ((3.7, range(-1, 5)), (41.3, range(-1, 42))):
+    for scale, tiles in ((3.7, range(-1, 5)), (11.3, range(-1, 12))):
         matrix = np.array([[scale, 0, -0.83], [0, scale, -0.41]])
         mask = {"wrap": "repeat", "transform": [*matrix.ravel().tolist(), 0, 0, 1]}
         view = matrix @ np.vstack([FIT, [0, 0, 1]])
         full = draw(page, parameters=ink, mask=mask, texture="full")
         assert full.max() <= 1 / 255
         repeated = draw(page, parameters=ink, mask=mask, texture="border")
-        screenshot(page, f"{scale}")
-        if scale < 10:
-            assert distance(repeated, 1.0 - tiled("border", 512, view, tiles)) <= HALF_STEP
-        else:
-            assert distance(repeated, 1.0 - tiled("border", 512, view, tiles)) <= 2 * HALF_STEP
+        screenshot(page.locator("canvas"), f"{scale}")
+        assert distance(repeated, 1.0 - tiled("border", 512, view, tiles)) <= HALF_STEP
     tiny = draw(page, parameters=ink, mask={"wrap": "repeat", "transform": [900, 0, 0, 0, 900, 0, 0, 0, 1]})
     assert distance(tiny, np.full_like(tiny, 1.0 - exact("duck").mean())) <= 1.0
     magnified = [0.0001, 0, 0.99995, 0, 0.0001, 0.99995, 0, 0, 1]
@@ -162,7 +158,7 @@ def test_a_repeated_shape_has_no_seams(page: Any, screenshot: Callable[..., Path
 def test_a_clamped_shape_continues_its_border(page: Any, screenshot: Callable[..., Path]) -> None:
     mask = {"wrap": "clamp", "transform": [2, 0, -0.5, 0, 2, -0.5, 0, 0, 1]}
     clamped = draw(page, parameters={"color": 0}, mask=mask, texture="border")
-    screenshot(page)
+    screenshot(page.locator("canvas"))
     coverage = np.pad(exact("border", 256), ((128, 128), (128, 128), (0, 0)), mode="edge")
     assert distance(clamped, 1.0 - coverage) <= HALF_STEP
 
@@ -172,18 +168,18 @@ def test_the_shadow_has_the_shapes_hole(page: Any, screenshot: Callable[..., Pat
         for mode in ("cut", "alpha"):
             config = {"texture": "atlas", "mask": {"mode": mode, "root": "holes"}, "shadow": kind}
             text = page.evaluate("config => page.shadow(config)", config)
-            screenshot(page, f"{kind}-{mode}")
+            screenshot(page.locator("canvas"), f"{kind}-{mode}")
             fit = FIT / scale
             fit[:, 2] = (0.5 - 0.5 / scale, 0.5 + 0.5 / scale)
             dark = decode(text)[..., :1] < 0.2
-            assert np.abs(dark - (exact("holes", 512, fit) >= 0.5)).mean() < 0.01
+            assert (dark != (exact("holes", 512, fit) >= 0.5)).mean() < 0.01
             assert 0.1 < dark.mean() < 0.9
 
 
 def test_each_instance_has_its_own_shape(page: Any, screenshot: Callable[..., Path]) -> None:
     config = {"texture": "atlas", "plane": [1, 1], "instances": list(ATLAS), "parameters": {"color": 0}}
     picture = draw(page, mask={"instanced": True}, **config)
-    screenshot(page)
+    screenshot(page.locator("canvas"))
     top, bottom = (np.hstack([exact(name, 256) for name in names]) for names in (ATLAS[:2], ATLAS[2:]))
     assert distance(picture, 1.0 - np.vstack([top, bottom])) <= HALF_STEP
     hits = page.evaluate("config => page.rays(config, 64)", {**config, "mask": {"instanced": True}})
@@ -216,17 +212,17 @@ def test_a_click_on_a_hole_misses(page: Any) -> None:
     surface = {"texture": "duck", "mask": {"mode": "mix"}}
     assert set(page.evaluate("config => page.rays(config, 8)", surface)) == {1}
     painted = {"texture": "paint", "material": "VectorMaterial", "parameters": {"mode": "paint"}}
-    check_hits(page.evaluate("config => page.rays(config, 64)", painted), exact("duck"))
+    check_hits(page.evaluate("config => page.rays(config, 64)", painted), exact("cake"))
 
 
 def test_what_is_changed_shows_in_the_next_picture(page: Any) -> None:
     config = {"texture": "atlas", "mask": {}, "parameters": {"color": 0}, "size": 256}
-    steps = [{"root": "cake"}, {"replace": "atlas"}, {"replace": "duck"}, {"texture": "thesis"}, {"texture": "border"}]
-    steps += [{"transform": [1, 0, 1, 0, 1, 0, 0, 0, 1]}, {"wrap": "repeat"}, {"invert": True}, {"remove": True}]
+    steps = [{"root": "cake"}, {"replace": "atlas"}, {"replace": "duck"}, {"root": 0}, {"texture": "thesis"}]
+    steps += [{"texture": "border"}, {"transform": [1, 0, 1, 0, 1, 0, 0, 0, 1]}, {"wrap": "repeat"}, {"invert": True}, {"remove": True}]
     texts = page.evaluate("([config, steps]) => page.changes(config, steps)", [config, steps])
     nothing = np.zeros((256, 256, 1))
     border = exact("border", 256)
-    expected = [exact("holes", 256), *[exact("cake", 256)] * 2, *[exact("duck", 256)] * 2, border]
+    expected = [exact("holes", 256), *[exact("cake", 256)] * 2, *[exact("duck", 256)] * 3, border]
     expected += [nothing, border, 1.0 - border, nothing + 1.0]
     for text, coverage in zip(texts, expected, strict=True):
         assert distance(decode(text), 1.0 - coverage) <= HALF_STEP

@@ -28,11 +28,25 @@ export function layersTexture(data) {
     const { quad, paint } = data.roots[row];
     const { color, opacity } = paint ?? SILHOUETTE;
     const [red, green, blue, alpha] = [...color, opacity].map((part) => Math.round(UNORM_ONE * part));
-    const box = boxes.get(quad) ?? bounds(data, quad).map((at) => at * FIXED_ONE); // whole: cells of 1/256
+    const box = boxes.get(quad) ?? outwards(bounds(data, quad));
     boxes.set(quad, box);
     words.set([quad, red | (green << 16), blue | (alpha << 16), 0, ...box], 8 * row);
   }
   return wordTexture(words, 2, height);
+}
+
+/**
+ * A box in fixed point, rounded so that it grows.
+ *
+ * @param {number[]} box x0 y0 x1 y1
+ */
+function outwards([x0, y0, x1, y1]) {
+  return [
+    Math.floor(x0 * FIXED_ONE),
+    Math.floor(y0 * FIXED_ONE),
+    Math.ceil(x1 * FIXED_ONE),
+    Math.ceil(y1 * FIXED_ONE),
+  ];
 }
 
 /**

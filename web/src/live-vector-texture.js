@@ -59,11 +59,17 @@ export class LiveVectorTexture extends VectorTexture {
     super(data);
     this.#source = source;
     this.#manifest = source.manifest;
+    this.#note = source.manifest.note ?? null;
   }
 
   /** What the server said of the shape that is in place: facts, views and more. */
   get manifest() {
     return this.#manifest;
+  }
+
+  /** Why the last update is not shown, if it is not. */
+  get note() {
+    return this.#note;
   }
 
   /** Whether the server could be reached when it was last tried. */
@@ -96,7 +102,6 @@ export class LiveVectorTexture extends VectorTexture {
     let failures = 0;
     let refusals = 0; // of the stream of events
     let listenAt = 0;
-    this.#tell(this.#source.manifest.note ?? null);
     while (!signal.aborted) {
       try {
         if (events && this.#source.hasEvents && performance.now() >= listenAt) {

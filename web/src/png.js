@@ -1,7 +1,8 @@
 // RGB images with texts from PNG, all their bits kept; safe to read from strangers.
+import { decode } from 'fast-png';
 import { FILE_LIMIT, LIST_LIMIT } from '../generated/layout.js';
-import { inflate } from './inflate.js';
 import { REMEDY, VextureError, line } from './errors.js';
+import { inflate } from './inflate.js';
 
 const SIGNATURE = Object.freeze([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
 const RGB = 2; // colour type
@@ -49,7 +50,6 @@ export async function readPng(file, width) {
   const { height, bits } = readHeader(chunks, width);
   const deflated = joined(chunks.filter(({ tag }) => tag === 'IDAT').map(({ body }) => body));
   await inflate(deflated, height * (1 + (width * 3 * bits) / 8), 'IDAT'); // the decoder itself knows no bounds
-  const { decode } = await import('fast-png'); // late: packed textures do without
   const kept = chunks.filter(({ tag }) => KEPT.includes(tag)).map(({ framed }) => framed);
   let image;
   try {

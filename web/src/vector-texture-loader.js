@@ -3,7 +3,6 @@ import { CURVES_SUFFIX, FILE_LIMIT, PACKED_FILE_LIMIT, PACKED_SUFFIX, QUADS_SUFF
 import { fetchBytes, isTransport, progressEvent, shown } from './fetching.js';
 import { isKtx2 } from './ktx2.js';
 import { readPacked } from './packed.js';
-import { readThesis } from './thesis.js';
 import { VectorTexture } from './vector-texture.js';
 
 /**
@@ -62,6 +61,16 @@ function nameOf(url) {
 }
 
 /**
+ * `readThesis`, which bundlers keep apart: pages with packed textures do without it and its decoder.
+ *
+ * @param {Parameters<import('./thesis.js').readThesis>} contents
+ */
+async function thesis(...contents) {
+  const { readThesis } = await import('./thesis.js');
+  return readThesis(...contents);
+}
+
+/**
  * Loads packed textures (`NAME.ktx2`), and thesis textures (`NAME.quads.png` and `NAME.curves.png`).
  *
  * @extends {Loader<VectorTexture, TextureUrl>}
@@ -116,7 +125,7 @@ export class VectorTextureLoader extends Loader {
    */
   async parse(contents, name) {
     const data = Array.isArray(contents)
-      ? await readThesis(contents[0], contents[1], name)
+      ? await thesis(contents[0], contents[1], name)
       : await readPacked(contents, name);
     return new VectorTexture(data);
   }
@@ -158,7 +167,7 @@ export class VectorTextureLoader extends Loader {
    */
   async #loadPair(urls, request) {
     const [quads, curves] = await this.#fetch(urls, FILE_LIMIT, request);
-    return readThesis(quads, curves, nameOf(urls[0]));
+    return thesis(quads, curves, nameOf(urls[0]));
   }
 
   /**

@@ -12,7 +12,7 @@ import {
   WINDING_OFFSET,
 } from '../generated/layout.js';
 import { VextureError } from './errors.js';
-import { winding } from './winding.js';
+import { filledBox, winding } from './winding.js';
 
 /** @typedef {import('./data.js').PackedData} PackedData */
 
@@ -20,7 +20,7 @@ const CELL_MASK = (1 << CELL_BITS) - 1;
 const WINDING_MASK = (1 << COUNT_SHIFT) - 1;
 const COORDINATE_MASK = (1 << COORDINATE_BITS) - 1;
 
-/** How deep `bounds` looks: cells of 1/256 of the unit square. */
+/** How deep `bounds` looks: quads of 1/256 of the unit square are taken whole. */
 const BOUNDS_DEPTH = 8;
 
 /**
@@ -84,6 +84,26 @@ function points(texels, curve) {
 }
 
 /**
+ * The curves of a leaf, in its lattice units.
+ *
+ * @param {Uint32Array} texels
+ * @param {number} byte of the leaf
+ * @param {number} first index of its first curve
+ */
+function curvesOf(texels, byte, first) {
+  return Array.from({ length: byte >> COUNT_SHIFT }, (_, i) => points(texels, first + i));
+}
+
+/**
+ * The corner winding of a leaf with curves.
+ *
+ * @param {number} byte of the leaf
+ */
+function cornerOf(byte) {
+  return (byte & WINDING_MASK) - WINDING_OFFSET;
+}
+
+/**
  * The cell at a point of the unit square.
  *
  * @param {PackedData} data
@@ -112,12 +132,11 @@ export function cellAt(data, quad, u, v, mostDepth = MOST_DEPTH) {
       quad = leaf.below;
       continue;
     }
-    const count = isQuad ? 0 : leaf.byte >> COUNT_SHIFT;
     const scale = size / LATTICE;
-    const curves = Array.from({ length: count }, (_, i) =>
-      points(texels, leaf.first + i).map((at, axis) => at * scale + (axis % 2 ? y : x)),
-    );
-    const corner = count ? (leaf.byte & WINDING_MASK) - WINDING_OFFSET : 0;
+    const curves = isQuad
+      ? []
+      : curvesOf(texels, leaf.byte, leaf.first).map((curve) => curve.map((at, axis) => at * scale + (axis % 2 ? y : x)));
+    const corner = curves.length ? cornerOf(leaf.byte) : 0;
     return { depth, x, y, size, isQuad, coverage: leaf.coverage / COVERAGE_ONE, winding: corner, curves, quad, cell };
   }
 }
@@ -159,14 +178,13 @@ export function contains(data, quad, u, v) {
       continue;
     }
     if (!byte) return 2 * coverage > COVERAGE_ONE;
-    const curves = Array.from({ length: byte >> COUNT_SHIFT }, (_, i) => points(texels, first + i));
-    return winding(curves, (byte & WINDING_MASK) - WINDING_OFFSET, LATTICE * u, LATTICE * v) > 0;
+    return winding(curvesOf(texels, byte, first), cornerOf(byte), LATTICE * u, LATTICE * v) > 0;
   }
   throw new VextureError(`quad ${quad} lies deeper than ${MOST_DEPTH} levels; read the file with readPacked`, `quad ${quad}`);
 }
 
 /**
- * Box around all that is not empty, in cells down to 1/256 of the unit square; x0 = x1 if everything is empty.
+ * Box around all that is not empty, by whole quads where it is finer than 1/256; x0 = x1 if everything is empty.
  *
  * @param {PackedData} data
  * @param {number} quad index of the shape's root quad
@@ -182,13 +200,15 @@ export function bounds(data, quad) {
     for (let k = 0; k < 4; k++) {
       const [left, low] = [x + size * (k & 1), y + size * (k >> 1)];
       if (left >= box[0] && low >= box[1] && left + size <= box[2] && low + size <= box[3]) continue;
-      const leaf = read(texels, parent, k);
-      if (leaf.byte === QUAD_FLAG && depth < BOUNDS_DEPTH) visit(leaf.below, left, low, size, depth + 1);
-      else if (leaf.byte || leaf.coverage) {
-        box[0] = Math.min(box[0], left);
-        box[1] = Math.min(box[1], low);
-        box[2] = Math.max(box[2], left + size);
-        box[3] = Math.max(box[3], low + size);
+      const { byte, below, first, coverage } = read(texels, parent, k);
+      if (byte === QUAD_FLAG && depth < BOUNDS_DEPTH) visit(below, left, low, size, depth + 1);
+      else if (byte || coverage) {
+        const isLeaf = byte > 0 && byte !== QUAD_FLAG;
+        const [x0, y0, x1, y1] = isLeaf ? filledBox(curvesOf(texels, byte, first), cornerOf(byte)) : [0, 0, 1, 1];
+        box[0] = Math.min(box[0], left + size * x0);
+        box[1] = Math.min(box[1], low + size * y0);
+        box[2] = Math.max(box[2], left + size * x1);
+        box[3] = Math.max(box[3], low + size * y1);
       }
     }
   };

@@ -1,4 +1,5 @@
-// Winding numbers at a point, counted from the pieces of outline at or left of it; cubics as x0 y0 x1 y1 x2 y2 x3 y3.
+// Winding numbers of a leaf at a point, counted from the pieces of outline at or left of it; cubics as x0 y0 x1 y1 x2 y2 x3 y3.
+import { LATTICE } from '../generated/layout.js';
 
 /** Halvings of the interval of t: as many as a float64 has bits. */
 const HALVINGS = 53;
@@ -53,4 +54,32 @@ export function winding(curves, corner, x, y) {
     if (left) sum += y3 > y0 ? -1 : 1;
   }
   return sum;
+}
+
+/**
+ * Box around the filled part of a packed leaf, in its own unit square; it may be larger by a lattice unit.
+ *
+ * Beyond the box around the curves' ends, what is left of it or below is as the corner, what is above is one, and what
+ * is right of it changes from one end's height to the next.
+ *
+ * @param {number[][]} curves of the leaf, in its lattice units
+ * @param {number} corner winding number at its lower left corner
+ * @returns {[number, number, number, number]} x0 y0 x1 y1
+ */
+export function filledBox(curves, corner) {
+  const xs = curves.flatMap((curve) => [curve[0], curve[6]]).sort((one, other) => one - other);
+  const ys = curves.flatMap((curve) => [curve[1], curve[7]]).sort((one, other) => one - other);
+  const last = ys.length - 1;
+  const left = corner > 0 && xs[0] > 0;
+  const below = corner > 0 && ys[0] > 0;
+  const above = ys[last] < LATTICE && winding(curves, corner, LATTICE, LATTICE) > 0;
+  const right = ys.some((y, i) => y < ys[i + 1] && winding(curves, corner, LATTICE, (y + ys[i + 1]) / 2) > 0);
+  const low = (/** @type {number} */ at) => Math.max(0, at - 1) / LATTICE; // curves are monotone but for rounding
+  const high = (/** @type {number} */ at) => Math.min(LATTICE, at + 1) / LATTICE;
+  return [
+    left || below || above ? 0 : low(xs[0]),
+    left || below ? 0 : low(ys[0]),
+    below || above || right ? 1 : high(xs[last]),
+    left || above ? 1 : high(ys[last]),
+  ];
 }

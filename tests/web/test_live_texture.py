@@ -1,0 +1,136 @@
+"""`LiveVectorTexture` in a real browser, which has the events that Node lacks."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from browser import WEB, bundle
+from live_server import LiveServer, running
+
+DUCK = (WEB / "test" / "fixtures" / "duck.ktx2").read_bytes()
+BADGE = (WEB / "test" / "fixtures" / "badge.ktx2").read_bytes()
+
+NEVER = 10_000_000
+"""Milliseconds between two looks at the manifest: what changes before has come by an event."""
+
+OFTEN = 50
+
+
+@pytest.fixture(scope="module", params=["three", "three-floor"])
+def files(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    """The page, with the newest and with the oldest three.js."""
+    if not (WEB / "node_modules" / request.param).is_dir():
+        pytest.skip("the packages of web/ are not installed (npm ci --prefix web)")
+    script = tmp_path_factory.mktemp("live") / "page.js"
+    bundle(Path(__file__).with_name("pages") / "live.js", script, request.param)
+    page = b'<!doctype html><link rel="icon" href="data:,"><script type="module" src="page.js"></script>'
+    return {"/": page, "/page.js": script.read_bytes()}
+
+
+@pytest.fixture
+def server(files: dict[str, bytes]) -> Iterator[LiveServer]:
+    """A server with a duck."""
+    with running(LiveServer(dict(files))) as started:
+        started.publish("1", DUCK)
+        yield started
+
+
+def _opened(open_page: Callable[..., Any], server: LiveServer, interval: int, *, errors: bool = False) -> Any:
+    """Page that follows the shape."""
+    page = open_page(f"{server.url}/?manifest=/shapes/shape&interval={interval}", errors=errors)
+    assert page.evaluate("live") == "duck"
+    return page
+
+
+def _await_stream(page: Any, server: LiveServer, count: int = 1) -> None:
+    """Wait until the page listens."""
+    while len(server.streams) < count:
+        page.wait_for_timeout(20)
+
+
+def _events(page: Any) -> list[str]:
+    return page.evaluate("events.map((text) => text.replace(/ http.*/, ''))")
+
+
+def test_events_bring_updates_at_once(open_page: Callable[..., Any], server: LiveServer) -> None:
+    page = _opened(open_page, server, NEVER)
+    _await_stream(page, server)
+    page.evaluate(
+        "texture.addEventListener('change', () => { window.seen = texture.textures.texels.image.data.length })"
+    )
+    server.publish("2", BADGE)
+    page.wait_for_function("texture.name === 'badge'")
+    assert _events(page) == ["change"]
+    assert page.evaluate("seen === texture.data.texels.length")
+    server.tell("note", {"name": "shape", "message": "shape.svg: no drawing"})
+    server.tell("note", {"name": "another", "message": "not for us"})
+    server.tell("shape", {"name": "another", "version": "9"})
+    page.wait_for_function("events.length === 2")
+    assert _events(page)[1] == "note: shape.svg: no drawing"
+    asked = [path for path, _ in server.requests if path.startswith("/shapes")]
+    assert len(asked) == 2
+
+
+def test_an_update_between_manifest_and_stream_is_not_missed(open_page: Callable[..., Any], server: LiveServer) -> None:
+    server.has_events = False  # until the page has looked
+    page = _opened(open_page, server, OFTEN, errors=True)
+    server.version, server.files["/files/2.ktx2"] = "2", BADGE  # nobody is told
+    server.has_events = True
+    page.wait_for_function("texture.name === 'badge'")
+    _await_stream(page, server)
+    assert page.evaluate("texture.online")
+
+
+def test_a_broken_update_leaves_the_last_good_one(open_page: Callable[..., Any], server: LiveServer) -> None:
+    page = _opened(open_page, server, NEVER)
+    _await_stream(page, server)
+    server.publish("2", DUCK[:500])
+    page.wait_for_function("events.length === 1")
+    assert page.evaluate("events[0]").startswith(f"note: {server.url}/files/2.ktx2: bytes ")
+    assert page.evaluate("[texture.name, texture.online, texture.manifest.version]") == ["duck", True, "1"]
+    server.publish("3", BADGE)
+    page.wait_for_function("texture.name === 'badge'")
+
+
+def test_without_events_it_is_polled(open_page: Callable[..., Any], server: LiveServer) -> None:
+    server.has_events = False
+    page = _opened(open_page, server, OFTEN, errors=True)  # the browser reports the 404 of the stream
+    server.publish("2", BADGE)
+    page.wait_for_function("texture.name === 'badge'")
+    assert _events(page) == ["change"]
+    assert ("/events", 404) in server.requests
+    while ("/shapes/shape", 304) not in server.requests:
+        page.wait_for_timeout(20)
+
+
+def test_a_server_that_goes_and_comes_back(open_page: Callable[..., Any], files: dict[str, bytes]) -> None:
+    with running(LiveServer(dict(files))) as first:
+        first.publish("1", DUCK)
+        page = _opened(open_page, first, NEVER, errors=True)
+        _await_stream(page, first)
+        port = first.server_port
+        first.stop()
+    page.wait_for_function("events.length === 1")
+    assert _events(page) == ["offline:"]
+    assert page.evaluate("[texture.name, texture.online]") == ["duck", False]
+    with running(LiveServer(dict(files), port)) as second:
+        second.publish("2", BADGE)
+        page.wait_for_function("texture.online && texture.name === 'badge'")
+        assert sorted(_events(page)) == ["change", "offline:", "online"]
+        _await_stream(page, second)  # events come again
+        second.publish("3", DUCK)
+        page.wait_for_function("texture.name === 'duck'")
+
+
+def test_close_ends_the_stream(open_page: Callable[..., Any], server: LiveServer) -> None:
+    page = _opened(open_page, server, OFTEN)
+    _await_stream(page, server)
+    page.evaluate("texture.close()")
+    while not server.streams_closed:
+        page.wait_for_timeout(20)
+    before = len(server.requests)
+    server.publish("2", BADGE)
+    page.wait_for_timeout(10 * OFTEN)
+    assert (len(server.requests), len(server.streams)) == (before, 1)
+    assert page.evaluate("[texture.name, events.length, texture.closed]") == ["duck", 0, True]
