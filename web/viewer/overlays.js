@@ -42,7 +42,7 @@ export function create(engine, state) {
     title: 'As if pixels were larger: quads smaller than those show what is stored for them',
     oninput: () => state.updateOverlays({ cutoff: Number(cutoff.value) }),
   });
-  const cutoffText = element('span', { class: 'value' });
+  const cutoffText = element('output', { class: 'value' });
   const layer = select('Layer', [[FOLLOW, 'Under the pointer']], (value) => {
     chosen.choose(value === FOLLOW ? null : Number(value));
     update();
