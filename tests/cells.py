@@ -12,8 +12,8 @@ FADED = 4.0  # pixels: borders of cells up to this size are not drawn, from twic
 class Cells:
     """The cell at the centre of each pixel, no deeper than a level.
 
-    Attributes: `points`, `inside` the unit square, `depth`, `coverage` as it is stored, `is_quad`; `border`, the share of
-    the pixel that a border of one pixel's width takes; `clear`: inside, and not so near to a border that rounding
+    Attributes: `points`, `inside` the unit square, `depth`, `coverage` as it is stored, `is_quad`; `border`, the share
+    of the pixel that a border of one pixel's width takes; `clear`: inside, and not so near to a border that rounding
     decides which cell it is.
     """
 

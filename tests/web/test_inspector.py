@@ -72,8 +72,7 @@ def read_inspector(page: Any) -> tuple[dict[str, str], list[list[str]], str]:
     return terms, rows, region.locator(".verdict").inner_text()
 
 
-@pytest.mark.parametrize("zoom", [1.0, 100.0, 10_000.0])
-@pytest.mark.parametrize("name", ["duck", "ocean"])
+@pytest.mark.parametrize(("name", "zoom"), [("duck", 1.0), ("ocean", 100.0), ("duck", 10_000.0)])
 def test_the_inspector_says_what_numpy_solves(
     show: Callable[..., Shown], screenshot: Callable[..., Path], name: str, zoom: float
 ) -> None:
@@ -111,6 +110,9 @@ def test_the_inspector_says_what_numpy_solves(
         seen += len(rows)
     assert seen >= 3
     screenshot(page)
+    page.mouse.move(shown.box["x"] + shown.box["width"] + 40, 20)  # to the panel, where the table is read
+    page.wait_for_timeout(400)
+    assert read_inspector(page)[0] == terms
 
 
 def check_drawing(shown: Shown, cell: tuple[float, float, float], curves: NDArray[np.float64]) -> None:
@@ -185,8 +187,8 @@ def test_texture_contents_show_each_texel_and_where_it_is(
     assert float(page.locator(".texel-cell").get_attribute("width")) == pytest.approx(side, rel=1e-9)
     screenshot(page)
     image.focus()
-    page.keyboard.press("ArrowLeft")
-    region.get_by_text(f"Texel {index - 1}: a curve").wait_for()
+    page.keyboard.press("ArrowRight")
+    region.get_by_text(f"Texel {index + 1}: a curve").wait_for()
 
 
 def test_the_thesis_pair_is_shown_while_it_is_compared_with(show: Callable[..., Shown]) -> None:

@@ -394,7 +394,9 @@ def test_a_link_opens_the_same_view(pages: dict[str, Viewed], open_page: Callabl
     assert np.abs(pixels(other)[:, :560] - pixels(page)[:, :560]).max() <= 1
 
 
-@pytest.mark.parametrize("link", ["#view=", "#view=1~duck~", "#view=%E0%A4%A", "#view=1~~~x~0~1~flat~0~0~1~system~~0~0~0"])
+@pytest.mark.parametrize(
+    "link", ["#view=", "#view=1~duck~", "#view=%E0%A4%A", "#view=1~~~x~0~1~flat~0~0~1~system~~0~0~0"]
+)
 def test_a_damaged_link_is_ignored_with_a_note(
     pages: dict[str, Viewed], open_page: Callable[..., Any], link: str
 ) -> None:
@@ -473,7 +475,10 @@ def test_a_lost_context_is_said_and_restored(pages: dict[str, Viewed], open_page
     page = ready(open_page, pages["duck"].url, (900, 600), errors=True)
     before = pixels(page)[:380, :500]
     page.evaluate(
-        "globalThis.lose = vexture.viewer.engine.renderer.getContext().getExtension('WEBGL_lose_context'); lose.loseContext()"
+        """() => {
+          globalThis.lose = vexture.viewer.engine.renderer.getContext().getExtension('WEBGL_lose_context');
+          lose.loseContext();
+        }"""
     )
     page.get_by_role("status").filter(has_text="graphics driver").wait_for()
     page.evaluate("lose.restoreContext()")

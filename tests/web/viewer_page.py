@@ -16,7 +16,8 @@ FIT = 0.9  # of the canvas's shorter side is the unit square at zoom 1 (web/view
 
 PAGE = """<!doctype html>
 <html lang="en">
-<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>vexture</title><link rel="icon" href="data:,">
+<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>vexture</title><link rel="icon" href="data:,">
 <style>{css}</style>
 <div id="app"></div>
 <script type="application/json" id="vexture-scene">{scene}</script>

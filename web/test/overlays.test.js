@@ -104,6 +104,14 @@ describe('texels', () => {
     expect(map.texel(drawings.roots[0].quad)).toMatchObject({ kind: 'other', place: null });
   });
 
+  test('of many texels a row from the root on is looked at', () => {
+    const { quad } = drawings.roots[1];
+    const [all, part] = [new TexelMap(drawings, quad), new TexelMap(drawings, quad, 4)];
+    expect([part.first, part.count]).toEqual([quad, 4]);
+    expect([...part.places]).toEqual([...all.places].filter(([index]) => index >= quad && index < quad + 4));
+    expect(part.kinds.slice(quad, quad + 4)).toEqual(all.kinds.slice(quad, quad + 4));
+  });
+
   test('a quad says what its cells are', () => {
     const root = new TexelMap(duck, duck.roots[0].quad).texel(duck.roots[0].quad);
     expect(root).toMatchObject({ kind: 'quad', place: { depth: 0, size: 1 } });

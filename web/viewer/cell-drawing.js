@@ -17,7 +17,7 @@ import { cellRect, svgElement } from './svg.js';
 /** CSS pixels: width of the strip on a filled side; from a point to its name; the smallest curve whose points have names. */
 const STRIP = 7;
 const ASIDE = 14;
-const LEGIBLE = 64;
+const LEGIBLE = 48;
 
 /**
  * @param {Found} found
@@ -39,7 +39,7 @@ export function drawCell({ cell, point, inside, solutions, nearest }, toScreen) 
   return [
     cellRect(toScreen, cell, 'inspected-cell'),
     ...curves,
-    svgElement('line', { class: 'upright', x1: x, x2: x, y1: bottom, y2: top }),
+    ...['upright-casing', 'upright'].map((name) => svgElement('line', { class: name, x1: x, x2: x, y1: bottom, y2: top })),
     ...dots,
     svgElement('circle', { class: inside ? 'point inside' : 'point outside', cx: x, cy: y, r: 5 }),
   ];

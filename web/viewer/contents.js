@@ -63,17 +63,15 @@ export function create(engine, state) {
       highlight();
       return;
     }
-    map = new TexelMap(data, root.quad);
-    const length = data.texels.length / 4;
-    shown = Math.min(length, MOST_SHOWN);
-    first = Math.min(root.quad, length - shown);
+    map = new TexelMap(data, root.quad, MOST_SHOWN);
+    ({ first, count: shown } = map);
     const wanted = 2 ** Math.ceil(Math.log2(Math.sqrt(shown)) + 0.5);
     columns = folded(shown, Math.min(wanted, MOST_COLUMNS)).columns;
     texelSize = Math.min(Math.max(Math.floor(264 / columns), LEAST_TEXEL), MOST_TEXEL);
     paintTexels(image, map, first, shown, columns);
     image.style.width = `${columns * texelSize}px`;
     summary.textContent = `${data.width} × ${data.height} texels`
-      + (shown < length ? `, of which ${first} to ${first + shown - 1} are shown` : '')
+      + (shown < data.texels.length / 4 ? `, of which ${first} to ${first + shown - 1} are shown` : '')
       + (columns < data.width ? `, in rows of ${columns} here` : '')
       + `. Blue: quads; orange: curves${data.roots.length > 1 ? ' of the layer; grey: other layers' : ''}.`;
     select(-1);

@@ -36,7 +36,7 @@ function distance(value) {
 export function create(engine, _state) {
   const list = element('dl', { class: 'facts' });
   const warnings = element('ul', { class: 'warnings', 'aria-label': 'Warnings' });
-  const frame = element('output', { class: 'value' }, 'not measured');
+  const frame = element('output', { class: 'value', 'aria-live': 'off' }, 'not measured');
   const button = element('button', {
     type: 'button', title: `Draw ${FRAMES} frames and say how long one takes`,
     onclick: async () => {

@@ -3,6 +3,7 @@ import { cellAt, contains } from '../src/walk.js';
 import { chosenLayer } from './chosen-layer.js';
 import { drawCell } from './cell-drawing.js';
 import { element, section } from './dom.js';
+import { watchPointer } from './pointer.js';
 import { nearestCurve, solutionsAt } from './solutions.js';
 import { svgElement, svgLayer } from './svg.js';
 
@@ -36,11 +37,16 @@ export function create(engine, state) {
   let pointer = null;
   let timer = 0;
 
+  /** The point that is asked about: whoever moves the picture by keys looks at its middle. */
+  function asked() {
+    const { width, height } = engine.size;
+    return engine.toUnit(...(pointer ?? /** @type {Point} */ ([width / 2, height / 2])));
+  }
+
   /** @returns {Found | null} */
   function find() {
     const { data, root } = chosen;
-    const { width, height } = engine.size;
-    const point = engine.toUnit(...(pointer ?? /** @type {Point} */ ([width / 2, height / 2])));
+    const point = asked();
     const cell = data && root && point ? cellAt(data, root.quad, ...point) : null;
     if (!data || !root || !point || !cell) return null;
     return {
@@ -52,16 +58,23 @@ export function create(engine, state) {
   function write() {
     timer = 0;
     const found = state.overlays.inspect && state.value.mode === 'flat' ? find() : null;
-    text.replaceChildren(...(found ? described(found) : []));
-    if (!found && state.overlays.inspect) {
-      text.append(element('p', { class: 'hint' },
-        state.value.mode === 'flat' ? 'There is no cell here.' : 'Cells are inspected in the flat view.'));
-    }
+    const hint = state.value.mode === 'flat' ? 'There is no cell here.' : 'Cells are inspected in the flat view.';
+    const parts = found ? described(found) : state.overlays.inspect ? [element('p', { class: 'hint' }, hint)] : [];
+    const said = parts.map((part) => part.textContent).join('');
+    if (said !== text.textContent) text.replaceChildren(...parts); // not to be read out again
+  }
+
+  /** @param {Point | null} at */
+  function point(at) {
+    pointer = at;
+    if (state.overlays.inspect) update();
   }
 
   function update() {
     const { inspect } = state.overlays;
     button.setAttribute('aria-pressed', String(inspect));
+    const middle = inspect && pointer === null ? asked() : null;
+    if (middle) chosen.point(...middle);
     const found = inspect && state.value.mode === 'flat' ? find() : null;
     layer.replaceChildren(...(found ? drawCell(found, (u, v) => engine.toScreen(u, v)) : []));
     plot.toggleAttribute('hidden', !found);
@@ -69,17 +82,8 @@ export function create(engine, state) {
     timer ||= window.setTimeout(write, QUIET);
   }
 
-  engine.canvas.addEventListener('pointermove', ({ offsetX, offsetY }) => {
-    pointer = [offsetX, offsetY];
-    if (state.overlays.inspect) update();
-  });
-  engine.canvas.addEventListener('pointerleave', () => {
-    pointer = null;
-    if (state.overlays.inspect) update();
-  });
-  engine.canvas.parentElement?.addEventListener('keydown', () => {
-    pointer = null; // whoever moves the picture by keys looks at its middle
-  });
+  watchPointer(engine, (px, py) => point([px, py])); // what was pointed at last stays: the table is read elsewhere
+  engine.canvas.parentElement?.addEventListener('keydown', () => point(null));
   state.addEventListener('change', update);
   chosen.addEventListener('change', update);
   for (const event of ['view', 'shape']) engine.addEventListener(event, update);

@@ -126,7 +126,7 @@ function opener(engine, state, library, opened) {
   let current = null;
   const again = () => void (current && engine.show(current));
   const say = (/** @type {{message: string}} */ event) => notes.say(event.message);
-  const offline = (/** @type {{message: string}} */ event) => notes.keep(`Offline: ${event.message}`);
+  const offline = () => notes.keep('Offline: the server does not answer. The last picture stays.');
   const online = () => notes.keep('');
   return async () => {
     const mine = ++turn;

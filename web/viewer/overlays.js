@@ -5,6 +5,7 @@ import { counts } from '../src/walk.js';
 import { chosenLayer } from './chosen-layer.js';
 import { element, section, select } from './dom.js';
 import { OPACITY, RAMPS, css, depthRamp } from './overlay-palette.js';
+import { watchPointer } from './pointer.js';
 import { MOST_CUTOFF } from './state.js';
 
 /**
@@ -21,6 +22,9 @@ const SWITCHES = [
 ];
 
 const FOLLOW = 'follow';
+/** Keys of the state that the switches depend on. */
+const SHOWN = ['overlays', 'mode'];
+
 const ONLY_FLAT = 'Cells and what is in them are shown in the flat view.';
 
 /**
@@ -51,6 +55,8 @@ export function create(engine, state) {
     element('label', { class: 'row' }, element('span', {}, 'MIP cut-off'), cutoff, cutoffText),
     layer.row, layerText, legend);
 
+  let deepest = 1;
+
   function update() {
     const { overlays, mode } = state.value;
     const root = chosen.root;
@@ -64,10 +70,15 @@ export function create(engine, state) {
     layer.list.value = chosen.follows ? FOLLOW : String(chosen.index);
     layerText.textContent = root && chosen.layers.length > 1 ? `Shown: ${root.name}` : '';
     const theme = document.documentElement.dataset.theme === 'dark' ? 'dark' : 'light';
-    const deepest = root && chosen.data ? counts(chosen.data, root.quad).depth + 1 : 1;
     setUniforms(uniforms, overlays, theme, root?.quad ?? 0, deepest);
     legend.replaceChildren(...legendRows(overlays, theme, deepest));
     engine.requestFrame();
+  }
+
+  function descend() {
+    const { data, root } = chosen;
+    deepest = data && root ? counts(data, root.quad).depth + 1 : 1;
+    update();
   }
 
   function listLayers() {
@@ -76,16 +87,19 @@ export function create(engine, state) {
     layer.list.replaceChildren(element('option', { value: FOLLOW }, 'Under the pointer'), ...rows.reverse());
     layer.row.hidden = layers.length < 2;
     layerText.hidden = layer.row.hidden;
-    update();
+    descend();
   }
 
-  engine.canvas.addEventListener('pointermove', ({ offsetX, offsetY }) => {
+  watchPointer(engine, (px, py) => {
     const { cells, coverage, depth, cutoff: levels, inspect, contents } = state.overlays;
-    const at = cells || coverage || depth || levels > 0 || inspect || contents ? engine.toUnit(offsetX, offsetY) : null;
+    const at = cells || coverage || depth || levels > 0 || inspect || contents ? engine.toUnit(px, py) : null;
     if (at) chosen.point(...at);
   });
-  state.addEventListener('change', update);
-  chosen.addEventListener('change', update);
+  state.addEventListener('change', (event) => {
+    const { changed } = /** @type {CustomEvent<{changed: Set<string>}>} */ (event).detail;
+    if (SHOWN.some((key) => changed.has(key))) update();
+  });
+  chosen.addEventListener('change', descend);
   engine.addEventListener('shape', listLayers);
   new MutationObserver(update).observe(document.documentElement, { attributeFilter: ['data-theme'] });
   listLayers();

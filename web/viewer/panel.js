@@ -110,7 +110,7 @@ export function createPanel(engine, state, actions) {
  * @param {{zoom: (factor: number) => void, reset: () => void, fold: () => boolean, folded: boolean, step: number}} how
  */
 export function createTools(engine, how) {
-  const shown = element('output', { class: 'zoom', 'aria-label': 'Zoom' });
+  const shown = element('span', { class: 'zoom' });
   const follow = () => {
     const { mode, zoom, distance } = engine.state.value;
     const value = mode === 'flat' ? zoom : distance;

@@ -34,20 +34,23 @@ const CELL_NAMES = ['bottom left', 'bottom right', 'top left', 'top right'];
 /** @param {number} word @param {number} cell */
 const byteOf = (word, cell) => (word >>> (CELL_BITS * cell)) & BYTE;
 
-/** The texels of one shape of a texture, the others told apart from those that are not used. */
+/** The texels of one shape of a texture, or a row of them; the others are told apart from those that are not used. */
 export class TexelMap {
   /**
    * @param {PackedData} data
    * @param {number} root quad of the shape
+   * @param {number} [most] texels that are looked at, from the root on if there are more
    */
-  constructor(data, root) {
+  constructor(data, root, most = Infinity) {
     const { texels } = data;
     const length = texels.length / 4;
     this.data = data;
     this.root = root;
-    /** What each texel is: UNUSED, OTHER, QUAD or CURVE. */
+    this.count = Math.min(length, most);
+    this.first = Math.min(root, length - this.count);
+    /** What each texel is: UNUSED, OTHER, QUAD or CURVE. Only those that are looked at are told apart. */
     this.kinds = new Uint8Array(length);
-    for (let i = 0; i < length; i++) {
+    for (let i = this.first; i < this.first + this.count; i++) {
       const used = texels[4 * i] | texels[4 * i + 1] | texels[4 * i + 2] | texels[4 * i + 3];
       this.kinds[i] = used ? OTHER : UNUSED;
     }
@@ -59,27 +62,25 @@ export class TexelMap {
   /** @param {number} root */
   #walk(root) {
     const { texels } = this.data;
-    this.#set(root, QUAD, { depth: 0, x: 0, y: 0, size: 1 });
-    for (const quads = [root]; quads.length; ) {
-      const quad = /** @type {number} */ (quads.pop());
-      const at = /** @type {Place} */ (this.places.get(quad));
-      let [below, curve, word] = [texels[4 * quad], texels[4 * quad + 1], texels[4 * quad + 2]];
+    /** @type {[number, Place][]} */
+    const quads = [[root, { depth: 0, x: 0, y: 0, size: 1 }]];
+    for (let next = quads.pop(); next; next = quads.pop()) {
+      const [quad, at] = next;
+      this.#set(quad, QUAD, at);
+      let [below, curve] = [texels[4 * quad], texels[4 * quad + 1]];
+      const size = at.size / 2;
       for (let cell = 0; cell < 4; cell++) {
-        const size = at.size / 2;
         const place = { depth: at.depth + 1, x: at.x + size * (cell & 1), y: at.y + size * (cell >> 1), size };
-        const byte = byteOf(word, cell);
-        if (byte === QUAD_FLAG) {
-          quads.push(below);
-          this.#set(below++, QUAD, place);
-        } else {
-          for (let count = byte >> COUNT_SHIFT; count > 0; count--) this.#set(curve++, CURVE, place);
-        }
+        const byte = byteOf(texels[4 * quad + 2], cell);
+        if (byte === QUAD_FLAG) quads.push([below++, place]);
+        else for (let count = byte >> COUNT_SHIFT; count > 0; count--) this.#set(curve++, CURVE, place);
       }
     }
   }
 
   /** @param {number} index @param {number} kind @param {Place} place */
   #set(index, kind, place) {
+    if (index < this.first || index >= this.first + this.count) return;
     this.kinds[index] = kind;
     this.places.set(index, place);
   }
