@@ -91,6 +91,10 @@ class Stream:
         self.connection.request("GET", "/events")
         self.answer = self.connection.getresponse()
 
+    def close(self):
+        self.answer.close()
+        self.connection.close()
+
     def next(self):
         """Kind and data of the next event; None at the end of the stream."""
         kind = None

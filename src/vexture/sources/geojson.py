@@ -21,6 +21,9 @@ from vexture.sources.svg_report import Report
 __all__ = ["read_geojson"]
 
 MOST_POSITIONS: Final = 20_000_000
+LARGEST: Final = 1e15
+"""Coordinate, in the units of the file. Beyond it, float64 cannot tell metres apart."""
+
 MOST_NESTED: Final = 32
 """Geometry collections inside one another."""
 
@@ -130,8 +133,7 @@ class _Reader:
             raise SourceError(f"it holds no polygon to fill{self._met()}; give Polygon or MultiPolygon geometries")
         points = np.concatenate([ring for area in areas for ring in area.rings])
         low, high = points.min(axis=0), points.max(axis=0)
-        with np.errstate(over="ignore"):
-            width, height = (float(side) for side in high - low)
+        width, height = (float(side) for side in high - low)
         paths = [Path(tuple(map(_contour, area.rings)), FillRule.EVENODD, area.paint) for area in areas]
         drawing = Drawing.from_source(paths, (float(low[0]), -float(high[1]), width, height), name)
         if not drawing.paths:
@@ -207,11 +209,12 @@ class _Reader:
                 raise SourceError(f"{where}, position {number} is {_shown(position)}; it must be two numbers")
         try:
             points = np.array([position[:2] for position in ring], np.float64).reshape(-1, 2)
-        except OverflowError:
-            points = np.array([[np.inf, np.inf]])
-        bad = ~np.isfinite(points).all(axis=1)
+        except OverflowError:  # an integer beyond all floats
+            points = np.array([[c if abs(c) <= LARGEST else np.inf for c in position[:2]] for position in ring])
+        bad = ~(np.abs(points) <= LARGEST).all(axis=1)  # not a number is bad too
         if bad.any():
-            raise SourceError(f"{where}, position {int(bad.argmax()) + 1} is not finite; correct it")
+            number = int(bad.argmax()) + 1
+            raise SourceError(f"{where}, position {number} is {_shown(ring[number - 1])}; the limit is {LARGEST:g}")
         if len(points) > 1 and (points[0] == points[-1]).all():
             points = points[:-1]
         if len(points) < 3:
