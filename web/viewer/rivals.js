@@ -1,7 +1,8 @@
 /** Other ways to hold the same drawing, drawn for comparison: the thesis's textures, and pixels. */
 import { LinearFilter, LinearMipmapLinearFilter, RGBAFormat, RedFormat, Vector2, Vector3, Vector4, WebGLRenderTarget } from 'three';
 import { CURVE_WIDTH, QUAD_WIDTH } from '../generated/layout.js';
-import { FOLD_HEIGHT, thesis } from '../generated/shaders.js';
+import { FOLD_HEIGHT } from '../generated/shaders.js';
+import { thesis } from '../generated/thesis-shader.js';
 import { Pass } from './pass.js';
 import { pixelSide, toUnit } from './view.js';
 
