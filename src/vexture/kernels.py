@@ -20,12 +20,17 @@ __all__ = ["kernel"]
 
 F = TypeVar("F", bound=Callable[..., Any])
 
+ABOVE = {"live", "sources"}
+"""Parts of the package that no kernel stands in or takes a constant from: changing them compiles nothing again."""
+
 
 def kernel_cache() -> Path:
     """Folder of the compiled kernels: below ``VEXTURE_CACHE``, or the user's cache folder, or a temporary one."""
     package = Path(__file__).parent
     digest = hashlib.sha256(numba.__version__.encode())
     for module in sorted(package.rglob("*.py")):
+        if module.relative_to(package).parts[0] in ABOVE:
+            continue
         text = module.read_bytes()
         if b"@kernel" in text or b": Final" in text:
             digest.update(text)

@@ -3,7 +3,7 @@ import { BrowserSvg } from './browser-svg.js';
 import { element } from './dom.js';
 import { rasterRival, thesisRival } from './rivals.js';
 import { bytesOf } from './scene.js';
-import { readThesis } from '../src/thesis.js';
+import { readThesis } from '../src/read-thesis.js';
 import { VectorTexture } from '../src/vector-texture.js';
 
 /**
