@@ -1,5 +1,6 @@
 """A server from its socket to its end: one line if it cannot start, a clean stop within a second."""
 
+import logging
 import resource
 import signal
 import socket
@@ -74,6 +75,7 @@ class _Server(uvicorn.Server):
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         self._stop()
+        logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)  # uploads that stop with us are no errors
         await super().shutdown(sockets)
 
 
