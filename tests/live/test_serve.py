@@ -222,11 +222,11 @@ def test_haste_is_refused_until_later(tmp_path):
 
 
 def test_bounds_of_all_shapes(tmp_path):
-    with serving(tmp_path / "shapes", "--max-shapes", 1, "--max-total", 5000) as server:
+    with serving(tmp_path / "shapes", "--max-shapes", 1, "--max-total", 50_000) as server:
         assert server.put("a", square())[0] == 201
         assert server.put("b", square(4))[0] == 507
         assert server.put("a", square(4))[0] == 200
-        large = b'<svg viewBox="0 0 9 9"><path d="M1 1h7v7z"/><!--' + b"x" * 6000 + b"--></svg>"
+        large = b'<svg viewBox="0 0 9 9"><path d="M1 1h7v7z"/><!--' + b"x" * 60_000 + b"--></svg>"
         assert server.put("a", large)[0] == 507
         assert server.manifest("a")["facts"]["segments"] == 4
 

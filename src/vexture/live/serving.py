@@ -1,5 +1,6 @@
 """A server from its socket to its end: one line if it cannot start, a clean stop within a second."""
 
+import logging
 import resource
 import signal
 import socket
@@ -38,13 +39,15 @@ def bind(host: str, port: int) -> socket.socket:
     True
     """
     try:
-        family, kind, protocol, _, where = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+        family, kind, protocol, _, where = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)[
+            0
+        ]  # it would wrap ports
         taken = socket.socket(family, kind, protocol)
     except OSError as error:
         raise DeviceError(f"host {host}: {error.strerror}; choose another with --host") from None
     try:
         taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        taken.bind(where)
+        taken.bind((where[0], port, *where[2:]))
         taken.listen(WAITING)
     except OverflowError:
         taken.close()
@@ -72,6 +75,7 @@ class _Server(uvicorn.Server):
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         self._stop()
+        logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)  # uploads that stop with us are no errors
         await super().shutdown(sockets)
 
 
