@@ -1,0 +1,255 @@
+"""The viewer's page: its controls, as people use them."""
+
+import io
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from browser import served
+from PIL import Image
+from viewed import SHAPES, Viewed, pixels, ready, show, value, write_pages
+from viewer_page import view_matrix
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Viewed]]:
+    """Pages with a silhouette, with a drawing in colours, with both."""
+    folder = tmp_path_factory.mktemp("viewer")
+    with served(folder) as url:
+        yield write_pages(folder, url)
+
+
+def test_divider_moves_by_keys_and_pointer(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, pages["duck"].url, (900, 600))
+    divider = page.get_by_role("slider", name="Divider")
+    assert divider.count() == 0
+    page.get_by_role("combobox", name="Compare with").select_option("Thesis 16 bit")
+    divider.wait_for()
+    assert divider.get_attribute("aria-valuenow") == "50"
+    divider.press("ArrowRight")
+    assert divider.get_attribute("aria-valuenow") == "52"
+    assert value(page)["center"] == [0.5, 0.5]
+    divider.press("Home")
+    assert value(page)["split"] == 0
+    divider.press("PageUp")
+    assert value(page)["split"] == pytest.approx(0.1)
+    box = divider.bounding_box()
+    page.mouse.move(box["x"] + box["width"] / 2, 400)
+    page.mouse.down()
+    width = page.evaluate("vexture.viewer.engine.size.width")
+    page.mouse.move(0.75 * width, 380, steps=3)
+    page.mouse.up()
+    assert value(page)["split"] == pytest.approx(0.75, abs=0.01)
+    assert value(page)["center"] == [0.5, 0.5]
+
+
+def test_a_comparison_that_is_not_there_says_why(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, pages["duck"].url, (900, 600))
+    choice = page.get_by_role("combobox", name="Compare with")
+    choice.select_option("Thesis 8 bit")
+    page.get_by_role("status").filter(has_text="too fine for 8 bits").wait_for()
+    assert choice.input_value() == ""
+
+
+@pytest.mark.parametrize("surface", ["Plane", "Sphere", "Cube"])
+def test_surfaces_turn(
+    pages: dict[str, Viewed], open_page: Callable[..., Any], screenshot: Callable[..., Path], surface: str
+) -> None:
+    page = ready(open_page, pages["flag"].url, (900, 600))
+    flat = pixels(page)[:, :500]
+    page.get_by_role("combobox", name="Surface").select_option(surface)
+    page.wait_for_function("vexture.viewer.engine.toUnit(288, 300) !== null")
+    page.wait_for_timeout(400)
+    screenshot(page)
+    solid = pixels(page)[:, :500]
+    assert np.abs(solid - flat).mean() > 5
+    assert page.get_by_role("combobox", name="Compare with").is_disabled()
+    before = value(page)
+    page.mouse.move(250, 300)
+    page.mouse.down()
+    page.mouse.move(330, 320, steps=3)
+    page.mouse.up()
+    page.get_by_role("application").press("ArrowLeft")
+    page.mouse.wheel(0, -200)
+    page.wait_for_function("vexture.viewer.state.value.distance > 1")
+    after = value(page)
+    assert after["yaw"] != before["yaw"]
+    assert after["pitch"] != before["pitch"]
+    assert after["center"] == before["center"]
+    page.wait_for_timeout(300)
+    assert np.abs(pixels(page)[:, :500] - solid).mean() > 2
+
+
+def test_theme_changes_paper_and_ink(
+    pages: dict[str, Viewed], open_page: Callable[..., Any], screenshot: Callable[..., Path]
+) -> None:
+    page = ready(open_page, pages["duck"].url, (900, 600))
+    button = page.get_by_role("button", name="Theme")
+    seen = {}
+    for _ in range(3):
+        button.click()
+        page.wait_for_timeout(200)
+        theme = value(page)["theme"]
+        seen[theme] = pixels(page)
+        screenshot(page, theme)
+    assert set(seen) == {"light", "dark", "system"}
+    assert seen["light"][5, 5].tolist() == [255, 255, 255]
+    assert seen["dark"][5, 5].tolist() == [0x14, 0x16, 0x1A]
+    assert np.abs(seen["light"][:400, :500] - seen["system"][:400, :500]).max() == 0  # the system's is light
+
+
+def test_a_link_opens_the_same_view(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, pages["flag"].url, (900, 600), permissions=["clipboard-read", "clipboard-write"])
+    page.mouse.move(200, 200)
+    page.mouse.wheel(0, -700)
+    page.get_by_role("combobox", name="Compare with").select_option("Browser SVG")
+    page.get_by_role("slider", name="Divider").press("ArrowLeft")
+    page.get_by_role("button", name="Theme").click()
+    page.get_by_role("button", name="Theme").click()
+    page.get_by_role("button", name="Copy link").click()
+    page.get_by_role("status").filter(has_text="The link is copied").wait_for()
+    link = page.evaluate("navigator.clipboard.readText()")
+    page.wait_for_function("(link) => location.href === link", arg=link)
+    other = ready(open_page, link, (900, 600))
+    assert value(other) == value(page)
+    for one in (page, other):
+        one.evaluate("document.querySelector('.notes').textContent = ''")
+        one.wait_for_timeout(500)
+    assert np.abs(pixels(other)[:, :560] - pixels(page)[:, :560]).max() <= 1
+
+
+@pytest.mark.parametrize(
+    "link", ["#view=", "#view=1~duck~", "#view=%E0%A4%A", "#view=1~~~x~0~1~flat~0~0~1~system~~0~0~0"]
+)
+def test_a_damaged_link_is_ignored_with_a_note(
+    pages: dict[str, Viewed], open_page: Callable[..., Any], link: str
+) -> None:
+    page = ready(open_page, pages["duck"].url + link, (900, 600))
+    page.get_by_role("status").filter(has_text="link is damaged").wait_for()
+    assert value(page)["zoom"] == 1
+
+
+def test_copy_picture_gives_the_canvas_as_png(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, pages["flag"].url, (900, 600), permissions=["clipboard-read", "clipboard-write"])
+    show(page, zoom=1.7)
+    page.get_by_role("button", name="Copy picture").click()
+    page.get_by_role("status").filter(has_text="The picture is copied").wait_for()
+    content = page.evaluate(
+        """async () => {
+          const [item] = await navigator.clipboard.read();
+          return [...new Uint8Array(await (await item.getType('image/png')).arrayBuffer())];
+        }"""
+    )
+    picture = np.asarray(Image.open(io.BytesIO(bytes(content))).convert("RGB")).astype(np.float64)
+    height, width = picture.shape[:2]
+    expected = pages["flag"].expected(view_matrix((0.5, 0.5), 1.7, (width, height)), (width, height))
+    assert np.abs(picture - expected).mean() <= 0.6
+
+
+def test_files_are_opened_or_refused_with_a_note(
+    pages: dict[str, Viewed], open_page: Callable[..., Any], tmp_path: Path
+) -> None:
+    page = ready(open_page, pages["duck"].url, (900, 600))
+    before = pixels(page)[:380, :500]
+    chosen = page.locator("input[type=file]")
+    status = page.get_by_role("status")
+    (tmp_path / "broken.ktx2").write_bytes(b"no texture")
+    chosen.set_input_files(tmp_path / "broken.ktx2")
+    status.filter(has_text="broken.ktx2:").wait_for()
+    chosen.set_input_files(SHAPES / "cake.svg")
+    status.filter(has_text="vexture view").wait_for()
+    assert np.abs(pixels(page)[:380, :500] - before).max() == 0
+    (tmp_path / "flag.ktx2").write_bytes(pages["flag"].texture.to_ktx2())
+    chosen.set_input_files(tmp_path / "flag.ktx2")
+    page.get_by_role("list", name="Shapes").get_by_role("button", name="flag").wait_for()
+    page.wait_for_function("vexture.viewer.engine.texture.roots.length === 4")
+
+
+def test_a_file_is_dropped_on_the_picture(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, pages["duck"].url, (900, 600))
+    content = list(pages["flag"].texture.to_ktx2())
+    page.evaluate(
+        """(content) => {
+          const dataTransfer = new DataTransfer();
+          dataTransfer.items.add(new File([new Uint8Array(content)], 'dropped.ktx2'));
+          document.querySelector('canvas').dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true }));
+        }""",
+        content,
+    )
+    page.get_by_role("heading", name="dropped", exact=True).wait_for()
+
+
+def test_shapes_are_chosen_from_a_list(
+    pages: dict[str, Viewed], open_page: Callable[..., Any], screenshot: Callable[..., Path]
+) -> None:
+    page = ready(open_page, pages["both"].url, (900, 600))
+    flag = page.get_by_role("list", name="Shapes").get_by_role("button", name="flag")
+    flag.focus()
+    page.keyboard.press("Enter")
+    page.get_by_role("heading", name="flag", exact=True).wait_for()
+    assert flag.get_attribute("aria-current") == "true"
+    page.wait_for_timeout(300)
+    screenshot(page)
+    width, height = page.evaluate("[vexture.viewer.engine.size.width, vexture.viewer.engine.size.height]")
+    expected = pages["flag"].expected(view_matrix((0.5, 0.5), 1, (width, height)), (width, height))
+    assert np.abs(pixels(page)[:500, :width] - expected[:500]).mean() <= 0.6
+
+
+def test_a_lost_context_is_said_and_restored(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, pages["duck"].url, (900, 600), errors=True)
+    before = pixels(page)[:380, :500]
+    page.evaluate(
+        """() => {
+          globalThis.lose = vexture.viewer.engine.renderer.getContext().getExtension('WEBGL_lose_context');
+          lose.loseContext();
+        }"""
+    )
+    page.get_by_role("status").filter(has_text="graphics driver").wait_for()
+    page.evaluate("lose.restoreContext()")
+    page.wait_for_function("document.querySelector('.notes').textContent === ''")
+    page.wait_for_timeout(1500)
+    assert np.abs(pixels(page)[:380, :500] - before).max() <= 1
+
+
+def test_without_webgl_the_page_says_so(pages: dict[str, Viewed], chromium: Any) -> None:
+    context = chromium.new_context(viewport={"width": 900, "height": 600})
+    page = context.new_page()
+    page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
+    page.goto(pages["duck"].url)
+    page.get_by_role("alert").filter(has_text="WebGL 2").wait_for()
+    context.close()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", [(1280, 800), (390, 844), (360, 640)])
+def test_layout(
+    pages: dict[str, Viewed],
+    chromium: Any,
+    screenshot: Callable[..., Path],
+    size: tuple[int, int],
+    scheme: str,
+) -> None:
+    narrow = size[0] < 720
+    context = chromium.new_context(
+        viewport={"width": size[0], "height": size[1]}, color_scheme=scheme, has_touch=narrow, is_mobile=narrow
+    )
+    page = context.new_page()
+    page.goto(pages["both"].url)
+    page.evaluate("vexture.viewer.ready")
+    page.wait_for_timeout(300)
+    screenshot(page)
+    controls = page.get_by_role("button", name="Controls")
+    assert controls.get_attribute("aria-expanded") == json.dumps(not narrow)
+    controls.click()
+    assert page.get_by_role("complementary", name="Controls").is_visible() == narrow
+    page.wait_for_timeout(300)
+    screenshot(page, "other")
+    if narrow:
+        for button in page.get_by_role("button").all():
+            box = button.bounding_box()
+            assert box is None or box["height"] >= 44, button.text_content()
+    assert page.evaluate("document.documentElement.scrollWidth") <= size[0]
+    context.close()
