@@ -1,6 +1,5 @@
 """A server that is killed at any moment has lost nothing that it acknowledged, and serves only whole shapes."""
 
-import asyncio
 import http.client
 import json
 import os
@@ -8,6 +7,7 @@ import random
 import threading
 
 import pytest
+from loops import run
 from server import serving, square
 
 from vexture.encoding.packed_texture import packed_from
@@ -80,7 +80,7 @@ def reopened(path):
 
 
 def test_what_is_published_is_there_again(tmp_path, shape):
-    asyncio.run(published(tmp_path, shape))
+    run(published(tmp_path, shape))
     folder, lines = reopened(tmp_path)
     assert (folder.shape("duck"), lines) == (shape, [])
 
@@ -93,7 +93,7 @@ def test_what_is_published_is_there_again(tmp_path, shape):
 )  # fmt: skip
 def test_a_damaged_manifest_is_one_line_and_others_are_served(tmp_path, shape, damage):
     other = Shape("other", File(b"x", TEXTURE_TYPE, ".ktx2"))
-    asyncio.run(published(tmp_path, shape, other))
+    run(published(tmp_path, shape, other))
     (tmp_path / STATE / "shapes" / manifest_name("duck")).write_bytes(damage)
     folder, lines = reopened(tmp_path)
     assert folder.names == ["other"]
@@ -104,17 +104,17 @@ def test_a_damaged_manifest_is_one_line_and_others_are_served(tmp_path, shape, d
 
 @pytest.mark.parametrize("content", [None, b"textur", b""])
 def test_a_damaged_texture_is_one_line(tmp_path, shape, content):
-    asyncio.run(published(tmp_path, shape))
+    run(published(tmp_path, shape))
     file = tmp_path / STATE / "files" / shape.texture.name
     file.unlink() if content is None else file.write_bytes(content)
     folder, lines = reopened(tmp_path)
     assert (folder.names, len(lines)) == ([], 1)
-    asyncio.run(published(tmp_path, shape, say=[].append))
+    run(published(tmp_path, shape, say=[].append))
     assert reopened(tmp_path)[0].names == ["duck"]
 
 
 def test_what_a_crash_leaves_is_removed(tmp_path, shape):
-    asyncio.run(published(tmp_path, shape))
+    run(published(tmp_path, shape))
     for name in ("files/x.ktx2.tmp", "files/0123.ktx2", "shapes/x.json.tmp"):
         (tmp_path / STATE / name).write_bytes(b"part")
     folder, lines = reopened(tmp_path)
@@ -124,7 +124,7 @@ def test_what_a_crash_leaves_is_removed(tmp_path, shape):
 
 
 def test_the_disk_refuses(tmp_path, shape, monkeypatch):
-    asyncio.run(published(tmp_path, shape))
+    run(published(tmp_path, shape))
     newer = Shape("duck", File(b"newer", TEXTURE_TYPE, ".ktx2"))
 
     def full(handle):
@@ -132,7 +132,7 @@ def test_the_disk_refuses(tmp_path, shape, monkeypatch):
 
     monkeypatch.setattr(os, "fsync", full)
     with pytest.raises(DeviceError, match="No space left"):
-        asyncio.run(published(tmp_path, newer))
+        run(published(tmp_path, newer))
     monkeypatch.undo()
     assert reopened(tmp_path)[0].shape("duck") == shape
     assert not list((tmp_path / STATE).rglob("*.tmp"))

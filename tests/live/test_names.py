@@ -6,6 +6,7 @@ import os
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from loops import run
 
 from vexture.errors import LimitError
 from vexture.live.limits import Limits, Pace
@@ -67,7 +68,7 @@ def test_a_slow_client_is_told_the_newest_of_each_name_and_no_more(steps):
             shelf.close()
             assert await listener.next() is None
 
-    asyncio.run(told())
+    run(told())
 
 
 def test_who_waits_is_woken():
@@ -78,7 +79,7 @@ def test_who_waits_is_woken():
         listener.close()
         assert await waiting is None
 
-    asyncio.run(woken())
+    run(woken())
 
 
 def test_a_replaced_file_is_served_a_moment_longer():

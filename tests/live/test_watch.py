@@ -2,12 +2,12 @@
 
 import asyncio
 import os
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from itertools import cycle, islice
 from pathlib import Path
 
 import pytest
+from loops import run
 
 from vexture.live import watch as watching
 from vexture.live.documents import VIEWER_SETTINGS
@@ -146,8 +146,7 @@ def test_change_is_noticed_when_it_happens(tmp_path, monkeypatch):
             await task
         return event
 
-    with ThreadPoolExecutor(1) as thread:  # in this one Playwright may have a loop of its own
-        event = thread.submit(asyncio.run, notice()).result()
+    event = run(notice())
     assert (event.kind, event.data["name"]) == ("shape", "logo")
 
 

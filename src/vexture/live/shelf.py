@@ -95,9 +95,8 @@ class Listener:
     >>> listener = Listener()
     >>> for version in "abc":
     ...     listener.tell(Event("shape", {"name": "duck", "version": version}))
-    >>> listener.close()
-    >>> asyncio.run(listener.next()), asyncio.run(listener.next())
-    (Event(kind='shape', data={'name': 'duck', 'version': 'c'}), None)
+    >>> len(listener)
+    1
     """
 
     def __init__(self) -> None:
