@@ -191,11 +191,11 @@ class Shelf:
         self._tell(Event("shape", {"name": shape.name, "version": shape.version}))
 
     def remove(self, name: str) -> None:
-        """Take a shape away, if there is one of that name."""
-        shape = self._shapes.pop(name, None)
-        self._notes.pop(name, None)
+        """Take a shape away, or what is noted of one that never came, if there is either of that name."""
+        shape, note = self._shapes.pop(name, None), self._notes.pop(name, None)
         if shape is not None:
             self._release(shape)
+        if shape is not None or note is not None:
             self._tell(Event("gone", {"name": name}))
 
     def refuse(self, name: str, message: str) -> None:
