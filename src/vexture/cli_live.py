@@ -23,6 +23,7 @@ PATH: Any = click.Path(path_type=Path)
 @click.option("--max-total", type=int, default=DEFAULTS.total_bytes, show_default=True, help="Bytes of all shapes.")
 @click.option("--max-shapes", type=int, default=DEFAULTS.shapes, show_default=True, help="Number of shapes.")
 @click.option("--rate", type=float, default=DEFAULTS.rate, show_default=True, help="Uploads a second from one address.")
+@click.option("--precision", metavar="P", type=float, help="Largest shift by rounding, for views from nearby.")
 def serve(
     folder: Path,
     token_file: Path | None,
@@ -32,13 +33,14 @@ def serve(
     max_total: int,
     max_shapes: int,
     rate: float,
+    precision: float | None,
 ) -> None:
     """Serve the shapes of a folder, and take new ones from those who have the token."""
     with one_line(), with_servers("serve"):
         from vexture.live.serve import serve as run
 
         limits = Limits(body_bytes=max_bytes, total_bytes=max_total, shapes=max_shapes, rate=rate)
-        run(folder, token_file, host, port, limits, click.echo)
+        run(folder, token_file, host, port, limits, precision, click.echo)
 
 
 @click.command()

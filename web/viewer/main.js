@@ -102,15 +102,16 @@ async function copySeen(engine, image) {
 async function openFiles(files, state, library) {
   for (const file of files) {
     try {
-      notes.keep(`Opening ${file.name}…`);
+      notes.keep('file', `Opening ${file.name}…`);
       let name = file.name.replace(/\.ktx2$/i, '');
       if (name !== file.name) name = await library.add(await file.arrayBuffer(), name);
       else name = await library.convert(file);
-      notes.keep('');
+      notes.keep('file', '');
       state.update({ shape: name, drawing: '', center: START.center, zoom: START.zoom });
     } catch (error) {
-      notes.keep('');
-      notes.say(`${file.name}: ${/** @type {Error} */ (error).message}`);
+      notes.keep('file', '');
+      const { message } = /** @type {Error} */ (error);
+      notes.say(message.startsWith(file.name) ? message : `${file.name}: ${message}`);
     }
   }
 }
@@ -124,10 +125,13 @@ function opener(engine, state, library, opened) {
   let turn = 0;
   /** @type {import('./scene.js').Document | null} */
   let current = null;
-  const again = () => void (current && engine.show(current));
-  const say = (/** @type {{message: string}} */ event) => notes.say(event.message);
-  const offline = () => notes.keep('Offline: the server does not answer. The last picture stays.');
-  const online = () => notes.keep('');
+  const again = () => {
+    notes.keep('shape', '');
+    if (current) void engine.show(current);
+  };
+  const say = (/** @type {{message: string}} */ event) => notes.keep('shape', event.message);
+  const offline = () => notes.keep('server', 'Offline: the server does not answer. The last picture stays.');
+  const online = () => notes.keep('server', '');
   return async () => {
     const mine = ++turn;
     const name = state.value.shape || library.names[0];
@@ -148,7 +152,7 @@ function opener(engine, state, library, opened) {
       }
       opened(name);
       await engine.show(next);
-      if (next.manifest.note) notes.say(next.manifest.note);
+      notes.keep('shape', next.manifest.note ?? '');
     } catch (error) {
       notes.say(/** @type {Error} */ (error).message);
     }
@@ -170,17 +174,17 @@ async function start(state) {
   viewer.engine = engine;
   const panel = build(engine, state, library);
   followTheme(state, engine);
-  engine.addEventListener('lost', () => notes.keep('The graphics driver was reset; waiting for it…'));
-  engine.addEventListener('restored', () => notes.keep(''));
+  engine.addEventListener('lost', () => notes.keep('driver', 'The graphics driver was reset; waiting for it…'));
+  engine.addEventListener('restored', () => notes.keep('driver', ''));
   const open = opener(engine, state, library, panel.setTitle);
   followLink(state, (message) => notes.say(message));
-  notes.keep('Preparing the picture…');
+  notes.keep('start', 'Preparing the picture…');
   await library.start().catch((error) => notes.say(`The server cannot be reached: ${error.message}`));
   state.addEventListener('change', (event) => {
     if (/** @type {CustomEvent} */ (event).detail.changed.has('shape')) void open();
   });
   await open();
-  notes.keep('');
+  notes.keep('start', '');
   if (linked === undefined) notes.say('This link is damaged; the whole shape is shown.');
   engine.render();
 }

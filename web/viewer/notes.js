@@ -5,7 +5,8 @@ const SHOWN_FOR = 8000; // ms
 
 export class Notes {
   #timer = 0;
-  #lasting = '';
+  /** What is wrong, or under way, by what it is about. @type {Map<string, string>} */
+  #lasting = new Map();
 
   constructor() {
     this.element = element('div', { role: 'status', 'aria-live': 'polite', class: 'notes' });
@@ -14,14 +15,23 @@ export class Notes {
   /** A message that goes by itself. @param {string} message */
   say(message) {
     this.#show(message);
-    this.#timer = window.setTimeout(() => this.#show(this.#lasting), SHOWN_FOR);
+    this.#timer = window.setTimeout(() => this.#show(this.#all()), SHOWN_FOR);
   }
 
-  /** A message that stays until it is taken back by ''. @param {string} message */
-  keep(message) {
-    const taken = this.#lasting;
-    this.#lasting = message;
-    if (message || this.element.textContent === taken) this.#show(message);
+  /**
+   * A message that stays until another of the same subject, or none, takes its place.
+   *
+   * @param {string} subject @param {string} message
+   */
+  keep(subject, message) {
+    const before = this.#all();
+    this.#lasting.delete(subject);
+    if (message) this.#lasting.set(subject, message);
+    if (message || this.element.textContent === before) this.#show(this.#all());
+  }
+
+  #all() {
+    return [...this.#lasting.values()].join(' · ');
   }
 
   /** @param {string} message */

@@ -14,8 +14,10 @@ from multiprocessing.connection import wait
 from typing import Final
 
 from vexture.errors import LimitError, VextureError
+from vexture.live.documents import PUBLISHED_SETTINGS, shape_of
 from vexture.live.limits import Limits
 from vexture.live.shelf import Shape
+from vexture.settings import Settings
 
 __all__ = ["BusyError", "Converter"]
 
@@ -34,10 +36,13 @@ class Converter:
     ----------
     limits : Limits
         Its ``conversion_seconds``, ``texture_bytes`` and ``conversions`` are kept to.
+    settings : Settings
+        How drawings are converted.
     """
 
-    def __init__(self, limits: Limits) -> None:
+    def __init__(self, limits: Limits, settings: Settings = PUBLISHED_SETTINGS) -> None:
         self._limits = limits
+        self._settings = settings
         self._waiting = 0
         self._turn = asyncio.Lock()
         self._pool: ProcessPoolExecutor | None = None
@@ -46,7 +51,7 @@ class Converter:
     async def warm(self) -> None:
         """Start the process, which only the first conversion would wait for."""
         async with self._turn:
-            await asyncio.get_running_loop().run_in_executor(self._running(), _nothing)
+            await asyncio.get_running_loop().run_in_executor(self._running(), _nothing, self._settings)
 
     @contextmanager
     def place(self) -> Iterator[None]:
@@ -86,7 +91,8 @@ class Converter:
     async def _converted(self, data: bytes, name: str) -> Shape:
         seconds = self._limits.conversion_seconds
         loop = asyncio.get_running_loop()
-        work = loop.run_in_executor(self._running(), _convert, data, name, self._limits.texture_bytes)
+        most = self._limits.texture_bytes
+        work = loop.run_in_executor(self._running(), _convert, data, name, most, self._settings)
         try:
             async with asyncio.timeout(seconds):
                 return await work
@@ -137,24 +143,21 @@ def _prepare() -> None:
     threading.Thread(target=end_with_the_server, daemon=True).start()
 
 
-def _nothing() -> None:
+def _nothing(settings: Settings) -> None:
     """Compile or load what a conversion needs."""
-    from vexture.live.documents import VIEWER_SETTINGS, shape_of
-
-    shape_of(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "warm.svg", "warm", VIEWER_SETTINGS)
+    shape_of(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "warm.svg", "warm", settings)
 
 
-def _convert(data: bytes, name: str, most: int) -> Shape:
+def _convert(data: bytes, name: str, most: int, settings: Settings) -> Shape:
     """Convert an upload, in the process."""
     from vexture.encoding.ktx2 import MAGIC, TEXEL_BYTES
     from vexture.encoding.packed_texture import packed_from
-    from vexture.live.documents import VIEWER_SETTINGS, shape_of
     from vexture.sources.reading import is_geojson
 
     if not data.strip():
         raise LimitError(f"{name}: the upload is empty; send an SVG, GeoJSON or a packed texture")
     suffix = ".ktx2" if data.startswith(MAGIC) else ".geojson" if is_geojson(data, "") else ".svg"
-    shape = shape_of(data, name + suffix, name, VIEWER_SETTINGS)
+    shape = shape_of(data, name + suffix, name, settings)
     size = packed_from(shape.texture.data, name).nbytes
     if size > most:
         raise LimitError(

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from vexture.drawing import Drawing
 
-__all__ = ["SVG_TYPE", "THESIS_BITS", "VIEWER_SETTINGS", "shape_of", "thesis_pair"]
+__all__ = ["PUBLISHED_SETTINGS", "SVG_TYPE", "THESIS_BITS", "VIEWER_SETTINGS", "shape_of", "thesis_pair"]
 
 SVG_TYPE = "image/svg+xml"
 
@@ -30,6 +30,9 @@ VIEW_PRECISION = 1e-7
 
 VIEWER_SETTINGS = Settings(split="paint", precision=VIEW_PRECISION)
 """How the viewer converts: in its colours, and good for the deepest zoom."""
+
+PUBLISHED_SETTINGS = Settings(split="paint")
+"""How a server converts what is published: in its colours, and small, since pages fetch it again with each change."""
 
 THESIS_BITS = {"thesis16": 16, "thesis8": 8}
 """Bits per channel of each view in the thesis encoding."""

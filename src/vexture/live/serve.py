@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from contextlib import closing, suppress
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from starlette.routing import BaseRoute
 
 from vexture.errors import DeviceError
 from vexture.live.converter import Converter
+from vexture.live.documents import PUBLISHED_SETTINGS
 from vexture.live.folder import Folder
 from vexture.live.limits import Limits
 from vexture.live.publishing import publishing_routes, working
@@ -21,7 +23,13 @@ __all__ = ["serve"]
 
 
 def serve(
-    path: Path, token_file: Path | None, host: str, port: int, limits: Limits, say: Callable[[str], None]
+    path: Path,
+    token_file: Path | None,
+    host: str,
+    port: int,
+    limits: Limits,
+    precision: float | None,
+    say: Callable[[str], None],
 ) -> None:
     """Serve a folder until Ctrl-C or SIGTERM.
 
@@ -34,6 +42,8 @@ def serve(
     host, port : str, int
         Where to listen.
     limits : Limits
+    precision : float or None
+        Of drawings that are converted; see `vexture.convert`.
     say : callable
         Takes one line: first where the server is.
 
@@ -45,7 +55,7 @@ def serve(
     token = None if token_file is None else read_token(token_file)
     with closing(bind(host, port)) as taken:
         folder = Folder(path, limits, say)
-        converter = Converter(limits)
+        converter = Converter(limits, replace(PUBLISHED_SETTINGS, precision=precision))
         app = application(
             [*routes(folder), *publishing_routes(folder, converter, limits, token), *_page()],
             open_to_all=True,
