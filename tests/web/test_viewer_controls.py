@@ -121,6 +121,34 @@ def test_a_link_opens_the_same_view(pages: dict[str, Viewed], open_page: Callabl
     assert np.abs(pixels(other)[:, :560] - pixels(page)[:, :560]).max() <= 1
 
 
+LATE = """() => {
+  const { renderer } = vexture.viewer.engine;
+  const compile = renderer.compileAsync.bind(renderer);
+  let late = 800;
+  renderer.compileAsync = async (...given) => {
+    const wait = late;
+    late = 0;
+    await compile(...given);
+    await new Promise((done) => setTimeout(done, wait));
+  };
+}"""
+"""The next program is compiled slowly, as by a busy driver; those after it are not."""
+
+
+def test_a_surface_chosen_while_another_is_made(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, pages["flag"].url, (900, 600))
+    page.evaluate(LATE)
+    for surface in ("Plane", "Sphere"):
+        page.get_by_role("combobox", name="Surface").select_option(surface)
+    page.wait_for_timeout(2000)
+    anew = ready(open_page, page.evaluate("location.href"), (900, 600))
+    anew.wait_for_timeout(1500)
+    page.get_by_role("application").press("ArrowLeft")  # it can still be turned
+    anew.get_by_role("application").press("ArrowLeft")
+    page.wait_for_timeout(300)
+    assert np.abs(pixels(page) - pixels(anew))[:, :500].mean() < 0.1
+
+
 @pytest.mark.parametrize(
     "link", ["#view=", "#view=1~duck~", "#view=%E0%A4%A", "#view=1~~~x~0~1~flat~0~0~1~system~~0~0~0"]
 )

@@ -101,6 +101,10 @@ export class Engine extends EventTarget {
     if (this.#solid?.surface === mode && this.#solid.drawing === this.drawing) return;
     const solid = new Solid(mode, this.drawing);
     await solid.compile(this.renderer);
+    if (solid.surface !== this.state.value.mode || solid.drawing !== this.drawing) {
+      solid.dispose(); // while it was made, another was asked for
+      return;
+    }
     this.#solid?.dispose();
     this.#solid = solid;
     this.requestFrame();
