@@ -7,7 +7,8 @@
 PYTHON ?= python3
 BIN := .venv/bin
 SHAPES := examples/shapes
-BENCHMARKS := packed_fidelity speed packed_conversion size fidelity conversion icons editing
+BENCHMARKS := packed_fidelity speed packed_conversion size fidelity conversion icons live
+WEB_BENCHMARKS := page_fidelity web_speed editing
 VIEWER := src/vexture/live/built/viewer.js
 WEB_SOURCES := $(shell find web/src web/viewer web/generated -name '*.js' -o -name '*.css')
 QUICK ?=
@@ -104,8 +105,10 @@ test-web: viewer
 
 bench: .venv/for-test
 	@$(BIN)/python tools/prepare.py system
-	@$(MAKE) --no-print-directory viewer || echo 'so what needs the viewer is not measured'
-	@for name in $(BENCHMARKS); do echo && $(BIN)/python "benchmarks/$$name.py" $(QUICK) || exit 1; done
+	@names='$(BENCHMARKS)'; \
+	if $(MAKE) --no-print-directory viewer; then names="$$names $(WEB_BENCHMARKS)"; \
+	else echo 'so the web is not measured: $(WEB_BENCHMARKS)'; fi; \
+	for name in $$names; do echo && $(BIN)/python "benchmarks/$$name.py" $(QUICK) || exit 1; done
 
 clean:
 	rm -rf .venv demo build src/*.egg-info benchmarks/results .hypothesis .mypy_cache .pytest_cache .ruff_cache \

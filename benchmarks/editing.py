@@ -22,15 +22,12 @@ from pathlib import Path
 from statistics import median
 from typing import Any, Final
 
+from chromium import CHROMIUM, FLAGS, ROOT
 from machine import machine_facts, machine_line
 from report import cell, table, write_json
 from targets import Target, judged, judgement
 from vexture.errors import DeviceError, VextureError
 from vexture.live.page import SCRIPT, built
-
-ROOT: Final = Path(__file__).parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "web"))
-from browser import CHROMIUM, FLAGS  # noqa: E402 - the very browser of the tests
 
 __all__ = ["exported", "percentile", "saved"]
 

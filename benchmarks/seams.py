@@ -28,7 +28,16 @@ from vexture.quadtree.tree import LATTICE, PackedTree
 from vexture.render.exact import render_exact
 from views import View
 
-__all__ = ["Crossing", "crossings", "seam_facts", "seam_table", "seam_targets", "step_of"]
+__all__ = [
+    "Crossing",
+    "crossings",
+    "displacements",
+    "is_straight",
+    "seam_facts",
+    "seam_table",
+    "seam_targets",
+    "step_of",
+]
 
 SIDE: Final = 64
 REACH: Final = 20.0
@@ -94,8 +103,8 @@ def smooth(along: NDArray[np.float64], low: float, high: float) -> NDArray[np.fl
     return np.where(inside, wave / (high - low), 0.0)
 
 
-def step_of(difference: NDArray[np.floating[Any]], direction: tuple[float, float]) -> float:
-    """Step, in pixels, of an outline through the middle of a window.
+def displacements(difference: NDArray[np.floating[Any]], direction: tuple[float, float]) -> tuple[float, float, float]:
+    """How far an outline through the middle of a window is displaced, in pixels: before it, behind it, around it.
 
     Parameters
     ----------
@@ -107,8 +116,16 @@ def step_of(difference: NDArray[np.floating[Any]], direction: tuple[float, float
     middle = difference.shape[0] / 2.0
     down, right = (axis + 0.5 - middle for axis in np.indices(difference.shape))
     along = right * direction[0] + down * direction[1]
-    stretches = ((-REACH, 0.0), (0.0, REACH), (-NOTCH, NOTCH))
-    before, behind, around = (float((difference * smooth(along, *stretch)).sum()) for stretch in stretches)
+    before, behind, around = (
+        float((difference * smooth(along, *stretch)).sum())
+        for stretch in ((-REACH, 0.0), (0.0, REACH), (-NOTCH, NOTCH))
+    )
+    return before, behind, around
+
+
+def step_of(difference: NDArray[np.floating[Any]], direction: tuple[float, float]) -> float:
+    """Step, in pixels, of an outline through the middle of a window; parameters as of `displacements`."""
+    before, behind, around = displacements(difference, direction)
     return max(abs(behind - before), abs(around - 0.5 * (before + behind)))
 
 

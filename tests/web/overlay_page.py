@@ -10,7 +10,7 @@ import numpy as np
 from browser import ROOT
 from numpy.typing import NDArray
 from PIL import Image
-from viewer_page import build_viewer, manifest, thesis_view, view_matrix, write_page
+from viewer_page import manifest, thesis_view, view_matrix, write_page
 
 import vexture
 from cells import Cells, finest_level
@@ -80,7 +80,6 @@ class Shown(NamedTuple):
 
 def write_pages(folder: Path) -> dict[str, PackedTexture]:
     """Write NAME.html for some textures; they are returned."""
-    build_viewer()
     (folder / "boat.svg").write_text(BOAT)
     (folder / "favicon.ico").write_bytes(b"")  # which browsers ask servers for
     textures = {name: vexture.convert(SHAPES / f"{name}.svg") for name in ("duck", "ocean", "font")}

@@ -9,7 +9,7 @@ import numpy as np
 from browser import ROOT
 from numpy.typing import NDArray
 from PIL import Image
-from viewer_page import build_viewer, data_url, manifest, thesis_view, write_page
+from viewer_page import data_url, manifest, thesis_view, write_page
 
 import vexture
 from vexture.pictures import render_layers
@@ -43,7 +43,6 @@ class Viewed:
 
 def write_pages(folder: Path, url: str) -> dict[str, Viewed]:
     """The duck, all its rivals included; a drawing in colours; both in one page."""
-    build_viewer()
     (folder / "flag.svg").write_bytes(FLAG)
     duck, flag = vexture.read_svg(SHAPES / "duck.svg"), vexture.read_svg(folder / "flag.svg")
     textures = vexture.convert(duck, precision=PRECISION), vexture.convert(flag, split="paint", precision=PRECISION)

@@ -3,14 +3,14 @@
 import base64
 import json
 import subprocess
+import tempfile
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from browser import ROOT, WEB
+from browser import WEB
 from numpy.typing import NDArray
-
-BUILT = ROOT / "src" / "vexture" / "live" / "built"
 
 FIT = 0.9  # of the canvas's shorter side is the unit square at zoom 1 (web/viewer/view.js)
 
@@ -51,17 +51,23 @@ def thesis_view(texture: Any, folder: Path) -> list[str]:
     return [data_url("image/png", (folder / f"{texture.name}.{part}.png").read_bytes()) for part in ("quads", "curves")]
 
 
-def build_viewer() -> None:
-    """Bundle the page's script and style."""
-    outcome = subprocess.run(["npm", "run", "-s", "viewer"], cwd=WEB, capture_output=True, text=True, check=False)
-    assert outcome.returncode == 0, outcome.stderr
+@cache
+def built() -> tuple[str, str]:
+    """Script and style of the page, as they are now; the built ones may be those of an earlier day."""
+    entries = ["viewer/main.js", "viewer/viewer.css"]
+    with tempfile.TemporaryDirectory() as folder:
+        command = ["node_modules/.bin/esbuild", *entries, "--bundle", "--format=esm", f"--outdir={folder}"]
+        outcome = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=False)
+        assert outcome.returncode == 0, outcome.stderr
+        script, style = (Path(folder, name).read_text(encoding="utf-8") for name in ("main.js", "viewer.css"))
+    return script, style
 
 
 def write_page(path: Path, *manifests: dict[str, Any], scene: dict[str, Any] | None = None) -> Path:
     """Write the page, with shapes in it."""
     text = json.dumps(scene or {"shapes": manifests}).replace("<", "\\u003c")
-    script = (BUILT / "viewer.js").read_text(encoding="utf-8").replace("</script", "<\\/script")
-    css = (BUILT / "viewer.css").read_text(encoding="utf-8")
+    script, css = built()
+    script = script.replace("</script", "<\\/script")
     path.write_text(PAGE.format(css=css, scene=text, script=script), encoding="utf-8")
     return path
 
