@@ -1,0 +1,48 @@
+"""The README's program for three.js runs as it stands there."""
+
+import io
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from browser import ROOT, bundle, served
+from PIL import Image
+
+import vexture
+
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+DUCK, PAPER = (0xE8, 0xB1, 0x00), (0xF4, 0xF1, 0xE8)
+
+
+def shares(page: Any) -> list[float]:
+    """Parts of the page that have the duck's colour, and the paper's."""
+    seen = np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB")).astype(int)
+    return [float(np.mean(np.abs(seen - color).max(axis=2) <= 1)) for color in (DUCK, PAPER)]
+
+
+@pytest.mark.parametrize("three", ["three", "three-floor"])
+def test_the_readme_draws_a_duck(
+    tmp_path: Path, open_page: Callable[..., Any], screenshot: Callable[..., Path], three: str
+) -> None:
+    program = next(block for block in re.findall(r"^```js\n(.*?)^```", README, re.M | re.S) if "loadAsync" in block)
+    (tmp_path / "main.js").write_text(program, encoding="utf-8")
+    bundle(tmp_path / "main.js", tmp_path / "bundle.js", three)
+    (tmp_path / "index.html").write_text(
+        '<!doctype html><link rel="icon" href="data:,"><body><script type="module" src="bundle.js"></script>'
+    )
+    vexture.convert(ROOT / "examples" / "shapes" / "duck.svg").save(tmp_path / "duck.ktx2")
+    with served(tmp_path) as address:
+        page = open_page(address)
+        page.wait_for_selector("canvas")
+        for _ in range(40):  # it turns: once in a while its edge is all that is seen
+            page.wait_for_timeout(250)
+            duck, paper = shares(page)
+            if duck > 0.05:
+                break
+        screenshot(page)
+    assert duck > 0.05, "the duck is not there in its colour"
+    assert paper > 0.3
+    assert duck + paper > 0.95
