@@ -35,7 +35,7 @@ def serve(
     rate: float,
     precision: float | None,
 ) -> None:
-    """Serve the shapes of a folder, and take new ones from those who have the token."""
+    """Serve a folder of shapes, and take new ones by a token."""
     with one_line(), with_servers("serve"):
         from vexture.live.serve import serve as run
 
@@ -48,7 +48,7 @@ def serve(
 @click.argument("url", metavar="URL")
 @click.option("--token-file", metavar="F", type=PATH, required=True, help="File with the token of the server.")
 def push(file: Path, url: str, token_file: Path) -> None:
-    """Publish an SVG, GeoJSON or a packed texture on a server (vexture serve).
+    """Publish a drawing or a packed texture on a server.
 
     URL is that of the server, or SERVER/shapes/NAME; the name is otherwise the file's.
     """

@@ -73,7 +73,7 @@ def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening:
 @click.option("--title", metavar="TEXT", help="Title of the page.  [default: the names of the files]")
 @_conversion
 def export(files: tuple[Path, ...], output: Path, title: str | None, **conversion: Any) -> None:
-    """Write one page that shows drawings and needs no server: everything is in it."""
+    """Write one page that shows drawings, with everything in it."""
     with one_line():
         from vexture.live.viewing import export as write
 

@@ -11,6 +11,8 @@ from viewed import PRECISION, SIZE, Viewed, pixels, point_on_outline, ready, sho
 from viewer_page import FIT, view_matrix
 
 import vexture
+from vexture.live.documents import VIEWER_SETTINGS, shape_of
+from vexture.live.page import exported_page
 
 
 @pytest.fixture(scope="module")
@@ -186,6 +188,36 @@ def test_rivals_stand_in_step_with_the_picture(
     assert np.ptp(expected) > 200
     print(f"\n{rival} {zoom}x: {np.abs(seen - expected).mean():.3f}")
     assert np.abs(seen - expected).mean() <= limit
+
+
+WINDOWS = {
+    "beyond": 'viewBox="0 0 100 50"',
+    "elsewhere": 'viewBox="-20 10 100 60" width="30mm"',
+    "slice": 'width="400" height="200" viewBox="0 0 100 100" preserveAspectRatio="xMaxYMin slice"',
+    "meet": 'width="400" height="200" viewBox="0 0 100 100" preserveAspectRatio="xMinYMax"',
+    "none": 'width="200" height="300" viewBox="0 0 100 100" preserveAspectRatio="none"',
+    "pixels": 'width="60" height="50"',
+    "nothing": "",
+}
+"""Documents whose window cuts what is in it, by every way in which it can stand."""
+
+
+@pytest.mark.parametrize("window", WINDOWS)
+def test_the_browsers_picture_stands_where_ours_does(
+    tmp_path: Path, open_page: Callable[..., Any], screenshot: Callable[..., Path], window: str
+) -> None:
+    text = f'<svg xmlns="http://www.w3.org/2000/svg" {WINDOWS[window]}><circle cx="40" cy="30" r="45"/></svg>'
+    shape = shape_of(text.encode(), "window.svg", "window", VIEWER_SETTINGS)
+    (tmp_path / "page.html").write_bytes(exported_page([shape], "window"))
+    page = ready(open_page, (tmp_path / "page.html").as_uri(), (900, 600))
+    ours = pixels(page)[60:500, 30:560]
+    page.get_by_role("combobox", name="Compare with").select_option("Browser SVG")
+    page.get_by_role("slider", name="Divider").press("Home")
+    page.wait_for_timeout(700)
+    screenshot(page)
+    theirs = pixels(page)[60:500, 30:560]
+    assert np.ptp(ours) > 200
+    assert np.abs(ours - theirs).mean() <= 1.0
 
 
 def test_raster_of_equal_bytes(

@@ -12,6 +12,7 @@ from PIL import Image
 from viewer_page import data_url, manifest, thesis_view, write_page
 
 import vexture
+from vexture.live.documents import VIEWER_SETTINGS, shape_of
 from vexture.pictures import render_layers
 
 SIZE = (512, 512)
@@ -47,13 +48,17 @@ def write_pages(folder: Path, url: str) -> dict[str, Viewed]:
     duck, flag = vexture.read_svg(SHAPES / "duck.svg"), vexture.read_svg(folder / "flag.svg")
     textures = vexture.convert(duck, precision=PRECISION), vexture.convert(flag, split="paint", precision=PRECISION)
     thesis = vexture.convert(duck, encoding="thesis", bits=16)
+    duck_source = (SHAPES / "duck.svg").read_bytes()
     views = {
-        "svg": data_url("image/svg+xml", (SHAPES / "duck.svg").read_bytes()),
+        "svg": data_url("image/svg+xml", duck_source),
         "thesis16": thesis_view(thesis, folder),
         "thesis8": {"error": "the duck is too fine for 8 bits"},
     }
-    duck_manifest = manifest(textures[0], views=views)
-    flag_manifest = manifest(textures[1], views={"svg": data_url("image/svg+xml", FLAG)})
+    duck_facts = shape_of(duck_source, "duck.svg", "duck", VIEWER_SETTINGS).facts
+    flag_facts = shape_of(FLAG, "flag.svg", "flag", VIEWER_SETTINGS).facts
+    duck_manifest = manifest(textures[0], views=views, facts={"box": duck_facts["box"]})
+    flag_views = {"svg": data_url("image/svg+xml", FLAG)}
+    flag_manifest = manifest(textures[1], views=flag_views, facts={"box": flag_facts["box"]})
     write_page(folder / "duck.html", duck_manifest)
     write_page(folder / "flag.html", flag_manifest)
     write_page(folder / "both.html", duck_manifest, flag_manifest)

@@ -10,25 +10,24 @@ import { toUnit } from './view.js';
 const SVG = 'http://www.w3.org/2000/svg';
 
 /**
- * The source's outermost element, made to stand in another one with its user units kept.
+ * The source's outermost element, made to stand in another one where its own window is: its viewBox, its aspect ratio
+ * and its clipping do what they do when it stands alone.
  *
  * @param {string} text
+ * @param {[number, number, number, number]} window left, top, width and height, in the source's user units
  */
-function nested(text) {
+function nested(text, [x, y, width, height]) {
   const parsed = new DOMParser().parseFromString(text, 'image/svg+xml');
   const root = parsed.documentElement;
   if (root.namespaceURI !== SVG || root.localName !== 'svg' || parsed.querySelector('parsererror')) {
     throw new Error('the browser cannot read this SVG');
   }
-  const box = (root.getAttribute('viewBox') ?? '').trim().split(/[\s,]+/).map(Number);
-  if (box.length === 4 && box.every(Number.isFinite)) {
-    ['x', 'y', 'width', 'height'].forEach((name, i) => root.setAttribute(name, String(box[i])));
-    root.setAttribute('preserveAspectRatio', 'none');
-    const style = /** @type {SVGSVGElement} */ (/** @type {unknown} */ (root)).style;
-    style.setProperty('width', `${box[2]}px`, 'important');
-    style.setProperty('height', `${box[3]}px`, 'important');
-  }
-  root.setAttribute('overflow', 'visible');
+  const framed = root.hasAttribute('viewBox') || (root.hasAttribute('width') && root.hasAttribute('height'));
+  Object.entries({ x, y, width, height }).forEach(([name, value]) => root.setAttribute(name, String(value)));
+  const { style } = /** @type {SVGSVGElement} */ (/** @type {unknown} */ (root));
+  style.setProperty('width', `${width}px`, 'important');
+  style.setProperty('height', `${height}px`, 'important');
+  style.setProperty('overflow', framed ? 'hidden' : 'visible', 'important'); // without a size nothing is cut off
   return new XMLSerializer().serializeToString(root);
 }
 
@@ -45,22 +44,28 @@ export class BrowserSvg {
   /**
    * @param {string} text the source
    * @param {number[]} transform from the unit square to its user units, row by row
+   * @param {[number, number, number, number]} box its window: left, bottom, right and top in the unit square
    */
-  constructor(text, transform) {
-    this.content = nested(text);
+  constructor(text, transform, [left, bottom, right, top]) {
     this.transform = transform;
+    const [x, y] = this.#user([left, top]);
+    const [beyond, below] = this.#user([right, bottom]);
+    this.content = nested(text, [x, y, beyond - x, below - y]);
     this.element = element('div', { class: 'browser-svg' });
     /** @type {HTMLImageElement | null} */
     this.image = null;
   }
 
+  /** @param {[number, number]} point of the unit square */
+  #user([u, v]) {
+    const [a, b, c, d, e, f] = this.transform;
+    return [a * u + b * v + c, d * u + e * v + f];
+  }
+
   /** The whole document that shows what the canvas shows. */
   #document() {
-    const [a, b, c, d, e, f] = this.transform;
-    /** @param {[number, number]} point */
-    const user = ([u, v]) => [a * u + b * v + c, d * u + e * v + f];
-    const [x0, y0] = user(toUnit(this.#view, this.#size, 0, 0));
-    const [x1, y1] = user(toUnit(this.#view, this.#size, this.#size.width, this.#size.height));
+    const [x0, y0] = this.#user(toUnit(this.#view, this.#size, 0, 0));
+    const [x1, y1] = this.#user(toUnit(this.#view, this.#size, this.#size.width, this.#size.height));
     const { width, height } = this.#size;
     return `<svg xmlns="${SVG}" width="${width}" height="${height}" preserveAspectRatio="none" `
       + `viewBox="${x0} ${y0} ${x1 - x0} ${y1 - y0}">${this.content}</svg>`;

@@ -65,7 +65,9 @@ async function prepared(which, shown, engine) {
   if (view.error) throw new Error(view.error);
   if (which === 'svg') {
     const text = new TextDecoder().decode(await bytesOf(view, shown.base));
-    return new BrowserSvg(text, shown.texture.roots[drawing?.first ?? 0].transform);
+    const box = shown.manifest.facts?.box;
+    if (!box) throw new Error('where the SVG stands is not in this file');
+    return new BrowserSvg(text, shown.texture.roots[drawing?.first ?? 0].transform, box);
   }
   const [quads, curves] = await Promise.all(view.map((/** @type {string} */ url) => bytesOf(url, shown.base)));
   const rival = thesisRival(new VectorTexture(await readThesis(quads, curves, shown.name)));

@@ -43,6 +43,9 @@ function shapesSection(state) {
   return { box, show };
 }
 
+/** Whether a rival is made from the drawing, which not every texture comes with. @param {string} rival */
+const needsSource = (rival) => rival !== '' && rival !== 'raster';
+
 /**
  * @param {Engine} engine
  * @param {State} state
@@ -68,6 +71,9 @@ function viewSection(engine, state) {
     const names = engine.texture ? drawingNames(engine.texture) : [];
     drawing.list.replaceChildren(...names.map((name) => element('option', { value: name }, name)));
     drawing.row.hidden = names.length < 2;
+    for (const option of rival.list.options) {
+      option.disabled = needsSource(option.value) && !(option.value in (engine.document?.manifest.views ?? {}));
+    }
     follow();
   });
   drawing.row.hidden = true;

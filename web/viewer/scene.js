@@ -9,6 +9,7 @@
  * @property {number | null} [bytes]
  * @property {number | null} [milliseconds]
  * @property {number | null} [distance]
+ * @property {[number, number, number, number] | null} [box] where the browser's own picture stands in the unit square
  * @property {string[]} [warnings]
  *
  * @typedef {object} Manifest as the server and the exported page write it
