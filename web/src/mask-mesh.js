@@ -78,13 +78,18 @@ export class MaskedMesh {
     for (const material of [this.#depth, this.#distance]) material.needsUpdate = true;
   }
 
+  /** Free what is on the GPU; it comes again when it is needed. */
+  dispose() {
+    this.#depth.dispose();
+    this.#distance.dispose();
+  }
+
   release() {
     const { raycast, depth, distance } = this.#before;
     if (raycast) this.#mesh.raycast = raycast;
     else delete (/** @type {Partial<Masked>} */ (this.#mesh).raycast);
     this.#mesh.customDepthMaterial = depth;
     this.#mesh.customDistanceMaterial = distance;
-    this.#depth.dispose();
-    this.#distance.dispose();
+    this.dispose();
   }
 }

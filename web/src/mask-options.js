@@ -14,13 +14,17 @@ import { VextureError, line } from './errors.js';
  *   the shape again
  * @property {'exact' | 'fast'} [quality]
  * @property {boolean} [invert] the shape is where it is not; not in mode `paint`
- * @property {import('three').ColorRepresentation} [color] mode `mix`: colour inside
+ * @property {import('three').ColorRepresentation} [color] mode `mix`: colour inside; a `Color` may be changed at any time
  * @property {import('three').Texture | null} [map] mode `mix`: map inside, by the mesh's uv and its own transform
  * @property {number} [threshold] mode `cut`: coverage of a pixel from which it is drawn
  * @property {'own' | 'none'} [background] mode `paint`: what is around the drawing, the material's own colour or nothing
  * @property {boolean} [instanced] each instance shows the root that its attribute `vextureRoot` says (`rootAttribute`);
  *   in mode `paint` that one layer
  */
+
+const NAMES = Object.freeze([
+  'root', 'transform', 'mode', 'wrap', 'quality', 'invert', 'color', 'map', 'threshold', 'background', 'instanced',
+]);
 
 const MODES = Object.freeze(['alpha', 'mix', 'cut', 'paint']);
 
@@ -48,19 +52,21 @@ function choose(name, value, allowed) {
  */
 export function complete(options) {
   const given = Object.fromEntries(Object.entries(options).filter(([, value]) => value !== undefined));
-  return {
+  const all = {
     transform: new Matrix3(),
-    mode: 'alpha',
-    wrap: 'none',
-    quality: 'exact',
+    mode: /** @type {const} */ ('alpha'),
+    wrap: /** @type {const} */ ('none'),
+    quality: /** @type {const} */ ('exact'),
     invert: false,
     color: 0xffffff,
     map: null,
     threshold: 0.5,
-    background: 'own',
+    background: /** @type {const} */ ('own'),
     instanced: false,
     ...given,
   };
+  for (const name of Object.keys(given)) choose('an option', name, [...NAMES]);
+  return all;
 }
 
 /**
@@ -78,11 +84,18 @@ export function isTranslucent({ mode, background }) {
  * @param {import('./vector-texture.js').VectorTexture} texture
  * @throws {VextureError} if they do not go together
  */
-export function checkOptions({ mode, wrap, quality, background, invert, instanced }, type, texture) {
+export function checkOptions(options, type, texture) {
+  const { mode, wrap, quality, background, invert, instanced, threshold, transform } = options;
   choose('mode', mode, MODES);
   choose('wrap', wrap, Object.keys(WRAPS));
   choose('quality', quality, Object.keys(QUALITIES));
   choose('background', background, ['own', 'none']);
+  if (!(threshold >= 0 && threshold <= 1)) {
+    throw new VextureError(`threshold is ${line(threshold)}; it must be a coverage, 0 to 1`, 'threshold');
+  }
+  if (transform?.elements?.length !== 9) {
+    throw new VextureError(`transform is ${line(transform)}; it must be a Matrix3`, 'transform');
+  }
   const possible = COLORLESS[/** @type {keyof typeof COLORLESS} */ (type)];
   if (possible && !possible.includes(mode)) {
     throw new VextureError(`${type} has no colours for mode ${mode}; use ${possible.join(' or ')}`, 'mode');

@@ -30,10 +30,13 @@ export class VectorMask {
   /** @type {Map<import('./mask-mesh.js').Masked, MaskedMesh>} */
   #meshes = new Map();
   /** @type {Record<string, { value: any }>} */
-  #uniforms = {};
+  #uniforms = { vextureMapTransform: mapTransform(() => this.#options) };
   #range = { first: 0, count: 1 };
   #onChange = () => this.#refresh();
-  #onDispose = () => this.#listen(false);
+  #onDispose = () => {
+    this.#listen(false);
+    for (const mesh of this.#meshes.values()) mesh.dispose();
+  };
 
   /**
    * @param {import('three').Material} material
@@ -106,7 +109,6 @@ export class VectorMask {
     const { data, textures } = this.#texture;
     const { transform, threshold, color, map } = this.#options;
     const { first, count } = this.#range;
-    this.#inside.set(color);
     /** @type {Record<string, unknown>} */
     const values = {
       vextureTexels: textures.texels ?? null,
@@ -119,11 +121,9 @@ export class VectorMask {
       vextureCount: count,
       vextureTransform: transform,
       vextureThreshold: threshold,
-      vextureInside: this.#inside,
+      vextureInside: color instanceof Color ? color : this.#inside.set(color),
       vextureInsideMap: map,
-      vextureMapTransform: map?.matrix ?? transform,
     };
-    if (map?.matrixAutoUpdate) map.updateMatrix();
     for (const [name, value] of Object.entries(values)) (this.#uniforms[name] ??= { value }).value = value;
     this.#material.transparent = isTranslucent(this.#options) || this.#transparent;
     const key = JSON.stringify(this.#variant());
@@ -151,21 +151,27 @@ export class VectorMask {
   }
 
   /**
-   * @template {keyof MaskOptions} Name
-   * @param {Name} name
-   * @param {MaskOptions[Name]} value
+   * Change several at once that only go together, such as a texture and a shape of it. Either all of it is changed or,
+   * after an error, nothing.
+   *
+   * @param {MaskOptions & { texture?: VectorTexture }} changes
+   * @throws {VextureError} if they do not go together, or there is no such root
    */
-  #set(name, value) {
-    const before = this.#options;
-    this.#options = { ...before, [name]: value };
+  set({ texture = this.#texture, ...changes }) {
+    const [texturedBefore, before] = [this.#texture, this.#options];
+    this.#listen(false);
+    this.#texture = texture;
     try {
+      this.#options = complete({ ...before, ...changes });
       this.#check();
       this.#resolve();
     } catch (error) {
-      this.#options = before;
+      [this.#texture, this.#options] = [texturedBefore, before];
       throw error;
+    } finally {
+      this.#listen(true);
+      this.#refresh();
     }
-    this.#refresh();
   }
 
   /** All of it, as `applyVectorMask` takes it. */
@@ -187,19 +193,7 @@ export class VectorMask {
   }
 
   set texture(texture) {
-    const before = this.#texture;
-    this.#listen(false);
-    this.#texture = texture;
-    try {
-      this.#check();
-      this.#resolve();
-    } catch (error) {
-      this.#texture = before;
-      throw error;
-    } finally {
-      this.#listen(true);
-      this.#refresh();
-    }
+    this.set({ texture });
   }
 
   get root() {
@@ -207,7 +201,7 @@ export class VectorMask {
   }
 
   set root(root) {
-    this.#set('root', root);
+    this.set({ root });
   }
 
   get transform() {
@@ -215,7 +209,7 @@ export class VectorMask {
   }
 
   set transform(transform) {
-    this.#set('transform', transform);
+    this.set({ transform });
   }
 
   get mode() {
@@ -223,7 +217,7 @@ export class VectorMask {
   }
 
   set mode(mode) {
-    this.#set('mode', mode);
+    this.set({ mode });
   }
 
   get wrap() {
@@ -231,7 +225,7 @@ export class VectorMask {
   }
 
   set wrap(wrap) {
-    this.#set('wrap', wrap);
+    this.set({ wrap });
   }
 
   get quality() {
@@ -239,7 +233,7 @@ export class VectorMask {
   }
 
   set quality(quality) {
-    this.#set('quality', quality);
+    this.set({ quality });
   }
 
   get invert() {
@@ -247,7 +241,7 @@ export class VectorMask {
   }
 
   set invert(invert) {
-    this.#set('invert', invert);
+    this.set({ invert });
   }
 
   get color() {
@@ -255,7 +249,7 @@ export class VectorMask {
   }
 
   set color(color) {
-    this.#set('color', color);
+    this.set({ color });
   }
 
   get map() {
@@ -263,7 +257,7 @@ export class VectorMask {
   }
 
   set map(map) {
-    this.#set('map', map);
+    this.set({ map });
   }
 
   get threshold() {
@@ -271,7 +265,7 @@ export class VectorMask {
   }
 
   set threshold(threshold) {
-    this.#set('threshold', threshold);
+    this.set({ threshold });
   }
 
   get background() {
@@ -279,7 +273,7 @@ export class VectorMask {
   }
 
   set background(background) {
-    this.#set('background', background);
+    this.set({ background });
   }
 
   get instanced() {
@@ -315,14 +309,14 @@ export class VectorMask {
    */
   attach(mesh) {
     if (this.#meshes.has(mesh)) return this;
-    const isInstanced = this.#options.instanced;
     this.#meshes.set(
       mesh,
       new MaskedMesh(mesh, {
         material: this.#material,
         cuts: () => this.#options.mode === 'cut' || isTranslucent(this.#options),
         hits: (u, v, instance) => {
-          const roots = isInstanced && instance !== undefined ? mesh.geometry.getAttribute(ROOT_ATTRIBUTE) : null;
+          const { instanced } = this.#options;
+          const roots = instanced && instance !== undefined ? mesh.geometry.getAttribute(ROOT_ATTRIBUTE) : null;
           return this.hits(u, v, roots?.getX(instance ?? 0));
         },
         key: () => JSON.stringify({ ...this.#variant(), mode: 'cut' }),
@@ -356,6 +350,21 @@ export class VectorMask {
   dispose() {
     this.remove();
   }
+}
+
+/**
+ * Uniform of the inside map's own transform, as it is when a picture is drawn: three.js looks at its maps then, too.
+ *
+ * @param {() => Pick<MaskOptions, 'map' | 'transform'>} options
+ */
+function mapTransform(options) {
+  return {
+    get value() {
+      const { map, transform } = options();
+      if (map?.matrixAutoUpdate) map.updateMatrix();
+      return map?.matrix ?? transform;
+    },
+  };
 }
 
 /**

@@ -50,6 +50,7 @@ export class VectorMaterial extends MeshBasicMaterial {
   /** What it shows; without one it is a `MeshBasicMaterial`. */
   set texture(texture) {
     if (texture === null) {
+      if (this.#mask) this.#options = this.#mask.options;
       this.#mask?.remove();
       this.#mask = null;
     } else if (this.#mask) {
@@ -64,8 +65,8 @@ export class VectorMaterial extends MeshBasicMaterial {
   }
 
   set root(root) {
-    this.#options.root = root;
     if (this.#mask) this.#mask.root = root;
+    else this.#options.root = root;
   }
 
   /**

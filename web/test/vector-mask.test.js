@@ -1,0 +1,91 @@
+import { Color, Matrix3, MeshBasicMaterial, MeshDepthMaterial, ShaderLib, Texture } from 'three';
+import { describe, expect, test } from 'vitest';
+import { VextureError } from '../src/errors.js';
+import { readPacked } from '../src/packed.js';
+import { applyVectorMask } from '../src/vector-mask.js';
+import { VectorMaterial } from '../src/vector-material.js';
+import { VectorTexture } from '../src/vector-texture.js';
+import { fixture } from './files.js';
+
+const read = async (/** @type {string} */ name) => new VectorTexture(await readPacked(fixture(`${name}.ktx2`), name));
+const [duck, drawings] = await Promise.all([read('duck'), read('drawings')]);
+const other = drawings.roots[1].name;
+
+describe('several changes at once', () => {
+  test('a texture and a shape of it, which neither goes with the old ones', () => {
+    const mask = applyVectorMask(new MeshBasicMaterial(), duck, { root: duck.roots[0].name });
+    expect(() => (mask.root = other)).toThrow(VextureError);
+    expect(() => (mask.texture = drawings)).toThrow(VextureError);
+    expect([mask.texture, mask.root]).toEqual([duck, duck.roots[0].name]);
+    mask.set({ texture: drawings, root: other });
+    expect([mask.texture, mask.root]).toEqual([drawings, other]);
+  });
+
+  test('all or nothing', () => {
+    const mask = applyVectorMask(new MeshBasicMaterial(), duck, { wrap: 'repeat' });
+    expect(() => mask.set({ texture: drawings, wrap: 'clamp', root: 'nobody' })).toThrow(VextureError);
+    expect([mask.texture, mask.root, mask.wrap]).toEqual([duck, undefined, 'repeat']);
+  });
+
+  test('a material of its own', () => {
+    const material = new VectorMaterial({ texture: duck, root: 0 });
+    material.mask?.set({ texture: drawings, root: other });
+    expect([material.texture, material.root]).toEqual([drawings, other]);
+    expect(material.clone().root).toBe(other);
+  });
+});
+
+describe('a material without its texture', () => {
+  test('has it again as it was', () => {
+    const material = new VectorMaterial({ texture: drawings, root: 1 });
+    if (material.mask) material.mask.wrap = 'repeat';
+    expect(() => (material.root = 'nobody')).toThrow(VextureError);
+    material.texture = null;
+    material.texture = drawings;
+    expect([material.root, material.mask?.wrap]).toEqual([1, 'repeat']);
+  });
+});
+
+test('colour and map inside are as they are when a picture is drawn', () => {
+  const [material, map, color] = [new MeshBasicMaterial(), new Texture(), new Color(0xff0000)];
+  const mask = applyVectorMask(material, duck, { mode: 'mix', map, color });
+  const program = { ...ShaderLib.basic, uniforms: /** @type {Record<string, {value: any}>} */ ({}) };
+  material.onBeforeCompile(/** @type {any} */ (program), /** @type {any} */ (null));
+  map.offset.set(0.25, 0.5);
+  color.set(0x00ff00);
+  expect(program.uniforms.vextureMapTransform.value.elements.slice(6, 8)).toEqual([0.25, 0.5]);
+  expect(program.uniforms.vextureInside.value).toBe(color);
+  mask.color = 0x0000ff;
+  expect(program.uniforms.vextureInside.value.getHex()).toBe(0x0000ff);
+});
+
+describe('what a mask cannot be', () => {
+  /** @type {[Record<string, unknown>, string][]} */
+  const wrong = [
+    [{ mode: 'alfa' }, 'mode'],
+    [{ threshold: NaN }, 'threshold'],
+    [{ threshold: 2 }, 'threshold'],
+    [{ transform: [1, 2] }, 'transform'],
+    [{ transform: null }, 'transform'],
+    [{ colour: 0xff0000 }, 'an option'],
+    [{ mode: 'paint', invert: true }, 'invert'],
+    [{ root: 7 }, 'root'],
+  ];
+  test.each(wrong)('%j', (options, field) => {
+    const material = new MeshBasicMaterial();
+    const error = (() => {
+      try {
+        return applyVectorMask(material, duck, /** @type {any} */ (options));
+      } catch (refused) {
+        return refused;
+      }
+    })();
+    expect(error).toBeInstanceOf(VextureError);
+    expect(error).toMatchObject({ field });
+    expect(applyVectorMask(material, duck, { transform: new Matrix3() }).mode).toBe('alpha');
+  });
+
+  test('colours where there are none', () => {
+    expect(() => applyVectorMask(new MeshDepthMaterial(), duck, { mode: 'mix' })).toThrow(/MeshDepthMaterial/);
+  });
+});
