@@ -72,6 +72,23 @@ def test_events_bring_updates_at_once(open_page: Callable[..., Any], server: Liv
     assert len(asked) == 2
 
 
+def test_many_textures_share_one_stream(open_page: Callable[..., Any], server: LiveServer) -> None:
+    page = _opened(open_page, server, NEVER)  # browsers open six connections to one server
+    page.evaluate("(async () => { window.more = []; for (let i = 0; i < 9; i++) more.push(await follow()); })()")
+    _await_stream(page, server)
+    server.publish("2", BADGE)
+    page.wait_for_function("[texture, ...more].every(({ name }) => name === 'badge')")
+    assert len(server.streams) == 1
+    page.evaluate("[texture, ...more.slice(0, 5)].forEach((one) => one.close())")
+    server.publish("3", DUCK)
+    page.wait_for_function("more.slice(5).every(({ name }) => name === 'duck')")
+    assert page.evaluate("texture.name") == "badge"
+    page.evaluate("more.forEach((one) => one.close())")
+    while not server.streams_closed:
+        server.tell("ping", {})  # a server learns that nobody listens when it writes
+        page.wait_for_timeout(50)
+
+
 def test_an_update_between_manifest_and_stream_is_not_missed(open_page: Callable[..., Any], server: LiveServer) -> None:
     server.has_events = False  # until the page has looked
     page = _opened(open_page, server, OFTEN, errors=True)

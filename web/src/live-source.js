@@ -1,5 +1,7 @@
 import { VextureError } from './errors.js';
+import { hasStreams, listen } from './event-stream.js';
 import { fetchResponse, isTransport } from './fetching.js';
+import { parsed } from './json.js';
 import { withTimeLimit } from './patience.js';
 
 /**
@@ -46,12 +48,18 @@ export class Source {
 
   /** Whether there are events, and the platform has what listens to them. */
   get hasEvents() {
-    return this.manifest.events !== undefined && typeof EventSource === 'function';
+    return this.manifest.events !== undefined && hasStreams();
   }
 
-  listen() {
+  /**
+   * Listen to the server's events.
+   *
+   * @param {import('./event-stream.js').Listener} listener
+   * @returns {() => void} ends it
+   */
+  listen(listener) {
     const url = new URL(/** @type {string} */ (this.manifest.events), this.#url);
-    return new EventSource(url, { withCredentials: this.#loader.withCredentials });
+    return listen(url, this.#loader.withCredentials, listener);
   }
 
   /**
@@ -110,20 +118,6 @@ export class Source {
         await this.look(signal);
       }
     }
-  }
-}
-
-/**
- * What a JSON text says.
- *
- * @param {string} text
- * @returns {any} undefined if it is not JSON
- */
-export function parsed(text) {
-  try {
-    return JSON.parse(text);
-  } catch {
-    return undefined;
   }
 }
 

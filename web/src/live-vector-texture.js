@@ -1,5 +1,5 @@
 import { isTransport } from './fetching.js';
-import { Source, parsed } from './live-source.js';
+import { Source } from './live-source.js';
 import { backOff, sleep } from './patience.js';
 import { VectorTextureLoader } from './vector-texture-loader.js';
 import { VectorTexture } from './vector-texture.js';
@@ -130,39 +130,38 @@ export class LiveVectorTexture extends VectorTexture {
    */
   #listen(signal) {
     return new Promise((resolve) => {
-      const stream = this.#source.listen();
       let opened = false;
       const end = () => {
-        stream.close();
+        leave();
         clearTimeout(timer);
         signal.removeEventListener('abort', end);
         resolve(opened);
       };
-      const timer = setTimeout(() => opened || end(), OPENING);
       const refresh = () => this.#refresh().then(() => this.#setOnline(true), end);
-      /** @type {(kind: string, heard: (data: any) => void) => void} */
-      const on = (kind, heard) =>
-        stream.addEventListener(kind, (event) => {
-          const data = parsed(/** @type {MessageEvent} */ (event).data);
-          if (data) heard(data);
-        });
-      stream.onopen = () => {
-        opened = true;
-      };
-      stream.onerror = end; // its own retries know neither bounds nor that it is polled meanwhile
+      const leave = this.#source.listen({
+        opened: (wasOpen) => {
+          opened = true;
+          if (wasOpen) refresh();
+        },
+        heard: (kind, data) => this.#hear(kind, data, refresh),
+        failed: end,
+      });
+      const timer = setTimeout(() => opened || end(), OPENING);
       signal.addEventListener('abort', end);
-      const { name } = this.#manifest;
-      on('hello', ({ versions }) => {
-        if (versions?.[name] !== undefined && !this.#source.has(versions[name])) refresh();
-        else this.#setOnline(true);
-      });
-      on('shape', (shape) => {
-        if (shape.name === name && !this.#source.has(shape.version)) refresh();
-      });
-      on('note', (note) => {
-        if (note.name === name) this.#tell(String(note.message));
-      });
     });
+  }
+
+  /**
+   * @param {string} kind of an event
+   * @param {any} data
+   * @param {() => void} refresh
+   */
+  #hear(kind, data, refresh) {
+    const { name } = this.#manifest;
+    const version = kind === 'hello' ? data.versions?.[name] : data.name === name ? data.version : undefined;
+    if (version !== undefined && !this.#source.has(version)) refresh();
+    else if (kind === 'hello') this.#setOnline(true);
+    else if (kind === 'note' && data.name === name) this.#tell(String(data.message));
   }
 
   /** Be what the server has; one at a time, and once more if asked meanwhile. */

@@ -58,9 +58,12 @@ export function thesisReader(data) {
   return sizes + lists + data.glsl;
 }
 
+/** What is not there at all must not hide what lies behind it: it writes no depth. */
+const NOTHING = 'if (diffuseColor.a == 0.0) discard;';
+
 /** @param {Variant} variant */
 function colorLines(variant) {
-  if (variant.mode === 'alpha') return `diffuseColor.a *= ${coverage(variant)};`;
+  if (variant.mode === 'alpha') return `diffuseColor.a *= ${coverage(variant)};\n${NOTHING}`;
   if (variant.mode === 'mix') {
     const map = variant.hasMap ? ' * texture2D(vextureInsideMap, vextureMapUv)' : '';
     return `diffuseColor = mix(diffuseColor, vec4(vextureInside, opacity)${map}, ${coverage(variant)});`;
@@ -68,7 +71,7 @@ function colorLines(variant) {
   const over =
     variant.background === 'own'
       ? 'diffuseColor.rgb = mix(diffuseColor.rgb, vexturePaint.rgb, vexturePaint.a);'
-      : 'diffuseColor = vec4(vexturePaint.rgb, vexturePaint.a * diffuseColor.a);';
+      : `diffuseColor = vec4(vexturePaint.rgb, vexturePaint.a * diffuseColor.a);\n${NOTHING}`;
   const straight = variant.encoding === 'packed' ? `vextureStraight(${paint(variant)})` : paint(variant);
   return `vec4 vexturePaint = ${straight};\n${over}`;
 }

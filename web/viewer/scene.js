@@ -30,8 +30,10 @@
  * @property {VectorTexture} texture
  * @property {string} base what the manifest's URLs are relative to
  */
+import { listen } from '../src/event-stream.js';
 import { LiveVectorTexture } from '../src/live-vector-texture.js';
 import { readPacked } from '../src/packed.js';
+import { backOff } from '../src/patience.js';
 import { VectorTexture } from '../src/vector-texture.js';
 
 /**
@@ -79,16 +81,34 @@ export class Library extends EventTarget {
   /** Ask the server what it has, and listen for more. */
   async start() {
     if (!this.server) return;
-    const answer = JSON.parse(new TextDecoder().decode(await bytesOf('shapes', this.server)));
-    this.#setServed(answer.shapes);
-    const stream = new EventSource(new URL('events', this.server));
-    /** @param {string} kind @param {(data: any) => string[]} names */
-    const on = (kind, names) => stream.addEventListener(kind, (event) => {
-      this.#setServed(names(JSON.parse(/** @type {MessageEvent} */ (event).data)));
+    await this.#ask(this.server);
+    this.#listen(this.server);
+  }
+
+  /** @param {string} server */
+  async #ask(server) {
+    this.#setServed(JSON.parse(new TextDecoder().decode(await bytesOf('shapes', server))).shapes);
+  }
+
+  /** Hear of new shapes, by the stream that the shown one listens to as well. @param {string} server */
+  #listen(server, failures = 0) {
+    let failed = failures;
+    const leave = listen(new URL('events', server), false, {
+      opened: (wasOpen) => {
+        failed = 0;
+        if (wasOpen) this.#ask(server).catch(() => {}); // whoever shows a shape says that the server is gone
+      },
+      heard: (kind, data) => {
+        const names = this.#served;
+        if (kind === 'hello') this.#setServed([...names.filter((name) => name in data.versions), ...Object.keys(data.versions)]);
+        else if (kind === 'shape') this.#setServed([...names, data.name]);
+        else if (kind === 'gone') this.#setServed(names.filter((name) => name !== data.name));
+      },
+      failed: () => {
+        leave();
+        setTimeout(() => this.#listen(server, failed + 1), backOff(failed + 1));
+      },
     });
-    on('hello', (data) => [...this.#served.filter((name) => name in data.versions), ...Object.keys(data.versions)]);
-    on('shape', (data) => [...this.#served, data.name]);
-    on('gone', (data) => this.#served.filter((name) => name !== data.name));
   }
 
   /** @param {string[]} names */

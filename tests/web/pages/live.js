@@ -3,7 +3,8 @@ import { LiveVectorTexture } from 'vexture';
 
 const options = new URLSearchParams(location.search);
 window.events = [];
-window.live = LiveVectorTexture.connect(options.get('manifest'), { interval: Number(options.get('interval')) }).then(
+window.follow = () => LiveVectorTexture.connect(options.get('manifest'), { interval: Number(options.get('interval')) });
+window.live = window.follow().then(
   (texture) => {
     for (const type of ['change', 'note', 'offline', 'online']) {
       texture.addEventListener(type, ({ message }) => window.events.push(message ? `${type}: ${message}` : type));

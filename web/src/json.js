@@ -1,0 +1,13 @@
+/**
+ * What a JSON text of a stranger says.
+ *
+ * @param {string} text
+ * @returns {any} undefined if it is not JSON
+ */
+export function parsed(text) {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return undefined;
+  }
+}
