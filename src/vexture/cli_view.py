@@ -50,8 +50,8 @@ def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening:
     with one_line(), with_servers("view"):
         from vexture.live.viewing import view as serve
 
-        def show(where: str) -> None:
-            click.echo(f"vexture: {where} shows {len(files)} file{'s' * (len(files) > 1)}; Ctrl-C ends it")
+        def show(where: str, shapes: int) -> None:
+            click.echo(f"vexture: {where} shows {shapes} shape{'s' * (shapes != 1)}; Ctrl-C ends it")
 
         serve(
             files,

@@ -247,3 +247,16 @@ def test_it_stops_cleanly_while_clients_listen_and_drawings_are_converted(tmp_pa
     stream.close()
     waiting.close()
     assert (server.process.returncode, errors) == (0, "")
+
+
+def test_slow_uploads_keep_nobody_waiting(tmp_path):
+    with serving(tmp_path / "shapes", "--rate", 1000) as server:
+        slow = [server.connect() for _ in range(20)]
+        for number, connection in enumerate(slow):
+            connection.putrequest("PUT", f"/shapes/slow{number}")
+            connection.putheader("Authorization", f"Bearer {TOKEN}")
+            connection.putheader("Content-Length", "1000")
+            connection.endheaders(b"<svg")
+        assert server.put("quick", square())[0] == 201
+        for connection in slow:
+            connection.close()

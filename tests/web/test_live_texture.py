@@ -89,6 +89,26 @@ def test_many_textures_share_one_stream(open_page: Callable[..., Any], server: L
         page.wait_for_timeout(50)
 
 
+SEEN = """(seen) => {
+  Object.defineProperty(document, 'hidden', { value: !seen, configurable: true });
+  document.dispatchEvent(new Event('visibilitychange'));
+}"""
+
+
+def test_a_page_that_nobody_sees_takes_no_connection(open_page: Callable[..., Any], server: LiveServer) -> None:
+    page = _opened(open_page, server, NEVER)
+    _await_stream(page, server)
+    page.evaluate(SEEN, False)  # Playwright shows all of its pages, so that this one has to be told
+    while not server.streams_closed:
+        server.tell("ping", {})
+        page.wait_for_timeout(50)
+    server.publish("2", BADGE)
+    page.wait_for_timeout(300)
+    assert page.evaluate("texture.name") == "duck"
+    page.evaluate(SEEN, True)
+    page.wait_for_function("texture.name === 'badge'")
+
+
 def test_an_update_between_manifest_and_stream_is_not_missed(open_page: Callable[..., Any], server: LiveServer) -> None:
     server.has_events = False  # until the page has looked
     page = _opened(open_page, server, OFTEN, errors=True)

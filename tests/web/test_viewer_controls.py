@@ -121,6 +121,14 @@ def test_a_link_opens_the_same_view(pages: dict[str, Viewed], open_page: Callabl
     assert np.abs(pixels(other)[:, :560] - pixels(page)[:, :560]).max() <= 1
 
 
+def test_a_link_to_a_shape_that_is_gone_shows_another(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    link = "#view=1~nobody~~0.5~0.5~1~flat~0~0~1~system~~0.5~0~0"
+    page = ready(open_page, pages["both"].url + link, (900, 600))
+    page.get_by_role("status").filter(has_text="no shape nobody").wait_for()
+    page.wait_for_function("() => document.title.startsWith('duck')")
+    assert page.get_by_role("button", name="duck").get_attribute("aria-current") == "true"
+
+
 LATE = """() => {
   const { renderer } = vexture.viewer.engine;
   const compile = renderer.compileAsync.bind(renderer);

@@ -1,4 +1,5 @@
-// Streams of a server's events, one for all textures of a page: browsers open few connections to one server.
+// Streams of a server's events. Browsers open few connections to one server, so all textures of a page share one, and a
+// page that nobody sees has none: when it is seen again, it hears what it has missed.
 import { parsed } from './json.js';
 
 /**
@@ -18,8 +19,12 @@ class Stream {
   /** @type {Set<Listener>} */
   listeners = new Set();
   isOpen = false;
-  #source;
   #key;
+  #url;
+  #withCredentials;
+  /** @type {EventSource | null} */
+  #source = null;
+  #look = () => (document.hidden ? this.#close() : this.#open());
 
   /**
    * @param {string} key
@@ -28,25 +33,41 @@ class Stream {
    */
   constructor(key, url, withCredentials) {
     this.#key = key;
-    this.#source = new EventSource(url, { withCredentials });
-    this.#source.onopen = () => {
+    this.#url = url;
+    this.#withCredentials = withCredentials;
+    globalThis.document?.addEventListener('visibilitychange', this.#look);
+    if (!globalThis.document?.hidden) this.#open();
+  }
+
+  #open() {
+    if (this.#source) return;
+    const source = new EventSource(this.#url, { withCredentials: this.#withCredentials });
+    this.#source = source;
+    source.onopen = () => {
       this.isOpen = true;
       for (const listener of this.listeners) listener.opened(false);
     };
-    this.#source.onerror = () => {
+    source.onerror = () => {
       this.end(); // its own retries know neither bounds nor that it is polled meanwhile
       for (const listener of this.listeners) listener.failed();
     };
     for (const kind of KINDS) {
-      this.#source.addEventListener(kind, (event) => {
+      source.addEventListener(kind, (event) => {
         const data = parsed(event.data);
         if (data) for (const listener of this.listeners) listener.heard(kind, data);
       });
     }
   }
 
+  #close() {
+    this.#source?.close();
+    this.#source = null;
+    this.isOpen = false;
+  }
+
   end() {
-    this.#source.close();
+    this.#close();
+    globalThis.document?.removeEventListener('visibilitychange', this.#look);
     if (STREAMS.get(this.#key) === this) STREAMS.delete(this.#key);
   }
 }

@@ -90,6 +90,9 @@ export function checkOptions(options, type, texture) {
   choose('wrap', wrap, Object.keys(WRAPS));
   choose('quality', quality, Object.keys(QUALITIES));
   choose('background', background, ['own', 'none']);
+  if (!texture?.isVectorTexture) {
+    throw new VextureError(`the texture is ${line(texture?.constructor?.name)}; load one by VectorTextureLoader`, 'texture');
+  }
   if (!(threshold >= 0 && threshold <= 1)) {
     throw new VextureError(`threshold is ${line(threshold)}; it must be a coverage, 0 to 1`, 'threshold');
   }

@@ -23,6 +23,7 @@ import { readRoots } from './roots.js';
  */
 export async function readPacked(file, name = 'texture') {
   try {
+    if (!(file?.byteLength >= 0)) throw new VextureError(`contents are ${line(file)}; give a file's bytes`, 'contents');
     if (file.byteLength > PACKED_FILE_LIMIT) {
       throw new VextureError(`longer than ${PACKED_FILE_LIMIT} bytes, so not a texture; ${REMEDY}`, 'byteLength');
     }

@@ -309,6 +309,9 @@ export class VectorMask {
    */
   attach(mesh) {
     if (this.#meshes.has(mesh)) return this;
+    if (![mesh.material].flat().includes(this.#material)) {
+      throw new VextureError(`${mesh.name || mesh.type} has another material; give it this one first`, 'mesh');
+    }
     this.#meshes.set(
       mesh,
       new MaskedMesh(mesh, {

@@ -1,5 +1,6 @@
 import { Loader } from 'three';
 import { CURVES_SUFFIX, FILE_LIMIT, PACKED_FILE_LIMIT, PACKED_SUFFIX, QUADS_SUFFIX } from '../generated/layout.js';
+import { VextureError, line } from './errors.js';
 import { fetchBytes, isTransport, progressEvent, shown } from './fetching.js';
 import { isKtx2 } from './ktx2.js';
 import { readPacked } from './packed.js';
@@ -42,6 +43,18 @@ function pairOf(url) {
   if (!suffix) return null;
   const stem = path.slice(0, -suffix.length);
   return [stem + QUADS_SUFFIX + rest, stem + CURVES_SUFFIX + rest];
+}
+
+/** What is at fault where servers answer with a page of theirs, as those of single-page programs do for any address. */
+const PAGE = 'page';
+
+/** Faults of an address at which there may still be a pair. */
+const NOT_THERE = ['status 404', PAGE];
+
+/** @param {ArrayBuffer | Uint8Array} file */
+function isPage(file) {
+  const start = String.fromCharCode(...new Uint8Array(file.slice(0, 64)));
+  return /^\s*<(!doctype html|html)\b/i.test(start);
 }
 
 /**
@@ -97,6 +110,9 @@ export class VectorTextureLoader extends Loader {
    * @returns {Promise<TextureData>}
    */
   async loadData(url, onProgress, signal) {
+    for (const one of Array.isArray(url) ? url : [url]) {
+      if (typeof one !== 'string') throw new VextureError(`the address is ${line(one)}; give one, or two of a pair`, 'url');
+    }
     const signals = [this.#controller.signal];
     if (signal) signals.unshift(signal);
     if (this.manager.abortController) signals.push(this.manager.abortController.signal); // in newer three
@@ -139,13 +155,14 @@ export class VectorTextureLoader extends Loader {
     );
     const { path, rest } = divided(url);
     const isStem = !NAMELESS.test(url) && !path.endsWith(PACKED_SUFFIX);
-    if (isStem && (bytes ? !isKtx2(bytes) : error.field === 'status 404')) {
+    if (isStem && (bytes ? !isKtx2(bytes) : NOT_THERE.includes(error.field))) {
       const both = await this.#loadPair([path + QUADS_SUFFIX + rest, path + CURVES_SUFFIX + rest], request).catch(
         (reason) => reason, // a pair that is there and broken is the news; one that is not there is not
       );
       request.signal.throwIfAborted();
       if (!(both instanceof Error)) return both;
-      if (!isTransport(both)) throw both;
+      const isThere = !isTransport(both) && !(both instanceof VextureError && both.field === PAGE);
+      if (isThere) throw both;
     }
     if (!bytes) throw error;
     const data = await readPacked(bytes, shown(url));
@@ -191,7 +208,9 @@ export class VectorTextureLoader extends Loader {
     const resolved = this.addressOf(url);
     this.manager.itemStart(resolved);
     try {
-      return await fetchBytes(resolved, { signal, ...this.requestOptions() }, most, onBytes);
+      const bytes = await fetchBytes(resolved, { signal, ...this.requestOptions() }, most, onBytes);
+      if (isPage(bytes)) throw new VextureError(`${resolved}: is a web page, not a texture; check the address`, PAGE);
+      return bytes;
     } catch (error) {
       this.manager.itemError(resolved);
       throw error;

@@ -24,6 +24,8 @@ beforeAll(async () => {
     '/damaged.quads.png': quads.subarray(0, 99),
     '/damaged.curves.png': curves,
     '/page': '<!doctype html>',
+    '/page.ktx2': '\n<!DOCTYPE HTML><title>Nothing here</title>',
+    '/junk.ktx2': 'junk',
     '/slow.ktx2': (_, response) => void response.writeHead(200, { 'Content-Length': duck.length }).write(duck.subarray(0, 500)),
     '/cut.ktx2': (_, response) => {
       response.writeHead(200, { 'Content-Length': duck.length });
@@ -114,9 +116,19 @@ describe('what is refused', () => {
     await expectRefusal(load('/half.quads.png'), 'status 404', 'half.curves.png');
     await expectRefusal(load('/broken.ktx2'), 'vkFormat', `${server.url}/broken.ktx2: vkFormat is 37`);
     await expectRefusal(load('/damaged'), 'IEND', 'damaged: quads: damaged PNG');
-    await expectRefusal(load('/page'), 'identifier', `${server.url}/page: begins with "<!doctype ht`);
+    await expectRefusal(load('/page'), 'page', `${server.url}/page: is a web page, not a texture; check the address`);
+    await expectRefusal(load('/page.ktx2'), 'page', 'check the address');
+    await expectRefusal(load('/junk.ktx2'), 'identifier', `${server.url}/junk.ktx2: begins with "junk`);
     await expectRefusal(load('/cut.ktx2'), 'url', `${server.url}/cut.ktx2: cannot be fetched`);
     await expectRefusal(load('/endless.ktx2'), 'byteLength', 'longer than 570425344 bytes');
+  });
+
+  test('what is no address and no contents', async () => {
+    const loader = new VectorTextureLoader();
+    for (const nothing of [undefined, null, 7, [undefined, 'b']]) {
+      await expectRefusal(loader.loadAsync(/** @type {any} */ (nothing)), 'url', /the address is/);
+    }
+    await expectRefusal(loader.parse(/** @type {any} */ (null)), 'contents', /contents are null/);
   });
 
   test('no server, and no address', async () => {

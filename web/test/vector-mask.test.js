@@ -1,4 +1,4 @@
-import { Color, Matrix3, MeshBasicMaterial, MeshDepthMaterial, ShaderLib, Texture } from 'three';
+import { Color, Matrix3, Mesh, MeshBasicMaterial, MeshDepthMaterial, ShaderLib, Texture } from 'three';
 import { describe, expect, test } from 'vitest';
 import { VextureError } from '../src/errors.js';
 import { readPacked } from '../src/packed.js';
@@ -83,6 +83,17 @@ describe('what a mask cannot be', () => {
     expect(error).toBeInstanceOf(VextureError);
     expect(error).toMatchObject({ field });
     expect(applyVectorMask(material, duck, { transform: new Matrix3() }).mode).toBe('alpha');
+  });
+
+  test.each([undefined, null, new Texture(), {}])('a mask of %j', (texture) => {
+    expect(() => applyVectorMask(new MeshBasicMaterial(), /** @type {any} */ (texture))).toThrow(VextureError);
+  });
+
+  test('attached to a mesh of another material', () => {
+    const [mask, mesh] = [applyVectorMask(new MeshBasicMaterial(), duck), new Mesh()];
+    expect(() => mask.attach(mesh)).toThrow(/another material/);
+    mesh.material = mask.material;
+    expect(mask.attach(mesh)).toBe(mask);
   });
 
   test('colours where there are none', () => {

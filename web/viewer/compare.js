@@ -70,7 +70,8 @@ async function prepared(which, shown, engine) {
     return new BrowserSvg(text, shown.texture.roots[drawing?.first ?? 0].transform, box);
   }
   const [quads, curves] = await Promise.all(view.map((/** @type {string} */ url) => bytesOf(url, shown.base)));
-  const rival = thesisRival(new VectorTexture(await readThesis(quads, curves, shown.name)));
+  if (!drawing) throw new Error('nothing is shown');
+  const rival = thesisRival(new VectorTexture(await readThesis(quads, curves, shown.name)), drawing);
   await rival.pass.compile(engine.renderer);
   return rival;
 }

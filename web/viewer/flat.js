@@ -82,14 +82,16 @@ export class Flat {
   }
 
   /**
-   * Draw the unit square into an image of n x n pixels, premultiplied, a silhouette as white.
+   * Draw the unit square into an image of n x n pixels, premultiplied.
    *
    * @param {WebGLRenderer} renderer
    * @param {import('three').WebGLRenderTarget} target
+   * @param {boolean} asSilhouette in white, instead of in its colours
    */
-  drawSquare(renderer, target) {
-    const { base, start, side, ink, paper } = this.uniforms;
-    const before = { ink: ink.value, paper: paper.value };
+  drawSquare(renderer, target, asSilhouette) {
+    const { base, start, side, ink, paper, silhouette } = this.uniforms;
+    const before = { ink: ink.value, paper: paper.value, silhouette: silhouette.value };
+    silhouette.value = asSilhouette;
     base.value = [0, 0];
     start.value.set(0, 0);
     side.value = 1 / target.width;
@@ -100,5 +102,6 @@ export class Flat {
     renderer.setRenderTarget(null);
     ink.value = before.ink;
     paper.value = before.paper;
+    silhouette.value = before.silhouette;
   }
 }

@@ -116,6 +116,11 @@ async function openFiles(files, state, library) {
   }
 }
 
+/** What is to be said of a shape while it is shown. @param {import('./scene.js').Document} document */
+function noteOf({ name, manifest }) {
+  return manifest.note ?? (manifest.facts?.segments === 0 ? `Nothing is drawn in ${name}.` : '');
+}
+
 /**
  * Opens the shape that the state names, and follows it where it is live.
  *
@@ -126,15 +131,21 @@ function opener(engine, state, library, opened) {
   /** @type {import('./scene.js').Document | null} */
   let current = null;
   const again = () => {
-    notes.keep('shape', '');
-    if (current) void engine.show(current);
+    if (!current) return;
+    notes.keep('shape', noteOf(current));
+    void engine.show(current);
   };
   const say = (/** @type {{message: string}} */ event) => notes.keep('shape', event.message);
   const offline = () => notes.keep('server', 'Offline: the server does not answer. The last picture stays.');
   const online = () => notes.keep('server', '');
   return async () => {
     const mine = ++turn;
-    const name = state.value.shape || library.names[0];
+    const wanted = state.value.shape;
+    const name = library.names.includes(wanted) ? wanted : library.names[0];
+    if (wanted && name !== undefined && name !== wanted) {
+      notes.say(`There is no shape ${wanted} here.`);
+      return state.update({ shape: name, drawing: '' });
+    }
     try {
       if (name === undefined) throw new Error('There is nothing to show yet. Drop an SVG here, or open a file.');
       const next = await library.open(name);
@@ -152,7 +163,7 @@ function opener(engine, state, library, opened) {
       }
       opened(name);
       await engine.show(next);
-      notes.keep('shape', next.manifest.note ?? '');
+      notes.keep('shape', noteOf(next));
     } catch (error) {
       notes.say(/** @type {Error} */ (error).message);
     }

@@ -28,7 +28,10 @@ function shapesSection(state) {
   let names = [];
   const mark = () => {
     for (const button of list.querySelectorAll('button')) {
-      button.setAttribute('aria-current', String(button.textContent === (state.value.shape || names[0])));
+      const isShown = button.textContent === (state.value.shape || names[0]);
+      const isNews = isShown && button.getAttribute('aria-current') !== 'true';
+      button.setAttribute('aria-current', String(isShown));
+      if (isNews) button.scrollIntoView({ block: 'nearest' });
     }
   };
   state.addEventListener('change', mark);

@@ -13,6 +13,7 @@ import { pixelSide, toUnit } from './view.js';
  * @typedef {object} Rival
  * @property {Pass} pass
  * @property {string} label
+ * @property {readonly number[] | null} tint colour of what has but one, where it is not the theme's ink
  * @property {() => void} dispose
  */
 
@@ -67,15 +68,21 @@ export function setRivalView(rival, view, size, ratio, colors) {
   const { start, side, ink, paper } = rival.pass.uniforms;
   start.value.fromArray(toUnit(view, size, 0, size.height));
   side.value = pixelSide(view.zoom, size) / ratio;
-  ink.value.fromArray(colors.ink);
+  ink.value.fromArray(rival.tint ?? colors.ink);
   paper.value.set(...colors.paper, 1);
 }
 
+/** Colour of a drawing that has but one of its own. @param {import('./drawing.js').ShownDrawing} drawing */
+function tintOf({ texture, first, count, silhouette }) {
+  return count === 1 && !silhouette ? (texture.roots[first].paint?.color ?? null) : null;
+}
+
 /**
- * @param {import('../src/vector-texture.js').VectorTexture} texture of thesis data
+ * @param {import('../src/vector-texture.js').VectorTexture} texture of thesis data, which knows no colours
+ * @param {import('./drawing.js').ShownDrawing} drawing what it is compared with
  * @returns {Rival}
  */
-export function thesisRival(texture) {
+export function thesisRival(texture, drawing) {
   const data = /** @type {import('../src/data.js').ThesisData} */ (texture.data);
   const sizes = `const int thesis_LEVELS = ${data.levels};\nconst int thesis_FOLD_HEIGHT = ${FOLD_HEIGHT};\n`;
   const pass = new Pass(sizes + thesis + HEAD + THESIS, uniforms({
@@ -83,7 +90,7 @@ export function thesisRival(texture) {
     thesis_list_lengths: { value: [data.quadCount, data.curveCount] },
   }));
   return {
-    pass, label: `Thesis, ${data.bits} bit`, dispose: () => {
+    pass, tint: tintOf(drawing), label: `Thesis, ${data.bits} bit${drawing.count > 1 ? ': silhouette' : ''}`, dispose: () => {
       pass.dispose();
       texture.dispose();
     },
@@ -112,18 +119,20 @@ export function rasterSide(bytes, texel) {
  * @param {import('./drawing.js').ShownDrawing} drawing
  * @returns {Rival}
  */
-export function rasterRival(renderer, flat, { texture, silhouette }) {
+export function rasterRival(renderer, flat, drawing) {
+  const { texture } = drawing;
+  const silhouette = drawing.count === 1; // a byte of coverage to a pixel is enough
   const side = Math.min(rasterSide(texture.nbytes, silhouette ? 1 : 4), renderer.capabilities.maxTextureSize);
   const target = new WebGLRenderTarget(side, side, {
     format: silhouette ? RedFormat : RGBAFormat, depthBuffer: false, generateMipmaps: true,
     minFilter: LinearMipmapLinearFilter, magFilter: LinearFilter, // not anisotropic: in the flat view pixels are square
   });
-  flat.drawSquare(renderer, target);
+  flat.drawSquare(renderer, target, silhouette);
   const pass = new Pass(HEAD + RASTER, uniforms({
     raster: { value: target.texture }, silhouette: { value: silhouette },
   }));
   return {
-    pass, label: `Raster, ${side} × ${side}`, dispose: () => {
+    pass, tint: tintOf(drawing), label: `Raster, ${side} × ${side}`, dispose: () => {
       pass.dispose();
       target.dispose();
     },

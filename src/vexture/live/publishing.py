@@ -3,7 +3,7 @@
 import asyncio
 import hmac
 from collections.abc import AsyncIterator
-from contextlib import ExitStack, asynccontextmanager, suppress
+from contextlib import asynccontextmanager, suppress
 from math import ceil
 from typing import Final
 
@@ -60,18 +60,18 @@ def publishing_routes(folder: Folder, converter: Converter, limits: Limits, toke
         return name
 
     async def put(request: Request) -> Response:
-        with ExitStack() as stack:
-            try:
-                name = admitted(request)
-                stack.enter_context(converter.place())
-            except (_RefusedError, BusyError) as error:
-                with suppress(TimeoutError, ClientDisconnect):
-                    await _received(request, limits, 0)
-                return _answer(error)
-            try:
-                return await published(name, await _body(request, limits))
-            except (_RefusedError, BusyError) as error:
-                return _answer(error)
+        try:
+            name = admitted(request)
+        except _RefusedError as error:
+            with suppress(TimeoutError, ClientDisconnect):
+                await _received(request, limits, 0)
+            return _answer(error)
+        try:
+            data = await _body(request, limits)
+            with converter.place():  # not before it is here: who sends slowly keeps nobody waiting
+                return await published(name, data)
+        except (_RefusedError, BusyError) as error:
+            return _answer(error)
 
     async def published(name: str, data: bytes) -> Response:
         try:

@@ -53,7 +53,7 @@ def view(
     watching: bool,
     opening: bool,
     say: Say,
-    show: Say,
+    show: Callable[[str, int], None],
 ) -> None:
     """Serve files to browsers until someone presses Ctrl-C.
 
@@ -71,7 +71,7 @@ def view(
     say : callable
         Is told of files that cannot be shown, and of warnings.
     show : callable
-        Is told the address.
+        Is told the address, and how many shapes are there.
 
     Raises
     ------
@@ -115,7 +115,7 @@ def view(
         guard = Middleware(KnownHosts, names=(host,))
         app = Starlette(routes=[Mount("/", inner)], middleware=[guard], lifespan=lifespan)
         where = address(taken)
-        show(where)
+        show(where, len(shelf.names))
         if opening and _has_display():
             threading.Thread(target=webbrowser.open, args=(where,), daemon=True).start()
         serve_until_stopped(app, taken, shelf.close)
