@@ -312,6 +312,12 @@ export class VectorMask {
     if (![mesh.material].flat().includes(this.#material)) {
       throw new VextureError(`${mesh.name || mesh.type} has another material; give it this one first`, 'mesh');
     }
+    if (this.#options.instanced && !mesh.geometry.getAttribute(ROOT_ATTRIBUTE)) {
+      throw new VextureError(
+        `${mesh.name || mesh.type} has no attribute ${ROOT_ATTRIBUTE}; make it by rootAttribute(texture, names)`,
+        ROOT_ATTRIBUTE,
+      );
+    }
     this.#meshes.set(
       mesh,
       new MaskedMesh(mesh, {

@@ -2,7 +2,7 @@ import { Color, Matrix3, Mesh, MeshBasicMaterial, MeshDepthMaterial, ShaderLib, 
 import { describe, expect, test } from 'vitest';
 import { VextureError } from '../src/errors.js';
 import { readPacked } from '../src/packed.js';
-import { applyVectorMask } from '../src/vector-mask.js';
+import { applyVectorMask, rootAttribute } from '../src/vector-mask.js';
 import { VectorMaterial } from '../src/vector-material.js';
 import { VectorTexture } from '../src/vector-texture.js';
 import { fixture } from './files.js';
@@ -93,6 +93,14 @@ describe('what a mask cannot be', () => {
     const [mask, mesh] = [applyVectorMask(new MeshBasicMaterial(), duck), new Mesh()];
     expect(() => mask.attach(mesh)).toThrow(/another material/);
     mesh.material = mask.material;
+    expect(mask.attach(mesh)).toBe(mask);
+  });
+
+  test('of instances that say no root', () => {
+    const material = new MeshBasicMaterial();
+    const [mask, mesh] = [applyVectorMask(material, drawings, { instanced: true }), new Mesh(undefined, material)];
+    expect(() => mask.attach(mesh)).toThrow(/rootAttribute/);
+    mesh.geometry.setAttribute('vextureRoot', rootAttribute(drawings, [other, 0]));
     expect(mask.attach(mesh)).toBe(mask);
   });
 
