@@ -65,3 +65,24 @@ def screenshot(request: pytest.FixtureRequest) -> Callable[..., Path]:
         return path
 
     return taken
+
+
+@pytest.fixture(scope="module")
+def overlay_pages(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Address of the viewer's pages with one texture each, and the textures by name."""
+    from browser import served
+    from overlay_page import write_pages
+
+    folder = tmp_path_factory.mktemp("overlays")
+    textures = write_pages(folder)
+    with served(folder) as address:
+        yield address, textures
+
+
+@pytest.fixture
+def show(overlay_pages: tuple[str, dict[str, Any]], open_page: Callable[..., Any]) -> Callable[[str], Any]:
+    """Open the page of a texture."""
+    from overlay_page import open_shape
+
+    address, textures = overlay_pages
+    return lambda name: open_shape(open_page, address, textures[name])

@@ -1,34 +1,17 @@
 """The viewer's inspector of cells, its contents of textures and its facts, against what Python reads and solves."""
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from browser import served
 from numpy.typing import NDArray
-from overlay_page import Shown, open_shape, write_pages
+from overlay_page import Shown
 
 from vexture.encoding.packed_texture import PackedTexture
 from vexture.encoding.packed_walk import walk
-
-Pages = tuple[str, dict[str, PackedTexture]]
-
-
-@pytest.fixture(scope="module")
-def pages(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Pages]:
-    folder = tmp_path_factory.mktemp("overlays")
-    textures = write_pages(folder)
-    with served(folder) as address:
-        yield address, textures
-
-
-@pytest.fixture
-def show(pages: Pages, open_page: Callable[..., Any]) -> Callable[[str], Shown]:
-    address, textures = pages
-    return lambda name: open_shape(open_page, address, textures[name])
 
 
 def leaf_at(texture: PackedTexture, u: float, v: float) -> tuple[int, float, float, float, int, NDArray[np.float64]]:

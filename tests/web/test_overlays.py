@@ -1,35 +1,15 @@
 """What the viewer lays over the picture, driven as by a person, against the tree as Python reads it."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-from browser import served
 from numpy.typing import NDArray
-from overlay_page import Shown, colors, depth_colors, open_shape, over, ramp, write_pages
-
-from vexture.encoding.packed_texture import PackedTexture
-
-Pages = tuple[str, dict[str, PackedTexture]]
+from overlay_page import Shown, colors, depth_colors, over, ramp
 
 ROUNDING = 2.1  # of 255: the picture below is rounded, and so is what lies over it
 OPACITY = {"Cells": 0.6, "Coverage": 0.85, "Depth": 0.75}
-
-
-@pytest.fixture(scope="module")
-def pages(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Pages]:
-    folder = tmp_path_factory.mktemp("overlays")
-    textures = write_pages(folder)
-    with served(folder) as address:
-        yield address, textures
-
-
-@pytest.fixture
-def show(pages: Pages, open_page: Callable[..., Any]) -> Callable[[str], Shown]:
-    address, textures = pages
-    return lambda name: open_shape(open_page, address, textures[name])
 
 
 def differs(shown: NDArray[np.float64], expected: NDArray[np.float64], where: NDArray[np.bool_]) -> float:
