@@ -82,6 +82,35 @@ def test_saving_a_drawing_shows_it(tmp_path, logo, open_page, screenshot):
         screenshot(page)
 
 
+WATCH = """() => {
+  const { engine } = vexture.viewer;
+  const gl = engine.renderer.getContext();
+  const render = engine.render.bind(engine);
+  window.middles = [];
+  engine.render = () => {
+    render();
+    const pixel = new Uint8Array(4);
+    gl.readPixels(gl.drawingBufferWidth / 2, gl.drawingBufferHeight / 2, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    middles.push([...pixel.subarray(0, 3)].join());
+  };
+}"""
+"""Write down the pixel in the middle of each picture, which is inside of every shape here."""
+
+
+def test_no_picture_is_blank_between_two_shapes(tmp_path, logo, open_page):
+    with viewing(tmp_path, logo, "--watch") as running:
+        page = ready(open_page(f"{running.url}?bare", SIZE))
+        until(lambda: shown(page, RED, corner=True))
+        page.evaluate(WATCH)
+        for content in (disc(BLUE), square(RED), disc(BLUE)):
+            count = page.evaluate("middles.length")
+            logo.write_bytes(content)
+            until(lambda count=count: page.evaluate("middles.length") > count)
+            page.wait_for_timeout(300)
+        until(lambda: shown(page, BLUE, corner=False))
+        assert set(page.evaluate("middles")) == {",".join(map(str, color)) for color in (RED, BLUE)}
+
+
 def test_drawing_that_is_broken_becomes_a_note_and_the_picture_stays(tmp_path, logo, open_page, screenshot):
     with viewing(tmp_path, logo, "--watch") as running:
         page = ready(open_page(f"{running.url}?bare", SIZE))
