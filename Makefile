@@ -10,7 +10,7 @@ SHAPES := examples/shapes
 BENCHMARKS := packed_fidelity speed packed_conversion size fidelity conversion icons live
 WEB_BENCHMARKS := page_fidelity web_speed editing
 VIEWER := src/vexture/live/built/viewer.js
-WEB_SOURCES := $(shell find web/src web/viewer web/generated -name '*.js' -o -name '*.css')
+WEB_SOURCES := $(shell find web/src web/viewer web/flood web/generated -name '*.js' -o -name '*.css')
 QUICK ?=
 
 .NOTPARALLEL:
@@ -32,12 +32,12 @@ help:
 
 .venv/for-demo: pyproject.toml | .venv/made
 	@echo 'installing vexture and its libraries into .venv (a minute or less) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[gpu,live]'
+	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,live]'
 	@touch $@
 
 .venv/for-test: pyproject.toml | .venv/made
 	@echo 'installing vexture, its libraries and the tools of its tests into .venv (a minute or two) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[gpu,live,test]'
+	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,live,test]'
 	@touch .venv/for-demo $@
 
 web/node_modules/made: web/package.json web/package-lock.json
@@ -47,7 +47,7 @@ web/node_modules/made: web/package.json web/package-lock.json
 	@touch $@
 
 $(VIEWER): web/node_modules/made $(WEB_SOURCES)
-	@npm run --silent viewer --prefix web
+	@npm run --silent viewer --prefix web && npm run --silent flood --prefix web
 
 viewer: $(VIEWER)
 

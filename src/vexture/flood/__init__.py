@@ -1,0 +1,1 @@
+"""`vexture flood`: a flood, its ground and its sea as one page, or on a server."""

@@ -1,0 +1,1 @@
+"""Texture folding: a shape that moves although its texture does not."""
