@@ -18,7 +18,7 @@ from vexture.sources.reading import BYTE_ORDER_MARK
 from vexture.sources.svg_document import read_bytes
 from vexture.sources.svg_report import Report
 
-__all__ = ["read_geojson"]
+__all__ = ["Area", "areas_of", "read_geojson"]
 
 MOST_POSITIONS: Final = 20_000_000
 LARGEST: Final = 1e15
@@ -41,10 +41,11 @@ Ring = NDArray[np.float64]
 
 
 class Area(NamedTuple):
-    """One polygon: its rings in the units of the file, y up, and its colour."""
+    """One polygon: its rings in the units of the file, y up, its colour, and its place as messages name it."""
 
     rings: list[Ring]
     paint: Paint
+    where: str
 
 
 def read_geojson(source: str | os.PathLike[str] | bytes) -> Drawing:
@@ -102,6 +103,25 @@ def read_geojson(source: str | os.PathLike[str] | bytes) -> Drawing:
     return drawing
 
 
+def areas_of(content: bytes, report: Report) -> tuple[list[Area], str]:
+    """Areas of the content of a file, and the reference system of their coordinates.
+
+    Parameters
+    ----------
+    content : bytes
+        Not gzipped.
+    report : Report
+        Is told what is left out.
+
+    Raises
+    ------
+    SourceError
+        As `read_geojson`, but for a file without areas.
+    """
+    value = _parsed(content)
+    return list(_Reader(report).areas(value)), _crs(value.get("crs"))
+
+
 def _parsed(content: bytes) -> dict[str, Any]:
     """Object of a JSON text."""
     try:
@@ -128,7 +148,7 @@ class _Reader:
 
     def drawing(self, value: dict[str, Any], name: str) -> Drawing:
         """Areas of a GeoJSON object as a drawing."""
-        areas = list(self._areas(value))
+        areas = list(self.areas(value))
         if not areas:
             raise SourceError(f"it holds no polygon to fill{self._met()}; give Polygon or MultiPolygon geometries")
         points = np.concatenate([ring for area in areas for ring in area.rings])
@@ -144,7 +164,7 @@ class _Reader:
     def _met(self) -> str:
         return f" ({self._report.message.partition(': ')[2]})" if self._report.message else ""
 
-    def _areas(self, value: dict[str, Any]) -> Iterator[Area]:
+    def areas(self, value: dict[str, Any]) -> Iterator[Area]:
         """Areas of the outermost object."""
         kind = value.get("type")
         if kind != "FeatureCollection":
@@ -195,7 +215,7 @@ class _Reader:
         read = [self._ring(ring, _at(where, f"ring {number}")) for number, ring in enumerate(rings, 1)]
         kept = [ring for ring in read if ring is not None]
         if kept:
-            yield Area(kept, paint)
+            yield Area(kept, paint, where)
 
     def _ring(self, ring: Any, where: str) -> Ring | None:
         """Positions of a ring, the first not repeated at the end; None if there are fewer than three."""
