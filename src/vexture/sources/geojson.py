@@ -5,6 +5,7 @@ import os
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path as FilePath
 from typing import Any, Final, NamedTuple
 
@@ -224,17 +225,9 @@ class _Reader:
         self._positions += len(ring)
         if self._positions > MOST_POSITIONS:
             raise SourceError(f"{where} is beyond the limit of {MOST_POSITIONS:,} positions; simplify or split it")
-        for number, position in enumerate(ring, 1):
-            if not isinstance(position, list) or len(position) < 2 or any(type(c) not in NUMBERS for c in position[:2]):
-                raise SourceError(f"{where}, position {number} is {_shown(position)}; it must be two numbers")
-        try:
-            points = np.array([position[:2] for position in ring], np.float64).reshape(-1, 2)
-        except OverflowError:  # an integer beyond all floats
-            points = np.array([[c if abs(c) <= LARGEST else np.inf for c in position[:2]] for position in ring])
-        bad = ~(np.abs(points) <= LARGEST).all(axis=1)  # not a number is bad too
-        if bad.any():
-            number = int(bad.argmax()) + 1
-            raise SourceError(f"{where}, position {number} is {_shown(ring[number - 1])}; the limit is {LARGEST:g}")
+        points = _usual(ring)
+        if points is None:
+            points = _position_by_position(ring, where)
         if len(points) > 1 and (points[0] == points[-1]).all():
             points = points[:-1]
         if len(points) < 3:
@@ -257,6 +250,37 @@ class _Reader:
         step = len(digits) // 3
         red, green, blue = (int(digits[k : k + step] * (3 - step), 16) / 255 for k in range(0, 3 * step, step))
         return Paint((red, green, blue), float(opacity))
+
+
+def _usual(ring: list[Any]) -> Ring | None:
+    """Positions of a ring without a fault, all of one length; None of others."""
+    lengths = set(map(len, ring)) if set(map(type, ring)) == {list} else set()
+    if len(lengths) != 1 or min(lengths) < 2:
+        return None
+    numbers = list(chain.from_iterable(ring))
+    if not set(map(type, numbers)) <= set(NUMBERS):
+        return None
+    try:
+        points = np.array(numbers, np.float64).reshape(len(ring), -1)[:, :2]
+    except OverflowError:  # an integer beyond all floats
+        return None
+    return points if bool((np.abs(points) <= LARGEST).all()) else None
+
+
+def _position_by_position(ring: list[Any], where: str) -> Ring:
+    """Positions of any ring, or an error that names the faulty one."""
+    for number, position in enumerate(ring, 1):
+        if not isinstance(position, list) or len(position) < 2 or any(type(c) not in NUMBERS for c in position[:2]):
+            raise SourceError(f"{where}, position {number} is {_shown(position)}; it must be two numbers")
+    try:
+        points = np.array([position[:2] for position in ring], np.float64).reshape(-1, 2)
+    except OverflowError:  # an integer beyond all floats
+        points = np.array([[c if abs(c) <= LARGEST else np.inf for c in position[:2]] for position in ring])
+    bad = ~(np.abs(points) <= LARGEST).all(axis=1)  # not a number is bad too
+    if bad.any():
+        number = int(bad.argmax()) + 1
+        raise SourceError(f"{where}, position {number} is {_shown(ring[number - 1])}; the limit is {LARGEST:g}")
+    return points
 
 
 def _contour(ring: Ring) -> NDArray[np.float64]:

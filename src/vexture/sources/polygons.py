@@ -28,6 +28,7 @@ from vexture.sources.reference import (
 from vexture.sources.rings import Rings, cut, moved, oriented, refuse_infinite, repaired, unwrapped, within
 from vexture.sources.svg_report import Report
 from vexture.sources.vectors import read_areas
+from vexture.tolerance import CLOSED
 
 __all__ = ["read_polygons"]
 
@@ -160,7 +161,11 @@ def _drawn(rings: Rings, frame: Frame, name: str) -> Drawing:
         return Drawing((), frame.to_source, name, crs)
     turned = oriented(rings)
     start: NDArray[np.float64] = (turned.points - frame.to_source[:, 2]) / frame.to_source.diagonal()
-    sides = line_cubics(start, start[turned.following])
-    contours = tidied(*clipped(sides, turned.ends, np.zeros(2), np.ones(2)))
-    paths = (Path(tuple(contours.values()), FillRule.NONZERO),) if contours else ()
+    end = start[turned.following]
+    sides = line_cubics(start, end)
+    if start.min() >= 0.0 and start.max() <= 1.0 and (np.abs(end - start) > CLOSED).any(axis=1).all():
+        contours = np.split(sides, turned.ends[:-1])  # in the normal form as they are
+    else:
+        contours = list(tidied(*clipped(sides, turned.ends, np.zeros(2), np.ones(2))).values())
+    paths = (Path(tuple(contours), FillRule.NONZERO),) if contours else ()
     return Drawing(paths, frame.to_source, name, crs)

@@ -114,9 +114,7 @@ def reference(given: str | None, found: str | None) -> str:
     if given:
         return _settled(given)
     if not found:
-        raise MissingReferenceError(
-            "it does not say in which reference system its coordinates are; give --crs EPSG:..."
-        )
+        raise MissingReferenceError("it names no reference system of its coordinates; give --crs EPSG:...")
     try:
         return _settled(found)
     except LimitError as error:
