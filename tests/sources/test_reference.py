@@ -77,7 +77,8 @@ def test_feet_are_measured_in_metres():
 def test_a_frame_in_degrees_is_as_large_as_the_same_one_in_metres(longitude, latitude):
     frame = frame_around((longitude, latitude, longitude + 0.01, latitude + 0.01), "EPSG:4326")
     own = f"+proj=aeqd +lon_0={longitude + 0.005} +lat_0={latitude + 0.005} +ellps=WGS84"
-    corners = np.array([[0, 0.005], [0.01, 0.005], [0.005, 0], [0.005, 0.01]]) + (longitude, latitude)
+    sides = np.array([[0, 0.005], [0.01, 0.005], [0.005, 0], [0.005, 0.01]])
+    corners = sides + np.array([longitude, latitude])
     west, east, south, north = transformed(corners, "EPSG:4326", own)
     np.testing.assert_allclose(frame.metres, [np.hypot(*(east - west)), np.hypot(*(north - south))], rtol=1e-6)
 
