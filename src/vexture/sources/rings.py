@@ -344,10 +344,10 @@ def moved(
         after = replace(rings, points=image, ends=ends).following
         low, high = np.minimum(image, image[after]), np.maximum(image, image[after])
         near = (low < box[2:]).all(axis=1) & (high > box[:2]).all(axis=1)
-        sides = np.flatnonzero(near & ((high - low) > SHORT * size).any(axis=1))
-        middles = (points[sides] + points[after[sides]]) / 2.0
-        mapped = mapping(middles)
-        with np.errstate(invalid="ignore"):  # infinite points are not divided any further
+        with np.errstate(invalid="ignore"):  # the caller refuses infinite points
+            sides = np.flatnonzero(near & ((high - low) > SHORT * size).any(axis=1))
+            middles = (points[sides] + points[after[sides]]) / 2.0
+            mapped = mapping(middles)
             bent = np.hypot(*((mapped - (image[sides] + image[after[sides]]) / 2.0) / size).T) > ROUND
         if not bent.any():
             break

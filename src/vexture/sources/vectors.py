@@ -139,14 +139,14 @@ def _zipped(files: dict[str, bytes]) -> bytes:
 
 def _gdal(content: bytes, layer: str | None, report: Report) -> Areas:
     """Polygons that GDAL finds."""
-    from pyogrio import errors, list_layers, raw
+    from pyogrio import list_layers, raw
 
     with QUIET, warnings.catch_warnings():
         warnings.simplefilter("ignore")  # GDAL's remarks; what matters is found again below
         try:
             name = _layer([(str(each), str(kind)) for each, kind in list_layers(content)], layer)
             meta, _, shapes, _ = raw.read(content, layer=name, columns=[], force_2d=True)
-        except (errors.DataSourceError, errors.DataLayerError, errors.GeometryError, errors.CRSError) as error:
+        except (RuntimeError, ValueError, OverflowError) as error:  # of the first kind are all of pyogrio's own
             raise SourceError(f"GDAL cannot read it ({_one_line(error)}); save it again") from None
     if shapes is None:
         raise SourceError(f"its layer {name!r} has no geometries; choose another by --layer")
