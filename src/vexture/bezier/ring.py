@@ -1,5 +1,7 @@
 """A closed ring of points as few cubics: smooth where the ring is smooth, with corners where it turns."""
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,16 +14,31 @@ __all__ = ["CORNER", "fit_ring"]
 CORNER = 55.0
 """Degrees. Two straight stretches that meet at more than this make a corner."""
 
-BENDING = 1500.0
-"""Weight of squared second differences of the samples, at most: it evens out waves shorter than some ten tolerances."""
+BENDING = 1500.0, 15.0
+"""Weights of squared second differences of samples, on a staircase and on what is smooth already.
 
-SHRINKING = 0.02
-"""And no more than what would make a circle of the ring's area smaller by this share."""
+The first evens out waves shorter than some twenty samples, the second than some six.
+"""
+
+SMOOTH = 0.25
+"""Share of the tolerance within which what is smooth already may be moved."""
+
+ROUGH = 30.0, 70.0
+"""Degrees of turning to and fro within `JOG` samples: below the first, a ring is smooth; above the second, a staircase."""
+
+JOG = 2
+"""Samples on either side within which the two turns of a stair are."""
+
+SPREAD = 16
+"""Samples on either side of a stair that belong to the staircase."""
+
+SHRINKING = 0.005
+"""Bending is weighed no more than what would make a circle of the ring's area smaller by this share."""
 
 REACH = 8
-"""Samples on either side that a corner is told by."""
+"""Samples on either side that a corner is told by; the two nearest may be cut off."""
 
-STRAIGHTEST = 0.6
+STRAIGHTEST = 0.35
 """Tolerances. The samples on either side of a corner are this near to a straight line."""
 
 ROUNDS = 14
@@ -30,7 +47,7 @@ ROUNDS = 14
 OVERLAP = 64
 """Samples that a ring is continued by beyond its ends: farther than bending reaches."""
 
-FITTING = 0.25
+FITTING = 0.2
 """Share of the tolerance that is left to the cubics; smoothing has the rest."""
 
 FEWEST = 16
@@ -91,18 +108,30 @@ def _smooth(
 
 @kernel
 def smoothed(
-    points: NDArray[np.float64], corner: NDArray[np.bool_], bending: float, tolerance: float
+    points: NDArray[np.float64],
+    corner: NDArray[np.bool_],
+    bending: NDArray[np.float64],
+    reach: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Closed chain of samples that bends least while each stays within a distance of where it was.
+    """Closed chain of samples that bends little while each stays within a distance of where it was.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 array
+    corner : (n,) bool array
+        Samples that stay where they are, and at which bending is free.
+    bending, reach : (n,) float64 arrays
+        Weight of bending at each sample, and how far it may go.
 
     Examples
     --------
     >>> square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    >>> bool((smoothed(square, np.ones(4, bool), 10.0, 0.1) == square).all())
-    True
+    >>> even = smoothed(square, np.zeros(4, bool), np.full(4, 10.0), np.full(4, 0.1))
+    >>> np.hypot(*(even - square).T).round(3)
+    array([0.1, 0.1, 0.1, 0.1])
     """
     n = len(points)
-    weight, bend = np.ones(n), np.full(n, bending)
+    weight, bend = np.ones(n), bending.copy()
     for i in range(n):
         if corner[i]:
             weight[i], bend[i] = 1e9, 0.0
@@ -111,7 +140,7 @@ def smoothed(
         _smooth(points, weight, bend, out)
         moved = False
         for i in range(n):
-            far = np.hypot(out[i, 0] - points[i, 0], out[i, 1] - points[i, 1]) / tolerance
+            far = np.hypot(out[i, 0] - points[i, 0], out[i, 1] - points[i, 1]) / reach[i]
             if far > 1.0:
                 weight[i] *= min(far * far, 16.0)
                 moved = True
@@ -119,7 +148,7 @@ def smoothed(
             break
     for i in range(n):
         far = np.hypot(out[i, 0] - points[i, 0], out[i, 1] - points[i, 1])
-        share = 0.0 if corner[i] else min(1.0, tolerance / far) if far > 0.0 else 1.0
+        share = 0.0 if corner[i] else min(1.0, reach[i] / far) if far > 0.0 else 1.0
         for axis in range(2):
             out[i, axis] = points[i, axis] + share * (out[i, axis] - points[i, axis])
     return out
@@ -256,70 +285,140 @@ def fit_samples(points: NDArray[np.float64], corner: NDArray[np.bool_], toleranc
     return out[:count].copy()
 
 
-def sampled(points: NDArray[np.float64], step: float, fewest: int = FEWEST) -> NDArray[np.float64]:
-    """Samples of a closed polyline at equal distances along it, about `step` apart.
+def fit_ring(
+    points: NDArray[np.float64],
+    tolerance: float,
+    corner: float = CORNER,
+    fixed: NDArray[np.bool_] | None = None,
+) -> NDArray[np.float64]:
+    """Few cubics around a closed ring of points, within a distance of it.
+
+    Stairs are evened out, so that nothing of a raster's cells is left where the tolerance is half a cell or more;
+    what is smooth already is followed to a part of the tolerance. Where two straight stretches meet at more than
+    `corner`, they are prolonged to a corner. Everywhere else the cubics have one direction where they meet. Rings
+    that are small against the tolerance become small ovals of about the same area rather than nothing.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 array
+        In order, the first not repeated at the end.
+    tolerance : float
+        How far the cubics may be from the ring, in the units of the points.
+    corner : float
+        Degrees.
+    fixed : (n,) bool array, optional
+        Points to keep, as corners.
+
+    Returns
+    -------
+    (m, 4, 2) float64 array
+        Each cubic starts, bit for bit, where the one before it ends; none if the ring encloses nothing.
 
     Examples
     --------
-    >>> sampled(np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]]), 2.0, 4)[:3]
-    array([[0., 0.],
-           [2., 0.],
-           [4., 0.]])
+    >>> angle = np.linspace(0.0, 2.0 * np.pi, 200, endpoint=False)
+    >>> disc = np.round(20.0 * np.column_stack((np.cos(angle), np.sin(angle))))  # a staircase
+    >>> cubics = fit_ring(disc, 0.5)
+    >>> len(cubics) < 9, bool(np.abs(np.hypot(*cubics[:, 0].T) - 20.0).max() < 0.4)
+    (True, True)
     """
-    closed = np.concatenate([points, points[:1]])
+    new = (points != np.roll(points, 1, axis=0)).any(axis=1)
+    kept = np.zeros(len(points), np.bool_) if fixed is None else fixed
+    points, kept = points[new], kept[new]
+    size = abs(_area(points - points[:1]))
+    if len(points) < 3 or size == 0.0:
+        return np.empty((0, 4, 2))
+    length = float(np.hypot(*(points - np.roll(points, 1, axis=0)).T).sum())
+    radius = float(np.sqrt(size / np.pi))
+    tolerance = min(tolerance, radius / 2.0, size / length)
+    samples, sharp = _sampled(points, kept, min(tolerance, length / FEWEST))
+    if len(samples) < 3:
+        return line_cubics(points, np.roll(points, -1, axis=0))
+    samples, sharp = _cornered(samples, sharp, tolerance, corner)
+    stairs = _stairs(samples, sharp)
+    most = SHRINKING * (radius * len(samples) / length) ** 4
+    bending = np.minimum(most, BENDING[1] * (BENDING[0] / BENDING[1]) ** stairs)
+    reach = (1.0 - FITTING) * tolerance * (SMOOTH + (1.0 - SMOOTH) * stairs)
+    cubics = fit_samples(smoothed(samples, sharp, bending, reach), sharp, FITTING * tolerance)
+    cubics[:, 0] = np.roll(cubics[:, 3], 1, axis=0)
+    return cubics
+
+
+def _sampled(
+    points: NDArray[np.float64], kept: NDArray[np.bool_], step: float
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Samples along a closed polyline, equally far apart between points that are kept; which are those points."""
+    first = int(np.argmax(kept))
+    closed = np.roll(points, -first, axis=0)
+    stops = np.append(np.flatnonzero(np.roll(kept, -first)), len(points))
+    closed = np.concatenate([closed, closed[:1]])
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(closed, axis=0).T))])
-    count = max(fewest, round(along[-1] / step))
-    places = np.linspace(0.0, along[-1], count, endpoint=False)
-    return np.column_stack([np.interp(places, along, closed[:, axis]) for axis in range(2)])
+    if stops[0] != 0:
+        stops = np.concatenate([[0], stops])
+    places = [
+        np.linspace(along[a], along[b], max(1, round((along[b] - along[a]) / step)), endpoint=False)
+        for a, b in pairwise(stops)
+    ]
+    sharp = np.zeros(sum(map(len, places)), np.bool_)
+    if kept.any():
+        sharp[np.cumsum([0, *map(len, places[:-1])])] = True
+    joined = np.concatenate(places)
+    return np.column_stack([np.interp(joined, along, closed[:, axis]) for axis in range(2)]), sharp
 
 
-def corners(points: NDArray[np.float64], tolerance: float, corner: float) -> NDArray[np.bool_]:
-    """Where samples of a closed chain turn between two straight stretches, (n, 2) -> (n,)."""
+def _cornered(
+    points: NDArray[np.float64], sharp: NDArray[np.bool_], tolerance: float, corner: float
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Samples with those moved to corners that are between two straight stretches; which ones are corners."""
     n = len(points)
-    found = np.zeros(n, np.bool_)
+    points, sharp = points.copy(), sharp.copy()
     if n < 4 * REACH:
-        return found
+        return points, sharp
     ahead, behind = np.roll(points, -REACH, axis=0) - points, points - np.roll(points, REACH, axis=0)
     turn = np.abs(np.degrees(np.arctan2(_cross(behind, ahead), (behind * ahead).sum(axis=1))))
-    for at in np.flatnonzero((turn > corner) & (turn >= np.roll(turn, 1)) & (turn > np.roll(turn, -1))):
-        near = turn[np.arange(at - REACH // 2, at + REACH // 2 + 1) % n]
-        if turn[at] < near.max():
+    taken = sharp.copy()
+    for at in np.argsort(-turn, kind="stable")[: int((turn > corner).sum())]:
+        around = np.arange(at - REACH, at + REACH + 1) % n
+        if taken[around].any():
             continue
-        after = points[np.arange(at + 1, at + REACH + 1) % n] - points[at]
-        before = points[np.arange(at - REACH, at) % n] - points[at]
-        off = max(np.abs(_cross(side, _unit(side))).max() for side in (after, before))
-        found[at] = off <= STRAIGHTEST * tolerance
+        after, before = points[around[REACH + 2 :]], points[around[: REACH - 1]]
+        if max(_bulge(after), _bulge(before)) > STRAIGHTEST * tolerance:
+            continue
+        along, back = after[-1] - after[0], before[0] - before[-1]
+        angle = _cross(along, back)
+        place = after[0] + along * _cross(before[-1] - after[0], back) / angle if angle != 0.0 else points[at]
+        if np.hypot(*(place - points[at])) <= tolerance:
+            points[at], sharp[at], taken[at] = place, True, True
+            for near in (at - 1, (at + 1) % n):  # what the corner was cut off by
+                points[near] = place + (points[2 * near - at - (n if 2 * near - at >= n else 0)] - place) / 2.0
+    return points, sharp
+
+
+def _bulge(side: NDArray[np.float64]) -> float:
+    """Largest distance of points from the line from the first to the last."""
+    chord = side[-1] - side[0]
+    length = np.hypot(*chord)
+    return float(np.abs(_cross(side - side[0], chord)).max() / length) if length > 0.0 else np.inf
+
+
+def _stairs(points: NDArray[np.float64], sharp: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """How much of a staircase there is around each sample, 0 to 1: turns to and fro, other than a curve's."""
+    step = np.roll(points, -1, axis=0) - points
+    before = np.roll(step, 1, axis=0)
+    turn = np.degrees(np.arctan2(_cross(before, step), (before * step).sum(axis=1)))
+    turn[sharp] = 0.0
+    near = range(-JOG, JOG + 1)
+    rough = sum(np.roll(np.abs(turn), k) for k in near) - np.abs(sum(np.roll(turn, k) for k in near))
+    share = np.clip((rough - ROUGH[0]) / (ROUGH[1] - ROUGH[0]), 0.0, 1.0)
+    far = min(SPREAD, len(points) // 2)
+    spread = np.lib.stride_tricks.sliding_window_view(np.pad(share, far, mode="wrap"), 2 * far + 1)
+    found: NDArray[np.float64] = spread.max(axis=1)
     return found
-
-
-def _unit(side: NDArray[np.float64]) -> NDArray[np.float64]:
-    far = side[np.argmax((side * side).sum(axis=1))]
-    return far / np.hypot(*far)
 
 
 def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
-def area(points: NDArray[np.float64]) -> float:
+def _area(points: NDArray[np.float64]) -> float:
     return 0.5 * float(_cross(points, np.roll(points, -1, axis=0)).sum())
-
-
-def fit_ring(points: NDArray[np.float64], tolerance: float, corner: float = CORNER) -> NDArray[np.float64]:
-    """Few cubics around a closed ring of points, within a distance of it, (n, 2) -> (m, 4, 2)."""
-    points = points[(points != np.roll(points, 1, axis=0)).any(axis=1)]
-    if len(points) < 3:
-        return np.empty((0, 4, 2))
-    radius = np.sqrt(abs(area(points - points[0])) / np.pi)
-    length = np.hypot(*(points - np.roll(points, 1, axis=0)).T).sum()
-    if radius == 0.0:
-        return np.empty((0, 4, 2))
-    tolerance = min(tolerance, radius / 2.0, abs(area(points - points[0])) / length)
-    samples = sampled(points, tolerance)
-    sharp = corners(samples, tolerance, corner)
-    step = length / len(samples)
-    bending = min(BENDING, SHRINKING * (radius / step) ** 4)
-    even = smoothed(samples, sharp, bending, (1.0 - FITTING) * tolerance)
-    cubics = fit_samples(even, sharp, FITTING * tolerance)
-    cubics[:, 0] = np.roll(cubics[:, 3], 1, axis=0)
-    return cubics

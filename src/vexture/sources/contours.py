@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -14,7 +15,7 @@ __all__ = ["HMIN", "TOLERANCE", "shored", "wet_drawing"]
 HMIN: Final = 0.05
 """Metres. What is under less water counts as dry."""
 
-TOLERANCE: Final = 0.5
+TOLERANCE: Final = 0.55
 """Cells. Most that the fitted shoreline may leave the contour: the staircase of a raster is half a cell high."""
 
 THIN: Final = 0.1
@@ -124,11 +125,17 @@ def wet_drawing(
     """
     contours: list[NDArray[np.float64]] = []
     for polygon in _polygons(above, beyond):
-        contours.extend(_fitted(polygon, to_unit, tolerance))
+        contours.extend(_fitted(polygon, _border(above.shape, beyond), to_unit, tolerance))
     if not contours:
         return Drawing(())
     turned = tuple(contour * (1.0, -1.0) + (0.0, 1.0) for contour in contours)
     return Drawing.from_source([Path(turned, FillRule.NONZERO)], (0.0, 0.0, 1.0, 1.0))
+
+
+def _border(shape: tuple[int, ...], beyond: tuple[float, float, float, float]) -> tuple[float, float, float, float]:
+    """Left, first, right and last position that values are at."""
+    left, first, right, last = beyond
+    return (-0.5 - left, -0.5 - first, shape[1] - 0.5 + right, shape[0] - 0.5 + last)
 
 
 def _polygons(
@@ -137,29 +144,38 @@ def _polygons(
     """Rings of each wet area, its outer one first, in positions of the grid, without the last point."""
     import contourpy
 
-    rows, columns = above.shape
-    left, first, right, last = beyond
-    x = np.concatenate([[-0.5 - left], np.arange(columns), [columns - 0.5 + right]])
-    y = np.concatenate([[-0.5 - first], np.arange(rows), [rows - 0.5 + last]])
+    left, first, right, last = _border(above.shape, beyond)
+    x = np.concatenate([[left], np.arange(above.shape[1]), [right]])
+    y = np.concatenate([[first], np.arange(above.shape[0]), [last]])
     generator = contourpy.contour_generator(x=x, y=y, z=np.pad(above, 1, mode="edge"), fill_type="OuterOffset")
     points, offsets = generator.filled(0.0, np.inf)
     return [
-        [ring[a : b - 1] for a, b in zip(cut[:-1], cut[1:], strict=True)]
+        [ring[a : b - 1] for a, b in pairwise(cut)]
         for ring, cut in zip(points, offsets, strict=True)
     ]
 
 
-def _fitted(polygon: list[NDArray[np.float64]], to_unit: Map, tolerance: float) -> list[NDArray[np.float64]]:
+def _fitted(
+    polygon: list[NDArray[np.float64]], border: tuple[float, float, float, float], to_unit: Map, tolerance: float
+) -> list[NDArray[np.float64]]:
     """Cubics of a polygon's rings in the unit square, which neither cross themselves nor one another."""
     from vexture.bezier.ring import fit_ring
 
-    placed = [to_unit(ring) for ring in polygon]
-    cells = [_cell(ring, to_unit) for ring in polygon]
+    rings = [(to_unit(ring), _cell(ring, to_unit), _ends(ring, border)) for ring in polygon]
     for share in RETRY:
-        fitted = [fit_ring(ring, share * tolerance * cell) for ring, cell in zip(placed, cells, strict=True)]
-        if _apart([contour for contour in fitted if len(contour)]):
+        fitted = [fit_ring(ring, share * tolerance * cell, fixed=ends) for ring, cell, ends in rings]
+        fitted = [contour for contour in fitted if len(contour)]
+        if _apart(fitted):
             break
-    return [contour for contour in fitted if len(contour)]
+    return fitted
+
+
+def _ends(ring: NDArray[np.float64], border: tuple[float, float, float, float]) -> NDArray[np.bool_]:
+    """Which points are where a ring meets the border of the grid, or a corner of it."""
+    sides = np.concatenate([ring == border[:2], ring == border[2:]], axis=1)
+    passing = sides & np.roll(sides, 1, axis=0) & np.roll(sides, -1, axis=0)  # amid points on the same side
+    found: NDArray[np.bool_] = sides.any(axis=1) & ~(passing.any(axis=1) & (sides.sum(axis=1) == 1))
+    return found
 
 
 def _cell(ring: NDArray[np.float64], to_unit: Map) -> float:
@@ -182,8 +198,8 @@ def _apart(contours: list[NDArray[np.float64]]) -> bool:
 
 
 def _flattened(contour: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points along cubics, eight to each."""
-    t = np.arange(8)[:, None] / 8.0
+    """Points along cubics, sixteen to each."""
+    t = np.arange(16)[:, None] / 16.0
     s = 1.0 - t
     p0, p1, p2, p3 = (contour[:, None, k] for k in range(4))
     found: NDArray[np.float64] = s**3 * p0 + 3.0 * s * s * t * p1 + 3.0 * s * t * t * p2 + t**3 * p3
