@@ -41,14 +41,16 @@ def test_a_polygon_that_encloses_nothing_is_left_out(tmp_path):
     assert same(drawing, POND)
 
 
-@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("value", [np.nan, np.inf, -1e300])
 @pytest.mark.parametrize("name", ["a.gpkg", "a.fgb"])
-def test_a_coordinate_that_is_not_finite_is_refused_by_name(tmp_path, name, value):
+def test_a_coordinate_beyond_all_limits_is_refused_by_name(tmp_path, name, value):
     hole = [(588500, 4091000), (589500, 4091000), (value, 4092000)]
     with np.errstate(invalid="ignore"):
         bad = shapely.MultiPolygon([POND, shapely.Polygon(LAKE.exterior, [hole])])
         path = file(tmp_path, name, [LAKE, bad])
-    with pytest.raises(SourceError, match="feature 2, polygon 2, ring 2: a coordinate is not finite"):
+    with pytest.raises(
+        SourceError, match=r"feature 2, polygon 2, ring 2: a point is at .*,4\.09.*; the limit"
+    ):
         read_extent(path, name)
 
 
@@ -146,3 +148,13 @@ def test_a_shapefile_without_its_index_says_so(tmp_path):
     path.with_suffix(".shx").unlink()
     with pytest.raises(SourceError, match=r"lake\.shp lacks its lake\.shx"):
         read_extent(path, "lake.shp")
+
+
+def test_a_damaged_projection_file_is_one_line(tmp_path):
+    path = file(tmp_path, "lake.shp")
+    text = path.with_suffix(".prj").read_text()
+    for damaged in (text[:50], "EPSG:1", text.replace("PROJECTION", "PROJECTIO"), "\0" * 9):
+        path.with_suffix(".prj").write_text(damaged)
+        with pytest.raises(SourceError) as raised:
+            read_extent(path, "lake.shp")
+        assert "\n" not in str(raised.value)

@@ -105,7 +105,9 @@ def test_without_polygons_all_is_dry_within_the_bounds(tmp_path, shapes):
 def test_a_point_without_an_image_is_refused_by_name():
     frame = Frame((-6e6, -6e6, 6e6, 6e6), "+proj=ortho +lat_0=90", (1.2e7, 1.2e7))
     far = {"type": "Polygon", "coordinates": [[[0, 80], [10, 80], [10, -80], [0, -80]]]}
-    with pytest.raises(SourceError, match="ring 1: it has no place in the reference system of the frame"):
+    with pytest.raises(
+        SourceError, match=r"ring 1: a point is at inf,inf; .* no place in the reference system"
+    ):
         read_extent(json.dumps(far).encode(), "far.geojson", frame=frame)
 
 

@@ -146,7 +146,7 @@ def _gdal(content: bytes, layer: str | None, report: Report) -> Areas:
         try:
             name = _layer([(str(each), str(kind)) for each, kind in list_layers(content)], layer)
             meta, _, shapes, _ = raw.read(content, layer=name, columns=[], force_2d=True)
-        except (RuntimeError, ValueError, OverflowError) as error:  # of the first kind are all of pyogrio's own
+        except (RuntimeError, ValueError, OverflowError, NameError) as error:  # the last is pyogrio's for a bad .prj
             raise SourceError(f"GDAL cannot read it ({_one_line(error)}); save it again") from None
     if shapes is None:
         raise SourceError(f"its layer {name!r} has no geometries; choose another by --layer")
@@ -155,6 +155,10 @@ def _gdal(content: bytes, layer: str | None, report: Report) -> Areas:
 
 def _one_line(error: Exception) -> str:
     text = " ".join(str(error).split())
+    if isinstance(error, NameError):
+        return "what it says of its reference system is damaged"
+    if "sqlite3" in text:  # its query and more
+        return "its database is damaged"
     start = text.find("/vsi")
     if start >= 0:  # a name in memory says nothing to anybody
         text = "the file" + text[start:].partition("'")[2] if "'" in text[start:] else "damaged"
