@@ -1,5 +1,6 @@
 """Flood polygons: every format gives the area that is in the file."""
 
+import sys
 import zipfile
 
 import numpy as np
@@ -11,7 +12,7 @@ from geographic import FORMATS, LAKE, POND, UTM, file, geopackage_of, land, only
 import vexture
 from vexture.bezier.convert import straight
 from vexture.cli import main
-from vexture.errors import LimitError, SourceError, SourceWarning
+from vexture.errors import DeviceError, LimitError, SourceError, SourceWarning
 from vexture.sources.extent import read_extent
 from vexture.sources.reading import is_geographic, read_drawing, start_of
 
@@ -140,3 +141,13 @@ def test_a_parameter_of_depths_is_refused(tmp_path):
     for option in ({"time_dim": "time"}, {"variable": "depth"}):
         with pytest.raises(LimitError, match=r"is for depths, and this file holds polygons"):
             read_extent(path, "lake.gpkg", **option)
+
+
+def test_without_the_packages_it_says_what_to_install_and_plain_geojson_is_read(tmp_path, monkeypatch):
+    geopackage = file(tmp_path, "lake.gpkg")
+    geojson = file(tmp_path, "lake.geojson")
+    for package in ("pyogrio", "pyproj", "shapely"):
+        monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(DeviceError, match=r"needs the package pyogrio: pip install 'vexture\[gis\]'"):
+        read_drawing(geopackage)
+    assert read_drawing(geojson).segments == 10

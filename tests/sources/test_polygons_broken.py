@@ -48,9 +48,7 @@ def test_a_coordinate_beyond_all_limits_is_refused_by_name(tmp_path, name, value
     with np.errstate(invalid="ignore"):
         bad = shapely.MultiPolygon([POND, shapely.Polygon(LAKE.exterior, [hole])])
         path = file(tmp_path, name, [LAKE, bad])
-    with pytest.raises(
-        SourceError, match=r"feature 2, polygon 2, ring 2: a point is at .*,4\.09.*; the limit"
-    ):
+    with pytest.raises(SourceError, match=r"feature 2, polygon 2, ring 2: a point is at .*,4\.09.*; the limit"):
         read_extent(path, name)
 
 

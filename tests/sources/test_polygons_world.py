@@ -35,6 +35,15 @@ def test_a_frame_decides_and_the_data_is_transformed_into_it(tmp_path):
     assert texture.contains(places).tolist() == [True, False, True, False]
 
 
+@pytest.mark.parametrize("beyond", [(-500, 0), (500, 0), (0, -500), (0, 500)])
+def test_what_leaves_the_square_on_one_side_is_cut_there(tmp_path, beyond):
+    box = shapely.box(40, 40, 60, 60)
+    shape = shapely.convex_hull(shapely.union(box, shapely.affinity.translate(box, *beyond)))
+    drawing = only(read_extent(file(tmp_path, "strip.gpkg", [shape]), "strip.gpkg", bounds=(0, 0, 100, 100)))
+    square = shapely.box(*(drawing.to_source @ (0, 0, 1)), *(drawing.to_source @ (1, 1, 1)))
+    assert same(drawing, shapely.intersection(shape, square))
+
+
 def test_a_long_side_that_bends_in_the_frames_system_is_followed(tmp_path):
     box = shapely.box(0, 40, 40, 70)
     path = file(tmp_path, "europe.gpkg", [box], "EPSG:4326")
@@ -105,9 +114,7 @@ def test_without_polygons_all_is_dry_within_the_bounds(tmp_path, shapes):
 def test_a_point_without_an_image_is_refused_by_name():
     frame = Frame((-6e6, -6e6, 6e6, 6e6), "+proj=ortho +lat_0=90", (1.2e7, 1.2e7))
     far = {"type": "Polygon", "coordinates": [[[0, 80], [10, 80], [10, -80], [0, -80]]]}
-    with pytest.raises(
-        SourceError, match=r"ring 1: a point is at inf,inf; .* no place in the reference system"
-    ):
+    with pytest.raises(SourceError, match=r"ring 1: a point is at inf,inf; .* no place in the reference system"):
         read_extent(json.dumps(far).encode(), "far.geojson", frame=frame)
 
 
