@@ -154,7 +154,7 @@ def _gdal(content: bytes, layer: str | None, report: Report) -> Areas:
 
 
 def _one_line(error: Exception) -> str:
-    text = " ".join(str(error).split())
+    text = " ".join(str(error).split()).rpartition("Raw error: ")[2]
     if isinstance(error, NameError):
         return "what it says of its reference system is damaged"
     if "sqlite3" in text:  # its query and more
