@@ -90,11 +90,11 @@ def test_near_and_tilted_it_does_not_sparkle(page: Any, screenshot: Callable[...
         pictures, _ = frames(page, mask={"fold": "shore", "transform": uv_view(matrix)})
         check(pictures, fold, np.vstack([matrix, [0, 0, 1]]) @ FIT, duck)
     mask = {"fold": "shore", "transform": [2, 0, -0.5, 0, 2, -0.5, 0, 0, 1]}
-    pictures, found = frames(page, camera="tilted", plane=[4, 4], mask=mask)
+    pictures, found = frames(page, camera="tilted", plane=[4, 4], mask=mask, size=4 * SIZE)
     screenshot(page.locator("canvas"))
     clip = np.reshape(found["matrix"], (4, 4)).T[[0, 1, 3]][:, [0, 1, 3]]
     to_plane = np.array([[2.0, 0, -1], [0, 2, -1], [0, 0, 1]])
-    to_pixels = np.array([[SIZE / 2, 0, SIZE / 2], [0, -SIZE / 2, SIZE / 2], [0, 0, 1]])
+    to_pixels = 2 * SIZE * np.array([[1, 0, 1], [0, -1, 1], [0, 0, 0.5 / SIZE]])
     check(pictures, fold, np.linalg.inv(to_pixels @ clip @ to_plane), duck)
 
 
