@@ -1,8 +1,9 @@
-import { Color, InstancedBufferAttribute, Vector2 } from 'three';
+import { Color, InstancedBufferAttribute } from 'three';
 import { MOST_ROWS } from '../generated/layout.js';
 import { VextureError } from './errors.js';
 import { check, insert, takePart } from './hooks.js';
 import { MaskedMesh } from './mask-mesh.js';
+import { lookedUp } from './mask-lookup.js';
 import { checkOptions, complete, isTranslucent } from './mask-options.js';
 import { ROOT_ATTRIBUTE, texts, thesisReader } from './mask-shader.js';
 
@@ -10,9 +11,6 @@ import { ROOT_ATTRIBUTE, texts, thesisReader } from './mask-shader.js';
 /** @typedef {import('./mask-shader.js').Variant} Variant */
 
 /** @typedef {import('./mask-options.js').MaskOptions} MaskOptions */
-
-/** Where clamped places end: the upper and right borders of the square are outside. */
-const BORDER = 2 ** -32;
 
 /** @type {WeakMap<import('three').Material, VectorMask>} */
 const MASKS = new WeakMap();
@@ -74,7 +72,7 @@ export class VectorMask {
 
   /** @returns {Variant} */
   #variant() {
-    const { mode, wrap, quality, invert, background, instanced, map } = this.#options;
+    const { mode, wrap, quality, invert, background, instanced, map, fold } = this.#options;
     const { data } = this.#texture;
     return {
       encoding: data.encoding,
@@ -87,6 +85,7 @@ export class VectorMask {
       background,
       instanced,
       hasMap: mode === 'mix' && map !== null,
+      fold: fold?.glsl ?? '',
     };
   }
 
@@ -107,7 +106,7 @@ export class VectorMask {
       this.#texture.dispatchEvent({ type: 'note', message: error.message });
     }
     const { data, textures } = this.#texture;
-    const { transform, threshold, color, map } = this.#options;
+    const { transform, threshold, color, map, fold, time } = this.#options;
     const { first, count } = this.#range;
     /** @type {Record<string, unknown>} */
     const values = {
@@ -123,6 +122,9 @@ export class VectorMask {
       vextureThreshold: threshold,
       vextureInside: color instanceof Color ? color : this.#inside.set(color),
       vextureInsideMap: map,
+      vextureFolding: fold?.texture ?? null,
+      vextureCycle: fold?.cycle ?? 0,
+      vextureTime: fold?.clock(time) ?? 0,
     };
     for (const [name, value] of Object.entries(values)) (this.#uniforms[name] ??= { value }).value = value;
     this.#material.transparent = isTranslucent(this.#options) || this.#transparent;
@@ -280,6 +282,25 @@ export class VectorMask {
     return this.#options.instanced;
   }
 
+  /** @returns {import('./fold-texture.js').FoldTexture | null} */
+  get fold() {
+    return this.#options.fold;
+  }
+
+  set fold(fold) {
+    this.set({ fold });
+  }
+
+  /** Seconds of the fold: set it for every picture, it costs nothing. */
+  get time() {
+    return this.#options.time;
+  }
+
+  set time(time) {
+    this.#options = { ...this.#options, time };
+    this.#uniforms.vextureTime.value = this.#options.fold?.clock(time) ?? 0;
+  }
+
   /**
    * Whether the masked surface is at a place of a mesh: a click on a hole misses.
    *
@@ -289,10 +310,9 @@ export class VectorMask {
    * @returns {boolean}
    */
   hits(u, v, root) {
-    const { mode, background, transform, wrap, invert } = this.#options;
+    const { mode, background, invert } = this.#options;
     if (mode === 'mix' || (mode === 'paint' && background === 'own')) return true;
-    const place = new Vector2(u, v).applyMatrix3(transform);
-    const { x, y } = wrap === 'none' ? place : wrapped(place, wrap);
+    const { x, y } = lookedUp(u, v, this.#options);
     const first = root ?? this.#range.first;
     const end = root === undefined ? first + this.#range.count : root + 1;
     for (let shape = first; shape < end; shape++) {
@@ -374,17 +394,6 @@ function mapTransform(options) {
       return map?.matrix ?? transform;
     },
   };
-}
-
-/**
- * Place in the unit square that is shown at one outside of it.
- *
- * @param {Vector2} place
- * @param {'clamp' | 'repeat'} wrap
- */
-function wrapped(place, wrap) {
-  if (wrap === 'clamp') return place.clampScalar(0, 1 - BORDER);
-  return place.set(place.x - Math.floor(place.x), place.y - Math.floor(place.y));
 }
 
 /**
