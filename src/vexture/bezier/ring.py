@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from vexture.bezier.convert import line_cubics
 from vexture.bezier.roots import cubic_at, velocity_at
 from vexture.bezier.smooth import smooth_chain
+from vexture.bezier.split import copy_curve
 from vexture.kernels import kernel
 
 __all__ = ["CORNER", "fit_ring"]
@@ -50,6 +51,9 @@ FEWEST = 16
 
 MOST = 256
 """Samples that one cubic may replace."""
+
+ONE_SIDED = 4
+"""Samples that say the direction in which a ring leaves a corner: the nearest one alone may be of the corner's own."""
 
 STEPS = 6
 """Projection and least squares alternate so often for one cubic."""
@@ -125,7 +129,7 @@ def _fit_span(
             if denominator > 0.0:
                 t[i] = min(max(u - numerator / denominator, 0.0), 1.0)
         worst = np.sqrt(worst)
-        if worst <= tolerance or (step == 2 and worst > 8.0 * tolerance):
+        if worst <= tolerance or (step == 2 and worst > 8.0 * tolerance > 0.0):
             break
     return worst
 
@@ -165,22 +169,28 @@ def fit_samples(points: NDArray[np.float64], corner: NDArray[np.bool_], toleranc
         limit = at + 1
         while limit < n and limit - at < MOST and not sharp[limit]:
             limit += 1
-        _tangent(points, begin + at, 0 if sharp[at] else 1, 1, start)
+        _tangent(points, begin + at, 0 if sharp[at] else 1, min(ONE_SIDED, limit - at) if sharp[at] else 1, start)
         good, bad, step = at, limit + 1, 4
         while bad - good > 1:  # longer by doubling, then halving in between
             trial = min(at + step, limit) if bad > limit else (good + bad) // 2
             step *= 2
-            _tangent(points, begin + trial, 1, 0 if sharp[trial] else 1, end)
+            _tangent(
+                points, begin + trial, min(ONE_SIDED, trial - at) if sharp[trial] else 1, 0 if sharp[trial] else 1, end
+            )
             if _fit_span(ring[at : trial + 1], start, end, tolerance, curve) <= tolerance or trial == at + 1:
                 good = trial
-                for k in range(8):
-                    best[k // 2, k % 2] = curve[k // 2, k % 2]
+                copy_curve(curve, best)
                 if trial == limit:
                     break
             else:
                 bad = trial
-        for k in range(8):
-            out[count, k // 2, k % 2] = best[k // 2, k % 2]
+        copy_curve(best, out[count])
+        if good > at + 1:  # as near as it gets, rather than just near enough
+            _tangent(
+                points, begin + good, min(ONE_SIDED, good - at) if sharp[good] else 1, 0 if sharp[good] else 1, end
+            )
+            if _fit_span(ring[at : good + 1], start, end, 0.0, curve) <= tolerance:
+                copy_curve(curve, out[count])
         count += 1
         at = good
     return out[:count].copy()
