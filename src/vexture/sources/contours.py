@@ -179,7 +179,9 @@ def _polygons(above: NDArray[np.float64], border: tuple[float, float, float, flo
     x = np.concatenate([[left], np.arange(above.shape[1]), [right]])
     y = np.concatenate([[first], np.arange(above.shape[0]), [last]])
     generator = contourpy.contour_generator(x=x, y=y, z=np.pad(above, 1, mode="edge"), fill_type="OuterOffset")
-    points, offsets = generator.filled(0.0, np.inf)[:2]
+    points: list[NDArray[np.float64]]
+    offsets: list[NDArray[np.uint32]]
+    points, offsets = generator.filled(0.0, np.inf)  # type: ignore[misc,assignment]
     return [[ring[a : b - 1] for a, b in pairwise(cut.tolist())] for ring, cut in zip(points, offsets, strict=True)]
 
 
