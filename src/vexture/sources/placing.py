@@ -150,7 +150,7 @@ class Placing:
         places, shape = frame_places(self._frame)
         found = self.positions(places)
         last = np.array(values.shape[::-1]) - 1
-        inside: NDArray[np.bool_] = ((found >= -0.5 - NEAR) & (found <= last + 0.5 + NEAR)).all(axis=1)
+        inside = np.all((found >= -0.5 - NEAR) & (found <= last + 0.5 + NEAR), axis=1)
         nearest = np.clip(np.rint(np.where(inside[:, None], found, 0.0)), 0, last).astype(int)
         taken = values[nearest[:, 1], nearest[:, 0]]
         return np.where(inside, taken, np.nan).reshape(shape).astype(np.float32)
