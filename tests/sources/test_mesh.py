@@ -92,7 +92,8 @@ def test_a_mesh_that_ends_with_the_frame_goes_on_beyond(tmp_path):
 def test_a_mesh_with_layers_or_without_faces_is_refused(tmp_path):
     with xarray.open_dataset(mesh(tmp_path / "mesh.nc"), decode_times=False) as dataset:
         dataset = dataset.load()
-    dataset.expand_dims({"layer": [1.0, 2.0]}).to_netcdf(tmp_path / "layers.nc")
+    layers = dataset["waterdepth"].expand_dims({"layer": [1.0, 2.0]})
+    dataset.assign(waterdepth=layers).to_netcdf(tmp_path / "layers.nc")
     with pytest.raises(SourceError, match=r"variable 'waterdepth' also has the dimension 'layer' \(2 long\)"):
         read(tmp_path / "layers.nc")
     dataset["mesh2d"].attrs["face_node_connectivity"] = "elsewhere"
