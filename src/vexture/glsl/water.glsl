@@ -71,9 +71,10 @@ float vextureFoam(VextureWater water, sampler2D normals, float seconds) {
         float bent = water.offshore + 0.5 * (broad.x - 0.5) * smoothstep(0.0, 0.3, water.offshore);
         float behind = fract(2.5 * bent + drift + broad.y);
         float line = smoothstep(1.0, 0.93, behind) * pow(1.0 - behind, 2.5) * smoothstep(0.95, 0.35, bent);
-        float seam = smoothstep(0.14 + 0.1 * broad.y, 0.0, water.offshore);
+        float seam = smoothstep(0.12 + 0.2 * broad.y, 0.0, water.offshore);
+        float most = max(line, seam);
         float tear = 0.5 * (fine.x + fine.y) + 0.35 * (fine.z - 0.8);
-        foam = smoothstep(0.62, 0.38, tear - 0.34 * max(line, seam) + 0.25) * max(line, seam);
+        foam = smoothstep(0.62, 0.38, tear - 0.5 * most + 0.24) * most;
     }
     return water.openness * foam;
 }
