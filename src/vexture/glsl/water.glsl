@@ -100,7 +100,7 @@ vec3 vextureSea(VextureLight light, vec3 eye, vec3 place, float size, sampler2D 
     vec2 at = place.xz * size;
     vec3 one = texture(normals, at / 103.0 + seconds * vec2(0.049, 0.031)).xzy;
     vec3 other = texture(normals, at / 421.0 + seconds * vec2(-0.013, 0.017)).xzy;
-    vec3 normal = normalize((one + other - 1.0) * vec3(1.5, 1.0, 1.5));
+    vec3 normal = normalize((one + other - 1.0) * vec3(0.8, 1.0, 0.8));
     vec3 toEye = normalize(eye - place);
     float facing = max(dot(toEye, normal), 0.0);
     float reflectance = 0.02 + 0.98 * pow(1.0 - facing, 5.0);
