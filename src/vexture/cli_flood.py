@@ -7,7 +7,7 @@ import click
 
 from vexture.errors import LimitError
 from vexture.flood.asked import PERIOD, Asked, bounds_of
-from vexture.messages import one_line, say, with_gis, with_servers
+from vexture.messages import one_line, say, with_servers
 
 __all__ = ["flood"]
 
@@ -24,7 +24,9 @@ PATH: Any = click.Path(path_type=Path)
 @click.option("--layer", metavar="NAME", help="Layer of polygons, if there are several.")
 @click.option("--ground", metavar="IMAGE", type=PATH, help="Picture of the ground: a GeoTIFF, or one of --bounds.")
 @click.option("--relief", metavar="FILE", type=PATH, help="Heights of the ground in metres, as GeoTIFF.")
-@click.option("--amplitude", metavar="M", type=float, help="How far waves run up the beach.  [default: 0.2% of the box]")
+@click.option(
+    "--amplitude", metavar="M", type=float, help="How far waves run up the beach.  [default: 0.2% of the box]"
+)
 @click.option("--period", metavar="S", type=float, default=PERIOD, show_default=True, help="Seconds between waves.")
 @click.option("--title", metavar="TEXT", help="Title of the page.  [default: the name of the extent]")
 @click.option("-o", "--output", metavar="PAGE.html", type=PATH, help="Write one page with everything in it.")
@@ -45,7 +47,9 @@ def flood(
 
     The extent is GeoJSON, GeoPackage, FlatGeobuf or a shapefile of wet places, or GeoTIFF, NetCDF or UGRID of depths.
     """
-    with one_line(), with_servers("flood --serve"), with_gis("flood"):
+    from vexture.sources.reference import gis_packages
+
+    with one_line(), gis_packages(), with_servers("flood --serve"):
         if (output is None) == (not serving):
             both = "either -o PAGE.html or --serve" if serving else "-o PAGE.html for one page, or --serve for a server"
             raise LimitError(f"vexture flood needs to know where to show it; give {both}")

@@ -9,10 +9,9 @@ import click
 
 from vexture.errors import DeviceError, VextureError
 
-__all__ = ["one_line", "say", "with_gis", "with_servers"]
+__all__ = ["one_line", "say", "with_servers"]
 
 SERVERS = ("sse_starlette", "starlette", "uvicorn", "watchfiles")
-GEOGRAPHIC = ("contourpy", "netCDF4", "pandas", "pyogrio", "pyproj", "rasterio", "shapely", "xarray", "xugrid")
 
 
 def say(message: str) -> None:
@@ -42,22 +41,9 @@ def one_line() -> Iterator[None]:
 @contextmanager
 def with_servers(command: str) -> Iterator[None]:
     """Say what to install where the packages of servers are missing."""
-    with _with_packages(command, SERVERS, "live"):
-        yield
-
-
-@contextmanager
-def with_gis(command: str) -> Iterator[None]:
-    """Say what to install where the packages that read geographic data are missing."""
-    with _with_packages(command, GEOGRAPHIC, "gis"):
-        yield
-
-
-@contextmanager
-def _with_packages(command: str, packages: tuple[str, ...], extra: str) -> Iterator[None]:
     try:
         yield
     except ModuleNotFoundError as error:
-        if (error.name or "").split(".")[0] not in packages:
+        if (error.name or "").split(".")[0] not in SERVERS:
             raise
-        raise DeviceError(f"vexture {command} needs the package {error.name}: pip install 'vexture[{extra}]'") from None
+        raise DeviceError(f"vexture {command} needs the package {error.name}: pip install 'vexture[live]'") from None

@@ -102,7 +102,6 @@ def bounds_of(text: str) -> tuple[float, float, float, float]:
         raise LimitError(f"--bounds {text}: give four numbers, west,south,east,north, without spaces") from None
     if not all(map(isfinite, (west, south, east, north))):
         raise LimitError(f"--bounds {text}: every number must be finite")
-    if west >= east or south >= north:
-        wrong = f"west {west:g} is not below east {east:g}" if west >= east else f"south {south:g} is not below north {north:g}"
-        raise LimitError(f"--bounds {text}: {wrong}; the order is west,south,east,north")
+    if west == east or south >= north:
+        raise LimitError(f"--bounds {text}: the box is empty; the order is west,south,east,north")
     return west, south, east, north

@@ -98,4 +98,4 @@ def _light(height: NDArray[np.float64], pixel: float, exaggeration: float) -> ND
     south, east = np.gradient(height * min(SHADING * exaggeration, 4 * SHADING), pixel)
     length = np.sqrt(east**2 + south**2 + 1.0)
     cosine = (-east * LIGHT[0] + south * LIGHT[1] + LIGHT[2]) / length
-    return np.clip(cosine / LIGHT[2], 0.45, 1.35)
+    return np.asarray(np.clip(cosine / LIGHT[2], 0.45, 1.35))

@@ -35,9 +35,7 @@ SHOWN_PERCENTILES: Final = (2.0, 98.0)
 """Percentiles of a band of more than 8 bits that become black and white."""
 
 
-def ground_of(
-    path: Path, frame: Frame, drawn: "Image.Image", *, bounds_given: bool
-) -> tuple["Image.Image", list[str]]:
+def ground_of(path: Path, frame: Frame, drawn: "Image.Image", *, bounds_given: bool) -> tuple["Image.Image", list[str]]:
     """A user's picture of the ground, brought to the frame.
 
     Parameters

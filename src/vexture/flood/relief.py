@@ -8,7 +8,7 @@ lays the water on the ground. How much heights are exaggerated is the page's mat
 
 import base64
 import warnings
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 

@@ -7,6 +7,7 @@ from typing import Any
 from vexture.flood.relief import Relief
 from vexture.flood.shore import Shore
 from vexture.sources.frame import Frame
+from vexture.sources.reference import system
 
 __all__ = ["Flood", "scene"]
 
@@ -65,7 +66,7 @@ def scene(
             "metres": list(frame.metres),
             "crs": frame.crs,
             "bounds": list(frame.bounds),
-            "geographic": _is_geographic(frame.crs),
+            "geographic": system(frame.crs).is_geographic,
         },
         "ground": ground,
         "relief": flood.relief.as_json(),
@@ -73,10 +74,3 @@ def scene(
         "shore": None if shore is None else {"place": list(shore.place), "seaward": list(shore.seaward)},
         "notes": list(flood.notes),
     }
-
-
-def _is_geographic(crs: str) -> bool:
-    """Whether coordinates are degrees."""
-    from pyproj import CRS
-
-    return bool(CRS.from_user_input(crs).is_geographic)

@@ -80,7 +80,8 @@ def _best(wet: NDArray[np.float32]) -> tuple[int, int, float, float] | None:
         places = np.argwhere(shore)
     if not len(places):
         return None
-    offsets = np.stack(np.mgrid[-REACH : REACH + 1, -REACH : REACH + 1], axis=-1).reshape(-1, 2)
+    reach = np.arange(-REACH, REACH + 1)
+    offsets = np.stack(np.meshgrid(reach, reach, indexing="ij"), axis=-1).reshape(-1, 2)
     offsets = offsets[(np.hypot(*offsets.T) <= REACH) & offsets.any(axis=1)]
     there = places[:, None] + offsets
     rows, columns = (np.clip(there[..., axis], 0, wet.shape[axis] - 1) for axis in (0, 1))

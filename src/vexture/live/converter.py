@@ -43,9 +43,7 @@ class Converter:
         Of a server that shows a flood: into which frame uploads are converted.
     """
 
-    def __init__(
-        self, limits: Limits, settings: Settings = PUBLISHED_SETTINGS, waters: Waters | None = None
-    ) -> None:
+    def __init__(self, limits: Limits, settings: Settings = PUBLISHED_SETTINGS, waters: Waters | None = None) -> None:
         self._limits = limits
         self._how = waters or settings
         self._waiting = 0

@@ -89,9 +89,7 @@ def built(name: str) -> bytes:
         raise DeviceError("the viewer's page is not built; run `make viewer` (needs node and npm)") from None
 
 
-def served_page(
-    bundle: Bundle = VIEWER, scene: Mapping[str, Any] = SERVED_SCENE, title: str = "vexture"
-) -> bytes:
+def served_page(bundle: Bundle = VIEWER, scene: Mapping[str, Any] = SERVED_SCENE, title: str = "vexture") -> bytes:
     """Return the page of a server; its script and style are files beside it."""
     return _page(
         title=title,

@@ -1,13 +1,15 @@
 """From flood data, whatever kind of file it is, to a shape of water in the frame of a page."""
 
+import json
 import time
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
 
-from vexture.errors import LimitError, SourceError
+from vexture.errors import LimitError, SourceError, VextureError
 from vexture.flood.naming import PREFIX, labels
 from vexture.live.documents import converted, texture_shape, warnings_said
 from vexture.live.shelf import File, Shape
@@ -88,6 +90,7 @@ class Waters:
         from vexture.encoding.ktx2 import MAGIC
         from vexture.sources.extent import read_extent
         from vexture.sources.reading import is_geographic
+        from vexture.sources.reference import ReferenceMissing
 
         if name != PREFIX and not name.startswith(f"{PREFIX}/"):
             raise LimitError(f"{name}: this server shows {PREFIX} and {PREFIX}/NAME only; publish under such a name")
@@ -98,7 +101,12 @@ class Waters:
         if not is_geographic(data[:4096], name):
             raise SourceError(f"{name}: has no place in the world; send {KINDS}")
         with warnings_said() as said:
-            extent = read_extent(data, name, frame=self.frame, hmin=self.hmin, **self.options)
+            try:
+                extent = read_extent(data, name, frame=self.frame, hmin=self.hmin, **self.options)
+            except ReferenceMissing:
+                raise SourceError(
+                    f"{name}: says no reference system, so nobody knows where it is; write it into the file"
+                ) from None
             if len(extent.steps) != 1:
                 raise LimitError(f"{name}: holds {len(extent.steps)} times; send one at a time, each under its name")
             step = extent.steps[0]
@@ -107,15 +115,10 @@ class Waters:
 
     def warm(self) -> None:
         """Load what a conversion needs: packages, kernels, the frame's reference system."""
-        import json
-        from contextlib import suppress
-
         west, south, east, north = self.frame.bounds
         ring = [[west, south], [east, south], [(west + east) / 2, north], [west, south]]
         crs = {"type": "name", "properties": {"name": self.frame.crs}}
         shape = {"type": "Polygon", "coordinates": [ring], "crs": crs}
-        from vexture.errors import VextureError
-
         with suppress(VextureError):
             self.shape_of(json.dumps(shape).encode(), PREFIX)
         with suppress(VextureError):
