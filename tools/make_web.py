@@ -100,6 +100,13 @@ def thesis_module() -> str:
     return HEADER.format(owner="src/vexture/glsl/") + module_text("thesis", text, comment)
 
 
+def water_module() -> str:
+    """Text of the module with the water's shader: apart, since most pages have no use for it."""
+    comment = "water.glsl; VEXTURE_QUALITY and VEXTURE_WRAP must be defined before it."
+    text = bare(inlined(packed_text("water.glsl", None)))
+    return HEADER.format(owner="src/vexture/glsl/") + module_text("water", text, comment)
+
+
 def fold_module() -> str:
     """Text of the module with the shader of folds: apart, since a page without one has no use for it."""
     text = bare(inlined(packed_text("fold.glsl", None, fold_layout)))
@@ -127,6 +134,7 @@ def main() -> int:
         "shaders.js": shaders(),
         "thesis-shader.js": thesis_module(),
         "fold-shader.js": fold_module(),
+        "water-shader.js": water_module(),
     }
     for name, text in modules.items():
         path = FOLDER / name
