@@ -25,7 +25,7 @@ def deepest(depth: NDArray[np.float32]) -> float:
 
 
 def depth_png(depth: NDArray[np.float32], most: float) -> bytes:
-    """Depths as an 8-bit gray PNG: 255 is `most`, 0 is dry or unknown, and what is wet is at least 1.
+    r"""Depths as an 8-bit gray PNG: 255 is `most`, 0 is dry or unknown, and what is wet is at least 1.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def depth_png(depth: NDArray[np.float32], most: float) -> bytes:
     Examples
     --------
     >>> depth_png(np.array([[np.nan, 1.5]], np.float32), 1.5)[:4]
-    b'\\x89PNG'
+    b'\x89PNG'
     """
     from PIL import Image
 

@@ -27,7 +27,7 @@ WET_SAND, SAND, GRASS, WOOD, ROCK = (
 SEA_SHALLOW, SEA_DEEP = np.array([141, 141, 116], float), np.array([48, 66, 76], float)
 
 BEACH: Final = 0.012
-"""How far sand reaches from the shore, as a share of the longer side; the sea floor's colours change over 6 times it."""
+"""How far sand reaches from the shore, as a share of the longer side; the sea floor's colours go on for 6 of it."""
 
 LIGHT: Final = np.array([-0.5, 0.5, 0.7]) / np.sqrt(0.99)
 """Towards the sun: east, north, up."""
