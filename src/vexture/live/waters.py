@@ -14,7 +14,7 @@ from vexture.flood.naming import PREFIX, labels
 from vexture.live.documents import converted, texture_shape, warnings_said
 from vexture.live.shelf import File, Shape
 from vexture.settings import Settings
-from vexture.sources.extent import Step
+from vexture.sources.extent import Extent, Step
 from vexture.sources.frame import Frame
 
 __all__ = ["WATER_SETTINGS", "Waters"]
@@ -24,6 +24,9 @@ WATER_SETTINGS: Final = Settings(precision=4e-6)
 
 SAME_PLACE: Final = 1e-6
 """Share of the frame by which a texture's place may differ from it: rounding of what wrote it."""
+
+DEPTH_OPTIONS, AREA_OPTIONS = ("time_dim", "variable"), ("layer",)
+"""Which options of the reader are for which kind of data."""
 
 KINDS: Final = "GeoJSON, GeoPackage, FlatGeobuf, a zipped shapefile, GeoTIFF, NetCDF or a packed texture"
 
@@ -88,9 +91,7 @@ class Waters:
             If it is no flood data, says no place, or lies outside the frame.
         """
         from vexture.encoding.ktx2 import MAGIC
-        from vexture.sources.extent import read_extent
         from vexture.sources.reading import is_geographic
-        from vexture.sources.reference import ReferenceMissing
 
         if name != PREFIX and not name.startswith(f"{PREFIX}/"):
             raise LimitError(f"{name}: this server shows {PREFIX} and {PREFIX}/NAME only; publish under such a name")
@@ -98,20 +99,31 @@ class Waters:
             raise LimitError(f"{name}: the upload is empty; send {KINDS}")
         if data.startswith(MAGIC):
             return self._texture(data, name)
-        if not is_geographic(data[:4096], name):
+        if not is_geographic(data, name):
             raise SourceError(f"{name}: has no place in the world; send {KINDS}")
         with warnings_said() as said:
-            try:
-                extent = read_extent(data, name, frame=self.frame, hmin=self.hmin, **self.options)
-            except ReferenceMissing:
-                raise SourceError(
-                    f"{name}: says no reference system, so nobody knows where it is; write it into the file"
-                ) from None
+            extent = self._read(data, name)
             if len(extent.steps) != 1:
                 raise LimitError(f"{name}: holds {len(extent.steps)} times; send one at a time, each under its name")
             step = extent.steps[0]
             shape = self.step(step, name, labels([step.time])[0])
         return replace(shape, facts={**shape.facts, "warnings": said})
+
+    def _read(self, data: bytes, name: str) -> Extent:
+        from vexture.sources.extent import read_extent
+        from vexture.sources.reading import holds_depths
+        from vexture.sources.reference import ReferenceMissing
+
+        kind = DEPTH_OPTIONS if holds_depths(data, name) else AREA_OPTIONS
+        options = {option: value for option, value in self.options.items() if option in kind}
+        try:
+            return read_extent(data, name, frame=self.frame, hmin=self.hmin, **options)
+        except ReferenceMissing:
+            raise SourceError(
+                f"{name}: says no reference system, so nobody knows where it is; write it into the file"
+            ) from None
+        except (SourceError, LimitError) as error:
+            raise type(error)(f"{name}: {error}") from None
 
     def warm(self) -> None:
         """Load what a conversion needs: packages, kernels, the frame's reference system."""
