@@ -11,7 +11,7 @@ import numpy as np
 
 from vexture.errors import LimitError, SourceError, VextureError
 from vexture.flood.naming import PREFIX, labels
-from vexture.live.documents import converted, texture_shape, warnings_said
+from vexture.live.documents import converted, load_kernels, texture_shape, warnings_said
 from vexture.live.shelf import File, Shape
 from vexture.settings import Settings
 from vexture.sources.extent import Extent, Step
@@ -68,6 +68,7 @@ class Waters:
         """
         from vexture.flood.depth_image import deepest, depth_png
 
+        load_kernels()
         shape = converted(replace(step.drawing, name=name), name, self.settings, time.perf_counter())
         most = None if step.depth is None else deepest(step.depth)
         views = {}
