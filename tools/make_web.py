@@ -97,6 +97,13 @@ def thesis_module() -> str:
     return HEADER.format(owner="src/vexture/glsl/") + module_text("thesis", text, comment)
 
 
+def water_module() -> str:
+    """Text of the module with the water's shader: apart, since most pages have no use for it."""
+    comment = "water.glsl; VEXTURE_QUALITY and VEXTURE_WRAP must be defined before it."
+    text = bare(inlined(packed_text("water.glsl", None)))
+    return HEADER.format(owner="src/vexture/glsl/") + module_text("water", text, comment)
+
+
 def layout_module() -> str:
     """Text of the module with the layout."""
     parts = [HEADER.format(owner="src/vexture/encoding/layout.py")]
@@ -111,7 +118,12 @@ def layout_module() -> str:
 def main() -> int:
     """Write the files, or with --check compare them; the exit code."""
     stale = []
-    modules = {"layout.js": layout_module(), "shaders.js": shaders(), "thesis-shader.js": thesis_module()}
+    modules = {
+        "layout.js": layout_module(),
+        "shaders.js": shaders(),
+        "thesis-shader.js": thesis_module(),
+        "water-shader.js": water_module(),
+    }
     for name, text in modules.items():
         path = FOLDER / name
         if path.is_file() and path.read_text(encoding="utf-8") == text:

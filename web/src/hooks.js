@@ -3,7 +3,8 @@ import { Material, ShaderLib } from 'three';
 import { VextureError } from './errors.js';
 
 /**
- * @typedef {'vertexDeclare' | 'vertexUv' | 'fragmentDeclare' | 'fragmentCut' | 'fragmentColor'} HookName
+ * @typedef {'vertexDeclare' | 'vertexUv' | 'fragmentDeclare' | 'fragmentCut' | 'fragmentColor' | 'fragmentLight'
+ *   | 'fragmentLast'} HookName
  *
  * @typedef {object} Shader
  * @property {string} vertexShader
@@ -15,9 +16,10 @@ import { VextureError } from './errors.js';
 /**
  * The include that each text follows. vertexDeclare and fragmentDeclare stand outside of functions; at vertexUv the
  * attribute uv is known; at fragmentCut nothing has been computed; at fragmentColor `diffuseColor` is complete and has
- * not been tested against alphaTest.
+ * not been tested against alphaTest. fragmentLight stands before its include, where `gl_FragColor` is the light that a
+ * surface sends out, in linear colour; at fragmentLast it is what the canvas gets.
  *
- * @type {Readonly<Record<HookName, { stage: 'vertexShader' | 'fragmentShader', include: string }>>}
+ * @type {Readonly<Record<HookName, { stage: 'vertexShader' | 'fragmentShader', include: string, before?: boolean }>>}
  */
 const HOOKS = Object.freeze({
   vertexDeclare: { stage: 'vertexShader', include: 'common' },
@@ -25,6 +27,8 @@ const HOOKS = Object.freeze({
   fragmentDeclare: { stage: 'fragmentShader', include: 'clipping_planes_pars_fragment' },
   fragmentCut: { stage: 'fragmentShader', include: 'clipping_planes_fragment' },
   fragmentColor: { stage: 'fragmentShader', include: 'alphamap_fragment' },
+  fragmentLight: { stage: 'fragmentShader', include: 'tonemapping_fragment', before: true },
+  fragmentLast: { stage: 'fragmentShader', include: 'fog_fragment' },
 });
 
 /**
@@ -32,7 +36,19 @@ const HOOKS = Object.freeze({
  *
  * @type {Readonly<Record<string, Partial<Record<HookName, string>>>>}
  */
-const EXCEPTIONS = Object.freeze({ MeshNormalMaterial: { fragmentColor: 'clipping_planes_fragment' } });
+const EXCEPTIONS = Object.freeze({
+  MeshNormalMaterial: { fragmentColor: 'clipping_planes_fragment' },
+  Water: { vertexUv: 'logdepthbuf_vertex', fragmentDeclare: 'common' },
+});
+
+const REMEDY = 'use a built-in mesh material';
+
+/**
+ * What to do about shaders that nobody chose.
+ *
+ * @type {Readonly<Record<string, string>>}
+ */
+const REMEDIES = Object.freeze({ Water: 'this three.js is not known to work: use another version of it' });
 
 /**
  * Names of three.js' shaders; those of distances have had two.
@@ -77,15 +93,15 @@ function shaderOf(material) {
 export function insert(shader, type, texts) {
   for (const [key, text] of Object.entries(texts)) {
     const name = /** @type {HookName} */ (key);
-    const { stage, include } = HOOKS[name];
+    const { stage, include, before } = HOOKS[name];
     const line = `#include <${EXCEPTIONS[type]?.[name] ?? include}>`;
     if (!shader[stage].includes(line)) {
       throw new VextureError(
-        `${type}: its ${stage} lacks '${line}', which the hook ${name} needs; use a built-in mesh material`,
+        `${type}: its ${stage} lacks '${line}', which the hook ${name} needs; ${REMEDIES[type] ?? REMEDY}`,
         name,
       );
     }
-    shader[stage] = shader[stage].replace(line, () => `${line}\n${text}`);
+    shader[stage] = shader[stage].replace(line, () => (before ? `${text}\n${line}` : `${line}\n${text}`));
   }
 }
 

@@ -28,9 +28,12 @@ struct VextureTop {
     int level;
 };
 
+int vexture_first_row = 0;  // of the texture that is read: others may stand above it in the same image
+
 uvec4 vexture_texel(uint index) {
     ivec2 last = textureSize(vextureTexels, 0) - 1;
-    ivec2 at = ivec2(int(index & uint((1 << VEXTURE_ROW_BITS) - 1)), int(index >> VEXTURE_ROW_BITS));
+    int row = int(index >> VEXTURE_ROW_BITS) + vexture_first_row;
+    ivec2 at = ivec2(int(index & uint((1 << VEXTURE_ROW_BITS) - 1)), row);
     return texelFetch(vextureTexels, min(at, last), 0);
 }
 

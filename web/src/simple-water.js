@@ -1,0 +1,65 @@
+import { Color, FrontSide, Mesh, ShaderMaterial, UniformsLib, UniformsUtils, Vector3 } from 'three';
+import { checkGeometry, watered } from './water-mesh.js';
+import { waterNormals } from './water-normals.js';
+import { simpleShader } from './water-shader.js';
+import { WaterShape } from './water-shape.js';
+
+/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('three').ColorRepresentation} ColorRepresentation */
+
+/**
+ * @typedef {import('./water-shape.js').WaterShapeOptions & {
+ *   waterNormals?: import('three').Texture,
+ *   sunDirection?: Vector3,
+ *   sunColor?: ColorRepresentation,
+ *   waterColor?: ColorRepresentation,
+ *   sky?: ColorRepresentation,
+ *   horizon?: ColorRepresentation,
+ *   size?: number,
+ *   alpha?: number,
+ *   time?: number,
+ *   side?: import('three').Side,
+ *   fog?: boolean,
+ * }} SimpleWaterOptions those of `VectorWater`, of which the mirror's say nothing here; and the sky's colours above and
+ *   at its edge, which this water mirrors instead of the scene
+ */
+
+/** Water for phones: it mirrors two colours of a sky instead of the scene, and is `VectorWater` in all else. */
+export class SimpleWater extends watered(
+  /** @type {new (...args: any[]) => import('./water-mesh.js').WaterMesh} */ (Mesh),
+) {
+  /**
+   * @param {import('three').BufferGeometry} geometry a plane, as `VectorWater` takes it
+   * @param {VectorTexture | null} texture
+   * @param {SimpleWaterOptions} [options]
+   * @throws {VextureError} if an option is wrong
+   */
+  constructor(geometry, texture, options = {}) {
+    checkGeometry(geometry);
+    const { sunDirection = new Vector3(0.70707, 0.70707, 0), sunColor = 0xffffff, waterColor = 0x7f7f7f } = options;
+    const { sky = 0x6f9fcf, horizon = 0xd5e2ea, size = 1, alpha = 1, time = 0, side = FrontSide, fog = false } = options;
+    const normals = options.waterNormals ?? waterNormals();
+    const material = new ShaderMaterial({
+      name: 'SimpleWater',
+      uniforms: UniformsUtils.clone(UniformsLib.fog),
+      transparent: true,
+      side,
+      fog,
+    });
+    super(geometry, material);
+    this.ownNormals = options.waterNormals ? null : normals;
+    this.shape = new WaterShape(texture, options, (shown) => (material.visible = shown));
+    Object.assign(material, simpleShader(this.shape.quality));
+    Object.assign(material.uniforms, this.shape.uniforms, {
+      normalSampler: { value: normals },
+      sunDirection: { value: sunDirection },
+      sunColor: { value: new Color(sunColor) },
+      waterColor: { value: new Color(waterColor) },
+      vextureZenith: { value: new Color(sky) },
+      vextureHorizon: { value: new Color(horizon) },
+      size: { value: size },
+      alpha: { value: alpha },
+      time: { value: time },
+    });
+  }
+}

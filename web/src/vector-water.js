@@ -1,0 +1,37 @@
+import { Water } from 'three/addons/objects/Water.js';
+import { insert } from './hooks.js';
+import { checkGeometry, watered } from './water-mesh.js';
+import { waterNormals } from './water-normals.js';
+import { waterTexts } from './water-shader.js';
+import { WaterShape } from './water-shape.js';
+
+/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
+
+/**
+ * @typedef {import('./water-shape.js').WaterShapeOptions & import('three/addons/objects/Water.js').WaterOptions
+ *   & { size?: number }} VectorWaterOptions
+ *   `size` is that of three.js' uniform: how small the waves are
+ */
+
+/** three.js' Water where a shape is: it mirrors the scene, and has foam and shallows along the shore. */
+export class VectorWater extends watered(Water) {
+  /**
+   * @param {import('three').BufferGeometry} geometry a plane; its vertices may be moved along z
+   * @param {VectorTexture | null} texture
+   * @param {VectorWaterOptions} [options] those of three.js' Water, too
+   * @throws {VextureError} if an option is wrong, or this three.js' Water has lost a place that is needed
+   */
+  constructor(geometry, texture, options = {}) {
+    checkGeometry(geometry);
+    const { size = 1, waterNormals: given, ...others } = options;
+    const normals = given ?? waterNormals();
+    super(geometry, { ...others, waterNormals: normals });
+    this.ownNormals = given ? null : normals;
+    const { material } = this;
+    this.shape = new WaterShape(texture, options, (shown) => (material.visible = shown));
+    insert(material, 'Water', waterTexts(this.shape.quality));
+    Object.assign(material.uniforms, this.shape.uniforms);
+    material.uniforms.size.value = size;
+    material.transparent = true;
+  }
+}

@@ -1,0 +1,107 @@
+import { DataTexture, LinearFilter, LinearMipmapLinearFilter, RepeatWrapping } from 'three';
+import { VextureError, line } from './errors.js';
+
+/** Waves that are summed. */
+const WAVES = 40;
+
+/** Waves across the tile, of the longest and the shortest. */
+const LONGEST = 2;
+const SHORTEST = 24;
+
+/** Root mean square of the slopes. */
+const STEEPNESS = 0.3;
+
+/** Least and most of a side. */
+const SIDES = Object.freeze([8, 2048]);
+
+/**
+ * Random numbers from 0 to 1, the same for the same seed.
+ *
+ * @param {number} seed
+ * @returns {() => number}
+ */
+function randomOf(seed) {
+  let state = seed >>> 0;
+  return () => {
+    state = (state + 0x9e3779b9) >>> 0;
+    let mixed = Math.imul(state ^ (state >>> 16), 0x21f0aaad);
+    mixed = Math.imul(mixed ^ (mixed >>> 15), 0x735a2d97);
+    return ((mixed ^ (mixed >>> 15)) >>> 0) / 2 ** 32;
+  };
+}
+
+/**
+ * Waves with whole numbers of crests in both directions, so that the tile repeats. Most run about one way, shorter ones
+ * any way; all are about as steep, as where wind keeps up a sea.
+ *
+ * @param {() => number} random
+ */
+function wavesOf(random) {
+  return Array.from({ length: WAVES }, (_, i) => {
+    const count = LONGEST * (SHORTEST / LONGEST) ** (i / (WAVES - 1));
+    const spread = 0.9 + 1.6 * (i / WAVES);
+    const angle = (random() + random() - 1) * spread;
+    const [x, y] = [Math.round(count * Math.cos(angle)), Math.round(count * Math.sin(angle))];
+    return { x, y, phase: 2 * Math.PI * random(), slope: 0.6 + 0.8 * random() };
+  });
+}
+
+/**
+ * Slopes of the sum of all waves, of which each pixel's are looked up: sines of whole multiples of one angle.
+ *
+ * @param {number} size
+ * @param {ReturnType<typeof wavesOf>} waves
+ */
+function slopesOf(size, waves) {
+  const slopes = new Float32Array(2 * size * size);
+  const sines = new Float32Array(size);
+  for (const { x, y, phase, slope } of waves) {
+    const length = Math.hypot(x, y);
+    const [right, up] = [(slope * x) / length, (slope * y) / length];
+    for (let i = 0; i < size; i++) sines[i] = Math.cos((2 * Math.PI * i) / size + phase);
+    const step = ((x % size) + size) % size;
+    for (let row = 0, at = 0; row < size; row++) {
+      let turn = (((y * row) % size) + size) % size;
+      for (let column = 0; column < size; column++, at += 2) {
+        slopes[at] += right * sines[turn];
+        slopes[at + 1] += up * sines[turn];
+        turn += step;
+        if (turn >= size) turn -= size;
+      }
+    }
+  }
+  return slopes;
+}
+
+/**
+ * The normals of a sea that repeats in both directions, as three.js' Water reads them: x, y along the surface and z up,
+ * from -1..1 in 0..255.
+ *
+ * @param {number} [size] pixels of a side
+ * @param {number} [seed] another sea for each
+ * @returns {DataTexture}
+ * @throws {VextureError} if the size is none
+ */
+export function waterNormals(size = 256, seed = 1) {
+  if (!Number.isInteger(size) || size < SIDES[0] || size > SIDES[1]) {
+    throw new VextureError(`size is ${line(size)}; it must be a whole number from ${SIDES.join(' to ')}`, 'size');
+  }
+  const slopes = slopesOf(size, wavesOf(randomOf(seed)));
+  let sum = 0;
+  for (const slope of slopes) sum += slope * slope;
+  const scale = STEEPNESS / Math.sqrt(sum / (size * size));
+  const pixels = new Uint8Array(4 * size * size);
+  for (let i = 0; i < size * size; i++) {
+    const [x, y] = [scale * slopes[2 * i], scale * slopes[2 * i + 1]];
+    const half = 127.5 / Math.hypot(x, y, 1);
+    pixels.set([127.5 - half * x, 127.5 - half * y, 127.5 + half, 255], 4 * i);
+  }
+  const texture = new DataTexture(pixels, size, size);
+  texture.wrapS = texture.wrapT = RepeatWrapping;
+  texture.magFilter = LinearFilter;
+  texture.minFilter = LinearMipmapLinearFilter;
+  texture.generateMipmaps = true;
+  texture.anisotropy = 4;
+  texture.needsUpdate = true;
+  return texture;
+}

@@ -1,0 +1,94 @@
+// What water adds to a shader: declarations, and lines that call the functions of src/vexture/glsl/water.glsl.
+import { QUALITIES, WRAPS } from '../generated/shaders.js';
+import { water } from '../generated/water-shader.js';
+
+/** @typedef {keyof typeof QUALITIES} Quality */
+
+const VARYINGS = 'varying vec2 vextureUv;\n';
+
+/**
+ * The shader's functions and what else it declares. Water goes on beyond the unit square as it is on its border.
+ *
+ * @param {Quality} quality
+ */
+export function declarations(quality) {
+  const chosen = `#define VEXTURE_QUALITY ${QUALITIES[quality]}\n#define VEXTURE_WRAP ${WRAPS.clamp}\n`;
+  const colors = 'uniform vec4 vextureShallow;\nuniform vec4 vextureFoamColor;\nuniform vec4 vextureFlat;\n';
+  return `${VARYINGS}${colors}${chosen}${water}`;
+}
+
+/** What the vertex shader declares. */
+export const VERTEX_DECLARE = `uniform mat3 vextureTransform;\n${VARYINGS}`;
+
+/** Where uv is known. */
+export const VERTEX_UV = 'vextureUv = (vextureTransform * vec3(uv, 1.0)).xy;';
+
+/** Where gl_FragColor is the water's light, in linear colour: shallows and foam. */
+export const LIGHT = `VextureWater vextureHere = vextureWater(vextureUv, dFdx(vextureUv), dFdy(vextureUv));
+gl_FragColor.rgb = vextureInshore(gl_FragColor.rgb, vextureHere, normalSampler, time, vextureShallow, vextureFoamColor);`;
+
+/**
+ * Where gl_FragColor is what the canvas gets: the flat colour, and coverage, which changes nothing but alpha. What is
+ * drawn is colour * alpha + ground * (1 - alpha) of values as the canvas holds them, that is encoded (sRGB).
+ */
+export const LAST = `gl_FragColor = mix(gl_FragColor, vec4(linearToOutputTexel(vec4(vextureFlat.rgb, 1.0)).rgb, 1.0), vextureFlat.a);
+gl_FragColor.a *= vextureHere.coverage;
+if (vextureHere.coverage == 0.0) discard;`;
+
+/**
+ * Texts for the hooks in the shader of three.js' Water.
+ *
+ * @param {Quality} quality
+ * @returns {Partial<Record<import('./hooks.js').HookName, string>>}
+ */
+export function waterTexts(quality) {
+  return {
+    vertexDeclare: VERTEX_DECLARE,
+    vertexUv: VERTEX_UV,
+    fragmentDeclare: declarations(quality),
+    fragmentLight: LIGHT,
+    fragmentLast: LAST,
+  };
+}
+
+/** What the simple water's functions read, by the names of three.js' Water. */
+const SIMPLE_UNIFORMS = `uniform sampler2D normalSampler;
+uniform vec3 sunDirection, sunColor, waterColor, vextureZenith, vextureHorizon;
+uniform float time, size, alpha;
+varying vec3 vextureWorld;
+`;
+
+/**
+ * The simple water's own shader: the frame that three.js wants, around the same lines.
+ *
+ * @param {Quality} quality
+ */
+export function simpleShader(quality) {
+  const vertexShader = `#include <common>
+#include <fog_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+${VERTEX_DECLARE}varying vec3 vextureWorld;
+void main() {
+  vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+  gl_Position = projectionMatrix * mvPosition;
+  vextureWorld = (modelMatrix * vec4(position, 1.0)).xyz;
+  ${VERTEX_UV}
+  #include <logdepthbuf_vertex>
+  #include <fog_vertex>
+}`;
+  const fragmentShader = `#include <common>
+#include <fog_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+${SIMPLE_UNIFORMS}${declarations(quality)}
+void main() {
+  #include <logdepthbuf_fragment>
+  VextureLight vextureSun = VextureLight(sunDirection, sunColor, waterColor, vextureZenith, vextureHorizon);
+  gl_FragColor = vec4(vextureSea(vextureSun, cameraPosition, vextureWorld, size, normalSampler, time), alpha);
+  ${LIGHT}
+  #include <tonemapping_fragment>
+  #include <colorspace_fragment>
+  #include <fog_fragment>
+  ${LAST}
+}`;
+  return { vertexShader, fragmentShader };
+}

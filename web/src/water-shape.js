@@ -1,0 +1,243 @@
+// The shape of water: which textures it is read from, and what the shader is told of them.
+import { Color, Matrix3, Vector2, Vector4 } from 'three';
+import { QUALITIES } from '../generated/shaders.js';
+import { VextureError, line } from './errors.js';
+import { wordTexture } from './upload.js';
+
+/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
+
+/**
+ * @typedef {object} Foam
+ * @property {number} [width] of the strip along the shore with foam and shallows, in units of the unit square; 0: none
+ * @property {number} [period] seconds from one line of foam to the next
+ * @property {import('three').ColorRepresentation} [color]
+ * @property {number} [amount] 0: none, to 1
+ *
+ * @typedef {object} WaterShapeOptions
+ * @property {string | number} [root] name or place of the shape in each texture
+ * @property {Matrix3} [transform] from the mesh's uv to the unit square; it may be changed at any time
+ * @property {'exact' | 'fast'} [quality]
+ * @property {Foam} [foam]
+ * @property {import('three').ColorRepresentation | null} [shallow] colour of the water on the shore; null: as elsewhere
+ * @property {import('three').ColorRepresentation | null} [flat] the one colour of all the water, without light and tone
+ *   mapping, for measurements; null: as water looks
+ */
+
+const FOAM = Object.freeze({ width: 0, period: 7, color: 0xf2f6f7, amount: 0.9 });
+
+/** What a shader reads while there is no texture: nothing of it, but it must be of this kind. */
+let nothing = /** @type {import('three').DataTexture | null} */ (null);
+
+/**
+ * Texels of two textures in one image, the second's below the first's.
+ *
+ * @param {import('./data.js').PackedData} first
+ * @param {import('./data.js').PackedData} second
+ */
+function stacked(first, second) {
+  const width = Math.max(first.width, second.width);
+  const words = new Uint32Array(4 * width * (first.height + second.height));
+  let at = 0;
+  for (const { width: columns, height, texels } of [first, second]) {
+    for (let row = 0; row < height; row++, at += 4 * width) {
+      words.set(texels.subarray(4 * columns * row, 4 * columns * (row + 1)), at);
+    }
+  }
+  return wordTexture(words, width, first.height + second.height);
+}
+
+/** @param {VectorTexture} texture one that has been checked */
+const dataOf = (texture) => /** @type {import('./data.js').PackedData} */ (texture.data);
+
+/**
+ * What the water is read from: a texture, or two while one turns into the other.
+ */
+export class WaterShape {
+  /** @type {VectorTexture | null} */
+  #texture = null;
+  /** @type {VectorTexture | null} */
+  #next = null;
+  #fade = 0;
+  /** @type {import('three').DataTexture | null} both, while one turns into the other */
+  #both = null;
+  #root;
+  #shown;
+  #onChange = () => this.#refresh();
+
+  /**
+   * @param {VectorTexture | null} texture
+   * @param {WaterShapeOptions} options
+   * @param {(shown: boolean) => void} shown is told whether there is any water
+   */
+  constructor(texture, options, shown) {
+    const { root = 0, transform = new Matrix3(), quality = 'exact', foam = {}, shallow = null, flat = null } = options;
+    if (!(quality in QUALITIES)) {
+      throw new VextureError(`quality is ${line(quality)}; it must be one of ${Object.keys(QUALITIES).join(', ')}`, 'quality');
+    }
+    if (transform?.elements?.length !== 9) {
+      throw new VextureError(`transform is ${line(transform)}; it must be a Matrix3`, 'transform');
+    }
+    this.quality = quality;
+    this.#root = root;
+    this.#shown = shown;
+    /** @type {Record<string, { value: any }>} */
+    this.uniforms = {
+      vextureTexels: { value: null },
+      vextureShapes: { value: 0 },
+      vextureQuads: { value: new Vector2() },
+      vextureRows: { value: new Vector2() },
+      vextureShares: { value: new Vector2() },
+      vextureTransform: { value: transform },
+      vextureShore: { value: 0 },
+      vextureLapping: { value: FOAM.period },
+      vextureShallow: { value: new Vector4() },
+      vextureFoamColor: { value: new Vector4() },
+      vextureFlat: { value: new Vector4() },
+    };
+    this.foam = foam;
+    this.shallow = shallow;
+    this.flat = flat;
+    this.texture = texture;
+  }
+
+  get texture() {
+    return this.#texture;
+  }
+
+  set texture(texture) {
+    if (texture !== null) this.#check(texture);
+    this.#put(texture, null);
+  }
+
+  get next() {
+    return this.#next;
+  }
+
+  /** @param {VectorTexture | null} texture */
+  fadeTo(texture) {
+    if (texture !== null) this.#check(texture);
+    this.#put(this.#fade < 0.5 ? this.#texture : this.#next, texture);
+  }
+
+  get fade() {
+    return this.#fade;
+  }
+
+  set fade(fade) {
+    if (!(fade >= 0 && fade <= 1)) throw new VextureError(`fade is ${line(fade)}; it must be from 0 to 1`, 'fade');
+    this.#fade = fade;
+    this.#weigh();
+  }
+
+  get foam() {
+    const { vextureShore, vextureLapping, vextureFoamColor } = this.uniforms;
+    const { x, y, z, w } = vextureFoamColor.value;
+    return { width: vextureShore.value, period: vextureLapping.value, color: new Color(x, y, z), amount: w };
+  }
+
+  set foam(/** @type {Foam} */ foam) {
+    const { width, period, color, amount } = { ...FOAM, ...foam };
+    const wrong = Object.entries({ width, period, amount }).find(([, value]) => !(value >= 0 && value < Infinity));
+    if (wrong) throw new VextureError(`foam: ${wrong[0]} is ${line(wrong[1])}; it must be 0 or more`, `foam.${wrong[0]}`);
+    this.uniforms.vextureShore.value = width;
+    this.uniforms.vextureLapping.value = period || FOAM.period;
+    setColor(this.uniforms.vextureFoamColor, color, amount);
+  }
+
+  get shallow() {
+    return colorOf(this.uniforms.vextureShallow);
+  }
+
+  set shallow(/** @type {import('three').ColorRepresentation | null} */ color) {
+    setColor(this.uniforms.vextureShallow, color ?? 0, color === null ? 0 : 1);
+  }
+
+  get flat() {
+    return colorOf(this.uniforms.vextureFlat);
+  }
+
+  set flat(/** @type {import('three').ColorRepresentation | null} */ color) {
+    setColor(this.uniforms.vextureFlat, color ?? 0, color === null ? 0 : 1);
+  }
+
+  /** Follow no texture any more, and free what is not the textures' own. */
+  dispose() {
+    this.#put(null, null);
+  }
+
+  /** @param {VectorTexture} texture */
+  #check(texture) {
+    if (!texture?.isVectorTexture) {
+      throw new VextureError(`the texture is ${line(texture)}; load one by VectorTextureLoader`, 'texture');
+    }
+    if (texture.encoding !== 'packed') {
+      throw new VextureError(`${texture.name}: water needs a packed texture; convert the drawing to KTX2`, 'encoding');
+    }
+    texture.index(this.#root);
+  }
+
+  /**
+   * @param {VectorTexture | null} texture
+   * @param {VectorTexture | null} next
+   */
+  #put(texture, next) {
+    for (const one of [this.#texture, this.#next]) one?.removeEventListener('change', this.#onChange);
+    [this.#texture, this.#next, this.#fade] = [texture, next, 0];
+    for (const one of [texture, next]) one?.addEventListener('change', this.#onChange);
+    this.#refresh();
+  }
+
+  /** Give the shader what the textures hold now. */
+  #refresh() {
+    const [texture, next] = [this.#texture, this.#next];
+    this.#both?.dispose();
+    this.#both = texture && next && texture !== next ? stacked(dataOf(texture), dataOf(next)) : null;
+    nothing ??= wordTexture(new Uint32Array(4), 1, 1);
+    this.uniforms.vextureTexels.value = this.#both ?? (texture ?? next)?.textures.texels ?? nothing;
+    this.#weigh();
+  }
+
+  /** Tell the shader which shapes to read; one that is not seen costs nothing. */
+  #weigh() {
+    const [texture, next] = [this.#texture, this.#next];
+    const below = this.#both && texture ? dataOf(texture).height : 0;
+    const shapes = [
+      { texture, row: 0, share: 1 - this.#fade },
+      { texture: next, row: below, share: this.#fade },
+    ].filter(({ texture: one, share }) => one && share > 0);
+    const { vextureShapes, vextureQuads, vextureRows, vextureShares } = this.uniforms;
+    vextureShapes.value = shapes.length;
+    shapes.forEach(({ texture: one, row, share }, i) => {
+      vextureQuads.value.setComponent(i, this.#quad(/** @type {VectorTexture} */ (one)));
+      vextureRows.value.setComponent(i, row);
+      vextureShares.value.setComponent(i, share);
+    });
+    this.#shown(shapes.length > 0);
+  }
+
+  /** @param {VectorTexture} texture */
+  #quad(texture) {
+    try {
+      return texture.roots[texture.index(this.#root)].quad;
+    } catch (error) {
+      if (!(error instanceof VextureError)) throw error; // the new shapes lack this one: show the first, and say so
+      texture.dispatchEvent({ type: 'note', message: error.message });
+      return texture.roots[0].quad;
+    }
+  }
+}
+
+/**
+ * @param {{ value: Vector4 }} uniform
+ * @param {import('three').ColorRepresentation} color
+ * @param {number} alpha
+ */
+function setColor(uniform, color, alpha) {
+  const { r, g, b } = new Color(color);
+  uniform.value.set(r, g, b, alpha);
+}
+
+/** @param {{ value: Vector4 }} uniform */
+function colorOf({ value: { x, y, z, w } }) {
+  return w === 0 ? null : new Color(x, y, z);
+}
