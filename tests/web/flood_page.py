@@ -25,7 +25,7 @@ FRAME = Frame((600_000.0, 4_080_000.0, 608_000.0, 4_086_000.0), "EPSG:32610", (8
 LEVELS = (0.0, 4.0, 9.0)
 """Metres of the water above its mean, step by step."""
 
-CELLS = 257
+CELLS = 513
 COLUMNS, ROWS = 193, 145
 
 PAGE = """<!doctype html>
@@ -87,6 +87,18 @@ def over_frame(columns: int, rows: int) -> NDArray[np.float64]:
     return height(*np.meshgrid(np.linspace(u0, u1, columns), np.linspace(v1, v0, rows)))
 
 
+def shore(u: float) -> dict[str, list[float]]:
+    """Place on the shore, and the way down from it to the sea."""
+    column = np.linspace(0.3, 0.9, 6001)
+    v = float(column[np.argmin(np.abs(height(np.full_like(column, u), column)))])
+    step = 0.02
+    east, west, north, south = (
+        float(height(np.array(u + du), np.array(v + dv))) for du, dv in ((step, 0), (-step, 0), (0, step), (0, -step))
+    )
+    down = np.array([west - east, south - north])
+    return {"place": [u, v], "seaward": (down / np.hypot(*down)).tolist()}
+
+
 def data_url(media_type: str, content: bytes) -> str:
     """Content as an address of its own."""
     return f"data:{media_type};base64,{base64.b64encode(content).decode()}"
@@ -118,7 +130,7 @@ def ground() -> str:
 def manifest(name: str, level: float, label: str, time: str | None) -> dict[str, Any]:
     """What the page is told of one step."""
     drawing = wet(level)
-    content = convert(drawing).to_ktx2() if drawing.paths else EMPTY
+    content = convert(drawing).to_ktx2()
     depths = np.maximum(0.0, level - over_frame(COLUMNS, ROWS))
     deepest = float(depths.max())
     shares = np.round(depths / deepest * 255) if deepest > 0 else depths
@@ -127,9 +139,6 @@ def manifest(name: str, level: float, label: str, time: str | None) -> dict[str,
         "facts": {"time": time, "label": label, "dry": not drawing.paths, "deepest": deepest or None},
         "views": {"depth": image_url(shares.astype(np.uint8), "PNG")}, "note": None,
     }
-
-
-EMPTY = convert(Drawing(())).to_ktx2() if False else b""
 
 
 def scene(steps: int = 3, **more: Any) -> dict[str, Any]:
@@ -159,14 +168,13 @@ def scene(steps: int = 3, **more: Any) -> dict[str, Any]:
                 ),
             },
             "fold": None,
-            "shore": {"place": SHORE[0], "seaward": SHORE[1]},
+            "shore": shore(0.52),
             "notes": ["The bay is made of formulas."],
         }
         | more
     }
 
 
-SHORE = ([0.545, 0.6105], [0.25, -0.97])
 
 
 @cache

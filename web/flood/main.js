@@ -94,6 +94,13 @@ function listenToKeys(viewed, player) {
   });
 }
 
+/** What of the picture stands free. @param {Element} panel @param {Element} bar */
+function insetOf(panel, bar) {
+  const [over, below] = [panel.getBoundingClientRect(), bar.getBoundingClientRect()];
+  const bottom = below.height;
+  return over.width < innerWidth / 2 ? { left: over.right, bottom } : { top: over.bottom, bottom };
+}
+
 async function start() {
   const scene = readScene();
   const { flood } = scene;
@@ -137,7 +144,11 @@ async function run(stage, scene, surface) {
   const panel = createPanel(stage, surface, { title: flood.title, notes: flood.notes, readout, viewed });
   stage.controls.addEventListener('start', () => panel.mark(null));
   listenToKeys(viewed, player);
-  if (!bare) app.append(panel.panel, createTimeBar(player), notes.element);
+  const bar = createTimeBar(player);
+  if (!bare) {
+    app.append(panel.panel, bar, notes.element);
+    stage.inset = () => insetOf(panel.panel, bar);
+  }
   stage.resize();
   viewed('Bird', { fly: false });
   Object.assign(page, {

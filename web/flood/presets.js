@@ -20,11 +20,11 @@ export const PRESETS = Object.freeze(/** @type {Preset[]} */ (['Sky', 'Bird', 'C
 export const FIELD = 42;
 
 /** Degrees above the horizon, degrees to the side of the sea's direction, distance from the place on the shore. */
-const NEAR = Object.freeze({ Coast: [24, 52, 42], Shore: [13, 66, 13] });
-/** Of the one who stands on the beach: height of the eyes, and how far inland. */
-const EYES = 0.62;
-const INLAND = 0.9;
-const HORIZON = 14;
+const NEAR = Object.freeze({ Coast: [25, 58, 44], Shore: [11, 74, 14] });
+/** Of the one who stands on the beach: height of the eyes, how far inland, degrees to the side, how far down. */
+const BEACH = Object.freeze({ eyes: 0.62, inland: 1.3, side: 32, down: 7 });
+/** How far ahead one looks at from there, and what is turned around. */
+const AHEAD = 12;
 
 const radians = (/** @type {number} */ degrees) => (degrees * Math.PI) / 180;
 
@@ -46,14 +46,14 @@ function whole(width, height, aspect) {
 export function pose(preset, stand) {
   const { width, depth, aspect, height } = stand;
   if (preset === 'Sky') {
-    const away = whole(width * 1.1, depth * 1.12, aspect);
+    const away = whole(width * 1.16, depth * 1.24, aspect);
     const tilt = radians(76);
     return { from: { x: 0, y: away * Math.sin(tilt), z: away * Math.cos(tilt) }, to: { x: 0, y: 0, z: 0.5 } };
   }
   const [sx, sz] = stand.seaward;
   if (preset === 'Bird') {
     const angle = Math.atan2(sx, sz) + radians(28);
-    const away = whole(Math.hypot(width, depth) * 0.9, depth * 0.82, aspect) * 1.06;
+    const away = whole(Math.hypot(width, depth) * 1.02, depth * 0.98, aspect) * 1.12;
     const up = radians(33);
     const flat = away * Math.cos(up);
     return {
@@ -62,19 +62,36 @@ export function pose(preset, stand) {
     };
   }
   const [px, pz] = stand.place;
+  const sea = Math.atan2(sx, sz);
   if (preset === 'Beach') {
-    const [x, z] = [px - sx * INLAND, pz - sz * INLAND];
-    const eyes = height(x, z) + EYES;
-    const [tx, tz] = [px + sx * HORIZON, pz + sz * HORIZON];
-    return { from: { x, y: eyes, z }, to: { x: tx, y: eyes - 1.1, z: tz } };
+    const [x, z] = [px - sx * BEACH.inland, pz - sz * BEACH.inland];
+    const eyes = Math.max(height(x, z), 0) + BEACH.eyes;
+    const angle = sea + landSide(stand, BEACH.side) * radians(BEACH.side);
+    const to = { x: x + AHEAD * Math.sin(angle), y: eyes - AHEAD * Math.tan(radians(BEACH.down)), z: z + AHEAD * Math.cos(angle) };
+    return { from: { x, y: eyes, z }, to };
   }
   const [up, side, away] = NEAR[preset];
-  const angle = Math.atan2(sx, sz) + radians(side);
+  const angle = sea - landSide(stand, side) * radians(side); // it looks back to where the land is
   const wide = away * Math.max(1, Math.min(1.5, 1 / aspect));
   const flat = wide * Math.cos(radians(up));
   const from = { x: px + flat * Math.sin(angle), y: wide * Math.sin(radians(up)), z: pz + flat * Math.cos(angle) };
-  from.y = Math.max(from.y, height(from.x, from.z) + EYES);
+  from.y = Math.max(from.y, height(from.x, from.z) + BEACH.eyes);
   return { from, to: { x: px, y: Math.min(1, height(px, pz)), z: pz } };
+}
+
+/**
+ * To which side of the sea's direction more land is seen: 1 or -1.
+ *
+ * @param {Stand} stand @param {number} degrees
+ */
+function landSide({ place: [px, pz], seaward: [sx, sz], height, width }, degrees) {
+  const land = [1, -1].map((sign) => {
+    const angle = Math.atan2(sx, sz) + sign * radians(degrees);
+    const tenth = width / 20;
+    return [1, 2, 3, 4, 5, 6].reduce((sum, k) =>
+      sum + Math.max(0, height(px + k * tenth * Math.sin(angle), pz + k * tenth * Math.cos(angle))), 0);
+  });
+  return land[0] >= land[1] ? 1 : -1;
 }
 
 /** @param {number} share of the way, in time */

@@ -1,7 +1,7 @@
 /** Heights of the ground, and where a look meets it. */
 
 /** How high the relief stands in the world at first, from its deepest to its highest. */
-const STANDING = 13;
+const STANDING = 10;
 const MOST_EXAGGERATION = 60;
 
 /** Steps in which a look is followed through the box. */

@@ -114,9 +114,13 @@ export class Stage extends EventTarget {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_RATIO));
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
+    const { left = 0, top = 0, right = 0, bottom = 0 } = this.inset();
+    this.camera.setViewOffset(width, height, (right - left) / 2, (bottom - top) / 2, width, height);
     this.render();
   }
+
+  /** Pixels at the borders that something stands over: the middle of the picture is between. */
+  inset = () => /** @type {{left?: number, top?: number, right?: number, bottom?: number}} */ ({});
 
   /** All is as high as the surface says. */
   #settle() {
