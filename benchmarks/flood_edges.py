@@ -5,7 +5,7 @@ points are put where the fold takes them back to the outline, and what they encl
 """
 
 from collections.abc import Sequence
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vexture.drawing import Drawing, Path
 from vexture.render.exact import render_exact
 
-__all__ = ["Errors", "edge_errors", "exact_shore", "inside", "moved_back", "water_to_unit"]
+__all__ = ["edge_errors", "exact_shore", "inside", "moved_back", "water_to_unit"]
 
 WORLD: Final = 100.0
 """Units of the page's world along the longer side of the frame."""
@@ -31,20 +31,6 @@ BORDER: Final = 64.0
 """Pixels around the picture in which outlines are as fine as in it."""
 
 Array = NDArray[np.float64]
-
-
-class Errors(NamedTuple):
-    """Differences of a picture from the truth at the pixels of the edge, in 1/255."""
-
-    values: Array
-
-    @property
-    def mean(self) -> float:
-        return float(self.values.mean())
-
-    @property
-    def p99(self) -> float:
-        return float(np.percentile(self.values, 99))
 
 
 def water_to_unit(camera: dict[str, Any], box: Sequence[float], size: tuple[int, int]) -> Array:
@@ -70,12 +56,14 @@ def water_to_unit(camera: dict[str, Any], box: Sequence[float], size: tuple[int,
     matrix = np.reshape(camera["projection"], (4, 4)).T @ np.reshape(camera["view"], (4, 4)).T
     scale = WORLD / max(box[2] - box[0], box[3] - box[1])
     middle_u, middle_v = 0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3])
-    to_world = np.array([
-        [scale, 0.0, -scale * middle_u],
-        [0.0, 0.0, camera["level"]],
-        [0.0, -scale, scale * middle_v],
-        [0.0, 0.0, 1.0],
-    ])
+    to_world = np.array(
+        [
+            [scale, 0.0, -scale * middle_u],
+            [0.0, 0.0, camera["level"]],
+            [0.0, -scale, scale * middle_v],
+            [0.0, 0.0, 1.0],
+        ]
+    )
     width, height = size
     to_pixels = np.array([[0.5 * width, 0, 0, 0.5 * width], [0, -0.5 * height, 0, 0.5 * height], [0, 0, 0, 1.0]])
     return np.linalg.inv(to_pixels @ matrix @ to_world)
@@ -156,8 +144,8 @@ def exact_shore(
     return np.float64(render_exact(drawing, size, to_unit))
 
 
-def edge_errors(picture: NDArray[np.uint8], truth: Array, seen: NDArray[np.bool_]) -> Errors:
-    """Differences at the pixels that the edge passes, of a picture in two flat colours, (height, width, 3).
+def edge_errors(picture: NDArray[np.uint8], truth: Array, seen: NDArray[np.bool_]) -> Array:
+    """Differences in 1/255 at the pixels that the edge passes, of a picture in two flat colours, (height, width, 3).
 
     The colours are those of pixels that are all water and all land; a page that shows neither has no errors to tell.
     """
@@ -165,8 +153,8 @@ def edge_errors(picture: NDArray[np.uint8], truth: Array, seen: NDArray[np.bool_
     full, empty = seen & (truth == 1.0), seen & (truth == 0.0)
     edge = seen & (truth > 1 / 512) & (truth < 1 - 1 / 512)
     if not (full.any() and empty.any() and edge.any()):
-        return Errors(np.empty(0))
+        return np.empty(0)
     water, land = np.median(colors[full], axis=0), np.median(colors[empty], axis=0)
     way = water - land
     shares = (colors[edge] - land) @ way / (way @ way)
-    return Errors(255 * np.abs(shares - truth[edge]))
+    return 255 * np.abs(shares - truth[edge])
