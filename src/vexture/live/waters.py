@@ -19,8 +19,8 @@ from vexture.sources.frame import Frame
 
 __all__ = ["WATER_SETTINGS", "Waters"]
 
-WATER_SETTINGS: Final = Settings(precision=4e-6)
-"""How water is converted. From the beach a pixel is about 1e-5 of the frame: a shift stays within half of one."""
+WATER_SETTINGS: Final = Settings(precision=2e-6)
+"""How water is converted. From the beach a pixel is about 1e-5 of the frame: a shift is a fifth of one."""
 
 SAME_PLACE: Final = 1e-6
 """Share of the frame by which a texture's place may differ from it: rounding of what wrote it."""
