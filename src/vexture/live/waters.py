@@ -113,18 +113,18 @@ class Waters:
     def _read(self, data: bytes, name: str) -> Extent:
         from vexture.sources.extent import read_extent
         from vexture.sources.reading import holds_depths
-        from vexture.sources.reference import ReferenceMissing
+        from vexture.sources.reference import MissingReferenceError
 
         kind = DEPTH_OPTIONS if holds_depths(data, name) else AREA_OPTIONS
         options = {option: value for option, value in self.options.items() if option in kind}
         try:
             return read_extent(data, name, frame=self.frame, hmin=self.hmin, **options)
-        except ReferenceMissing:
+        except MissingReferenceError:
             raise SourceError(
                 f"{name}: says no reference system, so nobody knows where it is; write it into the file"
             ) from None
         except (SourceError, LimitError) as error:
-            raise type(error)(f"{name}: {error}") from None
+            raise type(error)(f"{name}: {str(error).removeprefix(f'{name}: ')}") from None
 
     def warm(self) -> None:
         """Load what a conversion needs: packages, kernels, the frame's reference system."""
