@@ -7,8 +7,10 @@ only in memory: nothing else is opened, fetched or written, whatever the file as
 import os
 import warnings
 import zipfile
+import zlib
 from io import BytesIO
 from pathlib import Path
+from threading import Lock
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -32,6 +34,9 @@ PARTS: Final = (".shp", ".shx", ".dbf", ".prj", ".cpg")
 
 AREAL: Final = ("Polygon", "Surface", "Unknown", "GeometryCollection", "Triangle", "TIN")
 """Words in the types of layers that may hold polygons."""
+
+QUIET: Final = Lock()
+"""Held while Python's warnings are silenced, which is so for all threads."""
 
 MOST_NAMED: Final = 12
 """Layers that a message names."""
@@ -111,7 +116,7 @@ def _members(content: bytes) -> dict[str, bytes]:
             if sum(info.file_size for info in infos) > LARGEST_FILE:
                 raise SourceError(f"its shapefiles are larger than {LARGEST_FILE:,} bytes; split them")
             return {Path(info.filename).name: archive.read(info) for info in infos}
-    except (zipfile.BadZipFile, RuntimeError, NotImplementedError, EOFError, OSError, ValueError) as error:
+    except (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError, OSError, ValueError) as error:
         why = " ".join(str(error).split())[:80]
         raise SourceError(f"the zip is damaged or encrypted ({why}); zip the shapefile again") from None
 
@@ -134,14 +139,14 @@ def _zipped(files: dict[str, bytes]) -> bytes:
 
 def _gdal(content: bytes, layer: str | None, report: Report) -> Areas:
     """Polygons that GDAL finds."""
-    from pyogrio import errors, list_layers, raw
+    from pyogrio import list_layers, raw
 
-    with warnings.catch_warnings():
+    with QUIET, warnings.catch_warnings():
         warnings.simplefilter("ignore")  # GDAL's remarks; what matters is found again below
         try:
             name = _layer([(str(each), str(kind)) for each, kind in list_layers(content)], layer)
             meta, _, shapes, _ = raw.read(content, layer=name, columns=[], force_2d=True)
-        except (errors.DataSourceError, errors.DataLayerError, errors.GeometryError, errors.CRSError) as error:
+        except (RuntimeError, ValueError, OverflowError, NameError) as error:  # the last is pyogrio's for a bad .prj
             raise SourceError(f"GDAL cannot read it ({_one_line(error)}); save it again") from None
     if shapes is None:
         raise SourceError(f"its layer {name!r} has no geometries; choose another by --layer")
@@ -149,7 +154,11 @@ def _gdal(content: bytes, layer: str | None, report: Report) -> Areas:
 
 
 def _one_line(error: Exception) -> str:
-    text = " ".join(str(error).split())
+    text = " ".join(str(error).split()).rpartition("Raw error: ")[2]
+    if isinstance(error, NameError):
+        return "what it says of its reference system is damaged"
+    if "sqlite3" in text:  # its query and more
+        return "its database is damaged"
     start = text.find("/vsi")
     if start >= 0:  # a name in memory says nothing to anybody
         text = "the file" + text[start:].partition("'")[2] if "'" in text[start:] else "damaged"
@@ -182,7 +191,8 @@ def _parsed(shapes: NDArray[Any], report: Report) -> Rings:
     for _ in range(int((~given).sum())):
         report.left_out("feature without geometry")
     feature = np.flatnonzero(given)
-    whole = shapely.from_wkb(shapes[given], on_invalid="fix")
+    with np.errstate(invalid="ignore"):  # what is not a number is refused later, by name
+        whole = shapely.from_wkb(shapes[given], on_invalid="fix")
     broken = shapely.is_missing(whole)
     if broken.any():
         raise SourceError(f"feature {feature[int(broken.argmax())] + 1} is damaged; save the file again")
