@@ -13,7 +13,7 @@ const LAYERS = 16;
 /** World units along a side after which that picture comes again. */
 const REPEAT = 50;
 /** Least exaggeration: at 0 the ground would have no normals. */
-const LEAST_RISE = 1e-6;
+export const LEAST_RISE = 1e-6;
 
 /**
  * A grid over the box, x east, y north, z up in metres; uv are 0..1 over the box.

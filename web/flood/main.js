@@ -10,6 +10,7 @@ import { PRESETS } from './presets.js';
 import { createReadout } from './readout.js';
 import { Relief, Surface } from './relief.js';
 import { readScene } from './scene.js';
+import { SimpleWater, chooseWater } from '../src/water.js';
 import { Sea } from './sea.js';
 import { Stage } from './stage.js';
 import { Steps } from './steps.js';
@@ -18,6 +19,9 @@ import { createTimeBar } from './time-bar.js';
 /** @typedef {import('./presets.js').Preset} Preset */
 
 const DRY = 'Nothing is under water at this time.';
+
+/** Pixels of a side of what the water mirrors. */
+const MIRROR = 512;
 
 const bare = new URLSearchParams(location.search).has('bare');
 const app = /** @type {HTMLElement} */ (document.getElementById('app'));
@@ -108,10 +112,11 @@ async function start() {
   const places = new Places(flood.frame);
   const surface = new Surface(Relief.read(flood.relief, await bytesOf(flood.relief.heights, document.baseURI)), places);
   const picture = await pictureOf(flood.ground);
+  const Water = matchMedia('(max-width: 720px)').matches ? SimpleWater : chooseWater();
   let stage;
   try {
     stage = new Stage(canvas, surface, {
-      picture, stand: standOf(flood, surface), sea: () => new Sea(surface, boxTransform(flood.frame)),
+      picture, stand: standOf(flood, surface), sea: (sun) => new Sea(Water, surface, { transform: boxTransform(flood.frame), sun, mirror: MIRROR }),
     });
   } catch (error) {
     console.warn(error);
@@ -129,7 +134,10 @@ async function run(stage, scene, surface) {
   const steps = new Steps(scene);
   const heard = listener();
   const player = new Player(steps, {
-    show: ({ texture }) => stage.sea.show(texture),
+    show: ({ texture }, fading) => {
+      stage.sea.show(texture, fading);
+      stage.requestFrame();
+    },
     prepare: (step) => {
       heard(step);
       for (const texture of Object.values(step.texture.textures)) stage.renderer.initTexture(texture);
@@ -152,7 +160,7 @@ async function run(stage, scene, surface) {
   stage.resize();
   viewed('Bird', { fly: false });
   Object.assign(page, {
-    camera: stage.camera, water: stage.sea.mesh, stage, player, view: viewed, step: (/** @type {number} */ at) => player.go(at),
+    camera: stage.camera, water: stage.sea.water, stage, player, view: viewed, step: (/** @type {number} */ at) => player.go(at),
     freeze: (/** @type {number | null} */ seconds) => stage.freeze(seconds), flat: (/** @type {boolean} */ on) => stage.flat(on),
     relief: (/** @type {number} */ times) => stage.relief(times), render: () => stage.render(),
   });

@@ -23,6 +23,8 @@ export const FIELD = 42;
 const NEAR = Object.freeze({ Coast: [25, 58, 44], Shore: [11, 74, 14] });
 /** Of the one who stands on the beach: height of the eyes, how far inland, degrees to the side, how far down. */
 const BEACH = Object.freeze({ eyes: 0.62, inland: 1.3, side: 32, down: 7 });
+/** Degrees: height of the sun, and how far to the side of the sea's direction. */
+const SUN = Object.freeze({ up: 34, side: 14 });
 /** How far ahead one looks at from there, and what is turned around. */
 const AHEAD = 12;
 
@@ -80,9 +82,22 @@ export function pose(preset, stand) {
 }
 
 /**
+ * Where the sun is, to glitter on the water that one sees from the beach.
+ *
+ * @param {Omit<Stand, 'aspect'>} stand
+ * @returns {Vector} of length 1
+ */
+export function sunOver(stand) {
+  const [sx, sz] = stand.seaward;
+  const angle = Math.atan2(sx, sz) + landSide(stand, BEACH.side) * radians(SUN.side);
+  const flat = Math.cos(radians(SUN.up));
+  return { x: flat * Math.sin(angle), y: Math.sin(radians(SUN.up)), z: flat * Math.cos(angle) };
+}
+
+/**
  * To which side of the sea's direction more land is seen: 1 or -1.
  *
- * @param {Stand} stand @param {number} degrees
+ * @param {Omit<Stand, 'aspect'>} stand @param {number} degrees
  */
 function landSide({ place: [px, pz], seaward: [sx, sz], height, width }, degrees) {
   const land = [1, -1].map((sign) => {
