@@ -155,7 +155,7 @@ export function shadowTexture() {
       for (let x = 0; x < width; x++) {
         const far = Math.hypot(...[x, y].map((at) => Math.max(third - at, at - 2 * third, 0))) / third;
         const dark = Math.max(0, 1 - far) ** 2.6;
-        pixels.data.set([50, 42, 34, 150 * dark], 4 * (y * width + x));
+        pixels.data.set([50, 42, 34, 110 * dark], 4 * (y * width + x));
       }
     }
     context.putImageData(pixels, 0, 0);

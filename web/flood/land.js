@@ -118,6 +118,7 @@ export class Land {
   constructor(surface, picture) {
     this.#surface = surface;
     this.#material = new MeshLambertMaterial(picture ? { map: picture } : { color: 0xcbb58a });
+    /** @type {Mesh<BufferGeometry, import('three').Material>} */
     this.mesh = new Mesh(gridGeometry(surface, (height) => height), this.#material);
     this.mesh.rotation.x = -Math.PI / 2;
     this.sides = new Mesh(new BufferGeometry(), this.#earth);

@@ -15,6 +15,7 @@ import { Sea } from './sea.js';
 import { Stage } from './stage.js';
 import { Steps } from './steps.js';
 import { createTimeBar } from './time-bar.js';
+import { Tray } from './tray.js';
 
 /** @typedef {import('./presets.js').Preset} Preset */
 
@@ -50,7 +51,7 @@ function standOf({ shore }, surface) {
   const [x, y] = shore?.seaward ?? [0, -1];
   const long = Math.hypot(x, y) || 1;
   return {
-    width: places.width, depth: places.depth,
+    width: places.width + 2 * Tray.around, depth: places.depth + 2 * Tray.around,
     place: places.toWorld(...(shore ? places.fromUnit(...shore.place) : /** @type {[number, number]} */ ([0.5, 0.5]))),
     seaward: /** @type {[number, number]} */ ([x / long, -y / long]),
     height: (/** @type {number} */ px, /** @type {number} */ pz) => surface.height(px, pz),

@@ -8,10 +8,10 @@ import { gridGeometry, LEAST_RISE, wallGeometry } from './land.js';
 /** @typedef {typeof import('../src/vector-water.js').VectorWater | typeof import('../src/simple-water.js').SimpleWater} Kind */
 
 const LOOK = Object.freeze({
-  waterColor: 0x0b4a63, sunColor: 0xfff3dc, distortionScale: 2.4, size: 7, shallow: 0x49b3b0, clipBias: 0.002,
+  waterColor: 0x0d6480, sunColor: 0x7f8f98, distortionScale: 1.8, size: 15, shallow: 0x62b7aa, clipBias: 0.002,
   sky: 0x6aa3d8, horizon: 0xdfeaf0,
 });
-const FOAM = Object.freeze({ width: 0.011, period: 6 });
+const FOAM = Object.freeze({ width: 0.015, period: 6 });
 /** Milliseconds of a cross-fade. */
 const FADE = 900;
 /** How much further inside the lower border of a wall looks into the shape: with no width at all it would look nowhere. */

@@ -46,7 +46,7 @@ export class Stage extends EventTarget {
    * @param {HTMLCanvasElement} canvas
    * @param {import('./relief.js').Surface} surface
    * @param {{picture: import('three').Texture | null, sea: (sun: Vector3) => import('./sea.js').Sea,
-   *   stand: Omit<import('./presets.js').Stand, 'aspect'>}} parts
+   *   stand: import('./presets.js').Fixed}} parts
    */
   constructor(canvas, surface, { picture, sea, stand }) {
     super();
@@ -136,7 +136,12 @@ export class Stage extends EventTarget {
 
   /** @param {Preset} preset */
   pose(preset) {
-    return pose(preset, { ...this.#stand, aspect: this.size.width / this.size.height });
+    const { width, height } = this.size;
+    const { left = 0, top = 0, right = 0, bottom = 0 } = this.inset();
+    const free = Math.max(height - top - bottom, 1);
+    const low = this.land.floor - Tray.down;
+    const high = this.#surface.relief.highest * this.#surface.rise;
+    return pose(preset, { ...this.#stand, low, high, aspect: Math.max(width - left - right, 1) / free, share: free / height });
   }
 
   /** @param {Preset} preset @param {{fly?: boolean}} [how] */
