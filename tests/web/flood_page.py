@@ -8,6 +8,7 @@ import json
 import subprocess
 import tempfile
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -76,7 +77,7 @@ def wet(level: float) -> Drawing:
     contours = [
         points[start : end - 1].tolist()
         for points, offsets in zip(*found, strict=True)
-        for start, end in zip(offsets[:-1], offsets[1:], strict=True)
+        for start, end in pairwise(offsets)
     ]
     if not contours:
         return Drawing(())
