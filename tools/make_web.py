@@ -1,6 +1,7 @@
 """Write web/generated/: the shaders' text and the textures' layout, as JavaScript modules.
 
-Their owners are src/vexture/glsl/ and src/vexture/encoding/layout.py; nothing in web/ types any of it again.
+Their owners are src/vexture/glsl/, src/vexture/encoding/layout.py and src/vexture/folding/layout.py; nothing in web/
+types any of it again.
 `make_web.py --check` writes nothing and fails when a file is not what it would write.
 """
 
@@ -8,10 +9,12 @@ import json
 import re
 import sys
 from pathlib import Path
+from types import ModuleType
 from typing import Final
 
 from vexture import shading
 from vexture.encoding import layout
+from vexture.folding import layout as fold_layout
 from vexture.shaders import FOLD_HEIGHT, QUALITIES, WRAPS, constants, join, packed_text
 
 __all__ = ["main"]
@@ -104,11 +107,18 @@ def water_module() -> str:
     return HEADER.format(owner="src/vexture/glsl/") + module_text("water", text, comment)
 
 
-def layout_module() -> str:
-    """Text of the module with the layout."""
-    parts = [HEADER.format(owner="src/vexture/encoding/layout.py")]
-    for name in layout.__all__:
-        value = getattr(layout, name)
+def fold_module() -> str:
+    """Text of the module with the shader of folds: apart, since a page without one has no use for it."""
+    text = bare(inlined(packed_text("fold.glsl", None, fold_layout)))
+    comment = "fold.glsl; VEXTURE_WRAP may be defined before it."
+    return HEADER.format(owner="src/vexture/glsl/fold.glsl") + module_text("fold", text, comment)
+
+
+def layout_module(owner: ModuleType, file: str) -> str:
+    """Text of the module with a layout."""
+    parts = [HEADER.format(owner=f"src/vexture/{file}")]
+    for name in owner.__all__:
+        value = getattr(owner, name)
         text = json.dumps(value)
         frozen = f"Object.freeze({text})" if isinstance(value, tuple | dict) else text
         parts.append(f"export const {name} = {frozen};\n")
@@ -119,9 +129,11 @@ def main() -> int:
     """Write the files, or with --check compare them; the exit code."""
     stale = []
     modules = {
-        "layout.js": layout_module(),
+        "layout.js": layout_module(layout, "encoding/layout.py"),
+        "fold-layout.js": layout_module(fold_layout, "folding/layout.py"),
         "shaders.js": shaders(),
         "thesis-shader.js": thesis_module(),
+        "fold-shader.js": fold_module(),
         "water-shader.js": water_module(),
     }
     for name, text in modules.items():

@@ -230,8 +230,10 @@ def shader_source(version: str = "300 es", quality: str = "exact") -> str:
     return packed_text("packed_coverage.glsl", quality)
 
 
-def packed_text(file: str, quality: str | None) -> str:
+def packed_text(file: str, quality: str | None, *owners: ModuleType) -> str:
     """Text of one of the packed texture's files, below the numbers that it and its includes name.
+
+    The numbers are those of `vexture.shading`, of `vexture.encoding.layout` and of further owners.
 
     Without a quality ``VEXTURE_QUALITY`` is left to whoever compiles it, one of the values of `QUALITIES`; and so is
     ``VEXTURE_WRAP`` always, one of the values of `WRAPS`.
@@ -241,9 +243,9 @@ def packed_text(file: str, quality: str | None) -> str:
     text = join(file)
     lines = [] if quality is None else [f"#define VEXTURE_QUALITY {QUALITIES[quality]!r}\n"]
     for name in sorted(set(PREFIXED.findall(text)) - CHOSEN):
-        value = getattr(shading, name, getattr(layout, name, None))
+        value = next((getattr(owner, name) for owner in (shading, layout, *owners) if hasattr(owner, name)), None)
         if value is None:
-            raise NameError(f"{file} names VEXTURE_{name}, which neither shading.py nor layout.py defines")
+            raise NameError(f"{file} names VEXTURE_{name}, which no owner of numbers defines")
         lines.append(f"#define VEXTURE_{name} {value!r}\n")
     return "".join(lines) + text
 

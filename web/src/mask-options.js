@@ -20,10 +20,13 @@ import { VextureError, line } from './errors.js';
  * @property {'own' | 'none'} [background] mode `paint`: what is around the drawing, the material's own colour or nothing
  * @property {boolean} [instanced] each instance shows the root that its attribute `vextureRoot` says (`rootAttribute`);
  *   in mode `paint` that one layer
+ * @property {import('./fold-texture.js').FoldTexture | null} [fold] moves the shape with time; packed textures only
+ * @property {number} [time] seconds of the fold
  */
 
 const NAMES = Object.freeze([
   'root', 'transform', 'mode', 'wrap', 'quality', 'invert', 'color', 'map', 'threshold', 'background', 'instanced',
+  'fold', 'time',
 ]);
 
 const MODES = Object.freeze(['alpha', 'mix', 'cut', 'paint']);
@@ -63,6 +66,8 @@ export function complete(options) {
     threshold: 0.5,
     background: /** @type {const} */ ('own'),
     instanced: false,
+    fold: null,
+    time: 0,
     ...given,
   };
   for (const name of Object.keys(given)) choose('an option', name, [...NAMES]);
@@ -85,7 +90,7 @@ export function isTranslucent({ mode, background }) {
  * @throws {VextureError} if they do not go together
  */
 export function checkOptions(options, type, texture) {
-  const { mode, wrap, quality, background, invert, instanced, threshold, transform } = options;
+  const { mode, wrap, quality, background, invert, instanced, threshold, transform, fold, time } = options;
   choose('mode', mode, MODES);
   choose('wrap', wrap, Object.keys(WRAPS));
   choose('quality', quality, Object.keys(QUALITIES));
@@ -99,14 +104,18 @@ export function checkOptions(options, type, texture) {
   if (transform?.elements?.length !== 9) {
     throw new VextureError(`transform is ${line(transform)}; it must be a Matrix3`, 'transform');
   }
+  if (fold && !fold.isFoldTexture) {
+    throw new VextureError(`fold is ${line(fold)}; load one by FoldTexture.parse`, 'fold');
+  }
+  if (!Number.isFinite(time)) throw new VextureError(`time is ${line(time)}; it must be a number of seconds`, 'time');
   const possible = COLORLESS[/** @type {keyof typeof COLORLESS} */ (type)];
   if (possible && !possible.includes(mode)) {
     throw new VextureError(`${type} has no colours for mode ${mode}; use ${possible.join(' or ')}`, 'mode');
   }
   if (invert && mode === 'paint') throw new VextureError('mode paint cannot be inverted; use another mode', 'invert');
-  if (texture.encoding === 'thesis' && (wrap !== 'none' || instanced)) {
+  if (texture.encoding === 'thesis' && (wrap !== 'none' || instanced || fold)) {
     throw new VextureError(
-      `${texture.name}: a thesis texture has one root and no wrap; convert the drawing to KTX2`,
+      `${texture.name}: a thesis texture has one root, no wrap and no fold; convert the drawing to KTX2`,
       'encoding',
     );
   }

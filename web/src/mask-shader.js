@@ -13,6 +13,7 @@ import { FOLD_HEIGHT, QUALITIES, WRAPS, packed } from '../generated/shaders.js';
  * @property {'own' | 'none'} background
  * @property {boolean} instanced
  * @property {boolean} hasMap
+ * @property {string} fold what moves the places with time, or nothing
  */
 
 /** Name of the attribute with each instance's root. */
@@ -21,27 +22,47 @@ export const ROOT_ATTRIBUTE = 'vextureRoot';
 /** The derivatives are those of a position that has no jumps: borders are looked at below. */
 const FOOTPRINT = 'vextureUv, dFdx(vextureUv), dFdy(vextureUv)';
 
+/**
+ * What must stand before the first `footprint`.
+ *
+ * @param {Pick<Variant, 'fold'>} variant
+ */
+export function foldLines({ fold }) {
+  return fold ? `VextureFolded vextureFolded = vextureFold(${FOOTPRINT});\n` : '';
+}
+
+/**
+ * Arguments of the functions that give a coverage: where a pixel is looked up, and the steps to the next ones.
+ *
+ * @param {Pick<Variant, 'fold'>} variant
+ */
+export function footprint({ fold }) {
+  return fold ? 'vextureFolded.uv, vextureFolded.dx, vextureFolded.dy' : FOOTPRINT;
+}
+
 /** @param {Variant} variant */
-function coverage({ encoding, inLayers, instanced, invert }) {
+function coverage(variant) {
+  const { encoding, inLayers, instanced, invert } = variant;
   const root = instanced ? 'vextureQuad(vextureInstance)' : 'vextureRootQuad';
   const layers = instanced ? 'int(vextureInstance), 1' : 'vextureFirst, vextureCount';
-  let text = `vextureWrapped(${root}, ${FOOTPRINT})`;
-  if (inLayers) text = `vextureLayers(${layers}, ${FOOTPRINT}).a`;
+  let text = `vextureWrapped(${root}, ${footprint(variant)})`;
+  if (inLayers) text = `vextureLayers(${layers}, ${footprint(variant)}).a`;
   if (encoding === 'thesis') text = `thesis_coverage(vextureQuads, vextureCurves, ${FOOTPRINT})`;
   return invert ? `(1.0 - ${text})` : text;
 }
 
 /** @param {Variant} variant */
-function paint({ encoding, instanced }) {
+function paint(variant) {
+  const { encoding, instanced } = variant;
   if (encoding === 'thesis') return `vec4(vec3(0.0), thesis_coverage(vextureQuads, vextureCurves, ${FOOTPRINT}))`;
-  return `vextureLayers(${instanced ? 'int(vextureInstance), 1' : 'vextureFirst, vextureCount'}, ${FOOTPRINT})`;
+  return `vextureLayers(${instanced ? 'int(vextureInstance), 1' : 'vextureFirst, vextureCount'}, ${footprint(variant)})`;
 }
 
 /** @param {Variant} variant */
-function reader({ encoding, thesis, wrap, quality }) {
+function reader({ encoding, thesis, wrap, quality, fold }) {
   if (encoding === 'packed') {
     const declared = 'uniform uint vextureRootQuad;\nuniform int vextureFirst;\nuniform int vextureCount;\n';
-    return `#define VEXTURE_QUALITY ${QUALITIES[quality]}\n#define VEXTURE_WRAP ${WRAPS[wrap]}\n${packed}${declared}`;
+    return `#define VEXTURE_QUALITY ${QUALITIES[quality]}\n#define VEXTURE_WRAP ${WRAPS[wrap]}\n${packed}${fold}${declared}`;
   }
   return thesis;
 }
@@ -99,6 +120,8 @@ export function texts(variant) {
     mapped ? 'uniform sampler2D vextureInsideMap;\n' : ''
   }${mode === 'cut' ? 'uniform float vextureThreshold;\n' : ''}${reader(variant)}`;
   const common = { vertexDeclare, vertexUv, fragmentDeclare };
-  if (mode === 'cut') return { ...common, fragmentCut: `if (${coverage(variant)} < vextureThreshold) discard;` };
-  return { ...common, fragmentColor: colorLines(variant) };
+  if (mode === 'cut') {
+    return { ...common, fragmentCut: `${foldLines(variant)}if (${coverage(variant)} < vextureThreshold) discard;` };
+  }
+  return { ...common, fragmentColor: foldLines(variant) + colorLines(variant) };
 }

@@ -74,7 +74,7 @@ export class VectorMask {
 
   /** @returns {Variant} */
   #variant() {
-    const { mode, wrap, quality, invert, background, instanced, map } = this.#options;
+    const { mode, wrap, quality, invert, background, instanced, map, fold } = this.#options;
     const { data } = this.#texture;
     return {
       encoding: data.encoding,
@@ -87,6 +87,7 @@ export class VectorMask {
       background,
       instanced,
       hasMap: mode === 'mix' && map !== null,
+      fold: fold?.glsl ?? '',
     };
   }
 
@@ -107,7 +108,7 @@ export class VectorMask {
       this.#texture.dispatchEvent({ type: 'note', message: error.message });
     }
     const { data, textures } = this.#texture;
-    const { transform, threshold, color, map } = this.#options;
+    const { transform, threshold, color, map, fold, time } = this.#options;
     const { first, count } = this.#range;
     /** @type {Record<string, unknown>} */
     const values = {
@@ -123,6 +124,9 @@ export class VectorMask {
       vextureThreshold: threshold,
       vextureInside: color instanceof Color ? color : this.#inside.set(color),
       vextureInsideMap: map,
+      vextureFolding: fold?.texture ?? null,
+      vextureCycle: fold?.cycle ?? 0,
+      vextureTime: fold?.clock(time) ?? 0,
     };
     for (const [name, value] of Object.entries(values)) (this.#uniforms[name] ??= { value }).value = value;
     this.#material.transparent = isTranslucent(this.#options) || this.#transparent;
@@ -280,6 +284,25 @@ export class VectorMask {
     return this.#options.instanced;
   }
 
+  /** @returns {import('./fold-texture.js').FoldTexture | null} */
+  get fold() {
+    return this.#options.fold;
+  }
+
+  set fold(fold) {
+    this.set({ fold });
+  }
+
+  /** Seconds of the fold: set it for every picture, it costs nothing. */
+  get time() {
+    return this.#options.time;
+  }
+
+  set time(time) {
+    this.#options = { ...this.#options, time };
+    this.#uniforms.vextureTime.value = this.#options.fold?.clock(time) ?? 0;
+  }
+
   /**
    * Whether the masked surface is at a place of a mesh: a click on a hole misses.
    *
@@ -289,9 +312,13 @@ export class VectorMask {
    * @returns {boolean}
    */
   hits(u, v, root) {
-    const { mode, background, transform, wrap, invert } = this.#options;
+    const { mode, background, transform, wrap, invert, fold, time } = this.#options;
     if (mode === 'mix' || (mode === 'paint' && background === 'own')) return true;
     const place = new Vector2(u, v).applyMatrix3(transform);
+    if (fold) {
+      const folded = fold.at(place.x, place.y, time, wrap);
+      place.set(folded.u, folded.v);
+    }
     const { x, y } = wrap === 'none' ? place : wrapped(place, wrap);
     const first = root ?? this.#range.first;
     const end = root === undefined ? first + this.#range.count : root + 1;

@@ -25,10 +25,11 @@ export class VectorMaterial extends MeshBasicMaterial {
 
   /** @param {VectorMaterialParameters} [parameters] */
   constructor(parameters = {}) {
-    const { texture, root, transform, mode, wrap, quality, invert, threshold, background, instanced, ...basic } =
+    const { texture, root, transform, mode, wrap, quality, invert, threshold, background, instanced, ...others } =
       parameters;
+    const { fold, time, ...basic } = others;
     super(basic);
-    this.#options = { root, transform, mode, wrap, quality, invert, threshold, instanced };
+    this.#options = { root, transform, mode, wrap, quality, invert, threshold, instanced, fold, time };
     this.#options.background = background ?? 'none';
     if (texture) this.texture = texture;
   }

@@ -13,7 +13,7 @@ from vexture.encoding.packed_walk import WalkLevel, walk
 from vexture.errors import LimitError
 from vexture.quadtree.tree import PackedTree
 
-__all__ = ["curve_points", "decode_packed", "encode_packed", "info_packed"]
+__all__ = ["curve_points", "decode_packed", "encode_packed", "info_packed", "texel_rows"]
 
 
 def encode_packed(
@@ -47,7 +47,7 @@ def encode_packed(
         raise LimitError(f"{name}: {at} texels; the limit is {most}; use several textures, or a larger --tolerance")
     if not placed:
         raise LimitError(f"{name}: no shapes; a texture has at least one")
-    return PackedTexture(_rows(np.concatenate(texels)), tuple(placed), name, source)
+    return PackedTexture(texel_rows(np.concatenate(texels)), tuple(placed), name, source)
 
 
 def _quad_texels(tree: PackedTree, at: int) -> NDArray[np.uint32]:
@@ -70,7 +70,7 @@ def _curve_texels(curves: NDArray[np.int32]) -> NDArray[np.uint32]:
     return texels
 
 
-def _rows(texels: NDArray[np.uint32]) -> NDArray[np.uint32]:
+def texel_rows(texels: NDArray[np.uint32]) -> NDArray[np.uint32]:
     """Texels in rows, the last one filled up with zeros."""
     width = min(1 << (len(texels) - 1).bit_length(), 1 << layout.ROW_BITS)
     rows = -(-len(texels) // width)

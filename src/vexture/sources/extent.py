@@ -1,15 +1,22 @@
 """Where water is, at one time or at several: what all readers of geographic data give."""
 
+import os
 from dataclasses import dataclass
 from datetime import datetime
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
+from vexture.errors import LimitError, SourceError
 from vexture.sources.frame import Frame
+from vexture.sources.reading import holds_depths, start_of
 
-__all__ = ["Extent", "Step"]
+__all__ = ["HMIN", "Extent", "Step", "read_extent"]
+
+HMIN: Final = 0.05
+"""Metres. Less water than this is none."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,3 +55,86 @@ class Extent:
     frame: Frame
     steps: tuple[Step, ...]
     bed: NDArray[np.float32] | None = None
+
+
+def read_extent(
+    source: str | os.PathLike[str] | bytes,
+    file_name: str,
+    *,
+    frame: Frame | None = None,
+    bounds: tuple[float, float, float, float] | None = None,
+    crs: str | None = None,
+    time_dim: str | None = None,
+    hmin: float = HMIN,
+    variable: str | None = None,
+    layer: str | None = None,
+) -> Extent:
+    """Read where water is from any geographic data that there is a reader for.
+
+    Parameters
+    ----------
+    source : path or bytes
+        Polygons (GeoJSON, GeoPackage, FlatGeobuf, shapefile) or depths (GeoTIFF, NetCDF, UGRID).
+    file_name : str
+        What it is called: names the drawings.
+    frame : Frame, optional
+        Where the water is put; by default a new frame around `bounds`.
+    bounds : tuple of float, optional
+        West, south, east, north in the reference system of the data; by default all of it.
+    crs : str, optional
+        Reference system of the data, above what the file says.
+    time_dim : str, optional
+        Dimension of time, of depths.
+    hmin : float
+        Depth in metres from which there is water, of depths.
+    variable : str, optional
+        Variable that holds the depth.
+    layer : str, optional
+        Layer of polygons.
+
+    Raises
+    ------
+    SourceError
+        If it cannot be read; a line that says what to do.
+    LimitError
+        If a parameter does not fit it.
+    DeviceError
+        If a package is missing.
+
+    Examples
+    --------
+    >>> lake = b'{"type": "Polygon", "coordinates": [[[4, 52], [5, 52], [5, 53], [4, 53]]]}'
+    >>> extent = read_extent(lake, "lake.geojson")
+    >>> extent.frame.crs, extent.steps[0].drawing.name
+    ('OGC:CRS84', 'lake')
+    """
+    try:
+        if holds_depths(start_of(source), file_name):
+            from vexture.sources.depths import read_depths
+
+            _refuse({"--layer": layer}, "polygons, and this file holds depths")
+            return read_depths(
+                source,
+                file_name,
+                frame=frame,
+                bounds=bounds,
+                crs=crs,
+                time_dim=time_dim,
+                hmin=hmin,
+                variable=variable,
+            )
+        from vexture.sources.polygons import read_polygons
+
+        _refuse({"--time-dim": time_dim, "--variable": variable}, "depths, and this file holds polygons")
+        return read_polygons(source, file_name, frame=frame, bounds=bounds, crs=crs, layer=layer)
+    except (SourceError, LimitError) as error:
+        if isinstance(source, bytes):
+            raise
+        raise type(error)(f"{os.fspath(source)}: {error}") from None
+
+
+def _refuse(options: dict[str, str | None], kind: str) -> None:
+    """Refuse options that mean nothing."""
+    for option, value in options.items():
+        if value is not None:
+            raise LimitError(f"{option} {value!r} is for {kind}; leave it out")

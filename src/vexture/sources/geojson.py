@@ -5,6 +5,7 @@ import os
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path as FilePath
 from typing import Any, Final, NamedTuple
 
@@ -18,7 +19,7 @@ from vexture.sources.reading import BYTE_ORDER_MARK
 from vexture.sources.svg_document import read_bytes
 from vexture.sources.svg_report import Report
 
-__all__ = ["read_geojson"]
+__all__ = ["Area", "areas_of", "read_geojson"]
 
 MOST_POSITIONS: Final = 20_000_000
 LARGEST: Final = 1e15
@@ -41,10 +42,11 @@ Ring = NDArray[np.float64]
 
 
 class Area(NamedTuple):
-    """One polygon: its rings in the units of the file, y up, and its colour."""
+    """One polygon: its rings in the units of the file, y up, its colour, and its place as messages name it."""
 
     rings: list[Ring]
     paint: Paint
+    where: str
 
 
 def read_geojson(source: str | os.PathLike[str] | bytes) -> Drawing:
@@ -102,6 +104,25 @@ def read_geojson(source: str | os.PathLike[str] | bytes) -> Drawing:
     return drawing
 
 
+def areas_of(content: bytes, report: Report) -> tuple[list[Area], str]:
+    """Areas of the content of a file, and the reference system of their coordinates.
+
+    Parameters
+    ----------
+    content : bytes
+        Not gzipped.
+    report : Report
+        Is told what is left out.
+
+    Raises
+    ------
+    SourceError
+        As `read_geojson`, but for a file without areas.
+    """
+    value = _parsed(content)
+    return list(_Reader(report).areas(value)), _crs(value.get("crs"))
+
+
 def _parsed(content: bytes) -> dict[str, Any]:
     """Object of a JSON text."""
     try:
@@ -128,7 +149,7 @@ class _Reader:
 
     def drawing(self, value: dict[str, Any], name: str) -> Drawing:
         """Areas of a GeoJSON object as a drawing."""
-        areas = list(self._areas(value))
+        areas = list(self.areas(value))
         if not areas:
             raise SourceError(f"it holds no polygon to fill{self._met()}; give Polygon or MultiPolygon geometries")
         points = np.concatenate([ring for area in areas for ring in area.rings])
@@ -144,7 +165,7 @@ class _Reader:
     def _met(self) -> str:
         return f" ({self._report.message.partition(': ')[2]})" if self._report.message else ""
 
-    def _areas(self, value: dict[str, Any]) -> Iterator[Area]:
+    def areas(self, value: dict[str, Any]) -> Iterator[Area]:
         """Areas of the outermost object."""
         kind = value.get("type")
         if kind != "FeatureCollection":
@@ -195,7 +216,7 @@ class _Reader:
         read = [self._ring(ring, _at(where, f"ring {number}")) for number, ring in enumerate(rings, 1)]
         kept = [ring for ring in read if ring is not None]
         if kept:
-            yield Area(kept, paint)
+            yield Area(kept, paint, where)
 
     def _ring(self, ring: Any, where: str) -> Ring | None:
         """Positions of a ring, the first not repeated at the end; None if there are fewer than three."""
@@ -204,17 +225,9 @@ class _Reader:
         self._positions += len(ring)
         if self._positions > MOST_POSITIONS:
             raise SourceError(f"{where} is beyond the limit of {MOST_POSITIONS:,} positions; simplify or split it")
-        for number, position in enumerate(ring, 1):
-            if not isinstance(position, list) or len(position) < 2 or any(type(c) not in NUMBERS for c in position[:2]):
-                raise SourceError(f"{where}, position {number} is {_shown(position)}; it must be two numbers")
-        try:
-            points = np.array([position[:2] for position in ring], np.float64).reshape(-1, 2)
-        except OverflowError:  # an integer beyond all floats
-            points = np.array([[c if abs(c) <= LARGEST else np.inf for c in position[:2]] for position in ring])
-        bad = ~(np.abs(points) <= LARGEST).all(axis=1)  # not a number is bad too
-        if bad.any():
-            number = int(bad.argmax()) + 1
-            raise SourceError(f"{where}, position {number} is {_shown(ring[number - 1])}; the limit is {LARGEST:g}")
+        points = _usual(ring)
+        if points is None:
+            points = _position_by_position(ring, where)
         if len(points) > 1 and (points[0] == points[-1]).all():
             points = points[:-1]
         if len(points) < 3:
@@ -237,6 +250,37 @@ class _Reader:
         step = len(digits) // 3
         red, green, blue = (int(digits[k : k + step] * (3 - step), 16) / 255 for k in range(0, 3 * step, step))
         return Paint((red, green, blue), float(opacity))
+
+
+def _usual(ring: list[Any]) -> Ring | None:
+    """Positions of a ring without a fault, all of one length; None of others."""
+    lengths = set(map(len, ring)) if set(map(type, ring)) == {list} else set()
+    if len(lengths) != 1 or min(lengths) < 2:
+        return None
+    numbers = list(chain.from_iterable(ring))
+    if not set(map(type, numbers)) <= set(NUMBERS):
+        return None
+    try:
+        points = np.array(numbers, np.float64).reshape(len(ring), -1)[:, :2]
+    except OverflowError:  # an integer beyond all floats
+        return None
+    return points if bool((np.abs(points) <= LARGEST).all()) else None
+
+
+def _position_by_position(ring: list[Any], where: str) -> Ring:
+    """Positions of any ring, or an error that names the faulty one."""
+    for number, position in enumerate(ring, 1):
+        if not isinstance(position, list) or len(position) < 2 or any(type(c) not in NUMBERS for c in position[:2]):
+            raise SourceError(f"{where}, position {number} is {_shown(position)}; it must be two numbers")
+    try:
+        points = np.array([position[:2] for position in ring], np.float64).reshape(-1, 2)
+    except OverflowError:  # an integer beyond all floats
+        points = np.array([[c if abs(c) <= LARGEST else np.inf for c in position[:2]] for position in ring])
+    bad = ~(np.abs(points) <= LARGEST).all(axis=1)  # not a number is bad too
+    if bad.any():
+        number = int(bad.argmax()) + 1
+        raise SourceError(f"{where}, position {number} is {_shown(ring[number - 1])}; the limit is {LARGEST:g}")
+    return points
 
 
 def _contour(ring: Ring) -> NDArray[np.float64]:

@@ -9,10 +9,35 @@ from vexture.errors import LimitError
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
 
-__all__ = ["BYTE_ORDER_MARK", "is_geojson", "read_drawing"]
+__all__ = [
+    "BYTE_ORDER_MARK",
+    "FLATGEOBUF",
+    "SHAPEFILE",
+    "SQLITE",
+    "ZIP",
+    "holds_depths",
+    "is_geographic",
+    "is_geojson",
+    "read_drawing",
+    "start_of",
+]
 
 GEOJSON_SUFFIXES: Final = (".geojson", ".json")
 BYTE_ORDER_MARK: Final = b"\xef\xbb\xbf"
+
+FLATGEOBUF: Final = b"fgb\x03fgb"
+SHAPEFILE: Final = b"\0\0\x27\x0a"
+SQLITE: Final = b"SQLite format 3\0"
+ZIP: Final = b"PK\x03\x04"
+
+DEPTHS: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+", b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
+"""How TIFF, BigTIFF and NetCDF of all kinds start."""
+
+DEPTH_SUFFIXES: Final = (".tif", ".tiff", ".nc", ".nc4", ".cdf")
+AREA_SUFFIXES: Final = (".gpkg", ".fgb", ".shp")
+
+START: Final = 64
+"""Bytes that tell what a file is."""
 
 
 def is_geojson(start: bytes, file_name: str | os.PathLike[str]) -> bool:
@@ -27,13 +52,53 @@ def is_geojson(start: bytes, file_name: str | os.PathLike[str]) -> bool:
     return by_name or start.removeprefix(BYTE_ORDER_MARK).lstrip()[:1] == b"{"
 
 
+def holds_depths(start: bytes, file_name: str | os.PathLike[str]) -> bool:
+    r"""Whether a file is a grid or a mesh, which may hold depths: GeoTIFF, NetCDF.
+
+    Its first bytes decide; its name only where they say nothing.
+
+    Examples
+    --------
+    >>> holds_depths(b"CDF\x01", "run"), holds_depths(b"fgb\x03fgb", "run.nc")
+    (True, False)
+    """
+    if start.startswith(DEPTHS):
+        return True
+    return Path(file_name).suffix.lower() in DEPTH_SUFFIXES and not _holds_areas(start)
+
+
+def _holds_areas(start: bytes) -> bool:
+    text = start.removeprefix(BYTE_ORDER_MARK).lstrip()[:1] == b"{"
+    return text or start.startswith((FLATGEOBUF, SHAPEFILE, SQLITE, ZIP))
+
+
+def is_geographic(start: bytes, file_name: str | os.PathLike[str]) -> bool:
+    r"""Whether a file is geographic data, which `read_extent` reads: GeoJSON is, as are GeoPackage and NetCDF.
+
+    Parameters
+    ----------
+    start : bytes
+        How its content starts, as `start_of` gives it.
+    file_name : path
+        What it is called.
+
+    Examples
+    --------
+    >>> is_geographic(b"SQLite format 3\0", "flood"), is_geographic(b"<svg/>", "flood.svg")
+    (True, False)
+    """
+    if is_geojson(start, file_name) or _holds_areas(start) or holds_depths(start, file_name):
+        return True
+    return Path(file_name).suffix.lower() in AREA_SUFFIXES
+
+
 def read_drawing(path: str | os.PathLike[str], select: str | None = None) -> "Drawing":
     """Read a drawing of any kind of file that there is a reader for.
 
     Parameters
     ----------
     path : path
-        SVG or GeoJSON.
+        SVG, GeoJSON, or other geographic data with the packages of ``vexture[gis]``: of a series, its first step.
     select : str, optional
         A CSS selector, of SVG only.
 
@@ -44,21 +109,39 @@ def read_drawing(path: str | os.PathLike[str], select: str | None = None) -> "Dr
     LimitError
         If `select` is given where it means nothing, or as `read_svg` says.
     """
-    if is_geojson(_start(path), path):
-        from vexture.sources.geojson import read_geojson
-
+    start = start_of(path)
+    if is_geographic(start, path):
         if select is not None:
             raise LimitError(f"{os.fspath(path)}: select={select!r} chooses elements of an SVG; leave it out")
+        if not is_geojson(start, path):
+            return _read_geographic(path)
+        from vexture.sources.geojson import read_geojson
+
         return read_geojson(path)
     from vexture.sources.svg import read_svg
 
     return read_svg(path, select)
 
 
-def _start(path: str | os.PathLike[str]) -> bytes:
-    """Return first bytes of a file, none if it cannot be read: the reader says why."""
+def _read_geographic(path: str | os.PathLike[str]) -> "Drawing":
+    """Where water is, of a file that need not say where in the world it is."""
+    from vexture.sources.extent import read_extent
+    from vexture.sources.reference import UNPLACED, MissingReferenceError
+
+    name = Path(path).name
     try:
-        with Path(path).open("rb") as file:
-            return file.read(64)
+        extent = read_extent(path, name)
+    except MissingReferenceError:
+        extent = read_extent(path, name, crs=UNPLACED)
+    return extent.steps[0].drawing
+
+
+def start_of(source: str | os.PathLike[str] | bytes) -> bytes:
+    """Return first bytes of a file, or of its content; none if it cannot be read: the reader says why."""
+    if isinstance(source, bytes):
+        return source[:START]
+    try:
+        with Path(source).open("rb") as file:
+            return file.read(START)
     except (OSError, ValueError):
         return b""

@@ -1,0 +1,424 @@
+"""A closed ring of points as few cubics: smooth where the ring is smooth, with corners where it turns."""
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.bezier.convert import line_cubics
+from vexture.bezier.roots import cubic_at, velocity_at
+from vexture.kernels import kernel
+
+__all__ = ["CORNER", "fit_ring"]
+
+CORNER = 55.0
+"""Degrees. Two straight stretches that meet at more than this make a corner."""
+
+BENDING = 1500.0, 15.0
+"""Weights of squared second differences of samples, on a staircase and on what is smooth already.
+
+The first evens out waves shorter than some twenty samples, the second than some six.
+"""
+
+SMOOTH = 0.25
+"""Share of the tolerance within which what is smooth already may be moved."""
+
+ROUGH = 30.0, 70.0
+"""Degrees of turning to and fro within `JOG` samples: below the first, a ring is smooth; above the second, a staircase."""
+
+JOG = 2
+"""Samples on either side within which the two turns of a stair are."""
+
+SPREAD = 16
+"""Samples on either side of a stair that belong to the staircase."""
+
+SHRINKING = 0.005
+"""Bending is weighed no more than what would make a circle of the ring's area smaller by this share."""
+
+REACH = 8
+"""Samples on either side that a corner is told by; the two nearest may be cut off."""
+
+STRAIGHTEST = 0.35
+"""Tolerances. The samples on either side of a corner are this near to a straight line."""
+
+ROUNDS = 14
+"""Of weighing again the samples that smoothing has moved too far."""
+
+OVERLAP = 64
+"""Samples that a ring is continued by beyond its ends: farther than bending reaches."""
+
+FITTING = 0.2
+"""Share of the tolerance that is left to the cubics; smoothing has the rest."""
+
+FEWEST = 16
+"""Samples of the smallest ring."""
+
+MOST = 256
+"""Samples that one cubic may replace."""
+
+STEPS = 6
+"""Projection and least squares alternate so often for one cubic."""
+
+
+@kernel
+def _smooth(
+    points: NDArray[np.float64], weight: NDArray[np.float64], bending: NDArray[np.float64], out: NDArray[np.float64]
+) -> None:
+    """Write the closed chain that is near to the points and bends little: banded least squares by L D L^T."""
+    n = len(points)
+    m = n + 2 * OVERLAP
+    a0, a1, a2 = np.zeros(m), np.zeros(m), np.zeros(m)
+    b = np.zeros((m, 2))
+    for i in range(m):
+        k = (i - OVERLAP) % n
+        a0[i] += weight[k]
+        b[i, 0], b[i, 1] = weight[k] * points[k, 0], weight[k] * points[k, 1]
+        if 0 < i < m - 1:
+            bend = bending[k]
+            a0[i - 1] += bend
+            a0[i] += 4.0 * bend
+            a0[i + 1] += bend
+            a1[i] -= 2.0 * bend  # row i, column i - 1
+            a1[i + 1] -= 2.0 * bend
+            a2[i + 1] += bend
+    for i in range(m):
+        if i > 1:
+            a2[i] /= a0[i - 2]
+            a1[i] -= a2[i] * a0[i - 2] * a1[i - 1]
+        if i > 0:
+            a1[i] /= a0[i - 1]
+            a0[i] -= a1[i] * a1[i] * a0[i - 1]
+        if i > 1:
+            a0[i] -= a2[i] * a2[i] * a0[i - 2]
+        for axis in range(2):
+            if i > 0:
+                b[i, axis] -= a1[i] * b[i - 1, axis]
+            if i > 1:
+                b[i, axis] -= a2[i] * b[i - 2, axis]
+    for i in range(m - 1, -1, -1):
+        for axis in range(2):
+            b[i, axis] /= a0[i]
+            if i < m - 1:
+                b[i, axis] -= a1[i + 1] * b[i + 1, axis]
+            if i < m - 2:
+                b[i, axis] -= a2[i + 2] * b[i + 2, axis]
+    for k in range(n):
+        out[k, 0], out[k, 1] = b[k + OVERLAP, 0], b[k + OVERLAP, 1]
+
+
+@kernel
+def smoothed(
+    points: NDArray[np.float64],
+    corner: NDArray[np.bool_],
+    bending: NDArray[np.float64],
+    reach: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Closed chain of samples that bends little while each stays within a distance of where it was.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 array
+    corner : (n,) bool array
+        Samples that stay where they are, and at which bending is free.
+    bending, reach : (n,) float64 arrays
+        Weight of bending at each sample, and how far it may go.
+
+    Examples
+    --------
+    >>> square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    >>> even = smoothed(square, np.zeros(4, bool), np.full(4, 10.0), np.full(4, 0.1))
+    >>> np.hypot(*(even - square).T).round(3)
+    array([0.1, 0.1, 0.1, 0.1])
+    """
+    n = len(points)
+    weight, bend = np.ones(n), bending.copy()
+    for i in range(n):
+        if corner[i]:
+            weight[i], bend[i] = 1e9, 0.0
+    out = np.empty((n, 2))
+    for _ in range(ROUNDS):
+        _smooth(points, weight, bend, out)
+        moved = False
+        for i in range(n):
+            far = np.hypot(out[i, 0] - points[i, 0], out[i, 1] - points[i, 1]) / reach[i]
+            if far > 1.0:
+                weight[i] *= min(far * far, 16.0)
+                moved = True
+        if not moved:
+            break
+    for i in range(n):
+        far = np.hypot(out[i, 0] - points[i, 0], out[i, 1] - points[i, 1])
+        share = 0.0 if corner[i] else min(1.0, reach[i] / far) if far > 0.0 else 1.0
+        for axis in range(2):
+            out[i, axis] = points[i, axis] + share * (out[i, axis] - points[i, axis])
+    return out
+
+
+@kernel
+def _tangent(points: NDArray[np.float64], at: int, before: int, after: int, out: NDArray[np.float64]) -> None:
+    """Write the unit direction of the chain at a sample, from the samples so many places away."""
+    n = len(points)
+    a, b = points[(at - before) % n], points[(at + after) % n]
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    length = np.hypot(dx, dy)
+    out[0], out[1] = (dx / length, dy / length) if length > 0.0 else (1.0, 0.0)
+
+
+@kernel
+def _fit_span(
+    points: NDArray[np.float64],
+    start: NDArray[np.float64],
+    end: NDArray[np.float64],
+    tolerance: float,
+    curve: NDArray[np.float64],
+) -> float:
+    """Write the cubic with given unit tangents at its ends that is nearest to the points; return the distance."""
+    n = len(points)
+    p0, p3 = points[0], points[n - 1]
+    t = np.empty(n)
+    t[0] = 0.0
+    for i in range(1, n):
+        t[i] = t[i - 1] + np.hypot(points[i, 0] - points[i - 1, 0], points[i, 1] - points[i - 1, 1])
+    length = t[n - 1]
+    if length > 0.0:
+        for i in range(n):
+            t[i] /= length
+    first, last = length / 3.0, length / 3.0
+    worst = np.inf
+    for step in range(STEPS):
+        if n > 2:
+            a11, a12, a22, b1, b2 = 0.0, 0.0, 0.0, 0.0, 0.0
+            along = start[0] * end[0] + start[1] * end[1]
+            for i in range(1, n - 1):
+                u, s = t[i], 1.0 - t[i]
+                w0, w1, w2, w3 = s * s * s, 3.0 * s * s * u, 3.0 * s * u * u, u * u * u
+                off_x = points[i, 0] - (w0 + w1) * p0[0] - (w2 + w3) * p3[0]
+                off_y = points[i, 1] - (w0 + w1) * p0[1] - (w2 + w3) * p3[1]
+                a11 += w1 * w1
+                a12 -= w1 * w2 * along
+                a22 += w2 * w2
+                b1 += w1 * (off_x * start[0] + off_y * start[1])
+                b2 -= w2 * (off_x * end[0] + off_y * end[1])
+            determinant = a11 * a22 - a12 * a12
+            if determinant > 1e-12 * a11 * a22:
+                first, last = (b1 * a22 - b2 * a12) / determinant, (a11 * b2 - a12 * b1) / determinant
+            if not (0.05 * length < first < length and 0.05 * length < last < length):
+                first, last = length / 3.0, length / 3.0
+        for axis in range(2):
+            curve[0, axis], curve[3, axis] = p0[axis], p3[axis]
+            curve[1, axis], curve[2, axis] = p0[axis] + first * start[axis], p3[axis] - last * end[axis]
+        worst = 0.0
+        for i in range(1, n - 1):
+            square = 0.0
+            numerator, denominator = 0.0, 0.0
+            u = t[i]
+            for axis in range(2):
+                c0, c1, c2, c3 = curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis]
+                off = cubic_at(c0, c1, c2, c3, u) - points[i, axis]
+                speed = velocity_at(c0, c1, c2, c3, u)
+                turn = 6.0 * ((1.0 - u) * (c2 - 2.0 * c1 + c0) + u * (c3 - 2.0 * c2 + c1))
+                square += off * off
+                numerator += off * speed
+                denominator += speed * speed + off * turn
+            worst = max(worst, square)
+            if denominator > 0.0:
+                t[i] = min(max(u - numerator / denominator, 0.0), 1.0)
+        worst = np.sqrt(worst)
+        if worst <= tolerance or (step == 2 and worst > 8.0 * tolerance):
+            break
+    return worst
+
+
+@kernel
+def fit_samples(points: NDArray[np.float64], corner: NDArray[np.bool_], tolerance: float) -> NDArray[np.float64]:
+    """Few cubics through samples of a closed chain, (n, 2) -> (m, 4, 2): each as long as the tolerance allows.
+
+    They have one direction where they meet, but for corners.
+
+    Examples
+    --------
+    >>> angle = np.linspace(0.0, 2.0 * np.pi, 100, endpoint=False)
+    >>> circle = np.column_stack((np.cos(angle), np.sin(angle)))
+    >>> len(fit_samples(circle, np.zeros(100, bool), 1e-3))
+    4
+    """
+    n = len(points)
+    begin, flattest = 0, np.inf
+    for i in range(n):
+        a, b, c = points[i - 1], points[i], points[(i + 1) % n]
+        bent = abs(a[0] - 2.0 * b[0] + c[0]) + abs(a[1] - 2.0 * b[1] + c[1])
+        if corner[i]:
+            bent = -1.0
+        if bent < flattest:
+            begin, flattest = i, bent
+    ring = np.empty((n + 1, 2))
+    sharp = np.empty(n + 1, np.bool_)
+    for i in range(n + 1):
+        k = (begin + i) % n
+        ring[i, 0], ring[i, 1], sharp[i] = points[k, 0], points[k, 1], corner[k]
+    out = np.empty((n, 4, 2))
+    count, at = 0, 0
+    start, end = np.empty(2), np.empty(2)
+    curve, best = np.empty((4, 2)), np.empty((4, 2))
+    while at < n:
+        limit = at + 1
+        while limit < n and limit - at < MOST and not sharp[limit]:
+            limit += 1
+        _tangent(points, begin + at, 0 if sharp[at] else 1, 1, start)
+        good, bad, step = at, limit + 1, 4
+        while bad - good > 1:  # longer by doubling, then halving in between
+            trial = min(at + step, limit) if bad > limit else (good + bad) // 2
+            step *= 2
+            _tangent(points, begin + trial, 1, 0 if sharp[trial] else 1, end)
+            if _fit_span(ring[at : trial + 1], start, end, tolerance, curve) <= tolerance or trial == at + 1:
+                good = trial
+                for k in range(8):
+                    best[k // 2, k % 2] = curve[k // 2, k % 2]
+                if trial == limit:
+                    break
+            else:
+                bad = trial
+        for k in range(8):
+            out[count, k // 2, k % 2] = best[k // 2, k % 2]
+        count += 1
+        at = good
+    return out[:count].copy()
+
+
+def fit_ring(
+    points: NDArray[np.float64],
+    tolerance: float,
+    corner: float = CORNER,
+    fixed: NDArray[np.bool_] | None = None,
+) -> NDArray[np.float64]:
+    """Few cubics around a closed ring of points, within a distance of it.
+
+    Stairs are evened out, so that nothing of a raster's cells is left where the tolerance is half a cell or more;
+    what is smooth already is followed to a part of the tolerance. Where two straight stretches meet at more than
+    `corner`, they are prolonged to a corner. Everywhere else the cubics have one direction where they meet. Rings
+    that are small against the tolerance become small ovals of about the same area rather than nothing.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 array
+        In order, the first not repeated at the end.
+    tolerance : float
+        How far the cubics may be from the ring, in the units of the points.
+    corner : float
+        Degrees.
+    fixed : (n,) bool array, optional
+        Points to keep, as corners.
+
+    Returns
+    -------
+    (m, 4, 2) float64 array
+        Each cubic starts, bit for bit, where the one before it ends; none if the ring encloses nothing.
+
+    Examples
+    --------
+    >>> angle = np.linspace(0.0, 2.0 * np.pi, 200, endpoint=False)
+    >>> disc = np.round(20.0 * np.column_stack((np.cos(angle), np.sin(angle))))  # a staircase
+    >>> cubics = fit_ring(disc, 0.5)
+    >>> len(cubics) < 9, bool(np.abs(np.hypot(*cubics[:, 0].T) - 20.0).max() < 0.4)
+    (True, True)
+    """
+    new = (points != np.roll(points, 1, axis=0)).any(axis=1)
+    kept = np.zeros(len(points), np.bool_) if fixed is None else fixed
+    points, kept = points[new], kept[new]
+    size = abs(_area(points - points[:1]))
+    if len(points) < 3 or size == 0.0:
+        return np.empty((0, 4, 2))
+    length = float(np.hypot(*(points - np.roll(points, 1, axis=0)).T).sum())
+    radius = float(np.sqrt(size / np.pi))
+    tolerance = min(tolerance, radius / 2.0, size / length)
+    samples, sharp = _sampled(points, kept, min(tolerance, length / FEWEST))
+    if len(samples) < 3:
+        return line_cubics(points, np.roll(points, -1, axis=0))
+    samples, sharp = _cornered(samples, sharp, tolerance, corner)
+    stairs = _stairs(samples, sharp)
+    most = SHRINKING * (radius * len(samples) / length) ** 4
+    bending = np.minimum(most, BENDING[1] * (BENDING[0] / BENDING[1]) ** stairs)
+    reach = (1.0 - FITTING) * tolerance * (SMOOTH + (1.0 - SMOOTH) * stairs)
+    cubics = fit_samples(smoothed(samples, sharp, bending, reach), sharp, FITTING * tolerance)
+    cubics[:, 0] = np.roll(cubics[:, 3], 1, axis=0)
+    return cubics
+
+
+def _sampled(
+    points: NDArray[np.float64], kept: NDArray[np.bool_], step: float
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Samples along a closed polyline, equally far apart between points that are kept; which are those points."""
+    first = int(np.argmax(kept))
+    closed = np.roll(points, -first, axis=0)
+    stops = np.append(np.flatnonzero(np.roll(kept, -first)), len(points))
+    closed = np.concatenate([closed, closed[:1]])
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(closed, axis=0).T))])
+    if stops[0] != 0:
+        stops = np.concatenate([[0], stops])
+    places = [
+        np.linspace(along[a], along[b], max(1, round((along[b] - along[a]) / step)), endpoint=False)
+        for a, b in pairwise(stops)
+    ]
+    sharp = np.zeros(sum(map(len, places)), np.bool_)
+    if kept.any():
+        sharp[np.cumsum([0, *map(len, places[:-1])])] = True
+    joined = np.concatenate(places)
+    return np.column_stack([np.interp(joined, along, closed[:, axis]) for axis in range(2)]), sharp
+
+
+def _cornered(
+    points: NDArray[np.float64], sharp: NDArray[np.bool_], tolerance: float, corner: float
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Samples with those moved to corners that are between two straight stretches; which ones are corners."""
+    n = len(points)
+    points, sharp = points.copy(), sharp.copy()
+    if n < 4 * REACH:
+        return points, sharp
+    ahead, behind = np.roll(points, -REACH, axis=0) - points, points - np.roll(points, REACH, axis=0)
+    turn = np.abs(np.degrees(np.arctan2(_cross(behind, ahead), (behind * ahead).sum(axis=1))))
+    taken = sharp.copy()
+    for at in np.argsort(-turn, kind="stable")[: int((turn > corner).sum())]:
+        around = np.arange(at - REACH, at + REACH + 1) % n
+        if taken[around].any():
+            continue
+        after, before = points[around[REACH + 2 :]], points[around[: REACH - 1]]
+        if max(_bulge(after), _bulge(before)) > STRAIGHTEST * tolerance:
+            continue
+        along, back = after[-1] - after[0], before[0] - before[-1]
+        angle = _cross(along, back)
+        place = after[0] + along * _cross(before[-1] - after[0], back) / angle if angle != 0.0 else points[at]
+        if np.hypot(*(place - points[at])) <= tolerance:
+            points[at], sharp[at], taken[at] = place, True, True
+            for near in (at - 1, (at + 1) % n):  # what the corner was cut off by
+                points[near] = place + (points[2 * near - at - (n if 2 * near - at >= n else 0)] - place) / 2.0
+    return points, sharp
+
+
+def _bulge(side: NDArray[np.float64]) -> float:
+    """Largest distance of points from the line from the first to the last."""
+    chord = side[-1] - side[0]
+    length = np.hypot(*chord)
+    return float(np.abs(_cross(side - side[0], chord)).max() / length) if length > 0.0 else np.inf
+
+
+def _stairs(points: NDArray[np.float64], sharp: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """How much of a staircase there is around each sample, 0 to 1: turns to and fro, other than a curve's."""
+    step = np.roll(points, -1, axis=0) - points
+    before = np.roll(step, 1, axis=0)
+    turn = np.degrees(np.arctan2(_cross(before, step), (before * step).sum(axis=1)))
+    turn[sharp] = 0.0
+    near = range(-JOG, JOG + 1)
+    rough = sum(np.roll(np.abs(turn), k) for k in near) - np.abs(sum(np.roll(turn, k) for k in near))
+    share = np.clip((rough - ROUGH[0]) / (ROUGH[1] - ROUGH[0]), 0.0, 1.0)
+    far = min(SPREAD, len(points) // 2)
+    spread = np.lib.stride_tricks.sliding_window_view(np.pad(share, far, mode="wrap"), 2 * far + 1)
+    found: NDArray[np.float64] = spread.max(axis=1)
+    return found
+
+
+def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+def _area(points: NDArray[np.float64]) -> float:
+    return 0.5 * float(_cross(points, np.roll(points, -1, axis=0)).sum())
