@@ -36,14 +36,14 @@ def wet_in(server, manifest):
     return packed_from(data, "water").contains(PLACES).tolist()
 
 
-def written(path, data, **options):
-    """A file of an area up to 70% of the width, in one of the formats that geographic programs write."""
-    import pyogrio
+def written(path, share, **options):
+    """A file of an area up to a share of the width, in one of the formats that geographic programs write."""
+    import pyogrio.raw
     import shapely
 
     west, south, east, north = BOUNDS
-    area = shapely.box(west - 100.0, south - 100.0, west + data * (east - west), north + 100.0)
-    pyogrio.write(path, shapely.to_wkb(np.array([area], object)), [], [], geometry_type="Polygon", **options)
+    area = shapely.box(west - 100.0, south - 100.0, west + share * (east - west), north + 100.0)
+    pyogrio.raw.write(path, shapely.to_wkb(np.array([area], object)), [], [], geometry_type="Polygon", **options)
     return path.read_bytes()
 
 
