@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing, FillRule, Path
-from vexture.sources.extent import HMIN
 
-__all__ = ["THIN", "TOLERANCE", "Ring", "fitted_drawing", "shored", "wet_drawing"]
+__all__ = ["HMIN", "THIN", "TOLERANCE", "Ring", "fitted_drawing", "shored", "wet_drawing"]
+
+HMIN: Final = 0.05
+"""Metres. Less water than this is none."""
 
 TOLERANCE: Final = 0.55
 """Cells. Most that the fitted shoreline may leave the contour: the staircase of a raster is half a cell high."""
@@ -179,7 +181,9 @@ def _polygons(above: NDArray[np.float64], border: tuple[float, float, float, flo
     x = np.concatenate([[left], np.arange(above.shape[1]), [right]])
     y = np.concatenate([[first], np.arange(above.shape[0]), [last]])
     generator = contourpy.contour_generator(x=x, y=y, z=np.pad(above, 1, mode="edge"), fill_type="OuterOffset")
-    points, offsets = generator.filled(0.0, np.inf)[:2]
+    points: list[NDArray[np.float64]]
+    offsets: list[NDArray[np.uint32]]
+    points, offsets = generator.filled(0.0, np.inf)  # type: ignore[misc,assignment]
     return [[ring[a : b - 1] for a, b in pairwise(cut.tolist())] for ring, cut in zip(points, offsets, strict=True)]
 
 

@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from vexture.errors import LimitError, SourceError
-from vexture.sources.extent import HMIN, Extent, Step
+from vexture.sources.contours import HMIN
+from vexture.sources.extent import Extent, Step
 from vexture.sources.frame import Frame
 from vexture.sources.mesh import MeshSeries, mesh_steps
 from vexture.sources.placing import raster_steps

@@ -84,16 +84,14 @@ def opened(source: bytes | str | os.PathLike[str]) -> Iterator[Any]:
                 file.write(source)
         else:
             place = os.path.abspath(source)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            try:
-                dataset = xarray.open_dataset(
-                    place, engine="netcdf4", decode_times=False, decode_coords=True, cache=False
-                )
-            except Exception as error:  # of a stranger's file the libraries raise what they like
-                raise SourceError(f"it cannot be read as NetCDF ({line_of(error, place)}); write it again") from None
-            with dataset:
-                yield dataset
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                dataset = xarray.open_dataset(place, engine="netcdf4", decode_times=False, cache=False)
+        except Exception as error:  # of a stranger's file the libraries raise what they like
+            raise SourceError(f"it cannot be read as NetCDF ({line_of(error, place)}); write it again") from None
+        with dataset:
+            yield dataset
     finally:
         if folder:
             folder.cleanup()
@@ -221,7 +219,9 @@ def _axis(dataset: Any, dim: str) -> Values:
 def _loaded(variable: Any) -> Any:
     """Values of a variable."""
     try:
-        return np.asarray(variable.values)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return np.asarray(variable.values)
     except Exception as error:  # HDF5 and codecs raise what they like
         raise SourceError(
             f"variable {variable.name!r} cannot be read ({line_of(error)}); write the file again"

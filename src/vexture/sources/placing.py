@@ -31,7 +31,10 @@ def raster_steps(series: Series, system: str, frame: Frame, hmin: float) -> Iter
     lattice = _turned(series.lattice, system, frame)
     square = transformed_bounds(unit_square(frame), frame.crs, system)
     rows, columns = _window(lattice, square, frame, system)
-    whole = (rows.stop - rows.start, columns.stop - columns.start) == lattice.shape
+    whole = all(
+        part.start < part.step and part.stop > count - part.step
+        for part, count in zip((rows, columns), lattice.shape, strict=True)
+    )
     placing = Placing(lattice.cut(rows, columns), system, frame)
     beyond = placing.beyond()
     for step in range(len(series.times)):
@@ -94,7 +97,11 @@ def _window(lattice: Lattice, square: Bounds | None, frame: Frame, system: str) 
             ),
             stacklevel=2,
         )
-    return slice(int(r0), int(r1), stride), slice(int(c0), int(c1), stride)
+    # of each block of cells its middle one, as GDAL takes it
+    rows, columns = (
+        slice(int(a) + stride // 2, int(a + (b - a) // stride * stride), stride) for a, b in ((r0, r1), (c0, c1))
+    )
+    return rows, columns
 
 
 class Placing:
@@ -143,7 +150,7 @@ class Placing:
         places, shape = frame_places(self._frame)
         found = self.positions(places)
         last = np.array(values.shape[::-1]) - 1
-        inside = (found >= -0.5 - NEAR).all(axis=1) & (found <= last + 0.5 + NEAR).all(axis=1)  # not if infinite
+        inside = np.all((found >= -0.5 - NEAR) & (found <= last + 0.5 + NEAR), axis=1)
         nearest = np.clip(np.rint(np.where(inside[:, None], found, 0.0)), 0, last).astype(int)
         taken = values[nearest[:, 1], nearest[:, 0]]
         return np.where(inside, taken, np.nan).reshape(shape).astype(np.float32)
