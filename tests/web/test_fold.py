@@ -10,7 +10,7 @@ from browser import served
 from mask_page import THREES, decode, drawing, prepare
 
 import vexture
-from folded import Numbers, errors, near_edges, positions
+from folded import Numbers, errors
 from vexture.encoding.packed_texture import PackedTexture
 from vexture.folding.fold import Fold, Kind
 from vexture.folding.shore import shore_fold
@@ -113,9 +113,8 @@ def test_rays_meet_what_is_seen(page: Any) -> None:
     pictures, found = frames(page, places=places.tolist(), mask={"fold": "shore", "mode": "cut"})
     for picture, frame in zip(pictures, found["frames"], strict=True):
         seen = picture[SIZE - 1 - cells[:, 1], cells[:, 0]] > 0.5
-        clear = ~near_edges(frames(page, [TIMES[0]], mask={"fold": "shore"})[0][0])[SIZE - 1 - cells[:, 1], cells[:, 0]]
-        assert (np.array(frame["hits"]) == seen).mean() > 0.98
-        assert clear.any()
+        assert (np.array(frame["hits"]) == seen).mean() > 0.98  # not at a pixel's middle, but by its coverage
+    assert len({tuple(frame["hits"]) for frame in found["frames"]}) > 1
 
 
 @pytest.mark.parametrize("mode", ["alpha", "cut", "mix", "paint"])
@@ -157,4 +156,3 @@ def test_at_a_thousandfold_the_edge_does_not_tremble(page: Any) -> None:
         assert len(found) > 20
         worst.append(np.percentile(found, 99))
     assert max(worst) <= 24.0  # 255 is a pixel
-    assert positions(to_unit, np.zeros((1, 2))).shape == (1, 2)

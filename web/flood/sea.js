@@ -5,21 +5,23 @@ import { gridGeometry, LEAST_RISE, wallGeometry } from './land.js';
 
 /** @typedef {import('../src/vector-texture.js').VectorTexture} VectorTexture */
 /** @typedef {import('../src/vector-mask.js').VectorMask} VectorMask */
-/** @typedef {typeof import('../src/vector-water.js').VectorWater | typeof import('../src/simple-water.js').SimpleWater} Kind */
+/** @typedef {import('../src/fold-texture.js').FoldTexture} FoldTexture */
+/** @typedef {ReturnType<typeof import('../src/water.js').chooseWater>} Kind */
 
 const LOOK = Object.freeze({
   waterColor: 0x0d6480, sunColor: 0x7f8f98, distortionScale: 1.8, size: 15, shallow: 0x62b7aa, clipBias: 0.002,
-  sky: 0x6aa3d8, horizon: 0xdfeaf0,
+  sky: 0x86b2d6, horizon: 0xd3e2ec,
 });
 const FOAM = Object.freeze({ width: 0.015, period: 6 });
 /** Milliseconds of a cross-fade. */
 const FADE = 900;
-/** How much further inside the lower border of a wall looks into the shape: with no width at all it would look nowhere. */
+/** How much further inside the lower border of a wall looks into the shape: a look without width would see nothing. */
 const INWARD = 1e-3;
 
 export class Sea {
   #surface;
   #transform;
+  #fold;
   /** @type {VectorMask | null} */
   #mask = null;
   /** @type {{to: VectorTexture, begin: number} | null} */
@@ -29,14 +31,16 @@ export class Sea {
   /**
    * @param {Kind} Water
    * @param {import('./relief.js').Surface} surface
-   * @param {{transform: import('three').Matrix3, sun: import('three').Vector3, mirror: number}} how from the box to the
-   *   unit square; where the sun is; pixels of the mirror's sides
+   * @param {{transform: import('three').Matrix3, fold: FoldTexture | null, sun: import('three').Vector3,
+   *   mirror: number}} how from the box to the unit square; what moves the shore; where the sun is; pixels of the
+   *   mirror's sides
    */
-  constructor(Water, surface, { transform, sun, mirror }) {
+  constructor(Water, surface, { transform, fold, sun, mirror }) {
     this.#surface = surface;
     this.#transform = transform;
+    this.#fold = fold;
     this.water = new Water(gridGeometry(surface, (height) => Math.max(0, height)), null, {
-      ...LOOK, transform, foam: FOAM, sunDirection: sun, textureWidth: mirror, textureHeight: mirror,
+      ...LOOK, transform, fold, foam: FOAM, sunDirection: sun, textureWidth: mirror, textureHeight: mirror,
     });
     const { material } = this.water;
     material.polygonOffset = true; // over the ground on which it lies, whatever the rounding
@@ -44,7 +48,8 @@ export class Sea {
     material.polygonOffsetUnits = -4;
     this.water.rotation.x = -Math.PI / 2;
     this.walls = new Mesh(
-      new BufferGeometry(), new MeshBasicMaterial({ color: 0x2f8199, transparent: true, opacity: 0.62, depthWrite: false }),
+      new BufferGeometry(),
+      new MeshBasicMaterial({ color: 0x2f8199, transparent: true, opacity: 0.62, depthWrite: false }),
     );
     this.walls.visible = false;
     this.group = new Group().add(this.water, this.walls);
@@ -79,7 +84,10 @@ export class Sea {
   /** @param {VectorTexture} texture */
   #wall(texture) {
     if (this.#mask) this.#mask.texture = texture;
-    else this.#mask = applyVectorMask(this.walls.material, texture, { transform: this.#transform, wrap: 'clamp' });
+    else {
+      const [transform, fold] = [this.#transform, this.#fold];
+      this.#mask = applyVectorMask(this.walls.material, texture, { transform, fold, wrap: 'clamp' });
+    }
     this.walls.visible = !this.#isFlat;
   }
 
@@ -109,6 +117,7 @@ export class Sea {
   /** Seconds, of waves and folds. */
   set time(/** @type {number} */ seconds) {
     this.water.time = seconds;
+    if (this.#mask) this.#mask.time = seconds;
   }
 
   /** The one colour of all water, or null. */
