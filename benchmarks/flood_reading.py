@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from vexture.live.waters import WATER_SETTINGS
 
+from vexture.live.waters import WATER_SETTINGS
 from vexture.pipeline import convert
 
 __all__ = ["KINDS", "VERTICES", "island", "island_files", "reading_times"]

@@ -6,13 +6,14 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import flood_page
 import numpy as np
 import pytest
 from browser import served
 from numpy.typing import NDArray
 from PIL import Image
 from playwright.sync_api import Page, expect
+
+import flood_page
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "live"))
 
