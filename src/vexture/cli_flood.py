@@ -8,6 +8,7 @@ import click
 from vexture.errors import LimitError
 from vexture.flood.asked import PERIOD, Asked, bounds_of
 from vexture.messages import one_line, say, with_servers
+from vexture.tolerance import HMIN
 
 __all__ = ["flood"]
 
@@ -19,7 +20,7 @@ PATH: Any = click.Path(path_type=Path)
 @click.option("--crs", metavar="EPSG:N", help="Reference system of the extent, if its file does not say it.")
 @click.option("--bounds", metavar="W,S,E,N", help="Box to show, in units of the extent.  [default: all of the extent]")
 @click.option("--time-dim", metavar="NAME", help="Dimension of time: show each of its steps.")
-@click.option("--hmin", metavar="M", type=float, default=0.05, show_default=True, help="Depth from which it is wet.")
+@click.option("--hmin", metavar="M", type=float, default=HMIN, show_default=True, help="Depth from which it is wet.")
 @click.option("--variable", metavar="NAME", help="Variable that holds depths, if there are several.")
 @click.option("--layer", metavar="NAME", help="Layer of polygons, if there are several.")
 @click.option("--ground", metavar="IMAGE", type=PATH, help="Picture of the ground: a GeoTIFF, or one of --bounds.")

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from vexture.errors import LimitError
+from vexture.tolerance import HMIN
 
 __all__ = ["PERIOD", "Asked", "bounds_of"]
 
@@ -34,7 +35,7 @@ class Asked:
     crs: str | None = None
     bounds: tuple[float, float, float, float] | None = None
     time_dim: str | None = None
-    hmin: float = 0.05
+    hmin: float = HMIN
     variable: str | None = None
     layer: str | None = None
     ground: Path | None = None
