@@ -13,6 +13,7 @@ import click
 
 from vexture.arguments import Tolerance
 from vexture.cli_flood import flood
+from vexture.cli_fold import fold
 from vexture.cli_live import push, serve
 from vexture.cli_view import export, view
 from vexture.errors import DeviceError, LimitError, VextureError
@@ -311,3 +312,4 @@ main.add_command(push)
 main.add_command(view)
 main.add_command(export)
 main.add_command(flood)
+main.add_command(fold)

@@ -54,9 +54,7 @@ def progress(time: float, cycle: float, texel: Words) -> Numbers:
     )
 
 
-def fold(
-    now: Numbers, wrap: str, base: NDArray[np.uint32], offset: Numbers, dx: Numbers, dy: Numbers
-) -> Folded:
+def fold(now: Numbers, wrap: str, base: NDArray[np.uint32], offset: Numbers, dx: Numbers, dy: Numbers) -> Folded:
     """Fold footprints, all (n, 2), by the displacements of all texels as they are now, (rows, columns, 2)."""
     size = np.array([now.shape[1], now.shape[0]])
     near = offset - np.floor(offset) if wrap == "repeat" else np.clip(offset, -2.0, 2.0)

@@ -253,7 +253,9 @@ def _unpacked(texels: NDArray[np.uint32], columns: int, rows: int, cycle: float)
     if len(flat) != -(-count // width) * width:
         raise FormatError(f"{len(flat)} texels for {columns} x {rows} of a fold; {REMEDY}")
     if flat[count:].any():
-        raise FormatError(f"texel {count + int(flat[count:].any(axis=1).argmax())} is beyond the fold and not 0; {REMEDY}")
+        raise FormatError(
+            f"texel {count + int(flat[count:].any(axis=1).argmax())} is beyond the fold and not 0; {REMEDY}"
+        )
     words = flat[:count].reshape(rows, columns, 4)
     displacement = np.ascontiguousarray(words[..., :2]).view(np.float32)
     kind = words[..., 2] >> np.uint32(layout.FOLD_KIND_SHIFT)
