@@ -90,7 +90,6 @@ const SKY = /** @type {const} */ ([
   [90, '#3f7fc4'], [50, '#6aa3d8'], [22, '#9dc6e6'], [9, '#c9e0ee'], [2, '#e3edf1'], [0, '#e6eced'], [-3, '#e3e6e4'],
   [-30, '#d8d5cd'], [-90, '#cbc5b9'],
 ]);
-export const HAZE = '#e6eced';
 
 /**
  * All around, east in the middle of the left half: as three.js wraps a sphere.
@@ -156,7 +155,7 @@ export function shadowTexture() {
       for (let x = 0; x < width; x++) {
         const far = Math.hypot(...[x, y].map((at) => Math.max(third - at, at - 2 * third, 0))) / third;
         const dark = Math.max(0, 1 - far) ** 2.6;
-        pixels.data.set([50, 42, 34, 150 * dark], 4 * (y * width + x));
+        pixels.data.set([50, 42, 34, 110 * dark], 4 * (y * width + x));
       }
     }
     context.putImageData(pixels, 0, 0);

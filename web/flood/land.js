@@ -13,7 +13,7 @@ const LAYERS = 16;
 /** World units along a side after which that picture comes again. */
 const REPEAT = 50;
 /** Least exaggeration: at 0 the ground would have no normals. */
-const LEAST_RISE = 1e-6;
+export const LEAST_RISE = 1e-6;
 
 /**
  * A grid over the box, x east, y north, z up in metres; uv are 0..1 over the box.
@@ -118,6 +118,7 @@ export class Land {
   constructor(surface, picture) {
     this.#surface = surface;
     this.#material = new MeshLambertMaterial(picture ? { map: picture } : { color: 0xcbb58a });
+    /** @type {Mesh<BufferGeometry, import('three').Material>} */
     this.mesh = new Mesh(gridGeometry(surface, (height) => height), this.#material);
     this.mesh.rotation.x = -Math.PI / 2;
     this.sides = new Mesh(new BufferGeometry(), this.#earth);

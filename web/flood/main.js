@@ -10,14 +10,19 @@ import { PRESETS } from './presets.js';
 import { createReadout } from './readout.js';
 import { Relief, Surface } from './relief.js';
 import { readScene } from './scene.js';
+import { SimpleWater, chooseWater } from '../src/water.js';
 import { Sea } from './sea.js';
 import { Stage } from './stage.js';
 import { Steps } from './steps.js';
 import { createTimeBar } from './time-bar.js';
+import { Tray } from './tray.js';
 
 /** @typedef {import('./presets.js').Preset} Preset */
 
 const DRY = 'Nothing is under water at this time.';
+
+/** Pixels of a side of what the water mirrors. */
+const MIRROR = 512;
 
 const bare = new URLSearchParams(location.search).has('bare');
 const app = /** @type {HTMLElement} */ (document.getElementById('app'));
@@ -46,7 +51,7 @@ function standOf({ shore }, surface) {
   const [x, y] = shore?.seaward ?? [0, -1];
   const long = Math.hypot(x, y) || 1;
   return {
-    width: places.width, depth: places.depth,
+    width: places.width + 2 * Tray.around, depth: places.depth + 2 * Tray.around,
     place: places.toWorld(...(shore ? places.fromUnit(...shore.place) : /** @type {[number, number]} */ ([0.5, 0.5]))),
     seaward: /** @type {[number, number]} */ ([x / long, -y / long]),
     height: (/** @type {number} */ px, /** @type {number} */ pz) => surface.height(px, pz),
@@ -108,10 +113,11 @@ async function start() {
   const places = new Places(flood.frame);
   const surface = new Surface(Relief.read(flood.relief, await bytesOf(flood.relief.heights, document.baseURI)), places);
   const picture = await pictureOf(flood.ground);
+  const Water = matchMedia('(max-width: 720px)').matches ? SimpleWater : chooseWater();
   let stage;
   try {
     stage = new Stage(canvas, surface, {
-      picture, stand: standOf(flood, surface), sea: () => new Sea(surface, boxTransform(flood.frame)),
+      picture, stand: standOf(flood, surface), sea: (sun) => new Sea(Water, surface, { transform: boxTransform(flood.frame), sun, mirror: MIRROR }),
     });
   } catch (error) {
     console.warn(error);
@@ -129,7 +135,10 @@ async function run(stage, scene, surface) {
   const steps = new Steps(scene);
   const heard = listener();
   const player = new Player(steps, {
-    show: ({ texture }) => stage.sea.show(texture),
+    show: ({ texture }, fading) => {
+      stage.sea.show(texture, fading);
+      stage.requestFrame();
+    },
     prepare: (step) => {
       heard(step);
       for (const texture of Object.values(step.texture.textures)) stage.renderer.initTexture(texture);
@@ -152,7 +161,7 @@ async function run(stage, scene, surface) {
   stage.resize();
   viewed('Bird', { fly: false });
   Object.assign(page, {
-    camera: stage.camera, water: stage.sea.mesh, stage, player, view: viewed, step: (/** @type {number} */ at) => player.go(at),
+    camera: stage.camera, water: stage.sea.water, stage, player, view: viewed, step: (/** @type {number} */ at) => player.go(at),
     freeze: (/** @type {number | null} */ seconds) => stage.freeze(seconds), flat: (/** @type {boolean} */ on) => stage.flat(on),
     relief: (/** @type {number} */ times) => stage.relief(times), render: () => stage.render(),
   });

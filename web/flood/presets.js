@@ -8,34 +8,63 @@
  * @typedef {object} Stand what the presets go by
  * @property {number} width of the box in the world
  * @property {number} depth
+ * @property {number} low the box's lower end
+ * @property {number} high its highest ground
  * @property {[number, number]} place on the shore: x and z
  * @property {[number, number]} seaward direction of open water there: x and z, of length 1
  * @property {(x: number, z: number) => number} height of the surface
- * @property {number} aspect of the picture: width over height
+ * @property {number} aspect of what is free of the picture: width over height
+ * @property {number} share of the picture's height that is free
  */
+
+/** @typedef {Omit<Stand, 'aspect' | 'share' | 'low' | 'high'>} Fixed what of it does not change */
 
 export const PRESETS = Object.freeze(/** @type {Preset[]} */ (['Sky', 'Bird', 'Coast', 'Shore', 'Beach']));
 
 /** Degrees, of the camera, from the lower to the upper border of the picture. */
 export const FIELD = 42;
 
-/** Degrees above the horizon, degrees to the side of the sea's direction, distance from the place on the shore. */
-const NEAR = Object.freeze({ Coast: [25, 58, 44], Shore: [11, 74, 14] });
+/**
+ * Degrees above the horizon, degrees to the side of the sea's direction, distance, and how far out at sea the middle
+ * is.
+ */
+const NEAR = Object.freeze({ Coast: [23, 56, 44, 7], Shore: [11, 72, 14, 2.5] });
 /** Of the one who stands on the beach: height of the eyes, how far inland, degrees to the side, how far down. */
 const BEACH = Object.freeze({ eyes: 0.62, inland: 1.3, side: 32, down: 7 });
+/** Degrees: height of the sun, and how far to the side of the sea's direction. */
+const SUN = Object.freeze({ up: 34, side: 14 });
+/** How much more than the box is seen where all of it is. */
+const AROUND = 1.06;
 /** How far ahead one looks at from there, and what is turned around. */
 const AHEAD = 12;
 
 const radians = (/** @type {number} */ degrees) => (degrees * Math.PI) / 180;
 
 /**
- * Distance from which a width and a height are seen whole.
+ * Pose from which the whole box is seen, as large as it can be.
  *
- * @param {number} width @param {number} height @param {number} aspect
+ * @param {Stand} stand
+ * @param {number} angle of the camera around the box, from the south to the east
+ * @param {number} above the horizon
+ * @returns {Pose}
  */
-function whole(width, height, aspect) {
-  const slope = Math.tan(radians(FIELD / 2));
-  return Math.max(height / 2 / slope, width / 2 / slope / aspect);
+function whole({ width, depth, low, high, aspect, share }, angle, above) {
+  const [sin, cos] = [Math.sin(angle), Math.cos(angle)];
+  const back = [sin * Math.cos(above), Math.sin(above), cos * Math.cos(above)];
+  const right = [cos, 0, -sin];
+  const up = [-sin * Math.sin(above), Math.cos(above), -cos * Math.sin(above)];
+  const along = (/** @type {number[]} */ axis, /** @type {number[]} */ corner) =>
+    axis[0] * corner[0] + axis[1] * corner[1] + axis[2] * corner[2];
+  const corners = [-1, 1].flatMap((x) => [low, high].flatMap((y) => [-1, 1].map((z) => [(x * width) / 2, y, (z * depth) / 2])));
+  const slope = (Math.tan(radians(FIELD / 2)) * share) / AROUND;
+  const [across, over] = [{ axis: right, slope: slope * aspect }, { axis: up, slope }].map(({ axis, slope: tangent }) => {
+    const reach = (/** @type {number} */ sign) =>
+      Math.max(...corners.map((corner) => along(back, corner) * tangent + sign * along(axis, corner)));
+    return { middle: (reach(1) - reach(-1)) / 2, away: (reach(1) + reach(-1)) / 2 / tangent };
+  });
+  const away = Math.max(across.away, over.away);
+  const [x, y, z] = [0, 1, 2].map((at) => right[at] * across.middle + up[at] * over.middle);
+  return { from: { x: x + away * back[0], y: y + away * back[1], z: z + away * back[2] }, to: { x, y, z } };
 }
 
 /**
@@ -44,23 +73,10 @@ function whole(width, height, aspect) {
  * @returns {Pose}
  */
 export function pose(preset, stand) {
-  const { width, depth, aspect, height } = stand;
-  if (preset === 'Sky') {
-    const away = whole(width * 1.16, depth * 1.24, aspect);
-    const tilt = radians(76);
-    return { from: { x: 0, y: away * Math.sin(tilt), z: away * Math.cos(tilt) }, to: { x: 0, y: 0, z: 0.5 } };
-  }
+  const { aspect, height } = stand;
   const [sx, sz] = stand.seaward;
-  if (preset === 'Bird') {
-    const angle = Math.atan2(sx, sz) + radians(28);
-    const away = whole(Math.hypot(width, depth) * 1.02, depth * 0.98, aspect) * 1.12;
-    const up = radians(33);
-    const flat = away * Math.cos(up);
-    return {
-      from: { x: flat * Math.sin(angle), y: away * Math.sin(up), z: flat * Math.cos(angle) },
-      to: { x: 0, y: -2, z: 0 },
-    };
-  }
+  if (preset === 'Sky') return whole(stand, 0, radians(76));
+  if (preset === 'Bird') return whole(stand, Math.atan2(sx, sz) + radians(28), radians(30));
   const [px, pz] = stand.place;
   const sea = Math.atan2(sx, sz);
   if (preset === 'Beach') {
@@ -70,19 +86,33 @@ export function pose(preset, stand) {
     const to = { x: x + AHEAD * Math.sin(angle), y: eyes - AHEAD * Math.tan(radians(BEACH.down)), z: z + AHEAD * Math.cos(angle) };
     return { from: { x, y: eyes, z }, to };
   }
-  const [up, side, away] = NEAR[preset];
+  const [up, side, away, out] = NEAR[preset];
+  const [mx, mz] = [px + sx * out, pz + sz * out];
   const angle = sea - landSide(stand, side) * radians(side); // it looks back to where the land is
   const wide = away * Math.max(1, Math.min(1.5, 1 / aspect));
   const flat = wide * Math.cos(radians(up));
-  const from = { x: px + flat * Math.sin(angle), y: wide * Math.sin(radians(up)), z: pz + flat * Math.cos(angle) };
+  const from = { x: mx + flat * Math.sin(angle), y: wide * Math.sin(radians(up)), z: mz + flat * Math.cos(angle) };
   from.y = Math.max(from.y, height(from.x, from.z) + BEACH.eyes);
-  return { from, to: { x: px, y: Math.min(1, height(px, pz)), z: pz } };
+  return { from, to: { x: mx, y: 0, z: mz } };
+}
+
+/**
+ * Where the sun is, to glitter on the water that one sees from the beach.
+ *
+ * @param {Fixed} stand
+ * @returns {Vector} of length 1
+ */
+export function sunOver(stand) {
+  const [sx, sz] = stand.seaward;
+  const angle = Math.atan2(sx, sz) + landSide(stand, BEACH.side) * radians(SUN.side);
+  const flat = Math.cos(radians(SUN.up));
+  return { x: flat * Math.sin(angle), y: Math.sin(radians(SUN.up)), z: flat * Math.cos(angle) };
 }
 
 /**
  * To which side of the sea's direction more land is seen: 1 or -1.
  *
- * @param {Stand} stand @param {number} degrees
+ * @param {Fixed} stand @param {number} degrees
  */
 function landSide({ place: [px, pz], seaward: [sx, sz], height, width }, degrees) {
   const land = [1, -1].map((sign) => {

@@ -1,64 +1,120 @@
 /** The water: its surface over the ground, and what is seen of it along the cut sides. */
-import { BufferGeometry, Color, Group, Matrix3, Mesh, MeshBasicMaterial, MeshPhongMaterial } from 'three';
+import { BufferGeometry, Group, Mesh, MeshBasicMaterial } from 'three';
 import { applyVectorMask } from '../src/vector-mask.js';
-import { gridGeometry, wallGeometry } from './land.js';
+import { gridGeometry, LEAST_RISE, wallGeometry } from './land.js';
 
 /** @typedef {import('../src/vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('../src/vector-mask.js').VectorMask} VectorMask */
+/** @typedef {typeof import('../src/vector-water.js').VectorWater | typeof import('../src/simple-water.js').SimpleWater} Kind */
 
-/** Water drawn over the ground that it lies on, whatever the rounding. */
-const OVER = Object.freeze({ polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -4 });
+const LOOK = Object.freeze({
+  waterColor: 0x0d6480, sunColor: 0x7f8f98, distortionScale: 1.8, size: 15, shallow: 0x62b7aa, clipBias: 0.002,
+  sky: 0x6aa3d8, horizon: 0xdfeaf0,
+});
+const FOAM = Object.freeze({ width: 0.015, period: 6 });
+/** Milliseconds of a cross-fade. */
+const FADE = 900;
+/** How much further inside the lower border of a wall looks into the shape: with no width at all it would look nowhere. */
+const INWARD = 1e-3;
 
 export class Sea {
   #surface;
-  /** @type {VectorTexture | null} */
-  #texture = null;
+  #transform;
+  /** @type {VectorMask | null} */
+  #mask = null;
+  /** @type {{to: VectorTexture, begin: number} | null} */
+  #fading = null;
+  #isFlat = false;
 
   /**
+   * @param {Kind} Water
    * @param {import('./relief.js').Surface} surface
-   * @param {Matrix3} transform from the box to the unit square
+   * @param {{transform: import('three').Matrix3, sun: import('three').Vector3, mirror: number}} how from the box to the
+   *   unit square; where the sun is; pixels of the mirror's sides
    */
-  constructor(surface, transform) {
+  constructor(Water, surface, { transform, sun, mirror }) {
     this.#surface = surface;
-    this.transform = transform;
-    this.mesh = new Mesh(
-      gridGeometry(surface, (height) => Math.max(0, height)),
-      new MeshPhongMaterial({ color: 0x2f7f9d, transparent: true, opacity: 0.9, shininess: 90, ...OVER }),
+    this.#transform = transform;
+    this.water = new Water(gridGeometry(surface, (height) => Math.max(0, height)), null, {
+      ...LOOK, transform, foam: FOAM, sunDirection: sun, textureWidth: mirror, textureHeight: mirror,
+    });
+    const { material } = this.water;
+    material.polygonOffset = true; // over the ground on which it lies, whatever the rounding
+    material.polygonOffsetFactor = -1;
+    material.polygonOffsetUnits = -4;
+    this.water.rotation.x = -Math.PI / 2;
+    this.walls = new Mesh(
+      new BufferGeometry(), new MeshBasicMaterial({ color: 0x2f8199, transparent: true, opacity: 0.62, depthWrite: false }),
     );
-    this.mesh.rotation.x = -Math.PI / 2;
-    this.walls = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ color: 0x3b8ea8, transparent: true, opacity: 0.5 }));
-    this.group = new Group().add(this.mesh, this.walls);
+    this.walls.visible = false;
+    this.group = new Group().add(this.water, this.walls);
     this.raise();
   }
 
-  /** @param {VectorTexture | null} texture */
-  show(texture) {
-    this.#texture = texture;
-    this.group.visible = texture !== null;
-    if (!texture) return;
-    for (const { material } of [this.mesh, this.walls]) {
-      if (material.userData.mask) material.userData.mask.texture = texture;
-      else material.userData.mask = applyVectorMask(material, texture, { transform: this.transform, wrap: 'clamp' });
+  /**
+   * Show the water of a texture.
+   *
+   * @param {VectorTexture} texture
+   * @param {boolean} fading over a while, from what is shown now
+   */
+  show(texture, fading) {
+    if (this.#fading) this.#arrive();
+    if (fading && this.water.texture) {
+      this.water.fadeTo(texture);
+      this.#fading = { to: texture, begin: performance.now() };
+    } else {
+      this.water.texture = texture;
+      this.#wall(texture);
     }
   }
 
+  #arrive() {
+    const to = this.#fading?.to;
+    this.#fading = null;
+    if (!to) return;
+    this.water.texture = to;
+    this.#wall(to);
+  }
+
+  /** @param {VectorTexture} texture */
+  #wall(texture) {
+    if (this.#mask) this.#mask.texture = texture;
+    else this.#mask = applyVectorMask(this.walls.material, texture, { transform: this.#transform, wrap: 'clamp' });
+    this.walls.visible = !this.#isFlat;
+  }
+
+  /**
+   * Go on with a fade.
+   *
+   * @returns {boolean} whether it goes on
+   */
+  advance() {
+    if (!this.#fading) return false;
+    const share = (performance.now() - this.#fading.begin) / FADE;
+    if (share >= 1) this.#arrive();
+    else this.water.fade = share;
+    return true;
+  }
+
+  /** Stand as high as the surface says. */
   raise() {
     const { rise } = this.#surface;
-    this.mesh.scale.z = Math.max(rise, 1e-6);
+    this.water.scale.z = Math.max(rise, LEAST_RISE);
     this.walls.geometry.dispose();
-    this.walls.geometry = wallGeometry(this.#surface, ({ s, t, height }) => {
-      const inward = [s + (0.5 - s) * 1e-3, t + (0.5 - t) * 1e-3];
-      return { low: Math.min(0, height) * rise, high: 0, uvLow: /** @type {[number, number]} */ (inward), uvHigh: [s, t] };
-    });
+    this.walls.geometry = wallGeometry(this.#surface, ({ s, t, height }) => ({
+      low: Math.min(0, height) * rise, high: 0, uvLow: [s + (0.5 - s) * INWARD, t + (0.5 - t) * INWARD], uvHigh: [s, t],
+    }));
   }
 
   /** Seconds, of waves and folds. */
   set time(/** @type {number} */ seconds) {
-    void seconds;
+    this.water.time = seconds;
   }
 
-  /** @param {Color | null} color */
-  set flat(color) {
-    void color;
-    this.walls.visible = color === null;
+  /** The one colour of all water, or null. */
+  set flat(/** @type {import('three').ColorRepresentation | null} */ color) {
+    this.#isFlat = color !== null;
+    this.water.flat = color;
+    this.walls.visible = color === null && this.#mask !== null;
   }
 }

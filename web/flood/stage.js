@@ -1,13 +1,12 @@
 /** The picture: everything that is drawn, from where it is seen, and when. */
 import {
-  BackSide, Color, DirectionalLight, Fog, HemisphereLight, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene,
+  BackSide, Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene,
   SphereGeometry, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { HAZE, skyTexture } from './drawn.js';
+import { skyTexture } from './drawn.js';
 import { Land } from './land.js';
-import { FIELD, between, pose } from './presets.js';
-import { Sea } from './sea.js';
+import { FIELD, between, pose, sunOver } from './presets.js';
 import { Tray } from './tray.js';
 
 /** @typedef {import('./presets.js').Preset} Preset @typedef {import('./presets.js').Pose} Pose */
@@ -20,7 +19,6 @@ const CLEARANCE = 0.25;
 const MOST_DISTANCE = 420;
 /** Colours of the flat picture, for measurements: the ground and all around it, the water. */
 const FLAT = Object.freeze({ ground: 0x000000, water: 0xffffff });
-export const SUN = Object.freeze(new Vector3(-0.55, 0.5, -0.42).normalize());
 
 const STILL = matchMedia('(prefers-reduced-motion: reduce)');
 
@@ -47,8 +45,8 @@ export class Stage extends EventTarget {
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {import('./relief.js').Surface} surface
-   * @param {{picture: import('three').Texture | null, sea: (sky: import('three').Texture) => Sea,
-   *   stand: Omit<import('./presets.js').Stand, 'aspect'>}} parts
+   * @param {{picture: import('three').Texture | null, sea: (sun: Vector3) => import('./sea.js').Sea,
+   *   stand: import('./presets.js').Fixed}} parts
    */
   constructor(canvas, surface, { picture, sea, stand }) {
     super();
@@ -58,18 +56,18 @@ export class Stage extends EventTarget {
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.camera = new PerspectiveCamera(FIELD, 1, 0.05, 2 * SKY);
     this.scene = new Scene();
-    const map = skyTexture(SUN);
+    const { x, y, z } = sunOver(stand);
+    const sun = new Vector3(x, y, z);
     this.#sky = new Mesh(
-      new SphereGeometry(SKY, 32, 24), new MeshBasicMaterial({ map, side: BackSide, fog: false, depthWrite: false }),
+      new SphereGeometry(SKY, 32, 24), new MeshBasicMaterial({ map: skyTexture(sun), side: BackSide, depthWrite: false }),
     );
     this.#sky.renderOrder = -2;
     const light = new DirectionalLight(0xfff1d8, 2.5);
-    light.position.copy(SUN).multiplyScalar(100);
+    light.position.copy(sun).multiplyScalar(100);
     this.scene.add(this.#sky, light, new HemisphereLight(0xd6e6f5, 0xb09a78, 1.35));
-    this.scene.fog = new Fog(HAZE, 260, 900);
     if (picture) picture.anisotropy = this.renderer.capabilities.getMaxAnisotropy();
     this.land = new Land(surface, picture);
-    this.sea = sea(map);
+    this.sea = sea(sun);
     this.tray = new Tray(surface.places);
     this.scene.add(this.land.group, this.tray.group, this.sea.group);
     this.controls = this.#control(canvas);
@@ -138,7 +136,12 @@ export class Stage extends EventTarget {
 
   /** @param {Preset} preset */
   pose(preset) {
-    return pose(preset, { ...this.#stand, aspect: this.size.width / this.size.height });
+    const { width, height } = this.size;
+    const { left = 0, top = 0, right = 0, bottom = 0 } = this.inset();
+    const free = Math.max(height - top - bottom, 1);
+    const low = this.land.floor - Tray.down;
+    const high = this.#surface.relief.highest * this.#surface.rise;
+    return pose(preset, { ...this.#stand, low, high, aspect: Math.max(width - left - right, 1) / free, share: free / height });
   }
 
   /** @param {Preset} preset @param {{fly?: boolean}} [how] */
@@ -241,6 +244,7 @@ export class Stage extends EventTarget {
 
   render() {
     this.#move();
+    if (this.sea.advance()) this.requestFrame();
     this.sea.time = this.seconds;
     this.renderer.render(this.scene, this.camera);
     this.dispatchEvent(new Event('frame'));

@@ -56,6 +56,11 @@ export class Tray {
     this.group.add(shadow);
   }
 
+  /** How much wider it is than the ground, on each side. */
+  static get around() {
+    return 2.5 * THICK;
+  }
+
   /** Lower end of it all, from where it stands. */
   static get down() {
     return DOWN + FLOOR;
