@@ -347,7 +347,8 @@ def moved(
         sides = np.flatnonzero(near & ((high - low) > SHORT * size).any(axis=1))
         middles = (points[sides] + points[after[sides]]) / 2.0
         mapped = mapping(middles)
-        bent = np.hypot(*((mapped - (image[sides] + image[after[sides]]) / 2.0) / size).T) > ROUND
+        with np.errstate(invalid="ignore"):  # infinite points are not divided any further
+            bent = np.hypot(*((mapped - (image[sides] + image[after[sides]]) / 2.0) / size).T) > ROUND
         if not bent.any():
             break
         at = sides[bent] + 1

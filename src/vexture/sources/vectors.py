@@ -7,8 +7,10 @@ only in memory: nothing else is opened, fetched or written, whatever the file as
 import os
 import warnings
 import zipfile
+import zlib
 from io import BytesIO
 from pathlib import Path
+from threading import Lock
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -32,6 +34,9 @@ PARTS: Final = (".shp", ".shx", ".dbf", ".prj", ".cpg")
 
 AREAL: Final = ("Polygon", "Surface", "Unknown", "GeometryCollection", "Triangle", "TIN")
 """Words in the types of layers that may hold polygons."""
+
+QUIET: Final = Lock()
+"""Held while Python's warnings are silenced, which is so for all threads."""
 
 MOST_NAMED: Final = 12
 """Layers that a message names."""
@@ -111,7 +116,7 @@ def _members(content: bytes) -> dict[str, bytes]:
             if sum(info.file_size for info in infos) > LARGEST_FILE:
                 raise SourceError(f"its shapefiles are larger than {LARGEST_FILE:,} bytes; split them")
             return {Path(info.filename).name: archive.read(info) for info in infos}
-    except (zipfile.BadZipFile, RuntimeError, NotImplementedError, EOFError, OSError, ValueError) as error:
+    except (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError, OSError, ValueError) as error:
         why = " ".join(str(error).split())[:80]
         raise SourceError(f"the zip is damaged or encrypted ({why}); zip the shapefile again") from None
 
@@ -136,7 +141,7 @@ def _gdal(content: bytes, layer: str | None, report: Report) -> Areas:
     """Polygons that GDAL finds."""
     from pyogrio import errors, list_layers, raw
 
-    with warnings.catch_warnings():
+    with QUIET, warnings.catch_warnings():
         warnings.simplefilter("ignore")  # GDAL's remarks; what matters is found again below
         try:
             name = _layer([(str(each), str(kind)) for each, kind in list_layers(content)], layer)
@@ -182,7 +187,8 @@ def _parsed(shapes: NDArray[Any], report: Report) -> Rings:
     for _ in range(int((~given).sum())):
         report.left_out("feature without geometry")
     feature = np.flatnonzero(given)
-    whole = shapely.from_wkb(shapes[given], on_invalid="fix")
+    with np.errstate(invalid="ignore"):  # what is not a number is refused later, by name
+        whole = shapely.from_wkb(shapes[given], on_invalid="fix")
     broken = shapely.is_missing(whole)
     if broken.any():
         raise SourceError(f"feature {feature[int(broken.argmax())] + 1} is damaged; save the file again")
