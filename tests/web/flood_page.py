@@ -54,7 +54,7 @@ def height(u: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64
     coast = coast + 0.004 * np.sin(90 * u + 30 * v)
     inland = v - coast
     hills = 1 + 0.35 * np.sin(11 * u + 3 * v) * np.sin(9 * v + 2) + 0.16 * np.sin(31 * u + 1) * np.sin(27 * v)
-    land = 210 * (1 - np.exp(-np.maximum(inland, 0) ** 1.45 * 7)) * hills + 18 * np.maximum(inland, 0)
+    land = 210 * (1 - np.exp(-(np.maximum(inland, 0) ** 1.45) * 7)) * hills + 18 * np.maximum(inland, 0)
     sea = -75 * (1 - np.exp(np.minimum(inland, 0) * 3.4))
     return np.where(inland > 0, land, sea)
 
@@ -72,7 +72,7 @@ def wet(level: float) -> Drawing:
     u, v, heights = square(CELLS)
     found = contour_generator(u, v, heights, fill_type=FillType.OuterOffset).filled(-1e6, level)
     contours = [
-        points[start:end - 1].tolist()
+        points[start : end - 1].tolist()
         for points, offsets in zip(*found, strict=True)
         for start, end in zip(offsets[:-1], offsets[1:], strict=True)
     ]
@@ -116,10 +116,19 @@ def ground() -> str:
     """Sand, grass, rock, as the heights say, with a hillshade and some noise."""
     heights = over_frame(1024, 768)
     stops = (-80, -14, -2, 3, 7, 16, 60, 140, 260)
-    colors = np.array([
-        (60, 84, 92), (128, 134, 112), (198, 182, 140), (230, 214, 174), (206, 194, 142), (132, 146, 86),
-        (92, 118, 62), (112, 112, 74), (150, 140, 116),
-    ])
+    colors = np.array(
+        [
+            (60, 84, 92),
+            (128, 134, 112),
+            (198, 182, 140),
+            (230, 214, 174),
+            (206, 194, 142),
+            (132, 146, 86),
+            (92, 118, 62),
+            (112, 112, 74),
+            (150, 140, 116),
+        ]
+    )
     noise = np.random.default_rng(5)
     rough = noise.normal(0, 1, heights.shape) + np.kron(noise.normal(0, 1, (96, 128)), np.ones((8, 8)))
     seen = heights + rough * np.clip(np.abs(heights) / 10, 0.15, 6)
@@ -135,9 +144,14 @@ def manifest(name: str, level: float, label: str, time: str | None) -> dict[str,
     deepest = float(depths.max())
     shares = np.round(depths / deepest * 255) if deepest > 0 else depths
     return {
-        "name": name, "version": "1", "texture": data_url("image/ktx2", content), "bytes": len(content), "events": None,
+        "name": name,
+        "version": "1",
+        "texture": data_url("image/ktx2", content),
+        "bytes": len(content),
+        "events": None,
         "facts": {"time": time, "label": label, "dry": not drawing.paths, "deepest": deepest or None},
-        "views": {"depth": image_url(shares.astype(np.uint8), "PNG")}, "note": None,
+        "views": {"depth": image_url(shares.astype(np.uint8), "PNG")},
+        "note": None,
     }
 
 
@@ -151,21 +165,30 @@ def scene(steps: int = 3, **more: Any) -> dict[str, Any]:
         "flood": {
             "title": "A bay of formulas",
             "steps": [
-                manifest(f"flood/{k:02}" if not one else "flood", LEVELS[k], "" if one else hours[k],
-                         None if one else f"2026-01-05T{hours[k]}:00Z")
+                manifest(
+                    f"flood/{k:02}" if not one else "flood",
+                    LEVELS[k],
+                    "" if one else hours[k],
+                    None if one else f"2026-01-05T{hours[k]}:00Z",
+                )
                 for k in range(steps)
             ],
             "prefix": "flood",
             "frame": {
-                "box": list(FRAME.box), "to_source": FRAME.to_source.ravel().tolist(), "metres": list(FRAME.metres),
-                "crs": FRAME.crs, "bounds": list(FRAME.bounds), "geographic": False,
+                "box": list(FRAME.box),
+                "to_source": FRAME.to_source.ravel().tolist(),
+                "metres": list(FRAME.metres),
+                "crs": FRAME.crs,
+                "bounds": list(FRAME.bounds),
+                "geographic": False,
             },
             "ground": ground(),
             "relief": {
-                "columns": COLUMNS, "rows": ROWS, "unit": unit, "invented": False,
-                "heights": data_url(
-                    "application/octet-stream", np.round(heights / unit).astype("<i2").tobytes()
-                ),
+                "columns": COLUMNS,
+                "rows": ROWS,
+                "unit": unit,
+                "invented": False,
+                "heights": data_url("application/octet-stream", np.round(heights / unit).astype("<i2").tobytes()),
             },
             "fold": None,
             "shore": shore(0.52),
@@ -173,8 +196,6 @@ def scene(steps: int = 3, **more: Any) -> dict[str, Any]:
         }
         | more
     }
-
-
 
 
 @cache

@@ -22,18 +22,21 @@ FAR: Final = 192
 
 WET_SAND, SAND, GRASS, WOOD, ROCK = (
     np.array(colour, float)
-    for colour in ((168, 146, 111), (221, 202, 160), (150, 161, 105), (96, 118, 76), (151, 141, 125))
+    for colour in ((178, 156, 120), (226, 209, 170), (163, 172, 116), (110, 134, 86), (160, 150, 134))
 )
 SEA_SHALLOW, SEA_DEEP = np.array([141, 141, 116], float), np.array([48, 66, 76], float)
 
-BEACH: Final = 0.012
-"""How far sand reaches from the shore, as a share of the longer side; the sea floor's colours go on for 6 of it."""
+BEACH: Final = 0.008
+"""How far sand reaches from the shore, as a share of the frame's longer side."""
+
+FLOOR: Final = 9.0
+"""Over how many times that the sea floor goes from its shallow colour to its deep one."""
 
 LIGHT: Final = np.array([-0.5, 0.5, 0.7]) / np.sqrt(0.99)
 """Towards the sun: east, north, up."""
 
-SHADING: Final = 6.0
-"""Slopes are drawn steeper by this, beside the exaggeration that brings the land to a twentieth of the longer side."""
+STEEPEST: Final = 3.0
+"""Slopes are drawn steeper where the land is flat: as if it rose to a twentieth of the longer side, but no more."""
 
 
 def drawn_ground(extent: Extent, relief: Relief) -> "Image.Image":
@@ -57,15 +60,15 @@ def drawn_ground(extent: Extent, relief: Relief) -> "Image.Image":
     else:
         wet = coverage_over(first.drawing, frame.box, size)
         distance = _enlarged(_distance(extent), size)
-    away = distance / (BEACH * longest) + 0.5 * rough
-    land = _blend(WET_SAND, SAND, away, 0.0, 0.25)
-    land = _blend(land, GRASS, away, 0.8, 1.6)
-    land = _blend(land, WOOD, height / top + 0.3 * rough, 0.2, 0.5)
-    land = _blend(land, ROCK, height / top + 0.15 * rough, 0.85, 1.1)
-    floor = _blend(SEA_SHALLOW, SEA_DEEP, -away, 0.0, 6.0)
+    away = np.maximum(distance, 0.0) / (BEACH * longest)
+    land = _blend(WET_SAND, SAND, away, 0.02, 0.12)
+    land = _blend(land, GRASS, away + 0.5 * rough, 0.8, 1.6)
+    land = _blend(land, WOOD, height / top + 0.3 * rough, 0.3, 0.6)
+    land = _blend(land, ROCK, height / top + 0.15 * rough, 0.9, 1.1)
+    floor = _blend(SEA_SHALLOW, SEA_DEEP, -distance / (BEACH * longest) + 0.5 * rough, 0.0, FLOOR)
     shown = land + (floor - land) * wet[..., None]
-    lit = _light(height, longest / max(size), 0.05 * longest / top) + 0.06 * rough * (1.0 - wet)
-    bright = 1.0 + (lit - 1.0) * (1.0 - 0.7 * wet)
+    lit = _light(height, longest / max(size), 0.05 * longest / top)
+    bright = 1.0 + (lit - 1.0) * (1.0 - 0.8 * wet) + 0.05 * rough
     return Image.fromarray(np.clip(np.rint(shown * bright[..., None]), 0, 255).astype(np.uint8))
 
 
@@ -95,7 +98,7 @@ def _blend(
 
 def _light(height: NDArray[np.float64], pixel: float, exaggeration: float) -> NDArray[np.float64]:
     """Brightness of each pixel by its slope, 1 where it is level."""
-    south, east = np.gradient(height * min(SHADING * exaggeration, 4 * SHADING), pixel)
+    south, east = np.gradient(height * min(exaggeration, STEEPEST), pixel)
     length = np.sqrt(east**2 + south**2 + 1.0)
     cosine = (-east * LIGHT[0] + south * LIGHT[1] + LIGHT[2]) / length
-    return np.asarray(np.clip(cosine / LIGHT[2], 0.45, 1.35))
+    return np.asarray(np.clip(cosine / LIGHT[2], 0.6, 1.25))

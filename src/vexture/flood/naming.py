@@ -30,15 +30,15 @@ def labels(times: Sequence[datetime | None]) -> list[str]:
 
     Examples
     --------
-    >>> labels([datetime(2026, 2, 14, 6), datetime(2026, 2, 14, 7, 30), None])
-    ['14 Feb 2026 06:00', '14 Feb 2026 07:30', '']
+    >>> from datetime import UTC
+    >>> labels([datetime(2026, 2, 14, 6, tzinfo=UTC), datetime(2026, 2, 14, 7, 30), None])
+    ['14 Feb 2026 06:00 UTC', '14 Feb 2026 07:30', '']
     """
     exact = any(time is not None and (time.second or time.microsecond) for time in times)
-    return [
-        ""
-        if time is None
-        else f"{time.day} {MONTHS[time.month - 1]} {time.year} {time:%H:%M:%S}"
-        if exact
-        else f"{time.day} {MONTHS[time.month - 1]} {time.year} {time:%H:%M}"
-        for time in times
-    ]
+    return ["" if time is None else _label(time, exact) for time in times]
+
+
+def _label(time: datetime, exact: bool) -> str:
+    clock = f"{time:%H:%M:%S}" if exact else f"{time:%H:%M}"
+    zone = time.tzname() or ""
+    return f"{time.day} {MONTHS[time.month - 1]} {time.year} {clock} {zone}".strip()

@@ -35,6 +35,9 @@ LAND_RISE, LAND_REACH = 0.03, 0.2
 SEA_FALL, SEA_REACH = 0.02, 0.25
 """Invented ground: how far it rises and falls, and within which distance of the shore; shares of the longer side."""
 
+BEACH: Final = 0.03
+"""Invented ground: the share of the longer side within which it is nearly level at the shore."""
+
 PLAIN_RISE: Final = 0.001
 """Invented ground that the flood reaches later: how far it rises, as a share of the longer side."""
 
@@ -153,8 +156,9 @@ def _invented(extent: Extent, size: tuple[int, int]) -> NDArray[np.float64]:
     wet = _wet(first, frame, size)
     to_first = shore_distance(wet, cell)
     to_most = shore_distance(wet | _wet(most, frame, size), cell)
-    rise = 1.0 - np.exp(-np.maximum(to_most, 0.0) / (LAND_REACH * longest))
-    fall = 1.0 - np.exp(np.minimum(to_first, 0.0) / (SEA_REACH * longest))
+    rise, fall = (
+        _risen(np.maximum(far, 0.0) / longest, reach) for far, reach in ((to_most, LAND_REACH), (-to_first, SEA_REACH))
+    )
     plain = np.clip(to_first / (to_first + np.abs(to_most) + 1e-9 * longest), 0.0, 1.0)
     land = LAND_RISE * longest * rise * (1.0 + ROUGHNESS * rough) + PLAIN_RISE * longest * plain
     sea = -SEA_FALL * longest * fall * (1.0 + ROUGHNESS * rough)
@@ -162,6 +166,11 @@ def _invented(extent: Extent, size: tuple[int, int]) -> NDArray[np.float64]:
         depth = sampled(first.depth, size)
         sea = np.where(np.isfinite(depth), -depth, sea)
     return np.where(wet, sea, land)
+
+
+def _risen(distance: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
+    """From 0 to 1 with the distance: level at the shore, as a beach is."""
+    return np.asarray((1.0 - np.exp(-distance / reach)) * distance / (distance + BEACH))
 
 
 def _heights_of(path: Path, frame: Frame, size: tuple[int, int], crs: str | None) -> NDArray[np.float64]:

@@ -27,6 +27,7 @@ __all__ = [
     "THESIS_BITS",
     "VIEWER_SETTINGS",
     "converted",
+    "load_kernels",
     "shape_of",
     "texture_shape",
     "thesis_pair",
@@ -102,7 +103,7 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
             "give the drawing, with which the viewer compares them"
         )
     with ONE_AT_A_TIME, warnings_said() as said:
-        _warm()
+        load_kernels()
         start = time.perf_counter()
         drawing = replace(_read(data, file_name, settings), name=name)
         shape = converted(drawing, file_name, replace(settings, select=None), start)
@@ -158,7 +159,7 @@ def warnings_said() -> Iterator[list[str]]:
 
 
 @cache
-def _warm() -> None:
+def load_kernels() -> None:
     """Load the kernels, which only the first conversion of a process waits for: it is no part of any file's time."""
     from vexture.pipeline import convert
     from vexture.sources.svg import svg_drawing

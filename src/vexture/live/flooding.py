@@ -22,6 +22,10 @@ __all__ = ["Made", "export", "make", "serve"]
 PAGE_SUFFIXES: Final = (".html", ".htm")
 GROUND_NAME, FOLD_NAME = "ground.webp", "shore.fold.ktx2"
 
+INVENTED, DRAWN = "The relief is invented.", "The ground is drawn, not photographed."
+REMEDIES: Final = {INVENTED: " --relief takes a file of heights.", DRAWN: " --ground takes a picture."}
+"""What the user is told beside what the page says."""
+
 Say = Callable[[str], None]
 """Tells the user one line."""
 
@@ -72,10 +76,10 @@ def make(asked: Asked, say: Say) -> Made:
     waters = Waters(frame, asked.hmin, asked.reading)
     relief = relief_of(extent, asked.relief, asked.crs)
     drawn = drawn_ground(extent, relief)
-    notes = ["The relief is invented; --relief takes a file of heights."] if relief.invented else []
+    notes = [INVENTED] if relief.invented else []
     picture = drawn
     if asked.ground is None:
-        notes.append("The ground is drawn, not photographed; --ground takes a picture.")
+        notes.append(DRAWN)
     else:
         picture, told = ground_of(asked.ground, frame, drawn, bounds_given=asked.bounds is not None)
         notes += told
@@ -93,7 +97,7 @@ def make(asked: Asked, say: Say) -> Made:
         notes=tuple(notes),
     )
     for note in notes:
-        say(f"note: {note}")
+        say(f"note: {note}{REMEDIES.get(note, '')}")
     return Made(flood, waters, shapes)
 
 

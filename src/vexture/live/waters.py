@@ -11,7 +11,7 @@ import numpy as np
 
 from vexture.errors import LimitError, SourceError, VextureError
 from vexture.flood.naming import PREFIX, labels
-from vexture.live.documents import converted, texture_shape, warnings_said
+from vexture.live.documents import converted, load_kernels, texture_shape, warnings_said
 from vexture.live.shelf import File, Shape
 from vexture.settings import Settings
 from vexture.sources.extent import Extent, Step
@@ -19,8 +19,8 @@ from vexture.sources.frame import Frame
 
 __all__ = ["WATER_SETTINGS", "Waters"]
 
-WATER_SETTINGS: Final = Settings(precision=4e-6)
-"""How water is converted. From the beach a pixel is about 1e-5 of the frame: a shift stays within half of one."""
+WATER_SETTINGS: Final = Settings(precision=2e-6)
+"""How water is converted. From the beach a pixel is about 1e-5 of the frame: a shift is a fifth of one."""
 
 SAME_PLACE: Final = 1e-6
 """Share of the frame by which a texture's place may differ from it: rounding of what wrote it."""
@@ -68,6 +68,7 @@ class Waters:
         """
         from vexture.flood.depth_image import deepest, depth_png
 
+        load_kernels()
         shape = converted(replace(step.drawing, name=name), name, self.settings, time.perf_counter())
         most = None if step.depth is None else deepest(step.depth)
         views = {}

@@ -138,9 +138,7 @@ def _border(shape: tuple[int, ...], beyond: tuple[float, float, float, float]) -
     return (-0.5 - left, -0.5 - first, shape[1] - 0.5 + right, shape[0] - 0.5 + last)
 
 
-def _polygons(
-    above: NDArray[np.float64], beyond: tuple[float, float, float, float]
-) -> list[list[NDArray[np.float64]]]:
+def _polygons(above: NDArray[np.float64], beyond: tuple[float, float, float, float]) -> list[list[NDArray[np.float64]]]:
     """Rings of each wet area, its outer one first, in positions of the grid, without the last point."""
     import contourpy
 
@@ -149,10 +147,7 @@ def _polygons(
     y = np.concatenate([[first], np.arange(above.shape[0]), [last]])
     generator = contourpy.contour_generator(x=x, y=y, z=np.pad(above, 1, mode="edge"), fill_type="OuterOffset")
     points, offsets = generator.filled(0.0, np.inf)
-    return [
-        [ring[a : b - 1] for a, b in pairwise(cut)]
-        for ring, cut in zip(points, offsets, strict=True)
-    ]
+    return [[ring[a : b - 1] for a, b in pairwise(cut)] for ring, cut in zip(points, offsets, strict=True)]
 
 
 def _fitted(

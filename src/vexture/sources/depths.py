@@ -122,9 +122,7 @@ def read_depths(
 
 
 @contextmanager
-def _opened(
-    source: bytes | str | os.PathLike[str], time_dim: str | None, variable: str | None
-) -> Iterator[Series]:
+def _opened(source: bytes | str | os.PathLike[str], time_dim: str | None, variable: str | None) -> Iterator[Series]:
     """Open a file by how it begins."""
     start = source[:16] if isinstance(source, bytes) else _start(source)
     if is_geotiff(start):
@@ -181,7 +179,9 @@ def _extent(
         if bed is None and ground is not None:
             bed = inverse.grid(ground)
     if not seen:
-        raise SourceError(f"variable {series.variable!r} holds no number within the bounds; write depths, 0 where it is dry")
+        raise SourceError(
+            f"variable {series.variable!r} holds no number within the bounds; write depths, 0 where it is dry"
+        )
     return Extent(frame, tuple(steps), bed)
 
 

@@ -18,7 +18,13 @@ __all__ = ["depths_of", "opened", "read_variable", "series_of", "time_axis", "ti
 
 DEPTHS: Final = (
     {"depth", "waterdepth", "wd", "h", "hs", "hh", "flooddepth", "inundationdepth", "mesh2dwaterdepth", "hmax"},
-    {"water_depth", "sea_floor_depth_below_sea_surface", "flood_water_thickness", "depth", "water_depth_at_cell_center"},
+    {
+        "water_depth",
+        "sea_floor_depth_below_sea_surface",
+        "flood_water_thickness",
+        "depth",
+        "water_depth_at_cell_center",
+    },
 )
 """Names, in small letters without ``_``, and standard names of depths of water."""
 
@@ -81,7 +87,9 @@ def opened(source: bytes | str | os.PathLike[str]) -> Iterator[Any]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             try:
-                dataset = xarray.open_dataset(place, engine="netcdf4", decode_times=False, decode_coords="all", cache=False)
+                dataset = xarray.open_dataset(
+                    place, engine="netcdf4", decode_times=False, decode_coords="all", cache=False
+                )
             except Exception as error:  # of a stranger's file the libraries raise what they like
                 raise SourceError(f"it cannot be read as NetCDF ({line_of(error, place)}); write it again") from None
             with dataset:
@@ -108,7 +116,9 @@ def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Serie
         If there are none, or more than one.
     """
     if time_dim is not None and time_dim not in dataset.dims:
-        raise LimitError(f"there is no dimension {time_dim!r}; it has {_listed(dataset.dims)}; choose another --time-dim")
+        raise LimitError(
+            f"there is no dimension {time_dim!r}; it has {_listed(dataset.dims)}; choose another --time-dim"
+        )
     grids = {str(name): axes for name in dataset.data_vars if (axes := axes_of(dataset, name, time_dim))}
     name, depth, bed = depths_of(dataset, list(grids), variable)
     time, north, east = grids[name]
@@ -174,7 +184,9 @@ def _along(dataset: Any, dim: str) -> Any:
     """Coordinate of a dimension: of its own name, else the only one along it."""
     if dim in dataset.variables:
         return dataset[dim]
-    found = [dataset[name] for name in dataset.coords if dataset[name].dims == (dim,) and dataset[name].dtype.kind in "iuf"]
+    found = [
+        dataset[name] for name in dataset.coords if dataset[name].dims == (dim,) and dataset[name].dtype.kind in "iuf"
+    ]
     return found[0] if len(found) == 1 else None
 
 
@@ -187,7 +199,9 @@ def _axis(dataset: Any, dim: str) -> Values:
         )
     places: Values = _loaded(along).astype(np.float64)
     if not np.isfinite(places).all():
-        raise SourceError(f"coordinate {along.name!r} is not finite at position {int(np.argmin(np.isfinite(places))) + 1}")
+        raise SourceError(
+            f"coordinate {along.name!r} is not finite at position {int(np.argmin(np.isfinite(places))) + 1}"
+        )
     sign = np.sign(np.diff(places))
     if len(places) == 0 or (sign == 0).any() or (sign != sign[:1]).any():
         wrong = int(np.argmax(sign != (sign[0] or 1))) + 2 if len(sign) else 1
@@ -202,7 +216,9 @@ def _loaded(variable: Any) -> Any:
     try:
         return np.asarray(variable.values)
     except Exception as error:  # HDF5 and codecs raise what they like
-        raise SourceError(f"variable {variable.name!r} cannot be read ({line_of(error)}); write the file again") from None
+        raise SourceError(
+            f"variable {variable.name!r} cannot be read ({line_of(error)}); write the file again"
+        ) from None
 
 
 def read_variable(variable: Any, places: dict[Any, Any], order: tuple[str, ...]) -> Values:
