@@ -2,8 +2,8 @@
 
     python benchmarks/flood.py [--quick] [--seed 1] [--only edges,raster,reading,live,page]
 
-The page is that of the example of Santa Cruz, exported, in Chromium at 900 x 600 pixels. *Edges*: water white and all
-else black, relief 0; what is compared with exact coverage are the pixels of a screenshot that the shore passes, from
+The page is that of the example of Santa Cruz, exported, in Chromium at 720 x 480 pixels. *Edges*: water white and all
+else black, relief 0; what is compared with exact coverage are the pixels of its canvas that the shore passes, from
 five views, at rest and in ten seconds of motion. *Raster*: the same page, the same shader, its one lookup in a picture
 of 1024 x 1024 pixels instead. *Reading*: an extent of 20,000 vertices from file to texture. *Live*: from the push of
 such an extent to the pixels of 50 viewers. *Page*: bytes of all steps and of the exported page, its first picture.
