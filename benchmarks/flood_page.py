@@ -158,6 +158,7 @@ def opened(browser: Any, made: Made, step: int, *, flat: bool) -> Iterator[Any]:
     page.set_default_timeout(PATIENCE)
     page.goto(f"{made.page.as_uri()}?bare")
     page.evaluate("vexture.flood.ready")
+    page.evaluate("vexture.flood.freeze(0)")  # else its waves take the processor from all others
     page.evaluate("(step) => vexture.flood.step(step)", step)
     if flat:
         page.evaluate("() => { vexture.flood.relief(0); vexture.flood.flat(true); }")
