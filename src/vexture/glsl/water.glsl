@@ -21,26 +21,34 @@ struct VextureWater {
     vec2 dy;
 };
 
-// Parameters: those of vextureCoverage. All lookups are rounds of one loop: who needs none pays for none.
+// Parameters: those of vextureCoverage. All lookups are rounds of one loop, so that who needs none pays for none: the
+// wide footprint first, and the pixel's own only where the wide one has met an outline.
 VextureWater vextureWater(vec2 uv, vec2 dx, vec2 dy) {
     vec2 reach = abs(dx) + abs(dy);
     float box = 2.0 * vextureShore;
-    float clarity = vextureShore > 0.0 ? clamp(2.0 - 2.0 * max(reach.x, reach.y) / box, 0.0, 1.0) : 0.0;
-    float coverage = 0.0;
+    float clarity = box > 0.0 ? clamp(2.0 - 2.0 * max(reach.x, reach.y) / box, 0.0, 1.0) : 0.0;
+    bool wide = clarity > 0.0;
+    bool near = false;
     float around = 0.0;
-    int lookups = vextureShapes;
-    for (int i = 0; i < lookups; i++) {
-        bool wide = i >= vextureShapes;
-        int shape = wide ? i - vextureShapes : i;
+    float coverage = 0.0;
+    int shape = 0;
+    while (shape < vextureShapes) {
         vexture_first_row = vextureRows[shape];
+        vexture_levels_below = wide ? VEXTURE_LEVELS_BELOW - 1 : VEXTURE_LEVELS_BELOW;
+        vexture_is_plain = true;
         vec2 right = wide ? vec2(box, 0.0) : dx;
         vec2 up = wide ? vec2(0.0, box) : dy;
-        float more = vextureShares[shape] * vextureWrapped(vextureQuads[shape], uv, right, up);
-        coverage += wide ? 0.0 : more;
-        around += wide ? more : 0.0;
-        lookups += i == vextureShapes - 1 && coverage > 0.0 && clarity > 0.0 ? vextureShapes : 0;
+        float more = vextureWrapped(vextureQuads[shape], uv, right, up);
+        coverage += vextureShares[shape] * (vexture_is_plain ? round(more) : more);
+        near = near || (wide && !vexture_is_plain);
+        shape++;
+        bool again = wide && near && shape == vextureShapes;
+        wide = wide && !again;
+        around = again ? coverage : around;
+        coverage = again ? 0.0 : coverage;
+        shape = again ? 0 : shape;
     }
-    float offshore = lookups > vextureShapes ? mix(1.0, clamp(2.0 * around - 1.0, 0.0, 1.0), clarity) : 1.0;
+    float offshore = near ? mix(1.0, clamp(2.0 * around - 1.0, 0.0, 1.0), clarity) : 1.0;
     float widths = vextureShore > 0.0 ? 1.0 / vextureShore : 0.0;
     return VextureWater(coverage, offshore, smoothstep(0.2, 0.45, around), uv * widths, dx * widths, dy * widths);
 }
@@ -55,11 +63,11 @@ float vextureShallows(VextureWater water) {
 // can be none nothing is looked up.
 float vextureFoam(VextureWater water, sampler2D normals, float seconds) {
     float foam = 0.0;
-    int rounds = water.offshore < 1.0 && water.openness > 0.0 ? 1 : 0;
-    for (int i = 0; i < rounds; i++) {
+    if (water.coverage > 0.0 && water.offshore < 1.0 && water.openness > 0.0) {
         float drift = seconds / vextureLapping;
-        vec4 broad = textureGrad(normals, 0.11 * water.place + 0.013 * drift, 0.11 * water.dx, 0.11 * water.dy);
-        vec4 fine = textureGrad(normals, 0.73 * water.place - 0.027 * drift, 0.73 * water.dx, 0.73 * water.dy);
+        float pixel = log2(float(textureSize(normals, 0).x)) + 0.5 * log2(length(water.dx) * length(water.dy) + 1e-20);
+        vec4 broad = textureLod(normals, 0.11 * water.place + 0.013 * drift, pixel - 3.2);
+        vec4 fine = textureLod(normals, 0.73 * water.place - 0.027 * drift, pixel - 0.45);
         float bent = water.offshore + 0.5 * (broad.x - 0.5) * smoothstep(0.0, 0.3, water.offshore);
         float behind = fract(2.5 * bent + drift + broad.y);
         float line = smoothstep(1.0, 0.93, behind) * pow(1.0 - behind, 2.5) * smoothstep(0.95, 0.35, bent);

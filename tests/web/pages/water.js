@@ -1,7 +1,7 @@
 // A bay with a beach, drawn one picture at a time as a test describes it.
 import * as THREE from 'three';
 import { Water } from 'three/addons/objects/Water.js';
-import { VectorTextureLoader, VextureError } from 'vexture';
+import { VectorTextureLoader } from 'vexture';
 import { SimpleWater, VectorWater, waterNormals } from 'vexture/water';
 
 const SIDE = 100; // of the plane, whose uv are the unit square
@@ -121,7 +121,29 @@ function rasterOf(texture) {
   return raster;
 }
 
-async function waterOf({ water = 'vector', texture = 'bay', options = {}, time = 3 }) {
+// The same water by two lookups in an image of the shape.
+const RASTER = `uniform sampler2D raster;
+VextureWater rasterWater(vec2 uv, vec2 dx, vec2 dy) {
+  vec2 reach = abs(dx) + abs(dy);
+  float box = 2.0 * vextureShore;
+  float clarity = clamp(2.0 - 2.0 * max(reach.x, reach.y) / box, 0.0, 1.0);
+  float coverage = texture2D(raster, uv).r;
+  float around = textureGrad(raster, uv, vec2(box, 0.0), vec2(0.0, box)).r;
+  float offshore = mix(1.0, clamp(2.0 * around - 1.0, 0.0, 1.0), clarity);
+  float widths = 1.0 / vextureShore;
+  return VextureWater(coverage, offshore, smoothstep(0.2, 0.45, around), uv * widths, dx * widths, dy * widths);
+}
+void main() {`;
+
+function rastered(water) {
+  const { material } = water;
+  material.fragmentShader = material.fragmentShader
+    .replace('void main() {', RASTER)
+    .replace('= vextureWater(', '= rasterWater(');
+  material.uniforms.raster = { value: rasterOf(water.texture) };
+}
+
+async function waterOf({ water = 'vector', texture = 'bay', options = {}, time = 3, patch = [] }) {
   if (water === 'none') return new THREE.Group();
   const own = { waterNormals: normals, ...LOOK, ...options };
   let mesh;
@@ -133,6 +155,11 @@ async function waterOf({ water = 'vector', texture = 'bay', options = {}, time =
     const kind = water === 'simple' ? SimpleWater : VectorWater;
     mesh = new kind(planeOf(), texture && (await textureOf(texture)), own);
     mesh.time = time;
+    if (water === 'raster') rastered(mesh);
+    for (const [from, to] of patch) {
+      if (!mesh.material.fragmentShader.includes(from)) throw new Error(`the shader lacks ${from}`);
+      mesh.material.fragmentShader = mesh.material.fragmentShader.replace(from, to);
+    }
   }
   return mesh;
 }
@@ -204,4 +231,23 @@ async function times(configs, rounds, frames) {
   return found;
 }
 
-window.page = { draw, changes, times, rasterOf, textureOf, build, rendererOf, THREE, VextureError };
+// Frames of some kept scenes, whose cost somebody measures.
+let kept = [];
+
+async function keep(configs) {
+  kept = [];
+  for (const config of configs) kept.push(await build(config));
+  rendererOf(configs[0]);
+}
+
+function frames(i, count) {
+  const { scene, camera, water } = kept[i];
+  const gl = renderer.getContext();
+  for (let frame = 0; frame < count; frame++) {
+    if ('time' in water) water.time = 3 + frame / 60;
+    renderer.render(scene, camera);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  }
+}
+
+window.page = { keep, frames, draw, changes, times };
