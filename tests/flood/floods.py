@@ -3,32 +3,14 @@
 import json
 import re
 import subprocess
-import sys
 from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
-import pytest
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "live"))
-
-from server import COMMAND, TOKEN, Server  # noqa: E402  # of the tests of servers
+from server import COMMAND, TOKEN, Server
 
 BOUNDS = (500000.0, 4000000.0, 504000.0, 4002000.0)
 CRS = "EPSG:32610"
-
-__all__ = ["BOUNDS", "CRS", "TOKEN", "depths", "flood", "flooding", "geotiff", "scene_of", "sea"]
-
-
-@pytest.fixture(autouse=True)
-def page_is_built():
-    from vexture.errors import DeviceError
-    from vexture.live.page import FLOOD, built
-
-    try:
-        built(FLOOD.script)
-    except DeviceError as error:
-        pytest.skip(str(error))
 
 
 def sea(path, east=0.5, crs=CRS, bounds=BOUNDS):
@@ -52,12 +34,13 @@ def depths(east=0.5, rows=20, columns=40, deep=2.0):
 
 def geotiff(path, values, crs=CRS, bounds=BOUNDS, **profile):
     import rasterio
-    from rasterio.transform import from_bounds
+
+    from vexture.flood.grids import pixels_to
 
     values = np.asarray(values)
     bands = values if values.ndim == 3 else values[None]
     count, rows, columns = bands.shape
-    place = {"transform": from_bounds(*bounds, columns, rows)} if bounds else {}
+    place = {"transform": pixels_to(bounds, (columns, rows))} if bounds else {}
     with rasterio.open(
         path,
         "w",

@@ -1,11 +1,14 @@
 """A page of a flood with everything in it: a bay made of formulas, in three steps of rising water."""
 
 import base64
+import hashlib
+import html
 import io
 import json
 import subprocess
 import tempfile
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +35,7 @@ PAGE = """<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="{policy}">
+{policy}
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
 <title>{title}</title><link rel="icon" href="data:,">
@@ -74,7 +77,7 @@ def wet(level: float) -> Drawing:
     contours = [
         points[start : end - 1].tolist()
         for points, offsets in zip(*found, strict=True)
-        for start, end in zip(offsets[:-1], offsets[1:], strict=True)
+        for start, end in pairwise(offsets)
     ]
     if not contours:
         return Drawing(())
@@ -210,16 +213,14 @@ def built() -> tuple[str, str]:
     return script, style
 
 
-def write_page(path: Path, what: dict[str, Any]) -> Path:
+def write_page(path: Path, what: dict[str, Any], *, policy: bool = True) -> Path:
     """Write the page of a scene, with the policy that exported pages have."""
-    import hashlib
-    import html
-
     script, css = built()
     script = script.replace("</script", "<\\/script").replace("<!--", "<\\x21--")
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
-    policy = html.escape(EXPORTED_POLICY.format(script=f"'sha256-{digest}'"))
+    rules = EXPORTED_POLICY.format(script=f"'sha256-{digest}'")
+    meta = f'<meta http-equiv="Content-Security-Policy" content="{html.escape(rules)}">' if policy else ""
     text = json.dumps(what).replace("<", "\\u003c")
     title = html.escape(what["flood"]["title"])
-    path.write_text(PAGE.format(policy=policy, css=css, scene=text, script=script, title=title), encoding="utf-8")
+    path.write_text(PAGE.format(policy=meta, css=css, scene=text, script=script, title=title), encoding="utf-8")
     return path

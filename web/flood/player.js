@@ -11,7 +11,6 @@ const PACE = 1000;
  * begins or ends, `failed` with the error in its `detail`.
  */
 export class Player extends EventTarget {
-  #steps;
   #show;
   #prepare;
   #turn = 0;
@@ -32,14 +31,14 @@ export class Player extends EventTarget {
    */
   constructor(steps, { show, prepare }) {
     super();
-    this.#steps = steps;
+    this.steps = steps;
     this.#show = show;
     this.#prepare = prepare;
     steps.addEventListener('names', () => this.#renamed());
   }
 
   get names() {
-    return this.#steps.names;
+    return this.steps.names;
   }
 
   get count() {
@@ -107,7 +106,7 @@ export class Player extends EventTarget {
 
   /** @param {string} name */
   async #ready(name) {
-    const step = await this.#steps.open(name);
+    const step = await this.steps.open(name);
     this.#labels.set(name, labelOf(step.manifest, name));
     this.#prepare(step);
     return step;

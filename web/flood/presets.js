@@ -31,6 +31,8 @@ export const FIELD = 42;
 const NEAR = Object.freeze({ Coast: [23, 56, 44, 7], Shore: [11, 72, 14, 2.5] });
 /** Of the one who stands on the beach: height of the eyes, how far inland, degrees to the side, how far down. */
 const BEACH = Object.freeze({ eyes: 0.62, inland: 1.3, side: 32, down: 7 });
+/** The same for a picture that is higher than wide: along the shore, so that there is land in it. */
+const TALL = Object.freeze({ side: 60, down: 9 });
 /** Degrees: height of the sun, and how far to the side of the sea's direction. */
 const SUN = Object.freeze({ up: 34, side: 14 });
 /** How much more than the box is seen where all of it is. */
@@ -82,8 +84,9 @@ export function pose(preset, stand) {
   if (preset === 'Beach') {
     const [x, z] = [px - sx * BEACH.inland, pz - sz * BEACH.inland];
     const eyes = Math.max(height(x, z), 0) + BEACH.eyes;
-    const angle = sea + landSide(stand, BEACH.side) * radians(BEACH.side);
-    const to = { x: x + AHEAD * Math.sin(angle), y: eyes - AHEAD * Math.tan(radians(BEACH.down)), z: z + AHEAD * Math.cos(angle) };
+    const { side, down } = aspect < 0.9 ? TALL : BEACH;
+    const angle = sea + landSide(stand, BEACH.side) * radians(side);
+    const to = { x: x + AHEAD * Math.sin(angle), y: eyes - AHEAD * Math.tan(radians(down)), z: z + AHEAD * Math.cos(angle) };
     return { from: { x, y: eyes, z }, to };
   }
   const [up, side, away, out] = NEAR[preset];

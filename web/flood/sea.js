@@ -9,7 +9,7 @@ import { gridGeometry, LEAST_RISE, wallGeometry } from './land.js';
 
 const LOOK = Object.freeze({
   waterColor: 0x0d6480, sunColor: 0x7f8f98, distortionScale: 1.8, size: 15, shallow: 0x62b7aa, clipBias: 0.002,
-  sky: 0x6aa3d8, horizon: 0xdfeaf0,
+  sky: 0x86b2d6, horizon: 0xd3e2ec,
 });
 const FOAM = Object.freeze({ width: 0.015, period: 6 });
 /** Milliseconds of a cross-fade. */

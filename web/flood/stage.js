@@ -26,7 +26,6 @@ const STILL = matchMedia('(prefers-reduced-motion: reduce)');
  * Events: `frame` after each picture, `moved` when the camera stands elsewhere, `lost` and `restored` of the driver.
  */
 export class Stage extends EventTarget {
-  #surface;
   #stand;
   #sky;
   #background = new Color(FLAT.ground);
@@ -51,7 +50,7 @@ export class Stage extends EventTarget {
   constructor(canvas, surface, { picture, sea, stand }) {
     super();
     this.canvas = canvas;
-    this.#surface = surface;
+    this.surface = surface;
     this.#stand = stand;
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.camera = new PerspectiveCamera(FIELD, 1, 0.05, 2 * SKY);
@@ -129,7 +128,7 @@ export class Stage extends EventTarget {
 
   /** Times that heights are exaggerated. @param {number} times */
   relief(times) {
-    this.#surface.exaggeration = times;
+    this.surface.exaggeration = times;
     this.#settle();
     this.requestFrame();
   }
@@ -140,7 +139,7 @@ export class Stage extends EventTarget {
     const { left = 0, top = 0, right = 0, bottom = 0 } = this.inset();
     const free = Math.max(height - top - bottom, 1);
     const low = this.land.floor - Tray.down;
-    const high = this.#surface.relief.highest * this.#surface.rise;
+    const high = this.surface.relief.highest * this.surface.rise;
     return pose(preset, { ...this.#stand, low, high, aspect: Math.max(width - left - right, 1) / free, share: free / height });
   }
 
@@ -176,9 +175,9 @@ export class Stage extends EventTarget {
       if (share >= 1) this.#flight = null;
     } else this.controls.update();
     const { position, near } = this.camera;
-    const { width, depth } = this.#surface.places;
+    const { width, depth } = this.surface.places;
     const isOver = Math.abs(position.x) <= width / 2 + 3 && Math.abs(position.z) <= depth / 2 + 3;
-    const below = isOver ? this.#surface.height(position.x, position.z) : this.land.floor;
+    const below = isOver ? this.surface.height(position.x, position.z) : this.land.floor;
     if (position.y < below + CLEARANCE) position.y = below + CLEARANCE;
     const wanted = Math.min(Math.max((position.y - below) / 6, 0.04), 4);
     if (Math.abs(wanted / near - 1) > 0.01) {

@@ -1,8 +1,9 @@
-import { Color, InstancedBufferAttribute, Vector2 } from 'three';
+import { Color, InstancedBufferAttribute } from 'three';
 import { MOST_ROWS } from '../generated/layout.js';
 import { VextureError } from './errors.js';
 import { check, insert, takePart } from './hooks.js';
 import { MaskedMesh } from './mask-mesh.js';
+import { lookedUp } from './mask-lookup.js';
 import { checkOptions, complete, isTranslucent } from './mask-options.js';
 import { ROOT_ATTRIBUTE, texts, thesisReader } from './mask-shader.js';
 
@@ -10,9 +11,6 @@ import { ROOT_ATTRIBUTE, texts, thesisReader } from './mask-shader.js';
 /** @typedef {import('./mask-shader.js').Variant} Variant */
 
 /** @typedef {import('./mask-options.js').MaskOptions} MaskOptions */
-
-/** Where clamped places end: the upper and right borders of the square are outside. */
-const BORDER = 2 ** -32;
 
 /** @type {WeakMap<import('three').Material, VectorMask>} */
 const MASKS = new WeakMap();
@@ -312,14 +310,9 @@ export class VectorMask {
    * @returns {boolean}
    */
   hits(u, v, root) {
-    const { mode, background, transform, wrap, invert, fold, time } = this.#options;
+    const { mode, background, invert } = this.#options;
     if (mode === 'mix' || (mode === 'paint' && background === 'own')) return true;
-    const place = new Vector2(u, v).applyMatrix3(transform);
-    if (fold) {
-      const folded = fold.at(place.x, place.y, time, wrap);
-      place.set(folded.u, folded.v);
-    }
-    const { x, y } = wrap === 'none' ? place : wrapped(place, wrap);
+    const { x, y } = lookedUp(u, v, this.#options);
     const first = root ?? this.#range.first;
     const end = root === undefined ? first + this.#range.count : root + 1;
     for (let shape = first; shape < end; shape++) {
@@ -401,17 +394,6 @@ function mapTransform(options) {
       return map?.matrix ?? transform;
     },
   };
-}
-
-/**
- * Place in the unit square that is shown at one outside of it.
- *
- * @param {Vector2} place
- * @param {'clamp' | 'repeat'} wrap
- */
-function wrapped(place, wrap) {
-  if (wrap === 'clamp') return place.clampScalar(0, 1 - BORDER);
-  return place.set(place.x - Math.floor(place.x), place.y - Math.floor(place.y));
 }
 
 /**

@@ -1,6 +1,6 @@
 """Grids over the frame: how much of each cell is wet, how far it is to the shore, values between cells."""
 
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vexture.drawing import Drawing
 from vexture.sources.frame import Frame
 
-__all__ = ["coverage_over", "filled", "noise", "sampled", "shore_distance", "size_for"]
+__all__ = ["coverage_over", "filled", "noise", "pixels_to", "sampled", "shore_distance", "size_for"]
 
 SEED: Final = 4626
 """Of all that is random here: two runs make the same page."""
@@ -24,6 +24,22 @@ def size_for(frame: Frame, longest: int) -> tuple[int, int]:
     """
     columns, rows = (max(2, round(longest * side / max(frame.metres))) for side in frame.metres)
     return columns, rows
+
+
+def pixels_to(bounds: tuple[float, float, float, float], size: tuple[int, int]) -> Any:
+    """Affine map of rasterio from columns and rows to a box.
+
+    Parameters
+    ----------
+    bounds : tuple of float
+        West, south, east, north.
+    size : tuple of int
+        Columns and rows.
+    """
+    from rasterio import Affine
+
+    west, south, east, north = bounds
+    return Affine((east - west) / size[0], 0.0, west, 0.0, (south - north) / size[1], north)
 
 
 def coverage_over(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from vexture.errors import LimitError, SourceError
+from vexture.flood.grids import pixels_to
 from vexture.sources.frame import Frame
 
 if TYPE_CHECKING:
@@ -151,7 +152,6 @@ def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Imag
 def _bands_over(raster: Any, frame: Frame) -> tuple[Any, Any]:
     """Bands of a raster on the frame, and where it has any, 0 to 255."""
     from rasterio.enums import ColorInterp, Resampling
-    from rasterio.transform import from_bounds
     from rasterio.vrt import WarpedVRT
     from rasterio.warp import transform_bounds
 
@@ -162,7 +162,7 @@ def _bands_over(raster: Any, frame: Frame) -> tuple[Any, Any]:
     colours = [n for n, what in enumerate(raster.colorinterp, 1) if what != ColorInterp.alpha][:3]
     options: dict[str, Any] = {
         "crs": frame.crs,
-        "transform": from_bounds(*frame.bounds, *size),
+        "transform": pixels_to(frame.bounds, size),
         "width": size[0],
         "height": size[1],
         "resampling": Resampling.nearest if raster.colorinterp[0] == ColorInterp.palette else Resampling.bilinear,

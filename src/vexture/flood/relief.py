@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import SourceError
-from vexture.flood.grids import coverage_over, filled, noise, sampled, shore_distance, size_for
+from vexture.flood.grids import coverage_over, filled, noise, pixels_to, sampled, shore_distance, size_for
 from vexture.sources.extent import Extent, Step
 from vexture.sources.frame import Frame
 
@@ -178,12 +178,11 @@ def _heights_of(path: Path, frame: Frame, size: tuple[int, int], crs: str | None
     import rasterio
     from rasterio.enums import Resampling
     from rasterio.errors import CRSError, RasterioError, RasterioIOError
-    from rasterio.transform import from_bounds
     from rasterio.warp import reproject
 
     west, south, east, north = frame.bounds
     half_x, half_y = (east - west) / (size[0] - 1) / 2, (north - south) / (size[1] - 1) / 2
-    target = from_bounds(west - half_x, south - half_y, east + half_x, north + half_y, *size)
+    target = pixels_to((west - half_x, south - half_y, east + half_x, north + half_y), size)
     heights = np.full(size[::-1], np.nan, np.float32)
     try:
         with warnings.catch_warnings():

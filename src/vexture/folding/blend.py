@@ -66,7 +66,7 @@ def fold(now: Numbers, wrap: str, base: NDArray[np.uint32], offset: Numbers, dx:
     moved, along_x, along_y = np.zeros((3, *offset.shape))
     for i in range(3):
         for j in range(3):
-            at = middle + (i - 1, j - 1)
+            at = middle + np.array([i - 1, j - 1])
             at = (at + size) % size if wrap == "repeat" else np.clip(at, 0, size - 1)
             displaced = now[size[1] - 1 - at[:, 1], at[:, 0]]
             moved += (weights[i][:, 0] * weights[j][:, 1])[:, None] * displaced

@@ -1,7 +1,7 @@
 """`Fold`: where a shape is looked up, moving with time (thesis 4.6.2), as an array, as a file and as a function."""
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any, Final
 
@@ -73,9 +73,9 @@ class Fold:
     """
 
     displacement: NDArray[np.float32]
-    kind: NDArray[np.uint8] = field(default=Kind.LINEAR)  # type: ignore[assignment]
-    begin: NDArray[np.float64] = field(default=0.0)  # type: ignore[assignment]
-    duration: NDArray[np.float64] = field(default=1.0)  # type: ignore[assignment]
+    kind: NDArray[np.uint8] = Kind.LINEAR  # type: ignore[assignment]
+    begin: NDArray[np.float64] = 0.0  # type: ignore[assignment]
+    duration: NDArray[np.float64] = 1.0  # type: ignore[assignment]
     cycle: float = 0.0
 
     def __post_init__(self) -> None:
@@ -240,7 +240,7 @@ def _read_facts(text: str) -> tuple[int, int, float]:
         if type(facts.get(name)) is not int or not 1 <= facts[name] <= layout.FOLD_MOST_SIDE:
             found = repr(facts.get(name))[:60]
             raise FormatError(f"{name} is {found}; it must be 1 to {layout.FOLD_MOST_SIDE}; {REMEDY}")
-    cycle = facts.get("cycle")
+    cycle: Any = facts.get("cycle")
     if type(cycle) not in (int, float) or not 0 <= cycle <= layout.FOLD_MOST_SECONDS:
         raise FormatError(f"cycle is {repr(cycle)[:60]}; it must be 0 to {layout.FOLD_MOST_SECONDS}; {REMEDY}")
     return facts["columns"], facts["rows"], float(cycle)
@@ -260,4 +260,4 @@ def _unpacked(texels: NDArray[np.uint32], columns: int, rows: int, cycle: float)
     displacement = np.ascontiguousarray(words[..., :2]).view(np.float32)
     kind = words[..., 2] >> np.uint32(layout.FOLD_KIND_SHIFT)
     begin = (words[..., 2] & np.uint32((1 << layout.FOLD_KIND_SHIFT) - 1)) / layout.FOLD_TICKS
-    return Fold(displacement, kind, begin, words[..., 3] / layout.FOLD_TICKS, cycle)  # type: ignore[arg-type]
+    return Fold(displacement, kind, begin, words[..., 3] / layout.FOLD_TICKS, cycle)

@@ -1,4 +1,4 @@
-"""The one owner of the fold texture's bits (FORMAT.md, part C); the shader and the web get their constants from here."""
+"""The one owner of the fold texture's bits (FORMAT.md, part C); shader and web get their constants from here."""
 
 from typing import Final
 

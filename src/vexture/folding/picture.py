@@ -99,7 +99,8 @@ def _grown(values: NDArray[Any], size: int) -> NDArray[Any]:
     """Texels as squares of a picture."""
     rows, columns = values.shape[:2]
     at = np.arange(size)
-    return values[(at * rows // size)[:, None], at * columns // size]
+    grown: NDArray[Any] = values[(at * rows // size)[:, None], at * columns // size]
+    return grown
 
 
 def _hue(turn: Pixels) -> Pixels:
@@ -146,7 +147,7 @@ def _draw_arrows(draw: Any, fold: Fold, size: int, largest: float) -> None:
             if length < 2.0:
                 continue
             tail = np.array([(column + 0.5) / columns, (row + 0.5) / rows]) * size
-            tip = tail + (x, y)
+            tip = tail + np.array([x, y])
             along, across = np.array([x, y]) / length, np.array([-y, x]) / length
             head = min(6.0, 0.5 * length)
             barbs = [tuple(tip - head * along + side * 0.5 * head * across) for side in (-1.0, 1.0)]

@@ -28,7 +28,7 @@ REACH_AMPLITUDES: Final = 2.5
 """How far the movement goes inland and offshore, if nobody says, is the larger of these."""
 
 SOFT: Final = 0.35
-"""A shore whose blurred gradient is this part of a straight one's still moves by three quarters of the amplitude or more."""
+"""Where the blurred slope is this part of a straight shore's, as on small islands, shores move two thirds as far."""
 
 MARGIN: Final = 1 / 16
 """Over this part of the square's side, from its border on, the movement grows from nothing."""
@@ -140,16 +140,18 @@ def _normals(drawing: "Drawing", size: int, reach: float) -> NDArray[np.float64]
     rise = np.clip(side / MARGIN, 0.0, 1.0)
     taper = rise * rise * (3.0 - 2.0 * rise)
     strength = np.minimum((1.0 + SOFT) / (length + SOFT), 1.0 / np.maximum(length, 1.0))
-    return normals * strength * (taper[:, None] * taper)[..., None]
+    found: NDArray[np.float64] = normals * strength * (taper[:, None] * taper)[..., None]
+    return found
 
 
 def _phases(size: int, amplitude: float) -> NDArray[np.float64]:
     """Parts of a period by which places are late, (rows, columns)."""
     x, y = _middles(size)[None, :], _middles(size)[::-1, None]
-    slope = sum(2.0 * np.pi * height * np.hypot(right, up) for height, right, up, _ in WAVES)
-    scale = min(1.0, PHASE_SLOPE / (2.0 * np.pi * amplitude * slope))
-    waves = (height * np.sin(2.0 * np.pi * (right * x + up * y + start)) for height, right, up, start in WAVES)
-    return scale * np.sum([*waves], axis=0)
+    slope = sum(2.0 * np.pi * height * float(np.hypot(right, up)) for height, right, up, _ in WAVES)
+    phases = np.zeros((size, size))
+    for height, right, up, start in WAVES:
+        phases += height * np.sin(2.0 * np.pi * (right * x + up * y + start))
+    return min(1.0, PHASE_SLOPE / (2.0 * np.pi * amplitude * slope)) * phases
 
 
 def _steepest(displacement: NDArray[np.float64], phase: NDArray[np.float64]) -> float:

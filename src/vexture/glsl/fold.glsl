@@ -42,14 +42,14 @@ float vexture_progress(uvec4 texel) {
 // footprint along. The place within the texel comes from the fixed point, whose digits a float would lose.
 VextureFolded vextureFold(uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     ivec2 size = textureSize(vextureFolding, 0);
-    uvec2 low = (base & 65535u) * uvec2(size);
+    uvec2 low = (base & 0xffffu) * uvec2(size);
     uvec2 high = (base >> 16) * uvec2(size) + (low >> 16);
 #if VEXTURE_WRAP == VEXTURE_WRAP_REPEAT
     vec2 near = offset - floor(offset);
 #else
     vec2 near = clamp(offset, -2.0, 2.0);
 #endif
-    vec2 part = (vec2(ivec2(high & 65535u)) + vec2(ivec2(low & 65535u)) / 65536.0) / 65536.0 + near * vec2(size);
+    vec2 part = (vec2(ivec2(high & 0xffffu)) + vec2(ivec2(low & 0xffffu)) / 65536.0) / 65536.0 + near * vec2(size);
     vec2 whole = floor(part);
     ivec2 middle = ivec2(high >> 16) + ivec2(whole);
     vec2 t = part - whole - 0.5;

@@ -172,12 +172,13 @@ def _when(step: Step, label: str) -> dict[str, str | None]:
 def _small_tiff(frame: Frame) -> bytes:
     """A raster of depths over a frame, half of it wet."""
     from rasterio.io import MemoryFile
-    from rasterio.transform import from_bounds
+
+    from vexture.flood.grids import pixels_to
 
     with MemoryFile() as file:
         with file.open(
             driver="GTiff", width=4, height=4, count=1, dtype="float32", crs=frame.crs,
-            transform=from_bounds(*frame.bounds, 4, 4),
+            transform=pixels_to(frame.bounds, (4, 4)),
         ) as raster:  # fmt: skip
             raster.write(np.tile(np.array([0, 0, 1, 1], np.float32), (4, 1)), 1)
         return bytes(file.read())

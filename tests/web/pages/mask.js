@@ -1,8 +1,9 @@
 // Scenes with masked materials, drawn one at a time as a test describes them.
 import * as THREE from 'three';
-import { VectorMaterial, VectorTextureLoader, VextureError, applyVectorMask, rootAttribute } from 'vexture';
+import { FoldTexture, VectorMaterial, VectorTextureLoader, VextureError, applyVectorMask, rootAttribute } from 'vexture';
 
 const textures = {};
+const folds = {};
 const renderers = {};
 
 const loader = new VectorTextureLoader();
@@ -14,6 +15,14 @@ function load(name) {
 async function textureOf(name) {
   textures[name] ??= await load(name);
   return textures[name];
+}
+
+// Options of a mask whose fold is named.
+async function folded(mask) {
+  if (typeof mask?.fold !== 'string') return mask;
+  const file = `${mask.fold}.fold.ktx2`;
+  folds[file] ??= await FoldTexture.parse(await (await fetch(file)).arrayBuffer(), file);
+  return { ...mask, fold: folds[file] };
 }
 
 function rendererOf({ logarithmicDepthBuffer = false }) {
@@ -90,14 +99,15 @@ async function build(config) {
   scene.add(light, new THREE.AmbientLight(0xffffff, 0.5));
   let material;
   let mask = null;
+  const options = await folded(config.mask);
   if (config.material === 'VectorMaterial') {
-    material = new VectorMaterial({ texture, ...completed(config.parameters), ...completed(config.mask) });
+    material = new VectorMaterial({ texture, ...completed(config.parameters), ...completed(options) });
     if (config.clone) material = material.clone();
     mask = material.mask;
   } else {
     material = new THREE[config.material ?? 'MeshBasicMaterial'](completed(config.parameters ?? {}));
     if (config.chain) chain(material);
-    if (config.mask) mask = applyVectorMask(material, texture, completed(config.mask));
+    if (options) mask = applyVectorMask(material, texture, completed(options));
   }
   const mesh = meshOf(config, material, texture);
   if (mask) mask.attach(mesh);
@@ -135,6 +145,18 @@ async function draw(config) {
   const picture = render(config, built);
   const matrix = camera.projectionMatrix.clone().multiply(camera.matrixWorldInverse).multiply(mesh.matrixWorld);
   return { picture, matrix: matrix.elements };
+}
+
+// A picture for each time of the fold, and what rays through some places of the mesh meet then.
+async function frames(config, times, places = []) {
+  const built = await build(config);
+  const { mask, camera, mesh } = built;
+  const matrix = camera.projectionMatrix.clone().multiply(camera.matrixWorldInverse).multiply(mesh.matrixWorld);
+  const found = times.map((time) => {
+    mask.time = time;
+    return { picture: render(config, built), hits: places.map(([u, v]) => mask.hits(u, v)) };
+  });
+  return { frames: found, matrix: matrix.elements, programs: rendererOf(config).info.programs.length };
 }
 
 // The shadow of the shape on a ground below it, the shape itself not being seen.
@@ -236,4 +258,4 @@ async function refusals() {
   return outcomes;
 }
 
-window.page = { draw, shadow, rays, changes, loss, refusals, revision: THREE.REVISION };
+window.page = { draw, frames, shadow, rays, changes, loss, refusals, revision: THREE.REVISION };
