@@ -50,11 +50,17 @@ RASTER: Final = """([mask, side]) => {
     Object.assign(texture, { magFilter: 1006, minFilter: 1008, generateMipmaps: true, anisotropy: 16 });
     texture.needsUpdate = true;
     material.uniforms.rasterMask = { value: texture };
-    const found = /vextureWrapped\\(vextureQuads\\[shape\\], (.*?)\\)/;
-    if (!found.test(material.fragmentShader)) return false;
-    material.fragmentShader = material.fragmentShader
-        .replace(found, 'textureGrad(rasterMask, $1).r')
-        .replace('struct VextureWater', 'uniform sampler2D rasterMask;\\nstruct VextureWater');
+    const found = /vextureWrapped\\((vextureQuads\\[shape\\]),\\s*(.*?)\\)/;
+    const before = /VextureWater\\s+vextureWater\\s*\\(/;
+    const text = material.fragmentShader;
+    if (!found.test(text) || !before.test(text)) return false;
+    material.fragmentShader = text.replace(found, 'rasterCoverage($2)').replace(before, `uniform sampler2D rasterMask;
+        float rasterCoverage(vec2 uv, vec2 dx, vec2 dy) {
+            float coverage = textureGrad(rasterMask, uv, dx, dy).r;
+            vexture_is_plain = coverage <= 0.0 || coverage >= 1.0;
+            return coverage;
+        }
+        $&`);
     material.needsUpdate = true;
     return true;
 }"""
