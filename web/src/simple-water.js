@@ -20,6 +20,7 @@ import { WaterShape } from './water-shape.js';
  *   time?: number,
  *   side?: import('three').Side,
  *   fog?: boolean,
+ *   fold?: import('./fold-texture.js').FoldTexture | null,
  * }} SimpleWaterOptions those of `VectorWater`, of which the mirror's say nothing here; and the sky's colours above and
  *   at its edge, which this water mirrors instead of the scene
  */
@@ -61,5 +62,6 @@ export class SimpleWater extends watered(
       alpha: { value: alpha },
       time: { value: time },
     });
+    this.fold = options.fold ?? null;
   }
 }

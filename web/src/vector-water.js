@@ -9,7 +9,7 @@ import { WaterShape } from './water-shape.js';
 
 /**
  * @typedef {import('./water-shape.js').WaterShapeOptions & import('three/addons/objects/Water.js').WaterOptions
- *   & { size?: number }} VectorWaterOptions
+ *   & { size?: number, fold?: import('./fold-texture.js').FoldTexture | null }} VectorWaterOptions
  *   `size` is that of three.js' uniform: how small the waves are
  */
 
@@ -33,5 +33,6 @@ export class VectorWater extends watered(Water) {
     Object.assign(material.uniforms, this.shape.uniforms);
     material.uniforms.size.value = size;
     material.transparent = true;
+    this.fold = options.fold ?? null;
   }
 }

@@ -1,8 +1,10 @@
 // What all kinds of water are, whatever they look like: a mesh with a shape, in time.
 import { VextureError, line } from './errors.js';
+import { FOLD } from './water-shader.js';
 
 /** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
 /** @typedef {import('./water-shape.js').WaterShape} WaterShape */
+/** @typedef {import('./fold-texture.js').FoldTexture} FoldTexture */
 /** @typedef {import('three').ColorRepresentation} ColorRepresentation */
 /** @typedef {import('three').Mesh<import('three').BufferGeometry, import('three').ShaderMaterial>} WaterMesh */
 
@@ -30,6 +32,8 @@ export function watered(base) {
     shape = /** @type {any} */ (null);
     /** @type {import('three').Texture | null} waves that nobody else has */
     ownNormals = null;
+    /** @type {FoldTexture | null} */
+    ownFold = null;
 
     /** Where the water is: a texture, or null for no water at all. To set it ends a fade. */
     get texture() {
@@ -63,13 +67,33 @@ export function watered(base) {
       this.shape.fade = fade;
     }
 
-    /** Seconds: where the waves are. */
+    /** What moves the shore with time, or null. With one and without are two programs. */
+    get fold() {
+      return this.ownFold;
+    }
+
+    set fold(/** @type {FoldTexture | null} */ fold) {
+      if (fold && !fold.isFoldTexture) {
+        throw new VextureError(`fold is ${line(fold)}; load one by FoldTexture.parse`, 'fold');
+      }
+      const { uniforms, defines } = this.material;
+      if (Boolean(fold) !== FOLD in defines) this.material.needsUpdate = true;
+      if (fold) defines[FOLD] = '';
+      else delete defines[FOLD];
+      this.ownFold = fold;
+      uniforms.vextureFolding.value = fold?.texture ?? null;
+      uniforms.vextureCycle.value = fold?.cycle ?? 0;
+      this.time = this.time;
+    }
+
+    /** Seconds: where the waves and the fold are. */
     get time() {
       return this.material.uniforms.time.value;
     }
 
     set time(/** @type {number} */ seconds) {
       this.material.uniforms.time.value = seconds;
+      this.material.uniforms.vextureTime.value = this.ownFold?.clock(seconds) ?? 0;
     }
 
     /** The strip along the shore. */

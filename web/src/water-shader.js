@@ -1,8 +1,13 @@
 // What water adds to a shader: declarations, and lines that call the functions of src/vexture/glsl/water.glsl.
+import { fold } from '../generated/fold-shader.js';
 import { QUALITIES, WRAPS } from '../generated/shaders.js';
 import { water } from '../generated/water-shader.js';
+import { foldLines, footprint } from './mask-shader.js';
 
 /** @typedef {keyof typeof QUALITIES} Quality */
+
+/** What a program with a fold defines. */
+export const FOLD = 'VEXTURE_FOLD';
 
 const VARYINGS = 'varying vec2 vextureUv;\n';
 
@@ -14,7 +19,7 @@ const VARYINGS = 'varying vec2 vextureUv;\n';
 export function declarations(quality) {
   const chosen = `#define VEXTURE_QUALITY ${QUALITIES[quality]}\n#define VEXTURE_WRAP ${WRAPS.clamp}\n`;
   const colors = 'uniform vec4 vextureShallow;\nuniform vec4 vextureFoamColor;\nuniform vec4 vextureFlat;\n';
-  return `${VARYINGS}${colors}${chosen}${water}`;
+  return `${VARYINGS}${colors}${chosen}${water}#ifdef ${FOLD}\n${fold}#endif\n`;
 }
 
 /** What the vertex shader declares. */
@@ -24,14 +29,19 @@ export const VERTEX_DECLARE = `uniform mat3 vextureTransform;\n${VARYINGS}`;
 export const VERTEX_UV = 'vextureUv = (vextureTransform * vec3(uv, 1.0)).xy;';
 
 /** Where gl_FragColor is the water's light, in linear colour: shallows and foam. */
-export const LIGHT = `VextureWater vextureHere = vextureWater(vextureUv, dFdx(vextureUv), dFdy(vextureUv));
+export const LIGHT = `#ifdef ${FOLD}
+${foldLines({ fold })}VextureWater vextureHere = vextureWater(${footprint({ fold })});
+#else
+VextureWater vextureHere = vextureWater(${footprint({ fold: '' })});
+#endif
 gl_FragColor.rgb = vextureInshore(gl_FragColor.rgb, vextureHere, normalSampler, time, vextureShallow, vextureFoamColor);`;
 
 /**
  * Where gl_FragColor is what the canvas gets: the flat colour, and coverage, which changes nothing but alpha. What is
  * drawn is colour * alpha + ground * (1 - alpha) of values as the canvas holds them, that is encoded (sRGB).
  */
-export const LAST = `gl_FragColor = mix(gl_FragColor, vec4(linearToOutputTexel(vec4(vextureFlat.rgb, 1.0)).rgb, 1.0), vextureFlat.a);
+export const LAST = `vec4 vexturePlain = linearToOutputTexel(vec4(vextureFlat.rgb, 1.0));
+gl_FragColor = mix(gl_FragColor, vexturePlain, vextureFlat.a);
 gl_FragColor.a *= vextureHere.coverage;
 if (vextureHere.coverage == 0.0) discard;`;
 

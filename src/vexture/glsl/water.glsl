@@ -71,9 +71,10 @@ float vextureFoam(VextureWater water, sampler2D normals, float seconds) {
         float bent = water.offshore + 0.5 * (broad.x - 0.5) * smoothstep(0.0, 0.3, water.offshore);
         float behind = fract(2.5 * bent + drift + broad.y);
         float line = smoothstep(1.0, 0.93, behind) * pow(1.0 - behind, 2.5) * smoothstep(0.95, 0.35, bent);
-        float seam = smoothstep(0.14 + 0.1 * broad.y, 0.0, water.offshore);
+        float seam = smoothstep(0.12 + 0.2 * broad.y, 0.0, water.offshore);
+        float most = max(line, seam);
         float tear = 0.5 * (fine.x + fine.y) + 0.35 * (fine.z - 0.8);
-        foam = smoothstep(0.62, 0.38, tear - 0.34 * max(line, seam) + 0.25) * max(line, seam);
+        foam = smoothstep(0.62, 0.38, tear - 0.5 * most + 0.24) * most;
     }
     return water.openness * foam;
 }
@@ -99,7 +100,7 @@ vec3 vextureSea(VextureLight light, vec3 eye, vec3 place, float size, sampler2D 
     vec2 at = place.xz * size;
     vec3 one = texture(normals, at / 103.0 + seconds * vec2(0.049, 0.031)).xzy;
     vec3 other = texture(normals, at / 421.0 + seconds * vec2(-0.013, 0.017)).xzy;
-    vec3 normal = normalize((one + other - 1.0) * vec3(1.5, 1.0, 1.5));
+    vec3 normal = normalize((one + other - 1.0) * vec3(0.8, 1.0, 0.8));
     vec3 toEye = normalize(eye - place);
     float facing = max(dot(toEye, normal), 0.0);
     float reflectance = 0.02 + 0.98 * pow(1.0 - facing, 5.0);

@@ -139,7 +139,7 @@ function rastered(water) {
   const { material } = water;
   material.fragmentShader = material.fragmentShader
     .replace('void main() {', RASTER)
-    .replace('= vextureWater(', '= rasterWater(');
+    .replaceAll('= vextureWater(', '= rasterWater(');
   material.uniforms.raster = { value: rasterOf(water.texture) };
 }
 
