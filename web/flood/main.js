@@ -1,5 +1,7 @@
 /** The page of `vexture flood`: makes its elements, brings them together, and starts. */
 import { Matrix3, SRGBColorSpace, TextureLoader } from 'three';
+import { FoldTexture } from '../src/fold-texture.js';
+import { SimpleWater, chooseWater } from '../src/water.js';
 import { element } from '../viewer/dom.js';
 import { Notes } from '../viewer/notes.js';
 import { bytesOf } from '../viewer/scene.js';
@@ -10,7 +12,6 @@ import { PRESETS } from './presets.js';
 import { createReadout } from './readout.js';
 import { Relief, Surface } from './relief.js';
 import { readScene } from './scene.js';
-import { SimpleWater, chooseWater } from '../src/water.js';
 import { Sea } from './sea.js';
 import { Stage } from './stage.js';
 import { Steps } from './steps.js';
@@ -113,11 +114,12 @@ async function start() {
   const places = new Places(flood.frame);
   const surface = new Surface(Relief.read(flood.relief, await bytesOf(flood.relief.heights, document.baseURI)), places);
   const picture = await pictureOf(flood.ground);
+  const fold = flood.fold ? await FoldTexture.parse(await bytesOf(flood.fold, document.baseURI)) : null;
   const Water = matchMedia('(max-width: 720px)').matches ? SimpleWater : chooseWater();
   let stage;
   try {
     stage = new Stage(canvas, surface, {
-      picture, stand: standOf(flood, surface), sea: (sun) => new Sea(Water, surface, { transform: boxTransform(flood.frame), sun, mirror: MIRROR }),
+      picture, stand: standOf(flood, surface), sea: (sun) => new Sea(Water, surface, { transform: boxTransform(flood.frame), fold, sun, mirror: MIRROR }),
     });
   } catch (error) {
     console.warn(error);
@@ -126,11 +128,11 @@ async function start() {
       + 'acceleration in its settings.'));
     return;
   }
-  await run(stage, scene, surface);
+  await run(stage, scene, surface, fold);
 }
 
-/** @param {Stage} stage @param {import('./scene.js').Scene} scene @param {Surface} surface */
-async function run(stage, scene, surface) {
+/** @param {Stage} stage @param {import('./scene.js').Scene} scene @param {Surface} surface @param {FoldTexture | null} fold */
+async function run(stage, scene, surface, fold) {
   const { flood } = scene;
   const steps = new Steps(scene);
   const heard = listener();
@@ -149,7 +151,7 @@ async function run(stage, scene, surface) {
     stage.view(preset, how);
     panel.mark(preset);
   };
-  const readout = createReadout(stage, player, surface, null);
+  const readout = createReadout(stage, player, surface, fold);
   const panel = createPanel(stage, surface, { title: flood.title, notes: flood.notes, readout, viewed });
   stage.controls.addEventListener('start', () => panel.mark(null));
   listenToKeys(viewed, player);

@@ -38,7 +38,7 @@ export function createPanel(stage, surface, { title, notes, readout, viewed }) {
 /** @param {import('./stage.js').Stage} stage @param {import('./relief.js').Surface} surface */
 function reliefRow(stage, surface) {
   const most = Math.max(2, Math.ceil(surface.exaggeration * 2));
-  const value = element('output', {});
+  const value = element('span', { class: 'value' });
   const slider = element('input', {
     type: 'range', id: 'relief', 'aria-label': 'Relief', min: 0, max: most, step: most / 100, value: surface.exaggeration,
     oninput: () => {
@@ -48,8 +48,8 @@ function reliefRow(stage, surface) {
   });
   const follow = () => {
     const times = surface.exaggeration;
-    value.value = `${times < 10 ? times.toFixed(1) : Math.round(times)}×`;
-    slider.setAttribute('aria-valuetext', `heights ${value.value}`);
+    value.textContent = `${times < 10 ? times.toFixed(1) : Math.round(times)}×`;
+    slider.setAttribute('aria-valuetext', `heights ${value.textContent}`);
     if (document.activeElement !== slider) slider.value = String(times);
   };
   stage.addEventListener('relief', follow);

@@ -5,6 +5,7 @@ import { gridGeometry, LEAST_RISE, wallGeometry } from './land.js';
 
 /** @typedef {import('../src/vector-texture.js').VectorTexture} VectorTexture */
 /** @typedef {import('../src/vector-mask.js').VectorMask} VectorMask */
+/** @typedef {import('../src/fold-texture.js').FoldTexture} FoldTexture */
 /** @typedef {typeof import('../src/vector-water.js').VectorWater | typeof import('../src/simple-water.js').SimpleWater} Kind */
 
 const LOOK = Object.freeze({
@@ -20,6 +21,7 @@ const INWARD = 1e-3;
 export class Sea {
   #surface;
   #transform;
+  #fold;
   /** @type {VectorMask | null} */
   #mask = null;
   /** @type {{to: VectorTexture, begin: number} | null} */
@@ -29,14 +31,16 @@ export class Sea {
   /**
    * @param {Kind} Water
    * @param {import('./relief.js').Surface} surface
-   * @param {{transform: import('three').Matrix3, sun: import('three').Vector3, mirror: number}} how from the box to the
-   *   unit square; where the sun is; pixels of the mirror's sides
+   * @param {{transform: import('three').Matrix3, fold: FoldTexture | null, sun: import('three').Vector3,
+   *   mirror: number}} how from the box to the unit square; what moves the shore; where the sun is; pixels of the
+   *   mirror's sides
    */
-  constructor(Water, surface, { transform, sun, mirror }) {
+  constructor(Water, surface, { transform, fold, sun, mirror }) {
     this.#surface = surface;
     this.#transform = transform;
+    this.#fold = fold;
     this.water = new Water(gridGeometry(surface, (height) => Math.max(0, height)), null, {
-      ...LOOK, transform, foam: FOAM, sunDirection: sun, textureWidth: mirror, textureHeight: mirror,
+      ...LOOK, transform, fold, foam: FOAM, sunDirection: sun, textureWidth: mirror, textureHeight: mirror,
     });
     const { material } = this.water;
     material.polygonOffset = true; // over the ground on which it lies, whatever the rounding
@@ -79,7 +83,10 @@ export class Sea {
   /** @param {VectorTexture} texture */
   #wall(texture) {
     if (this.#mask) this.#mask.texture = texture;
-    else this.#mask = applyVectorMask(this.walls.material, texture, { transform: this.#transform, wrap: 'clamp' });
+    else {
+      const [transform, fold] = [this.#transform, this.#fold];
+      this.#mask = applyVectorMask(this.walls.material, texture, { transform, fold, wrap: 'clamp' });
+    }
     this.walls.visible = !this.#isFlat;
   }
 
@@ -109,6 +116,7 @@ export class Sea {
   /** Seconds, of waves and folds. */
   set time(/** @type {number} */ seconds) {
     this.water.time = seconds;
+    if (this.#mask) this.#mask.time = seconds;
   }
 
   /** The one colour of all water, or null. */

@@ -18,7 +18,7 @@ export function createTimeBar(player) {
     player.pause();
     void player.go(Number(slider.value));
   } });
-  const label = element('output', { class: 'when', 'aria-live': 'off' });
+  const label = element('span', { class: 'when' });
   const speed = element('select', { 'aria-label': 'Speed', title: 'Speed', onchange: () => {
     player.speed = Number(speed.value);
   } });
@@ -37,8 +37,8 @@ export function createTimeBar(player) {
     bar.hidden = count < 2;
     slider.max = String(count - 1);
     slider.value = String(index);
-    label.value = player.step ? player.label(index) : '';
-    slider.setAttribute('aria-valuetext', `${label.value}, step ${index + 1} of ${count}`);
+    label.textContent = player.step ? player.label(index) : '';
+    slider.setAttribute('aria-valuetext', `${label.textContent}, step ${index + 1} of ${count}`);
     before.disabled = index <= 0;
     after.disabled = index >= count - 1;
     const name = playing ? 'Pause' : 'Play';
