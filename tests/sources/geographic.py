@@ -1,11 +1,21 @@
 """Files of geographic data for tests, written by GDAL."""
 
+import sqlite3
 import warnings
 import zipfile
+from contextlib import closing
 
 import numpy as np
 import pyogrio
 import shapely
+
+UTM = "EPSG:32610"
+LAKE = shapely.Polygon(
+    [(587000, 4090000), (590000, 4089500), (591000, 4092000), (588000, 4093000)],
+    [[(588500, 4091000), (589500, 4091000), (589000, 4092000)]],
+)
+POND = shapely.Polygon([(592000, 4090000), (593000, 4090000), (592500, 4091000)])
+FORMATS = ["lake.gpkg", "lake.fgb", "lake.shp", "lake.zip", "lake.geojson"]
 
 SUFFIX = {"GPKG": ".gpkg", "FlatGeobuf": ".fgb", "ESRI Shapefile": ".shp", "GeoJSON": ".geojson"}
 
@@ -50,3 +60,31 @@ def land(drawing):
     outer = [piece for piece in pieces if piece.exterior.is_ccw]
     holes = [piece for piece in pieces if not piece.exterior.is_ccw]
     return shapely.difference(shapely.union_all(outer), shapely.union_all(holes))
+
+
+def file(folder, name, shapes=(LAKE, POND), crs=UTM, **options):
+    if name.endswith(".zip"):
+        return zipped(written((folder / name).with_suffix(".shp"), shapes, crs, **options))
+    return written(folder / name, shapes, crs, **options)
+
+
+def only(extent):
+    (step,) = extent.steps
+    assert (step.time, step.depth, extent.bed) == (None, None, None)
+    return step.drawing
+
+
+def same(drawing, shape, tolerance=1e-9):
+    return shapely.symmetric_difference(land(drawing), shape).area <= tolerance * shape.area
+
+
+def geopackage_of(path, head, numbers, kind="POLYGON"):
+    """GeoPackage of one geometry that shapely or GDAL would not write: the start of its WKB, then its coordinates."""
+    path = written(path, [POND], UTM, kind="Polygon", layer="one")
+    blob = b"GP\0\x01" + (32610).to_bytes(4, "little") + bytes.fromhex(head) + np.array(numbers, "<f8").tobytes()
+    with closing(sqlite3.connect(path)) as base, base:
+        for (trigger,) in base.execute("select name from sqlite_master where type = 'trigger'").fetchall():
+            base.execute(f'drop trigger "{trigger}"')
+        base.execute("update gpkg_geometry_columns set geometry_type_name = ?, z = 2, m = 2", (kind,))
+        base.execute("update one set geom = ?", (blob,))
+    return path

@@ -128,6 +128,7 @@ RINGS = (*FEATURES, "geometry", "coordinates", 1)
         (changed(*RINGS, 0, 2, value=["1", "2"]), r"ring 1, position 3 is \['1', '2'\]; it must be two numbers"),
         (changed(*RINGS, 0, 2, value=[True, 1]), "ring 1, position 3 is"),
         (changed(*RINGS, 0, 2, value=[1]), "ring 1, position 3 is"),
+        (changed(*RINGS, 0, value=[[1], [2], [3]]), "ring 1, position 1 is"),
         (
             changed(*RINGS, 0, 1, value=[float("nan"), 1]),
             r"feature 2, polygon 2, ring 1, position 2 is \[nan, 1\]",

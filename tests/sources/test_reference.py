@@ -102,6 +102,8 @@ def test_bounds_may_cross_the_antimeridian_and_stand_at_a_pole():
         ((1, 2, np.inf, 5), "EPSG:28992", "not finite"),
         ((5e5, 4e6, 6e5, 5e6), "EPSG:4326", "--crs"),
         ((0, 80, 1, 95), "EPSG:4326", "--crs"),
+        ((0, 0, 1e-9, 5), "EPSG:28992", "less narrow"),
+        ((-1e308, 0, 1e308, 5), "EPSG:28992", "less narrow"),
     ],
 )
 def test_bounds_that_hold_nothing_are_refused(bounds, crs, line):

@@ -3,20 +3,17 @@
 import os
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
+from vexture.sources.contours import HMIN
 from vexture.sources.frame import Frame
 from vexture.sources.reading import holds_depths, start_of
 
-__all__ = ["HMIN", "Extent", "Step", "read_extent"]
-
-HMIN: Final = 0.05
-"""Metres. Less water than this is none."""
+__all__ = ["Extent", "Step", "read_extent"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

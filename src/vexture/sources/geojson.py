@@ -19,7 +19,7 @@ from vexture.sources.reading import BYTE_ORDER_MARK
 from vexture.sources.svg_document import read_bytes
 from vexture.sources.svg_report import Report
 
-__all__ = ["Area", "areas_of", "read_geojson"]
+__all__ = ["LARGEST", "Area", "areas_of", "read_geojson"]
 
 MOST_POSITIONS: Final = 20_000_000
 LARGEST: Final = 1e15

@@ -21,11 +21,12 @@ from vexture.sources.reference import (
     refuse_metres,
     same_system,
     shown_bounds,
+    shown_system,
     system,
     transformed,
     transformed_bounds,
 )
-from vexture.sources.rings import Rings, cut, moved, oriented, refuse_infinite, repaired, unwrapped, within
+from vexture.sources.rings import Rings, cut, moved, oriented, refuse_far, repaired, unwrapped, within
 from vexture.sources.svg_report import Report
 from vexture.sources.vectors import read_areas
 from vexture.tolerance import CLOSED
@@ -94,7 +95,7 @@ def read_polygons(
     report = Report(file_name)
     rings, named = read_areas(source, file_name, layer, report)
     own = reference(crs, named)
-    refuse_infinite(rings, "a coordinate is not finite; correct it")
+    refuse_far(rings, "correct it")
     turn = period(own)
     if turn and len(rings.ends):
         refuse_metres(rings.points, own, f"the coordinates {shown_bounds(rings.box, own)}")
@@ -128,8 +129,9 @@ def _placed(rings: Rings, own: str, frame: Frame) -> Rings:
             rings = within(rings, reach, period(own))
             rings = cut(rings, reach)
         rings = moved(rings, lambda points: transformed(points, own, frame.crs), square, np.array([across, up]))
-        refuse_infinite(
-            rings, f"has no place in the reference system of the frame, {frame.crs[:60]}; choose other bounds"
+        refuse_far(
+            rings,
+            f"it has no place in the reference system of the frame, {shown_system(frame.crs)}; choose other bounds",
         )
         if turn:
             rings = unwrapped(rings, turn)
@@ -146,7 +148,7 @@ def _outside(rings: Rings, own: str, frame: Frame) -> str:
     if degrees and not system(own).is_geographic:
         return f"{text}; its coordinates look like degrees: give --crs EPSG:4326"
     if wanted and not system(frame.crs).is_geographic:
-        return f"{text}; the bounds look like degrees: give them in the units of {system(frame.crs).name}"
+        return f"{text}; the bounds look like degrees: give them in the units of {shown_system(frame.crs)}"
     return f"{text}; correct the bounds, or --crs"
 
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from vexture.errors import DeviceError, LimitError, SourceError, VextureError
 from vexture.sources.frame import Frame
+from vexture.tolerance import CLOSED
 
 if TYPE_CHECKING:
     from pyproj import CRS, Transformer
@@ -29,6 +30,7 @@ __all__ = [
     "refuse_metres",
     "same_system",
     "shown_bounds",
+    "shown_system",
     "system",
     "transformed",
     "transformed_bounds",
@@ -187,7 +189,18 @@ def shown_bounds(bounds: Bounds, crs: str) -> str:
     '4,52,4.12346,53 (EPSG:4326)'
     """
     numbers = ",".join(f"{value:.6g}" if abs(value) < 1e5 else f"{value:.0f}" for value in bounds)
-    return f"{numbers} ({crs if len(crs) <= 40 else system(crs).name})"
+    return f"{numbers} ({shown_system(crs)})"
+
+
+def shown_system(crs: str) -> str:
+    """System as a message names it.
+
+    Examples
+    --------
+    >>> shown_system("EPSG:4326"), shown_system(UNPLACED)
+    ('EPSG:4326', 'coordinates as they are')
+    """
+    return crs if len(crs) <= 40 else system(crs).name
 
 
 def refuse_metres(points: NDArray[np.float64], crs: str, what: str, error: type[VextureError] = SourceError) -> None:
@@ -240,7 +253,10 @@ def frame_around(bounds: Bounds, crs: str) -> Frame:
     if not (west < east and south < north):
         raise LimitError(f"the bounds {shown} hold nothing; the order is west,south,east,north")
     across, up = _metres((west + east) / 2, (south + north) / 2, crs)
-    return Frame((west, south, east, north), crs, ((east - west) * across, (north - south) * up))
+    metres = ((east - west) * across, (north - south) * up)
+    if not CLOSED * max(metres) < min(metres) < np.inf:
+        raise LimitError(f"the bounds {shown} are {metres[0]:g} x {metres[1]:g} m; give some that are less narrow")
+    return Frame((west, south, east, north), crs, metres)
 
 
 def _metres(x: float, y: float, crs: str) -> tuple[float, float]:

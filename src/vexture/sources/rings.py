@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import SourceError
+from vexture.sources.geojson import LARGEST
 from vexture.tolerance import ROUND
 
 if TYPE_CHECKING:
     from vexture.sources.svg_report import Report
 
-__all__ = ["Rings", "cut", "moved", "oriented", "refuse_infinite", "repaired", "rings_of", "unwrapped", "within"]
+__all__ = ["Rings", "cut", "moved", "oriented", "refuse_far", "repaired", "rings_of", "unwrapped", "within"]
 
 FULL_TURN: Final = 1.0 - 1e-9
 """Turns. A side this long goes once around the world on purpose: along a pole or the edge of a map."""
@@ -147,23 +148,25 @@ def rings_of(polygons: NDArray[Any], place: Callable[[int], str]) -> Rings:
     )
 
 
-def refuse_infinite(rings: Rings, what: str) -> None:
-    """Refuse coordinates that are not finite, by the name of their ring.
+def refuse_far(rings: Rings, remedy: str) -> None:
+    """Refuse coordinates that are not finite or too large, by the name of their ring.
 
     Parameters
     ----------
     rings : Rings
-    what : str
-        Says of such a coordinate what it is, and what to do.
+    remedy : str
+        Says what to do.
 
     Raises
     ------
     SourceError
         If there is one.
     """
-    finite = np.isfinite(rings.points).all(axis=1)
-    if not finite.all():
-        raise SourceError(f"{rings.where(int(finite.argmin()))}: {what}")
+    near = (np.abs(rings.points) <= LARGEST).all(axis=1)  # not a number is not
+    if not near.all():
+        point = int(near.argmin())
+        x, y = rings.points[point]
+        raise SourceError(f"{rings.where(point)}: a point is at {x:g},{y:g}; the limit is {LARGEST:g}; {remedy}")
 
 
 def unwrapped(rings: Rings, turn: float) -> Rings:
@@ -344,10 +347,10 @@ def moved(
         after = replace(rings, points=image, ends=ends).following
         low, high = np.minimum(image, image[after]), np.maximum(image, image[after])
         near = (low < box[2:]).all(axis=1) & (high > box[:2]).all(axis=1)
-        sides = np.flatnonzero(near & ((high - low) > SHORT * size).any(axis=1))
-        middles = (points[sides] + points[after[sides]]) / 2.0
-        mapped = mapping(middles)
-        with np.errstate(invalid="ignore"):  # infinite points are not divided any further
+        with np.errstate(invalid="ignore"):  # the caller refuses infinite points
+            sides = np.flatnonzero(near & ((high - low) > SHORT * size).any(axis=1))
+            middles = (points[sides] + points[after[sides]]) / 2.0
+            mapped = mapping(middles)
             bent = np.hypot(*((mapped - (image[sides] + image[after[sides]]) / 2.0) / size).T) > ROUND
         if not bent.any():
             break

@@ -139,14 +139,14 @@ def _zipped(files: dict[str, bytes]) -> bytes:
 
 def _gdal(content: bytes, layer: str | None, report: Report) -> Areas:
     """Polygons that GDAL finds."""
-    from pyogrio import errors, list_layers, raw
+    from pyogrio import list_layers, raw
 
     with QUIET, warnings.catch_warnings():
         warnings.simplefilter("ignore")  # GDAL's remarks; what matters is found again below
         try:
             name = _layer([(str(each), str(kind)) for each, kind in list_layers(content)], layer)
             meta, _, shapes, _ = raw.read(content, layer=name, columns=[], force_2d=True)
-        except (errors.DataSourceError, errors.DataLayerError, errors.GeometryError, errors.CRSError) as error:
+        except (RuntimeError, ValueError, OverflowError, NameError) as error:  # the last is pyogrio's for a bad .prj
             raise SourceError(f"GDAL cannot read it ({_one_line(error)}); save it again") from None
     if shapes is None:
         raise SourceError(f"its layer {name!r} has no geometries; choose another by --layer")
@@ -154,7 +154,11 @@ def _gdal(content: bytes, layer: str | None, report: Report) -> Areas:
 
 
 def _one_line(error: Exception) -> str:
-    text = " ".join(str(error).split())
+    text = " ".join(str(error).split()).rpartition("Raw error: ")[2]
+    if isinstance(error, NameError):
+        return "what it says of its reference system is damaged"
+    if "sqlite3" in text:  # its query and more
+        return "its database is damaged"
     start = text.find("/vsi")
     if start >= 0:  # a name in memory says nothing to anybody
         text = "the file" + text[start:].partition("'")[2] if "'" in text[start:] else "damaged"
