@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
 from vexture.bezier.roots import cubic_at, velocity_at
+from vexture.bezier.smooth import smooth_chain
+from vexture.bezier.split import copy_curve
 from vexture.kernels import kernel
 
 __all__ = ["CORNER", "fit_ring"]
@@ -24,7 +26,7 @@ SMOOTH = 0.25
 """Share of the tolerance within which what is smooth already may be moved."""
 
 ROUGH = 30.0, 70.0
-"""Degrees of turning to and fro within `JOG` samples: below the first, a ring is smooth; above the second, a staircase."""
+"""Degrees of turning to and fro within `JOG` samples: less than the first is smooth, more than the second is stairs."""
 
 JOG = 2
 """Samples on either side within which the two turns of a stair are."""
@@ -41,12 +43,6 @@ REACH = 8
 STRAIGHTEST = 0.35
 """Tolerances. The samples on either side of a corner are this near to a straight line."""
 
-ROUNDS = 14
-"""Of weighing again the samples that smoothing has moved too far."""
-
-OVERLAP = 64
-"""Samples that a ring is continued by beyond its ends: farther than bending reaches."""
-
 FITTING = 0.2
 """Share of the tolerance that is left to the cubics; smoothing has the rest."""
 
@@ -56,102 +52,11 @@ FEWEST = 16
 MOST = 256
 """Samples that one cubic may replace."""
 
+ONE_SIDED = 4
+"""Samples that say the direction in which a ring leaves a corner: the nearest one alone may be of the corner's own."""
+
 STEPS = 6
 """Projection and least squares alternate so often for one cubic."""
-
-
-@kernel
-def _smooth(
-    points: NDArray[np.float64], weight: NDArray[np.float64], bending: NDArray[np.float64], out: NDArray[np.float64]
-) -> None:
-    """Write the closed chain that is near to the points and bends little: banded least squares by L D L^T."""
-    n = len(points)
-    m = n + 2 * OVERLAP
-    a0, a1, a2 = np.zeros(m), np.zeros(m), np.zeros(m)
-    b = np.zeros((m, 2))
-    for i in range(m):
-        k = (i - OVERLAP) % n
-        a0[i] += weight[k]
-        b[i, 0], b[i, 1] = weight[k] * points[k, 0], weight[k] * points[k, 1]
-        if 0 < i < m - 1:
-            bend = bending[k]
-            a0[i - 1] += bend
-            a0[i] += 4.0 * bend
-            a0[i + 1] += bend
-            a1[i] -= 2.0 * bend  # row i, column i - 1
-            a1[i + 1] -= 2.0 * bend
-            a2[i + 1] += bend
-    for i in range(m):
-        if i > 1:
-            a2[i] /= a0[i - 2]
-            a1[i] -= a2[i] * a0[i - 2] * a1[i - 1]
-        if i > 0:
-            a1[i] /= a0[i - 1]
-            a0[i] -= a1[i] * a1[i] * a0[i - 1]
-        if i > 1:
-            a0[i] -= a2[i] * a2[i] * a0[i - 2]
-        for axis in range(2):
-            if i > 0:
-                b[i, axis] -= a1[i] * b[i - 1, axis]
-            if i > 1:
-                b[i, axis] -= a2[i] * b[i - 2, axis]
-    for i in range(m - 1, -1, -1):
-        for axis in range(2):
-            b[i, axis] /= a0[i]
-            if i < m - 1:
-                b[i, axis] -= a1[i + 1] * b[i + 1, axis]
-            if i < m - 2:
-                b[i, axis] -= a2[i + 2] * b[i + 2, axis]
-    for k in range(n):
-        out[k, 0], out[k, 1] = b[k + OVERLAP, 0], b[k + OVERLAP, 1]
-
-
-@kernel
-def smoothed(
-    points: NDArray[np.float64],
-    corner: NDArray[np.bool_],
-    bending: NDArray[np.float64],
-    reach: NDArray[np.float64],
-) -> NDArray[np.float64]:
-    """Closed chain of samples that bends little while each stays within a distance of where it was.
-
-    Parameters
-    ----------
-    points : (n, 2) float64 array
-    corner : (n,) bool array
-        Samples that stay where they are, and at which bending is free.
-    bending, reach : (n,) float64 arrays
-        Weight of bending at each sample, and how far it may go.
-
-    Examples
-    --------
-    >>> square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    >>> even = smoothed(square, np.zeros(4, bool), np.full(4, 10.0), np.full(4, 0.1))
-    >>> np.hypot(*(even - square).T).round(3)
-    array([0.1, 0.1, 0.1, 0.1])
-    """
-    n = len(points)
-    weight, bend = np.ones(n), bending.copy()
-    for i in range(n):
-        if corner[i]:
-            weight[i], bend[i] = 1e9, 0.0
-    out = np.empty((n, 2))
-    for _ in range(ROUNDS):
-        _smooth(points, weight, bend, out)
-        moved = False
-        for i in range(n):
-            far = np.hypot(out[i, 0] - points[i, 0], out[i, 1] - points[i, 1]) / reach[i]
-            if far > 1.0:
-                weight[i] *= min(far * far, 16.0)
-                moved = True
-        if not moved:
-            break
-    for i in range(n):
-        far = np.hypot(out[i, 0] - points[i, 0], out[i, 1] - points[i, 1])
-        share = 0.0 if corner[i] else min(1.0, reach[i] / far) if far > 0.0 else 1.0
-        for axis in range(2):
-            out[i, axis] = points[i, axis] + share * (out[i, axis] - points[i, axis])
-    return out
 
 
 @kernel
@@ -224,7 +129,7 @@ def _fit_span(
             if denominator > 0.0:
                 t[i] = min(max(u - numerator / denominator, 0.0), 1.0)
         worst = np.sqrt(worst)
-        if worst <= tolerance or (step == 2 and worst > 8.0 * tolerance):
+        if worst <= tolerance or (step == 2 and worst > 8.0 * tolerance > 0.0):
             break
     return worst
 
@@ -264,22 +169,28 @@ def fit_samples(points: NDArray[np.float64], corner: NDArray[np.bool_], toleranc
         limit = at + 1
         while limit < n and limit - at < MOST and not sharp[limit]:
             limit += 1
-        _tangent(points, begin + at, 0 if sharp[at] else 1, 1, start)
+        _tangent(points, begin + at, 0 if sharp[at] else 1, min(ONE_SIDED, limit - at) if sharp[at] else 1, start)
         good, bad, step = at, limit + 1, 4
         while bad - good > 1:  # longer by doubling, then halving in between
             trial = min(at + step, limit) if bad > limit else (good + bad) // 2
             step *= 2
-            _tangent(points, begin + trial, 1, 0 if sharp[trial] else 1, end)
+            _tangent(
+                points, begin + trial, min(ONE_SIDED, trial - at) if sharp[trial] else 1, 0 if sharp[trial] else 1, end
+            )
             if _fit_span(ring[at : trial + 1], start, end, tolerance, curve) <= tolerance or trial == at + 1:
                 good = trial
-                for k in range(8):
-                    best[k // 2, k % 2] = curve[k // 2, k % 2]
+                copy_curve(curve, best)
                 if trial == limit:
                     break
             else:
                 bad = trial
-        for k in range(8):
-            out[count, k // 2, k % 2] = best[k // 2, k % 2]
+        copy_curve(best, out[count])
+        if good > at + 1:  # as near as it gets, rather than just near enough
+            _tangent(
+                points, begin + good, min(ONE_SIDED, good - at) if sharp[good] else 1, 0 if sharp[good] else 1, end
+            )
+            if _fit_span(ring[at : good + 1], start, end, 0.0, curve) <= tolerance:
+                copy_curve(curve, out[count])
         count += 1
         at = good
     return out[:count].copy()
@@ -339,7 +250,7 @@ def fit_ring(
     most = SHRINKING * (radius * len(samples) / length) ** 4
     bending = np.minimum(most, BENDING[1] * (BENDING[0] / BENDING[1]) ** stairs)
     reach = (1.0 - FITTING) * tolerance * (SMOOTH + (1.0 - SMOOTH) * stairs)
-    cubics = fit_samples(smoothed(samples, sharp, bending, reach), sharp, FITTING * tolerance)
+    cubics = fit_samples(smooth_chain(samples, sharp, bending, reach), sharp, FITTING * tolerance)
     cubics[:, 0] = np.roll(cubics[:, 3], 1, axis=0)
     return cubics
 

@@ -1,19 +1,19 @@
 """The area under water in a grid of depths, with a shoreline that is finer than the grid."""
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from itertools import pairwise
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing, FillRule, Path
 
-__all__ = ["HMIN", "TOLERANCE", "shored", "wet_drawing"]
+__all__ = ["HMIN", "THIN", "TOLERANCE", "Ring", "fitted_drawing", "shored", "wet_drawing"]
 
 HMIN: Final = 0.05
-"""Metres. What is under less water counts as dry."""
+"""Metres. Less water than this is none."""
 
 TOLERANCE: Final = 0.55
 """Cells. Most that the fitted shoreline may leave the contour: the staircase of a raster is half a cell high."""
@@ -23,6 +23,25 @@ THIN: Final = 0.1
 
 RETRY: Final = (1.0, 0.3, 0.05)
 """Shares of the tolerance, tried until the rings of a polygon stay apart."""
+
+
+class Ring(NamedTuple):
+    """A closed ring in the unit square.
+
+    Attributes
+    ----------
+    points : (n, 2) float64 array
+        The first is not repeated at the end.
+    cell : float
+        Size of the cells that it passes: tolerances are shares of it.
+    fixed : (n,) bool array
+        Points that stay where they are, as corners.
+    """
+
+    points: NDArray[np.float64]
+    cell: float
+    fixed: NDArray[np.bool_]
+
 
 Map = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
@@ -123,9 +142,25 @@ def wet_drawing(
     >>> drawing.segments < 10
     True
     """
-    contours: list[NDArray[np.float64]] = []
-    for polygon in _polygons(above, beyond):
-        contours.extend(_fitted(polygon, _border(above.shape, beyond), to_unit, tolerance))
+    border = _border(above.shape, beyond)
+    polygons = [
+        [Ring(to_unit(ring), _cell(ring, to_unit), _ends(ring, border)) for ring in polygon]
+        for polygon in _polygons(above, border)
+    ]
+    return fitted_drawing(polygons, tolerance)
+
+
+def fitted_drawing(polygons: Iterable[list[Ring]], tolerance: float = TOLERANCE) -> Drawing:
+    """Polygons as a drawing, cut to the unit square, their rings fitted by cubics.
+
+    Parameters
+    ----------
+    polygons : iterable of lists of Ring
+        Of each, rings that are apart from one another: one outside, the others are its holes and turn the other way.
+    tolerance : float
+        Cells.
+    """
+    contours = [contour for polygon in polygons for contour in _fitted(polygon, tolerance)]
     if not contours:
         return Drawing(())
     turned = tuple(contour * (1.0, -1.0) + (0.0, 1.0) for contour in contours)
@@ -138,27 +173,26 @@ def _border(shape: tuple[int, ...], beyond: tuple[float, float, float, float]) -
     return (-0.5 - left, -0.5 - first, shape[1] - 0.5 + right, shape[0] - 0.5 + last)
 
 
-def _polygons(above: NDArray[np.float64], beyond: tuple[float, float, float, float]) -> list[list[NDArray[np.float64]]]:
+def _polygons(above: NDArray[np.float64], border: tuple[float, float, float, float]) -> list[list[NDArray[np.float64]]]:
     """Rings of each wet area, its outer one first, in positions of the grid, without the last point."""
     import contourpy
 
-    left, first, right, last = _border(above.shape, beyond)
+    left, first, right, last = border
     x = np.concatenate([[left], np.arange(above.shape[1]), [right]])
     y = np.concatenate([[first], np.arange(above.shape[0]), [last]])
     generator = contourpy.contour_generator(x=x, y=y, z=np.pad(above, 1, mode="edge"), fill_type="OuterOffset")
-    points, offsets = generator.filled(0.0, np.inf)
-    return [[ring[a : b - 1] for a, b in pairwise(cut)] for ring, cut in zip(points, offsets, strict=True)]
+    points: list[NDArray[np.float64]]
+    offsets: list[NDArray[np.uint32]]
+    points, offsets = generator.filled(0.0, np.inf)  # type: ignore[misc,assignment]
+    return [[ring[a : b - 1] for a, b in pairwise(cut.tolist())] for ring, cut in zip(points, offsets, strict=True)]
 
 
-def _fitted(
-    polygon: list[NDArray[np.float64]], border: tuple[float, float, float, float], to_unit: Map, tolerance: float
-) -> list[NDArray[np.float64]]:
-    """Cubics of a polygon's rings in the unit square, which neither cross themselves nor one another."""
+def _fitted(polygon: list[Ring], tolerance: float) -> list[NDArray[np.float64]]:
+    """Cubics of a polygon's rings, which neither cross themselves nor one another."""
     from vexture.bezier.ring import fit_ring
 
-    rings = [(to_unit(ring), _cell(ring, to_unit), _ends(ring, border)) for ring in polygon]
     for share in RETRY:
-        fitted = [fit_ring(ring, share * tolerance * cell, fixed=ends) for ring, cell, ends in rings]
+        fitted = [fit_ring(ring.points, share * tolerance * ring.cell, fixed=ring.fixed) for ring in polygon]
         fitted = [contour for contour in fitted if len(contour)]
         if _apart(fitted):
             break

@@ -75,7 +75,7 @@ class Lattice:
 
     def moved(self, east: float) -> "Lattice":
         """Lattice so many units to the east."""
-        return Lattice(self.x, self.y, self.affine + [[0.0, 0.0, east], [0.0, 0.0, 0.0]])
+        return Lattice(self.x, self.y, self.affine + np.array([[0.0, 0.0, east], [0.0, 0.0, 0.0]]))
 
 
 def _steps(axis: NDArray[np.float64]) -> tuple[float, float]:
@@ -95,4 +95,5 @@ def _index(axis: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[np.
     first, last = _steps(axis)
     inside = np.interp(sign * place, sign * axis, np.arange(len(axis)))
     before = np.minimum((place - axis[0]) / first, 0.0)
-    return inside + before + np.maximum((place - axis[-1]) / last, 0.0)
+    found: NDArray[np.float64] = inside + before + np.maximum((place - axis[-1]) / last, 0.0)
+    return found

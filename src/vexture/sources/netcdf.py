@@ -14,7 +14,7 @@ from vexture.errors import LimitError, SourceError
 from vexture.sources.lattice import Lattice
 from vexture.sources.series import Series, Values
 
-__all__ = ["depths_of", "opened", "read_variable", "series_of", "time_axis", "times_of"]
+__all__ = ["crs_of", "depths_of", "line_of", "listed", "opened", "read_variable", "series_of", "time_axis", "times_of"]
 
 DEPTHS: Final = (
     {"depth", "waterdepth", "wd", "h", "hs", "hh", "flooddepth", "inundationdepth", "mesh2dwaterdepth", "hmax"},
@@ -84,16 +84,14 @@ def opened(source: bytes | str | os.PathLike[str]) -> Iterator[Any]:
                 file.write(source)
         else:
             place = os.path.abspath(source)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            try:
-                dataset = xarray.open_dataset(
-                    place, engine="netcdf4", decode_times=False, decode_coords="all", cache=False
-                )
-            except Exception as error:  # of a stranger's file the libraries raise what they like
-                raise SourceError(f"it cannot be read as NetCDF ({line_of(error, place)}); write it again") from None
-            with dataset:
-                yield dataset
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                dataset = xarray.open_dataset(place, engine="netcdf4", decode_times=False, cache=False)
+        except Exception as error:  # of a stranger's file the libraries raise what they like
+            raise SourceError(f"it cannot be read as NetCDF ({line_of(error, place)}); write it again") from None
+        with dataset:
+            yield dataset
     finally:
         if folder:
             folder.cleanup()
@@ -117,7 +115,7 @@ def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Serie
     """
     if time_dim is not None and time_dim not in dataset.dims:
         raise LimitError(
-            f"there is no dimension {time_dim!r}; it has {_listed(dataset.dims)}; choose another --time-dim"
+            f"there is no dimension {time_dim!r}; it has {listed(dataset.dims)}; choose another --time-dim"
         )
     grids = {str(name): axes for name in dataset.data_vars if (axes := axes_of(dataset, name, time_dim))}
     name, depth, bed = depths_of(dataset, list(grids), variable)
@@ -128,7 +126,7 @@ def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Serie
     extra = [dim for dim in dataset[name].dims if dim not in order and dataset.sizes[dim] > 1]
     if extra:
         raise SourceError(
-            f"variable {name!r} also has the dimension {_listed(extra)} ({dataset.sizes[extra[0]]} long); "
+            f"variable {name!r} also has the dimension {listed(extra)} ({dataset.sizes[extra[0]]} long); "
             "write a file with one layer, or name another --variable"
         )
 
@@ -136,7 +134,13 @@ def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Serie
         places = {time: step, north: rows, east: columns}
         return depth(places, (north, east)), bed(places, (north, east)) if bed else None
 
-    return Series(Lattice(x, y, np.eye(2, 3)), crs_of(dataset, name, east, north), name, times, read)
+    return Series(
+        Lattice(x, y, np.eye(2, 3)),
+        crs_of(dataset, name, [_along(dataset, dim) for dim in (east, north)]),
+        name,
+        times,
+        read,
+    )
 
 
 def axes_of(dataset: Any, name: Any, time_dim: str | None) -> tuple[str | None, str, str] | None:
@@ -206,7 +210,8 @@ def _axis(dataset: Any, dim: str) -> Values:
     if len(places) == 0 or (sign == 0).any() or (sign != sign[:1]).any():
         wrong = int(np.argmax(sign != (sign[0] or 1))) + 2 if len(sign) else 1
         raise SourceError(
-            f"coordinate {along.name!r} neither rises nor falls throughout: see position {wrong}; sort it by xarray's sortby"
+            f"coordinate {along.name!r} neither rises nor falls throughout: see position {wrong}; "
+            f"sort it: xarray's sortby({along.name!r})"
         )
     return places
 
@@ -214,7 +219,9 @@ def _axis(dataset: Any, dim: str) -> Values:
 def _loaded(variable: Any) -> Any:
     """Values of a variable."""
     try:
-        return np.asarray(variable.values)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return np.asarray(variable.values)
     except Exception as error:  # HDF5 and codecs raise what they like
         raise SourceError(
             f"variable {variable.name!r} cannot be read ({line_of(error)}); write the file again"
@@ -250,7 +257,7 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tupl
     bed_reader = reader(bed) if bed is not None else None
     if variable is not None:
         if variable not in candidates:
-            raise LimitError(f"there are no depths in {variable!r}; --variable may be {_listed(candidates)}")
+            raise LimitError(f"there are no depths in {variable!r}; --variable may be {listed(candidates)}")
         chosen = variable
     else:
         named = [name for name in candidates if _is(dataset, name, DEPTHS)]
@@ -259,9 +266,9 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tupl
         if not choice and level is not None and bed is not None:
             choice = [level]
         if not choice:
-            raise SourceError(f"no variable is on rows and columns; it has {_listed(dataset.data_vars)}")
+            raise SourceError(f"no variable is on rows and columns; it has {listed(dataset.data_vars)}")
         if len(choice) > 1:
-            raise LimitError(f"depths may be in {_listed(choice)}; choose one by --variable")
+            raise LimitError(f"depths may be in {listed(choice)}; choose one by --variable")
         chosen = choice[0]
     if chosen == bed:
         bed, bed_reader = None, None
@@ -285,7 +292,7 @@ def times_of(dataset: Any, dim: str) -> tuple[datetime | None, ...]:
     """Times of the steps along a dimension, None where the file has no dates."""
     import xarray
 
-    count = dataset.sizes[dim]
+    count = int(dataset.sizes[dim])
     if count == 0:
         raise SourceError(f"dimension {dim!r} has no steps; write at least one")
     if count > MOST_STEPS:
@@ -320,7 +327,7 @@ def _moment(time: Any) -> datetime:
     return datetime(time.year, time.month, time.day, time.hour, time.minute, time.second, time.microsecond, UTC)
 
 
-def crs_of(dataset: Any, name: str, east: str, north: str) -> str | None:
+def crs_of(dataset: Any, name: str, coordinates: list[Any]) -> str | None:
     """What a file says of its reference system, as text for pyproj."""
     from pyproj import CRS
 
@@ -337,7 +344,6 @@ def crs_of(dataset: Any, name: str, east: str, north: str) -> str | None:
                 return str(CRS.from_cf(dict(about)).to_wkt())
             except Exception as error:  # of a stranger's attributes pyproj raises what it likes
                 raise SourceError(f"its grid mapping is unknown ({line_of(error)}); give --crs EPSG:...") from None
-    coordinates = [_along(dataset, dim) for dim in (east, north)]
     degrees = [
         about is not None
         and (about.attrs.get("standard_name") == kind or str(about.attrs.get("units", "")).lower() in units)
@@ -346,7 +352,7 @@ def crs_of(dataset: Any, name: str, east: str, north: str) -> str | None:
     return "EPSG:4326" if all(degrees) else None
 
 
-def _listed(names: Any) -> str:
+def listed(names: Any) -> str:
     """Names in a message: the first eight."""
     shown = [repr(str(name)) for name in names]
     return ", ".join(shown[:8]) + (f" and {len(shown) - 8} more" if len(shown) > 8 else "") or "none"

@@ -46,10 +46,11 @@ def open_geotiff(
 
     memory = MemoryFile(source) if isinstance(source, bytes) else None
     try:
-        with warnings.catch_warnings(), rasterio.Env(CPL_LOG="/dev/null" if os.name == "posix" else "NUL"):
-            warnings.simplefilter("ignore")
+        with rasterio.Env(CPL_LOG=os.devnull):
             try:
-                opened = memory.open(driver="GTiff") if memory else rasterio.open(source, driver="GTiff")
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    opened = memory.open(driver="GTiff") if memory else rasterio.open(source, driver="GTiff")
             except (RasterioError, OSError) as error:
                 raise SourceError(f"it cannot be read as GeoTIFF ({_line(error)}); write it again") from None
             with opened as file:
@@ -88,10 +89,10 @@ def _band(file: "DatasetReader", band: int, rows: slice, columns: slice) -> Valu
     from rasterio.errors import RasterioError
     from rasterio.windows import Window
 
-    stride = rows.step or 1
-    height, width = rows.stop - rows.start, columns.stop - columns.start
-    window = Window(columns.start, rows.start, width, height)  # type: ignore[no-untyped-call,unused-ignore]
-    shape = (-(-height // stride), -(-width // stride))
+    stride = rows.step
+    shape = (len(range(rows.start, rows.stop, stride)), len(range(columns.start, columns.stop, stride)))
+    corner = (columns.start - stride // 2, rows.start - stride // 2)
+    window = Window(*corner, shape[1] * stride, shape[0] * stride)  # type: ignore[no-untyped-call,unused-ignore]
     try:
         read: Any = file.read(band, window=window, out_shape=shape, masked=True)
     except (RasterioError, OSError) as error:

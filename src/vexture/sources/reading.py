@@ -12,8 +12,10 @@ if TYPE_CHECKING:
 __all__ = [
     "BYTE_ORDER_MARK",
     "FLATGEOBUF",
+    "NETCDF",
     "SHAPEFILE",
     "SQLITE",
+    "TIFF",
     "ZIP",
     "holds_depths",
     "is_geographic",
@@ -30,8 +32,9 @@ SHAPEFILE: Final = b"\0\0\x27\x0a"
 SQLITE: Final = b"SQLite format 3\0"
 ZIP: Final = b"PK\x03\x04"
 
-DEPTHS: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+", b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
-"""How TIFF, BigTIFF and NetCDF of all kinds start."""
+TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+NETCDF: Final = (b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
+"""How TIFF and BigTIFF start, and NetCDF of all kinds."""
 
 DEPTH_SUFFIXES: Final = (".tif", ".tiff", ".nc", ".nc4", ".cdf")
 AREA_SUFFIXES: Final = (".gpkg", ".fgb", ".shp")
@@ -62,7 +65,7 @@ def holds_depths(start: bytes, file_name: str | os.PathLike[str]) -> bool:
     >>> holds_depths(b"CDF\x01", "run"), holds_depths(b"fgb\x03fgb", "run.nc")
     (True, False)
     """
-    if start.startswith(DEPTHS):
+    if start.startswith((*TIFF, *NETCDF)):
         return True
     return Path(file_name).suffix.lower() in DEPTH_SUFFIXES and not _holds_areas(start)
 

@@ -3,15 +3,59 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.drawing import Drawing
 from vexture.sources.lattice import Lattice
 
-__all__ = ["Series"]
+__all__ = ["Reading", "Series", "Values", "plausible"]
 
 Values = NDArray[np.float64]
+
+FARTHEST: Final = 12_000.0
+"""Metres. Depths and heights beyond it are none: files without a fill value write 1e37."""
+
+MISSING: Final = (-999.0, -9999.0)
+"""And these."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reading:
+    """One step in a frame.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        Where water is; its name and reference system are not set.
+    depth, bed : (rows, columns) float32 array or None
+        As `Step` and `Extent` have them.
+    known : bool
+        Whether the file has any number there.
+    whole : bool
+        Whether that is all of the file.
+    """
+
+    drawing: Drawing
+    depth: NDArray[np.float32]
+    bed: NDArray[np.float32] | None
+    known: bool
+    whole: bool
+
+
+def plausible(values: Values) -> Values:
+    """Values without those that cannot be depths or heights in metres.
+
+    Examples
+    --------
+    >>> plausible(np.array([1.5, -9999.0, 1e37, -2.0]))
+    array([ 1.5,  nan,  nan, -2. ])
+    """
+    with np.errstate(invalid="ignore"):
+        absurd = (np.abs(values) > FARTHEST) | np.isin(values, MISSING)
+    return np.where(absurd, np.nan, values)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,3 +82,8 @@ class Series:
     variable: str
     times: tuple[datetime | None, ...]
     read: Callable[[int, slice, slice], tuple[Values, Values | None]]
+
+    @property
+    def box(self) -> tuple[float, float, float, float]:
+        """West, south, east, north."""
+        return self.lattice.box

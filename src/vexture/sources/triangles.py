@@ -1,0 +1,102 @@
+"""The area where values on a mesh of triangles are above 0: its outline, straight within each triangle."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Outline", "outlines_above"]
+
+
+class Outline(NamedTuple):
+    """A closed ring around what is above 0, which is to its left.
+
+    Attributes
+    ----------
+    points : (n, 2) float64 array
+        The first is not repeated at the end.
+    border : (n,) bool array
+        Which are on the border of the mesh.
+    cell : float
+        Length of the shorter edges that it crosses.
+    """
+
+    points: NDArray[np.float64]
+    border: NDArray[np.bool_]
+    cell: float
+
+
+def outlines_above(
+    points: NDArray[np.float64], triangles: NDArray[np.int64], values: NDArray[np.float64]
+) -> list[Outline]:
+    """Outlines of the area where values are above 0, linear between the corners of triangles.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 array
+    triangles : (m, 3) int array
+        Corners of each, turning left.
+    values : (n,) float64 array
+        At the points; 0 counts as below.
+
+    Examples
+    --------
+    >>> corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    >>> outlines_above(corners, np.array([[0, 1, 2]]), np.array([1.0, -1.0, -1.0]))[0].points
+    array([[0. , 0. ],
+           [0.5, 0. ],
+           [0. , 0.5]])
+    """
+    wet = values > 0.0
+    start = triangles.ravel()
+    end = np.roll(triangles, -1, axis=1).ravel()
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    keys = low * len(points) + high
+    _, first, edge, count = np.unique(keys, return_index=True, return_inverse=True, return_counts=True)
+    ends = np.column_stack([low[first], high[first]])
+    crossing = edge + len(points)  # a crossing is numbered after all points
+    leaving = (wet[start] & ~wet[end]).reshape(-1, 3)
+    entering = (~wet[start] & wet[end]).reshape(-1, 3)
+    mixed = leaving.any(axis=1)
+    number = crossing.reshape(-1, 3)[mixed]
+    rows = np.arange(mixed.sum())
+    froms = [number[rows, leaving[mixed].argmax(axis=1)]]
+    tos = [number[rows, entering[mixed].argmax(axis=1)]]
+    outer = count[edge] == 1
+    froms.append(np.where(wet[start], start, crossing)[outer & (wet[start] | wet[end])])
+    tos.append(np.where(wet[end], end, crossing)[outer & (wet[start] | wet[end])])
+    rings = _rings(np.concatenate(froms), np.concatenate(tos))
+    a, b = values[ends[:, 0]], values[ends[:, 1]]
+    crossed = wet[ends[:, 0]] != wet[ends[:, 1]]
+    share = np.where(crossed, a / np.where(crossed, a - b, 1.0), 0.0)[:, None]
+    side = points[ends[:, 1]] - points[ends[:, 0]]
+    places = np.concatenate([points, points[ends[:, 0]] + share * side])
+    border = np.zeros(len(places), np.bool_)
+    border[start[outer]] = border[end[outer]] = border[crossing[outer]] = True
+    lengths = np.concatenate([np.full(len(points), np.nan), np.hypot(*side.T)])
+    return [Outline(places[ring], border[ring], _cell(lengths[ring], places[ring])) for ring in rings]
+
+
+def _rings(froms: NDArray[np.int64], tos: NDArray[np.int64]) -> list[NDArray[np.int64]]:
+    """Closed ways along directed steps, each step used once."""
+    order = np.argsort(froms, kind="stable")
+    after: dict[int, list[int]] = {}
+    for a, b in zip(froms[order].tolist(), tos[order].tolist(), strict=True):
+        after.setdefault(a, []).append(b)
+    rings = []
+    for start in list(after):
+        while after[start]:
+            ring, at = [], start
+            while after.get(at):
+                ring.append(at)
+                at = after[at].pop()
+            rings.append(np.array(ring))
+    return rings
+
+
+def _cell(lengths: NDArray[np.float64], points: NDArray[np.float64]) -> float:
+    """Length of the shorter edges of some, or of the ring's own sides where it crosses none."""
+    found = lengths[np.isfinite(lengths)]
+    if not len(found):
+        found = np.hypot(*(points - np.roll(points, 1, axis=0)).T)
+    return float(np.quantile(found, 0.1))
