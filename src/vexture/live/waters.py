@@ -113,18 +113,18 @@ class Waters:
     def _read(self, data: bytes, name: str) -> Extent:
         from vexture.sources.extent import read_extent
         from vexture.sources.reading import holds_depths
-        from vexture.sources.reference import ReferenceMissing
+        from vexture.sources.reference import MissingReferenceError
 
         kind = DEPTH_OPTIONS if holds_depths(data, name) else AREA_OPTIONS
         options = {option: value for option, value in self.options.items() if option in kind}
         try:
             return read_extent(data, name, frame=self.frame, hmin=self.hmin, **options)
-        except ReferenceMissing:
+        except MissingReferenceError:
             raise SourceError(
                 f"{name}: says no reference system, so nobody knows where it is; write it into the file"
             ) from None
         except (SourceError, LimitError) as error:
-            raise type(error)(f"{name}: {error}") from None
+            raise type(error)(f"{name}: {_for_senders(str(error).removeprefix(f'{name}: '))}") from None
 
     def warm(self) -> None:
         """Load what a conversion needs: packages, kernels, the frame's reference system."""
@@ -167,6 +167,18 @@ class Waters:
 
 def _when(step: Step, label: str) -> dict[str, str | None]:
     return {"time": None if step.time is None else step.time.isoformat(), "label": label}
+
+
+def _for_senders(line: str) -> str:
+    """Say of an error what who sends a file can do: they give no options.
+
+    Examples
+    --------
+    >>> _for_senders("it is outside of the frame; correct the bounds, or --crs")
+    'it is outside of the frame; correct the file'
+    """
+    what, _, remedy = line.rpartition("; ")
+    return f"{what}; correct the file" if what and "--" in remedy else line
 
 
 def _small_tiff(frame: Frame) -> bytes:

@@ -3,17 +3,20 @@
 import os
 from dataclasses import dataclass
 from datetime import datetime
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
-from vexture.sources.contours import HMIN
 from vexture.sources.frame import Frame
 from vexture.sources.reading import holds_depths, start_of
 
-__all__ = ["Extent", "Step", "read_extent"]
+__all__ = ["HMIN", "Extent", "Step", "read_extent"]
+
+HMIN: Final = 0.05
+"""Metres. Less water than this is none."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
