@@ -66,7 +66,7 @@ def motion(page: Any, made: Made, step: int, presets: Sequence[str], frames: int
 
 
 def edge_part(browser: Any, made: Made, quick: bool) -> tuple[list[Target], Facts, list[list[str]]]:
-    presets, frames = (PRESETS[::2], 8) if quick else (PRESETS, 40)
+    presets, frames = (PRESETS[::2], 4) if quick else (PRESETS, 40)
     with opened(browser, made, STEP, flat=True) as page:
         rest = edges(page, made, STEP)
         moving = motion(page, made, STEP, presets, frames)
@@ -85,7 +85,7 @@ def edge_part(browser: Any, made: Made, quick: bool) -> tuple[list[Target], Fact
 
 
 def raster_part(browser: Any, made: Made, quick: bool) -> tuple[list[Target], Facts]:
-    frames = 6 if quick else 24
+    frames, turns = (3, 1) if quick else (6, 3)
     mask, mask_bytes = mask_of(made.drawings[STEP])
     ours_bytes = len(made.textures[STEP])
     facts: Facts = {"bytes": {"ours": ours_bytes, "raster": mask_bytes}, "ms": {}, "edge": {}}
@@ -96,9 +96,9 @@ def raster_part(browser: Any, made: Made, quick: bool) -> tuple[list[Target], Fa
             pictures = [look(page, preset, 1.0)[0] for page in (ours, theirs)]
             Image.fromarray(np.hstack(pictures)).save(RESULTS / f"flood-{preset.lower()}.png")
             times: tuple[list[float], list[float]] = ([], [])
-            for _ in range(1 if quick else 3):  # by turns, so that the machine's moods meet both
+            for _ in range(turns):  # by turns, so that the machine's moods meet both
                 for taken, page in zip(times, (ours, theirs), strict=True):
-                    taken += frame_times(page, preset, frames)[2:]
+                    taken += frame_times(page, preset, frames)[1:]
             facts["ms"][preset] = {"ours": median(times[0]), "raster": median(times[1])}
     with opened(browser, made, STEP, flat=True) as ours, opened(browser, made, STEP, flat=True) as theirs:
         rastered(theirs, mask)
