@@ -6,13 +6,14 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import flood_page
 import numpy as np
 import pytest
 from browser import served
 from numpy.typing import NDArray
 from PIL import Image
 from playwright.sync_api import Page, expect
+
+import flood_page
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "live"))
 
@@ -23,7 +24,7 @@ WIDE = (740, 500)
 DEEP = (0.5, 0.3)
 """A place in the unit square that is always under water."""
 
-PATIENCE = 180_000
+PATIENCE = 60_000
 """Milliseconds: the first picture waits for a software renderer's compiler."""
 
 WATER_SEEN = """() => {
@@ -287,10 +288,10 @@ def test_less_motion(opened: Callable[..., Page]) -> None:
     waves = page.get_by_role("button", name="Waves")
     expect(waves).to_have_attribute("aria-pressed", "false")
     stands = page.evaluate("vexture.flood.stage.seconds")
-    page.get_by_role("button", name="Beach").click()
+    page.get_by_role("button", name="Sky").click()
     assert page.evaluate("""() => {
         const { camera, stage } = vexture.flood;
-        return camera.position.distanceTo(stage.pose('Beach').from);
+        return camera.position.distanceTo(stage.pose('Sky').from);
     }""") == pytest.approx(0, abs=0.01)
     assert page.evaluate("vexture.flood.stage.seconds") == stands
     waves.click()
@@ -356,7 +357,7 @@ def test_new_steps_of_a_server_become_steps(open_page: Callable[..., Any], tmp_p
         first = page.evaluate("vexture.flood.player.step.manifest.version")
         server.put("flood%2F00", texture(9.0))  # that is shown
         page.wait_for_function("(first) => vexture.flood.player.step.manifest.version !== first", arg=first)
-        assert flat(page)[..., 0].mean() > before + 1
+        assert flat(page)[..., 0].mean() > 1.02 * before
         slider = page.get_by_role("slider", name="Time")
         server.put("flood%2F10", texture(0.0))
         expect(slider).to_have_attribute("max", "2")
@@ -365,4 +366,4 @@ def test_new_steps_of_a_server_become_steps(open_page: Callable[..., Any], tmp_p
         expect(slider).to_have_attribute("aria-valuetext", "flood/10, step 3 of 3")
         server.put("flood%2F11", texture(9.0))
         expect(slider).to_have_attribute("aria-valuetext", "flood/11, step 4 of 4")  # it follows at the end
-        assert flat(page)[..., 0].mean() > before + 1
+        assert flat(page)[..., 0].mean() > 1.02 * before

@@ -38,7 +38,8 @@ export function woodTexture() {
       context.lineWidth = 0.5 + random() * 1.6;
       context.beginPath();
       for (let x = -8; x <= width + 8; x += 16) {
-        context.lineTo(x, y + sway * Math.sin(turn + (x * 2 * Math.PI) / width) + 0.6 * sway * Math.sin(3 * turn + (x * 4 * Math.PI) / width));
+        const angle = (x * 2 * Math.PI) / width;
+        context.lineTo(x, y + sway * (Math.sin(turn + angle) + 0.6 * Math.sin(3 * turn + 2 * angle)));
       }
       context.stroke();
     }
@@ -57,26 +58,32 @@ export function woodTexture() {
   return texture;
 }
 
+/** Layers below the surface: where each begins, and its colour. */
+const EARTH = /** @type {const} */ ([
+  [0, '#cdb585'], [0.1, '#bf9f6a'], [0.22, '#a8834f'], [0.42, '#8e6b42'], [0.62, '#75573a'], [0.82, '#5f4833'],
+]);
+
 /** What the cut sides of the ground show: y = 1 is its surface. */
 export function earthTexture() {
   const random = chance(11);
   const texture = drawn(512, 256, (context) => {
     const { width, height } = context.canvas;
-    const layers = [[0, '#cdb585'], [0.1, '#bf9f6a'], [0.22, '#a8834f'], [0.42, '#8e6b42'], [0.62, '#75573a'], [0.82, '#5f4833']];
-    for (const [top, color] of layers) {
-      context.fillStyle = String(color);
+    for (const [top, color] of EARTH) {
+      context.fillStyle = color;
       context.beginPath();
       context.moveTo(0, height);
       const turn = random() * 6;
       for (let x = 0; x <= width; x += 8) {
-        const wave = Math.sin(turn + (x * 2 * Math.PI) / width) * 4 + Math.sin(turn * 2 + (x * 6 * Math.PI) / width) * 2;
-        context.lineTo(x, Number(top) * height + (top ? wave : -2));
+        const angle = (x * 2 * Math.PI) / width;
+        const wave = 4 * Math.sin(turn + angle) + 2 * Math.sin(2 * turn + 3 * angle);
+        context.lineTo(x, top * height + (top ? wave : -2));
       }
       context.lineTo(width, height);
       context.fill();
     }
     for (let grain = 0; grain < 5200; grain++) {
-      context.fillStyle = random() < 0.55 ? `rgb(60 40 20 / ${5 + random() * 16}%)` : `rgb(250 230 190 / ${4 + random() * 14}%)`;
+      const color = random() < 0.55 ? '60 40 20' : '250 230 190';
+      context.fillStyle = `rgb(${color} / ${4 + random() * 15}%)`;
       const size = 0.6 + random() * random() * 2.6;
       context.fillRect(random() * width, random() * height, size * 1.6, size);
     }

@@ -29,7 +29,8 @@ const bare = new URLSearchParams(location.search).has('bare');
 const app = /** @type {HTMLElement} */ (document.getElementById('app'));
 const canvas = element('canvas', {
   tabindex: 0, role: 'application', 'aria-label':
-    'Picture of the flood. Drag to turn it, drag with the right button to move, wheel to zoom; keys 1 to 5 are the views.',
+    'Picture of the flood. Drag to turn it, drag with the right button to move, wheel to zoom; keys 1 to 5 are the '
+    + 'views, [ and ] go through the steps.',
 });
 const notes = new Notes();
 
@@ -119,7 +120,9 @@ async function start() {
   let stage;
   try {
     stage = new Stage(canvas, surface, {
-      picture, stand: standOf(flood, surface), sea: (sun) => new Sea(Water, surface, { transform: boxTransform(flood.frame), fold, sun, mirror: MIRROR }),
+      picture,
+      stand: standOf(flood, surface),
+      sea: (sun) => new Sea(Water, surface, { transform: boxTransform(flood.frame), fold, sun, mirror: MIRROR }),
     });
   } catch (error) {
     console.warn(error);
@@ -131,7 +134,10 @@ async function start() {
   await run(stage, scene, surface, fold);
 }
 
-/** @param {Stage} stage @param {import('./scene.js').Scene} scene @param {Surface} surface @param {FoldTexture | null} fold */
+/**
+ * @param {Stage} stage @param {import('./scene.js').Scene} scene @param {Surface} surface
+ * @param {FoldTexture | null} fold
+ */
 async function run(stage, scene, surface, fold) {
   const { flood } = scene;
   const steps = new Steps(scene);
@@ -163,9 +169,16 @@ async function run(stage, scene, surface, fold) {
   stage.resize();
   viewed('Bird', { fly: false });
   Object.assign(page, {
-    camera: stage.camera, water: stage.sea.water, stage, player, view: viewed, step: (/** @type {number} */ at) => player.go(at),
-    freeze: (/** @type {number | null} */ seconds) => stage.freeze(seconds), flat: (/** @type {boolean} */ on) => stage.flat(on),
-    relief: (/** @type {number} */ times) => stage.relief(times), render: () => stage.render(),
+    camera: stage.camera,
+    water: stage.sea.water,
+    stage,
+    player,
+    view: viewed,
+    step: (/** @type {number} */ at) => player.go(at),
+    freeze: (/** @type {number | null} */ seconds) => stage.freeze(seconds),
+    flat: (/** @type {boolean} */ on) => stage.flat(on),
+    relief: (/** @type {number} */ times) => stage.relief(times),
+    render: () => stage.render(),
   });
   await player.go(0);
   stage.render();
@@ -178,4 +191,7 @@ app.classList.toggle('bare', bare);
 /** For tests and for the curious. @type {Record<string, unknown>} */
 const page = { ready: null };
 Object.assign(window, { vexture: { flood: page } });
-page.ready = start();
+page.ready = start().catch((error) => {
+  app.append(element('p', { class: 'fatal', role: 'alert' }, `The flood cannot be shown: ${error.message}`));
+  throw error;
+});

@@ -40,7 +40,8 @@ function reliefRow(stage, surface) {
   const most = Math.max(2, Math.ceil(surface.exaggeration * 2));
   const value = element('span', { class: 'value' });
   const slider = element('input', {
-    type: 'range', id: 'relief', 'aria-label': 'Relief', min: 0, max: most, step: most / 100, value: surface.exaggeration,
+    type: 'range', id: 'relief', 'aria-label': 'Relief', min: 0, max: most, step: most / 100,
+    value: surface.exaggeration,
     oninput: () => {
       stage.relief(Number(slider.value));
       follow();

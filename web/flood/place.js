@@ -1,5 +1,5 @@
-// One place in its four ways: in the box (0..1 to the east and to the north), in the unit square, in the picture's world
-// (x east, y up, z south), and in the source's reference system.
+// One place in its four ways: in the box (0..1 to the east and to the north), in the unit square, in the picture's
+// world (x east, y up, z south), and in the source's reference system.
 
 /** @typedef {import('./scene.js').FrameFacts} FrameFacts */
 

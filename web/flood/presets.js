@@ -57,13 +57,15 @@ function whole({ width, depth, low, high, aspect, share }, angle, above) {
   const up = [-sin * Math.sin(above), Math.cos(above), -cos * Math.sin(above)];
   const along = (/** @type {number[]} */ axis, /** @type {number[]} */ corner) =>
     axis[0] * corner[0] + axis[1] * corner[1] + axis[2] * corner[2];
-  const corners = [-1, 1].flatMap((x) => [low, high].flatMap((y) => [-1, 1].map((z) => [(x * width) / 2, y, (z * depth) / 2])));
+  const corners = [-width / 2, width / 2].flatMap((x) =>
+    [low, high].flatMap((y) => [-depth / 2, depth / 2].map((z) => [x, y, z])));
   const slope = (Math.tan(radians(FIELD / 2)) * share) / AROUND;
-  const [across, over] = [{ axis: right, slope: slope * aspect }, { axis: up, slope }].map(({ axis, slope: tangent }) => {
+  const fit = (/** @type {number[]} */ axis, /** @type {number} */ tangent) => {
     const reach = (/** @type {number} */ sign) =>
       Math.max(...corners.map((corner) => along(back, corner) * tangent + sign * along(axis, corner)));
     return { middle: (reach(1) - reach(-1)) / 2, away: (reach(1) + reach(-1)) / 2 / tangent };
-  });
+  };
+  const [across, over] = [fit(right, slope * aspect), fit(up, slope)];
   const away = Math.max(across.away, over.away);
   const [x, y, z] = [0, 1, 2].map((at) => right[at] * across.middle + up[at] * over.middle);
   return { from: { x: x + away * back[0], y: y + away * back[1], z: z + away * back[2] }, to: { x, y, z } };
@@ -86,7 +88,8 @@ export function pose(preset, stand) {
     const eyes = Math.max(height(x, z), 0) + BEACH.eyes;
     const { side, down } = aspect < 0.9 ? TALL : BEACH;
     const angle = sea + landSide(stand, BEACH.side) * radians(side);
-    const to = { x: x + AHEAD * Math.sin(angle), y: eyes - AHEAD * Math.tan(radians(down)), z: z + AHEAD * Math.cos(angle) };
+    const lower = eyes - AHEAD * Math.tan(radians(down));
+    const to = { x: x + AHEAD * Math.sin(angle), y: lower, z: z + AHEAD * Math.cos(angle) };
     return { from: { x, y: eyes, z }, to };
   }
   const [up, side, away, out] = NEAR[preset];
@@ -146,7 +149,8 @@ export function between(start, end, share) {
   const away = Math.exp(mixed(Math.log(a.away), Math.log(b.away)));
   const [angle, up] = [a.angle + turn * part, mixed(a.up, b.up)];
   const flat = away * Math.cos(up);
-  return { from: { x: to.x + flat * Math.sin(angle), y: to.y + away * Math.sin(up), z: to.z + flat * Math.cos(angle) }, to };
+  const from = { x: to.x + flat * Math.sin(angle), y: to.y + away * Math.sin(up), z: to.z + flat * Math.cos(angle) };
+  return { from, to };
 }
 
 /** @param {Pose} pose */

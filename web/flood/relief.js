@@ -31,7 +31,8 @@ export class Relief {
    */
   static read({ columns, rows, unit }, bytes) {
     if (bytes.byteLength !== columns * rows * 2) {
-      throw new Error(`The relief has ${bytes.byteLength} bytes; ${columns} x ${rows} heights have ${columns * rows * 2}.`);
+      const wanted = columns * rows * 2;
+      throw new Error(`The relief has ${bytes.byteLength} bytes; ${columns} x ${rows} heights have ${wanted}.`);
     }
     const view = new DataView(bytes);
     const heights = Float32Array.from({ length: columns * rows }, (_, at) => view.getInt16(2 * at, true) * unit);

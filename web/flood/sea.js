@@ -6,7 +6,7 @@ import { gridGeometry, LEAST_RISE, wallGeometry } from './land.js';
 /** @typedef {import('../src/vector-texture.js').VectorTexture} VectorTexture */
 /** @typedef {import('../src/vector-mask.js').VectorMask} VectorMask */
 /** @typedef {import('../src/fold-texture.js').FoldTexture} FoldTexture */
-/** @typedef {typeof import('../src/vector-water.js').VectorWater | typeof import('../src/simple-water.js').SimpleWater} Kind */
+/** @typedef {ReturnType<typeof import('../src/water.js').chooseWater>} Kind */
 
 const LOOK = Object.freeze({
   waterColor: 0x0d6480, sunColor: 0x7f8f98, distortionScale: 1.8, size: 15, shallow: 0x62b7aa, clipBias: 0.002,
@@ -15,7 +15,7 @@ const LOOK = Object.freeze({
 const FOAM = Object.freeze({ width: 0.015, period: 6 });
 /** Milliseconds of a cross-fade. */
 const FADE = 900;
-/** How much further inside the lower border of a wall looks into the shape: with no width at all it would look nowhere. */
+/** How much further inside the lower border of a wall looks into the shape: a look without width would see nothing. */
 const INWARD = 1e-3;
 
 export class Sea {
@@ -48,7 +48,8 @@ export class Sea {
     material.polygonOffsetUnits = -4;
     this.water.rotation.x = -Math.PI / 2;
     this.walls = new Mesh(
-      new BufferGeometry(), new MeshBasicMaterial({ color: 0x2f8199, transparent: true, opacity: 0.62, depthWrite: false }),
+      new BufferGeometry(),
+      new MeshBasicMaterial({ color: 0x2f8199, transparent: true, opacity: 0.62, depthWrite: false }),
     );
     this.walls.visible = false;
     this.group = new Group().add(this.water, this.walls);

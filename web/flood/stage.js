@@ -23,7 +23,7 @@ const FLAT = Object.freeze({ ground: 0x000000, water: 0xffffff });
 const STILL = matchMedia('(prefers-reduced-motion: reduce)');
 
 /**
- * Events: `frame` after each picture, `moved` when the camera stands elsewhere, `lost` and `restored` of the driver.
+ * Events: `frame` after each picture, `relief` when it stands higher or lower, `lost` and `restored` of the driver.
  */
 export class Stage extends EventTarget {
   #stand;
@@ -58,7 +58,8 @@ export class Stage extends EventTarget {
     const { x, y, z } = sunOver(stand);
     const sun = new Vector3(x, y, z);
     this.#sky = new Mesh(
-      new SphereGeometry(SKY, 32, 24), new MeshBasicMaterial({ map: skyTexture(sun), side: BackSide, depthWrite: false }),
+      new SphereGeometry(SKY, 32, 24),
+      new MeshBasicMaterial({ map: skyTexture(sun), side: BackSide, depthWrite: false }),
     );
     this.#sky.renderOrder = -2;
     const light = new DirectionalLight(0xfff1d8, 2.5);
@@ -130,6 +131,7 @@ export class Stage extends EventTarget {
   relief(times) {
     this.surface.exaggeration = times;
     this.#settle();
+    this.dispatchEvent(new Event('relief'));
     this.requestFrame();
   }
 
@@ -140,7 +142,8 @@ export class Stage extends EventTarget {
     const free = Math.max(height - top - bottom, 1);
     const low = this.land.floor - Tray.down;
     const high = this.surface.relief.highest * this.surface.rise;
-    return pose(preset, { ...this.#stand, low, high, aspect: Math.max(width - left - right, 1) / free, share: free / height });
+    const aspect = Math.max(width - left - right, 1) / free;
+    return pose(preset, { ...this.#stand, low, high, aspect, share: free / height });
   }
 
   /** @param {Preset} preset @param {{fly?: boolean}} [how] */
@@ -150,8 +153,8 @@ export class Stage extends EventTarget {
     this.controls.update();
     this.controls.enableDamping = !STILL.matches;
     if (fly && !STILL.matches) {
-      const { position, up: _up } = this.camera;
-      this.#flight = { start: { from: { ...position }, to: { ...this.controls.target } }, end, begin: performance.now() };
+      const start = { from: { ...this.camera.position }, to: { ...this.controls.target } };
+      this.#flight = { start, end, begin: performance.now() };
       return this.requestFrame();
     }
     this.#flight = null;

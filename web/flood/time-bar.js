@@ -14,10 +14,13 @@ export function createTimeBar(player) {
   const before = button('Previous step', '‹', () => move(-1));
   const play = button('Play', '▶', () => (player.playing ? player.pause() : player.play()));
   const after = button('Next step', '›', () => move(1));
-  const slider = element('input', { type: 'range', 'aria-label': 'Time', min: 0, max: 0, step: 1, value: 0, oninput: () => {
-    player.pause();
-    void player.go(Number(slider.value));
-  } });
+  const slider = element('input', {
+    type: 'range', 'aria-label': 'Time', min: 0, max: 0, step: 1, value: 0,
+    oninput: () => {
+      player.pause();
+      void player.go(Number(slider.value));
+    },
+  });
   const label = element('span', { class: 'when' });
   const speed = element('select', { 'aria-label': 'Speed', title: 'Speed', onchange: () => {
     player.speed = Number(speed.value);

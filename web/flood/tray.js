@@ -35,7 +35,8 @@ export class Tray {
     const wood = new MeshLambertMaterial({ map });
     const darker = new MeshLambertMaterial({ map, color: 0xd9cfc4 });
     this.group = new Group();
-    const add = (/** @type {[number, number, number]} */ size, /** @type {[number, number, number]} */ at, material = wood) => {
+    /** @typedef {[number, number, number]} Triple */
+    const add = (/** @type {Triple} */ size, /** @type {Triple} */ at, material = wood) => {
       const mesh = new Mesh(plank(...size), material);
       mesh.position.set(...at);
       this.group.add(mesh);

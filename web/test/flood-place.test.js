@@ -5,7 +5,9 @@ const METRES = /** @type {any} */ ({
   box: [0.03125, 0.265625, 0.96875, 0.734375], metres: [2000, 1000], crs: 'EPSG:28992', geographic: false,
   to_source: [2133.3333333333335, 0, 79933.33333333333, 0, 2133.3333333333335, 449433.3333333333],
 });
-const DEGREES = /** @type {any} */ ({ ...METRES, crs: 'OGC:CRS84', geographic: true, to_source: [1, 0, -123, 0, 1, 36] });
+const DEGREES = /** @type {any} */ ({
+  ...METRES, crs: 'OGC:CRS84', geographic: true, to_source: [1, 0, -123, 0, 1, 36],
+});
 
 describe('Places', () => {
   const places = new Places(METRES);

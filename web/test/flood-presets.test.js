@@ -10,7 +10,8 @@ const STAND = {
 /** Where a place is in the picture, -1..1. @param {import('../flood/presets.js').Pose} seen @param {number[]} place */
 function projected({ from, to }, place, aspect = STAND.aspect) {
   const minus = (/** @type {number[]} */ a, /** @type {number[]} */ b) => a.map((one, at) => one - b[at]);
-  const dot = (/** @type {number[]} */ a, /** @type {number[]} */ b) => a.reduce((sum, one, at) => sum + one * b[at], 0);
+  const dot = (/** @type {number[]} */ a, /** @type {number[]} */ b) =>
+    a.reduce((sum, one, at) => sum + one * b[at], 0);
   const cross = ([a, b, c] = [0, 0, 0], [d, e, f] = [0, 0, 0]) => [b * f - c * e, c * d - a * f, a * e - b * d];
   const unit = (/** @type {number[]} */ a) => a.map((one) => one / Math.hypot(...a));
   const eye = [from.x, from.y, from.z];

@@ -4,7 +4,8 @@ import { Relief, Surface } from '../flood/relief.js';
 
 const FACTS = { columns: 3, rows: 2, unit: 0.5, heights: '', invented: false };
 const BYTES = new Int16Array([200, 0, -20, 400, 0, -40]).buffer;
-const PLACES = new Places(/** @type {any} */ ({ box: [0, 0, 1, 1], metres: [1000, 1000], to_source: [1, 0, 0, 0, 1, 0] }));
+const FRAME = /** @type {any} */ ({ box: [0, 0, 1, 1], metres: [1000, 1000], to_source: [1, 0, 0, 0, 1, 0] });
+const PLACES = new Places(FRAME);
 
 describe('Relief', () => {
   const relief = Relief.read(FACTS, BYTES);

@@ -8,7 +8,8 @@ describe('steps of a server', () => {
   });
 
   it('come in the order of their numbers, each once', () => {
-    expect(stepsAmong(['flood/10', 'duck', 'flood/9', 'flood/9', 'flood'], 'flood')).toEqual(['flood', 'flood/9', 'flood/10']);
+    const names = ['flood/10', 'duck', 'flood/9', 'flood/9', 'flood'];
+    expect(stepsAmong(names, 'flood')).toEqual(['flood', 'flood/9', 'flood/10']);
   });
 });
 
