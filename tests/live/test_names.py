@@ -13,8 +13,9 @@ from vexture.live.limits import Limits, Pace
 from vexture.live.names import checked_name, manifest_name
 from vexture.live.shelf import TEXTURE_TYPE, File, Listener, Shape, Shelf
 
-HOSTILE = ["", ".", "..", "../x", "a//b", "/a", "a/", "a/../b", "a/.b", "a/ b", "a\\b", ".hidden", "a\0", "a\n", " a", "a ", "a" * 101, "é" * 51, "a\u202eb",
-           "a\u2044b", "\uff0e\uff0e\uff0fx", "a\ud800", "a:b", "a%2fb", "a*", "ａ／ｂ"]  # fmt: skip
+HOSTILE = ["", ".", "..", "../x", "a//b", "/a", "a/", "a/../b", "a/.b", "a/ b", "a\\b", ".hidden", "a\0", "a\n", " a",
+           "a ", "a" * 101, "é" * 51, "a\u202eb", "a\u2044b", "\uff0e\uff0e\uff0fx", "a\ud800", "a:b", "a%2fb", "a*",
+           "ａ／ｂ"]  # fmt: skip
 
 
 @pytest.mark.parametrize("name", HOSTILE)

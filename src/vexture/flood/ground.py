@@ -9,6 +9,7 @@ import numpy as np
 
 from vexture.errors import LimitError, SourceError
 from vexture.flood.grids import pixels_to
+from vexture.flood.scene import Note
 from vexture.sources.frame import Frame
 
 if TYPE_CHECKING:
@@ -36,7 +37,9 @@ SHOWN_PERCENTILES: Final = (2.0, 98.0)
 """Percentiles of a band of more than 8 bits that become black and white."""
 
 
-def ground_of(path: Path, frame: Frame, drawn: "Image.Image", *, bounds_given: bool) -> tuple["Image.Image", list[str]]:
+def ground_of(
+    path: Path, frame: Frame, drawn: "Image.Image", *, bounds_given: bool
+) -> tuple["Image.Image", list[Note]]:
     """A user's picture of the ground, brought to the frame.
 
     Parameters
@@ -52,7 +55,7 @@ def ground_of(path: Path, frame: Frame, drawn: "Image.Image", *, bounds_given: b
 
     Returns
     -------
-    image, list of str
+    image, list of Note
         In RGB; and what people should know about it.
 
     Raises
@@ -70,14 +73,19 @@ def ground_of(path: Path, frame: Frame, drawn: "Image.Image", *, bounds_given: b
     if start in TIFF_STARTS:
         return _warped(path, frame, drawn)
     picture = _opened(path)
-    notes = []
+    notes: list[Note] = []
     if not bounds_given:
-        notes.append(f"{path.name} is assumed to show exactly the extent's own box; --bounds says which box it shows")
+        notes.append(
+            Note(f"{path.name} is assumed to show exactly the box of the extent.", "--bounds says which box it shows.")
+        )
     shape, place = picture.width / picture.height, frame.metres[0] / frame.metres[1]
     if not 0.9 < shape / place < 1.1:
         notes.append(
-            f"{path.name} is {picture.width} x {picture.height} pixels for {frame.metres[0]:.0f} x "
-            f"{frame.metres[1]:.0f} m, so it is stretched; check --bounds"
+            Note(
+                f"{path.name}, {picture.width} x {picture.height} pixels, is stretched to {frame.metres[0]:.0f} x "
+                f"{frame.metres[1]:.0f} m.",
+                "If it shows another box, say so by --bounds.",
+            )
         )
     size = _size(frame, max(picture.size))
     return _over(drawn, picture.resize(size, _lanczos())), notes
@@ -116,7 +124,7 @@ def _opened(path: Path) -> "Image.Image":
         raise SourceError(f"--ground {path}: is {reason}; give a PNG, JPEG, WebP or GeoTIFF") from None
 
 
-def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Image", list[str]]:
+def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Image", list[Note]]:
     """A GeoTIFF on the frame, the drawn ground where it has nothing."""
     import rasterio
     from PIL import Image
@@ -138,12 +146,13 @@ def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Imag
         raise SourceError(f"--ground {path}: {' '.join(str(error).split())[:200]}; save it again") from None
     if not alpha.any():
         raise SourceError(f"--ground {path}: shows nothing of the frame; give one that covers it, or other --bounds")
-    notes = []
+    notes: list[Note] = []
     if (alpha == 0).mean() > 0.005:
-        notes.append(f"{path.name} shows {100 * (alpha > 0).mean():.0f}% of the frame; the rest of the ground is drawn")
+        share = 100.0 * (alpha > 0).mean()
+        notes.append(Note(f"{path.name} shows {share:.0f}% of the frame; the rest of the ground is drawn.", ""))
     if bands.dtype != np.uint8:
         bands = _stretched(bands, alpha > 0)
-        notes.append(f"{path.name} has more than 8 bits a channel; its darkest and brightest 2% became black and white")
+        notes.append(Note(f"{path.name} has more than 8 bits a channel; its brightness is stretched.", ""))
     colours = bands[:3] if len(bands) >= 3 else np.repeat(bands[:1], 3, axis=0)
     picture = np.concatenate([colours, alpha[None]]).transpose(1, 2, 0)
     return _over(drawn, Image.fromarray(np.ascontiguousarray(picture))), notes

@@ -2,14 +2,21 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from vexture.flood.relief import Relief
 from vexture.flood.shore import Shore
 from vexture.sources.frame import Frame
 from vexture.sources.reference import system
 
-__all__ = ["Flood", "scene"]
+__all__ = ["Flood", "Note", "scene"]
+
+
+class Note(NamedTuple):
+    """What people should know about what they see, and what who makes the page can do about it."""
+
+    text: str
+    remedy: str
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,8 +34,7 @@ class Flood:
         How the shoreline moves, as a file; None if it does not.
     shore : Shore or None
         Where to stand.
-    notes : tuple of str
-        What people should know about what they see.
+    notes : tuple of Note
     """
 
     title: str
@@ -37,7 +43,7 @@ class Flood:
     relief: Relief
     fold: bytes | None
     shore: Shore | None
-    notes: tuple[str, ...]
+    notes: tuple[Note, ...]
 
 
 def scene(
@@ -72,5 +78,5 @@ def scene(
         "relief": flood.relief.as_json(),
         "fold": fold,
         "shore": None if shore is None else {"place": list(shore.place), "seaward": list(shore.seaward)},
-        "notes": list(flood.notes),
+        "notes": [note.text for note in flood.notes],
     }

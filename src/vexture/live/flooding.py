@@ -9,7 +9,7 @@ from typing import Any, Final, NamedTuple
 from vexture.errors import LimitError, SourceError
 from vexture.flood.asked import Asked
 from vexture.flood.naming import PREFIX, labels, step_names
-from vexture.flood.scene import Flood, scene
+from vexture.flood.scene import Flood, Note, scene
 from vexture.live.limits import Limits
 from vexture.live.manifest import manifest
 from vexture.live.page import FLOOD, built, data_address, served_page, whole_page
@@ -22,9 +22,9 @@ __all__ = ["Made", "export", "make", "serve"]
 PAGE_SUFFIXES: Final = (".html", ".htm")
 GROUND_NAME, FOLD_NAME = "ground.webp", "shore.fold.ktx2"
 
-INVENTED, DRAWN = "The relief is invented.", "The ground is drawn, not photographed."
-REMEDIES: Final = {INVENTED: " --relief takes a file of heights.", DRAWN: " --ground takes a picture."}
-"""What the user is told beside what the page says."""
+INVENTED: Final = Note("The relief is invented.", "--relief takes a file of heights.")
+DRAWN: Final = Note("The ground is drawn, not photographed.", "--ground takes a picture.")
+DRY: Final = Note("Nothing is under water.", "")
 
 Say = Callable[[str], None]
 """Tells the user one line."""
@@ -86,7 +86,7 @@ def make(asked: Asked, say: Say) -> Made:
     first = first_wet(extent)
     shapes = _shapes(extent, waters)
     if first is None:
-        notes.append("Nothing is under water.")
+        notes.append(DRY)
     flood = Flood(
         title=asked.title or asked.extent.name.partition(".")[0] or PREFIX,
         frame=frame,
@@ -97,7 +97,7 @@ def make(asked: Asked, say: Say) -> Made:
         notes=tuple(notes),
     )
     for note in notes:
-        say(f"note: {note}{REMEDIES.get(note, '')}")
+        say(" ".join(("note:", *filter(None, note))))
     return Made(flood, waters, shapes)
 
 
