@@ -18,8 +18,8 @@ __all__ = ["edge_errors", "exact_shore", "inside", "moved_back", "water_to_unit"
 WORLD: Final = 100.0
 """Units of the page's world along the longer side of the frame."""
 
-CHORD: Final = 2.0
-"""Pixels; longest chord of a moved outline where it is seen."""
+CHORD: Final = 0.25
+"""Pixels; longest chord of a moved outline where it is seen: tips of creeks are a pixel round."""
 
 COARSE: Final = 1 / 256
 """The same where it is not, in the unit square."""

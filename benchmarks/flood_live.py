@@ -181,6 +181,7 @@ def pushed(browser: Any, folder: Path, pushes: int, seed: int) -> tuple[list[flo
             while not running.done():
                 page.wait_for_timeout(100)
             found = running.result()
+        page.wait_for_timeout(2000)
         seen = page.evaluate("window.seen")
         page.close()
     raw, pixels = [], []

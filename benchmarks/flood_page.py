@@ -23,22 +23,23 @@ __all__ = [
     "PRESETS", "SIZE", "Made", "first_picture", "frame_times", "look", "made", "mask_of", "opened", "rastered",
 ]  # fmt: skip
 
-SIZE: Final = (900, 600)
+SIZE: Final = (720, 480)
 PRESETS: Final = ("Sky", "Bird", "Coast", "Shore", "Beach")
 MASK: Final = 1024
 """Pixels along each side of the raster that is compared."""
 
 PATIENCE: Final = 60_000  # ms
 
-LOOK: Final = """async ([preset, seconds]) => {
-    const { camera, water, freeze, view } = window.vexture.flood;
+LOOK: Final = """([preset, seconds]) => {
+    const { camera, water, stage, freeze, view } = window.vexture.flood;
     freeze(seconds);
     view(preset, { fly: false });
-    await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+    stage.render();
+    const picture = stage.canvas.toDataURL('image/png');  // in the task of the render: later it is gone
     camera.updateMatrixWorld();
     water.updateWorldMatrix(true, false);
     const projection = [...camera.projectionMatrix.elements], seen = [...camera.matrixWorldInverse.elements];
-    return { projection, view: seen, level: water.matrixWorld.elements[13] };
+    return { picture, projection, view: seen, level: water.matrixWorld.elements[13] };
 }"""
 
 RASTER: Final = """([mask, side]) => {
@@ -49,11 +50,17 @@ RASTER: Final = """([mask, side]) => {
     Object.assign(texture, { magFilter: 1006, minFilter: 1008, generateMipmaps: true, anisotropy: 16 });
     texture.needsUpdate = true;
     material.uniforms.rasterMask = { value: texture };
-    const found = /vextureWrapped\\(vextureQuads\\[shape\\], (.*?)\\)/;
-    if (!found.test(material.fragmentShader)) return false;
-    material.fragmentShader = material.fragmentShader
-        .replace(found, 'textureGrad(rasterMask, $1).r')
-        .replace('struct VextureWater', 'uniform sampler2D rasterMask;\\nstruct VextureWater');
+    const found = /vextureWrapped\\((vextureQuads\\[shape\\]),\\s*(.*?)\\)/;
+    const before = /VextureWater\\s+vextureWater\\s*\\(/;
+    const text = material.fragmentShader;
+    if (!found.test(text) || !before.test(text)) return false;
+    material.fragmentShader = text.replace(found, 'rasterCoverage($2)').replace(before, `uniform sampler2D rasterMask;
+        float rasterCoverage(vec2 uv, vec2 dx, vec2 dy) {
+            float coverage = textureGrad(rasterMask, uv, dx, dy).r;
+            vexture_is_plain = coverage <= 0.0 || coverage >= 1.0;
+            return coverage;
+        }
+        $&`);
     material.needsUpdate = true;
     return true;
 }"""
@@ -156,6 +163,7 @@ def opened(browser: Any, made: Made, step: int, *, flat: bool) -> Iterator[Any]:
     page.set_default_timeout(PATIENCE)
     page.goto(f"{made.page.as_uri()}?bare")
     page.evaluate("vexture.flood.ready")
+    page.evaluate("vexture.flood.freeze(0)")  # else its waves take the processor from all others
     page.evaluate("(step) => vexture.flood.step(step)", step)
     if flat:
         page.evaluate("() => { vexture.flood.relief(0); vexture.flood.flat(true); }")
@@ -168,7 +176,9 @@ def opened(browser: Any, made: Made, step: int, *, flat: bool) -> Iterator[Any]:
 def look(page: Any, preset: str, seconds: float) -> tuple[NDArray[np.uint8], dict[str, Any]]:
     """Picture from a view at a time, and the camera's matrices."""
     camera = page.evaluate(LOOK, [preset, seconds])
-    return np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB")), camera
+    picture = np.asarray(Image.open(io.BytesIO(content(camera.pop("picture")))).convert("RGB"))
+    assert picture.shape[1::-1] == SIZE
+    return picture, camera
 
 
 def mask_of(drawing: Drawing) -> tuple[NDArray[np.uint8], int]:

@@ -3,7 +3,7 @@
 import json
 import time
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vexture.live.waters import WATER_SETTINGS
 from vexture.pipeline import convert
 
-__all__ = ["KINDS", "VERTICES", "island", "island_files", "reading_times"]
+__all__ = ["KINDS", "VERTICES", "Taken", "island", "island_files", "reading_times"]
 
 VERTICES: Final = 20_000
 KINDS: Final = ("GeoJSON", "FlatGeobuf", "GPKG")
@@ -62,17 +62,26 @@ def island_files(folder: Path, seed: int) -> dict[str, Path]:
     return files
 
 
-def reading_times(path: Path, repeat: int) -> tuple[list[float], list[float], int]:
-    """Milliseconds from the file to its texture's bytes, those of reading alone, and how many bytes."""
+class Taken(NamedTuple):
+    """Milliseconds of the ways from a file, one for each turn, and the bytes at their end."""
+
+    drawing: list[float]
+    texture: list[float]
+    file: list[float]
+    size: int
+
+
+def reading_times(path: Path, repeat: int) -> Taken:
+    """Milliseconds from a file to its drawing, to its texture in memory, to the bytes of its texture's file."""
     from vexture.sources.extent import read_extent
 
-    whole, reading, size = [], [], 0
-    for _ in range(repeat + 2):
+    taken = Taken([], [], [], 0)
+    for _ in range(repeat + 2):  # the first two find nothing warm
         start = time.perf_counter()
         extent = read_extent(path, path.name)
-        middle = time.perf_counter()
-        texture = convert(extent.steps[0].drawing, precision=WATER_SETTINGS.precision, split=None)
+        taken.drawing.append(1000 * (time.perf_counter() - start))
+        texture = convert(extent.steps[0].drawing, precision=WATER_SETTINGS.precision)
+        taken.texture.append(1000 * (time.perf_counter() - start))
         size = len(texture.to_ktx2())
-        whole.append(1000 * (time.perf_counter() - start))
-        reading.append(1000 * (middle - start))
-    return whole[2:], reading[2:], size
+        taken.file.append(1000 * (time.perf_counter() - start))
+    return Taken(taken.drawing[2:], taken.texture[2:], taken.file[2:], size)
