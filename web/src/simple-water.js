@@ -63,5 +63,6 @@ export class SimpleWater extends watered(
       time: { value: time },
     });
     this.fold = options.fold ?? null;
+    this.follow();
   }
 }

@@ -34,5 +34,6 @@ export class VectorWater extends watered(Water) {
     material.uniforms.size.value = size;
     material.transparent = true;
     this.fold = options.fold ?? null;
+    this.follow();
   }
 }

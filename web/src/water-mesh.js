@@ -123,6 +123,16 @@ export function watered(base) {
       this.shape.flat = color;
     }
 
+    /** Be ready for the shape before each picture; its class calls this when `shape` is there. */
+    follow() {
+      const before = this.onBeforeRender;
+      /** @type {typeof before} */
+      this.onBeforeRender = (renderer, ...others) => {
+        this.shape.prepare(renderer);
+        before.call(this, renderer, ...others);
+      };
+    }
+
     /** Free what the GPU holds for this water; textures and geometry stay, others may use them. */
     dispose() {
       this.shape.dispose();
