@@ -127,9 +127,11 @@ export function watered(base) {
     follow() {
       const before = this.onBeforeRender;
       /** @type {typeof before} */
-      this.onBeforeRender = (renderer, ...others) => {
+      this.onBeforeRender = (renderer, scene, camera, ...others) => {
         this.shape.prepare(renderer);
-        before.call(this, renderer, ...others);
+        const { viewport } = /** @type {import('three').PerspectiveCamera} */ (camera);
+        if (viewport) renderer.state.viewport(viewport);
+        before.call(this, renderer, scene, camera, ...others);
       };
     }
 
