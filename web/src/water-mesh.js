@@ -8,6 +8,9 @@ import { FOLD } from './water-shader.js';
 /** @typedef {import('three').ColorRepresentation} ColorRepresentation */
 /** @typedef {import('three').Mesh<import('three').BufferGeometry, import('three').ShaderMaterial>} WaterMesh */
 
+/** Colours of the sea by day, unlike three.js' greys. */
+export const SEA = Object.freeze({ waterColor: 0x0b5068, sunColor: 0x9fb0b8 });
+
 /**
  * @param {import('three').BufferGeometry} geometry
  * @throws {VextureError} if water cannot be on it

@@ -108,7 +108,7 @@ function fill(scene, { ground }) {
 
 const normals = waterNormals();
 
-const LOOK = { waterColor: 0x0a3540, sunColor: 0xfff0dd, sunDirection: SUN, distortionScale: 3, size: 12 };
+const LOOK = { waterColor: 0x0b5068, sunColor: 0x9fb0b8, sunDirection: SUN, distortionScale: 3, size: 12 };
 
 function rasterOf(texture) {
   const size = 1024;
