@@ -101,10 +101,12 @@ def thesis_module() -> str:
 
 
 def water_module() -> str:
-    """Text of the module with the water's shader: apart, since most pages have no use for it."""
-    comment = "water.glsl; VEXTURE_QUALITY and VEXTURE_WRAP must be defined before it."
-    text = bare(inlined(packed_text("water.glsl", None)))
-    return HEADER.format(owner="src/vexture/glsl/") + module_text("water", text, comment)
+    """Text of the module with the water's shaders: apart, since most pages have no use for them."""
+    parts = [HEADER.format(owner="src/vexture/glsl/")]
+    for name in ("water", "shore"):
+        comment = f"{name}.glsl; VEXTURE_QUALITY and VEXTURE_WRAP must be defined before it."
+        parts.append(module_text(name, bare(inlined(packed_text(f"{name}.glsl", None))), comment))
+    return "".join(parts)
 
 
 def fold_module() -> str:

@@ -1,5 +1,5 @@
 import { Color, FrontSide, Mesh, ShaderMaterial, UniformsLib, UniformsUtils, Vector3 } from 'three';
-import { checkGeometry, watered } from './water-mesh.js';
+import { SEA, checkGeometry, watered } from './water-mesh.js';
 import { waterNormals } from './water-normals.js';
 import { simpleShader } from './water-shader.js';
 import { WaterShape } from './water-shape.js';
@@ -37,7 +37,7 @@ export class SimpleWater extends watered(
    */
   constructor(geometry, texture, options = {}) {
     checkGeometry(geometry);
-    const { sunDirection = new Vector3(0.70707, 0.70707, 0), sunColor = 0xffffff, waterColor = 0x7f7f7f } = options;
+    const { sunDirection = new Vector3(0.70707, 0.70707, 0), sunColor, waterColor } = { ...SEA, ...options };
     const { sky = 0x6f9fcf, horizon = 0xd5e2ea, size = 1, alpha = 1, time = 0, side = FrontSide, fog = false } = options;
     const normals = options.waterNormals ?? waterNormals();
     const material = new ShaderMaterial({
@@ -63,5 +63,6 @@ export class SimpleWater extends watered(
       time: { value: time },
     });
     this.fold = options.fold ?? null;
+    this.follow();
   }
 }

@@ -1,6 +1,6 @@
 import { Water } from 'three/addons/objects/Water.js';
 import { insert } from './hooks.js';
-import { checkGeometry, watered } from './water-mesh.js';
+import { SEA, checkGeometry, watered } from './water-mesh.js';
 import { waterNormals } from './water-normals.js';
 import { waterTexts } from './water-shader.js';
 import { WaterShape } from './water-shape.js';
@@ -23,7 +23,7 @@ export class VectorWater extends watered(Water) {
    */
   constructor(geometry, texture, options = {}) {
     checkGeometry(geometry);
-    const { size = 1, waterNormals: given, ...others } = options;
+    const { size = 1, waterNormals: given, ...others } = { ...SEA, ...options };
     const normals = given ?? waterNormals();
     super(geometry, { ...others, waterNormals: normals });
     this.ownNormals = given ? null : normals;
@@ -34,5 +34,6 @@ export class VectorWater extends watered(Water) {
     material.uniforms.size.value = size;
     material.transparent = true;
     this.fold = options.fold ?? null;
+    this.follow();
   }
 }

@@ -8,6 +8,9 @@ import { FOLD } from './water-shader.js';
 /** @typedef {import('three').ColorRepresentation} ColorRepresentation */
 /** @typedef {import('three').Mesh<import('three').BufferGeometry, import('three').ShaderMaterial>} WaterMesh */
 
+/** Colours of the sea by day, unlike three.js' greys. */
+export const SEA = Object.freeze({ waterColor: 0x0b5068, sunColor: 0x9fb0b8 });
+
 /**
  * @param {import('three').BufferGeometry} geometry
  * @throws {VextureError} if water cannot be on it
@@ -121,6 +124,18 @@ export function watered(base) {
 
     set flat(/** @type {ColorRepresentation | null} */ color) {
       this.shape.flat = color;
+    }
+
+    /** Be ready for the shape before each picture; its class calls this when `shape` is there. */
+    follow() {
+      const before = this.onBeforeRender;
+      /** @type {typeof before} */
+      this.onBeforeRender = (renderer, scene, camera, ...others) => {
+        this.shape.prepare(renderer);
+        const { viewport } = /** @type {import('three').PerspectiveCamera} */ (camera);
+        if (viewport) renderer.state.viewport(viewport);
+        before.call(this, renderer, scene, camera, ...others);
+      };
     }
 
     /** Free what the GPU holds for this water; textures and geometry stay, others may use them. */

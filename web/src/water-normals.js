@@ -11,6 +11,12 @@ const SHORTEST = 24;
 /** Root mean square of the slopes. */
 const STEEPNESS = 0.3;
 
+/**
+ * What is left of the slopes in each next smaller image, beside their mean: from far away the tile must not be seen to
+ * repeat, and the sea looks calm.
+ */
+const FAR = 0.62;
+
 /** Least and most of a side. */
 const SIDES = Object.freeze([8, 2048]);
 
@@ -74,6 +80,44 @@ function slopesOf(size, waves) {
 }
 
 /**
+ * Slopes in half as many pixels along each side.
+ *
+ * @param {Float32Array} slopes
+ * @param {number} size
+ */
+function halved(slopes, size) {
+  const half = Math.max(1, size >> 1);
+  const found = new Float32Array(2 * half * half);
+  for (let row = 0, at = 0; row < half; row++) {
+    for (let column = 0; column < half; column++, at += 2) {
+      for (const y of [2 * row, 2 * row + 1]) {
+        for (const x of [2 * column, 2 * column + 1]) {
+          const from = 2 * ((y % size) * size + (x % size));
+          found[at] += 0.25 * FAR * slopes[from];
+          found[at + 1] += 0.25 * FAR * slopes[from + 1];
+        }
+      }
+    }
+  }
+  return found;
+}
+
+/**
+ * @param {Float32Array} slopes
+ * @param {number} size
+ * @param {number} scale
+ */
+function imageOf(slopes, size, scale) {
+  const data = new Uint8Array(4 * size * size);
+  for (let i = 0; i < size * size; i++) {
+    const [x, y] = [scale * slopes[2 * i], scale * slopes[2 * i + 1]];
+    const half = 127.5 / Math.hypot(x, y, 1);
+    data.set([127.5 - half * x, 127.5 - half * y, 127.5 + half, 255], 4 * i);
+  }
+  return { data, width: size, height: size };
+}
+
+/**
  * The normals of a sea that repeats in both directions, as three.js' Water reads them: x, y along the surface and z up,
  * from -1..1 in 0..255.
  *
@@ -90,17 +134,17 @@ export function waterNormals(size = 256, seed = 1) {
   let sum = 0;
   for (const slope of slopes) sum += slope * slope;
   const scale = STEEPNESS / Math.sqrt(sum / (size * size));
-  const pixels = new Uint8Array(4 * size * size);
-  for (let i = 0; i < size * size; i++) {
-    const [x, y] = [scale * slopes[2 * i], scale * slopes[2 * i + 1]];
-    const half = 127.5 / Math.hypot(x, y, 1);
-    pixels.set([127.5 - half * x, 127.5 - half * y, 127.5 + half, 255], 4 * i);
+  const images = [imageOf(slopes, size, scale)];
+  for (let side = size, far = slopes; side > 1; side >>= 1) {
+    far = halved(far, side);
+    images.push(imageOf(far, side >> 1, scale));
   }
-  const texture = new DataTexture(pixels, size, size);
+  const texture = new DataTexture(images[0].data, size, size);
+  texture.mipmaps = images;
   texture.wrapS = texture.wrapT = RepeatWrapping;
   texture.magFilter = LinearFilter;
   texture.minFilter = LinearMipmapLinearFilter;
-  texture.generateMipmaps = true;
+  texture.generateMipmaps = false;
   texture.anisotropy = 4;
   texture.needsUpdate = true;
   return texture;

@@ -1,7 +1,7 @@
 // What water adds to a shader: declarations, and lines that call the functions of src/vexture/glsl/water.glsl.
 import { fold } from '../generated/fold-shader.js';
 import { QUALITIES, WRAPS } from '../generated/shaders.js';
-import { water } from '../generated/water-shader.js';
+import { shore, water } from '../generated/water-shader.js';
 import { foldLines, footprint } from './mask-shader.js';
 
 /** @typedef {keyof typeof QUALITIES} Quality */
@@ -21,6 +21,18 @@ export function declarations(quality) {
   const colors = 'uniform vec4 vextureShallow;\nuniform vec4 vextureFoamColor;\nuniform vec4 vextureFlat;\n';
   return `${VARYINGS}${colors}${chosen}${water}#ifdef ${FOLD}\n${fold}#endif\n`;
 }
+
+/** The shader that draws the raster along the shore, over the whole of a target. */
+export const SHORE_SHADER = Object.freeze({
+  vertexShader: 'void main() { gl_Position = vec4(position.xy, 1.0, 1.0); }',
+  fragmentShader: `#define VEXTURE_QUALITY ${QUALITIES.fast}
+#define VEXTURE_WRAP ${WRAPS.clamp}
+${shore}uniform uint vextureRoot;
+uniform float vextureReach, vextureTexel;
+void main() {
+  gl_FragColor = vec4(vextureAroundOf(vextureRoot, gl_FragCoord.xy * vextureTexel, vextureReach));
+}`,
+});
 
 /** What the vertex shader declares. */
 export const VERTEX_DECLARE = `uniform mat3 vextureTransform;\n${VARYINGS}`;

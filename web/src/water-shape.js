@@ -3,6 +3,7 @@ import { Color, Matrix3, Vector2, Vector4 } from 'three';
 import { QUALITIES } from '../generated/shaders.js';
 import { VextureError, line } from './errors.js';
 import { wordTexture } from './upload.js';
+import { Shores } from './water-shore.js';
 
 /** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
 
@@ -47,6 +48,9 @@ function stacked(first, second) {
 }
 
 /** @param {VectorTexture} texture one that has been checked */
+const texelsOf = (texture) => /** @type {import('three').DataTexture} */ (texture.textures.texels);
+
+/** @param {VectorTexture} texture one that has been checked */
 const dataOf = (texture) => /** @type {import('./data.js').PackedData} */ (texture.data);
 
 /**
@@ -60,6 +64,9 @@ export class WaterShape {
   #fade = 0;
   /** @type {import('three').DataTexture | null} both, while one turns into the other */
   #both = null;
+  #shores = new Shores();
+  /** @type {Map<VectorTexture, number>} each texture's root */
+  #roots = new Map();
   #root;
   #shown;
   #onChange = () => this.#refresh();
@@ -91,6 +98,9 @@ export class WaterShape {
       vextureFolding: { value: null },
       vextureCycle: { value: 0 },
       vextureTime: { value: 0 },
+      vextureAround: { value: null },
+      vextureAroundNext: { value: null },
+      vextureBox: { value: new Vector2() },
       vextureShore: { value: 0 },
       vextureLapping: { value: FOAM.period },
       vextureShallow: { value: new Vector4() },
@@ -163,9 +173,25 @@ export class WaterShape {
     setColor(this.uniforms.vextureFlat, color ?? 0, color === null ? 0 : 1);
   }
 
+  /**
+   * Draw the rasters along the shores, if anything that they show has changed.
+   *
+   * @param {import('three').WebGLRenderer} renderer which is about to draw the water
+   */
+  prepare(renderer) {
+    const shapes = [...this.#roots].map(([one, quad]) => ({ texels: texelsOf(one), quad }));
+    const { vextureAround, vextureAroundNext, vextureBox, vextureShore } = this.uniforms;
+    const { rasters, reach, texel } = this.#shores.drawn(renderer, shapes, vextureShore.value);
+    const isFirst = this.#texture !== null && this.#fade < 1;
+    vextureAround.value = rasters[isFirst ? 0 : rasters.length - 1];
+    vextureAroundNext.value = rasters[rasters.length - 1];
+    vextureBox.value.set(reach, reach - texel);
+  }
+
   /** Follow no texture any more, and free what is not the textures' own. */
   dispose() {
     this.#put(null, null);
+    this.#shores.dispose();
   }
 
   /** @param {VectorTexture} texture */
@@ -195,6 +221,8 @@ export class WaterShape {
     const [texture, next] = [this.#texture, this.#next];
     this.#both?.dispose();
     this.#both = texture && next && texture !== next ? stacked(dataOf(texture), dataOf(next)) : null;
+    const textures = [texture, next].filter((one) => one !== null);
+    this.#roots = new Map(textures.map((one) => [one, this.#quad(one)]));
     nothing ??= wordTexture(new Uint32Array(4), 1, 1);
     this.uniforms.vextureTexels.value = this.#both ?? (texture ?? next)?.textures.texels ?? nothing;
     this.#weigh();
@@ -210,8 +238,9 @@ export class WaterShape {
     ].filter(({ texture: one, share }) => one && share > 0);
     const { vextureShapes, vextureQuads, vextureRows, vextureShares } = this.uniforms;
     vextureShapes.value = shapes.length;
+    vextureShares.value.set(0, 0);
     shapes.forEach(({ texture: one, row, share }, i) => {
-      vextureQuads.value.setComponent(i, this.#quad(/** @type {VectorTexture} */ (one)));
+      vextureQuads.value.setComponent(i, this.#roots.get(/** @type {VectorTexture} */ (one)));
       vextureRows.value.setComponent(i, row);
       vextureShares.value.setComponent(i, share);
     });

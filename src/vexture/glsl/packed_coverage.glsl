@@ -29,8 +29,6 @@ VextureLattice vexture_lattice(ivec2 origin, int level, VexturePlace place, Vext
     return VextureLattice(whole, part, low, high, frame);
 }
 
-bool vexture_is_plain = true;  // false once an outline, or a quad that may hold some, was met in a footprint
-
 // Filled area of the pixel within one cell.
 float vexture_cell_area(VextureCell cell, VextureLattice lattice) {
     int code = cell.is_quad ? 0 : vexture_winding_code(cell);
@@ -54,7 +52,6 @@ float vexture_cell_area(VextureCell cell, VextureLattice lattice) {
         winding += crosses ? 0 : side;
         crossing |= crosses ? 1 << i : 0;
     }
-    vexture_is_plain = vexture_is_plain && crossing == 0 && !cell.is_quad;
     float filled = code == 0 ? vexture_stored_coverage(cell) : float(winding);
     float area = filled * vexture_box_area(lattice.frame, low, high);
     while (crossing != 0) {

@@ -63,15 +63,13 @@ int vexture_level_of(float area) {
     return -1 - (((floatBitsToInt(area * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127) >> 1);
 }
 
-int vexture_levels_below = VEXTURE_LEVELS_BELOW;  // fewer for who needs no more than roughly
-
 // The level of the footprint's area, and some more levels; one more again in pictures of few pixels, where a map is
 // looked at as seldom as a drawing has deep cells; fewer for a long footprint, lest its box touch more cells than are
 // looked at.
 int vexture_finest_level(float area, vec2 reach) {
     float length = VEXTURE_LONG * max(reach.x, reach.y);
-    int usual = vexture_level_of(max(area, length * length)) + vexture_levels_below;
-    int small = vexture_level_of(max(area, 4.0 * length * length)) + vexture_levels_below + 1;
+    int usual = vexture_level_of(max(area, length * length)) + VEXTURE_LEVELS_BELOW;
+    int small = vexture_level_of(max(area, 4.0 * length * length)) + VEXTURE_LEVELS_BELOW + 1;
     return clamp(max(usual, min(small, VEXTURE_SMALL_FINEST)), VEXTURE_LEAST_FINEST, VEXTURE_MOST_DEPTH);
 }
 

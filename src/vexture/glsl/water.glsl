@@ -1,14 +1,18 @@
 // Water along a shore: where it is, how far the shore is, and what is seen there: shallows and foam.
 // Exports: VextureWater, vextureWater, vextureShallows, vextureFoam, vextureInshore, VextureLight, vextureSea.
 //
-// How far the shore is follows from coverage of a second, wide footprint: beside a straight shore it grows evenly from
-// 1/2 on the shore to 1 at half the footprint's width from it.
+// How far the shore is follows from the rasters that shore.glsl draws: beside a straight shore the share of the box around
+// a place grows evenly from 1/2 on the shore to 1 at half the box's width from it.
 #include "packed_wrap.glsl"
+#include "around.glsl"
 
 uniform int vextureShapes;    // none, one, or two while one turns into the other
 uniform uvec2 vextureQuads;   // their roots,
 uniform ivec2 vextureRows;    // where each one's texels begin,
-uniform vec2 vextureShares;   // how much of each is seen
+uniform vec2 vextureShares;   // how much of each is seen; 0 for what is none
+uniform sampler2D vextureAround;      // the first one's raster
+uniform sampler2D vextureAroundNext;  // and the second's
+uniform vec2 vextureBox;      // half the width of the boxes in them, in the unit square, and that without a texel
 uniform float vextureShore;   // width of the strip along the shore, in the unit square; 0: none
 uniform float vextureLapping; // seconds from one line of foam to the next
 
@@ -21,36 +25,29 @@ struct VextureWater {
     vec2 dy;
 };
 
-// Parameters: those of vextureCoverage. All lookups are rounds of one loop, so that who needs none pays for none: the
-// wide footprint first, and the pixel's own only where the wide one has met an outline.
+// Parameters: those of vextureCoverage. Where the boxes hold no outline, a pixel within them holds none either, and is
+// not looked up. Lookups are rounds of one loop, so that who needs none pays for none.
 VextureWater vextureWater(vec2 uv, vec2 dx, vec2 dy) {
     vec2 reach = abs(dx) + abs(dy);
-    float box = 2.0 * vextureShore;
-    float clarity = box > 0.0 ? clamp(2.0 - 2.0 * max(reach.x, reach.y) / box, 0.0, 1.0) : 0.0;
-    bool wide = clarity > 0.0;
-    bool near = false;
-    float around = 0.0;
-    float coverage = 0.0;
-    int shape = 0;
+    float pixel = max(reach.x, reach.y);
+    vec2 raster = vec2(textureLod(vextureAround, uv, 0.0).r, textureLod(vextureAroundNext, uv, 0.0).r);
+    bool is_clear = 0.5 * pixel < vextureBox.y && vextureShares == vextureShares * abs(2.0 * raster - 1.0);
+    float coverage = is_clear ? dot(vextureShares, raster) : 0.0;
+    int shape = is_clear ? vextureShapes : 0;
     while (shape < vextureShapes) {
         vexture_first_row = vextureRows[shape];
-        vexture_levels_below = wide ? VEXTURE_LEVELS_BELOW - 1 : VEXTURE_LEVELS_BELOW;
-        vexture_is_plain = true;
-        vec2 right = wide ? vec2(box, 0.0) : dx;
-        vec2 up = wide ? vec2(0.0, box) : dy;
-        float more = vextureWrapped(vextureQuads[shape], uv, right, up);
-        coverage += vextureShares[shape] * (vexture_is_plain ? round(more) : more);
-        near = near || (wide && !vexture_is_plain);
+        coverage += vextureShares[shape] * vextureWrapped(vextureQuads[shape], uv, dx, dy);
         shape++;
-        bool again = wide && near && shape == vextureShapes;
-        wide = wide && !again;
-        around = again ? coverage : around;
-        coverage = again ? 0.0 : coverage;
-        shape = again ? 0 : shape;
     }
-    float offshore = near ? mix(1.0, clamp(2.0 * around - 1.0, 0.0, 1.0), clarity) : 1.0;
+    vec2 filled = vexture_share(raster);
+    vec2 weights = vextureShares * filled + 1e-6;
+    weights /= weights.x + weights.y;
     float widths = vextureShore > 0.0 ? 1.0 / vextureShore : 0.0;
-    return VextureWater(coverage, offshore, smoothstep(0.2, 0.45, around), uv * widths, dx * widths, dy * widths);
+    vec2 far = clamp((2.0 * filled - 1.0) * vextureBox.x * widths, 0.0, 1.0);
+    float clarity = clamp(2.0 - pixel * widths, 0.0, 1.0);
+    float offshore = widths > 0.0 ? mix(1.0, dot(weights, far), clarity) : 1.0;
+    float openness = dot(weights, smoothstep(0.2, 0.45, filled));
+    return VextureWater(coverage, offshore, openness, uv * widths, dx * widths, dy * widths);
 }
 
 // How much of the shallows' colour shows.

@@ -1,7 +1,7 @@
 // A bay with a beach, drawn one picture at a time as a test describes it.
 import * as THREE from 'three';
 import { Water } from 'three/addons/objects/Water.js';
-import { VectorTextureLoader } from 'vexture';
+import { FoldTexture, VectorTextureLoader } from 'vexture';
 import { SimpleWater, VectorWater, waterNormals } from 'vexture/water';
 
 const SIDE = 100; // of the plane, whose uv are the unit square
@@ -10,6 +10,9 @@ const SUN = new THREE.Vector3(-0.5, 0.42, -0.75).normalize();
 const loader = new VectorTextureLoader();
 const textures = {};
 const textureOf = async (name) => (textures[name] ??= await loader.loadAsync(`${name}.ktx2`));
+
+const folds = {};
+const foldOf = async (name) => (folds[name] ??= FoldTexture.parse(await (await fetch(`${name}.fold.ktx2`)).arrayBuffer()));
 
 let renderer = null;
 
@@ -36,7 +39,7 @@ function cameraOf({ camera = 'flat', width = 512, height = 512 }) {
   if (camera === 'flat') {
     const flat = new THREE.OrthographicCamera(-SIDE / 2, SIDE / 2, SIDE / 2, -SIDE / 2, 0, 100);
     flat.position.y = 50;
-    flat.lookAt(0, 0, 0);
+    flat.rotation.x = -Math.PI / 2; // lookAt does not look down quite upright
     return flat;
   }
   const [place, at, angle] = CAMERAS[camera];
@@ -105,7 +108,7 @@ function fill(scene, { ground }) {
 
 const normals = waterNormals();
 
-const LOOK = { waterColor: 0x0a3540, sunColor: 0xfff0dd, sunDirection: SUN, distortionScale: 3, size: 12 };
+const LOOK = { waterColor: 0x0b5068, sunColor: 0x9fb0b8, sunDirection: SUN, distortionScale: 3, size: 12 };
 
 function rasterOf(texture) {
   const size = 1024;
@@ -143,9 +146,11 @@ function rastered(water) {
   material.uniforms.raster = { value: rasterOf(water.texture) };
 }
 
-async function waterOf({ water = 'vector', texture = 'bay', options = {}, time = 3, patch = [] }) {
+async function waterOf({ water = 'vector', texture = 'bay', options = {}, transform, fold, time = 3, patch = [] }) {
   if (water === 'none') return new THREE.Group();
   const own = { waterNormals: normals, ...LOOK, ...options };
+  if (transform) own.transform = new THREE.Matrix3().set(...transform);
+  if (fold) own.fold = await foldOf(fold);
   let mesh;
   if (water === 'plain') {
     mesh = new Water(planeOf(), own);
@@ -197,6 +202,13 @@ async function draw(config) {
 async function changes(config, steps) {
   const { scene, camera, water } = await build(config);
   const pictures = [];
+  rendererOf(config);
+  if (config.part) {
+    renderer.setViewport(...config.part);
+    renderer.setScissor(...config.part);
+    renderer.setScissorTest(true);
+    renderer.autoClear = false;
+  }
   for (const step of steps) {
     for (const [key, value] of Object.entries(step)) {
       if (key === 'texture') water.texture = value && (await textureOf(value));
@@ -204,7 +216,8 @@ async function changes(config, steps) {
       else if (key === 'replace') water.texture.replace((await loader.loadAsync(`${value}.ktx2`)).data);
       else water[key] = value;
     }
-    rendererOf(config).render(scene, camera);
+    if (config.part) renderer.clear();
+    renderer.render(scene, camera);
     pictures.push(pixels(config));
   }
   return { pictures, programs: renderer.info.programs.filter(({ name }) => name === water.material.name).length };

@@ -1,0 +1,39 @@
+// How much of a shape lies around each place: the raster that water reads beside the shape itself.
+// Exports: vextureAroundOf.
+#include "packed_wrap.glsl"
+#include "around.glsl"
+
+// Whether a box holds no outline at all, however small what it encloses: then all its cells are constant and alike. A
+// cell with curves counts as one that they pass.
+bool vexture_is_clear(uint root, VextureSpot spot) {
+    VexturePlace place = vexture_place(spot.base, spot.offset, spot.reach);
+    int shared_levels = vexture_shared_levels(place.low, place.high);
+    VextureTop top = VextureTop(root, 0);
+    ivec2 position = place.low;
+    int next_row = place.high.y + 1;
+    int cells = VEXTURE_MOST_CELLS;
+    float lowest = 1.0;
+    float highest = 0.0;
+    while (cells > 0) {
+        VextureCell cell = vexture_descend(top, shared_levels, VEXTURE_MOST_DEPTH, position);
+        float filled = cell.is_quad || vexture_winding_code(cell) != 0 ? 0.5 : vexture_stored_coverage(cell);
+        lowest = min(lowest, filled);
+        highest = max(highest, filled);
+        int bits = VEXTURE_POSITION_BITS - cell.level;
+        ivec2 beyond = ((position >> bits) + 1) << bits;
+        next_row = min(next_row, beyond.y);
+        bool row_ends = beyond.x > place.high.x;
+        position = row_ends ? ivec2(place.low.x, next_row) : ivec2(beyond.x, position.y);
+        next_row = row_ends ? place.high.y + 1 : next_row;
+        bool is_mixed = highest > 0.0 && lowest < 1.0;
+        cells = is_mixed || position.y > place.high.y ? 0 : cells - 1;
+    }
+    return position.y > place.high.y && (highest == 0.0 || lowest == 1.0);
+}
+
+// What the raster holds at a place: parameters are half the width of the box around it, too.
+float vextureAroundOf(uint root, vec2 uv, float reach) {
+    VextureSpot spot = vexture_spot(uvec2(0u), uv, vec2(2.0 * reach, 0.0), vec2(0.0, 2.0 * reach));
+    float share = vexture_spot_coverage(root, spot);
+    return vexture_is_clear(root, spot) ? round(share) : vexture_around(share);
+}
