@@ -80,6 +80,8 @@ def shaders() -> str:
     for name, file in PACKED_FILES.items():
         comment = f"{file}; VEXTURE_QUALITY must be defined before it, and VEXTURE_WRAP may be."
         parts.append(module_text(name, bare(inlined(packed_text(file, None))), comment))
+    comment = "steps.glsl: what the derivatives of a position are, for pixels."
+    parts.append(module_text("steps", bare(join("steps.glsl")), comment))
     parts.append("/** Values of VEXTURE_QUALITY. */\n")
     parts.append(f"export const QUALITIES = Object.freeze({json.dumps(QUALITIES)});\n")
     parts.append("/** Values of VEXTURE_WRAP. */\n")

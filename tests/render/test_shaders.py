@@ -24,7 +24,15 @@ MIRROR = dict.fromkeys(FILES, cpu) | {
     "fold.glsl": blend,
 }
 # only the web's, judged by its pixels (tests/web) and by decoded trees (test_packed_overlay.py)
-WITHOUT_MIRROR = {"packed_wrap.glsl", "packed_layers.glsl", "packed_overlay.glsl"}
+WITHOUT_MIRROR = {
+    "around.glsl",
+    "packed_layers.glsl",
+    "packed_overlay.glsl",
+    "packed_wrap.glsl",
+    "shore.glsl",
+    "steps.glsl",
+    "water.glsl",
+}
 MIRRORED = {name: text for name, text in FILES.items() if name not in WITHOUT_MIRROR}
 ALONE = {"covering_triangle", "fetch"}  # functions of the shader for which the mirror has no use
 UNIFORMS = [

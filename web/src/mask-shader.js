@@ -1,5 +1,5 @@
 // What a mask adds to a material's shader: declarations, and lines that call the functions of src/vexture/glsl.
-import { FOLD_HEIGHT, QUALITIES, WRAPS, packed } from '../generated/shaders.js';
+import { FOLD_HEIGHT, QUALITIES, WRAPS, packed, steps } from '../generated/shaders.js';
 
 /**
  * @typedef {object} Variant All that makes one program differ from another.
@@ -20,7 +20,7 @@ import { FOLD_HEIGHT, QUALITIES, WRAPS, packed } from '../generated/shaders.js';
 export const ROOT_ATTRIBUTE = 'vextureRoot';
 
 /** The derivatives are those of a position that has no jumps: borders are looked at below. */
-const FOOTPRINT = 'vextureUv, dFdx(vextureUv), dFdy(vextureUv)';
+const FOOTPRINT = 'vextureUv, vextureStepX(vextureUv), vextureStepY(vextureUv)';
 
 /**
  * What must stand before the first `footprint`.
@@ -118,7 +118,7 @@ export function texts(variant) {
   }${instanced ? `vextureInstance = ${ROOT_ATTRIBUTE};\n` : ''}`;
   const fragmentDeclare = `${varyings}${inside ? 'uniform vec3 vextureInside;\n' : ''}${
     mapped ? 'uniform sampler2D vextureInsideMap;\n' : ''
-  }${mode === 'cut' ? 'uniform float vextureThreshold;\n' : ''}${reader(variant)}`;
+  }${mode === 'cut' ? 'uniform float vextureThreshold;\n' : ''}${steps}${reader(variant)}`;
   const common = { vertexDeclare, vertexUv, fragmentDeclare };
   if (mode === 'cut') {
     return { ...common, fragmentCut: `${foldLines(variant)}if (${coverage(variant)} < vextureThreshold) discard;` };

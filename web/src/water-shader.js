@@ -1,6 +1,6 @@
 // What water adds to a shader: declarations, and lines that call the functions of src/vexture/glsl/water.glsl.
 import { fold } from '../generated/fold-shader.js';
-import { QUALITIES, WRAPS } from '../generated/shaders.js';
+import { QUALITIES, WRAPS, steps } from '../generated/shaders.js';
 import { shore, water } from '../generated/water-shader.js';
 import { foldLines, footprint } from './mask-shader.js';
 
@@ -19,7 +19,7 @@ const VARYINGS = 'varying vec2 vextureUv;\n';
 export function declarations(quality) {
   const chosen = `#define VEXTURE_QUALITY ${QUALITIES[quality]}\n#define VEXTURE_WRAP ${WRAPS.clamp}\n`;
   const colors = 'uniform vec4 vextureShallow;\nuniform vec4 vextureFoamColor;\nuniform vec4 vextureFlat;\n';
-  return `${VARYINGS}${colors}${chosen}${water}#ifdef ${FOLD}\n${fold}#endif\n`;
+  return `${VARYINGS}${colors}${steps}${chosen}${water}#ifdef ${FOLD}\n${fold}#endif\n`;
 }
 
 /** The shader that draws the raster along the shore, over the whole of a target. */
