@@ -8,7 +8,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 SHAPES := examples/shapes
 BENCHMARKS := packed_fidelity speed packed_conversion size fidelity conversion icons live
-WEB_BENCHMARKS := page_fidelity web_speed editing
+WEB_BENCHMARKS := page_fidelity web_speed editing flood
 VIEWER := src/vexture/live/built/viewer.js
 WEB_SOURCES := $(shell find web/src web/viewer web/flood web/generated -name '*.js' -o -name '*.css')
 QUICK ?=
@@ -67,12 +67,15 @@ demo: .venv/for-demo
 	@$(BIN)/vexture render demo/cake.ktx2 -o demo/pictures/cake-gpu.png --size 500 --renderer gpu || \
 		echo 'so there is no picture by the GPU this time; all the others are there'
 	@if ! command -v node >/dev/null || ! command -v npm >/dev/null; then \
-		echo 'node or npm is missing, so the viewer cannot be built, and there is no demo/duck.html this time'; \
+		echo 'node or npm is missing, so the viewer cannot be built, and there are no pages demo/duck.html and demo/05/flood.html this time'; \
 	elif $(MAKE) --no-print-directory viewer; then \
 		$(BIN)/vexture export $(SHAPES)/duck.svg -o demo/duck.html && \
-		echo 'Open demo/duck.html in a browser to look at the duck from nearby; $(BIN)/vexture view shows any drawing so.'; \
+		$(BIN)/python examples/05_santa_cruz_flood.py demo/05 >demo/05.log && \
+		$(BIN)/vexture flood --extent demo/05/flood.nc --time-dim time --ground demo/05/ground.jpg -o demo/05/flood.html && \
+		echo 'Open demo/duck.html in a browser to look at the duck from nearby; $(BIN)/vexture view shows any drawing so.' && \
+		echo 'Open demo/05/flood.html to stand on a beach while a storm surge comes in.'; \
 	else \
-		echo 'so the viewer is not built, and there is no demo/duck.html this time'; \
+		echo 'so the viewer is not built, and there are no pages demo/duck.html and demo/05/flood.html this time'; \
 	fi
 	@echo
 	@echo 'Open the pictures in demo/pictures/: duck-1000.png is drawn from the texture demo/duck.ktx2, duck-50.png from'

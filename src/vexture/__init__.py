@@ -12,8 +12,11 @@ from vexture.pipeline import atlas, convert
 __all__ = [
     "DeviceError",
     "Drawing",
+    "Extent",
     "FillRule",
+    "Fold",
     "FormatError",
+    "Frame",
     "LimitError",
     "PackedTexture",
     "Paint",
@@ -25,25 +28,39 @@ __all__ = [
     "VextureError",
     "atlas",
     "convert",
+    "fold_from",
+    "fold_picture",
     "load",
+    "read_extent",
     "read_geojson",
     "read_svg",
     "render",
     "render_layers",
     "shader_source",
+    "shore_fold",
 ]
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing, FillRule, Paint, Path
     from vexture.encoding import PackedTexture, Root, ThesisTexture, load
+    from vexture.folding.fold import Fold, fold_from
+    from vexture.folding.picture import fold_picture
+    from vexture.folding.shore import shore_fold
     from vexture.shaders import shader_source
+    from vexture.sources.extent import Extent, read_extent
+    from vexture.sources.frame import Frame
     from vexture.sources.geojson import read_geojson
     from vexture.sources.svg import read_svg
 
 _HOMES = {
     "vexture.drawing": ("Drawing", "FillRule", "Paint", "Path"),
     "vexture.encoding": ("PackedTexture", "Root", "ThesisTexture", "load"),
+    "vexture.folding.fold": ("Fold", "fold_from"),
+    "vexture.folding.picture": ("fold_picture",),
+    "vexture.folding.shore": ("shore_fold",),
     "vexture.shaders": ("shader_source",),
+    "vexture.sources.extent": ("Extent", "read_extent"),
+    "vexture.sources.frame": ("Frame",),
     "vexture.sources.geojson": ("read_geojson",),
     "vexture.sources.svg": ("read_svg",),
 }

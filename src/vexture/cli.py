@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vexture.arguments import Tolerance
+from vexture.cli_flood import flood
 from vexture.cli_fold import fold
 from vexture.cli_live import push, serve
 from vexture.cli_view import export, view
@@ -310,4 +311,5 @@ main.add_command(serve)
 main.add_command(push)
 main.add_command(view)
 main.add_command(export)
+main.add_command(flood)
 main.add_command(fold)

@@ -48,7 +48,7 @@ def serve(
 @click.argument("url", metavar="URL")
 @click.option("--token-file", metavar="F", type=PATH, required=True, help="File with the token of the server.")
 def push(file: Path, url: str, token_file: Path) -> None:
-    """Publish a drawing or a packed texture on a server.
+    """Publish a drawing, geographic data or a packed texture on a server.
 
     URL is that of the server, or SERVER/shapes/NAME; the name is otherwise the file's.
     """

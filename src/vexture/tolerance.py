@@ -10,6 +10,7 @@ __all__ = [
     "FINEST",
     "FLATNESS",
     "GRAIN",
+    "HMIN",
     "PARAMETER",
     "ROUND",
     "SCANLINE",
@@ -44,3 +45,6 @@ SCANLINE: Final = 2.0**-30
 
 ROUND: Final = 1e-5
 """Unit-square units. Largest distance from the true curve of what a reader must approximate: arcs and strokes."""
+
+HMIN: Final = 0.05
+"""Metres. Less water than this is none: what flood modellers draw their extents at."""

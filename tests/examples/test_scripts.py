@@ -59,6 +59,24 @@ def test_colours_and_atlas(tmp_path):
     assert 0.1 < dark_share(tmp_path / "duck.png") < 0.9
 
 
+def test_santa_cruz_flood(tmp_path):
+    netcdf = pytest.importorskip("netCDF4")
+    lines = run(ROOT / "examples" / "05_santa_cruz_flood.py", tmp_path, folder=tmp_path).splitlines()
+    assert "synthetic" in lines[0].lower()
+    with netcdf.Dataset(tmp_path / "flood.nc") as file:
+        assert "synthetic" in file.comment.lower()
+        depth, bed, level = (np.asarray(file[name][:]) for name in ("depth", "bed_level", "water_level"))
+    assert depth.shape == (24, *bed.shape)
+    wet = (depth >= 0.05).mean(axis=(1, 2))
+    assert wet.argmax() == level.argmax()
+    assert 0.4 < wet.min() < wet.max() - 0.02 < 0.6
+    assert np.abs(depth + bed - level[:, None, None])[depth > 0].max() < 2e-3
+    with Image.open(tmp_path / "ground.jpg") as image:
+        assert "synthetic" in image.info["comment"].decode().lower()
+        assert image.width / image.height == pytest.approx(bed.shape[1] / bed.shape[0])
+    assert (tmp_path / "ground.jpg").stat().st_size < 500_000
+
+
 def test_every_example_is_tested():
     names = {path.name for path in (ROOT / "examples").glob("*.py")}
     assert names == set(re.findall(r"\d\d_\w+\.py", Path(__file__).read_text(encoding="utf-8")))

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from vexture.render.exact import render_exact
 from vexture.sources.contours import shored, wet_drawing
 
-HMIN = 0.05
+HMIN = 0.05  # typed again: the oracle
 T = np.linspace(0.0, 1.0, 24, endpoint=False)[:, None]
 
 

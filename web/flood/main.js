@@ -1,1 +1,197 @@
-/** The page of `vexture flood`. */
+/** The page of `vexture flood`: makes its elements, brings them together, and starts. */
+import { Matrix3, SRGBColorSpace, TextureLoader } from 'three';
+import { FoldTexture } from '../src/fold-texture.js';
+import { SimpleWater, chooseWater } from '../src/water.js';
+import { element } from '../viewer/dom.js';
+import { Notes } from '../viewer/notes.js';
+import { bytesOf } from '../viewer/scene.js';
+import { createPanel } from './panel.js';
+import { Places } from './place.js';
+import { Player } from './player.js';
+import { PRESETS } from './presets.js';
+import { createReadout } from './readout.js';
+import { Relief, Surface } from './relief.js';
+import { readScene } from './scene.js';
+import { Sea } from './sea.js';
+import { Stage } from './stage.js';
+import { Steps } from './steps.js';
+import { createTimeBar } from './time-bar.js';
+import { Tray } from './tray.js';
+
+/** @typedef {import('./presets.js').Preset} Preset */
+
+const DRY = 'Nothing is under water at this time.';
+
+/** Pixels of a side of what the water mirrors. */
+const MIRROR = 512;
+
+const bare = new URLSearchParams(location.search).has('bare');
+const app = /** @type {HTMLElement} */ (document.getElementById('app'));
+const canvas = element('canvas', {
+  tabindex: 0, role: 'application', 'aria-label':
+    'Picture of the flood. Drag to turn it, drag with the right button to move, wheel to zoom; keys 1 to 5 are the '
+    + 'views, [ and ] go through the steps.',
+});
+const notes = new Notes();
+
+/** From places of the box to the unit square. @param {import('./scene.js').FrameFacts} frame */
+function boxTransform({ box: [u0, v0, u1, v1] }) {
+  return new Matrix3().set(u1 - u0, 0, u0, 0, v1 - v0, v0, 0, 0, 1);
+}
+
+/** @param {string | null} url */
+async function pictureOf(url) {
+  if (!url) return null;
+  const texture = await new TextureLoader().loadAsync(new URL(url, document.baseURI).href);
+  texture.colorSpace = SRGBColorSpace;
+  return texture;
+}
+
+/** Where the presets stand. @param {import('./scene.js').Flood} flood @param {Surface} surface */
+function standOf({ shore }, surface) {
+  const { places } = surface;
+  const [x, y] = shore?.seaward ?? [0, -1];
+  const long = Math.hypot(x, y) || 1;
+  return {
+    width: places.width + 2 * Tray.around, depth: places.depth + 2 * Tray.around,
+    place: places.toWorld(...(shore ? places.fromUnit(...shore.place) : /** @type {[number, number]} */ ([0.5, 0.5]))),
+    seaward: /** @type {[number, number]} */ ([x / long, -y / long]),
+    height: (/** @type {number} */ px, /** @type {number} */ pz) => surface.height(px, pz),
+  };
+}
+
+/** @param {Stage} stage @param {Player} player */
+function follow(stage, player) {
+  const tell = (/** @type {string | null | undefined} */ note) => notes.keep('shape', note ?? '');
+  player.addEventListener('step', () => {
+    const { step } = player;
+    notes.keep('dry', step?.manifest.facts?.dry ? DRY : '');
+    tell(step?.manifest.note);
+    stage.requestFrame();
+  });
+  player.addEventListener('failed', (event) => notes.say(/** @type {CustomEvent<Error>} */ (event).detail.message));
+  stage.addEventListener('lost', () => notes.keep('driver', 'The graphics driver was reset; waiting for it…'));
+  stage.addEventListener('restored', () => notes.keep('driver', ''));
+}
+
+/** Say what becomes of a server, for each texture once. */
+function listener() {
+  const known = new WeakSet();
+  return (/** @type {import('./steps.js').Step} */ { texture }) => {
+    if (known.has(texture)) return;
+    known.add(texture);
+    texture.addEventListener('note', ({ message }) => notes.keep('shape', message));
+    texture.addEventListener('offline', () =>
+      notes.keep('server', 'Offline: the server does not answer. The last water stays.'));
+    texture.addEventListener('online', () => notes.keep('server', ''));
+  };
+}
+
+/** @param {(preset: Preset) => void} viewed @param {Player} player */
+function listenToKeys(viewed, player) {
+  document.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target instanceof HTMLInputElement
+      || event.target instanceof HTMLSelectElement) return;
+    const preset = PRESETS[Number(event.key) - 1];
+    if (preset) viewed(preset);
+    else if (event.key === '[' || event.key === ']') {
+      player.pause();
+      void player.go(player.index + (event.key === ']' ? 1 : -1));
+    }
+  });
+}
+
+/** What of the picture stands free. @param {Element} panel @param {Element} bar */
+function insetOf(panel, bar) {
+  const [over, below] = [panel.getBoundingClientRect(), bar.getBoundingClientRect()];
+  const bottom = below.height;
+  return over.width < innerWidth / 2 ? { left: over.right, bottom } : { top: over.bottom, bottom };
+}
+
+async function start() {
+  const scene = readScene();
+  const { flood } = scene;
+  document.title = flood.title;
+  const places = new Places(flood.frame);
+  const surface = new Surface(Relief.read(flood.relief, await bytesOf(flood.relief.heights, document.baseURI)), places);
+  const picture = await pictureOf(flood.ground);
+  const fold = flood.fold ? await FoldTexture.parse(await bytesOf(flood.fold, document.baseURI)) : null;
+  const Water = matchMedia('(max-width: 720px)').matches ? SimpleWater : chooseWater();
+  let stage;
+  try {
+    stage = new Stage(canvas, surface, {
+      picture,
+      stand: standOf(flood, surface),
+      sea: (sun) => new Sea(Water, surface, { transform: boxTransform(flood.frame), fold, sun, mirror: MIRROR }),
+    });
+  } catch (error) {
+    console.warn(error);
+    app.append(element('p', { class: 'fatal', role: 'alert' },
+      'This page draws with WebGL 2, which this browser does not offer. Try a newer browser, or switch on hardware '
+      + 'acceleration in its settings.'));
+    return;
+  }
+  await run(stage, scene, surface, fold);
+}
+
+/**
+ * @param {Stage} stage @param {import('./scene.js').Scene} scene @param {Surface} surface
+ * @param {FoldTexture | null} fold
+ */
+async function run(stage, scene, surface, fold) {
+  const { flood } = scene;
+  const steps = new Steps(scene);
+  const heard = listener();
+  const player = new Player(steps, {
+    show: ({ texture }, fading) => {
+      stage.sea.show(texture, fading);
+      stage.requestFrame();
+    },
+    prepare: (step) => {
+      heard(step);
+      for (const texture of Object.values(step.texture.textures)) stage.renderer.initTexture(texture);
+    },
+  });
+  follow(stage, player);
+  const viewed = (/** @type {Preset} */ preset, how = {}) => {
+    stage.view(preset, how);
+    panel.mark(preset);
+  };
+  const readout = createReadout(stage, player, surface, fold);
+  const panel = createPanel(stage, surface, { title: flood.title, notes: flood.notes, readout, viewed });
+  stage.controls.addEventListener('start', () => panel.mark(null));
+  listenToKeys(viewed, player);
+  const bar = createTimeBar(player);
+  if (!bare) {
+    app.append(panel.panel, bar, notes.element);
+    stage.inset = () => insetOf(panel.panel, bar);
+  }
+  stage.resize();
+  viewed('Bird', { fly: false });
+  Object.assign(page, {
+    camera: stage.camera,
+    water: stage.sea.water,
+    stage,
+    player,
+    view: viewed,
+    step: (/** @type {number} */ at) => player.go(at),
+    freeze: (/** @type {number | null} */ seconds) => stage.freeze(seconds),
+    flat: (/** @type {boolean} */ on) => stage.flat(on),
+    relief: (/** @type {number} */ times) => stage.relief(times),
+    render: () => stage.render(),
+  });
+  await player.go(0);
+  stage.render();
+  steps.follow();
+}
+
+app.append(element('main', { class: 'stage' }, canvas));
+app.classList.toggle('bare', bare);
+
+/** For tests and for the curious. @type {Record<string, unknown>} */
+const page = { ready: null };
+Object.assign(window, { vexture: { flood: page } });
+page.ready = start().catch((error) => {
+  app.append(element('p', { class: 'fatal', role: 'alert' }, `The flood cannot be shown: ${error.message}`));
+  throw error;
+});

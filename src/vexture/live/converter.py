@@ -17,6 +17,7 @@ from vexture.errors import LimitError, VextureError
 from vexture.live.documents import PUBLISHED_SETTINGS, shape_of
 from vexture.live.limits import Limits
 from vexture.live.shelf import Shape
+from vexture.live.waters import Waters
 from vexture.settings import Settings
 
 __all__ = ["BusyError", "Converter"]
@@ -38,11 +39,13 @@ class Converter:
         Its ``conversion_seconds``, ``texture_bytes`` and ``conversions`` are kept to.
     settings : Settings
         How drawings are converted.
+    waters : Waters, optional
+        Of a server that shows a flood: into which frame uploads are converted.
     """
 
-    def __init__(self, limits: Limits, settings: Settings = PUBLISHED_SETTINGS) -> None:
+    def __init__(self, limits: Limits, settings: Settings = PUBLISHED_SETTINGS, waters: Waters | None = None) -> None:
         self._limits = limits
-        self._settings = settings
+        self._how = waters or settings
         self._waiting = 0
         self._turn = asyncio.Lock()
         self._pool: ProcessPoolExecutor | None = None
@@ -51,7 +54,7 @@ class Converter:
     async def warm(self) -> None:
         """Start the process, which only the first conversion would wait for."""
         async with self._turn:
-            await asyncio.get_running_loop().run_in_executor(self._running(), _nothing, self._settings)
+            await asyncio.get_running_loop().run_in_executor(self._running(), _nothing, self._how)
 
     @contextmanager
     def place(self) -> Iterator[None]:
@@ -92,7 +95,7 @@ class Converter:
         seconds = self._limits.conversion_seconds
         loop = asyncio.get_running_loop()
         most = self._limits.texture_bytes
-        work = loop.run_in_executor(self._running(), _convert, data, name, most, self._settings)
+        work = loop.run_in_executor(self._running(), _convert, data, name, most, self._how)
         try:
             async with asyncio.timeout(seconds):
                 return await work
@@ -143,21 +146,27 @@ def _prepare() -> None:
     threading.Thread(target=end_with_the_server, daemon=True).start()
 
 
-def _nothing(settings: Settings) -> None:
+def _nothing(how: Settings | Waters) -> None:
     """Compile or load what a conversion needs."""
-    shape_of(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "warm.svg", "warm", settings)
+    if isinstance(how, Waters):
+        how.warm()
+    else:
+        shape_of(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "warm.svg", "warm", how)
 
 
-def _convert(data: bytes, name: str, most: int, settings: Settings) -> Shape:
+def _convert(data: bytes, name: str, most: int, how: Settings | Waters) -> Shape:
     """Convert an upload, in the process."""
     from vexture.encoding.ktx2 import MAGIC, TEXEL_BYTES
     from vexture.encoding.packed_texture import packed_from
     from vexture.sources.reading import is_geojson
 
-    if not data.strip():
+    if isinstance(how, Waters):
+        shape = how.shape_of(data, name)
+    elif not data.strip():
         raise LimitError(f"{name}: the upload is empty; send an SVG, GeoJSON or a packed texture")
-    suffix = ".ktx2" if data.startswith(MAGIC) else ".geojson" if is_geojson(data, "") else ".svg"
-    shape = shape_of(data, name + suffix, name, settings)
+    else:
+        suffix = ".ktx2" if data.startswith(MAGIC) else ".geojson" if is_geojson(data, "") else ".svg"
+        shape = shape_of(data, name + suffix, name, how)
     size = packed_from(shape.texture.data, name).nbytes
     if size > most:
         raise LimitError(

@@ -21,7 +21,18 @@ if TYPE_CHECKING:
 
     from vexture.drawing import Drawing
 
-__all__ = ["PUBLISHED_SETTINGS", "SVG_TYPE", "THESIS_BITS", "VIEWER_SETTINGS", "shape_of", "thesis_pair"]
+__all__ = [
+    "PUBLISHED_SETTINGS",
+    "SVG_TYPE",
+    "THESIS_BITS",
+    "VIEWER_SETTINGS",
+    "converted",
+    "load_kernels",
+    "shape_of",
+    "texture_shape",
+    "thesis_pair",
+    "warnings_said",
+]
 
 SVG_TYPE = "image/svg+xml"
 
@@ -85,17 +96,17 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
 
     suffix = PurePath(file_name).suffix.lower()
     if data.startswith(MAGIC) or suffix == PACKED_SUFFIX:
-        return _texture(data, file_name, name)
+        return texture_shape(data, file_name, name)
     if suffix == PNG_SUFFIX:
         raise SourceError(
             f"{file_name}: pictures and textures of the encoding thesis are not shown by themselves; "
             "give the drawing, with which the viewer compares them"
         )
-    with ONE_AT_A_TIME, _collected() as said:
-        _warm()
+    with ONE_AT_A_TIME, warnings_said() as said:
+        load_kernels()
         start = time.perf_counter()
         drawing = replace(_read(data, file_name, settings), name=name)
-        shape = _converted(drawing, file_name, replace(settings, select=None), start)
+        shape = converted(drawing, file_name, replace(settings, select=None), start)
     facts = {**shape.facts, "warnings": said}
     views = {}
     if not is_geojson(data, file_name):
@@ -130,7 +141,7 @@ def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, bytes]:
     source = shape.views.get("svg")
     if source is None:
         raise SourceError(f"{shape.name}: a texture without its drawing cannot be compared; publish the drawing")
-    with ONE_AT_A_TIME, _collected():
+    with ONE_AT_A_TIME, warnings_said():
         drawing = replace(_read(source.data, f"{shape.name}.svg", Settings()), name=shape.name)
         texture = convert(drawing, encoding="thesis", bits=bits)
     assert isinstance(texture, ThesisTexture)
@@ -138,7 +149,7 @@ def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, bytes]:
 
 
 @contextmanager
-def _collected() -> Iterator[list[str]]:
+def warnings_said() -> Iterator[list[str]]:
     """List of the texts of warnings about sources."""
     texts: list[str] = []
     with warnings.catch_warnings(record=True) as caught:
@@ -148,7 +159,7 @@ def _collected() -> Iterator[list[str]]:
 
 
 @cache
-def _warm() -> None:
+def load_kernels() -> None:
     """Load the kernels, which only the first conversion of a process waits for: it is no part of any file's time."""
     from vexture.pipeline import convert
     from vexture.sources.svg import svg_drawing
@@ -171,7 +182,7 @@ def _read(data: bytes, file_name: str, settings: Settings) -> "Drawing":
     return svg_drawing(data, file_name, settings.select)
 
 
-def _converted(drawing: "Drawing", file_name: str, settings: Settings, start: float) -> Shape:
+def converted(drawing: "Drawing", file_name: str, settings: Settings, start: float) -> Shape:
     """Shape of a drawing, with the facts of its conversion."""
     from vexture.pipeline import join, shapes_of
     from vexture.quadtree.build_packed import largest_shift
@@ -194,7 +205,7 @@ def _converted(drawing: "Drawing", file_name: str, settings: Settings, start: fl
     return Shape(drawing.name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
 
 
-def _texture(data: bytes, file_name: str, name: str) -> Shape:
+def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
     """Shape of a texture that is there already: what it does not say is None."""
     from vexture.encoding import info
     from vexture.encoding.packed_texture import packed_from

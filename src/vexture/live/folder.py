@@ -11,11 +11,12 @@ from typing import IO, Final
 
 from vexture.errors import DeviceError, LimitError, VextureError
 from vexture.live.converter import Converter
+from vexture.live.limited import LimitedShelf
 from vexture.live.limits import Limits
 from vexture.live.names import checked_name, manifest_name
-from vexture.live.shelf import File, Shape, Shelf
+from vexture.live.shelf import File, Shape
 
-__all__ = ["Folder", "FullError"]
+__all__ = ["Folder"]
 
 STATE: Final = ".vexture"
 TEMPORARY: Final = ".tmp"
@@ -24,11 +25,7 @@ DRAWINGS: Final = (".svg", ".svgz", ".geojson", ".ktx2")
 Say = Callable[[str], None]
 
 
-class FullError(LimitError):
-    """There is no room for a shape: remove others or raise the limit."""
-
-
-class Folder(Shelf):
+class Folder(LimitedShelf):
     """The shapes of a folder.
 
     What is published is kept in ``.vexture`` inside it: ``files/DIGEST.ext``, named after their content, and
@@ -56,8 +53,8 @@ class Folder(Shelf):
     """
 
     def __init__(self, path: Path, limits: Limits, say: Say) -> None:
-        super().__init__()
-        self._path, self._limits, self._say = path, limits, say
+        super().__init__(limits)
+        self._path, self._say = path, say
         self._shapes_folder, self._files_folder = path / STATE / "shapes", path / STATE / "files"
         self._turn = asyncio.Lock()
         try:
@@ -83,7 +80,7 @@ class Folder(Shelf):
             If the disk refuses; what was there stays.
         """
         async with self._turn:
-            self._make_sure_of_room(shape)
+            self.make_sure_of_room(shape)
             fresh = [file for file in shape.files if not self.owners(file.name)]
             before = self.shape(shape.name)
             try:
@@ -121,19 +118,8 @@ class Folder(Shelf):
             if self.shape(name) is not None:  # published while it was converted
                 self._say(taken)
                 return
-            self._make_sure_of_room(shape)
+            self.make_sure_of_room(shape)
             self.put(shape)
-
-    def _make_sure_of_room(self, shape: Shape) -> None:
-        before = self.shape(shape.name)
-        if before is None and len(self.names) >= self._limits.shapes:
-            raise FullError(f"{shape.name}: there are {len(self.names)} shapes, the limit; replace one of them")
-        new = {file.name: len(file.data) for file in shape.files}
-        old = {file.name: len(file.data) for file in (before.files if before else ()) if self.owners(file.name) == 1}
-        size = self.nbytes - sum(old[name] for name in old.keys() - new.keys())
-        size += sum(new[name] for name in new if not self.owners(name))
-        if size > self._limits.total_bytes:
-            raise FullError(f"{shape.name}: all shapes then have {size} bytes; the limit is {self._limits.total_bytes}")
 
     def _write(self, shape: Shape, fresh: list[File]) -> None:
         """Bring a shape to the disk: first its files, then what names them."""

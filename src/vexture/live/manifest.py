@@ -8,18 +8,13 @@ from vexture.live.shelf import File, Shape
 __all__ = ["manifest"]
 
 
-def served_address(file: File) -> str:
-    """Where a server has a file, relative to the manifest."""
-    return f"../files/{file.name}"
-
-
 def manifest(
     shape: Shape,
     note: str | None,
     views: Mapping[str, Any],
     *,
-    address: Callable[[File], str] = served_address,
-    events: str | None = "../events",
+    levels: int = 0,
+    address: Callable[[File], str] | None = None,
 ) -> dict[str, Any]:
     """Describe a shape, ready for JSON.
 
@@ -30,18 +25,24 @@ def manifest(
         Why its last update was refused, if it was.
     views : mapping
         What it can be compared with beside its own files.
-    address : callable
-        Gives the address of each of its files, relative to the manifest's own.
-    events : str or None
-        Address of the stream of changes.
+    levels : int
+        How many levels the manifest's address is below ``shapes/``.
+    address : callable, optional
+        Gives the address of each of its files where there is no server, and so no stream of changes either.
     """
+    top = "../" * (levels + 1)
+
+    def served(file: File) -> str:
+        return f"{top}files/{file.name}"
+
+    where = address or served
     return {
         "name": shape.name,
         "version": shape.version,
-        "texture": address(shape.texture),
+        "texture": where(shape.texture),
         "bytes": len(shape.texture.data),
-        "events": events,
+        "events": None if address else f"{top}events",
         "facts": dict(shape.facts),
-        "views": {what: address(file) for what, file in shape.views.items()} | dict(views),
+        "views": {what: where(file) for what, file in shape.views.items()} | dict(views),
         "note": note,
     }

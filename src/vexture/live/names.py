@@ -20,13 +20,15 @@ def checked_name(name: str) -> str:
     Raises
     ------
     LimitError
-        If it holds anything but letters, digits, spaces and ``._-``, starts with a dot, starts or ends with a space,
-        or is longer than 100 bytes.
+        If it is longer than 100 bytes; or if one of its parts between slashes is empty, holds anything but letters,
+        digits, spaces and ``._-``, starts with a dot, or starts or ends with a space.
 
     Examples
     --------
     >>> checked_name("kaart van Delft")
     'kaart van Delft'
+    >>> checked_name("flood/00")
+    'flood/00'
     >>> checked_name("../etc/passwd")
     Traceback (most recent call last):
     vexture.errors.LimitError: name '../etc/passwd': it must not start with a dot; choose another name
@@ -37,14 +39,21 @@ def checked_name(name: str) -> str:
         raise LimitError("the name is empty; choose one of letters and digits")
     if len(normal.encode(errors="replace")) > MOST_BYTES or len(name) > 4 * MOST_BYTES:
         raise LimitError(f"name {shown}: it is longer than {MOST_BYTES} bytes; choose a shorter one")
-    if normal[0] == ".":
+    for part in normal.split("/"):
+        _check_part(part, shown)
+    return normal
+
+
+def _check_part(part: str, shown: str) -> None:
+    if not part:
+        raise LimitError(f"name {shown}: nothing stands before, after or between slashes; choose another name")
+    if part[0] == ".":
         raise LimitError(f"name {shown}: it must not start with a dot; choose another name")
-    if normal != normal.strip(" "):
+    if part != part.strip(" "):
         raise LimitError(f"name {shown}: it must not start or end with a space; choose another name")
-    for letter in normal:
+    for letter in part:
         if letter not in OTHERS and unicodedata.category(letter)[0] not in CATEGORIES:
             raise LimitError(f"name {shown}: {letter!a} is not a letter, a digit, a space or one of '._-'")
-    return normal
 
 
 def manifest_name(name: str) -> str:

@@ -1,4 +1,4 @@
-"""The viewer's page: as a server gives it out, and as one file that needs none."""
+"""Pages, the viewer's and the flood's: as a server gives them out, and as one file that needs none."""
 
 import base64
 import hashlib
@@ -6,16 +6,40 @@ import html
 import json
 from collections.abc import Mapping, Sequence
 from importlib.resources import files
-from typing import Any
+from typing import Any, Final, NamedTuple
 
 from vexture.errors import DeviceError, VextureError
 from vexture.live.documents import THESIS_BITS, thesis_pair
 from vexture.live.manifest import manifest
 from vexture.live.shelf import File, Shape
 
-__all__ = ["SCRIPT", "SERVED_POLICY", "STYLE", "built", "exported_page", "served_page"]
+__all__ = [
+    "FLOOD",
+    "SCRIPT",
+    "SERVED_POLICY",
+    "STYLE",
+    "VIEWER",
+    "Bundle",
+    "built",
+    "data_address",
+    "exported_page",
+    "served_page",
+    "whole_page",
+]
 
-SCRIPT, STYLE = "viewer.js", "viewer.css"
+
+class Bundle(NamedTuple):
+    """What a page consists of: names of files that `make viewer` makes."""
+
+    script: str
+    style: str
+
+
+SCRIPT, STYLE = VIEWER = Bundle("viewer.js", "viewer.css")
+FLOOD: Final = Bundle("flood.js", "flood.css")
+
+SERVED_SCENE: Final[Mapping[str, Any]] = {"server": "./"}
+"""What a served page is told: where its server is."""
 
 PNG_TYPE = "image/png"
 
@@ -65,19 +89,19 @@ def built(name: str) -> bytes:
         raise DeviceError("the viewer's page is not built; run `make viewer` (needs node and npm)") from None
 
 
-def served_page() -> bytes:
+def served_page(bundle: Bundle = VIEWER, scene: Mapping[str, Any] = SERVED_SCENE, title: str = "vexture") -> bytes:
     """Return the page of a server; its script and style are files beside it."""
     return _page(
-        title="vexture",
+        title=title,
         policy="",
-        style=f'<link rel="stylesheet" href="{STYLE}">',
-        scene={"server": "./"},
-        script=f'<script type="module" src="{SCRIPT}"></script>',
+        style=f'<link rel="stylesheet" href="{bundle.style}">',
+        scene=scene,
+        script=f'<script type="module" src="{bundle.script}"></script>',
     )
 
 
 def exported_page(shapes: Sequence[Shape], title: str) -> bytes:
-    """Return the page with everything in it: script, style, textures, sources, and both thesis encodings of each.
+    """Return the viewer's page with everything in it: textures, sources, and both thesis encodings of each.
 
     Parameters
     ----------
@@ -89,16 +113,27 @@ def exported_page(shapes: Sequence[Shape], title: str) -> bytes:
     DeviceError
         If the page is not built.
     """
-    script = _in_html(built(SCRIPT).decode())
-    style = built(STYLE).decode().replace("</", "<\\/")
+    manifests = [manifest(shape, None, _embedded_pairs(shape), address=data_address) for shape in shapes]
+    return whole_page(VIEWER, {"shapes": manifests}, title)
+
+
+def whole_page(bundle: Bundle, scene: Mapping[str, Any], title: str) -> bytes:
+    """Return a page that holds its script, its style and its scene.
+
+    Raises
+    ------
+    DeviceError
+        If the page is not built.
+    """
+    script = _in_html(built(bundle.script).decode())
+    style = built(bundle.style).decode().replace("</", "<\\/")
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     policy = EXPORTED_POLICY.format(script=f"'sha256-{digest}'")
-    manifests = [manifest(shape, None, _embedded_pairs(shape), address=data_address, events=None) for shape in shapes]
     return _page(
         title=title,
         policy=f'<meta http-equiv="Content-Security-Policy" content="{html.escape(policy)}">\n',
         style=f"<style>{style}</style>",
-        scene={"shapes": manifests},
+        scene=scene,
         script=f'<script type="module">{script}</script>',
     )
 

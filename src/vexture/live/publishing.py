@@ -14,11 +14,12 @@ from starlette.routing import BaseRoute, Route
 
 from vexture.errors import DeviceError, LimitError, VextureError
 from vexture.live.converter import BusyError, Converter
-from vexture.live.folder import Folder, FullError
+from vexture.live.folder import Folder
+from vexture.live.limited import FullError, LimitedShelf
 from vexture.live.limits import Limits, Pace
 from vexture.live.manifest import manifest
 from vexture.live.names import checked_name
-from vexture.live.routes import entity_tag, refusal
+from vexture.live.routes import entity_tag, levels_below, refusal
 
 __all__ = ["publishing_routes", "working"]
 
@@ -38,12 +39,13 @@ class _RefusedError(Exception):
         self.status, self.line, self.headers = status, line, headers
 
 
-def publishing_routes(folder: Folder, converter: Converter, limits: Limits, token: str | None) -> list[BaseRoute]:
-    """Routes to publish shapes in a folder.
+def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits, token: str | None) -> list[BaseRoute]:
+    """Routes to publish shapes in a shelf.
 
     Parameters
     ----------
-    folder : Folder
+    shelf : LimitedShelf
+        Where they come to.
     converter : Converter
     limits : Limits
     token : str or None
@@ -69,26 +71,26 @@ def publishing_routes(folder: Folder, converter: Converter, limits: Limits, toke
         try:
             data = await _body(request, limits)
             with converter.place():  # not before it is here: who sends slowly keeps nobody waiting
-                return await published(name, data)
+                return await published(name, data, levels_below(request))
         except (_RefusedError, BusyError) as error:
             return _answer(error)
 
-    async def published(name: str, data: bytes) -> Response:
+    async def published(name: str, data: bytes, levels: int) -> Response:
         try:
             shape = await converter.shape_of(data, name)
         except BusyError:
             raise
         except VextureError as error:
-            if folder.shape(name) is not None:
-                folder.refuse(name, str(error))
+            if shelf.shape(name) is not None:
+                shelf.refuse(name, str(error))
             return refusal(422, str(error))
-        is_new = folder.shape(name) is None
+        is_new = shelf.shape(name) is None
         try:
-            await folder.publish(shape)
+            await shelf.publish(shape)
         except (FullError, DeviceError) as error:
             return refusal(507, str(error))
         headers = {"ETag": entity_tag(shape.version, None), "Cache-Control": "no-store"}
-        return JSONResponse(manifest(shape, None, {}), 201 if is_new else 200, headers)
+        return JSONResponse(manifest(shape, None, {}, levels=levels), 201 if is_new else 200, headers)
 
     return [Route("/shapes/{name:path}", put, methods=["PUT"])]
 

@@ -19,10 +19,16 @@ SECONDS: Final = 150.0
 LONGEST_ANSWER: Final = 2**20
 SHAPES: Final = "/shapes"
 TYPES: Final = {
+    ".fgb": "application/flatgeobuf",
     ".geojson": "application/geo+json",
+    ".gpkg": "application/geopackage+sqlite3",
     ".json": "application/geo+json",
     ".ktx2": "image/ktx2",
+    ".nc": "application/netcdf",
     ".svg": "image/svg+xml",
+    ".tif": "image/tiff",
+    ".tiff": "image/tiff",
+    ".zip": "application/zip",
 }
 
 
@@ -32,7 +38,7 @@ def push(path: Path, url: str, token: str) -> dict[str, str]:
     Parameters
     ----------
     path : path
-        SVG, GeoJSON or a packed texture.
+        SVG, GeoJSON or a packed texture; for a server of `vexture flood` any geographic data that it reads.
     url : str
         A server, or ``server/shapes/NAME``; the name is otherwise the file's, without its suffix.
     token : str
@@ -82,8 +88,8 @@ def target_of(url: str, stem: str) -> str:
     --------
     >>> target_of("http://127.0.0.1:8000", "kaart van Delft")
     'http://127.0.0.1:8000/shapes/kaart%20van%20Delft'
-    >>> target_of("https://example.org/maps/shapes/delft", "anything")
-    'https://example.org/maps/shapes/delft'
+    >>> target_of("https://example.org/maps/shapes/flood/24", "anything")
+    'https://example.org/maps/shapes/flood/24'
     """
     try:
         parts = urlsplit(url)

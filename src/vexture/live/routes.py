@@ -19,7 +19,7 @@ from starlette.routing import BaseRoute, Route
 from vexture.live.manifest import manifest
 from vexture.live.shelf import Shape, Shelf
 
-__all__ = ["FOREVER", "application", "refusal", "routes"]
+__all__ = ["FOREVER", "application", "fixed", "levels_below", "refusal", "routes"]
 
 PING_SECONDS: Final = 15
 SEND_SECONDS: Final = 30
@@ -80,6 +80,27 @@ async def _failed(request: Request, error: Exception) -> Response:
     return refusal(500, f"the server failed ({type(error).__name__}); its log says more")
 
 
+def fixed(path: str, content: bytes, media_type: str, headers: Mapping[str, str]) -> Route:
+    """Route of something that never changes while the server runs."""
+    tag = f'"{hashlib.sha256(content).hexdigest()[:32]}"'
+
+    async def answer(request: Request) -> Response:
+        if is_known(tag, request.headers.get("if-none-match", "")):
+            return Response(status_code=304, headers={"ETag": tag, **headers})
+        return Response(content, media_type=media_type, headers={"ETag": tag, **headers})
+
+    return Route(path, answer)
+
+
+def levels_below(request: Request) -> int:
+    """How many levels below ``shapes/`` the address of a shape's manifest is, as the client wrote it.
+
+    The slash in ``flood/00`` is a level, and ``%2F`` in its place is none.
+    """
+    name = request.path_params["name"]
+    return int(name.count("/")) - bytes(request.scope.get("raw_path") or b"").lower().count(b"%2f")
+
+
 def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[BaseRoute]:
     """Routes to read the shapes of a shelf.
 
@@ -103,7 +124,7 @@ def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[BaseRoute]:
         headers = {"ETag": tag, "Cache-Control": "no-cache"}
         if is_known(tag, request.headers.get("if-none-match", "")):
             return Response(status_code=304, headers=headers)
-        return JSONResponse(manifest(shape, note, views(shape)), headers=headers)
+        return JSONResponse(manifest(shape, note, views(shape), levels=levels_below(request)), headers=headers)
 
     async def file(request: Request) -> Response:
         name = request.path_params["name"]

@@ -1,10 +1,9 @@
 """What the viewer's server answers beside its shapes: the page, comparisons with the thesis, files dropped on it."""
 
 import asyncio
-import hashlib
 import ipaddress
 from collections import OrderedDict
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from urllib.parse import quote, urlsplit
 
 from starlette.requests import ClientDisconnect, Request
@@ -16,8 +15,8 @@ from vexture.encoding.layout import CURVES_SUFFIX, QUADS_SUFFIX
 from vexture.errors import VextureError
 from vexture.live.documents import THESIS_BITS, shape_of, thesis_pair
 from vexture.live.manifest import manifest
-from vexture.live.page import PNG_TYPE, SCRIPT, SERVED_POLICY, STYLE, built, served_page
-from vexture.live.routes import FOREVER, refusal
+from vexture.live.page import PNG_TYPE, SERVED_POLICY, VIEWER, Bundle, built, served_page
+from vexture.live.routes import FOREVER, fixed, refusal
 from vexture.live.shelf import Shape, Shelf
 from vexture.settings import Settings
 
@@ -85,8 +84,15 @@ class KnownHosts:
         return True
 
 
-def page_routes() -> list[BaseRoute]:
-    """Routes of the viewer's page, script and style.
+def page_routes(bundle: Bundle = VIEWER, page: bytes | None = None) -> list[BaseRoute]:
+    """Routes of a page, its script and style.
+
+    Parameters
+    ----------
+    bundle : Bundle
+        The viewer's, or another page's.
+    page : bytes, optional
+        From `served_page`; by default the viewer's.
 
     Raises
     ------
@@ -94,24 +100,13 @@ def page_routes() -> list[BaseRoute]:
         If it is not built.
     """
     common = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff", "Referrer-Policy": "no-referrer"}
+    content = served_page(bundle) if page is None else page
     contents: tuple[tuple[str, bytes, str, dict[str, str]], ...] = (
-        ("/", served_page(), "text/html", {"Content-Security-Policy": SERVED_POLICY}),
-        (f"/{SCRIPT}", built(SCRIPT), "text/javascript", {}),
-        (f"/{STYLE}", built(STYLE), "text/css", {}),
+        ("/", content, "text/html", {"Content-Security-Policy": SERVED_POLICY}),
+        (f"/{bundle.script}", built(bundle.script), "text/javascript", {}),
+        (f"/{bundle.style}", built(bundle.style), "text/css", {}),
     )
-    return [_fixed(path, content, kind, {**common, **headers}) for path, content, kind, headers in contents]
-
-
-def _fixed(path: str, content: bytes, media_type: str, headers: Mapping[str, str]) -> Route:
-    """Route of something that never changes while the server runs."""
-    tag = f'"{hashlib.sha256(content).hexdigest()[:32]}"'
-
-    async def answer(request: Request) -> Response:
-        if request.headers.get("if-none-match") == tag:
-            return Response(status_code=304, headers={"ETag": tag, **headers})
-        return Response(content, media_type=media_type, headers={"ETag": tag, **headers})
-
-    return Route(path, answer)
+    return [fixed(path, content, kind, {**common, **headers}) for path, content, kind, headers in contents]
 
 
 def thesis_addresses(shape: Shape) -> dict[str, list[str]]:

@@ -9,11 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing, FillRule, Path
+from vexture.tolerance import HMIN
 
-__all__ = ["HMIN", "THIN", "TOLERANCE", "Ring", "fitted_drawing", "shored", "wet_drawing"]
-
-HMIN: Final = 0.05
-"""Metres. Less water than this is none."""
+__all__ = ["THIN", "TOLERANCE", "Ring", "fitted_drawing", "shored", "wet_drawing"]
 
 TOLERANCE: Final = 0.55
 """Cells. Most that the fitted shoreline may leave the contour: the staircase of a raster is half a cell high."""

@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 
 from vexture.errors import LimitError, SourceError
-from vexture.sources.contours import HMIN
 from vexture.sources.extent import Extent, Step
 from vexture.sources.frame import Frame
 from vexture.sources.mesh import MeshSeries, mesh_steps
@@ -17,6 +16,7 @@ from vexture.sources.placing import raster_steps
 from vexture.sources.reading import NETCDF, TIFF, start_of
 from vexture.sources.reference import Bounds, frame_around, gis_packages, period, reference
 from vexture.sources.series import Series
+from vexture.tolerance import HMIN
 
 __all__ = ["read_depths"]
 

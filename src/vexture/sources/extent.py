@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
-from vexture.sources.contours import HMIN
 from vexture.sources.frame import Frame
 from vexture.sources.reading import holds_depths, start_of
+from vexture.tolerance import HMIN
 
 __all__ = ["Extent", "Step", "read_extent"]
 
@@ -56,7 +56,7 @@ class Extent:
 
 def read_extent(
     source: str | os.PathLike[str] | bytes,
-    file_name: str,
+    file_name: str | None = None,
     *,
     frame: Frame | None = None,
     bounds: tuple[float, float, float, float] | None = None,
@@ -72,8 +72,8 @@ def read_extent(
     ----------
     source : path or bytes
         Polygons (GeoJSON, GeoPackage, FlatGeobuf, shapefile) or depths (GeoTIFF, NetCDF, UGRID).
-    file_name : str
-        What it is called: names the drawings.
+    file_name : str, optional
+        What it is called: names the drawings and, with the first bytes, says what it is; by default the path.
     frame : Frame, optional
         Where the water is put; by default a new frame around `bounds`.
     bounds : tuple of float, optional
@@ -105,6 +105,8 @@ def read_extent(
     >>> extent.frame.crs, extent.steps[0].drawing.name
     ('OGC:CRS84', 'lake')
     """
+    if file_name is None:
+        file_name = "the data" if isinstance(source, bytes) else os.fspath(source)
     try:
         if holds_depths(start_of(source), file_name):
             from vexture.sources.depths import read_depths

@@ -1,0 +1,108 @@
+"""What a user asks of `vexture flood`, checked before anything is read."""
+
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+from typing import Any, Final
+
+from vexture.errors import LimitError
+from vexture.tolerance import HMIN
+
+__all__ = ["PERIOD", "Asked", "bounds_of"]
+
+PERIOD: Final = 8.0
+"""Seconds between two waves on a beach, by default."""
+
+LONGEST_PERIOD: Final = 600.0
+MOST_AMPLITUDE: Final = 0.05
+"""Share of the frame's longer side by which a shoreline may move."""
+
+SHARE: Final = 0.002
+"""Of the longer side: the default amplitude."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """Parameters of one flood; see `vexture flood --help`.
+
+    Raises
+    ------
+    LimitError
+        If one of them is out of range.
+    """
+
+    extent: Path
+    crs: str | None = None
+    bounds: tuple[float, float, float, float] | None = None
+    time_dim: str | None = None
+    hmin: float = HMIN
+    variable: str | None = None
+    layer: str | None = None
+    ground: Path | None = None
+    relief: Path | None = None
+    amplitude: float | None = None
+    period: float = PERIOD
+    title: str | None = None
+
+    def __post_init__(self) -> None:
+        if not (isfinite(self.hmin) and self.hmin >= 0.0):
+            raise LimitError(f"--hmin {self.hmin:g}: it is a depth in metres, 0 or more")
+        if self.amplitude is not None and not (isfinite(self.amplitude) and self.amplitude >= 0.0):
+            raise LimitError(f"--amplitude {self.amplitude:g}: it is a length in metres, 0 or more")
+        if not 0.0 < self.period <= LONGEST_PERIOD:
+            raise LimitError(f"--period {self.period:g}: it must be above 0 and at most {LONGEST_PERIOD:g} seconds")
+
+    @property
+    def reading(self) -> dict[str, Any]:
+        """Parameters of the reader that also hold for files that are sent later."""
+        named = {"time_dim": self.time_dim, "variable": self.variable, "layer": self.layer}
+        return {name: value for name, value in named.items() if value is not None}
+
+    def amplitude_in(self, longest: float) -> float:
+        """By how much the shoreline moves in a frame, in metres.
+
+        Parameters
+        ----------
+        longest : float
+            The longer side of the frame in metres.
+
+        Raises
+        ------
+        LimitError
+            If it is too much for the frame.
+        """
+        if self.amplitude is None:
+            return SHARE * longest
+        if self.amplitude > MOST_AMPLITUDE * longest:
+            raise LimitError(
+                f"--amplitude {self.amplitude:g}: the limit is {MOST_AMPLITUDE * longest:.3g} m, a twentieth of the "
+                f"longer side of {longest:.3g} m; choose a smaller one"
+            )
+        return self.amplitude
+
+
+def bounds_of(text: str) -> tuple[float, float, float, float]:
+    """Box that a user has written as W,S,E,N.
+
+    Raises
+    ------
+    LimitError
+        If it is none.
+
+    Examples
+    --------
+    >>> bounds_of("-122.1,36.9,-121.9,37")
+    (-122.1, 36.9, -121.9, 37.0)
+    >>> bounds_of("1,2,3")
+    Traceback (most recent call last):
+    vexture.errors.LimitError: --bounds 1,2,3: give four numbers, west,south,east,north, without spaces
+    """
+    try:
+        west, south, east, north = (float(part) for part in text.split(","))
+    except ValueError:
+        raise LimitError(f"--bounds {text}: give four numbers, west,south,east,north, without spaces") from None
+    if not all(map(isfinite, (west, south, east, north))):
+        raise LimitError(f"--bounds {text}: every number must be finite")
+    if west == east or south >= north:
+        raise LimitError(f"--bounds {text}: the box is empty; the order is west,south,east,north")
+    return west, south, east, north

@@ -1,0 +1,104 @@
+"""A picture of the ground where the user has none: sand along the shore, land above it, lit from the north-west."""
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.flood.grids import coverage_over, noise, shore_distance, size_for
+from vexture.flood.relief import Relief, first_wet, widest
+from vexture.sources.extent import Extent
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+__all__ = ["DRAWN", "drawn_ground"]
+
+DRAWN: Final = 1024
+"""Pixels on the longer side."""
+
+FAR: Final = 192
+"""Samples on the longer side of the grid of distances to the shore, which change slowly."""
+
+WET_SAND, SAND, GRASS, WOOD, ROCK = (
+    np.array(colour, float)
+    for colour in ((178, 156, 120), (226, 209, 170), (163, 172, 116), (110, 134, 86), (160, 150, 134))
+)
+SEA_SHALLOW, SEA_DEEP = np.array([141, 141, 116], float), np.array([48, 66, 76], float)
+
+BEACH: Final = 0.008
+"""How far sand reaches from the shore, as a share of the frame's longer side."""
+
+FLOOR: Final = 9.0
+"""Over how many times that the sea floor goes from its shallow colour to its deep one."""
+
+LIGHT: Final = np.array([-0.5, 0.5, 0.7]) / np.sqrt(0.99)
+"""Towards the sun: east, north, up."""
+
+STEEPEST: Final = 3.0
+"""Slopes are drawn steeper where the land is flat: as if it rose to a twentieth of the longer side, but no more."""
+
+
+def drawn_ground(extent: Extent, relief: Relief) -> "Image.Image":
+    """Picture of the frame, the longer side of `DRAWN` pixels.
+
+    Parameters
+    ----------
+    extent : Extent
+    relief : Relief
+    """
+    from PIL import Image
+
+    frame = extent.frame
+    size, longest = size_for(frame, DRAWN), max(frame.metres)
+    rough = noise(size, 8)
+    height = _enlarged(relief.heights, size)
+    top = max(float(relief.heights.max()), 1e-6)
+    first, most = first_wet(extent), widest(extent)
+    if first is None or most is None:
+        distance, wet = np.full(size[::-1], 0.05 * longest), np.zeros(size[::-1])
+    else:
+        wet = coverage_over(first.drawing, frame.box, size)
+        distance = _enlarged(_distance(extent), size)
+    away = np.maximum(distance, 0.0) / (BEACH * longest)
+    land = _blend(WET_SAND, SAND, away, 0.02, 0.12)
+    land = _blend(land, GRASS, away + 0.5 * rough, 0.8, 1.6)
+    land = _blend(land, WOOD, height / top + 0.3 * rough, 0.3, 0.6)
+    land = _blend(land, ROCK, height / top + 0.15 * rough, 0.9, 1.1)
+    floor = _blend(SEA_SHALLOW, SEA_DEEP, -distance / (BEACH * longest) + 0.5 * rough, 0.0, FLOOR)
+    shown = land + (floor - land) * wet[..., None]
+    lit = _light(height, longest / max(size), 0.05 * longest / top)
+    bright = 1.0 + (lit - 1.0) * (1.0 - 0.8 * wet) + 0.05 * rough
+    return Image.fromarray(np.clip(np.rint(shown * bright[..., None]), 0, 255).astype(np.uint8))
+
+
+def _distance(extent: Extent) -> NDArray[np.float64]:
+    """Metres to the first shore: above 0 on land."""
+    frame, first = extent.frame, first_wet(extent)
+    assert first is not None
+    size = size_for(frame, FAR)
+    cell = (frame.metres[0] / size[0], frame.metres[1] / size[1])
+    return shore_distance(coverage_over(first.drawing, frame.box, size) >= 0.5, cell)
+
+
+def _enlarged(grid: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.float64]:
+    from PIL import Image
+
+    return np.asarray(Image.fromarray(grid.astype(np.float32)).resize(size, Image.Resampling.BICUBIC), np.float64)
+
+
+def _blend(
+    below: NDArray[np.float64], above: NDArray[np.float64], value: NDArray[np.float64], start: float, end: float
+) -> NDArray[np.float64]:
+    """From one colour to the other while a value goes from start to end, smoothly."""
+    share = np.clip((value - start) / (end - start), 0.0, 1.0)
+    share = share * share * (3.0 - 2.0 * share)
+    return np.asarray(below + (above - below) * share[..., None])
+
+
+def _light(height: NDArray[np.float64], pixel: float, exaggeration: float) -> NDArray[np.float64]:
+    """Brightness of each pixel by its slope, 1 where it is level."""
+    south, east = np.gradient(height * min(exaggeration, STEEPEST), pixel)
+    length = np.sqrt(east**2 + south**2 + 1.0)
+    cosine = (-east * LIGHT[0] + south * LIGHT[1] + LIGHT[2]) / length
+    return np.asarray(np.clip(cosine / LIGHT[2], 0.6, 1.25))

@@ -1,0 +1,218 @@
+"""The picture of the ground that the page lays under the water: the user's, brought to the frame, or a drawn one."""
+
+import warnings
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from vexture.errors import LimitError, SourceError
+from vexture.flood.grids import pixels_to
+from vexture.flood.scene import Note
+from vexture.sources.frame import Frame
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+__all__ = ["GROUND_TYPE", "LARGEST_GROUND", "encoded", "ground_of"]
+
+GROUND_TYPE: Final = "image/webp"
+
+LONGEST: Final = 2048
+"""Pixels on the longer side, at most: every phone takes a texture of that size."""
+
+LARGEST_GROUND: Final = 1_000_000
+"""Bytes of the encoded picture."""
+
+QUALITIES: Final = (82, 72, 60, 45)
+"""Of WebP, tried one after the other until the picture is small enough; then it is made smaller."""
+
+MOST_PIXELS: Final = 170_000_000
+"""Of a user's picture without a place; a file of a few kilobytes can say that it is endless."""
+
+TIFF_STARTS: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+
+SHOWN_PERCENTILES: Final = (2.0, 98.0)
+"""Percentiles of a band of more than 8 bits that become black and white."""
+
+
+def ground_of(
+    path: Path, frame: Frame, drawn: "Image.Image", *, bounds_given: bool
+) -> tuple["Image.Image", list[Note]]:
+    """A user's picture of the ground, brought to the frame.
+
+    Parameters
+    ----------
+    path : path
+        A GeoTIFF with a reference system, which is warped to the frame; or PNG, JPEG or WebP, which covers the
+        frame exactly.
+    frame : Frame
+    drawn : image
+        What is seen where the picture is not, or shines through.
+    bounds_given : bool
+        Whether the user has said what the frame is.
+
+    Returns
+    -------
+    image, list of Note
+        In RGB; and what people should know about it.
+
+    Raises
+    ------
+    SourceError
+        If it is no picture, has no place, or lies outside the frame.
+    LimitError
+        If it is too large.
+    """
+    try:
+        with path.open("rb") as file:
+            start = file.read(4)
+    except OSError as error:
+        raise SourceError(f"--ground {path}: cannot be read ({error.strerror}); name another picture") from None
+    if start in TIFF_STARTS:
+        return _warped(path, frame, drawn)
+    picture = _opened(path)
+    notes: list[Note] = []
+    if not bounds_given:
+        notes.append(
+            Note(f"{path.name} is assumed to show exactly the box of the extent.", "--bounds says which box it shows.")
+        )
+    shape, place = picture.width / picture.height, frame.metres[0] / frame.metres[1]
+    if not 0.9 < shape / place < 1.1:
+        notes.append(
+            Note(
+                f"{path.name}, {picture.width} x {picture.height} pixels, is stretched to {frame.metres[0]:.0f} x "
+                f"{frame.metres[1]:.0f} m.",
+                "If it shows another box, say so by --bounds.",
+            )
+        )
+    size = _size(frame, max(picture.size))
+    return _over(drawn, picture.resize(size, _lanczos())), notes
+
+
+def encoded(picture: "Image.Image") -> bytes:
+    """WebP of a picture within `LARGEST_GROUND` bytes."""
+    while True:
+        for quality in QUALITIES:
+            out = BytesIO()
+            picture.save(out, format="WEBP", quality=quality, method=4)
+            if out.tell() <= LARGEST_GROUND:
+                return out.getvalue()
+        picture = picture.resize((max(1, 3 * picture.width // 4), max(1, 3 * picture.height // 4)), _lanczos())
+
+
+def _opened(path: Path) -> "Image.Image":
+    """A picture in RGBA, refused before it is decoded if it is too large."""
+    from PIL import Image, ImageOps, UnidentifiedImageError
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of sizes, which are checked here
+            with Image.open(path, formats=("PNG", "JPEG", "WEBP")) as picture:
+                if picture.width * picture.height > MOST_PIXELS:
+                    raise LimitError(
+                        f"--ground {path}: {picture.width} x {picture.height} pixels; the limit is {MOST_PIXELS:,}; "
+                        "scale it down"
+                    )
+                picture.draft("RGB", (LONGEST, LONGEST))
+                return ImageOps.exif_transpose(picture).convert("RGBA")
+    except Image.DecompressionBombError:
+        raise LimitError(f"--ground {path}: has more than {MOST_PIXELS:,} pixels; scale it down") from None
+    except (UnidentifiedImageError, OSError, SyntaxError, ValueError) as error:
+        reason = "no picture" if isinstance(error, UnidentifiedImageError) else "a damaged picture"
+        raise SourceError(f"--ground {path}: is {reason}; give a PNG, JPEG, WebP or GeoTIFF") from None
+
+
+def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Image", list[Note]]:
+    """A GeoTIFF on the frame, the drawn ground where it has nothing."""
+    import rasterio
+    from PIL import Image
+    from rasterio.errors import CRSError, RasterioError, RasterioIOError
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of a file without a place, which is said below
+            with rasterio.open(path) as raster:
+                if raster.crs is None:
+                    raise SourceError(
+                        f"--ground {path}: says no reference system; write it into the file (gdal_edit.py -a_srs "
+                        "EPSG:...), or save it as a PNG of exactly --bounds"
+                    )
+                bands, alpha = _bands_over(raster, frame)
+    except RasterioIOError:
+        raise SourceError(f"--ground {path}: is a damaged GeoTIFF; save it again") from None
+    except (CRSError, RasterioError) as error:
+        raise SourceError(f"--ground {path}: {' '.join(str(error).split())[:200]}; save it again") from None
+    if not alpha.any():
+        raise SourceError(f"--ground {path}: shows nothing of the frame; give one that covers it, or other --bounds")
+    notes: list[Note] = []
+    if (alpha == 0).mean() > 0.005:
+        share = 100.0 * (alpha > 0).mean()
+        notes.append(Note(f"{path.name} shows {share:.0f}% of the frame; the rest of the ground is drawn.", ""))
+    if bands.dtype != np.uint8:
+        bands = _stretched(bands, alpha > 0)
+        notes.append(Note(f"{path.name} has more than 8 bits a channel; its brightness is stretched.", ""))
+    colours = bands[:3] if len(bands) >= 3 else np.repeat(bands[:1], 3, axis=0)
+    picture = np.concatenate([colours, alpha[None]]).transpose(1, 2, 0)
+    return _over(drawn, Image.fromarray(np.ascontiguousarray(picture))), notes
+
+
+def _bands_over(raster: Any, frame: Frame) -> tuple[Any, Any]:
+    """Bands of a raster on the frame, and where it has any, 0 to 255."""
+    from rasterio.enums import ColorInterp, Resampling
+    from rasterio.vrt import WarpedVRT
+    from rasterio.warp import transform_bounds
+
+    west, south, east, north = transform_bounds(raster.crs, frame.crs, *raster.bounds)
+    finest = min(abs(east - west) / raster.width, abs(north - south) / raster.height)
+    wanted = (frame.bounds[2] - frame.bounds[0]) / max(finest, 1e-300)
+    size = _size(frame, int(min(wanted * max(frame.metres) / frame.metres[0], LONGEST)))
+    colours = [n for n, what in enumerate(raster.colorinterp, 1) if what != ColorInterp.alpha][:3]
+    options: dict[str, Any] = {
+        "crs": frame.crs,
+        "transform": pixels_to(frame.bounds, size),
+        "width": size[0],
+        "height": size[1],
+        "resampling": Resampling.nearest if raster.colorinterp[0] == ColorInterp.palette else Resampling.bilinear,
+    }
+    if ColorInterp.alpha not in raster.colorinterp:
+        options["add_alpha"] = True
+    with WarpedVRT(raster, **options) as onto:
+        bands = onto.read(colours)
+        alpha = onto.dataset_mask()
+    if raster.colorinterp[0] == ColorInterp.palette:
+        table = np.zeros((256, 4), np.uint8)
+        for value, colour in raster.colormap(1).items():
+            table[value] = colour
+        bands = table[bands[0]].transpose(2, 0, 1)[:3]
+    return bands, alpha
+
+
+def _stretched(bands: Any, known: Any) -> Any:
+    values = bands[:, known].astype(np.float64)
+    values = values[np.isfinite(values)]
+    low, high = np.percentile(values, SHOWN_PERCENTILES) if len(values) else (0.0, 1.0)
+    shares = (np.nan_to_num(bands.astype(np.float64)) - low) / max(high - low, 1e-300)
+    return np.rint(255.0 * np.clip(shares, 0.0, 1.0)).astype(np.uint8)
+
+
+def _over(drawn: "Image.Image", picture: "Image.Image") -> "Image.Image":
+    """Lay a picture in RGBA over the drawn ground."""
+    from PIL import Image
+
+    below = drawn.resize(picture.size, Image.Resampling.BICUBIC).convert("RGBA")
+    return Image.alpha_composite(below, picture).convert("RGB")
+
+
+def _size(frame: Frame, longest: int) -> tuple[int, int]:
+    """Pixels of a picture of the frame."""
+    longest = max(16, min(longest, LONGEST))
+    width, height = (max(1, round(longest * side / max(frame.metres))) for side in frame.metres)
+    return width, height
+
+
+def _lanczos() -> Any:
+    from PIL import Image
+
+    return Image.Resampling.LANCZOS

@@ -1,0 +1,214 @@
+"""Heights of the ground over the frame: measured, from the bed that the source has, or invented.
+
+Heights are metres above the *still water*: the level at which the first water lies, which is the median height of the
+ground along its shore. So a beach measured in any datum has its shore at 0, and so has the bank of a river ten metres
+above the sea. Where the water of a flood follows sloping ground, places that are wet can be above 0; there the page
+lays the water on the ground. How much heights are exaggerated is the page's matter.
+"""
+
+import base64
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.errors import SourceError
+from vexture.flood.grids import coverage_over, filled, noise, pixels_to, sampled, shore_distance, size_for
+from vexture.sources.extent import Extent, Step
+from vexture.sources.frame import Frame
+
+__all__ = ["SAMPLES", "Relief", "first_wet", "relief_of", "widest"]
+
+SAMPLES: Final = 129
+"""On the longer side, at most."""
+
+FINEST_UNIT: Final = 1e-3
+"""Metres; the coarsest follows from the highest place."""
+
+HIGHEST: Final = 32_000
+"""Units, within 16 bits with their sign."""
+
+LAND_RISE, LAND_REACH = 0.03, 0.2
+SEA_FALL, SEA_REACH = 0.02, 0.25
+"""Invented ground: how far it rises and falls, and within which distance of the shore; shares of the longer side."""
+
+BEACH: Final = 0.03
+"""Invented ground: the share of the longer side within which it is nearly level at the shore."""
+
+PLAIN_RISE: Final = 0.001
+"""Invented ground that the flood reaches later: how far it rises, as a share of the longer side."""
+
+ROUGHNESS: Final = 0.5
+"""Of invented ground: the share of its height by which it goes up and down."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Relief:
+    """Heights of the ground.
+
+    Parameters
+    ----------
+    heights : (rows, columns) float64 array
+        Metres above the still water, the northernmost row first, at the corners of the frame and evenly between them.
+    invented : bool
+        Whether nobody has measured them.
+    """
+
+    heights: NDArray[np.float64]
+    invented: bool
+
+    def as_json(self) -> dict[str, Any]:
+        """What the page is told: 16-bit numbers times a unit, as a data address."""
+        unit = max(FINEST_UNIT, float(np.abs(self.heights).max()) / HIGHEST)
+        numbers = np.rint(self.heights / unit).astype("<i2")
+        text = base64.b64encode(numbers.tobytes()).decode()
+        rows, columns = numbers.shape
+        return {
+            "columns": columns,
+            "rows": rows,
+            "unit": unit,
+            "heights": f"data:application/octet-stream;base64,{text}",
+            "invented": self.invented,
+        }
+
+
+def first_wet(extent: Extent) -> Step | None:
+    """The first step at which anything is under water."""
+    return next((step for step in extent.steps if step.drawing.paths), None)
+
+
+def widest(extent: Extent) -> Step | None:
+    """The step at which most is under water."""
+    wet = [step for step in extent.steps if step.drawing.paths]
+    return max(wet, key=lambda step: coverage_over(step.drawing, extent.frame.box, (32, 32)).sum()) if wet else None
+
+
+def relief_of(extent: Extent, path: Path | None = None, crs: str | None = None) -> Relief:
+    """Heights of the ground: of a file, else of the bed, else invented from the distance to the shore.
+
+    Parameters
+    ----------
+    extent : Extent
+    path : path, optional
+        Heights in metres as GeoTIFF, or another raster that rasterio reads.
+    crs : str, optional
+        Reference system of the file, if it does not say one itself.
+
+    Raises
+    ------
+    SourceError
+        If the file cannot be read, says no reference system, or has no height within the frame.
+    """
+    size = size_for(extent.frame, SAMPLES)
+    first = first_wet(extent)
+    made_up = _invented(extent, size)
+    if path is not None:
+        measured = _heights_of(path, extent.frame, size, crs)
+    elif extent.bed is not None and np.isfinite(extent.bed).any():
+        measured = sampled(extent.bed, size)
+    else:
+        return Relief(made_up, True)
+    known = np.isfinite(measured)
+    heights = filled(measured)
+    if first is not None:
+        wet = _wet(first, extent.frame, size)
+        heights -= _shore_level(heights, wet, known)
+        heights[wet & ~known] = np.minimum(heights, made_up)[wet & ~known]
+    else:
+        heights -= heights.min()
+    return Relief(heights, False)
+
+
+def _wet(step: Step, frame: Frame, size: tuple[int, int]) -> NDArray[np.bool_]:
+    """Which samples are under water; each stands for the cell around it."""
+    x0, y0, x1, y1 = frame.box
+    half_x, half_y = (x1 - x0) / (size[0] - 1) / 2, (y1 - y0) / (size[1] - 1) / 2
+    return coverage_over(step.drawing, (x0 - half_x, y0 - half_y, x1 + half_x, y1 + half_y), size) >= 0.5
+
+
+def _shore_level(heights: NDArray[np.float64], wet: NDArray[np.bool_], known: NDArray[np.bool_]) -> float:
+    """Median height half way between a wet place and a dry neighbour; of the lowest wet place if there is no shore."""
+    middles = []
+    for axis in (0, 1):
+        count = heights.shape[axis]
+        first, second = (np.arange(count - 1), np.arange(1, count))
+        crossed = np.take(wet, first, axis) != np.take(wet, second, axis)
+        crossed &= np.take(known, first, axis) & np.take(known, second, axis)
+        middles.append(((np.take(heights, first, axis) + np.take(heights, second, axis)) / 2)[crossed])
+    along = np.concatenate(middles)
+    if len(along):
+        return float(np.median(along))
+    return float(heights[wet].max()) if wet.any() else float(heights.min())
+
+
+def _invented(extent: Extent, size: tuple[int, int]) -> NDArray[np.float64]:
+    """Gently rising land and a sea floor that falls, by the distance to the shore; real depths where they are known."""
+    frame = extent.frame
+    longest = max(frame.metres)
+    cell = (frame.metres[0] / (size[0] - 1), frame.metres[1] / (size[1] - 1))
+    first, most = first_wet(extent), widest(extent)
+    rough = noise(size)
+    if first is None or most is None:
+        return LAND_RISE * longest * (0.2 + 0.1 * rough)
+    wet = _wet(first, frame, size)
+    to_first = shore_distance(wet, cell)
+    to_most = shore_distance(wet | _wet(most, frame, size), cell)
+    rise, fall = (
+        _risen(np.maximum(far, 0.0) / longest, reach) for far, reach in ((to_most, LAND_REACH), (-to_first, SEA_REACH))
+    )
+    plain = np.clip(to_first / (to_first + np.abs(to_most) + 1e-9 * longest), 0.0, 1.0)
+    land = LAND_RISE * longest * rise * (1.0 + ROUGHNESS * rough) + PLAIN_RISE * longest * plain
+    sea = -SEA_FALL * longest * fall * (1.0 + ROUGHNESS * rough)
+    if first.depth is not None and np.isfinite(first.depth).any():
+        depth = sampled(first.depth, size)
+        sea = np.where(np.isfinite(depth), -depth, sea)
+    return np.where(wet, sea, land)
+
+
+def _risen(distance: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
+    """From 0 to 1 with the distance: level at the shore, as a beach is."""
+    return np.asarray((1.0 - np.exp(-distance / reach)) * distance / (distance + BEACH))
+
+
+def _heights_of(path: Path, frame: Frame, size: tuple[int, int], crs: str | None) -> NDArray[np.float64]:
+    """Heights of a raster at the samples, NaN where it has none."""
+    import rasterio
+    from rasterio.enums import Resampling
+    from rasterio.errors import CRSError, RasterioError, RasterioIOError
+    from rasterio.warp import reproject
+
+    west, south, east, north = frame.bounds
+    half_x, half_y = (east - west) / (size[0] - 1) / 2, (north - south) / (size[1] - 1) / 2
+    target = pixels_to((west - half_x, south - half_y, east + half_x, north + half_y), size)
+    heights = np.full(size[::-1], np.nan, np.float32)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of what has no place, which is said below
+            with rasterio.open(path) as raster:
+                if not raster.count:
+                    choices = ", ".join(one.rpartition(":")[2] for one in raster.subdatasets[:8])
+                    raise SourceError(f"--relief {path}: holds several grids ({choices}); give one that holds one")
+                system = raster.crs or crs
+                if system is None:
+                    raise SourceError(f"--relief {path}: says no reference system; write it into the file as GeoTIFF")
+                reproject(
+                    rasterio.band(raster, 1),
+                    heights,
+                    src_crs=system,
+                    dst_transform=target,
+                    dst_crs=frame.crs,
+                    dst_nodata=np.nan,
+                    init_dest_nodata=True,
+                    resampling=Resampling.bilinear,
+                )
+    except RasterioIOError:
+        reason = "is no raster that can be read" if path.is_file() else "there is no such file"
+        raise SourceError(f"--relief {path}: {reason}; give heights in metres as GeoTIFF") from None
+    except (CRSError, RasterioError) as error:
+        raise SourceError(f"--relief {path}: {' '.join(str(error).split())[:200]}; give another file") from None
+    if not np.isfinite(heights).any():
+        raise SourceError(f"--relief {path}: has no height within the frame; give one that covers it")
+    return heights.astype(np.float64)

@@ -1,0 +1,246 @@
+"""`vexture flood`: from a user's files to one page, or to a server that shows them and takes newer ones."""
+
+import asyncio
+from collections.abc import AsyncIterator, Callable, Sequence
+from contextlib import asynccontextmanager, closing, suppress
+from pathlib import Path
+from typing import Any, Final, NamedTuple
+
+from vexture.errors import LimitError, SourceError
+from vexture.flood.asked import Asked
+from vexture.flood.naming import PREFIX, labels, step_names
+from vexture.flood.scene import Flood, Note, scene
+from vexture.live.limits import Limits
+from vexture.live.manifest import manifest
+from vexture.live.page import FLOOD, built, data_address, served_page, whole_page
+from vexture.live.shelf import TEXTURE_TYPE, File, Shape
+from vexture.live.waters import Waters
+from vexture.sources.extent import Extent
+
+__all__ = ["Made", "export", "make", "serve"]
+
+PAGE_SUFFIXES: Final = (".html", ".htm")
+GROUND_NAME, FOLD_NAME = "ground.webp", "shore.fold.ktx2"
+
+INVENTED: Final = Note("The relief is invented.", "--relief takes a file of heights.")
+DRAWN: Final = Note("The ground is drawn, not photographed.", "--ground takes a picture.")
+DRY: Final = Note("Nothing is under water.", "")
+
+Say = Callable[[str], None]
+"""Tells the user one line."""
+
+
+class Made(NamedTuple):
+    """A flood that is ready to be shown."""
+
+    flood: Flood
+    waters: Waters
+    shapes: Sequence[Shape]
+
+    @property
+    def texture_bytes(self) -> int:
+        """Bytes of all textures: what goes over the wire."""
+        return sum(len(shape.texture.data) for shape in self.shapes)
+
+    @property
+    def described(self) -> str:
+        """One line about it."""
+        count = len(self.shapes)
+        dry = sum(bool(shape.facts["dry"]) for shape in self.shapes)
+        told = f"{count} step{'s' * (count != 1)}, {self.texture_bytes} bytes of textures"
+        return told + (f", {'nothing' if dry == count else f'in {dry} nothing'} under water" if dry else "")
+
+
+def make(asked: Asked, say: Say) -> Made:
+    """Read everything that a user names, and convert it.
+
+    Parameters
+    ----------
+    asked : Asked
+    say : callable
+        Is told of what people should know.
+
+    Raises
+    ------
+    VextureError
+        If a file cannot be read or does not fit.
+    """
+    from vexture.flood.drawn_ground import drawn_ground
+    from vexture.flood.ground import encoded, ground_of
+    from vexture.flood.relief import first_wet, relief_of
+    from vexture.flood.shore import viewpoint
+
+    extent = _read(asked)
+    frame = extent.frame
+    amplitude = asked.amplitude_in(max(frame.metres))
+    waters = Waters(frame, asked.hmin, asked.reading)
+    relief = relief_of(extent, asked.relief, asked.crs)
+    drawn = drawn_ground(extent, relief)
+    notes = [INVENTED] if relief.invented else []
+    picture = drawn
+    if asked.ground is None:
+        notes.append(DRAWN)
+    else:
+        picture, told = ground_of(asked.ground, frame, drawn, bounds_given=asked.bounds is not None)
+        notes += told
+    first = first_wet(extent)
+    shapes = _shapes(extent, waters)
+    if first is None:
+        notes.append(DRY)
+    flood = Flood(
+        title=asked.title or asked.extent.name.partition(".")[0] or PREFIX,
+        frame=frame,
+        ground=encoded(picture),
+        relief=relief,
+        fold=None if first is None or not amplitude else _fold(first.drawing, amplitude, asked.period, frame.metres),
+        shore=None if first is None else viewpoint(first.drawing, frame),
+        notes=tuple(notes),
+    )
+    for note in notes:
+        say(" ".join(("note:", *filter(None, note))))
+    return Made(flood, waters, shapes)
+
+
+def _read(asked: Asked) -> Extent:
+    from vexture.sources.extent import read_extent
+
+    if not asked.extent.is_file():
+        raise SourceError(f"--extent {asked.extent}: there is no such file; name one that says where water is")
+    return read_extent(
+        asked.extent, str(asked.extent), bounds=asked.bounds, crs=asked.crs, hmin=asked.hmin, **asked.reading
+    )
+
+
+def _shapes(extent: Extent, waters: Waters) -> list[Shape]:
+    steps = extent.steps
+    listed = zip(steps, step_names(len(steps)), labels([step.time for step in steps]), strict=True)
+    return [waters.step(step, name, label) for step, name, label in listed]
+
+
+def _fold(drawing: Any, amplitude: float, period: float, metres: tuple[float, float]) -> bytes:
+    """File that moves the shoreline up and down the beach."""
+    from vexture.folding.shore import shore_fold
+    from vexture.sources.frame import MARGIN
+
+    share = (1.0 - 2.0 * MARGIN) / max(metres)
+    return shore_fold(drawing, amplitude=amplitude * share, period=period).to_ktx2()
+
+
+def export(asked: Asked, output: Path, say: Say) -> tuple[Made, int]:
+    """Write one page that needs nothing else; return what it shows, and its size.
+
+    Raises
+    ------
+    VextureError
+        If a file cannot be read, the page is not built or cannot be written.
+    """
+    from vexture.encoding.files import write_together
+    from vexture.flood.ground import GROUND_TYPE
+
+    if output.suffix.lower() not in PAGE_SUFFIXES:
+        raise LimitError(f"--output {output}: the page is an HTML file; name one that ends in {PAGE_SUFFIXES[0]}")
+    built(FLOOD.script)  # said before anything is converted
+    made = make(asked, say)
+    flood = made.flood
+    told = scene(
+        flood,
+        [manifest(shape, None, {}, address=data_address) for shape in made.shapes],
+        PREFIX,
+        data_address(File(flood.ground, GROUND_TYPE, "")),
+        None if flood.fold is None else data_address(File(flood.fold, TEXTURE_TYPE, "")),
+    )
+    page = whole_page(FLOOD, {"flood": told}, flood.title)
+    write_together({output: page})
+    return made, len(page)
+
+
+def serve(
+    asked: Asked, token_file: Path | None, host: str, port: int, *, say: Say, show: Callable[[str, Made], None]
+) -> None:
+    """Serve a flood until Ctrl-C or SIGTERM.
+
+    Parameters
+    ----------
+    asked : Asked
+    token_file : path or None
+        Holds what who publishes must know; without one nothing can be published, and only those who open the server
+        by its own address are answered.
+    host, port : str, int
+        Where to listen; port 0 is any that is free.
+    say : callable
+        Is told of what people should know.
+    show : callable
+        Is told the address, and what is shown there.
+
+    Raises
+    ------
+    VextureError
+        If it cannot start.
+    """
+    from starlette.applications import Starlette
+    from starlette.middleware import Middleware
+    from starlette.routing import Mount
+
+    from vexture.flood.ground import GROUND_TYPE
+    from vexture.live.converter import Converter
+    from vexture.live.limited import LimitedShelf
+    from vexture.live.publishing import publishing_routes
+    from vexture.live.routes import application, fixed, routes
+    from vexture.live.serving import address, bind, serve_until_stopped
+    from vexture.live.tokens import read_token
+    from vexture.live.viewer import KnownHosts, page_routes
+
+    built(FLOOD.script)
+    token = None if token_file is None else read_token(token_file)
+    with closing(bind(host, port)) as taken:
+        made = make(asked, say)
+        limits = Limits()
+        shelf = LimitedShelf(limits)
+        for shape in made.shapes:
+            shelf.put(shape)
+        flood, converter = made.flood, Converter(limits, waters=made.waters)
+        told = scene(flood, shelf.names, PREFIX, GROUND_NAME, FOLD_NAME if flood.fold else None)
+        fresh = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff"}
+        inner = application(
+            [
+                *page_routes(FLOOD, served_page(FLOOD, {"server": "./", "flood": told}, flood.title)),
+                fixed(f"/{GROUND_NAME}", flood.ground, GROUND_TYPE, fresh),
+                *([fixed(f"/{FOLD_NAME}", flood.fold, TEXTURE_TYPE, fresh)] if flood.fold else []),
+                *routes(shelf),
+                *publishing_routes(shelf, converter, limits, token),
+            ],
+            open_to_all=token is not None,
+        )
+        guard = [] if token else [Middleware(KnownHosts, names=(host,))]
+        app = Starlette(routes=[Mount("/", inner)], middleware=guard, lifespan=_warming(converter, token))
+
+        def stop() -> None:
+            shelf.close()
+            converter.close()
+
+        show(address(taken), made)
+        serve_until_stopped(app, taken, stop)
+
+
+def _warming(converter: Any, token: str | None) -> Any:
+    """Context in which a server runs: its converter is started at once, so that the first push need not wait."""
+
+    @asynccontextmanager
+    async def lifespan(_app: Any) -> AsyncIterator[None]:
+        from vexture.live.converter import BusyError
+
+        async def warm() -> None:
+            with suppress(BusyError):
+                await converter.warm()
+
+        task = asyncio.create_task(warm()) if token else None
+        try:
+            yield
+        finally:
+            converter.close()
+            if task is not None:
+                task.cancel()
+                with suppress(asyncio.CancelledError):
+                    await task
+
+    return lifespan

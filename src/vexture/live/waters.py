@@ -1,0 +1,196 @@
+"""From flood data, whatever kind of file it is, to a shape of water in the frame of a page."""
+
+import json
+import time
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from typing import Any, Final
+
+import numpy as np
+
+from vexture.errors import LimitError, SourceError, VextureError
+from vexture.flood.naming import PREFIX, labels
+from vexture.live.documents import converted, load_kernels, texture_shape, warnings_said
+from vexture.live.shelf import File, Shape
+from vexture.settings import Settings
+from vexture.sources.extent import Extent, Step
+from vexture.sources.frame import Frame
+
+__all__ = ["WATER_SETTINGS", "Waters"]
+
+WATER_SETTINGS: Final = Settings(precision=2e-6)
+"""How water is converted. From the beach a pixel is about 1e-5 of the frame: a shift is a fifth of one."""
+
+SAME_PLACE: Final = 1e-6
+"""Share of the frame by which a texture's place may differ from it: rounding of what wrote it."""
+
+DEPTH_OPTIONS, AREA_OPTIONS = ("time_dim", "variable"), ("layer",)
+"""Which options of the reader are for which kind of data."""
+
+KINDS: Final = "GeoJSON, GeoPackage, FlatGeobuf, a zipped shapefile, GeoTIFF, NetCDF or a packed texture"
+
+
+@dataclass(frozen=True, slots=True)
+class Waters:
+    """How the steps of one flood become shapes.
+
+    Parameters
+    ----------
+    frame : Frame
+        Into which all of them come.
+    hmin : float
+        Depth in metres from which a place is wet.
+    options : mapping
+        Further parameters of `vexture.sources.extent.read_extent`.
+    settings : Settings
+        How drawings are converted.
+    """
+
+    frame: Frame
+    hmin: float
+    options: Mapping[str, Any]
+    settings: Settings = WATER_SETTINGS
+
+    def step(self, step: Step, name: str, label: str, said: list[str] | None = None) -> Shape:
+        """Shape of one step.
+
+        Parameters
+        ----------
+        step : Step
+            In our frame.
+        name : str
+            Of the shape.
+        label : str
+            What people read of its time.
+        said : list of str, optional
+            What could not be honoured.
+        """
+        from vexture.flood.depth_image import deepest, depth_png
+
+        load_kernels()
+        shape = converted(replace(step.drawing, name=name), name, self.settings, time.perf_counter())
+        most = None if step.depth is None else deepest(step.depth)
+        views = {}
+        if step.depth is not None and most:
+            views["depth"] = File(depth_png(step.depth, most), "image/png", ".png")
+        facts = {
+            **shape.facts,
+            **_when(step, label),
+            "dry": self._is_dry(step),
+            "deepest": None if most is None else round(most, 3),
+            "warnings": said or [],
+        }
+        return replace(shape, facts=facts, views=views)
+
+    def shape_of(self, data: bytes, name: str) -> Shape:
+        """Shape of the content of a file that someone has sent.
+
+        Raises
+        ------
+        VextureError
+            If it is no flood data, says no place, or lies outside the frame.
+        """
+        from vexture.encoding.ktx2 import MAGIC
+        from vexture.sources.reading import is_geographic
+
+        if name != PREFIX and not name.startswith(f"{PREFIX}/"):
+            raise LimitError(f"{name}: this server shows {PREFIX} and {PREFIX}/NAME only; publish under such a name")
+        if not data.strip():
+            raise LimitError(f"{name}: the upload is empty; send {KINDS}")
+        if data.startswith(MAGIC):
+            return self._texture(data, name)
+        if not is_geographic(data, name):
+            raise SourceError(f"{name}: has no place in the world; send {KINDS}")
+        with warnings_said() as said:
+            extent = self._read(data, name)
+            if len(extent.steps) != 1:
+                raise LimitError(f"{name}: holds {len(extent.steps)} times; send one at a time, each under its name")
+            step = extent.steps[0]
+            shape = self.step(step, name, labels([step.time])[0])
+        return replace(shape, facts={**shape.facts, "warnings": said})
+
+    def _read(self, data: bytes, name: str) -> Extent:
+        from vexture.sources.extent import read_extent
+        from vexture.sources.reading import holds_depths
+        from vexture.sources.reference import MissingReferenceError
+
+        kind = DEPTH_OPTIONS if holds_depths(data, name) else AREA_OPTIONS
+        options = {option: value for option, value in self.options.items() if option in kind}
+        try:
+            return read_extent(data, name, frame=self.frame, hmin=self.hmin, **options)
+        except MissingReferenceError:
+            raise SourceError(
+                f"{name}: says no reference system, so nobody knows where it is; write it into the file"
+            ) from None
+        except (SourceError, LimitError) as error:
+            raise type(error)(f"{name}: {_for_senders(str(error).removeprefix(f'{name}: '))}") from None
+
+    def warm(self) -> None:
+        """Load what a conversion needs: packages, kernels, the frame's reference system."""
+        west, south, east, north = self.frame.bounds
+        ring = [[west, south], [east, south], [(west + east) / 2, north], [west, south]]
+        crs = {"type": "name", "properties": {"name": self.frame.crs}}
+        shape = {"type": "Polygon", "coordinates": [ring], "crs": crs}
+        with suppress(VextureError):
+            self.shape_of(json.dumps(shape).encode(), PREFIX)
+        with suppress(VextureError):
+            self.shape_of(_small_tiff(self.frame), PREFIX)
+        import xarray  # noqa: F401  # the rest of what NetCDF needs
+
+    def _texture(self, data: bytes, name: str) -> Shape:
+        """Shape of a texture that was made in our frame."""
+        from vexture.encoding.packed_texture import packed_from
+
+        roots = packed_from(data, name).roots
+        ours = self.frame.to_source
+        if len(roots) != 1:
+            raise LimitError(f"{name}: the texture holds {len(roots)} shapes; send one with one, or the data it is of")
+        apart = np.abs(roots[0].to_source - ours) / np.abs(np.diag(ours[:, :2]))[:, None]
+        if not apart.max() <= SAME_PLACE:
+            raise LimitError(
+                f"{name}: the texture was not made in the frame of this page; send the data that it was made of"
+            )
+        shape = texture_shape(data, name, name)
+        facts = {**shape.facts, "time": None, "label": "", "dry": shape.facts["curves"] == 0, "deepest": None}
+        return replace(shape, facts=facts)
+
+    def _is_dry(self, step: Step) -> bool:
+        """Whether nothing of a step is in the frame."""
+        x0, y0, x1, y1 = self.frame.box
+        for path in step.drawing.paths:
+            (left, low), (right, high) = path.box
+            if left < x1 and right > x0 and low < y1 and high > y0:
+                return False
+        return True
+
+
+def _when(step: Step, label: str) -> dict[str, str | None]:
+    return {"time": None if step.time is None else step.time.isoformat(), "label": label}
+
+
+def _for_senders(line: str) -> str:
+    """Say of an error what who sends a file can do: they give no options.
+
+    Examples
+    --------
+    >>> _for_senders("it is outside of the frame; correct the bounds, or --crs")
+    'it is outside of the frame; correct the file'
+    """
+    what, _, remedy = line.rpartition("; ")
+    return f"{what}; correct the file" if what and "--" in remedy else line
+
+
+def _small_tiff(frame: Frame) -> bytes:
+    """A raster of depths over a frame, half of it wet."""
+    from rasterio.io import MemoryFile
+
+    from vexture.flood.grids import pixels_to
+
+    with MemoryFile() as file:
+        with file.open(
+            driver="GTiff", width=4, height=4, count=1, dtype="float32", crs=frame.crs,
+            transform=pixels_to(frame.bounds, (4, 4)),
+        ) as raster:  # fmt: skip
+            raster.write(np.tile(np.array([0, 0, 1, 1], np.float32), (4, 1)), 1)
+        return bytes(file.read())

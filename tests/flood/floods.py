@@ -1,0 +1,93 @@
+"""Small floods, and `vexture flood` run on them."""
+
+import json
+import re
+import subprocess
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+from server import COMMAND, TOKEN, Server
+
+BOUNDS = (500000.0, 4000000.0, 504000.0, 4002000.0)
+CRS = "EPSG:32610"
+
+
+def sea(path, east=0.5, crs=CRS, bounds=BOUNDS):
+    """GeoJSON of water in the west of a box, up to a share of its width."""
+    west, south, right, north = bounds
+    edge = west + east * (right - west)
+    ring = [[west, south], [edge, south], [edge, north], [west, north], [west, south]]
+    shape = {"type": "Polygon", "coordinates": [ring]}
+    if crs:
+        shape["crs"] = {"type": "name", "properties": {"name": crs}}
+    path.write_text(json.dumps(shape))
+    return path
+
+
+def depths(east=0.5, rows=20, columns=40, deep=2.0):
+    """Depths that fall to nothing at a share of the width."""
+    middles = (np.arange(columns) + 0.5) / columns
+    line = np.maximum(deep * (1.0 - middles / east), 0.0)
+    return np.tile(line.astype(np.float32), (rows, 1))
+
+
+def geotiff(path, values, crs=CRS, bounds=BOUNDS, **profile):
+    import rasterio
+
+    from vexture.flood.grids import pixels_to
+
+    values = np.asarray(values)
+    bands = values if values.ndim == 3 else values[None]
+    count, rows, columns = bands.shape
+    place = {"transform": pixels_to(bounds, (columns, rows))} if bounds else {}
+    with rasterio.open(
+        path,
+        "w",
+        driver="GTiff",
+        width=columns,
+        height=rows,
+        count=count,
+        dtype=bands.dtype,
+        crs=crs,
+        **place,
+        **profile,
+    ) as raster:
+        raster.write(bands)
+    return path
+
+
+def flood(*arguments):
+    return subprocess.run([*COMMAND, "flood", *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+def scene_of(page):
+    text = page.decode() if isinstance(page, bytes) else Path(page).read_text(encoding="utf-8")
+    return json.loads(re.search(r'<script type="application/json" id="vexture-scene">(.*?)</script>', text, re.S)[1])
+
+
+class FloodServer(Server):
+    """A running `vexture flood --serve`."""
+
+    def __init__(self, folder, *options, token=True):
+        secret = folder / "token"
+        secret.write_text(f"{TOKEN}\n")
+        given = ["--token-file", str(secret)] if token else []
+        arguments = [*COMMAND, "flood", *map(str, options), "--serve", "--port", "0", *given]
+        self.process = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.said = self.process.stdout.readline()
+        if not self.said:
+            raise RuntimeError(self.process.communicate()[1])
+        self.url = re.search(r"http://\S+/", self.said)[0]
+        self.port = int(self.url.rpartition(":")[2].strip("/"))
+
+
+@contextmanager
+def flooding(folder, *options, token=True):
+    server = FloodServer(folder, *options, token=token)
+    try:
+        yield server
+    finally:
+        if server.process.poll() is None:
+            server.process.kill()
+        server.process.communicate()

@@ -1,0 +1,68 @@
+/** What stands over the picture: title, views, relief, waves, notes. */
+import { element } from '../viewer/dom.js';
+import { PRESETS } from './presets.js';
+
+/** @typedef {import('./presets.js').Preset} Preset */
+
+const NARROW = matchMedia('(max-width: 720px), (max-height: 480px)');
+
+/**
+ * @param {import('./stage.js').Stage} stage
+ * @param {import('./relief.js').Surface} surface
+ * @param {{title: string, notes: string[], readout: Element, viewed: (preset: Preset) => void}} what
+ */
+export function createPanel(stage, surface, { title, notes, readout, viewed }) {
+  const views = element('div', { class: 'views', role: 'group', 'aria-label': 'Views' },
+    ...PRESETS.map((preset, at) => element('button', {
+      type: 'button', title: `${preset} (${at + 1})`, onclick: () => viewed(preset),
+    }, preset)));
+  const panel = element('aside', { class: 'panel', 'aria-label': 'Controls' });
+  const body = element('div', { class: 'body', id: 'panel-body' },
+    reliefRow(stage, surface), wavesRow(stage), ...(notes.length ? [element('div', { class: 'about' },
+      ...notes.map((note) => element('p', {}, note)))] : []));
+  const fold = element('button', {
+    type: 'button', class: 'fold', 'aria-label': 'Settings', title: 'Settings', 'aria-controls': 'panel-body',
+    onclick: () => folded(!body.hidden),
+  }, '⌄');
+  const folded = (/** @type {boolean} */ wanted) => {
+    body.hidden = wanted;
+    fold.setAttribute('aria-expanded', String(!wanted));
+  };
+  folded(NARROW.matches);
+  panel.append(element('header', {}, element('h1', {}, title), fold), views, body, readout);
+  return { panel, mark: (/** @type {Preset | null} */ preset) => {
+    for (const button of views.children) button.setAttribute('aria-pressed', String(button.textContent === preset));
+  } };
+}
+
+/** @param {import('./stage.js').Stage} stage @param {import('./relief.js').Surface} surface */
+function reliefRow(stage, surface) {
+  const most = Math.max(2, Math.ceil(surface.exaggeration * 2));
+  const value = element('span', { class: 'value' });
+  const slider = element('input', {
+    type: 'range', id: 'relief', 'aria-label': 'Relief', min: 0, max: most, step: most / 100,
+    value: surface.exaggeration,
+    oninput: () => {
+      stage.relief(Number(slider.value));
+      follow();
+    },
+  });
+  const follow = () => {
+    const times = surface.exaggeration;
+    value.textContent = `${times < 10 ? times.toFixed(1) : Math.round(times)}×`;
+    slider.setAttribute('aria-valuetext', `heights ${value.textContent}`);
+    if (document.activeElement !== slider) slider.value = String(times);
+  };
+  stage.addEventListener('relief', follow);
+  follow();
+  return element('div', { class: 'row' }, element('label', { for: 'relief' }, 'Relief'), slider, value);
+}
+
+/** @param {import('./stage.js').Stage} stage */
+function wavesRow(stage) {
+  const button = element('button', { type: 'button', 'aria-pressed': String(stage.waving), onclick: () => {
+    stage.waving = !stage.waving;
+    button.setAttribute('aria-pressed', String(stage.waving));
+  } }, 'Waves');
+  return element('div', { class: 'row' }, button);
+}

@@ -1,0 +1,139 @@
+/** Which step is shown, and going on from one to the next. */
+import { labelOf } from './steps.js';
+
+/** @typedef {import('./steps.js').Step} Step */
+
+/** Milliseconds that a step is shown at speed 1. */
+const PACE = 1000;
+
+/**
+ * Events: `step` when another one is shown or its water has changed, `steps` when there are others, `play` when playing
+ * begins or ends, `failed` with the error in its `detail`.
+ */
+export class Player extends EventTarget {
+  #show;
+  #prepare;
+  #turn = 0;
+  #timer = 0;
+  /** @type {Map<string, string>} */
+  #labels = new Map();
+  /** @type {Step | null} */
+  step = null;
+  index = 0;
+  playing = false;
+  speed = 1;
+  fading = false;
+
+  /**
+   * @param {import('./steps.js').Steps} steps
+   * @param {{show: (step: Step, fading: boolean) => void, prepare: (step: Step) => void}} how to show a step, and to
+   *   make all ready for showing it
+   */
+  constructor(steps, { show, prepare }) {
+    super();
+    this.steps = steps;
+    this.#show = show;
+    this.#prepare = prepare;
+    steps.addEventListener('names', () => this.#renamed());
+  }
+
+  get names() {
+    return this.steps.names;
+  }
+
+  get count() {
+    return this.names.length;
+  }
+
+  /** Time of a step as far as it is known. @param {number} index */
+  label(index) {
+    const name = this.names[index];
+    return this.#labels.get(name) ?? name;
+  }
+
+  /** The steps are others: stay at the one that is shown, or follow if it was the last. */
+  #renamed() {
+    const name = this.step?.name ?? '';
+    const wasLast = this.index >= this.lastCount - 1;
+    const at = this.names.indexOf(name);
+    this.dispatchEvent(new Event('steps'));
+    if (wasLast && !this.playing) void this.go(this.count - 1);
+    else if (at >= 0) {
+      this.index = at;
+      this.lastCount = this.count;
+      this.dispatchEvent(new Event('step'));
+    } else void this.go(Math.min(this.index, this.count - 1));
+  }
+
+  /** Steps that there were when one was last shown. */
+  lastCount = 0;
+
+  /**
+   * Show a step once it is loaded; until then, and if it cannot be, the one before stays.
+   *
+   * @param {number} index
+   */
+  async go(index) {
+    const mine = ++this.#turn;
+    const wanted = Math.min(Math.max(Math.round(index), 0), this.count - 1);
+    const name = this.names[wanted];
+    try {
+      const step = await this.#ready(name);
+      if (mine !== this.#turn) return;
+      this.step?.texture.removeEventListener('change', this.#changed);
+      const isFirst = this.step === null;
+      this.step = step;
+      this.index = Math.max(this.names.indexOf(name), 0);
+      this.lastCount = this.count;
+      step.texture.addEventListener('change', this.#changed);
+      this.#show(step, this.fading && !isFirst);
+      this.dispatchEvent(new Event('step'));
+    } catch (error) {
+      if (mine !== this.#turn) return;
+      this.pause();
+      this.dispatchEvent(new CustomEvent('failed', { detail: error }));
+      return;
+    }
+    const next = this.names[this.index + 1];
+    if (next !== undefined) this.#ready(next).catch(() => {}); // said when it is to be shown
+  }
+
+  #changed = () => {
+    if (!this.step) return;
+    this.#labels.set(this.step.name, labelOf(this.step.manifest, this.step.name));
+    this.dispatchEvent(new Event('step'));
+  };
+
+  /** @param {string} name */
+  async #ready(name) {
+    const step = await this.steps.open(name);
+    this.#labels.set(name, labelOf(step.manifest, name));
+    this.#prepare(step);
+    return step;
+  }
+
+  /** Go on by itself, from the start if this is the end. */
+  play() {
+    if (this.playing || this.count < 2) return;
+    this.playing = true;
+    this.dispatchEvent(new Event('play'));
+    void (this.index >= this.count - 1 ? this.go(0) : Promise.resolve()).then(() => this.#wait());
+  }
+
+  #wait() {
+    clearTimeout(this.#timer);
+    if (!this.playing) return;
+    this.#timer = window.setTimeout(async () => {
+      await this.go(this.index + 1);
+      if (this.index >= this.count - 1) this.pause();
+      else this.#wait();
+    }, PACE / this.speed);
+  }
+
+  pause() {
+    clearTimeout(this.#timer);
+    if (!this.playing) return;
+    this.playing = false;
+    this.dispatchEvent(new Event('play'));
+  }
+}

@@ -1,0 +1,161 @@
+/** Where the camera stands, from high in the sky to the beach. */
+
+/**
+ * @typedef {{x: number, y: number, z: number}} Vector
+ * @typedef {{from: Vector, to: Vector}} Pose where the camera is, and what it looks at
+ * @typedef {'Sky' | 'Bird' | 'Coast' | 'Shore' | 'Beach'} Preset
+ *
+ * @typedef {object} Stand what the presets go by
+ * @property {number} width of the box in the world
+ * @property {number} depth
+ * @property {number} low the box's lower end
+ * @property {number} high its highest ground
+ * @property {[number, number]} place on the shore: x and z
+ * @property {[number, number]} seaward direction of open water there: x and z, of length 1
+ * @property {(x: number, z: number) => number} height of the surface
+ * @property {number} aspect of what is free of the picture: width over height
+ * @property {number} share of the picture's height that is free
+ */
+
+/** @typedef {Omit<Stand, 'aspect' | 'share' | 'low' | 'high'>} Fixed what of it does not change */
+
+export const PRESETS = Object.freeze(/** @type {Preset[]} */ (['Sky', 'Bird', 'Coast', 'Shore', 'Beach']));
+
+/** Degrees, of the camera, from the lower to the upper border of the picture. */
+export const FIELD = 42;
+
+/**
+ * Degrees above the horizon, degrees to the side of the sea's direction, distance, and how far out at sea the middle
+ * is.
+ */
+const NEAR = Object.freeze({ Coast: [23, 56, 44, 7], Shore: [11, 72, 14, 2.5] });
+/** Of the one who stands on the beach: height of the eyes, how far inland, degrees to the side, how far down. */
+const BEACH = Object.freeze({ eyes: 0.62, inland: 1.3, side: 32, down: 7 });
+/** The same for a picture that is higher than wide: along the shore, so that there is land in it. */
+const TALL = Object.freeze({ side: 60, down: 9 });
+/** Degrees: height of the sun, and how far to the side of the sea's direction. */
+const SUN = Object.freeze({ up: 34, side: 14 });
+/** How much more than the box is seen where all of it is. */
+const AROUND = 1.06;
+/** How far ahead one looks at from there, and what is turned around. */
+const AHEAD = 12;
+
+const radians = (/** @type {number} */ degrees) => (degrees * Math.PI) / 180;
+
+/**
+ * Pose from which the whole box is seen, as large as it can be.
+ *
+ * @param {Stand} stand
+ * @param {number} angle of the camera around the box, from the south to the east
+ * @param {number} above the horizon
+ * @returns {Pose}
+ */
+function whole({ width, depth, low, high, aspect, share }, angle, above) {
+  const [sin, cos] = [Math.sin(angle), Math.cos(angle)];
+  const back = [sin * Math.cos(above), Math.sin(above), cos * Math.cos(above)];
+  const right = [cos, 0, -sin];
+  const up = [-sin * Math.sin(above), Math.cos(above), -cos * Math.sin(above)];
+  const along = (/** @type {number[]} */ axis, /** @type {number[]} */ corner) =>
+    axis[0] * corner[0] + axis[1] * corner[1] + axis[2] * corner[2];
+  const corners = [-width / 2, width / 2].flatMap((x) =>
+    [low, high].flatMap((y) => [-depth / 2, depth / 2].map((z) => [x, y, z])));
+  const slope = (Math.tan(radians(FIELD / 2)) * share) / AROUND;
+  const fit = (/** @type {number[]} */ axis, /** @type {number} */ tangent) => {
+    const reach = (/** @type {number} */ sign) =>
+      Math.max(...corners.map((corner) => along(back, corner) * tangent + sign * along(axis, corner)));
+    return { middle: (reach(1) - reach(-1)) / 2, away: (reach(1) + reach(-1)) / 2 / tangent };
+  };
+  const [across, over] = [fit(right, slope * aspect), fit(up, slope)];
+  const away = Math.max(across.away, over.away);
+  const [x, y, z] = [0, 1, 2].map((at) => right[at] * across.middle + up[at] * over.middle);
+  return { from: { x: x + away * back[0], y: y + away * back[1], z: z + away * back[2] }, to: { x, y, z } };
+}
+
+/**
+ * @param {Preset} preset
+ * @param {Stand} stand
+ * @returns {Pose}
+ */
+export function pose(preset, stand) {
+  const { aspect, height } = stand;
+  const [sx, sz] = stand.seaward;
+  if (preset === 'Sky') return whole(stand, 0, radians(76));
+  if (preset === 'Bird') return whole(stand, Math.atan2(sx, sz) + radians(28), radians(30));
+  const [px, pz] = stand.place;
+  const sea = Math.atan2(sx, sz);
+  if (preset === 'Beach') {
+    const [x, z] = [px - sx * BEACH.inland, pz - sz * BEACH.inland];
+    const eyes = Math.max(height(x, z), 0) + BEACH.eyes;
+    const { side, down } = aspect < 0.9 ? TALL : BEACH;
+    const angle = sea + landSide(stand, BEACH.side) * radians(side);
+    const lower = eyes - AHEAD * Math.tan(radians(down));
+    const to = { x: x + AHEAD * Math.sin(angle), y: lower, z: z + AHEAD * Math.cos(angle) };
+    return { from: { x, y: eyes, z }, to };
+  }
+  const [up, side, away, out] = NEAR[preset];
+  const [mx, mz] = [px + sx * out, pz + sz * out];
+  const angle = sea - landSide(stand, side) * radians(side); // it looks back to where the land is
+  const wide = away * Math.max(1, Math.min(1.5, 1 / aspect));
+  const flat = wide * Math.cos(radians(up));
+  const from = { x: mx + flat * Math.sin(angle), y: wide * Math.sin(radians(up)), z: mz + flat * Math.cos(angle) };
+  from.y = Math.max(from.y, height(from.x, from.z) + BEACH.eyes);
+  return { from, to: { x: mx, y: 0, z: mz } };
+}
+
+/**
+ * Where the sun is, to glitter on the water that one sees from the beach.
+ *
+ * @param {Fixed} stand
+ * @returns {Vector} of length 1
+ */
+export function sunOver(stand) {
+  const [sx, sz] = stand.seaward;
+  const angle = Math.atan2(sx, sz) + landSide(stand, BEACH.side) * radians(SUN.side);
+  const flat = Math.cos(radians(SUN.up));
+  return { x: flat * Math.sin(angle), y: Math.sin(radians(SUN.up)), z: flat * Math.cos(angle) };
+}
+
+/**
+ * To which side of the sea's direction more land is seen: 1 or -1.
+ *
+ * @param {Fixed} stand @param {number} degrees
+ */
+function landSide({ place: [px, pz], seaward: [sx, sz], height, width }, degrees) {
+  const land = [1, -1].map((sign) => {
+    const angle = Math.atan2(sx, sz) + sign * radians(degrees);
+    const tenth = width / 20;
+    return [1, 2, 3, 4, 5, 6].reduce((sum, k) =>
+      sum + Math.max(0, height(px + k * tenth * Math.sin(angle), pz + k * tenth * Math.cos(angle))), 0);
+  });
+  return land[0] >= land[1] ? 1 : -1;
+}
+
+/** @param {number} share of the way, in time */
+const eased = (share) => share * share * share * (share * (6 * share - 15) + 10);
+
+/**
+ * On the way from one pose to another: around what is looked at, nearer by the same factor in the same time.
+ *
+ * @param {Pose} start @param {Pose} end
+ * @param {number} share of the time, 0..1
+ * @returns {Pose}
+ */
+export function between(start, end, share) {
+  const part = eased(Math.min(Math.max(share, 0), 1));
+  const mixed = (/** @type {number} */ a, /** @type {number} */ b) => a + (b - a) * part;
+  const to = { x: mixed(start.to.x, end.to.x), y: mixed(start.to.y, end.to.y), z: mixed(start.to.z, end.to.z) };
+  const [a, b] = [around(start), around(end)];
+  const turn = ((((b.angle - a.angle + Math.PI) % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI)) - Math.PI;
+  const away = Math.exp(mixed(Math.log(a.away), Math.log(b.away)));
+  const [angle, up] = [a.angle + turn * part, mixed(a.up, b.up)];
+  const flat = away * Math.cos(up);
+  const from = { x: to.x + flat * Math.sin(angle), y: to.y + away * Math.sin(up), z: to.z + flat * Math.cos(angle) };
+  return { from, to };
+}
+
+/** @param {Pose} pose */
+function around({ from, to }) {
+  const [x, y, z] = [from.x - to.x, from.y - to.y, from.z - to.z];
+  const away = Math.max(Math.hypot(x, y, z), 1e-6);
+  return { away, angle: Math.atan2(x, z), up: Math.asin(Math.min(Math.max(y / away, -1), 1)) };
+}

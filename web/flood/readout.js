@@ -1,0 +1,89 @@
+/** What is where a person points: wet or dry, how deep, and where that is. */
+import { Raycaster, Vector2 } from 'three';
+import { element } from '../viewer/dom.js';
+import { bytesOf } from '../viewer/scene.js';
+import { Depths } from './depths.js';
+
+/** @typedef {import('./stage.js').Stage} Stage @typedef {import('./player.js').Player} Player */
+
+const NOTHING = 'Point at the ground or the water.';
+
+/**
+ * @param {Stage} stage
+ * @param {Player} player
+ * @param {import('./relief.js').Surface} surface
+ * @param {{at: (u: number, v: number, seconds: number) => {u: number, v: number}} | null} fold
+ */
+export function createReadout(stage, player, surface, fold) {
+  const { places } = surface;
+  const state = element('strong', {});
+  const where = element('span', { class: 'where' });
+  const region = element('section', { class: 'readout', role: 'region', 'aria-label': 'Pointer' }, state, where);
+  const caster = new Raycaster();
+  /** @type {[number, number] | null} */
+  let pointed = null;
+  /** @type {{key: string, depths: Depths | null}} */
+  let known = { key: '', depths: null };
+
+  async function loadDepths() {
+    const { step } = player;
+    const url = step?.manifest.views?.depth;
+    const deepest = step?.manifest.facts?.deepest;
+    const key = step ? `${step.name} ${url}` : '';
+    if (key === known.key) return;
+    known = { key, depths: null };
+    if (!step || !url || !deepest) return;
+    try {
+      const bytes = new Uint8Array(await bytesOf(url, step.base));
+      if (known.key === key) known = { key, depths: new Depths(bytes, deepest) };
+    } catch {
+      return; // wet or dry is known without
+    }
+    show();
+  }
+
+  function show() {
+    const place = pointed && placeAt(pointed[0], pointed[1]);
+    if (!place || !player.step) {
+      state.textContent = '';
+      where.textContent = NOTHING;
+      return;
+    }
+    const [s, t] = place;
+    const [u, v] = places.toUnit(s, t);
+    const moved = fold ? fold.at(u, v, stage.seconds) : { u, v };
+    const isWet = player.step.texture.contains(moved.u, moved.v);
+    const depth = isWet ? known.depths?.at(s, t) : undefined;
+    state.textContent = isWet ? (depth ? `Wet, ${metres(depth)} deep` : 'Wet') : 'Dry';
+    where.textContent = `${places.text(u, v)} · ${places.crs}`;
+  }
+
+  /** @param {number} px @param {number} py CSS pixels of the canvas */
+  function placeAt(px, py) {
+    const { width, height } = stage.size;
+    caster.setFromCamera(new Vector2((px / width) * 2 - 1, 1 - (py / height) * 2), stage.camera);
+    return surface.meets(caster.ray.origin, caster.ray.direction);
+  }
+
+  const point = (/** @type {PointerEvent} */ event) => {
+    const box = stage.canvas.getBoundingClientRect();
+    pointed = [event.clientX - box.left, event.clientY - box.top];
+    show();
+  };
+  stage.canvas.addEventListener('pointerdown', point);
+  stage.canvas.addEventListener('pointermove', point);
+  stage.canvas.addEventListener('pointerleave', (event) => {
+    if (event.pointerType !== 'mouse') return; // what a finger touched stays to be read
+    pointed = null;
+    show();
+  });
+  player.addEventListener('step', () => {
+    void loadDepths();
+    show();
+  });
+  show();
+  return region;
+}
+
+/** @param {number} depth */
+const metres = (depth) => `${depth < 10 ? depth.toFixed(1) : Math.round(depth).toLocaleString('en')} m`;

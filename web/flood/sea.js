@@ -1,0 +1,129 @@
+/** The water: its surface over the ground, and what is seen of it along the cut sides. */
+import { BufferGeometry, Group, Mesh, MeshBasicMaterial } from 'three';
+import { applyVectorMask } from '../src/vector-mask.js';
+import { gridGeometry, LEAST_RISE, wallGeometry } from './land.js';
+
+/** @typedef {import('../src/vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('../src/vector-mask.js').VectorMask} VectorMask */
+/** @typedef {import('../src/fold-texture.js').FoldTexture} FoldTexture */
+/** @typedef {ReturnType<typeof import('../src/water.js').chooseWater>} Kind */
+
+const LOOK = Object.freeze({
+  waterColor: 0x0d6480, sunColor: 0x7f8f98, distortionScale: 1.8, size: 15, shallow: 0x62b7aa, clipBias: 0.002,
+  sky: 0x86b2d6, horizon: 0xd3e2ec,
+});
+const FOAM = Object.freeze({ width: 0.015, period: 6 });
+/** Milliseconds of a cross-fade. */
+const FADE = 900;
+/** How much further inside the lower border of a wall looks into the shape: a look without width would see nothing. */
+const INWARD = 1e-3;
+
+export class Sea {
+  #surface;
+  #transform;
+  #fold;
+  /** @type {VectorMask | null} */
+  #mask = null;
+  /** @type {{to: VectorTexture, begin: number} | null} */
+  #fading = null;
+  #isFlat = false;
+
+  /**
+   * @param {Kind} Water
+   * @param {import('./relief.js').Surface} surface
+   * @param {{transform: import('three').Matrix3, fold: FoldTexture | null, sun: import('three').Vector3,
+   *   mirror: number}} how from the box to the unit square; what moves the shore; where the sun is; pixels of the
+   *   mirror's sides
+   */
+  constructor(Water, surface, { transform, fold, sun, mirror }) {
+    this.#surface = surface;
+    this.#transform = transform;
+    this.#fold = fold;
+    this.water = new Water(gridGeometry(surface, (height) => Math.max(0, height)), null, {
+      ...LOOK, transform, fold, foam: FOAM, sunDirection: sun, textureWidth: mirror, textureHeight: mirror,
+    });
+    const { material } = this.water;
+    material.polygonOffset = true; // over the ground on which it lies, whatever the rounding
+    material.polygonOffsetFactor = -1;
+    material.polygonOffsetUnits = -4;
+    this.water.rotation.x = -Math.PI / 2;
+    this.walls = new Mesh(
+      new BufferGeometry(),
+      new MeshBasicMaterial({ color: 0x2f8199, transparent: true, opacity: 0.62, depthWrite: false }),
+    );
+    this.walls.visible = false;
+    this.group = new Group().add(this.water, this.walls);
+    this.raise();
+  }
+
+  /**
+   * Show the water of a texture.
+   *
+   * @param {VectorTexture} texture
+   * @param {boolean} fading over a while, from what is shown now
+   */
+  show(texture, fading) {
+    if (this.#fading) this.#arrive();
+    if (fading && this.water.texture) {
+      this.water.fadeTo(texture);
+      this.#fading = { to: texture, begin: performance.now() };
+    } else {
+      this.water.texture = texture;
+      this.#wall(texture);
+    }
+  }
+
+  #arrive() {
+    const to = this.#fading?.to;
+    this.#fading = null;
+    if (!to) return;
+    this.water.texture = to;
+    this.#wall(to);
+  }
+
+  /** @param {VectorTexture} texture */
+  #wall(texture) {
+    if (this.#mask) this.#mask.texture = texture;
+    else {
+      const [transform, fold] = [this.#transform, this.#fold];
+      this.#mask = applyVectorMask(this.walls.material, texture, { transform, fold, wrap: 'clamp' });
+    }
+    this.walls.visible = !this.#isFlat;
+  }
+
+  /**
+   * Go on with a fade.
+   *
+   * @returns {boolean} whether it goes on
+   */
+  advance() {
+    if (!this.#fading) return false;
+    const share = (performance.now() - this.#fading.begin) / FADE;
+    if (share >= 1) this.#arrive();
+    else this.water.fade = share;
+    return true;
+  }
+
+  /** Stand as high as the surface says. */
+  raise() {
+    const { rise } = this.#surface;
+    this.water.scale.z = Math.max(rise, LEAST_RISE);
+    this.walls.geometry.dispose();
+    this.walls.geometry = wallGeometry(this.#surface, ({ s, t, height }) => ({
+      low: Math.min(0, height) * rise, high: 0, uvLow: [s + (0.5 - s) * INWARD, t + (0.5 - t) * INWARD], uvHigh: [s, t],
+    }));
+  }
+
+  /** Seconds, of waves and folds. */
+  set time(/** @type {number} */ seconds) {
+    this.water.time = seconds;
+    if (this.#mask) this.#mask.time = seconds;
+  }
+
+  /** The one colour of all water, or null. */
+  set flat(/** @type {import('three').ColorRepresentation | null} */ color) {
+    this.#isFlat = color !== null;
+    this.water.flat = color;
+    this.walls.visible = color === null && this.#mask !== null;
+  }
+}

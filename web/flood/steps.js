@@ -1,0 +1,143 @@
+/** Steps of the flood: those in the page, or those that a server has, which may become more. */
+import { listen } from '../src/event-stream.js';
+import { LiveVectorTexture } from '../src/live-vector-texture.js';
+import { readPacked } from '../src/packed.js';
+import { backOff } from '../src/patience.js';
+import { VectorTexture } from '../src/vector-texture.js';
+import { bytesOf } from '../viewer/scene.js';
+
+/**
+ * @typedef {import('./scene.js').Manifest} Manifest
+ *
+ * @typedef {object} Step
+ * @property {string} name
+ * @property {VectorTexture} texture
+ * @property {Manifest} manifest of what is in place now
+ * @property {string} base what its addresses are relative to
+ */
+
+/** Names in the order of the numbers in them. */
+const IN_ORDER = new Intl.Collator('en', { numeric: true });
+
+/**
+ * Whether a shape is a step.
+ *
+ * @param {string} name @param {string} prefix
+ */
+export const isStep = (name, prefix) => name === prefix || name.startsWith(`${prefix}/`);
+
+/**
+ * Steps among the shapes of a server, in their order.
+ *
+ * @param {Iterable<string>} names @param {string} prefix
+ */
+export function stepsAmong(names, prefix) {
+  return [...new Set(names)].filter((name) => isStep(name, prefix)).sort(IN_ORDER.compare);
+}
+
+/** Events: `names` when there are others. */
+export class Steps extends EventTarget {
+  /** @type {Map<string, Manifest>} */
+  #embedded = new Map();
+  /** @type {Map<string, Promise<Step>>} */
+  #opened = new Map();
+  #prefix;
+  #server;
+
+  /** @param {import('./scene.js').Scene} scene */
+  constructor({ server, flood }) {
+    super();
+    this.#prefix = flood.prefix;
+    this.#server = server ? new URL(server, document.baseURI).href : null;
+    /** @type {string[]} */
+    this.names = flood.steps.map((step) => (typeof step === 'string' ? step : step.name));
+    for (const step of flood.steps) if (typeof step !== 'string') this.#embedded.set(step.name, step);
+  }
+
+  /** Hear of what the server gets and loses. */
+  follow() {
+    if (this.#server) this.#listen(this.#server);
+  }
+
+  /** @param {string} server */
+  #listen(server, failures = 0) {
+    let failed = failures;
+    const leave = listen(new URL('events', server), false, {
+      opened: (wasOpen) => {
+        failed = 0;
+        if (wasOpen) this.#ask(server).catch(() => {}); // whoever shows a step says that the server is gone
+      },
+      heard: (kind, data) => {
+        if (kind === 'hello') this.#setNames(Object.keys(data.versions));
+        else if (kind === 'shape') this.#setNames([...this.names, data.name]);
+        else if (kind === 'gone') this.#setNames(this.names.filter((name) => name !== data.name));
+      },
+      failed: () => {
+        leave();
+        setTimeout(() => this.#listen(server, failed + 1), backOff(failed + 1));
+      },
+    });
+  }
+
+  /** @param {string} server */
+  async #ask(server) {
+    this.#setNames(JSON.parse(new TextDecoder().decode(await bytesOf('shapes', server))).shapes);
+  }
+
+  /** @param {string[]} names */
+  #setNames(names) {
+    const wanted = stepsAmong(names, this.#prefix);
+    if (wanted.length === 0 || wanted.join('\n') === this.names.join('\n')) return; // the last one stays to be seen
+    for (const name of this.names) if (!wanted.includes(name)) this.#close(name);
+    this.names = wanted;
+    this.dispatchEvent(new Event('names'));
+  }
+
+  /** @param {string} name */
+  #close(name) {
+    this.#opened.get(name)?.then(({ texture }) => texture instanceof LiveVectorTexture && texture.close(), () => {});
+    this.#opened.delete(name);
+  }
+
+  /**
+   * A step, loaded; the same one again while it is there.
+   *
+   * @param {string} name
+   * @returns {Promise<Step>}
+   */
+  open(name) {
+    const known = this.#opened.get(name);
+    if (known) return known;
+    const opening = this.#load(name);
+    this.#opened.set(name, opening);
+    opening.catch(() => this.#opened.get(name) === opening && this.#opened.delete(name)); // it is tried again
+    return opening;
+  }
+
+  /** @param {string} name @returns {Promise<Step>} */
+  async #load(name) {
+    const manifest = this.#embedded.get(name);
+    if (manifest) {
+      const base = document.baseURI;
+      const texture = new VectorTexture(await readPacked(await bytesOf(manifest.texture, base), name));
+      return { name, texture, manifest, base };
+    }
+    if (!this.#server) throw new Error(`There is no step ${name}.`);
+    const base = new URL(`shapes/${encodeURIComponent(name)}`, this.#server).href;
+    const texture = await LiveVectorTexture.connect(base);
+    const current = () => /** @type {Manifest} */ (/** @type {unknown} */ (texture.manifest));
+    return { name, texture, base, get manifest() { return current(); } };
+  }
+}
+
+/**
+ * When a step is, for people.
+ *
+ * @param {Manifest | undefined} manifest
+ * @param {string} name
+ */
+export function labelOf(manifest, name) {
+  const { label, time } = manifest?.facts ?? {};
+  if (label) return label;
+  return time ? time.replace('T', ' ').replace(/:00(\.0+)?(Z|$)/, '$2').replace('Z', ' UTC') : name;
+}
