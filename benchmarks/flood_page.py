@@ -56,9 +56,7 @@ RASTER: Final = """([mask, side]) => {
     if (!found.test(text) || !before.test(text)) return false;
     material.fragmentShader = text.replace(found, 'rasterCoverage($2)').replace(before, `uniform sampler2D rasterMask;
         float rasterCoverage(vec2 uv, vec2 dx, vec2 dy) {
-            float coverage = textureGrad(rasterMask, uv, dx, dy).r;
-            vexture_is_plain = coverage <= 0.0 || coverage >= 1.0;
-            return coverage;
+            return textureGrad(rasterMask, uv, dx, dy).r;
         }
         $&`);
     material.needsUpdate = true;

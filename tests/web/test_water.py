@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -100,6 +101,10 @@ def test_flat_water_is_what_the_exact_renderer_draws(page: Any, kind: str, scree
         difference = 255 * np.abs(flat - over_ground(exact("bay")))
         assert difference.mean() <= 0.2
         assert difference.max() <= 2.5
+    for size in (20, 33):  # pixels wider than the boxes along the shore
+        config = {"water": kind, "width": size, "height": size, "ground": GROUND}
+        flat = draw(page, **config, options={"flat": FLAT, "foam": {"width": 0.0}})
+        assert 255 * np.abs(flat - over_ground(exact("bay", size))).max() <= 2.5
     config = {"water": kind, "camera": "coast", "options": options, "ground": GROUND}
     drawn = page.evaluate("config => page.draw(config)", config)
     clip = np.reshape(drawn["matrix"], (4, 4)).T[[0, 1, 3]][:, [0, 1, 3]]
@@ -179,6 +184,20 @@ def test_it_moves_with_its_fold(page: Any, kind: str, screenshot: Callable[..., 
     assert max(np.abs(pictures[0] - one).max() for one in pictures) > 0.5
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_foam_follows_its_width_and_the_texture(page: Any, kind: str) -> None:
+    def looks(name: str, width: float) -> dict[str, Any]:
+        return {"water": kind, "texture": name, "ground": GROUND, "options": {"foam": {"width": width}}}
+
+    fresh = [draw(page, **looks(name, width)) for name, width in (("bay", 0.1), ("bay", 0.04), ("high", 0.04))]
+    assert min(np.abs(one - other).max() for one, other in pairwise(fresh)) > 0.1
+    steps: list[dict[str, Any]] = [{}, {"foam": {"width": 0.04}}, {"replace": "high"}, {"replace": "bay"}]
+    steps += [{"texture": "high"}, {"fadeTo": "bay"}, {"fade": 0.999}]
+    found = page.evaluate("([config, steps]) => page.changes(config, steps)", [looks("bay", 0.1), steps])
+    for text, expected in zip(found["pictures"], [*fresh, *fresh[1:], fresh[2], fresh[1]], strict=True):
+        assert (np.abs(decode(text) - expected) > 4 / 255).mean() <= 1e-3  # a line's front moves a pixel at 0.999
+
+
 def test_the_renderer_is_left_as_it_was(page: Any) -> None:
     """Rasters are drawn in the middle of a picture, into a part of the canvas that is not cleared."""
     config = {"options": {"flat": FLAT, "foam": {"width": 0.05}}, "part": [64, 32, 256, 256]}
@@ -193,13 +212,15 @@ def test_the_renderer_is_left_as_it_was(page: Any) -> None:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_one_water_turns_into_another_without_a_blank_picture(page: Any, kind: str) -> None:
-    config = {"water": kind, "options": {"flat": FLAT, "foam": {"width": 0.1}}, "ground": GROUND}
+    config = {"water": kind, "options": {"flat": FLAT, "foam": {"width": 0.03}}, "ground": GROUND}
     steps: list[dict[str, Any]] = [{}, {"fadeTo": "high"}, {"fade": 0.5}, {"fade": 1}, {"texture": "high"}]
+    steps += [{"fadeTo": "bay"}, {"fade": 0.25}, {"texture": "high"}]
     steps += [{"replace": "bay"}, {"texture": None}, {"fadeTo": "bay"}, {"fade": 0.25}, {"texture": "bay"}]
     found = page.evaluate("([config, steps]) => page.changes(config, steps)", [config, steps])
     bay_there, high_there = exact("bay"), exact("high")
     mean = 0.5 * (bay_there + high_there)
     expected = [bay_there, bay_there, mean, high_there, high_there]
+    expected += [high_there, 0.5 * (mean + high_there), high_there]
     expected += [bay_there, 0 * mean, 0 * mean, 0.25 * bay_there, bay_there]
     for text, coverage in zip(found["pictures"], expected, strict=True):
         assert distance(decode(text), over_ground(coverage)) <= 0.6

@@ -1,6 +1,15 @@
 // The rasters that water reads along the shore: how much of the shape lies around each place. They are drawn by the GPU,
 // from the shape itself, when it changes.
-import { ClampToEdgeWrapping, LinearFilter, NoBlending, RedFormat, ShaderMaterial, WebGLRenderTarget } from 'three';
+import {
+  ClampToEdgeWrapping,
+  HalfFloatType,
+  LinearFilter,
+  NoBlending,
+  RedFormat,
+  ShaderMaterial,
+  UnsignedByteType,
+  WebGLRenderTarget,
+} from 'three';
 import { FullScreenQuad } from 'three/addons/postprocessing/Pass.js';
 import { SHORE_SHADER } from './water-shader.js';
 
@@ -22,10 +31,17 @@ const MOST_SIDE = 1024;
 /** Texels in half a box where that is wider than the foam: enough to know where no outline is. */
 const LEAST_TEXELS = 2;
 
-/** @param {number} side */
-function targetOf(side) {
+/**
+ * In eight bits, for the GPUs that draw no others, lines of foam have little steps.
+ *
+ * @param {import('three').WebGLRenderer} renderer
+ * @param {number} side
+ */
+function targetOf({ extensions }, side) {
+  const halves = ['EXT_color_buffer_float', 'EXT_color_buffer_half_float'].some((name) => extensions.has(name));
   return new WebGLRenderTarget(side, side, {
     format: RedFormat,
+    type: halves ? HalfFloatType : UnsignedByteType,
     depthBuffer: false,
     generateMipmaps: false,
     magFilter: LinearFilter,
@@ -107,7 +123,7 @@ export class Shores {
    */
   #draw(shape, texel) {
     const renderer = /** @type {import('three').WebGLRenderer} */ (this.#renderer);
-    const target = targetOf(1 / texel);
+    const target = targetOf(renderer, 1 / texel);
     const { uniforms } = /** @type {ShaderMaterial} */ (this.#quad.material);
     uniforms.vextureTexels.value = shape.texels;
     uniforms.vextureRoot.value = shape.quad;

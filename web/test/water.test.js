@@ -130,4 +130,14 @@ describe('waves', () => {
     expect([...(waterNormals(64, 4).image.data ?? [])]).not.toEqual([...data]);
     expect(() => waterNormals(3)).toThrow(/size/);
   });
+
+  test('are calm from far away, more than their mean', () => {
+    const levels = /** @type {{ data: Uint8Array, width: number }[]} */ (waterNormals(256).mipmaps);
+    expect(levels.map(({ width }) => width)).toEqual([256, 128, 64, 32, 16, 8, 4, 2, 1]);
+    const steepness = levels.map(({ data }) => {
+      const slopes = data.filter((_, i) => i % 4 === 0).reduce((sum, x) => sum + (x - 127.5) ** 2, 0);
+      return Math.sqrt(slopes / (data.length / 4));
+    });
+    for (let i = 1; i < 4; i++) expect(steepness[i] / steepness[i - 1]).toBeLessThan(0.7);
+  });
 });
