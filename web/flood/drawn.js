@@ -20,7 +20,6 @@ function drawn(width, height, draw) {
   draw(/** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d')));
   const texture = new CanvasTexture(canvas);
   texture.colorSpace = SRGBColorSpace;
-  texture.anisotropy = 8;
   return texture;
 }
 

@@ -7,6 +7,7 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { skyTexture } from './drawn.js';
 import { Land } from './land.js';
 import { FIELD, between, pose, sunOver } from './presets.js';
+import { mostSamples, sharpen } from './sharpness.js';
 import { Tray } from './tray.js';
 
 /** @typedef {import('./presets.js').Preset} Preset @typedef {import('./presets.js').Pose} Pose */
@@ -65,11 +66,11 @@ export class Stage extends EventTarget {
     const light = new DirectionalLight(0xfff1d8, 2.5);
     light.position.copy(sun).multiplyScalar(100);
     this.scene.add(this.#sky, light, new HemisphereLight(0xd6e6f5, 0xb09a78, 1.35));
-    if (picture) picture.anisotropy = this.renderer.capabilities.getMaxAnisotropy();
     this.land = new Land(surface, picture);
     this.sea = sea(sun);
     this.tray = new Tray(surface.places);
     this.scene.add(this.land.group, this.tray.group, this.sea.group);
+    sharpen(this.scene, mostSamples(this.renderer));
     this.controls = this.#control(canvas);
     this.#settle();
     this.#watch();

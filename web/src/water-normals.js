@@ -145,7 +145,6 @@ export function waterNormals(size = 256, seed = 1) {
   texture.magFilter = LinearFilter;
   texture.minFilter = LinearMipmapLinearFilter;
   texture.generateMipmaps = false;
-  texture.anisotropy = 4;
   texture.needsUpdate = true;
   return texture;
 }
