@@ -23,7 +23,7 @@ __all__ = [
     "PRESETS", "SIZE", "Made", "first_picture", "frame_times", "look", "made", "mask_of", "opened", "rastered",
 ]  # fmt: skip
 
-SIZE: Final = (720, 480)
+SIZE: Final = (960, 540)
 PRESETS: Final = ("Sky", "Bird", "Coast", "Shore", "Beach")
 MASK: Final = 1024
 """Pixels along each side of the raster that is compared."""
@@ -42,12 +42,12 @@ LOOK: Final = """([preset, seconds]) => {
     return { picture, projection, view: seen, level: water.matrixWorld.elements[13] };
 }"""
 
-RASTER: Final = """([mask, side]) => {
+RASTER: Final = """([mask, side, samples]) => {
     const { material } = window.vexture.flood.water;
     const Data = material.uniforms.normalSampler.value.constructor;
     const texels = Uint8Array.from(atob(mask), (letter) => letter.charCodeAt(0));
     const texture = new Data(texels, side, side, 1028);  // RedFormat
-    Object.assign(texture, { magFilter: 1006, minFilter: 1008, generateMipmaps: true, anisotropy: 16 });
+    Object.assign(texture, { magFilter: 1006, minFilter: 1008, generateMipmaps: true, anisotropy: samples });
     texture.needsUpdate = true;
     material.uniforms.rasterMask = { value: texture };
     const found = /vextureWrapped\\((vextureQuads\\[shape\\]),\\s*(.*?)\\)/;
@@ -62,7 +62,7 @@ RASTER: Final = """([mask, side]) => {
     material.needsUpdate = true;
     return true;
 }"""
-"""Puts a picture in place of our texture: one line of the same shader, trilinear with 16 anisotropic samples."""
+"""Puts a picture in place of our texture: one line of the same shader, trilinear, with anisotropic samples."""
 
 TIMES: Final = """async ([preset, frames]) => {
     const { stage, view, freeze } = window.vexture.flood;
@@ -187,10 +187,10 @@ def mask_of(drawing: Drawing) -> tuple[NDArray[np.uint8], int]:
     return mask, len(file.getvalue())
 
 
-def rastered(page: Any, mask: NDArray[np.uint8]) -> None:
-    """Let the page's water be where a raster says."""
+def rastered(page: Any, mask: NDArray[np.uint8], samples: int) -> None:
+    """Let the page's water be where a raster says, by so many samples of it along a footprint."""
     texels = base64.b64encode(np.ascontiguousarray(mask[::-1]).tobytes()).decode()
-    if not page.evaluate(RASTER, [texels, MASK]):
+    if not page.evaluate(RASTER, [texels, MASK, samples]):
         raise SystemExit("the water's shader has no lookup that a raster could replace; adapt benchmarks/flood_page.py")
 
 

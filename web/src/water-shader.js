@@ -22,16 +22,27 @@ export function declarations(quality) {
   return `${VARYINGS}${colors}${steps}${chosen}${water}#ifdef ${FOLD}\n${fold}#endif\n`;
 }
 
-/** The shader that draws the raster along the shore, over the whole of a target. */
+const COVER = 'void main() { gl_Position = vec4(position.xy, 1.0, 1.0); }';
+
+/** The shader that draws the raster along the shore, over the whole of a target: each texel by itself. */
 export const SHORE_SHADER = Object.freeze({
-  vertexShader: 'void main() { gl_Position = vec4(position.xy, 1.0, 1.0); }',
+  vertexShader: COVER,
   fragmentShader: `#define VEXTURE_QUALITY ${QUALITIES.fast}
 #define VEXTURE_WRAP ${WRAPS.clamp}
 ${shore}uniform uint vextureRoot;
-uniform float vextureReach, vextureTexel;
-void main() {
-  gl_FragColor = vec4(vextureAroundOf(vextureRoot, gl_FragCoord.xy * vextureTexel, vextureReach));
-}`,
+uniform float vextureTexel;
+void main() { gl_FragColor = vec4(vextureTexelOf(vextureRoot, gl_FragCoord.xy * vextureTexel, vextureTexel)); }`,
+});
+
+/** The shader that spreads it, along one axis at a time: a box around each texel. */
+export const SPREAD_SHADER = Object.freeze({
+  vertexShader: COVER,
+  fragmentShader: `#define VEXTURE_QUALITY ${QUALITIES.fast}
+#define VEXTURE_WRAP ${WRAPS.clamp}
+${shore}uniform sampler2D vextureRaster;
+uniform ivec2 vextureWay;
+uniform int vextureReach;
+void main() { gl_FragColor = vec4(vextureSpread(vextureRaster, ivec2(gl_FragCoord.xy), vextureWay, vextureReach)); }`,
 });
 
 /** What the vertex shader declares. */

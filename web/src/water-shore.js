@@ -8,17 +8,19 @@ import {
   RedFormat,
   ShaderMaterial,
   UnsignedByteType,
+  Vector2,
   WebGLRenderTarget,
 } from 'three';
 import { FullScreenQuad } from 'three/addons/postprocessing/Pass.js';
-import { SHORE_SHADER } from './water-shader.js';
+import { SHORE_SHADER, SPREAD_SHADER } from './water-shader.js';
 
 /**
  * @typedef {object} Shape
  * @property {import('three').DataTexture} texels
  * @property {number} quad its root
  *
- * @typedef {Shape & { reach: number, target: WebGLRenderTarget }} Raster a shape's, and half the width of its boxes
+ * @typedef {Shape & { reach: number, target: WebGLRenderTarget }} Raster a shape's; around each texel of a box there are
+ *   `reach` more on either side
  */
 
 /** Texels in half a box at least; blended, so few show its smooth edges as well as more would. */
@@ -71,26 +73,35 @@ function drawInto(renderer, target, draw) {
   renderer.setRenderTarget(before, face, level);
 }
 
+/**
+ * Something that is drawn over the whole of a target.
+ *
+ * @param {string} name
+ * @param {{ vertexShader: string, fragmentShader: string }} shader
+ * @param {Record<string, unknown>} values of its uniforms
+ */
+function pass(name, shader, values) {
+  const uniforms = Object.fromEntries(Object.entries(values).map(([key, value]) => [key, { value }]));
+  const parameters = { name, ...shader, uniforms, blending: NoBlending, depthTest: false, depthWrite: false };
+  return new FullScreenQuad(new ShaderMaterial(parameters));
+}
+
+/**
+ * @param {FullScreenQuad} quad
+ * @param {Record<string, unknown>} values of its uniforms
+ */
+function set({ material }, values) {
+  const { uniforms } = /** @type {ShaderMaterial} */ (material);
+  for (const [name, value] of Object.entries(values)) uniforms[name].value = value;
+}
+
 export class Shores {
   /** @type {Raster[]} */
   #rasters = [];
   /** @type {import('three').WebGLRenderer | null} */
   #renderer = null;
-  #quad = new FullScreenQuad(
-    new ShaderMaterial({
-      name: 'VextureShore',
-      ...SHORE_SHADER,
-      uniforms: {
-        vextureTexels: { value: null },
-        vextureRoot: { value: 0 },
-        vextureReach: { value: 0 },
-        vextureTexel: { value: 0 },
-      },
-      blending: NoBlending,
-      depthTest: false,
-      depthWrite: false,
-    }),
-  );
+  #texels = pass('VextureShore', SHORE_SHADER, { vextureTexels: null, vextureRoot: 0, vextureTexel: 0 });
+  #spread = pass('VextureSpread', SPREAD_SHADER, { vextureRaster: null, vextureWay: new Vector2(), vextureReach: 0 });
   #onRestored = () => this.#drop(this.#rasters);
 
   /**
@@ -104,7 +115,7 @@ export class Shores {
     this.#use(renderer);
     const wanted = 2 ** Math.ceil(Math.log2(TEXELS / Math.max(width, TEXELS / MOST_SIDE)));
     const texel = 1 / Math.max(wanted, LEAST_SIDE);
-    const reach = Math.max(width, LEAST_TEXELS * texel);
+    const reach = Math.max(Math.ceil(width / texel - 0.5), LEAST_TEXELS);
     const before = this.#rasters;
     this.#rasters = [];
     for (const shape of shapes) {
@@ -113,7 +124,7 @@ export class Shores {
       this.#rasters.push(before.find(same) ?? this.#rasters.find(same) ?? this.#draw({ ...shape, reach }, texel));
     }
     this.#drop(before.filter((one) => !this.#rasters.includes(one)));
-    return { rasters: this.#rasters.map(({ target }) => target.texture), reach, texel };
+    return { rasters: this.#rasters.map(({ target }) => target.texture), reach: (reach + 0.5) * texel, texel };
   }
 
   /**
@@ -123,13 +134,14 @@ export class Shores {
    */
   #draw(shape, texel) {
     const renderer = /** @type {import('three').WebGLRenderer} */ (this.#renderer);
-    const target = targetOf(renderer, 1 / texel);
-    const { uniforms } = /** @type {ShaderMaterial} */ (this.#quad.material);
-    uniforms.vextureTexels.value = shape.texels;
-    uniforms.vextureRoot.value = shape.quad;
-    uniforms.vextureReach.value = shape.reach;
-    uniforms.vextureTexel.value = texel;
-    drawInto(renderer, target, () => this.#quad.render(renderer));
+    const [target, other] = [targetOf(renderer, 1 / texel), targetOf(renderer, 1 / texel)];
+    set(this.#texels, { vextureTexels: shape.texels, vextureRoot: shape.quad, vextureTexel: texel });
+    drawInto(renderer, target, () => this.#texels.render(renderer));
+    for (const [from, to, x, y] of /** @type {const} */ ([[target, other, 1, 0], [other, target, 0, 1]])) {
+      set(this.#spread, { vextureRaster: from.texture, vextureWay: new Vector2(x, y), vextureReach: shape.reach });
+      drawInto(renderer, to, () => this.#spread.render(renderer));
+    }
+    other.dispose();
     return { ...shape, target };
   }
 
@@ -155,7 +167,9 @@ export class Shores {
   /** Free what the GPU holds. */
   dispose() {
     this.#use(null);
-    this.#quad.material.dispose();
-    this.#quad.dispose();
+    for (const quad of [this.#texels, this.#spread]) {
+      quad.material.dispose();
+      quad.dispose();
+    }
   }
 }

@@ -1,4 +1,5 @@
-// What a texel, of no more than eight bits maybe, says of the box around it: no outline at all, 0 or 1; else how much of it is the shape's.
+// What a texel, which may have no more than eight bits, says of the box around it: no outline at all, 0 or 1; else how
+// much of it is the shape's.
 // Exports: vexture_around, vexture_share.
 
 const float vexture_mixed = 8.0 / 255.0;  // so far from 0 and 1 that a blend whose nearest texel is mixed is neither

@@ -1,5 +1,5 @@
-// How much of a shape lies around each place: the raster that water reads beside the shape itself.
-// Exports: vextureAroundOf.
+// How much of a shape lies in a box around each place: the raster that water reads beside the shape itself.
+// Exports: vextureTexelOf, vextureSpread.
 #include "packed_wrap.glsl"
 #include "around.glsl"
 
@@ -31,9 +31,24 @@ bool vexture_is_clear(uint root, VextureSpot spot) {
     return position.y > place.high.y && (highest == 0.0 || lowest == 1.0);
 }
 
-// What the raster holds at a place: parameters are half the width of the box around it, too.
-float vextureAroundOf(uint root, vec2 uv, float reach) {
-    VextureSpot spot = vexture_spot(uvec2(0u), uv, vec2(2.0 * reach, 0.0), vec2(0.0, 2.0 * reach));
+// What the texel at a place holds before it is spread: the share of itself that is the shape's.
+float vextureTexelOf(uint root, vec2 uv, float texel) {
+    VextureSpot spot = vexture_spot(uvec2(0u), uv, vec2(texel, 0.0), vec2(0.0, texel));
     float share = vexture_spot_coverage(root, spot);
     return vexture_is_clear(root, spot) ? round(share) : vexture_around(share);
+}
+
+// What it holds after: the mean of `reach` texels on either side, along one axis after the other.
+float vextureSpread(sampler2D raster, ivec2 at, ivec2 way, int reach) {
+    ivec2 last = textureSize(raster, 0) - 1;
+    float lowest = 1.0;
+    float highest = 0.0;
+    float sum = 0.0;
+    for (int k = -reach; k <= reach; k++) {
+        float around = texelFetch(raster, clamp(at + k * way, ivec2(0), last), 0).r;
+        lowest = min(lowest, around);
+        highest = max(highest, around);
+        sum += vexture_share(vec2(around)).x;
+    }
+    return highest == 0.0 || lowest == 1.0 ? lowest : vexture_around(sum / float(2 * reach + 1));
 }
