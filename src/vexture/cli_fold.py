@@ -36,6 +36,7 @@ def fold(drawing: Path, output: Path, amplitude: float, period: float, size: int
         import numpy as np
 
         from vexture.encoding.files import file_name, write_together
+        from vexture.encoding.layout import PACKED_SUFFIX
         from vexture.errors import LimitError
         from vexture.folding.layout import FOLD_SUFFIX
         from vexture.folding.shore import shore_fold
@@ -43,6 +44,8 @@ def fold(drawing: Path, output: Path, amplitude: float, period: float, size: int
 
         if picture is not None and picture.suffix.lower() != ".png":
             raise LimitError(f"--picture {picture}: pictures are PNG files; name one that ends in .png")
+        if not output.is_dir() and output.suffix.lower() != PACKED_SUFFIX:
+            raise LimitError(f"-o {output}: folds are KTX2 files; name one that ends in {FOLD_SUFFIX}")
         shape = read_drawing(drawing)
         made = shore_fold(shape, amplitude=amplitude, period=period, size=size)
         target = output / (file_name(shape.name) + FOLD_SUFFIX) if output.is_dir() else output

@@ -99,7 +99,7 @@ def test_an_extent_outside_of_a_frame_of_another_system_is_refused(tmp_path):
         read_extent(path, "lake.gpkg", frame=frame_around((4, 52, 5, 53), "EPSG:4326"))
 
 
-@pytest.mark.parametrize("shapes", [[], [None], [shapely.Polygon()], [shapely.Point(1, 2)]])
+@pytest.mark.parametrize("shapes", [[], [None], [shapely.Polygon()]])
 def test_without_polygons_all_is_dry_within_the_bounds(tmp_path, shapes):
     path = file(tmp_path, "dry.gpkg", shapes)
     with warnings.catch_warnings():
@@ -230,3 +230,9 @@ def test_a_random_polygon_keeps_its_area_and_maps_back(tmp_path_factory, star, c
     nearest = np.abs(found[:, None] - expected).max(axis=2).min(axis=1)
     assert len(found) == len(expected)
     assert nearest.max() <= precision * max(abs(x), abs(y))
+
+
+def test_what_holds_something_else_is_no_empty_flood():
+    point = b'{"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [4, 52]}}'
+    with pytest.raises(SourceError, match=r"holds no polygon \(left out: Point\); give polygons of what is under water"):
+        read_extent(point, "well.geojson", bounds=(3, 51, 5, 53))

@@ -60,15 +60,20 @@ function standOf({ shore }, surface) {
   };
 }
 
+/** Say why the last update of a step was refused, until one is not. @param {import('./steps.js').Step} step */
+function tell({ name, manifest }) {
+  notes.keep(`step ${name}`, manifest.note ?? '');
+}
+
 /** @param {Stage} stage @param {Player} player */
 function follow(stage, player) {
-  const tell = (/** @type {string | null | undefined} */ note) => notes.keep('shape', note ?? '');
   player.addEventListener('step', () => {
     const { step } = player;
     notes.keep('dry', step?.manifest.facts?.dry ? DRY : '');
-    tell(step?.manifest.note);
+    if (step) tell(step);
     stage.requestFrame();
   });
+  player.addEventListener('newer', () => notes.say(`There is newer water: ${player.label(player.count - 1)}.`));
   player.addEventListener('failed', (event) => notes.say(/** @type {CustomEvent<Error>} */ (event).detail.message));
   stage.addEventListener('lost', () => notes.keep('driver', 'The graphics driver was reset; waiting for it…'));
   stage.addEventListener('restored', () => notes.keep('driver', ''));
@@ -77,10 +82,12 @@ function follow(stage, player) {
 /** Say what becomes of a server, for each texture once. */
 function listener() {
   const known = new WeakSet();
-  return (/** @type {import('./steps.js').Step} */ { texture }) => {
+  return (/** @type {import('./steps.js').Step} */ step) => {
+    const { name, texture } = step;
     if (known.has(texture)) return;
     known.add(texture);
-    texture.addEventListener('note', ({ message }) => notes.keep('shape', message));
+    texture.addEventListener('note', ({ message }) => notes.keep(`step ${name}`, message));
+    texture.addEventListener('change', () => tell(step));
     texture.addEventListener('offline', () =>
       notes.keep('server', 'Offline: the server does not answer. The last water stays.'));
     texture.addEventListener('online', () => notes.keep('server', ''));
@@ -180,7 +187,7 @@ async function run(stage, scene, surface, fold) {
     relief: (/** @type {number} */ times) => stage.relief(times),
     render: () => stage.render(),
   });
-  await player.go(0);
+  await player.start();
   stage.render();
   steps.follow();
 }

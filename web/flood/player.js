@@ -8,7 +8,7 @@ const PACE = 1000;
 
 /**
  * Events: `step` when another one is shown or its water has changed, `steps` when there are others, `play` when playing
- * begins or ends, `failed` with the error in its `detail`.
+ * begins or ends, `newer` when there is a newer one that is not shown, `failed` with the error in its `detail`.
  */
 export class Player extends EventTarget {
   #show;
@@ -51,22 +51,26 @@ export class Player extends EventTarget {
     return this.#labels.get(name) ?? name;
   }
 
-  /** The steps are others: stay at the one that is shown, or follow if it was the last. */
+  /** The steps are others: show the newest, or stay where someone has gone back to. */
   #renamed() {
     const name = this.step?.name ?? '';
-    const wasLast = this.index >= this.lastCount - 1;
     const at = this.names.indexOf(name);
+    const newest = this.names[this.count - 1];
+    const isNewer = newest !== this.#newest;
+    this.#newest = newest;
     this.dispatchEvent(new Event('steps'));
-    if (wasLast && !this.playing) void this.go(this.count - 1);
-    else if (at >= 0) {
-      this.index = at;
-      this.lastCount = this.count;
-      this.dispatchEvent(new Event('step'));
-    } else void this.go(Math.min(this.index, this.count - 1));
+    if (this.follows && !this.playing) return void this.#go(this.count - 1);
+    if (at < 0) return void this.#go(Math.min(this.index, this.count - 1));
+    this.index = at;
+    this.dispatchEvent(new Event('step'));
+    if (isNewer) this.dispatchEvent(new Event('newer'));
   }
 
-  /** Steps that there were when one was last shown. */
-  lastCount = 0;
+  /** Whether newer steps are shown as they come: until someone goes to another than the last. */
+  follows = true;
+
+  /** @type {string | undefined} */
+  #newest;
 
   /**
    * Show a step once it is loaded; until then, and if it cannot be, the one before stays.
@@ -74,6 +78,18 @@ export class Player extends EventTarget {
    * @param {number} index
    */
   async go(index) {
+    this.follows = Math.round(index) >= this.count - 1;
+    await this.#go(index);
+  }
+
+  /** Show the first step, and newer ones as they come. */
+  async start() {
+    this.#newest = this.names[this.count - 1];
+    await this.#go(0);
+  }
+
+  /** @param {number} index */
+  async #go(index) {
     const mine = ++this.#turn;
     const wanted = Math.min(Math.max(Math.round(index), 0), this.count - 1);
     const name = this.names[wanted];
@@ -84,7 +100,6 @@ export class Player extends EventTarget {
       const isFirst = this.step === null;
       this.step = step;
       this.index = Math.max(this.names.indexOf(name), 0);
-      this.lastCount = this.count;
       step.texture.addEventListener('change', this.#changed);
       this.#show(step, this.fading && !isFirst);
       this.dispatchEvent(new Event('step'));

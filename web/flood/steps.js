@@ -16,7 +16,7 @@ import { bytesOf } from '../viewer/scene.js';
  * @property {string} base what its addresses are relative to
  */
 
-/** Names in the order of the numbers in them. */
+/** Names in the order of the numbers in them. The prefix by itself is the newest water. */
 const IN_ORDER = new Intl.Collator('en', { numeric: true });
 
 /**
@@ -32,7 +32,9 @@ export const isStep = (name, prefix) => name === prefix || name.startsWith(`${pr
  * @param {Iterable<string>} names @param {string} prefix
  */
 export function stepsAmong(names, prefix) {
-  return [...new Set(names)].filter((name) => isStep(name, prefix)).sort(IN_ORDER.compare);
+  const newest = (/** @type {string} */ name) => Number(name === prefix);
+  return [...new Set(names)].filter((name) => isStep(name, prefix))
+    .sort((one, other) => newest(one) - newest(other) || IN_ORDER.compare(one, other));
 }
 
 /** Events: `names` when there are others. */

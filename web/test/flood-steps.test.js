@@ -9,7 +9,7 @@ describe('steps of a server', () => {
 
   it('come in the order of their numbers, each once', () => {
     const names = ['flood/10', 'duck', 'flood/9', 'flood/9', 'flood'];
-    expect(stepsAmong(names, 'flood')).toEqual(['flood', 'flood/9', 'flood/10']);
+    expect(stepsAmong(names, 'flood')).toEqual(['flood/9', 'flood/10', 'flood']);
   });
 });
 

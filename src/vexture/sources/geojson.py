@@ -17,7 +17,7 @@ from vexture.drawing import Drawing, FillRule, Paint, Path
 from vexture.errors import SourceError
 from vexture.sources.reading import BYTE_ORDER_MARK
 from vexture.sources.svg_document import read_bytes
-from vexture.sources.svg_report import Report
+from vexture.sources.svg_report import UNLOCATED, Report
 
 __all__ = ["LARGEST", "Area", "areas_of", "read_geojson"]
 
@@ -181,7 +181,7 @@ class _Reader:
         if not isinstance(value, dict) or value.get("type") != "Feature":
             raise SourceError(f"{where} is not of the type Feature; correct it")
         if value.get("geometry") is None:  # RFC 7946, 3.2: an unlocated feature
-            self._report.left_out("feature without geometry")
+            self._report.left_out(UNLOCATED)
         else:
             yield from self._geometry(value["geometry"], where, self._paint(value.get("properties")))
 

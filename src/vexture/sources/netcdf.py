@@ -29,7 +29,19 @@ DEPTHS: Final = (
 """Names, in small letters without ``_``, and standard names of depths of water."""
 
 LEVELS: Final = (
-    {"waterlevel", "level", "zs", "s1", "mesh2ds1", "wse", "watersurface", "watersurfaceelevation", "ssh", "zeta"},
+    {
+        "waterlevel",
+        "wl",
+        "level",
+        "zs",
+        "s1",
+        "mesh2ds1",
+        "wse",
+        "watersurface",
+        "watersurfaceelevation",
+        "ssh",
+        "zeta",
+    },
     {
         "sea_surface_height",
         "sea_surface_height_above_geoid",
@@ -270,8 +282,11 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tupl
         if len(choice) > 1:
             raise LimitError(f"depths may be in {listed(choice)}; choose one by --variable")
         chosen = choice[0]
-    if chosen == bed:
-        bed, bed_reader = None, None
+    if chosen == bed or (chosen == level and bed_reader is None):
+        what = "heights of the bed" if chosen == bed else "water levels, and nothing says where the bed is"
+        others = [name for name in candidates if name not in (bed, level)]
+        remedy = f"--variable may be {listed(others)}" if others else "write depths into the file"
+        raise LimitError(f"{chosen!r} holds {what}; {remedy}")
     if chosen == level and bed_reader is not None:
         at = reader(chosen)
         return chosen, lambda places, order: at(places, order) - bed_reader(places, order), bed_reader

@@ -27,7 +27,7 @@ from vexture.sources.reference import (
     transformed_bounds,
 )
 from vexture.sources.rings import Rings, cut, moved, oriented, refuse_far, repaired, unwrapped, within
-from vexture.sources.svg_report import Report
+from vexture.sources.svg_report import UNLOCATED, Report
 from vexture.sources.vectors import read_areas
 from vexture.tolerance import CLOSED
 
@@ -102,9 +102,11 @@ def read_polygons(
         rings = unwrapped(rings, turn)
     if len(rings.ends):
         rings = repaired(rings, report)
+    if not len(rings.ends) and report.kinds["left out"].keys() - {UNLOCATED}:  # something else is no empty flood
+        raise SourceError(f"it holds no polygon{_met(report)}; give polygons of what is under water")
     if frame is None:
         if bounds is None and not len(rings.ends):
-            raise SourceError(f"it holds no polygon{_met(report)}; for an empty flood, give --bounds")
+            raise SourceError("it holds no polygon; for an empty flood, give --bounds")
         frame = frame_around(bounds or rings.box, own)
     drawing = _drawn(_placed(rings, own, frame), frame, FilePath(file_name).stem)
     report.warn(stacklevel=2)

@@ -2,12 +2,13 @@
 
 import warnings
 from collections.abc import Iterable
+from typing import Final
 
 from lxml import etree
 
 from vexture.errors import SourceWarning
 
-__all__ = ["Report", "described"]
+__all__ = ["UNLOCATED", "Report", "described"]
 
 MOST_NAMED = 8
 """Kinds of things that one warning names; the others are counted."""
@@ -25,6 +26,10 @@ def described(element: etree._Element) -> str:
     label = f' id="{element.get("id", "")[:40]}"' if element.get("id") else ""
     line = f" in line {element.sourceline}" if element.sourceline else ""
     return f"<{name[:40]}{label}>{line}"
+
+
+UNLOCATED: Final = "feature without geometry"
+"""Of geographic data: nothing is there, and nothing is missing (RFC 7946, 3.2)."""
 
 
 class Report:

@@ -21,7 +21,7 @@ from vexture.sources.geojson import areas_of
 from vexture.sources.reading import FLATGEOBUF, SHAPEFILE, SQLITE, ZIP, is_geojson, start_of
 from vexture.sources.rings import Rings, rings_of
 from vexture.sources.svg_document import LARGEST_FILE, decompressed, read_bytes
-from vexture.sources.svg_report import Report
+from vexture.sources.svg_report import UNLOCATED, Report
 
 __all__ = ["Areas", "read_areas"]
 
@@ -189,7 +189,7 @@ def _parsed(shapes: NDArray[Any], report: Report) -> Rings:
 
     given = np.array([shape is not None for shape in shapes], np.bool_)
     for _ in range(int((~given).sum())):
-        report.left_out("feature without geometry")
+        report.left_out(UNLOCATED)
     feature = np.flatnonzero(given)
     with np.errstate(invalid="ignore"):  # what is not a number is refused later, by name
         whole = shapely.from_wkb(shapes[given], on_invalid="fix")
