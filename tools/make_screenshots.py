@@ -1,6 +1,7 @@
-"""Take the README's picture of the viewer: `python tools/make_screenshots.py` writes docs/pictures/viewer.png.
+"""Take the README's pictures of the pages: `python tools/make_screenshots.py` writes viewer.png and flood.jpg.
 
-Needs Chromium and the built viewer (`make viewer`): the page is exported and looked at as a person would.
+Needs Chromium and the built pages (`make viewer`): they are exported and looked at as a person would. The pictures go
+into docs/pictures/.
 """
 
 import io
@@ -12,16 +13,20 @@ from typing import Any, Final
 from PIL import Image
 
 ROOT: Final = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "benchmarks"))
+sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "examples")]
+
+from santa_cruz.make_flood import make_flood  # noqa: E402
 
 from chromium import chromium  # noqa: E402 - the browser of the tests
+from vexture.flood.asked import Asked  # noqa: E402
 from vexture.live.documents import VIEWER_SETTINGS  # noqa: E402
+from vexture.live.flooding import export as export_flood  # noqa: E402
 from vexture.live.viewing import export  # noqa: E402
 
 __all__ = ["main"]
 
 SHAPES: Final = ROOT / "examples" / "shapes"
-TARGET: Final = ROOT / "docs" / "pictures" / "viewer.png"
+PICTURES: Final = ROOT / "docs" / "pictures"
 SIZE: Final = (1080, 700)
 SHOWN: Final = 700
 """Pixels that a screenshot is wide in the picture."""
@@ -56,21 +61,51 @@ def looks(page: Any) -> list[Image.Image]:
     return taken
 
 
+FLOOD_LOOKS: Final = (("Bird", 4, ""), ("Coast", 16, "?bare"), ("Shore", 16, "?bare"), ("Beach", 0, "?bare"))
+"""View, step, and what stands behind the address: the panels are seen once."""
+
+
+def flood_looks(browser: Any, address: str) -> list[Image.Image]:
+    """One screenshot of each view of a flood."""
+    taken = []
+    for preset, step, bare in FLOOD_LOOKS:
+        page = browser.new_page(viewport={"width": SIZE[0], "height": SIZE[1]}, color_scheme="light")
+        page.goto(address + bare)
+        page.evaluate("window.vexture.flood.ready")
+        page.evaluate(
+            "async ([preset, step]) => { const {view, freeze, step: go} = window.vexture.flood;"
+            " await go(step); view(preset, {fly: false}); freeze(3); }",
+            [preset, step],
+        )
+        page.wait_for_timeout(1500)
+        picture = Image.open(io.BytesIO(page.screenshot(timeout=120_000))).convert("RGB")
+        taken.append(picture.resize((SHOWN, SHOWN * SIZE[1] // SIZE[0]), Image.Resampling.LANCZOS))
+        page.close()
+    return taken
+
+
+def sheet_of(pictures: list[Image.Image]) -> Image.Image:
+    """Four pictures, two by two."""
+    width, height = pictures[0].size
+    sheet = Image.new("RGB", (2 * width + GAP, 2 * height + GAP), "#ffffff")
+    for place, picture in enumerate(pictures):
+        sheet.paste(picture, (place % 2 * (width + GAP), place // 2 * (height + GAP)))
+    return sheet
+
+
 def main() -> None:
-    """Export a page of some example drawings, and put the screenshots of it side by side."""
+    """Export pages of the examples, and put the screenshots of each side by side."""
     with tempfile.TemporaryDirectory() as folder, chromium() as browser:
         target = Path(folder) / "page.html"
         export([SHAPES / f"{name}.svg" for name in ("duck", "cake", "ocean")], target, None, VIEWER_SETTINGS, print)
         page = browser.new_page(viewport={"width": SIZE[0], "height": SIZE[1]}, color_scheme="light")
         page.goto(target.as_uri())
         page.wait_for_function("() => window.vexture?.viewer?.engine?.drawing")
-        taken = looks(page)
-    width, height = taken[0].size
-    sheet = Image.new("RGB", (2 * width + GAP, 2 * height + GAP), "#ffffff")
-    for place, picture in enumerate(taken):
-        sheet.paste(picture, (place % 2 * (width + GAP), place // 2 * (height + GAP)))
-    sheet.save(TARGET, optimize=True)
-    print(TARGET)
+        sheet_of(looks(page)).save(PICTURES / "viewer.png", optimize=True)
+        page.close()
+        flood, ground = make_flood(Path(folder))
+        export_flood(Asked(flood, time_dim="time", ground=ground, title="Santa Cruz"), target, print)
+        sheet_of(flood_looks(browser, target.as_uri())).save(PICTURES / "flood.jpg", quality=86, optimize=True)
 
 
 if __name__ == "__main__":

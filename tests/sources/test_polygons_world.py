@@ -234,5 +234,5 @@ def test_a_random_polygon_keeps_its_area_and_maps_back(tmp_path_factory, star, c
 
 def test_what_holds_something_else_is_no_empty_flood():
     point = b'{"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [4, 52]}}'
-    with pytest.raises(SourceError, match=r"holds no polygon \(left out: Point\); give polygons of what is under water"):
+    with pytest.raises(SourceError, match=r"no polygon \(left out: Point\); give polygons of what is under water"):
         read_extent(point, "well.geojson", bounds=(3, 51, 5, 53))
