@@ -3,10 +3,11 @@
 import sys
 from pathlib import Path
 
+import pytest
 from hypothesis import HealthCheck, settings
 
-# the benchmarks are scripts beside the package; they find each other in their own folder
-sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
+# the benchmarks are scripts beside the package; they find each other in their own folder; so do the helpers of live/
+sys.path[:0] = [str(Path(__file__).parents[1] / "benchmarks"), str(Path(__file__).parent / "live")]
 
 # compiling a kernel and drawing a whole tree take long; a temporary folder may be shared by examples
 settings.register_profile(
@@ -15,3 +16,15 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.function_scoped_fixture],
 )
 settings.load_profile("vexture")
+
+
+@pytest.fixture(scope="session")
+def page_is_built():
+    """Skip where the page of floods is not built."""
+    from vexture.errors import DeviceError
+    from vexture.live.page import FLOOD, built
+
+    try:
+        built(FLOOD.script)
+    except DeviceError as error:
+        pytest.skip(str(error))

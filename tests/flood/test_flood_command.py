@@ -168,9 +168,9 @@ def bad(folder):
         "order": (["--extent", good, "--bounds", "504000,4000000,500000,4002000"], "west,south,east,north"),
         "not four": (["--extent", good, "--bounds", "1,2,3"], "give four numbers"),
         "nan": (["--extent", good, "--bounds", "1,2,nan,4"], "finite"),
-        "hmin": (["--extent", good, "--hmin", "-1"], "--hmin -1: it is a depth in metres, 0 or more"),
+        "hmin": (["--extent", good, "--hmin", "-1"], "--hmin -1: it is a depth in metres, above 0"),
         "amplitude": (["--extent", good, "--amplitude", "5000"], "--amplitude 5000: the limit is"),
-        "period": (["--extent", good, "--period", "0"], "--period 0: it must be above 0"),
+        "period": (["--extent", good, "--period", "0"], "--period 0: it must be 0.1 to 600 seconds"),
         "ground": (["--extent", good, "--ground", folder / "missing.png"], "--ground"),
         "no picture": (["--extent", good, "--ground", folder / "text.png"], "is no picture"),
         "relief": (["--extent", good, "--relief", folder / "missing.tif"], "there is no such file"),
@@ -217,3 +217,13 @@ def test_parameters_are_checked(tmp_path):
     with pytest.raises(LimitError, match="the box is empty"):
         bounds_of("1,2,1,4")
     assert json.dumps(bounds_of("170,-20,-170,-10")) == "[170.0, -20.0, -170.0, -10.0]"
+
+
+def test_waves_that_would_turn_the_shore_over_are_smaller_and_said_so(tmp_path):
+    page = tmp_path / "a.html"
+    bounds = ",".join(map(str, BOUNDS))
+    outcome = flood("--extent", sea(tmp_path / "sea.geojson"), "--bounds", bounds, "--amplitude", "150", "-o", page)
+    assert outcome.returncode == 0
+    told = re.search(r"Waves run up ([\d.]+) m: 150 m would turn the shore over\.", outcome.stderr)
+    assert told is not None
+    assert 20.0 < float(told[1]) < 140.0

@@ -48,6 +48,19 @@ def test_picture_with_a_place_comes_to_it(tmp_path):
     assert [note.text for note in notes] == ["half.tif shows 50% of the frame; the rest of the ground is drawn."]
 
 
+def test_picture_of_floats_shows_no_more_than_it_has(tmp_path):
+    left, south, right, north = BOUNDS
+    gray = np.tile(np.linspace(0.2, 0.8, 100, dtype=np.float32), (50, 1))
+    half = geotiff(tmp_path / "half.tif", gray, bounds=(left, south, (left + right) / 2, north))
+    picture, notes = ground_of(half, FRAME, GREEN, bounds_given=True)
+    pixels = np.asarray(picture).astype(int)
+    assert pixels[10, 3 * pixels.shape[1] // 4].tolist() == [0, 200, 0]
+    assert notes[0].text.startswith("half.tif shows 50% of the frame")
+    far = geotiff(tmp_path / "far.tif", gray, bounds=(0.0, 0.0, 10.0, 10.0))
+    with pytest.raises(SourceError, match="shows nothing of the frame"):
+        ground_of(far, FRAME, GREEN, bounds_given=True)
+
+
 def test_picture_of_another_reference_system_is_warped(tmp_path):
     from rasterio.warp import transform_bounds
 
@@ -127,6 +140,14 @@ def test_bed_gives_the_relief_and_the_still_water_is_its_zero():
     relief = relief_of(Extent(FRAME, (Step(Drawing(())), Step(west(0.5))), bed))
     assert not relief.invented
     np.testing.assert_allclose(relief.heights[:, [0, 64, 128]], np.tile([-5.0, 0.0, 5.0], (65 - 1, 1)), atol=0.15)
+
+
+def test_relief_says_how_much_of_the_ground_it_knows(tmp_path):
+    left, south, right, north = BOUNDS
+    bed = np.tile(np.linspace(5.0, 15.0, 40, dtype=np.float32), (20, 1))
+    half = geotiff(tmp_path / "half.tif", bed, bounds=((left + right) / 2, south, right, north))
+    relief = relief_of(Extent(FRAME, (Step(west(0.25)),)), half)
+    assert relief.known == pytest.approx(0.75, abs=0.02)
 
 
 def test_viewpoint_is_none_where_there_is_no_shore():

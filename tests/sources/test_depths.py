@@ -255,6 +255,14 @@ def test_all_dry_is_an_empty_drawing(tmp_path):
     assert extent.steps[1].drawing.segments > 0
 
 
+def test_a_step_without_numbers_is_dry_as_models_write_it(tmp_path):
+    dataset = lake((0.0, 0.0))
+    first = dataset["time"] == dataset["time"][0]
+    extent = written(dataset.assign(depth=dataset["depth"].where(~first)), tmp_path)
+    assert extent.steps[0].drawing.paths == ()
+    assert off_shore(extent.steps[1].drawing) < 0.5
+
+
 def test_water_levels_less_the_bed(tmp_path):
     dataset = lake(bed=True)
     dataset["zs"] = dataset["depth"] + dataset["bed_level"]
@@ -284,7 +292,7 @@ def repeated(dataset):
 
 
 def nothing(dataset):
-    return dataset.assign(depth=dataset["depth"].where(dataset["time"] != 3600.0))
+    return dataset.assign(depth=dataset["depth"].where(dataset["time"] < 0.0))
 
 
 def curvilinear(dataset):
@@ -298,7 +306,7 @@ def curvilinear(dataset):
         (with_layers, {}, SourceError, r"variable 'depth' also has the dimension 'layer' \(2 long\)"),
         (shuffled, {}, SourceError, r"step 3 is before step 2 .* sortby\('time'\)"),
         (repeated, {}, SourceError, r"step 3 is the same time as step 2 .* drop_duplicates"),
-        (nothing, {}, SourceError, r"variable 'depth' holds no number at step 2 of 3"),
+        (nothing, {}, SourceError, r"variable 'depth' holds no number within the bounds at any of 3 steps"),
         (curvilinear, {}, SourceError, r"no variable is on rows and columns; it has 'depth'"),
         (lambda dataset: dataset, {"time_dim": "hour"}, LimitError, r"no dimension 'hour'; it has .*'time'"),
         (lambda dataset: dataset, {"variable": "salt"}, LimitError, r"'salt'; --variable may be 'depth'"),
@@ -333,7 +341,7 @@ def test_geotiff_that_does_not_say_where_it_is(tmp_path, profile, message):
 
 def test_geotiff_of_nothing(tmp_path):
     path = geotiff(tmp_path / "a.tif", np.full((20, 20), np.nan, np.float32), NORTH_UP)
-    with pytest.raises(SourceError, match="variable 'band 1' holds no number at step 1 of 1"):
+    with pytest.raises(SourceError, match="variable 'band 1' holds no number within the bounds; write depths"):
         read(path)
 
 

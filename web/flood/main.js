@@ -97,8 +97,7 @@ function listener() {
 /** @param {(preset: Preset) => void} viewed @param {Player} player */
 function listenToKeys(viewed, player) {
   document.addEventListener('keydown', (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target instanceof HTMLInputElement
-      || event.target instanceof HTMLSelectElement) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target instanceof HTMLSelectElement) return;
     const preset = PRESETS[Number(event.key) - 1];
     if (preset) viewed(preset);
     else if (event.key === '[' || event.key === ']') {

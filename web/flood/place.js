@@ -59,7 +59,7 @@ export class Places {
    */
   text(u, v) {
     const [x, y] = this.toSource(u, v);
-    if (this.#frame.geographic) return `${degrees(y, 'N', 'S')}, ${degrees(x, 'E', 'W')}`;
+    if (this.#frame.geographic) return `${degrees(y, 'N', 'S')}, ${degrees(x - 360 * Math.round(x / 360), 'E', 'W')}`;
     return `${whole(x)} E, ${whole(y)} N`;
   }
 

@@ -81,6 +81,9 @@ export function createReadout(stage, player, surface, fold) {
     void loadDepths();
     show();
   });
+  stage.addEventListener('frame', () => {
+    if (pointed) show(); // the waves have moved, or the camera
+  });
   show();
   return region;
 }

@@ -28,6 +28,8 @@ export class LiveVectorTexture extends VectorTexture {
   #online = true;
   /** @type {string | null} */
   #note = null;
+  /** Whether the note is one of the stream, which the manifest may not show any more. */
+  #heard = false;
   /** @type {Promise<void> | null} */
   #refreshing = null;
   #again = false;
@@ -159,9 +161,13 @@ export class LiveVectorTexture extends VectorTexture {
   #hear(kind, data, refresh) {
     const { name } = this.#manifest;
     const version = kind === 'hello' ? data.versions?.[name] : data.name === name ? data.version : undefined;
-    if (version !== undefined && !this.#source.has(version)) refresh();
+    const mayBeNews = kind === 'shape' || !this.#source.has(version); // the same shape again ends a refusal's note
+    if (version !== undefined && mayBeNews) refresh();
     else if (kind === 'hello') this.#setOnline(true);
-    else if (kind === 'note' && data.name === name) this.#tell(String(data.message));
+    else if (kind === 'note' && data.name === name) {
+      this.#heard = true;
+      this.#tell(String(data.message));
+    }
   }
 
   /** Be what the server has; one at a time, and once more if asked meanwhile. */
@@ -183,7 +189,11 @@ export class LiveVectorTexture extends VectorTexture {
   async #refreshOnce() {
     const { signal } = this.#closing;
     const source = this.#source;
-    if (!(await source.look(signal))) return;
+    if (!(await source.look(signal))) {
+      if (this.#heard) this.#tell(source.manifest.note ?? null);
+      this.#heard = false;
+      return;
+    }
     if (!source.isLoaded) {
       let data;
       try {
@@ -208,7 +218,7 @@ export class LiveVectorTexture extends VectorTexture {
   #tell(message) {
     const isNews = message !== this.#note;
     this.#note = message;
-    if (isNews && message !== null && !this.closed) guarded(() => this.dispatchEvent({ type: 'note', message }));
+    if (isNews && !this.closed) guarded(() => this.dispatchEvent({ type: 'note', message: message ?? '' }));
   }
 
   /**

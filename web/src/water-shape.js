@@ -162,7 +162,7 @@ export class WaterShape {
   }
 
   set shallow(/** @type {import('three').ColorRepresentation | null} */ color) {
-    setColor(this.uniforms.vextureShallow, color ?? 0, color === null ? 0 : 1);
+    setColor(this.uniforms.vextureShallow, color ?? 0, color == null ? 0 : 1);
   }
 
   get flat() {
@@ -170,7 +170,7 @@ export class WaterShape {
   }
 
   set flat(/** @type {import('three').ColorRepresentation | null} */ color) {
-    setColor(this.uniforms.vextureFlat, color ?? 0, color === null ? 0 : 1);
+    setColor(this.uniforms.vextureFlat, color ?? 0, color == null ? 0 : 1);
   }
 
   /**

@@ -29,6 +29,7 @@ describe('Places', () => {
     const degrees = new Places(DEGREES);
     expect(degrees.text(0.25, 0.5)).toBe('36.50000° N, 122.75000° W');
     expect(new Places({ ...DEGREES, to_source: [1, 0, 4, 0, 1, -52] }).text(0, 0)).toBe('52.00000° S, 4.00000° E');
+    expect(new Places({ ...DEGREES, to_source: [1, 0, 180.25, 0, 1, 0] }).text(0.5, 0)).toBe('0.00000° N, 179.25000° W');
   });
 
   it('has a short name for a reference system', () => {

@@ -13,7 +13,7 @@ __all__ = ["PERIOD", "Asked", "bounds_of"]
 PERIOD: Final = 8.0
 """Seconds between two waves on a beach, by default."""
 
-LONGEST_PERIOD: Final = 600.0
+SHORTEST_PERIOD, LONGEST_PERIOD = 0.1, 600.0
 MOST_AMPLITUDE: Final = 0.05
 """Share of the frame's longer side by which a shoreline may move."""
 
@@ -45,12 +45,12 @@ class Asked:
     title: str | None = None
 
     def __post_init__(self) -> None:
-        if not (isfinite(self.hmin) and self.hmin >= 0.0):
-            raise LimitError(f"--hmin {self.hmin:g}: it is a depth in metres, 0 or more")
+        if not (isfinite(self.hmin) and self.hmin > 0.0):
+            raise LimitError(f"--hmin {self.hmin:g}: it is a depth in metres, above 0")
         if self.amplitude is not None and not (isfinite(self.amplitude) and self.amplitude >= 0.0):
             raise LimitError(f"--amplitude {self.amplitude:g}: it is a length in metres, 0 or more")
-        if not 0.0 < self.period <= LONGEST_PERIOD:
-            raise LimitError(f"--period {self.period:g}: it must be above 0 and at most {LONGEST_PERIOD:g} seconds")
+        if not SHORTEST_PERIOD <= self.period <= LONGEST_PERIOD:
+            raise LimitError(f"--period {self.period:g}: it must be {SHORTEST_PERIOD:g} to {LONGEST_PERIOD:g} seconds")
 
     @property
     def reading(self) -> dict[str, Any]:

@@ -176,11 +176,14 @@ def _bands_over(raster: Any, frame: Frame) -> tuple[Any, Any]:
         "height": size[1],
         "resampling": Resampling.nearest if raster.colorinterp[0] == ColorInterp.palette else Resampling.bilinear,
     }
-    if ColorInterp.alpha not in raster.colorinterp:
+    has_alpha = ColorInterp.alpha in raster.colorinterp
+    if np.issubdtype(np.dtype(raster.dtypes[0]), np.floating):  # an added alpha would be a number like any other
+        options["nodata"] = np.nan
+    elif not has_alpha:
         options["add_alpha"] = True
     with WarpedVRT(raster, **options) as onto:
         bands = onto.read(colours)
-        alpha = onto.dataset_mask()
+        alpha = np.where(np.isfinite(bands).all(axis=0), onto.dataset_mask(), 0).astype(np.uint8)
     if raster.colorinterp[0] == ColorInterp.palette:
         table = np.zeros((256, 4), np.uint8)
         for value, colour in raster.colormap(1).items():

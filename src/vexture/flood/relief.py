@@ -55,10 +55,13 @@ class Relief:
         Metres above the still water, the northernmost row first, at the corners of the frame and evenly between them.
     invented : bool
         Whether nobody has measured them.
+    known : float
+        Share of them that somebody has measured, if anybody has.
     """
 
     heights: NDArray[np.float64]
     invented: bool
+    known: float = 1.0
 
     def as_json(self) -> dict[str, Any]:
         """What the page is told: 16-bit numbers times a unit, as a data address."""
@@ -113,13 +116,13 @@ def relief_of(extent: Extent, path: Path | None = None, crs: str | None = None) 
         return Relief(made_up, True)
     known = np.isfinite(measured)
     heights = filled(measured)
+    wet = np.zeros(known.shape, bool) if first is None else _wet(first, extent.frame, size)
     if first is not None:
-        wet = _wet(first, extent.frame, size)
         heights -= _shore_level(heights, wet, known)
         heights[wet & ~known] = np.minimum(heights, made_up)[wet & ~known]
     else:
         heights -= heights.min()
-    return Relief(heights, False)
+    return Relief(heights, False, float((known | wet).mean()))
 
 
 def _wet(step: Step, frame: Frame, size: tuple[int, int]) -> NDArray[np.bool_]:

@@ -67,7 +67,8 @@ float vextureFoam(VextureWater water, sampler2D normals, float seconds) {
         vec4 fine = textureLod(normals, 0.73 * water.place - 0.027 * drift, pixel - 0.45);
         float bent = water.offshore + 0.5 * (broad.x - 0.5) * smoothstep(0.0, 0.3, water.offshore);
         float behind = fract(2.5 * bent + drift + broad.y);
-        float line = smoothstep(1.0, 0.93, behind) * pow(1.0 - behind, 2.5) * smoothstep(0.95, 0.35, bent);
+        float front = clamp(5.0 * max(length(water.dx), length(water.dy)), 0.03, 1.0);  // no sharper than two pixels
+        float line = smoothstep(0.0, front, behind) * pow(1.0 - behind, 2.5) * smoothstep(0.95, 0.35, bent);
         float seam = smoothstep(0.12 + 0.2 * broad.y, 0.0, water.offshore);
         float most = max(line, seam);
         float tear = 0.5 * (fine.x + fine.y) + 0.35 * (fine.z - 0.8);

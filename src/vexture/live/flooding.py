@@ -1,12 +1,16 @@
 """`vexture flood`: from a user's files to one page, or to a server that shows them and takes newer ones."""
 
 import asyncio
+import warnings
 from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager, closing, suppress
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
-from vexture.errors import LimitError, SourceError
+import numpy as np
+
+from vexture.drawing import Drawing
+from vexture.errors import LimitError, SourceError, SourceWarning
 from vexture.flood.asked import Asked
 from vexture.flood.naming import PREFIX, labels, step_names
 from vexture.flood.scene import Flood, Note, scene
@@ -25,6 +29,12 @@ GROUND_NAME, FOLD_NAME = "ground.webp", "shore.fold.ktx2"
 INVENTED: Final = Note("The relief is invented.", "--relief takes a file of heights.")
 DRAWN: Final = Note("The ground is drawn, not photographed.", "--ground takes a picture.")
 DRY: Final = Note("Nothing is under water.", "")
+
+LESS: Final = 0.95
+"""Share of the amplitude that was asked for: less is said."""
+
+WHOLE: Final = 0.995
+"""Share of the ground whose height is known: less is said."""
 
 Say = Callable[[str], None]
 """Tells the user one line."""
@@ -85,14 +95,21 @@ def make(asked: Asked, say: Say) -> Made:
         notes += told
     first = first_wet(extent)
     shapes = _shapes(extent, waters)
+    fold = None
     if first is None:
         notes.append(DRY)
+    elif amplitude:
+        fold, reached = _fold(first.drawing, amplitude, asked.period, frame.metres)
+        if asked.amplitude is not None and reached < LESS * amplitude:
+            notes.append(Note(f"Waves run up {reached:.3g} m: {amplitude:.3g} m would turn the shore over.", ""))
+    if relief.known < WHOLE:
+        notes.append(Note(f"{relief.known:.0%} of the ground has a height; the rest goes on as its border.", ""))
     flood = Flood(
         title=asked.title or asked.extent.name.partition(".")[0] or PREFIX,
         frame=frame,
         ground=encoded(picture),
         relief=relief,
-        fold=None if first is None or not amplitude else _fold(first.drawing, amplitude, asked.period, frame.metres),
+        fold=fold,
         shore=None if first is None else viewpoint(first.drawing, frame),
         notes=tuple(notes),
     )
@@ -104,6 +121,8 @@ def make(asked: Asked, say: Say) -> Made:
 def _read(asked: Asked) -> Extent:
     from vexture.sources.extent import read_extent
 
+    if asked.extent.is_dir():
+        raise SourceError(f"--extent {asked.extent}: is a folder; name a file in it that says where water is")
     if not asked.extent.is_file():
         raise SourceError(f"--extent {asked.extent}: there is no such file; name one that says where water is")
     return read_extent(
@@ -117,13 +136,16 @@ def _shapes(extent: Extent, waters: Waters) -> list[Shape]:
     return [waters.step(step, name, label) for step, name, label in listed]
 
 
-def _fold(drawing: Any, amplitude: float, period: float, metres: tuple[float, float]) -> bytes:
-    """File that moves the shoreline up and down the beach."""
+def _fold(drawing: Drawing, amplitude: float, period: float, metres: tuple[float, float]) -> tuple[bytes, float]:
+    """File that moves the shoreline up and down the beach, and by how many metres it does at most."""
     from vexture.folding.shore import shore_fold
     from vexture.sources.frame import MARGIN
 
     share = (1.0 - 2.0 * MARGIN) / max(metres)
-    return shore_fold(drawing, amplitude=amplitude * share, period=period).to_ktx2()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SourceWarning)  # it speaks of the square's sides; said in metres here
+        fold = shore_fold(drawing, amplitude=amplitude * share, period=period)
+    return fold.to_ktx2(), float(np.hypot(fold.displacement[..., 0], fold.displacement[..., 1]).max()) / share
 
 
 def export(asked: Asked, output: Path, say: Say) -> tuple[Made, int]:

@@ -104,18 +104,14 @@ def _extent(
     steps: list[Step] = []
     bed, seen = None, False
     for time, found in zip(series.times, readings, strict=True):
-        if found.whole and not found.known:
-            raise SourceError(
-                f"variable {series.variable!r} holds no number at step {len(steps) + 1} of {len(series.times)}; "
-                "write depths, 0 where it is dry"
-            )
         drawing = replace(found.drawing, to_source=frame.to_source, name=name, crs=frame.crs)
         steps.append(Step(drawing, time, found.depth))
         bed = found.bed if bed is None else bed
         seen = seen or found.known
     if not seen:
+        when = "" if len(steps) == 1 else f" at any of {len(steps)} steps"
         raise SourceError(
-            f"variable {series.variable!r} holds no number within the bounds; write depths, 0 where it is dry"
+            f"variable {series.variable!r} holds no number within the bounds{when}; write depths, 0 where it is dry"
         )
     return Extent(frame, tuple(steps), bed)
 

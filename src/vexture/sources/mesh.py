@@ -163,7 +163,7 @@ def mesh_steps(series: MeshSeries, system: str, frame: Frame, hmin: float) -> It
         drawing = sheet.drawing(sheet.spread(above))
         grid = sheet.grid(np.where(depth < 0.0, 0.0, depth))
         known = bool(np.isfinite(depth).any())
-        yield Reading(drawing, grid, None if bed is None else sheet.grid(bed), known, True)
+        yield Reading(drawing, grid, None if bed is None else sheet.grid(bed), known)
 
 
 class Sheet:

@@ -31,10 +31,6 @@ def raster_steps(series: Series, system: str, frame: Frame, hmin: float) -> Iter
     lattice = _turned(series.lattice, system, frame)
     square = transformed_bounds(unit_square(frame), frame.crs, system)
     rows, columns = _window(lattice, square, frame, system)
-    whole = all(
-        part.start < part.step and part.stop > count - part.step
-        for part, count in zip((rows, columns), lattice.shape, strict=True)
-    )
     placing = Placing(lattice.cut(rows, columns), system, frame)
     beyond = placing.beyond()
     for step in range(len(series.times)):
@@ -43,7 +39,7 @@ def raster_steps(series: Series, system: str, frame: Frame, hmin: float) -> Iter
         drawing = wet_drawing(shored(depth, hmin, bed), placing.to_unit, beyond)
         grid = placing.grid(np.where(depth < 0.0, 0.0, depth))
         known = bool(np.isfinite(depth).any())
-        yield Reading(drawing, grid, None if bed is None else placing.grid(bed), known, whole)
+        yield Reading(drawing, grid, None if bed is None else placing.grid(bed), known)
 
 
 def unit_square(frame: Frame) -> Bounds:

@@ -34,15 +34,12 @@ class Reading:
         As `Step` and `Extent` have them.
     known : bool
         Whether the file has any number there.
-    whole : bool
-        Whether that is all of the file.
     """
 
     drawing: Drawing
     depth: NDArray[np.float32]
     bed: NDArray[np.float32] | None
     known: bool
-    whole: bool
 
 
 def plausible(values: Values) -> Values:
