@@ -1,7 +1,6 @@
 """The page of a flood in a real browser: water on a beach in a wooden box, its steps, its read-out, its bad days."""
 
 import base64
-import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -14,8 +13,6 @@ from PIL import Image
 from playwright.sync_api import Page, expect
 
 import flood_page
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "live"))
 
 PRESETS = ("Sky", "Bird", "Coast", "Shore", "Beach")
 SMALL = (480, 320)
