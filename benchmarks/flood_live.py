@@ -30,7 +30,7 @@ SIZE: Final = {"width": 900, "height": 600}
 VEXTURE: Final = [sys.executable, "-c", "from vexture.cli import main; main(prog_name='vexture')"]
 TOKEN: Final = "token-of-the-benchmark"
 PATIENCE: Final = 30.0  # s
-PAUSE: Final = 0.7
+PAUSE: Final = 2.5
 """Seconds between two pushes."""
 
 WATCHED: Final = """
@@ -50,9 +50,11 @@ WATCHED: Final = """
   vexture.flood.relief(0);
   vexture.flood.flat(true);
   vexture.flood.view('Sky', { fly: false });
+  vexture.flood.freeze(0);
 }
 """
-"""Notes when the middle of the picture, white where it is wet, changes."""
+"""Notes when the middle of the picture, white where it is wet, changes. The waves stand: frames that only they ask for
+would keep a renderer in software busy all the time."""
 
 
 def extents(count: int, seed: int) -> list[tuple[bytes, bool]]:
