@@ -4,11 +4,11 @@ import json
 import re
 import subprocess
 import time
-from contextlib import contextmanager
 from pathlib import Path
 
+import netCDF4
 import numpy as np
-from server import COMMAND, TOKEN, Server
+from server import COMMAND, TOKEN, Server, serving
 
 BOUNDS = (500000.0, 4000000.0, 504000.0, 4002000.0)
 CRS = "EPSG:32610"
@@ -59,6 +59,37 @@ def geotiff(path, values, crs=CRS, bounds=BOUNDS, **profile):
     return path
 
 
+def wkt():
+    import pyproj
+
+    return pyproj.CRS.from_user_input(CRS).to_wkt()
+
+
+def series(path, edges, times=True, reverse=False):
+    """NetCDF of depths, a step for each edge."""
+    west, south, east, north = BOUNDS
+    columns, rows = 40, 20
+    with netCDF4.Dataset(path, "w") as file:
+        for name, count in (("time", len(edges)), ("y", rows), ("x", columns)):
+            file.createDimension(name, count)
+        x, y = file.createVariable("x", "f8", ("x",)), file.createVariable("y", "f8", ("y",))
+        x[:] = west + (np.arange(columns) + 0.5) * (east - west) / columns
+        y[:] = south + (np.arange(rows) + 0.5) * (north - south) / rows
+        if times:
+            when = file.createVariable("time", "f8", ("time",))
+            when.units = "hours since 2026-02-14 06:00:00"
+            when[:] = np.arange(len(edges))[:: -1 if reverse else 1]
+        system = file.createVariable("crs", "i4")
+        system.crs_wkt = wkt()
+        depth = file.createVariable("depth", "f4", ("time", "y", "x"))
+        depth.setncatts({"units": "m", "standard_name": "sea_floor_depth_below_sea_surface", "grid_mapping": "crs"})
+        depth[:] = [depths(edge) for edge in edges]
+        bed = file.createVariable("bed_level", "f4", ("y", "x"))
+        bed.setncatts({"units": "m", "grid_mapping": "crs", "standard_name": "altitude"})
+        bed[:] = np.tile(np.linspace(-2.0, 2.0, columns), (rows, 1))
+    return path
+
+
 def flood(*arguments):
     return subprocess.run([*COMMAND, "flood", *map(str, arguments)], capture_output=True, text=True, check=False)
 
@@ -92,12 +123,6 @@ class FloodServer(Server):
             time.sleep(0.1)
 
 
-@contextmanager
 def flooding(folder, *options, token=True):
-    server = FloodServer(folder, *options, token=token)
-    try:
-        yield server
-    finally:
-        if server.process.poll() is None:
-            server.process.kill()
-        server.process.communicate()
+    """Context of a running server."""
+    return serving(folder, *options, token=token, kind=FloodServer)

@@ -5,10 +5,9 @@ import json
 import re
 from io import BytesIO
 
-import netCDF4
 import numpy as np
 import pytest
-from floods import BOUNDS, CRS, depths, flood, geotiff, scene_of, sea
+from floods import BOUNDS, CRS, depths, flood, geotiff, scene_of, sea, series
 from PIL import Image
 
 from vexture.encoding.packed_texture import packed_from
@@ -21,37 +20,6 @@ pytestmark = pytest.mark.usefixtures("page_is_built")
 def content(address):
     head, _, data = address.partition(";base64,")
     return head, base64.b64decode(data, validate=True)
-
-
-def series(path, edges, times=True, reverse=False):
-    """NetCDF of depths, a step for each edge."""
-    west, south, east, north = BOUNDS
-    columns, rows = 40, 20
-    with netCDF4.Dataset(path, "w") as file:
-        for name, count in (("time", len(edges)), ("y", rows), ("x", columns)):
-            file.createDimension(name, count)
-        x, y = file.createVariable("x", "f8", ("x",)), file.createVariable("y", "f8", ("y",))
-        x[:] = west + (np.arange(columns) + 0.5) * (east - west) / columns
-        y[:] = south + (np.arange(rows) + 0.5) * (north - south) / rows
-        if times:
-            when = file.createVariable("time", "f8", ("time",))
-            when.units = "hours since 2026-02-14 06:00:00"
-            when[:] = np.arange(len(edges))[:: -1 if reverse else 1]
-        system = file.createVariable("crs", "i4")
-        system.crs_wkt = wkt()
-        depth = file.createVariable("depth", "f4", ("time", "y", "x"))
-        depth.setncatts({"units": "m", "standard_name": "sea_floor_depth_below_sea_surface", "grid_mapping": "crs"})
-        depth[:] = [depths(edge) for edge in edges]
-        bed = file.createVariable("bed_level", "f4", ("y", "x"))
-        bed.setncatts({"units": "m", "grid_mapping": "crs", "standard_name": "altitude"})
-        bed[:] = np.tile(np.linspace(-2.0, 2.0, columns), (rows, 1))
-    return path
-
-
-def wkt():
-    import pyproj
-
-    return pyproj.CRS.from_user_input(CRS).to_wkt()
 
 
 def test_page_of_polygons_holds_everything(tmp_path):

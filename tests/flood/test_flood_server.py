@@ -6,9 +6,8 @@ import zipfile
 
 import numpy as np
 import pytest
-from floods import BOUNDS, CRS, TOKEN, depths, flooding, geotiff, scene_of, sea
+from floods import BOUNDS, CRS, TOKEN, depths, flooding, geotiff, scene_of, sea, series
 from server import COMMAND, Stream
-from test_flood_command import series
 
 from vexture.encoding.packed_texture import packed_from
 

@@ -73,8 +73,8 @@ class Server:
 
 
 @contextmanager
-def serving(folder, *options, token=True):
-    server = Server(folder, *options, token=token)
+def serving(folder, *options, token=True, kind=None):
+    server = (kind or Server)(folder, *options, token=token)
     try:
         yield server
     finally:

@@ -7,7 +7,7 @@ from vexture.bezier.roots import cubic_at, velocity_at
 from vexture.bezier.split import copy_curve
 from vexture.kernels import kernel
 
-__all__ = ["fit_cubic"]
+__all__ = ["chord_parameters", "fit_cubic", "project"]
 
 ROUNDS = 10
 """Projection and least squares alternate at most so often; more rounds gain little on chains of one cell."""
@@ -23,14 +23,28 @@ ALONG = 0.001
 
 
 @kernel(allocates=False)
-def _chord_parameters(points: NDArray[np.float64], t: NDArray[np.float64]) -> None:
-    """Write each point's share of the polyline's length."""
+def chord_parameters(points: NDArray[np.float64], t: NDArray[np.float64]) -> float:
+    """Write each point's share of the polyline's length, and return that.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 array
+    t : (n,) float64 array
+        Written.
+
+    Examples
+    --------
+    >>> t = np.empty(3)
+    >>> chord_parameters(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 3.0]]), t), t
+    (4.0, array([0.  , 0.25, 1.  ]))
+    """
     t[0] = 0.0
     for i in range(1, len(points)):
         t[i] = t[i - 1] + np.hypot(points[i, 0] - points[i - 1, 0], points[i, 1] - points[i - 1, 1])
     total = t[-1]
     for i in range(len(points)):
         t[i] = t[i] / total if total > 0.0 else 0.0
+    return total
 
 
 @kernel(allocates=False)
@@ -102,8 +116,24 @@ def _least_squares(
 
 
 @kernel(allocates=False)
-def _project(points: NDArray[np.float64], t: NDArray[np.float64], curve: NDArray[np.float64]) -> float:
-    """Move each t towards the nearest place on the curve by a Newton step; return the largest distance."""
+def project(points: NDArray[np.float64], t: NDArray[np.float64], curve: NDArray[np.float64]) -> float:
+    """Move each t towards the nearest place on the curve by a Newton step; return the largest distance.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 array
+        The first and the last are the curve's ends, and stay.
+    t : (n,) float64 array
+        Overwritten.
+    curve : (4, 2) float64 array
+
+    Examples
+    --------
+    >>> line = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]])
+    >>> t = np.array([0.0, 0.4, 1.0])
+    >>> project(np.array([[0.0, 0.0], [1.5, 0.5], [3.0, 0.0]]), t, line), t
+    (0.5, array([0. , 0.5, 1. ]))
+    """
     worst = 0.0
     for i in range(1, len(points) - 1):
         for step in range(2):
@@ -166,13 +196,13 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
         for axis in range(2):
             curve[k, axis] = points[0, axis] + (points[n - 1, axis] - points[0, axis]) * (k / 3.0)
     t = np.empty(n)
-    _chord_parameters(points, t)
+    chord_parameters(points, t)
     best = np.inf
     best_curve, best_t = np.empty((4, 2)), np.empty(n)
     along = ALONG
     slow = 0
     for done in range(1, ROUNDS + 1):
-        worst = _project(points, t, curve)
+        worst = project(points, t, curve)
         slow += 1 if worst > SLOW * best else 0
         if worst < best:
             best = worst

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
-from vexture.bezier.roots import cubic_at, velocity_at
+from vexture.bezier.fit import chord_parameters, project
 from vexture.bezier.smooth import smooth_chain
 from vexture.bezier.split import copy_curve
 from vexture.kernels import kernel
@@ -81,13 +81,7 @@ def _fit_span(
     n = len(points)
     p0, p3 = points[0], points[n - 1]
     t = np.empty(n)
-    t[0] = 0.0
-    for i in range(1, n):
-        t[i] = t[i - 1] + np.hypot(points[i, 0] - points[i - 1, 0], points[i, 1] - points[i - 1, 1])
-    length = t[n - 1]
-    if length > 0.0:
-        for i in range(n):
-            t[i] /= length
+    length = chord_parameters(points, t)
     first, last = length / 3.0, length / 3.0
     worst = np.inf
     for step in range(STEPS):
@@ -112,23 +106,7 @@ def _fit_span(
         for axis in range(2):
             curve[0, axis], curve[3, axis] = p0[axis], p3[axis]
             curve[1, axis], curve[2, axis] = p0[axis] + first * start[axis], p3[axis] - last * end[axis]
-        worst = 0.0
-        for i in range(1, n - 1):
-            square = 0.0
-            numerator, denominator = 0.0, 0.0
-            u = t[i]
-            for axis in range(2):
-                c0, c1, c2, c3 = curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis]
-                off = cubic_at(c0, c1, c2, c3, u) - points[i, axis]
-                speed = velocity_at(c0, c1, c2, c3, u)
-                turn = 6.0 * ((1.0 - u) * (c2 - 2.0 * c1 + c0) + u * (c3 - 2.0 * c2 + c1))
-                square += off * off
-                numerator += off * speed
-                denominator += speed * speed + off * turn
-            worst = max(worst, square)
-            if denominator > 0.0:
-                t[i] = min(max(u - numerator / denominator, 0.0), 1.0)
-        worst = np.sqrt(worst)
+        worst = project(points, t, curve)
         if worst <= tolerance or (step == 2 and worst > 8.0 * tolerance > 0.0):
             break
     return worst

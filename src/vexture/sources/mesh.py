@@ -16,7 +16,7 @@ from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
 from vexture.sources.contours import THIN, Ring, fitted_drawing
 from vexture.sources.frame import Frame
-from vexture.sources.netcdf import crs_of, depths_of, line_of, listed, time_axis, times_of
+from vexture.sources.netcdf import check_dimension, crs_of, depths_of, line_of, listed, time_axis, times_of
 from vexture.sources.placing import frame_places
 from vexture.sources.reference import period, shown_bounds, transformed
 from vexture.sources.series import Reading, Values, plausible
@@ -79,10 +79,7 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None) -> Mes
     SourceError, LimitError
         If there are none, or more than one.
     """
-    if time_dim is not None and time_dim not in dataset.dims:
-        raise LimitError(
-            f"there is no dimension {time_dim!r}; it has {listed(dataset.dims)}; choose another --time-dim"
-        )
+    check_dimension(dataset, time_dim)
     grid = _grid(dataset)
     nodes = np.column_stack([grid.node_x, grid.node_y]).astype(np.float64)
     faces = np.asarray(grid.face_node_connectivity).astype(np.int64)

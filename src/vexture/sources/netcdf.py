@@ -14,7 +14,10 @@ from vexture.errors import LimitError, SourceError
 from vexture.sources.lattice import Lattice
 from vexture.sources.series import Series, Values
 
-__all__ = ["crs_of", "depths_of", "line_of", "listed", "opened", "read_variable", "series_of", "time_axis", "times_of"]
+__all__ = [
+    "check_dimension", "crs_of", "depths_of", "line_of", "listed", "opened", "read_variable", "series_of",
+    "time_axis", "times_of",
+]  # fmt: skip
 
 DEPTHS: Final = (
     {"depth", "waterdepth", "wd", "h", "hs", "hh", "flooddepth", "inundationdepth", "mesh2dwaterdepth", "hmax"},
@@ -117,6 +120,20 @@ def line_of(error: Exception, place: str = "") -> str:
     return (text if len(text) <= 120 else text[:117] + "...") or type(error).__name__
 
 
+def check_dimension(dataset: Any, time_dim: str | None) -> None:
+    """Refuse a dimension that is not there.
+
+    Raises
+    ------
+    LimitError
+        Naming those that are.
+    """
+    if time_dim is not None and time_dim not in dataset.dims:
+        raise LimitError(
+            f"there is no dimension {time_dim!r}; it has {listed(dataset.dims)}; choose another --time-dim"
+        )
+
+
 def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Series:
     """Depths of an open dataset.
 
@@ -125,10 +142,7 @@ def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Serie
     SourceError, LimitError
         If there are none, or more than one.
     """
-    if time_dim is not None and time_dim not in dataset.dims:
-        raise LimitError(
-            f"there is no dimension {time_dim!r}; it has {listed(dataset.dims)}; choose another --time-dim"
-        )
+    check_dimension(dataset, time_dim)
     grids = {str(name): axes for name in dataset.data_vars if (axes := axes_of(dataset, name, time_dim))}
     name, depth, bed = depths_of(dataset, list(grids), variable)
     time, north, east = grids[name]
