@@ -37,7 +37,7 @@ help:
 
 .venv/for-test: pyproject.toml | .venv/made
 	@echo 'installing vexture, its libraries and the tools of its tests into .venv (a minute or two) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,live,test]'
+	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,live,report,test]'
 	@touch .venv/for-demo $@
 
 web/node_modules/made: web/package.json web/package-lock.json

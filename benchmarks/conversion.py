@@ -20,46 +20,21 @@ from typing import Any, Literal, NamedTuple
 
 from lxml import etree
 
-from machine import machine_facts, machine_line
 from report import table, write_json
 from vexture.encoding import quantisation_step
+from vexture.evaluation.machine import machine_facts, machine_line
+from vexture.evaluation.printed import TABLE_5_1
 from vexture.pipeline import convert, run
 from vexture.quadtree.build import build
 from vexture.sources.svg import read_svg
 
-__all__ = ["PRINTED", "SHAPES", "Check", "Printed", "path_bytes", "size_checks", "size_facts"]
+__all__ = ["SHAPES", "Check", "path_bytes", "size_checks", "size_facts"]
 
 Strategy = Literal["direct", "sampled"]
 
 SHAPES = Path(__file__).parents[1] / "examples" / "shapes"
 REPEAT, REPEAT_SAMPLED = 50, 5
 
-
-class Printed(NamedTuple):
-    """A row of the thesis's Table 5.1: bytes of files, milliseconds."""
-
-    segments: int
-    svg: int
-    ms: float
-    curves: int
-    quads: int
-    bytes_8: int
-    bytes_16: int
-
-
-PRINTED = {
-    "simple-small": Printed(5, 699, 53.1, 18, 13, 414, 601),
-    "simple-big": Printed(5, 696, 70.7, 21, 14, 445, 639),
-    "simple-offset": Printed(5, 691, 98.0, 19, 12, 416, 625),
-    "simple-duo": Printed(10, 883, 187.5, 36, 23, 617, 964),
-    "simple-quartet": Printed(20, 1269, 382.9, 71, 47, 1006, 1727),
-    "duck": Printed(21, 1277, 300.0, 61, 34, 866, 1462),
-    "thumb": Printed(22, 908, 236.8, 45, 26, 703, 1142),
-    "flame": Printed(23, 1418, 523.1, 109, 56, 1306, 2334),
-    "cake": Printed(31, 1283, 536.1, 115, 70, 1422, 2496),
-    "font": Printed(42, 1426, 645.4, 121, 64, 1447, 2495),
-    "ocean": Printed(31, 1817, 3632.2, 90, 59, 1205, 2115),
-}
 
 ORDER = 2.0  # sampled may differ from Table 5.1 by this factor, either way: the drawings are not the thesis's
 CORNERLESS = ("ocean",)
@@ -119,7 +94,7 @@ def size_facts(name: str) -> dict[str, Any]:
         "direct": sizes(svg, "direct", 16),
         "direct_8": sizes(svg, "direct", 8),
         "sampled": sizes(svg, "sampled", 16),
-        "thesis": PRINTED[name]._asdict(),
+        "thesis": TABLE_5_1[name]._asdict(),
     }
 
 
@@ -169,9 +144,9 @@ def size_checks(shapes: Sequence[dict[str, Any]]) -> list[Check]:
             missed(half_with_corners),
         ),
         Check(
-            f"8-bit pair no larger than the SVG, on {NO_LARGER} of {len(PRINTED)}",
+            f"8-bit pair no larger than the SVG, on {NO_LARGER} of {len(TABLE_5_1)}",
             missed(lambda f: f["direct_8"]["bytes"] <= f["svg_bytes"]),
-            len(PRINTED) - NO_LARGER,
+            len(TABLE_5_1) - NO_LARGER,
         ),
     ]
 
@@ -245,7 +220,7 @@ def main() -> None:
     if arguments.quick:
         arguments.repeat = min(arguments.repeat, 3)
     with tempfile.TemporaryDirectory() as folder:
-        shapes = [size_facts(name) | time_facts(name, arguments.repeat, Path(folder)) for name in PRINTED]
+        shapes = [size_facts(name) | time_facts(name, arguments.repeat, Path(folder)) for name in TABLE_5_1]
     found = [*size_checks(shapes), *time_checks(shapes)]
     machine = machine_facts()
     print(table(HEAD, [line(facts) for facts in shapes]))

@@ -23,10 +23,10 @@ from statistics import median
 from typing import Any, Final
 
 from chromium import CHROMIUM, FLAGS, ROOT
-from machine import machine_facts, machine_line
 from report import cell, table, write_json
 from targets import Target, judged, judgement
 from vexture.errors import DeviceError, VextureError
+from vexture.evaluation.machine import machine_facts, machine_line
 from vexture.live.page import SCRIPT, built
 
 __all__ = ["exported", "percentile", "saved"]

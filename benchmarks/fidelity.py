@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 import vexture
-from metrics import LEVELS, border_ratio, cell_border_pixels, errors
 from report import cell, table, write_json
 from vexture.drawing import Drawing
 from vexture.encoding import ThesisTexture
 from vexture.errors import DeviceError, LimitError
+from vexture.evaluation.metrics import LEVELS, border_ratio, cell_border_pixels, errors
 from vexture.pipeline import run
 from vexture.quadtree.tree import CellKind, CellTree
 from vexture.render.view import fit

@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
-from machine import machine_facts, machine_line
 from report import table, write_json
+from vexture.evaluation.machine import machine_facts, machine_line
 
 __all__ = ["main"]
 

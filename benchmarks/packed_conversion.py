@@ -23,12 +23,12 @@ from statistics import median
 from typing import Any, Final
 
 import corpora
-from machine import machine_facts, machine_line
 from report import cell, table, write_json
 from targets import Target, judged, judgement
 from vexture.drawing import Drawing
 from vexture.encoding import PackedTexture, Root, encode_packed
 from vexture.errors import SourceWarning
+from vexture.evaluation.machine import machine_facts, machine_line
 from vexture.quadtree.build_packed import build_packed
 from vexture.quadtree.tree import PackedTree
 from vexture.sources.svg import read_svg

@@ -23,16 +23,16 @@ from rich.console import Console
 from rich.progress import track
 
 import corpora
-from bands import BANDS, COASTLINE_BANDS, band_texture
-from machine import machine_facts, machine_line
-from metrics import LEVELS, errors, ink_sd
-from programs import Program, band_program, driver, packed_program, packed_texture
 from report import cell, table, write_json
 from seams import seam_facts, seam_table, seam_targets
 from targets import Target, judged, judgement
 from vexture.drawing import Drawing
 from vexture.encoding import PackedTexture
 from vexture.errors import LimitError, SourceWarning
+from vexture.evaluation.bands import BANDS, COASTLINE_BANDS, band_texture
+from vexture.evaluation.machine import machine_facts, machine_line
+from vexture.evaluation.metrics import LEVELS, errors, ink_sd
+from vexture.evaluation.programs import Program, band_program, driver, packed_program, packed_texture
 from vexture.render.exact import render_exact
 from vexture.render.packed_cpu import render_packed_cpu
 from vexture.sources.svg import read_svg

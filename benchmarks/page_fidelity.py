@@ -23,11 +23,11 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from chromium import ROOT, bundle, chromium, served
-from machine import machine_facts, machine_line
 from report import cell, table, write_json
 from seams import SIDE, crossings, displacements, is_straight, step_of
 from targets import Target, judged, judgement
 from vexture.drawing import Drawing
+from vexture.evaluation.machine import machine_facts, machine_line
 from vexture.live.documents import VIEWER_SETTINGS, shape_of
 from vexture.live.page import exported_page
 from vexture.pipeline import convert

@@ -19,10 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 import corpora
-from programs import packed_program, packed_texture
 from report import cell, table
 from targets import Target
 from vexture.drawing import Drawing
+from vexture.evaluation.programs import packed_program, packed_texture
 from vexture.quadtree.build_packed import build_packed
 from vexture.quadtree.tree import LATTICE, PackedTree
 from vexture.render.exact import render_exact

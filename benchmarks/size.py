@@ -6,7 +6,7 @@ Bytes of whole sets: packed, a set is one texture; of the others, the sum over i
 for each quad and curve, *padded* is the texture in the device's memory, whose rows are full, *file* the KTX2 file;
 *raw* are the thesis's lists, *files* its pairs of PNG files. "-2" says that a form cannot hold 2 of the drawings. *SVG*
 is the file, or for glyphs and coastlines the shortest we could write: one path, font units or six digits. *bands* is
-the published layout computed from its definition (`bands.py`), equal lists written once; *unshared*, every list.
+the published layout computed from its definition, equal lists written once; *unshared*, every list.
 """
 
 import argparse
@@ -20,13 +20,13 @@ from fontTools.pens.svgPathPen import SVGPathPen
 from fontTools.ttLib import TTFont
 
 import corpora
-from bands import BANDS, COASTLINE_BANDS, band_texture
-from machine import machine_facts, machine_line
 from packed_conversion import joined
 from report import cell, table, write_json
 from targets import Target, judged, judgement
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceWarning
+from vexture.evaluation.bands import BANDS, COASTLINE_BANDS, band_texture
+from vexture.evaluation.machine import machine_facts, machine_line
 from vexture.pipeline import run
 from vexture.quadtree.build_packed import build_packed
 from vexture.sources.svg import read_svg

@@ -16,9 +16,13 @@ from typing import Any, Final
 import numpy as np
 
 import corpora
-from bands import BANDS, COASTLINE_BANDS, band_texture
-from machine import machine_facts, machine_line
-from programs import (
+from report import cell, table, write_json
+from targets import Target, judged, judgement
+from vexture.drawing import Drawing
+from vexture.errors import LimitError
+from vexture.evaluation.bands import BANDS, COASTLINE_BANDS, band_texture
+from vexture.evaluation.machine import machine_facts, machine_line
+from vexture.evaluation.programs import (
     Program,
     band_program,
     driver,
@@ -29,10 +33,6 @@ from programs import (
     target,
     thesis_program,
 )
-from report import cell, table, write_json
-from targets import Target, judged, judgement
-from vexture.drawing import Drawing
-from vexture.errors import LimitError
 from vexture.pipeline import run
 from views import View, square_view, tilted_view
 

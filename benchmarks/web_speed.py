@@ -19,14 +19,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 import corpora
-from bands import BANDS, COASTLINE_BANDS, ROW_BITS, band_shader, band_texture
 from chromium import bundle, chromium, served
-from machine import machine_facts, machine_line
-from programs import rows_of
 from report import cell, table, write_json
 from speed import TEXT, ZOOM
 from targets import Target, judged, judgement
 from vexture.drawing import Drawing
+from vexture.evaluation.bands import BANDS, COASTLINE_BANDS, ROW_BITS, band_shader, band_texture
+from vexture.evaluation.machine import machine_facts, machine_line
+from vexture.evaluation.programs import rows_of
 from vexture.pipeline import convert
 from views import box_of
 

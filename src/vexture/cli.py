@@ -15,6 +15,7 @@ from vexture.arguments import Tolerance
 from vexture.cli_flood import flood
 from vexture.cli_fold import fold
 from vexture.cli_live import push, serve
+from vexture.cli_report import report
 from vexture.cli_view import export, view
 from vexture.errors import DeviceError, LimitError, VextureError
 from vexture.messages import one_line, say
@@ -313,3 +314,4 @@ main.add_command(view)
 main.add_command(export)
 main.add_command(flood)
 main.add_command(fold)
+main.add_command(report)

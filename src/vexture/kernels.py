@@ -20,7 +20,7 @@ __all__ = ["kernel"]
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-ABOVE = {"flood", "folding", "live", "sources"}
+ABOVE = {"evaluation", "figures", "flood", "folding", "live", "report", "sources"}
 """Parts of the package that no kernel stands in or takes a constant from: changing them compiles nothing again."""
 
 

@@ -4,12 +4,13 @@ from copy import deepcopy
 
 import pytest
 
-from conversion import PRINTED, Check, path_bytes, size_checks, size_facts
+from conversion import Check, path_bytes, size_checks, size_facts
+from vexture.evaluation.printed import TABLE_5_1
 
 
 @pytest.fixture(scope="module")
 def facts():
-    return [size_facts(name) for name in PRINTED]
+    return [size_facts(name) for name in TABLE_5_1]
 
 
 def test_sizes_and_counts_are_within_the_limits(facts):

@@ -9,7 +9,6 @@ import pytest
 import corpora
 import packed_conversion
 import packed_fidelity
-import programs
 import seams
 import size
 import speed
@@ -17,6 +16,7 @@ import targets
 import views
 from vexture.drawing import Drawing, FillRule
 from vexture.errors import DeviceError
+from vexture.evaluation import programs
 from vexture.quadtree.build_packed import build_packed
 from vexture.render.exact import render_exact
 

@@ -2,7 +2,7 @@
 
 E. Lengyel, "GPU-Centered Font Rendering Directly from Glyph Outlines", Journal of Computer Graphics Techniques 6(2),
 2017. An outline of quadratics is listed by horizontal and by upright bands; a pixel looks at the curves of its two
-bands along two rays. The shader is `bands.glsl`.
+bands along two rays. The shader is `glsl/bands.glsl`.
 
 What is ours: lines are quadratics with their middle as the second point; cubics become quadratics within
 `CUBIC_TOLERANCE`; equal lists are stored once. A curve without height is in no horizontal band, nor one without width
@@ -11,7 +11,6 @@ in an upright one. Lists are sorted by descending largest x (y), so that a pixel
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -20,6 +19,7 @@ from numpy.typing import NDArray
 
 from vexture.drawing import Drawing, FillRule
 from vexture.errors import LimitError
+from vexture.shaders import join
 
 __all__ = ["BandTexture", "band_shader", "band_texture", "eligible_roots", "quadratic_contours"]
 
@@ -125,7 +125,7 @@ def as_quadratics(cubics: NDArray[np.float64], tolerance: float) -> NDArray[np.f
     at = 0
     for k in np.flatnonzero(bent):
         chains += [direct[at:k], spline(cubics[k], tolerance)]
-        at = k + 1
+        at = int(k) + 1
     return np.concatenate([*chains, direct[at:]])
 
 
@@ -213,4 +213,4 @@ def band_shader(bands: int) -> str:
     """Text of `bands.glsl` after its constants."""
     constants = band_constants(bands)
     head = "".join(f"const {type(value).__name__} {name} = {value!r};\n" for name, value in constants.items())
-    return head + Path(__file__).with_name("bands.glsl").read_text(encoding="utf-8")
+    return head + join("bands.glsl")

@@ -8,13 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import bands
 import corpora
-import programs
 import views
-from metrics import errors
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import DeviceError, LimitError, SourceError
+from vexture.evaluation import bands, programs
+from vexture.evaluation.metrics import errors
 from vexture.render.exact import render_exact
 
 SQUARE = Drawing.polygon([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75)])

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import metrics
-from metrics import TOUCH, border_ratio, cell_border_pixels, errors, ink_sd
+from vexture.evaluation import metrics
+from vexture.evaluation.metrics import TOUCH, border_ratio, cell_border_pixels, errors, ink_sd
 from vexture.render.view import fit, window
 
 

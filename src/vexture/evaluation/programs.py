@@ -1,4 +1,4 @@
-"""The shaders that the benchmarks compare, each compiled once and used for pictures and for times alike.
+"""The shaders that are compared, each compiled once and used for pictures and for times alike.
 
 All have one and the same `main`: the pixel's place in the unit square and its derivatives come from a matrix, never
 from neighbouring pixels, and the picture may repeat in tiles, so that small views can be drawn many times at once.
@@ -14,10 +14,10 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from bands import BandTexture, band_constants, band_shader
 from vexture import shading
 from vexture.drawing import Drawing
 from vexture.encoding import PackedTexture, Root, ThesisTexture, encode_packed
+from vexture.evaluation.bands import BandTexture, band_constants, band_shader
 from vexture.quadtree.build_packed import build_packed
 from vexture.render.exact import render_exact
 from vexture.render.gpu import context, fold

@@ -1,6 +1,8 @@
 // Coverage of a pixel by the band algorithm: along two rays, the curves of a band, each root's distance in pixels.
 // Written from the public description (E. Lengyel, "GPU-Centered Font Rendering Directly from Glyph Outlines",
-// JCGT 6(2), 2017). BANDS, ROW_BITS, COUNT_BITS, ELIGIBLE and STRAIGHT are put before it by bands.py.
+// JCGT 6(2), 2017). The package includes it nowhere: it is what the others are measured against (evaluation/bands.py,
+// which puts BANDS, ROW_BITS, COUNT_BITS, ELIGIBLE and STRAIGHT before it).
+// Exports: band_coverage.
 
 uniform usampler2D band_lists;  // BANDS horizontal heads, BANDS upright heads, then the lists
 uniform sampler2D outlines;     // a curve's first and second point; its third is the first of the next texel

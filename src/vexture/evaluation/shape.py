@@ -1,0 +1,90 @@
+"""A drawing with all that is made of it, each made once: what tables and figures are about."""
+
+import sysconfig
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from vexture.errors import SourceError
+from vexture.pipeline import Conversion, run
+
+if TYPE_CHECKING:
+    from vexture.drawing import Drawing
+
+__all__ = ["WAYS", "Shape", "example"]
+
+WAYS: Final = {
+    "sampled": {"encoding": "thesis", "strategy": "sampled"},
+    "direct": {"encoding": "thesis", "strategy": "direct"},
+    "packed": {"encoding": "packed"},
+}
+"""The thesis's own way, ours to its leaves, and ours: parameters of `vexture.convert`."""
+
+FOLDERS: Final = (
+    Path(__file__).resolve().parents[3] / "examples" / "shapes",  # in a clone
+    Path(sysconfig.get_path("data")) / "share" / "vexture" / "shapes",  # where a wheel puts them
+)
+
+
+def example(name: str) -> Path:
+    """File of one of the example drawings.
+
+    Raises
+    ------
+    SourceError
+        If it is not there.
+
+    Examples
+    --------
+    >>> example("duck").name
+    'duck.svg'
+    """
+    for folder in FOLDERS:
+        if (path := folder / f"{name}.svg").is_file():
+            return path
+    raise SourceError(f"the example drawing {name}.svg is in none of {', '.join(map(str, FOLDERS))}; install again")
+
+
+class Shape:
+    """A drawing and its conversions.
+
+    Parameters
+    ----------
+    path : path
+        What `vexture.convert` reads.
+
+    Examples
+    --------
+    >>> duck = Shape(example("duck"))
+    >>> duck.name, duck.way("packed").texture.nbytes % 16
+    ('duck', 0)
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._ways: dict[tuple[str, int | None], Conversion] = {}
+
+    @property
+    def name(self) -> str:
+        """Of the drawing."""
+        return self.drawing.name
+
+    @cached_property
+    def drawing(self) -> "Drawing":
+        """The normal form."""
+        from vexture.sources.reading import read_drawing
+
+        return read_drawing(self.path)
+
+    def way(self, way: str, bits: int | None = None) -> Conversion:
+        """Tree and texture by one of `WAYS`; `bits` of those with the encoding ``thesis``, 16 if None.
+
+        Raises
+        ------
+        LimitError
+            If the encoding cannot hold the drawing.
+        """
+        if (way, bits) not in self._ways:
+            given = {} if bits is None else {"bits": bits}
+            self._ways[way, bits] = run(self.drawing, **WAYS[way], **given)
+        return self._ways[way, bits]

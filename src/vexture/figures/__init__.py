@@ -1,0 +1,1 @@
+"""Pictures of drawings, trees, textures and renderings, each made from the library's own data by one function."""
