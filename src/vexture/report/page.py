@@ -191,12 +191,17 @@ def _shown(value: Any) -> str:
         return "–"
     if isinstance(value, str):
         return _inline(value)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if isinstance(value, int):
         return f"{value:,}"
-    if value == 0.0 or 1e-3 <= abs(value) < 1e5:
-        digits = 3 if value == 0.0 else max(0, 2 - math.floor(math.log10(abs(value))))
-        return f"{value:,.{0 if value == 0.0 else digits}f}"
-    return f"{value:.2g}"
+    if value == 0.0:
+        return "0"
+    magnitude = math.floor(math.log10(abs(value)))
+    if magnitude < -3:
+        digits, exponent = f"{value:.1e}".split("e")
+        return f"{digits}·10<sup>{int(exponent)}</sup>"
+    return f"{value:,.{max(0, 2 - magnitude)}f}"
 
 
 def json_text(machine: Mapping[str, Any], sections: Sequence[Section]) -> str:
