@@ -12,7 +12,18 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-__all__ = ["COLOURS", "INK", "MUTED", "RESOLUTION", "coverage_map", "error_map", "panels", "show", "unit_axes"]
+__all__ = [
+    "COLOURS",
+    "INK",
+    "MUTED",
+    "RESOLUTION",
+    "coverage_map",
+    "error_map",
+    "panels",
+    "plotting",
+    "show",
+    "unit_axes",
+]
 
 INK: Final = "#1b2733"
 MUTED: Final = "#6b7688"
@@ -54,7 +65,19 @@ FONT: Final = {
 }
 
 
-def _matplotlib() -> Any:
+def plotting() -> Any:
+    """The package matplotlib.
+
+    Raises
+    ------
+    DeviceError
+        If it is not installed.
+
+    Examples
+    --------
+    >>> plotting().__name__
+    'matplotlib'
+    """
     try:
         import matplotlib
     except ModuleNotFoundError:
@@ -64,7 +87,7 @@ def _matplotlib() -> Any:
 
 def coverage_map() -> Any:
     """Colour map of coverage: white is empty, dark is full."""
-    _matplotlib()
+    plotting()
     from matplotlib.colors import LinearSegmentedColormap
 
     return LinearSegmentedColormap.from_list("coverage", ["#ffffff", INK])
@@ -72,7 +95,7 @@ def coverage_map() -> Any:
 
 def error_map() -> Any:
     """Colour map of absolute errors: white is none; legible to colour-blind readers and in print."""
-    return _matplotlib().colormaps["magma_r"]
+    return plotting().colormaps["magma_r"]
 
 
 def panels(
@@ -105,7 +128,7 @@ def panels(
     >>> axes.shape, [panel.get_title(loc="left") for panel in axes.flat]
     ((1, 2), ['left', 'right'])
     """
-    matplotlib = _matplotlib()
+    matplotlib = plotting()
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from vexture.encoding.files import write_together
 from vexture.evaluation.machine import machine_facts
+from vexture.figures.style import plotting
 from vexture.report.page import json_text, page, pictures_of, png_of
 from vexture.report.section import Material
 
@@ -69,6 +70,7 @@ def assemble(
     VextureError
         If a drawing cannot be read, or a package is missing.
     """
+    plotting()
     material = Material(sources)
     for shape in material.shapes:
         shape.drawing  # noqa: B018  # what cannot be read is found before anything is measured

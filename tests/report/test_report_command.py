@@ -1,0 +1,52 @@
+"""`vexture report` as people type it."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+from lxml import html
+from PIL import Image
+
+SHAPES = Path(__file__).parents[2] / "examples" / "shapes"
+RUN = "import sys; from vexture.cli import main; main()"
+
+
+def report(*arguments, before=""):
+    command = [sys.executable, "-c", before + RUN, "report", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def test_source_that_cannot_be_read_is_one_line_and_nothing_is_written(tmp_path):
+    (tmp_path / "broken.svg").write_text("<svg")
+    outcome = report(SHAPES / "duck.svg", tmp_path / "broken.svg", "-o", tmp_path / "out")
+    assert outcome.returncode == 1
+    (line,) = outcome.stderr.splitlines()
+    assert "broken.svg" in line
+    assert not (tmp_path / "out").exists()
+
+
+def test_missing_matplotlib_is_one_line(tmp_path):
+    outcome = report("-o", tmp_path / "out", before="import sys; sys.modules['matplotlib'] = None; ")
+    assert outcome.returncode == 1
+    assert outcome.stderr.splitlines() == [
+        "vexture: figures need the package matplotlib: pip install 'vexture[report]'"
+    ]
+    assert not (tmp_path / "out").exists()
+
+
+def test_report_of_the_examples_is_whole(tmp_path):
+    outcome = report("-o", tmp_path)
+    assert outcome.returncode == 0, outcome.stderr
+    page = html.parse(tmp_path / "index.html")
+    pictures = [tmp_path / source for source in page.xpath("//img/@src")]
+    assert len(pictures) > 20
+    assert sorted(pictures) == sorted((tmp_path / "figures").iterdir())
+    for image, picture in zip(page.xpath("//img"), pictures, strict=True):
+        with Image.open(picture) as opened:
+            assert abs(opened.width / opened.height - int(image.get("width")) / int(image.get("height"))) < 0.01
+            assert all(low < high for low, high in opened.convert("RGB").getextrema())
+    facts = json.loads((tmp_path / "report.json").read_text())
+    assert {"machine", "conversion", "shapes", "structure", "rendering", "discussion", "comparison"} <= set(facts)
+    assert set(page.xpath("//nav//a/@href")) <= {f"#{anchor}" for anchor in page.xpath("//@id")}
+    assert len(page.xpath("//@id")) == len(set(page.xpath("//@id")))
