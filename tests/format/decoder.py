@@ -1,0 +1,149 @@
+"""A decoder of vexture textures, parts A and B, written from FORMAT.md alone."""
+
+import json
+import struct
+import zlib
+from collections import namedtuple
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+import png
+
+TIMES = np.linspace(0, 1, 65)  # curves are drawn as 64 lines
+BERNSTEIN = np.stack([n * (1 - TIMES) ** (3 - i) * TIMES**i for i, n in enumerate((1, 3, 3, 1))], axis=1)
+HATS = np.maximum(0, 1 - abs(2 * TIMES[:, None] - [0, 1, 2]))  # the same for corners
+# Either encoding: arrays [quad, cell k] that say which quad the cell is, or -1; the coverage of a leaf without curves;
+# the leaf's first curve; how many it has; the winding number at its bottom left (A: modulo 2). Then for each curve the
+# points [time, axis] in sides of the leaf, and whether P0 and P3 lie on the leaf's left edge.
+Texture = namedtuple("Texture", "child coverage first count corner lines on_left even_odd roots")
+
+
+def need(condition: object, what: str) -> None:
+    """Refuse the file if the condition does not hold."""
+    if not condition:
+        raise ValueError(f"not a valid texture: {what}")
+
+
+@contextmanager
+def refusing() -> Iterator[None]:
+    """Report whatever a broken file leads to as a ValueError."""
+    try:
+        yield
+    except Exception as error:
+        raise ValueError(f"not a valid texture: {error!r}") from error
+
+
+def read_png(data: bytes, width: int) -> tuple[np.ndarray, int, dict[bytes, str]]:
+    """Return the channels, their largest value and the texts of one image of a pair (A.1)."""
+    chunks = list(png.Reader(bytes=data).chunks())
+    columns, height, bits, *kind = struct.unpack(">2I5B", chunks[0][1])
+    need(columns == width and kind == [2, 0, 0, 0] and height <= {8: 256, 16: 65000}[bits], "kind of PNG")
+    texts: dict[bytes, str] = {}
+    for name, body in chunks[: [name for name, _ in chunks].index(b"IDAT")]:
+        keyword, _, text = body.partition(b"\0")
+        if keyword.startswith(b"vexture.") and (name == b"tEXt" or (name == b"iTXt" and text[0] == 0)):
+            texts[keyword] = text.decode("latin-1") if name == b"tEXt" else text[2:].split(b"\0", 2)[2].decode()
+    return np.array([list(row) for row in png.Reader(bytes=data).read()[2]]).reshape(-1, width, 3), 2**bits - 1, texts
+
+
+@refusing()
+def read_thesis(quads: bytes, curves: bytes) -> Texture:
+    """Read a pair of PNG files (A)."""
+    (cells, largest, texts), (rows, *same) = read_png(quads, 4), read_png(curves, 2)
+    need([largest, texts] == same and len(rows) >= 2, "files of different textures, or no rows")
+    need((texts[b"vexture.version"], texts[b"vexture.encoding"]) == ("1", "thesis"), "version or encoding")
+    transform = [float(number) for number in texts[b"vexture.transform"].split(" ")]
+    need(len(transform) == 6 and np.isfinite(transform).all(), "transform")
+    kind, index, coverage = np.moveaxis(cells[:, [2, 3, 0, 1]], -1, 0)  # by k
+    is_quad, bent = 4 * kind > 3 * largest, (4 * kind > largest) & (4 * kind <= 3 * largest)
+    index = (2 * index * (np.where(is_quad, len(cells), len(rows)) - 1) + largest) // (2 * largest)
+    is_leaf = ~is_quad & (index > 1)
+    need((coverage == coverage[:, :1]).all() and not (bent & ~is_leaf).any(), "cells")
+    met = [index[is_quad].tolist(), index[is_leaf].tolist()]
+    need(met == [[*range(1, len(cells))], [*range(2, len(rows))]], "order of the rows")
+    need((index > np.arange(len(cells))[:, None])[is_quad].all(), "order of the rows")
+    steps = rows[:, :, 0] % largest
+    need((steps[2:, 0] != steps[2:, 1]).all(), "a curve that ends where it starts")
+    side, f = 4 * steps // largest, 4 * steps % largest / largest
+    ends = np.stack([np.choose(side, [f, 1, 1 - f, 0]), np.choose(side, [1, 1 - f, 0, f])], axis=-1)
+    inner = np.moveaxis(rows[:, :, 1:], 2, 1) / largest  # [row, P1 or P2, axis]
+    lines = BERNSTEIN @ np.concatenate([ends[:, :1], 3.5 * inner - 1.25, ends[:, 1:]], axis=1)
+    lines[index[bent]] = (HATS @ np.stack([ends[:, 0], inner[:, 0], ends[:, 1]], axis=1))[index[bent]]
+    corner = (steps[:, 1] > steps[:, 0]) + (side != 3).sum(axis=1)  # of the line closed along the edge
+    first = np.where(is_leaf, index, 0)
+    arrays = np.where(is_quad, index, -1), 1.0 * (index == 0), first, 1 * is_leaf, corner[first], lines
+    return Texture(*arrays, side == 3, True, [{"name": "", "quad": 0, "transform": transform}])
+
+
+@refusing()
+def read_packed(data: bytes) -> Texture:
+    """Read a KTX2 file (B)."""
+    *kind, width, height, depth, layers, faces, levels, scheme = struct.unpack_from("<12s9I", data)
+    need([*kind, depth, layers, faces] == [bytes.fromhex("ab4b5458203230bb0d0a1a0a"), 107, 4, 0, 0, 1], "fields")
+    *spans, length = struct.unpack_from("<4I5Q", data, 48)
+    _, values, _, image = (data[i : i + n] for i, n in zip(spans[::2], spans[1::2], strict=True))
+    need(levels < 2 and scheme in (0, 3) and spans[5] == 0 and len(values) == spans[3] <= 1 << 24, "fields")
+    need(1 <= height <= 16384 and (width == 2048 or (height == 1 and width in 2 ** np.arange(11))), "size")
+    image = zlib.decompress(image) if scheme else image
+    need(length == len(image) == 16 * width * height, "length of the image")
+    texts: dict[bytes, str] = {}
+    while values:
+        end = 4 + int.from_bytes(values[:4], "little")
+        key, _, text = values[4:end].partition(b"\0")
+        need(end <= len(values) and key > max(texts, default=b""), "key/value data")
+        texts[key], values = text.removesuffix(b"\0").decode(), values[end + -end % 4 :]
+    need((texts[b"vexture.version"], texts[b"vexture.encoding"]) == ("1", "packed"), "version or encoding")
+    roots = json.loads(texts[b"vexture.roots"])
+    need(all(isinstance(r["name"], str) and np.isfinite([*r["transform"]]).sum() == 6 for r in roots), "roots")
+    words = np.frombuffer(image, "<u4").reshape(-1, 4).astype(int)
+    cells, coverage = (words[:, [2, 3], None] >> np.array([0, 8, 16, 24]) & 255).swapaxes(0, 1)
+    is_quad, count = cells == 128, np.where(cells == 128, 0, cells >> 3)
+    child, first = (words[:, [i]] + np.cumsum(n, axis=1) - n for i, n in enumerate((is_quad, count)))
+    points = np.stack([words & 65535, words >> 16], axis=-1) - np.array([0, 16384, 16384, 0])[:, None]
+    level, reached = np.unique([root["quad"] for root in roots]), []
+    while len(level) and len(reached) < 40:
+        quads, n = is_quad[level], count[level]
+        need((quads | (cells[level] == 0) | (n > 0) & (n < 16) & (cells[level] % 8 > 0)).all(), "a kind of cell")
+        below = np.where(quads, child[level], np.where(n > 0, first[level], len(words)))
+        need((below > level[:, None]).all() and len(level) <= len(words), "a cell above its quad")
+        curves = np.concatenate([np.arange(i, i + m) for i, m in zip(first[level].flat, n.flat, strict=True)])
+        need((points[curves][:, [0, 3]] <= 32768).all(), "an end of a curve")
+        reached, level = [*reached, level, curves], child[level][quads]
+    used = np.bincount(np.concatenate(reached), minlength=len(words))
+    need(not len(level) and (used < 2).all() and not words[used == 0].any(), "no tree, or texels beside it")
+    arrays = np.where(is_quad, child, -1), coverage / 255, first, count, cells % 8 - 4, BERNSTEIN @ (points / 32768)
+    return Texture(*arrays, points[:, [0, 3], 0] == 0, False, roots)
+
+
+def inside(texture: Texture, x: np.ndarray, y: np.ndarray, root: int | str = 0) -> np.ndarray:
+    """Say which points of the unit square are filled (A.6, B.6)."""
+    place = root if isinstance(root, int) else [shape["name"] for shape in texture.roots].index(root)
+    x, y = 1.0 * np.atleast_1d(x), 1.0 * np.atleast_1d(y)
+    square = (x >= 0) & (x < 1) & (y >= 0) & (y < 1)
+    quad, k, todo = np.full(len(x), texture.roots[place]["quad"]), np.zeros(len(x), int), np.flatnonzero(square)
+    while len(todo):
+        right, up = x[todo] >= 0.5, y[todo] >= 0.5
+        x[todo], y[todo], k[todo] = 2 * x[todo] - right, 2 * y[todo] - up, right + 2 * up
+        todo = todo[texture.child[quad[todo], k[todo]] >= 0]
+        quad[todo] = texture.child[quad[todo], k[todo]]
+    winding, count = texture.corner[quad, k], np.where(square, texture.count[quad, k], 0)
+    for i in range(count.max(initial=0)):
+        at = np.flatnonzero(count > i)
+        curve = texture.first[quad[at], k[at]] + i
+        below = 1 * (texture.lines[curve, :, 1] <= y[at, None])
+        winding[at] += (below[:, [0, -1]] * texture.on_left[curve]) @ [1, -1]
+        point, piece = np.nonzero(np.diff(below))
+        (x0, y0), (x1, y1) = texture.lines[curve[point], piece].T, texture.lines[curve[point], piece + 1].T
+        left = x0 + (x1 - x0) * (y[at[point]] - y0) / (y1 - y0) <= x[at[point]]
+        np.add.at(winding, at[point], np.where(left, np.diff(below)[point, piece], 0))
+    filled = winding % 2 == 1 if texture.even_odd else winding > 0
+    return square & np.where(count > 0, filled, texture.coverage[quad, k] > 0.5)
+
+
+def picture(texture: Texture, size: int, root: int | str = 0, samples: int = 4) -> np.ndarray:
+    """Return the coverage of size x size pixels, the top row first, by samples x samples points in each."""
+    row, column = np.mgrid[: size * samples, : size * samples].reshape(2, -1)
+    x, y = (a + (b % samples + 0.5) / samples for a, b in ((column, row), (row, column)))  # no two in line in a pixel
+    filled = inside(texture, x / (size * samples), 1 - y / (size * samples), root)
+    return filled.reshape(size, samples, size, samples).mean(axis=(1, 3))
