@@ -1,6 +1,5 @@
 """A fine pattern on a plane that recedes (thesis 2.7): what every method does where a pixel sees many of its tiles."""
 
-import math
 from dataclasses import dataclass
 from typing import Final
 
@@ -9,9 +8,9 @@ from numpy.typing import NDArray
 
 from vexture.drawing import Drawing, Path
 from vexture.evaluation.raster import raster_from
-from vexture.evaluation.rendered import Rendered, memory
+from vexture.evaluation.rendered import Rendered
+from vexture.evaluation.rivals import side_in_memory, texture_rival
 from vexture.evaluation.shape import WAYS
-from vexture.pictures import render
 from vexture.pipeline import run
 from vexture.render.exact import render_exact
 
@@ -49,12 +48,6 @@ class Receding:
     tiles: int
     nbytes: dict[str, int]
     raster_side: int
-
-    @property
-    def by_row(self) -> dict[str, NDArray[np.float64]]:
-        """Mean absolute error of each row of pixels, 0..1, by method; the far end comes first."""
-        truth = self.rendered.truth
-        return {name: np.abs(np.float64(image) - truth).mean(axis=1) for name, image in self.rendered.images.items()}
 
 
 def dots(tiles: int) -> Drawing:
@@ -99,13 +92,10 @@ def receding(size: tuple[int, int] = (420, 170), tiles: int = 32) -> Receding:
     """
     drawing, view = dots(tiles), view_of_plane(size)
     thesis, packed = (run(drawing, **way).texture for way in (WAYS["sampled"], WAYS["packed"]))
-    raster = raster_from(drawing, math.isqrt(3 * memory(packed) // 4))  # with its mip-map a third more than its texels
-    images = {
-        "raster": raster.sample(size, view, mip=False),
-        "raster, mip-mapped": raster.sample(size, view),
-        "sampled": render(thesis, size, view, "cpu"),
-        "packed": render(packed, size, view, "cpu"),
-    }
+    ours = {name: texture_rival(texture, name) for name, texture in (("sampled", thesis), ("packed", packed))}
+    raster = raster_from(drawing, side_in_memory(ours["packed"].gpu_bytes))
+    images = {"raster": raster.sample(size, view, mip=False), "raster, mip-mapped": raster.sample(size, view)}
+    images |= {name: way.draw(size, view) for name, way in ours.items()}
     nbytes = {"raster": raster.texels.nbytes, "raster, mip-mapped": raster.nbytes}
-    nbytes |= {"sampled": memory(thesis), "packed": memory(packed)}
+    nbytes |= {name: way.gpu_bytes for name, way in ours.items()}
     return Receding(Rendered(images, render_exact(drawing, size, view), view), tiles, nbytes, raster.side)

@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from vexture.drawing import Drawing
 from vexture.encoding import PackedTexture, ThesisTexture
 from vexture.errors import LimitError
+from vexture.evaluation.closeups import outline_places
 from vexture.evaluation.metrics import Errors, errors
+from vexture.evaluation.rivals import texture_rival
 from vexture.evaluation.shape import WAYS, Shape
 from vexture.evaluation.thesis_ways import AsThesis, draw_as_thesis
 from vexture.pictures import render
@@ -33,8 +35,6 @@ __all__ = [
     "at_edge",
     "at_sizes",
     "cut_off_at",
-    "memory",
-    "outline_point",
     "with_tolerances",
 ]
 
@@ -105,28 +105,6 @@ class Fitted:
     nbytes: int
 
 
-def outline_point(drawing: Drawing) -> tuple[float, float]:
-    """Middle of the drawing's longest cubic, by its box.
-
-    The border of the unit square is no outline: a drawing that reaches it may have been cut there. The middle of the
-    square stands for a drawing without any other.
-
-    Examples
-    --------
-    >>> outline_point(Drawing.polygon([(0, 0), (1, 0), (0, 1)]))  # the slanted side
-    (0.5, 0.5)
-    >>> outline_point(Drawing.polygon([(0, 0), (1, 0), (1, 0.25), (0, 0.25)]))
-    (0.5, 0.25)
-    """
-    cubics, _, _ = gather(drawing)
-    middles = np.einsum("k,nkj->nj", (0.125, 0.375, 0.375, 0.125), cubics)
-    length = np.where((np.abs(middles - 0.5) < 0.5).all(axis=1), np.ptp(cubics, axis=1).sum(axis=1), 0.0)
-    if not length.any():
-        return 0.5, 0.5
-    x, y = middles[length.argmax()].tolist()
-    return x, y
-
-
 def at_sizes(shape: Shape, sizes: Sequence[int] = (1, 2, 4, 8, 16)) -> tuple[Rendered, ...]:
     """Draw the whole shape in few pixels, by the thesis's steps and by ours (thesis 3.13).
 
@@ -158,9 +136,9 @@ def at_edge(shape: Shape, side: int = 40, part: float = 1 / 16) -> Rendered:
     side : int
         Pixels.
     part : float
-        Side of what is drawn, in unit-square units, about `outline_point`.
+        Side of what is drawn, in unit-square units.
     """
-    x, y = outline_point(shape.drawing)
+    x, y = next(iter(outline_places(shape.drawing, 1).tolist()), (0.5, 0.5))
     view = window((side, side), x - part / 2, y - part / 2, part, part, TURNED)
     return _in_view(shape, (side, side), view, {CENTRE: (1, 1.0), GRID: (4, 1.0)})
 
@@ -206,16 +184,19 @@ def with_tolerances(
         with suppress(LimitError):
             made = conversion()
             textures[name] = made.texture
-            fitted.append(Fitted(name, tolerance, made.tree.deviation, len(made.tree.curves), memory(made.texture)))
+            fitted.append(
+                Fitted(
+                    name,
+                    tolerance,
+                    made.tree.deviation,
+                    len(made.tree.curves),
+                    texture_rival(made.texture, name).gpu_bytes,
+                )
+            )
     whole = _all_of(drawing, textures, (side, side), None)
     off = sum(np.abs(image - whole.truth) for image in whole.images.values())
     square = *_worst(np.asarray(off), round(part * side)), part
     return tuple(fitted), whole, _all_of(drawing, textures, (side, side), window((side, side), *square, part)), square
-
-
-def memory(texture: PackedTexture | ThesisTexture) -> int:
-    """Bytes of a texture on the GPU."""
-    return texture.nbytes if isinstance(texture, PackedTexture) else texture.quads.nbytes + texture.curves.nbytes
 
 
 def _sampled(shape: Shape) -> ThesisTexture:

@@ -43,7 +43,7 @@ def solutions(cases: Sequence[SolutionPath] = SOLUTIONS, *, side: int = 96, gpu:
     each = 2 if gpu else 1
     rows = -(-len(cases) // ACROSS)
     titles = [title for number, case in enumerate(cases, 1) for title in (f"{number} {case.name}", "GPU")[:each]]
-    figure, axes = panels(rows, ACROSS * each, side=11.3 / (ACROSS * each), height=2.5 if gpu else 4.2, titles=titles)
+    figure, axes = panels(rows, ACROSS * each, side=11.3 / (ACROSS * each), height=2.5 if gpu else 4.4, titles=titles)
     for number, case in enumerate(cases):
         row, column = divmod(number, ACROSS)
         first = axes[row, column * each]
