@@ -40,3 +40,5 @@ def test_raster_textures_alias_or_blur_where_ours_does_not():
     assert 2 * errors["sampled"] < min(errors["raster"], errors["raster, mip-mapped"])
     assert 0.98 * found.nbytes["packed"] < found.nbytes["raster, mip-mapped"] <= found.nbytes["packed"]
     assert found.nbytes["raster"] == found.raster_side**2
+    far = {name: image[:4].std() for name, image in found.rendered.images.items()}
+    assert far["raster, mip-mapped"] < 0.5 * far["raster"]

@@ -54,6 +54,12 @@ def test_the_cut_off_is_where_the_thesis_has_it():
         assert fewer.sum() < more.sum()
 
 
+def test_a_long_pixel_is_as_large_as_it_is_long():
+    long = [[1 / 4, 0, 0], [0, -1 / 16, 1]]
+    assert draw_as_thesis(duck(), (4, 16), long, samples=1, cut_off=4.1).from_mip.all()
+    assert not draw_as_thesis(duck(), (4, 16), long, samples=1, cut_off=3.9).from_mip.all()
+
+
 def test_constant_leaves_are_not_mip_values():
     texture = upright((0.0, 0.5))
     assert len(texture.quads) == 1
