@@ -199,7 +199,7 @@ def _plane() -> Section:
         f"{found.raster_side} x {found.raster_side} texels, which with the mip-map take as much memory as the packed "
         "texture. The thesis's shader, as it is kept here (`sampled`), takes MIP values where a pixel is longer than a "
         "quad is wide. The packed texture's integrates over the pixel's own footprint. Mean errors: "
-        f"{_listed({name: error.mae for name, error in errors.items()})}; in the far quarter of the picture: "
+        f"{_listed({name: error.mae for name, error in errors.items()})}. Mean errors in the far quarter of the picture "
         f"{_listed(far)}."
     )
     table = Table(
@@ -220,7 +220,7 @@ def _far(found: Receding) -> dict[str, float]:
 
 
 def _listed(errors: dict[str, float]) -> str:
-    return ", ".join(f"{name} {error:.3g}" for name, error in errors.items())
+    return "; ".join(f"{name} {error:.3g}" for name, error in errors.items())
 
 
 def _several(values: tuple[float, ...]) -> str:
