@@ -56,7 +56,7 @@ def test_few_pixels_in_columns_of_sizes_and_rows_of_methods(shape):
         np.testing.assert_array_equal(truth, view.truth)
         np.testing.assert_array_equal((origin == to_rgb(STORED)).all(axis=2), view.from_mip)
         np.testing.assert_array_equal((origin == to_rgb(FROM_LEAF)).all(axis=2), ~view.from_mip)
-        assert column[1].get_xlabel() == f"error {view.errors[MIP].mae:.1f}"
+        assert column[1].get_xlabel() == f"error {view.errors[MIP].mae:.3g}"
 
 
 def test_the_cut_off_tells_mip_values_from_leaves(shape):

@@ -111,14 +111,14 @@ def _turning_point(x1: float, x2: float) -> float:
 
 SOLUTIONS: Final = (
     SolutionPath("straight", STRAIGHT, (1 / 3, 0.9), (2 / 3, -0.5), 0.35),
-    SolutionPath("quadratic, one root", QUADRATIC, (0.05, 0.9), (0.05 + 1 / 3, 0.6), 0.35),
-    SolutionPath("quadratic, two roots", QUADRATIC, (-0.65, 0.2), (-0.65 + 1 / 3, 1.0), -0.2),
+    SolutionPath("quadratic, 1 root", QUADRATIC, (0.05, 0.9), (0.05 + 1 / 3, 0.6), 0.35),
+    SolutionPath("quadratic, 2 roots", QUADRATIC, (-0.65, 0.2), (-0.65 + 1 / 3, 1.0), -0.2),
     SolutionPath("triple root", TRIPLE, (1.0, 1.0), (0.0, 0.4), 0.5),
     SolutionPath("cube root", CUBE_ROOT, (1.0, -0.9), (0.0, 0.9), 0.35),
     SolutionPath("double root", DOUBLE, (1.5, 1.0), (-0.5, 1.0), _turning_point(1.5, -0.5)),
     SolutionPath("hyperbolic sine", HYPERBOLIC_SINE, (0.6, 1.1), (0.4, 0.1), 0.35),
     SolutionPath("hyperbolic cosine", HYPERBOLIC_COSINE, (1.6, -0.5), (-0.2, 1.2), 0.15),
-    SolutionPath("three roots", THREE, (1.9, 0.9), (-0.9, -0.5), 0.45),
+    SolutionPath("3 roots", THREE, (1.9, 0.9), (-0.9, -0.5), 0.45),
 )
 
 

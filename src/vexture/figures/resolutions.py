@@ -50,7 +50,7 @@ def resolutions(rendered: Sequence[Rendered]) -> "Figure":
             else:
                 show(panel, view.truth if name == "truth" else view.images[name], pixels=False)
                 panel.set_xlabel(
-                    f"error {view.errors[name].mae:.1f}" if name != "truth" else "", fontsize=8.0, labelpad=1.0
+                    f"error {view.errors[name].mae:.3g}" if name != "truth" else "", fontsize=8.0, labelpad=1.0
                 )
             if column == 0:
                 panel.set_ylabel(label, fontsize=9.0)

@@ -60,7 +60,7 @@ def solutions(cases: Sequence[SolutionPath] = SOLUTIONS, *, side: int = 96, gpu:
             second.set_xticks([0.0, 1.0])
             second.set_yticks([])
             second.tick_params(length=2)
-            second.set_xlabel(f"heights\n{heights}", fontsize=8.0, loc="left")
+            second.set_xlabel(f"heights of the dots\n{heights}", fontsize=8.0, loc="left")
     for panel in axes.flat[each * len(cases) :]:
         panel.set_axis_off()
     return figure

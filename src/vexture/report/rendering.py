@@ -199,7 +199,7 @@ def _plane() -> Section:
         f"{found.raster_side} x {found.raster_side} texels, which with the mip-map take as much memory as the packed "
         "texture. The thesis's shader, as it is kept here (`sampled`), takes MIP values where a pixel is longer than a "
         "quad is wide. The packed texture's integrates over the pixel's own footprint. Mean errors: "
-        f"{_listed({name: error.mae for name, error in errors.items()})}. Mean errors in the far quarter of the picture "
+        f"{_listed({name: error.mae for name, error in errors.items()})}. In the far quarter of the picture: "
         f"{_listed(far)}."
     )
     table = Table(
