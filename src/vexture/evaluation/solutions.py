@@ -118,7 +118,7 @@ SOLUTIONS: Final = (
     SolutionPath("double root", DOUBLE, (1.5, 1.0), (-0.5, 1.0), _turning_point(1.5, -0.5)),
     SolutionPath("hyperbolic sine", HYPERBOLIC_SINE, (0.6, 1.1), (0.4, 0.1), 0.35),
     SolutionPath("hyperbolic cosine", HYPERBOLIC_COSINE, (1.6, -0.5), (-0.2, 1.2), 0.15),
-    SolutionPath("3 roots", THREE, (1.9, 0.9), (-0.9, -0.5), 0.45),
+    SolutionPath("three roots", THREE, (1.9, 0.9), (-0.9, -0.5), 0.45),
 )
 
 
