@@ -11,11 +11,9 @@ a file that exists, some file systems wait for the disk (ext4, for up to 8 ms).
 
 import argparse
 import tempfile
-import time
 from collections.abc import Callable, Iterable, Sequence
 from itertools import count
 from pathlib import Path
-from statistics import median
 from typing import Any, Literal, NamedTuple
 
 from lxml import etree
@@ -24,6 +22,7 @@ from report import table, write_json
 from vexture.encoding import quantisation_step
 from vexture.evaluation.machine import machine_facts, machine_line
 from vexture.evaluation.printed import TABLE_5_1
+from vexture.evaluation.timing import median_seconds
 from vexture.pipeline import convert, run
 from vexture.quadtree.build import build
 from vexture.sources.svg import read_svg
@@ -74,13 +73,7 @@ def sizes(svg: Path, strategy: Strategy, bits: int) -> dict[str, int]:
 
 def median_ms(action: Callable[[], object], repeat: int) -> float:
     """Median time of an action, once warm."""
-    action()
-    times = []
-    for _ in range(repeat):
-        start = time.perf_counter()
-        action()
-        times.append(time.perf_counter() - start)
-    return 1000.0 * median(times)
+    return 1000.0 * median_seconds(action, repeat)
 
 
 def size_facts(name: str) -> dict[str, Any]:

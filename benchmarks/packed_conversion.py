@@ -17,7 +17,7 @@ import sys
 import tempfile
 import time
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from statistics import median
 from typing import Any, Final
@@ -29,6 +29,7 @@ from vexture.drawing import Drawing
 from vexture.encoding import PackedTexture, Root, encode_packed
 from vexture.errors import SourceWarning
 from vexture.evaluation.machine import machine_facts, machine_line
+from vexture.evaluation.timing import median_seconds
 from vexture.quadtree.build_packed import build_packed
 from vexture.quadtree.tree import PackedTree
 from vexture.sources.svg import read_svg
@@ -63,17 +64,6 @@ def atlas(drawings: Sequence[Drawing], **parameters: Any) -> PackedTexture:
 def joined(trees: Sequence[PackedTree], drawings: Sequence[Drawing]) -> PackedTexture:
     """One packed texture of trees that are made already."""
     return encode_packed(trees, [Root(drawing.name) for drawing in drawings], name="atlas")
-
-
-def median_seconds(action: Callable[[], object], repeat: int) -> float:
-    """Median time of an action, once warm."""
-    action()
-    taken = []
-    for _ in range(repeat):
-        start = time.perf_counter()
-        action()
-        taken.append(time.perf_counter() - start)
-    return median(taken)
 
 
 def batch_facts(name: str, drawings: Sequence[Drawing], repeat: int) -> dict[str, Any]:

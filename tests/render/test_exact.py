@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import LimitError
+from vexture.evaluation.peers import skia_path
 from vexture.render.chords import CHORD_LIMIT
 from vexture.render.exact import render_exact
 from vexture.render.view import SIZE_LIMIT, fit, window
@@ -297,15 +298,7 @@ def test_skia_agrees_loosely():
     size, shape = 256, crowd()
     image = np.zeros((size, size), np.uint8)
     for path in shape.paths:
-        outline = skia.Path()
-        outline.setFillType(
-            skia.PathFillType.kEvenOdd if path.fill_rule == FillRule.EVENODD else skia.PathFillType.kWinding
-        )
-        for closed in path.contours:
-            outline.moveTo(*map(float, closed[0, 0] * (size, -size) + (0, size)))
-            for cubic in closed * (size, -size) + (0, size):
-                outline.cubicTo(*map(float, cubic[1:].ravel()))
-            outline.close()
+        outline = skia_path(path, np.array([[size, 0, 0], [0, -size, size], [0, 0, 1]]))
         surface = skia.Surface(size, size)
         surface.getCanvas().drawPath(outline, skia.Paint(AntiAlias=True, Color=skia.ColorBLACK))
         image = np.maximum(image, surface.toarray()[..., 3])  # the union, but for pixels on two borders

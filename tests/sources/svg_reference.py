@@ -11,11 +11,10 @@ import resvg
 import skia
 from PIL import Image
 
-from vexture.drawing import Drawing, FillRule
+from vexture.drawing import Drawing
+from vexture.evaluation.peers import skia_path
 
 __all__ = ["difference", "render_drawing", "render_file"]
-
-FILL_TYPES = {FillRule.NONZERO: skia.PathFillType.kWinding, FillRule.EVENODD: skia.PathFillType.kEvenOdd}
 
 
 def render_file(text: str) -> np.ndarray:
@@ -31,14 +30,7 @@ def render_drawing(drawing: Drawing, height: int, width: int) -> np.ndarray:
     pixels = np.zeros((size, size, 4), np.uint8)
     with skia.Surface(pixels) as canvas:
         for path in drawing.paths:
-            outline = skia.Path()
-            outline.setFillType(FILL_TYPES[path.fill_rule])
-            for contour in path.contours:
-                points = np.stack([contour[..., 0], 1.0 - contour[..., 1]], axis=-1) * size
-                outline.moveTo(*points[0, 0].tolist())
-                for cubic in points:
-                    outline.cubicTo(*cubic[1:].ravel().tolist())
-                outline.close()
+            outline = skia_path(path, np.array([[size, 0, 0], [0, -size, size], [0, 0, 1]]))
             color = skia.Color4f(*path.paint.color, path.paint.opacity)
             canvas.drawPath(outline, skia.Paint(Color4f=color, AntiAlias=True))
     top, left = (size - height) // 2, (size - width) // 2

@@ -4,6 +4,7 @@ Texels are coverage at 8 bits, each the exact mean over its square. Every level 
 itself, so that no filter of ours makes them worse than they can be. Beyond the unit square there is nothing.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
@@ -16,7 +17,7 @@ from vexture.render.view import view_matrix
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
 
-__all__ = ["FULL", "Footprint", "RasterTexture", "bilinear", "footprint", "mip_sides", "raster_from"]
+__all__ = ["FULL", "Footprint", "RasterTexture", "bilinear", "footprint", "mip_sides", "raster_from", "trilinear"]
 
 FULL: Final = 255
 """A texel that is covered."""
@@ -85,15 +86,7 @@ class RasterTexture:
         place = footprint(size, to_unit)
         if not mip or not self.mips:
             return place.shown(bilinear(self.texels, place.u, place.v) / FULL)
-        levels = (self.texels, *self.mips)
-        # OpenGL 4.6, section 8.14: the longer side of the pixel's print, in texels
-        level = np.clip(np.log2(np.maximum(self.side * place.reach, 1.0)), 0.0, len(levels) - 1.0)
-        coverage = np.zeros(level.shape)
-        for number, texels in enumerate(levels):
-            share = np.maximum(0.0, 1.0 - np.abs(level - number))
-            some = share > 0.0
-            coverage[some] += share[some] * bilinear(texels, place.u[some], place.v[some])
-        return place.shown(coverage / FULL)
+        return place.shown(trilinear((self.texels, *self.mips), place) / FULL)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -146,9 +139,9 @@ def footprint(size: tuple[int, int], to_unit: ArrayLike | None = None) -> Footpr
 
 
 def bilinear(
-    texels: NDArray[np.uint8], u: NDArray[np.float64], v: NDArray[np.float64], outside: float = 0.0
+    texels: NDArray[np.uint8], u: NDArray[np.float64], v: NDArray[np.float64], *, frame: bool = True
 ) -> NDArray[np.float64]:
-    """Values of a picture between its texels' centres (filter ``LINEAR``, wrap ``CLAMP_TO_BORDER``).
+    """Values of a picture between its texels' centres (filter ``LINEAR``).
 
     Parameters
     ----------
@@ -156,8 +149,8 @@ def bilinear(
         Top row first.
     u, v : arrays of one shape
         Positions in the unit square, v up.
-    outside : float
-        Value of the border.
+    frame : bool
+        Wrap by ``CLAMP_TO_BORDER``, so that all beyond is 0; else by ``CLAMP_TO_EDGE``.
 
     Returns
     -------
@@ -170,8 +163,7 @@ def bilinear(
     array([50., 50.,  0.])
     """
     side = len(texels)
-    framed = np.full((side + 2, side + 2), outside)
-    framed[1:-1, 1:-1] = texels
+    framed = np.pad(texels, 1, mode="constant" if frame else "edge").astype(np.float64)
     column = np.clip(u * side + 0.5, 0.0, side + 1.0)
     row = np.clip((1.0 - v) * side + 0.5, 0.0, side + 1.0)
     left, top = (np.minimum(axis.astype(np.intp), side) for axis in (column, row))
@@ -179,6 +171,32 @@ def bilinear(
     above = framed[top, left] * (1.0 - right) + framed[top, left + 1] * right
     below = framed[top + 1, left] * (1.0 - right) + framed[top + 1, left + 1] * right
     values: NDArray[np.float64] = above * (1.0 - down) + below * down
+    return values
+
+
+def trilinear(levels: Sequence[NDArray[np.uint8]], place: Footprint, *, frame: bool = True) -> NDArray[np.float64]:
+    """Values of a mip-map where the pixels are (OpenGL 4.6, sections 8.14 and 8.15: ``LINEAR_MIPMAP_LINEAR``).
+
+    Parameters
+    ----------
+    levels : sequence of (n, n) uint8 arrays
+        The largest first.
+    place : Footprint
+    frame : bool
+        As in `bilinear`.
+
+    Examples
+    --------
+    >>> levels = [np.full((side, side), value, np.uint8) for side, value in ((4, 0), (2, 100), (1, 200))]
+    >>> trilinear(levels, footprint((2, 2)))[0]
+    array([100., 100.])
+    """
+    level = np.clip(np.log2(np.maximum(len(levels[0]) * place.reach, 1.0)), 0.0, len(levels) - 1.0)
+    values = np.zeros(level.shape)
+    for number, texels in enumerate(levels):
+        share = np.maximum(0.0, 1.0 - np.abs(level - number))
+        some = share > 0.0
+        values[some] += share[some] * bilinear(texels, place.u[some], place.v[some], frame=frame)
     return values
 
 

@@ -1,0 +1,246 @@
+"""Ways to put one drawing on a GPU, side by side: bytes of the file, bytes of memory, errors of pictures."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.errors import LimitError
+from vexture.evaluation.bands import band_texture
+from vexture.evaluation.closeups import closeup, outline_places
+from vexture.evaluation.distance import SPREAD, DistanceField, distance_from
+from vexture.evaluation.metrics import Errors, errors
+from vexture.evaluation.raster import RasterTexture, mip_sides, raster_from
+from vexture.pictures import render
+
+if TYPE_CHECKING:
+    from vexture.drawing import Drawing
+    from vexture.encoding import PackedTexture, ThesisTexture
+
+__all__ = [
+    "MAGNIFICATION",
+    "MOST_TEXELS",
+    "NARROW",
+    "SMALL",
+    "WHOLE",
+    "Measured",
+    "Rival",
+    "Scene",
+    "Shot",
+    "band_rival",
+    "distance_rival",
+    "judge",
+    "raster_rival",
+    "scene_of",
+    "side_in_file",
+    "side_in_memory",
+    "texture_rival",
+]
+
+WHOLE: Final = 256
+SMALL: Final = 16
+"""Pixels along a side of pictures of the whole drawing."""
+
+MAGNIFICATION: Final = 8
+CLOSEUPS: Final = 4
+CLOSEUP: Final = 128
+"""Of the closer looks at the outline: times larger, how many, and pixels along a side."""
+
+NARROW: Final = 1.0
+"""Texels; spread of distance fields that are made for magnification."""
+
+MOST_TEXELS: Final = 1024
+"""Along a side of a texture that is compared."""
+
+Draw = Callable[[tuple[int, int], NDArray[np.float64] | None], NDArray[np.float32]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rival:
+    """One way to store and draw a drawing.
+
+    Parameters
+    ----------
+    method : str
+        Key of `vexture.figures.style.COLOURS`.
+    label : str
+    file_bytes, gpu_bytes : int
+        Of the file, or None where nobody defined one, and of the texture in memory.
+    draw : function
+        Of size and view: coverage.
+    side : int, optional
+        Texels along a side, of square pictures.
+    """
+
+    method: str
+    label: str
+    file_bytes: int | None
+    gpu_bytes: int
+    draw: Draw
+    side: int | None = None
+
+
+class Shot(NamedTuple):
+    """A picture to take, and what it should show."""
+
+    size: tuple[int, int]
+    to_unit: NDArray[np.float64] | None
+    truth: NDArray[np.float32]
+
+
+class Scene(NamedTuple):
+    """Pictures of one drawing: the whole of it, its outline magnified, the whole of it small."""
+
+    whole: Sequence[Shot]
+    outline: Sequence[Shot]
+    small: Sequence[Shot]
+
+
+class Measured(NamedTuple):
+    """A way with the errors of its pictures."""
+
+    rival: Rival
+    whole: Errors
+    outline: Errors
+    small: Errors
+
+
+def shot(drawing: "Drawing", size: tuple[int, int], to_unit: NDArray[np.float64] | None = None) -> Shot:
+    """A view with the truth."""
+    return Shot(size, to_unit, render(drawing, size, to_unit, "exact"))
+
+
+def scene_of(drawing: "Drawing") -> Scene:
+    """Pictures in which ways are compared.
+
+    Examples
+    --------
+    >>> from vexture.drawing import Drawing
+    >>> [len(shots) for shots in scene_of(Drawing.polygon([(0, 0), (1, 0), (0, 1)]))]
+    [1, 4, 1]
+    """
+    size = (CLOSEUP, CLOSEUP)
+    views = [closeup(size, place, MAGNIFICATION) for place in outline_places(drawing, CLOSEUPS)]
+    return Scene(
+        [shot(drawing, (WHOLE, WHOLE))],
+        [shot(drawing, size, view) for view in views],
+        [shot(drawing, (SMALL, SMALL))],
+    )
+
+
+def judge(rival: Rival, scene: Scene) -> Measured:
+    """Errors of a way, over all pixels of each kind of picture together.
+
+    Examples
+    --------
+    >>> from vexture.drawing import Drawing
+    >>> drawing = Drawing.polygon([(0, 0), (1, 0), (0, 1)])
+    >>> few, many = (judge(raster_rival(drawing, side), scene_of(drawing)) for side in (16, 64))
+    >>> few.whole.mae > many.whole.mae > 0.0
+    True
+    """
+    return Measured(rival, *(_errors(rival.draw, shots) for shots in scene))
+
+
+def _errors(draw: Draw, shots: Sequence[Shot]) -> Errors:
+    images = [draw(taken.size, taken.to_unit).ravel() for taken in shots]
+    none = [np.zeros(0, np.float32)]
+    return errors(np.concatenate(images or none), np.concatenate([taken.truth.ravel() for taken in shots] or none))
+
+
+def raster_rival(drawing: "Drawing", side: int) -> Rival:
+    """Coverage at 8 bits, mip-mapped."""
+    texture = raster_from(drawing, side)
+    return Rival("raster", "raster", texture.png_bytes, texture.nbytes, texture.sample, side)
+
+
+def distance_rival(drawing: "Drawing", side: int, spread: float = SPREAD) -> Rival:
+    """A distance field at 8 bits, mip-mapped."""
+    texture = distance_from(drawing, side, spread)
+    label = f"distance, spread {spread:g}"
+    return Rival("distance", label, texture.png_bytes, texture.nbytes, texture.sample, side)
+
+
+def texture_rival(texture: "PackedTexture | ThesisTexture", method: str) -> Rival:
+    """A texture of ours or of the thesis's, by the CPU's mirror of its shader."""
+    from vexture.encoding import PackedTexture
+
+    def draw(size: tuple[int, int], to_unit: NDArray[np.float64] | None) -> NDArray[np.float32]:
+        return render(texture, size, to_unit, "cpu")
+
+    if isinstance(texture, PackedTexture):
+        return Rival(method, method, len(texture.to_ktx2()), texture.nbytes, draw)
+    return Rival(method, method, sum(map(len, texture.to_png())), texture.quads.nbytes + texture.curves.nbytes, draw)
+
+
+def band_rival(drawing: "Drawing") -> Rival:
+    """Bands on the GPU, in memory as published; nobody published a file.
+
+    Raises
+    ------
+    LimitError
+        If they cannot hold the drawing, or would draw something else.
+    DeviceError
+        If there is no GPU.
+    """
+    if len(drawing.paths) > 1:
+        raise LimitError(
+            f"{drawing.name} has {len(drawing.paths)} paths; the bands count windings of all together, so give one"
+        )
+    texture = band_texture(drawing)
+    from vexture.evaluation.programs import band_program
+    from vexture.render.view import fit
+
+    program = band_program(texture)
+
+    def draw(size: tuple[int, int], to_unit: NDArray[np.float64] | None) -> NDArray[np.float32]:
+        return program.image(size, fit(size) if to_unit is None else to_unit)
+
+    return Rival("bands", "bands", None, texture.published_bytes, draw)
+
+
+def side_in_memory(limit: int) -> int:
+    """Texels along a side of the largest 8-bit picture that takes no more memory, its mip-map included.
+
+    Examples
+    --------
+    >>> side_in_memory(1365), side_in_memory(1364)
+    (32, 31)
+    """
+    return largest(lambda side: sum(n * n for n in [side, *mip_sides(side)]), limit)
+
+
+def side_in_file(make: Callable[[int], RasterTexture | DistanceField], limit: int) -> int:
+    """Texels along a side of the largest picture whose PNG file takes no more bytes.
+
+    Parameters
+    ----------
+    make : function
+        Of the side.
+    limit : int
+        Bytes.
+
+    Examples
+    --------
+    >>> from vexture.drawing import Drawing
+    >>> square = Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)])
+    >>> side = side_in_file(lambda side: raster_from(square, side, mips=False), 200)
+    >>> [raster_from(square, n).png_bytes <= 200 for n in (side, 2 * side)]
+    [True, False]
+    """
+    return largest(lambda side: make(side).png_bytes, limit)
+
+
+def largest(size_of: Callable[[int], int], limit: int) -> int:
+    """The largest side, up to `MOST_TEXELS`, within a limit, of what grows with it; 1 if none is."""
+    low, high = 1, 2
+    while high < MOST_TEXELS and size_of(high) <= limit:
+        low, high = high, 2 * high
+    if high >= MOST_TEXELS and size_of(MOST_TEXELS) <= limit:
+        return MOST_TEXELS
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if size_of(middle) <= limit else (low, middle)
+    return low
