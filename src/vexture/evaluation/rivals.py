@@ -8,12 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import LimitError
-from vexture.evaluation.bands import band_texture
+from vexture.evaluation.bands import BandTexture, band_texture
 from vexture.evaluation.closeups import closeup, outline_places
 from vexture.evaluation.distance import SPREAD, DistanceField, distance_from
 from vexture.evaluation.metrics import Errors, errors
 from vexture.evaluation.raster import RasterTexture, mip_sides, raster_from
 from vexture.pictures import render
+from vexture.render.view import fit
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
@@ -29,7 +30,7 @@ __all__ = [
     "Rival",
     "Scene",
     "Shot",
-    "band_rival",
+    "bands_of",
     "distance_rival",
     "judge",
     "raster_rival",
@@ -42,6 +43,9 @@ __all__ = [
 WHOLE: Final = 256
 SMALL: Final = 16
 """Pixels along a side of pictures of the whole drawing."""
+
+SHIFTS: Final = ((0.3, 0.4), (0.8, 0.1), (0.15, 0.65), (0.6, 0.9))
+"""Pixels by which such pictures are moved: texels on a surface are never in line with pixels, as they may be here."""
 
 MAGNIFICATION: Final = 8
 CLOSEUPS: Final = 4
@@ -86,7 +90,7 @@ class Shot(NamedTuple):
     """A picture to take, and what it should show."""
 
     size: tuple[int, int]
-    to_unit: NDArray[np.float64] | None
+    to_unit: NDArray[np.float64]
     truth: NDArray[np.float32]
 
 
@@ -107,7 +111,7 @@ class Measured(NamedTuple):
     small: Errors
 
 
-def shot(drawing: "Drawing", size: tuple[int, int], to_unit: NDArray[np.float64] | None = None) -> Shot:
+def shot(drawing: "Drawing", size: tuple[int, int], to_unit: NDArray[np.float64]) -> Shot:
     """A view with the truth."""
     return Shot(size, to_unit, render(drawing, size, to_unit, "exact"))
 
@@ -119,15 +123,22 @@ def scene_of(drawing: "Drawing") -> Scene:
     --------
     >>> from vexture.drawing import Drawing
     >>> [len(shots) for shots in scene_of(Drawing.polygon([(0, 0), (1, 0), (0, 1)]))]
-    [1, 4, 1]
+    [1, 4, 4]
     """
     size = (CLOSEUP, CLOSEUP)
     views = [closeup(size, place, MAGNIFICATION) for place in outline_places(drawing, CLOSEUPS)]
     return Scene(
-        [shot(drawing, (WHOLE, WHOLE))],
+        [moved(drawing, WHOLE, SHIFTS[0])],
         [shot(drawing, size, view) for view in views],
-        [shot(drawing, (SMALL, SMALL))],
+        [moved(drawing, SMALL, shift) for shift in SHIFTS],
     )
+
+
+def moved(drawing: "Drawing", side: int, shift: tuple[float, float]) -> Shot:
+    """The whole drawing, moved to the left and up by so many pixels."""
+    by = np.eye(3)
+    by[:2, 2] = shift
+    return shot(drawing, (side, side), fit((side, side)) @ by)
 
 
 def judge(rival: Rival, scene: Scene) -> Measured:
@@ -175,30 +186,17 @@ def texture_rival(texture: "PackedTexture | ThesisTexture", method: str) -> Riva
     return Rival(method, method, sum(map(len, texture.to_png())), texture.quads.nbytes + texture.curves.nbytes, draw)
 
 
-def band_rival(drawing: "Drawing") -> Rival:
-    """Bands on the GPU, in memory as published; nobody published a file.
+def bands_of(drawing: "Drawing") -> BandTexture:
+    """Bands of a drawing that they can draw.
 
     Raises
     ------
     LimitError
         If they cannot hold the drawing, or would draw something else.
-    DeviceError
-        If there is no GPU.
     """
     if len(drawing.paths) > 1:
-        raise LimitError(
-            f"{drawing.name} has {len(drawing.paths)} paths; the bands count windings of all together, so give one"
-        )
-    texture = band_texture(drawing)
-    from vexture.evaluation.programs import band_program
-    from vexture.render.view import fit
-
-    program = band_program(texture)
-
-    def draw(size: tuple[int, int], to_unit: NDArray[np.float64] | None) -> NDArray[np.float32]:
-        return program.image(size, fit(size) if to_unit is None else to_unit)
-
-    return Rival("bands", "bands", None, texture.published_bytes, draw)
+        raise LimitError(f"{drawing.name} has {len(drawing.paths)} paths; bands take one, whose windings they count")
+    return band_texture(drawing)
 
 
 def side_in_memory(limit: int) -> int:

@@ -1,0 +1,261 @@
+"""Against others: raster textures, distance fields, renderers on the CPU and bands, all measured in the same run."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+from vexture.errors import LimitError
+from vexture.evaluation.distance import SPREAD, distance_from
+from vexture.evaluation.raster import raster_from
+from vexture.evaluation.rivals import (
+    MAGNIFICATION,
+    MOST_TEXELS,
+    NARROW,
+    SHIFTS,
+    SMALL,
+    WHOLE,
+    Measured,
+    Rival,
+    distance_rival,
+    judge,
+    raster_rival,
+    scene_of,
+    side_in_file,
+    side_in_memory,
+    texture_rival,
+)
+from vexture.figures.comparisons import CORNER, equal_bytes, error_over_bytes
+from vexture.report.renderers import bands_part, renderers_part
+from vexture.report.section import Material, Picture, Section, Table
+
+if TYPE_CHECKING:
+    from vexture.drawing import Drawing
+    from vexture.evaluation.rivals import Scene
+    from vexture.evaluation.shape import Shape
+
+__all__ = ["section"]
+
+RASTER_SIDES: Final = (16, 32, 64, 128, 256, 512, 1024)
+DISTANCE_SIDES: Final = (16, 32, 64, 128, 256)
+"""Texels."""
+
+HEAD: Final = (
+    "texture",
+    "texels along a side",
+    "bytes: file",
+    "bytes: on the GPU",
+    f"mean error: {WHOLE} px",
+    f"mean error: outline {MAGNIFICATION}×",
+    f"mean error: {SMALL} px",
+    f"largest error: outline {MAGNIFICATION}×",
+)
+
+EQUAL_HEAD: Final = ("texels", "memory ×", f"error {WHOLE} px", f"error {MAGNIFICATION}×")
+
+
+class Equal(NamedTuple):
+    """Pictures of as many bytes as a packed texture."""
+
+    raster_in_memory: Rival
+    raster_in_file: Rival
+    distance_in_memory: Rival
+    distance_in_file: Rival
+    narrow_in_file: Rival
+
+
+class Compared(NamedTuple):
+    """A drawing's packed texture with others of equal bytes; why not, where there is none."""
+
+    shape: "Shape"
+    scene: "Scene"
+    packed: Measured | None
+    equal: Sequence[Measured]
+    why: str
+
+
+def section(material: Material) -> Section:
+    """What the thesis did not measure: how ours compares with what people use instead."""
+    compared = [compare(shape) for shape in material.shapes]
+    main = next(one for one in compared if one.shape is material.main)
+    parts = [pictures_part(main), shapes_part(compared), renderers_part(material.shapes)]
+    text = [
+        "The thesis compares its textures with no others. Here are the obvious ones, each made as well as it can be: "
+        "raster textures from exact coverage and distance fields from true distances, both filtered as OpenGL defines "
+        "it, in float64; two renderers of vector graphics; and the bands that fast glyph renderers use.",
+        "Errors are mean absolute differences from exact coverage in steps of 1/255, over the pixels that the shape "
+        f"touches. Pictures of the whole drawing are moved by parts of a pixel ({SHIFTS[0][0]:g} and {SHIFTS[0][1]:g} "
+        f"at {WHOLE} pixels, {len(SHIFTS)} ways at {SMALL} pixels), because a texture on a surface is never in line "
+        "with the screen.",
+    ]
+    if material.device is None:
+        text.append("There is no GPU here, so the bands, which are drawn on one, are left out.")
+    else:
+        parts.append(bands_part(material.shapes, material.device))
+    return Section("comparison", "Against others", text, parts)
+
+
+def compare(shape: "Shape") -> Compared:
+    """A drawing's packed texture beside pictures of equal bytes."""
+    drawing, scene = shape.drawing, scene_of(shape.drawing)
+    try:
+        packed = judge(texture_rival(shape.way("packed").texture, "packed"), scene)
+    except LimitError as error:
+        return Compared(shape, scene, None, (), str(error).splitlines()[0])
+    return Compared(shape, scene, packed, [judge(rival, scene) for rival in equals(drawing, packed.rival)], "")
+
+
+def equals(drawing: "Drawing", packed: Rival) -> Equal:
+    """Pictures of as many bytes as a packed texture has, in its file or on the GPU."""
+    in_memory, file = side_in_memory(packed.gpu_bytes), packed.file_bytes or 0
+
+    def field_in_file(spread: float) -> Rival:
+        side = side_in_file(lambda side: distance_from(drawing, side, spread, mips=False), file)
+        return distance_rival(drawing, side, spread)
+
+    return Equal(
+        raster_rival(drawing, in_memory),
+        raster_rival(drawing, side_in_file(lambda side: raster_from(drawing, side, mips=False), file)),
+        distance_rival(drawing, in_memory),
+        field_in_file(SPREAD),
+        field_in_file(NARROW),
+    )
+
+
+def pictures_part(main: Compared) -> Section:
+    """Raster textures and distance fields of one drawing, of many sizes and at equal bytes."""
+    drawing, scene = main.shape.drawing, main.scene
+    rasters = [judge(raster_rival(drawing, side), scene) for side in RASTER_SIDES]
+    fields = [
+        judge(distance_rival(drawing, side, spread), scene) for spread in (SPREAD, NARROW) for side in DISTANCE_SIDES
+    ]
+    ours, missing = others_of_ours(main)
+    whats = ("equal memory", "equal file", "equal memory", "equal file", "equal file")
+    rows = [
+        *(row_of(found.rival.label, found) for found in rasters),
+        *(row_of(f"{found.rival.label}, {what}", found) for what, found in zip(whats, main.equal, strict=False)),
+        *(row_of(found.rival.label, found) for found in ours),
+        *((way, *(None for _ in HEAD[1:])) for way in missing),
+    ]
+    series = [*rasters, *fields, *ours]
+    items: list[Table | Picture] = [
+        Table("textures", textures_caption(main, missing), HEAD, rows),
+        Picture("error-over-bytes", error_over_bytes(series), bytes_caption(main, rasters), BYTES_ALT),
+    ]
+    if main.packed:
+        equal = Equal(*(found.rival for found in main.equal))
+        shown = (equal.raster_in_memory, equal.raster_in_file, equal.distance_in_file, equal.narrow_in_file)
+        figure = equal_bytes(drawing, [*shown, main.packed.rival])
+        items.append(Picture("equal-bytes", figure, strip_caption(main), STRIP_ALT))
+    facts = {"fields": [row_of(found.rival.label, found) for found in fields]}
+    return Section("rasters", "Raster textures and distance fields", (), items, facts)
+
+
+def others_of_ours(main: Compared) -> tuple[list[Measured], dict[str, str]]:
+    """The drawing by all ways of ours, and why it is missing by some."""
+    found, missing = [], {}
+    if main.packed:
+        found.append(main.packed)
+    else:
+        missing["packed"] = main.why
+    for way in ("direct", "sampled"):
+        try:
+            found.append(judge(texture_rival(main.shape.way(way).texture, way), main.scene))
+        except LimitError as error:
+            missing[way] = str(error).splitlines()[0]
+    return found, missing
+
+
+def row_of(label: str, found: Measured) -> Sequence[Any]:
+    """Row of the first table."""
+    rival = found.rival
+    errors = (found.whole.mae, found.outline.mae, found.small.mae, found.outline.max)
+    return (label, rival.side, rival.file_bytes, rival.gpu_bytes, *errors)
+
+
+def shapes_part(compared: Sequence[Compared]) -> Section:
+    """All drawings at equal bytes of files."""
+    kinds = ("raster", f"distance, spread {SPREAD:g}", f"distance, spread {NARROW:g}")
+    head = ("drawing", "packed: file bytes", *(f"packed: {column}" for column in EQUAL_HEAD[2:]))
+    head += tuple(f"{kind}: {column}" for kind in kinds for column in EQUAL_HEAD)
+    rows = []
+    for one in compared:
+        row: list[Any] = [one.shape.name]
+        if one.packed:
+            row += [one.packed.rival.file_bytes, one.packed.whole.mae, one.packed.outline.mae]
+            equal = Equal(*(found.rival for found in one.equal))
+            in_file = (equal.raster_in_file, equal.distance_in_file, equal.narrow_in_file)
+            for found in (found for found in one.equal if found.rival in in_file):
+                times = found.rival.gpu_bytes / max(1, one.packed.rival.gpu_bytes)
+                row += [found.rival.side, times, found.whole.mae, found.outline.mae]
+        rows.append(row + [None] * (len(head) - len(row)))
+    table = Table("equal-files", shapes_caption(compared), head, rows)
+    return Section("equal-files-of-all", "Every drawing at equal bytes", (), [table])
+
+
+def textures_caption(main: Compared, missing: dict[str, str]) -> str:
+    """What the first table says."""
+    caption = (
+        f"`{main.shape.name}` as a raster texture (8-bit alpha, mip-mapped), as a distance field (8 bits, distances up "
+        f"to {SPREAD:g} texels, as usual, or {NARROW:g}, which suits magnification) and in our encodings. A file is a "
+        "grey PNG, a KTX2 file, or the thesis's pair of PNG files. Equal memory and equal file: the largest that takes "
+        f"no more bytes than `packed`, up to {MOST_TEXELS:,} texels along a side. The picture of {WHOLE} pixels, the "
+        f"outline at evenly spaced places {MAGNIFICATION} times larger, and the picture of {SMALL} pixels."
+    )
+    return caption + "".join(f" No `{way}`: {why}." for way, why in missing.items())
+
+
+def bytes_caption(main: Compared, rasters: Sequence[Measured]) -> str:
+    """What the figure of errors over bytes says."""
+    caption = (
+        "Mean error over bytes, both on logarithmic scales, for the same textures and for distance fields of "
+        f"{DISTANCE_SIDES[0]} to {DISTANCE_SIDES[-1]} texels along a side; errors below 0.001/255 are drawn there."
+    )
+    if main.packed is None:
+        return caption
+    largest = rasters[-1]
+    return (
+        f"{caption} At {MAGNIFICATION} times, the raster of {largest.rival.side:,} texels a side takes "
+        f"{times(largest.rival.gpu_bytes, main.packed.rival.gpu_bytes)} the memory of `packed` and is off by "
+        f"{largest.outline.mae:.3g}; `packed` by {main.packed.outline.mae:.2g}. Distance fields are far better than "
+        f"rasters along edges, and lose corners. Drawn at {SMALL} pixels, more texels help neither: a mip-map blurs "
+        "over neighbouring texels as large as a pixel, and the average of distances does not tell how much is covered."
+    )
+
+
+def strip_caption(main: Compared) -> str:
+    """What the strip shows."""
+    if main.packed is None:
+        return ""
+    equal = Equal(*(found.rival for found in main.equal))
+    return (
+        f"`{main.shape.name}` at equal bytes: the whole and, {CORNER} times larger, the framed corner, where the "
+        f"outline turns most; mean errors in 1/255. In as much memory as `packed`, {main.packed.rival.gpu_bytes:,} bytes, fits a raster of "
+        f"{equal.raster_in_memory.side}² texels; in as large a file, one of {equal.raster_in_file.side}², which takes "
+        f"{times(equal.raster_in_file.gpu_bytes, main.packed.rival.gpu_bytes)} the memory. The raster blurs, the "
+        "distance fields round the corner off, `packed` is the drawing's own outline at any size."
+    )
+
+
+def shapes_caption(compared: Sequence[Compared]) -> str:
+    """What the table of all drawings says."""
+    caption = (
+        "Textures in files no larger than those of `packed`: texels along a side, memory as a multiple of that of "
+        f"`packed`, mean error of the picture of {WHOLE} pixels and of the outline {MAGNIFICATION} times larger."
+    )
+    whole = [one for one in compared if one.packed]
+    best = [min(found.outline.mae for found in one.equal) for one in whole]
+    ours = [one.packed.outline.mae for one in whole if one.packed]
+    better = sum(mine < other for mine, other in zip(ours, best, strict=True))
+    caption += f" At {MAGNIFICATION} times `packed` errs less than the best of the others on {better} of {len(whole)}."
+    return caption + "".join(f" No `{one.shape.name}`: {one.why}." for one in compared if one.why)
+
+
+def times(many: int, few: int) -> str:
+    """How many times as much, as text."""
+    return f"{many / max(1, few):.3g} times"
+
+
+BYTES_ALT: Final = "Six plots of mean error against bytes; packed lies lowest, far to the left of rasters as good."
+
+STRIP_ALT: Final = (
+    "Pictures of the drawing and of its corner: blurred rasters, rounded distance fields, packed like truth."
+)
