@@ -26,7 +26,8 @@ LONGEST_EXAMPLE = 40
 DUMPING_GROUNDS = {"common", "helper", "helpers", "misc", "tools", "util", "utils"}
 
 BASE = {"errors", "kernels", "tolerance"}
-METHODS = BASE | {"bezier", "drawing", "encoding", "pipeline", "quadtree", "render", "shaders", "shading", "sources"}
+METHODS = BASE | {"bezier", "drawing", "encoding", "pictures", "pipeline", "quadtree", "render", "shaders", "shading"}
+METHODS |= {"sources"}
 MAY_IMPORT = {
     "errors": set(),
     "kernels": set(),
