@@ -174,7 +174,7 @@ def row_of(label: str, found: Measured) -> Sequence[Any]:
 def shapes_part(compared: Sequence[Compared]) -> Section:
     """All drawings at equal bytes of files."""
     kinds = ("raster", f"distance, spread {SPREAD:g}", f"distance, spread {NARROW:g}")
-    first = ("drawing", "packed: file", "packed: on the GPU", f"packed: {EQUAL_HEAD[-1]}")
+    first = ("drawing", "packed: file bytes", "packed: GPU bytes", f"packed: {EQUAL_HEAD[-1]}")
     head = (*first, *(f"{kind}: {column}" for kind in kinds for column in EQUAL_HEAD))
     rows = []
     for one in compared:
@@ -198,7 +198,7 @@ def textures_caption(main: Compared, missing: dict[str, str]) -> str:
         f"to {SPREAD:g} texels, as usual, or {NARROW:g}, which suits magnification) and in our encodings. A file is a "
         "grey PNG, a KTX2 file, or the thesis's pair of PNG files. Equal memory and equal file: the largest that takes "
         f"no more bytes than `packed`, up to {MOST_TEXELS:,} texels along a side, found by halving (a few files are "
-        "smaller than those of fewer texels). The picture of {WHOLE} pixels, the "
+        f"smaller than those of fewer texels). The picture of {WHOLE} pixels, the "
         f"outline at evenly spaced places {MAGNIFICATION} times larger, and the picture of {SMALL} pixels."
     )
     return caption + dashes(missing.values())
