@@ -107,7 +107,7 @@ def equal_bytes(drawing: "Drawing", rivals: Sequence[Rival], *, magnification: f
     >>> from vexture.evaluation.rivals import raster_rival
     >>> drawing = Drawing.polygon([(0.1, 0.2), (0.9, 0.3), (0.5, 0.8)])
     >>> [axes.get_xlabel() for axes in equal_bytes(drawing, [raster_rival(drawing, 16)]).axes][:2]
-    ['mean error 45.2', '']
+    ['mean error 32.6', '']
     """
     size = (SHOWN, SHOWN)
     place = sharpest_corner(drawing)

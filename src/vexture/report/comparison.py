@@ -137,7 +137,7 @@ def pictures_part(main: Compared) -> Section:
     ]
     series = [*rasters, *fields, *ours]
     items: list[Table | Picture] = [
-        Table("textures", textures_caption(main, missing), HEAD, rows),
+        Table("rival-textures", textures_caption(main, missing), HEAD, rows),
         Picture("error-over-bytes", error_over_bytes(series), bytes_caption(main, rasters), BYTES_ALT),
     ]
     if main.packed and drawing.segments:
@@ -146,7 +146,7 @@ def pictures_part(main: Compared) -> Section:
         figure = equal_bytes(drawing, [*shown, main.packed.rival])
         items.append(Picture("equal-bytes", figure, strip_caption(main), STRIP_ALT))
     facts = {"fields": [row_of(found.rival.label, found) for found in fields]}
-    return Section("rasters", "Raster textures and distance fields", (), items, facts)
+    return Section("raster-textures", "Raster textures and distance fields", (), items, facts)
 
 
 def others_of_ours(main: Compared) -> tuple[list[Measured], dict[str, str]]:

@@ -58,7 +58,7 @@ def renderers_part(shapes: Sequence["Shape"]) -> Section:
         "each for itself. resvg's Python package gives PNG files only, which an empty picture already takes "
         f"{empty:.2g} ms for."
     )
-    table = Table("cpu", caption + dashes(missing), head, rows)
+    table = Table("cpu-times", caption + dashes(missing), head, rows)
     return Section("cpu-renderers", "Renderers of vector graphics on the CPU", (), [table])
 
 
@@ -103,7 +103,7 @@ def bands_part(shapes: Sequence["Shape"], device: str) -> Section:
         "windings, so they take drawings of one path with the non-zero rule. One trilinear fetch from a raster "
         f"texture, the least that any of them could take, needs {fetch:.2g} ms a frame."
     )
-    table = Table("bands", caption + dashes(missing), head, rows)
+    table = Table("band-times", caption + dashes(missing), head, rows)
     return Section("bands-on-the-gpu", "Bands, on the GPU", (), [table])
 
 
