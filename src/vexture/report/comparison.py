@@ -231,7 +231,8 @@ def strip_caption(main: Compared) -> str:
         f"`{main.shape.name}` at equal bytes: the whole and, {CORNER} times larger, the framed corner, where the "
         "outline turns most; mean errors in 1/255. In as much memory as `packed` takes, "
         f"{main.packed.rival.gpu_bytes:,} bytes, fits a raster of {equal.raster_in_memory.side}² texels; in as large a "
-        f"file, one of {equal.raster_in_file.side}², which takes "
+        f"file, one of {'at least ' if equal.raster_in_file.side == MOST_TEXELS else ''}{equal.raster_in_file.side}², "
+        "which takes "
         f"{times(equal.raster_in_file.gpu_bytes, main.packed.rival.gpu_bytes)} the memory. Magnified, rasters blur and "
         "distance fields round the corner off; `packed` is the drawing's own outline at any size."
     )
