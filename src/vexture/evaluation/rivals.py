@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import LimitError
-from vexture.evaluation.bands import BandTexture, band_texture
+from vexture.evaluation.bands import BANDS, COASTLINE_BANDS, BandTexture, band_texture
 from vexture.evaluation.closeups import closeup, outline_places
 from vexture.evaluation.distance import SPREAD, DistanceField, distance_from
 from vexture.evaluation.metrics import Errors, errors
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "MAGNIFICATION",
+    "MANY",
     "MOST_TEXELS",
     "NARROW",
     "SMALL",
@@ -54,6 +55,9 @@ CLOSEUP: Final = 128
 
 NARROW: Final = 1.0
 """Texels; spread of distance fields that are made for magnification."""
+
+MANY: Final = 500
+"""Curves; drawings of more get as many bands as there can be."""
 
 MOST_TEXELS: Final = 1024
 """Along a side of a texture that is compared."""
@@ -196,7 +200,7 @@ def bands_of(drawing: "Drawing") -> BandTexture:
     """
     if len(drawing.paths) > 1:
         raise LimitError(f"{drawing.name} has {len(drawing.paths)} paths; bands take one, whose windings they count")
-    return band_texture(drawing)
+    return band_texture(drawing, COASTLINE_BANDS if drawing.segments > MANY else BANDS)
 
 
 def side_in_memory(limit: int) -> int:

@@ -85,7 +85,8 @@ def _curves(axes: "Axes", measured: Sequence[Measured], what: str, scene: str) -
             drawn.set(marker="o", markersize=3.5, linestyle="--" if narrow else "-", linewidth=1.4)
         else:
             drawn.set(marker=MARKERS.get(method, "o"), markersize=7.5, linestyle="none", zorder=3)
-    axes.set(xscale="log", yscale="log", ylim=(0.7 * FLOOR, 120.0))
+    axes.set(xscale="log", yscale="log", ylim=(0.4 * FLOOR, 120.0))
+    axes.minorticks_off()  # a third of the time that the figure takes
     axes.grid(color=GRID, linewidth=0.4)
 
 
@@ -106,13 +107,13 @@ def equal_bytes(drawing: "Drawing", rivals: Sequence[Rival], *, magnification: f
     >>> from vexture.evaluation.rivals import raster_rival
     >>> drawing = Drawing.polygon([(0.1, 0.2), (0.9, 0.3), (0.5, 0.8)])
     >>> [axes.get_xlabel() for axes in equal_bytes(drawing, [raster_rival(drawing, 16)]).axes][:2]
-    ['mean error 45.2', '']
+    ['mean error 32.6', '']
     """
     size = (SHOWN, SHOWN)
     place = sharpest_corner(drawing)
     views = (fit(size), closeup(size, place, magnification))
     truths = [render(drawing, size, view, "exact") for view in views]
-    figure, axes = panels(2, len(rivals) + 1, side=11.2 / (len(rivals) + 1), height=2.4)
+    figure, axes = panels(2, len(rivals) + 1, side=11.2 / (len(rivals) + 1), height=2.5)
     for column, rival in enumerate(rivals):
         axes[0, column].set_title(_title(rival), loc="left", fontsize=9.0)
         for row, (view, truth) in enumerate(zip(views, truths, strict=True)):
@@ -130,9 +131,9 @@ def equal_bytes(drawing: "Drawing", rivals: Sequence[Rival], *, magnification: f
 
 
 def _title(rival: Rival) -> str:
-    texels = "" if rival.side is None else f"{rival.side}² texels, "
-    file = "" if rival.file_bytes is None else f"file {rival.file_bytes:,} B"
-    return f"{rival.label}\n{texels}{file}\nGPU {rival.gpu_bytes:,} B"
+    texels = [] if rival.side is None else [f"{rival.side}² texels"]
+    file = [] if rival.file_bytes is None else [f"file {rival.file_bytes:,} B"]
+    return "\n".join([rival.label, *texels, *file, f"GPU {rival.gpu_bytes:,} B"])
 
 
 def _frame(axes: "Axes", place: "NDArray[np.float64]", side: float) -> None:

@@ -24,7 +24,7 @@ from vexture.evaluation.rivals import (
     texture_rival,
 )
 from vexture.figures.comparisons import CORNER, equal_bytes, error_over_bytes
-from vexture.report.renderers import bands_part, renderers_part
+from vexture.report.renderers import bands_part, dashes, renderers_part
 from vexture.report.section import Material, Picture, Section, Table
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ HEAD: Final = (
     f"largest error: outline {MAGNIFICATION}×",
 )
 
-EQUAL_HEAD: Final = ("texels", "memory ×", f"error {WHOLE} px", f"error {MAGNIFICATION}×")
+EQUAL_HEAD: Final = ("texels", "memory ×", f"error {MAGNIFICATION}×")
 
 
 class Equal(NamedTuple):
@@ -99,7 +99,7 @@ def compare(shape: "Shape") -> Compared:
     try:
         packed = judge(texture_rival(shape.way("packed").texture, "packed"), scene)
     except LimitError as error:
-        return Compared(shape, scene, None, (), str(error).splitlines()[0])
+        return Compared(shape, scene, None, (), str(error))
     return Compared(shape, scene, packed, [judge(rival, scene) for rival in equals(drawing, packed.rival)], "")
 
 
@@ -137,16 +137,16 @@ def pictures_part(main: Compared) -> Section:
     ]
     series = [*rasters, *fields, *ours]
     items: list[Table | Picture] = [
-        Table("textures", textures_caption(main, missing), HEAD, rows),
+        Table("rival-textures", textures_caption(main, missing), HEAD, rows),
         Picture("error-over-bytes", error_over_bytes(series), bytes_caption(main, rasters), BYTES_ALT),
     ]
-    if main.packed:
+    if main.packed and drawing.segments:
         equal = Equal(*(found.rival for found in main.equal))
         shown = (equal.raster_in_memory, equal.raster_in_file, equal.distance_in_file, equal.narrow_in_file)
         figure = equal_bytes(drawing, [*shown, main.packed.rival])
         items.append(Picture("equal-bytes", figure, strip_caption(main), STRIP_ALT))
     facts = {"fields": [row_of(found.rival.label, found) for found in fields]}
-    return Section("rasters", "Raster textures and distance fields", (), items, facts)
+    return Section("raster-textures", "Raster textures and distance fields", (), items, facts)
 
 
 def others_of_ours(main: Compared) -> tuple[list[Measured], dict[str, str]]:
@@ -160,7 +160,7 @@ def others_of_ours(main: Compared) -> tuple[list[Measured], dict[str, str]]:
         try:
             found.append(judge(texture_rival(main.shape.way(way).texture, way), main.scene))
         except LimitError as error:
-            missing[way] = str(error).splitlines()[0]
+            missing[way] = str(error)
     return found, missing
 
 
@@ -174,18 +174,18 @@ def row_of(label: str, found: Measured) -> Sequence[Any]:
 def shapes_part(compared: Sequence[Compared]) -> Section:
     """All drawings at equal bytes of files."""
     kinds = ("raster", f"distance, spread {SPREAD:g}", f"distance, spread {NARROW:g}")
-    head = ("drawing", "packed: file bytes", *(f"packed: {column}" for column in EQUAL_HEAD[2:]))
-    head += tuple(f"{kind}: {column}" for kind in kinds for column in EQUAL_HEAD)
+    first = ("drawing", "packed: file bytes", "packed: GPU bytes", f"packed: {EQUAL_HEAD[-1]}")
+    head = (*first, *(f"{kind}: {column}" for kind in kinds for column in EQUAL_HEAD))
     rows = []
     for one in compared:
         row: list[Any] = [one.shape.name]
         if one.packed:
-            row += [one.packed.rival.file_bytes, one.packed.whole.mae, one.packed.outline.mae]
+            row += [one.packed.rival.file_bytes, one.packed.rival.gpu_bytes, one.packed.outline.mae]
             equal = Equal(*(found.rival for found in one.equal))
             in_file = (equal.raster_in_file, equal.distance_in_file, equal.narrow_in_file)
             for found in (found for found in one.equal if found.rival in in_file):
-                times = found.rival.gpu_bytes / max(1, one.packed.rival.gpu_bytes)
-                row += [found.rival.side, times, found.whole.mae, found.outline.mae]
+                ratio = found.rival.gpu_bytes / max(1, one.packed.rival.gpu_bytes)
+                row += [found.rival.side, ratio, found.outline.mae]
         rows.append(row + [None] * (len(head) - len(row)))
     table = Table("equal-files", shapes_caption(compared), head, rows)
     return Section("equal-files-of-all", "Every drawing at equal bytes", (), [table])
@@ -197,10 +197,11 @@ def textures_caption(main: Compared, missing: dict[str, str]) -> str:
         f"`{main.shape.name}` as a raster texture (8-bit alpha, mip-mapped), as a distance field (8 bits, distances up "
         f"to {SPREAD:g} texels, as usual, or {NARROW:g}, which suits magnification) and in our encodings. A file is a "
         "grey PNG, a KTX2 file, or the thesis's pair of PNG files. Equal memory and equal file: the largest that takes "
-        f"no more bytes than `packed`, up to {MOST_TEXELS:,} texels along a side. The picture of {WHOLE} pixels, the "
+        f"no more bytes than `packed`, up to {MOST_TEXELS:,} texels along a side, found by halving (a few files are "
+        f"smaller than those of fewer texels). The picture of {WHOLE} pixels, the "
         f"outline at evenly spaced places {MAGNIFICATION} times larger, and the picture of {SMALL} pixels."
     )
-    return caption + "".join(f" No `{way}`: {why}." for way, why in missing.items())
+    return caption + dashes(missing.values())
 
 
 def bytes_caption(main: Compared, rasters: Sequence[Measured]) -> str:
@@ -215,7 +216,7 @@ def bytes_caption(main: Compared, rasters: Sequence[Measured]) -> str:
     return (
         f"{caption} At {MAGNIFICATION} times, the raster of {largest.rival.side:,} texels a side takes "
         f"{times(largest.rival.gpu_bytes, main.packed.rival.gpu_bytes)} the memory of `packed` and is off by "
-        f"{largest.outline.mae:.3g}; `packed` by {main.packed.outline.mae:.2g}. Distance fields are far better than "
+        f"{largest.outline.mae:.3g}; `packed` by {main.packed.outline.mae:.2g}. Distance fields are better than "
         f"rasters along edges, and lose corners. Drawn at {SMALL} pixels, more texels help neither: a mip-map blurs "
         "over neighbouring texels as large as a pixel, and the average of distances does not tell how much is covered."
     )
@@ -228,30 +229,35 @@ def strip_caption(main: Compared) -> str:
     equal = Equal(*(found.rival for found in main.equal))
     return (
         f"`{main.shape.name}` at equal bytes: the whole and, {CORNER} times larger, the framed corner, where the "
-        f"outline turns most; mean errors in 1/255. In as much memory as `packed`, {main.packed.rival.gpu_bytes:,} bytes, fits a raster of "
-        f"{equal.raster_in_memory.side}² texels; in as large a file, one of {equal.raster_in_file.side}², which takes "
-        f"{times(equal.raster_in_file.gpu_bytes, main.packed.rival.gpu_bytes)} the memory. The raster blurs, the "
-        "distance fields round the corner off, `packed` is the drawing's own outline at any size."
+        "outline turns most; mean errors in 1/255. In as much memory as `packed` takes, "
+        f"{main.packed.rival.gpu_bytes:,} bytes, fits a raster of {equal.raster_in_memory.side}² texels; in as large a "
+        f"file, one of {'at least ' if equal.raster_in_file.side == MOST_TEXELS else ''}{equal.raster_in_file.side}², "
+        "which takes "
+        f"{times(equal.raster_in_file.gpu_bytes, main.packed.rival.gpu_bytes)} the memory. Magnified, rasters blur and "
+        "distance fields round the corner off; `packed` is the drawing's own outline at any size."
     )
 
 
 def shapes_caption(compared: Sequence[Compared]) -> str:
     """What the table of all drawings says."""
     caption = (
-        "Textures in files no larger than those of `packed`: texels along a side, memory as a multiple of that of "
-        f"`packed`, mean error of the picture of {WHOLE} pixels and of the outline {MAGNIFICATION} times larger."
+        "Textures in files no larger than those of `packed`, whose bytes stand first: texels along a side, memory as a "
+        f"multiple of that of `packed`, mean error of the outline {MAGNIFICATION} times larger."
     )
     whole = [one for one in compared if one.packed]
     best = [min(found.outline.mae for found in one.equal) for one in whole]
     ours = [one.packed.outline.mae for one in whole if one.packed]
-    better = sum(mine < other for mine, other in zip(ours, best, strict=True))
-    caption += f" At {MAGNIFICATION} times `packed` errs less than the best of the others on {better} of {len(whole)}."
-    return caption + "".join(f" No `{one.shape.name}`: {one.why}." for one in compared if one.why)
+    better = sum(mine <= other for mine, other in zip(ours, best, strict=True))
+    caption += (
+        f" At {MAGNIFICATION} times `packed` errs no more than the best of the others on {better} of {len(whole)}."
+    )
+    return caption + dashes(one.why for one in compared if one.why)
 
 
 def times(many: int, few: int) -> str:
     """How many times as much, as text."""
-    return f"{many / max(1, few):.3g} times"
+    ratio = many / max(1, few)
+    return f"{ratio:,.0f} times" if ratio >= 100.0 else f"{ratio:.3g} times"
 
 
 BYTES_ALT: Final = "Six plots of mean error against bytes; packed lies lowest, far to the left of rasters as good."

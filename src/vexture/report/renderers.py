@@ -1,14 +1,16 @@
 """Renderers that draw the vectors themselves: resvg and Skia on the CPU, the bands on the GPU."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from importlib.metadata import version
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import LimitError
-from vexture.evaluation.bands import BANDS
+from vexture.evaluation.bands import BANDS, COASTLINE_BANDS
 from vexture.evaluation.metrics import errors
+from vexture.evaluation.rivals import MANY, bands_of
 from vexture.evaluation.timing import frames_per_second, median_seconds
 from vexture.pictures import render
 from vexture.report.section import Section, Table
@@ -17,12 +19,13 @@ if TYPE_CHECKING:
     from vexture.evaluation.programs import Program
     from vexture.evaluation.shape import Shape
 
-__all__ = ["bands_part", "renderers_part"]
+__all__ = ["bands_part", "dashes", "renderers_part"]
 
 SIZE: Final = (256, 256)
 """Pixels of all pictures here."""
 
-REPEAT: Final = 3
+REPEAT: Final = 5
+"""Measurements, of which the median counts."""
 
 Draw = Callable[[], NDArray[np.float32]]
 
@@ -35,7 +38,7 @@ def renderers_part(shapes: Sequence["Shape"]) -> Section:
     names = ("resvg", "skia", "packed", "exact")
     head = ("drawing", "segments", *(f"milliseconds: {name}" for name in names))
     head += tuple(f"mean error: {name}" for name in names[:-1])
-    rows, missing = [], {}
+    rows, missing = [], []
     for shape in shapes:
         row: list[Any] = [shape.name, shape.drawing.segments]
         truth = render(shape.drawing, SIZE, renderer="exact")
@@ -43,7 +46,7 @@ def renderers_part(shapes: Sequence["Shape"]) -> Section:
         try:
             found = cpu_renderers(shape)
         except LimitError as error:
-            missing[shape.name] = str(error).splitlines()[0]
+            missing.append(str(error))
         ms = {name: 1e3 * median_seconds(draw, REPEAT) for name, draw in found.items()}
         off = {name: errors(draw(), truth).mae for name, draw in found.items() if name != "exact"}
         rows.append([*row, *map(ms.get, names), *map(off.get, names[:-1])])
@@ -54,10 +57,10 @@ def renderers_part(shapes: Sequence["Shape"]) -> Section:
         "and not to be fast; `exact` computes the truth that errors are measured against, so its own error is not "
         "shown. resvg and Skia estimate coverage at the edges; they draw many pixels in a row where a shader draws "
         "each for itself. resvg's Python package gives PNG files only, which an empty picture already takes "
-        f"{empty:.2g} ms for."
+        f"{empty:.2g} ms for. resvg {version('resvg')}, skia-python {version('skia-python')}."
     )
-    caption += "".join(f" No figures for `{name}`: {why}." for name, why in missing.items())
-    return Section("cpu-renderers", "Renderers of vector graphics on the CPU", (), [Table("cpu", caption, head, rows)])
+    table = Table("cpu-times", caption + dashes(missing), head, rows)
+    return Section("cpu-renderers", "Renderers of vector graphics on the CPU", (), [table])
 
 
 def cpu_renderers(shape: "Shape") -> dict[str, Draw]:
@@ -78,63 +81,65 @@ def bands_part(shapes: Sequence["Shape"], device: str) -> Section:
     from vexture.evaluation.programs import fetch_program
     from vexture.render.view import fit
 
-    names = ("bands", "packed", "packed, fast", "direct")
-    head = ("drawing", *(f"bytes: {way}" for way in WAYS))
-    head += (*(f"mean error: {name}" for name in names), *(f"ms a frame: {name}" for name in names))
-    rows, missing = [], {}
+    kinds = ("bytes on the GPU", "mean error", "milliseconds a frame")
+    head = ("drawing", *(f"{kind}: {way}" for kind in kinds for way in WAYS))
+    rows, missing = [], []
     for shape in shapes:
         programs: dict[str, Program] = {}
         sizes: dict[str, int] = {}
         for way, made in WAYS.items():
             try:
-                ready, sizes[way] = made(shape)
-                programs |= ready
+                programs[way], sizes[way] = made(shape)
             except LimitError as error:
-                missing[f"{way} of {shape.name}"] = str(error).splitlines()[0]
+                missing.append(str(error))
         truth = render(shape.drawing, SIZE, renderer="exact")
         off = {name: errors(program.image(SIZE, fit(SIZE)), truth).mae for name, program in programs.items()}
         ms = {name: 1e3 / frames_per_second(program, SIZE, REPEAT) for name, program in programs.items()}
-        rows.append([shape.name, *map(sizes.get, WAYS), *map(off.get, names), *map(ms.get, names)])
+        rows.append([shape.name, *map(sizes.get, WAYS), *map(off.get, WAYS), *map(ms.get, WAYS)])
     fetch = 1e3 / frames_per_second(fetch_program(shapes[0].drawing), SIZE, REPEAT)
     caption = (
-        f"Pictures of {SIZE[0]}×{SIZE[1]} pixels by {device}, median of {REPEAT}: the bands (E. Lengyel 2017, {BANDS} "
-        "each way, bytes by the published layout) beside our textures, bytes of the memory on the GPU. The bands blend "
-        "two rays a pixel instead of integrating over it; they count windings, so they take drawings of one path with "
-        "the non-zero rule. One trilinear fetch from a raster texture, the least that any of them could take, needs "
-        f"{fetch:.2g} ms a frame."
+        f"Pictures of {SIZE[0]}×{SIZE[1]} pixels by {device}, median of {REPEAT}: the bands (E. Lengyel 2017; {BANDS} "
+        f"each way, as published for glyphs, {COASTLINE_BANDS} for more than {MANY} curves; bytes by the published "
+        "layout) beside our textures. The bands blend two rays a pixel instead of integrating over it; they count "
+        "windings, so they take drawings of one path with the non-zero rule. One trilinear fetch from a raster "
+        f"texture, the least that any of them could take, needs {fetch:.2g} ms a frame."
     )
-    caption += "".join(f" No {what}: {why}." for what, why in missing.items())
-    return Section("bands", "Bands, on the GPU", (), [Table("bands", caption, head, rows)])
+    table = Table("band-times", caption + dashes(missing), head, rows)
+    return Section("bands-on-the-gpu", "Bands, on the GPU", (), [table])
 
 
-def with_bands(shape: "Shape") -> "tuple[dict[str, Program], int]":
-    """Programs that draw the bands, by name, and their bytes."""
+def dashes(reasons: Iterable[str]) -> str:
+    """Why something is missing from a table: the first line of each error, once."""
+    why = dict.fromkeys(reason.splitlines()[0] for reason in reasons)
+    return f" Dashes: {'; '.join(why)}." if why else ""
+
+
+def with_bands(shape: "Shape") -> "tuple[Program, int]":
+    """Program that draws the bands, and their bytes."""
     from vexture.evaluation.programs import band_program
-    from vexture.evaluation.rivals import bands_of
 
     texture = bands_of(shape.drawing)
-    return {"bands": band_program(texture)}, texture.published_bytes
+    return band_program(texture), texture.published_bytes
 
 
-def with_packed(shape: "Shape") -> "tuple[dict[str, Program], int]":
+def with_packed(shape: "Shape") -> "tuple[Program, int]":
     """The same for the packed texture."""
     from vexture.encoding import PackedTexture
     from vexture.evaluation.programs import packed_program
 
     texture = shape.way("packed").texture
     assert isinstance(texture, PackedTexture)
-    programs = {"packed": packed_program(texture, "exact"), "packed, fast": packed_program(texture, "fast")}
-    return programs, texture.nbytes
+    return packed_program(texture, "exact"), texture.nbytes
 
 
-def with_direct(shape: "Shape") -> "tuple[dict[str, Program], int]":
+def with_direct(shape: "Shape") -> "tuple[Program, int]":
     """The same for the thesis's textures, converted by our way."""
     from vexture.encoding import ThesisTexture
     from vexture.evaluation.programs import thesis_program
 
     texture = shape.way("direct").texture
     assert isinstance(texture, ThesisTexture)
-    return {"direct": thesis_program(texture)}, texture.quads.nbytes + texture.curves.nbytes
+    return thesis_program(texture), texture.quads.nbytes + texture.curves.nbytes
 
 
 WAYS: Final = {"bands": with_bands, "packed": with_packed, "direct": with_direct}

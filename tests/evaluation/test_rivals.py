@@ -1,0 +1,119 @@
+"""Where drawings are looked at, and how ways to store them are judged."""
+
+import numpy as np
+import pytest
+
+from vexture.drawing import Drawing, FillRule
+from vexture.errors import LimitError
+from vexture.evaluation.bands import BANDS, COASTLINE_BANDS
+from vexture.evaluation.closeups import closeup, outline_places, sharpest_corner
+from vexture.evaluation.raster import raster_from
+from vexture.evaluation.rivals import (
+    MANY,
+    MOST_TEXELS,
+    Rival,
+    bands_of,
+    distance_rival,
+    judge,
+    raster_rival,
+    scene_of,
+    side_in_file,
+    side_in_memory,
+    texture_rival,
+)
+from vexture.evaluation.shape import Shape, example
+from vexture.render.exact import render_exact
+
+SQUARE = ((0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75))
+
+
+@pytest.fixture(scope="module")
+def duck():
+    return Shape(example("duck"))
+
+
+def test_a_closeup_magnifies_about_its_place():
+    view = closeup((100, 100), np.array([0.3, 0.6]), 4.0)
+    np.testing.assert_allclose(view @ (50, 50, 1), (0.3, 0.6, 1.0))
+    np.testing.assert_allclose(view @ (0, 100, 1), (0.3 - 0.125, 0.6 - 0.125, 1.0))
+
+
+def test_places_are_on_the_border_and_not_where_paths_overlap():
+    left, right = (Drawing.polygon([(x, 0.25), (x + 0.4, 0.25), (x + 0.4, 0.75), (x, 0.75)]).paths for x in (0.2, 0.4))
+    both = Drawing(left + right)
+    places = outline_places(both, 12)
+    assert len(places) == 12
+    for x, y in places:
+        on_side = min(abs(x - 0.2), abs(x - 0.8)) < 1e-9 and 0.25 <= y <= 0.75
+        on_top = min(abs(y - 0.25), abs(y - 0.75)) < 1e-9 and 0.2 <= x <= 0.8
+        assert on_side or on_top
+
+
+def test_the_sharpest_corner_is_one_that_is_seen():
+    spike = Drawing.polygon([(0.1, 0.4), (0.9, 0.5), (0.1, 0.6)])
+    np.testing.assert_allclose(sharpest_corner(spike), (0.9, 0.5))
+    hidden = Drawing(spike.paths + Drawing.polygon([(0.7, 0.3), (1, 0.3), (1, 0.7), (0.7, 0.7)]).paths)
+    assert render_exact(hidden, (1, 1), closeup((1, 1), sharpest_corner(hidden), 1e3))[0, 0] < 1.0
+
+
+def test_an_empty_drawing_has_no_places():
+    empty = Drawing(())
+    assert outline_places(empty, 3).shape == (0, 2)
+    assert sharpest_corner(empty).tolist() == [0.5, 0.5]
+    found = judge(raster_rival(empty, 8), scene_of(empty))
+    assert [shown.mae for shown in found[1:]] == [0.0, 0.0, 0.0]
+
+
+def test_the_truth_errs_nowhere(duck):
+    scene = scene_of(duck.drawing)
+    truth = Rival("truth", "truth", None, 0, lambda size, view: render_exact(duck.drawing, size, view))
+    assert [shown.max for shown in judge(truth, scene)[1:]] == [0.0, 0.0, 0.0]
+    moved = Rival("truth", "moved", None, 0, lambda size, view: render_exact(duck.drawing, size))
+    assert all(shown.mae > 1.0 for shown in judge(moved, scene)[1:])
+
+
+def test_rasters_get_better_with_texels_and_packed_needs_none(duck):
+    scene = scene_of(duck.drawing)
+    outline = [judge(raster_rival(duck.drawing, side), scene).outline.mae for side in (32, 128, 512)]
+    assert outline == sorted(outline, reverse=True)
+    field = judge(distance_rival(duck.drawing, 128), scene).outline
+    packed = judge(texture_rival(duck.way("packed").texture, "packed"), scene).outline
+    assert outline[1] > 5 * field.mae > 50 * packed.mae
+    assert field.max > 100 > 4.0 > packed.max
+
+
+def test_bytes_of_textures_are_those_of_their_files_and_memory(duck):
+    texture = duck.way("direct").texture
+    rival = texture_rival(texture, "direct")
+    assert rival.file_bytes == sum(map(len, texture.to_png()))
+    assert rival.gpu_bytes == texture.quads.nbytes + texture.curves.nbytes
+    packed = texture_rival(duck.way("packed").texture, "packed")
+    assert (packed.file_bytes, packed.gpu_bytes) == (
+        len(duck.way("packed").texture.to_ktx2()),
+        duck.way("packed").texture.nbytes,
+    )
+
+
+@pytest.mark.parametrize("limit", [1, 20, 21, 22, 1000, 87381, 10**9])
+def test_the_largest_side_in_memory_is_the_largest(limit):
+    side = side_in_memory(limit)
+    square = Drawing.polygon(SQUARE)
+    assert raster_from(square, side).nbytes <= limit
+    assert side == MOST_TEXELS or raster_from(square, side + 1).nbytes > limit
+
+
+def test_the_largest_side_in_a_file_fits(duck):
+    side = side_in_file(lambda side: raster_from(duck.drawing, side, mips=False), 1000)
+    assert raster_from(duck.drawing, side).png_bytes <= 1000 < raster_from(duck.drawing, side + 1).png_bytes
+
+
+def test_bands_take_one_path_with_the_non_zero_rule():
+    square = Drawing.polygon(SQUARE)
+    assert bands_of(square).bands == BANDS
+    with pytest.raises(LimitError, match="2 paths"):
+        bands_of(Drawing(square.paths * 2))
+    with pytest.raises(LimitError, match="even-odd"):
+        bands_of(Drawing.polygon(SQUARE, fill_rule=FillRule.EVENODD))
+    around = 2 * np.pi * np.arange(MANY + 1) / (MANY + 1)
+    ring = Drawing.polygon(zip(0.5 + 0.4 * np.cos(around), 0.5 + 0.4 * np.sin(around), strict=True))
+    assert bands_of(ring).bands == COASTLINE_BANDS
