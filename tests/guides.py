@@ -142,7 +142,7 @@ class Reader:
             raise AssertionError(f"{block.place}: nothing is done with {block.language}")
 
     def _shell(self, block: Block) -> None:
-        *before, last = block.text.rstrip().splitlines()
+        *before, last = block.text.replace("\\\n", " ").rstrip().splitlines()
         stays = last.endswith(STAYS)
         self._run(block, "\n".join(before if stays else [*before, last]))
         if stays:
