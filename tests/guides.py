@@ -57,7 +57,8 @@ def blocks_of(guide: str) -> list[Block]:
 def build_site(folder: Path, target: Path) -> subprocess.CompletedProcess[str]:
     """Build the documentation of a working tree."""
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(target)]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    environment = {**os.environ, "NO_MKDOCS_2_WARNING": "1"}  # an advertisement
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
 
 
 def alike(said: str) -> str:
@@ -115,7 +116,8 @@ class Reader:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         for process in self.started:
-            os.killpg(process.pid, signal.SIGTERM)
+            if process.poll() is None:
+                os.killpg(process.pid, signal.SIGTERM)
             process.communicate(timeout=60)
 
     def ported(self, text: str) -> str:

@@ -1,5 +1,6 @@
 """The documentation as it is built: everything is in it, once, and nothing of it comes from the network."""
 
+import inspect
 import re
 import shutil
 from collections import Counter
@@ -57,6 +58,12 @@ def test_every_public_name_is_documented_once(site: Path) -> None:
     described = re.findall(r"^::: ([\w.]+)", reference, re.M)
     assert len(described) == len(set(described))
     assert set(vexture.__all__) <= {name.rpartition(".")[2] for name in described}
+
+
+def test_every_public_function_has_an_example() -> None:
+    functions = [getattr(vexture, name) for name in vexture.__all__ if inspect.isfunction(getattr(vexture, name))]
+    assert len(functions) > 10
+    assert [function.__name__ for function in functions if ">>>" not in (function.__doc__ or "")] == []
 
 
 def test_every_command_and_option_is_described(site: Path) -> None:

@@ -1,6 +1,8 @@
 """The guide from an SVG to three.js, read to its end in a real browser: it does what it says, as it stands there."""
 
+import contextlib
 import io
+import re
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -36,6 +38,15 @@ def _share(pixels: np.ndarray, color: int) -> float:
     return float(np.mean(np.abs(pixels - wanted).max(axis=2) <= 2))
 
 
+def _await(page: Any, check: Callable[[np.ndarray], None]) -> None:
+    """Look until the page shows what it must: files and shaders take their time."""
+    for _ in range(60):
+        with contextlib.suppress(AssertionError):
+            return check(_pixels(page))
+        page.wait_for_timeout(500)
+    return check(_pixels(page))
+
+
 def _of_a_duck(pixels: np.ndarray) -> None:
     assert _share(pixels, DUCK) > 0.1
     assert _share(pixels, DUCK) + _share(pixels, PAPER) > 0.95
@@ -45,6 +56,11 @@ def _in_colours(pixels: np.ndarray) -> None:
     assert _share(pixels, BLUE) > 0.15
     assert _share(pixels, SUN) > 0.01
     assert _share(pixels, 0xFFFFFF) > 0.03
+
+
+def _in_red(pixels: np.ndarray) -> None:
+    assert _share(pixels, RED) > 0.15
+    assert _share(pixels, BLUE) == 0.0
 
 
 def _lit(pixels: np.ndarray) -> None:
@@ -90,32 +106,29 @@ def test_the_guide_to_three_js_does_what_it_says(
         pytest.skip("no npm")
     blocks = blocks_of("from-svg-to-three")
     (main,) = (block.text for block in blocks if block.title == "main.js")
-    shown: set[str] = set()
+    shown: list[str] = []
     page: Any = None
     with Reader(_checkout(tmp_path / "vexture"), {"8000": free_port(), "5173": free_port()}) as reader:
         address = f"http://127.0.0.1:{reader.ports['5173']}/"
 
-        def show(label: str, check: Callable[[np.ndarray], None]) -> Any:
+        def show(section: str) -> Any:
+            if page is not None:
+                page.close()  # it would go on drawing
             opened = open_page(address)
-            opened.wait_for_selector("canvas")
-            opened.wait_for_timeout(500)
-            screenshot(opened, label)
-            check(_pixels(opened))
+            _await(opened, SEEN[section])
+            shown.append(section)
+            screenshot(opened, f"{re.sub('[^a-z]+', '-', section.lower())}-{shown.count(section)}")
             return opened
 
-        for number, block in enumerate(blocks):
+        for block in blocks:
             if block.language == "js" and block.title is None:
                 (reader.folder / "main.js").write_text(main + reader.ported(block.text), encoding="utf-8")
-                page = show(f"{number}", SEEN[block.section])
-                shown.add(block.section)
+                page = show(block.section)
                 continue
             reader.take(block)
             if "--servedir" in block.text:
-                show(f"{number}", SEEN[block.section])
-                shown.add(block.section)
+                page = show(block.section)
             elif "red.svg" in block.text:  # the page is still that of the program before, never loaded again
-                page.wait_for_timeout(2000)
-                screenshot(page, f"{number}")
-                assert _share(_pixels(page), RED) > 0.15
-                assert _share(_pixels(page), BLUE) == 0.0
-    assert shown == set(SEEN)
+                _await(page, _in_red)
+                screenshot(page, "pushed")
+    assert set(shown) == set(SEEN)
