@@ -9,7 +9,7 @@ import xarray
 from floods import BOUNDS, CRS, depths, geotiff, scene_of, sea, series, wkt
 
 import vexture
-from guides import Reader, blocks_of, free_port
+from guides import GUIDES, Reader, blocks_of, free_port
 from vexture.encoding.packed_texture import packed_from
 
 
@@ -75,3 +75,11 @@ def test_the_guide_for_coastal_data_does_what_it_says(tmp_path: Path) -> None:
     assert vexture.fold_from((folder / "surge.fold.ktx2").read_bytes()).cycle == 6.0
     texture = packed_from((folder / "surge.ktx2").read_bytes(), "surge")
     assert [bool(texture.contains([(0.55, 0.5)], root)[0]) for root in range(3)] == [False, False, True]
+
+
+def test_the_trouble_that_the_guide_quotes_is_what_is_said(tmp_path: Path) -> None:
+    text = (GUIDES / "coastal-data.md").read_text(encoding="utf-8")
+    with pytest.raises(vexture.SourceError, match="it names no reference system of its coordinates") as caught:
+        vexture.read_extent(geotiff(tmp_path / "nowhere.tif", depths(), crs=None))
+    assert "it names no reference system of its coordinates" in text
+    assert "--crs EPSG:" in str(caught.value)
