@@ -15,12 +15,13 @@ QUICK ?=
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help demo viewer test test-web bench clean
+.PHONY: help demo docs viewer test test-web bench clean
 
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
 	@echo 'make viewer  build the page of `vexture view` and `vexture export`, with node and npm'
 	@echo 'make test    lint, types and tests, with all that they need'
+	@echo 'make docs    build the documentation into site/, to be read from the disk'
 	@echo 'make bench   measure fidelity, speed and size; the figures come into benchmarks/results/'
 	@echo 'make clean   remove all of that again'
 
@@ -37,8 +38,13 @@ help:
 
 .venv/for-test: pyproject.toml | .venv/made
 	@echo 'installing vexture, its libraries and the tools of its tests into .venv (a minute or two) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,live,report,test]'
-	@touch .venv/for-demo $@
+	@$(BIN)/python -m pip install --quiet --editable '.[docs,gis,gpu,live,report,test]'
+	@touch .venv/for-demo .venv/for-docs $@
+
+.venv/for-docs: pyproject.toml | .venv/made
+	@echo 'installing vexture and MkDocs into .venv (a minute or less) ...'
+	@$(BIN)/python -m pip install --quiet --editable '.[docs]'
+	@touch $@
 
 web/node_modules/made: web/package.json web/package-lock.json
 	@$(PYTHON) tools/prepare.py web
@@ -81,12 +87,18 @@ demo: .venv/for-demo
 	@echo 'Open the pictures in demo/pictures/: duck-1000.png is drawn from the texture demo/duck.ktx2, duck-50.png from'
 	@echo 'demo/all.ktx2, which holds all the drawings; duck-exact.png is what they must look like.'
 
+# not --quiet: it keeps --strict from seeing the warnings that it is to fail for
+docs: .venv/for-docs
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
+	@echo 'Open site/index.html in a browser.'
+
 test: .venv/for-test
 	@$(BIN)/python tools/prepare.py system
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/python tools/make_web.py --check
+	$(MAKE) --no-print-directory docs
 	@if $(MAKE) --no-print-directory web/node_modules/made; then \
 		$(MAKE) --no-print-directory test-web; \
 	else \
@@ -116,4 +128,4 @@ bench: .venv/for-test
 
 clean:
 	rm -rf .venv demo build src/*.egg-info benchmarks/results .hypothesis .mypy_cache .pytest_cache .ruff_cache \
-		web/node_modules web/types src/vexture/live/built tests/web/screenshots
+		web/node_modules web/types src/vexture/live/built tests/web/screenshots site

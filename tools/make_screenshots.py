@@ -1,7 +1,7 @@
-"""Take the README's pictures of the pages: `python tools/make_screenshots.py` writes viewer.png and flood.jpg.
+"""Take the pictures of the pages: `python tools/make_screenshots.py` writes viewer.png, flood.jpg and guide.png.
 
-Needs Chromium and the built pages (`make viewer`): they are exported and looked at as a person would. The pictures go
-into docs/pictures/.
+Needs Chromium and the built pages (`make viewer`): they are exported and looked at as a person would. Those of the
+guide are what its test saw last (`pytest tests/web/test_guide_three.py`). The pictures go into docs/pictures/.
 """
 
 import io
@@ -93,8 +93,27 @@ def sheet_of(pictures: list[Image.Image]) -> Image.Image:
     return sheet
 
 
+GUIDE: Final = ROOT / "tests" / "web" / "screenshots"
+GUIDE_LOOKS: Final = ("colours-1", "lit-materials-masks-1", "lit-materials-masks-2", "atlas-and-instances-1")
+"""How the names of its screenshots end."""
+
+
+def row_of_guide() -> Image.Image:
+    """The guide's pages, side by side."""
+    taken = []
+    for look in GUIDE_LOOKS:
+        (path,) = GUIDE.glob(f"test_the_guide_to_three_js*{look}.png")
+        with Image.open(path) as picture:
+            taken.append(picture.convert("RGB").resize((SHOWN // 2, SHOWN // 2), Image.Resampling.LANCZOS))
+    row = Image.new("RGB", (len(taken) * (SHOWN // 2 + GAP) - GAP, SHOWN // 2), "#ffffff")
+    for place, picture in enumerate(taken):
+        row.paste(picture, (place * (SHOWN // 2 + GAP), 0))
+    return row
+
+
 def main() -> None:
     """Export pages of the examples, and put the screenshots of each side by side."""
+    row_of_guide().save(PICTURES / "guide.png", optimize=True)
     with tempfile.TemporaryDirectory() as folder, chromium() as browser:
         target = Path(folder) / "page.html"
         export([SHAPES / f"{name}.svg" for name in ("duck", "cake", "ocean")], target, None, VIEWER_SETTINGS, print)

@@ -65,7 +65,13 @@ def main() -> None:
     type=click.Path(path_type=Path),
     help="Write one texture of all the drawings instead, each a shape of its file's name.",
 )
-@click.option("--encoding", type=click.Choice(["packed", "thesis"]), default="packed", show_default=True)
+@click.option(
+    "--encoding",
+    type=click.Choice(["packed", "thesis"]),
+    default="packed",
+    show_default=True,
+    help="Several exact pieces in a leaf, one file; or the thesis's one curve, a pair of images.",
+)
 @click.option("--split", type=click.Choice(["paint"]), help="Make each colour a shape of its own, in painting order.")
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
 @click.option(
@@ -220,8 +226,20 @@ def _with_progress(items: tuple[Path, ...], work: Callable[[Path], str | None]) 
 @click.argument("source", metavar="SOURCE_OR_TEXTURE", type=click.Path(path_type=Path))
 @click.option("-o", "--output", metavar="PNG", required=True, type=click.Path(path_type=Path), help="File to write.")
 @click.option("--size", metavar="N", type=int, default=DEFAULT_SIZE, show_default=True, help="Longer side in pixels.")
-@click.option("--renderer", type=click.Choice(["exact", "cpu", "gpu"]), default="gpu", show_default=True)
-@click.option("--quality", type=click.Choice(["fast", "exact"]), default="exact", show_default=True)
+@click.option(
+    "--renderer",
+    type=click.Choice(["exact", "cpu", "gpu"]),
+    default="gpu",
+    show_default=True,
+    help="The drawing itself, exactly; its texture by Python; its texture by the shader.",
+)
+@click.option(
+    "--quality",
+    type=click.Choice(["fast", "exact"]),
+    default="exact",
+    show_default=True,
+    help="How closely pixels that are turned or tilted are computed.",
+)
 @click.option("--view", type=_View(), default="0,0,1,1", show_default=True, help="Part of the unit square, y up.")
 @click.option("--rotate", metavar="DEG", type=float, default=0.0, help="Turn the picture counter-clockwise.")
 @click.option("--root", metavar="NAME_OR_INDEX", help="Shape of a texture, or drawing of an atlas of layers.")

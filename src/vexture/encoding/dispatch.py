@@ -27,6 +27,11 @@ def load(path: str | os.PathLike[str]) -> ThesisTexture | PackedTexture:
     path : path
         A packed texture's file, either file of a pair, or what their names have in common.
 
+    Returns
+    -------
+    PackedTexture or ThesisTexture
+        Checked: none of its indices leads astray.
+
     Raises
     ------
     FormatError
@@ -34,6 +39,16 @@ def load(path: str | os.PathLike[str]) -> ThesisTexture | PackedTexture:
         means a packed texture as well as a pair.
     DeviceError
         If a file may not be read.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import vexture
+    >>> kite = vexture.convert(vexture.Drawing.polygon([(0.5, 0.1), (0.8, 0.6), (0.5, 0.9), (0.2, 0.6)]))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     again = load(kite.save(Path(folder) / "kite.ktx2"))
+    >>> bool((again.texels == kite.texels).all())
+    True
     """
     given = Path(path)
     if given.suffix.lower() == layout.PACKED_SUFFIX or _is_ktx2(given):

@@ -40,6 +40,13 @@ class PackedTexture:
     ------
     FormatError
         If the texels are of another shape or type, or there is no root.
+
+    Examples
+    --------
+    >>> import vexture
+    >>> texture = vexture.convert(vexture.Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.5, 0.8)]))
+    >>> texture.roots[0].name, texture.depth, texture.texels.dtype
+    ('drawing', 0, dtype('uint32'))
     """
 
     texels: NDArray[np.uint32]
@@ -84,6 +91,15 @@ class PackedTexture:
 
     def root(self, which: str | int = 0) -> Root:
         """One of the shapes, by its name or its place.
+
+        Parameters
+        ----------
+        which : str or int
+            Name, or place from 0.
+
+        Returns
+        -------
+        Root
 
         Raises
         ------
@@ -144,6 +160,7 @@ class PackedTexture:
         Returns
         -------
         (n,) bool array
+            For each point whether it is inside.
 
         Raises
         ------
@@ -181,10 +198,22 @@ class PackedTexture:
         root : str, int or None
             Name or place of a shape; None draws all of them, one above the other.
 
+        Returns
+        -------
+        str
+            A document, of which each shape is a path in its colour, else black.
+
         Raises
         ------
         FormatError
             If there is no such shape.
+
+        Examples
+        --------
+        >>> import vexture
+        >>> texture = vexture.convert(vexture.Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.5, 0.8)]))
+        >>> texture.to_svg().count("<path")
+        1
         """
         from vexture.encoding.outlines import outlines
         from vexture.encoding.svg_text import svg_document
@@ -193,7 +222,7 @@ class PackedTexture:
         return svg_document(((one, outlines(self.flat, one.quad)) for one in roots), self.name)
 
     def texts(self) -> dict[str, str]:
-        """Key/value data of the file."""
+        """Key/value data of the file (FORMAT.md, B.5), by their keys."""
         texts = {
             layout.TEXT_WRITER: WRITER,
             layout.TEXT_VERSION: layout.PACKED_VERSION,

@@ -37,6 +37,12 @@ class Root:
         Coordinate reference system of the source units, where there is one.
     paint : Paint or None
         Its colour, where it is one layer of a drawing; None for a silhouette.
+
+    Examples
+    --------
+    >>> root = Root("lake", to_source=np.array([[200.0, 0.0, 5000.0], [0.0, 200.0, 7000.0]]), crs="EPSG:28992")
+    >>> root.to_source @ (0.5, 0.5, 1.0)
+    array([5100., 7100.])
     """
 
     name: str

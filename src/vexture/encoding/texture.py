@@ -41,6 +41,14 @@ class ThesisTexture:
     ------
     FormatError
         If the arrays are of another shape or type, or longer than `layout.LIST_LIMIT`.
+
+    Examples
+    --------
+    >>> import vexture
+    >>> half = vexture.Drawing.polygon([(0, 0), (1, 0), (0, 1)])
+    >>> texture = vexture.convert(half, encoding="thesis", bits=8)
+    >>> texture.quads.shape, texture.curves.shape, texture.bits
+    ((1, 4, 3), (4, 2, 3), 8)
     """
 
     quads: NDArray[Any]

@@ -135,15 +135,23 @@ class Fold:
         Parameters
         ----------
         points : (n, 2) array
+            In unit-square units, y up.
         seconds : float
+            The time.
         wrap : str
             ``"repeat"`` where the shape repeats, else ``"none"`` or ``"clamp"``, which here are the same.
 
         Returns
         -------
         places : (n, 2) array
+            In unit-square units: what the fragments at the points show.
         jacobians : (n, 2, 2) array
             Derivatives of the places; entry [k, i, j] is that of coordinate i by coordinate j.
+
+        Raises
+        ------
+        LimitError
+            If there is no such wrap.
         """
         if wrap not in WRAPS:
             raise LimitError(f"wrap is {wrap!r}; it must be one of {', '.join(WRAPS)}")
@@ -199,8 +207,13 @@ def fold_from(data: bytes, source: str = "fold") -> Fold:
     Parameters
     ----------
     data : bytes
+        What `Fold.to_ktx2` returned, or the content of a file of `vexture fold`.
     source : str
         Names it in messages.
+
+    Returns
+    -------
+    Fold
 
     Raises
     ------

@@ -43,10 +43,15 @@ def fold_picture(fold: Fold, drawing: "Drawing | None" = None, size: int = 768) 
     Parameters
     ----------
     fold : Fold
+        What is drawn.
     drawing : Drawing, optional
         What moves, drawn below the arrows.
     size : int
-        Height in pixels; the picture is 3/2 as wide.
+        Height in pixels, 256 to 4096; the picture is 3/2 as wide.
+
+    Returns
+    -------
+    PIL.Image.Image
 
     Raises
     ------

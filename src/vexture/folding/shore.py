@@ -70,10 +70,20 @@ def shore_fold(
     reach : float, optional
         In sides of the unit square; two texels or two and a half amplitudes, if not given.
 
+    Returns
+    -------
+    Fold
+        Periodic, its cycle one period.
+
     Raises
     ------
     LimitError
         If a parameter is out of range.
+
+    Warns
+    -----
+    SourceWarning
+        If the amplitude had to be made smaller.
 
     Examples
     --------

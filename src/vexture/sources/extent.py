@@ -43,10 +43,18 @@ class Extent:
     Parameters
     ----------
     frame : Frame
+        Rectangle of the world that all steps are read into.
     steps : tuple of Step
         In the order of time; one for a file without time.
     bed : (rows, columns) float32 array or None
         Height of the bed in metres over the frame, the northernmost row first, where the source has it.
+
+    Examples
+    --------
+    >>> pond = b'{"type": "Polygon", "coordinates": [[[4, 52], [5, 52], [5, 53], [4, 53]]]}'
+    >>> extent = read_extent(pond, "pond.geojson")
+    >>> extent.steps[0].time, extent.bed, extent.frame.bounds
+    (None, None, (4.0, 52.0, 5.0, 53.0))
     """
 
     frame: Frame
@@ -81,13 +89,19 @@ def read_extent(
     crs : str, optional
         Reference system of the data, above what the file says.
     time_dim : str, optional
-        Dimension of time, of depths.
+        Dimension that is time, for depths; by default the one that looks like it. With any name the bands of a
+        GeoTIFF are steps.
     hmin : float
-        Depth in metres from which there is water, of depths.
+        Depth in metres from which there is water, for depths; 0.05 by default.
     variable : str, optional
-        Variable that holds the depth.
+        Variable that holds the depth, where there are several that could.
     layer : str, optional
-        Layer of polygons.
+        Layer of polygons, where there are several.
+
+    Returns
+    -------
+    Extent
+        One step for each time, or one for a file without times.
 
     Raises
     ------

@@ -1,0 +1,131 @@
+"""The documentation as it is built: everything is in it, once, and nothing of it comes from the network."""
+
+import inspect
+import re
+import shutil
+from collections import Counter
+from html.parser import HTMLParser
+from pathlib import Path
+
+import click
+import pytest
+
+import vexture
+from guides import ROOT, build_site
+from vexture.cli import main
+
+pytest.importorskip("mkdocs", reason="MkDocs is not installed (pip install '.[docs]')")
+
+LOADING = {"audio", "embed", "iframe", "img", "link", "script", "source", "video"}
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The documentation, built."""
+    target = tmp_path_factory.mktemp("docs") / "site"
+    outcome = build_site(ROOT, target)
+    assert outcome.returncode == 0, outcome.stderr + outcome.stdout
+    return target
+
+
+class Loaded(HTMLParser):
+    """Addresses that a page loads, all that it links to, and the names of its places."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.loads: list[str] = []
+        self.ids: list[str] = []
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        values = dict(attrs)
+        if values.get("id"):
+            self.ids.append(str(values["id"]))
+        if tag in LOADING:
+            self.loads += [str(values[name]) for name in ("src", "href", "srcset", "data") if values.get(name)]
+
+
+def pages(site: Path) -> dict[str, Loaded]:
+    return {
+        path.relative_to(site).as_posix(): Loaded(path.read_text(encoding="utf-8")) for path in site.rglob("*.html")
+    }
+
+
+def test_every_public_name_is_documented_once(site: Path) -> None:
+    met = Counter(name for page in pages(site).values() for name in set(page.ids))
+    assert {name: met[f"vexture.{name}"] for name in vexture.__all__} == dict.fromkeys(vexture.__all__, 1)
+    reference = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "docs" / "reference").glob("*.md"))
+    described = re.findall(r"^::: ([\w.]+)", reference, re.M)
+    assert len(described) == len(set(described))
+    assert set(vexture.__all__) <= {name.rpartition(".")[2] for name in described}
+
+
+def test_every_public_function_has_an_example() -> None:
+    functions = [getattr(vexture, name) for name in vexture.__all__ if inspect.isfunction(getattr(vexture, name))]
+    assert len(functions) > 10
+    assert [function.__name__ for function in functions if ">>>" not in (function.__doc__ or "")] == []
+
+
+def test_every_command_and_option_is_described(site: Path) -> None:
+    text = (site / "reference" / "command-line.html").read_text(encoding="utf-8")
+    for name, command in main.commands.items():
+        assert f'id="vexture-{name}"' in text
+        context = click.Context(command, info_name=name)
+        for parameter in command.params:
+            record = parameter.get_help_record(context) if isinstance(parameter, click.Option) else None
+            if record is not None:
+                assert f"<code>{record[0]}</code>" in text, f"{name} {record[0]}"
+                assert re.sub(r"\[default: .*?\]", "", record[1]).strip(), f"{name} {record[0]} says not what it is"
+
+
+def test_figures_have_a_page_once_there_are_some(site: Path) -> None:
+    folder = ROOT / "src" / "vexture" / "figures"
+    defined = [path for path in folder.glob("*.py") if re.search(r'\) -> "?Figure"?:$', path.read_text(), re.M)]
+    page = site / "reference" / "figures.html"
+    assert page.is_file() == bool(defined)
+    for path in defined:
+        assert f'id="vexture.figures.{path.stem}.' in page.read_text(encoding="utf-8")
+
+
+def test_nothing_comes_from_the_network(site: Path) -> None:
+    for name, page in pages(site).items():
+        assert [address for address in page.loads if re.match(r"(\w+:)?//", address)] == [], name
+    for path in [*site.rglob("*.css"), site / "assets" / "iframe-worker.js"]:
+        assert not re.search(r"(url\(|@import)\s*[\"']?(https?:)?//", path.read_text(encoding="utf-8")), path
+
+
+def test_what_lies_elsewhere_is_a_page_with_its_links(site: Path) -> None:
+    architecture = (site / "project" / "architecture.html").read_text(encoding="utf-8")
+    assert 'href="../reference/format.html"' in architecture
+    assert "B.10 Example" in (site / "reference" / "format.html").read_text(encoding="utf-8")
+    benchmarks = (site / "project" / "benchmarks.html").read_text(encoding="utf-8")
+    assert 'href="example-drawings.html"' in benchmarks
+    assert (site / "files" / "examples" / "shapes" / "licenses" / "DejaVu.txt").is_file()
+
+
+BREAKS = {
+    "link": ("docs/index.md", "guides/from-python.md", "guides/from-ruby.md", "from-ruby.md"),
+    "anchor": ("docs/reference/converting.md", "#speed-size-and-precision", "#speed", "#speed"),
+    "reference": ("docs/reference/drawings.md", "[`vexture.convert`][]", "[x][vexture.konvert]", "vexture.konvert"),
+    "object": ("docs/reference/converting.md", "::: vexture.atlas", "::: vexture.atlasses", "atlasses"),
+    "home": ("ARCHITECTURE.md", "[FORMAT.md](FORMAT.md)", "[FORMAT.md](FORM.md)", "FORM.md"),
+    "docstring": ("src/vexture/pipeline.py", "    capacity : int, opt", "    capacities : int, opt", "capacities"),
+}
+
+
+@pytest.mark.parametrize("case", BREAKS)
+def test_what_is_broken_fails_the_build(case: str, tmp_path: Path) -> None:
+    copied = tmp_path / "copied"
+    for name in ("src", "docs", "tools", "web/README.md", "benchmarks/README.md", "examples/shapes", "mkdocs.yml"):
+        target = copied / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, target)
+    for path in ROOT.glob("*.md"):
+        shutil.copy(path, copied)
+    name, good, bad, said = BREAKS[case]
+    text = (copied / name).read_text(encoding="utf-8")
+    assert good in text
+    (copied / name).write_text(text.replace(good, bad, 1), encoding="utf-8")
+    outcome = build_site(copied, tmp_path / "site")
+    assert outcome.returncode != 0
+    assert said in outcome.stderr + outcome.stdout

@@ -1,0 +1,49 @@
+"""The documentation as people read it: from the disk, searched, on a screen and on a phone, without a network."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from guides import ROOT, build_site
+
+pytest.importorskip("mkdocs", reason="MkDocs is not installed (pip install '.[docs]')")
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The documentation, built."""
+    target = tmp_path_factory.mktemp("disk") / "site"
+    assert build_site(ROOT, target).returncode == 0
+    return target
+
+
+@pytest.mark.parametrize("width", [1280, 390])
+def test_pages_fit_and_fetch_nothing(
+    site: Path, open_page: Callable[..., Any], screenshot: Callable[..., Path], width: int
+) -> None:
+    page = open_page(f"file://{site}/index.html", (width, 800))
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    for path in sorted(site.rglob("*.html")):
+        if path.name == "404.html":
+            continue
+        page.goto(f"file://{path}")
+        assert page.evaluate("document.documentElement.scrollWidth") <= width, f"{path.name} is wider than the screen"
+        broken = page.evaluate("[...document.images].filter((image) => !image.naturalWidth).map(({ src }) => src)")
+        assert broken == [], path.name
+        screenshot(page, path.stem)
+    assert [address for address in asked if not address.startswith(("file:", "data:"))] == []
+    assert len(asked) > 20
+
+
+def test_search_works_from_the_disk(site: Path, open_page: Callable[..., Any]) -> None:
+    page = open_page(f"file://{site}/guides/coastal-data.html", (1280, 800))
+    page.click("[data-md-component=search-query]")
+    page.keyboard.type("shore_fold amplitude")
+    page.wait_for_selector(".md-search-result__link")
+    found = page.eval_on_selector_all(".md-search-result__link", "links => links.map(({ href }) => href)")
+    assert any("floods-and-folds.html" in address for address in found[:3])
+    page.click(".md-search-result__link")
+    page.wait_for_url("**/reference/**")

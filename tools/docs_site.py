@@ -1,0 +1,150 @@
+"""What MkDocs does for the documentation beside its own: pages that have their home elsewhere in the repository.
+
+FORMAT.md and its like stay where people who read the repository look for them, and the command line is described by
+its own text. Both become pages when the site is built, so that nothing is written down twice.
+"""
+
+import ast
+import posixpath
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final
+
+import click
+from mkdocs.exceptions import PluginError
+from mkdocs.structure.files import File, Files
+
+__all__ = ["HOMES", "command_line", "figures", "on_config", "on_files", "relinked"]
+
+ROOT: Final = Path(__file__).parents[1]
+
+HOMES: Final = {
+    "ARCHITECTURE.md": "project/architecture.md",
+    "CHANGELOG.md": "project/changelog.md",
+    "CONTRIBUTING.md": "project/contributing.md",
+    "FORMAT.md": "reference/format.md",
+    "benchmarks/README.md": "project/benchmarks.md",
+    "examples/shapes/README.md": "project/example-drawings.md",
+    "web/README.md": "reference/javascript.md",
+}
+"""Pages by the files that they are, both as paths from the root of the repository or of the documentation."""
+
+COMMAND_LINE: Final = "reference/command-line.md"
+FIGURES: Final = "reference/figures.md"
+LINK: Final = re.compile(r"(?<=\]\()(?!\w+:|#)([^)#\s]+)")
+FENCED: Final = re.compile(r"^(```.*?^```)$", re.M | re.S)
+
+
+def on_config(config: Any) -> Any:
+    """Add the page of figures to those of Python, if there are any."""
+    if figures():
+        (reference,) = (entry["Reference"] for entry in config.nav if "Reference" in entry)
+        (python,) = (entry["Python"] for entry in reference if "Python" in entry)
+        python.append({"Figures": FIGURES})
+    return config
+
+
+def on_files(files: Files, *, config: Any) -> Files:
+    """Add the pages, and the files that they link to."""
+    attached: set[str] = set()
+    for home, page in HOMES.items():
+        text, linked = relinked(home)
+        attached |= linked
+        files.append(File.generated(config, page, content=text))
+    for path in sorted(attached):
+        files.append(File.generated(config, f"files/{path}", abs_src_path=str(ROOT / path)))
+    files.append(File.generated(config, COMMAND_LINE, content=command_line()))
+    if figures():
+        files.append(File.generated(config, FIGURES, content=figures_page()))
+    return files
+
+
+def relinked(home: str) -> tuple[str, set[str]]:
+    """Text of a file with its relative links as they are from its page, and the files that come with it.
+
+    Links to files that are pages go to the pages; other files come with the site, below ``files/``.
+
+    Raises
+    ------
+    PluginError
+        If a link leads to a folder or to nothing.
+    """
+    attached: set[str] = set()
+
+    def target(match: re.Match[str]) -> str:
+        path = posixpath.normpath(posixpath.join(posixpath.dirname(home), match[1]))
+        page = HOMES.get(path)
+        if page is None:
+            if path.startswith("docs/"):
+                page = path.removeprefix("docs/")
+            elif (ROOT / path).is_file():
+                attached.add(path)
+                page = f"files/{path}"
+            else:
+                raise PluginError(f"{home}: the link to {match[1]} leads to no file; correct it")
+        return posixpath.relpath(page, posixpath.dirname(HOMES[home]))
+
+    parts = FENCED.split((ROOT / home).read_text(encoding="utf-8"))
+    return "".join(part if part.startswith("```") else LINK.sub(target, part) for part in parts), attached
+
+
+def figures() -> list[str]:
+    """Functions that make a figure, as ``module.function`` of `vexture.figures`."""
+    found = []
+    for path in sorted((ROOT / "src" / "vexture" / "figures").glob("*.py")):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        offered = [
+            ast.literal_eval(node.value)
+            for node in tree.body
+            if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__"
+        ]
+        found += [
+            f"{path.stem}.{node.name}"
+            for node in tree.body
+            if isinstance(node, ast.FunctionDef)
+            and node.returns is not None
+            and ast.unparse(node.returns).strip("'\"") == "Figure"
+            and any(node.name in names for names in offered)
+        ]
+    return found
+
+
+def figures_page() -> str:
+    """Page of all figures."""
+    parts = [
+        "# Figures",
+        "Each function makes one figure of matplotlib from the library's own data, in a notebook or for a file: "
+        "`figure.savefig(...)`. `vexture report` puts them on one page. They need what `vexture[report]` installs.",
+        *(f"::: vexture.figures.{name}" for name in figures()),
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+def command_line() -> str:
+    """Page of all commands, by their own words."""
+    from vexture.cli import main
+
+    context = click.Context(main, info_name="vexture")
+    parts = [
+        "# Command line",
+        "`vexture COMMAND --help` says the same in a terminal. Where a command cannot do what it was asked it says "
+        "so in one line and its exit code is 1; arguments that it does not know end with exit code 2.",
+    ]
+    for name in main.list_commands(context):
+        parts += _command(name, main.commands[name], context)
+    return "\n\n".join(parts) + "\n"
+
+
+def _command(name: str, command: click.Command, above: click.Context) -> Iterator[str]:
+    """Section of a command: what it does, how it is called, its options."""
+    context = click.Context(command, info_name=name, parent=above)
+    usage = " ".join(command.collect_usage_pieces(context))
+    yield f"## vexture {name}"
+    yield f"```text\n{context.command_path} {usage}\n```"
+    yield command.help or ""
+    for parameter in command.get_params(context):
+        record = parameter.get_help_record(context) if isinstance(parameter, click.Option) else None
+        if record is not None:
+            names, text = record
+            yield f"`{names}`\n:   {text}"
