@@ -32,12 +32,12 @@ help:
 
 .venv/for-demo: pyproject.toml | .venv/made
 	@echo 'installing vexture and its libraries into .venv (a minute or less) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,live]'
+	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,live,trace]'
 	@touch $@
 
 .venv/for-test: pyproject.toml | .venv/made
 	@echo 'installing vexture, its libraries and the tools of its tests into .venv (a minute or two) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,live,report,test]'
+	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,live,report,trace,test]'
 	@touch .venv/for-demo $@
 
 web/node_modules/made: web/package.json web/package-lock.json
