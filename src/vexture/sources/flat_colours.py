@@ -16,7 +16,7 @@ MOST_COLOURS: Final = 24
 """Besides the background."""
 
 LEVEL: Final = 16
-"""Levels of 255 that a uniform border or area may vary by: noise of JPEG and of scanners."""
+"""Levels of 255 that a border or an area of one colour may vary by: noise of JPEG and of scanners."""
 
 APART: Final = 36.0
 """Distance of two colours, in levels, below which they are one."""

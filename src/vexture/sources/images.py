@@ -15,7 +15,7 @@ from vexture.sources.svg_document import read_bytes
 if TYPE_CHECKING:
     from PIL import Image
 
-__all__ = ["MOST_PIXELS", "holds_texture", "pixels_of"]
+__all__ = ["MOST_PIXELS", "is_texture_image", "pixels_of"]
 
 MOST_PIXELS: Final = 50_000_000
 """Of a picture; a file of a few kilobytes can say that it is endless."""
@@ -30,12 +30,12 @@ TEXTURE: Final = (
 )
 
 
-def holds_texture(path: str | os.PathLike[str]) -> bool:
+def is_texture_image(path: str | os.PathLike[str]) -> bool:
     """Whether a file is an image of a texture of the encoding thesis, by the texts in it.
 
     Examples
     --------
-    >>> holds_texture("nothing.png")
+    >>> is_texture_image("nothing.png")
     False
     """
     if not start_of(path).startswith(PNG):

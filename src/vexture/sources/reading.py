@@ -38,7 +38,7 @@ TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 NETCDF: Final = (b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
 """How TIFF and BigTIFF start, and NetCDF of all kinds."""
 
-PNG: Final = b"\x89PNG\r\n\x1a\n"
+PNG: Final = b"\x89PNG"
 PICTURES: Final = (PNG, b"\xff\xd8\xff", b"GIF87a", b"GIF89a")
 """How PNG, JPEG and GIF start; WebP and BMP have something in between."""
 

@@ -43,7 +43,7 @@ example drawings, that takes a fifth of the curves away for 0.01 pixels; wider a
 MOST_CURVES: Final = 60_000
 """Of a drawing: a page of dense text has 40,000."""
 
-MOST_PIECES: Final = 65_000
+MOST_PIECES: Final = 2**16 - 2
 """Of one mask; vtracer's numbers of pieces have 16 bits."""
 
 PHOTO_LONGEST: Final = 512
