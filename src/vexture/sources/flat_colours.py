@@ -10,6 +10,8 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.errors import LimitError
+
 __all__ = ["MOST_COLOURS", "Mixture", "background_of", "flat_colours", "mixture", "widened"]
 
 MOST_COLOURS: Final = 24
@@ -30,6 +32,10 @@ UNIFORM: Final = 0.75
 REACH: Final = 3
 """Pixels from an edge at which the colours beside it are looked for."""
 
+BETTER: Final = 1.0
+"""Levels. Two mixtures that describe a pixel so much alike are the same; that of the colours nearer to each other is
+taken."""
+
 FEWEST: Final = 4
 LEAST: Final = 2e-4
 """Pixels that make a colour, and share of the picture that makes one which no area has."""
@@ -40,6 +46,9 @@ MOSTLY: Final = 0.5
 MOST_UNEXPLAINED: Final = 0.1
 """Shares of pixels that have a flat colour, and that no mixture of flat colours describes: with less of the one or more
 of the other a picture is a photograph."""
+
+MOST_WORK: Final = 40_000_000
+"""Mixtures that are tried, of each pixel on an edge all pairs of colours: some seconds."""
 
 Image = NDArray[np.float32]
 Colours = NDArray[np.float32]
@@ -116,12 +125,11 @@ def flat_colours(image: Image, background: Colours | None) -> Colours | None:
     colours = [] if background is None else [background]
     most = MOST_COLOURS + len(colours)
     flat = _is_flat(image)
-    everything = _binned(image.reshape(-1, 4))
-    areas = everything if len(everything[0]) <= MOST_COLOURS else _binned(image[flat])
-    for colour in areas[0]:
+    for colour in _binned(image[flat])[0]:
         if len(colours) < most and all(np.linalg.norm(colour - other) > APART for other in colours):
             colours.append(colour)
-    if _share_near(*everything, _stacked(colours)) < MOSTLY:
+    everything = _binned(image.reshape(-1, 4))
+    if len(everything[0]) > MOST_COLOURS and _share_near(*everything, _stacked(colours)) < MOSTLY:
         return None
     means, counts = _binned(image[~flat], LEAST * flat.size)
     while len(means):
@@ -195,31 +203,43 @@ def mixture(image: Image, colours: Colours) -> Mixture:
     """Find what each pixel is made of.
 
     A pixel on an edge is a mixture of two colours that areas beside it have: a gray between black and white is no
-    area of gray, though the picture may have such a gray elsewhere. Where that does not describe it, one of the
-    two may be the colour of a line too thin to show it anywhere near.
+    area of gray, though the picture may have such a gray elsewhere. Where none describes it, areas a little farther
+    away are asked, and then any colour: that of a line too thin to show it anywhere.
     """
-    height, width = image.shape[:2]
     first, distance = _nearest(image, colours)
-    second, share = first.copy(), np.ones((height, width), np.float32)
     pure = distance <= APART / 2.0
     pure &= ~_passed_on_the_way(colours, first, pure)
-    near = np.array([widened(pure & (first == number), REACH).ravel() for number in range(len(colours))])
-    several = np.zeros(first.shape, np.uint8)
+    areas = [pure & (first == number) for number in range(len(colours))]
+    beside = np.array([widened(area) for area in areas])
+    place = np.flatnonzero(~pure | (beside.sum(axis=0, dtype=np.uint8) > 1))
+    pairs = sorted(combinations(range(len(colours)), 2), key=lambda pair: _span(colours, pair))
+    if len(place) * len(pairs) > MOST_WORK:
+        raise LimitError(f"has {len(place):,} pixels on edges of {len(colours)} colours; smooth it, or scale it down")
+    beside = beside.reshape(len(colours), -1)[:, place]
+    near = np.array([widened(area, REACH).ravel()[place] for area in areas])
+    pixels = image.reshape(-1, 4)[place]
+    best = np.full(len(place), np.inf, np.float32)
+    one, other, part = first.flat[place], first.flat[place], np.ones(len(place), np.float32)
     for number in range(len(colours)):
-        several += widened(pure & (first == number))
-    place = np.flatnonzero(~pure | (several > 1))
-    near = near[:, place]
-    pixels, best = image.reshape(-1, 4)[place], np.full(len(place), np.inf, np.float32)
-    for least in (2, 1):
-        sought = (best > OFF_THE_LINE) & (near.sum(axis=0) >= least)
-        for a, b in combinations(range(len(colours)), 2):
-            chosen = np.flatnonzero(sought & (near[a].astype(np.uint8) + near[b] >= least))
-            part, off = _along(pixels[chosen], colours[a], colours[b])
-            closer = off < best[chosen]
-            chosen, at = chosen[closer], place[chosen[closer]]
-            best[chosen] = off[closer]
-            first.flat[at], second.flat[at], share.flat[at] = a, b, part[closer]
-    return Mixture(first, second, share)
+        away = np.linalg.norm(pixels - colours[number], axis=1)
+        closer = near[number] & (away < best)
+        best[closer], one[closer], other[closer] = away[closer], number, number
+    for around, least, poor in ((beside, 2, 0.0), (near, 2, APART / 2.0), (near, 1, OFF_THE_LINE)):
+        sought = best > poor
+        for a, b in pairs:
+            known = around[a] & around[b] if least == 2 else around[a] | around[b]
+            chosen = np.flatnonzero(sought & known)
+            share, off = _along(pixels[chosen], colours[a], colours[b])
+            closer = off < best[chosen] - BETTER
+            chosen = chosen[closer]
+            best[chosen], one[chosen], other[chosen], part[chosen] = off[closer], a, b, share[closer]
+    second, shares = first.copy(), np.ones(first.shape, np.float32)
+    first.flat[place], second.flat[place], shares.flat[place] = one, other, part
+    return Mixture(first, second, shares)
+
+
+def _span(colours: Colours, pair: tuple[int, int]) -> float:
+    return float(np.linalg.norm(colours[pair[0]] - colours[pair[1]]))
 
 
 def _nearest(image: Image, colours: Colours) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:

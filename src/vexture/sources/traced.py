@@ -26,19 +26,20 @@ SMALL: Final = 256
 
 OUTWARD: Final = 0.3
 """Pixels of the enlarged mask. vtracer follows its staircase that much outside of the middle of its steps, as measured
-on drawings whose outline is known; so the level at which a pixel is inside is raised from one half."""
+on drawings whose outline is known."""
 
 SETTINGS: Final[dict[str, Any]] = {
     "colormode": "binary",
     "mode": "spline",
     "corner_threshold": 60,
-    "splice_threshold": 45,
+    "splice_threshold": 15,
     "length_threshold": 10.0,
     "max_iterations": 10,
     "path_precision": 3,
 }
-"""Of vtracer: its defaults, but that it cuts sides longer than 10 pixels of the mask only, not 4. Measured on the
-example drawings, that takes a fifth of the curves away for 0.01 pixels; wider angles double the error."""
+"""Of vtracer. Measured on 24 circles of 128 to 800 pixels: a splice of 15 degrees brings the worst point of an outline
+from 1.05 to 0.63 pixels for a fifth more curves than vtracer's 45; sides of 10 pixels of the mask instead of 4 save a
+third of them."""
 
 MOST_CURVES: Final = 60_000
 """Of a drawing: a page of dense text has 40,000."""
@@ -47,7 +48,7 @@ MOST_PIECES: Final = 2**16 - 2
 """Of one mask; vtracer's numbers of pieces have 16 bits."""
 
 PHOTO_LONGEST: Final = 512
-PHOTO_COLOURS: Final = 8
+PHOTO_COLOURS: Final = 16
 PHOTO_SPECKLE: Final = 4
 """A photograph is reduced to so many pixels on its longer side and to so many colours, areas of fewer pixels than the
 square of the last are left out."""
@@ -98,7 +99,7 @@ def read_image(source: str | os.PathLike[str] | bytes, file_name: str | None = N
     >>> picture.save(file, "PNG")
     >>> read_image(file.getvalue(), "box.png").paths[0].box.round(2)
     array([[0.25, 0.5 ],
-           [0.75, 0.75]])
+           [0.75, 0.76]])
     """
     shown = file_name or ("the picture" if isinstance(source, bytes) else os.fspath(source))
     try:
@@ -220,7 +221,7 @@ def _posterised(
 
     smooth = Image.fromarray(image[..., :3].astype(np.uint8)).filter(ImageFilter.GaussianBlur(1.5))
     image = np.dstack([np.asarray(smooth, np.float32), image[..., 3]])
-    few = smooth.quantize(PHOTO_COLOURS, Image.Quantize.MEDIANCUT).convert("RGB")
+    few = smooth.quantize(PHOTO_COLOURS, Image.Quantize.MEDIANCUT, kmeans=2).convert("RGB")
     found = np.unique(np.asarray(few).reshape(-1, 3), axis=0).astype(np.float32)
     colours = np.column_stack([found, np.full(len(found), 255.0, np.float32)])
     if background is not None:
@@ -280,13 +281,16 @@ def _group(share: NDArray[np.float32], paint: Paint, factor: int, speckle: int) 
 
 
 def _enlarged(share: NDArray[np.float32], factor: int) -> NDArray[np.bool_]:
-    """Mask of where a share is at least one half, several pixels for each."""
+    """Mask of where a share is at least one half, several pixels for each, and `OUTWARD` smaller on all sides."""
     from PIL import Image
 
     size = (factor * share.shape[1], factor * share.shape[0])
-    smooth = Image.fromarray(share).resize(size, Image.Resampling.BICUBIC)
-    mask: NDArray[np.bool_] = np.asarray(smooth) >= 0.5 + OUTWARD / factor
-    return mask
+    smooth = np.asarray(Image.fromarray(share).resize(size, Image.Resampling.BICUBIC))
+    padded = np.pad(smooth, 1, mode="edge")
+    right = padded[1:-1, 2:] - padded[1:-1, :-2]
+    down = padded[2:, 1:-1] - padded[:-2, 1:-1]
+    slope = 0.5 * np.sqrt(right * right + down * down)  # of a blurred edge gentle, so that its middle stays the edge
+    return np.asarray(smooth - 0.5 >= OUTWARD * slope, np.bool_)
 
 
 def _outline(mask: NDArray[np.bool_], speckle: int) -> str:
