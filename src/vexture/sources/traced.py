@@ -100,11 +100,10 @@ def read_image(source: str | os.PathLike[str] | bytes, file_name: str | None = N
     >>> bool(np.abs(read_image(file.getvalue(), "box.png").paths[0].box - [(0.25, 0.5), (0.75, 0.75)]).max() < 0.01)
     True
     """
-    shown = file_name or ("the picture" if isinstance(source, bytes) else os.fspath(source))
+    given = file_name or (None if isinstance(source, bytes) else os.fspath(source))
+    shown = given or "the picture"
     try:
-        return _traced(
-            pixels_of(source), FilePath(shown).stem if file_name or shown != "the picture" else "drawing", shown
-        )
+        return _traced(pixels_of(source), FilePath(given).stem if given else "drawing", shown)
     except (SourceError, LimitError, DeviceError) as error:
         raise type(error)(f"{shown}: {error}") from None
 
@@ -114,7 +113,7 @@ def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
 
     The outline lies where a pixel is half covered, to about a sixth of a pixel. Of a picture that shows through
     anywhere, all that is not transparent is painted; else all that does not have the colour of its border, if that is
-    uniform; else, of two colours, the darker one; else all of it. Flat colours become paths of that paint, each
+    one; else, of two colours, the darker one; else all of it. Flat colours become paths of that paint, each
     reaching a little under those painted after it. A picture of many colours, such as a photograph, is traced coarsely.
 
     Parameters
