@@ -33,12 +33,12 @@ help:
 
 .venv/for-demo: pyproject.toml | .venv/made
 	@echo 'installing vexture and its libraries into .venv (a minute or less) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,live]'
+	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,live,trace]'
 	@touch $@
 
 .venv/for-test: pyproject.toml | .venv/made
 	@echo 'installing vexture, its libraries and the tools of its tests into .venv (a minute or two) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[docs,gis,gpu,live,report,test]'
+	@$(BIN)/python -m pip install --quiet --editable '.[docs,gis,gpu,live,report,trace,test]'
 	@touch .venv/for-demo .venv/for-docs $@
 
 .venv/for-docs: pyproject.toml | .venv/made

@@ -33,11 +33,13 @@ __all__ = [
     "load",
     "read_extent",
     "read_geojson",
+    "read_image",
     "read_svg",
     "render",
     "render_layers",
     "shader_source",
     "shore_fold",
+    "trace",
 ]
 
 if TYPE_CHECKING:
@@ -51,6 +53,7 @@ if TYPE_CHECKING:
     from vexture.sources.frame import Frame
     from vexture.sources.geojson import read_geojson
     from vexture.sources.svg import read_svg
+    from vexture.sources.traced import read_image, trace
 
 _HOMES = {
     "vexture.drawing": ("Drawing", "FillRule", "Paint", "Path"),
@@ -63,6 +66,7 @@ _HOMES = {
     "vexture.sources.frame": ("Frame",),
     "vexture.sources.geojson": ("read_geojson",),
     "vexture.sources.svg": ("read_svg",),
+    "vexture.sources.traced": ("read_image", "trace"),
 }
 
 

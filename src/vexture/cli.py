@@ -93,7 +93,7 @@ def main() -> None:
 def convert(
     sources: tuple[Path, ...], output: Path | None, atlas: Path | None, bits: str | None, **parameters: Any
 ) -> None:
-    """Convert drawings (SVG, GeoJSON) into textures."""
+    """Convert drawings (SVG, GeoJSON) and pictures to trace (PNG, JPEG, WebP, GIF, BMP) into textures."""
     with one_line():
         settings = Settings(bits=None if bits is None else int(bits), **parameters)
         if atlas is None:
@@ -243,7 +243,7 @@ def _with_progress(items: tuple[Path, ...], work: Callable[[Path], str | None]) 
 @click.option("--view", type=_View(), default="0,0,1,1", show_default=True, help="Part of the unit square, y up.")
 @click.option("--rotate", metavar="DEG", type=float, default=0.0, help="Turn the picture counter-clockwise.")
 @click.option("--root", metavar="NAME_OR_INDEX", help="Shape of a texture, or drawing of an atlas of layers.")
-@click.option("--split", type=click.Choice(["paint"]), help="Draw an SVG in its flat colours.")
+@click.option("--split", type=click.Choice(["paint"]), help="Draw a drawing in its flat colours.")
 @click.option("--select", metavar="SELECTOR", help="Draw only the elements of an SVG that a CSS selector matches.")
 def render(
     source: Path,
@@ -255,7 +255,7 @@ def render(
     select: str | None,
     **options: Any,
 ) -> None:
-    """Draw an SVG or a texture as a PNG.
+    """Draw a drawing, a picture as it is traced, or a texture as a PNG.
 
     A texture that was split by paint is drawn in its colours, else a shape is black; on white.
     """
@@ -274,11 +274,15 @@ def render(
 
 def _shape_of(path: Path, split: str | None, select: str | None) -> "Drawing | PackedTexture | ThesisTexture":
     """Read a drawing, or load a texture by one of its files or its stem."""
-    if path.is_file() and path.suffix.lower() not in (".png", ".ktx2"):
+    from vexture.encoding import load
+    from vexture.encoding.layout import CURVES_SUFFIX, PACKED_SUFFIX, QUADS_SUFFIX
+    from vexture.sources.images import is_texture_image
+
+    named_so = path.name.lower().endswith((PACKED_SUFFIX, QUADS_SUFFIX, CURVES_SUFFIX))
+    if path.is_file() and not named_so and not is_texture_image(path):
         from vexture.sources.reading import read_drawing
 
         return read_drawing(path, select)
-    from vexture.encoding import load
 
     texture = load(path)
     for option, value in (("split", split), ("select", select)):

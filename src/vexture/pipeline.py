@@ -168,7 +168,7 @@ def convert(
     Parameters
     ----------
     source : Drawing or path
-        A drawing, or a file that `vexture.read_svg` or `vexture.read_geojson` reads.
+        A drawing, or a file that `vexture.read_svg`, `vexture.read_geojson` or `vexture.read_image` reads.
     encoding : str
         ``"packed"``: several exact pieces in each leaf, one KTX2 file. ``"thesis"``: one curve in each leaf, a pair
         of PNG files.

@@ -1,11 +1,13 @@
 """`vexture serve` and `vexture push` as people and browsers use them: real processes, real sockets."""
 
+import io
 import json
 import signal
 import subprocess
 from contextlib import closing
 
 import pytest
+from PIL import Image
 from server import COMMAND, TOKEN, Server, Stream, serving, square
 
 
@@ -96,6 +98,16 @@ def test_geojson_and_textures_are_published_too(server):
     assert (status, again["texture"]) == (201, published["texture"])
     assert server.put("copy", texture[:-20])[0] == 422
     assert server.manifest("copy")["version"] == again["version"]
+
+
+def test_pictures_are_traced_and_published(server):
+    picture, file = Image.new("L", (64, 64), 255), io.BytesIO()
+    picture.paste(0, (16, 16, 48, 48))
+    picture.save(file, "PNG")
+    status, published = server.put("scan", file.getvalue())
+    assert (status, published["facts"]["layers"], published["views"]) == (201, 1, {})
+    status, refused = server.put("scan", file.getvalue()[:60])
+    assert (status, refused["error"].split(" (")[0]) == (422, "scan: is a damaged picture")
 
 
 @pytest.mark.parametrize(

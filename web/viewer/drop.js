@@ -1,7 +1,7 @@
 /** Files given to the page: dropped anywhere, or chosen. */
 import { element } from './dom.js';
 
-const TYPES = '.svg,.svgz,.geojson,.json,.ktx2';
+const TYPES = '.svg,.svgz,.geojson,.json,.ktx2,.png,.jpg,.jpeg,.webp,.gif,.bmp';
 
 /**
  * Listen for files on the whole page.

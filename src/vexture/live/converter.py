@@ -158,14 +158,15 @@ def _convert(data: bytes, name: str, most: int, how: Settings | Waters) -> Shape
     """Convert an upload, in the process."""
     from vexture.encoding.ktx2 import MAGIC, TEXEL_BYTES
     from vexture.encoding.packed_texture import packed_from
-    from vexture.sources.reading import is_geojson
+    from vexture.sources.reading import is_geojson, is_picture
 
     if isinstance(how, Waters):
         shape = how.shape_of(data, name)
     elif not data.strip():
-        raise LimitError(f"{name}: the upload is empty; send an SVG, GeoJSON or a packed texture")
+        raise LimitError(f"{name}: the upload is empty; send an SVG, GeoJSON, a picture or a packed texture")
     else:
-        suffix = ".ktx2" if data.startswith(MAGIC) else ".geojson" if is_geojson(data, "") else ".svg"
+        kinds = ((".ktx2", data.startswith(MAGIC)), ("", is_picture(data)), (".geojson", is_geojson(data, "")))
+        suffix = next((suffix for suffix, found in kinds if found), ".svg")
         shape = shape_of(data, name + suffix, name, how)
     size = packed_from(shape.texture.data, name).nbytes
     if size > most:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from vexture.errors import LimitError, SourceError, SourceWarning
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
 from vexture.settings import Settings
-from vexture.sources.reading import is_geojson
+from vexture.sources.reading import is_geojson, is_picture
 
 if TYPE_CHECKING:
     import numpy as np
@@ -55,8 +55,6 @@ SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
 <path fill="red" d="M2 2C9 2 2 9 7 7S1 6 2 2zM-1 4A3 3 0 0 1 5 4z"/></svg>"""
 """Of everything a little: corners, curves, crossings, two colours, something outside."""
 
-PNG_SUFFIX = ".png"
-
 ONE_AT_A_TIME = threading.Lock()
 """Warnings are caught for the whole process, so one thread at a time may do it."""
 
@@ -67,7 +65,8 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
     Parameters
     ----------
     data : bytes
-        An SVG, plain or gzipped; GeoJSON; or a packed texture, which is checked and published as it is.
+        An SVG, plain or gzipped; GeoJSON; a picture, which is traced; or a packed texture, which is checked and
+        published as it is.
     file_name : str
         What the file is called: its suffix says what it is, messages name it. It is nowhere opened.
     name : str
@@ -97,11 +96,6 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
     suffix = PurePath(file_name).suffix.lower()
     if data.startswith(MAGIC) or suffix == PACKED_SUFFIX:
         return texture_shape(data, file_name, name)
-    if suffix == PNG_SUFFIX:
-        raise SourceError(
-            f"{file_name}: pictures and textures of the encoding thesis are not shown by themselves; "
-            "give the drawing, with which the viewer compares them"
-        )
     with ONE_AT_A_TIME, warnings_said() as said:
         load_kernels()
         start = time.perf_counter()
@@ -109,7 +103,7 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
         shape = converted(drawing, file_name, replace(settings, select=None), start)
     facts = {**shape.facts, "warnings": said}
     views = {}
-    if not is_geojson(data, file_name):
+    if not is_picture(data) and not is_geojson(data, file_name):
         from vexture.sources.svg_document import decompressed
 
         plain = decompressed(data)
@@ -168,11 +162,16 @@ def load_kernels() -> None:
 
 
 def _read(data: bytes, file_name: str, settings: Settings) -> "Drawing":
+    picture = is_picture(data)
+    if settings.select is not None and (picture or is_geojson(data, file_name)):
+        raise LimitError(f"{file_name}: select={settings.select!r} chooses elements of an SVG; leave it out")
+    if picture:
+        from vexture.sources.traced import read_image
+
+        return read_image(data, file_name)
     if is_geojson(data, file_name):
         from vexture.sources.geojson import read_geojson
 
-        if settings.select is not None:
-            raise LimitError(f"{file_name}: select={settings.select!r} chooses elements of an SVG; leave it out")
         try:
             return read_geojson(data)
         except (SourceError, LimitError) as error:

@@ -19,15 +19,21 @@ SECONDS: Final = 150.0
 LONGEST_ANSWER: Final = 2**20
 SHAPES: Final = "/shapes"
 TYPES: Final = {
+    ".bmp": "image/bmp",
     ".fgb": "application/flatgeobuf",
     ".geojson": "application/geo+json",
+    ".gif": "image/gif",
     ".gpkg": "application/geopackage+sqlite3",
+    ".jpeg": "image/jpeg",
+    ".jpg": "image/jpeg",
     ".json": "application/geo+json",
     ".ktx2": "image/ktx2",
     ".nc": "application/netcdf",
+    ".png": "image/png",
     ".svg": "image/svg+xml",
     ".tif": "image/tiff",
     ".tiff": "image/tiff",
+    ".webp": "image/webp",
     ".zip": "application/zip",
 }
 
@@ -38,7 +44,8 @@ def push(path: Path, url: str, token: str) -> dict[str, str]:
     Parameters
     ----------
     path : path
-        SVG, GeoJSON or a packed texture; for a server of `vexture flood` any geographic data that it reads.
+        SVG, GeoJSON, a picture to trace or a packed texture; for a server of `vexture flood` any geographic data that
+        it reads.
     url : str
         A server, or ``server/shapes/NAME``; the name is otherwise the file's, without its suffix.
     token : str

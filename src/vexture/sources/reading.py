@@ -13,6 +13,7 @@ __all__ = [
     "BYTE_ORDER_MARK",
     "FLATGEOBUF",
     "NETCDF",
+    "PNG",
     "SHAPEFILE",
     "SQLITE",
     "TIFF",
@@ -20,6 +21,7 @@ __all__ = [
     "holds_depths",
     "is_geographic",
     "is_geojson",
+    "is_picture",
     "read_drawing",
     "start_of",
 ]
@@ -35,6 +37,10 @@ ZIP: Final = b"PK\x03\x04"
 TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 NETCDF: Final = (b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
 """How TIFF and BigTIFF start, and NetCDF of all kinds."""
+
+PNG: Final = b"\x89PNG"
+PICTURES: Final = (PNG, b"\xff\xd8\xff", b"GIF87a", b"GIF89a")
+"""How PNG, JPEG and GIF start; WebP and BMP have something in between."""
 
 DEPTH_SUFFIXES: Final = (".tif", ".tiff", ".nc", ".nc4", ".cdf")
 AREA_SUFFIXES: Final = (".gpkg", ".fgb", ".shp")
@@ -75,6 +81,20 @@ def _holds_areas(start: bytes) -> bool:
     return text or start.startswith((FLATGEOBUF, SHAPEFILE, SQLITE, ZIP))
 
 
+def is_picture(start: bytes) -> bool:
+    r"""Whether a file is a picture of pixels, from how its content starts: PNG, JPEG, GIF, WebP or BMP.
+
+    Examples
+    --------
+    >>> is_picture(b"GIF89a"), is_picture(b"RIFF\x1a\0\0\0WEBPVP8L"), is_picture(b"<svg/>")
+    (True, True, False)
+    """
+    if start.startswith(PICTURES):
+        return True
+    webp = start.startswith(b"RIFF") and start[8:12] == b"WEBP"
+    return webp or (start.startswith(b"BM") and start[6:10] == bytes(4))
+
+
 def is_geographic(start: bytes, file_name: str | os.PathLike[str]) -> bool:
     r"""Whether a file is geographic data, which `read_extent` reads: GeoJSON is, as are GeoPackage and NetCDF.
 
@@ -101,7 +121,8 @@ def read_drawing(path: str | os.PathLike[str], select: str | None = None) -> "Dr
     Parameters
     ----------
     path : path
-        SVG, GeoJSON, or other geographic data with the packages of ``vexture[gis]``: of a series, its first step.
+        SVG, GeoJSON, or other geographic data with the packages of ``vexture[gis]``: of a series, its first step; or
+        PNG, JPEG, WebP, GIF or BMP with the package of ``vexture[trace]``.
     select : str, optional
         A CSS selector, of SVG only.
 
@@ -113,6 +134,12 @@ def read_drawing(path: str | os.PathLike[str], select: str | None = None) -> "Dr
         If `select` is given where it means nothing, or as `read_svg` says.
     """
     start = start_of(path)
+    if is_picture(start):
+        if select is not None:
+            raise LimitError(f"{os.fspath(path)}: select={select!r} chooses elements of an SVG; leave it out")
+        from vexture.sources.traced import read_image
+
+        return read_image(path)
     if is_geographic(start, path):
         if select is not None:
             raise LimitError(f"{os.fspath(path)}: select={select!r} chooses elements of an SVG; leave it out")
