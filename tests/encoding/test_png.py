@@ -55,6 +55,13 @@ def test_pypng_reads_the_same(pixels: NDArray[np.uint8]) -> None:
     np.testing.assert_array_equal(np.array([list(row) for row in rows]).reshape(pixels.shape), pixels)
 
 
+@given(hnp.arrays(np.uint8, st.tuples(st.integers(1, 40), st.integers(1, 40), st.just(1))))
+def test_pypng_reads_grey_the_same(pixels: NDArray[np.uint8]) -> None:
+    width, height, rows, told = png.Reader(bytes=write_png(pixels, {})).read()
+    assert (width, height, told["greyscale"], told["planes"]) == (*pixels.shape[1::-1], True, 1)
+    np.testing.assert_array_equal(np.array([list(row) for row in rows]), pixels[..., 0])
+
+
 @given(hnp.arrays(np.uint8, SHAPES))
 def test_pillow_reads_8_bits_the_same_and_sees_the_texts(pixels: NDArray[np.uint8]) -> None:
     with Image.open(io.BytesIO(write_png(pixels, TEXTS))) as opened:

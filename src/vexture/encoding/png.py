@@ -1,4 +1,4 @@
-"""RGB images with texts, to PNG and back: as small as it gets, and safe to read from strangers."""
+"""Images with texts, to PNG, and RGB images back: as small as it gets, and safe to read from strangers."""
 
 import io
 import struct
@@ -17,6 +17,7 @@ __all__ = ["read_png", "write_png"]
 HEADER = struct.Struct(">2I5B")
 RGB = 2  # colour type
 CHANNELS = 3
+COLOUR_TYPES = {1: 0, CHANNELS: RGB}
 
 
 def write_png(pixels: NDArray[Any], texts: dict[str, str]) -> bytes:
@@ -24,7 +25,8 @@ def write_png(pixels: NDArray[Any], texts: dict[str, str]) -> bytes:
 
     Parameters
     ----------
-    pixels : (height, width, 3) uint8 or uint16 array
+    pixels : (height, width, 3) or (height, width, 1) uint8 or uint16 array
+        RGB, or grey.
     texts : dict
         Keywords, in Latin-1, and their values.
 
@@ -33,8 +35,8 @@ def write_png(pixels: NDArray[Any], texts: dict[str, str]) -> bytes:
     >>> read_png(write_png(np.zeros((1, 2, 3), np.uint8), {"vexture.crs": "EPSG:28992"}), 2, "zeros")
     (array([[[0, 0, 0], [0, 0, 0]]], dtype=uint8), {'vexture.crs': 'EPSG:28992'})
     """
-    height, width, _ = pixels.shape
-    header = HEADER.pack(width, height, 8 * pixels.dtype.itemsize, RGB, 0, 0, 0)
+    height, width, channels = pixels.shape
+    header = HEADER.pack(width, height, 8 * pixels.dtype.itemsize, COLOUR_TYPES[channels], 0, 0, 0)
     images = _filtered(pixels)
     deflated = [_deflate(image, zlib.Z_DEFAULT_STRATEGY) for image in images]
     smallest = images[deflated.index(min(deflated, key=len))]
@@ -59,8 +61,8 @@ def _filtered(pixels: NDArray[Any]) -> list[bytes]:
 
     Average and Paeth make no texture of our drawings smaller.
     """
-    height, width, _ = pixels.shape
-    step = CHANNELS * pixels.dtype.itemsize
+    height, width, channels = pixels.shape
+    step = channels * pixels.dtype.itemsize
     raw = pixels.astype(pixels.dtype.newbyteorder(">")).view(np.uint8).reshape(height, width * step)
     images = np.zeros((3, height, 1 + width * step), np.uint8)
     images[:, :, 0] = np.arange(3)[:, None]
