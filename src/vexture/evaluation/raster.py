@@ -130,8 +130,8 @@ def footprint(size: tuple[int, int], to_unit: ArrayLike | None = None) -> Footpr
 
     Examples
     --------
-    >>> footprint((4, 1)).reach
-    array([[0.25, 0.25, 0.25, 0.25]])
+    >>> footprint((4, 4)).reach[0]
+    array([0.25, 0.25, 0.25, 0.25])
     """
     matrix = view_matrix(to_unit, size)
     x, y = np.meshgrid(np.arange(size[0]) + 0.5, np.arange(size[1]) + 0.5)
