@@ -7,7 +7,7 @@ import decoded
 import packed_walk
 import vexture
 from vexture.drawing import Drawing
-from vexture.evaluation.leaves import leaves, tree_of
+from vexture.evaluation.leaves import leaves, quads, tree_of
 from vexture.evaluation.shape import example
 from vexture.pipeline import run
 
@@ -75,3 +75,19 @@ def test_leaves_tile_the_unit_square(encoding):
     assert len(set(zip(found.x, found.y, strict=True))) == len(found.x)
     assert found.x.min() == found.y.min() == 0.0
     assert (found.x + found.side).max() == (found.y + found.side).max() == 1.0
+
+
+@pytest.mark.parametrize("encoding", ["packed", "thesis"])
+def test_quads_and_leaves_are_the_cells_of_quads(encoding):
+    tree = run(example("duck"), encoding=encoding).tree
+    above, found = quads(tree), leaves(tree)
+    assert sorted(above.child[above.child >= 0]) == list(range(1, len(above.x)))
+    inner = above.child >= 0
+    assert (above.depth[above.child[inner]] == above.depth[np.nonzero(inner)[0]] + 1).all()
+    assert above.side.tolist() == (0.5**above.depth).tolist()
+    # what is filled of a quad is what is filled of the leaves in it
+    for quad in range(len(above.x)):
+        right, top = above.x[quad] + above.side[quad], above.y[quad] + above.side[quad]
+        within = (above.x[quad] <= found.x) & (found.x < right) & (above.y[quad] <= found.y) & (found.y < top)
+        area = found.coverage[within] @ found.side[within] ** 2
+        assert above.coverage[quad] == pytest.approx(area / above.side[quad] ** 2, abs=1e-6)

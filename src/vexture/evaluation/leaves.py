@@ -1,4 +1,4 @@
-"""The leaves of a tree of either kind as arrays: where they are, how deep, how full, and their curves."""
+"""Quads and leaves of a tree of either kind as arrays: where they are, how deep, how full, and their curves."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -9,12 +9,36 @@ from numpy.typing import NDArray
 from vexture.encoding import PackedTexture, ThesisTexture, decode, decode_packed
 from vexture.quadtree.tree import LATTICE, CellKind, CellTree, PackedTree
 
-__all__ = ["Leaves", "Tree", "leaves", "tree_of"]
+__all__ = ["Leaves", "Quads", "Tree", "leaves", "quads", "tree_of"]
 
 Tree = CellTree | PackedTree
 
 HALVES = np.array([(0, 0), (1, 0), (0, 1), (1, 1)])
 """Place of each cell in its quad."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Quads:
+    """The divided squares of a tree, quad 0 being the unit square.
+
+    Parameters
+    ----------
+    x, y, side : (n,) float64 arrays
+        Lower left corner and side, in unit-square units, y up.
+    depth : (n,) int64 array
+        0 for the unit square.
+    coverage : (n,) float64 array
+        Filled part: the mean of the cells', which the thesis calls MIP value.
+    child : (n, 4) int64 array
+        Quad that each cell is; -1 where it is a leaf.
+    """
+
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    side: NDArray[np.float64]
+    depth: NDArray[np.int64]
+    coverage: NDArray[np.float64]
+    child: NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -98,44 +122,51 @@ def leaves(shape: Tree | ThesisTexture | PackedTexture, root: str | int = 0) -> 
     ([0.5, 0.5, 0.5, 0.5], [1.0, 0.5, 0.5, 0.0], [[0.5, 0.5], [0.0, 1.0]])
     """
     tree = tree_of(shape, root)
+    parents = quads(tree)
+    quad, cell = np.nonzero(parents.child < 0)
+    side = parents.side[quad] / 2
+    low = np.stack([parents.x, parents.y], axis=1)[quad] + HALVES[cell] * side[:, None]
+    if isinstance(tree, CellTree):
+        first = tree.ref[quad, cell].astype(np.int64)
+        number = np.where(first >= 0, 1, 0)
+        scale, corners = 1.0, (tree.kind == CellKind.CORNER)[quad, cell]
+    else:
+        counts = np.where(tree.is_quad, 0, tree.count.astype(np.int64))
+        first = (tree.first_curve[:, None] + np.cumsum(counts, axis=1) - counts)[quad, cell]
+        number = counts[quad, cell]
+        scale, corners = LATTICE, np.zeros(len(quad), np.bool_)
+    owner = np.repeat(np.arange(len(quad)), number)
+    place = np.arange(len(owner)) - np.repeat(np.cumsum(number) - number, number)
+    curves = low[owner][:, None] + side[owner][:, None, None] * (tree.curves[first[owner] + place] / scale)
+    coverage, depth = tree.coverage[quad, cell], parents.depth[quad] + 1
+    return Leaves(low[:, 0], low[:, 1], side, coverage, depth, quad, cell, curves, owner, corners[owner])
+
+
+def quads(shape: Tree | ThesisTexture | PackedTexture, root: str | int = 0) -> Quads:
+    """All quads of a tree, or of a texture's shape; parameters as of `leaves`.
+
+    Examples
+    --------
+    >>> import vexture
+    >>> from vexture.drawing import Drawing
+    >>> found = quads(vexture.convert(Drawing.polygon([(0, 0), (0.5, 0), (0, 0.5)]), encoding="thesis"))
+    >>> found.depth.tolist(), found.coverage.round(3).tolist()
+    ([0], [0.125])
+    """
+    tree = tree_of(shape, root)
+    child = np.full((len(tree.coverage), 4), -1, np.int64)
     if isinstance(tree, CellTree):
         below = tree.kind == CellKind.QUAD
-        children = tree.ref[below].astype(np.int64)
-        counts = np.where(~below & (tree.ref >= 0), 1, 0)
+        child[below] = tree.ref[below]
     else:
         below = tree.is_quad
-        within = np.cumsum(below, axis=1) - 1
-        children = (tree.first_quad[:, None] + within)[below].astype(np.int64)
-        counts = np.where(below, 0, tree.count.astype(np.int64))
-    corner, depth = _places(below, children)
-    quad, cell = np.nonzero(~below)
-    side = np.ldexp(1.0, -1 - depth[quad])
-    low = corner[quad] + HALVES[cell] * side[:, None]
-    number = counts[quad, cell]
-    owner = np.repeat(np.arange(len(quad)), number)
-    if isinstance(tree, CellTree):
-        stored = tree.curves[tree.ref[quad, cell][owner]]
-        is_corner = (tree.kind == CellKind.CORNER)[quad, cell][owner]
-    else:
-        before = (np.cumsum(counts, axis=1) - counts)[quad, cell] + tree.first_curve[quad]
-        place = np.arange(len(owner)) - np.repeat(np.cumsum(number) - number, number)
-        stored = tree.curves[before[owner] + place] / LATTICE
-        is_corner = np.zeros(len(owner), np.bool_)
-    curves = low[owner][:, None] + side[owner][:, None, None] * stored
-    coverage = tree.coverage[quad, cell]
-    return Leaves(low[:, 0], low[:, 1], side, coverage, depth[quad] + 1, quad, cell, curves, owner, is_corner)
-
-
-def _places(below: NDArray[np.bool_], children: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Lower left corner and depth of each quad, from which cells are quads and, in order, which."""
-    corner, depth = np.zeros((len(below), 2)), np.zeros(len(below), np.int64)
-    child = np.full(below.shape, -1, np.int64)
-    child[below] = children
+        child[below] = (tree.first_quad[:, None] + np.cumsum(below, axis=1) - 1)[below]
+    low, depth = np.zeros((len(child), 2)), np.zeros(len(child), np.int64)
     level = np.zeros(1, np.int64)
     while len(level):
-        parent, cell = np.nonzero(below[level])
-        quad, parent = child[level[parent], cell], level[parent]
+        place, cell = np.nonzero(below[level])
+        quad, parent = child[level[place], cell], level[place]
         depth[quad] = depth[parent] + 1
-        corner[quad] = corner[parent] + HALVES[cell] * np.ldexp(1.0, -depth[quad])[:, None]
+        low[quad] = low[parent] + HALVES[cell] * np.ldexp(1.0, -depth[quad])[:, None]
         level = quad
-    return corner, depth
+    return Quads(low[:, 0], low[:, 1], np.ldexp(1.0, -depth), depth, tree.coverage.mean(axis=1), child)

@@ -10,8 +10,9 @@ from vexture.pipeline import Conversion, run
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
+    from vexture.encoding import PackedTexture, ThesisTexture
 
-__all__ = ["WAYS", "Shape", "example"]
+__all__ = ["WAYS", "Shape", "example", "file_bytes"]
 
 WAYS: Final = {
     "sampled": {"encoding": "thesis", "strategy": "sampled"},
@@ -43,6 +44,20 @@ def example(name: str) -> Path:
         if (path := folder / f"{name}.svg").is_file():
             return path
     raise SourceError(f"the example drawing {name}.svg is in none of {', '.join(map(str, FOLDERS))}; install again")
+
+
+def file_bytes(texture: "PackedTexture | ThesisTexture") -> int:
+    """Size of a texture's file, or of its pair of files.
+
+    Examples
+    --------
+    >>> texture = Shape(example("duck")).way("direct").texture
+    >>> file_bytes(texture) == sum(map(len, texture.to_png()))
+    True
+    """
+    from vexture.encoding import PackedTexture
+
+    return len(texture.to_ktx2()) if isinstance(texture, PackedTexture) else sum(map(len, texture.to_png()))
 
 
 class Shape:
