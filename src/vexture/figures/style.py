@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, Final
 from vexture.errors import DeviceError
 
 if TYPE_CHECKING:
-    import numpy as np
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
@@ -101,7 +100,7 @@ def error_map() -> Any:
 
 def panels(
     rows: int, columns: int, *, side: float = 2.6, height: float | None = None, titles: Sequence[str] = ()
-) -> "tuple[Figure, NDArray[np.object_]]":
+) -> "tuple[Figure, NDArray[Any]]":
     """Figure with a grid of axes, in the one style; no window and no global state.
 
     Parameters

@@ -1,0 +1,119 @@
+"""A drawing with all that becomes of it, and a texture with what it holds."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.drawing import Drawing
+from vexture.encoding import PackedTexture, ThesisTexture
+from vexture.evaluation.leaves import leaves
+from vexture.evaluation.metrics import errors
+from vexture.evaluation.shape import file_bytes
+from vexture.figures.cells import add_scale, draw_cells
+from vexture.figures.style import COLOURS, INK, panels, show, unit_axes
+from vexture.figures.textures import draw_texture
+from vexture.pictures import render
+from vexture.render.view import fit
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["overview", "picture_error", "summary"]
+
+SIDE: Final = 256
+"""Pixels of the pictures."""
+
+
+def picture_error(
+    drawing: Drawing, texture: ThesisTexture | PackedTexture, size: int = SIDE
+) -> tuple[NDArray[np.float32], float]:
+    """Picture of the whole unit square from a texture, and its mean error in 1/255 against the exact coverage.
+
+    Examples
+    --------
+    >>> import vexture
+    >>> half = Drawing.polygon([(0, 0), (1, 0), (0, 1)])
+    >>> picture_error(half, vexture.convert(half), 8)[1] < 0.1
+    True
+    """
+    image = render(texture, (size, size), fit((size, size)), "cpu")
+    return image, errors(image, render(drawing, (size, size), fit((size, size)), "exact")).mae
+
+
+def overview(drawing: Drawing, textures: Mapping[str, ThesisTexture | PackedTexture], *, size: int = SIDE) -> "Figure":
+    """Show a drawing, and for each of its textures the cells, the texels, and what the last draws.
+
+    The bottom left is the picture from the last texture, made by the renderer on the CPU. Errors are the mean over
+    the pixels that the shape touches, of such pictures against the exact coverage.
+
+    Parameters
+    ----------
+    drawing : Drawing
+    textures : mapping
+        Titles and textures; at least one. Curves have the colour of the title if it is that of a method.
+    size : int
+        Pixels of the pictures' sides.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> import vexture
+    >>> from vexture.evaluation.shape import example
+    >>> duck = vexture.read_svg(example("duck"))
+    >>> figure = overview(duck, {"packed": vexture.convert(duck)})
+    >>> figure.axes[0].get_title(loc="left")
+    'drawing: 21 segments'
+    """
+    columns = 1 + len(textures)
+    figure, axes = panels(2, columns, side=11.2 / max(columns, 4), height=2.3)
+    top, bottom = axes
+    top[0].set_title(f"drawing: {drawing.segments:,} segments", loc="left")
+    show(top[0], render(drawing, (size, size), fit((size, size)), "exact"))
+    for (title, texture), cells, texels in zip(textures.items(), top[1:], bottom[1:], strict=True):
+        found = leaves(texture)
+        draw_cells(cells, found, colour=COLOURS.get(title, INK))
+        unit_axes(cells, ticks=False)
+        cells.set_title(f"{title}: {len(found.x):,} cells", loc="left")
+        image, error = picture_error(drawing, texture, size)
+        draw_texture(texels, texture)
+        texels.set_title(f"{file_bytes(texture):,} bytes, error {error:.2f}", loc="left")
+        show(bottom[0], image)
+        bottom[0].set_title(f"picture from {title}", loc="left")
+    return figure
+
+
+def summary(texture: ThesisTexture | PackedTexture, *, root: str | int = 0, size: int = SIDE) -> "Figure":
+    """Show a texture: its cells by their depth with their curves, its cells' coverage, and the picture it makes.
+
+    Parameters
+    ----------
+    texture : ThesisTexture or PackedTexture
+    root : str or int
+        Name or place of the shape in a packed texture.
+    size : int
+        Pixels of the picture's sides.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Shows itself as the last value of a notebook's cell.
+
+    Examples
+    --------
+    >>> import vexture
+    >>> from vexture.evaluation.shape import example
+    >>> [axes.get_title(loc="left") for axes in summary(vexture.convert(example("holes"))).axes[:3]]
+    ['cells', 'coverage', 'picture']
+    """
+    found = leaves(texture, root)
+    figure, axes = panels(1, 3, side=3.7, height=3.1, titles=("cells", "coverage", "picture"))
+    add_scale(figure, axes[0, 0], draw_cells(axes[0, 0], found, shades="depth"), "depth")
+    add_scale(figure, axes[0, 1], draw_cells(axes[0, 1], found, curves=False), "coverage")
+    of_root = root if isinstance(texture, PackedTexture) else None
+    show(axes[0, 2], render(texture, (size, size), fit((size, size)), "cpu", root=of_root))
+    return figure
