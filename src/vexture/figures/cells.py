@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from vexture.encoding import PackedTexture, ThesisTexture
 from vexture.evaluation.leaves import Leaves, Tree, leaves
-from vexture.figures.style import GRID, INK, panels, unit_axes
+from vexture.figures.style import GRID, INK, MUTED, SMALL, panels, unit_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,6 +24,9 @@ FINEST: Final = 256
 
 BORDERED: Final = 128
 """Cells smaller than this part of what is seen have no border."""
+
+MANY: Final = 2000
+"""So many curves are drawn by thinner lines."""
 
 PAPER: Final = "#ffffff"
 SHADE: Final = "#8fa9c4"
@@ -81,7 +84,14 @@ def draw_cells(
     axes.add_collection(cells, autolim=False)
     if curves:
         points = curve_lines(found, bounds)
-        axes.plot(*points.T, color=colour, linewidth=1.1, solid_joinstyle="round", scalex=False, scaley=False)
+        axes.plot(
+            *points.T,
+            color=colour,
+            linewidth=1.1 if len(found.curves) < MANY else 0.6,
+            solid_joinstyle="round",
+            scalex=False,
+            scaley=False,
+        )
     unit_axes(axes, bounds=bounds)
     return cells
 
@@ -145,13 +155,14 @@ def add_scale(figure: "Figure", axes: Any, cells: Any, shades: Literal["coverage
     """Say beside axes what the shades of cells mean."""
     if shades == "coverage":
         bar = figure.colorbar(cells, ax=axes, shrink=0.7, ticks=[0.0, 0.5, 1.0])
-        bar.set_label("filled part of the cell")
+        label = "filled part of the cell"
     else:
         least, most = (round(end) for end in cells.get_clim())
-        bar = figure.colorbar(cells, ax=axes, shrink=0.7, ticks=range(least + 1, most + 1))
-        bar.set_label("depth of the cell")
+        bar = figure.colorbar(cells, ax=axes, shrink=0.7, ticks=range(least + 1, most + 1, 1 + most // 12))
+        label = "depth of the cell"
+    bar.set_label(label, fontsize=SMALL, color=INK)
     bar.outline.set_visible(False)
-    bar.ax.tick_params(length=2)
+    bar.ax.tick_params(length=2, labelsize=SMALL, labelcolor=MUTED)
 
 
 def _scale(found: Leaves, shades: str) -> dict[str, Any]:

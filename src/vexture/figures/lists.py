@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vexture.encoding import PackedTexture, ThesisTexture
 from vexture.evaluation.leaves import Leaves, Quads, Tree, leaves, quads, tree_of
 from vexture.figures.cells import draw_cells
-from vexture.figures.style import COLOURS, GRID, INK, MUTED, panels, unit_axes
+from vexture.figures.style import COLOURS, GRID, INK, MUTED, SMALL, panels, unit_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,6 +18,15 @@ __all__ = ["Counts", "counts", "hierarchy", "lists"]
 
 HALVES: Final = np.array([(0, 0), (1, 0), (0, 1), (1, 1)]) / 2.0
 SQUARE: Final = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
+
+WIDER: Final = 1.75
+"""Width of a tree's axes to that of the subdivision's, and to their height."""
+
+LEVEL: Final = 1.9
+"""From one depth of a tree to the next, in quads."""
+
+MARGIN: Final = 4.1
+"""What stands beside a tree, in quads."""
 
 REFERENCE: Final = "#c3cad4"
 """Of a cell that refers to a quad."""
@@ -32,9 +41,6 @@ MOST_ROWS: Final = 4
 
 MOST_ACROSS: Final = 28
 """Quads of one depth in a tree; of what is beyond the number is said."""
-
-SMALL: Final = 8.0
-"""Points of the text within axes."""
 
 
 class Counts(NamedTuple):
@@ -86,14 +92,16 @@ def hierarchy(shape: Tree | ThesisTexture | PackedTexture, *, root: str | int = 
     """
     tree = tree_of(shape, root)
     above, found = quads(tree), leaves(tree)
-    figure, axes = panels(1, 2, side=5.6, height=4.2)
-    axes[0, 0].get_gridspec().set_width_ratios([1.0, 1.75])
     side = 2 ** int(found.depth.max())
-    axes[0, 0].set_title(f"{len(found.x):,} cells for a grid of {side:,} x {side:,}", loc="left")
+    titles = (
+        f"{len(found.x):,} cells for a grid of {side:,} x {side:,}",
+        f"{len(above.x):,} quads and {len(found.curves):,} curves by depth",
+    )
+    figure, axes = panels(1, 2, side=5.6, height=4.2, titles=titles)
+    axes[0, 0].get_gridspec().set_width_ratios([1.0, WIDER])
     draw_cells(axes[0, 0], found)
     unit_axes(axes[0, 0])
     _draw_tree(axes[0, 1], above, found)
-    axes[0, 1].set_title(f"{len(above.x):,} quads and {len(found.curves):,} curves by depth", loc="left")
     return figure
 
 
@@ -128,7 +136,7 @@ def lists(shape: Tree | ThesisTexture | PackedTexture, *, root: str | int = 0) -
         for some, others in zip(quads_at, curves_at, strict=True)
     ]
     tops = np.concatenate([[0.0], np.cumsum([1.25 * height + 0.35 for height in heights])])
-    height = 0.8 + 0.272 * float(tops[-1])
+    height = 0.5 + 0.23 * float(tops[-1])
     titles = ("quads", "curves", "coverage of quads", "coverage of leaves with curves")
     figure, axes = panels(1, 4, side=2.8, height=height, titles=titles)
     for panel in axes[0]:
@@ -162,8 +170,8 @@ def _squares(axes: "Axes", corners: NDArray[np.float64], side: float, **options:
     """Draw squares from their upper left corners, y down."""
     from matplotlib.collections import PolyCollection
 
-    options = {"edgecolors": MUTED, "linewidths": 0.5} | options
-    axes.add_collection(PolyCollection(list(corners[:, None] + side * SQUARE), **options), autolim=False)
+    squares = list(corners[:, None] + side * SQUARE)
+    axes.add_collection(PolyCollection(squares, edgecolors=MUTED, linewidths=0.5, **options), autolim=False)
 
 
 def _draw_quads(
@@ -203,7 +211,7 @@ def _plot(axes: "Axes", lines: NDArray[np.float64]) -> None:
 
 def _draw_values(axes: "Axes", values: NDArray[np.float64], at: NDArray[np.float64]) -> None:
     """Draw squares shaded by their values, with these in percent."""
-    shades = 1.0 - 0.62 * np.repeat(values[:, None], 3, axis=1)
+    shades = 1.0 - 0.5 * np.repeat(values[:, None], 3, axis=1)
     _squares(axes, at[: len(values)], 1.0, facecolors=shades)
     for value, (x, y) in zip(values, at, strict=False):
         axes.text(x + 0.5, y + 0.52, f"{100 * value:.0f}", fontsize=SMALL, color=INK, ha="center", va="center")
@@ -213,9 +221,9 @@ def _draw_tree(axes: "Axes", above: Quads, found: Leaves) -> None:
     """Draw quads below the cells that refer to them, depth by depth."""
     depths = int(above.depth.max()) + 1
     most = min(MOST_ACROSS, int(np.bincount(above.depth).max()))
-    width = max(1.35 * most, 1.6 * depths)
+    width = max(1.35 * most, WIDER * LEVEL * depths - MARGIN)
     before: dict[int, tuple[float, float]] = {}
-    step = max(1.9, 0.55 * width / depths)
+    step = max(LEVEL, (width + MARGIN) / WIDER / depths)
     for depth in range(depths):
         members = np.flatnonzero(above.depth == depth)
         drawn = members[:MOST_ACROSS]

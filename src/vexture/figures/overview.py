@@ -69,21 +69,26 @@ def overview(drawing: Drawing, textures: Mapping[str, ThesisTexture | PackedText
     >>> figure.axes[0].get_title(loc="left")
     'drawing: 21 segments'
     """
+    found = [leaves(texture) for texture in textures.values()]
+    drawn = [picture_error(drawing, texture, size) for texture in textures.values()]
+    titles = [
+        f"drawing: {drawing.segments:,} segments",
+        *(f"{title}: {len(cells.x):,} cells" for title, cells in zip(textures, found, strict=True)),
+        f"picture from {[*textures][-1]}",
+        *(
+            f"{file_bytes(texture):,} bytes, error {error:.2g}"
+            for texture, (_, error) in zip(textures.values(), drawn, strict=True)
+        ),
+    ]
     columns = 1 + len(textures)
-    figure, axes = panels(2, columns, side=11.2 / max(columns, 4), height=2.3)
-    top, bottom = axes
-    top[0].set_title(f"drawing: {drawing.segments:,} segments", loc="left")
-    show(top[0], render(drawing, (size, size), fit((size, size)), "exact"))
-    for (title, texture), cells, texels in zip(textures.items(), top[1:], bottom[1:], strict=True):
-        found = leaves(texture)
-        draw_cells(cells, found, colour=COLOURS.get(title, INK))
+    figure, axes = panels(2, columns, side=11.2 / max(columns, 4), height=2.35, titles=titles)
+    axes[0, 0].get_gridspec().set_height_ratios([1.35, 1.0])
+    show(axes[0, 0], render(drawing, (size, size), fit((size, size)), "exact"), interpolation="auto")
+    show(axes[1, 0], drawn[-1][0], interpolation="auto")
+    for (title, texture), leaf, cells, texels in zip(textures.items(), found, *axes[:, 1:], strict=True):
+        draw_cells(cells, leaf, colour=COLOURS.get(title, INK))
         unit_axes(cells, ticks=False)
-        cells.set_title(f"{title}: {len(found.x):,} cells", loc="left")
-        image, error = picture_error(drawing, texture, size)
         draw_texture(texels, texture)
-        texels.set_title(f"{file_bytes(texture):,} bytes, error {error:.2f}", loc="left")
-        show(bottom[0], image)
-        bottom[0].set_title(f"picture from {title}", loc="left")
     return figure
 
 

@@ -17,6 +17,7 @@ __all__ = [
     "INK",
     "MUTED",
     "RESOLUTION",
+    "SMALL",
     "coverage_map",
     "error_map",
     "panels",
@@ -45,6 +46,9 @@ COLOURS: Final = {
 RESOLUTION: Final = 160
 """Pixels per inch of the figures' files."""
 
+SMALL: Final = 8.0
+"""Points of the smallest text."""
+
 FONT: Final = {
     "font.family": "DejaVu Sans",  # matplotlib brings it along
     "font.size": 9.0,
@@ -57,10 +61,10 @@ FONT: Final = {
     "text.color": INK,
     "xtick.color": MUTED,
     "ytick.color": MUTED,
-    "xtick.labelsize": 8.0,
-    "ytick.labelsize": 8.0,
+    "xtick.labelsize": SMALL,
+    "ytick.labelsize": SMALL,
     "legend.frameon": False,
-    "legend.fontsize": 8.0,
+    "legend.fontsize": SMALL,
     "image.interpolation": "nearest",
 }
 

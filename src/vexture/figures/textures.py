@@ -1,24 +1,21 @@
 """The textures themselves: what their texels look like as images."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.encoding import PackedTexture, ThesisTexture
-from vexture.encoding.layout import COORDINATE_BITS
+from vexture.encoding.layout import CONSTANT_ROWS, COORDINATE_BITS, CURVE_WIDTH, QUAD_WIDTH
 from vexture.evaluation.leaves import quads
-from vexture.figures.style import GRID, MUTED, panels
+from vexture.figures.style import GRID, MUTED, SMALL, panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 __all__ = ["Strip", "draw_texture", "texture_images", "textures"]
-
-SMALL: Final = 8.0
-"""Points of the text within axes."""
 
 BETWEEN: Final = 1.6
 """Room for the text above an image, in texels."""
@@ -51,14 +48,18 @@ def texture_images(texture: ThesisTexture | PackedTexture) -> list[Strip]:
     >>> from vexture.drawing import Drawing
     >>> triangle = Drawing.polygon([(0.1, 0.1), (0.9, 0.1), (0.5, 0.9)])
     >>> [strip.title for strip in texture_images(vexture.convert(triangle, encoding="thesis"))]
-    ['1 quad of 4 pixels', '6 curves of 2 pixels']
+    ['1 quad of 4 pixels', '2 constants and 4 curves of 2 pixels']
     >>> texture_images(vexture.convert(triangle))[0].pixels.shape
     (4, 6, 3)
     """
     if isinstance(texture, ThesisTexture):
+        constants = len(texture.curves) - CONSTANT_ROWS
         return [
-            Strip(_counted(rows, what), np.rot90(rows / texture.maximum))
-            for rows, what in ((texture.quads, "quad"), (texture.curves, "curve"))
+            Strip(f"{_number(len(texture.quads), 'quad')} of {QUAD_WIDTH} pixels", _turned(texture.quads)),
+            Strip(
+                f"{CONSTANT_ROWS} constants and {_number(constants, 'curve')} of {CURVE_WIDTH} pixels",
+                _turned(texture.curves),
+            ),
         ]
     used = int(np.flatnonzero(texture.flat.any(axis=1))[-1:].sum()) + 1
     words = texture.flat[:used].T
@@ -116,15 +117,20 @@ def textures(shown: Mapping[str, ThesisTexture | PackedTexture]) -> "Figure":
     >>> [axes.get_title(loc="left") for axes in textures({"a pair": pair}).axes]
     ['a pair']
     """
-    figure, axes = panels(len(shown), 1, side=11.2, height=1.75, titles=list(shown))
-    columns = max(strip.pixels.shape[1] for texture in shown.values() for strip in texture_images(texture))
+    strips = [texture_images(texture) for texture in shown.values()]
+    columns = max(strip.pixels.shape[1] for each in strips for strip in each)
+    rows = [sum(BETWEEN + len(strip.pixels) for strip in each) for each in strips]
+    height = 0.3 + 0.145 * sum(rows) / len(rows)
+    figure, axes = panels(len(shown), 1, side=11.2, height=height, titles=list(shown))
+    axes[0, 0].get_gridspec().set_height_ratios(rows)
     for panel, texture in zip(axes.flat, shown.values(), strict=True):
         draw_texture(panel, texture, columns=columns)
     return figure
 
 
-def _counted(rows: NDArray[np.uint16], what: str) -> str:
-    return f"{_number(len(rows), what)} of {rows.shape[1]} pixels"
+def _turned(rows: NDArray[Any]) -> NDArray[np.float64]:
+    """Pixels as numbers in 0..1, turned by 90 degrees counter-clockwise."""
+    return np.rot90(rows / np.iinfo(rows.dtype).max)
 
 
 def _number(count: int, what: str) -> str:
