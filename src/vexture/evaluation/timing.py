@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 if TYPE_CHECKING:
     from vexture.evaluation.programs import Program
 
-__all__ = ["frames_per_second", "median_seconds"]
+__all__ = ["FRAME", "frames_per_second", "median_seconds"]
 
 FRAME: Final = (1024, 1024)
 """Pixels of the picture that a rate is measured with, unless another is asked for."""

@@ -1,6 +1,6 @@
 """The subdivision that a drawing became: cells shaded by how full or how deep they are, and the curves within."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final, Literal
 
 import numpy as np
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["UNIT", "add_scale", "curve_lines", "draw_cells", "subdivision"]
+__all__ = ["UNIT", "add_scale", "curve_lines", "draw_cells", "subdivision", "subdivisions"]
 
 UNIT: Final = (0.0, 0.0, 1.0, 1.0)
 """The unit square: x0, y0, x1, y1."""
@@ -44,6 +44,7 @@ def draw_cells(
     curves: bool = True,
     colour: str = INK,
     bounds: Sequence[float] = UNIT,
+    deepest: int | None = None,
 ) -> Any:
     """Draw leaves into axes of the unit square, or of a part of it.
 
@@ -60,6 +61,8 @@ def draw_cells(
         Of the curves.
     bounds : sequence of float
         What is seen: x0, y0, x1, y1. Cells smaller than 1/128 of it have no border.
+    deepest : int, optional
+        Depth that the darkest shade stands for, so that several trees have one scale; the leaves' own by default.
 
     Returns
     -------
@@ -73,7 +76,7 @@ def draw_cells(
     relative = found.side / max(x1 - x0, y1 - y0)
     large = seen & (relative * FINEST >= 1.0)
     values = found.coverage if shades == "coverage" else found.depth.astype(np.float64)
-    scale = _scale(found, shades)
+    scale = _scale(shades, deepest or int(found.depth.max()))
     small = seen & ~large
     if small.any():
         axes.imshow(_means(found, values, small, bounds), extent=(x0, x1, y0, y1), interpolation="nearest", **scale)
@@ -151,6 +154,43 @@ def subdivision(
     return figure
 
 
+def subdivisions(
+    shapes: Mapping[str, Tree | ThesisTexture | PackedTexture],
+    *,
+    shades: Literal["coverage", "depth"] = "coverage",
+) -> "Figure":
+    """Show the cells of several trees side by side, shaded by one scale.
+
+    Parameters
+    ----------
+    shapes : mapping
+        Titles and what has leaves. Of packed textures the first shape is shown.
+    shades : str
+        As of `subdivision`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> import vexture
+    >>> from vexture.evaluation.shape import example
+    >>> pair = vexture.convert(example("duck"), encoding="thesis")
+    >>> subdivisions({"direct": pair}, shades="depth").axes[0].get_title(loc="left")
+    'direct: 49 cells'
+    """
+    found = {title: leaves(shape) for title, shape in shapes.items()}
+    titles = [f"{title}: {len(each.x):,} cells" for title, each in found.items()]
+    figure, axes = panels(1, len(found), side=11.2 / max(3, len(found)), height=3.5, titles=titles)
+    deepest = max(int(each.depth.max()) for each in found.values())
+    for panel, each in zip(axes[0], found.values(), strict=True):
+        cells = draw_cells(panel, each, shades=shades, deepest=deepest)
+        unit_axes(panel, ticks=panel is axes[0, 0])
+    add_scale(figure, list(axes[0]), cells, shades)
+    return figure
+
+
 def add_scale(figure: "Figure", axes: Any, cells: Any, shades: Literal["coverage", "depth"]) -> None:
     """Say beside axes what the shades of cells mean."""
     if shades == "coverage":
@@ -165,13 +205,12 @@ def add_scale(figure: "Figure", axes: Any, cells: Any, shades: Literal["coverage
     bar.ax.tick_params(length=2, labelsize=SMALL, labelcolor=MUTED)
 
 
-def _scale(found: Leaves, shades: str) -> dict[str, Any]:
+def _scale(shades: str, most: int) -> dict[str, Any]:
     """Colours and range of cells' shades."""
     from matplotlib.colors import LinearSegmentedColormap, Normalize
 
     if shades == "coverage":
         return {"cmap": LinearSegmentedColormap.from_list("cells", [PAPER, SHADE]), "norm": Normalize(0.0, 1.0)}
-    most = int(found.depth.max())
     steps = LinearSegmentedColormap.from_list("depths", [PAPER, *DEPTHS], N=most)
     return {"cmap": steps, "norm": Normalize(0.5, most + 0.5)}
 

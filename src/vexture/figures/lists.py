@@ -223,9 +223,12 @@ def _draw_tree(axes: "Axes", above: Quads, found: Leaves) -> None:
     most = min(MOST_ACROSS, int(np.bincount(above.depth).max()))
     width = max(1.35 * most, WIDER * LEVEL * depths - MARGIN)
     before: dict[int, tuple[float, float]] = {}
+    members = np.zeros(1, np.int64)
     step = max(LEVEL, (width + MARGIN) / WIDER / depths)
     for depth in range(depths):
-        members = np.flatnonzero(above.depth == depth)
+        if depth:  # in the order of their parents and of the cells of those, so that no two lines cross
+            below = above.child[members].ravel()
+            members = below[below >= 0]
         drawn = members[:MOST_ACROSS]
         x = (np.arange(len(drawn)) + 0.5) * width / len(drawn) - 0.5
         at = np.stack([x, np.full(len(drawn), step * depth)], axis=1)
