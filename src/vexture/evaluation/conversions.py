@@ -119,4 +119,4 @@ def _rate(made: "Conversion", side: int) -> float:
 
     texture = made.texture
     program = packed_program(texture, "exact") if isinstance(texture, PackedTexture) else thesis_program(texture)
-    return frames_per_second(program, (side, side), 1)
+    return frames_per_second(program, (side, side))

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.encoding import PackedTexture, ThesisTexture
+from vexture.encoding.outlines import outlines
 from vexture.evaluation.leaves import Leaves, Tree, leaves
 from vexture.figures.style import GRID, INK, MUTED, SMALL, panels, unit_axes
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["UNIT", "add_scale", "curve_lines", "draw_cells", "subdivision", "subdivisions"]
+__all__ = ["UNIT", "add_scale", "curve_lines", "draw_cells", "draw_level_lines", "subdivision", "subdivisions"]
 
 UNIT: Final = (0.0, 0.0, 1.0, 1.0)
 """The unit square: x0, y0, x1, y1."""
@@ -32,8 +33,8 @@ PAPER: Final = "#ffffff"
 SHADE: Final = "#8fa9c4"
 """Of a full cell: curves must be seen above it."""
 
-DEPTHS: Final = ("#f3c36b", "#b4501c")
-"""Of half the largest depth, and of the largest: darker is deeper."""
+DEPTHS: Final = ("#fff7e0", "#fdd67e", "#ef8f3f", "#c2451e", "#6e0f1a")
+"""From the least depth to the largest: darker is deeper."""
 
 
 def draw_cells(
@@ -99,6 +100,15 @@ def draw_cells(
     return cells
 
 
+def draw_level_lines(axes: "Axes", texture: PackedTexture, root: str | int = 0, *, colour: str = INK) -> None:
+    """Dot the horizontal lines of a packed shape: leaves hold none of them, for they follow from the other curves."""
+    contours = outlines(texture.flat, texture.root(root).quad)
+    arcs = np.concatenate([np.empty((0, 4, 2)), *contours])
+    ends = arcs[arcs[:, 0, 1] == arcs[:, 3, 1]][:, [0, 3]]
+    points = np.pad(ends, ((0, 0), (0, 1), (0, 0)), constant_values=np.nan).reshape(-1, 2)
+    axes.plot(*points.T, color=colour, linewidth=0.9, linestyle=(0, (1, 1.5)), scalex=False, scaley=False)
+
+
 def curve_lines(found: Leaves, bounds: Sequence[float] = UNIT) -> NDArray[np.float64]:
     """Points along the curves of the leaves that are seen, each ended by a point that is not a number, (n, 2).
 
@@ -125,6 +135,8 @@ def subdivision(
 ) -> "Figure":
     """Show the cells that a shape was divided into, with the curve or the curves of each.
 
+    Of a packed texture the horizontal lines, which no leaf holds, are dotted.
+
     Parameters
     ----------
     shape : CellTree, PackedTree, ThesisTexture or PackedTexture
@@ -150,6 +162,8 @@ def subdivision(
     found = leaves(shape, root)
     figure, axes = panels(1, 1, side=4.4, height=3.8, titles=(f"{len(found.x):,} cells, {len(found.curves):,} curves",))
     cells = draw_cells(axes[0, 0], found, shades=shades, bounds=bounds)
+    if isinstance(shape, PackedTexture):
+        draw_level_lines(axes[0, 0], shape, root)
     add_scale(figure, axes[0, 0], cells, shades)
     return figure
 
@@ -184,8 +198,10 @@ def subdivisions(
     titles = [f"{title}: {len(each.x):,} cells" for title, each in found.items()]
     figure, axes = panels(1, len(found), side=11.2 / max(3, len(found)), height=3.5, titles=titles)
     deepest = max(int(each.depth.max()) for each in found.values())
-    for panel, each in zip(axes[0], found.values(), strict=True):
+    for panel, each, shape in zip(axes[0], found.values(), shapes.values(), strict=True):
         cells = draw_cells(panel, each, shades=shades, deepest=deepest)
+        if isinstance(shape, PackedTexture):
+            draw_level_lines(panel, shape)
         unit_axes(panel, ticks=panel is axes[0, 0])
     add_scale(figure, list(axes[0]), cells, shades)
     return figure
@@ -211,7 +227,7 @@ def _scale(shades: str, most: int) -> dict[str, Any]:
 
     if shades == "coverage":
         return {"cmap": LinearSegmentedColormap.from_list("cells", [PAPER, SHADE]), "norm": Normalize(0.0, 1.0)}
-    steps = LinearSegmentedColormap.from_list("depths", [PAPER, *DEPTHS], N=most)
+    steps = LinearSegmentedColormap.from_list("depths", list(DEPTHS), N=most)
     return {"cmap": steps, "norm": Normalize(0.5, most + 0.5)}
 
 

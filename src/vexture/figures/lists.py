@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vexture.encoding import PackedTexture, ThesisTexture
 from vexture.evaluation.leaves import Leaves, Quads, Tree, leaves, quads, tree_of
-from vexture.figures.cells import draw_cells
+from vexture.figures.cells import draw_cells, draw_level_lines
 from vexture.figures.style import COLOURS, GRID, INK, MUTED, SMALL, panels, unit_axes
 
 if TYPE_CHECKING:
@@ -100,6 +100,8 @@ def hierarchy(shape: Tree | ThesisTexture | PackedTexture, *, root: str | int = 
     figure, axes = panels(1, 2, side=5.6, height=4.2, titles=titles)
     axes[0, 0].get_gridspec().set_width_ratios([1.0, WIDER])
     draw_cells(axes[0, 0], found)
+    if isinstance(shape, PackedTexture):
+        draw_level_lines(axes[0, 0], shape, root)
     unit_axes(axes[0, 0])
     _draw_tree(axes[0, 1], above, found)
     return figure

@@ -11,7 +11,7 @@ from vexture.encoding import PackedTexture, ThesisTexture
 from vexture.evaluation.leaves import leaves
 from vexture.evaluation.metrics import errors
 from vexture.evaluation.shape import file_bytes
-from vexture.figures.cells import add_scale, draw_cells
+from vexture.figures.cells import add_scale, draw_cells, draw_level_lines
 from vexture.figures.style import COLOURS, INK, panels, show, unit_axes
 from vexture.figures.textures import draw_texture
 from vexture.pictures import render
@@ -86,7 +86,10 @@ def overview(drawing: Drawing, textures: Mapping[str, ThesisTexture | PackedText
     show(axes[0, 0], render(drawing, (size, size), fit((size, size)), "exact"), interpolation="auto")
     show(axes[1, 0], drawn[-1][0], interpolation="auto")
     for (title, texture), leaf, cells, texels in zip(textures.items(), found, *axes[:, 1:], strict=True):
-        draw_cells(cells, leaf, colour=COLOURS.get(title, INK))
+        colour = COLOURS.get(title, INK)
+        draw_cells(cells, leaf, colour=colour)
+        if isinstance(texture, PackedTexture):
+            draw_level_lines(cells, texture, colour=colour)
         unit_axes(cells, ticks=False)
         draw_texture(texels, texture)
     return figure
@@ -119,6 +122,9 @@ def summary(texture: ThesisTexture | PackedTexture, *, root: str | int = 0, size
     figure, axes = panels(1, 3, side=3.7, height=3.1, titles=("cells", "coverage", "picture"))
     add_scale(figure, axes[0, 0], draw_cells(axes[0, 0], found, shades="depth"), "depth")
     add_scale(figure, axes[0, 1], draw_cells(axes[0, 1], found, curves=False), "coverage")
-    of_root = root if isinstance(texture, PackedTexture) else None
+    of_root = None
+    if isinstance(texture, PackedTexture):
+        of_root = root
+        draw_level_lines(axes[0, 0], texture, root)
     show(axes[0, 2], render(texture, (size, size), fit((size, size)), "cpu", root=of_root))
     return figure

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["Strip", "draw_texture", "texture_images", "textures"]
+__all__ = ["Strip", "draw_texture", "number", "texture_images", "textures"]
 
 BETWEEN: Final = 1.6
 """Room for the text above an image, in texels."""
@@ -55,9 +55,9 @@ def texture_images(texture: ThesisTexture | PackedTexture) -> list[Strip]:
     if isinstance(texture, ThesisTexture):
         constants = len(texture.curves) - CONSTANT_ROWS
         return [
-            Strip(f"{_number(len(texture.quads), 'quad')} of {QUAD_WIDTH} pixels", _turned(texture.quads)),
+            Strip(f"{number(len(texture.quads), 'quad')} of {QUAD_WIDTH} pixels", _turned(texture.quads)),
             Strip(
-                f"{CONSTANT_ROWS} constants and {_number(constants, 'curve')} of {CURVE_WIDTH} pixels",
+                f"{CONSTANT_ROWS} constants and {number(constants, 'curve')} of {CURVE_WIDTH} pixels",
                 _turned(texture.curves),
             ),
         ]
@@ -70,7 +70,7 @@ def texture_images(texture: ThesisTexture | PackedTexture) -> list[Strip]:
     blue = np.broadcast_to(np.where(is_quad, KIND_OF_QUAD, 0.0), words.shape)
     pixels = np.stack([(words & mask) / mask, (words >> COORDINATE_BITS) / mask, blue], axis=2)
     many, curves = int(is_quad.sum()), used - int(is_quad.sum())
-    return [Strip(f"{_number(many, 'quad')} and {_number(curves, 'curve')} of 4 words", pixels)]
+    return [Strip(f"{number(many, 'quad')} and {number(curves, 'curve')} of 4 words", pixels)]
 
 
 def draw_texture(axes: "Axes", texture: ThesisTexture | PackedTexture, *, columns: int | None = None) -> None:
@@ -133,5 +133,12 @@ def _turned(rows: NDArray[Any]) -> NDArray[np.float64]:
     return np.rot90(rows / np.iinfo(rows.dtype).max)
 
 
-def _number(count: int, what: str) -> str:
+def number(count: int, what: str) -> str:
+    """Write how many there are of something.
+
+    Examples
+    --------
+    >>> number(1, "quad"), number(1200, "curve")
+    ('1 quad', '1,200 curves')
+    """
     return f"{count:,} {what}{'' if count == 1 else 's'}"

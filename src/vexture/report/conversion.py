@@ -11,6 +11,7 @@ from vexture.evaluation.printed import TABLE_5_1, Row
 from vexture.evaluation.shape import WAYS, Shape
 from vexture.evaluation.timing import median_seconds
 from vexture.figures.conversions import conversions
+from vexture.pipeline import run
 from vexture.report.section import Material, Picture, Printed, Section, Table
 from vexture.sources.reading import read_drawing
 
@@ -33,9 +34,10 @@ def section(material: Material) -> Section:
     ['conversion', 'size-and-speed', 'conversions']
     """
     shapes = material.shapes
-    for way in WAYS:
-        material.example("simple-small").way(way)  # what is loaded at the first conversion counts for none
-    side = None if material.device is None else frame_side(material.example("simple-small"))
+    example = material.example("simple-small")
+    for given in WAYS.values():
+        run(example.drawing, **given)  # what is loaded at the first conversion counts for none
+    side = None if material.device is None else frame_side(example)
     found: list[dict[str, Measured]] = []
     refused: list[str] = []
     for shape in shapes:
@@ -76,7 +78,7 @@ def _text(material: Material, found: list[dict[str, Measured]]) -> list[str]:
     return [
         first,
         f"Of {many}, `direct` has {ratios['curves_direct']:.0%} of the curves of `sampled` and is made "
-        f"{ratios['times_direct']:.0f} times as fast; `packed` is made {ratios['times_packed']:.0f} times as fast, "
+        f"{ratios['times_direct']:,.0f} times as fast; `packed` is made {ratios['times_packed']:,.0f} times as fast, "
         f"and its file has {ratios['bytes_packed']:.0%} of the bytes of the 16-bit pair of `sampled`.",
     ]
 
@@ -103,8 +105,8 @@ def _speed(side: int | None) -> str:
     if side is None:
         return "Without a GPU no frames were drawn."
     return (
-        f"Frames per second: the whole drawing at {side} x {side} pixels, as fast as the driver that the page names "
-        "can, whatever a display shows; the thesis's display showed 120 at most, its size is not printed."
+        f"The rate is that of the whole drawing at {side} x {side} pixels, as fast as the driver that the page names "
+        "draws it, whatever a display shows; the thesis's display showed 120 at most, its size is not printed."
     )
 
 
@@ -113,17 +115,12 @@ def _conversion_table(
 ) -> Table:
     compared = any(printed)
     head = ["drawing"]
-    for what in ("segments", "SVG bytes"):
-        head += [f"{what}: thesis", f"{what}: ours"] if compared else [f"drawing's: {what}"]
-    head.append("ours: ms to read" if compared else "drawing's: ms to read")
+    head += ["segments: thesis", "segments: ours", "ms to read it: ours"] if compared else ["segments", "ms to read it"]
     for method in [*["thesis, printed"] * compared, *WAYS]:
         head += [f"{method}: {what}" for what in ("ms", "curves", "quads")]
     rows = []
     for shape, row, each in zip(shapes, printed, found, strict=True):
-        ours = shape.drawing.segments, shape.path.stat().st_size
-        theirs = (_printed(row and row.segments), _printed(row and row.svg)) if compared else ()
-        cells: list[Any] = [shape.name]
-        cells += [value for pair in zip(theirs, ours, strict=True) for value in pair] if compared else ours
+        cells: list[Any] = [shape.name, *[_printed(row and row.segments)] * compared, shape.drawing.segments]
         cells.append(1e3 * median_seconds(partial(read_drawing, shape.path), READ_REPEAT))
         if compared:
             cells += [_printed(row and row.ms), _printed(row and row.curves), _printed(row and row.quads)]
@@ -143,15 +140,15 @@ def _size_table(
     shapes: tuple[Shape, ...], printed: list[Row | None], found: list[dict[str, Measured]], notes: str
 ) -> Table:
     compared = any(printed)
-    head = ["drawing"]
+    head = ["drawing", "source: thesis", "source: ours"] if compared else ["drawing", "source"]
     if compared:
-        head += [f"thesis, printed: {what}" for what in ("8 bits", "16 bits", "frames/s")]
+        head += [f"thesis, printed: {what}" for what in ("8 bits", "16 bits", "fps")]
     for way in WAYS:
-        columns = ("bytes", "frames/s") if way == "packed" else ("8 bits", "16 bits", "frames/s")
+        columns = ("bytes", "fps") if way == "packed" else ("8 bits", "16 bits", "fps")
         head += [f"{way}: {what}" for what in columns]
     rows = []
     for shape, row, each in zip(shapes, printed, found, strict=True):
-        cells: list[Any] = [shape.name]
+        cells: list[Any] = [shape.name, *[_printed(row and row.svg)] * compared, shape.path.stat().st_size]
         if compared:
             cells += [_printed(row and row.bytes_8), _printed(row and row.bytes_16), _printed(row and row.fps)]
         for way in WAYS:
@@ -162,8 +159,8 @@ def _size_table(
                 cells += [None] * 3 if one is None else [one.bytes_8, one.bytes_16, one.fps]
         rows.append(cells)
     caption = (
-        "Thesis Table 5.1, its second part: bytes of the files, a pair of PNG images with 8 or with 16 bits for each "
-        f"number, or one KTX2 file, and frames per second. {notes}"
+        "Thesis Table 5.1, its second part: bytes of the source's file and of the textures' files, a pair of PNG images with 8 or with 16 bits for each "
+        f"number, or one KTX2 file, and frames per second (fps). {notes}"
     )
     return Table("size-and-speed", caption, head, rows)
 

@@ -5,6 +5,7 @@ from vexture.errors import LimitError
 from vexture.evaluation.printed import TABLE_5_1
 from vexture.evaluation.shape import WAYS, Shape
 from vexture.figures.overview import SIDE, overview
+from vexture.figures.textures import number
 from vexture.report.section import Material, Picture, Section
 
 __all__ = ["section", "textures_of"]
@@ -25,8 +26,8 @@ def section(material: Material) -> Section:
         "last texture makes. A cell is the darker the more of it is filled: that value stands for the whole cell "
         f"where it is smaller than a pixel. The error is that of a picture of {SIDE} x {SIDE} pixels: the mean, in "
         "1/255, over the pixels that the shape touches, against the exact coverage.",
-        "Packed leaves need no horizontal lines, for these change no winding number: where the drawing has one, the "
-        "outline in the cells has a gap, and the picture none.",
+        "Packed leaves hold no horizontal lines, for these follow from the other curves: they are dotted. An outline "
+        "that runs along the border of a cell needs no curve in it, so there it is not drawn.",
     )
     items = [_picture(shape, place, material.own) for place, shape in enumerate(material.shapes, 1)]
     return Section("shapes", "Every drawing", text, items)
@@ -56,7 +57,8 @@ def _picture(shape: Shape, place: int, own: bool) -> Picture:
     row = None if own else TABLE_5_1.get(shape.name)
     title = f"{shape.name}." if row is None else f"Thesis 5.{place}. {row.title}."
     parts = [
-        f"`{way}`: {len(shape.way(way).tree.coverage):,} quads, {len(shape.way(way).tree.curves):,} curves"
+        f"`{way}`: {number(len(shape.way(way).tree.coverage), 'quad')}, "
+        f"{number(len(shape.way(way).tree.curves), 'curve')}"
         for way in made
     ]
     printed = "" if row is None else f" Printed, of the thesis's own drawing: {row.quads} quads, {row.curves} curves."

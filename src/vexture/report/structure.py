@@ -12,7 +12,7 @@ from vexture.evaluation.printed import STRUCTURE
 from vexture.evaluation.shape import WAYS, Shape, file_bytes
 from vexture.figures.cells import subdivisions
 from vexture.figures.lists import counts, hierarchy, lists
-from vexture.figures.textures import textures
+from vexture.figures.textures import number, textures
 from vexture.pictures import render
 from vexture.report.section import Material, Picture, Printed, Section, Table
 from vexture.report.shapes import textures_of
@@ -39,7 +39,7 @@ def section(material: Material) -> Section:
         "of the leaves, as two lists.",
     )
     table = _table(made, material.own, refused)
-    trees = [_hierarchy(way, made[way], material.own) for way in ("sampled", "packed") if way in made]
+    trees = [_hierarchy(way, made, material.own) for way in ("sampled", "packed") if way in made]
     shown = next(way for way in ("direct", "packed") if way in made)
     items: list[Any] = [table, *trees, _lists(shape, shown, made[shown]), _depths(made), _files(shape, made)]
     return Section("structure", "The tree and its lists", text, items)
@@ -65,8 +65,8 @@ def _table(made: dict[str, ThesisTexture | PackedTexture], own: bool, refused: l
     return Table("cells", caption, head, rows)
 
 
-def _hierarchy(way: str, texture: ThesisTexture | PackedTexture, own: bool) -> Picture:
-    found = counts(texture)
+def _hierarchy(way: str, made: dict[str, ThesisTexture | PackedTexture], own: bool) -> Picture:
+    found = counts(made[way])
     printed = ""
     if way == "sampled" and not own:
         printed = (
@@ -75,12 +75,19 @@ def _hierarchy(way: str, texture: ThesisTexture | PackedTexture, own: bool) -> P
         )
     caption = (
         f"Thesis 3.10, `{way}`. Left: the cells, with their curves. Right: the quads by depth; a gray cell refers to "
-        f"the quad below, the others are leaves. {found.quads:,} quads and {found.curves:,} curves are "
-        f"{found.cells:,} cells, {found.cells / found.grid:.2%} of the grid's {found.grid:,}.{printed}"
+        f"the quad below, the others are leaves. {number(found.quads, 'quad')} and {number(found.curves, 'curve')} "
+        f"are {found.cells:,} cells"
     )
     if way == "packed":
-        caption += " A leaf holds several pieces here, so sharp corners and thin parts need no small cells."
-    return Picture(f"hierarchy-{way}", hierarchy(texture), caption, "The cells of a drawing and the tree of its quads")
+        caption += (
+            ": a leaf holds several pieces here, so sharp corners and thin parts need no small cells. Horizontal lines, "
+            "which no leaf holds, are dotted."
+        )
+    else:
+        caption += f", {found.cells / found.grid:.2%} of the grid's {found.grid:,}.{printed}"
+    return Picture(
+        f"hierarchy-{way}", hierarchy(made[way]), caption, "The cells of a drawing and the tree of its quads"
+    )
 
 
 def _lists(shape: Shape, way: str, texture: ThesisTexture | PackedTexture) -> Picture:
