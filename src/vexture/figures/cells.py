@@ -101,7 +101,7 @@ def draw_cells(
 
 
 def draw_level_lines(axes: "Axes", texture: PackedTexture, root: str | int = 0, *, colour: str = INK) -> None:
-    """Dot the horizontal lines of a packed shape: leaves hold none of them, for they follow from the other curves."""
+    """Dot the horizontal lines of a packed shape: leaves hold few of them, for they follow from the other curves."""
     contours = outlines(texture.flat, texture.root(root).quad)
     arcs = np.concatenate([np.empty((0, 4, 2)), *contours])
     ends = arcs[arcs[:, 0, 1] == arcs[:, 3, 1]][:, [0, 3]]
@@ -135,7 +135,7 @@ def subdivision(
 ) -> "Figure":
     """Show the cells that a shape was divided into, with the curve or the curves of each.
 
-    Of a packed texture the horizontal lines, which no leaf holds, are dotted.
+    Of a packed texture the horizontal lines that no leaf holds are dotted.
 
     Parameters
     ----------

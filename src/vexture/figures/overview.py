@@ -14,8 +14,9 @@ from vexture.evaluation.shape import file_bytes
 from vexture.figures.cells import add_scale, draw_cells, draw_level_lines
 from vexture.figures.style import COLOURS, INK, panels, show, unit_axes
 from vexture.figures.textures import draw_texture
-from vexture.pictures import render
-from vexture.render.view import fit
+from vexture.render.cpu import render_cpu
+from vexture.render.exact import render_exact
+from vexture.render.packed_cpu import render_packed_cpu
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,8 +39,8 @@ def picture_error(
     >>> picture_error(half, vexture.convert(half), 8)[1] < 0.1
     True
     """
-    image = render(texture, (size, size), fit((size, size)), "cpu")
-    return image, errors(image, render(drawing, (size, size), fit((size, size)), "exact")).mae
+    image = _picture(texture, size)
+    return image, errors(image, render_exact(drawing, (size, size))).mae
 
 
 def overview(drawing: Drawing, textures: Mapping[str, ThesisTexture | PackedTexture], *, size: int = SIDE) -> "Figure":
@@ -83,7 +84,7 @@ def overview(drawing: Drawing, textures: Mapping[str, ThesisTexture | PackedText
     columns = 1 + len(textures)
     figure, axes = panels(2, columns, side=11.2 / max(columns, 4), height=2.35, titles=titles)
     axes[0, 0].get_gridspec().set_height_ratios([1.35, 1.0])
-    show(axes[0, 0], render(drawing, (size, size), fit((size, size)), "exact"), interpolation="auto")
+    show(axes[0, 0], render_exact(drawing, (size, size)), interpolation="auto")
     show(axes[1, 0], drawn[-1][0], interpolation="auto")
     for (title, texture), leaf, cells, texels in zip(textures.items(), found, *axes[:, 1:], strict=True):
         colour = COLOURS.get(title, INK)
@@ -122,9 +123,14 @@ def summary(texture: ThesisTexture | PackedTexture, *, root: str | int = 0, size
     figure, axes = panels(1, 3, side=3.7, height=3.1, titles=("cells", "coverage", "picture"))
     add_scale(figure, axes[0, 0], draw_cells(axes[0, 0], found, shades="depth"), "depth")
     add_scale(figure, axes[0, 1], draw_cells(axes[0, 1], found, curves=False), "coverage")
-    of_root = None
     if isinstance(texture, PackedTexture):
-        of_root = root
         draw_level_lines(axes[0, 0], texture, root)
-    show(axes[0, 2], render(texture, (size, size), fit((size, size)), "cpu", root=of_root))
+    show(axes[0, 2], _picture(texture, size, root))
     return figure
+
+
+def _picture(texture: ThesisTexture | PackedTexture, size: int, root: str | int = 0) -> NDArray[np.float32]:
+    """Picture of the unit square by the renderer on the CPU."""
+    if isinstance(texture, PackedTexture):
+        return render_packed_cpu(texture, (size, size), root=texture.roots.index(texture.root(root)))
+    return render_cpu(texture, (size, size))

@@ -115,7 +115,7 @@ def _conversion_table(
 ) -> Table:
     compared = any(printed)
     head = ["drawing"]
-    head += ["segments: thesis", "segments: ours", "ms to read it: ours"] if compared else ["segments", "ms to read it"]
+    head += ["segments: thesis", "segments: ours", "reading: ms"] if compared else ["segments", "reading, ms"]
     for method in [*["thesis, printed"] * compared, *WAYS]:
         head += [f"{method}: {what}" for what in ("ms", "curves", "quads")]
     rows = []
@@ -159,7 +159,8 @@ def _size_table(
                 cells += [None] * 3 if one is None else [one.bytes_8, one.bytes_16, one.fps]
         rows.append(cells)
     caption = (
-        "Thesis Table 5.1, its second part: bytes of the source's file and of the textures' files, a pair of PNG images with 8 or with 16 bits for each "
+        "Thesis Table 5.1, its second part: bytes of the source's file and of the textures' files, a pair of PNG "
+        "images with 8 or with 16 bits for each "
         f"number, or one KTX2 file, and frames per second (fps). {notes}"
     )
     return Table("size-and-speed", caption, head, rows)

@@ -26,8 +26,8 @@ def section(material: Material) -> Section:
         "last texture makes. A cell is the darker the more of it is filled: that value stands for the whole cell "
         f"where it is smaller than a pixel. The error is that of a picture of {SIDE} x {SIDE} pixels: the mean, in "
         "1/255, over the pixels that the shape touches, against the exact coverage.",
-        "Packed leaves hold no horizontal lines, for these follow from the other curves: they are dotted. An outline "
-        "that runs along the border of a cell needs no curve in it, so there it is not drawn.",
+        "Packed leaves hold few horizontal lines, for these follow from the other curves: those that no leaf holds are "
+        "dotted. An outline along the border of a cell needs no curve in it, so there it may not be drawn.",
     )
     items = [_picture(shape, place, material.own) for place, shape in enumerate(material.shapes, 1)]
     return Section("shapes", "Every drawing", text, items)

@@ -13,7 +13,7 @@ from vexture.evaluation.shape import WAYS, Shape, file_bytes
 from vexture.figures.cells import subdivisions
 from vexture.figures.lists import counts, hierarchy, lists
 from vexture.figures.textures import number, textures
-from vexture.pictures import render
+from vexture.render.exact import render_exact
 from vexture.report.section import Material, Picture, Printed, Section, Table
 from vexture.report.shapes import textures_of
 
@@ -57,7 +57,7 @@ def _table(made: dict[str, ThesisTexture | PackedTexture], own: bool, refused: l
         else:
             rows.append([way, *[None] * 5])
     caption = (
-        "Thesis 3.4. Cells of both lists, four for each quad and one for each curve, against the uniform grid of the "
+        "Thesis 3.4. Cells of both lists, four for each quad and one for each curve, against the regular grid of the "
         "smallest cells that they replace. A tree that needs no small cells replaces a coarser grid, so compare the "
         f"numbers of cells: the share says more of deep trees. {' '.join(refused)}"
     ).strip()
@@ -80,8 +80,8 @@ def _hierarchy(way: str, made: dict[str, ThesisTexture | PackedTexture], own: bo
     )
     if way == "packed":
         caption += (
-            ": a leaf holds several pieces here, so sharp corners and thin parts need no small cells. Horizontal lines, "
-            "which no leaf holds, are dotted."
+            ": a leaf holds several pieces here, so sharp corners and thin parts need no small cells. Horizontal "
+            "lines that no leaf holds are dotted."
         )
     else:
         caption += f", {found.cells / found.grid:.2%} of the grid's {found.grid:,}.{printed}"
@@ -91,7 +91,7 @@ def _hierarchy(way: str, made: dict[str, ThesisTexture | PackedTexture], own: bo
 
 
 def _lists(shape: Shape, way: str, texture: ThesisTexture | PackedTexture) -> Picture:
-    area = float(render(shape.drawing, (AREA_SIDE, AREA_SIDE), renderer="exact").mean(dtype=np.float64))
+    area = float(render_exact(shape.drawing, (AREA_SIDE, AREA_SIDE)).mean(dtype=np.float64))
     root = float(quads(shape.way(way).tree).coverage[0])
     caption = (
         f"Thesis 3.11 and 3.12, `{way}`. The two lists, level with the depth that each entry comes from, and the "
