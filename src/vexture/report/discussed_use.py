@@ -37,7 +37,7 @@ CROSSING: Final = (170.0 / 256.0, 45.5 / 256.0)
 UNALIGNED: Final = 101
 """Pixels of a picture whose borders are not those of cells: else these would not show."""
 
-ACROSS: Final = {"sampled": (1, 2, 3, 5), "direct": (1, 3, 9, 27, 81, 125), "packed": (1, 3, 9, 27, 81, 125)}
+ACROSS: Final = {"sampled": (1, 2, 3, 5), "direct": (1, 3, 9, 27, 81, 108), "packed": (1, 3, 9, 27, 81, 108)}
 """Copies in a row: the thesis's own way takes long."""
 
 BALL: Final = '<circle cx="36" cy="40" r="24"/>'

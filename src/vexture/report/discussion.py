@@ -1,6 +1,7 @@
 """The thesis's chapter 6, answered point by point: what it says is missing, before and after."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Final
 
 from vexture.errors import LimitError
@@ -57,7 +58,11 @@ def section(material: Material) -> Section:
         ("point", "measured", "before", "after"),
         [(point.section.title, point.what, point.before, point.after) for point in points],
     )
-    facts = {point.section.anchor: {"before": point.before, "after": point.after} for point in points}
+    parts = [
+        replace(point.section, facts={"measured": point.what, "before": point.before, "after": point.after}
+                | dict(point.section.facts))
+        for point in points
+    ]  # fmt: skip
     text = (
         "The thesis's last chapter but one says what its method could not do yet. Here is each point in its words, "
         "what the thesis's way makes of it, and what became of it.",
@@ -65,7 +70,7 @@ def section(material: Material) -> Section:
         "best. Errors of pictures are mean absolute differences from the exact coverage over the pixels that the "
         "shape touches, in 1/255. Pictures are rendered on the CPU.",
     )
-    return Section("discussion", "Chapter 6, answered", text, [table, *(point.section for point in points)], facts)
+    return Section("discussion", "Chapter 6, answered", text, [table, *parts])
 
 
 def _subject(material: Material) -> Shape:
