@@ -17,6 +17,12 @@ CHORDS: Final = 256
 BATCH: Final = 1 << 20
 """Pairs of points and chords that are compared at a time."""
 
+BUCKETS: Final = 64
+"""Squares across the unit square; the points in one are compared with the chords near it."""
+
+MARGIN: Final = 1 / 64
+"""Unit-square units: how near."""
+
 STEPS: Final = 4
 """Of Newton's method, after which the nearest point is found to rounding."""
 
@@ -43,18 +49,50 @@ def off_outline(points: NDArray[np.float64], drawing: Drawing) -> NDArray[np.flo
     t = np.linspace(0.0, 1.0, CHORDS + 1)
     weights = np.stack([(1 - t) ** 3, 3 * (1 - t) ** 2 * t, 3 * (1 - t) * t**2, t**3])
     curve = np.einsum("kt,mkc->mtc", weights, cubics)
-    start = curve[:, :-1].reshape(-1, 2)
-    step = np.diff(curve, axis=1).reshape(-1, 2)
+    chords = np.stack([curve[:, :-1], curve[:, 1:]], axis=2).reshape(-1, 2, 2)
+    near, share = _nearest_chords(points, chords)
+    return _polished(points, cubics[near // CHORDS], (near % CHORDS + share) / CHORDS)
+
+
+def _nearest_chords(
+    points: NDArray[np.float64], chords: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Number of the chord next to each point, and where on it. Most points are so near that few chords matter."""
+    near, share = np.zeros(len(points), np.int64), np.zeros(len(points))
+    middle, half = chords.mean(axis=1), 0.5 * float(np.linalg.norm(np.diff(chords, axis=1), axis=2).max())
+    row = np.floor(points * BUCKETS).astype(np.int64)
+    buckets, owner = np.unique(row, axis=0, return_inverse=True)
+    far = [np.empty(0, np.int64)]
+    for number, low in enumerate(buckets / BUCKETS):
+        mine = np.flatnonzero(owner.ravel() == number)
+        close = np.flatnonzero(((middle > low - MARGIN) & (middle < low + 1 / BUCKETS + MARGIN)).all(axis=1))
+        if not len(close):
+            far.append(mine)
+            continue
+        which, share[mine], off = _nearest_of(points[mine], chords[close])
+        near[mine] = close[which]
+        far.append(mine[off > MARGIN - half])  # a chord beyond the margin may be nearer
+    rest = np.concatenate(far)
+    near[rest], share[rest], _ = _nearest_of(points[rest], chords)
+    return near, share
+
+
+def _nearest_of(
+    points: NDArray[np.float64], chords: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+    """The same by looking at all chords, and the distances."""
+    start, step = chords[:, 0], chords[:, 1] - chords[:, 0]
     square = np.maximum((step**2).sum(axis=1), np.finfo(np.float64).tiny)
-    near = np.empty(len(points), np.int64)
-    share = np.empty(len(points))
-    for first in range(0, len(points), rows := max(1, BATCH // len(start))):
-        part = slice(first, first + rows)
+    near, share, off = np.empty(len(points), np.int64), np.empty(len(points)), np.empty(len(points))
+    rows = max(1, BATCH // len(chords))
+    for part in (slice(first, first + rows) for first in range(0, len(points), rows)):
         x, y = (points[part, None, axis] - start[:, axis] for axis in range(2))
         along = ((x * step[:, 0] + y * step[:, 1]) / square).clip(0.0, 1.0)
-        near[part] = ((x - along * step[:, 0]) ** 2 + (y - along * step[:, 1]) ** 2).argmin(axis=1)
+        squared = (x - along * step[:, 0]) ** 2 + (y - along * step[:, 1]) ** 2
+        near[part] = squared.argmin(axis=1)
         share[part] = np.take_along_axis(along, near[part, None], axis=1)[:, 0]
-    return _polished(points, cubics[near // CHORDS], (near % CHORDS + share) / CHORDS)
+        off[part] = np.sqrt(squared.min(axis=1))
+    return near, share, off
 
 
 def _polished(points: NDArray[np.float64], cubics: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:

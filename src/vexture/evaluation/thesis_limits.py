@@ -12,8 +12,8 @@ from vexture.encoding import PackedTexture, ThesisTexture
 from vexture.encoding.layout import MOST_ROWS, ROW_BITS
 from vexture.errors import LimitError
 from vexture.evaluation.closeups import directions
-from vexture.evaluation.leaves import Leaves, Tree, leaves, quads
-from vexture.evaluation.metrics import TRUTH, Errors, cell_border_pixels, errors
+from vexture.evaluation.leaves import Leaves, Tree, quads
+from vexture.evaluation.metrics import LEVELS, TRUTH, Errors, errors
 from vexture.pictures import render
 from vexture.pipeline import run
 from vexture.quadtree.tree import CONTROL_MAX, CONTROL_MIN, CellKind, CellTree
@@ -76,15 +76,10 @@ class Close:
         return errors(self.images[0], self.truth), errors(self.images[1], self.truth)
 
     @property
-    def border_errors(self) -> tuple[float, float]:
-        """Mean error, in 1/255, of the outline's pixels at the borders of the cells of `before`: before and after."""
-        height, width = self.truth.shape
-        x0, y0, x1, y1 = self.bounds
-        found = leaves(self.before)
-        view = window((width, height), x0, y0, x1 - x0, y1 - y0)
-        at_border = cell_border_pixels(found.x, found.y, found.side, view, (width, height))
-        at_border &= (self.truth > TRUTH) & (self.truth < 1.0 - TRUTH)
-        before, after = (errors(image[at_border], self.truth[at_border]).mae for image in self.images)
+    def stray(self) -> tuple[int, int]:
+        """Pixels, before and after, through which no outline passes and that are wrong by more than 1/255."""
+        untouched = (self.truth <= TRUTH) | (self.truth >= 1.0 - TRUTH)
+        before, after = (int((untouched & (abs(image - self.truth) > 1.0 / LEVELS)).sum()) for image in self.images)
         return before, after
 
 

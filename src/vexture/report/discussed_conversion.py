@@ -23,6 +23,7 @@ from vexture.figures.discussion import (
     unneeded_divisions,
 )
 from vexture.pipeline import run
+from vexture.quadtree.sampled import SAMPLES_ACROSS
 from vexture.quadtree.tree import CellTree
 from vexture.report.discussed import LEFT_OUT, Point, packed_of, pair_of, tree_of
 from vexture.report.section import Material, Picture, Section
@@ -96,8 +97,8 @@ def corners_point(material: Material, subject: Shape) -> Point:
     )
     caption = (
         f"Thesis 6.1.2. Above: `{shape.name}`, by the thesis's way and by ours. Below: 1/32 of it, about the corner "
-        "with most cells: before, cells halve towards it and the last cuts it off; after, it lies inside a leaf. "
-        "Curves: in the cells that are seen. " + LEFT_OUT
+        "with most cells: before, cells halve towards it until a rounded one is within tolerance; after, it lies "
+        "inside a leaf. Curves: in the cells that are seen. " + LEFT_OUT
     )
     picture = Picture(
         "discussion-corners",
@@ -113,32 +114,32 @@ def density_point(material: Material, subject: Shape) -> Point:
     """How densely the outline is looked at."""
     textures = {way: subject.way(way).texture for way in WAYS}
     off = {way: off_outline(leaves(made).lines().reshape(-1, 2), subject.drawing) for way, made in textures.items()}
-    worst = {way: float(found.max(initial=0.0)) for way, found in off.items()}
+    pixels = {way: 1000.0 * found for way, found in off.items()}
+    worst = {way: float(found.max(initial=0.0)) for way, found in pixels.items()}
     text = (
         "Thesis 6.2.1: the examples are interpolated “based on the resolution of their defined viewport”; better would "
         "be “not interpolating the curve segments, but instead cutting them up into smaller segments on the points "
         "where they cross the edge of a subdivided quad’s cell”.",
-        f"Before: 256 samples across the unit square, three times as many where a cell has none, fitted. The outline "
-        f"that the texture of {subject.name} holds is up to {worst['sampled']:.2g} of the drawing away from it, "
-        f"{1000.0 * worst['sampled']:.2g} pixels in a picture of 1,000.",
+        f"Before: {SAMPLES_ACROSS} samples across the unit square, more where a cell has none, fitted. The outline "
+        f"that the texture of {subject.name} holds is up to {worst['sampled']:.2g} pixels away from the drawing's, in a "
+        "picture of 1,000.",
         "After: what the thesis proposes. Curves are cut at the cells' edges, and nothing is sampled. `direct` still "
-        f"fits where several curves meet in a leaf that holds one ({worst['direct']:.2g}); `packed` holds the parts "
-        f"themselves, and what is left is the rounding to its lattice ({worst['packed']:.2g}).",
+        f"fits where several curves meet in a leaf that holds one: {worst['direct']:.2g} pixels. `packed` holds the "
+        f"parts themselves, and what is left is the rounding to its lattice: {worst['packed']:.2g} pixels.",
     )
+    medians = ", ".join(f"{np.median(found):.1g} by `{way}`" for way, found in pixels.items())
     caption = (
         f"Thesis 6.2.1. Left: where the outline of {subject.name} is farthest off by the thesis's way, with the "
         "samples that it starts from. Middle: the same place by ours. Right: distances of points of the textures' "
-        "outlines from the drawing's, sorted: the median is "
-        + ", ".join(f"{np.median(found):.1g} by `{way}`" for way, found in off.items())
-        + "."
+        f"outlines from the drawing's, sorted. Median, in pixels of 1,000: {medians}."
     )
     picture = Picture(
         "discussion-density", density(subject.drawing, textures), caption,
         "Outlines enlarged, before beside the drawing and after on it; distribution of distances.",
     )  # fmt: skip
     part = Section("density", "Interpolation density (6.2.1)", text, [picture])
-    what = f"largest distance of {subject.name}'s outline, in 1/1,000 of the drawing"
-    return Point(part, what, 1000.0 * worst["sampled"], 1000.0 * worst["packed"])
+    what = f"largest distance of {subject.name}'s outline, pixels of 1,000"
+    return Point(part, what, worst["sampled"], worst["packed"])
 
 
 def divisions_point(material: Material, subject: Shape) -> Point:

@@ -48,17 +48,17 @@ def lines_point(material: Material, subject: Shape) -> Point:
     """Lines along the borders of cells."""
     close = close_up(subject.drawing, pair_of(subject, "direct"), packed_of(subject), side=UNALIGNED, as_thesis=True)
     same = close_up(subject.drawing, pair_of(subject, "direct"), pair_of(subject, "direct"), side=UNALIGNED)
-    before, after = close.border_errors
-    now = same.border_errors[1]
+    before, after = close.stray
+    again = same.stray[1]
     text = (
         "Thesis 6.3: the pictures “show some visible and unwanted artifacts. These mainly consist of the horizontal "
         "and vertical lines that can be seen in every rendered result”; it puts them down to “gaps in precision when "
         "traversing down the quad-tree”.",
         "Before: they come from more than precision. All 16 samples of a pixel take the curve of the cell of its "
-        "centre, which where a cell ends is prolonged beyond it. The thesis's way to a pixel, computed in float64, "
-        f"shows the lines too: on the cells' borders pixels of the outline are wrong by {before:.3g}/255 in the mean.",
-        f"After: a sample that leaves the cell is looked up again. The same texture is wrong by {now:.3g}/255 there. "
-        f"Ours is integrated piece by piece and cell by cell: {after:.2g}/255.",
+        "centre, which where a cell ends is prolonged beyond it. The thesis's way to a pixel shows the lines in "
+        f"float64 too: {before} pixels of the picture are wrong although no outline passes through them.",
+        f"After: a sample that leaves the cell is looked up again, and of the same texture {again} such pixels are "
+        f"left. Ours is integrated piece by piece and cell by cell: {after}.",
     )
     caption = (
         f"Thesis 6.3. {subject.name} at {UNALIGNED} x {UNALIGNED} pixels from its `direct` texture, whose curves are "
@@ -73,7 +73,7 @@ def lines_point(material: Material, subject: Shape) -> Point:
         "Errors of two pictures, with the cells' borders above them.",
     )
     part = Section("lines", "Lines along cells (6.3)", text, [picture])
-    return Point(part, f"error of {subject.name}'s outline at cells' borders, 1/255", before, after)
+    return Point(part, f"pixels of {subject.name} that are wrong away from its outline", before, after)
 
 
 def crossings_point(material: Material, subject: Shape) -> Point:
@@ -118,7 +118,7 @@ def lists_point(material: Material, subject: Shape) -> Point:
         f"{seen} x {seen} of {across * across:,} copies": render(
             texture, size, closeup(size, np.full(2, 0.5), across / seen), "cpu"
         )
-        for seen in (25, 3)
+        for seen in (24, 4)
     }
     held = {way: _held(found) for way, found in lengths.items()}
     refusal = next((length.refused for length in lengths["direct"] if length.refused), "")
@@ -135,7 +135,7 @@ def lists_point(material: Material, subject: Shape) -> Point:
     caption = (
         "Thesis 4.3.1 and 5.1. Left: entries of the longer list (of `packed`: all texels) over copies of the simple "
         "shape; dashed, what a texture can hold; the cross is what was refused. Middle and right: parts of "
-        f"{across * across:,} copies, from `packed`."
+        f"{across * across:,} copies, from `packed`. `sampled`, which takes long, is tried with few."
     )
     picture = Picture(
         "discussion-lists",
@@ -144,7 +144,7 @@ def lists_point(material: Material, subject: Shape) -> Point:
         "Growth of the lists, and a drawing of thousands of shapes.",
     )
     part = Section("list-limits", "List limits (4.3.1, 5.1)", text, [picture], {"lengths": _as_facts(lengths)})
-    return Point(part, "copies of the simple shape that were held", held["direct"], held["packed"])
+    return Point(part, "copies of the simple shape held, of the numbers tried", held["direct"], held["packed"])
 
 
 def _held(found: list[Lengths]) -> int:
