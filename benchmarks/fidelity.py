@@ -21,9 +21,10 @@ from report import cell, table, write_json
 from vexture.drawing import Drawing
 from vexture.encoding import ThesisTexture
 from vexture.errors import DeviceError, LimitError
+from vexture.evaluation.leaves import leaves
 from vexture.evaluation.metrics import LEVELS, border_ratio, cell_border_pixels, errors
 from vexture.pipeline import run
-from vexture.quadtree.tree import CellKind, CellTree
+from vexture.quadtree.tree import CellTree
 from vexture.render.view import fit
 
 __all__ = [
@@ -33,7 +34,6 @@ __all__ = [
     "area_error",
     "cut_pixels",
     "has_gpu",
-    "leaf_cells",
     "met",
     "parsed",
     "shifted_views",
@@ -86,17 +86,6 @@ def has_gpu() -> bool:
     return True
 
 
-def leaf_cells(tree: CellTree) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Lower left corner, x and y, and side of every cell of a tree that is not a quad."""
-    corner, side = np.zeros((len(tree.kind), 2)), 0.5**tree.quad_depth
-    half = np.array([(0, 0), (1, 0), (0, 1), (1, 1)]) / 2.0
-    for quad, k in zip(*np.nonzero(tree.kind == CellKind.QUAD), strict=True):
-        corner[tree.ref[quad, k]] = corner[quad] + half[k] * side[quad]
-    quad, k = np.nonzero(tree.kind != CellKind.QUAD)
-    x, y = (corner[quad] + half[k] * side[quad, None]).T
-    return x, y, side[quad] / 2.0
-
-
 def render(shape: Drawing | ThesisTexture, views: Sequence[View], renderer: str) -> NDArray[np.float32]:
     """Pictures of a shape, (views, size, size)."""
     return np.stack([vexture.render(shape, (view.size, view.size), view.to_unit, renderer) for view in views])
@@ -125,7 +114,8 @@ def size_facts(
 ) -> dict[str, Any]:
     """Errors of a texture's pictures of one size by some renderers, and how far these differ from one another."""
     truth = render(drawing, views, "exact")
-    cells = leaf_cells(tree)
+    found = leaves(tree)
+    cells = found.x, found.y, found.side
     cut = np.stack([cut_pixels(cells, view) for view in views])
     border = np.stack([cell_border_pixels(*cells, view.to_unit, (view.size, view.size)) for view in views])
     facts: dict[str, Any] = {"size": views[0].size}

@@ -46,6 +46,9 @@ MAY_IMPORT = {
 }
 """What each part may import besides itself; the parts that are not named here stand above all of these."""
 
+FOR_CONVENIENCE = {"encoding/texture.py": {"figures"}, "encoding/packed_texture.py": {"figures"}}
+"""`texture.plot()` is where people look for a picture; it imports the figures when it is called, and only there."""
+
 COMMANDS = ("cli", "cli_flood", "cli_fold", "cli_live", "cli_report", "cli_view")
 
 THE_TRUTH = {"render/exact.py", "render/chords.py", "render/view.py"}
@@ -146,9 +149,20 @@ def test_imports_point_one_way(path):
     part = part_of(path)
     if part in MAY_IMPORT:
         reached = {name.split(".")[0] for name in imported(path)}
-        assert reached <= MAY_IMPORT[part] | {part}
+        assert reached <= MAY_IMPORT[part] | {part} | FOR_CONVENIENCE.get(name_of(path), set())
     elif part not in COMMANDS:
         assert not imported(path) & {*COMMANDS, "messages"}
+
+
+@pytest.mark.parametrize("path", sorted(FOR_CONVENIENCE))
+def test_what_is_imported_for_convenience_is_imported_by_plot_alone(path):
+    def asks(node):
+        return isinstance(node, ast.ImportFrom) and {*node.module.split(".")} & FOR_CONVENIENCE[path] != set()
+
+    tree = tree_of(PACKAGE / path)
+    plots = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name == "plot"]
+    assert len(plots) == 1
+    assert sum(map(asks, ast.walk(plots[0]))) == sum(map(asks, ast.walk(tree))) == 1
 
 
 @pytest.mark.parametrize("path", [path for path in MODULES if name_of(path) in THE_TRUTH], ids=name_of)

@@ -22,14 +22,6 @@ def test_examples_in_the_docstrings():
     assert not found.failed
 
 
-def test_leaf_cells_tile_the_unit_square():
-    x, y, side = fidelity.leaf_cells(run(NEEDLE, encoding="thesis").tree)
-    assert (side**2).sum() == 1.0
-    assert len(set(zip(x, y, strict=True))) == len(x)
-    assert x.min() == y.min() == 0.0
-    assert (x + side).max() == (y + side).max() == 1.0
-
-
 def test_cut_pixels_are_those_with_small_quads():
     cells = tuple(np.array(values) for values in ([0.5, 0.3, 0.71], [0.5, 0.9, 0.09], [0.25, 0.1, 0.01]))
     view = fidelity.View(4, fit((4, 4)))

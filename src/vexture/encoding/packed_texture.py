@@ -4,6 +4,7 @@ import difflib
 import os
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +15,9 @@ from vexture.encoding.ktx2 import read_ktx2, write_ktx2
 from vexture.encoding.packed_walk import walk
 from vexture.encoding.root import Root, read_roots, roots_text
 from vexture.errors import FormatError, LimitError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = ["PackedTexture", "Root", "load_packed", "packed_from"]
 
@@ -189,6 +193,30 @@ class PackedTexture:
         inside = np.empty(len(wanted), np.bool_)
         points_inside(self.flat, self.root(root or 0).quad, wanted, inside)
         return inside
+
+    def plot(self, root: str | int = 0) -> "Figure":
+        """Show a shape's cells, coverage and picture side by side, in a notebook too.
+
+        Parameters
+        ----------
+        root : str or int
+            Name or place of the shape.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            See `vexture.figures.overview.summary`.
+
+        Raises
+        ------
+        DeviceError
+            If matplotlib is not installed.
+        FormatError
+            If there is no such shape.
+        """
+        from vexture.figures.overview import summary  # late: figures stand above textures
+
+        return summary(self, root=root)
 
     def to_svg(self, root: str | int | None = None) -> str:
         """Return the outlines as an SVG document in the units of the source.

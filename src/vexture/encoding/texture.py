@@ -3,7 +3,7 @@
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,9 @@ from vexture.encoding.files import pair_of, read_file, target_of, write_together
 from vexture.encoding.png import read_png, write_png
 from vexture.errors import FormatError, LimitError
 from vexture.quadtree.tree import CellKind
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = ["ThesisTexture", "load_thesis"]
 
@@ -120,6 +123,18 @@ class ThesisTexture:
         )
         row = np.where(constant, -1, np.where(is_quad, row, row - layout.CONSTANT_ROWS))
         return kind.astype(np.uint8), row.astype(np.int32)
+
+    def plot(self) -> "Figure":
+        """Show cells, coverage and picture side by side, in a notebook too; see `vexture.figures.overview.summary`.
+
+        Raises
+        ------
+        DeviceError
+            If matplotlib is not installed.
+        """
+        from vexture.figures.overview import summary  # late: figures stand above textures
+
+        return summary(self)
 
     def check(self) -> None:
         """Raise a `FormatError` where the pixels contradict FORMAT.md."""

@@ -3,17 +3,19 @@
 import sysconfig
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
-from vexture.errors import SourceError
+from vexture.encoding.layout import LIST_LIMIT
+from vexture.errors import LimitError, SourceError
 from vexture.pipeline import Conversion, run
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
+    from vexture.encoding import PackedTexture, ThesisTexture
 
-__all__ = ["WAYS", "Shape", "example"]
+__all__ = ["WAYS", "Shape", "example", "file_bytes"]
 
-WAYS: Final = {
+WAYS: Final[dict[str, dict[str, Any]]] = {
     "sampled": {"encoding": "thesis", "strategy": "sampled"},
     "direct": {"encoding": "thesis", "strategy": "direct"},
     "packed": {"encoding": "packed"},
@@ -45,6 +47,20 @@ def example(name: str) -> Path:
     raise SourceError(f"the example drawing {name}.svg is in none of {', '.join(map(str, FOLDERS))}; install again")
 
 
+def file_bytes(texture: "PackedTexture | ThesisTexture") -> int:
+    """Size of a texture's file, or of its pair of files.
+
+    Examples
+    --------
+    >>> texture = Shape(example("duck")).way("direct").texture
+    >>> file_bytes(texture) == sum(map(len, texture.to_png()))
+    True
+    """
+    from vexture.encoding import PackedTexture
+
+    return len(texture.to_ktx2()) if isinstance(texture, PackedTexture) else sum(map(len, texture.to_png()))
+
+
 class Shape:
     """A drawing and its conversions.
 
@@ -62,7 +78,7 @@ class Shape:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self._ways: dict[tuple[str, int | None], Conversion] = {}
+        self._ways: dict[tuple[str, int | None], Conversion | LimitError] = {}
 
     @property
     def name(self) -> str:
@@ -84,7 +100,16 @@ class Shape:
         LimitError
             If the encoding cannot hold the drawing.
         """
-        if (way, bits) not in self._ways:
-            given = {} if bits is None else {"bits": bits}
-            self._ways[way, bits] = run(self.drawing, **WAYS[way], **given)
-        return self._ways[way, bits]
+        given = dict(WAYS[way])
+        if given["encoding"] == "thesis":
+            given["bits"] = bits or max(LIST_LIMIT)
+        key = way, given.get("bits")
+        if key not in self._ways:
+            try:
+                self._ways[key] = run(self.drawing, **given)
+            except LimitError as error:
+                self._ways[key] = error
+        made = self._ways[key]
+        if isinstance(made, LimitError):
+            raise made
+        return made

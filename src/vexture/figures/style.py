@@ -7,16 +7,17 @@ from typing import TYPE_CHECKING, Any, Final
 from vexture.errors import DeviceError
 
 if TYPE_CHECKING:
-    import numpy as np
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
 __all__ = [
     "COLOURS",
+    "GRID",
     "INK",
     "MUTED",
     "RESOLUTION",
+    "SMALL",
     "coverage_map",
     "error_map",
     "panels",
@@ -45,6 +46,9 @@ COLOURS: Final = {
 RESOLUTION: Final = 160
 """Pixels per inch of the figures' files."""
 
+SMALL: Final = 8.0
+"""Points of the smallest text."""
+
 FONT: Final = {
     "font.family": "DejaVu Sans",  # matplotlib brings it along
     "font.size": 9.0,
@@ -57,10 +61,10 @@ FONT: Final = {
     "text.color": INK,
     "xtick.color": MUTED,
     "ytick.color": MUTED,
-    "xtick.labelsize": 8.0,
-    "ytick.labelsize": 8.0,
+    "xtick.labelsize": SMALL,
+    "ytick.labelsize": SMALL,
     "legend.frameon": False,
-    "legend.fontsize": 8.0,
+    "legend.fontsize": SMALL,
     "image.interpolation": "nearest",
 }
 
@@ -100,7 +104,7 @@ def error_map() -> Any:
 
 def panels(
     rows: int, columns: int, *, side: float = 2.6, height: float | None = None, titles: Sequence[str] = ()
-) -> "tuple[Figure, NDArray[np.object_]]":
+) -> "tuple[Figure, NDArray[Any]]":
     """Figure with a grid of axes, in the one style; no window and no global state.
 
     Parameters
