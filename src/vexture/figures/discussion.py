@@ -22,6 +22,7 @@ from vexture.evaluation.thesis_limits import (
     unnecessary_quads,
 )
 from vexture.figures.cells import UNIT, curve_lines, draw_cells
+from vexture.figures.outlines import draw_outline
 from vexture.figures.style import COLOURS, GRID, INK, MUTED, error_map, panels, show, unit_axes
 from vexture.figures.textures import draw_texture
 
@@ -138,7 +139,7 @@ def density(drawing: Drawing, textures: Mapping[str, ThesisTexture | PackedTextu
     figure, axes = panels(1, 3, side=3.6, height=3.4, titles=titles)
     bounds = (worst[0] - half, worst[1] - half, worst[0] + half, worst[1] + half)
     for panel, name in zip(axes[0], (first, last), strict=False):
-        _outline(panel, drawing, bounds, color=GRID, linewidth=5.0, label="the drawing", zorder=1)
+        draw_outline(panel, drawing, bounds, color=GRID, linewidth=5.0, label="the drawing", zorder=1)
         lines = curve_lines(leaves(textures[name]), bounds)
         panel.plot(*lines.T, color=COLOURS[name], linewidth=1.6, label=name)
         if name == first:
@@ -313,7 +314,7 @@ def _editable(axes: "Axes", drawing: Drawing, old: int) -> None:
 
 def _cells(axes: "Axes", found: Leaves, drawing: Drawing, bounds: Sequence[float] = UNIT) -> None:
     """Cells and curves, above the drawing's outline: packed leaves need not hold its horizontal parts."""
-    _outline(axes, drawing, bounds, color=MUTED, linewidth=0.7, linestyle=":", zorder=1.5)
+    draw_outline(axes, drawing, bounds, color=MUTED, linewidth=0.7, linestyle=":", zorder=1.5)
     draw_cells(axes, found, bounds=bounds)
     if tuple(bounds) != UNIT:
         for axis, low, high in ((axes.xaxis, bounds[0], bounds[2]), (axes.yaxis, bounds[1], bounds[3])):
@@ -359,17 +360,6 @@ def _shaded(axes: "Axes", found: Leaves, values: NDArray[np.float64], top: float
     )
     axes.add_collection(cells)
     return cells
-
-
-def _outline(axes: "Axes", drawing: Drawing, bounds: Sequence[float], **style: Any) -> None:
-    """The drawing's own outline, where it is seen, as finely as an enlargement needs."""
-    x0, y0, x1, y1 = bounds
-    t = np.linspace(0.0, 1.0, 1025)
-    weights = np.stack([(1 - t) ** 3, 3 * (1 - t) ** 2 * t, 3 * (1 - t) * t**2, t**3])
-    cubics = joined(drawing)
-    near = (cubics.min(axis=1) < (x1, y1)).all(axis=1) & (cubics.max(axis=1) > (x0, y0)).all(axis=1)
-    curves = np.pad(np.einsum("kt,mkc->mtc", weights, cubics[near]), ((0, 0), (0, 1), (0, 0)), constant_values=np.nan)
-    axes.plot(*curves.reshape(-1, 2).T, **style)
 
 
 def _ruler(axes: "Axes", bounds: Sequence[float], half: float) -> None:

@@ -6,11 +6,10 @@ import numpy as np
 
 from vexture.drawing import Drawing
 from vexture.evaluation.rendered import Rendered
+from vexture.figures.outlines import draw_outline
 from vexture.figures.style import COLOURS, panels, show
-from vexture.quadtree.build import gather
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 __all__ = ["tolerances"]
@@ -45,7 +44,7 @@ def tolerances(drawing: Drawing, whole: Rendered, close: Rendered, square: tuple
         above.plot(*np.array([(x, y), (x + side, y), (x + side, y + side), (x, y + side), (x, y)]).T,
                    color=COLOURS["distance"], linewidth=1.2)  # fmt: skip
         show(below, 0.75 * close.images[name], extent=(x, x + side, y, y + side))
-        _outline(below, drawing)
+        draw_outline(below, drawing, (x, y, x + side, y + side), color=COLOURS["sampled"], linewidth=1.1)
         below.set(xlim=(x, x + side), ylim=(y, y + side))
         below.set_xlabel(
             f"error in this part: mean {errors[name].mae:.2f}, largest {errors[name].max:.0f}", fontsize=9.0
@@ -55,14 +54,3 @@ def tolerances(drawing: Drawing, whole: Rendered, close: Rendered, square: tuple
             panel.set_yticks(panel.get_ylim(), [f"{value:.3g}" for value in panel.get_ylim()])
             panel.tick_params(length=2)
     return figure
-
-
-def _outline(axes: "Axes", drawing: Drawing) -> None:
-    from matplotlib.collections import LineCollection
-
-    cubics, _, _ = gather(drawing)
-    t = np.linspace(0.0, 1.0, 33)[:, None]
-    s = 1.0 - t
-    weights = np.stack([s**3, 3 * s * s * t, 3 * s * t * t, t**3], axis=1)
-    lines = np.einsum("pki,nkj->npj", weights, cubics)
-    axes.add_collection(LineCollection(list(lines), colors=COLOURS["sampled"], linewidths=1.1))
