@@ -64,6 +64,14 @@ def test_what_cannot_be_held_is_refused_once(tmp_path, monkeypatch):
     assert len(calls) == 1
 
 
+def test_what_would_take_minutes_is_refused(tmp_path):
+    teeth = "".join(f"L{x / 2} {60 if x % 2 else 40}" for x in range(201))
+    shape = drawn(tmp_path, f"M0 100{teeth}L100 100Z")
+    assert len(shape.way("direct").tree.kind) > 3000
+    with pytest.raises(LimitError, match="minutes"):
+        shape.way("sampled")
+
+
 @pytest.mark.parametrize("way", WAYS)
 def test_an_empty_drawing_has_one_quad(tmp_path, way):
     found = measured(drawn(tmp_path, ""), way)
