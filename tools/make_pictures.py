@@ -5,9 +5,7 @@ draws from those textures: magnified, each time around the same point, and at sm
 """
 
 import sys
-from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +13,9 @@ from PIL import Image, ImageColor, ImageDraw, ImageFont
 
 import vexture
 from vexture.encoding import ThesisTexture, decode
-from vexture.quadtree.tree import CellKind, CellTree
+from vexture.evaluation.leaves import leaves
+from vexture.figures.textures import texture_images
+from vexture.quadtree.tree import CellTree
 from vexture.render.view import window
 
 __all__ = ["sheet"]
@@ -43,37 +43,6 @@ CENTER = (206 / 240, 1 - 79 / 240)  # unit-square units: where the duck opens it
 Panel = tuple[str, str, Image.Image]
 
 
-class Cell(NamedTuple):
-    """A leaf: lower left corner, side, filled part, and its curve in the cell's unit square if it has one."""
-
-    x: float
-    y: float
-    side: float
-    coverage: float
-    curve: NDArray[np.float64] | None
-
-
-def leaves(tree: CellTree, quad: int = 0, x: float = 0.0, y: float = 0.0, side: float = 0.5) -> Iterator[Cell]:
-    """All leaves below a quad at (x, y) with cells of a side."""
-    for k in range(4):
-        left, low, kind, ref = x + side * (k & 1), y + side * (k >> 1), tree.kind[quad, k], tree.ref[quad, k]
-        if kind == CellKind.QUAD:
-            yield from leaves(tree, ref, left, low, side / 2)
-        else:
-            yield Cell(left, low, side, tree.coverage[quad, k], tree.curves[ref] if ref >= 0 else None)
-
-
-def points(cell: Cell, chords: int = 32) -> NDArray[np.float64]:
-    """Points along a cell's curve, in the unit square. A corner's is bent where P1 and P2 are."""
-    p0, p1, p2, p3 = cell.curve
-    if (p1 == p2).all():
-        line = np.stack([p0, p1, p3])
-    else:
-        t = np.linspace(0.0, 1.0, chords + 1)[:, None]
-        line = (1 - t) ** 3 * p0 + 3 * (1 - t) ** 2 * t * p1 + 3 * (1 - t) * t * t * p2 + t**3 * p3
-    return np.array((cell.x, cell.y)) + cell.side * line
-
-
 def inked(coverage: NDArray[np.float32]) -> Image.Image:
     """Coverage as ink on paper."""
     mask = Image.fromarray(np.rint(255.0 * coverage).astype(np.uint8))
@@ -86,15 +55,13 @@ def cells_panel(tree: CellTree) -> Image.Image:
     image = Image.new("RGB", (size, size), PAPER)
     draw = ImageDraw.Draw(image)
     paper, full = np.array(ImageColor.getrgb(PAPER)), np.array(ImageColor.getrgb(SHADE))
-    found = list(leaves(tree))
-    for cell in found:
-        box = [cell.x * size, (1 - cell.y - cell.side) * size, (cell.x + cell.side) * size, (1 - cell.y) * size]
-        shade = np.rint(paper + cell.coverage * (full - paper)).astype(int)
+    found = leaves(tree)
+    for x, y, side, coverage in zip(found.x, found.y, found.side, found.coverage, strict=True):
+        box = [x * size, (1 - y - side) * size, (x + side) * size, (1 - y) * size]
+        shade = np.rint(paper + coverage * (full - paper)).astype(int)
         draw.rectangle(box, fill=tuple(shade.tolist()), outline=GRID, width=FINER // 2)
-    for cell in found:
-        if cell.curve is not None:
-            line = [(x * size, (1 - y) * size) for x, y in points(cell)]
-            draw.line(line, fill=CURVE, width=2 * FINER, joint="curve")
+    for line in found.lines(32):
+        draw.line([(x * size, (1 - y) * size) for x, y in line], fill=CURVE, width=2 * FINER, joint="curve")
     return image.resize((PANEL, PANEL), Image.Resampling.BOX)
 
 
@@ -103,8 +70,9 @@ def texture_panel(texture: ThesisTexture) -> Image.Image:
     image = Image.new("RGB", (PANEL, PANEL), PAPER)
     wide = (PANEL - GAP) // (texture.quads.shape[1] + texture.curves.shape[1])
     left = 0
-    for rows in (texture.quads, texture.curves):
-        pixels = Image.fromarray((rows // (texture.maximum // 255)).astype(np.uint8))
+    for strip in texture_images(texture):
+        rows = np.rot90(strip.pixels, -1)
+        pixels = Image.fromarray(np.floor(255.0 * rows).astype(np.uint8))
         pixels = pixels.resize((wide * rows.shape[1], PANEL), Image.Resampling.NEAREST)
         image.paste(pixels, (left, 0))
         left += pixels.width + GAP

@@ -22,6 +22,9 @@ WAYS: Final[dict[str, dict[str, Any]]] = {
 }
 """The thesis's own way, ours to its leaves, and ours: parameters of `vexture.convert`."""
 
+MOST_FOR_SAMPLED: Final = 3000
+"""Quads of ``direct``; where there are more, ``sampled`` takes minutes."""
+
 FOLDERS: Final = (
     Path(__file__).resolve().parents[3] / "examples" / "shapes",  # in a clone
     Path(sysconfig.get_path("data")) / "share" / "vexture" / "shapes",  # where a wheel puts them
@@ -98,7 +101,7 @@ class Shape:
         Raises
         ------
         LimitError
-            If the encoding cannot hold the drawing.
+            If the encoding cannot hold the drawing, or ``sampled`` would take minutes.
         """
         given = dict(WAYS[way])
         if given["encoding"] == "thesis":
@@ -106,6 +109,8 @@ class Shape:
         key = way, given.get("bits")
         if key not in self._ways:
             try:
+                if way == "sampled":
+                    self._check_sampled()
                 self._ways[key] = run(self.drawing, **given)
             except LimitError as error:
                 self._ways[key] = error
@@ -113,3 +118,12 @@ class Shape:
         if isinstance(made, LimitError):
             raise made
         return made
+
+    def _check_sampled(self) -> None:
+        """Raise a `LimitError` where a conversion in the thesis's way would take minutes."""
+        quads = len(self.way("direct").tree.coverage)
+        if quads > MOST_FOR_SAMPLED:
+            raise LimitError(
+                f"{self.name}: direct has {quads:,} quads, so sampled would take minutes; the limit of a report is "
+                f"{MOST_FOR_SAMPLED:,}; give a simpler drawing"
+            )

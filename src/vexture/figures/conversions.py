@@ -51,7 +51,7 @@ def conversions(names: Sequence[str], quantities: Mapping[str, Mapping[str, Sequ
         panel.set_xscale("log")
         low, high = (min(some), max(some)) if some else (1.0, 1.0)
         panel.set_xlim(10.0 ** math.floor(math.log10(low) - 0.05), 10.0 ** math.ceil(math.log10(high) + 0.05))
-        panel.set_ylim(len(names) - 0.5, -0.5)
+        panel.set_ylim(max(1, len(names)) - 0.5, -0.5)
         panel.set_yticks(rows, list(names) if panel is axes[0, 0] else [""] * len(names))
         panel.minorticks_off()
         panel.grid(color=GRID, linewidth=0.4)

@@ -36,7 +36,7 @@ def section(material: Material) -> Section:
     text = (
         f"How the drawing `{shape.name}` is stored. The unit square is divided into four cells, and each of these "
         "again where it holds more than a leaf can say. A texture holds the quads, four cells each, and the curves "
-        "of the leaves, as two lists.",
+        "of the leaves, as two lists. An outline along the border of a cell needs no curve in it.",
     )
     table = _table(made, material.own, refused)
     trees = [_hierarchy(way, made, material.own) for way in ("sampled", "packed") if way in made]

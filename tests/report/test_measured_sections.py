@@ -1,0 +1,119 @@
+"""Sections on conversions, drawings and structure: measured figures beside printed ones, for any drawing."""
+
+import pytest
+
+from vexture.evaluation.printed import TABLE_5_1
+from vexture.evaluation.shape import WAYS, example
+from vexture.report import conversion, shapes, structure
+from vexture.report.page import json_text, page, pictures_of
+from vexture.report.section import Material, Printed, Section, Table
+
+SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 100">{paths}</svg>'
+TEETH = "".join(f"L{x / 8} {60 if x % 2 else 40}" for x in range(1601))
+PATHS = {
+    "empty": "",
+    "star": '<path fill-rule="evenodd" fill="#08f" d="M100 5L130 95 55 40H145L70 95Z"/><circle r="30"/>',
+    "many": f'<path d="M0 100{TEETH}L200 100Z"/>',
+}
+
+
+@pytest.fixture(params=PATHS)
+def own(request, tmp_path):
+    file = tmp_path / f"{request.param}.svg"
+    file.write_text(SVG.format(paths=PATHS[request.param]))
+    return Material([file, example("holes")])
+
+
+@pytest.fixture(scope="module")
+def examples():
+    """Three of the examples, as a report without sources has them."""
+    material = Material([])
+    material.shapes = tuple(map(material.example, ("simple-small", "duck", "ocean")))
+    return material
+
+
+def tables(section):
+    return {item.name: item for item in section.items if isinstance(item, Table)}
+
+
+def column(table, head):
+    place = list(table.head).index(head)
+    return [row[place] for row in table.rows]
+
+
+def test_own_drawings_make_whole_sections_with_nothing_printed(own):
+    sections = [part.section(own) for part in (conversion, shapes, structure)]
+    for section in sections:
+        for table in tables(section).values():
+            assert all(len(row) == len(table.head) for row in table.rows), table.name
+            assert not any(isinstance(cell, Printed) for row in table.rows for cell in row)
+    names = [picture.name for picture in pictures_of(sections)]
+    assert len(names) == len(set(names))
+    assert "printed" not in json_text({}, sections)
+    assert page("Own", {}, [], sections)
+
+
+def test_table_5_1_has_the_thesis_beside_all_our_ways(examples):
+    section = conversion.section(examples)
+    first, second = tables(section)["conversion"], tables(section)["size-and-speed"]
+    assert all(len(row) == len(first.head) for row in first.rows)
+    assert all(len(row) == len(second.head) for row in second.rows)
+    for table, head, field in (
+        (first, "thesis, printed: ms", "ms"),
+        (first, "thesis, printed: quads", "quads"),
+        (first, "segments: thesis", "segments"),
+        (second, "source: thesis", "svg"),
+        (second, "thesis, printed: 16 bits", "bytes_16"),
+        (second, "thesis, printed: fps", "fps"),
+    ):
+        expected = [getattr(TABLE_5_1[shape.name], field) for shape in examples.shapes]
+        assert column(table, head) == list(map(Printed, expected))
+    for way in WAYS:
+        trees = [shape.way(way).tree for shape in examples.shapes]
+        assert column(first, f"{way}: curves") == [len(tree.curves) for tree in trees]
+        assert column(first, f"{way}: quads") == [len(tree.coverage) for tree in trees]
+    files = [len(shape.way("packed").texture.to_ktx2()) for shape in examples.shapes]
+    assert column(second, "packed: bytes") == files
+    assert column(second, "source: ours") == [shape.path.stat().st_size for shape in examples.shapes]
+    if examples.device:
+        assert min(column(second, "packed: fps")) > 0
+
+
+def test_what_an_encoding_cannot_hold_is_a_dash_and_a_reason(examples, monkeypatch):
+    from vexture.errors import LimitError
+    from vexture.evaluation.shape import Shape
+
+    way = Shape.way
+
+    def refusing(self, name, bits=None):
+        if name == "sampled":
+            raise LimitError("70,000 quads; the limit is 65,000")
+        return way(self, name, bits)
+
+    monkeypatch.setattr(Shape, "way", refusing)
+    section = conversion.section(examples)
+    assert column(tables(section)["conversion"], "sampled: ms") == [None] * 3
+    assert "70,000 quads" in tables(section)["conversion"].caption
+    assert "70,000 quads" in shapes.section(examples).items[0].caption
+    parts = structure.section(examples)
+    assert ["sampled", *[None] * 5] in tables(parts)["cells"].rows
+
+
+def test_every_example_is_the_figure_of_its_number():
+    material = Material([])
+    material.shapes = tuple(map(material.example, list(TABLE_5_1)[:2]))
+    captions = [item.caption for item in shapes.section(material).items]
+    assert [caption[:25] for caption in captions] == ["Thesis 5.1. Simple small.", "Thesis 5.2. Simple big. `"]
+    assert "13 quads, 18 curves" in captions[0]
+
+
+def test_structure_counts_what_the_trees_hold(examples):
+    section = structure.section(examples)
+    assert isinstance(section, Section)
+    rows = {row[0]: row[1:] for row in tables(section)["cells"].rows}
+    assert [cell.value for cell in rows["thesis, printed"]] == [29, 56, 172, 65536, 0.26]
+    tree = examples.main.way("direct").tree
+    quads, curves = len(tree.kind), len(tree.curves)
+    grid = 4 ** (1 + int(tree.quad_depth.max()))
+    assert rows["direct"] == [quads, curves, 4 * quads + curves, grid, 100 * (4 * quads + curves) / grid]
+    assert [item.name for item in section.items][-2:] == ["depths", "textures"]
