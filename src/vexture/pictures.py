@@ -1,6 +1,6 @@
 """From a texture or a drawing to a picture: which renderer, which of the shapes, which colours."""
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from vexture.errors import LimitError
 from vexture.pipeline import convert
@@ -12,7 +12,7 @@ if TYPE_CHECKING:  # at run time they come when they are needed: compiler and dr
     from vexture.drawing import Drawing, Paint
     from vexture.encoding import PackedTexture, Root, ThesisTexture
 
-    Shown = Drawing | PackedTexture | ThesisTexture
+    Shown: TypeAlias = Drawing | PackedTexture | ThesisTexture
 
 __all__ = ["QUALITIES", "RENDERERS", "find_root", "layers_of", "on_white", "render", "render_layers"]
 
