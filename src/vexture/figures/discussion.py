@@ -335,9 +335,11 @@ def _short(value: float) -> str:
 
 
 def _scale(figure: "Figure", axes: Any, shown: Any, label: str) -> None:
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
     bar = figure.colorbar(shown, ax=list(axes), shrink=0.8, label=label)
     engine = figure.get_layout_engine()
-    assert engine is not None
+    assert isinstance(engine, ConstrainedLayoutEngine)
     engine.set(rect=(0.006, 0.0, 0.988, 1.0))  # square panels beside a scale end at the figure's edge
     bar.outline.set_visible(False)
     bar.ax.tick_params(length=2)
