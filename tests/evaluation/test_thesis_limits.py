@@ -20,6 +20,7 @@ from vexture.evaluation.thesis_limits import (
     unnecessary_quads,
 )
 from vexture.pipeline import run
+from vexture.quadtree.tree import CellKind
 from vexture.render.exact import render_exact
 
 QUARTER = Drawing.polygon([(0.1, 0.1), (0.4, 0.1), (0.4, 0.35), (0.1, 0.35)])
@@ -60,6 +61,12 @@ def test_clamp_leaves_curves_in_range_and_corners_alone(shield):
     assert (kept.curves == tree.curves).all()
 
 
+def test_clamp_leaves_straight_corners_alone():
+    tree = run(QUARTER, **WAYS["direct"]).tree
+    assert (tree.kind == CellKind.CORNER).any()
+    assert (clamped(tree, 0.4, 0.41)[0].curves == tree.curves)[tree.ref[tree.kind == CellKind.CORNER]].all()
+
+
 def test_looping_drawing_crosses_itself_in_each_quarter():
     truth = render_exact(looping(), (64, 64))
     assert np.allclose(truth, truth[::-1], atol=1e-3)
@@ -96,15 +103,26 @@ def test_distances_of_points_far_from_everything_are_those_of_the_nearest_chord(
     assert off_outline(np.array([(0.0, 0.9), (0.9, 0.0), (0.905, 0.9)]), tiny) == pytest.approx([0.9, 0.9, 0.0])
 
 
-def test_distances_are_found_to_rounding():
-    cubics = disc().paths[0].contours[0]
+def test_nearest_chord_is_found_beyond_the_margin():
+    right = [(0.53, 0.4), (0.53, 0.6), (0.56, 0.5)]
+    left = [(0.4834, 0.4), (0.4834, 0.6), (0.45, 0.5)]
+    point = np.array([(0.5001, 0.5)])
+    assert off_outline(point, Drawing.polygon(right)) == pytest.approx([0.0299])
+    assert off_outline(point, Drawing.polygon(right, left)) == pytest.approx([0.0167])
+
+
+@pytest.mark.parametrize("off", [1e-3, 1e-7])
+def test_distances_are_found_to_rounding(off):
+    cubic = np.array([(0.1, 0.1), (0.1, 0.1001), (0.9, 0.2), (0.9, 0.9)])  # starts slowly
+    back = np.linspace(cubic[3], cubic[0], 4)
     t = np.linspace(0.01, 0.99, 33)[:, None]
     s = 1.0 - t
-    p0, p1, p2, p3 = cubics[1]
+    p0, p1, p2, p3 = cubic
     point = s**3 * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t**3 * p3
     tangent = 3 * s * s * (p1 - p0) + 6 * s * t * (p2 - p1) + 3 * t * t * (p3 - p2)
     normal = np.stack([tangent[:, 1], -tangent[:, 0]], axis=1) / np.linalg.norm(tangent, axis=1)[:, None]
-    assert np.allclose(off_outline(point + 1e-3 * normal, disc()), 1e-3, atol=1e-12)
+    drawing = Drawing((Path((np.stack([cubic, back]),)),))
+    assert off_outline(point + off * normal, drawing) == pytest.approx(off, rel=1e-6)
 
 
 def test_first_samples_lie_on_the_outline_and_are_as_dense_as_the_thesis_has_them():
@@ -121,7 +139,10 @@ def test_unnecessary_quads_are_those_around_one_stretch_of_one_cubic():
     corner = Drawing.polygon([(0, 0), (1, 0), (1, 0.3), (0.3, 0.3), (0.29, 0.37), (0.28, 0.3), (0, 0.3)])
     tree = run(corner, encoding="thesis", strategy="sampled").tree
     assert not unnecessary_quads(corner, tree).all()
-    assert unnecessary_quads(line, tree)[1:].any()
+    needless = unnecessary_quads(line, tree)
+    assert needless[1:].any()
+    joint = Drawing.polygon([(0, 0), (1, 0), (1, 0.3), (0.285, 0.3), (0, 0.3)])  # two cubics on that line
+    assert 0 < unnecessary_quads(joint, tree).sum() < needless.sum()
 
 
 def test_packed_divides_nothing_without_need(shield):

@@ -56,3 +56,4 @@ def test_any_drawing_may_be_the_subject(tmp_path, content):
     made = section(material)
     expected = "own drawing" if content else "duck"
     assert expected in made.items[0].rows[2][1]
+    assert any("own drawing has no outline" in text for text in made.text) == (not content)

@@ -254,7 +254,9 @@ def list_growth(lengths: Mapping[str, Sequence[Lengths]], parts: Mapping[str, ND
             color=COLOURS[name], marker=marker, markersize=4, linewidth=1.5, label=name,
         )  # fmt: skip
         refused = [length.copies for length in found if length.entries is None]
-        chart.plot(refused, [LIST_LIMIT[16]] * len(refused), "x", color=COLOURS[name], markersize=9, mew=2.2)
+        chart.plot(
+            refused, [LIST_LIMIT[16]] * len(refused), "x", color=COLOURS[name], markersize=10, mew=2.2, zorder=1.5
+        )
     most = max(length.copies for found in lengths.values() for length in found)
     for limit, says in ((LIST_LIMIT[8], "8 bits"), (LIST_LIMIT[16], "16 bits"), (MOST_TEXELS, "packed")):
         chart.axhline(limit, color=MUTED, linewidth=0.9, linestyle="--")
@@ -334,7 +336,12 @@ def _short(value: float) -> str:
 
 
 def _scale(figure: "Figure", axes: Any, shown: Any, label: str) -> None:
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
     bar = figure.colorbar(shown, ax=list(axes), shrink=0.8, label=label)
+    engine = figure.get_layout_engine()
+    assert isinstance(engine, ConstrainedLayoutEngine)
+    engine.set(rect=(0.006, 0.0, 0.988, 1.0))  # square panels beside a scale end at the figure's edge
     bar.outline.set_visible(False)
     bar.ax.tick_params(length=2)
 

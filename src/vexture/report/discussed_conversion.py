@@ -121,8 +121,8 @@ def density_point(material: Material, subject: Shape) -> Point:
         "be “not interpolating the curve segments, but instead cutting them up into smaller segments on the points "
         "where they cross the edge of a subdivided quad’s cell”.",
         f"Before: {SAMPLES_ACROSS} samples across the unit square, more where a cell has none, fitted. The outline "
-        f"that the texture of {subject.name} holds is up to {worst['sampled']:.2g} pixels away from the drawing's, in a "
-        "picture of 1,000.",
+        f"that the texture of {subject.name} holds is up to {worst['sampled']:.2g} pixels away from the drawing's, in "
+        "a picture of 1,000.",
         "After: what the thesis proposes. Curves are cut at the cells' edges, and nothing is sampled. `direct` still "
         f"fits where several curves meet in a leaf that holds one: {worst['direct']:.2g} pixels. `packed` holds the "
         f"parts themselves, and what is left is the rounding to its lattice: {worst['packed']:.2g} pixels.",

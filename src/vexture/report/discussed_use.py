@@ -11,6 +11,7 @@ from vexture.evaluation.editing import edited
 from vexture.evaluation.printed import TABLE_5_1
 from vexture.evaluation.shape import WAYS, Shape
 from vexture.evaluation.thesis_limits import (
+    Close,
     Lengths,
     close_up,
     list_lengths,
@@ -46,7 +47,10 @@ BALL: Final = '<circle cx="36" cy="40" r="24"/>'
 
 def lines_point(material: Material, subject: Shape) -> Point:
     """Lines along the borders of cells."""
-    close = close_up(subject.drawing, pair_of(subject, "direct"), packed_of(subject), side=UNALIGNED, as_thesis=True)
+    close = _as_thesis(subject)
+    if not close.stray[0]:  # its outline is nowhere near a border of cells
+        subject = material.example(DUCK)
+        close = _as_thesis(subject)
     same = close_up(subject.drawing, pair_of(subject, "direct"), pair_of(subject, "direct"), side=UNALIGNED)
     before, after = close.stray
     again = same.stray[1]
@@ -74,6 +78,10 @@ def lines_point(material: Material, subject: Shape) -> Point:
     )
     part = Section("lines", "Lines along cells (6.3)", text, [picture])
     return Point(part, f"pixels of {subject.name} that are wrong away from its outline", before, after)
+
+
+def _as_thesis(shape: Shape) -> Close:
+    return close_up(shape.drawing, pair_of(shape, "direct"), packed_of(shape), side=UNALIGNED, as_thesis=True)
 
 
 def crossings_point(material: Material, subject: Shape) -> Point:

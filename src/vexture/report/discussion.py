@@ -49,7 +49,7 @@ def section(material: Material) -> Section:
     >>> [item.name for item in section(Material([])).items[:1]]
     ['points']
     """
-    subject = _subject(material)
+    subject, why = _subject(material)
     points = [make(material, subject) for make in POINTS]
     table = Table(
         "points",
@@ -67,19 +67,21 @@ def section(material: Material) -> Section:
         "The thesis's last chapter but one says what its method could not do yet. Here is each point in its words, "
         "what the thesis's way makes of it, and what became of it.",
         f"Where any drawing shows the point it is shown on {subject.name}, else on the example drawing that shows it "
-        "best. Errors of pictures are mean absolute differences from the exact coverage over the pixels that the "
-        "shape touches, in 1/255. Pictures are rendered on the CPU.",
+        "best. Errors of pictures are mean absolute differences from the exact coverage over the pixels that the shape "
+        "touches, in 1/255. Pictures are rendered on the CPU.",
+        *([f"Why not on the drawing that this page is about: {why}"] if why else []),
     )
     return Section("discussion", "Chapter 6, answered", text, [table, *parts])
 
 
-def _subject(material: Material) -> Shape:
-    """The drawing that points are shown on which any drawing shows: the report's own, if the thesis's way takes it."""
+def _subject(material: Material) -> tuple[Shape, str]:
+    """The drawing that points are shown on which any drawing shows: the report's own, or why not."""
     own, duck = material.main, material.example(DUCK)
-    if not 0 < own.drawing.segments <= MOST_SEGMENTS:
-        return duck
+    segments = own.drawing.segments
+    if segments > MOST_SEGMENTS:
+        return duck, f"{own.name} has {segments:,} segments; up to {MOST_SEGMENTS} are sampled again and again."
     try:
         drawn = all(len(tree_of(own, way).curves) for way in ("sampled", "direct"))
-    except LimitError:
-        return duck
-    return own if drawn else duck
+    except LimitError as error:
+        return duck, str(error).splitlines()[0]
+    return (own, "") if drawn else (duck, f"{own.name} has no outline.")
