@@ -7,7 +7,7 @@ import numpy as np
 from vexture.drawing import Drawing
 from vexture.evaluation.closeups import closeup, sharpest_corner
 from vexture.figures.outlines import draw_outline
-from vexture.figures.style import COLOURS, MUTED, panels, show
+from vexture.figures.style import COLOURS, INK, MUTED, panels, show
 from vexture.pictures import render
 from vexture.pipeline import convert
 
@@ -51,13 +51,13 @@ def tracing(image: "NDArray[np.float32]", traced: Drawing, true: Drawing | None 
     x, y = (min(max(float(middle), half), 1.0 - half) for middle in place)
     bounds = (x - half, y - half, x + half, y + half)
     titles = (f"{side} pixels", "traced", "from its texture", "the same part")
-    figure, (axes,) = panels(1, 4, side=2.8, height=3.1, titles=titles)
+    figure, (axes,) = panels(1, 4, side=2.8, height=3.2, titles=titles)
     unit = {"extent": (0.0, 1.0, 0.0, 1.0)}
     show(axes[0], image, **unit)
-    show(axes[1], 0.6 * image, **unit)
+    show(axes[1], 0.35 * image, **unit)
     if true is not None:
-        draw_outline(axes[1], true, bounds, color=COLOURS["sampled"], linewidth=4.0, label="the true outline")
-    draw_outline(axes[1], traced, bounds, color=COLOURS["packed"], linewidth=1.5, label="the traced one")
+        draw_outline(axes[1], true, bounds, color=COLOURS["sampled"], linewidth=5.0, label="the true outline")
+    draw_outline(axes[1], traced, bounds, color=INK, linewidth=1.2, label="the traced one")
     texture = convert(traced)
     show(axes[2], render(texture, (SIDE, SIDE), renderer="cpu"), **unit)
     part = closeup((SIDE, SIDE), np.array([x, y]), side / PIXELS)
@@ -70,5 +70,5 @@ def tracing(image: "NDArray[np.float32]", traced: Drawing, true: Drawing | None 
         panel.set_xticks([low[0], high[0]], [f"{low[0]:.3g}", f"{high[0]:.3g}"])
         panel.set_yticks([low[1], high[1]], [f"{low[1]:.3g}", f"{high[1]:.3g}"])
         panel.tick_params(length=2, color=MUTED)
-    axes[1].legend(*axes[1].get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, -0.08))
+    figure.legend(*axes[1].get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure

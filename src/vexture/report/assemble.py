@@ -34,10 +34,8 @@ LEAD: Final = (
     "Every table and figure of the thesis that vexture began with, made again from the library's own data: a drawing "
     "goes through the thesis's way to a texture, which is kept under the name `sampled`; through ours to the thesis's "
     "own format, `direct`; and through ours to ours, `packed`.",
-    "Every number was measured in the run that made this page, but for those that the thesis printed, which are set "
-    "like this: ",
 )
-"""What stands before everything; the last sentence ends with an example."""
+"""What stands before everything."""
 
 
 def assemble(

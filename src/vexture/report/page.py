@@ -17,6 +17,15 @@ __all__ = ["json_text", "known", "page", "pictures_of", "png_of"]
 POLICY = "default-src 'none'; img-src 'self' data:; style-src 'unsafe-inline'"
 """A report fetches nothing but its own pictures, and runs nothing."""
 
+MARKED = (
+    "<p>Every number was measured in the run that made this page, but for those that "
+    '<span class="printed">the thesis printed</span>, which look like that.</p>'
+)
+"""What the colours of numbers mean."""
+
+TEXT_CLASS = ' class="text"'
+"""Columns of words begin at the left."""
+
 PAGE = """<!doctype html>
 <html lang="en">
 <head>
@@ -70,7 +79,7 @@ def page(title: str, machine: Mapping[str, Any], lead: Sequence[str], sections: 
         title=html.escape(title),
         style=files("vexture.report").joinpath("page.css").read_text(encoding="utf-8"),
         contents="\n".join(_contents(section) for section in sections),
-        lead="\n".join([*map(_paragraph, lead), f"<dl>{facts}</dl>"]),
+        lead="\n".join([*map(_paragraph, lead), MARKED, f"<dl>{facts}</dl>"]),
         sections="\n".join(_section(section, 2) for section in sections),
     )
 
@@ -154,7 +163,11 @@ def _picture(picture: Picture) -> str:
 
 def _table(table: Table) -> str:
     groups = [head.rpartition(": ")[0] for head in table.head]
-    lower = "".join(f"<th>{_inline(head.rpartition(': ')[2])}</th>" for head in table.head)
+    texts = [any(isinstance(row[place], str) for row in table.rows) for place in range(len(table.head))]
+    lower = "".join(
+        f"<th{TEXT_CLASS if text else ''}>{_inline(head.rpartition(': ')[2])}</th>"
+        for head, text in zip(table.head, texts, strict=True)
+    )
     rows = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in table.rows)
     head = f"<thead>{_groups(groups)}<tr>{lower}</tr></thead>"
     caption = f"<caption>{_inline(table.caption)}</caption>"
@@ -179,7 +192,7 @@ def _groups(groups: Sequence[str]) -> str:
 def _cell(value: Any) -> str:
     if isinstance(value, Printed):
         return f'<td class="printed">{_shown(value.value)}</td>'
-    kind = ' class="text"' if isinstance(value, str) else ""
+    kind = TEXT_CLASS if isinstance(value, str) else ""
     return f"<td{kind}>{_shown(value)}</td>"
 
 
