@@ -15,13 +15,14 @@ QUICK ?=
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help demo docs viewer test test-web bench clean
+.PHONY: help demo docs report viewer test test-web bench clean
 
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
 	@echo 'make viewer  build the page of `vexture view` and `vexture export`, with node and npm'
 	@echo 'make test    lint, types and tests, with all that they need'
 	@echo 'make docs    build the documentation into site/, to be read from the disk'
+	@echo 'make report  measure the tables and figures of the thesis again; the page is demo/report/index.html'
 	@echo 'make bench   measure fidelity, speed and size; the figures come into benchmarks/results/'
 	@echo 'make clean   remove all of that again'
 
@@ -39,7 +40,12 @@ help:
 .venv/for-test: pyproject.toml | .venv/made
 	@echo 'installing vexture, its libraries and the tools of its tests into .venv (a minute or two) ...'
 	@$(BIN)/python -m pip install --quiet --editable '.[docs,gis,gpu,live,report,trace,test]'
-	@touch .venv/for-demo .venv/for-docs $@
+	@touch .venv/for-demo .venv/for-docs .venv/for-report $@
+
+.venv/for-report: pyproject.toml | .venv/made
+	@echo 'installing vexture and what its report draws and compares with into .venv (a minute or less) ...'
+	@$(BIN)/python -m pip install --quiet --editable '.[report,trace]'
+	@touch $@
 
 .venv/for-docs: pyproject.toml | .venv/made
 	@echo 'installing vexture and MkDocs into .venv (a minute or less) ...'
@@ -86,6 +92,9 @@ demo: .venv/for-demo
 	@echo
 	@echo 'Open the pictures in demo/pictures/: duck-1000.png is drawn from the texture demo/duck.ktx2, duck-50.png from'
 	@echo 'demo/all.ktx2, which holds all the drawings; duck-exact.png is what they must look like.'
+
+report: .venv/for-report
+	$(BIN)/vexture report -o demo/report
 
 # not --quiet: it keeps --strict from seeing the warnings that it is to fail for
 docs: .venv/for-docs

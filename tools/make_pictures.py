@@ -5,6 +5,7 @@ draws from those textures: magnified, each time around the same point, and at sm
 """
 
 import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +26,7 @@ SHAPE = ROOT / "examples" / "shapes" / "duck.svg"
 TARGET = ROOT / "docs" / "pictures" / "first.png"
 PACKED_TARGET = TARGET.with_name("packed.png")
 ICONS_TARGET = TARGET.with_name("icons.png")
+EQUAL_TARGET = TARGET.with_name("equal-bytes.png")
 LETTERING = SHAPE.with_name("font.svg")
 
 PANEL, GAP, CAPTION = 360, 28, 44  # pixels
@@ -187,6 +189,16 @@ def icons() -> Image.Image:
     return out
 
 
+def equal_bytes() -> Image.Image:
+    """The report's picture of other textures of as many bytes."""
+    from vexture.report.assemble import assemble
+
+    with tempfile.TemporaryDirectory() as folder:
+        made = assemble([SHAPE], Path(folder), only=("comparison",))
+        with Image.open(made.with_name("figures") / EQUAL_TARGET.name) as picture:
+            return picture.convert("P", palette=Image.Palette.ADAPTIVE, colors=64)
+
+
 if __name__ == "__main__":
     TARGET.parent.mkdir(parents=True, exist_ok=True)
     sheet(panels()).save(TARGET, optimize=True)
@@ -195,3 +207,5 @@ if __name__ == "__main__":
     print(PACKED_TARGET)
     icons().save(ICONS_TARGET, optimize=True)
     print(ICONS_TARGET)
+    equal_bytes().save(EQUAL_TARGET, optimize=True)
+    print(EQUAL_TARGET)

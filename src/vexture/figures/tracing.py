@@ -52,14 +52,14 @@ def tracing(image: "NDArray[np.float32]", traced: Drawing, true: Drawing | None 
     bounds = (x - half, y - half, x + half, y + half)
     titles = (f"{side} pixels", "traced", "from its texture", "the same part")
     figure, (axes,) = panels(1, 4, side=2.8, height=3.2, titles=titles)
-    unit = {"extent": (0.0, 1.0, 0.0, 1.0)}
-    show(axes[0], image, **unit)
-    show(axes[1], 0.35 * image, **unit)
+    unit = (0.0, 1.0, 0.0, 1.0)
+    show(axes[0], image, extent=unit)
+    show(axes[1], 0.35 * image, extent=unit)
     if true is not None:
         draw_outline(axes[1], true, bounds, color=COLOURS["sampled"], linewidth=5.0, label="the true outline")
     draw_outline(axes[1], traced, bounds, color=INK, linewidth=1.2, label="the traced one")
     texture = convert(traced)
-    show(axes[2], render(texture, (SIDE, SIDE), renderer="cpu"), **unit)
+    show(axes[2], render(texture, (SIDE, SIDE), renderer="cpu"), extent=unit)
     part = closeup((SIDE, SIDE), np.array([x, y]), side / PIXELS)
     show(axes[3], render(texture, (SIDE, SIDE), part, "cpu"), extent=(bounds[0], bounds[2], bounds[1], bounds[3]))
     for panel in axes[:3:2]:
