@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from vexture.encoding.png import write_png
 from vexture.errors import LimitError
-from vexture.evaluation.raster import FULL, bilinear, footprint, mip_sides, trilinear
+from vexture.evaluation.raster import FULL, Footprint, MipMapped, mip_sides
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
@@ -36,79 +35,35 @@ BATCH: Final = 1 << 21
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class DistanceField:
+class DistanceField(MipMapped):
     """A square picture of distances from the outline, with its mip-map.
+
+    Its texels are distances at their centres: 0 is `spread` outside or farther, 255 so much inside.
 
     Parameters
     ----------
-    texels : (n, n) uint8 array
-        Distances at the texels' centres, top row first: 0 is `spread` outside or farther, 255 so much inside.
     spread : float
         Texels of the largest level.
-    mips : tuple of (m, m) uint8 arrays
-        Its smaller levels.
 
     Examples
     --------
-    >>> edge = DistanceField(np.array([[255, 0], [255, 0]], np.uint8), 0.5)
+    >>> edge = DistanceField(np.array([[255, 0], [255, 0]], np.uint8), spread=0.5)
     >>> edge.sample((4, 1), [[0.25, 0, 0], [0, -0.25, 0.625]])
     array([[1., 1., 0., 0.]], dtype=float32)
     """
 
-    texels: NDArray[np.uint8]
-    spread: float
-    mips: tuple[NDArray[np.uint8], ...] = ()
+    spread: float = SPREAD
 
-    @property
-    def side(self) -> int:
-        """Texels along a side."""
-        return len(self.texels)
-
-    @property
-    def nbytes(self) -> int:
-        """Memory on the GPU: one byte for each texel of each level."""
-        return self.texels.nbytes + sum(level.nbytes for level in self.mips)
-
-    @property
-    def png_bytes(self) -> int:
-        """Length of its PNG file, grey with 8 bits; the mip-map is made when it is loaded."""
-        return len(write_png(self.texels[..., None], {}))
-
-    def sample(
-        self, size: tuple[int, int], to_unit: ArrayLike | None = None, *, mip: bool = True
-    ) -> NDArray[np.float32]:
-        """Draw it as `vexture.render` draws a texture: a fetch, and a step one pixel wide across the outline.
-
-        Parameters
-        ----------
-        size : tuple of int
-            Width and height of the image in pixels.
-        to_unit : (2, 3) or (3, 3) array, optional
-            From pixel coordinates to the unit square; None fits the square.
-        mip : bool
-            Filter by ``LINEAR_MIPMAP_LINEAR``, else by ``LINEAR`` at every size.
-
-        Returns
-        -------
-        (height, width) float32 array
-            Coverage, top row first.
-
-        Raises
-        ------
-        LimitError
-            If the size or the view is out of range.
-        """
-        place = footprint(size, to_unit)
-        if mip and self.mips:
-            stored = trilinear((self.texels, *self.mips), place, frame=False)
-        else:
-            stored = bilinear(self.texels, place.u, place.v, frame=False)
+    def coverage(self, place: Footprint, *, mip: bool) -> NDArray[np.float64]:
+        """A soft step across the outline, one pixel wide, 0..1."""
+        stored = self.fetch(place, mip=mip, frame=False)
         # nothing is farther inside than the unit square's own border is away, nor is anything inside beyond it
         border = self.side * np.minimum(np.minimum(place.u, 1.0 - place.u), np.minimum(place.v, 1.0 - place.v))
         distance = np.minimum((stored / FULL - 0.5) * 2.0 * self.spread, border)
         # no wider than the distances that there are, so that what is far inside is full and what is far outside empty
         width = np.clip(place.reach * self.side, np.finfo(np.float64).tiny, 2.0 * self.spread)
-        return place.shown(np.clip(distance / width + 0.5, 0.0, 1.0))
+        coverage: NDArray[np.float64] = np.clip(distance / width + 0.5, 0.0, 1.0)
+        return coverage
 
 
 def distance_from(drawing: "Drawing", side: int, spread: float = SPREAD, *, mips: bool = True) -> DistanceField:
@@ -143,7 +98,7 @@ def distance_from(drawing: "Drawing", side: int, spread: float = SPREAD, *, mips
         np.rint(FULL * np.clip(0.5 + 0.5 * signed_distances(drawing, n, reach) / reach, 0.0, 1.0)).astype(np.uint8)
         for n in [side, *(mip_sides(side) if mips else [])]
     )
-    return DistanceField(first, spread, tuple(others))
+    return DistanceField(first, tuple(others), spread)
 
 
 def signed_distances(drawing: "Drawing", side: int, reach: float) -> NDArray[np.float64]:

@@ -17,28 +17,32 @@ from vexture.render.view import view_matrix
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
 
-__all__ = ["FULL", "Footprint", "RasterTexture", "bilinear", "footprint", "mip_sides", "raster_from", "trilinear"]
+__all__ = [
+    "FULL",
+    "Footprint",
+    "MipMapped",
+    "RasterTexture",
+    "bilinear",
+    "footprint",
+    "mip_sides",
+    "raster_from",
+    "trilinear",
+]
 
 FULL: Final = 255
 """A texel that is covered."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class RasterTexture:
-    """A square picture of coverage with its mip-map.
+class MipMapped:
+    """A square picture of 8 bits with its mip-map, whatever its texels mean.
 
     Parameters
     ----------
     texels : (n, n) uint8 array
-        Coverage of the texels, top row first; 255 is full.
+        Top row first.
     mips : tuple of (m, m) uint8 arrays
         Its smaller levels, of the sides n // 2, n // 4, ... 1; empty: none.
-
-    Examples
-    --------
-    >>> half = RasterTexture(np.array([[255, 0], [255, 0]], np.uint8), (np.array([[128]], np.uint8),))
-    >>> half.sample((4, 1), [[0.25, 0, 0], [0, -0.25, 0.625]], mip=False)
-    array([[0.75, 0.75, 0.25, 0.  ]], dtype=float32)
     """
 
     texels: NDArray[np.uint8]
@@ -84,9 +88,34 @@ class RasterTexture:
             If the size or the view is out of range.
         """
         place = footprint(size, to_unit)
-        if not mip or not self.mips:
-            return place.shown(bilinear(self.texels, place.u, place.v) / FULL)
-        return place.shown(trilinear((self.texels, *self.mips), place) / FULL)
+        return place.shown(self.coverage(place, mip=mip))
+
+    def coverage(self, place: "Footprint", *, mip: bool) -> NDArray[np.float64]:
+        """Coverage of each pixel by what is fetched there."""
+        raise NotImplementedError
+
+    def fetch(self, place: "Footprint", *, mip: bool, frame: bool) -> NDArray[np.float64]:
+        """Filtered texels, 0..255; `frame`: those beyond the picture are 0, else they are those at its border."""
+        if mip and self.mips:
+            return trilinear((self.texels, *self.mips), place, frame=frame)
+        return bilinear(self.texels, place.u, place.v, frame=frame)
+
+
+class RasterTexture(MipMapped):
+    """A square picture of coverage, of which 255 is full, with its mip-map.
+
+    Examples
+    --------
+    >>> half = RasterTexture(np.array([[255, 0], [255, 0]], np.uint8), (np.array([[128]], np.uint8),))
+    >>> half.sample((4, 1), [[0.25, 0, 0], [0, -0.25, 0.625]], mip=False)
+    array([[0.75, 0.75, 0.25, 0.  ]], dtype=float32)
+    """
+
+    __slots__ = ()
+
+    def coverage(self, place: "Footprint", *, mip: bool) -> NDArray[np.float64]:
+        """Coverage of each pixel, 0..1."""
+        return self.fetch(place, mip=mip, frame=True) / FULL
 
 
 @dataclass(frozen=True, slots=True, eq=False)
