@@ -77,6 +77,14 @@ def test_santa_cruz_flood(tmp_path):
     assert (tmp_path / "ground.jpg").stat().st_size < 500_000
 
 
+def test_figures(tmp_path):
+    pytest.importorskip("vtracer")
+    lines = run(ROOT / "examples" / "06_figures.py", tmp_path, folder=tmp_path).splitlines()
+    assert [line.split(":")[0] for line in lines] == ["heart-texture.png", "heart-depths.png", "heart-edges.png"]
+    assert 0.3 < dark_share(tmp_path / "heart.png") < 0.8
+    assert all(dark_share(tmp_path / f"heart-{name}.png") > 0.02 for name in ("texture", "depths", "edges"))
+
+
 def test_every_example_is_tested():
     names = {path.name for path in (ROOT / "examples").glob("*.py")}
     assert names == set(re.findall(r"\d\d_\w+\.py", Path(__file__).read_text(encoding="utf-8")))
