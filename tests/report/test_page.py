@@ -46,6 +46,12 @@ def test_page_shows_every_part_once(made):
     assert "".join(made.xpath("//figcaption")[0].itertext()) == "Half of it, by show."
 
 
+def test_section_table_and_picture_of_one_name_are_told_apart():
+    one = Section("bytes", "Bytes", (), [Table("bytes", "", ["x"], [["row"]]), picture("bytes")])
+    anchors = html.fromstring(page("", {}, [], [one])).xpath("//@id")
+    assert anchors == ["bytes", "table-bytes", "figure-bytes"]
+
+
 def test_links_within_the_page_lead_somewhere(made):
     anchors = set(made.xpath("//@id"))
     assert {link[1:] for link in made.xpath("//nav//a/@href")} <= anchors

@@ -155,7 +155,7 @@ def _picture(picture: Picture) -> str:
     # shown at 96 pixels per inch, so that a screen of twice the density gets nearly all of the file's
     shown = round(width * 96 / RESOLUTION), round(height * 96 / RESOLUTION)
     return (
-        f'<figure id="{picture.name}"><a href="figures/{picture.name}.png">'
+        f'<figure id="figure-{picture.name}"><a href="figures/{picture.name}.png">'
         f'<img src="figures/{picture.name}.png" width="{shown[0]}" height="{shown[1]}" loading="lazy" '
         f'alt="{html.escape(picture.alt)}"></a><figcaption>{_inline(picture.caption)}</figcaption></figure>'
     )
@@ -171,7 +171,7 @@ def _table(table: Table) -> str:
     rows = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in table.rows)
     head = f"<thead>{_groups(groups)}<tr>{lower}</tr></thead>"
     caption = f"<caption>{_inline(table.caption)}</caption>"
-    return f'<div class="wide"><table id="{table.name}">{caption}{head}<tbody>{rows}</tbody></table></div>'
+    return f'<div class="wide"><table id="table-{table.name}">{caption}{head}<tbody>{rows}</tbody></table></div>'
 
 
 def _groups(groups: Sequence[str]) -> str:
