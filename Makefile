@@ -121,7 +121,7 @@ test: .venv/for-test
 		$(BIN)/vexture render "$$scratch/duck.ktx2" -o "$$scratch/packed.png" --size 16 --renderer cpu >>"$$scratch/log" && \
 		$(BIN)/vexture render "$$scratch/thesis/duck" -o "$$scratch/cpu.png" --size 16 --renderer cpu >>"$$scratch/log" && \
 		$(BIN)/vexture render $(SHAPES)/duck.svg -o "$$scratch/exact.png" --size 16 --renderer exact >>"$$scratch/log" && \
-		$(BIN)/python -m doctest src/vexture/bezier/ring.py >>"$$scratch/log"
+		$(BIN)/python -m pytest --quiet src/vexture/bezier/ring.py >>"$$scratch/log"
 	$(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4
 
 test-web: viewer

@@ -32,6 +32,7 @@ WITHOUT_MIRROR = {
     "shore.glsl",
     "steps.glsl",
     "water.glsl",
+    "bands.glsl",  # not ours to draw with
 }
 MIRRORED = {name: text for name, text in FILES.items() if name not in WITHOUT_MIRROR}
 ALONE = {"covering_triangle", "fetch"}  # functions of the shader for which the mirror has no use
