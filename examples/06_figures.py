@@ -1,6 +1,6 @@
 """A heart of pixels is traced; figures of its texture, of its cells by depth, of its outline by several methods.
 
-python examples/06_figures.py [folder]      needs vexture[report,trace]
+python examples/06_figures.py [FOLDER]      needs vexture[report,trace]
 """
 
 import sys
@@ -15,7 +15,7 @@ from vexture.evaluation.shape import Shape
 from vexture.figures.cells import subdivision
 from vexture.figures.edges import edges
 
-folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
+folder = Path(sys.argv[1] if len(sys.argv) > 1 else "demo/06")
 folder.mkdir(parents=True, exist_ok=True)
 
 y, x = np.mgrid[1.5:-1.1:200j, -1.3:1.3:200j]

@@ -5,6 +5,7 @@ its own text. Both become pages when the site is built, so that nothing is writt
 """
 
 import ast
+import inspect
 import posixpath
 import re
 from collections.abc import Iterator
@@ -125,7 +126,7 @@ def command_line() -> str:
     """Page of all commands, by their own words."""
     from vexture.cli import main
 
-    context = click.Context(main, info_name="vexture")
+    context = click.Context(main, info_name="vexture", **main.context_settings)
     parts = [
         "# Command line",
         "`vexture COMMAND --help` says the same in a terminal. Where a command cannot do what it was asked it says "
@@ -142,7 +143,7 @@ def _command(name: str, command: click.Command, above: click.Context) -> Iterato
     usage = " ".join(command.collect_usage_pieces(context))
     yield f"## vexture {name}"
     yield f"```text\n{context.command_path} {usage}\n```"
-    yield command.help or ""
+    yield inspect.cleandoc(command.help or "")
     for parameter in command.get_params(context):
         record = parameter.get_help_record(context) if isinstance(parameter, click.Option) else None
         if record is not None:

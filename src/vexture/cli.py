@@ -93,7 +93,11 @@ def main() -> None:
 def convert(
     sources: tuple[Path, ...], output: Path | None, atlas: Path | None, bits: str | None, **parameters: Any
 ) -> None:
-    """Convert drawings (SVG, GeoJSON) and pictures to trace (PNG, JPEG, WebP, GIF, BMP) into textures."""
+    """Convert drawings (SVG, GeoJSON) and pictures to trace (PNG, JPEG, WebP, GIF, BMP) into textures.
+
+    Of geographic data (GeoPackage, FlatGeobuf, shapefile; GeoTIFF, NetCDF) it takes where water is, of several times
+    the first.
+    """
     with one_line():
         settings = Settings(bits=None if bits is None else int(bits), **parameters)
         if atlas is None:

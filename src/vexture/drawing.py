@@ -27,7 +27,15 @@ FARTHEST: Final = 1e9
 
 
 class FillRule(IntEnum):
-    """Which winding numbers are inside."""
+    """Which winding numbers are inside.
+
+    Attributes
+    ----------
+    NONZERO : int
+        All but 0.
+    EVENODD : int
+        The odd ones.
+    """
 
     NONZERO = 0
     EVENODD = 1

@@ -78,6 +78,14 @@ def test_every_command_and_option_is_described(site: Path) -> None:
                 assert re.sub(r"\[default: .*?\]", "", record[1]).strip(), f"{name} {record[0]} says not what it is"
 
 
+def test_what_a_command_says_of_itself_is_text(site: Path) -> None:
+    text = (site / "reference" / "command-line.html").read_text(encoding="utf-8")
+    for name, command in main.commands.items():
+        for paragraph in inspect.cleandoc(command.help or "").split("\n\n"):
+            assert f"<p>{paragraph[:40]}" in text, name
+    assert "<code>-h, --help</code>" in text
+
+
 def test_figures_have_a_page_once_there_are_some(site: Path) -> None:
     folder = ROOT / "src" / "vexture" / "figures"
     defined = [path for path in folder.glob("*.py") if re.search(r'\) -> "?Figure"?:$', path.read_text(), re.M)]

@@ -371,6 +371,13 @@ def test_textures_of_the_encoding_thesis_are_textures(logo, tmp_path):
     assert "damaged PNG" in result.output
 
 
+def test_a_start_without_a_picture_names_no_object_in_memory(logo):
+    with pytest.raises(SourceError) as refused:
+        vexture.read_image(logo.read_bytes()[:8], "start.png")
+    assert str(refused.value).startswith("start.png: is a damaged picture (")
+    assert " at 0x" not in str(refused.value)
+
+
 def test_selectors_choose_nothing_of_a_picture(logo, tmp_path):
     result = run("convert", logo, "-o", tmp_path, "--select", "#a")
     assert (result.exit_code, "chooses elements of an SVG" in result.output) == (1, True)

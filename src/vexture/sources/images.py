@@ -77,7 +77,7 @@ def pixels_of(source: str | os.PathLike[str] | bytes) -> NDArray[np.uint8]:
     content = source if isinstance(source, bytes) else read_bytes(source)
     if not is_picture(content):
         raise SourceError("is no picture; give a PNG, JPEG, WebP, GIF or BMP")
-    from PIL import Image
+    from PIL import Image, UnidentifiedImageError
 
     try:
         with warnings.catch_warnings():
@@ -94,6 +94,8 @@ def pixels_of(source: str | os.PathLike[str] | bytes) -> NDArray[np.uint8]:
         raise LimitError(f"has far more than {MOST_PIXELS:,} pixels, which is the limit; scale it down") from None
     except (OSError, SyntaxError, ValueError, EOFError, IndexError, TypeError, KeyError) as error:
         why = " ".join(str(error).split())[:100] or type(error).__name__
+        if isinstance(error, UnidentifiedImageError):  # which names an object in memory
+            why = "its first bytes are those of a picture, and no more"
         raise SourceError(f"is a damaged picture ({why}); save it again") from None
 
 
