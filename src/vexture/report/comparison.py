@@ -80,11 +80,13 @@ def section(material: Material) -> Section:
     text = [
         "The thesis compares its textures with no others. Here are the obvious ones, each made as well as it can be: "
         "raster textures from exact coverage and distance fields from true distances, both filtered as OpenGL defines "
-        "it, in float64; two renderers of vector graphics; and the bands that fast glyph renderers use.",
+        "it, in float64; two renderers of vector graphics; and the bands that fast glyph renderers use. Distance "
+        "fields have one channel here: those of several, which keep corners, are not measured, nor is anisotropic "
+        "filtering.",
         "Errors are mean absolute differences from exact coverage in steps of 1/255, over the pixels that the shape "
-        f"touches. Pictures of the whole drawing are moved by parts of a pixel ({SHIFTS[0][0]:g} and {SHIFTS[0][1]:g} "
-        f"at {WHOLE} pixels, {len(SHIFTS)} ways at {SMALL} pixels), because a texture on a surface is never in line "
-        "with the screen.",
+        "touches, in the picture or in truth. Pictures of the whole drawing are moved by parts of a pixel "
+        f"({SHIFTS[0][0]:g} and {SHIFTS[0][1]:g} at {WHOLE} pixels, {len(SHIFTS)} ways at {SMALL} pixels), because a "
+        "texture on a surface is never in line with the screen.",
     ]
     if material.device is None:
         text.append("There is no GPU here, so the bands, which are drawn on one, are left out.")
