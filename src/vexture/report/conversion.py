@@ -79,9 +79,15 @@ def _text(material: Material, found: list[dict[str, Measured]]) -> list[str]:
     return [
         first,
         f"{many}, `direct` has {ratios['curves_direct']:.0%} of the curves of `sampled` and is made "
-        f"{ratios['times_direct']:,.0f} times as fast; `packed` is made {ratios['times_packed']:,.0f} times as fast, "
+        f"about {_about(ratios['times_direct'])} times as fast; `packed` is made about "
+        f"{_about(ratios['times_packed'])} times as fast, "
         f"and its file has {ratios['bytes_packed']:.0%} of the bytes of the 16-bit pair of `sampled`.",
     ]
+
+
+def _about(ratio: float) -> str:
+    """A ratio of times, to the one digit that two runs agree on."""
+    return f"{float(f'{ratio:.1g}'):,.0f}"
 
 
 def _medians(found: list[dict[str, Measured]]) -> dict[str, float]:
