@@ -3,7 +3,8 @@
 import pytest
 
 from vexture.evaluation.printed import TABLE_5_1
-from vexture.evaluation.shape import WAYS, example
+from vexture.evaluation.shape import WAYS, Shape, example, file_bytes
+from vexture.pipeline import convert
 from vexture.report import conversion, shapes, structure
 from vexture.report.page import json_text, page, pictures_of
 from vexture.report.section import Material, Printed, Section, Table
@@ -117,3 +118,18 @@ def test_structure_counts_what_the_trees_hold(examples):
     grid = 4 ** (1 + int(tree.quad_depth.max()))
     assert rows["direct"] == [quads, curves, 4 * quads + curves, grid, 100 * (4 * quads + curves) / grid]
     assert [item.name for item in section.items][-2:] == ["depths", "textures"]
+
+
+def test_bytes_of_a_packed_file_are_those_that_the_command_writes(tmp_path):
+    shape = Shape(example("duck"))
+    convert(shape.path).save(tmp_path / "duck.ktx2")
+    assert file_bytes(shape.way("packed").texture) == (tmp_path / "duck.ktx2").stat().st_size
+
+
+def test_list_too_long_for_8_bits_is_a_dash_and_a_reason(tmp_path):
+    file = tmp_path / "teeth.svg"
+    teeth = "".join(f"L{x} {60 if x % 2 else 40}" for x in range(201))
+    file.write_text(SVG.format(paths=f'<path d="M0 100{teeth}L200 100Z"/>'))
+    table = tables(conversion.section(Material([file])))["size-and-speed"]
+    assert column(table, "direct: 8 bits") == [None]
+    assert "No bytes at 8 bits" in table.caption

@@ -50,3 +50,18 @@ def test_report_of_the_examples_is_whole(tmp_path):
     assert {"machine", "conversion", "shapes", "structure", "rendering", "discussion", "comparison"} <= set(facts)
     assert set(page.xpath("//nav//a/@href")) <= {f"#{anchor}" for anchor in page.xpath("//@id")}
     assert len(page.xpath("//@id")) == len(set(page.xpath("//@id")))
+
+
+def test_missing_renderer_is_found_before_anything_is_measured(tmp_path):
+    outcome = report("-o", tmp_path / "out", before="import sys; sys.modules['skia'] = None; ")
+    assert outcome.returncode == 1
+    (line,) = outcome.stderr.splitlines()
+    assert line == "vexture: this comparison needs the package skia-python: pip install 'vexture[report]'"
+
+
+def test_place_that_cannot_be_written_is_found_before_anything_is_measured(tmp_path):
+    (tmp_path / "figures").touch()
+    outcome = report(SHAPES / "duck.svg", "-o", tmp_path)
+    assert outcome.returncode == 1
+    (line,) = outcome.stderr.splitlines()
+    assert f"{tmp_path / 'figures'}: cannot be written" in line

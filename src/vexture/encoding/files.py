@@ -9,7 +9,7 @@ from pathlib import Path
 from vexture.encoding.layout import CURVES_SUFFIX, FILE_LIMIT, PACKED_SUFFIX, QUADS_SUFFIX
 from vexture.errors import DeviceError, FormatError
 
-__all__ = ["file_name", "packed_target", "pair_of", "read_file", "target_of", "write_together"]
+__all__ = ["file_name", "packed_target", "pair_of", "read_file", "target_of", "writable", "write_together"]
 
 NAME_BYTES = 200  # file systems allow 255, and suffixes are still to come
 
@@ -73,6 +73,31 @@ def packed_target(path: str | os.PathLike[str], name: str) -> Path:
 def _is_folder(path: str | os.PathLike[str]) -> bool:
     """Whether a path to write to exists as a folder, or says by its end that it shall be one."""
     return os.fspath(path).endswith(("/", os.sep)) or os.path.isdir(path)
+
+
+def writable(folder: Path) -> Path:
+    """The folder, which is there or can be made: for those who would find out after a minute's work.
+
+    Raises
+    ------
+    DeviceError
+        If nothing can be written there.
+
+    Examples
+    --------
+    >>> writable(Path("/dev/null/report"))
+    Traceback (most recent call last):
+        ...
+    vexture.errors.DeviceError: /dev/null/report: cannot be written (/dev/null is no folder); choose another place
+    """
+    there = folder.absolute()
+    while not os.path.lexists(there):
+        there = there.parent
+    if not there.is_dir():
+        raise DeviceError(f"{folder}: cannot be written ({there} is no folder); choose another place")
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise DeviceError(f"{folder}: cannot be written ({os.strerror(errno.EACCES)}); choose another place")
+    return folder
 
 
 def write_together(files: dict[Path, bytes]) -> None:

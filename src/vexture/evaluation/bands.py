@@ -112,7 +112,7 @@ def quadratic_contours(drawing: Drawing, tolerance: float = CUBIC_TOLERANCE) -> 
         If a path is filled by the even-odd rule, which two rays with windings do not know.
     """
     if any(path.fill_rule == FillRule.EVENODD for path in drawing.paths):
-        raise LimitError(f"{drawing.name} is filled by the even-odd rule; the bands know the non-zero rule only")
+        raise LimitError(f"{drawing.name} is filled by the even-odd rule; our bands know the non-zero rule only")
     return [as_quadratics(contour, tolerance) for path in drawing.paths for contour in path.contours]
 
 

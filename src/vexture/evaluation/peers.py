@@ -6,6 +6,7 @@ them share may show.
 """
 
 from collections.abc import Callable
+from importlib import import_module
 from io import BytesIO
 from typing import TYPE_CHECKING, Any, Final
 
@@ -20,7 +21,7 @@ from vexture.render.view import check_size, view_matrix
 if TYPE_CHECKING:
     from vexture.drawing import Drawing, Path
 
-__all__ = ["render_resvg", "render_skia", "resvg_renderer", "skia_path", "skia_renderer", "svg_text"]
+__all__ = ["check_peers", "render_resvg", "render_skia", "resvg_renderer", "skia_path", "skia_renderer", "svg_text"]
 
 DIGITS: Final = 8
 """Of a coordinate; both libraries compute in float32."""
@@ -63,10 +64,7 @@ def render_resvg(drawing: "Drawing", size: tuple[int, int]) -> NDArray[np.float3
 
 def resvg_renderer(drawing: "Drawing", size: tuple[int, int]) -> Renderer:
     """Everything but the drawing itself: its SVG document read. Its package gives PNG files only, which costs time."""
-    try:
-        import resvg
-    except ModuleNotFoundError:
-        raise DeviceError("this comparison needs the package resvg: pip install 'vexture[report]'") from None
+    resvg = _package("resvg", "resvg")
     from PIL import Image
 
     tree = resvg.usvg.Tree.from_str(svg_text(drawing, check_size(size)), resvg.usvg.Options.default())
@@ -149,6 +147,22 @@ def skia_path(path: "Path", matrix: NDArray[np.float64]) -> Any:
     return outline
 
 
+def check_peers() -> None:
+    """See that both renderers are there, before anything is measured.
+
+    Raises
+    ------
+    DeviceError
+        If one of them is not installed, or cannot be loaded.
+
+    Examples
+    --------
+    >>> check_peers()
+    """
+    _package("resvg", "resvg")
+    _skia()
+
+
 def svg_text(drawing: "Drawing", size: tuple[int, int]) -> str:
     """The silhouette's paths as an SVG document, y down, the unit square fitted into it.
 
@@ -176,8 +190,13 @@ def _coverage(pixels: NDArray[np.uint8]) -> NDArray[np.float32]:
 
 
 def _skia() -> Any:
+    return _package("skia", "skia-python")
+
+
+def _package(module: str, name: str) -> Any:
     try:
-        import skia
+        return import_module(module)
     except ModuleNotFoundError:
-        raise DeviceError("this comparison needs the package skia-python: pip install 'vexture[report]'") from None
-    return skia
+        raise DeviceError(f"this comparison needs the package {name}: pip install 'vexture[report]'") from None
+    except ImportError as error:  # of a library of the system, such as libEGL
+        raise DeviceError(f"the package {name} cannot be loaded: {error}; install what it names") from None

@@ -199,7 +199,9 @@ def bands_of(drawing: "Drawing") -> BandTexture:
         If they cannot hold the drawing, or would draw something else.
     """
     if len(drawing.paths) > 1:
-        raise LimitError(f"{drawing.name} has {len(drawing.paths)} paths; bands take one, whose windings they count")
+        raise LimitError(
+            f"{drawing.name} has {len(drawing.paths)} paths; our bands take one, whose windings they count"
+        )
     return band_texture(drawing, COASTLINE_BANDS if drawing.segments > MANY else BANDS)
 
 

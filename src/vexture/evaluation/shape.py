@@ -1,6 +1,7 @@
 """A drawing with all that is made of it, each made once: what tables and figures are about."""
 
 import sysconfig
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -111,13 +112,21 @@ class Shape:
             try:
                 if way == "sampled":
                     self._check_sampled()
-                self._ways[key] = run(self.drawing, **given)
+                self._ways[key] = self._as_saved(run(self.drawing, **given))
             except LimitError as error:
                 self._ways[key] = error
         made = self._ways[key]
         if isinstance(made, LimitError):
             raise made
         return made
+
+    def _as_saved(self, made: Conversion) -> Conversion:
+        """The same with the source's name in a packed texture, which takes bytes of the file that `convert` writes."""
+        from vexture.encoding import PackedTexture
+
+        if not isinstance(made.texture, PackedTexture):
+            return made
+        return replace(made, texture=replace(made.texture, source=self.path.name))
 
     def _check_sampled(self) -> None:
         """Raise a `LimitError` where a conversion in the thesis's way would take minutes."""

@@ -14,6 +14,9 @@ __all__ = ["conversions"]
 MARKERS: Final = {"printed": "x", "sampled": "^", "direct": "s", "packed": "o"}
 """One for each method, so that they can be told apart without colours."""
 
+NAME: Final = 20
+"""Characters of a drawing's name; longer ones would leave no room for the panels."""
+
 
 def conversions(names: Sequence[str], quantities: Mapping[str, Mapping[str, Sequence[float | None]]]) -> "Figure":
     """Show quantities of drawings by method: a row for each drawing, a panel for each quantity, logarithmic.
@@ -52,7 +55,7 @@ def conversions(names: Sequence[str], quantities: Mapping[str, Mapping[str, Sequ
         low, high = (min(some), max(some)) if some else (1.0, 1.0)
         panel.set_xlim(10.0 ** math.floor(math.log10(low) - 0.05), 10.0 ** math.ceil(math.log10(high) + 0.05))
         panel.set_ylim(max(1, len(names)) - 0.5, -0.5)
-        panel.set_yticks(rows, list(names) if panel is axes[0, 0] else [""] * len(names))
+        panel.set_yticks(rows, [shortened(name) for name in names] if panel is axes[0, 0] else [""] * len(names))
         panel.minorticks_off()
         panel.grid(color=GRID, linewidth=0.4)
         panel.set_axisbelow(True)
@@ -60,3 +63,14 @@ def conversions(names: Sequence[str], quantities: Mapping[str, Mapping[str, Sequ
     handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper right", ncols=len(labels), fontsize=9.0, frameon=False)
     return figure
+
+
+def shortened(name: str) -> str:
+    """A drawing's name as it stands beside its row.
+
+    Examples
+    --------
+    >>> shortened("duck"), shortened("a drawing with a long name")
+    ('duck', 'a drawing with a lo…')
+    """
+    return name if len(name) <= NAME else f"{name[: NAME - 1]}…"

@@ -6,8 +6,9 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from vexture.encoding.files import write_together
+from vexture.encoding.files import writable, write_together
 from vexture.evaluation.machine import machine_facts
+from vexture.evaluation.peers import check_peers
 from vexture.figures.style import plotting
 from vexture.report.page import json_text, page, pictures_of, png_of
 from vexture.report.section import Material
@@ -66,9 +67,11 @@ def assemble(
     Raises
     ------
     VextureError
-        If a drawing cannot be read, or a package is missing.
+        If a drawing cannot be read, a package is missing, or the folder cannot be written.
     """
     plotting()
+    check_peers()
+    writable(writable(folder) / "figures")
     material = Material(sources)
     for shape in material.shapes:
         shape.drawing  # noqa: B018  # what cannot be read is found before anything is measured

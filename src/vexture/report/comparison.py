@@ -80,11 +80,13 @@ def section(material: Material) -> Section:
     text = [
         "The thesis compares its textures with no others. Here are the obvious ones, each made as well as it can be: "
         "raster textures from exact coverage and distance fields from true distances, both filtered as OpenGL defines "
-        "it, in float64; two renderers of vector graphics; and the bands that fast glyph renderers use.",
+        "it, in float64; two renderers of vector graphics; and the bands that fast glyph renderers use. Distance "
+        "fields have one channel here: those of several, which keep corners, are not measured, nor is anisotropic "
+        "filtering.",
         "Errors are mean absolute differences from exact coverage in steps of 1/255, over the pixels that the shape "
-        f"touches. Pictures of the whole drawing are moved by parts of a pixel ({SHIFTS[0][0]:g} and {SHIFTS[0][1]:g} "
-        f"at {WHOLE} pixels, {len(SHIFTS)} ways at {SMALL} pixels), because a texture on a surface is never in line "
-        "with the screen.",
+        "touches, in the picture or in truth. Pictures of the whole drawing are moved by parts of a pixel "
+        f"({SHIFTS[0][0]:g} and {SHIFTS[0][1]:g} at {WHOLE} pixels, {len(SHIFTS)} ways at {SMALL} pixels), because a "
+        "texture on a surface is never in line with the screen.",
     ]
     if material.device is None:
         text.append("There is no GPU here, so the bands, which are drawn on one, are left out.")
@@ -230,8 +232,8 @@ def strip_caption(main: Compared) -> str:
     return (
         f"`{main.shape.name}` at equal bytes: the whole and, {CORNER} times larger, the framed corner, where the "
         "outline turns most; mean errors in 1/255. In as much memory as `packed` takes, "
-        f"{main.packed.rival.gpu_bytes:,} bytes, fits a raster of {equal.raster_in_memory.side}² texels; in as large a "
-        f"file, one of {'at least ' if equal.raster_in_file.side == MOST_TEXELS else ''}{equal.raster_in_file.side}², "
+        f"{main.packed.rival.gpu_bytes:,} bytes, fits a raster of {at_least(equal.raster_in_memory)}² texels; in as "
+        f"large a file, one of {at_least(equal.raster_in_file)}², "
         "which takes "
         f"{times(equal.raster_in_file.gpu_bytes, main.packed.rival.gpu_bytes)} the memory. Magnified, rasters blur and "
         "distance fields round the corner off; `packed` is the drawing's own outline at any size."
@@ -251,7 +253,17 @@ def shapes_caption(compared: Sequence[Compared]) -> str:
     caption += (
         f" At {MAGNIFICATION} times `packed` errs no more than the best of the others on {better} of {len(whole)}."
     )
+    capped = sum(any(found.rival.side == MOST_TEXELS for found in one.equal) for one in whole)
+    if capped:
+        caption += (
+            f" On {capped} of them some of the others have fewer bytes: {MOST_TEXELS:,} texels are the most tried."
+        )
     return caption + dashes(one.why for one in compared if one.why)
+
+
+def at_least(rival: Rival) -> str:
+    """Texels along a side, and whether more would fit but are not tried."""
+    return f"{'at least ' if rival.side == MOST_TEXELS else ''}{rival.side}"
 
 
 def times(many: int, few: int) -> str:
@@ -260,8 +272,8 @@ def times(many: int, few: int) -> str:
     return f"{ratio:,.0f} times" if ratio >= 100.0 else f"{ratio:.3g} times"
 
 
-BYTES_ALT: Final = "Six plots of mean error against bytes; packed lies lowest, far to the left of rasters as good."
-
-STRIP_ALT: Final = (
-    "Pictures of the drawing and of its corner: blurred rasters, rounded distance fields, packed like truth."
+BYTES_ALT: Final = (
+    "Six plots of mean error against bytes, of files and on the GPU, one mark or line for each kind of texture."
 )
+
+STRIP_ALT: Final = "Pictures of the drawing and of its corner: by rasters, by distance fields, by packed and in truth."

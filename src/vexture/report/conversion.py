@@ -5,6 +5,7 @@ from functools import partial
 from statistics import median
 from typing import Any, Final
 
+from vexture.encoding.layout import LIST_LIMIT
 from vexture.errors import LimitError
 from vexture.evaluation.conversions import Measured, frame_side, measured
 from vexture.evaluation.printed import TABLE_5_1, Row
@@ -52,7 +53,7 @@ def section(material: Material) -> Section:
     missing = f" A dash: {'; '.join(refused)}." if refused else ""
     items = (
         _conversion_table(shapes, printed, found, missing),
-        _size_table(shapes, printed, found, f"{speed}{missing}"),
+        _size_table(shapes, printed, found, f"{speed}{missing}{_without_8_bits(found)}"),
         _picture(shapes, printed, found, side),
     )
     facts = {"frame_side": side, "refused": refused, **_medians(found)}
@@ -74,13 +75,19 @@ def _text(material: Material, found: list[dict[str, Measured]]) -> list[str]:
     ratios = _medians(found)
     if not ratios:
         return [first]
-    many = f"the middle one of {len(found)} drawings" if len(found) > 1 else "this drawing"
+    many = f"In the median of {len(found)} drawings" if len(found) > 1 else "Of this drawing"
     return [
         first,
-        f"Of {many}, `direct` has {ratios['curves_direct']:.0%} of the curves of `sampled` and is made "
-        f"{ratios['times_direct']:,.0f} times as fast; `packed` is made {ratios['times_packed']:,.0f} times as fast, "
+        f"{many}, `direct` has {ratios['curves_direct']:.0%} of the curves of `sampled` and is made "
+        f"about {_about(ratios['times_direct'])} times as fast; `packed` is made about "
+        f"{_about(ratios['times_packed'])} times as fast, "
         f"and its file has {ratios['bytes_packed']:.0%} of the bytes of the 16-bit pair of `sampled`.",
     ]
+
+
+def _about(ratio: float) -> str:
+    """A ratio of times, to the one digit that two runs agree on."""
+    return f"{float(f'{ratio:.1g}'):,.0f}"
 
 
 def _medians(found: list[dict[str, Measured]]) -> dict[str, float]:
@@ -108,6 +115,14 @@ def _speed(side: int | None) -> str:
         f"The rate is that of the whole drawing at {side} x {side} pixels, as fast as the driver that the page names "
         "draws it, whatever a display shows; the thesis's display showed 120 at most, its size is not printed."
     )
+
+
+def _without_8_bits(found: list[dict[str, Measured]]) -> str:
+    """Why there are dashes below 8 bits, if there are any."""
+    pairs = [one for each in found for way, one in each.items() if way != "packed"]
+    if all(one.bytes_8 is not None for one in pairs):
+        return ""
+    return f" No bytes at 8 bits: a list would be longer than the {LIST_LIMIT[8]} entries that they hold."
 
 
 def _conversion_table(

@@ -68,7 +68,7 @@ def section(material: Material) -> Section:
         "what the thesis's way makes of it, and what became of it.",
         f"Where any drawing shows the point it is shown on {subject.name}, else on the example drawing that shows it "
         "best. Errors of pictures are mean absolute differences from the exact coverage over the pixels that the shape "
-        "touches, in 1/255. Pictures are rendered on the CPU.",
+        "touches, in the picture or in truth, in 1/255. Pictures are rendered on the CPU.",
         *([f"Why not on the drawing that this page is about: {why}"] if why else []),
     )
     return Section("discussion", "Chapter 6, answered", text, [table, *parts])

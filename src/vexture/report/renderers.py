@@ -57,7 +57,7 @@ def renderers_part(shapes: Sequence["Shape"]) -> Section:
         "and not to be fast; `exact` computes the truth that errors are measured against, so its own error is not "
         "shown. resvg and Skia estimate coverage at the edges; they draw many pixels in a row where a shader draws "
         "each for itself. resvg's Python package gives PNG files only, which an empty picture already takes "
-        f"{empty:.2g} ms for. resvg {version('resvg')}, skia-python {version('skia-python')}."
+        f"{empty:.2g} ms for. Packages: resvg {version('resvg')}, skia-python {version('skia-python')}."
     )
     table = Table("cpu-times", caption + dashes(missing), head, rows)
     return Section("cpu-renderers", "Renderers of vector graphics on the CPU", (), [table])
@@ -100,9 +100,10 @@ def bands_part(shapes: Sequence["Shape"], device: str) -> Section:
     caption = (
         f"Pictures of {SIZE[0]}×{SIZE[1]} pixels by {device}, median of {REPEAT}: the bands (E. Lengyel 2017; {BANDS} "
         f"each way, as published for glyphs, {COASTLINE_BANDS} for more than {MANY} curves; bytes by the published "
-        "layout) beside our textures. The bands blend two rays a pixel instead of integrating over it; they count "
-        "windings, so they take drawings of one path with the non-zero rule. One trilinear fetch from a raster "
-        f"texture, the least that any of them could take, needs {fetch:.2g} ms a frame."
+        "layout) beside our textures. The bands blend two rays a pixel instead of integrating over it. As built "
+        "here they count the windings of one path by the non-zero rule, which is no limit of the method. One "
+        "trilinear fetch from a raster texture, the least that any of them could take, "
+        f"needs {fetch:.2g} ms a frame."
     )
     table = Table("band-times", caption + dashes(missing), head, rows)
     return Section("bands-on-the-gpu", "Bands, on the GPU", (), [table])

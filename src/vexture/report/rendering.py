@@ -34,7 +34,8 @@ TEXT: Final = (
     "The thesis draws a pixel by what it finds at the pixel's centre: the stored coverage of a quad that is smaller "
     "than the pixel (a MIP value), or 4 x 4 points against the one curve of the leaf there. Both are measured here "
     "against the exact area of the shape in the pixel's square, and so is the packed texture's shader, which computes "
-    "that area. Errors are means over the pixels that the shape touches, in steps of 1/255.",
+    "that area. Errors are means over the pixels that the shape touches, in the picture or "
+    "in truth, in steps of 1/255.",
 )
 
 

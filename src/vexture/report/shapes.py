@@ -25,7 +25,7 @@ def section(material: Material) -> Section:
         "into, with the curves in them, and the texels that a shader reads; at the lower left the picture that the "
         "last texture makes. A cell is the darker the more of it is filled: that value stands for the whole cell "
         f"where it is smaller than a pixel. The error is that of a picture of {SIDE} x {SIDE} pixels: the mean, in "
-        "1/255, over the pixels that the shape touches, against the exact coverage.",
+        "1/255, over the pixels that the shape touches, in it or in truth, against the exact coverage.",
         "Packed leaves hold few horizontal lines, for these follow from the other curves: those that no leaf holds are "
         "dotted. An outline along the border of a cell needs no curve in it, so there it may not be drawn.",
     )
