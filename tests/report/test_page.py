@@ -15,7 +15,7 @@ from vexture.report.section import Picture, Printed, Section, Table
 def picture(name="coverage"):
     figure, axes = panels(1, 1, titles=("Half",))
     show(axes[0, 0], np.array([[0.0, 1.0]]))
-    return Picture(name, figure, "Half of it, by `show`.", "A white and a dark pixel")
+    return Picture(name, figure, "Half of it, by `show`; ⟦53.1 ms⟧.", "A white and a dark pixel")
 
 
 def sections():
@@ -43,7 +43,8 @@ def test_page_shows_every_part_once(made):
     (image,) = made.xpath("//figure//img")
     assert image.get("src") == "figures/coverage.png"
     assert image.get("alt") == "A white and a dark pixel"
-    assert "".join(made.xpath("//figcaption")[0].itertext()) == "Half of it, by show."
+    assert "".join(made.xpath("//figcaption")[0].itertext()) == "Half of it, by show; 53.1 ms."
+    assert made.xpath("//figcaption/span[@class='printed']/text()") == ["53.1 ms"]
 
 
 def test_section_table_and_picture_of_one_name_are_told_apart():

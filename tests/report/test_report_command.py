@@ -8,6 +8,9 @@ from pathlib import Path
 from lxml import html
 from PIL import Image
 
+import vexture
+from vexture.report.section import Material
+
 SHAPES = Path(__file__).parents[2] / "examples" / "shapes"
 RUN = "import sys; from vexture.cli import main; main()"
 
@@ -24,6 +27,22 @@ def test_source_that_cannot_be_read_is_one_line_and_nothing_is_written(tmp_path)
     (line,) = outcome.stderr.splitlines()
     assert "broken.svg" in line
     assert not (tmp_path / "out").exists()
+
+
+def test_a_texture_is_no_source(tmp_path):
+    vexture.convert(SHAPES / "duck.svg").save(tmp_path / "duck.ktx2")
+    outcome = report(tmp_path / "duck.ktx2", "-o", tmp_path / "out")
+    assert outcome.returncode == 1
+    (line,) = outcome.stderr.splitlines()
+    assert line.endswith("duck.ktx2: is a texture already; give the drawing that it was made from")
+
+
+def test_files_of_one_name_are_told_apart(tmp_path):
+    for folder in ("a", "b"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "logo.svg").write_bytes((SHAPES / "duck.svg").read_bytes())
+    names = [shape.name for shape in Material([tmp_path / "a" / "logo.svg", tmp_path / "b" / "logo.svg"]).shapes]
+    assert names == [str(tmp_path / "a" / "logo.svg"), str(tmp_path / "b" / "logo.svg")]
 
 
 def test_missing_matplotlib_is_one_line(tmp_path):

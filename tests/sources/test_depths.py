@@ -13,6 +13,7 @@ from rasterio.transform import Affine
 from vexture.errors import LimitError, SourceError, SourceWarning
 from vexture.render.exact import render_exact
 from vexture.sources.depths import read_depths
+from vexture.sources.reading import read_drawing
 from vexture.sources.reference import frame_around
 
 CRS = "EPSG:32610"
@@ -203,7 +204,8 @@ def test_a_turned_geotiff(tmp_path):
 
 def test_bands_are_steps_only_if_time_is_asked_for(tmp_path):
     path = geotiff(tmp_path / "a.tif", lake_rows(), NORTH_UP, bands=3)
-    assert len(read(path).steps) == 1
+    with pytest.warns(SourceWarning, match="3 bands, of which the first is read"):
+        assert len(read(path).steps) == 1
     assert len(read(path, time_dim="band").steps) == 3
 
 
@@ -374,3 +376,10 @@ def test_damaged_files_are_one_line_and_nothing_on_stderr(tmp_path):
     assert len(lines) == 2 * len(paths)
     assert not any(str(tmp_path) in line or "vexture-" in line for line in lines[1::2])
     assert sum(line == "read" for line in lines) <= 8
+
+
+def test_a_series_is_converted_at_its_first_time_and_says_so(tmp_path):
+    lake((-1.0, 0.0, 0.5)).to_netcdf(tmp_path / "a.nc")
+    with pytest.warns(SourceWarning, match="3 times, of which the first is read"):
+        drawing = read_drawing(tmp_path / "a.nc")
+    assert drawing.paths

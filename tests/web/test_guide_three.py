@@ -4,6 +4,8 @@ import contextlib
 import io
 import re
 import shutil
+import socket
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -87,6 +89,15 @@ def _of_tiles(pixels: np.ndarray) -> None:
     assert np.ptp(columns.mean(axis=0)) > 0.02, "columns show different shapes"
 
 
+def _answered(port: int) -> None:
+    """Wait for a server that has said its first line, which it may do before it listens."""
+    for _ in range(300):
+        with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", port), timeout=1):
+            return
+        time.sleep(0.1)
+    raise AssertionError(f"nothing answers on port {port}")
+
+
 SEEN = {
     "Put it on a mesh": _of_a_duck,
     "In its own colours": _in_colours,
@@ -114,6 +125,7 @@ def test_the_guide_to_three_js_does_what_it_says(
         def show(section: str) -> Any:
             if page is not None:
                 page.close()  # it would go on drawing
+            _answered(reader.ports["5173"])
             opened = open_page(address)
             _await(opened, SEEN[section])
             shown.append(section)

@@ -213,6 +213,13 @@ class PackedTexture:
             If matplotlib is not installed.
         FormatError
             If there is no such shape.
+
+        Examples
+        --------
+        >>> import vexture
+        >>> from vexture.evaluation.shape import example
+        >>> vexture.convert(example("duck")).plot().axes[0].get_title(loc="left")
+        'cells'
         """
         from vexture.figures.overview import summary  # late: figures stand above textures
 

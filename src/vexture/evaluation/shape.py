@@ -72,6 +72,8 @@ class Shape:
     ----------
     path : path
         What `vexture.convert` reads.
+    name : str, optional
+        What it is called, where that of the file is not enough.
 
     Examples
     --------
@@ -80,14 +82,15 @@ class Shape:
     ('duck', 0)
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, name: str | None = None) -> None:
         self.path = path
+        self._name = name
         self._ways: dict[tuple[str, int | None], Conversion | LimitError] = {}
 
     @property
     def name(self) -> str:
-        """Of the drawing."""
-        return self.drawing.name
+        """Of the drawing, if it has no other."""
+        return self._name or self.drawing.name
 
     @cached_property
     def drawing(self) -> "Drawing":

@@ -125,6 +125,8 @@ def summary(texture: ThesisTexture | PackedTexture, *, root: str | int = 0, size
     add_scale(figure, axes[0, 1], draw_cells(axes[0, 1], found, curves=False), "coverage")
     if isinstance(texture, PackedTexture):
         draw_level_lines(axes[0, 0], texture, root)
+        if len(texture.roots) > 1:
+            axes[0, 2].set_title(f"picture of {texture.root(root).name}", loc="left")
     show(axes[0, 2], _picture(texture, size, root))
     return figure
 

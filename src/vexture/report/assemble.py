@@ -31,10 +31,14 @@ SECTIONS: Final = (
 
 Those that measure times come first, while the process is small."""
 
+NAMED: Final = 4
+"""Drawings in the title, at most."""
+
 LEAD: Final = (
     "Every table and figure of the thesis that vexture began with, made again from the library's own data: a drawing "
     "goes through the thesis's way to a texture, which is kept under the name `sampled`; through ours to the thesis's "
-    "own format, `direct`; and through ours to ours, `packed`.",
+    "own format, `direct`; and through ours to ours, `packed`. Drawings are taken as silhouettes: what is painted "
+    "counts, whatever its colour.",
 )
 """What stands before everything."""
 
@@ -86,7 +90,8 @@ def assemble(
     files = {folder / "figures" / f"{picture.name}.png": png_of(picture) for picture in pictures_of(sections)}
     seconds["pictures"] = time.perf_counter() - start
     machine = machine_facts() | {"driver": material.device or "no OpenGL, so nothing of a GPU is measured"}
-    title = "What vexture measures" if not material.own else f"{', '.join(shape.name for shape in material.shapes)}"
+    names = [shape.name for shape in material.shapes]
+    title = "What vexture measures" if not material.own else ", ".join(names[:NAMED]) + " ..." * (len(names) > NAMED)
     files[folder / "index.html"] = page(title, machine, LEAD, sections).encode()
     files[folder / "report.json"] = json_text(machine | {"seconds": seconds}, sections).encode()
     write_together(files)

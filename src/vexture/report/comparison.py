@@ -218,9 +218,9 @@ def bytes_caption(main: Compared, rasters: Sequence[Measured]) -> str:
     return (
         f"{caption} At {MAGNIFICATION} times, the raster of {largest.rival.side:,} texels a side takes "
         f"{times(largest.rival.gpu_bytes, main.packed.rival.gpu_bytes)} the memory of `packed` and is off by "
-        f"{largest.outline.mae:.3g}; `packed` by {main.packed.outline.mae:.2g}. Distance fields are better than "
-        f"rasters along edges, and lose corners. Drawn at {SMALL} pixels, more texels help neither: a mip-map blurs "
-        "over neighbouring texels as large as a pixel, and the average of distances does not tell how much is covered."
+        f"{largest.outline.mae:.3g}; `packed` by {main.packed.outline.mae:.2g}. Distances tell where a straight edge "
+        f"is, and lose corners. At {SMALL} pixels a mip-map blurs over neighbouring texels as large as a pixel, and "
+        "the average of distances does not tell how much is covered."
     )
 
 
@@ -236,7 +236,7 @@ def strip_caption(main: Compared) -> str:
         f"large a file, one of {at_least(equal.raster_in_file)}², "
         "which takes "
         f"{times(equal.raster_in_file.gpu_bytes, main.packed.rival.gpu_bytes)} the memory. Magnified, rasters blur and "
-        "distance fields round the corner off; `packed` is the drawing's own outline at any size."
+        "distance fields round the corner off; `packed` holds the drawing's own curves."
     )
 
 
@@ -246,17 +246,20 @@ def shapes_caption(compared: Sequence[Compared]) -> str:
         "Textures in files no larger than those of `packed`, whose bytes stand first: texels along a side, memory as a "
         f"multiple of that of `packed`, mean error of the outline {MAGNIFICATION} times larger."
     )
-    whole = [one for one in compared if one.packed]
+    held = [one for one in compared if one.packed]
+    # as many bytes as packed, or nearly: where the largest size that is tried has fewer, nothing is won
+    whole = [one for one in held if all(found.rival.side != MOST_TEXELS for found in one.equal)]
     best = [min(found.outline.mae for found in one.equal) for one in whole]
     ours = [one.packed.outline.mae for one in whole if one.packed]
     better = sum(mine <= other for mine, other in zip(ours, best, strict=True))
-    caption += (
-        f" At {MAGNIFICATION} times `packed` errs no more than the best of the others on {better} of {len(whole)}."
-    )
-    capped = sum(any(found.rival.side == MOST_TEXELS for found in one.equal) for one in whole)
-    if capped:
+    if whole:
         caption += (
-            f" On {capped} of them some of the others have fewer bytes: {MOST_TEXELS:,} texels are the most tried."
+            f" At {MAGNIFICATION} times `packed` errs no more than the best of the others on {better} of {len(whole)}."
+        )
+    if len(held) > len(whole):
+        caption += (
+            f" {len(held) - len(whole)} of the drawings cannot be compared so: some of the others have fewer bytes "
+            f"there, for {MOST_TEXELS:,} texels are the most tried."
         )
     return caption + dashes(one.why for one in compared if one.why)
 

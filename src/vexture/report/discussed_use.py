@@ -134,8 +134,8 @@ def lists_point(material: Material, subject: Shape) -> Point:
     text = (
         "Thesis 4.3.1: 16-bit channels allow “for lists sizes up to 65.536 curves or quads, instead of the maximum of "
         "256 quads or curves in 8-bit channels”; 5.1 compares files of 8 bits only, because no example needs more.",
-        f"Before: the simple shape once, twice and four times is {printed[0]}, {printed[1]} and {printed[2]} curves in "
-        "the thesis (printed). Indices are stored as fractions, of which float32 tells "
+        f"Before: the simple shape once, twice and four times is ⟦{printed[0]}, {printed[1]} and {printed[2]}⟧ curves "
+        "in the thesis. Indices are stored as fractions, of which float32 tells "
         f"{LIST_LIMIT[16]:,} apart. {across * across:,} copies are refused: “{refusal}”.",
         "After: an index is a whole number of 32 bits, and one texture holds them all: "
         f"{held['packed']:,} copies in {texture.nbytes:,} bytes.",
@@ -174,7 +174,7 @@ def editing_point(material: Material, subject: Shape) -> Point:
         "directly compatible with the wide range of customer solutions for creating and editing vector graphics, like "
         "Adobe Illustrator, Inkscape or Sketch.”",
         "Before: a texture is an end. What a drawing program opens of it is coloured pixels, and a change means the "
-        f"source and a conversion of {TABLE_5_1[DUCK].ms} ms (the thesis's duck, printed), "
+        f"source and a conversion of ⟦{TABLE_5_1[DUCK].ms} ms⟧ for the thesis's duck, "
         f"{1000.0 * sampled.seconds:.0f} ms here by `sampled`.",
         "After: `texture.to_svg()` gives the outlines back as a file that any drawing program opens, and "
         f"`vexture view --watch` converts whatever one saves. From the saved file to the texture's file: "

@@ -147,7 +147,8 @@ def _paragraph(text: str) -> str:
 
 
 def _inline(text: str) -> str:
-    return re.sub(r"`([^`]+)`", r"<code>\1</code>", html.escape(text))
+    marked = re.sub(r"`([^`]+)`", r"<code>\1</code>", html.escape(text))
+    return re.sub("⟦([^⟦⟧]*)⟧", r'<span class="printed">\1</span>', marked)
 
 
 def _picture(picture: Picture) -> str:

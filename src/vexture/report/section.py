@@ -31,7 +31,8 @@ class Picture:
         Of its file, without suffix: lower case, digits, hyphens; once in a report.
     figure : matplotlib.figure.Figure
     caption : str
-        What to see in it. Thesis figures are named: "Thesis 3.13. ..."
+        What to see in it. Thesis figures are named: "Thesis 3.13. ..." What the thesis printed stands between ⟦ and ⟧,
+        in the text of sections too.
     alt : str
         What it shows, for those who do not see it.
     """
@@ -107,7 +108,9 @@ class Material:
 
         self._examples: dict[str, Shape] = {}
         self.own = bool(sources)
-        self.shapes = tuple(map(Shape, sources)) or tuple(map(self.example, TABLE_5_1))
+        stems = [path.stem for path in sources]
+        names = [None if stems.count(path.stem) == 1 else str(path) for path in sources]
+        self.shapes = tuple(map(Shape, sources, names)) or tuple(map(self.example, TABLE_5_1))
 
     @property
     def main(self) -> Shape:

@@ -61,7 +61,7 @@ def _picture(shape: Shape, place: int, own: bool) -> Picture:
         f"{number(len(shape.way(way).tree.curves), 'curve')}"
         for way in made
     ]
-    printed = "" if row is None else f" Printed, of the thesis's own drawing: {row.quads} quads, {row.curves} curves."
+    printed = "" if row is None else f" The thesis's own drawing: ⟦{row.quads} quads, {row.curves} curves⟧."
     caption = " ".join([title, f"{'; '.join(parts)}.{printed}", *refused])
     name = f"shape-{place}" if row is None else f"shape-{shape.name}"
     alt = f"{shape.name}: the drawing, its cells, its textures and a picture drawn from them"

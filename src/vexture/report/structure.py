@@ -70,8 +70,8 @@ def _hierarchy(way: str, made: dict[str, ThesisTexture | PackedTexture], own: bo
     printed = ""
     if way == "sampled" and not own:
         printed = (
-            f" Printed, of the thesis's own duck: {STRUCTURE.quads} quads, {STRUCTURE.curves} curves, "
-            f"{STRUCTURE.cells} cells, 0.26% of {STRUCTURE.grid:,}."
+            f" The thesis's own duck: ⟦{STRUCTURE.quads} quads, {STRUCTURE.curves} curves, {STRUCTURE.cells} cells, "
+            f"{STRUCTURE.cells / STRUCTURE.grid:.2%} of {STRUCTURE.grid:,}⟧."
         )
     caption = (
         f"Thesis 3.10, `{way}`. Left: the cells, with their curves. Right: the quads by depth; a gray cell refers to "

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from vexture.errors import LimitError, SourceError
+from vexture.errors import LimitError, SourceError, SourceWarning
 from vexture.sources.lattice import Lattice
 from vexture.sources.series import Series, Values
 
@@ -72,6 +72,14 @@ def _series(file: "DatasetReader", time_dim: str | None, variable: str | None) -
             raise LimitError(f"there is no band {variable!r}; it has {', '.join(names[:8])}")
         bands = chosen
     elif time_dim is None:
+        if len(bands) > 1:
+            warnings.warn(
+                SourceWarning(
+                    f"it has {len(bands)} bands, of which the first is read; variable (--variable) chooses another, "
+                    "time_dim (--time-dim) makes them times"
+                ),
+                stacklevel=2,
+            )
         bands = bands[:1]
     a, b, c, d, e, f = file.transform[:6]
     affine = np.array([[a, b, c], [d, e, f]], np.float64)

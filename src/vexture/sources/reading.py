@@ -1,10 +1,11 @@
 """Which reader a file needs, by its suffix or its first bytes."""
 
 import os
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from vexture.errors import LimitError
+from vexture.errors import LimitError, SourceError, SourceWarning
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
@@ -30,6 +31,7 @@ GEOJSON_SUFFIXES: Final = (".geojson", ".json")
 BYTE_ORDER_MARK: Final = b"\xef\xbb\xbf"
 
 FLATGEOBUF: Final = b"fgb\x03fgb"
+KTX: Final = b"\xabKTX"
 SHAPEFILE: Final = b"\0\0\x27\x0a"
 SQLITE: Final = b"SQLite format 3\0"
 ZIP: Final = b"PK\x03\x04"
@@ -134,6 +136,8 @@ def read_drawing(path: str | os.PathLike[str], select: str | None = None) -> "Dr
         If `select` is given where it means nothing, or as `read_svg` says.
     """
     start = start_of(path)
+    if start.startswith(KTX):
+        raise SourceError(f"{os.fspath(path)}: is a texture already; give the drawing that it was made from")
     if is_picture(start):
         if select is not None:
             raise LimitError(f"{os.fspath(path)}: select={select!r} chooses elements of an SVG; leave it out")
@@ -163,6 +167,13 @@ def _read_geographic(path: str | os.PathLike[str]) -> "Drawing":
         extent = read_extent(path, name)
     except MissingReferenceError:
         extent = read_extent(path, name, crs=UNPLACED)
+    if len(extent.steps) > 1:
+        warnings.warn(
+            SourceWarning(
+                f"{name}: it has {len(extent.steps)} times, of which the first is read; vexture flood shows all"
+            ),
+            stacklevel=3,
+        )
     return extent.steps[0].drawing
 
 

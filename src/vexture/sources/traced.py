@@ -24,7 +24,7 @@ LONGEST: Final = 2048
 SMALL: Final = 256
 """Pixels of the longer side up to which a picture is traced four times as large, else twice."""
 
-OUTWARD: Final = 0.3
+OUTWARD: Final = 0.4
 """Pixels of the enlarged mask. vtracer follows its staircase that much outside of the middle of its steps, as measured
 on drawings whose outline is known."""
 
