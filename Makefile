@@ -15,7 +15,7 @@ QUICK ?=
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help demo docs report viewer test test-web bench clean
+.PHONY: help demo docs report viewer test checks kernels test-web bench clean
 
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
@@ -101,8 +101,15 @@ docs: .venv/for-docs
 	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 	@echo 'Open site/index.html in a browser.'
 
+# the kernels are compiled on one core while the other checks; then the tests run side by side and find them there
 test: .venv/for-test
 	@$(BIN)/python tools/prepare.py system
+	@$(MAKE) --no-print-directory kernels & kernels=$$!; \
+		$(MAKE) --no-print-directory checks; checked=$$?; \
+		wait $$kernels && exit $$checked
+	$(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4
+
+checks: .venv/for-test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
@@ -113,16 +120,17 @@ test: .venv/for-test
 	else \
 		echo 'skipped, as said above: the tests of web/, the viewer and the tests of its page'; \
 	fi
+
+kernels: .venv/for-test
 	@echo 'compiling the kernels once, before the tests run side by side ...'
-	@scratch=$$(mktemp -d) && trap 'rm -rf "$$scratch"' EXIT && \
-		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch" >"$$scratch/log" && \
-		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/thesis" --encoding thesis >>"$$scratch/log" && \
-		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/sampled" --encoding thesis --strategy sampled >>"$$scratch/log" && \
-		$(BIN)/vexture render "$$scratch/duck.ktx2" -o "$$scratch/packed.png" --size 16 --renderer cpu >>"$$scratch/log" && \
-		$(BIN)/vexture render "$$scratch/thesis/duck" -o "$$scratch/cpu.png" --size 16 --renderer cpu >>"$$scratch/log" && \
-		$(BIN)/vexture render $(SHAPES)/duck.svg -o "$$scratch/exact.png" --size 16 --renderer exact >>"$$scratch/log" && \
-		$(BIN)/python -m pytest --quiet src/vexture/bezier/ring.py >>"$$scratch/log"
-	$(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4
+	@scratch=$$(mktemp -d) && trap 'rm -rf "$$scratch"' EXIT && exec >"$$scratch/log" && \
+		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch" && \
+		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/thesis" --encoding thesis && \
+		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/sampled" --encoding thesis --strategy sampled && \
+		$(BIN)/vexture render "$$scratch/duck.ktx2" -o "$$scratch/packed.png" --size 16 --renderer cpu && \
+		$(BIN)/vexture render "$$scratch/thesis/duck" -o "$$scratch/cpu.png" --size 16 --renderer cpu && \
+		$(BIN)/vexture render $(SHAPES)/duck.svg -o "$$scratch/exact.png" --size 16 --renderer exact && \
+		$(BIN)/python -m pytest --quiet src/vexture/bezier/ring.py
 
 test-web: viewer
 	npm run --silent check --prefix web

@@ -43,11 +43,6 @@ def section(material: Material) -> Section:
     Parameters
     ----------
     material : Material
-
-    Examples
-    --------
-    >>> [item.name for item in section(Material([])).items[:1]]
-    ['points']
     """
     subject, why = _subject(material)
     points = [make(material, subject) for make in POINTS]
