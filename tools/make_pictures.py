@@ -196,7 +196,7 @@ def equal_bytes() -> Image.Image:
     with tempfile.TemporaryDirectory() as folder:
         made = assemble([SHAPE], Path(folder), only=("comparison",))
         with Image.open(made.with_name("figures") / EQUAL_TARGET.name) as picture:
-            return picture.convert("P", palette=Image.Palette.ADAPTIVE, colors=64)
+            return picture.convert("RGB")
 
 
 if __name__ == "__main__":
