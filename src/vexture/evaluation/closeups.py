@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.bezier.points import points_at
 from vexture.evaluation.metrics import TRUTH
 from vexture.render.view import window
 
@@ -64,9 +65,7 @@ def outline_places(drawing: "Drawing", count: int) -> NDArray[np.float64]:
     at = ends[-1] * (np.arange(CANDIDATES * count) + 0.5) / (CANDIDATES * count)
     owner = np.searchsorted(ends, at)
     length = np.diff(ends, prepend=0.0)[owner]
-    t = ((at - ends[owner]) / length + 1.0)[:, None]
-    p0, p1, p2, p3 = np.moveaxis(cubics[owner], 1, 0)
-    points = (1.0 - t) ** 3 * p0 + 3.0 * (1.0 - t) ** 2 * t * p1 + 3.0 * (1.0 - t) * t**2 * p2 + t**3 * p3
+    points = points_at(cubics[owner], (at - ends[owner]) / length + 1.0)
     seen = [point for point in points if on_border(drawing, point)]
     taken = min(count, len(seen))
     return np.array([seen[int((number + 0.5) * len(seen) / taken)] for number in range(taken)]).reshape(-1, 2)

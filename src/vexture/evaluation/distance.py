@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.bezier.points import points_at
 from vexture.errors import LimitError
 from vexture.evaluation.raster import FULL, Footprint, MipMapped, mip_sides
 
@@ -126,7 +127,7 @@ def border_chords(drawing: "Drawing", side: int, fine: NDArray[np.float32]) -> N
     counts = np.maximum(1, np.ceil(lengths * side / CHORD)).astype(np.intp)
     owner = np.repeat(np.arange(len(cubics)), counts)
     number = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
-    ends = [at(cubics[owner], (number + step) / counts[owner]) for step in (0, 1)]
+    ends = [points_at(cubics[owner], (number + step) / counts[owner]) for step in (0, 1)]
     chords = np.stack(ends, axis=1)
     # a piece is inside the silhouette if all around its middle is full
     framed = np.pad(fine, 1)
@@ -134,16 +135,6 @@ def border_chords(drawing: "Drawing", side: int, fine: NDArray[np.float32]) -> N
     around = np.stack([framed[pixel[:, 1] + down, pixel[:, 0] + right] for down in range(3) for right in range(3)])
     kept: NDArray[np.float64] = chords[around.min(axis=0) < 1.0 - 1.0 / FULL]
     return kept
-
-
-def at(cubics: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points of cubics, (n, 2)."""
-    t = t[:, None]
-    s = 1.0 - t
-    points: NDArray[np.float64] = (
-        s**3 * cubics[:, 0] + 3.0 * s**2 * t * cubics[:, 1] + 3.0 * s * t**2 * cubics[:, 2] + t**3 * cubics[:, 3]
-    )
-    return points
 
 
 def nearest_distances(chords: NDArray[np.float64], side: int, reach: float) -> NDArray[np.float64]:

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.bezier.points import points_along
 from vexture.encoding import PackedTexture, ThesisTexture, decode, decode_packed
 from vexture.quadtree.tree import LATTICE, CellKind, CellTree, PackedTree
 
@@ -89,9 +90,8 @@ class Leaves:
         (curves, chords + 1, 2) float64 array
         """
         t = np.linspace(0.0, 1.0, chords + 1)
-        weights = np.stack([(1 - t) ** 3, 3 * (1 - t) ** 2 * t, 3 * (1 - t) * t**2, t**3])
         bent = np.stack([np.clip(1 - 2 * t, 0, 1), 1 - np.abs(2 * t - 1), np.zeros_like(t), np.clip(2 * t - 1, 0, 1)])
-        points: NDArray[np.float64] = np.einsum("kt,mkc->mtc", weights, self.curves[which])
+        points = points_along(self.curves[which], t)
         corners = self.is_corner[which]
         points[corners] = np.einsum("kt,mkc->mtc", bent, self.curves[which][corners])
         return points

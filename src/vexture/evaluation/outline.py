@@ -5,6 +5,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.bezier.points import points_along, points_at
 from vexture.drawing import Drawing
 from vexture.evaluation.closeups import joined
 from vexture.quadtree.sampled import SAMPLES_ACROSS
@@ -34,7 +35,7 @@ def first_samples(drawing: Drawing) -> NDArray[np.float64]:
     density = np.maximum(np.ceil(extent * SAMPLES_ACROSS).astype(np.int64), 3)
     owner = np.repeat(np.arange(len(cubics)), density)
     t = (np.arange(len(owner)) - np.repeat(np.cumsum(density) - density, density)) / density[owner]
-    return _at(cubics[owner], t)
+    return points_at(cubics[owner], t)
 
 
 def off_outline(points: NDArray[np.float64], drawing: Drawing) -> NDArray[np.float64]:
@@ -47,8 +48,7 @@ def off_outline(points: NDArray[np.float64], drawing: Drawing) -> NDArray[np.flo
     """
     cubics = joined(drawing)
     t = np.linspace(0.0, 1.0, CHORDS + 1)
-    weights = np.stack([(1 - t) ** 3, 3 * (1 - t) ** 2 * t, 3 * (1 - t) * t**2, t**3])
-    curve = np.einsum("kt,mkc->mtc", weights, cubics)
+    curve = points_along(cubics, t)
     chords = np.stack([curve[:, :-1], curve[:, 1:]], axis=2).reshape(-1, 2, 2)
     near, share = _nearest_chords(points, chords)
     return _polished(points, cubics[near // CHORDS], (near % CHORDS + share) / CHORDS)
@@ -103,12 +103,6 @@ def _polished(points: NDArray[np.float64], cubics: NDArray[np.float64], t: NDArr
         weights = np.stack([s * s, 2.0 * s * t, t * t], axis=1)
         tangent = np.einsum("nk,nkc->nc", weights, hodograph)
         length = np.maximum((tangent**2).sum(axis=1), np.finfo(np.float64).tiny)
-        t = (t + ((points - _at(cubics, t)) * tangent).sum(axis=1) / length).clip(0.0, 1.0)
-    distance: NDArray[np.float64] = np.hypot(*(points - _at(cubics, t)).T)
+        t = (t + ((points - points_at(cubics, t)) * tangent).sum(axis=1) / length).clip(0.0, 1.0)
+    distance: NDArray[np.float64] = np.hypot(*(points - points_at(cubics, t)).T)
     return distance
-
-
-def _at(cubics: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
-    weights = np.stack([(1 - t) ** 3, 3 * (1 - t) ** 2 * t, 3 * (1 - t) * t**2, t**3], axis=1)
-    points: NDArray[np.float64] = np.einsum("nk,nkc->nc", weights, cubics)
-    return points

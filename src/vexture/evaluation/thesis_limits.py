@@ -7,6 +7,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.bezier.points import points_along
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.encoding import PackedTexture, ThesisTexture
 from vexture.encoding.layout import MOST_ROWS, ROW_BITS
@@ -220,9 +221,8 @@ def unnecessary_quads(drawing: Drawing, shape: Tree | ThesisTexture | PackedText
     found = quads(shape)
     counted = np.zeros(len(found.x), np.int64)
     t = np.arange(DENSE) / DENSE
-    weights = np.stack([(1 - t) ** 3, 3 * (1 - t) ** 2 * t, 3 * (1 - t) * t**2, t**3])
     for contour in (contour for path in drawing.paths for contour in path.contours):
-        x, y = np.einsum("kt,mkc->cmt", weights, contour).reshape(2, -1)
+        x, y = points_along(contour, t).reshape(-1, 2).T
         owner = np.repeat(np.arange(len(contour)), DENSE)
         for k in range(len(counted)):
             inside = (x > found.x[k]) & (x < found.x[k] + found.side[k])

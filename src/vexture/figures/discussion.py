@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.bezier.points import points_along
 from vexture.drawing import Drawing
 from vexture.encoding import PackedTexture, ThesisTexture
 from vexture.encoding.layout import LIST_LIMIT
@@ -303,13 +304,13 @@ def edited_drawing(before: ThesisTexture, after: Edited, image: NDArray[Any]) ->
 
 def _editable(axes: "Axes", drawing: Drawing, old: int) -> None:
     """Outline with its nodes and handles, as drawing programs show it; cubics after the first `old` are marked."""
-    t = np.linspace(0.0, 1.0, 33)
-    weights = np.stack([(1 - t) ** 3, 3 * (1 - t) ** 2 * t, 3 * (1 - t) * t**2, t**3])
-    for number, cubic in enumerate(joined(drawing)):
+    cubics = joined(drawing)
+    lines = points_along(cubics, np.linspace(0.0, 1.0, 33))
+    for number, (cubic, line) in enumerate(zip(cubics, lines, strict=True)):
         colour = INK if number < old else MARK
         for handle in (cubic[:2], cubic[2:]):
             axes.plot(*handle.T, color=COLOURS["packed"], linewidth=0.6, marker="o", markersize=1.6)
-        axes.plot(*(weights.T @ cubic).T, color=colour, linewidth=1.3)
+        axes.plot(*line.T, color=colour, linewidth=1.3)
         axes.plot(*cubic[:1].T, "s", color=colour, markersize=2.6)
     unit_axes(axes)
 

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from vexture.bezier.points import points_along
 from vexture.drawing import Drawing
 from vexture.evaluation.closeups import joined
 
@@ -40,9 +41,8 @@ def draw_outline(axes: "Axes", drawing: Drawing, bounds: Sequence[float] = (0.0,
     """
     x0, y0, x1, y1 = bounds
     t = np.linspace(0.0, 1.0, CHORDS + 1)
-    weights = np.stack([(1 - t) ** 3, 3 * (1 - t) ** 2 * t, 3 * (1 - t) * t**2, t**3])
     cubics = joined(drawing)
     seen = (cubics.min(axis=1) <= (x1, y1)).all(axis=1) & (cubics.max(axis=1) >= (x0, y0)).all(axis=1)
-    curves = np.einsum("kt,mkc->mtc", weights, cubics[seen])
+    curves = points_along(cubics[seen], t)
     curves = np.pad(curves, ((0, 0), (0, 1), (0, 0)), constant_values=np.nan)  # a gap between any two
     axes.plot(*curves.reshape(-1, 2).T, **style)

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from vexture.bezier.points import points_along
 from vexture.evaluation.solutions import BOX, SOLUTIONS, SolutionPath, by_cpu, by_gpu, solve
 from vexture.figures.style import COLOURS, INK, MUTED, panels, show
 
@@ -68,10 +69,7 @@ def solutions(cases: Sequence[SolutionPath] = SOLUTIONS, *, side: int = 96, gpu:
 
 def _curve(axes: "Axes", case: SolutionPath) -> None:
     """The curve, its chord, the line on which it is solved, and what is found there."""
-    points = np.array([(0.0, 0.0), case.p1, case.p2, (1.0, 0.0)])
-    t = np.linspace(0.0, 1.0, 200)[:, None]
-    s = 1.0 - t
-    line = s**3 * points[0] + 3 * s * s * t * points[1] + 3 * s * t * t * points[2] + t**3 * points[3]
+    (line,) = points_along(np.array([[(0.0, 0.0), case.p1, case.p2, (1.0, 0.0)]]), np.linspace(0.0, 1.0, 200))
     axes.plot([0.0, 1.0], [0.0, 0.0], color=MUTED, linewidth=0.8)
     axes.axvline(case.x, color=COLOURS["distance"], linewidth=0.8, linestyle="--")
     axes.plot(line[:, 0], line[:, 1], color=INK, linewidth=1.4)

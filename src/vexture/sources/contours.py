@@ -8,6 +8,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.bezier.points import points_along
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.tolerance import HMIN
 
@@ -226,8 +227,4 @@ def _apart(contours: list[NDArray[np.float64]]) -> bool:
 
 def _flattened(contour: NDArray[np.float64]) -> NDArray[np.float64]:
     """Points along cubics, sixteen to each."""
-    t = np.arange(16)[:, None] / 16.0
-    s = 1.0 - t
-    p0, p1, p2, p3 = (contour[:, None, k] for k in range(4))
-    found: NDArray[np.float64] = s**3 * p0 + 3.0 * s * s * t * p1 + 3.0 * s * t * t * p2 + t**3 * p3
-    return found.reshape(-1, 2)
+    return points_along(contour, np.arange(16) / 16.0).reshape(-1, 2)
