@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from vexture.report.page import known
+
 __all__ = ["RESULTS", "cell", "table", "write_json"]
 
 RESULTS = Path(__file__).parent / "results"
@@ -43,12 +45,3 @@ def write_json(name: str, facts: Any) -> Path:
     path = RESULTS / f"{name}.json"
     path.write_text(json.dumps(known(facts), indent=1, allow_nan=False) + "\n")
     return path
-
-
-def known(facts: Any) -> Any:
-    """The same facts, NaN replaced by None."""
-    if isinstance(facts, dict):
-        return {key: known(value) for key, value in facts.items()}
-    if isinstance(facts, list | tuple):
-        return [known(value) for value in facts]
-    return None if isinstance(facts, float) and not math.isfinite(facts) else facts

@@ -121,9 +121,13 @@ def known(facts: Any) -> Any:
         return {str(key): known(value) for key, value in facts.items()}
     if isinstance(facts, list | tuple):
         return [known(value) for value in facts]
-    if hasattr(facts, "item") and not isinstance(facts, str):
-        facts = facts.item()  # a NumPy scalar
+    facts = _plain(facts)
     return None if isinstance(facts, float) and not math.isfinite(facts) else facts
+
+
+def _plain(value: Any) -> Any:
+    """A NumPy scalar as a number of Python, anything else as it is."""
+    return value.item() if hasattr(value, "item") else value
 
 
 def _contents(section: Section) -> str:
@@ -199,8 +203,7 @@ def _cell(value: Any) -> str:
 
 def _shown(value: Any) -> str:
     """A value as people read it: three significant digits, thousands apart, a dash for nothing."""
-    if hasattr(value, "item") and not isinstance(value, str):
-        value = value.item()
+    value = _plain(value)
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
         return "–"
     if isinstance(value, str):
