@@ -1,5 +1,6 @@
 """How the pixels come about: few of them, edges, the cut-off, the cubic's solutions, tolerances, a receding plane."""
 
+from collections.abc import Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -135,18 +136,18 @@ def _solutions(material: Material) -> Section:
     rows, facts = [], {}
     for number, case in enumerate(SOLUTIONS, 1):
         cpu = solve(case)
-        row: list[Any] = [f"{number} {case.name}", _several(cpu.t), None, None, None]
+        row: list[Any] = [f"{number} {case.name}", _several(cpu.t), None, _several(cpu.heights), None, None, None, None]
         if gpu:
             found = roots_by_gpu(case)
-            same = len(found.t) == len(cpu.t)
-            away = float(np.abs(np.subtract(found.t, cpu.t)).max()) if same else float("inf")
-            row[2:] = [_several(found.t), away, int((by_cpu(case, SIDE) != by_gpu(case, SIDE)).sum())]
+            row[2], row[4] = _several(found.t), _several(found.heights)
+            row[5:] = [_farthest(found.t, cpu.t), _farthest(found.heights, cpu.heights)]
+            row.append(int((by_cpu(case, SIDE) != by_gpu(case, SIDE)).sum()))
         rows.append(row)
         facts[case.name] = {"p1": case.p1, "p2": case.p2, "x": case.x, "t": cpu.t, "heights": cpu.heights}
     compared = (
         f"Left of each pair float64 on the CPU, right the shader itself in float32 on {material.device}. The largest "
-        f"difference of a root is {max(row[3] for row in rows):.1g}; of {len(SOLUTIONS) * SIDE**2:,} pixels "
-        f"{sum(row[4] for row in rows)} differ."
+        f"difference of a root is {max(row[5] for row in rows):.1g}; of {len(SOLUTIONS) * SIDE**2:,} pixels "
+        f"{sum(row[7] for row in rows)} differ."
         if gpu
         else "There is no OpenGL on this machine, so the GPU's pictures are left out."
     )
@@ -159,11 +160,25 @@ def _solutions(material: Material) -> Section:
     picture = Picture("solution-paths", solutions(side=SIDE, gpu=gpu), caption, "Nine cubic curves with their roots")
     table = Table(
         "solutions",
-        "Roots of the nine curves" + ("" if gpu else "; dashes: no OpenGL here"),
-        ("path", "t on the CPU", "t on the GPU", "largest difference of t", "pixels that differ"),
+        "Roots of the nine curves, and the curves' heights there" + ("" if gpu else "; dashes: no OpenGL here"),
+        (
+            "path",
+            "t: CPU",
+            "t: GPU",
+            "heights: CPU",
+            "heights: GPU",
+            "largest difference: of t",
+            "largest difference: of a height",
+            "pixels that differ",
+        ),
         rows,
     )
     return Section("solution-paths", "Nine ways to solve a cubic", (), (picture, table), facts)
+
+
+def _farthest(found: Sequence[float], true: Sequence[float]) -> float:
+    """Largest difference between roots; infinite where one is missing."""
+    return float(np.abs(np.subtract(found, true)).max()) if len(found) == len(true) else float("inf")
 
 
 def _tolerance(material: Material) -> Section:
