@@ -23,7 +23,7 @@ help:
 	@echo 'make test    lint, types and tests, with all that they need'
 	@echo 'make docs    build the documentation into site/, to be read from the disk'
 	@echo 'make report  measure the tables and figures of the thesis again; the page is demo/report/index.html'
-	@echo 'make bench   measure fidelity, speed and size; the figures come into benchmarks/results/'
+	@echo 'make bench   measure fidelity, speed and size; the figures come into evidence/benchmarks/results/'
 	@echo 'make clean   remove all of that again'
 
 .venv/made:
@@ -141,8 +141,8 @@ bench: .venv/for-test
 	@names='$(BENCHMARKS)'; \
 	if $(MAKE) --no-print-directory viewer; then names="$$names $(WEB_BENCHMARKS)"; \
 	else echo 'so the web is not measured: $(WEB_BENCHMARKS)'; fi; \
-	for name in $$names; do echo && $(BIN)/python "benchmarks/$$name.py" $(QUICK) || exit 1; done
+	for name in $$names; do echo && $(BIN)/python "evidence/benchmarks/$$name.py" $(QUICK) || exit 1; done
 
 clean:
-	rm -rf .venv demo build src/*.egg-info benchmarks/results .hypothesis .mypy_cache .pytest_cache .ruff_cache \
+	rm -rf .venv demo build src/*.egg-info evidence/benchmarks/results .hypothesis .mypy_cache .pytest_cache .ruff_cache \
 		web/node_modules web/types src/vexture/live/built tests/web/screenshots site

@@ -21,6 +21,6 @@ print(f"{drawing.segments} segments became {file.name}: {file.stat().st_size} by
 
 texture = vexture.load(file)
 for size in (32, 128, 512):
-    image = vexture.render(texture, size=(size, size), renderer="cpu")  # "gpu" if this machine has OpenGL
+    image = vexture.coverage(texture, size=(size, size), renderer="cpu")  # "gpu" if this machine has OpenGL
     Image.fromarray(np.uint8(np.rint(255 * (1 - image)))).save(folder / f"duck-{size}.png")
 print(f"open the pictures in {folder}")

@@ -29,6 +29,6 @@ views = {
     "floor": [[1.25 * pixel, 0.5 * pixel, -0.5], [0, -0.5 * pixel, 0.5], [0, pixel, 0.25]],
 }
 for name, to_unit in views.items():
-    image = vexture.render(texture, size=(size, size), to_unit=to_unit, renderer="cpu")
+    image = vexture.coverage(texture, size=(size, size), view=to_unit, renderer="cpu")
     Image.fromarray(np.uint8(np.rint(255 * (1 - image)))).save(folder / f"cake-{name}.png")
 print(f"open the pictures in {folder}")

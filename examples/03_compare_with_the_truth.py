@@ -12,10 +12,10 @@ corners = [(0.5 + 0.45 * float(np.cos(angle)), 0.5 + 0.45 * float(np.sin(angle))
 
 for rule in vexture.FillRule:
     star = vexture.Drawing.polygon(corners, fill_rule=rule)
-    truth = vexture.render(star, size=(250, 250), renderer="exact")
+    truth = vexture.coverage(star, size=(250, 250), renderer="exact")
     for bits in (8, 16):
         texture = vexture.convert(star, encoding="thesis", bits=bits)
-        image = vexture.render(texture, size=(250, 250), renderer="cpu")
+        image = vexture.coverage(texture, size=(250, 250), renderer="cpu")
         touched = np.maximum(truth, image) > 0
         error = 255 * float(np.abs(image - truth)[touched].mean())
         curves = len(texture.curves) - 2  # the first two rows stand for full and empty

@@ -22,13 +22,13 @@ logo.write_text(LOGO)
 
 texture = vexture.convert(logo, split="paint")
 print(*(f"{root.name}: opacity {root.paint.opacity:g}, quad {root.quad}" for root in texture.roots), sep="\n")
-image = vexture.render_layers(texture, size=(300, 300), renderer="cpu")  # premultiplied RGBA
+image = vexture.render(texture, size=(300, 300), renderer="cpu")  # premultiplied RGBA
 on_white = image[..., :3] + 1 - image[..., 3:]
 Image.fromarray(np.uint8(np.rint(255 * on_white))).save(folder / "logo.png")
 
 sun = vexture.read_svg(logo, select="#sun")  # a part, where it was in the whole
 shapes = Path(__file__).parent / "shapes"
 atlas = vexture.atlas([logo, shapes / "duck.svg", shapes / "cake.svg"])
-image = vexture.render(atlas, size=(300, 300), renderer="cpu", root="duck")
+image = vexture.coverage(atlas, size=(300, 300), renderer="cpu", root="duck")
 Image.fromarray(np.uint8(np.rint(255 * (1 - image)))).save(folder / "duck.png")
 print(f"{sun.segments} segments are the sun; open the pictures in {folder}")

@@ -10,10 +10,10 @@ import numpy as np
 from PIL import Image
 
 import vexture
-from vexture.evaluation.rendered import at_edge
-from vexture.evaluation.shape import Shape
-from vexture.figures.cells import subdivision
-from vexture.figures.edges import edges
+from vexture_evidence.figures.cells import subdivision
+from vexture_evidence.figures.edges import edges
+from vexture_evidence.measures.rendered import at_edge
+from vexture_evidence.measures.shape import Shape
 
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else "demo/06")
 folder.mkdir(parents=True, exist_ok=True)

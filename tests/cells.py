@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.encoding.packed_texture import PackedTexture
-from vexture.encoding.packed_walk import walk
+from vexture.texture.texture import Texture
+from vexture.texture.walk import walk
 
 FADED = 4.0  # pixels: borders of cells up to this size are not drawn, from twice that on they are
 
@@ -18,7 +18,7 @@ class Cells:
     """
 
     def __init__(
-        self, texture: PackedTexture, matrix: NDArray[np.float64], size: tuple[int, int], finest: int, root: int = 0
+        self, texture: Texture, matrix: NDArray[np.float64], size: tuple[int, int], finest: int, root: int = 0
     ) -> None:
         x, y = np.meshgrid(np.arange(size[0]) + 0.5, np.arange(size[1]) + 0.5)
         self.points = np.stack([x, y, np.ones_like(x)], axis=-1) @ matrix[:2].T

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 # the benchmarks are scripts beside the package; they find each other in their own folder; so do the helpers of live/
-sys.path[:0] = [str(Path(__file__).parents[1] / "benchmarks"), str(Path(__file__).parent / "live")]
+sys.path[:0] = [str(Path(__file__).parents[1] / "evidence" / "benchmarks"), str(Path(__file__).parent / "live")]
 
 # compiling a kernel and drawing a whole tree take long; a temporary folder may be shared by examples
 settings.register_profile(

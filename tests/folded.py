@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.encoding.packed_texture import PackedTexture
-from vexture.folding.fold import Fold
+from vexture.fold.fold import Fold
+from vexture.texture.texture import Texture
 
 SAMPLES = 256
 LATTICE = (0.5 + np.arange(SAMPLES)[:, None] * (0.7548776662466927, 0.5698402909980532)) % 1.0
@@ -29,7 +29,7 @@ def near_edges(picture: Numbers) -> NDArray[np.bool_]:
 
 
 def errors(
-    picture: Numbers, texture: PackedTexture, fold: Fold, to_unit: Numbers, seconds: float, *, wrap: str = "none"
+    picture: Numbers, texture: Texture, fold: Fold, to_unit: Numbers, seconds: float, *, wrap: str = "none"
 ) -> Numbers:
     """Differences of a picture's edge pixels, in 1/255, from what the folded shape covers of them."""
     row, column = np.nonzero(near_edges(picture))

@@ -5,7 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.quadtree.tree import LATTICE, PackedTree
+from vexture.layout import LATTICE
+from vexture.tree.tree import Tree
 
 
 class Leaf(NamedTuple):
@@ -20,7 +21,7 @@ class Leaf(NamedTuple):
     coverage: float
 
 
-def leaves(tree: PackedTree) -> list[Leaf]:
+def leaves(tree: Tree) -> list[Leaf]:
     """All leaves; fails where a quad or a curve is not met exactly once."""
     found, quads_met, curves_met = [], [], []
 

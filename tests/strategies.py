@@ -5,9 +5,11 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from vexture.bezier.area import leaf_area
-from vexture.encoding.edge import edge_point
-from vexture.encoding.layout import CONTROL_MAX, CONTROL_MIN
-from vexture.quadtree.tree import LATTICE, MOST_CURVES, CellKind, CellTree, PackedTree
+from vexture.layout import LATTICE, MOST_CURVES
+from vexture.thesis.edge import edge_point
+from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN
+from vexture.thesis.tree import CellKind, CellTree
+from vexture.tree.tree import Tree
 
 LEAVES = [CellKind.CURVE, CellKind.CORNER, CellKind.FULL, CellKind.EMPTY]
 SAMPLES = np.linspace(0.0, 1.0, 65)[:, None]
@@ -94,8 +96,8 @@ def _coverage(
 
 
 @st.composite
-def packed_trees(draw: st.DrawFn, max_depth: int = 5, max_quads: int = 24) -> PackedTree:
-    """Valid packed trees, numbered as `PackedTree` says; their pieces lie anywhere and bound nothing."""
+def packed_trees(draw: st.DrawFn, max_depth: int = 5, max_quads: int = 24) -> Tree:
+    """Valid packed trees, numbered as `Tree` says; their pieces lie anywhere and bound nothing."""
     depths = [0]
     cells: list[tuple[bool, int, int]] = []
     for depth in depths:  # grows while it is walked: breadth first
@@ -110,7 +112,7 @@ def packed_trees(draw: st.DrawFn, max_depth: int = 5, max_quads: int = 24) -> Pa
     curves = random.integers(0, LATTICE, (count.sum(), 4, 2), endpoint=True)
     curves[:, 1:3] = random.integers(-LATTICE / 2, 3 * LATTICE / 2, (count.sum(), 2, 2))
     quads_in, curves_in = is_quad.sum(axis=1), count.sum(axis=1)
-    return PackedTree(
+    return Tree(
         is_quad,
         count.astype(np.uint8),
         winding.astype(np.int8),

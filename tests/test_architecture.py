@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from vexture.encoding import layout
+from vexture import layout
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "vexture"
@@ -46,12 +46,12 @@ MAY_IMPORT = {
 }
 """What each part may import besides itself; the parts that are not named here stand above all of these."""
 
-FOR_CONVENIENCE = {"encoding/texture.py": {"figures"}, "encoding/packed_texture.py": {"figures"}}
+FOR_CONVENIENCE = {"thesis/texture.py": {"figures"}, "texture/texture.py": {"figures"}}
 """`texture.plot()` is where people look for a picture; it imports the figures when it is called, and only there."""
 
 COMMANDS = ("cli", "cli_flood", "cli_fold", "cli_live", "cli_report", "cli_view")
 
-THE_TRUTH = {"render/exact.py", "render/chords.py", "render/view.py"}
+THE_TRUTH = {"renderers/exact.py", "renderers/chords.py", "renderers/view.py"}
 TRUTH_MAY_IMPORT = BASE | {"drawing", "render.chords", "render.view"}
 """The exact renderer judges the tree, so it shares nothing with it."""
 
@@ -205,7 +205,7 @@ def test_example_is_short(path):
 @pytest.mark.parametrize("number", sorted(LAYOUT_NUMBERS))
 def test_layout_number_is_typed_once(number):
     homes = [name_of(path) for path in MODULES if number in numbers(path)]
-    assert homes in ([], ["encoding/layout.py"], ["quadtree/tree.py"])  # the tree states what range its curves keep to
+    assert homes in ([], ["layout.py"], ["tree/tree.py"])  # the tree states what range its curves keep to
 
 
 @pytest.mark.parametrize("path", SHADERS, ids=lambda path: path.name)
@@ -232,9 +232,9 @@ def test_shader_names_are_each_defined_in_one_file():
     assert [name for name, count in defined.items() if count > 1] == []
 
 
-@pytest.mark.parametrize("first", ["vexture.convert", "vexture.render", "import vexture.render.view"])
+@pytest.mark.parametrize("first", ["vexture.convert", "vexture.render", "import vexture.renderers.view"])
 def test_function_render_is_not_hidden_by_the_package_of_its_name(first):
-    code = f"import vexture\n{first}\nimport vexture.render.view\nassert not hasattr(vexture.render, '__path__')"
+    code = f"import vexture\n{first}\nimport vexture.renderers.view\nassert not hasattr(vexture.render, '__path__')"
     assert subprocess.run([sys.executable, "-c", code], stderr=subprocess.DEVNULL, check=False).returncode == 0
 
 

@@ -14,7 +14,7 @@ from click.testing import CliRunner
 from PIL import Image
 
 import vexture
-from vexture.cli import main
+from vexture.cli.main import main
 
 SQUARE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><path d="M2 2h6v5h-6z"/></svg>'
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 10 10">{}</svg>'
@@ -269,7 +269,7 @@ def test_exact_renderer_needs_the_drawing(square, tmp_path):
 
 
 def test_module_and_function_of_one_name():
-    code = "import vexture; vexture.convert; import vexture.render.view; assert callable(vexture.render)"
+    code = "import vexture; vexture.convert; import vexture.renderers.view; assert callable(vexture.render)"
     subprocess.run([sys.executable, "-c", code], check=True, env=os.environ)
 
 

@@ -13,23 +13,26 @@ from hypothesis import strategies as st
 
 import decoded
 import degenerate
+from either import decode, encode
 from vexture import read_svg
 from vexture.bezier.convert import line_cubics
 from vexture.drawing import Drawing, FillRule
 from vexture.drawing import Path as Outline
-from vexture.encoding import ThesisTexture, decode, encode, quantisation_step
 from vexture.errors import LimitError, SourceError, VextureError
+from vexture.layout import LATTICE
 from vexture.pipeline import run
-from vexture.quadtree.accuracy import accuracy_of, cell_tolerance
-from vexture.quadtree.build import DEFAULT_DEPTH
-from vexture.quadtree.tree import LATTICE, CellTree
-from vexture.render.exact import render_exact
+from vexture.renderers.exact import render_exact
+from vexture.thesis.accuracy import accuracy_of, cell_tolerance
+from vexture.thesis.build import DEFAULT_DEPTH
+from vexture.thesis.encode import quantisation_step
+from vexture.thesis.texture import ThesisTexture
+from vexture.thesis.tree import CellTree
 
 ROOT = Path(__file__).parents[1]
 SHAPES = sorted((ROOT / "examples" / "shapes").glob("*.svg"))
 LETTERS = "agR&8@%ß"
 ICONS = range(6)
-corpora = SimpleNamespace(**runpy.run_path(str(ROOT / "benchmarks" / "corpora.py")))
+corpora = SimpleNamespace(**runpy.run_path(str(ROOT / "evidence" / "benchmarks" / "corpora.py")))
 
 SAGITTA = 1e-4  # of the brute force's chords, unit-square units
 CHORDS = 128

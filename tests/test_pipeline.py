@@ -8,10 +8,12 @@ import pytest
 
 import vexture
 from vexture.drawing import Drawing, Paint, Path
-from vexture.encoding import PackedTexture, Root, ThesisTexture, encode_packed
 from vexture.errors import LimitError, SourceError
 from vexture.pipeline import run
-from vexture.quadtree.build_packed import build_packed
+from vexture.texture.encode import encode
+from vexture.texture.texture import Root, Texture
+from vexture.thesis.texture import ThesisTexture
+from vexture.tree.build import build_tree
 
 RED, GLASS = Paint((1.0, 0.0, 0.0)), Paint((0.0, 0.0, 1.0), 0.5)
 LOGO = (
@@ -28,7 +30,7 @@ def star(points: int, name: str, paint: Paint = RED) -> Drawing:
 
 
 def texels_of(drawing: Drawing, **parameters: float) -> np.ndarray:
-    return encode_packed([build_packed(drawing, **parameters)], [Root("")], name="").texels
+    return encode([build_tree(drawing, **parameters)], [Root("")], name="").texels
 
 
 def contours() -> tuple[np.ndarray, ...]:
@@ -45,7 +47,7 @@ def logo(tmp_path: File) -> File:
 def test_packed_is_the_default(logo: File) -> None:
     texture = vexture.convert(logo)
     drawing = vexture.read_svg(logo)
-    assert isinstance(texture, PackedTexture)
+    assert isinstance(texture, Texture)
     np.testing.assert_array_equal(texture.texels, texels_of(drawing))
     (root,) = texture.roots
     assert (root.name, root.tolerance, root.paint, texture.name, texture.source) == (
@@ -121,8 +123,8 @@ def test_split_makes_a_root_of_each_layer(logo: File) -> None:
     assert [root.name for root in texture.roots] == ["logo/1-#0000ff", "logo/2-#ffffff", "logo/3-#ff0000"]
     assert [root.paint for root in texture.roots] == [layer.paths[0].paint for layer in layers]
     assert all((root.to_source == layers[0].to_source).all() for root in texture.roots)
-    trees = [build_packed(layer) for layer in layers]
-    np.testing.assert_array_equal(texture.texels, encode_packed(trees, texture.roots, name="").texels)
+    trees = [build_tree(layer) for layer in layers]
+    np.testing.assert_array_equal(texture.texels, encode(trees, texture.roots, name="").texels)
     assert texture.name == "logo"
 
 
@@ -159,7 +161,7 @@ def test_conversion_keeps_what_lies_between(logo: File) -> None:
 @pytest.mark.parametrize("capacity", [4, 1])
 def test_widest_leaf(capacity: int) -> None:
     """Found by walking every leaf of the tree from the root."""
-    tree = build_packed(star(7, "star"), capacity=capacity)
+    tree = build_tree(star(7, "star"), capacity=capacity)
     widths, stack = [0.0], [(0, 0.5)]
     while stack:
         quad, width = stack.pop()
@@ -167,7 +169,7 @@ def test_widest_leaf(capacity: int) -> None:
         first = tree.first_quad[quad]
         stack += [(first + k, width / 2) for k in range(tree.is_quad[quad].sum())]
     assert tree.widest_leaf == max(widths) > 0.0
-    assert build_packed(Drawing(())).widest_leaf == 0.0
+    assert build_tree(Drawing(())).widest_leaf == 0.0
 
 
 # --- atlases ----------------------------------------------------------------------------------------------------------
@@ -178,8 +180,8 @@ def test_atlas_holds_each_drawing_as_it_is_alone(logo: File) -> None:
     texture = vexture.atlas([drawings[0], logo, drawings[2]], name="signs", capacity=3)
     assert [root.name for root in texture.roots] == ["five", "logo", "eleven"]
     assert (texture.name, texture.source) == ("signs", None)
-    trees = [build_packed(drawing, capacity=3) for drawing in drawings]
-    np.testing.assert_array_equal(texture.texels, encode_packed(trees, texture.roots, name="").texels)
+    trees = [build_tree(drawing, capacity=3) for drawing in drawings]
+    np.testing.assert_array_equal(texture.texels, encode(trees, texture.roots, name="").texels)
     assert [root.quad for root in texture.roots] == np.cumsum(
         [0, *(len(tree.count) + len(tree.curves) for tree in trees[:2])]
     ).tolist()

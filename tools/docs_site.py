@@ -25,7 +25,7 @@ HOMES: Final = {
     "CHANGELOG.md": "project/changelog.md",
     "CONTRIBUTING.md": "project/contributing.md",
     "FORMAT.md": "reference/format.md",
-    "benchmarks/README.md": "project/benchmarks.md",
+    "evidence/benchmarks/README.md": "project/benchmarks.md",
     "examples/shapes/README.md": "project/example-drawings.md",
     "web/README.md": "reference/javascript.md",
 }
@@ -124,7 +124,7 @@ def figures_page() -> str:
 
 def command_line() -> str:
     """Page of all commands, by their own words."""
-    from vexture.cli import main
+    from vexture.cli.main import main
 
     context = click.Context(main, info_name="vexture", **main.context_settings)
     parts = [

@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from PIL import Image, ImageColor, ImageDraw, ImageFont
 
 import vexture
-from vexture.encoding import ThesisTexture, decode
-from vexture.evaluation.leaves import leaves
-from vexture.figures.textures import texture_images
-from vexture.quadtree.tree import CellTree
-from vexture.render.view import window
+from vexture.renderers.view import window
+from vexture.thesis.encode import decode
+from vexture.thesis.texture import ThesisTexture
+from vexture.thesis.tree import CellTree
+from vexture_evidence.figures.textures import texture_images
+from vexture_evidence.measures.leaves import leaves
 
 __all__ = ["sheet"]
 
@@ -84,7 +85,7 @@ def texture_panel(texture: ThesisTexture) -> Image.Image:
 def sizes_panel(texture: ThesisTexture) -> Image.Image:
     """Small pictures, pixel by pixel, and the smallest ones enlarged."""
     image = Image.new("RGB", (PANEL, PANEL), PAPER)
-    smalls = [inked(vexture.render(texture, (size, size), renderer="cpu")) for size in SIZES]
+    smalls = [inked(vexture.coverage(texture, (size, size), renderer="cpu")) for size in SIZES]
     space = (PANEL - sum(SIZES)) // (len(SIZES) + 1)
     left = space
     for small in smalls:
@@ -102,12 +103,12 @@ def view(zoom: int) -> NDArray[np.float64]:
     """View of a panel: everything, or magnified around `CENTER`."""
     side = 1.0 / zoom
     x, y = (min(max(middle - side / 2, 0.0), 1.0 - side) for middle in CENTER)
-    return window((PANEL, PANEL), x, y, side, side)
+    return window(x, y, side, side).matrix((PANEL, PANEL))
 
 
 def zoom_panel(texture: ThesisTexture, zoom: int) -> Image.Image:
     """A magnified picture, and a frame around what the next one shows of it."""
-    image = inked(vexture.render(texture, (PANEL, PANEL), view(zoom), "cpu"))
+    image = inked(vexture.coverage(texture, (PANEL, PANEL), view(zoom), "cpu"))
     for following in ZOOMS[ZOOMS.index(zoom) + 1 :][:1]:
         corners = view(following) @ np.array([(0, 0, 1), (PANEL, PANEL, 1)]).T
         (left, right), (top, bottom), _ = np.linalg.inv(view(zoom)) @ corners
@@ -138,7 +139,7 @@ def panels() -> list[list[Panel]]:
     texture = vexture.convert(drawing, encoding="thesis")
     tree = decode(texture)
     quads, curves, size = len(texture.quads), len(texture.curves), sum(map(len, texture.to_png()))
-    source = inked(vexture.render(drawing, (PANEL, PANEL), renderer="exact"))
+    source = inked(vexture.coverage(drawing, (PANEL, PANEL), renderer="exact"))
     return [
         [
             ("A drawing", f"{drawing.segments} curves and lines", source),
@@ -155,7 +156,7 @@ def panels() -> list[list[Panel]]:
 
 def packed_panels() -> list[list[Panel]]:
     """What the packed encoding adds: planes seen from the side, maps, deep zoom."""
-    sys.path.insert(0, str(ROOT / "benchmarks"))
+    sys.path.insert(0, str(ROOT / "evidence" / "benchmarks"))
     import corpora
 
     lettering = vexture.convert(LETTERING)
@@ -163,13 +164,13 @@ def packed_panels() -> list[list[Panel]]:
     x, y = coast.paths[0].contours[0][COAST_POINT, 0]
     texture = vexture.convert(coast, precision=1e-7)
     row = [
-        ("on a plane", f"{lettering.nbytes:,} bytes", inked(vexture.render(lettering, (PANEL, PANEL), LEANING, "cpu")))
+        ("on a plane", f"{lettering.nbytes:,} bytes", inked(vexture.coverage(lettering, (PANEL, PANEL), LEANING, "cpu")))
     ]
     for zoom in COAST_ZOOMS:
         side = 1.0 / zoom
-        whole = window((PANEL, PANEL), 0.0, 0.0, 1.0, 1.0)
-        near = window((PANEL, PANEL), x - side / 2, y - side / 2, side, side)
-        image = inked(vexture.render(texture, (PANEL, PANEL), whole if zoom == 1 else near, "cpu"))
+        whole = window(0.0, 0.0, 1.0, 1.0).matrix((PANEL, PANEL))
+        near = window(x - side / 2, y - side / 2, side, side).matrix((PANEL, PANEL))
+        image = inked(vexture.coverage(texture, (PANEL, PANEL), whole if zoom == 1 else near, "cpu"))
         title = f"{COAST_EDGES:,} edges" if zoom == 1 else f"{zoom:,} times"
         row.append((title, "", image))
     return [row]
@@ -177,21 +178,21 @@ def packed_panels() -> list[list[Panel]]:
 
 def icons() -> Image.Image:
     """Icons of those that benchmarks/icons.py measures, each drawn from its texture."""
-    sys.path.insert(0, str(ROOT / "benchmarks"))
+    sys.path.insert(0, str(ROOT / "evidence" / "benchmarks"))
     import corpora
 
     columns, rows = ICON_GRID
     out = Image.new("RGB", (columns * (ICON + GAP) + GAP, rows * (ICON + GAP) + GAP), PAPER)
     for place, file in enumerate(corpora.mdi(columns * rows, 1)):
         row, column = divmod(place, columns)
-        image = inked(vexture.render(vexture.convert(file), (ICON, ICON), renderer="cpu"))
+        image = inked(vexture.coverage(vexture.convert(file), (ICON, ICON), renderer="cpu"))
         out.paste(image, (GAP + column * (ICON + GAP), GAP + row * (ICON + GAP)))
     return out
 
 
 def equal_bytes() -> Image.Image:
     """The report's picture of other textures of as many bytes."""
-    from vexture.report.assemble import assemble
+    from vexture_evidence.report.assemble import assemble
 
     with tempfile.TemporaryDirectory() as folder:
         made = assemble([SHAPE], Path(folder), only=("comparison",))

@@ -13,7 +13,7 @@ from typing import Any, Final
 from PIL import Image
 
 ROOT: Final = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "examples")]
+sys.path[:0] = [str(ROOT / "evidence" / "benchmarks"), str(ROOT / "examples")]
 
 from santa_cruz.make_flood import make_flood  # noqa: E402
 

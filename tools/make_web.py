@@ -1,7 +1,6 @@
 """Write web/generated/: the shaders' text and the textures' layout, as JavaScript modules.
 
-Their owners are src/vexture/glsl/, src/vexture/encoding/layout.py and src/vexture/folding/layout.py; nothing in web/
-types any of it again.
+Their owners are the folders glsl/ and the modules layout.py in src/vexture/; nothing in web/ types any of it again.
 `make_web.py --check` writes nothing and fails when a file is not what it would write.
 """
 
@@ -12,17 +11,19 @@ from pathlib import Path
 from types import ModuleType
 from typing import Final
 
-from vexture import shading
-from vexture.encoding import layout
-from vexture.folding import layout as fold_layout
-from vexture.shaders import FOLD_HEIGHT, QUALITIES, WRAPS, constants, join, packed_text
+from vexture import layout
+from vexture.fold import layout as fold_layout
+from vexture.renderers.shader import QUALITIES, WRAPS, included, shader_text
+from vexture.thesis import layout as thesis_layout
+from vexture.thesis import shading as thesis_shading
+from vexture.thesis.shader import FOLD_HEIGHT, constants, thesis_text
 
 __all__ = ["main"]
 
 FOLDER: Final = Path(__file__).resolve().parents[1] / "web" / "generated"
 HEADER: Final = "// Made by tools/make_web.py; change {owner} and run it again.\n"
 
-PACKED_FILES: Final = {"packed": "packed_layers.glsl", "packedOverlay": "packed_overlay.glsl"}
+PACKED_FILES: Final = {"packed": "layers.glsl", "packedOverlay": "overlay.glsl"}
 """Exports that read a packed texture, and the file whose functions each offers."""
 
 COMMENT: Final = re.compile(r"[ \t]*//.*$", re.MULTILINE)
@@ -79,27 +80,28 @@ def shaders() -> str:
     parts = [HEADER.format(owner="src/vexture/glsl/")]
     for name, file in PACKED_FILES.items():
         comment = f"{file}; VEXTURE_QUALITY must be defined before it, and VEXTURE_WRAP may be."
-        parts.append(module_text(name, bare(inlined(packed_text(file, None))), comment))
+        parts.append(module_text(name, bare(inlined(shader_text(file, None))), comment))
     comment = "steps.glsl: what the derivatives of a position are, for pixels."
-    parts.append(module_text("steps", bare(join("steps.glsl")), comment))
+    parts.append(module_text("steps", bare(included("steps.glsl")), comment))
     parts.append("/** Values of VEXTURE_QUALITY. */\n")
     parts.append(f"export const QUALITIES = Object.freeze({json.dumps(QUALITIES)});\n")
     parts.append("/** Values of VEXTURE_WRAP. */\n")
     parts.append(f"export const WRAPS = Object.freeze({json.dumps(WRAPS)});\n")
-    parts.append("/** Rows of a thesis texture on the GPU: a longer list goes on in the columns to its right. */\n")
-    parts.append(f"export const FOLD_HEIGHT = {FOLD_HEIGHT};\n")
     return "".join(parts)
 
 
 def thesis_module() -> str:
     """Text of the module with the thesis's shader: apart, since most pages have no use for it."""
-    coverage = join("coverage.glsl")
-    text = bare(apart(used(constants(layout) + constants(shading), coverage) + coverage))
+    coverage = thesis_text("coverage.glsl")
+    text = bare(apart(used(constants(thesis_layout) + constants(thesis_shading), coverage) + coverage))
     comment = (
         "coverage.glsl; its names begin with thesis_, and const int thesis_LEVELS and thesis_FOLD_HEIGHT must\n"
         " * stand before it."
     )
-    return HEADER.format(owner="src/vexture/glsl/") + module_text("thesis", text, comment)
+    return HEADER.format(owner="src/vexture/thesis/glsl/") + module_text("thesis", text, comment) + (
+        "/** Rows of a texture on the GPU: a longer list goes on in the columns to its right. */\n"
+        f"export const FOLD_HEIGHT = {FOLD_HEIGHT};\n"
+    )
 
 
 def water_module() -> str:
@@ -107,13 +109,13 @@ def water_module() -> str:
     parts = [HEADER.format(owner="src/vexture/glsl/")]
     for name in ("water", "shore"):
         comment = f"{name}.glsl; VEXTURE_QUALITY and VEXTURE_WRAP must be defined before it."
-        parts.append(module_text(name, bare(inlined(packed_text(f"{name}.glsl", None))), comment))
+        parts.append(module_text(name, bare(inlined(shader_text(f"{name}.glsl", None))), comment))
     return "".join(parts)
 
 
 def fold_module() -> str:
     """Text of the module with the shader of folds: apart, since a page without one has no use for it."""
-    text = bare(inlined(packed_text("fold.glsl", None, fold_layout)))
+    text = bare(inlined(shader_text("fold.glsl", None, fold_layout)))
     comment = "fold.glsl; VEXTURE_WRAP may be defined before it."
     return HEADER.format(owner="src/vexture/glsl/fold.glsl") + module_text("fold", text, comment)
 
@@ -133,8 +135,9 @@ def main() -> int:
     """Write the files, or with --check compare them; the exit code."""
     stale = []
     modules = {
-        "layout.js": layout_module(layout, "encoding/layout.py"),
-        "fold-layout.js": layout_module(fold_layout, "folding/layout.py"),
+        "layout.js": layout_module(layout, "layout.py"),
+        "thesis-layout.js": layout_module(thesis_layout, "thesis/layout.py"),
+        "fold-layout.js": layout_module(fold_layout, "fold/layout.py"),
         "shaders.js": shaders(),
         "thesis-shader.js": thesis_module(),
         "fold-shader.js": fold_module(),

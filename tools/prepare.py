@@ -42,7 +42,7 @@ class Need:
 
     def complaint(self) -> str | None:
         """Return why it cannot be used, in one line; None if it can."""
-        environment = {**os.environ, "PYTHONPATH": str(ROOT / "benchmarks")}
+        environment = {**os.environ, "PYTHONPATH": str(ROOT / "evidence" / "benchmarks")}
         command = [sys.executable, "-c", self.use]
         outcome = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
         if outcome.returncode == 0:
@@ -82,7 +82,7 @@ with sync_playwright() as started:
 SYSTEM = (
     Need(
         "OpenGL without a window",
-        "from vexture.render.gpu import context; context()",
+        "from vexture.thesis.gpu import context; context()",
         ("libegl1", "libgl1", "libgl1-mesa-dri", "libgles2", "libgbm1"),
         "the tests of the gpu renderer",
     ),

@@ -1,13 +1,34 @@
-"""Vector textures: drawings that a GPU reads at random, sharp at every zoom."""
+"""Vector textures: drawings in textures with random access, sharp at every zoom."""
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-# the package of this name would replace the function of this name if it were imported later
-import vexture.render  # noqa: F401
-from vexture.errors import DeviceError, FormatError, LimitError, SourceError, SourceWarning, VextureError
-from vexture.pictures import render, render_layers
-from vexture.pipeline import atlas, convert
+from vexture.errors import (
+    DeviceError,
+    FormatError,
+    LimitError,
+    ParameterError,
+    SourceError,
+    SourceWarning,
+    VextureError,
+)
+
+if TYPE_CHECKING:
+    from vexture.drawing import Drawing, FillRule, Paint, Path
+    from vexture.fold.fold import Fold, fold_from
+    from vexture.fold.picture import fold_picture
+    from vexture.fold.shore import shore_fold
+    from vexture.geo.extent import Extent, read_extent
+    from vexture.geo.frame import Frame
+    from vexture.geo.geojson import read_geojson
+    from vexture.images import coverage, render
+    from vexture.pipeline import atlas, convert
+    from vexture.renderers.shader import shader_source
+    from vexture.renderers.view import View, window
+    from vexture.svg.read import read_svg
+    from vexture.texture.load import load
+    from vexture.texture.texture import Root, Texture
+    from vexture.tracing.trace import read_image, trace
 
 __all__ = [
     "DeviceError",
@@ -18,16 +39,18 @@ __all__ = [
     "FormatError",
     "Frame",
     "LimitError",
-    "PackedTexture",
     "Paint",
+    "ParameterError",
     "Path",
     "Root",
     "SourceError",
     "SourceWarning",
-    "ThesisTexture",
+    "Texture",
     "VextureError",
+    "View",
     "atlas",
     "convert",
+    "coverage",
     "fold_from",
     "fold_picture",
     "load",
@@ -36,37 +59,28 @@ __all__ = [
     "read_image",
     "read_svg",
     "render",
-    "render_layers",
     "shader_source",
     "shore_fold",
     "trace",
+    "window",
 ]
-
-if TYPE_CHECKING:
-    from vexture.drawing import Drawing, FillRule, Paint, Path
-    from vexture.encoding import PackedTexture, Root, ThesisTexture, load
-    from vexture.folding.fold import Fold, fold_from
-    from vexture.folding.picture import fold_picture
-    from vexture.folding.shore import shore_fold
-    from vexture.shaders import shader_source
-    from vexture.sources.extent import Extent, read_extent
-    from vexture.sources.frame import Frame
-    from vexture.sources.geojson import read_geojson
-    from vexture.sources.svg import read_svg
-    from vexture.sources.traced import read_image, trace
 
 _HOMES = {
     "vexture.drawing": ("Drawing", "FillRule", "Paint", "Path"),
-    "vexture.encoding": ("PackedTexture", "Root", "ThesisTexture", "load"),
-    "vexture.folding.fold": ("Fold", "fold_from"),
-    "vexture.folding.picture": ("fold_picture",),
-    "vexture.folding.shore": ("shore_fold",),
-    "vexture.shaders": ("shader_source",),
-    "vexture.sources.extent": ("Extent", "read_extent"),
-    "vexture.sources.frame": ("Frame",),
-    "vexture.sources.geojson": ("read_geojson",),
-    "vexture.sources.svg": ("read_svg",),
-    "vexture.sources.traced": ("read_image", "trace"),
+    "vexture.fold.fold": ("Fold", "fold_from"),
+    "vexture.fold.picture": ("fold_picture",),
+    "vexture.fold.shore": ("shore_fold",),
+    "vexture.geo.extent": ("Extent", "read_extent"),
+    "vexture.geo.frame": ("Frame",),
+    "vexture.geo.geojson": ("read_geojson",),
+    "vexture.images": ("coverage", "render"),
+    "vexture.pipeline": ("atlas", "convert"),
+    "vexture.renderers.shader": ("shader_source",),
+    "vexture.renderers.view": ("View", "window"),
+    "vexture.svg.read": ("read_svg",),
+    "vexture.texture.load": ("load",),
+    "vexture.texture.texture": ("Root", "Texture"),
+    "vexture.tracing.trace": ("read_image", "trace"),
 }
 
 

@@ -1,14 +1,25 @@
 """What can go wrong, one class for each decision that a user can take.
 
-Every message is one line that names the value, the limit and the remedy. The command line prints that line and
-exits with code 1; any other exception that reaches a user is a bug.
+Every message is one line that names the value, the limit and the remedy. Messages name parameters in backticks, as in
+`max_depth`; the command line turns them into options, prints the line and exits with code 1.
+
+Wrong arguments are `ParameterError`, a `ValueError`; bad files, limits and devices are `VextureError`. Any other
+exception that reaches a user is a bug.
 """
 
-__all__ = ["DeviceError", "FormatError", "LimitError", "SourceError", "SourceWarning", "VextureError"]
+__all__ = [
+    "DeviceError",
+    "FormatError",
+    "LimitError",
+    "ParameterError",
+    "SourceError",
+    "SourceWarning",
+    "VextureError",
+]
 
 
 class VextureError(Exception):
-    """Base of all errors that vexture raises on purpose."""
+    """Base of all errors that a file, a limit or a device causes."""
 
 
 class SourceError(VextureError):
@@ -20,11 +31,15 @@ class FormatError(VextureError):
 
 
 class LimitError(VextureError):
-    """A limit is exceeded: change the parameter that the message names."""
+    """The drawing, file or image exceeds a limit: change the parameter that the message names."""
 
 
 class DeviceError(VextureError):
     """The GPU, its driver or the disk refuses: use another renderer or another place."""
+
+
+class ParameterError(ValueError):
+    """An argument has a value that is not allowed."""
 
 
 class SourceWarning(UserWarning):

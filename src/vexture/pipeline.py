@@ -5,135 +5,147 @@ import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, cast
+from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, overload
 
-from vexture.errors import LimitError
+from vexture.encodings import DEFAULT, EncodedTexture, find_encoding
+from vexture.errors import LimitError, ParameterError
 from vexture.settings import Settings
 
-if TYPE_CHECKING:  # at run time they come when they are needed: compiler, parser and driver take their time
+if TYPE_CHECKING:  # at run time they come when they are needed: compiler and parser take their time
     from vexture.drawing import Drawing
-    from vexture.encoding import PackedTexture, Root, ThesisTexture
-    from vexture.quadtree.tree import CellTree, PackedTree
+    from vexture.texture.texture import Root, Texture
+    from vexture.tree.tree import Tree
 
-    Source = Drawing | str | os.PathLike[str]
+__all__ = ["Conversion", "Shapes", "Source", "atlas", "combine", "convert", "run", "shapes_of"]
 
-__all__ = ["Conversion", "Shapes", "atlas", "convert", "join", "run", "shapes_of"]
+Source: TypeAlias = "Drawing | str | os.PathLike[str]"
+"""A drawing, or the path of a file that `vexture.read` reads."""
+
+AnyTexture = TypeVar("AnyTexture", bound=EncodedTexture, covariant=True)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Shapes:
-    """What one source became, not yet in a packed texture.
+    """The trees of one source, not yet in a texture.
 
     Parameters
     ----------
     drawing : Drawing
         What was read.
-    trees : tuple of PackedTree
-        What it became: one tree, or one for each of its layers.
+    trees : tuple of Tree
+        One tree, or one for each of its layers.
     roots : tuple of Root
         What a texture says of each.
     seconds : float
         Time from the source to the trees.
     source : str
         Names the source in messages.
+    rounding : float
+        Largest shift of an outline by rounding to the texture's bits, in unit-square units.
     """
 
     drawing: "Drawing"
-    trees: "tuple[PackedTree, ...]"
+    trees: "tuple[Tree, ...]"
     roots: "tuple[Root, ...]"
     seconds: float
     source: str
+    rounding: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Conversion:
-    """What a conversion went through.
+class Conversion(Generic[AnyTexture]):
+    """A conversion with all that lies between the source and the texture.
 
     Parameters
     ----------
     drawing : Drawing
         What was read; if it was split, `drawing.layers()` are what became trees.
-    trees : tuple of PackedTree or of CellTree
-        What it became: one tree, or one for each of its layers.
-    texture : PackedTexture or ThesisTexture
+    trees : tuple of Tree, or the one tree of another encoding
+    texture : EncodedTexture
         What is saved.
     seconds : float
         Time from the source to the texture.
+    rounding : float
+        Largest shift of an outline by rounding to the texture's bits, in unit-square units.
     """
 
     drawing: "Drawing"
-    trees: "tuple[PackedTree, ...] | tuple[CellTree, ...]"
-    texture: "PackedTexture | ThesisTexture"
+    trees: tuple[Any, ...]
+    texture: AnyTexture
     seconds: float
+    rounding: float
 
     @property
-    def tree(self) -> "PackedTree | CellTree":
+    def tree(self) -> Any:
         """The first tree: the only one, unless the drawing was split."""
         return self.trees[0]
 
 
-def run(source: "Source", **parameters: Any) -> Conversion:
+@overload
+def run(
+    source: Source, *, encoding: Literal["packed"] = ..., select: str | None = ..., **parameters: Any
+) -> "Conversion[Texture]": ...
+
+
+@overload
+def run(
+    source: Source, *, encoding: str, select: str | None = ..., **parameters: Any
+) -> Conversion[EncodedTexture]: ...
+
+
+def run(
+    source: Source, *, encoding: str = DEFAULT, select: str | None = None, **parameters: Any
+) -> Conversion[Any]:
     """Convert and keep what lies between; see `convert`."""
-    settings = Settings(**parameters)
     start = time.perf_counter()
-    if settings.encoding == "packed":
-        shapes = shapes_of(source, settings)
+    if encoding == DEFAULT:
+        shapes = shapes_of(source, Settings(select=select, **parameters))
         origin = None if _is_drawing(source) else Path(shapes.source).name
-        packed = join([shapes], shapes.drawing.name, origin)
-        return Conversion(shapes.drawing, shapes.trees, packed, time.perf_counter() - start)
-    from vexture.encoding import encode, quantisation_step
-    from vexture.encoding.layout import LIST_LIMIT
-    from vexture.quadtree.build import DEFAULT_DEPTH, build
-
-    drawing = _drawing_of(source, settings)
-    bits = 16 if settings.bits is None else settings.bits
-    if bits not in LIST_LIMIT:
-        raise LimitError(f"{bits!r} bits; a texture has 8 or 16")
-    depth = DEFAULT_DEPTH if settings.max_depth is None else settings.max_depth
-    strategy = settings.strategy or "direct"
-    tree = build(drawing, settings.tolerance, depth, strategy, quantisation_step(bits), LIST_LIMIT[bits])
-    texture = encode(tree, bits, to_source=drawing.to_source, name=drawing.name, crs=drawing.crs)
-    return Conversion(drawing, (tree,), texture, time.perf_counter() - start)
+        texture = combine([shapes], shapes.drawing.name, origin)
+        return Conversion(shapes.drawing, shapes.trees, texture, time.perf_counter() - start, shapes.rounding)
+    other = find_encoding(encoding)
+    drawing = _drawing_of(source, select)
+    tree, other_texture, rounding = other.convert(drawing, **parameters)
+    return Conversion(drawing, (tree,), other_texture, time.perf_counter() - start, rounding)
 
 
-def shapes_of(source: "Source", settings: Settings) -> Shapes:
-    """Read one source, take it apart if the settings say so, and grow its packed trees."""
-    from vexture.encoding import Root
-    from vexture.quadtree.build_packed import DEFAULT_CAPACITY, DEFAULT_DEPTH, build_packed
+def shapes_of(source: Source, settings: Settings) -> Shapes:
+    """Read one source, take it apart if the settings say so, and build the trees of its shapes."""
+    from vexture.texture.texture import Root
+    from vexture.tree.build import DEFAULT_CAPACITY, DEFAULT_DEPTH, build_tree, largest_shift
 
     start = time.perf_counter()
-    drawing = _drawing_of(source, settings)
-    tolerance = settings.packed_tolerance
+    drawing = _drawing_of(source, settings.select)
     layers = drawing.layers() if settings.split else ()
     trees = tuple(
-        build_packed(
+        build_tree(
             layer,
-            tolerance=tolerance,
+            tolerance=settings.distance,
             max_depth=DEFAULT_DEPTH if settings.max_depth is None else settings.max_depth,
             capacity=DEFAULT_CAPACITY if settings.capacity is None else settings.capacity,
             precision=settings.precision,
         )
         for layer in layers or (drawing,)
     )
-    if layers:
-        roots = tuple(
-            Root(layer.name, 0, layer.to_source, tolerance, layer.crs, layer.paths[0].paint) for layer in layers
+    roots = tuple(
+        Root(
+            layer.name, 0, layer.to_source, settings.distance, layer.crs, layer.paths[0].paint if layers else None
         )
-    else:
-        roots = (Root(drawing.name, 0, drawing.to_source, tolerance, drawing.crs),)
-    named = drawing.name if _is_drawing(source) else os.fspath(cast("str | os.PathLike[str]", source))
-    return Shapes(drawing, trees, roots, time.perf_counter() - start, named)
+        for layer in layers or (drawing,)
+    )
+    named = source if isinstance(source, str) else drawing.name if _is_drawing(source) else os.fspath(source)  # type: ignore[arg-type]
+    return Shapes(drawing, trees, roots, time.perf_counter() - start, named, largest_shift(settings.precision))
 
 
-def join(parts: Sequence[Shapes], name: str, source: str | None = None) -> "PackedTexture":
+def combine(parts: Sequence[Shapes], name: str, source: str | None = None) -> "Texture":
     """One texture of the shapes of some sources.
 
     Raises
     ------
     LimitError
-        If there are none, or two of one name.
+        If two have one name, or there are none.
     """
-    from vexture.encoding import encode_packed
+    from vexture.texture.encode import encode
 
     owner: dict[str, str] = {}
     for part in parts:
@@ -147,64 +159,66 @@ def join(parts: Sequence[Shapes], name: str, source: str | None = None) -> "Pack
     if not owner:
         raise LimitError("an atlas of no drawings; give at least one")
     trees = [tree for part in parts for tree in part.trees]
-    return encode_packed(trees, [root for part in parts for root in part.roots], name=name, source=source)
+    return encode(trees, [root for part in parts for root in part.roots], name=name, source=source)
 
 
+@overload
 def convert(
-    source: "Source",
+    source: Source,
     *,
-    encoding: str = "packed",
-    split: Literal["paint"] | None = None,
-    select: str | None = None,
-    tolerance: float | Literal["auto"] = "auto",
-    max_depth: int | None = None,
-    capacity: int | None = None,
-    precision: float | None = None,
-    bits: int | None = None,
-    strategy: Literal["direct", "sampled"] | None = None,
-) -> "PackedTexture | ThesisTexture":
-    """Turn a drawing into a texture.
+    encoding: Literal["packed"] = ...,
+    split: Literal["paint"] | None = ...,
+    select: str | None = ...,
+    tolerance: float | Literal["auto"] = ...,
+    max_depth: int | None = ...,
+    capacity: int | None = ...,
+    precision: float | None = ...,
+) -> "Texture": ...
+
+
+@overload
+def convert(source: Source, *, encoding: str, select: str | None = ..., **parameters: Any) -> EncodedTexture: ...
+
+
+def convert(source: Source, *, encoding: str = DEFAULT, **parameters: Any) -> EncodedTexture:
+    """Convert a drawing into a texture.
 
     Parameters
     ----------
     source : Drawing or path
-        A drawing, or a file that `vexture.read_svg`, `vexture.read_geojson` or `vexture.read_image` reads.
+        A drawing, or a file that `vexture.read` reads.
     encoding : str
-        ``"packed"``: several exact pieces in each leaf, one KTX2 file. ``"thesis"``: one curve in each leaf, a pair
-        of PNG files.
+        ``"packed"``, the encoding of `Texture`, or a registered one, whose parameters its package documents:
+        ``"thesis"`` (`vexture.thesis.convert`).
     split : str, optional
         ``"paint"`` makes each layer of the drawing (`Drawing.layers`) a shape of its own, with its colour. None
-        converts the silhouette. Packed only.
+        converts the silhouette.
     select : str, optional
-        Convert only what a CSS selector chooses of the file; see `vexture.read_svg`.
+        Convert only what a CSS selector chooses of an SVG; see `vexture.read_svg`.
     tolerance : float or "auto"
-        Largest distance between the drawing's outline and the texture's before quantisation, in unit-square units.
-        Packed: pieces that one cubic describes within it become one; "auto" is 0, which loses nothing but by
-        quantisation. Thesis: "auto" follows the smallest detail of the drawing and the size of each cell.
+        Largest distance between the drawing's outline and the texture's before rounding, in unit-square units. Pieces
+        that one cubic describes within it become one; "auto" is 0, which loses nothing but by rounding.
     max_depth : int, optional
-        Cells of this depth are not divided further; 16 by default, in the encoding thesis 10.
+        Cells of this depth are not divided further; 16 by default.
     capacity : int, optional
-        Pieces in a leaf, 1 to 15; 4 by default. Packed only.
+        Pieces in a leaf, 1 to 15; 4 by default.
     precision : float, optional
-        Largest displacement by quantisation, in unit-square units; by default no leaf is made smaller for it. Packed
-        only.
-    bits : int, optional
-        Bits per channel, 8 or 16; 16 by default. Thesis only.
-    strategy : str, optional
-        ``"direct"``, the default, takes leaves from the drawing's own cubics; ``"sampled"`` samples and fits as the
-        thesis does. Thesis only.
+        Largest shift of the outline by rounding, in unit-square units; leaves are divided until it holds. By default
+        none is divided for it.
 
     Returns
     -------
-    PackedTexture or ThesisTexture
+    Texture
+        Or the texture of another encoding.
 
     Raises
     ------
     SourceError
         If the drawing cannot be read.
     LimitError
-        If a parameter is out of range or belongs to the other encoding, a selector chooses nothing, or the tree is
-        too large.
+        If a selector chooses nothing, or the tree is too large.
+    ParameterError
+        If a parameter is out of range.
 
     Examples
     --------
@@ -212,25 +226,12 @@ def convert(
     >>> triangle = Drawing.polygon([(0.1, 0.1), (0.9, 0.1), (0.5, 0.9)])
     >>> [root.name for root in convert(triangle).roots]
     ['drawing']
-    >>> convert(triangle, encoding="thesis", bits=8).quads.shape[0]
-    1
     """
-    return run(
-        source,
-        encoding=encoding,
-        split=split,
-        select=select,
-        tolerance=tolerance,
-        max_depth=max_depth,
-        capacity=capacity,
-        precision=precision,
-        bits=bits,
-        strategy=strategy,
-    ).texture
+    return run(source, encoding=encoding, **parameters).texture
 
 
 def atlas(
-    sources: "Iterable[Source]",
+    sources: Iterable[Source],
     *,
     name: str = "atlas",
     split: Literal["paint"] | None = None,
@@ -239,14 +240,14 @@ def atlas(
     max_depth: int | None = None,
     capacity: int | None = None,
     precision: float | None = None,
-) -> "PackedTexture":
-    """Turn many drawings into one packed texture: a root for each, or with `split` for each layer of each.
+) -> "Texture":
+    """Convert many drawings into one texture: a shape for each, or with `split` for each layer of each.
 
     Parameters
     ----------
     sources : iterable of Drawing or path
-        Each is found by its name in the texture: that of the drawing, for a file that before its first dot. Layers
-        are ``name/layer``.
+        A shape is named after its drawing; that of a file after the file, up to its first dot. Layers are
+        ``name/layer``.
     name : str
         Names the texture.
     split, select, tolerance, max_depth, capacity, precision
@@ -254,7 +255,7 @@ def atlas(
 
     Returns
     -------
-    PackedTexture
+    Texture
 
     Raises
     ------
@@ -262,6 +263,8 @@ def atlas(
         If a drawing cannot be read.
     LimitError
         If two shapes have one name, there is no source, or as `vexture.convert` says.
+    ParameterError
+        As in `vexture.convert`.
 
     Examples
     --------
@@ -275,8 +278,9 @@ def atlas(
     settings = Settings(
         split=split, select=select, tolerance=tolerance, max_depth=max_depth, capacity=capacity, precision=precision
     )
-    listed = [sources] if isinstance(sources, str | os.PathLike) or _is_drawing(sources) else sources
-    return join([shapes_of(cast("Source", source), settings) for source in listed], name)
+    if isinstance(sources, str | os.PathLike) or _is_drawing(sources):
+        sources = [sources]  # type: ignore[list-item]
+    return combine([shapes_of(source, settings) for source in sources], name)
 
 
 def _is_drawing(source: Any) -> bool:
@@ -285,17 +289,17 @@ def _is_drawing(source: Any) -> bool:
     return isinstance(source, Drawing)
 
 
-def _drawing_of(source: "Source", settings: Settings) -> "Drawing":
+def _drawing_of(source: Source, select: str | None) -> "Drawing":
     """Drawing that a source is or holds."""
     from vexture.drawing import Drawing
 
     if not isinstance(source, Drawing):
-        from vexture.sources.reading import read_drawing
+        from vexture.reading import read_drawing
 
-        return read_drawing(source, settings.select)
-    if settings.select is not None:
-        raise LimitError(
-            f"{source.name}: select={settings.select!r} chooses elements of a file, which a drawing has no longer; "
-            "read the file with read_svg(path, select=...)"
+        return read_drawing(source, select)
+    if select is not None:
+        raise ParameterError(
+            f"`select` is {select!r}, but {source.name} is a drawing, whose elements have no names any more; "
+            "use vexture.read(path, select=...)"
         )
     return source

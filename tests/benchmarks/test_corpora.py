@@ -12,7 +12,7 @@ from lxml import etree
 from vexture.errors import LimitError, SourceError, VextureError
 
 ROOT = Path(__file__).parents[2]
-corpora = SimpleNamespace(**runpy.run_path(str(ROOT / "benchmarks" / "corpora.py")))
+corpora = SimpleNamespace(**runpy.run_path(str(ROOT / "evidence" / "benchmarks" / "corpora.py")))
 
 
 @pytest.fixture

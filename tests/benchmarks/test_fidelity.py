@@ -10,7 +10,7 @@ import fidelity
 import report
 from vexture.drawing import Drawing
 from vexture.pipeline import run
-from vexture.render.view import fit
+from vexture.renderers.view import fit
 
 SQUARE = Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)])
 NEEDLE = Drawing.polygon([(0.1, 0.5), (0.9, 0.501), (0.9, 0.502)])

@@ -8,7 +8,7 @@ import pytest
 import flood_edges
 from flood_reading import CRS, KINDS, VERTICES, island
 from vexture.drawing import Drawing
-from vexture.folding.fold import Fold, Kind
+from vexture.fold.fold import Fold, Kind
 
 SIZE = (60, 40)
 BOX = (1 / 32, 0.2, 31 / 32, 0.8)

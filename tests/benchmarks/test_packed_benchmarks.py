@@ -16,9 +16,9 @@ import targets
 import views
 from vexture.drawing import Drawing, FillRule
 from vexture.errors import DeviceError
-from vexture.evaluation import programs
-from vexture.quadtree.build_packed import build_packed
-from vexture.render.exact import render_exact
+from vexture.renderers.exact import render_exact
+from vexture.tree.build import build_tree
+from vexture_evidence.measures import programs
 
 SIDE = seams.SIDE
 
@@ -64,7 +64,7 @@ def test_a_notch_at_the_border_is_a_step():
 
 def test_crossings_lie_on_the_outline_and_on_borders():
     circle = corpora.round_shapes()[0]
-    found = list(seams.crossings(build_packed(circle, precision=1e-6)))
+    found = list(seams.crossings(build_tree(circle, precision=1e-6)))
     assert len(found) > 20
     for point, tangent in found:
         assert np.hypot(*(point - 0.5)) == pytest.approx(0.4, abs=2e-4)
@@ -100,7 +100,7 @@ def test_sizes_of_a_square_by_hand():
     """One quad and four pieces; five texels of 8 bytes, 32 heads and two lists of two entries for the bands."""
     square = Drawing.polygon([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75)])
     facts = size.set_facts(size.Set("squares", [square, square], 100))
-    tree = build_packed(square)
+    tree = build_tree(square)
     assert facts["packed"]["raw"] == 2 * 16 * (len(tree.count) + len(tree.curves))
     assert facts["bands"] == {"shared": 2 * 184, "unshared": 2 * (40 + 128 + 256), "left_out": 0}
     assert facts["thesis_16"]["raw"] == 2 * facts["thesis_8"]["raw"] > 0

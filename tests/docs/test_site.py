@@ -12,7 +12,7 @@ import pytest
 
 import vexture
 from guides import ROOT, build_site
-from vexture.cli import main
+from vexture.cli.main import main
 
 pytest.importorskip("mkdocs", reason="MkDocs is not installed (pip install '.[docs]')")
 

@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vexture.bezier.area import edge_index
-from vexture.encoding.edge import edge_point, quantised_ends
+from vexture.thesis.edge import edge_point, quantised_ends
 
 INDEX = st.floats(0.0, 1.0, exclude_max=True)
 

@@ -16,11 +16,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from either import decode, encode
 from strategies import cell_trees
-from vexture.encoding import ThesisTexture, decode, encode, load
-from vexture.encoding.png import write_png
 from vexture.errors import FormatError
-from vexture.quadtree.tree import CellKind, CellTree
+from vexture.texture.load import load_any as load
+from vexture.thesis.png import write_png
+from vexture.thesis.texture import ThesisTexture
+from vexture.thesis.tree import CellKind, CellTree
 
 TRANSFORM = np.array([[32.5, 0.0, 1e-7], [0.0, -32.5, 1 / 3]])
 

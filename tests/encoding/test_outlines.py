@@ -10,17 +10,19 @@ from hypothesis import strategies as st
 
 import corpora
 import degenerate
+from either import encode
 from strategies import packed_trees
 from vexture import read_svg
 from vexture.bezier.convert import line_cubics
 from vexture.drawing import Drawing, Paint
 from vexture.drawing import Path as Outline
-from vexture.encoding import PackedTexture, Root, encode, encode_packed
-from vexture.encoding.outlines import outlines
 from vexture.errors import LimitError, VextureError
-from vexture.quadtree.build_packed import build_packed
-from vexture.quadtree.tree import PackedTree
-from vexture.render.exact import render_exact
+from vexture.renderers.exact import render_exact
+from vexture.texture.encode import encode as encode_packed
+from vexture.texture.outlines import outlines
+from vexture.texture.texture import Root, Texture
+from vexture.tree.build import build_tree
+from vexture.tree.tree import Tree
 
 SIZE = (128, 128)
 ONE_LEVEL = 1 / 255
@@ -32,11 +34,11 @@ SEEDS = [*range(40), *T_JUNCTIONS]  # in these, pieces end on others
 SQUARE = Drawing.polygon([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75)])
 
 
-def converted(drawing: Drawing) -> PackedTexture:
-    return encode(build_packed(drawing), to_source=drawing.to_source, name=drawing.name)
+def converted(drawing: Drawing) -> Texture:
+    return encode(build_tree(drawing), to_source=drawing.to_source, name=drawing.name)
 
 
-def back(texture: PackedTexture, folder: Path) -> Drawing:
+def back(texture: Texture, folder: Path) -> Drawing:
     path = folder / "back.svg"
     path.write_text(texture.to_svg(), encoding="utf-8")
     return read_svg(path)
@@ -77,14 +79,14 @@ def test_svg_of_degenerate_drawings(tmp_path: Path, seed: int) -> None:
         assert abs(render_exact(back(texture, tmp_path), SIZE) - expected).max() < ONE_LEVEL
 
 
-def with_lines(tree: PackedTree) -> PackedTree:
+def with_lines(tree: Tree) -> Tree:
     """Tree whose pieces are straight."""
     lines = np.rint(line_cubics(*np.moveaxis(tree.curves[:, [0, 3]].astype(float), 1, 0)))
     return replace(tree, curves=lines.astype(np.int32))
 
 
 @given(packed_trees(max_depth=2, max_quads=4).map(with_lines), st.integers(0, 2**32))
-def test_outlines_are_closed_and_wind_as_the_leaves_say(tree: PackedTree, seed: int) -> None:
+def test_outlines_are_closed_and_wind_as_the_leaves_say(tree: Tree, seed: int) -> None:
     """Even where pieces and corner windings are random, so that windings are anything."""
     texture = encode(tree, to_source=np.eye(2, 3), name="x")
     points = np.random.default_rng(seed).random((200, 2))
@@ -117,7 +119,7 @@ def test_heights_are_compared_exactly() -> None:
 
 
 def test_points_beyond_the_square_and_no_points() -> None:
-    full = encode_packed([build_packed(Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]))], [Root("x")], name="x")
+    full = encode_packed([build_tree(Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]))], [Root("x")], name="x")
     edge = [(0, 0), (1, 0.5), (0.5, 1), (-1e-300, 0.5), (np.nan, 0.5), (0.5, np.inf), (1e300, -1e300), (0.5, 0.5)]
     assert full.contains(edge).tolist() == [True, False, False, False, False, False, False, True]
     assert full.contains(np.zeros((0, 2))).shape == (0,)
@@ -131,12 +133,12 @@ def test_unchecked_texels_lead_nowhere() -> None:
     random = np.random.default_rng(5)
     texels = random.integers(0, 2**32, (1, 64, 4), np.uint32)
     texels[:, ::2, :2] %= 70
-    texture = PackedTexture(texels, (Root("x"), Root("y", 10**6)))
+    texture = Texture(texels, (Root("x"), Root("y", 10**6)))
     for root in (0, 1):
         assert texture.contains(random.random((1000, 2)), root).shape == (1000,)
 
 
-def painted() -> PackedTexture:
+def painted() -> Texture:
     to_source = np.array([[20.0, 0.0, 3.0], [0.0, -20.0, 25.0]])
     triangle = Drawing.polygon([(0.1, 0.1), (0.9, 0.1), (0.5, 0.9)])
     roots = [
@@ -144,7 +146,7 @@ def painted() -> PackedTexture:
         Root("front", to_source=to_source, paint=Paint((0.3, 0.55555, 1.0), 0.25)),
         Root("outline", to_source=to_source),
     ]
-    return encode_packed([build_packed(SQUARE), build_packed(triangle), build_packed(triangle)], roots, name='a "b"')
+    return encode_packed([build_tree(SQUARE), build_tree(triangle), build_tree(triangle)], roots, name='a "b"')
 
 
 def test_layers_keep_their_paint(tmp_path: Path) -> None:
@@ -174,6 +176,6 @@ def test_one_shape_of_many() -> None:
 
 
 def test_nothing_at_all() -> None:
-    texture = PackedTexture(np.zeros((1, 1, 4), np.uint32), (Root("x"),))
+    texture = Texture(np.zeros((1, 1, 4), np.uint32), (Root("x"),))
     assert outlines(texture.flat, 0) == []
     assert 'd=""' in texture.to_svg()

@@ -9,22 +9,25 @@ from hypothesis import given
 from hypothesis import strategies as st
 from test_ktx2 import by_ktx_parse
 
+from either import decode, encode, info
 from strategies import packed_trees
+from vexture import layout
 from vexture.drawing import Paint
-from vexture.encoding import PackedTexture, Root, decode, encode, encode_packed, info, layout
 from vexture.errors import FormatError, LimitError
-from vexture.quadtree.tree import PackedTree
+from vexture.texture.encode import encode as encode_packed
+from vexture.texture.texture import Root, Texture
+from vexture.tree.tree import Tree
 
 FIELDS = ("is_quad", "count", "winding", "first_quad", "first_curve", "curves")
 FORESTS = st.lists(packed_trees(max_quads=8), min_size=1, max_size=4)
 TRANSFORM = np.array([[24.0, 0.0, -1.5], [0.0, -24.0, 1 / 3]])
 
 
-def texture_of(trees: list[PackedTree]) -> PackedTexture:
+def texture_of(trees: list[Tree]) -> Texture:
     return encode_packed(trees, [Root(f"shape {k}") for k in range(len(trees))], name="shapes")
 
 
-def same(a: PackedTree, b: PackedTree) -> None:
+def same(a: Tree, b: Tree) -> None:
     for field in FIELDS:
         x, y = getattr(a, field), getattr(b, field)
         assert x.dtype == y.dtype
@@ -32,7 +35,7 @@ def same(a: PackedTree, b: PackedTree) -> None:
 
 
 @given(FORESTS)
-def test_decode_is_the_inverse_of_encode(trees: list[PackedTree]) -> None:
+def test_decode_is_the_inverse_of_encode(trees: list[Tree]) -> None:
     texture = texture_of(trees)
     texture.check()
     for k, tree in enumerate(trees):
@@ -44,7 +47,7 @@ def test_decode_is_the_inverse_of_encode(trees: list[PackedTree]) -> None:
 
 
 @given(FORESTS)
-def test_every_quad_and_curve_is_a_texel_of_its_own(trees: list[PackedTree]) -> None:
+def test_every_quad_and_curve_is_a_texel_of_its_own(trees: list[Tree]) -> None:
     texture = texture_of(trees)
     total = sum(len(tree.count) + len(tree.curves) for tree in trees)
     told = info(texture)
@@ -56,7 +59,7 @@ def test_every_quad_and_curve_is_a_texel_of_its_own(trees: list[PackedTree]) -> 
 
 
 @given(packed_trees())
-def test_depth(tree: PackedTree) -> None:
+def test_depth(tree: Tree) -> None:
     depth = np.zeros(len(tree.count), int)
     for quad, cell in np.argwhere(tree.is_quad):
         depth[tree.first_quad[quad] + tree.is_quad[quad, :cell].sum()] = depth[quad] + 1
@@ -104,7 +107,7 @@ def test_what_cannot_be_encoded() -> None:
     with pytest.raises(LimitError, match="no shapes"):
         encode_packed([], [], name="nothing")
     with pytest.raises(FormatError, match="at least one root"):
-        PackedTexture(np.zeros((1, 1, 4), np.uint32), ())
+        Texture(np.zeros((1, 1, 4), np.uint32), ())
     texture = encode(chain(1), to_source=np.full((2, 3), np.inf), name="x")
     with pytest.raises(LimitError, match="not finite"):
         texture.to_ktx2()
@@ -116,33 +119,33 @@ def test_what_cannot_be_encoded() -> None:
 @pytest.mark.parametrize("shape", [(1, 3, 4), (2, 4, 4), (0, 2048, 4), (1, 4096, 4), (1, 4, 3), (4, 4)])
 def test_arrays_of_other_shapes(shape: tuple[int, ...]) -> None:
     with pytest.raises(FormatError):
-        PackedTexture(np.zeros(shape, np.uint32), (Root("x"),))
+        Texture(np.zeros(shape, np.uint32), (Root("x"),))
 
 
-def chain(quads: int) -> PackedTree:
+def chain(quads: int) -> Tree:
     """Quads in each other's first cell; all other cells are empty."""
     is_quad = np.zeros((quads, 4), bool)
     is_quad[:-1, 0] = True
     zeros, first = np.zeros((quads, 4)), np.minimum(np.arange(quads) + 1, quads).astype(np.int32)
     none = np.zeros(quads, np.int32)
     curves = np.zeros((0, 4, 2), np.int32)
-    return PackedTree(is_quad, zeros.astype(np.uint8), zeros.astype(np.int8), first, none, zeros, curves, 0.0, 0)
+    return Tree(is_quad, zeros.astype(np.uint8), zeros.astype(np.int8), first, none, zeros, curves, 0.0, 0)
 
 
-def leaf_pair() -> PackedTexture:
+def leaf_pair() -> Texture:
     """A root (0) with a quad (1) and two leaves of one curve each (2, 3); quad 1 holds a leaf of two (4, 5)."""
     texels = np.zeros((1, 8, 4), np.uint32)
     texels[0, 0] = 1, 2, 0x0C_80_0C_00, 0
     texels[0, 1] = 9, 4, 0x00_00_00_14, 0xFF
     texels[0, 2:6] = 32768 << 16 | 32768
-    return PackedTexture(texels, (Root("a"), Root("the same", 0)))
+    return Texture(texels, (Root("a"), Root("the same", 0)))
 
 
-def put(texel: int, word: int, value: int) -> Callable[[PackedTexture], None]:
+def put(texel: int, word: int, value: int) -> Callable[[Texture], None]:
     return lambda texture: texture.texels[0].__setitem__((texel, word), value)
 
 
-FAULTS: dict[str, tuple[Callable[[PackedTexture], None], str]] = {
+FAULTS: dict[str, tuple[Callable[[Texture], None], str]] = {
     "a quad is itself": (put(0, 0, 0), "quad 0 has 1 quads from texel 0; they must lie after it"),
     "a quad beyond": (put(0, 0, 8), "quad 0 has 1 quads from texel 8"),
     "a quad far beyond": (put(0, 0, 2**32 - 1), "quad 0 has 1 quads from texel 4294967295"),
@@ -176,14 +179,14 @@ def test_a_root_inside_another_or_beyond() -> None:
     texture = leaf_pair()
     for quad, expected in ((1, "texel 1 is referred to twice"), (8, "a root is quad 8 of 8 texels")):
         with pytest.raises(FormatError, match=expected):
-            PackedTexture(texture.texels, (Root("a"), Root("b", quad))).check()
+            Texture(texture.texels, (Root("a"), Root("b", quad))).check()
 
 
 def test_quads_of_one_depth_that_share() -> None:
     texels = np.zeros((1, 4, 4), np.uint32)
     texels[0, :3] = (1, 0, 0x80_80, 0), (0, 3, 0x0C, 0), (0, 3, 0x0C, 0)
     with pytest.raises(FormatError, match="texel 3 is referred to twice, as a curve now"):
-        PackedTexture(texels, (Root("a"),)).check()
+        Texture(texels, (Root("a"),)).check()
 
 
 def test_the_depth_limit() -> None:
@@ -198,9 +201,9 @@ def test_quads_and_curves_in_another_order() -> None:
     texels[2:6, 1] = range(4)
     moved[0, [0, 1, 2, 5, 6, 7]] = texels[[0, 2, 3, 1, 4, 5]]
     moved[0, 0, :2], moved[0, 5, 1] = (5, 1), 6
-    other = PackedTexture(moved, (Root("a"),))
+    other = Texture(moved, (Root("a"),))
     other.check()
-    same(decode(other), decode(PackedTexture(texels[None], (Root("a"),))))
+    same(decode(other), decode(Texture(texels[None], (Root("a"),))))
 
 
 @given(st.integers(0, 2**32), st.integers(1, 64))
@@ -209,7 +212,7 @@ def test_random_texels_are_refused_or_a_tree(seed: int, roots: int) -> None:
     texels = random.integers(0, 2**32, (1, 64, 4), np.uint32)
     texels[:, :, :2] %= 80
     texels[:, :, 2] = random.choice(np.array([0, 0x80, 0x0C00, 0x80_00_14_00], np.uint32), (1, 64))
-    texture = PackedTexture(texels, tuple(Root(str(k), k) for k in range(roots)))
+    texture = Texture(texels, tuple(Root(str(k), k) for k in range(roots)))
     try:
         texture.check()
     except FormatError:

@@ -12,13 +12,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_packed import TRANSFORM, chain
 
+from either import info
 from strategies import packed_trees
-from vexture.cli import main
+from vexture.cli.main import main
 from vexture.drawing import Paint
-from vexture.encoding import PackedTexture, Root, ThesisTexture, encode_packed, info, load
-from vexture.encoding.ktx2 import write_ktx2
 from vexture.errors import DeviceError, FormatError
-from vexture.quadtree.tree import PackedTree
+from vexture.texture.encode import encode as encode_packed
+from vexture.texture.ktx2 import write_ktx2
+from vexture.texture.load import load_any as load
+from vexture.texture.texture import Root, Texture
+from vexture.thesis.texture import ThesisTexture
+from vexture.tree.tree import Tree
 
 THESIS = ThesisTexture(np.zeros((1, 4, 3), np.uint8), np.zeros((2, 2, 3), np.uint8), name="shape")
 POINTS = np.random.default_rng(0).random((20, 2))
@@ -35,7 +39,7 @@ ROOTS = st.builds(
 )
 
 
-def shape(name: str = "shape") -> PackedTexture:
+def shape(name: str = "shape") -> Texture:
     return encode_packed([chain(2)], [Root(name, to_source=TRANSFORM)], name=name)
 
 
@@ -48,7 +52,7 @@ def facts(root: Root) -> tuple[Any, ...]:
 
 
 @given(packed_trees(max_quads=6), st.lists(ROOTS | st.just(Root("\udcff")), min_size=1, max_size=4), st.text())
-def test_what_is_saved_is_loaded(tmp_path: Path, tree: PackedTree, roots: list[Root], source: str) -> None:
+def test_what_is_saved_is_loaded(tmp_path: Path, tree: Tree, roots: list[Root], source: str) -> None:
     source = source.encode(errors="ignore").decode().replace("\0", "")
     texture = encode_packed([tree] * len(roots), roots, name="shape", source=source)
     found = load(texture.save(f"{tmp_path}/"))
@@ -73,7 +77,7 @@ def test_where_a_texture_goes(tmp_path: Path, target: str) -> None:
 
 def test_any_file_name(tmp_path: Path) -> None:
     assert shape().save(tmp_path / "shape.v2").name == "shape.v2"
-    assert isinstance(load(tmp_path / "shape.v2"), PackedTexture)
+    assert isinstance(load(tmp_path / "shape.v2"), Texture)
 
 
 def test_a_name_cannot_leave_the_folder(tmp_path: Path) -> None:
@@ -91,14 +95,14 @@ def test_the_kind_is_found_by_what_is_there(tmp_path: Path) -> None:
     THESIS.save(tmp_path)
     assert isinstance(load(tmp_path / "shape"), ThesisTexture)
     shape().save(tmp_path)
-    assert isinstance(load(tmp_path / "shape.ktx2"), PackedTexture)
+    assert isinstance(load(tmp_path / "shape.ktx2"), Texture)
     for way in ("shape.png", "shape.quads.png", "shape.curves.png"):
         assert isinstance(load(tmp_path / way), ThesisTexture)
     with pytest.raises(FormatError, match=r"means .*shape\.ktx2 as well as .*shape\.quads\.png; name one of them"):
         load(tmp_path / "shape")
     for file in ("shape.quads.png", "shape.curves.png"):
         (tmp_path / file).unlink()
-    assert isinstance(load(tmp_path / "shape"), PackedTexture)
+    assert isinstance(load(tmp_path / "shape"), Texture)
 
 
 def test_nothing_there(tmp_path: Path) -> None:
@@ -223,7 +227,7 @@ def test_every_bit_flipped(tmp_path: Path) -> None:
 
 @settings(max_examples=300)
 @given(packed_trees(max_quads=4), st.data())
-def test_flipped_words(tmp_path: Path, tree: PackedTree, data: st.DataObject) -> None:
+def test_flipped_words(tmp_path: Path, tree: Tree, data: st.DataObject) -> None:
     """Damage behind the compression, which its checksum does not see."""
     texture = encode_packed([tree], [Root("x")], name="bad")
     words = texture.texels.reshape(-1)

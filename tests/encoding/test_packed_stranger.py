@@ -12,9 +12,11 @@ import numpy as np
 import pytest
 
 import degenerate
+from either import encode
 from vexture.drawing import Drawing
-from vexture.encoding import Root, encode, encode_packed
-from vexture.quadtree.build_packed import build_packed
+from vexture.texture.encode import encode as encode_packed
+from vexture.texture.texture import Root
+from vexture.tree.build import build_tree
 
 TEXT = (Path(__file__).parents[2] / "FORMAT.md").read_text(encoding="utf-8")
 TRIANGLE = Drawing.polygon([(0.125, 0.125), (0.875, 0.125), (0.125, 0.875)])
@@ -108,7 +110,7 @@ def filled(file: File, q: int, x: float, y: float) -> bool:
 def test_a_stranger_sees_the_same_picture(seed: int) -> None:
     """The second shape of a texture of several rows is where the drawing is filled, and where the package says so."""
     drawing = degenerate.drawing(seed)
-    trees = [build_packed(TRIANGLE)] * 1000 + [build_packed(drawing)]
+    trees = [build_tree(TRIANGLE)] * 1000 + [build_tree(drawing)]
     texture = encode_packed(trees, [Root(str(k)) for k in range(1001)], name="x")
     file = read(texture.to_ktx2())
     (quad,) = [root["quad"] for root in json.loads(file.texts["vexture.roots"]) if root["name"] == "1000"]
@@ -133,7 +135,7 @@ def coverage_of_a_leaf(file: File, first: int, n: int, corner: int) -> float:
 
 @pytest.mark.parametrize("seed", [0, 1, 2, 4, 5, 7, 11, 13])
 def test_a_stranger_computes_the_same_coverage(seed: int) -> None:
-    texture = encode(build_packed(degenerate.drawing(seed)), to_source=np.eye(2, 3), name="x")
+    texture = encode(build_tree(degenerate.drawing(seed)), to_source=np.eye(2, 3), name="x")
     file = read(texture.to_ktx2())
 
     def mean(q: int) -> float:
@@ -156,7 +158,7 @@ def test_a_stranger_computes_the_same_coverage(seed: int) -> None:
 
 
 def test_the_example_in_the_specification() -> None:
-    texture = encode(build_packed(TRIANGLE), to_source=np.eye(2, 3), name="triangle")
+    texture = encode(build_tree(TRIANGLE), to_source=np.eye(2, 3), name="triangle")
     lines = re.findall(r"^\| \d+ \| ([0-9a-f]{8}(?: \| [0-9a-f]{8}){3}) \|$", TEXT, re.M)
     texels = [[int(word, 16) for word in line.split(" | ")] for line in lines]
     assert texture.texels.tolist() == [texels]
@@ -170,7 +172,7 @@ def test_the_example_in_the_specification() -> None:
 
 
 def test_the_example_is_the_triangle() -> None:
-    file = read(encode(build_packed(TRIANGLE), to_source=np.eye(2, 3), name="triangle").to_ktx2())
+    file = read(encode(build_tree(TRIANGLE), to_source=np.eye(2, 3), name="triangle").to_ktx2())
     grid = (np.arange(40) + 0.5) / 40
     for x in grid.tolist():
         for y in grid.tolist():

@@ -13,9 +13,9 @@ from hypothesis.extra import numpy as hnp
 from numpy.typing import NDArray
 from PIL import Image
 
-from vexture.encoding.layout import FILE_LIMIT, LIST_LIMIT
-from vexture.encoding.png import _filtered, read_png, write_png
 from vexture.errors import FormatError
+from vexture.thesis.layout import FILE_LIMIT, LIST_LIMIT
+from vexture.thesis.png import _filtered, read_png, write_png
 
 TEXTS = {"vexture.version": "1", "vexture.crs": "RD new é"}
 SHAPES = st.tuples(st.integers(1, 40), st.sampled_from([2, 4]), st.just(3))

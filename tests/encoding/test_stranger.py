@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from either import decode, encode
 from strategies import cell_trees
-from vexture.encoding import decode, encode
-from vexture.quadtree.tree import CellKind, CellTree
+from vexture.thesis.tree import CellKind, CellTree
 
 Point = tuple[float, float]
 STEPS = 100

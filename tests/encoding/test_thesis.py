@@ -8,12 +8,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from either import decode, encode, info
 from strategies import cell_trees
 from vexture.bezier.area import leaf_area
-from vexture.encoding import ThesisTexture, decode, encode, info
-from vexture.encoding.layout import CONTROL_MAX, CONTROL_MIN, LIST_LIMIT
 from vexture.errors import LimitError
-from vexture.quadtree.tree import CellKind, CellTree
+from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN, LIST_LIMIT
+from vexture.thesis.texture import ThesisTexture
+from vexture.thesis.tree import CellKind, CellTree
 
 BITS = st.sampled_from([8, 16])
 LEAF_KINDS = (CellKind.CURVE, CellKind.CORNER)

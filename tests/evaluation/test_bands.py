@@ -12,9 +12,9 @@ import corpora
 import views
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import DeviceError, LimitError, SourceError
-from vexture.evaluation import bands, programs
-from vexture.evaluation.metrics import errors
-from vexture.render.exact import render_exact
+from vexture.renderers.exact import render_exact
+from vexture_evidence.measures import bands, programs
+from vexture_evidence.measures.metrics import errors
 
 SQUARE = Drawing.polygon([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75)])
 

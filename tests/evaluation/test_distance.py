@@ -6,11 +6,11 @@ import pytest
 from vexture.bezier.convert import line_cubics
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import LimitError
-from vexture.evaluation.closeups import closeup
-from vexture.evaluation.distance import LARGEST, distance_from, signed_distances
-from vexture.evaluation.metrics import errors
-from vexture.render.exact import render_exact
-from vexture.sources.svg import read_svg
+from vexture.renderers.exact import render_exact
+from vexture.svg.read import read_svg
+from vexture_evidence.measures.closeups import closeup
+from vexture_evidence.measures.distance import LARGEST, distance_from, signed_distances
+from vexture_evidence.measures.metrics import errors
 
 SQUARE = ((0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75))
 

@@ -7,9 +7,9 @@ import decoded
 import packed_walk
 import vexture
 from vexture.drawing import Drawing
-from vexture.evaluation.leaves import leaves, quads, tree_of
-from vexture.evaluation.shape import example
 from vexture.pipeline import run
+from vexture_evidence.measures.leaves import leaves, quads, tree_of
+from vexture_evidence.measures.shape import example
 
 SHAPES = ("duck", "holes", "simple-quartet")
 

@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 
 import vexture
-from vexture.encoding import decode
+from either import decode
 from vexture.errors import LimitError
-from vexture.evaluation.conversions import measured
-from vexture.evaluation.shape import WAYS, Shape, example
+from vexture_evidence.measures.conversions import measured
+from vexture_evidence.measures.shape import WAYS, Shape, example
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><path d="{path}"/></svg>'
 
@@ -57,7 +57,7 @@ def test_what_cannot_be_held_is_refused_once(tmp_path, monkeypatch):
         calls.append(parameters)
         raise LimitError("too much")
 
-    monkeypatch.setattr("vexture.evaluation.shape.run", refuse)
+    monkeypatch.setattr("vexture_evidence.measures.shape.run", refuse)
     for _ in range(2):
         with pytest.raises(LimitError, match="too much"):
             shape.way("direct")

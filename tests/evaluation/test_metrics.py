@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vexture.evaluation import metrics
-from vexture.evaluation.metrics import TOUCH, border_ratio, cell_border_pixels, errors, ink_sd
-from vexture.render.view import fit, window
+from vexture.renderers.view import fit, window
+from vexture_evidence.measures import metrics
+from vexture_evidence.measures.metrics import TOUCH, border_ratio, cell_border_pixels, errors, ink_sd
 
 
 def test_examples_in_the_docstrings():
@@ -60,7 +60,7 @@ def test_border_pixels_by_brute_force(seed, angle):
     """No border passes through a pixel if one cell holds every point of a fine grid in it, or none a corner."""
     rng = np.random.default_rng(seed)
     x, y, side = quadtree(rng, 5)
-    view = window((9, 7), *rng.uniform(-0.2, 0.5, 2), *rng.uniform(0.2, 1, 2), angle)
+    view = window(*rng.uniform(-0.2, 0.5, 2), *rng.uniform(0.2, 1, 2), angle).matrix((9, 7))
     marked = cell_border_pixels(x, y, side, view, (9, 7))
     offsets = np.linspace(TOUCH, 1 - TOUCH, 12)
     for row, column in np.ndindex(marked.shape):
@@ -78,7 +78,7 @@ def test_borders_between_pixels_touch_none():
     x, y = (axis.ravel() for axis in np.meshgrid(np.arange(4) / 4, np.arange(4) / 4))
     side = np.full(16, 0.25)
     assert not cell_border_pixels(x, y, side, fit((16, 16)), (16, 16)).any()
-    half = window((16, 16), 0.5 / 16, 0.0, 1.0, 1.0)
+    half = window(0.5 / 16, 0.0, 1.0, 1.0).matrix((16, 16))
     np.testing.assert_array_equal(np.flatnonzero(cell_border_pixels(x, y, side, half, (16, 16))[0]), [3, 7, 11, 15])
 
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from vexture.drawing import Drawing, FillRule
-from vexture.evaluation.metrics import errors
-from vexture.evaluation.peers import render_resvg, render_skia, svg_text
-from vexture.evaluation.shape import Shape, example
-from vexture.render.exact import render_exact
-from vexture.sources.svg import read_svg
+from vexture.renderers.exact import render_exact
+from vexture.svg.read import read_svg
+from vexture_evidence.measures.metrics import errors
+from vexture_evidence.measures.peers import render_resvg, render_skia, svg_text
+from vexture_evidence.measures.shape import Shape, example
 
 NAMES = ["duck", "simple-quartet", "ocean"]
 RECEDING = np.array([[0.01, 0.0, -0.1], [0.0, -0.01, 1.1], [0.0, 0.004, 1.0]])

@@ -4,9 +4,9 @@ import math
 import numpy as np
 import pytest
 
-from vexture.evaluation import plane
-from vexture.evaluation.plane import RADIUS, dots, receding, view_of_plane
-from vexture.render.exact import render_exact
+from vexture.renderers.exact import render_exact
+from vexture_evidence.measures import plane
+from vexture_evidence.measures.plane import RADIUS, dots, receding, view_of_plane
 
 
 def test_examples_in_the_docstrings():

@@ -7,10 +7,10 @@ import pytest
 
 from vexture.drawing import Drawing
 from vexture.errors import DeviceError, LimitError
-from vexture.evaluation.raster import RasterTexture, bilinear, footprint, mip_sides, raster_from
-from vexture.evaluation.shape import Shape, example
-from vexture.render.exact import render_exact
-from vexture.render.view import fit
+from vexture.renderers.exact import render_exact
+from vexture.renderers.view import fit
+from vexture_evidence.measures.raster import RasterTexture, bilinear, footprint, mip_sides, raster_from
+from vexture_evidence.measures.shape import Shape, example
 
 TRIANGLE = Drawing.polygon([(0.1, 0.2), (0.9, 0.3), (0.4, 0.8)])
 RECEDING = np.array([[0.01, 0.0, -0.1], [0.0, -0.01, 1.1], [0.0, 0.004, 1.0]])
@@ -93,7 +93,7 @@ def test_size_out_of_range_is_said():
 @pytest.mark.parametrize("view", [None, RECEDING], ids=["fit", "receding"])
 def test_the_gpu_filters_alike(view):
     """Within what 8 fraction bits, approximate logarithms and the driver's own mip-map make of it."""
-    from vexture.evaluation.programs import IMAGE_SIDE, fetch_program
+    from vexture_evidence.measures.programs import IMAGE_SIDE, fetch_program
 
     duck = Shape(example("duck")).drawing
     size = (100, 80)

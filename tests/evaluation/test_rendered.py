@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from vexture.errors import LimitError
-from vexture.evaluation import rendered
-from vexture.evaluation.rendered import LOOSE, PACKED, at_edge, at_sizes, cut_off_at, with_tolerances
-from vexture.evaluation.shape import Shape, example
-from vexture.render.exact import render_exact
+from vexture.renderers.exact import render_exact
+from vexture_evidence.measures import rendered
+from vexture_evidence.measures.rendered import LOOSE, PACKED, at_edge, at_sizes, cut_off_at, with_tolerances
+from vexture_evidence.measures.shape import Shape, example
 
 
 class Refused(Shape):

@@ -5,10 +5,11 @@ import pytest
 
 from vexture.drawing import Drawing, FillRule
 from vexture.errors import LimitError
-from vexture.evaluation.bands import BANDS, COASTLINE_BANDS
-from vexture.evaluation.closeups import closeup, outline_places, sharpest_corner
-from vexture.evaluation.raster import raster_from
-from vexture.evaluation.rivals import (
+from vexture.renderers.exact import render_exact
+from vexture_evidence.measures.bands import BANDS, COASTLINE_BANDS
+from vexture_evidence.measures.closeups import closeup, outline_places, sharpest_corner
+from vexture_evidence.measures.raster import raster_from
+from vexture_evidence.measures.rivals import (
     MANY,
     MOST_TEXELS,
     Rival,
@@ -21,8 +22,7 @@ from vexture.evaluation.rivals import (
     side_in_memory,
     texture_rival,
 )
-from vexture.evaluation.shape import Shape, example
-from vexture.render.exact import render_exact
+from vexture_evidence.measures.shape import Shape, example
 
 SQUARE = ((0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75))
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from vexture.errors import DeviceError
-from vexture.evaluation import solutions
-from vexture.evaluation.solutions import BOX, SOLUTIONS, by_cpu, by_gpu, roots_by_gpu, solve
-from vexture.render.cubic import solution_path
-from vexture.render.gpu import context
-from vexture.shading import QUADRATIC
+from vexture.renderers.device import context
+from vexture.thesis.cubic import solution_path
+from vexture.thesis.shading import QUADRATIC
+from vexture_evidence.measures import solutions
+from vexture_evidence.measures.solutions import BOX, SOLUTIONS, by_cpu, by_gpu, roots_by_gpu, solve
 
 NAMES = [case.name for case in SOLUTIONS]
 

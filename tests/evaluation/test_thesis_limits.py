@@ -3,13 +3,16 @@
 import numpy as np
 import pytest
 
+from either import decode
 from vexture.drawing import Drawing, Path
-from vexture.encoding import decode
-from vexture.evaluation.leaves import leaves
-from vexture.evaluation.outline import first_samples, off_outline
-from vexture.evaluation.shape import WAYS, Shape, example
-from vexture.evaluation.stored import stored_values
-from vexture.evaluation.thesis_limits import (
+from vexture.pipeline import run
+from vexture.renderers.exact import render_exact
+from vexture.thesis.tree import CellKind
+from vexture_evidence.measures.leaves import leaves
+from vexture_evidence.measures.outline import first_samples, off_outline
+from vexture_evidence.measures.shape import WAYS, Shape, example
+from vexture_evidence.measures.stored import stored_values
+from vexture_evidence.measures.thesis_limits import (
     clamped,
     close_up,
     corner_cells,
@@ -19,9 +22,6 @@ from vexture.evaluation.thesis_limits import (
     sharp_corners,
     unnecessary_quads,
 )
-from vexture.pipeline import run
-from vexture.quadtree.tree import CellKind
-from vexture.render.exact import render_exact
 
 QUARTER = Drawing.polygon([(0.1, 0.1), (0.4, 0.1), (0.4, 0.35), (0.1, 0.35)])
 CIRCLE = 0.5522847498

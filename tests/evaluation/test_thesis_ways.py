@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 
 from vexture.drawing import Drawing
-from vexture.evaluation import thesis_ways
-from vexture.evaluation.shape import Shape, example
-from vexture.evaluation.thesis_ways import draw_as_thesis
 from vexture.pipeline import convert
-from vexture.render.cpu import render_cpu
-from vexture.render.view import window
+from vexture.renderers.view import window
+from vexture.thesis.cpu import render_thesis_cpu
+from vexture_evidence.measures import thesis_ways
+from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.measures.thesis_ways import draw_as_thesis
 
 
 def upright(*stripes):
@@ -37,9 +37,9 @@ def test_a_level_grid_meets_an_upright_edge_four_points_at_once():
 
 
 def test_a_pixel_sees_the_leaf_of_its_centre_alone():
-    texture, view = upright((0.0, 0.3), (0.55, 0.65)), window((1, 1), 0.2, 0.2, 0.5, 0.5)
+    texture, view = upright((0.0, 0.3), (0.55, 0.65)), window(0.2, 0.2, 0.5, 0.5).matrix((1, 1))
     np.testing.assert_allclose(draw_as_thesis(texture, (1, 1), view).image, 0.25)  # not the stripe in the next cell
-    assert render_cpu(texture, (1, 1), view)[0, 0] > 0.3
+    assert render_thesis_cpu(texture, (1, 1), view)[0, 0] > 0.3
 
 
 def test_the_cut_off_is_where_the_thesis_has_it():
@@ -73,10 +73,10 @@ def test_beyond_the_horizon_there_is_nothing():
     image = draw_as_thesis(upright((0.0, 1.0)), (4, 8), view).image
     assert image[:2].max() == 0
     assert image[3:].max() == 1
-    assert not render_cpu(upright((0.0, 1.0)), (4, 8), view)[:2].any()
+    assert not render_thesis_cpu(upright((0.0, 1.0)), (4, 8), view)[:2].any()
 
 
 @pytest.mark.parametrize("size", [8, 32])
 def test_without_cell_borders_in_the_pixels_both_renderers_nearly_agree(size):
-    ours, theirs = render_cpu(duck(), (size, size)), draw_as_thesis(duck(), (size, size)).image
+    ours, theirs = render_thesis_cpu(duck(), (size, size)), draw_as_thesis(duck(), (size, size)).image
     assert (np.abs(ours - theirs) < 0.13).mean() > 0.8

@@ -3,8 +3,8 @@
 import pytest
 
 from vexture.errors import DeviceError
-from vexture.evaluation.shape import Shape, example
-from vexture.evaluation.timing import frames_per_second, median_seconds
+from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.measures.timing import frames_per_second, median_seconds
 
 
 @pytest.mark.parametrize("repeat", [1, 4])
@@ -15,7 +15,7 @@ def test_the_first_call_does_not_count(repeat):
 
 
 def test_a_rate_is_finite():
-    from vexture.evaluation.programs import packed_program
+    from vexture_evidence.measures.programs import packed_program
 
     try:
         program = packed_program(Shape(example("duck")).way("packed").texture, "exact")

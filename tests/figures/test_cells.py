@@ -7,9 +7,9 @@ from matplotlib.collections import PolyCollection
 
 import vexture
 from vexture.drawing import Drawing
-from vexture.evaluation.leaves import leaves
-from vexture.evaluation.shape import example
-from vexture.figures.cells import curve_lines, subdivision
+from vexture_evidence.figures.cells import curve_lines, subdivision
+from vexture_evidence.measures.leaves import leaves
+from vexture_evidence.measures.shape import example
 
 ENCODINGS = ("packed", "thesis")
 

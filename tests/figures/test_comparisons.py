@@ -5,11 +5,19 @@ import pytest
 from fitting import assert_legible
 
 from vexture.drawing import Drawing
-from vexture.evaluation.metrics import Errors
-from vexture.evaluation.rivals import Measured, Rival, distance_rival, judge, raster_rival, scene_of, texture_rival
-from vexture.evaluation.shape import Shape, example
-from vexture.figures.comparisons import CORNER, FLOOR, SHOWN, equal_bytes, error_over_bytes
-from vexture.render.exact import render_exact
+from vexture.renderers.exact import render_exact
+from vexture_evidence.figures.comparisons import CORNER, FLOOR, SHOWN, equal_bytes, error_over_bytes
+from vexture_evidence.measures.metrics import Errors
+from vexture_evidence.measures.rivals import (
+    Measured,
+    Rival,
+    distance_rival,
+    judge,
+    raster_rival,
+    scene_of,
+    texture_rival,
+)
+from vexture_evidence.measures.shape import Shape, example
 
 EMPTY = Drawing((), name="empty")
 

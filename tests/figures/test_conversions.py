@@ -3,7 +3,7 @@
 import pytest
 from fitting import assert_legible
 
-from vexture.figures.conversions import conversions
+from vexture_evidence.figures.conversions import conversions
 
 
 def test_every_value_has_its_mark():

@@ -5,11 +5,8 @@ import pytest
 from fitting import assert_legible
 
 from vexture.drawing import Drawing, FillRule
-from vexture.evaluation.editing import edited
-from vexture.evaluation.shape import WAYS, Shape, example
-from vexture.evaluation.stored import stored_values
-from vexture.evaluation.thesis_limits import Lengths, close_up, unnecessary_quads
-from vexture.figures.discussion import (
+from vexture.pipeline import run
+from vexture_evidence.figures.discussion import (
     before_after,
     density,
     edited_drawing,
@@ -18,7 +15,10 @@ from vexture.figures.discussion import (
     stored_value_errors,
     unneeded_divisions,
 )
-from vexture.pipeline import run
+from vexture_evidence.measures.editing import edited
+from vexture_evidence.measures.shape import WAYS, Shape, example
+from vexture_evidence.measures.stored import stored_values
+from vexture_evidence.measures.thesis_limits import Lengths, close_up, unnecessary_quads
 
 RINGS = Drawing.polygon(
     [(0.02, 0.4), (0.98, 0.4), (0.98, 0.6), (0.02, 0.6)],

@@ -3,7 +3,7 @@
 import pytest
 from fitting import assert_legible, written
 
-from vexture.figures.style import panels
+from vexture_evidence.figures.style import panels
 
 
 @pytest.fixture

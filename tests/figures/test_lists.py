@@ -7,9 +7,9 @@ from matplotlib.collections import PolyCollection
 
 import vexture
 from vexture.drawing import Drawing
-from vexture.evaluation.leaves import leaves, quads
-from vexture.evaluation.shape import example
-from vexture.figures.lists import counts, hierarchy, lists
+from vexture_evidence.figures.lists import counts, hierarchy, lists
+from vexture_evidence.measures.leaves import leaves, quads
+from vexture_evidence.measures.shape import example
 
 ENCODINGS = ("packed", "thesis")
 

@@ -10,10 +10,10 @@ from PIL import Image
 
 import vexture
 from vexture.drawing import Drawing, FillRule
-from vexture.evaluation.leaves import leaves
-from vexture.evaluation.shape import example, file_bytes
-from vexture.figures.overview import overview, picture_error, summary
-from vexture.render.exact import render_exact
+from vexture.renderers.exact import render_exact
+from vexture_evidence.figures.overview import overview, picture_error, summary
+from vexture_evidence.measures.leaves import leaves
+from vexture_evidence.measures.shape import example, file_bytes
 
 STAR = [(0.5 + 0.4 * np.sin(0.8 * np.pi * k), 0.5 + 0.4 * np.cos(0.8 * np.pi * k)) for k in range(5)]
 DRAWINGS = {

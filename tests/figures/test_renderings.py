@@ -9,16 +9,16 @@ from fitting import assert_legible
 from matplotlib.colors import to_rgb
 
 from vexture.errors import DeviceError
-from vexture.evaluation.plane import receding
-from vexture.evaluation.rendered import MIP, at_edge, at_sizes, cut_off_at, with_tolerances
-from vexture.evaluation.shape import Shape, example
-from vexture.evaluation.solutions import SOLUTIONS, by_cpu, solve
-from vexture.figures.edges import edges
-from vexture.figures.plane import plane
-from vexture.figures.resolutions import FROM_LEAF, INSIDE, OUTSIDE, STORED, exaggerated, resolutions
-from vexture.figures.solutions import solutions
-from vexture.figures.tolerances import tolerances
-from vexture.render.gpu import context
+from vexture.renderers.device import context
+from vexture_evidence.figures.edges import edges
+from vexture_evidence.figures.plane import plane
+from vexture_evidence.figures.resolutions import FROM_LEAF, INSIDE, OUTSIDE, STORED, exaggerated, resolutions
+from vexture_evidence.figures.solutions import solutions
+from vexture_evidence.figures.tolerances import tolerances
+from vexture_evidence.measures.plane import receding
+from vexture_evidence.measures.rendered import MIP, at_edge, at_sizes, cut_off_at, with_tolerances
+from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.measures.solutions import SOLUTIONS, by_cpu, solve
 
 NOTHING = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 4 2"/>'
 

@@ -6,8 +6,8 @@ from fitting import assert_legible
 
 import vexture
 from vexture.drawing import Drawing
-from vexture.evaluation.shape import example
-from vexture.figures.textures import texture_images, textures
+from vexture_evidence.figures.textures import texture_images, textures
+from vexture_evidence.measures.shape import example
 
 
 def test_a_pair_is_shown_turned_counter_clockwise():

@@ -10,9 +10,9 @@ import pytest
 from floods import BOUNDS, CRS, depths, flood, geotiff, scene_of, sea, series
 from PIL import Image
 
-from vexture.encoding.packed_texture import packed_from
 from vexture.errors import LimitError
 from vexture.flood.asked import Asked, bounds_of
+from vexture.texture.texture import packed_from
 
 pytestmark = pytest.mark.usefixtures("page_is_built")
 

@@ -9,7 +9,7 @@ import pytest
 from floods import BOUNDS, CRS, TOKEN, depths, flooding, geotiff, scene_of, sea, series
 from server import COMMAND, Stream
 
-from vexture.encoding.packed_texture import packed_from
+from vexture.texture.texture import packed_from
 
 pytestmark = pytest.mark.usefixtures("page_is_built")
 

@@ -10,7 +10,7 @@ from floods import BOUNDS, CRS, depths, geotiff, scene_of, sea, series, wkt
 
 import vexture
 from guides import GUIDES, Reader, blocks_of, free_port
-from vexture.encoding.packed_texture import packed_from
+from vexture.texture.texture import packed_from
 
 
 def map_file(path: Path) -> Path:

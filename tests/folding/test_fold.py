@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vexture.encoding.ktx2 import read_ktx2, write_ktx2
 from vexture.errors import FormatError, LimitError
-from vexture.folding.fold import Fold, Kind, fold_from
-from vexture.folding.layout import FOLD_FILE_LIMIT, FOLD_MOST_SIDE, TEXT_FOLD
+from vexture.fold.fold import Fold, Kind, fold_from
+from vexture.fold.layout import FOLD_FILE_LIMIT, FOLD_MOST_SIDE, TEXT_FOLD
+from vexture.texture.ktx2 import read_ktx2, write_ktx2
 
 
 @st.composite

@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 from PIL import Image
 
 import vexture
-from vexture.cli import main
+from vexture.cli.main import main
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceWarning
-from vexture.folding.fold import Fold, Kind, fold_from
-from vexture.folding.picture import fold_picture
-from vexture.folding.shore import STEEPEST, shore_fold
+from vexture.fold.fold import Fold, Kind, fold_from
+from vexture.fold.picture import fold_picture
+from vexture.fold.shore import STEEPEST, shore_fold
 
 SHAPES = Path(__file__).parents[2] / "examples" / "shapes"
 

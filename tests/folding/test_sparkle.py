@@ -12,19 +12,19 @@ import pytest
 
 import vexture
 from folded import Numbers, errors, positions
-from vexture.encoding.packed_texture import PackedTexture
-from vexture.folding.blend import fold as folded
-from vexture.folding.fold import Fold
-from vexture.folding.shore import shore_fold
-from vexture.render.packed_cpu import coverage
-from vexture.shaders import QUALITIES
+from vexture.fold.blend import fold as folded
+from vexture.fold.fold import Fold
+from vexture.fold.shore import shore_fold
+from vexture.renderers.cpu import coverage
+from vexture.renderers.shader import QUALITIES
+from vexture.texture.texture import Texture
 
 SHAPES = Path(__file__).parents[2] / "examples" / "shapes"
 SIZE, SIDE, SECONDS = 64, 40, 10.0
 
 
 @cache
-def shape() -> tuple[PackedTexture, Fold, Numbers]:
+def shape() -> tuple[Texture, Fold, Numbers]:
     """A texture, its fold about as steep as one may be, and a point of the shore."""
     drawing = vexture.read_svg(SHAPES / "ocean.svg")
     fold = shore_fold(drawing, amplitude=0.019, period=5.0, size=SIZE)
@@ -39,7 +39,7 @@ def shade(texels, quality, uv, dx, dy, out):  # type: ignore[no-untyped-def]
         out[k] = coverage(texels, quality, 0, (0, 0), (uv[k, 0], uv[k, 1]), right, up)
 
 
-def drawn(texture: PackedTexture, fold: Fold, to_unit: Numbers, seconds: float, quality: str) -> Numbers:
+def drawn(texture: Texture, fold: Fold, to_unit: Numbers, seconds: float, quality: str) -> Numbers:
     """Picture by the mirrors of both shaders."""
     y, x = np.mgrid[0:SIDE, 0:SIDE] + 0.5
     pixels = np.stack([x.ravel(), y.ravel()], axis=1)

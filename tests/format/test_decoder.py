@@ -29,7 +29,7 @@ EXACT, COARSE = (0.015, 0.17), (0.035, 0.35)
 
 @cache
 def exact(name: str) -> Any:
-    return vexture.render(vexture.read_svg(DRAWINGS[name]), (SIZE, SIZE), renderer="exact").astype(float)
+    return vexture.coverage(vexture.read_svg(DRAWINGS[name]), (SIZE, SIZE), renderer="exact").astype(float)
 
 
 def differs(picture: Any, name: str) -> tuple[float, float]:

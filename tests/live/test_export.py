@@ -9,10 +9,10 @@ import subprocess
 
 import pytest
 
-from vexture.encoding.packed_texture import packed_from
-from vexture.encoding.png import read_png
 from vexture.errors import DeviceError
 from vexture.live.page import SCRIPT, STYLE, built, served_page
+from vexture.texture.texture import packed_from
+from vexture.thesis.png import read_png
 from viewing import SHAPES, VEXTURE
 
 LARGEST_DUCK = 900_000

@@ -10,12 +10,12 @@ import pytest
 from loops import run
 from server import serving, square
 
-from vexture.encoding.packed_texture import packed_from
 from vexture.errors import DeviceError
 from vexture.live.folder import STATE, Folder
 from vexture.live.limits import Limits
 from vexture.live.names import manifest_name
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
+from vexture.texture.texture import packed_from
 
 LOST = (OSError, http.client.HTTPException, ValueError)
 

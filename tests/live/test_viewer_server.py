@@ -8,9 +8,9 @@ import subprocess
 import httpx
 import pytest
 
-from vexture.encoding.packed_texture import packed_from
-from vexture.encoding.png import read_png
 from vexture.live import viewer as server
+from vexture.texture.texture import packed_from
+from vexture.thesis.png import read_png
 from viewing import SHAPES, VEXTURE, viewing
 
 DUCK = (SHAPES / "duck.svg").read_bytes()

@@ -6,12 +6,13 @@ from hypothesis import strategies as st
 
 import degenerate
 from vexture.bezier.monotone import monotone_pieces
-from vexture.quadtree.boundary import crowded_area, quantise, resolve
-from vexture.quadtree.build import gather, root_level
-from vexture.quadtree.crossings import x_at
-from vexture.quadtree.level import children
-from vexture.quadtree.tree import LATTICE
+from vexture.layout import LATTICE
+from vexture.thesis.build import root_level
+from vexture.thesis.level import children
 from vexture.tolerance import GRAIN
+from vexture.tree.boundary import crowded_area, quantise, resolve
+from vexture.tree.crossings import x_at
+from vexture.tree.cubics import gather
 
 CLEAR = 2.6  # lattice units: nearer to an outline than this no answer is wrong
 SAGITTA = 2e-5  # of the brute force's chords

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 import degenerate
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import LimitError, SourceError
-from vexture.quadtree.build import build
-from vexture.quadtree.tree import CellKind
-from vexture.render.exact import render_exact
+from vexture.renderers.exact import render_exact
+from vexture.thesis.build import build
+from vexture.thesis.tree import CellKind
 
 BLOB = (
     np.array([(0.2, 0.3), (0.8, 0.2), (0.7, 0.8)]),

@@ -16,13 +16,13 @@ from vexture import read_svg
 from vexture.drawing import Drawing
 from vexture.drawing import Path as Outline
 from vexture.errors import LimitError, SourceError
-from vexture.quadtree.build_packed import DEFAULT_CAPACITY, build_packed
-from vexture.quadtree.tree import LATTICE, MOST_CURVES, MOST_DEPTH
-from vexture.render.exact import render_exact
+from vexture.layout import LATTICE, MOST_CURVES, MOST_DEPTH
+from vexture.renderers.exact import render_exact
+from vexture.tree.build import DEFAULT_CAPACITY, build_tree
 
 ROOT = Path(__file__).parents[2]
 SHAPES = sorted((ROOT / "examples" / "shapes").glob("*.svg"))
-corpora = SimpleNamespace(**runpy.run_path(str(ROOT / "benchmarks" / "corpora.py")))
+corpora = SimpleNamespace(**runpy.run_path(str(ROOT / "evidence" / "benchmarks" / "corpora.py")))
 
 CHORDS = 512
 SAGITTA = 8e-6  # of the brute force's chords, unit-square units
@@ -35,7 +35,7 @@ AREA_ROUNDING = 5e-5  # of the drawing
 
 def check(drawing, seed, tolerance=0.0, **parameters):
     """Assert everything that holds of the tree of any drawing; return the tree and its leaves."""
-    tree = build_packed(drawing, tolerance=tolerance, **parameters)
+    tree = build_tree(drawing, tolerance=tolerance, **parameters)
     found = packed_walk.leaves(tree)
     assert sum(leaf.side**2 for leaf in found) == 1.0
     assert tree.deviation <= tolerance
@@ -116,7 +116,7 @@ def test_icons():
 def test_a_leaf_holds_no_more_than_its_capacity_but_where_all_pieces_meet():
     drawing = read_svg(ROOT / "examples" / "shapes" / "font.svg")
     for capacity in (1, 3, DEFAULT_CAPACITY):
-        tree = build_packed(drawing, capacity=capacity, max_depth=MOST_DEPTH)
+        tree = build_tree(drawing, capacity=capacity, max_depth=MOST_DEPTH)
         assert tree.count.max() <= MOST_CURVES
         for leaf in packed_walk.leaves(tree):
             if capacity < len(leaf.curves):
@@ -127,7 +127,7 @@ def test_a_leaf_holds_no_more_than_its_capacity_but_where_all_pieces_meet():
 def test_where_many_pieces_meet_no_depth_is_wasted():
     points = 0.5 + 0.4 * np.exp(2j * np.pi * np.arange(5) / 5).view(float).reshape(5, 2) * [1, 1]
     spokes = [np.array([(0.5, 0.5), a, (a + b) / 2]) for a, b in zip(points, np.roll(points, -1, 0), strict=True)]
-    tree = build_packed(Drawing(tuple(Outline((degenerate.polygon(spoke),)) for spoke in spokes)), max_depth=MOST_DEPTH)
+    tree = build_tree(Drawing(tuple(Outline((degenerate.polygon(spoke),)) for spoke in spokes)), max_depth=MOST_DEPTH)
     assert max(leaf.depth for leaf in packed_walk.leaves(tree)) <= 6
     assert tree.unresolved == 0
 
@@ -159,7 +159,7 @@ def test_leaves_of_all_depths_meet_in_the_very_same_points(precision, tolerance,
     ring = (degenerate.circle((0.311, 0.617), 0.2371), degenerate.backwards(degenerate.circle((0.333, 0.6), 0.1234)))
     for contours in ((ragged(300, 5),), ring):
         drawing = Drawing((Outline(contours),))
-        tree = build_packed(drawing, tolerance=tolerance, precision=precision, capacity=capacity)
+        tree = build_tree(drawing, tolerance=tolerance, precision=precision, capacity=capacity)
         assert tree.unresolved == 0
         found = open_ends(tree)
         if tolerance:  # a spike into a cell may have become a piece along the cell's edge, and level ones vanish
@@ -173,7 +173,7 @@ def test_leaves_of_all_depths_meet_in_the_very_same_points(precision, tolerance,
 @pytest.mark.parametrize("precision", [1e-5, 1e-7])
 def test_precision_bounds_every_leaf_and_its_displacement(precision):
     drawing = Drawing((Outline((degenerate.circle((0.5137, 0.4711), 0.3),)),))
-    held = [leaf for leaf in packed_walk.leaves(build_packed(drawing, precision=precision)) if len(leaf.curves)]
+    held = [leaf for leaf in packed_walk.leaves(build_tree(drawing, precision=precision)) if len(leaf.curves)]
     assert max(leaf.side for leaf in held) <= precision * LATTICE
     t = np.linspace(0.0, 1.0, 9)
     points = [
@@ -202,19 +202,19 @@ def farthest(drawing, points):
 
 def test_tolerance_makes_maps_small():
     coastline = corpora.fractal_coastline(12288, 1)
-    lossless, merged = build_packed(coastline), build_packed(coastline, tolerance=3e-4)
+    lossless, merged = build_tree(coastline), build_tree(coastline, tolerance=3e-4)
     assert 4 * (len(merged.count) + len(merged.curves)) < len(lossless.count) + len(lossless.curves)
     assert 0.0 < merged.deviation <= 3e-4
 
 
 def test_nothing_is_an_empty_quad():
-    tree = build_packed(Drawing(()))
+    tree = build_tree(Drawing(()))
     assert len(tree.count) == 1
     assert not tree.coverage.any()
 
 
 def test_full_and_empty_cells_are_exact():
-    tree = build_packed(Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]))
+    tree = build_tree(Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]))
     assert (tree.coverage == 1.0).all()
 
 
@@ -237,10 +237,10 @@ def test_full_and_empty_cells_are_exact():
 )
 def test_limits_are_named(parameters, words):
     with pytest.raises(LimitError, match=words):
-        build_packed(corpora.fractal_coastline(96, 1), **parameters)
+        build_tree(corpora.fractal_coastline(96, 1), **parameters)
 
 
 def test_a_curve_outside_the_square_is_refused():
     arch = np.array([[[0.2, 0.9], [0.2, 1.6], [0.8, 1.6], [0.8, 0.9]], degenerate.line((0.8, 0.9), (0.2, 0.9))])
     with pytest.raises(SourceError, match="leaves the unit square by"):
-        build_packed(Drawing((Outline((arch,)),)))
+        build_tree(Drawing((Outline((arch,)),)))

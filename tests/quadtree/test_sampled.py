@@ -4,9 +4,9 @@ import numpy as np
 
 import degenerate
 from vexture.drawing import Drawing, FillRule, Path
-from vexture.quadtree.build import build
-from vexture.quadtree.tree import CellKind
-from vexture.render.exact import render_exact
+from vexture.renderers.exact import render_exact
+from vexture.thesis.build import build
+from vexture.thesis.tree import CellKind
 
 
 def drawing_of(*contours, rule=FillRule.NONZERO):

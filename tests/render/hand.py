@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from vexture.encoding.texture import ThesisTexture
 from vexture.errors import DeviceError
-from vexture.render.gpu import context
+from vexture.renderers.device import context
+from vexture.thesis.texture import ThesisTexture
 
 Floats = NDArray[np.float64]
 FULL, EMPTY = "full", "empty"

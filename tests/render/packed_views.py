@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
-from vexture.encoding.packed import encode_packed
-from vexture.encoding.packed_texture import PackedTexture, Root
-from vexture.quadtree.build_packed import build_packed
-from vexture.render.view import fit, window
+from vexture.renderers.view import fit, window
+from vexture.texture.encode import encode
+from vexture.texture.texture import Root, Texture
+from vexture.tree.build import build_tree
 
 View = tuple[tuple[int, int], NDArray[np.float64]]
 
@@ -18,8 +18,8 @@ TILTED = np.array([[0.02, 0.0, -0.5], [0.001, -0.02, 1.1], [0.0, 0.012, 0.1]])
 """A plane to its horizon, for about 97 x 64 pixels."""
 
 
-def texture_of(drawing: Drawing, **options: float) -> PackedTexture:
-    return encode_packed([build_packed(drawing, **options)], [Root(drawing.name)], name=drawing.name)
+def texture_of(drawing: Drawing, **options: float) -> Texture:
+    return encode([build_tree(drawing, **options)], [Root(drawing.name)], name=drawing.name)
 
 
 def turned(pixels: float, degrees: float, narrow: float = 1.0) -> View:
@@ -36,7 +36,7 @@ def zoomed(drawing: Drawing, width: float, pixels: int) -> View:
     """A window around a point of the drawing's outline."""
     cubic = drawing.paths[0].contours[0][0]
     x, y = np.array([0.25, 0.45, 0.24, 0.06]) @ cubic  # about t = 0.4
-    return (pixels, pixels), window((pixels, pixels), x - width / 2, y - width / 2, width, width)
+    return (pixels, pixels), window(x - width / 2, y - width / 2, width, width).matrix((pixels, pixels))
 
 
 def views(drawing: Drawing) -> Iterator[tuple[str, View]]:

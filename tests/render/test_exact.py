@@ -21,11 +21,11 @@ from hypothesis import strategies as st
 
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import LimitError
-from vexture.evaluation.peers import skia_path
-from vexture.render.chords import CHORD_LIMIT
-from vexture.render.exact import render_exact
-from vexture.render.view import SIZE_LIMIT, fit, window
+from vexture.renderers.chords import CHORD_LIMIT
+from vexture.renderers.exact import render_exact
+from vexture.renderers.view import SIZE_LIMIT, fit, window
 from vexture.tolerance import FLATNESS, SCANLINE
+from vexture_evidence.measures.peers import skia_path
 
 PROMISE = 0.03 / 255
 RULES = [FillRule.NONZERO, FillRule.EVENODD]
@@ -69,7 +69,7 @@ def test_half_plane_in_one_pixel(angle, offset):
         edge + far * along - far * normal,
     ]
     image = render_exact(
-        Drawing.polygon(corners), (1, 1), window((1, 1), 0.5 - pixel / 2, 0.5 - pixel / 2, pixel, pixel)
+        Drawing.polygon(corners), (1, 1), window(0.5 - pixel / 2, 0.5 - pixel / 2, pixel, pixel).matrix((1, 1))
     )
     a, b = sorted(np.abs(normal))
     d = offset + (a + b) / 2
@@ -86,7 +86,7 @@ def test_convex_polygons_by_clipping(count, angle, radius, seed):
     rng = np.random.default_rng(seed)
     angles = np.sort(angle + 2 * np.pi * (np.arange(count) + rng.uniform(-0.2, 0.2, count)) / count)
     corners = 0.5 + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    view = window((9, 8), *rng.uniform(0, 0.4, 2), *rng.uniform(0.3, 1, 2), rng.uniform(0, 360))
+    view = window(*rng.uniform(0, 0.4, 2), *rng.uniform(0.3, 1, 2), rng.uniform(0, 360)).matrix((9, 8))
     matrix = to_pixel(view)
     expected = convex_coverage(corners @ matrix[:, :2].T + matrix[:, 2], (9, 8))
     assert max_difference(render_exact(Drawing.polygon(corners), (9, 8), view), expected) < 1e-6
@@ -132,7 +132,7 @@ def test_degenerate_drawings_agree_with_exact_scanlines(shape, seed):
     rng = np.random.default_rng(seed)
     size = (7, 5)
     upright = rng.random() < 0.5
-    view = fit(size) if upright else window(size, *rng.uniform(0, 0.4, 2), *rng.uniform(0.3, 1, 2), rng.uniform(0, 360))
+    view = fit(size) if upright else window(*rng.uniform(0, 0.4, 2), *rng.uniform(0.3, 1, 2), rng.uniform(0, 360)).matrix(size)
     image = render_exact(shape, size, view)
     row = int(rng.integers(size[1]))
     assert max_difference(image[row], coverage_of_row(shape, to_pixel(view), size[0], row)) < PROMISE
@@ -155,7 +155,7 @@ def test_crossing_curves_agree_with_exact_scanlines(kind, rule):
         "cusp": lambda: drawing(cusp, rule=rule),
     }[kind]()
     for size in (8, 61):
-        view = window((size, size), 0.01, 0.02, 0.95, 0.96, 17.0)
+        view = window(0.01, 0.02, 0.95, 0.96, rotate=17.0).matrix((size, size))
         image = render_exact(shape, (size, size), view)
         row = size // 2
         assert max_difference(image[row], coverage_of_row(shape, to_pixel(view), size, row)) < PROMISE
@@ -191,7 +191,7 @@ def test_a_larger_image_averages_to_the_smaller_one():
 @pytest.mark.parametrize("turns", [1, 2, 3])
 def test_quarter_turns(turns):
     straight, turned = (
-        render_exact(crowd(), (40, 40), window((40, 40), 0, 0, 1, 1, angle)) for angle in (0, 90 * turns)
+        render_exact(crowd(), (40, 40), window(0, 0, 1, 1, rotate=angle).matrix((40, 40))) for angle in (0, 90 * turns)
     )
     assert max_difference(turned, np.rot90(straight, turns)) < PROMISE / 3
 
@@ -284,7 +284,7 @@ def test_deep_zoom_sees_the_tangent():
     direction = np.array([math.cos(math.pi / 4), math.sin(math.pi / 4)])
     at = 0.5 + 0.4 * direction  # the middle of the first cubic lies on the circle
     size, pixel = (6, 6), 1e-6
-    view = window(size, *(at - 3 * pixel), 6 * pixel, 6 * pixel)
+    view = window(*(at - 3 * pixel), 6 * pixel, 6 * pixel).matrix(size)
     across = np.array([direction[0], -direction[1]])  # outward, y down
     along = np.array([-across[1], across[0]])
     corners = np.array([3, 3]) + 50 * np.array([along, along - across, -along - across, -along])

@@ -7,11 +7,11 @@ import pytest
 from hand import need_gpu
 from numpy.typing import NDArray
 
-from vexture.folding import layout
-from vexture.folding.blend import fold as folded
-from vexture.folding.fold import Fold
-from vexture.render.gpu import context
-from vexture.shaders import VERSIONS, WRAPS, packed_text, vertex_source
+from vexture.fold import layout
+from vexture.fold.blend import fold as folded
+from vexture.fold.fold import Fold
+from vexture.renderers.device import context
+from vexture.renderers.shader import VERSIONS, WRAPS, shader_text, vertex_source
 
 SIZE = 64
 WEB = "300 es"
@@ -42,7 +42,7 @@ def on_gpu(fold: Fold, wrap: str, base: tuple[int, int], view: tuple[float, ...]
     need_gpu()
     with context() as gl:
         fragment = (
-            f"{VERSIONS[WEB]}#define VEXTURE_WRAP {WRAPS[wrap]}\n" + packed_text("fold.glsl", None, layout) + MAIN
+            f"{VERSIONS[WEB]}#define VEXTURE_WRAP {WRAPS[wrap]}\n" + shader_text("fold.glsl", None, layout) + MAIN
         )
         triangle = gl.vertex_array(gl.program(vertex_shader=vertex_source(WEB), fragment_shader=fragment), [])
         uploaded = gl.texture(fold.size, 4, np.ascontiguousarray(fold.texels).tobytes(), dtype="u4")

@@ -8,12 +8,14 @@ import pytest
 from hand import CHORDS, EMPTY, FULL, NEAR, TREE, Floats, distance, need_gpu, speckles, texture_of, view_of
 from numpy.typing import NDArray
 
-from vexture.encoding.texture import ThesisTexture
 from vexture.errors import FormatError, LimitError
-from vexture.pictures import render
-from vexture.render.cpu import render_cpu
-from vexture.render.gpu import context, fold, program, render_gpu
-from vexture.shaders import compose, vertex_source
+from vexture.images import coverage
+from vexture.renderers.device import context
+from vexture.renderers.shader import vertex_source
+from vexture.thesis.cpu import render_thesis_cpu
+from vexture.thesis.gpu import fold, program, render_thesis_gpu
+from vexture.thesis.shader import compose
+from vexture.thesis.texture import ThesisTexture
 
 SHIFT = 0.00123  # so that no point falls on the edge of a cell
 
@@ -23,17 +25,17 @@ SHIFT = 0.00123  # so that no point falls on the edge of a cell
 def test_the_tree_of_everything_is_drawn_as_counted(size: int, bits: int) -> None:
     need_gpu()
     texture, view = texture_of(TREE, bits), view_of((SHIFT, SHIFT), 0.99, size)
-    image = render(texture, (size, size), view)
+    image = coverage(texture, (size, size), view)
     assert image.dtype == np.float32
     assert speckles(texture, image, view) == 0
-    assert np.abs(image - render_cpu(texture, (size, size), view)).max() <= 1 / 16
+    assert np.abs(image - render_thesis_cpu(texture, (size, size), view)).max() <= 1 / 16
 
 
 def test_a_tilted_view_is_the_mirrors() -> None:
     need_gpu()
     texture = texture_of(TREE)
     tilted = [[0.02, 0.0, -0.5], [0.001, -0.02, 1.1], [0.0, 0.012, 0.1]]
-    on_gpu, on_cpu = (f(texture, (97, 64), tilted) for f in (render_gpu, render_cpu))
+    on_gpu, on_cpu = (f(texture, (97, 64), tilted) for f in (render_thesis_gpu, render_thesis_cpu))
     assert on_cpu.mean() > 0.05
     assert np.abs(on_gpu - on_cpu).mean() < 1e-3
 
@@ -41,14 +43,14 @@ def test_a_tilted_view_is_the_mirrors() -> None:
 def test_beyond_the_horizon_is_nothing() -> None:
     need_gpu()
     horizon = [[0.05, 0.0625, -0.25], [0.0, 0.0625, -0.23], [0.0, 0.125, -0.5]]  # at the middle of the image
-    image = render_gpu(texture_of([FULL] * 4), (8, 8), horizon)
+    image = render_thesis_gpu(texture_of([FULL] * 4), (8, 8), horizon)
     assert not image[:4].any()
     assert image[-1, :3].all()
 
 
 def test_the_edge_of_the_square_is_smoothed() -> None:
     need_gpu()
-    image = render_gpu(texture_of([FULL] * 4), (6, 4), [[0.25, 0, -0.125], [0, -0.25, 1.0625]])
+    image = render_thesis_gpu(texture_of([FULL] * 4), (6, 4), [[0.25, 0, -0.125], [0, -0.25, 1.0625]])
     np.testing.assert_allclose(image[1:-1], [[0.5, 1, 1, 1, 0.5, 0]] * 2)
     np.testing.assert_allclose(image[:, 2], [0.75, 1, 1, 1])
 
@@ -58,7 +60,7 @@ def test_a_folded_texture_is_the_same_picture(fold_height: int) -> None:
     need_gpu()
     texture = texture_of(TREE)
     assert len(texture.curves) > 2 * 5
-    np.testing.assert_array_equal(render_gpu(texture, (64, 64), fold_height=fold_height), render_gpu(texture, (64, 64)))
+    np.testing.assert_array_equal(render_thesis_gpu(texture, (64, 64), fold_height=fold_height), render_thesis_gpu(texture, (64, 64)))
 
 
 def test_folding_puts_the_next_rows_on_the_right() -> None:
@@ -77,16 +79,16 @@ def test_the_longest_list_is_read_to_its_last_row() -> None:
     quads = np.zeros((1, 4, 3), np.uint16)
     quads[0, :, 1] = 65_535, round(65_535 / 64_999), 0, round(65_535 * 64_998 / 64_999)
     texture = ThesisTexture(quads, curves)
-    image = render_gpu(texture, (64, 64))
-    np.testing.assert_array_equal(image, render_cpu(texture, (64, 64)))
+    image = render_thesis_gpu(texture, (64, 64))
+    np.testing.assert_array_equal(image, render_thesis_cpu(texture, (64, 64)))
     assert image[:32, :32].mean() == pytest.approx(0.5, abs=0.02)
 
 
 def test_one_program_serves_all_textures_of_a_depth() -> None:
     need_gpu()
-    render_gpu(texture_of([FULL, EMPTY, FULL, EMPTY]), (4, 4))
+    render_thesis_gpu(texture_of([FULL, EMPTY, FULL, EMPTY]), (4, 4))
     made = program.cache_info().misses
-    render_gpu(texture_of([FULL, *TREE[:1], FULL, EMPTY]), (5, 4))
+    render_thesis_gpu(texture_of([FULL, *TREE[:1], FULL, EMPTY]), (5, 4))
     assert program.cache_info().misses == made
 
 
@@ -95,22 +97,22 @@ def test_too_large_a_picture_names_the_limit() -> None:
     with context() as gl:
         limit = gl.info["GL_MAX_TEXTURE_SIZE"]
     with pytest.raises(LimitError, match=str(limit)):
-        render_gpu(texture_of([FULL] * 4), (limit + 1, 1))
+        render_thesis_gpu(texture_of([FULL] * 4), (limit + 1, 1))
 
 
 def test_a_texture_without_end_is_refused() -> None:
     need_gpu()
     with pytest.raises(FormatError, match="below itself"):
-        render_gpu(ThesisTexture(np.full((1, 4, 3), (255, 0, 0), np.uint8), np.zeros((2, 2, 3), np.uint8)), (4, 4))
+        render_thesis_gpu(ThesisTexture(np.full((1, 4, 3), (255, 0, 0), np.uint8), np.zeros((2, 2, 3), np.uint8)), (4, 4))
 
 
 ONE_LINE = """
 import numpy as np
-from vexture.encoding.texture import ThesisTexture
+from vexture.thesis.texture import ThesisTexture
 from vexture.errors import DeviceError
-from vexture.pictures import render
+from vexture.images import coverage
 try:
-    render(ThesisTexture(np.zeros((1, 4, 3), np.uint8), np.zeros((2, 2, 3), np.uint8)), (1, 1))
+    coverage(ThesisTexture(np.zeros((1, 4, 3), np.uint8), np.zeros((2, 2, 3), np.uint8)), (1, 1))
 except DeviceError as error:
     print(error)
 """

@@ -9,15 +9,15 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from packed_views import TILTED, View, turned
 
-from vexture.encoding.layout import MOST_CURVES, MOST_DEPTH
-from vexture.encoding.packed_texture import PackedTexture, Root
-from vexture.render import packed_cpu, packed_gpu
-from vexture.render.gpu import VERSION, compiled, context
-from vexture.render.packed_cpu import render_packed_cpu, texel
-from vexture.render.packed_gpu import render_packed_gpu
-from vexture.render.view import fit, window
-from vexture.shaders import QUALITIES, packed_view_source
-from vexture.shading import MOST_CELLS, MOST_PARTS, STEPS
+from vexture.layout import MOST_CURVES, MOST_DEPTH
+from vexture.renderers import cpu, gpu
+from vexture.renderers.cpu import render_cpu, texel
+from vexture.renderers.device import VERSION, compiled, context
+from vexture.renderers.gpu import render_gpu
+from vexture.renderers.shader import QUALITIES, view_source
+from vexture.renderers.shading import MOST_CELLS, MOST_PARTS, STEPS
+from vexture.renderers.view import fit, window
+from vexture.texture.texture import Root, Texture
 
 ALL_ONES = 0xFFFFFFFF
 QUADS = 0x80808080
@@ -26,7 +26,7 @@ VIEWS: dict[str, View] = {
     "one pixel": ((1, 1), fit((1, 1))),
     "turned and long": turned(12, 45, 8),
     "tilted": ((12, 8), TILTED * (8, 8, 1)),
-    "deep": ((6, 6), window((6, 6), 0.5 - 2.0**-22, 0.25, 2.0**-21, 2.0**-21)),
+    "deep": ((6, 6), window(0.5 - 2.0**-22, 0.25, 2.0**-21, 2.0**-21).matrix((6, 6))),
 }
 
 LOOP = re.compile(r"^( *(?:for|while) \(.*\) \{)$", re.MULTILINE)
@@ -34,7 +34,7 @@ MOST_TRIPS = MOST_CELLS * (1 + MOST_DEPTH + MOST_CURVES * (2 + STEPS + int(MOST_
 
 
 @st.composite
-def textures(draw: st.DrawFn) -> PackedTexture:
+def textures(draw: st.DrawFn) -> Texture:
     """Random words; in most, quads of quads that point anywhere, to themselves and in circles."""
     rng = np.random.default_rng(draw(st.integers(0, 10**9)))
     rows, width = draw(st.sampled_from([(1, 1), (1, 2), (1, 64), (2, 2048), (3, 2048)]))
@@ -48,17 +48,17 @@ def textures(draw: st.DrawFn) -> PackedTexture:
         words[..., 0] %= rows * width
     if kind == "crowded leaves":
         words[..., 2] = words[..., 2] & ~np.uint32(QUADS) | np.uint32(0x78787878)
-    return PackedTexture(words, (Root("noise", quad=draw(st.sampled_from([0, 1, rows * width, ALL_ONES]))),))
+    return Texture(words, (Root("noise", quad=draw(st.sampled_from([0, 1, rows * width, ALL_ONES]))),))
 
 
 @settings(max_examples=60)
 @given(textures(), st.sampled_from(sorted(VIEWS)), st.sampled_from(sorted(QUALITIES)))
-@example(PackedTexture(np.full((1, 1, 4), ALL_ONES, np.uint32), (Root("ones"),)), "all", "exact")
-@example(PackedTexture(np.zeros((1, 1, 4), np.uint32), (Root("zeros"),)), "all", "fast")
-def test_any_bits_are_drawn_as_numbers(texture: PackedTexture, view: str, quality: str) -> None:
+@example(Texture(np.full((1, 1, 4), ALL_ONES, np.uint32), (Root("ones"),)), "all", "exact")
+@example(Texture(np.zeros((1, 1, 4), np.uint32), (Root("zeros"),)), "all", "fast")
+def test_any_bits_are_drawn_as_numbers(texture: Texture, view: str, quality: str) -> None:
     need_gpu()
     size, matrix = VIEWS[view]
-    for render in (render_packed_cpu, render_packed_gpu):
+    for render in (render_cpu, render_gpu):
         image = render(texture, size, matrix, quality=quality)
         assert np.isfinite(image).all()
         assert image.min() >= 0.0
@@ -77,13 +77,13 @@ def test_no_index_leaves_the_texture(shape: tuple[int, int]) -> None:
 
 
 def test_nothing_else_reads_the_texture() -> None:
-    with open(packed_cpu.__file__, encoding="utf-8") as module:
+    with open(cpu.__file__, encoding="utf-8") as module:
         assert module.read().count("texels[") == 1
 
 
 def counting(quality: str) -> str:
     """The shader, drawing how often its loops go round instead of what they find."""
-    text, loops = LOOP.subn(r"\1 trips++;", packed_view_source(VERSION, quality))
+    text, loops = LOOP.subn(r"\1 trips++;", view_source(VERSION, quality))
     assert loops == len(re.findall(r"\b(?:for|while|do)\b *[({]", text)), "a loop that this test does not count"
     drawn = re.sub(
         r"coverage_of_pixel = (.*); \}", r"float found = \1; coverage_of_pixel = float(trips) + 0.0 * found; }", text
@@ -97,11 +97,11 @@ def test_the_work_for_a_pixel_is_bounded(view: str, quality: str, monkeypatch: p
     need_gpu()
     with context():
         program = compiled(counting(quality))
-    monkeypatch.setattr(packed_gpu, "packed_program", lambda quality: program)
+    monkeypatch.setattr(gpu, "program", lambda quality: program)
     size, matrix = VIEWS[view]
     rng = np.random.default_rng(3)
     for mask in (0, QUADS, 0x78787878, ALL_ONES):
         words = rng.integers(0, 1 << 32, (3, 2048, 4), dtype=np.uint32)
         words[..., 2] |= np.uint32(mask)
-        trips = render_packed_gpu(PackedTexture(words, (Root("noise"),)), size, matrix)
+        trips = render_gpu(Texture(words, (Root("noise"),)), size, matrix)
         assert 0 < trips.max() <= MOST_TRIPS

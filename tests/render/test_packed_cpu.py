@@ -15,16 +15,16 @@ import corpora
 import degenerate
 from vexture.drawing import Drawing
 from vexture.drawing import Path as Outline
-from vexture.encoding.packed_texture import PackedTexture
 from vexture.errors import LimitError, VextureError
-from vexture.quadtree.build_packed import build_packed
-from vexture.quadtree.tree import PackedTree
-from vexture.render.exact import render_exact
-from vexture.render.packed_cpu import finest_level, render_packed_cpu
-from vexture.render.packed_gpu import render_packed_gpu
-from vexture.render.view import window
-from vexture.shaders import QUALITIES
-from vexture.sources.svg import read_svg
+from vexture.renderers.cpu import finest_level, render_cpu
+from vexture.renderers.exact import render_exact
+from vexture.renderers.gpu import render_gpu
+from vexture.renderers.shader import QUALITIES
+from vexture.renderers.view import window
+from vexture.svg.read import read_svg
+from vexture.texture.texture import Texture
+from vexture.tree.build import build_tree
+from vexture.tree.tree import Tree
 
 STEP = 1 / 255
 SHAPES = sorted((Path(__file__).parents[2] / "examples" / "shapes").glob("*.svg"))
@@ -60,7 +60,7 @@ SOURCES: dict[str, tuple[Callable[..., Drawing], object]] = {
 
 
 @cache
-def source(name: str) -> tuple[Drawing, PackedTexture]:
+def source(name: str) -> tuple[Drawing, Texture]:
     read, what = SOURCES[name]
     try:
         drawing = read(what)
@@ -69,10 +69,10 @@ def source(name: str) -> tuple[Drawing, PackedTexture]:
     return drawing, texture_of(drawing)
 
 
-def difference(texture: PackedTexture, view: View, quality: str) -> float:
+def difference(texture: Texture, view: View, quality: str) -> float:
     size, matrix = view
-    cpu = render_packed_cpu(texture, size, matrix, quality=quality)
-    return float(np.abs(cpu - render_packed_gpu(texture, size, matrix, quality=quality)).max() / STEP)
+    cpu = render_cpu(texture, size, matrix, quality=quality)
+    return float(np.abs(cpu - render_gpu(texture, size, matrix, quality=quality)).max() / STEP)
 
 
 @pytest.mark.parametrize("name", SOURCES)
@@ -104,14 +104,14 @@ def test_so_it_does_in_deep_zoom(quality: str) -> None:
 def test_deep_zoom_shows_no_line_where_pieces_meet_beside_the_view(name: str, zoom: int, quality: str) -> None:
     need_gpu()
     width = 2.0**-zoom
-    view = window((128, 128), 0.5 - width / 2, 0.5 - width / 2, width, width)
+    view = window(0.5 - width / 2, 0.5 - width / 2, width, width).matrix((128, 128))
     assert difference(source(name)[1], ((128, 128), view), quality) < 0.5
 
 
 # --- the truth --------------------------------------------------------------------------------------------------------
 
 
-def deepest(tree: PackedTree) -> int:
+def deepest(tree: Tree) -> int:
     """Level of the smallest leaves."""
     depth = np.ones(len(tree.is_quad), np.int64)
     for quad, cells in enumerate(tree.is_quad):
@@ -123,9 +123,9 @@ def deepest(tree: PackedTree) -> int:
 def errors(drawing: Drawing, view: View, quality: str) -> tuple[float, float, bool]:
     """Mean and largest error in 1/255, and whether every pixel of an affine view sees the leaves themselves."""
     size, matrix = view
-    tree = build_packed(drawing)
+    tree = build_tree(drawing)
     texture = texture_of(drawing)
-    error = np.abs(render_packed_cpu(texture, size, matrix, quality=quality) - render_exact(drawing, size, matrix))
+    error = np.abs(render_cpu(texture, size, matrix, quality=quality) - render_exact(drawing, size, matrix))
     steps = matrix[:2, :2]
     level = finest_level(abs(np.linalg.det(steps)), tuple(0.5 * np.abs(steps).sum(axis=1)))
     return float(error.mean() / STEP), float(error.max() / STEP), deepest(tree) <= level
@@ -192,17 +192,17 @@ def test_what_lies_beside_a_long_pixel_does_not_count(pixels: float, narrow: flo
 
 def test_without_a_base_and_with_one_it_is_the_same() -> None:
     texture = source("duck")[1]
-    near = render_packed_cpu(texture, (80, 80))
-    np.testing.assert_allclose(render_packed_cpu(texture, (80, 80), base=(0, 0)), near, atol=1e-6)
-    np.testing.assert_allclose(render_packed_cpu(texture, (80, 80), base=(123456789, 1 << 31)), near, atol=1e-6)
+    near = render_cpu(texture, (80, 80))
+    np.testing.assert_allclose(render_cpu(texture, (80, 80), base=(0, 0)), near, atol=1e-6)
+    np.testing.assert_allclose(render_cpu(texture, (80, 80), base=(123456789, 1 << 31)), near, atol=1e-6)
 
 
 def test_a_root_or_a_quality_that_does_not_exist_is_named() -> None:
     texture = source("duck")[1]
     with pytest.raises(LimitError, match="root is 1; duck has 1"):
-        render_packed_cpu(texture, (2, 2), root=1)
+        render_cpu(texture, (2, 2), root=1)
     with pytest.raises(LimitError, match="'best'"):
-        render_packed_cpu(texture, (2, 2), quality="best")
+        render_cpu(texture, (2, 2), quality="best")
 
 
 @pytest.mark.parametrize("quality", QUALITIES)

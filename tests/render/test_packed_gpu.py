@@ -7,15 +7,15 @@ from numpy.typing import NDArray
 from packed_views import texture_of, turned
 
 from vexture.drawing import Drawing, Path
-from vexture.encoding.packed import encode_packed
-from vexture.encoding.packed_texture import PackedTexture, Root
 from vexture.errors import LimitError
-from vexture.quadtree.build_packed import build_packed
-from vexture.render.exact import render_exact
-from vexture.render.gpu import context
-from vexture.render.packed_gpu import render_packed_gpu
-from vexture.render.view import window
-from vexture.shaders import VERSIONS, packed_text, packed_view_source, shader_source, vertex_source
+from vexture.renderers.device import context
+from vexture.renderers.exact import render_exact
+from vexture.renderers.gpu import render_gpu
+from vexture.renderers.shader import VERSIONS, shader_source, shader_text, vertex_source, view_source
+from vexture.renderers.view import window
+from vexture.texture.encode import encode
+from vexture.texture.texture import Root, Texture
+from vexture.tree.build import build_tree
 
 QUALITIES = ["fast", "exact"]
 K = 0.5522847498
@@ -43,7 +43,7 @@ def mean_error(
     drawing: Drawing, size: tuple[int, int], view: NDArray[np.float64], quality: str, **options: float
 ) -> float:
     truth = render_exact(drawing, size, view)
-    image = render_packed_gpu(texture_of(drawing, **options), size, view, quality=quality)
+    image = render_gpu(texture_of(drawing, **options), size, view, quality=quality)
     assert np.isfinite(image).all()
     touched = np.maximum(image, truth) > 0.0001
     return float(np.abs(image - truth)[touched].mean() / STEP)
@@ -84,9 +84,9 @@ def test_no_step_where_the_outline_crosses_a_cell_border(quality: str, zoom: flo
     texture = texture_of(blob(), **options)
     width = 0.2 / zoom
     for x, y in [(0.5, 0.47 + math.sqrt(0.41**2 - 0.02**2)), (0.5, 0.47 - math.sqrt(0.41**2 - 0.02**2))]:
-        view = window((200, 200), x - width / 2, y - width / 2, width, width)
+        view = window(x - width / 2, y - width / 2, width, width).matrix((200, 200))
         image, truth = (
-            render_packed_gpu(texture, (200, 200), view, quality=quality),
+            render_gpu(texture, (200, 200), view, quality=quality),
             render_exact(blob(), (200, 200), view),
         )
         off = (image - truth).sum(axis=0, dtype=np.float64)
@@ -99,9 +99,9 @@ def test_the_inside_is_plain_though_a_step_of_t_is_a_part_of_a_pixel(quality: st
     need_gpu()
     steep = np.array([(0.1, 0.1), (0.1, 0.85), (0.9, 0.15), (0.9, 0.9)])
     contour = np.array([steep, straight((0.9, 0.9), (0.9, 0.1)), straight((0.9, 0.1), (0.1, 0.1))])
-    view = window((200, 200), 0.4999, 0.0999, 2e-4, 2e-4)  # on the straight side, far from the curve in the same leaf
+    view = window(0.4999, 0.0999, 2e-4, 2e-4).matrix((200, 200))  # on the straight side, far from the curve in the same leaf
     drawing = Drawing((Path((contour,)),), name="s")
-    image = render_packed_gpu(texture_of(drawing), (200, 200), view, quality=quality)
+    image = render_gpu(texture_of(drawing), (200, 200), view, quality=quality)
     assert render_exact(drawing, (200, 200), view)[:90].min() == 1.0
     assert image[:90].min() > 0.999
 
@@ -116,7 +116,7 @@ def test_an_s_curve_has_no_speckles(quality: str, upright: bool, backwards: bool
     contour = contour[:, :, ::-1] if upright else contour
     contour = contour[::-1, ::-1].copy() if backwards else contour
     drawing = Drawing((Path((contour,)),), name="s")
-    image = render_packed_gpu(texture_of(drawing), (700, 700), quality=quality)
+    image = render_gpu(texture_of(drawing), (700, 700), quality=quality)
     assert np.abs(image - render_exact(drawing, (700, 700))).max() < 4 * STEP
 
 
@@ -125,7 +125,7 @@ def test_an_s_curve_has_no_speckles(quality: str, upright: bool, backwards: bool
 def test_the_shader_compiles_in_both_dialects(version: str, quality: str) -> None:
     need_gpu()
     with context() as gl:
-        fragment = packed_view_source(version, quality)
+        fragment = view_source(version, quality)
         gl.program(vertex_shader=vertex_source(version), fragment_shader=fragment).release()
         main = "out float c;\nin vec2 uv;\nvoid main() { c = vextureCoverage(3u, uv, dFdx(uv), dFdy(uv)); }\n"
         vertex = (
@@ -140,7 +140,7 @@ def test_the_shader_compiles_in_both_dialects(version: str, quality: str) -> Non
 def test_nothing_lies_outside_the_square_and_its_edge_is_smoothed(quality: str) -> None:
     need_gpu()
     everything = texture_of(Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]))
-    image = render_packed_gpu(everything, (6, 4), [[0.25, 0, -0.125], [0, -0.25, 1.0625]], quality=quality)
+    image = render_gpu(everything, (6, 4), [[0.25, 0, -0.125], [0, -0.25, 1.0625]], quality=quality)
     np.testing.assert_allclose(image[1:-1], [[0.5, 1, 1, 1, 0.5, 0]] * 2, atol=1e-6)
     np.testing.assert_allclose(image[:, 2], [0.75, 1, 1, 1], atol=1e-6)
 
@@ -148,17 +148,17 @@ def test_nothing_lies_outside_the_square_and_its_edge_is_smoothed(quality: str) 
 def test_one_texture_holds_many_shapes() -> None:
     need_gpu()
     shapes = [Drawing.polygon([(0.1, 0.1), (0.8, 0.2), (0.4, 0.9)]), blob()]
-    together = encode_packed([build_packed(shape) for shape in shapes], [Root("a"), Root("b")], name="both")
+    together = encode([build_tree(shape) for shape in shapes], [Root("a"), Root("b")], name="both")
     for root, shape in enumerate(shapes):
-        alone = render_packed_gpu(texture_of(shape), (50, 50))
-        np.testing.assert_array_equal(render_packed_gpu(together, (50, 50), root=root), alone)
+        alone = render_gpu(texture_of(shape), (50, 50))
+        np.testing.assert_array_equal(render_gpu(together, (50, 50), root=root), alone)
 
 
 @pytest.mark.parametrize("quality", QUALITIES)
 def test_random_bits_end_and_are_numbers(quality: str) -> None:
     need_gpu()
     bits = np.random.default_rng(7).integers(0, 1 << 32, (3, 2048, 4), dtype=np.uint32)
-    image = render_packed_gpu(PackedTexture(bits, (Root("noise"),)), (40, 40), quality=quality)
+    image = render_gpu(Texture(bits, (Root("noise"),)), (40, 40), quality=quality)
     assert np.isfinite(image).all()
     assert image.min() >= 0.0
     assert image.max() <= 1.0
@@ -175,4 +175,4 @@ def test_the_text_can_be_pasted() -> None:
     text = shader_source()
     assert "#version" not in text
     assert "VEXTURE_QUALITY 1" in text
-    assert "VEXTURE_QUALITY 0" in packed_text("packed_coverage.glsl", "fast")
+    assert "VEXTURE_QUALITY 0" in shader_text("coverage.glsl", "fast")

@@ -10,13 +10,12 @@ from hand import need_gpu
 from numpy.typing import NDArray
 
 from cells import Cells, finest_level
-from vexture.encoding.layout import MOST_DEPTH
-from vexture.encoding.packed_texture import PackedTexture
+from vexture.layout import MOST_DEPTH
 from vexture.pipeline import convert
-from vexture.render.gpu import context
-from vexture.render.packed_gpu import view_base
-from vexture.render.view import window
-from vexture.shaders import VERSIONS, packed_text, vertex_source
+from vexture.renderers.device import context
+from vexture.renderers.shader import VERSIONS, shader_text, vertex_source
+from vexture.renderers.view import view_base, window
+from vexture.texture.texture import Texture
 
 SHAPES = Path(__file__).parents[2] / "examples" / "shapes"
 SIZE = (210, 210)
@@ -39,12 +38,12 @@ DEPTHS = np.stack([np.arange(MOST_DEPTH + 1) / MOST_DEPTH, *np.zeros((2, MOST_DE
 @cache
 def program() -> Any:
     gl = context()
-    fragment = VERSIONS[WEB] + packed_text("packed_overlay.glsl", "exact") + MAIN
+    fragment = VERSIONS[WEB] + shader_text("overlay.glsl", "exact") + MAIN
     return gl.vertex_array(gl.program(vertex_shader=vertex_source(WEB), fragment_shader=fragment), [])
 
 
 def overlay(
-    texture: PackedTexture,
+    texture: Texture,
     matrix: NDArray[np.float64],
     show: tuple[float, float, float] = (0.0, 0.0, 0.0),
     cutoff: float = 0.0,
@@ -81,16 +80,16 @@ def overlay(
 
 
 @cache
-def texture_of(name: str) -> PackedTexture:
+def texture_of(name: str) -> Texture:
     texture = convert(SHAPES / f"{name}.svg")
-    assert isinstance(texture, PackedTexture)
+    assert isinstance(texture, Texture)
     return texture
 
 
 WINDOWS = {
-    "whole": window(SIZE, -0.1, -0.1, 1.2, 1.2),
-    "100x": window(SIZE, 0.4937, 0.17, 0.01, 0.01),
-    "10,000x": window(SIZE, 0.5 - 3e-5, 0.25 - 2e-5, 1e-4, 1e-4),
+    "whole": window(-0.1, -0.1, 1.2, 1.2).matrix(SIZE),
+    "100x": window(0.4937, 0.17, 0.01, 0.01).matrix(SIZE),
+    "10,000x": window(0.5 - 3e-5, 0.25 - 2e-5, 1e-4, 1e-4).matrix(SIZE),
 }
 
 
@@ -132,7 +131,7 @@ def test_at_the_cut_off_quads_show_what_they_store(cutoff: float) -> None:
 
 
 def test_many_small_cells_do_not_turn_a_view_grey() -> None:
-    texture, matrix = texture_of("ocean"), window(SIZE, -2.0, -2.0, 5.0, 5.0)
+    texture, matrix = texture_of("ocean"), window(-2.0, -2.0, 5.0, 5.0).matrix(SIZE)
     shown = overlay(texture, matrix, (1.0, 0.0, 0.0))
     cells = Cells(texture, matrix, SIZE, finest_level(matrix))
     assert np.abs(shown - PICTURE)[cells.inside].mean() < 0.15

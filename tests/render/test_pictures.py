@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hand import need_gpu
+from vexture.pictures import find_root, layers_of, on_white, render, render_layers
 
 import vexture
 from vexture.drawing import Drawing, Paint, Path
 from vexture.errors import FormatError, LimitError
-from vexture.pictures import find_root, layers_of, on_white, render, render_layers
 
 RED, GLASS = Paint((1.0, 0.0, 0.0)), Paint((0.0, 0.5, 1.0), 0.5)
 SIZE = (40, 30)

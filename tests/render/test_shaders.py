@@ -5,34 +5,42 @@ from importlib import resources
 import pytest
 from hand import EMPTY, FULL, TREE, need_gpu, texture_of
 
-from vexture import shading
-from vexture.encoding import layout
 from vexture.errors import FormatError
-from vexture.folding import blend
-from vexture.render import cpu, cubic, packed_cpu, packed_piece
-from vexture.render.gpu import context
-from vexture.shaders import VERSIONS, TextureSizes, constants, join, source, vertex_source
+from vexture.fold import blend
+from vexture.renderers import cpu, piece
+from vexture.renderers.device import context
+from vexture.renderers.shader import VERSIONS, included, vertex_source
+from vexture.thesis import cpu as thesis_cpu
+from vexture.thesis import cubic, layout, shading
+from vexture.thesis.shader import TextureSizes, constants, source, thesis_text
 
-FILES = {file.name: file.read_text() for file in (resources.files("vexture") / "glsl").iterdir()}
+
+def _files(package):
+    return {file.name: file.read_text() for file in (resources.files(package) / "glsl").iterdir()}
+
+
+FILES = {
+    **_files("vexture"),
+    **{f"thesis/{name}": text for name, text in _files("vexture.thesis").items()},
+}
 DEFINITION = re.compile(r"^\w+ (\w+)\(\s*([^()]*?)\s*\) \{$", re.MULTILINE)
 STRUCT = re.compile(r"^struct (\w+) \{(.*?)^\};", re.MULTILINE | re.DOTALL)
 MIRROR = dict.fromkeys(FILES, cpu) | {
-    "cubic.glsl": cubic,
-    **{name: packed_cpu for name in FILES if name.startswith("packed_")},
-    "packed_pixel.glsl": packed_piece,
-    "packed_piece.glsl": packed_piece,
+    **{name: thesis_cpu for name in FILES if name.startswith("thesis/")},
+    "thesis/cubic.glsl": cubic,
+    "pixel.glsl": piece,
+    "piece.glsl": piece,
     "fold.glsl": blend,
 }
 # only the web's, judged by its pixels (tests/web) and by decoded trees (test_packed_overlay.py)
 WITHOUT_MIRROR = {
     "around.glsl",
-    "packed_layers.glsl",
-    "packed_overlay.glsl",
-    "packed_wrap.glsl",
+    "layers.glsl",
+    "overlay.glsl",
+    "wrap.glsl",
     "shore.glsl",
     "steps.glsl",
     "water.glsl",
-    "bands.glsl",  # not ours to draw with
 }
 MIRRORED = {name: text for name, text in FILES.items() if name not in WITHOUT_MIRROR}
 ALONE = {"covering_triangle", "fetch"}  # functions of the shader for which the mirror has no use
@@ -77,7 +85,7 @@ def test_a_file_defines_what_it_says_and_nothing_that_its_user_must(name: str) -
 
 
 def test_every_file_is_joined_once() -> None:
-    joined = join("view.glsl")
+    joined = thesis_text("view.glsl")
     names = [match[0] for match in DEFINITION.findall(joined)]
     assert len(names) == len(set(names))
     assert "#include" not in joined
@@ -89,7 +97,7 @@ def test_every_file_is_joined_once() -> None:
 @pytest.mark.parametrize("name", ["nowhere.glsl", "../shaders.py"])
 def test_an_unknown_include_is_refused(name: str) -> None:
     with pytest.raises(FileNotFoundError, match=re.escape(name)):
-        join(name)
+        included(name)
 
 
 def plain(name: str) -> str:

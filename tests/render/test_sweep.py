@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from hand import EMPTY, Corner, Curve, Floats, decode, need_gpu, samples, speckles, texture_of, view_of
 
-from vexture import shading
-from vexture.render import cpu
-from vexture.render.cpu import render_cpu
-from vexture.render.cubic import solution_path, solve_cubic
-from vexture.render.gpu import render_gpu
+from vexture.renderers import shading
+from vexture.thesis import cpu
+from vexture.thesis.cpu import render_thesis_cpu
+from vexture.thesis.cubic import solution_path, solve_cubic
+from vexture.thesis.gpu import render_thesis_gpu
 
 PIXELS = 24
 FRAMES = 24
@@ -120,7 +120,7 @@ def test_cpu_gpu_and_truth_agree_at_every_step(name: str) -> None:
     largest, mean = 0.0, 0.0
     for tree, view in SWEEPS[name]():
         texture = texture_of(tree)
-        on_cpu, on_gpu = render_cpu(texture, (PIXELS, PIXELS), view), render_gpu(texture, (PIXELS, PIXELS), view)
+        on_cpu, on_gpu = render_thesis_cpu(texture, (PIXELS, PIXELS), view), render_thesis_gpu(texture, (PIXELS, PIXELS), view)
         assert speckles(texture, on_cpu, view) == 0
         assert speckles(texture, on_gpu, view) == 0
         difference = np.abs(on_cpu - on_gpu)

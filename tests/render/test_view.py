@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from vexture.errors import LimitError
-from vexture.render.view import CONDITION_LIMIT, SIZE_LIMIT, check_size, fit, view_matrix, window
+from vexture.renderers.view import CONDITION_LIMIT, SIZE_LIMIT, fit, size_of, view_matrix, window
 
 
 def unit(view, x, y):
@@ -21,14 +21,14 @@ def test_the_square_fits_centred(size):
 
 
 def test_a_window_is_shown_whole_and_upright():
-    view = window((200, 100), 0.2, 0.3, 0.4, 0.1)
+    view = window(0.2, 0.3, 0.4, 0.1).matrix((200, 100))
     np.testing.assert_allclose(unit(view, 100, 50), (0.4, 0.35), atol=1e-15)
     np.testing.assert_allclose(unit(view, 0, 50), (0.2, 0.35), atol=1e-15)
     np.testing.assert_allclose(unit(view, 100, 50 - 25), (0.4, 0.4), atol=1e-15)
 
 
 def test_rotating_turns_the_picture_counter_clockwise_about_the_centre():
-    straight, turned = window((80, 60), 0.1, 0.2, 0.4, 0.3), window((80, 60), 0.1, 0.2, 0.4, 0.3, 90)
+    straight, turned = window(0.1, 0.2, 0.4, 0.3).matrix((80, 60)), window(0.1, 0.2, 0.4, 0.3, rotate=90).matrix((80, 60))
     np.testing.assert_allclose(unit(turned, 40, 30), unit(straight, 40, 30), atol=1e-15)
     # what was 10 pixels to the right of the centre is now 10 pixels above it
     np.testing.assert_allclose(unit(turned, 40, 20), unit(straight, 50, 30), atol=1e-15)
@@ -59,13 +59,13 @@ def test_affine_and_projective_matrices_are_kept():
 )
 def test_bad_sizes_are_one_line(size):
     with pytest.raises(LimitError, match=str(SIZE_LIMIT)) as caught:
-        check_size(size)
+        size_of(size)
     assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize("size", [(1, 1), (SIZE_LIMIT, SIZE_LIMIT), (np.int64(3), 4.0)])
 def test_good_sizes(size):
-    assert check_size(size) == tuple(int(side) for side in size)
+    assert size_of(size) == tuple(int(side) for side in size)
 
 
 @pytest.mark.parametrize(("matrix", "word"), [
@@ -102,9 +102,9 @@ def test_bad_matrices_are_one_line(matrix, word):
 )
 def test_bad_windows_are_one_line(numbers):
     with pytest.raises(LimitError) as caught:
-        window((16, 16), *numbers)
+        window(*numbers).matrix((16, 16))
     assert "\n" not in str(caught.value)
 
 
 def test_the_magnification_limit_leaves_room():
-    window((1000, 1000), 0.5, 0.5, 10 / CONDITION_LIMIT, 10 / CONDITION_LIMIT)
+    window(0.5, 0.5, 10 / CONDITION_LIMIT, 10 / CONDITION_LIMIT).matrix((1000, 1000))

@@ -3,12 +3,12 @@
 import pytest
 
 from vexture.errors import LimitError
-from vexture.evaluation.shape import Shape, example
-from vexture.report import comparison
-from vexture.report.comparison import compare, pictures_part, section, shapes_part
-from vexture.report.page import json_text, page, pictures_of
-from vexture.report.renderers import bands_part, renderers_part
-from vexture.report.section import Material, Section
+from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.report import comparison
+from vexture_evidence.report.comparison import compare, pictures_part, section, shapes_part
+from vexture_evidence.report.page import json_text, page, pictures_of
+from vexture_evidence.report.renderers import bands_part, renderers_part
+from vexture_evidence.report.section import Material, Section
 
 
 class Refused(Shape):

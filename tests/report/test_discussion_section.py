@@ -5,9 +5,9 @@ import re
 
 import pytest
 
-from vexture.report.discussion import section
-from vexture.report.page import json_text, page, pictures_of
-from vexture.report.section import Material, Picture, Section
+from vexture_evidence.report.discussion import section
+from vexture_evidence.report.page import json_text, page, pictures_of
+from vexture_evidence.report.section import Material, Picture, Section
 
 POINTS = ("6.1.1", "6.1.2", "6.2.1", "6.2.2", "6.2.3", "6.3", "6.4", "4.3.1", "4.2")
 

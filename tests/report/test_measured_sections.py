@@ -2,12 +2,12 @@
 
 import pytest
 
-from vexture.evaluation.printed import TABLE_5_1
-from vexture.evaluation.shape import WAYS, Shape, example, file_bytes
 from vexture.pipeline import convert
-from vexture.report import conversion, shapes, structure
-from vexture.report.page import json_text, page, pictures_of
-from vexture.report.section import Material, Printed, Section, Table
+from vexture_evidence.measures.printed import TABLE_5_1
+from vexture_evidence.measures.shape import WAYS, Shape, example, file_bytes
+from vexture_evidence.report import conversion, shapes, structure
+from vexture_evidence.report.page import json_text, page, pictures_of
+from vexture_evidence.report.section import Material, Printed, Section, Table
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 100">{paths}</svg>'
 TEETH = "".join(f"L{x / 8} {60 if x % 2 else 40}" for x in range(1601))
@@ -82,7 +82,7 @@ def test_table_5_1_has_the_thesis_beside_all_our_ways(examples):
 
 def test_what_an_encoding_cannot_hold_is_a_dash_and_a_reason(examples, monkeypatch):
     from vexture.errors import LimitError
-    from vexture.evaluation.shape import Shape
+    from vexture_evidence.measures.shape import Shape
 
     way = Shape.way
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from lxml import html
 
-from vexture.figures.style import panels, show
-from vexture.report.page import json_text, known, page, pictures_of, png_of
-from vexture.report.section import Picture, Printed, Section, Table
+from vexture_evidence.figures.style import panels, show
+from vexture_evidence.report.page import json_text, known, page, pictures_of, png_of
+from vexture_evidence.report.section import Picture, Printed, Section, Table
 
 
 def picture(name="coverage"):

@@ -5,11 +5,11 @@ import re
 import pytest
 
 from vexture.errors import LimitError
-from vexture.evaluation.rendered import at_sizes
-from vexture.evaluation.shape import Shape, example
-from vexture.report.page import json_text, pictures_of
-from vexture.report.rendering import section
-from vexture.report.section import Material, Table
+from vexture_evidence.measures.rendered import at_sizes
+from vexture_evidence.measures.shape import Shape, example
+from vexture_evidence.report.page import json_text, pictures_of
+from vexture_evidence.report.rendering import section
+from vexture_evidence.report.section import Material, Table
 
 FIGURES = ["3.13", "4.14", "4.15", "4.9, 4.10", "5.12", "2.7"]
 

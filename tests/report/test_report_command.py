@@ -9,7 +9,7 @@ from lxml import html
 from PIL import Image
 
 import vexture
-from vexture.report.section import Material
+from vexture_evidence.report.section import Material
 
 SHAPES = Path(__file__).parents[2] / "examples" / "shapes"
 RUN = "import sys; from vexture.cli import main; main()"

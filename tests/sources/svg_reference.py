@@ -12,7 +12,7 @@ import skia
 from PIL import Image
 
 from vexture.drawing import Drawing
-from vexture.evaluation.peers import skia_path
+from vexture_evidence.measures.peers import skia_path
 
 __all__ = ["difference", "render_drawing", "render_file"]
 

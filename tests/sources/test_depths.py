@@ -11,10 +11,10 @@ import xarray
 from rasterio.transform import Affine
 
 from vexture.errors import LimitError, SourceError, SourceWarning
-from vexture.render.exact import render_exact
-from vexture.sources.depths import read_depths
-from vexture.sources.reading import read_drawing
-from vexture.sources.reference import frame_around
+from vexture.geo.depths import read_depths
+from vexture.geo.reference import frame_around
+from vexture.reading import read_drawing
+from vexture.renderers.exact import render_exact
 
 CRS = "EPSG:32610"
 X, Y = 500_000.0 + 10.0 * np.arange(80), 4_090_000.0 + 10.0 * np.arange(60)
@@ -174,7 +174,7 @@ def test_another_system_than_the_frames(tmp_path):
     plain = read(tmp_path / "a.nc")
     frame = frame_around((-122.9999, 36.9557, -122.9911, 36.9611), "EPSG:4326")
     turned = read(tmp_path / "a.nc", frame=frame)
-    from vexture.sources.reference import transformed
+    from vexture.geo.reference import transformed
 
     back = transformed(shore(turned.steps[0].drawing), "EPSG:4326", CRS)
     away = np.abs(np.hypot(*(back - MIDDLE).T) - RADIUS + 2.5) / 10.0
@@ -231,7 +231,7 @@ def test_water_ends_where_the_raster_ends_inside_of_the_frame(tmp_path):
 
 
 def test_only_what_the_bounds_need_is_read(tmp_path, monkeypatch):
-    from vexture.sources import placing
+    from vexture.geo import placing
 
     monkeypatch.setattr(placing, "MOST_CELLS", 3000)
     path = geotiff(tmp_path / "a.tif", lake_rows(), NORTH_UP)
@@ -362,7 +362,7 @@ def test_damaged_files_are_one_line_and_nothing_on_stderr(tmp_path):
         (tmp_path / names[-1]).write_bytes(noise)
     (tmp_path / "text.nc").write_text("not a file of depths")
     script = (
-        "import sys\nfrom vexture.errors import VextureError\nfrom vexture.sources.depths import read_depths\n"
+        "import sys\nfrom vexture.errors import VextureError\nfrom vexture.geo.depths import read_depths\n"
         "for path in sys.argv[1:]:\n"
         "    for source in (path, open(path, 'rb').read()):\n"
         "        try:\n            read_depths(source, 'a')\n            print('read')\n"

@@ -11,10 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import vexture
-from vexture.cli import main
+from vexture.cli.main import main
 from vexture.drawing import FillRule, Paint
 from vexture.errors import LimitError, SourceError, SourceWarning
-from vexture.sources.geojson import MOST_NESTED, read_geojson
+from vexture.geo.geojson import MOST_NESTED, read_geojson
 
 OUTER = [[0, 0], [10, 0], [10, 5], [0, 5], [0, 0]]
 HOLE = [[2, 1], [4, 1], [4, 3], [2, 3], [2, 1]]

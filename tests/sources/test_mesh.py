@@ -7,8 +7,8 @@ import pytest
 import xarray
 
 from vexture.errors import LimitError, SourceError
-from vexture.render.exact import render_exact
-from vexture.sources.depths import read_depths
+from vexture.geo.depths import read_depths
+from vexture.renderers.exact import render_exact
 
 MIDDLE, RADIUS, SLOPE = (500_400.0, 4_090_300.0), 200.0, 0.02
 

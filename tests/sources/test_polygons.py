@@ -11,10 +11,10 @@ from geographic import FORMATS, LAKE, POND, UTM, file, geopackage_of, land, only
 
 import vexture
 from vexture.bezier.convert import straight
-from vexture.cli import main
+from vexture.cli.main import main
 from vexture.errors import DeviceError, LimitError, SourceError, SourceWarning
-from vexture.sources.extent import read_extent
-from vexture.sources.reading import is_geographic, read_drawing, start_of
+from vexture.geo.extent import read_extent
+from vexture.reading import is_geographic, read_drawing, start_of
 
 
 @pytest.mark.parametrize("as_bytes", [False, True])

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vexture.errors import LimitError, SourceError
-from vexture.sources.reference import (
+from vexture.geo.reference import (
     UNPLACED,
     MissingReferenceError,
     frame_around,

@@ -5,8 +5,8 @@ import pytest
 
 from vexture.bezier.convert import ellipse_cubics
 from vexture.errors import SourceError
-from vexture.sources.outline import Outline
-from vexture.sources.strokes import Stroke, arc_length, stroke_contours
+from vexture.svg.outline import Outline
+from vexture.svg.strokes import Stroke, arc_length, stroke_contours
 from vexture.tolerance import ROUND
 
 T = np.linspace(0, 1, 41)[:, None]

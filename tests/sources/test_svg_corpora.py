@@ -10,7 +10,7 @@ from svg_reference import difference
 
 from corpora import flags, mdi, simple_icons
 from vexture.errors import SourceWarning, VextureError
-from vexture.sources.svg import read_svg
+from vexture.svg.read import read_svg
 
 Corpus = Callable[[int, int], list[Path]]
 

@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from vexture.errors import SourceError, SourceWarning
-from vexture.sources.svg import read_svg
+from vexture.svg.read import read_svg
 
 FIXTURES = Path(__file__).parent / "fixtures"
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">'

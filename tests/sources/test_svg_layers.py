@@ -12,8 +12,8 @@ from corpora import flags
 from vexture.drawing import Drawing, FillRule, Paint
 from vexture.drawing import Path as Filled
 from vexture.errors import SourceError, SourceWarning, VextureError
-from vexture.render.exact import render_exact
-from vexture.sources.svg import read_svg
+from vexture.renderers.exact import render_exact
+from vexture.svg.read import read_svg
 
 FIXTURES = Path(__file__).parent / "fixtures"
 TOPICS = ("strokes", "structure", "style")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from vexture.sources.svg_path import path_outlines, valid_length
+from vexture.svg.path_data import path_outlines, valid_length
 
 
 @pytest.mark.parametrize(

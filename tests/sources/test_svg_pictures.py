@@ -10,7 +10,7 @@ from svg_reference import difference
 
 from vexture.drawing import Drawing
 from vexture.errors import SourceWarning
-from vexture.sources.svg import read_svg
+from vexture.svg.read import read_svg
 
 FIXTURES = Path(__file__).parent / "fixtures"
 TOPICS = ("paths", "shapes", "strokes", "structure", "style", "transform", "viewport")

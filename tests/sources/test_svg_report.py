@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from vexture.errors import SourceWarning
-from vexture.sources.svg import read_svg
+from vexture.svg.read import read_svg
 
 FIXTURES = Path(__file__).parent / "fixtures"
 

@@ -7,7 +7,7 @@ import pytest
 
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceWarning
-from vexture.sources.svg import read_svg
+from vexture.svg.read import read_svg
 
 ROOT = 'xmlns="http://www.w3.org/2000/svg" xmlns:map="urn:map" viewBox="0 0 100 100"'
 MAP = """<svg {}><style>.road {{ stroke: red; fill: none }} g > .road {{ stroke-width: 4 }}</style>

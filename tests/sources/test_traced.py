@@ -13,13 +13,13 @@ from click.testing import CliRunner
 from PIL import Image, ImageFilter
 
 import vexture
-from vexture.cli import main
+from vexture.cli.main import main
 from vexture.errors import LimitError, SourceError, SourceWarning, VextureError
 from vexture.live.documents import VIEWER_SETTINGS, shape_of
-from vexture.render.exact import render_exact
-from vexture.sources.images import MOST_PIXELS
-from vexture.sources.svg import svg_drawing
-from vexture.sources.traced import MOST_CURVES, MOST_PIECES, _outline
+from vexture.renderers.exact import render_exact
+from vexture.svg.read import svg_drawing
+from vexture.tracing.images import MOST_PIXELS
+from vexture.tracing.trace import MOST_CURVES, MOST_PIECES, _outline
 
 SHAPES = Path(__file__).parents[2] / "examples" / "shapes"
 
@@ -40,7 +40,7 @@ def gray(drawing, size):
 def coloured(drawing, width, height):
     """A drawing in its colours, not premultiplied, 8 bits; it is wider than high."""
     to_unit = [[1 / width, 0.0, 0.0], [0.0, -1 / width, 0.5 + 0.5 * height / width]]
-    image = vexture.render_layers(drawing, (width, height), to_unit, "exact")
+    image = vexture.render(drawing, (width, height), to_unit, "exact")
     image[..., :3] /= np.maximum(image[..., 3:], 1e-6)
     return np.rint(255.0 * np.clip(image, 0.0, 1.0)).astype(np.uint8)
 

@@ -76,7 +76,7 @@ def draw(page: Any, **config: Any) -> Picture:
 @cache
 def _exact(name: str, size: int, to_unit: tuple[float, ...] | None) -> Picture:
     matrix = None if to_unit is None else np.reshape(to_unit, (-1, 3))
-    return vexture.render(drawing(name), (size, size), matrix, renderer="exact").astype(np.float64)[..., None]
+    return vexture.coverage(drawing(name), (size, size), matrix, renderer="exact").astype(np.float64)[..., None]
 
 
 def exact(name: str, size: int = 512, to_unit: ArrayLike | None = None) -> Picture:

@@ -14,7 +14,7 @@ from viewer_page import manifest, thesis_view, view_matrix, write_page
 
 import vexture
 from cells import Cells, finest_level
-from vexture.encoding.packed_texture import PackedTexture
+from vexture.texture.texture import Texture
 
 SHAPES = ROOT / "examples" / "shapes"
 WINDOW = (1280, 720)
@@ -31,7 +31,7 @@ class Shown(NamedTuple):
     """A page with a shape, and what stands on it."""
 
     page: Any
-    texture: PackedTexture
+    texture: Texture
 
     def press(self, name: str) -> None:
         self.page.get_by_role("button", name=name, exact=True).click()
@@ -78,7 +78,7 @@ class Shown(NamedTuple):
         return self.box["x"] + x, self.box["y"] + y
 
 
-def write_pages(folder: Path) -> dict[str, PackedTexture]:
+def write_pages(folder: Path) -> dict[str, Texture]:
     """Write NAME.html for some textures; they are returned."""
     (folder / "boat.svg").write_text(BOAT)
     (folder / "favicon.ico").write_bytes(b"")  # which browsers ask servers for
@@ -91,7 +91,7 @@ def write_pages(folder: Path) -> dict[str, PackedTexture]:
     return textures
 
 
-def open_shape(open_page: Callable[..., Any], address: str, texture: PackedTexture) -> Shown:
+def open_shape(open_page: Callable[..., Any], address: str, texture: Texture) -> Shown:
     """Open a page, and wait until its shape is there."""
     page = open_page(f"{address}/{texture.name}.html", WINDOW)
     page.wait_for_function("window.vexture?.viewer?.ready")

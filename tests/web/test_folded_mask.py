@@ -11,9 +11,9 @@ from mask_page import THREES, decode, drawing, prepare
 
 import vexture
 from folded import Numbers, errors
-from vexture.encoding.packed_texture import PackedTexture
-from vexture.folding.fold import Fold, Kind
-from vexture.folding.shore import shore_fold
+from vexture.fold.fold import Fold, Kind
+from vexture.fold.shore import shore_fold
+from vexture.texture.texture import Texture
 
 SIZE = 128
 TIMES = [0.0, 1.7, 8604.1]
@@ -61,7 +61,7 @@ def uv_view(matrix: Numbers) -> list[float]:
     return [*np.ravel(matrix).tolist(), 0, 0, 1]
 
 
-def check(pictures: list[Numbers], fold: Fold, to_unit: Numbers, texture: PackedTexture, wrap: str = "none") -> None:
+def check(pictures: list[Numbers], fold: Fold, to_unit: Numbers, texture: Texture, wrap: str = "none") -> None:
     found = [
         errors(picture, texture, fold, to_unit, seconds, wrap=wrap)
         for picture, seconds in zip(pictures, TIMES, strict=True)

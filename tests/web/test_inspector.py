@@ -10,11 +10,11 @@ import pytest
 from numpy.typing import NDArray
 from overlay_page import Shown
 
-from vexture.encoding.packed_texture import PackedTexture
-from vexture.encoding.packed_walk import walk
+from vexture.texture.texture import Texture
+from vexture.texture.walk import walk
 
 
-def leaf_at(texture: PackedTexture, u: float, v: float) -> tuple[int, float, float, float, int, NDArray[np.float64]]:
+def leaf_at(texture: Texture, u: float, v: float) -> tuple[int, float, float, float, int, NDArray[np.float64]]:
     """Depth, corner, coverage, corner winding and curves, (n, 4, 2) in unit-square units, by FORMAT.md B.3 and B.4."""
     flat = texture.texels.reshape(-1, 4).astype(np.int64)
     quad, x, y, side, depth = texture.roots[0].quad, 0.0, 0.0, 1.0, 0

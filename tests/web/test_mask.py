@@ -101,7 +101,7 @@ def test_inside_is_another_colour_or_map(page: Any, screenshot: Callable[..., Pa
 
 
 def test_a_drawing_is_painted_in_its_colours(page: Any, screenshot: Callable[..., Path]) -> None:
-    layers = vexture.render_layers(drawing("glass"), (512, 512), renderer="exact")
+    layers = vexture.render(drawing("glass"), (512, 512), renderer="exact")
     on_white = layers[..., :3] + 1.0 - layers[..., 3:]
     for premultiplied in (False, True):
         parameters = {"mode": "paint", "premultipliedAlpha": premultiplied}
@@ -111,7 +111,7 @@ def test_a_drawing_is_painted_in_its_colours(page: Any, screenshot: Callable[...
     twice = {"mode": "paint", "wrap": "repeat", "transform": [2, 0, 0, 0, 2, 0, 0, 0, 1]}
     repeated = draw(page, material="VectorMaterial", parameters=twice, texture="paint")
     screenshot(page.locator("canvas"), "repeated")
-    small = vexture.render_layers(drawing("glass"), (256, 256), renderer="exact")
+    small = vexture.render(drawing("glass"), (256, 256), renderer="exact")
     assert distance(repeated, np.tile(small[..., :3] + 1.0 - small[..., 3:], (2, 2, 1))) <= HALF_STEP
     own = draw(page, parameters={"color": 0x4080A0}, mask={"mode": "paint"}, texture="paint")
     screenshot(page.locator("canvas"), "own")

@@ -180,7 +180,7 @@ def test_rivals_stand_in_step_with_the_picture(
     seen = pixels(page)[60 : height - 60, width // 2 + 30 : width]
     matrix = view_matrix(center, zoom, (width, height))
     if rival == "thesis16":
-        cover = vexture.render(pages["thesis"].texture, (width, height), matrix, renderer="cpu")
+        cover = vexture.coverage(pages["thesis"].texture, (width, height), matrix, renderer="cpu")
         expected = np.repeat(255.0 * (1.0 - cover[..., None]), 3, axis=2)
     else:
         expected = viewed.expected(matrix, (width, height))

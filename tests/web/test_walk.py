@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 import vexture
 from packed_walk import leaf_at, leaves
-from vexture.encoding.packed import decode_packed, info_packed
-from vexture.encoding.packed_texture import PackedTexture, load_packed
+from vexture.texture.decode import decode, info
+from vexture.texture.texture import Texture, load_packed
 
 SHAPES = ROOT / "examples" / "shapes"
 FIXTURES = ROOT / "web" / "test" / "fixtures"
@@ -47,7 +47,7 @@ def _saved(name: str, folder: Path) -> Path:
     if name.endswith(".ktx2"):
         return FIXTURES / name
     texture = vexture.convert(SHAPES / f"{name}.svg")
-    assert isinstance(texture, PackedTexture)
+    assert isinstance(texture, Texture)
     return texture.save(folder / f"{name}.ktx2")
 
 
@@ -67,12 +67,12 @@ def test_the_same_cells_curves_and_counts(name: str, tmp_path: Path) -> None:
     path = _saved(name, tmp_path)
     texture, points = load_packed(path), _points()
     within = ((points >= 0.0) & (points < 1.0)).all(axis=1)
-    described = info_packed(texture)["roots"]
+    described = info(texture)["roots"]
     for place, found in enumerate(_by_node(path, points, tmp_path)):
         for cell in (cell for cell, here in zip(found["cells"], within, strict=True) if not here):
             assert cell is None
         cells = [cell for cell, here in zip(found["cells"], within, strict=True) if here]
-        tree = leaves(decode_packed(texture, place))
+        tree = leaves(decode(texture, place))
         for index, cell in zip(leaf_at(tree, points[within]), cells, strict=True):
             leaf = tree[index]
             assert (cell["x"], cell["y"], cell["size"], cell["depth"]) == (leaf.x, leaf.y, leaf.side, leaf.depth)

@@ -14,8 +14,8 @@ from mask_page import THREES, decode, distance
 import vexture
 from folded import errors
 from vexture.drawing import Drawing
-from vexture.folding.fold import Fold
-from vexture.folding.shore import shore_fold
+from vexture.fold.fold import Fold
+from vexture.fold.shore import shore_fold
 
 PAGE = Path(__file__).parent / "pages" / "water.js"
 FLAT = 0x2050A0
@@ -89,7 +89,7 @@ def over_ground(coverage: np.ndarray) -> np.ndarray:
 
 
 def exact(name: str, size: int = 512, to_unit: np.ndarray | None = None) -> np.ndarray:
-    return vexture.render(bay(BAYS[name]), (size, size), to_unit, renderer="exact").astype(float)[..., None]
+    return vexture.coverage(bay(BAYS[name]), (size, size), to_unit, renderer="exact").astype(float)[..., None]
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -116,7 +116,7 @@ def test_flat_water_is_what_the_exact_renderer_draws(page: Any, kind: str, scree
     rows = slice(int(np.argmax(below.all(axis=1))) + 12, None)  # below the horizon
     shown = decode(drawn["picture"])[rows]
     below_horizon = to_unit @ np.array([[1, 0, 0], [0, 1, rows.start], [0, 0, 1.0]])
-    seen = vexture.render(bay(BAYS["bay"]), (512, len(shown)), below_horizon, renderer="exact")
+    seen = vexture.coverage(bay(BAYS["bay"]), (512, len(shown)), below_horizon, renderer="exact")
     assert ((seen > 0.01) & (seen < 0.99)).sum() > 100
     assert distance(shown, over_ground(seen.astype(float)[..., None])) <= 0.6
 
@@ -159,7 +159,7 @@ def test_what_is_far_narrower_than_the_foam_is_exact(page: Any, kind: str, place
     side = 512 * 4e-6
     transform = np.array([[side, 0, place[0] - side / 2], [0, side, place[1] - side / 2], [0, 0, 1]])
     to_unit = transform @ np.array([[1 / 512, 0, 0], [0, -1 / 512, 1], [0, 0, 1]])
-    expected = vexture.render(vexture.convert(specks()), (512, 512), to_unit).astype(float)[..., None]
+    expected = vexture.coverage(vexture.convert(specks()), (512, 512), to_unit).astype(float)[..., None]
     assert expected.min() == 0.0
     assert expected.max() == 1.0
     for width in (0.0, 0.05, 0.003):

@@ -12,8 +12,8 @@ from PIL import Image
 from viewer_page import data_url, manifest, thesis_view, write_page
 
 import vexture
+from vexture.images import render
 from vexture.live.documents import VIEWER_SETTINGS, shape_of
-from vexture.pictures import render_layers
 
 SIZE = (512, 512)
 PRECISION = 1e-7  # for views at 10,000x
@@ -36,9 +36,9 @@ class Viewed:
     def expected(self, matrix: NDArray[np.float64], size: tuple[int, int] = SIZE) -> NDArray[np.float64]:
         """Picture on white in 0..255, from the drawing itself."""
         if self.texture.roots[0].paint is None:
-            grey = 255.0 * (1.0 - vexture.render(self.drawing, size, matrix, renderer="exact").astype(np.float64))
+            grey = 255.0 * (1.0 - vexture.coverage(self.drawing, size, matrix, renderer="exact").astype(np.float64))
             return np.repeat(grey[..., None], 3, axis=2)
-        layers = render_layers(self.drawing, size, matrix, renderer="exact").astype(np.float64)
+        layers = render(self.drawing, size, matrix, renderer="exact").astype(np.float64)
         return 255.0 * (layers[..., :3] + 1.0 - layers[..., 3:])
 
 

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vexture.flood.grids import coverage_over, noise, shore_distance, size_for
 from vexture.flood.relief import Relief, first_wet, widest
-from vexture.sources.extent import Extent
+from vexture.geo.extent import Extent
 
 if TYPE_CHECKING:
     from PIL import Image

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
-from vexture.sources.frame import Frame
+from vexture.geo.frame import Frame
 
 __all__ = ["coverage_over", "filled", "noise", "pixels_to", "sampled", "shore_distance", "size_for"]
 
@@ -62,7 +62,7 @@ def coverage_over(
     array([[1., 0.],
            [1., 0.]], dtype=float32)
     """
-    from vexture.render.exact import render_exact
+    from vexture.renderers.exact import render_exact
 
     x0, y0, x1, y1 = box
     columns, rows = size

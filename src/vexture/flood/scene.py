@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 from vexture.flood.relief import Relief
 from vexture.flood.shore import Shore
-from vexture.sources.frame import Frame
-from vexture.sources.reference import system
+from vexture.geo.frame import Frame
+from vexture.geo.reference import system
 
 __all__ = ["Flood", "Note", "scene"]
 

@@ -1,6 +1,6 @@
 // How much of a shape lies in a box around each place: the raster that water reads beside the shape itself.
 // Exports: vextureTexelOf, vextureSpread.
-#include "packed_wrap.glsl"
+#include "wrap.glsl"
 #include "around.glsl"
 
 // Whether a box holds no outline at all, however small what it encloses: then all its cells are constant and alike. A

@@ -1,19 +1,20 @@
-// A flat picture of one pair of textures.
+// A flat or tilted picture of one shape in a packed texture.
 // Exports: view_coverage.
 #include "coverage.glsl"
 
-uniform sampler2D quads;
-uniform sampler2D curves;
-uniform mat3 to_unit;  // from pixel coordinates, y down, to the unit square
+uniform mat3 to_unit;  // from pixel coordinates, y down, to the unit square, relative to
+uniform uvec2 base;    // a point of it, 1.0 = 2^32
+uniform uint root;
 
+// The Jacobian of the map, at the pixel's centre: finite differences would lose digits in deep zoom, and be those of a
+// neighbour in tilted views.
 float view_coverage(vec2 pixel) {
     vec3 h = to_unit * vec3(pixel, 1.0);
-    vec2 center = h.xy / h.z;
-    vec2 dx = dFdx(center);
-    vec2 dy = dFdy(center);
-    // a neighbour beyond the horizon of a tilted view makes the steps meaningless
-    if (h.z <= abs(to_unit[0].z) + abs(to_unit[1].z)) {
+    if (h.z <= 0.5 * (abs(to_unit[0].z) + abs(to_unit[1].z))) {  // the pixel reaches the horizon
         return 0.0;
     }
-    return coverage(quads, curves, center, dx, dy);
+    vec2 offset = h.xy / h.z;
+    vec2 dx = (to_unit[0].xy - offset * to_unit[0].z) / h.z;
+    vec2 dy = (to_unit[1].xy - offset * to_unit[1].z) / h.z;
+    return vextureCoverage(root, base, offset, dx, dy);
 }

@@ -3,7 +3,7 @@
 //
 // How far the shore is follows from the rasters that shore.glsl draws: beside a straight shore the share of the box around
 // a place grows evenly from 1/2 on the shore to 1 at half the box's width from it.
-#include "packed_wrap.glsl"
+#include "wrap.glsl"
 #include "around.glsl"
 
 uniform int vextureShapes;    // none, one, or two while one turns into the other

@@ -156,9 +156,9 @@ def _nothing(how: Settings | Waters) -> None:
 
 def _convert(data: bytes, name: str, most: int, how: Settings | Waters) -> Shape:
     """Convert an upload, in the process."""
-    from vexture.encoding.ktx2 import MAGIC, TEXEL_BYTES
-    from vexture.encoding.packed_texture import packed_from
-    from vexture.sources.reading import is_geojson, is_picture
+    from vexture.reading import is_geojson, is_picture
+    from vexture.texture.ktx2 import MAGIC, TEXEL_BYTES
+    from vexture.texture.load import texture_from
 
     if isinstance(how, Waters):
         shape = how.shape_of(data, name)
@@ -168,7 +168,7 @@ def _convert(data: bytes, name: str, most: int, how: Settings | Waters) -> Shape
         kinds = ((".ktx2", data.startswith(MAGIC)), ("", is_picture(data)), (".geojson", is_geojson(data, "")))
         suffix = next((suffix for suffix, found in kinds if found), ".svg")
         shape = shape_of(data, name + suffix, name, how)
-    size = packed_from(shape.texture.data, name).nbytes
+    size = texture_from(shape.texture.data, name).nbytes
     if size > most:
         raise LimitError(
             f"{name}: its texture has {size // TEXEL_BYTES} texels; the limit is {most // TEXEL_BYTES}; simplify it"

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 from vexture.errors import LimitError, SourceError, SourceWarning
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
+from vexture.reading import is_geojson, is_picture
 from vexture.settings import Settings
-from vexture.sources.reading import is_geojson, is_picture
 
 if TYPE_CHECKING:
     import numpy as np
@@ -90,8 +90,8 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
     >>> shape.facts["segments"], shape.facts["box"]
     (4, [0.0, 0.0, 1.0, 1.0])
     """
-    from vexture.encoding.ktx2 import MAGIC
-    from vexture.encoding.layout import PACKED_SUFFIX
+    from vexture.layout import PACKED_SUFFIX
+    from vexture.texture.ktx2 import MAGIC
 
     suffix = PurePath(file_name).suffix.lower()
     if data.startswith(MAGIC) or suffix == PACKED_SUFFIX:
@@ -104,7 +104,7 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
     facts = {**shape.facts, "warnings": said}
     views = {}
     if not is_picture(data) and not is_geojson(data, file_name):
-        from vexture.sources.svg_document import decompressed
+        from vexture.svg.document import decompressed
 
         plain = decompressed(data)
         views["svg"] = File(plain, SVG_TYPE, ".svg")
@@ -112,8 +112,8 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
     return replace(shape, facts=facts, views=views)
 
 
-def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, bytes]:
-    """Convert a shape's source in the thesis encoding: both files, quads and curves.
+def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, ...]:
+    """Convert a shape's source in the thesis encoding: the contents of its files.
 
     The source is converted again each time; who serves it keeps it.
 
@@ -129,7 +129,6 @@ def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, bytes]:
     VextureError
         If there is no source, or it does not fit into so many bits.
     """
-    from vexture.encoding import ThesisTexture
     from vexture.pipeline import convert
 
     source = shape.views.get("svg")
@@ -138,8 +137,7 @@ def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, bytes]:
     with ONE_AT_A_TIME, warnings_said():
         drawing = replace(_read(source.data, f"{shape.name}.svg", Settings()), name=shape.name)
         texture = convert(drawing, encoding="thesis", bits=bits)
-    assert isinstance(texture, ThesisTexture)
-    return texture.to_png()
+    return tuple(texture.files().values())
 
 
 @contextmanager
@@ -156,7 +154,7 @@ def warnings_said() -> Iterator[list[str]]:
 def load_kernels() -> None:
     """Load the kernels, which only the first conversion of a process waits for: it is no part of any file's time."""
     from vexture.pipeline import convert
-    from vexture.sources.svg import svg_drawing
+    from vexture.svg.read import svg_drawing
 
     convert(svg_drawing(SMALL, "small.svg"), split="paint", precision=VIEW_PRECISION)
 
@@ -166,28 +164,28 @@ def _read(data: bytes, file_name: str, settings: Settings) -> "Drawing":
     if settings.select is not None and (picture or is_geojson(data, file_name)):
         raise LimitError(f"{file_name}: select={settings.select!r} chooses elements of an SVG; leave it out")
     if picture:
-        from vexture.sources.traced import read_image
+        from vexture.tracing.trace import read_image
 
         return read_image(data, file_name)
     if is_geojson(data, file_name):
-        from vexture.sources.geojson import read_geojson
+        from vexture.geo.geojson import read_geojson
 
         try:
             return read_geojson(data)
         except (SourceError, LimitError) as error:
             raise type(error)(f"{file_name}: {error}") from None
-    from vexture.sources.svg import svg_drawing
+    from vexture.svg.read import svg_drawing
 
     return svg_drawing(data, file_name, settings.select)
 
 
 def converted(drawing: "Drawing", file_name: str, settings: Settings, start: float) -> Shape:
     """Shape of a drawing, with the facts of its conversion."""
-    from vexture.pipeline import join, shapes_of
-    from vexture.quadtree.build_packed import largest_shift
+    from vexture.pipeline import combine, shapes_of
+    from vexture.tree.build import largest_shift
 
     part = shapes_of(drawing, settings)
-    texture = join([part], drawing.name, PurePath(file_name).name)
+    texture = combine([part], drawing.name, PurePath(file_name).name)
     milliseconds = 1000.0 * (time.perf_counter() - start)
     data = texture.to_ktx2()
     facts = {
@@ -206,11 +204,11 @@ def converted(drawing: "Drawing", file_name: str, settings: Settings, start: flo
 
 def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
     """Shape of a texture that is there already: what it does not say is None."""
-    from vexture.encoding import info
-    from vexture.encoding.packed_texture import packed_from
 
-    texture = packed_from(data, file_name)
-    roots: list[dict[str, Any]] = info(texture)["roots"]
+    from vexture.texture.load import texture_from
+
+    texture = texture_from(data, file_name)
+    roots: list[dict[str, Any]] = texture.info()["roots"]
     facts = {
         "segments": None,
         "layers": len(roots),
@@ -230,10 +228,10 @@ def _box_in_browsers(content: bytes, to_source: "NDArray[np.float64]") -> list[f
     """Where in the unit square a browser's picture of an SVG stands: x0, y0, x1, y1."""
     import numpy as np
 
-    from vexture.sources.svg import frame
-    from vexture.sources.svg_document import parse_svg
-    from vexture.sources.svg_report import Report
-    from vexture.sources.svg_scene import Scene
+    from vexture.svg.document import parse_svg
+    from vexture.svg.read import frame
+    from vexture.svg.report import Report
+    from vexture.svg.scene import Scene
 
     framed = frame(Scene(parse_svg(content), Report("")))
     size, matrix = ANONYMOUS_WINDOW, np.eye(2, 3)

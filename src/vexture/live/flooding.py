@@ -14,12 +14,12 @@ from vexture.errors import LimitError, SourceError, SourceWarning
 from vexture.flood.asked import Asked
 from vexture.flood.naming import PREFIX, labels, step_names
 from vexture.flood.scene import Flood, Note, scene
+from vexture.geo.extent import Extent
 from vexture.live.limits import Limits
 from vexture.live.manifest import manifest
 from vexture.live.page import FLOOD, built, data_address, served_page, whole_page
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
 from vexture.live.waters import Waters
-from vexture.sources.extent import Extent
 
 __all__ = ["Made", "export", "make", "serve"]
 
@@ -119,7 +119,7 @@ def make(asked: Asked, say: Say) -> Made:
 
 
 def _read(asked: Asked) -> Extent:
-    from vexture.sources.extent import read_extent
+    from vexture.geo.extent import read_extent
 
     if asked.extent.is_dir():
         raise SourceError(f"--extent {asked.extent}: is a folder; name a file in it that says where water is")
@@ -138,8 +138,8 @@ def _shapes(extent: Extent, waters: Waters) -> list[Shape]:
 
 def _fold(drawing: Drawing, amplitude: float, period: float, metres: tuple[float, float]) -> tuple[bytes, float]:
     """File that moves the shoreline up and down the beach, and by how many metres it does at most."""
-    from vexture.folding.shore import shore_fold
-    from vexture.sources.frame import MARGIN
+    from vexture.fold.shore import shore_fold
+    from vexture.geo.frame import MARGIN
 
     share = (1.0 - 2.0 * MARGIN) / max(metres)
     with warnings.catch_warnings():
@@ -156,8 +156,8 @@ def export(asked: Asked, output: Path, say: Say) -> tuple[Made, int]:
     VextureError
         If a file cannot be read, the page is not built or cannot be written.
     """
-    from vexture.encoding.files import write_together
     from vexture.flood.ground import GROUND_TYPE
+    from vexture.texture.files import write_together
 
     if output.suffix.lower() not in PAGE_SUFFIXES:
         raise LimitError(f"--output {output}: the page is an HTML file; name one that ends in {PAGE_SUFFIXES[0]}")

@@ -11,7 +11,7 @@ from starlette.responses import JSONResponse, Response
 from starlette.routing import BaseRoute, Route
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from vexture.encoding.layout import CURVES_SUFFIX, QUADS_SUFFIX
+from vexture.encodings import find_encoding
 from vexture.errors import VextureError
 from vexture.live.documents import THESIS_BITS, shape_of, thesis_pair
 from vexture.live.manifest import manifest
@@ -32,7 +32,6 @@ MOST_PAIRS = 32
 """Thesis encodings that are kept, each a few kilobytes."""
 
 MOST_NAME_LENGTH = 200
-PAIR_SUFFIXES = (QUADS_SUFFIX, CURVES_SUFFIX)
 
 
 class KnownHosts:
@@ -120,15 +119,15 @@ def thesis_addresses(shape: Shape) -> dict[str, list[str]]:
     """
     if "svg" not in shape.views:
         return {}
-    return {view: [f"../views/{shape.version}/{view}{suffix}" for suffix in PAIR_SUFFIXES] for view in THESIS_BITS}
+    return {view: [f"../views/{shape.version}/{view}{suffix}" for suffix in find_encoding("thesis").SUFFIXES] for view in THESIS_BITS}
 
 
 def thesis_routes(shelf: Shelf) -> list[BaseRoute]:
     """Routes of the thesis encodings of a shelf's shapes, which are made when someone wants to see them."""
     files = {
-        view + suffix: (bits, place) for view, bits in THESIS_BITS.items() for place, suffix in enumerate(PAIR_SUFFIXES)
+        view + suffix: (bits, place) for view, bits in THESIS_BITS.items() for place, suffix in enumerate(find_encoding("thesis").SUFFIXES)
     }
-    pairs: OrderedDict[tuple[str, int], asyncio.Future[tuple[bytes, bytes]]] = OrderedDict()
+    pairs: OrderedDict[tuple[str, int], asyncio.Future[tuple[bytes, ...]]] = OrderedDict()
 
     async def view(request: Request) -> Response:
         version, name = request.path_params["version"], request.path_params["name"]

@@ -32,8 +32,8 @@ def export(paths: Sequence[Path], output: Path, title: str | None, settings: Set
     VextureError
         If a file is no drawing, the page is not built or cannot be written.
     """
-    from vexture.encoding.files import write_together
     from vexture.live.page import SCRIPT, built, exported_page
+    from vexture.texture.files import write_together
 
     if output.suffix.lower() not in PAGE_SUFFIXES:
         raise LimitError(f"--output {output}: the page is an HTML file; name one that ends in {PAGE_SUFFIXES[0]}")

@@ -79,7 +79,7 @@ def read_source(path: Path) -> bytes:
     SourceError
         If it cannot be read or is too large.
     """
-    from vexture.sources.svg_document import read_bytes
+    from vexture.svg.document import read_bytes
 
     try:
         return read_bytes(path)

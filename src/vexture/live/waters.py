@@ -11,11 +11,11 @@ import numpy as np
 
 from vexture.errors import LimitError, SourceError, VextureError
 from vexture.flood.naming import PREFIX, labels
+from vexture.geo.extent import Extent, Step
+from vexture.geo.frame import Frame
 from vexture.live.documents import converted, load_kernels, texture_shape, warnings_said
 from vexture.live.shelf import File, Shape
 from vexture.settings import Settings
-from vexture.sources.extent import Extent, Step
-from vexture.sources.frame import Frame
 
 __all__ = ["WATER_SETTINGS", "Waters"]
 
@@ -42,7 +42,7 @@ class Waters:
     hmin : float
         Depth in metres from which a place is wet.
     options : mapping
-        Further parameters of `vexture.sources.extent.read_extent`.
+        Further parameters of `vexture.geo.extent.read_extent`.
     settings : Settings
         How drawings are converted.
     """
@@ -91,8 +91,8 @@ class Waters:
         VextureError
             If it is no flood data, says no place, or lies outside the frame.
         """
-        from vexture.encoding.ktx2 import MAGIC
-        from vexture.sources.reading import is_geographic
+        from vexture.reading import is_geographic
+        from vexture.texture.ktx2 import MAGIC
 
         if name != PREFIX and not name.startswith(f"{PREFIX}/"):
             raise LimitError(f"{name}: this server shows {PREFIX} and {PREFIX}/NAME only; publish under such a name")
@@ -111,9 +111,9 @@ class Waters:
         return replace(shape, facts={**shape.facts, "warnings": said})
 
     def _read(self, data: bytes, name: str) -> Extent:
-        from vexture.sources.extent import read_extent
-        from vexture.sources.reading import holds_depths
-        from vexture.sources.reference import MissingReferenceError
+        from vexture.geo.extent import read_extent
+        from vexture.geo.reference import MissingReferenceError
+        from vexture.reading import holds_depths
 
         kind = DEPTH_OPTIONS if holds_depths(data, name) else AREA_OPTIONS
         options = {option: value for option, value in self.options.items() if option in kind}
@@ -140,9 +140,9 @@ class Waters:
 
     def _texture(self, data: bytes, name: str) -> Shape:
         """Shape of a texture that was made in our frame."""
-        from vexture.encoding.packed_texture import packed_from
+        from vexture.texture.load import texture_from
 
-        roots = packed_from(data, name).roots
+        roots = texture_from(data, name).roots
         ours = self.frame.to_source
         if len(roots) != 1:
             raise LimitError(f"{name}: the texture holds {len(roots)} shapes; send one with one, or the data it is of")

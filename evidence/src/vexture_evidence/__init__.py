@@ -1,0 +1,1 @@
+"""The evidence for vexture: measures, rivals, figures and the report."""

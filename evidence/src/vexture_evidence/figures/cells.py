@@ -1,0 +1,247 @@
+"""The subdivision that a drawing became: cells shaded by how full or how deep they are, and the curves within."""
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.texture.outlines import outlines
+from vexture.texture.texture import Texture
+from vexture.thesis.texture import ThesisTexture
+from vexture_evidence.figures.style import GRID, INK, MUTED, SMALL, panels, unit_axes
+from vexture_evidence.measures.leaves import Leaves, Tree, leaves
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["UNIT", "add_scale", "curve_lines", "draw_cells", "draw_level_lines", "subdivision", "subdivisions"]
+
+UNIT: Final = (0.0, 0.0, 1.0, 1.0)
+"""The unit square: x0, y0, x1, y1."""
+
+FINEST: Final = 256
+"""Cells smaller than this part of what is seen are shown by their mean, as a picture of so many pixels."""
+
+BORDERED: Final = 128
+"""Cells smaller than this part of what is seen have no border."""
+
+MANY: Final = 2000
+"""So many curves are drawn by thinner lines."""
+
+PAPER: Final = "#ffffff"
+SHADE: Final = "#8fa9c4"
+"""Of a full cell: curves must be seen above it."""
+
+DEPTHS: Final = ("#fff7e0", "#fdd67e", "#ef8f3f", "#c2451e", "#6e0f1a")
+"""From the least depth to the largest: darker is deeper."""
+
+
+def draw_cells(
+    axes: "Axes",
+    found: Leaves,
+    *,
+    shades: Literal["coverage", "depth"] = "coverage",
+    curves: bool = True,
+    colour: str = INK,
+    bounds: Sequence[float] = UNIT,
+    deepest: int | None = None,
+) -> Any:
+    """Draw leaves into axes of the unit square, or of a part of it.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    found : Leaves
+        Of `vexture_evidence.measures.leaves.leaves`.
+    shades : str
+        ``"coverage"`` shades every cell by how much of it is filled, ``"depth"`` by how deep in the tree it is.
+    curves : bool
+        Whether to draw the curves.
+    colour : str
+        Of the curves.
+    bounds : sequence of float
+        What is seen: x0, y0, x1, y1. Cells smaller than 1/128 of it have no border.
+    deepest : int, optional
+        Depth that the darkest shade stands for, so that several trees have one scale; the leaves' own by default.
+
+    Returns
+    -------
+    matplotlib.collections.PolyCollection
+        Made of the cells; what a colour bar is for.
+    """
+    from matplotlib.collections import PolyCollection
+
+    x0, y0, x1, y1 = bounds
+    seen = (found.x < x1) & (found.x + found.side > x0) & (found.y < y1) & (found.y + found.side > y0)
+    relative = found.side / max(x1 - x0, y1 - y0)
+    large = seen & (relative * FINEST >= 1.0)
+    values = found.coverage if shades == "coverage" else found.depth.astype(np.float64)
+    scale = _scale(shades, deepest or int(found.depth.max()))
+    small = seen & ~large
+    if small.any():
+        axes.imshow(_means(found, values, small, bounds), extent=(x0, x1, y0, y1), interpolation="nearest", **scale)
+    x, y, side = found.x[large], found.y[large], found.side[large]
+    squares = np.stack([x, y, x + side, y, x + side, y + side, x, y + side], axis=1).reshape(-1, 4, 2)
+    width = np.where(relative[large] * BORDERED >= 1.0, 0.5, 0.0)
+    cells = PolyCollection(list(squares), array=values[large], edgecolors=GRID, linewidths=width, **scale)
+    axes.add_collection(cells, autolim=False)
+    if curves:
+        points = curve_lines(found, bounds)
+        axes.plot(
+            *points.T,
+            color=colour,
+            linewidth=1.1 if len(found.curves) < MANY else 0.6,
+            solid_joinstyle="round",
+            scalex=False,
+            scaley=False,
+        )
+    unit_axes(axes, bounds=bounds)
+    return cells
+
+
+def draw_level_lines(axes: "Axes", texture: Texture, root: str | int = 0, *, colour: str = INK) -> None:
+    """Dot the horizontal lines of a packed shape: leaves hold few of them, for they follow from the other curves."""
+    contours = outlines(texture.flat, texture.root(root).quad)
+    arcs = np.concatenate([np.empty((0, 4, 2)), *contours])
+    ends = arcs[arcs[:, 0, 1] == arcs[:, 3, 1]][:, [0, 3]]
+    points = np.pad(ends, ((0, 0), (0, 1), (0, 0)), constant_values=np.nan).reshape(-1, 2)
+    axes.plot(*points.T, color=colour, linewidth=0.9, linestyle=(0, (1, 1.5)), scalex=False, scaley=False)
+
+
+def curve_lines(found: Leaves, bounds: Sequence[float] = UNIT) -> NDArray[np.float64]:
+    """Points along the curves of the leaves that are seen, each ended by a point that is not a number, (n, 2).
+
+    Small ones have fewer points, as many as can be told apart in a picture.
+    """
+    x0, y0, x1, y1 = bounds
+    ends = found.owner
+    low, side = np.stack([found.x, found.y], axis=1)[ends], found.side[ends]
+    seen = (low < (x1, y1)).all(axis=1) & (low + side[:, None] > (x0, y0)).all(axis=1)
+    relative = side / max(x1 - x0, y1 - y0)
+    parts = [np.empty((0, 2))]
+    for chords, least, most in ((32, 1 / 64, np.inf), (8, 1 / 512, 1 / 64), (2, 0.0, 1 / 512)):
+        points = found.lines(chords, seen & (relative >= least) & (relative < most))
+        parts.append(np.pad(points, ((0, 0), (0, 1), (0, 0)), constant_values=np.nan).reshape(-1, 2))
+    return np.concatenate(parts)
+
+
+def subdivision(
+    shape: Tree | ThesisTexture | Texture,
+    *,
+    root: str | int = 0,
+    shades: Literal["coverage", "depth"] = "coverage",
+    bounds: Sequence[float] = UNIT,
+) -> "Figure":
+    """Show the cells that a shape was divided into, with the curve or the curves of each.
+
+    Of a packed texture the horizontal lines that no leaf holds are dotted.
+
+    Parameters
+    ----------
+    shape : CellTree, PackedTree, ThesisTexture or Texture
+    root : str or int
+        Name or place of the shape in a packed texture.
+    shades : str
+        ``"coverage"`` shades every cell by how much of it is filled, ``"depth"`` by how deep in the tree it is.
+    bounds : sequence of float
+        What is seen of the unit square: x0, y0, x1, y1.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> import vexture
+    >>> from vexture_evidence.measures.shape import example
+    >>> figure = subdivision(vexture.convert(example("duck")))
+    >>> tuple(map(float, figure.axes[0].get_xlim()))
+    (0.0, 1.0)
+    """
+    found = leaves(shape, root)
+    figure, axes = panels(1, 1, side=4.4, height=3.8, titles=(f"{len(found.x):,} cells, {len(found.curves):,} curves",))
+    cells = draw_cells(axes[0, 0], found, shades=shades, bounds=bounds)
+    if isinstance(shape, Texture):
+        draw_level_lines(axes[0, 0], shape, root)
+    add_scale(figure, axes[0, 0], cells, shades)
+    return figure
+
+
+def subdivisions(
+    shapes: Mapping[str, Tree | ThesisTexture | Texture],
+    *,
+    shades: Literal["coverage", "depth"] = "coverage",
+) -> "Figure":
+    """Show the cells of several trees side by side, shaded by one scale.
+
+    Parameters
+    ----------
+    shapes : mapping
+        Titles and what has leaves. Of packed textures the first shape is shown.
+    shades : str
+        As of `subdivision`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> import vexture
+    >>> from vexture_evidence.measures.shape import example
+    >>> pair = vexture.convert(example("duck"), encoding="thesis")
+    >>> subdivisions({"direct": pair}, shades="depth").axes[0].get_title(loc="left")
+    'direct: 49 cells'
+    """
+    found = {title: leaves(shape) for title, shape in shapes.items()}
+    titles = [f"{title}: {len(each.x):,} cells" for title, each in found.items()]
+    figure, axes = panels(1, len(found), side=11.2 / max(3, len(found)), height=3.5, titles=titles)
+    deepest = max(int(each.depth.max()) for each in found.values())
+    for panel, each, shape in zip(axes[0], found.values(), shapes.values(), strict=True):
+        cells = draw_cells(panel, each, shades=shades, deepest=deepest)
+        if isinstance(shape, Texture):
+            draw_level_lines(panel, shape)
+        unit_axes(panel, ticks=panel is axes[0, 0])
+    add_scale(figure, list(axes[0]), cells, shades)
+    return figure
+
+
+def add_scale(figure: "Figure", axes: Any, cells: Any, shades: Literal["coverage", "depth"]) -> None:
+    """Say beside axes what the shades of cells mean."""
+    if shades == "coverage":
+        bar = figure.colorbar(cells, ax=axes, shrink=0.7, ticks=[0.0, 0.5, 1.0])
+        label = "filled part of the cell"
+    else:
+        least, most = (round(end) for end in cells.get_clim())
+        bar = figure.colorbar(cells, ax=axes, shrink=0.7, ticks=range(least + 1, most + 1, 1 + most // 12))
+        label = "depth of the cell"
+    bar.set_label(label, fontsize=SMALL, color=INK)
+    bar.outline.set_visible(False)
+    bar.ax.tick_params(length=2, labelsize=SMALL, labelcolor=MUTED)
+
+
+def _scale(shades: str, most: int) -> dict[str, Any]:
+    """Colours and range of cells' shades."""
+    from matplotlib.colors import LinearSegmentedColormap, Normalize
+
+    if shades == "coverage":
+        return {"cmap": LinearSegmentedColormap.from_list("cells", [PAPER, SHADE]), "norm": Normalize(0.0, 1.0)}
+    steps = LinearSegmentedColormap.from_list("depths", list(DEPTHS), N=most)
+    return {"cmap": steps, "norm": Normalize(0.5, most + 0.5)}
+
+
+def _means(
+    found: Leaves, values: NDArray[np.float64], small: NDArray[np.bool_], bounds: Sequence[float]
+) -> NDArray[np.float64]:
+    """Mean of some leaves' values, by their areas, in each pixel of what is seen; NaN where there are none."""
+    x0, y0, x1, y1 = bounds
+    half = found.side[small] / 2
+    column = np.floor((found.x[small] + half - x0) / (x1 - x0) * FINEST).astype(np.int64)
+    row = np.floor((y1 - found.y[small] - half) / (y1 - y0) * FINEST).astype(np.int64)
+    pixel = np.clip(row, 0, FINEST - 1) * FINEST + np.clip(column, 0, FINEST - 1)
+    area = np.bincount(pixel, half**2, FINEST**2)
+    total = np.bincount(pixel, values[small] * half**2, FINEST**2)
+    mean: NDArray[np.float64] = np.divide(total, area, out=np.full(FINEST**2, np.nan), where=area > 0.0)
+    return mean.reshape(FINEST, FINEST)

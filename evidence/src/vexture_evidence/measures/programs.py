@@ -1,0 +1,239 @@
+"""The shaders that are compared, each compiled once and used for pictures and for times alike.
+
+All have one and the same `main`: the pixel's place in the unit square and its derivatives come from a matrix, never
+from neighbouring pixels, and the picture may repeat in tiles, so that small views can be drawn many times at once.
+"""
+
+import re
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.drawing import Drawing
+from vexture.renderers import shading
+from vexture.renderers.device import context
+from vexture.renderers.exact import render_exact
+from vexture.renderers.shader import shader_source, vertex_source
+from vexture.renderers.view import view_base
+from vexture.texture.encode import encode
+from vexture.texture.texture import Root, Texture
+from vexture.thesis.gpu import fold
+from vexture.thesis.shader import TextureSizes, compose
+from vexture.thesis.texture import ThesisTexture
+from vexture.tree.build import build_tree
+from vexture_evidence.measures.bands import BandTexture, band_constants, band_shader
+
+__all__ = [
+    "Program",
+    "Target",
+    "band_program",
+    "driver",
+    "fetch_program",
+    "packed_program",
+    "packed_texture",
+    "seconds",
+    "target",
+    "thesis_program",
+]
+
+VERSION: Final = "330"
+IMAGE_SIDE: Final = 1024
+"""Pixels of the mip-mapped picture's side."""
+
+ROUND_SIDE: Final = 256
+"""Pixels; pictures are drawn into targets whose sides are multiples of it, so that few are needed."""
+
+MAIN: Final = """
+uniform mat3 to_unit;  // from pixel coordinates, y down, to the unit square
+uniform vec2 tile;     // pixels after which the picture repeats
+out float coverage_of_pixel;
+void main() {
+    vec3 h = to_unit * vec3(mod(gl_FragCoord.xy, tile), 1.0);
+    vec2 uv = h.xy / h.z;
+    vec2 dx = (to_unit[0].xy - uv * to_unit[0].z) / h.z;
+    vec2 dy = (to_unit[1].xy - uv * to_unit[1].z) / h.z;
+    coverage_of_pixel = CALL;
+}
+"""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Target:
+    """A picture to draw into."""
+
+    size: tuple[int, ...]
+    frame: Any
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Program:
+    """A compiled shader and the textures that it reads.
+
+    Parameters
+    ----------
+    name : str
+        For the tables.
+    constants : mapping
+        What was compiled in, for the tables.
+    triangle : moderngl.VertexArray
+        The program with the triangle that covers the picture.
+    textures : mapping
+        By the names of the shader's samplers.
+    uniforms : mapping
+        Further values to set.
+    based : bool
+        Whether positions are relative to a point of the unit square in view (uniform base, 1.0 = 2^32).
+    """
+
+    name: str
+    constants: Mapping[str, Any]
+    triangle: Any
+    textures: Mapping[str, Any]
+    uniforms: Mapping[str, Any] = field(default_factory=dict)
+    based: bool = False
+
+    def prepare(self, to_unit: NDArray[np.float64], tile: tuple[int, int]) -> None:
+        """Set everything but the picture."""
+        shader = self.triangle.program
+        for unit, (name, texture) in enumerate(self.textures.items()):
+            texture.use(unit)
+            shader[name] = unit
+        for name, value in self.uniforms.items():
+            shader[name] = value
+        shader["tile"] = tile
+        if self.based:
+            base = view_base(to_unit, tile)
+            shader["base"] = base
+            to_unit = to_unit.copy()
+            to_unit[:2] -= np.outer(base, to_unit[2]) / 2.0**32
+        shader["to_unit"].write(to_unit.T.astype(np.float32).tobytes())
+
+    def image(self, size: tuple[int, int], to_unit: NDArray[np.float64]) -> NDArray[np.float32]:
+        """Picture by the same program, (height, width)."""
+        current()
+        frame = target(tuple(-(-side // ROUND_SIDE) * ROUND_SIDE for side in size)).frame
+        frame.viewport = (0, 0, *size)
+        frame.use()
+        self.prepare(to_unit, size)
+        self.triangle.render(vertices=3)
+        pixels = np.frombuffer(frame.read(viewport=frame.viewport, components=1, dtype="f4", alignment=1), np.float32)
+        return pixels.reshape(size[1], size[0]).copy()
+
+
+def current() -> Any:
+    """The OpenGL context, made current and left so: these programs are for one thread."""
+    return context().__enter__()
+
+
+@cache
+def target(size: tuple[int, ...]) -> Target:
+    """Picture of one float32 channel, kept for the next caller."""
+    gl = current()
+    return Target(size, gl.framebuffer([gl.texture(size, 1, dtype="f4")]))
+
+
+def driver() -> str:
+    """Name and version of the OpenGL driver."""
+    info = current().info
+    return f"{info['GL_RENDERER']}, {info['GL_VERSION']}"
+
+
+def seconds(program: Program, drawn: Target, to_unit: NDArray[np.float64], tile: tuple[int, int], draws: int) -> float:
+    """Time of some draws, from the first call until the device has finished the last."""
+    gl = current()
+    drawn.frame.viewport = (0, 0, *drawn.size)
+    drawn.frame.use()
+    program.prepare(to_unit, tile)
+    gl.finish()
+    start = time.perf_counter()
+    for _ in range(draws):
+        program.triangle.render(vertices=3)
+    gl.finish()
+    return time.perf_counter() - start
+
+
+def main_calling(call: str) -> str:
+    """Text of `main` with an expression of uv, dx and dy."""
+    return MAIN.replace("CALL", call)
+
+
+def fragment(text: str, call: str) -> str:
+    """Whole fragment shader of some text of our own and the common `main`."""
+    return f"#version {VERSION}\n" + text + main_calling(call)
+
+
+@cache
+def compiled(source: str) -> Any:
+    """Triangle with a program, compiled once for each text."""
+    gl = current()
+    return gl.vertex_array(gl.program(vertex_shader=vertex_source(VERSION), fragment_shader=source), [])
+
+
+def nearest(pixels: NDArray[Any], kind: str) -> Any:
+    """Array of (rows, width, channels) as a texture that is read texel by texel."""
+    made = current().texture(pixels.shape[1::-1], pixels.shape[2], np.ascontiguousarray(pixels).tobytes(), dtype=kind)
+    made.filter = (0x2600, 0x2600)  # GL_NEAREST
+    return made
+
+
+def rows_of(values: NDArray[Any], width: int) -> NDArray[Any]:
+    """List of texels in rows of a texture, the last row filled up with zeros."""
+    padded = np.zeros((-(-len(values) // width) * width, values.shape[1]), values.dtype)
+    padded[: len(values)] = values
+    return padded.reshape(-1, width, values.shape[1])
+
+
+def band_program(texture: BandTexture) -> Program:
+    """The band algorithm on its texture."""
+    constants = band_constants(texture.bands)
+    width = 1 << int(constants["ROW_BITS"])
+    lists = nearest(rows_of(texture.lists[:, None], width), "u4")
+    outlines = nearest(rows_of(texture.outlines, width), "f4")
+    source = fragment(band_shader(texture.bands), "band_coverage(uv, dx, dy)")
+    textures = {"band_lists": lists, "outlines": outlines}
+    return Program("bands", constants, compiled(source), textures, {"band_box": tuple(texture.box)})
+
+
+def packed_texture(drawing: Drawing, **parameters: Any) -> Texture:
+    """Packed texture of one drawing; parameters of `build_tree`."""
+    return encode([build_tree(drawing, **parameters)], [Root(drawing.name)], name=drawing.name)
+
+
+def packed_program(texture: Texture, quality: str, root: int = 0) -> Program:
+    """The packed texture's shader, of one quality, on its texture."""
+    text = shader_source(VERSION, quality)
+    constants = {name: float(value) for name, value in re.findall(r"#define VEXTURE_(\w+) ([-.e\d]+)\n", text)}
+    main = "uniform uint root;\nuniform uvec2 base;\n" + main_calling("vextureCoverage(root, base, uv, dx, dy)")
+    textures = {"vextureTexels": nearest(texture.texels, "u4")}
+    uniforms = {"root": texture.roots[root].quad}
+    return Program(quality, constants, compiled(f"#version {VERSION}\n" + text + main), textures, uniforms, True)
+
+
+def thesis_program(texture: ThesisTexture) -> Program:
+    """The thesis's shader on its texture."""
+    sizes = TextureSizes.of(texture, current().info["GL_MAX_TEXTURE_SIZE"])
+    textures = {
+        name: nearest(fold(rows, sizes.fold_height), "f4")
+        for name, rows in (("quads", texture.quads), ("curves", texture.curves))
+    }
+    inputs = "uniform sampler2D quads;\nuniform sampler2D curves;\n"
+    source = compose(VERSION, "coverage.glsl", inputs + main_calling("coverage(quads, curves, uv, dx, dy)"), sizes)
+    lengths = {"list_lengths": (len(texture.quads), len(texture.curves))}
+    constants = {"SAMPLES": shading.SAMPLES, "bits": 8 * texture.quads.dtype.itemsize}
+    return Program("thesis", constants, compiled(source), textures, lengths)
+
+
+def fetch_program(drawing: Drawing) -> Program:
+    """One trilinear fetch from a mip-mapped picture of the drawing: the limit."""
+    size = (IMAGE_SIDE, IMAGE_SIDE)
+    pixels = np.rint(255.0 * render_exact(drawing, size)).astype(np.uint8)[::-1]
+    made = current().texture(size, 1, np.ascontiguousarray(pixels).tobytes())
+    made.build_mipmaps()
+    made.filter = (0x2703, 0x2601)  # GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR
+    source = fragment("uniform sampler2D image;\n", "texture(image, uv).x")
+    return Program("fetch", {"side": IMAGE_SIDE}, compiled(source), {"image": made})

@@ -1,0 +1,140 @@
+"""A drawing with all that is made of it, each made once: what tables and figures are about."""
+
+import sysconfig
+from dataclasses import replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from vexture.errors import LimitError, SourceError
+from vexture.pipeline import Conversion, run
+from vexture.thesis.layout import LIST_LIMIT
+
+if TYPE_CHECKING:
+    from vexture.drawing import Drawing
+    from vexture.texture.texture import Texture
+    from vexture.thesis.texture import ThesisTexture
+
+__all__ = ["WAYS", "Shape", "example", "file_bytes"]
+
+WAYS: Final[dict[str, dict[str, Any]]] = {
+    "sampled": {"encoding": "thesis", "strategy": "sampled"},
+    "direct": {"encoding": "thesis", "strategy": "direct"},
+    "packed": {"encoding": "packed"},
+}
+"""The thesis's own way, ours to its leaves, and ours: parameters of `vexture.convert`."""
+
+MOST_FOR_SAMPLED: Final = 3000
+"""Quads of ``direct``; where there are more, ``sampled`` takes minutes."""
+
+FOLDERS: Final = (
+    Path(__file__).resolve().parents[4] / "examples" / "shapes",  # in a clone
+    Path(sysconfig.get_path("data")) / "share" / "vexture" / "shapes",  # where a wheel puts them
+)
+
+
+def example(name: str) -> Path:
+    """File of one of the example drawings.
+
+    Raises
+    ------
+    SourceError
+        If it is not there.
+
+    Examples
+    --------
+    >>> example("duck").name
+    'duck.svg'
+    """
+    for folder in FOLDERS:
+        if (path := folder / f"{name}.svg").is_file():
+            return path
+    raise SourceError(f"the example drawing {name}.svg is in none of {', '.join(map(str, FOLDERS))}; install again")
+
+
+def file_bytes(texture: "Texture | ThesisTexture") -> int:
+    """Size of a texture's file, or of its pair of files.
+
+    Examples
+    --------
+    >>> texture = Shape(example("duck")).way("direct").texture
+    >>> file_bytes(texture) == sum(map(len, texture.to_png()))
+    True
+    """
+    return sum(map(len, texture.files().values()))
+
+
+class Shape:
+    """A drawing and its conversions.
+
+    Parameters
+    ----------
+    path : path
+        What `vexture.convert` reads.
+    name : str, optional
+        What it is called, where that of the file is not enough.
+
+    Examples
+    --------
+    >>> duck = Shape(example("duck"))
+    >>> duck.name, duck.way("packed").texture.nbytes % 16
+    ('duck', 0)
+    """
+
+    def __init__(self, path: Path, name: str | None = None) -> None:
+        self.path = path
+        self._name = name
+        self._ways: dict[tuple[str, int | None], Conversion | LimitError] = {}
+
+    @property
+    def name(self) -> str:
+        """Of the drawing, if it has no other."""
+        return self._name or self.drawing.name
+
+    @cached_property
+    def drawing(self) -> "Drawing":
+        """The normal form."""
+        from vexture.reading import read_drawing
+
+        return read_drawing(self.path)
+
+    def way(self, way: str, bits: int | None = None) -> Conversion:
+        """Tree and texture by one of `WAYS`; `bits` of those with the encoding ``thesis``, 16 if None.
+
+        Raises
+        ------
+        LimitError
+            If the encoding cannot hold the drawing, or ``sampled`` would take minutes.
+        """
+        given = dict(WAYS[way])
+        if given["encoding"] == "thesis":
+            given["bits"] = bits or max(LIST_LIMIT)
+        key = way, given.get("bits")
+        if key not in self._ways:
+            try:
+                if way == "sampled":
+                    self._check_sampled()
+                self._ways[key] = self._as_saved(run(self.drawing, **given))
+            except LimitError as error:
+                self._ways[key] = error
+        made = self._ways[key]
+        if isinstance(made, LimitError):
+            raise made
+        return made
+
+    def _as_saved(self, made: Conversion) -> Conversion:
+        """The same with the source's name in a packed texture, which takes bytes of the file that `convert` writes."""
+        from vexture.texture.texture import Texture
+
+        if not isinstance(made.texture, Texture):
+            return made
+        return replace(made, texture=replace(made.texture, source=self.path.name))
+
+    def _check_sampled(self) -> None:
+        """Raise a `LimitError` where a conversion in the thesis's way would take minutes."""
+        quads = len(self.way("direct").tree.coverage)
+        if quads > MOST_FOR_SAMPLED:
+            raise LimitError(
+                f"{self.name}: direct has {quads:,} quads, so sampled would take minutes; the limit of a report is "
+                f"{MOST_FOR_SAMPLED:,}; give a simpler drawing"
+            )

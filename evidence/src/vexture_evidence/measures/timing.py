@@ -1,0 +1,81 @@
+"""How long something takes: medians, because other work on the machine only ever makes a time longer."""
+
+import time
+from collections.abc import Callable
+from statistics import median
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from vexture_evidence.measures.programs import Program
+
+__all__ = ["frames_per_second", "median_seconds"]
+
+FRAME: Final = (1024, 1024)
+"""Pixels of the picture that a rate is measured with, unless another is asked for."""
+
+LONG_ENOUGH: Final = 0.02
+"""Seconds that one measurement takes at least: a fast device draws several frames for it."""
+
+MOST_DRAWS: Final = 1000
+"""Frames in one measurement, whatever the first took."""
+
+
+def median_seconds(action: Callable[[], object], repeat: int) -> float:
+    """Median time of an action.
+
+    Parameters
+    ----------
+    action : function
+        Called once more than that, first, so that nothing is compiled, loaded or cold when it counts.
+    repeat : int
+        Times that count, at least 1.
+
+    Returns
+    -------
+    float
+        Seconds.
+
+    Examples
+    --------
+    >>> 0.009 < median_seconds(lambda: time.sleep(0.01), 3)
+    True
+    """
+    action()
+    taken = []
+    for _ in range(repeat):
+        start = time.perf_counter()
+        action()
+        taken.append(time.perf_counter() - start)
+    return median(taken)
+
+
+def frames_per_second(program: "Program", size: tuple[int, int] = FRAME, repeat: int = 3) -> float:
+    """Rate at which the device draws the whole unit square, median of some measurements.
+
+    Parameters
+    ----------
+    program : Program
+        Of `vexture_evidence.measures.programs`.
+    size : tuple of int
+        Width and height of the picture in pixels.
+    repeat : int
+        Measurements.
+
+    Returns
+    -------
+    float
+        Frames per second, whatever a display could show.
+
+    Raises
+    ------
+    DeviceError
+        If there is no GPU.
+    """
+    from vexture.renderers.view import fit
+    from vexture_evidence.measures.programs import seconds, target
+
+    drawn, to_unit = target(size), fit(size)
+    seconds(program, drawn, to_unit, size, 1)  # drivers finish a program when it is first used
+    once = seconds(program, drawn, to_unit, size, 1)
+    draws = max(1, min(MOST_DRAWS, round(LONG_ENOUGH / max(once, LONG_ENOUGH / MOST_DRAWS))))
+    return draws / median(seconds(program, drawn, to_unit, size, draws) for _ in range(repeat))

@@ -1,0 +1,58 @@
+"""One point of the thesis's chapter 6 as the report answers it, and the conversions that it compares."""
+
+from dataclasses import dataclass
+from typing import Any, Final
+
+from vexture.texture.texture import Texture
+from vexture.thesis.texture import ThesisTexture
+from vexture.thesis.tree import CellTree
+from vexture_evidence.measures.shape import Shape
+from vexture_evidence.report.section import Section
+
+__all__ = ["LEFT_OUT", "Point", "packed_of", "pair_of", "tree_of"]
+
+LEFT_OUT: Final = (
+    "Dotted: the drawing's own outline where no curve lies on it; packed leaves leave out horizontal parts, which "
+    "change no winding number."
+)
+"""What captions say of figures that draw cells above the drawing's outline."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Point:
+    """One point of the chapter.
+
+    Parameters
+    ----------
+    section : Section
+        The thesis's words, before, after, a picture.
+    what : str
+        What is measured, with its unit.
+    before, after : float or int
+    """
+
+    section: Section
+    what: str
+    before: Any
+    after: Any
+
+
+def tree_of(shape: Shape, way: str) -> CellTree:
+    """Tree of a drawing by one of the ways to the thesis's leaves."""
+    tree = shape.way(way).tree
+    assert isinstance(tree, CellTree)
+    return tree
+
+
+def pair_of(shape: Shape, way: str) -> ThesisTexture:
+    """Textures of a drawing by one of the ways to the thesis's leaves."""
+    texture = shape.way(way).texture
+    assert isinstance(texture, ThesisTexture)
+    return texture
+
+
+def packed_of(shape: Shape) -> Texture:
+    """Packed texture of a drawing."""
+    texture = shape.way("packed").texture
+    assert isinstance(texture, Texture)
+    return texture

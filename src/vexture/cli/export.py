@@ -1,0 +1,27 @@
+"""The command `export`."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from vexture.cli.messages import one_line, say
+from vexture.cli.options import conversion_options, viewer_settings
+
+__all__ = ["export"]
+
+
+@click.command()
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.option(
+    "-o", "--output", metavar="PAGE.html", required=True, type=click.Path(path_type=Path), help="File to write."
+)
+@click.option("--title", metavar="TEXT", help="Title of the page.  [default: the names of the files]")
+@conversion_options
+def export(files: tuple[Path, ...], output: Path, title: str | None, **conversion: Any) -> None:
+    """Write one page that shows drawings, with everything in it."""
+    with one_line():
+        from vexture.live.viewing import export as write
+
+        size = write(files, output, title, viewer_settings(**conversion), say)
+        click.echo(f"{output}: {len(files)} file{'s' * (len(files) > 1)}, {size} bytes")

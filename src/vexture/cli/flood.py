@@ -1,0 +1,70 @@
+"""The command `flood`."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from vexture.cli.messages import one_line, say, with_servers
+from vexture.errors import LimitError
+from vexture.flood.asked import PERIOD, Asked, bounds_of
+from vexture.tolerance import HMIN
+
+__all__ = ["flood"]
+
+PATH: Any = click.Path(path_type=Path)
+
+
+@click.command()
+@click.option("--extent", metavar="FILE", required=True, type=PATH, help="Where water is: polygons, or depths.")
+@click.option("--crs", metavar="EPSG:N", help="Reference system of the extent, if its file does not say it.")
+@click.option("--bounds", metavar="W,S,E,N", help="Box to show, in units of the extent.  [default: all of the extent]")
+@click.option("--time-dim", metavar="NAME", help="Dimension of time: show each of its steps.")
+@click.option("--hmin", metavar="M", type=float, default=HMIN, show_default=True, help="Depth from which it is wet.")
+@click.option("--variable", metavar="NAME", help="Variable that holds depths, if there are several.")
+@click.option("--layer", metavar="NAME", help="Layer of polygons, if there are several.")
+@click.option("--ground", metavar="IMAGE", type=PATH, help="Picture of the ground: a GeoTIFF, or one of --bounds.")
+@click.option("--relief", metavar="FILE", type=PATH, help="Heights of the ground in metres, as GeoTIFF.")
+@click.option(
+    "--amplitude", metavar="M", type=float, help="How far waves run up the beach.  [default: 0.2% of the box]"
+)
+@click.option("--period", metavar="S", type=float, default=PERIOD, show_default=True, help="Seconds between waves.")
+@click.option("--title", metavar="TEXT", help="Title of the page.  [default: the name of the extent]")
+@click.option("-o", "--output", metavar="PAGE.html", type=PATH, help="Write one page with everything in it.")
+@click.option("--serve", "serving", is_flag=True, help="Show the page on a server, until Ctrl-C.")
+@click.option("--token-file", metavar="F", type=PATH, help="With --serve: token of those who may push newer water.")
+@click.option("--host", default="127.0.0.1", show_default=True, help="With --serve: address to listen on.")
+@click.option("--port", type=int, default=8000, show_default=True, help="With --serve: port to listen on; 0 takes any.")
+def flood(
+    output: Path | None,
+    serving: bool,
+    token_file: Path | None,
+    host: str,
+    port: int,
+    bounds: str | None,
+    **parameters: Any,
+) -> None:
+    """Show a flood as a living sea, on one page or on a server.
+
+    The extent is GeoJSON, GeoPackage, FlatGeobuf or a shapefile of wet places, or GeoTIFF, NetCDF or UGRID of depths.
+    """
+    from vexture.geo.reference import gis_packages
+
+    with one_line(), gis_packages(), with_servers("flood --serve"):
+        if (output is None) == (not serving):
+            both = "either -o PAGE.html or --serve" if serving else "-o PAGE.html for one page, or --serve for a server"
+            raise LimitError(f"vexture flood needs to know where to show it; give {both}")
+        if token_file is not None and not serving:
+            raise LimitError(f"--token-file {token_file}: one page takes no uploads; use it with --serve")
+        asked = Asked(bounds=None if bounds is None else bounds_of(bounds), **parameters)
+        from vexture.live.flooding import Made, export, serve
+
+        if output is not None:
+            made, size = export(asked, output, say)
+            click.echo(f"{output}: {made.described}, {size} bytes")
+            return
+
+        def show(where: str, made: Made) -> None:
+            click.echo(f"vexture: {where} shows {made.described}; Ctrl-C ends it")
+
+        serve(asked, token_file, host, port, say=say, show=show)

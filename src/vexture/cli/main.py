@@ -1,0 +1,37 @@
+"""The command line: its commands, each in a module of its own."""
+
+from importlib import import_module
+from importlib.metadata import entry_points
+from typing import Final
+
+import click
+
+__all__ = ["COMMANDS", "main"]
+
+COMMANDS: Final = {
+    name: f"vexture.cli.{name}" for name in ("convert", "render", "info", "view", "export", "serve", "push", "flood", "fold")
+}
+"""Module of each command; it is imported when the command is used or listed."""
+
+PLUGINS: Final = "vexture.commands"
+"""Entry points of other distributions that add commands."""
+
+
+class _Commands(click.Group):
+    """The commands by name, and those that other distributions add."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return [*COMMANDS, *(point.name for point in entry_points(group=PLUGINS))]
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name in COMMANDS:
+            command: click.Command = getattr(import_module(COMMANDS[cmd_name]), cmd_name)
+            return command
+        added = [point for point in entry_points(group=PLUGINS) if point.name == cmd_name]
+        return added[0].load() if added else None
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+@click.version_option(package_name="vexture")
+def main() -> None:
+    """Turn vector drawings into textures with random access on the GPU."""

@@ -1,0 +1,64 @@
+"""What the command line says to people: one line for each thing."""
+
+import re
+import sys
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import click
+
+from vexture.errors import DeviceError, ParameterError, VextureError
+
+__all__ = ["one_line", "say", "with_servers"]
+
+PARAMETER = re.compile(r"`([a-z_]+)`")
+"""A parameter, as messages of the library name it."""
+
+SERVERS = ("sse_starlette", "starlette", "uvicorn", "watchfiles")
+
+
+def say(message: str) -> None:
+    """Print a line where errors go."""
+    click.echo(f"vexture: {as_options(message)}", err=True)
+
+
+def as_options(message: str) -> str:
+    """Return a message of the library with options in place of the parameters that it names in backticks.
+
+    Examples
+    --------
+    >>> as_options("2 quads; the limit is 1; use a smaller `max_depth`")
+    '2 quads; the limit is 1; use a smaller --max-depth'
+    """
+    return PARAMETER.sub(lambda found: "--" + found[1].replace("_", "-"), message)
+
+
+@contextmanager
+def one_line() -> Iterator[None]:
+    """Errors that are the user's to mend, and warnings, become one line each."""
+    with warnings.catch_warnings():
+        warnings.showwarning = lambda message, *_args, **_kwargs: say(f"warning: {message}")
+        warnings.simplefilter("always")
+        try:
+            yield
+        except (VextureError, ParameterError) as error:
+            say(str(error))
+            sys.exit(1)
+        except OSError as error:
+            say(f"{error.filename or 'the output'}: {error.strerror}; choose another file")
+            sys.exit(1)
+        except MemoryError:
+            say("out of memory; use a smaller drawing or a smaller --size")
+            sys.exit(1)
+
+
+@contextmanager
+def with_servers(command: str) -> Iterator[None]:
+    """Say what to install where the packages of servers are missing."""
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        if (error.name or "").split(".")[0] not in SERVERS:
+            raise
+        raise DeviceError(f"vexture {command} needs the package {error.name}: pip install 'vexture[live]'") from None

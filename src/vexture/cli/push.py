@@ -1,0 +1,29 @@
+"""The command `push`."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from vexture.cli.messages import one_line
+
+__all__ = ["push"]
+
+PATH: Any = click.Path(path_type=Path)
+
+
+@click.command()
+@click.argument("file", metavar="FILE", type=PATH)
+@click.argument("url", metavar="URL")
+@click.option("--token-file", metavar="F", type=PATH, required=True, help="File with the token of the server.")
+def push(file: Path, url: str, token_file: Path) -> None:
+    """Publish a drawing, geographic data or a packed texture on a server.
+
+    URL is that of the server, or SERVER/shapes/NAME; the name is otherwise the file's.
+    """
+    with one_line():
+        from vexture.live.push import push as send
+        from vexture.live.tokens import read_token
+
+        manifest = send(file, url, read_token(token_file))
+        click.echo(f"{manifest['name']}: {manifest['url']}, {manifest['bytes']} bytes, version {manifest['version']}")

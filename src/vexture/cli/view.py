@@ -1,0 +1,42 @@
+"""The command `view`."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from vexture.cli.messages import one_line, say, with_servers
+from vexture.cli.options import conversion_options, viewer_settings
+
+__all__ = ["view"]
+
+
+
+
+
+
+@click.command()
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.option("--watch", "watching", is_flag=True, help="Show files anew whenever they are saved.")
+@click.option("--port", metavar="P", type=int, default=0, help="Port to listen on.  [default: any that is free]")
+@click.option("--host", metavar="HOST", default="127.0.0.1", show_default=True, help="Address to listen on.")
+@click.option("--no-open", "opening", is_flag=True, flag_value=False, default=True, help="Open no browser.")
+@conversion_options
+def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening: bool, **conversion: Any) -> None:
+    """Show drawings or packed textures in the browser, until Ctrl-C."""
+    with one_line(), with_servers("view"):
+        from vexture.live.viewing import view as serve
+
+        def show(where: str, shapes: int) -> None:
+            click.echo(f"vexture: {where} shows {shapes} shape{'s' * (shapes != 1)}; Ctrl-C ends it")
+
+        serve(
+            files,
+            viewer_settings(**conversion),
+            host=host,
+            port=port,
+            watching=watching,
+            opening=opening,
+            say=say,
+            show=show,
+        )

@@ -1,0 +1,115 @@
+"""What every encoding offers, and those that are registered by name beside the one everyone uses.
+
+An encoding is a package with the functions of `Encoding`. It is imported when it is first asked for; nothing else in
+vexture imports it.
+"""
+
+import os
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol, cast
+
+from vexture.errors import ParameterError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from vexture.drawing import Drawing
+    from vexture.renderers.view import Size, ViewLike
+
+__all__ = ["DEFAULT", "REGISTERED", "Encoded", "EncodedTexture", "Encoding", "find_encoding", "owner_of"]
+
+DEFAULT: Final = "packed"
+"""Encoding of `vexture.Texture`."""
+
+REGISTERED: Final = {"thesis": "vexture.thesis"}
+"""Packages of the other encodings, by name."""
+
+
+class EncodedTexture(Protocol):
+    """A texture in any encoding."""
+
+    @property
+    def name(self) -> str:
+        """Names the texture in messages and files."""
+
+    @property
+    def nbytes(self) -> int:
+        """Size in memory, of a GPU too."""
+
+    def coverage(self, size: "Size", view: "ViewLike" = None, **options: Any) -> "NDArray[np.float32]":
+        """Covered part of each pixel, (height, width), 0..1; see `vexture.coverage`."""
+
+    def render(self, size: "Size", view: "ViewLike" = None, **options: Any) -> "NDArray[np.float32]":
+        """Picture, (height, width, 4), premultiplied RGBA; see `vexture.render`."""
+
+    def info(self) -> dict[str, Any]:
+        """Describe the texture, ready for JSON."""
+
+    def files(self) -> dict[str, bytes]:
+        """Contents of its file or files, by what follows the texture's name in their names."""
+
+    def save(self, path: str | os.PathLike[str]) -> Path | tuple[Path, ...]:
+        """Write its file or files, all or none; return their paths."""
+
+
+class Encoded(NamedTuple):
+    """What an encoding made of a drawing.
+
+    Attributes
+    ----------
+    tree : object
+        With `coverage`, `curves`, `deviation` and `unresolved` as those of `vexture.tree.tree.Tree`.
+    texture : EncodedTexture
+    rounding : float
+        Largest shift of the outline by rounding to the texture's bits, in unit-square units.
+    """
+
+    tree: Any
+    texture: EncodedTexture
+    rounding: float
+
+
+class Encoding(Protocol):
+    """What a registered package offers."""
+
+    @property
+    def SUFFIXES(self) -> tuple[str, ...]:  # noqa: N802  # a constant of the package
+        """What follows a texture's name in the names of its files."""
+
+    def convert(self, drawing: "Drawing", **parameters: Any) -> Encoded:
+        """Tree and texture of a drawing."""
+
+    def owns(self, path: Path) -> bool:
+        """Whether a path, as a user names it, means a texture of this encoding."""
+
+    def load(self, path: str | os.PathLike[str]) -> EncodedTexture:
+        """Read a texture's file or files."""
+
+
+def find_encoding(name: str) -> Encoding:
+    """Return a registered encoding.
+
+    Raises
+    ------
+    ParameterError
+        If there is none of that name.
+
+    Examples
+    --------
+    >>> find_encoding("thesis").owns(Path("maps/delft.quads.png"))
+    True
+    >>> find_encoding("gif")
+    Traceback (most recent call last):
+    vexture.errors.ParameterError: `encoding` is 'gif'; it must be 'packed' or 'thesis'
+    """
+    if name not in REGISTERED:
+        names = " or ".join(map(repr, (DEFAULT, *REGISTERED)))
+        raise ParameterError(f"`encoding` is {name!r}; it must be {names}")
+    return cast("Encoding", import_module(REGISTERED[name]))
+
+
+def owner_of(path: Path) -> str | None:
+    """Name of the registered encoding that a path means a texture of, or None."""
+    return next((name for name in REGISTERED if find_encoding(name).owns(path)), None)

@@ -1,0 +1,188 @@
+"""From a shoreline to a fold: the water's edge slides up and down the beach."""
+
+import warnings
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.errors import LimitError, SourceWarning
+from vexture.fold.blend import fold as folded
+from vexture.fold.fold import Fold, Kind
+from vexture.fold.layout import FOLD_MOST_SECONDS, FOLD_MOST_SIDE, FOLD_TICKS
+from vexture.renderers.exact import render_exact
+
+if TYPE_CHECKING:
+    from vexture.drawing import Drawing
+
+__all__ = ["STEEPEST", "shore_fold"]
+
+STEEPEST: Final = 0.5
+"""Most that the displacements of two places may differ by, in distances of the two: far from a fold that turns over."""
+
+MOST_AMPLITUDE: Final = 0.25
+LEAST_SIDE: Final = 8
+
+REACH_TEXELS: Final = 2.0
+REACH_AMPLITUDES: Final = 2.5
+"""How far the movement goes inland and offshore, if nobody says, is the larger of these."""
+
+SOFT: Final = 0.35
+"""Where the blurred slope is this part of a straight shore's, as on small islands, shores move two thirds as far."""
+
+MARGIN: Final = 1 / 16
+"""Over this part of the square's side, from its border on, the movement grows from nothing."""
+
+PHASE_SLOPE: Final = 0.1
+"""Most that different phases add to the slope of the displacements."""
+
+WAVES: Final = ((0.19, 0.83, 0.37, 0.1), (0.15, -0.41, 1.13, 0.6), (0.07, 2.3, 1.7, 0.3))
+"""Phases, in periods, are a sum of these: height, waves per side to the right and up, and where they begin."""
+
+GRAIN: Final = 2.0**20
+MOMENTS: Final = 1024
+"""Displacements are whole parts of a side, phases whole parts of a period: nobody sees it, and the file is a third."""
+
+TIMES: Final = 16
+"""Half a period is looked at at so many times."""
+
+
+def shore_fold(
+    drawing: "Drawing", *, amplitude: float, period: float, size: int = 64, reach: float | None = None
+) -> Fold:
+    """Fold that slides the outline of a drawing to and fro along its normals, as waves on a beach.
+
+    The movement is strongest at the outline, fades over `reach` to both sides of it, and is nothing at the border of
+    the unit square. Its phase differs slowly from place to place. Where outlines are nearer to one another than the
+    reach, as in a channel, they move less. No two places are brought to one: the displacements' gradient stays below
+    `STEEPEST`, if need be by a smaller amplitude, which a warning says.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        The water; without paths nothing moves.
+    amplitude : float
+        Largest displacement to either side, in sides of the unit square.
+    period : float
+        Seconds from one wave to the next.
+    size : int
+        Texels each way.
+    reach : float, optional
+        In sides of the unit square; two texels or two and a half amplitudes, if not given.
+
+    Returns
+    -------
+    Fold
+        Periodic, its cycle one period.
+
+    Raises
+    ------
+    LimitError
+        If a parameter is out of range.
+
+    Warns
+    -----
+    SourceWarning
+        If the amplitude had to be made smaller.
+
+    Examples
+    --------
+    >>> from vexture.drawing import Drawing
+    >>> sea = Drawing.polygon([(0, 0), (0.5, 0), (0.5, 1), (0, 1)])
+    >>> moved = shore_fold(sea, amplitude=0.02, period=8.0)
+    >>> bool(np.abs(moved.displacement[32, 32, 0]) > 0.018), moved.cycle
+    (True, 8.0)
+    """
+    if not 0.0 < amplitude <= MOST_AMPLITUDE:
+        raise LimitError(f"amplitude is {amplitude:g}; it must be above 0 and at most {MOST_AMPLITUDE} sides")
+    if not 0.01 <= period <= FOLD_MOST_SECONDS:
+        raise LimitError(f"period is {period:g}; it must be 0.01 to {FOLD_MOST_SECONDS} seconds")
+    if not LEAST_SIDE <= size <= FOLD_MOST_SIDE:
+        raise LimitError(f"size is {size}; it must be {LEAST_SIDE} to {FOLD_MOST_SIDE} texels")
+    if reach is None:
+        reach = max(REACH_TEXELS / size, REACH_AMPLITUDES * amplitude)
+    if not 1.0 / size <= reach <= 1.0:
+        raise LimitError(f"reach is {reach:g}; it must be a texel, {1.0 / size:g}, to 1")
+    phase = _phases(size, amplitude)
+    displacement = amplitude * _normals(drawing, size, reach)
+    steep = _steepest(displacement, phase)
+    if steep > STEEPEST:
+        displacement *= STEEPEST / steep
+        reached = float(np.hypot(*np.moveaxis(displacement, 2, 0)).max())
+        warnings.warn(
+            f"amplitude {amplitude:g} would turn the shore over; it is {reached:.2g}; use a larger reach or size",
+            SourceWarning,
+            stacklevel=2,
+        )
+    displacement = np.rint(displacement * GRAIN) / GRAIN
+    ticks = round(period * FOLD_TICKS)
+    begin = np.rint(np.rint(phase * MOMENTS) * ticks / MOMENTS) % ticks / FOLD_TICKS
+    begin[~displacement.any(axis=2)] = 0.0
+    return Fold(displacement, Kind.PERIODIC, begin, ticks / FOLD_TICKS, ticks / FOLD_TICKS)  # type: ignore[arg-type]
+
+
+def _middles(size: int) -> NDArray[np.float64]:
+    """Where texels stand, from the left or from the bottom."""
+    return (np.arange(size) + 0.5) / size
+
+
+def _blur(size: int, reach: float) -> NDArray[np.float64]:
+    """Matrix that blurs a column of texels; the border goes on beyond it."""
+    far = int(np.ceil(4.0 * reach * size))
+    steps = np.arange(-far, far + 1)
+    weights = np.exp(-0.5 * (steps / (reach * size)) ** 2)
+    matrix = np.zeros((size, size))
+    for step, weight in zip(steps, weights / weights.sum(), strict=True):
+        np.add.at(matrix, (np.arange(size), np.clip(np.arange(size) + step, 0, size - 1)), weight)
+    return matrix
+
+
+def _normals(drawing: "Drawing", size: int, reach: float) -> NDArray[np.float64]:
+    """Directions towards the filled side, 1 long at the outline, shorter far from it, (rows, columns, 2)."""
+    if not drawing.paths:
+        return np.zeros((size, size, 2))
+    blur = _blur(size, reach)
+    smooth = blur @ render_exact(drawing, (size, size)).astype(np.float64) @ blur.T
+    down, right = np.gradient(smooth, 1.0 / size)
+    normals = np.stack([right, -down], axis=2) * (reach * np.sqrt(2.0 * np.pi))  # 1 on a straight shore
+    length = np.hypot(normals[..., 0], normals[..., 1])[..., None]
+    side = np.minimum(_middles(size), 1.0 - _middles(size)) - 0.5 / size
+    rise = np.clip(side / MARGIN, 0.0, 1.0)
+    taper = rise * rise * (3.0 - 2.0 * rise)
+    strength = np.minimum((1.0 + SOFT) / (length + SOFT), 1.0 / np.maximum(length, 1.0))
+    found: NDArray[np.float64] = normals * strength * (taper[:, None] * taper)[..., None]
+    return found
+
+
+def _phases(size: int, amplitude: float) -> NDArray[np.float64]:
+    """Parts of a period by which places are late, (rows, columns)."""
+    x, y = _middles(size)[None, :], _middles(size)[::-1, None]
+    slope = sum(2.0 * np.pi * height * float(np.hypot(right, up)) for height, right, up, _ in WAVES)
+    phases = np.zeros((size, size))
+    for height, right, up, start in WAVES:
+        phases += height * np.sin(2.0 * np.pi * (right * x + up * y + start))
+    return min(1.0, PHASE_SLOPE / (2.0 * np.pi * amplitude * slope)) * phases
+
+
+def _steepest(displacement: NDArray[np.float64], phase: NDArray[np.float64]) -> float:
+    """Largest singular value of the displacements' gradient at any place and time.
+
+    Of a quadratic spline the gradient is largest near knots and middles of texels; it is looked at there.
+    """
+    rows, columns, _ = displacement.shape
+    x, y = np.meshgrid(np.arange(2 * columns + 1) / (2.0 * columns), np.arange(2 * rows + 1) / (2.0 * rows))
+    places = np.stack([x.ravel(), y.ravel()], axis=1)
+    base = np.zeros(places.shape, np.uint32)
+    right, up = np.broadcast_to((1.0, 0.0), places.shape), np.broadcast_to((0.0, 1.0), places.shape)
+    turn = 2.0 * np.pi * phase[..., None]
+    parts = []
+    for share in (np.cos(turn), -np.sin(turn)):
+        found = folded(displacement * share, "none", base, places, right, up)
+        parts.append(np.stack([found.dx - right, found.dy - up], axis=2))
+    most = 0.0
+    for angle in np.pi * np.arange(TIMES) / TIMES:
+        gradient = np.sin(angle) * parts[0] + np.cos(angle) * parts[1]
+        a, b, c, d = (gradient[:, i, j] for i in (0, 1) for j in (0, 1))
+        largest = 0.5 * (np.hypot(a + d, c - b) + np.hypot(a - d, b + c))
+        most = max(most, float(largest.max()))
+    return most * 1.02  # between the times and places that were looked at

@@ -1,0 +1,1 @@
+"""Geographic data: files to drawings, extents and depths, and their reference systems."""

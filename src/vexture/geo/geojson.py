@@ -1,0 +1,317 @@
+"""Reading GeoJSON: the areas of its polygons, with the colours that simplestyle gives them."""
+
+import json
+import os
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import chain
+from pathlib import Path as FilePath
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.bezier.convert import line_cubics
+from vexture.drawing import Drawing, FillRule, Paint, Path
+from vexture.errors import SourceError
+from vexture.reading import BYTE_ORDER_MARK
+from vexture.svg.document import read_bytes
+from vexture.svg.report import UNLOCATED, Report
+
+__all__ = ["LARGEST", "Area", "areas_of", "read_geojson"]
+
+MOST_POSITIONS: Final = 20_000_000
+LARGEST: Final = 1e15
+"""Coordinate, in the units of the file. Beyond it, float64 cannot tell metres apart."""
+
+MOST_NESTED: Final = 32
+"""Geometry collections inside one another."""
+
+WORLD: Final = "OGC:CRS84"
+"""What coordinates mean unless the file says otherwise: longitude and latitude in degrees (RFC 7946, 4)."""
+
+URN: Final = re.compile(r"urn:ogc:def:crs:(\w+):[^:]*:(\w+)", re.IGNORECASE)
+COLOR: Final = re.compile(r"#?([0-9a-f]{3}|[0-9a-f]{6})", re.IGNORECASE)
+NUMBERS: Final = (float, int)
+
+
+WITHOUT_AREA: Final = ("Point", "MultiPoint", "LineString", "MultiLineString")
+
+Ring = NDArray[np.float64]
+
+
+class Area(NamedTuple):
+    """One polygon: its rings in the units of the file, y up, its colour, and its place as messages name it."""
+
+    rings: list[Ring]
+    paint: Paint
+    where: str
+
+
+def read_geojson(source: str | os.PathLike[str] | bytes) -> Drawing:
+    """Read GeoJSON (RFC 7946): polygons with their holes, one path for each.
+
+    The box around them is fitted into the unit square at its own aspect ratio. The properties ``fill`` and
+    ``fill-opacity`` of a feature (simplestyle) are its paint, else black. Points and lines, which have no area, are
+    left out and named. The old member ``crs`` is read where it names a system; without it, coordinates are degrees of
+    longitude and latitude.
+
+    Parameters
+    ----------
+    source : path or bytes
+        The file, plain or gzipped, or its content.
+
+    Returns
+    -------
+    Drawing
+        In the unit square, y up; `to_source` maps it to the coordinates of the file, `crs` says what they are.
+
+    Raises
+    ------
+    SourceError
+        If it cannot be read, is not GeoJSON, exceeds a limit or holds no area. Features, polygons and rings are
+        counted from 1.
+
+    Warns
+    -----
+    SourceWarning
+        Once for a file, naming everything that was left out.
+
+    Examples
+    --------
+    >>> ring = [[4, 52], [6, 52], [6, 53], [4, 53], [4, 52]]
+    >>> drawing = read_geojson(json.dumps({"type": "Polygon", "coordinates": [ring]}).encode())
+    >>> drawing.paths[0].contours[0][:, 0]
+    array([[0.  , 0.25],
+           [1.  , 0.25],
+           [1.  , 0.75],
+           [0.  , 0.75]])
+    >>> drawing.to_source @ (0, 0.25, 1), drawing.crs
+    (array([ 4., 52.]), 'OGC:CRS84')
+    """
+    if isinstance(source, bytes):
+        report = Report("the GeoJSON")
+        drawing = _Reader(report).drawing(_parsed(source), "drawing")
+    else:
+        shown = os.fspath(source)
+        report = Report(shown)
+        try:
+            drawing = _Reader(report).drawing(_parsed(read_bytes(source)), FilePath(source).stem)
+        except SourceError as error:
+            raise SourceError(f"{shown}: {error}") from None
+    report.warn(stacklevel=2)
+    return drawing
+
+
+def areas_of(content: bytes, report: Report) -> tuple[list[Area], str]:
+    """Areas of the content of a file, and the reference system of their coordinates.
+
+    Parameters
+    ----------
+    content : bytes
+        Not gzipped.
+    report : Report
+        Is told what is left out.
+
+    Raises
+    ------
+    SourceError
+        As `read_geojson`, but for a file without areas.
+    """
+    value = _parsed(content)
+    return list(_Reader(report).areas(value)), _crs(value.get("crs"))
+
+
+def _parsed(content: bytes) -> dict[str, Any]:
+    """Object of a JSON text."""
+    try:
+        value = json.loads(content.removeprefix(BYTE_ORDER_MARK))
+    except RecursionError:
+        raise SourceError("its lists are nested too deeply; GeoJSON needs no more than a few levels") from None
+    except UnicodeDecodeError as error:
+        raise SourceError(f"it is no UTF-8 text (byte {error.start}); save it as UTF-8") from None
+    except json.JSONDecodeError as error:
+        raise SourceError(f"not JSON: {error.msg} in line {error.lineno}, column {error.colno}") from None
+    except ValueError:
+        raise SourceError("it holds an integer of thousands of digits; correct it") from None
+    if not isinstance(value, dict):
+        raise SourceError(f"its outermost value is a {type(value).__name__}, not an object; this is not GeoJSON")
+    return value
+
+
+class _Reader:
+    """The walk over one file: what it met so far."""
+
+    def __init__(self, report: Report) -> None:
+        self._report = report
+        self._positions = 0
+
+    def drawing(self, value: dict[str, Any], name: str) -> Drawing:
+        """Areas of a GeoJSON object as a drawing."""
+        areas = list(self.areas(value))
+        if not areas:
+            raise SourceError(f"it holds no polygon to fill{self._met()}; give Polygon or MultiPolygon geometries")
+        points = np.concatenate([ring for area in areas for ring in area.rings])
+        low, high = points.min(axis=0), points.max(axis=0)
+        width, height = (float(side) for side in high - low)
+        paths = [Path(tuple(map(_contour, area.rings)), FillRule.EVENODD, area.paint) for area in areas]
+        drawing = Drawing.from_source(paths, (float(low[0]), -float(high[1]), width, height), name)
+        if not drawing.paths:
+            raise SourceError("its polygons enclose no area; correct their coordinates")
+        turned = drawing.to_source * [[1.0], [-1.0]] + 0.0  # from_source takes y down; no -0.0
+        return replace(drawing, to_source=turned, crs=_crs(value.get("crs")))
+
+    def _met(self) -> str:
+        return f" ({self._report.message.partition(': ')[2]})" if self._report.message else ""
+
+    def areas(self, value: dict[str, Any]) -> Iterator[Area]:
+        """Areas of the outermost object."""
+        kind = value.get("type")
+        if kind != "FeatureCollection":
+            yield from self._feature(value, "the feature") if kind == "Feature" else self._geometry(value, "", Paint())
+            return
+        features = value.get("features")
+        if not isinstance(features, list):
+            raise SourceError("the FeatureCollection has no list of features; correct it")
+        for number, feature in enumerate(features, 1):
+            yield from self._feature(feature, f"feature {number}")
+
+    def _feature(self, value: Any, where: str) -> Iterator[Area]:
+        if not isinstance(value, dict) or value.get("type") != "Feature":
+            raise SourceError(f"{where} is not of the type Feature; correct it")
+        if value.get("geometry") is None:  # RFC 7946, 3.2: an unlocated feature
+            self._report.left_out(UNLOCATED)
+        else:
+            yield from self._geometry(value["geometry"], where, self._paint(value.get("properties")))
+
+    def _geometry(self, value: Any, where: str, paint: Paint, depth: int = 0) -> Iterator[Area]:
+        """Areas of a geometry; `where` names the place in messages."""
+        if not isinstance(value, dict):
+            raise SourceError(f"{_at(where, 'the geometry')} is a {type(value).__name__}, not an object; correct it")
+        kind = value.get("type")
+        content = value.get("geometries" if kind == "GeometryCollection" else "coordinates")
+        if kind in WITHOUT_AREA:
+            self._report.left_out(kind)
+            return
+        if kind not in ("Polygon", "MultiPolygon", "GeometryCollection"):
+            hint = "convert TopoJSON to GeoJSON" if kind == "Topology" else "see RFC 7946, 1.4"
+            raise SourceError(f"{_at(where, 'type')} {_shown(kind)} is none that GeoJSON knows; {hint}")
+        if not isinstance(content, list):
+            raise SourceError(f"{_at(where, kind)} has no list of its parts; correct it")
+        if kind == "Polygon":
+            yield from self._polygon(content, where, paint)
+        elif kind == "MultiPolygon":
+            for number, rings in enumerate(content, 1):
+                yield from self._polygon(rings, _at(where, f"polygon {number}"), paint)
+        elif depth == MOST_NESTED:
+            raise SourceError(f"{_at(where, kind)} is nested more than {MOST_NESTED} deep; flatten it")
+        else:
+            for number, part in enumerate(content, 1):
+                yield from self._geometry(part, _at(where, f"geometry {number}"), paint, depth + 1)
+
+    def _polygon(self, rings: Any, where: str, paint: Paint) -> Iterator[Area]:
+        if not isinstance(rings, list):
+            raise SourceError(f"{_at(where, 'the polygon')} is a {type(rings).__name__}, not a list of rings")
+        read = [self._ring(ring, _at(where, f"ring {number}")) for number, ring in enumerate(rings, 1)]
+        kept = [ring for ring in read if ring is not None]
+        if kept:
+            yield Area(kept, paint, where)
+
+    def _ring(self, ring: Any, where: str) -> Ring | None:
+        """Positions of a ring, the first not repeated at the end; None if there are fewer than three."""
+        if not isinstance(ring, list):
+            raise SourceError(f"{where} is a {type(ring).__name__}, not a list of positions; correct it")
+        self._positions += len(ring)
+        if self._positions > MOST_POSITIONS:
+            raise SourceError(f"{where} is beyond the limit of {MOST_POSITIONS:,} positions; simplify or split it")
+        points = _usual(ring)
+        if points is None:
+            points = _position_by_position(ring, where)
+        if len(points) > 1 and (points[0] == points[-1]).all():
+            points = points[:-1]
+        if len(points) < 3:
+            self._report.left_out("ring of fewer than three positions")
+            return None
+        return points
+
+    def _paint(self, properties: Any) -> Paint:
+        """Colour of a feature."""
+        if not isinstance(properties, dict):
+            return Paint()
+        fill, opacity = properties.get("fill", "#000"), properties.get("fill-opacity", 1)
+        match = COLOR.fullmatch(fill) if isinstance(fill, str) else None
+        if match is None:
+            self._report.left_out(f"fill {_shown(fill)}")
+        if type(opacity) not in NUMBERS or not 0 <= opacity <= 1:
+            self._report.left_out(f"fill-opacity {_shown(opacity)}")
+            opacity = 1
+        digits = match[1] if match else "000"
+        step = len(digits) // 3
+        red, green, blue = (int(digits[k : k + step] * (3 - step), 16) / 255 for k in range(0, 3 * step, step))
+        return Paint((red, green, blue), float(opacity))
+
+
+def _usual(ring: list[Any]) -> Ring | None:
+    """Positions of a ring without a fault, all of one length; None of others."""
+    lengths = set(map(len, ring)) if set(map(type, ring)) == {list} else set()
+    if len(lengths) != 1 or min(lengths) < 2:
+        return None
+    numbers = list(chain.from_iterable(ring))
+    if not set(map(type, numbers)) <= set(NUMBERS):
+        return None
+    try:
+        points = np.array(numbers, np.float64).reshape(len(ring), -1)[:, :2]
+    except OverflowError:  # an integer beyond all floats
+        return None
+    return points if bool((np.abs(points) <= LARGEST).all()) else None
+
+
+def _position_by_position(ring: list[Any], where: str) -> Ring:
+    """Positions of any ring, or an error that names the faulty one."""
+    for number, position in enumerate(ring, 1):
+        if not isinstance(position, list) or len(position) < 2 or any(type(c) not in NUMBERS for c in position[:2]):
+            raise SourceError(f"{where}, position {number} is {_shown(position)}; it must be two numbers")
+    try:
+        points = np.array([position[:2] for position in ring], np.float64).reshape(-1, 2)
+    except OverflowError:  # an integer beyond all floats
+        points = np.array([[c if abs(c) <= LARGEST else np.inf for c in position[:2]] for position in ring])
+    bad = ~(np.abs(points) <= LARGEST).all(axis=1)  # not a number is bad too
+    if bad.any():
+        number = int(bad.argmax()) + 1
+        raise SourceError(f"{where}, position {number} is {_shown(ring[number - 1])}; the limit is {LARGEST:g}")
+    return points
+
+
+def _contour(ring: Ring) -> NDArray[np.float64]:
+    """A ring as a closed contour of straight cubics, y down."""
+    turned = ring * (1.0, -1.0)
+    return line_cubics(turned, np.roll(turned, -1, axis=0))
+
+
+def _at(where: str, what: str) -> str:
+    return f"{where}, {what}" if where else what
+
+
+def _shown(value: Any) -> str:
+    """A value as a message names it: short, in one line."""
+    if isinstance(value, dict):
+        return "an object"
+    text = repr(value[:3] if isinstance(value, list) else value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _crs(member: Any) -> str:
+    """Name of the coordinate reference system, by the member that GeoJSON had before RFC 7946.
+
+    Examples
+    --------
+    >>> _crs({"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::28992"}}), _crs(None)
+    ('EPSG:28992', 'OGC:CRS84')
+    """
+    properties = member.get("properties") if isinstance(member, dict) else None
+    name = properties.get("name") if isinstance(properties, dict) else None
+    if not isinstance(name, str) or not name.isprintable() or not 0 < len(name) <= 200:
+        return WORLD
+    urn = URN.fullmatch(name)
+    return f"{urn[1].upper()}:{urn[2]}" if urn else name

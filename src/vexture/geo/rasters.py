@@ -1,0 +1,116 @@
+"""Depths in a GeoTIFF."""
+
+import os
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from vexture.errors import LimitError, SourceError, SourceWarning
+from vexture.geo.lattice import Lattice
+from vexture.geo.series import Series, Values
+
+if TYPE_CHECKING:
+    from rasterio import DatasetReader
+
+__all__ = ["open_geotiff"]
+
+
+@contextmanager
+def open_geotiff(
+    source: bytes | str | os.PathLike[str], time_dim: str | None, variable: str | None
+) -> Iterator[Series]:
+    """Open a GeoTIFF: its first band, or every band as a step if `time_dim` is given, by whatever name.
+
+    Parameters
+    ----------
+    source : bytes or path
+        Content, or where it is.
+    time_dim : str or None
+        As above.
+    variable : str or None
+        Number or description of the band to read, counted from 1.
+
+    Raises
+    ------
+    SourceError
+        If it is none, or does not say where it is.
+    LimitError
+        If there is no such band.
+    """
+    import rasterio
+    from rasterio.errors import RasterioError
+    from rasterio.io import MemoryFile
+
+    memory = MemoryFile(source) if isinstance(source, bytes) else None
+    try:
+        with rasterio.Env(CPL_LOG=os.devnull):
+            try:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    opened = memory.open(driver="GTiff") if memory else rasterio.open(source, driver="GTiff")
+            except (RasterioError, OSError) as error:
+                raise SourceError(f"it cannot be read as GeoTIFF ({_line(error)}); write it again") from None
+            with opened as file:
+                yield _series(file, time_dim, variable)
+    finally:
+        if memory:
+            memory.close()
+
+
+def _series(file: "DatasetReader", time_dim: str | None, variable: str | None) -> Series:
+    """Series of an open file."""
+    if file.transform.is_identity or file.transform.determinant == 0.0:
+        raise SourceError("it does not say where it is (no geotransform); write it with one")
+    bands = list(range(1, file.count + 1))
+    names = [file.descriptions[band - 1] or f"band {band}" for band in bands]
+    if variable is not None:
+        chosen = [b for b, name in zip(bands, names, strict=True) if variable in (str(b), name)]
+        if not chosen:
+            raise LimitError(f"there is no band {variable!r}; it has {', '.join(names[:8])}")
+        bands = chosen
+    elif time_dim is None:
+        if len(bands) > 1:
+            warnings.warn(
+                SourceWarning(
+                    f"it has {len(bands)} bands, of which the first is read; variable (--variable) chooses another, "
+                    "time_dim (--time-dim) makes them times"
+                ),
+                stacklevel=2,
+            )
+        bands = bands[:1]
+    a, b, c, d, e, f = file.transform[:6]
+    affine = np.array([[a, b, c], [d, e, f]], np.float64)
+    lattice = Lattice(np.arange(file.width) + 0.5, np.arange(file.height) + 0.5, affine)
+
+    def read(step: int, rows: slice, columns: slice) -> tuple[Values, None]:
+        return _band(file, bands[step], rows, columns), None
+
+    crs = file.crs.to_wkt() if file.crs else None
+    return Series(lattice, crs, names[bands[0] - 1], (None,) * len(bands), read)
+
+
+def _band(file: "DatasetReader", band: int, rows: slice, columns: slice) -> Values:
+    """Values of a band in metres."""
+    from rasterio.errors import RasterioError
+    from rasterio.windows import Window
+
+    stride = rows.step
+    shape = (len(range(rows.start, rows.stop, stride)), len(range(columns.start, columns.stop, stride)))
+    corner = (columns.start - stride // 2, rows.start - stride // 2)
+    window = Window(*corner, shape[1] * stride, shape[0] * stride)  # type: ignore[no-untyped-call,unused-ignore]
+    try:
+        read: Any = file.read(band, window=window, out_shape=shape, masked=True)
+    except (RasterioError, OSError) as error:
+        raise SourceError(f"band {band} cannot be read ({_line(error)}); write the file again") from None
+    values: Values = read.filled(0).astype(np.float64) * file.scales[band - 1] + file.offsets[band - 1]
+    values[np.ma.getmaskarray(read)] = np.nan
+    return values
+
+
+def _line(error: Exception) -> str:
+    """First line of what a library says."""
+    text = " ".join(str(error).split())
+    return (text if len(text) <= 120 else text[:117] + "...") or type(error).__name__

@@ -1,0 +1,376 @@
+"""Rings of polygons, all in a few arrays: checked, unwrapped across the antimeridian, repaired, cut, moved."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.errors import SourceError
+from vexture.geo.geojson import LARGEST
+from vexture.tolerance import ROUND
+
+if TYPE_CHECKING:
+    from vexture.svg.report import Report
+
+__all__ = ["Rings", "cut", "moved", "oriented", "refuse_far", "repaired", "rings_of", "unwrapped", "within"]
+
+FULL_TURN: Final = 1.0 - 1e-9
+"""Turns. A side this long goes once around the world on purpose: along a pole or the edge of a map."""
+
+MOST_HALVINGS: Final = 8
+"""Of a side that is bent in another reference system."""
+
+SHORT: Final = 1e-3
+"""Unit-square units. A side shorter than this stays straight, within `ROUND`, in any reference system."""
+
+Box = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Rings:
+    """Polygons, each an outer ring and the holes in it.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 array
+        All rings, one after another; the first point of a ring is not repeated at its end.
+    ends : (r,) intp array
+        Index after the last point of each ring.
+    polygon : (r,) intp array
+        The polygon that a ring belongs to, ascending; the first ring of each is its outer one.
+    place : callable
+        Names a polygon, by its index, in messages; an empty text where there is only one.
+    """
+
+    points: NDArray[np.float64]
+    ends: NDArray[np.intp]
+    polygon: NDArray[np.intp]
+    place: Callable[[int], str]
+
+    @property
+    def starts(self) -> NDArray[np.intp]:
+        """Index of the first point of each ring."""
+        return np.append(0, self.ends[:-1])[: len(self.ends)]
+
+    @cached_property
+    def outer(self) -> NDArray[np.intp]:
+        """Index of the outer ring of each polygon."""
+        return np.flatnonzero(np.diff(self.polygon, prepend=-1))
+
+    @property
+    def following(self) -> NDArray[np.intp]:
+        """Index of the point after each point, around its ring."""
+        after = np.arange(1, len(self.points) + 1)
+        after[self.ends - 1] = self.starts
+        return after
+
+    @cached_property
+    def boxes(self) -> NDArray[np.float64]:
+        """Least and greatest coordinates of each polygon, (p, 2, 2)."""
+        first = self.starts[self.outer]
+        if not len(first):
+            return np.empty((0, 2, 2))
+        return np.stack([np.minimum.reduceat(self.points, first), np.maximum.reduceat(self.points, first)], axis=1)
+
+    @property
+    def box(self) -> Box:
+        """West, south, east, north of all of it; there must be a polygon."""
+        (west, south), (east, north) = self.boxes[:, 0].min(axis=0), self.boxes[:, 1].max(axis=0)
+        return (float(west), float(south), float(east), float(north))
+
+    def where(self, point: int) -> str:
+        """Name of the ring that holds a point."""
+        ring = int(np.searchsorted(self.ends, point, side="right"))
+        polygon = int(self.polygon[ring])
+        number = f"ring {ring - int(self.outer[polygon]) + 1}"
+        place = self.place(polygon)
+        return f"{place}, {number}" if place else number
+
+    def taken(self, polygons: NDArray[np.intp]) -> "Rings":
+        """Some of the polygons, by their indices."""
+        counts = np.diff(np.append(self.outer, len(self.ends)))[polygons]
+        rings = _runs(self.outer[polygons], counts)
+        lengths = (self.ends - self.starts)[rings]
+        points = self.points[_runs(self.starts[rings], lengths)]
+        owner = np.repeat(np.arange(len(polygons)), counts)
+        return Rings(points, np.cumsum(lengths), owner, lambda index: self.place(int(polygons[index])))
+
+    def joined(self, other: "Rings") -> "Rings":
+        """These polygons and then the others."""
+        own = len(self.outer)
+        return Rings(
+            np.concatenate([self.points, other.points]),
+            np.concatenate([self.ends, other.ends + len(self.points)]),
+            np.concatenate([self.polygon, other.polygon + own]),
+            lambda index: self.place(index) if index < own else other.place(index - own),
+        )
+
+    @property
+    def shapes(self) -> NDArray[Any]:
+        """The polygons as shapely has them."""
+        import shapely
+
+        owner = np.repeat(np.arange(len(self.ends)), self.ends - self.starts)
+        return np.asarray(shapely.polygons(shapely.linearrings(self.points, indices=owner), indices=self.polygon))
+
+
+def _runs(starts: NDArray[np.intp], lengths: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Indices of several runs, one after another."""
+    before = np.cumsum(lengths) - lengths
+    return np.repeat(starts - before, lengths) + np.arange(int(lengths.sum()))
+
+
+def rings_of(polygons: NDArray[Any], place: Callable[[int], str]) -> Rings:
+    """Rings of shapely's polygons; empty ones have none.
+
+    Examples
+    --------
+    >>> import shapely
+    >>> rings_of(shapely.box([0, 5], 0, [1, 9], 2), str).ends
+    array([4, 8])
+    """
+    import shapely
+
+    rings, owner = shapely.get_rings(polygons, return_index=True)
+    points, ring = shapely.get_coordinates(rings, return_index=True)
+    ends = np.searchsorted(ring, np.arange(len(rings)), side="right")
+    keep = np.ones(len(points), np.bool_)
+    keep[ends - 1] = False  # the first point again
+    full, polygon = np.unique(owner, return_inverse=True)  # without the empty ones
+    return Rings(
+        points[keep],
+        (ends - np.arange(1, len(rings) + 1)).astype(np.intp),
+        polygon.astype(np.intp),
+        lambda index: place(int(full[index])),
+    )
+
+
+def refuse_far(rings: Rings, remedy: str) -> None:
+    """Refuse coordinates that are not finite or too large, by the name of their ring.
+
+    Parameters
+    ----------
+    rings : Rings
+    remedy : str
+        Says what to do.
+
+    Raises
+    ------
+    SourceError
+        If there is one.
+    """
+    near = (np.abs(rings.points) <= LARGEST).all(axis=1)  # not a number is not
+    if not near.all():
+        point = int(near.argmin())
+        x, y = rings.points[point]
+        raise SourceError(f"{rings.where(point)}: a point is at {x:g},{y:g}; the limit is {LARGEST:g}; {remedy}")
+
+
+def unwrapped(rings: Rings, turn: float) -> Rings:
+    """Rings of longitudes, going on beyond half a turn where they cross the antimeridian.
+
+    A side of more than half a turn is taken for one that goes the other way around the world. Holes go with their
+    polygon, and polygons stand together: on that side of the antimeridian where all of them span less.
+
+    Parameters
+    ----------
+    rings : Rings
+    turn : float
+        Units to a turn around the world.
+
+    Raises
+    ------
+    SourceError
+        If a ring goes around a pole, and not along the edge of a map.
+    """
+    if not len(rings.ends):
+        return rings
+    longitude = rings.points[:, 0]
+    step = longitude[rings.following] - longitude
+    turns = np.where(np.abs(step) > turn / 2, np.rint(step / turn), 0.0)
+    if turns.any():
+        rings = _without_jumps(rings, turns, np.abs(step) >= turn * FULL_TURN, turn)
+    boxes = rings.boxes
+    if boxes[:, 1, 0].max() - boxes[:, 0, 0].min() <= turn / 2:
+        return rings
+    middle = boxes[:, :, 0].mean(axis=1)
+    shift = np.where(middle < 0.0, turn, 0.0)
+    lows, highs = boxes[:, 0, 0] + shift, boxes[:, 1, 0] + shift
+    if highs.max() - lows.min() >= min(turn / 2, boxes[:, 1, 0].max() - boxes[:, 0, 0].min()):
+        return rings
+    return _shifted(rings, shift[rings.polygon])
+
+
+def _without_jumps(rings: Rings, turns: NDArray[np.float64], full: NDArray[np.bool_], turn: float) -> Rings:
+    """Rings with the jumps of their sides, in turns, taken out, where they are none on purpose."""
+    net = np.add.reduceat(turns, rings.starts)
+    around = np.logical_or.reduceat(full, rings.starts)
+    pole = (net != 0.0) & ~around
+    if pole.any():
+        where = rings.where(int(rings.starts[int(pole.argmax())]))
+        raise SourceError(
+            f"{where} goes around a pole, where longitudes have no inside; cut it along the antimeridian or give the "
+            "data in a polar reference system"
+        )
+    lengths = rings.ends - rings.starts
+    turns = np.where(np.repeat(around & (net != 0.0), lengths), 0.0, turns)
+    before = np.cumsum(turns) - turns  # the jump is in the side that leaves the point
+    shift = np.repeat(before[rings.starts], lengths) - before
+    points = rings.points + np.stack([turn * shift, np.zeros(len(shift))], axis=1)
+    first, last = np.minimum.reduceat(points, rings.starts), np.maximum.reduceat(points, rings.starts)
+    flat = np.repeat(around & (last[:, 0] - first[:, 0] <= turn * (1.0 - FULL_TURN)), lengths)
+    points[flat] = rings.points[flat]  # a map's whole width
+    unwound = replace(rings, points=points)
+    middle = (np.minimum.reduceat(points[:, 0], rings.starts) + np.maximum.reduceat(points[:, 0], rings.starts)) / 2
+    own = middle[rings.outer][rings.polygon]
+    return _shifted(unwound, turn * np.rint((own - middle) / turn))
+
+
+def _shifted(rings: Rings, shift: NDArray[np.float64]) -> Rings:
+    """Rings moved along x, each by its own length."""
+    points = rings.points.copy()
+    points[:, 0] += np.repeat(shift, rings.ends - rings.starts)
+    return replace(rings, points=points)
+
+
+def repaired(rings: Rings, report: "Report") -> Rings:
+    """Polygons whose rings neither cross nor leave their outer ring, by shapely where they do.
+
+    Parameters
+    ----------
+    rings : Rings
+    report : Report
+        Is told of polygons that enclose nothing, which are left out.
+
+    Raises
+    ------
+    SourceError
+        If one cannot be repaired.
+    """
+    import shapely
+
+    shapes = rings.shapes
+    valid = shapely.is_valid(shapes)
+    if valid.all():
+        return rings
+    parts: list[Any] = []
+    owner: list[int] = []
+    for index in np.flatnonzero(~valid):
+        place = rings.place(int(index)) or "its polygon"
+        try:
+            made = shapely.make_valid(shapes[index], method="structure", keep_collapsed=False)
+        except shapely.errors.GEOSException as error:
+            why = " ".join(str(error).split())[:120]
+            raise SourceError(f"{place} cannot be repaired ({why}); correct its rings") from None
+        pieces = _polygons(np.array([made]))[0]
+        if not len(pieces):
+            report.left_out("polygon that encloses nothing")
+        parts += list(pieces)
+        owner += [int(index)] * len(pieces)
+    mended = rings_of(np.array(parts, dtype=object), lambda index: rings.place(owner[index]))
+    return rings.taken(np.flatnonzero(valid)).joined(mended)
+
+
+def _polygons(shapes: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
+    """Polygons among the parts of shapely's geometries, and whose they are."""
+    import shapely
+
+    parts, owner = shapely.get_parts(shapes, return_index=True)
+    again, inner = shapely.get_parts(parts, return_index=True)
+    keep = (shapely.get_type_id(again) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(again)
+    return again[keep], owner[inner][keep]
+
+
+def within(rings: Rings, box: Box, turn: float | None) -> Rings:
+    """Polygons that reach into a box; in longitudes, those a turn away too.
+
+    Parameters
+    ----------
+    rings : Rings
+    box : tuple of float
+        West, south, east, north.
+    turn : float or None
+        Units to a turn around the world, where there is such a thing.
+    """
+    found: Rings | None = None
+    for shift in (0.0, -turn, turn) if turn else (0.0,):
+        low, high = rings.boxes[:, 0] + (shift, 0.0), rings.boxes[:, 1] + (shift, 0.0)
+        inside = (low < box[2:]).all(axis=1) & (high > box[:2]).all(axis=1)
+        if inside.all() and found is None:
+            found = rings
+        elif inside.any() or found is None:
+            part = rings.taken(np.flatnonzero(inside))
+            part = _shifted(part, np.full(len(part.ends), shift))
+            found = part if found is None else found.joined(part)
+    assert found is not None
+    return found
+
+
+def cut(rings: Rings, box: Box) -> Rings:
+    """Polygons cut to a box: those that leave it."""
+    import shapely
+
+    beyond = (rings.boxes[:, 0] < box[:2]).any(axis=1) | (rings.boxes[:, 1] > box[2:]).any(axis=1)
+    if not beyond.any():
+        return rings
+    leaving = np.flatnonzero(beyond)
+    pieces, owner = _polygons(shapely.clip_by_rect(rings.taken(leaving).shapes, *box))
+    return rings.taken(np.flatnonzero(~beyond)).joined(
+        rings_of(pieces, lambda index: rings.place(int(leaving[owner[index]])))
+    )
+
+
+def moved(
+    rings: Rings,
+    mapping: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    box: Box,
+    size: NDArray[np.float64],
+) -> Rings:
+    """Rings with their points mapped, and with more points where a mapped side is no longer straight.
+
+    Parameters
+    ----------
+    rings : Rings
+    mapping : callable
+        Maps points, (n, 2).
+    box : tuple of float
+        Where the mapped sides must be right; elsewhere none is divided.
+    size : (2,) float64 array
+        Width and height of the unit square, in units after the mapping: sides are right within `ROUND` of it.
+    """
+    points, ends = rings.points, rings.ends
+    image = mapping(points)
+    for _ in range(MOST_HALVINGS):
+        after = replace(rings, points=image, ends=ends).following
+        low, high = np.minimum(image, image[after]), np.maximum(image, image[after])
+        near = (low < box[2:]).all(axis=1) & (high > box[:2]).all(axis=1)
+        with np.errstate(invalid="ignore"):  # the caller refuses infinite points
+            sides = np.flatnonzero(near & ((high - low) > SHORT * size).any(axis=1))
+            middles = (points[sides] + points[after[sides]]) / 2.0
+            mapped = mapping(middles)
+            bent = np.hypot(*((mapped - (image[sides] + image[after[sides]]) / 2.0) / size).T) > ROUND
+        if not bent.any():
+            break
+        at = sides[bent] + 1
+        points, image = np.insert(points, at, middles[bent], axis=0), np.insert(image, at, mapped[bent], axis=0)
+        ends = ends + np.searchsorted(at, ends, side="right")
+    return replace(rings, points=image, ends=ends)
+
+
+def oriented(rings: Rings) -> Rings:
+    """Rings turned so that outer ones go counter-clockwise and holes clockwise: winding numbers count the polygons."""
+    if not len(rings.ends):
+        return rings
+    middle = rings.points[rings.starts].repeat(rings.ends - rings.starts, axis=0)
+    x, y = (rings.points - middle).T
+    after = rings.following
+    doubled = np.add.reduceat(x * y[after] - x[after] * y, rings.starts)
+    hole = np.ones(len(rings.ends), np.bool_)
+    hole[rings.outer] = False
+    turn = np.repeat((doubled > 0.0) == hole, rings.ends - rings.starts)
+    index = np.arange(len(turn))
+    index[turn] = (np.repeat(rings.starts + rings.ends - 1, rings.ends - rings.starts) - index)[turn]
+    return replace(rings, points=rings.points[index])

@@ -1,0 +1,214 @@
+"""Vector files of geographic data: from their bytes to rings, or one line that says why not.
+
+GDAL reads all but GeoJSON. It sees a file only after the first bytes have told that it is of a format meant here, and
+only in memory: nothing else is opened, fetched or written, whatever the file asks for.
+"""
+
+import os
+import warnings
+import zipfile
+import zlib
+from io import BytesIO
+from pathlib import Path
+from threading import Lock
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.errors import LimitError, SourceError
+from vexture.geo.geojson import areas_of
+from vexture.geo.rings import Rings, rings_of
+from vexture.reading import FLATGEOBUF, SHAPEFILE, SQLITE, ZIP, is_geojson, start_of
+from vexture.svg.document import LARGEST_FILE, decompressed, read_bytes
+from vexture.svg.report import UNLOCATED, Report
+
+__all__ = ["Areas", "read_areas"]
+
+APPLICATION: Final = slice(68, 72)
+GEOPACKAGES: Final = (b"GPKG", b"GP10", b"GP11")
+"""Application of an SQLite file, there."""
+
+PARTS: Final = (".shp", ".shx", ".dbf", ".prj", ".cpg")
+"""Files that are one shapefile; without the first two it cannot be read."""
+
+AREAL: Final = ("Polygon", "Surface", "Unknown", "GeometryCollection", "Triangle", "TIN")
+"""Words in the types of layers that may hold polygons."""
+
+QUIET: Final = Lock()
+"""Held while Python's warnings are silenced, which is so for all threads."""
+
+MOST_NAMED: Final = 12
+"""Layers that a message names."""
+
+
+class Areas(NamedTuple):
+    """Polygons of a file, in its own coordinates, and the reference system that it names."""
+
+    rings: Rings
+    crs: str | None
+
+
+def read_areas(source: str | os.PathLike[str] | bytes, file_name: str, layer: str | None, report: Report) -> Areas:
+    """Read the polygons of a vector file.
+
+    Parameters
+    ----------
+    source : path or bytes
+        GeoJSON, GeoPackage, FlatGeobuf, a zipped shapefile; as a path also a ``.shp`` beside its siblings.
+    file_name : str
+        What it is called.
+    layer : str or None
+        Which layer, where there are several.
+    report : Report
+        Is told what has no area.
+
+    Raises
+    ------
+    SourceError
+        If it cannot be read.
+    LimitError
+        If there is no such layer, or none is named where there are several.
+    """
+    content = decompressed(source) if isinstance(source, bytes) else read_bytes(source)
+    if is_geojson(start_of(content), file_name):
+        if layer is not None:
+            raise LimitError(f"GeoJSON has no layers, so none {layer!r}; leave --layer out")
+        return _geojson(content, report)
+    if content.startswith(SHAPEFILE):
+        if isinstance(source, bytes):
+            raise SourceError("a shapefile is several files; give them together as a .zip")
+        content = _zipped(_siblings(Path(source)))
+    elif content.startswith(ZIP):
+        content = _zipped(_members(content))
+    elif content.startswith(SQLITE):
+        if content[APPLICATION] not in GEOPACKAGES:
+            raise SourceError("an SQLite database, but no GeoPackage; save it as GeoPackage")
+    elif not content.startswith(FLATGEOBUF):
+        raise SourceError("none of GeoJSON, GeoPackage, FlatGeobuf and shapefile; convert it to one of them")
+    return _gdal(content, layer, report)
+
+
+def _geojson(content: bytes, report: Report) -> Areas:
+    areas, crs = areas_of(content, report)
+    rings = [ring for area in areas for ring in area.rings]
+    owner = np.repeat(np.arange(len(areas)), [len(area.rings) for area in areas]).astype(np.intp)
+    ends = np.cumsum([len(ring) for ring in rings]).astype(np.intp)
+    points = np.concatenate(rings) if rings else np.empty((0, 2))
+    return Areas(Rings(points, ends, owner, lambda index: areas[index].where), crs)
+
+
+def _siblings(path: Path) -> dict[str, bytes]:
+    """Files that make up a shapefile, by name."""
+    try:
+        beside = {each.name.lower(): each for each in path.parent.iterdir()}
+    except OSError as error:
+        raise SourceError(f"its folder cannot be read: {error.strerror}; the files beside it are needed") from None
+    found = {part: beside.get(path.stem.lower() + part) for part in PARTS} | {".shp": path}
+    return {f"{path.stem}{part}": read_bytes(each) for part, each in found.items() if each is not None}
+
+
+def _members(content: bytes) -> dict[str, bytes]:
+    """Files of the shapefiles in a zip, by name."""
+    try:
+        with zipfile.ZipFile(BytesIO(content)) as archive:
+            infos = [info for info in archive.infolist() if Path(info.filename).suffix.lower() in PARTS]
+            if sum(info.file_size for info in infos) > LARGEST_FILE:
+                raise SourceError(f"its shapefiles are larger than {LARGEST_FILE:,} bytes; split them")
+            return {Path(info.filename).name: archive.read(info) for info in infos}
+    except (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError, OSError, ValueError) as error:
+        why = " ".join(str(error).split())[:80]
+        raise SourceError(f"the zip is damaged or encrypted ({why}); zip the shapefile again") from None
+
+
+def _zipped(files: dict[str, bytes]) -> bytes:
+    """Shapefiles and nothing else, in one zip."""
+    named = {Path(name).stem + Path(name).suffix.lower(): content for name, content in files.items()}
+    stems = [Path(name).stem for name in named if name.endswith(".shp")]
+    if not stems:
+        raise SourceError("the zip holds no shapefile (.shp); zip the .shp, .shx, .dbf and .prj together")
+    for stem in stems:
+        if f"{stem}.shx" not in named:
+            raise SourceError(f"the shapefile {stem}.shp lacks its {stem}.shx; keep its files together")
+    packed = BytesIO()
+    with zipfile.ZipFile(packed, "w") as archive:
+        for name, content in named.items():
+            archive.writestr(name, content)
+    return packed.getvalue()
+
+
+def _gdal(content: bytes, layer: str | None, report: Report) -> Areas:
+    """Polygons that GDAL finds."""
+    from pyogrio import list_layers, raw
+
+    with QUIET, warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # GDAL's remarks; what matters is found again below
+        try:
+            name = _layer([(str(each), str(kind)) for each, kind in list_layers(content)], layer)
+            meta, _, shapes, _ = raw.read(content, layer=name, columns=[], force_2d=True)
+        except (RuntimeError, ValueError, OverflowError, NameError) as error:  # the last is pyogrio's for a bad .prj
+            raise SourceError(f"GDAL cannot read it ({_one_line(error)}); save it again") from None
+    if shapes is None:
+        raise SourceError(f"its layer {name!r} has no geometries; choose another by --layer")
+    return Areas(_parsed(shapes, report), meta["crs"])
+
+
+def _one_line(error: Exception) -> str:
+    text = " ".join(str(error).split()).rpartition("Raw error: ")[2]
+    if isinstance(error, NameError):
+        return "what it says of its reference system is damaged"
+    if "sqlite3" in text:  # its query and more
+        return "its database is damaged"
+    start = text.find("/vsi")
+    if start >= 0:  # a name in memory says nothing to anybody
+        text = "the file" + text[start:].partition("'")[2] if "'" in text[start:] else "damaged"
+    return text[:160]
+
+
+def _layer(layers: list[tuple[str, str]], wanted: str | None) -> str:
+    """Name of the layer to read."""
+    names = [name for name, _ in layers]
+    areal = [name for name, kind in layers if any(word in kind for word in AREAL)]
+    if wanted is None:
+        if len(areal) == 1 or len(names) == 1:
+            return (areal or names)[0]
+        if not names:
+            raise SourceError("it has no layers; save it again")
+        listed = areal or names
+        shown = ", ".join(listed[:MOST_NAMED]) + (", ..." if len(listed) > MOST_NAMED else "")
+        raise LimitError(f"it has {len(listed)} layers; choose one by --layer: {shown}")
+    if wanted not in names:
+        shown = ", ".join(names[:MOST_NAMED]) + (", ..." if len(names) > MOST_NAMED else "")
+        raise LimitError(f"it has no layer {wanted!r}; its layers are: {shown}")
+    return wanted
+
+
+def _parsed(shapes: NDArray[Any], report: Report) -> Rings:
+    """Polygons of geometries in WKB."""
+    import shapely
+
+    given = np.array([shape is not None for shape in shapes], np.bool_)
+    for _ in range(int((~given).sum())):
+        report.left_out(UNLOCATED)
+    feature = np.flatnonzero(given)
+    with np.errstate(invalid="ignore"):  # what is not a number is refused later, by name
+        whole = shapely.from_wkb(shapes[given], on_invalid="fix")
+    broken = shapely.is_missing(whole)
+    if broken.any():
+        raise SourceError(f"feature {feature[int(broken.argmax())] + 1} is damaged; save the file again")
+    parts, owner = shapely.get_parts(whole, return_index=True)
+    kinds = shapely.get_type_id(parts)
+    while (kinds > shapely.GeometryType.POLYGON).any():  # collections in collections
+        parts, inner = shapely.get_parts(parts, return_index=True)
+        owner, kinds = owner[inner], shapely.get_type_id(parts)
+    areal = kinds == shapely.GeometryType.POLYGON
+    for part in parts[~areal]:
+        report.left_out(part.geom_type)
+    polygons, feature = parts[areal], feature[owner[areal]]
+
+    def place(index: int) -> str:
+        number = index - int(np.searchsorted(feature, feature[index])) + 1
+        several = (feature == feature[index]).sum() > 1
+        return f"feature {feature[index] + 1}" + (f", polygon {number}" if several else "")
+
+    return rings_of(polygons, place)

@@ -1,0 +1,56 @@
+// Shapes in their colours, painted one over the other.
+// Exports: vextureLayers, vextureStraight, vextureQuad.
+#include "wrap.glsl"
+
+// A row for each root of the texture: its quad, and red and green, blue and opacity as 16-bit parts of a word (sRGB);
+// then the box of what is not empty, 1.0 = 65536.
+uniform highp usampler2D vexturePaints;
+
+// Quad of a root, given by its number in the texture.
+uint vextureQuad(uint root) {
+    return texelFetch(vexturePaints, ivec2(0, int(root)), 0).x;
+}
+
+bool vexture_meets(uvec4 box, VextureSpot spot) {
+    vec2 low = vec2(box.xy) * exp2(-16.0);
+    vec2 high = vec2(box.zw) * exp2(-16.0);
+    vec2 way = vexture_fraction(spot.base) + spot.offset - 0.5 * (low + high);
+#if VEXTURE_WRAP == VEXTURE_WRAP_REPEAT
+    way -= floor(way + 0.5);
+#endif
+    return all(lessThan(abs(way), 0.5 * (high - low) + spot.reach + VEXTURE_BORDER));
+}
+
+// Colour of a pixel, premultiplied, sRGB, in which drawings are painted. Parameters: the number of the lowest layer and
+// how many there are, then those of vextureCoverage.
+//
+// From above, until nothing below would show. The inner loop looks for the next layer that the footprint meets: a branch
+// around the others would cost devices that execute both its sides as much as drawing them.
+vec4 vextureLayers(int first, int count, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
+    VextureSpot spot = vexture_spot(base, offset, dx, dy);
+    vec4 color = vec4(0.0);
+    int layer = first + count;
+    while (layer > first && color.a < VEXTURE_COVERED) {
+        bool meets = false;
+        while (!meets && layer > first) {
+            layer--;
+            meets = vexture_meets(texelFetch(vexturePaints, ivec2(1, layer), 0), spot);
+        }
+        uvec4 head = texelFetch(vexturePaints, ivec2(0, layer), 0);
+        vec4 paint = vec4(unpackUnorm2x16(head.y), unpackUnorm2x16(head.z));
+        float cover = meets ? paint.a * vexture_spot_coverage(head.x, spot) : 0.0;
+        color += (1.0 - color.a) * cover * vec4(paint.rgb, 1.0);
+    }
+    return color;
+}
+
+vec4 vextureLayers(int first, int count, vec2 uv, vec2 dx, vec2 dy) {
+    return vextureLayers(first, count, uvec2(0u), uv, dx, dy);
+}
+
+// From premultiplied sRGB to linear components that are not premultiplied (IEC 61966-2-1).
+vec4 vextureStraight(vec4 color) {
+    vec3 encoded = color.rgb / max(color.a, exp2(-24.0));
+    vec3 bent = pow((encoded + 0.055) / 1.055, vec3(2.4));
+    return vec4(mix(bent, encoded / 12.92, lessThanEqual(encoded, vec3(0.04045))), color.a);
+}

@@ -1,0 +1,66 @@
+// What is inside a packed texture, drawn over a picture of it: the borders of cells, their stored coverage, their depth,
+// and where stored coverage would stand for curves if pixels were larger.
+// Exports: vextureOverlay.
+#include "layers.glsl"
+
+uniform highp uint vextureOverlayRoot;    // the quad whose tree is shown
+uniform vec3 vextureOverlayShow;          // opacity of borders, coverage and depth; 0 hides them
+uniform float vextureOverlayCutoff;       // levels by which the cut-off is exaggerated; 0 leaves the picture alone
+uniform vec3 vextureOverlayCoverage[2];   // colours, sRGB, of an empty and a full cell
+uniform vec3 vextureOverlayStored[2];     // of an empty and a full quad at the cut-off
+uniform vec3 vextureOverlayDepth[VEXTURE_MOST_DEPTH + 1];
+
+// The first level whose cells are no larger than so many pixels, given as a power of two; the root's coverage is in no
+// cell.
+int vexture_cutoff_level(float area, float levels) {
+    return clamp(int(ceil(-0.5 * log2(area) - levels - VEXTURE_LEVEL_BIAS)), 1, VEXTURE_MOST_DEPTH);
+}
+
+// How much of a pixel the border of a cell takes, one pixel wide. `pixels` is the size of a position in pixels, by axis.
+float vexture_border(VexturePlace place, int level, vec2 pixels) {
+    int bits = VEXTURE_POSITION_BITS - level;
+    ivec2 before = place.point & ((1 << bits) - 1);
+    ivec2 after = (1 << bits) - before;  // whole numbers: next to the border they are small, so a float holds them
+    vec2 near = min(vec2(before) + place.rest, vec2(after) - place.rest) * pixels;
+    vec2 size = float(1 << bits) * pixels;
+    float seen = clamp(min(size.x, size.y) / VEXTURE_FADED_CELL - 1.0, 0.0, 1.0);
+    return seen * clamp(1.0 - min(near.x, near.y), 0.0, 1.0);
+}
+
+vec4 vexture_over(vec4 color, vec3 paint, float opacity) {
+    return mix(color, vec4(paint, 1.0), opacity);
+}
+
+// Dark on light colours, light on dark ones.
+vec3 vexture_contrast(vec4 color) {
+    return vec3(dot(color.rgb, vec3(0.299, 0.587, 0.114)) > 0.5 ? 0.0 : 1.0);
+}
+
+// The picture's colour on its paper, with what is switched on; the other parameters are those of vextureCoverage.
+// The tree is followed to the leaf, or to a quad at the cut-off, which is one pixel if it is not exaggerated.
+vec4 vextureOverlay(vec4 color, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
+    VextureFrame frame = vexture_frame(dx, dy);
+    VexturePlace place = vexture_place(base, offset, frame.reach);
+    ivec2 outside = place.point >> VEXTURE_POSITION_BITS;
+    int finest = vexture_cutoff_level(frame.size, vextureOverlayCutoff);
+    vec2 lengths = vec2(length(vec2(dx.x, dy.x)), length(vec2(dx.y, dy.y))) * float(1 << VEXTURE_POSITION_BITS);
+    vec2 pixels = 1.0 / max(lengths, VEXTURE_SMALLEST_PIXEL);
+    VextureTop top = VextureTop(vextureOverlayRoot, 0);
+    VextureCell cell = VextureCell(uvec4(0u), 0u, 0, outside == ivec2(0));
+    float border = cell.is_quad ? vexture_border(place, 0, pixels) : 0.0;
+    while (cell.is_quad && cell.level < finest) {
+        int level = cell.level + 1;
+        cell = vexture_descend(top, level, level, place.point);
+        border = max(border, vexture_border(place, level, pixels));
+    }
+    if (outside != ivec2(0)) {
+        return color;
+    }
+    float stored = vexture_stored_coverage(cell);
+    bool is_cut = cell.is_quad && vextureOverlayCutoff > 0.0;
+    color = vexture_over(color, mix(vextureOverlayStored[0], vextureOverlayStored[1], stored), is_cut ? 1.0 : 0.0);
+    vec3 shade = mix(vextureOverlayCoverage[0], vextureOverlayCoverage[1], stored);
+    color = vexture_over(color, shade, is_cut ? 0.0 : vextureOverlayShow.y);
+    color = vexture_over(color, vextureOverlayDepth[cell.level], vextureOverlayShow.z);
+    return vexture_over(color, vexture_contrast(color), border * vextureOverlayShow.x);
+}

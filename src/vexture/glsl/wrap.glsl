@@ -1,0 +1,91 @@
+// Coverage of pixels anywhere: beyond the unit square is nothing, what its border shows, or the shape again.
+// Exports: VextureSpot, vexture_spot, vexture_spot_coverage, vextureWrapped.
+//
+// VEXTURE_WRAP tells which: VEXTURE_WRAP_NONE, VEXTURE_WRAP_CLAMP or VEXTURE_WRAP_REPEAT.
+#include "coverage.glsl"
+
+#ifndef VEXTURE_WRAP
+#define VEXTURE_WRAP VEXTURE_WRAP_NONE
+#endif
+
+// A pixel's footprint, brought to where the shape is looked up.
+struct VextureSpot {
+    uvec2 base;   // its centre: 32-bit fixed point (1.0 = 2^32)
+    vec2 offset;  // and an offset from it
+    vec2 dx;      // steps to the next pixels
+    vec2 dy;
+    vec2 reach;   // half its box
+};
+
+// Fixed point as a float, which loses its last bits.
+vec2 vexture_fraction(uvec2 base) {
+    return vec2(base) * exp2(-32.0);
+}
+
+VextureSpot vexture_spot(uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
+    vec2 reach = 0.5 * (abs(dx) + abs(dy));
+#if VEXTURE_WRAP == VEXTURE_WRAP_CLAMP
+    // a footprint that would leave the square is moved, one larger than the square is made smaller
+    vec2 shrink = min((VEXTURE_WHOLE_TILE - VEXTURE_BORDER) / max(reach, VEXTURE_SMALLEST_PIXEL), 1.0);
+    dx *= shrink;
+    dy *= shrink;
+    reach *= shrink;
+    vec2 inset = reach + VEXTURE_BORDER;
+    offset = clamp(offset, inset - vexture_fraction(base), 1.0 - inset - vexture_fraction(base));
+#elif VEXTURE_WRAP == VEXTURE_WRAP_REPEAT
+    // the sum of fixed-point numbers forgets whole tiles by itself, and loses nothing else
+    float unit = exp2(16.0);
+    offset = clamp(offset, -0.5 * unit + 1.0, 0.5 * unit - 1.0);
+    vec2 steps = floor(offset * unit);
+    base += uvec2(ivec2(steps)) << 16;
+    offset -= steps / unit;
+#endif
+    return VextureSpot(base, offset, dx, dy, reach);
+}
+
+// Stored coverage of the whole square.
+float vexture_mean_coverage(uint root) {
+    uint cells = vexture_texel(root).w;
+    uint sum = (cells & 255u) + ((cells >> 8) & 255u) + ((cells >> 16) & 255u) + (cells >> 24);
+    return float(sum) / float(4 * VEXTURE_COVERAGE_ONE);
+}
+
+// A repeated shape is the sum of the tiles that the footprint touches, two in each direction at most. From the next tile
+// the pixel is seen relative to the border between the two, where positions of both are exact.
+float vexture_spot_coverage(uint root, VextureSpot spot) {
+#if VEXTURE_WRAP == VEXTURE_WRAP_REPEAT
+    float whole = (max(spot.reach.x, spot.reach.y) - VEXTURE_NEARLY_TILE) / (VEXTURE_WHOLE_TILE - VEXTURE_NEARLY_TILE);
+    whole = clamp(whole, 0.0, 1.0);
+    vec2 place = vexture_fraction(spot.base) + spot.offset;
+    vec2 margin = spot.reach + VEXTURE_BORDER;
+    bvec2 left = lessThan(place, margin);
+    bvec2 right = greaterThan(place, 1.0 - margin);
+    vec2 from_left = (vec2(spot.base) + 1.0) * exp2(-32.0);
+    vec2 from_right = (vec2(~spot.base) + 1.0) * exp2(-32.0);
+    uvec2 next_base = uvec2(left.x ? ~0u : 0u, left.y ? ~0u : 0u);
+    vec2 next_offset = spot.offset + mix(-from_right, from_left, left);
+    int columns = left.x || right.x ? 2 : 1;
+    int rows = left.y || right.y ? 2 : 1;
+    int tiles = whole < 1.0 ? columns * rows : 0;
+    float sum = 0.0;
+    for (int tile = 0; tile < tiles; tile++) {
+        bool next_column = (tile & (columns - 1)) == 1;
+        bool next_row = tile >= columns;
+        uvec2 base = uvec2(next_column ? next_base.x : spot.base.x, next_row ? next_base.y : spot.base.y);
+        vec2 offset = vec2(next_column ? next_offset.x : spot.offset.x, next_row ? next_offset.y : spot.offset.y);
+        sum += vextureCoverage(root, base, offset, spot.dx, spot.dy);
+    }
+    return mix(min(sum, 1.0), vexture_mean_coverage(root), whole);
+#else
+    return vextureCoverage(root, spot.base, spot.offset, spot.dx, spot.dy);
+#endif
+}
+
+// Parameters: those of vextureCoverage, but that the position may lie anywhere.
+float vextureWrapped(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
+    return vexture_spot_coverage(root, vexture_spot(base, offset, dx, dy));
+}
+
+float vextureWrapped(uint root, vec2 uv, vec2 dx, vec2 dy) {
+    return vextureWrapped(root, uvec2(0u), uv, dx, dy);
+}

@@ -1,0 +1,161 @@
+"""Pixels of a drawing or a texture: how much of each is covered, and the picture in its colours."""
+
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+
+from vexture.encodings import EncodedTexture
+from vexture.errors import ParameterError
+from vexture.pipeline import convert
+
+if TYPE_CHECKING:  # at run time they come when they are needed: compiler and driver take their time
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from vexture.drawing import Drawing
+    from vexture.renderers.view import Size, ViewLike
+
+__all__ = ["RENDERERS", "Quality", "Renderer", "Shown", "coverage", "render"]
+
+Shown: TypeAlias = "Drawing | EncodedTexture"
+Renderer: TypeAlias = Literal["exact", "cpu", "gpu"]
+Quality: TypeAlias = Literal["fast", "exact"]
+
+RENDERERS: Final[tuple[Renderer, ...]] = ("exact", "cpu", "gpu")
+"""The truth, from a drawing; from a texture on the CPU; on the GPU."""
+
+
+def coverage(
+    thing: Shown,
+    size: "Size",
+    view: "ViewLike" = None,
+    renderer: Renderer = "cpu",
+    *,
+    root: str | int | None = None,
+    quality: Quality = "exact",
+) -> "NDArray[np.float32]":
+    """Covered part of each pixel, by a drawing's silhouette or by a shape of a texture.
+
+    Parameters
+    ----------
+    thing : Drawing or Texture
+        ``"exact"`` renders a drawing; ``"cpu"`` and ``"gpu"`` render a texture, and convert a drawing with the
+        defaults of `vexture.convert` first.
+    size : int or tuple of int
+        Width and height of the image in pixels, or the side of a square one.
+    view : (2, 3) or (3, 3) array, View or None
+        From pixel coordinates (x right, y down, centres at +0.5) to the unit square (y up), as a matrix or by a
+        helper such as `vexture.window`; None fits the unit square.
+    renderer : str
+        ``"exact"``, ``"cpu"`` or ``"gpu"``.
+    root : str or int, optional
+        Which shape of a texture, by its name or its place in `Texture.roots`; not needed if there is only one.
+    quality : str
+        ``"exact"``, or ``"fast"`` on the CPU and the GPU: a little cheaper, less exact in turned and tilted views.
+
+    Returns
+    -------
+    (height, width) float32 array
+        Coverage, 0..1, top row first.
+
+    Raises
+    ------
+    ParameterError
+        If an argument is out of range, ``"exact"`` is asked of a texture, or a texture holds several shapes and `root`
+        is missing.
+    TypeError
+        If `thing` is neither a drawing nor a texture.
+    DeviceError
+        If there is no GPU.
+
+    Examples
+    --------
+    >>> from vexture.drawing import Drawing
+    >>> half = Drawing.polygon([(0, 0), (0.5, 0), (0.5, 1), (0, 1)])
+    >>> coverage(half, 2)
+    array([[1., 0.],
+           [1., 0.]], dtype=float32)
+    """
+    drawing = _drawing_in(thing, renderer, root, quality)
+    if drawing is None:
+        return thing.coverage(size, view, renderer=renderer, root=root, quality=quality)  # type: ignore[union-attr]
+    if renderer == "exact":
+        from vexture.renderers.exact import render_exact
+
+        return render_exact(drawing, size, view)
+    return convert(drawing).coverage(size, view, renderer=renderer, quality=quality)
+
+
+def render(
+    thing: Shown,
+    size: "Size",
+    view: "ViewLike" = None,
+    renderer: Renderer = "cpu",
+    *,
+    root: str | int | None = None,
+    quality: Quality = "exact",
+) -> "NDArray[np.float32]":
+    """Picture of a drawing or a texture in its colours: its layers, one over the other. Silhouettes are black.
+
+    Parameters
+    ----------
+    thing, size, view, renderer, quality
+        As in `vexture.coverage`. A drawing is split by paint before it is converted.
+    root : str or int, optional
+        Which drawing of an atlas, by its name, or which shape, by its name or place; not needed if a texture holds
+        only one drawing.
+
+    Returns
+    -------
+    (height, width, 4) float32 array
+        sRGB and opacity, 0..1, **premultiplied**, top row first: ``image[..., :3] + 1 - image[..., 3:]`` is the
+        picture on white.
+
+    Raises
+    ------
+    ParameterError, TypeError, DeviceError
+        As in `vexture.coverage`.
+
+    Examples
+    --------
+    >>> from vexture.drawing import Drawing, Paint, Path
+    >>> half = Drawing.polygon([(0, 0), (0.5, 0), (0.5, 1), (0, 1)]).paths[0].contours
+    >>> red = Drawing((Path(half, paint=Paint((1.0, 0.0, 0.0), 0.5)),))
+    >>> render(red, (2, 1), [[0.5, 0, 0], [0, -1, 1]])
+    array([[[0.5, 0. , 0. , 0.5],
+            [0. , 0. , 0. , 0. ]]], dtype=float32)
+    """
+    drawing = _drawing_in(thing, renderer, root, quality)
+    if drawing is None:
+        return thing.render(size, view, renderer=renderer, root=root, quality=quality)  # type: ignore[union-attr]
+    if renderer != "exact" and drawing.paths:
+        return convert(drawing, split="paint").render(size, view, renderer=renderer, quality=quality)
+    from vexture.renderers.exact import render_exact
+    from vexture.renderers.picture import painted
+    from vexture.renderers.view import size_of
+
+    layers = drawing.layers()
+    return painted(
+        size_of(size), ((layer.paths[0].paint, render_exact(layer, size, view)) for layer in layers)
+    )
+
+
+def _drawing_in(
+    thing: Shown, renderer: Renderer, root: str | int | None, quality: Quality
+) -> "Drawing | None":
+    """Return the drawing that is to be shown, or None for a texture, once the arguments are checked."""
+    from vexture.drawing import Drawing
+
+    if renderer not in RENDERERS:
+        raise ParameterError(f"`renderer` is {renderer!r}; it must be one of {', '.join(map(repr, RENDERERS))}")
+    if renderer == "exact" and quality != "exact":
+        raise ParameterError(f"`quality` is {quality!r}, which the renderer exact does not have; use cpu or gpu")
+    if not isinstance(thing, Drawing):
+        if not hasattr(thing, "coverage"):
+            raise TypeError(
+                f"{type(thing).__name__} is neither a drawing nor a texture; use vexture.read or vexture.load first"
+            )
+        if renderer == "exact":
+            raise ParameterError("`renderer` is 'exact', which renders drawings; use cpu or gpu for a texture")
+        return None
+    if root is not None:
+        raise ParameterError(f"`root` is {root!r}, which chooses a shape of a texture; leave it out for a drawing")
+    return thing

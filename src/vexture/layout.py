@@ -1,0 +1,93 @@
+"""The bits of a texture (FORMAT.md, part B), defined once: Python reads them here, GLSL and JavaScript are generated.
+
+A texture is one image of four 32-bit words to a texel, in which quads and curves share one index.
+"""
+
+from typing import Final
+
+__all__ = [
+    "CELL_BITS",
+    "CONTROL_OFFSET",
+    "COORDINATE_BITS",
+    "COUNT_SHIFT",
+    "COVERAGE_ONE",
+    "ENCODING_PACKED",
+    "LATTICE",
+    "LATTICE_BITS",
+    "MOST_CURVES",
+    "MOST_DEPTH",
+    "MOST_ROWS",
+    "MOST_TEXT_BYTES",
+    "PACKED_FILE_LIMIT",
+    "PACKED_SUFFIX",
+    "PACKED_VERSION",
+    "QUAD_FLAG",
+    "ROW_BITS",
+    "TEXT_ENCODING",
+    "TEXT_NAME",
+    "TEXT_ROOTS",
+    "TEXT_SOURCE",
+    "TEXT_VERSION",
+    "TEXT_WRITER",
+    "WINDING_OFFSET",
+]
+
+LATTICE: Final = 32768.0
+"""Lattice units across a leaf; a power of two, so that the lattices of all depths nest."""
+
+MOST_CURVES: Final = 15
+"""Pieces that a leaf can hold."""
+
+MOST_DEPTH: Final = 20
+"""Depth of the smallest leaf: float32 shaders resolve no more."""
+
+TEXT_VERSION: Final = "vexture.version"
+TEXT_ENCODING: Final = "vexture.encoding"
+"""Keys that the files of every encoding have: what a texture is."""
+
+TEXT_WRITER: Final = "KTXwriter"
+TEXT_NAME: Final = "vexture.name"
+TEXT_SOURCE: Final = "vexture.source"
+TEXT_ROOTS: Final = "vexture.roots"
+"""Further keys of the packed file."""
+
+ENCODING_PACKED: Final = "packed"
+PACKED_VERSION: Final = "1"
+
+PACKED_SUFFIX: Final = ".ktx2"
+"""What follows the name in the name of a packed texture's file."""
+
+ROW_BITS: Final = 11
+"""Texel i lies in row i >> ROW_BITS; a texture of one row may be narrower. Every WebGL2 device takes this width."""
+
+MOST_ROWS: Final = 16384
+"""Height that most devices take."""
+
+MOST_TEXT_BYTES: Final = 1 << 24
+"""Bytes of key/value data: room for 100,000 roots."""
+
+PACKED_FILE_LIMIT: Final = (MOST_ROWS << ROW_BITS) * 16 + 2 * MOST_TEXT_BYTES
+"""Bytes. A longer file is not read: the most texels, not deflated, and the longest texts."""
+
+LATTICE_BITS: Final = int(LATTICE).bit_length() - 1
+"""A lattice unit is 2^-LATTICE_BITS of its leaf."""
+
+CELL_BITS: Final = 8
+"""Each of a quad's cells has one byte in the word of cells and one in the word of coverages."""
+
+QUAD_FLAG: Final = 1 << 7
+"""Cell byte of a quad. In a leaf's, the number of curves stands above COUNT_SHIFT bits of corner winding."""
+
+COUNT_SHIFT: Final = 3
+
+WINDING_OFFSET: Final = 4
+"""Added to the corner winding of a leaf with curves, -3 to 3; a constant leaf has 0 there."""
+
+COVERAGE_ONE: Final = 255
+"""Coverage byte of a full cell."""
+
+COORDINATE_BITS: Final = 16
+"""A point is one word: x in its low bits, y above."""
+
+CONTROL_OFFSET: Final = 16384
+"""Lattice units added to the coordinates of P1 and P2, which so span -1/2 to 3/2 of the leaf."""

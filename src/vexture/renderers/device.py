@@ -1,0 +1,86 @@
+"""OpenGL 3.3 without a window, through EGL."""
+
+import threading
+from functools import cache
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.errors import DeviceError, LimitError
+from vexture.renderers.shader import vertex_source
+
+__all__ = ["ONE_AT_A_TIME", "VERSION", "compiled", "context", "draw"]
+
+
+
+VERSION: Final = "330"
+
+
+ONE_AT_A_TIME: Final = threading.Lock()
+"""A context can be current in one thread only."""
+
+
+@cache
+def context() -> Any:
+    """Return the process's OpenGL context, made when it is first needed.
+
+    Raises
+    ------
+    DeviceError
+        If moderngl or a driver is missing.
+    """
+    try:
+        import moderngl
+    except ImportError:
+        raise DeviceError(
+            "the gpu renderer needs the package moderngl: pip install vexture[gpu], or use --renderer cpu"
+        ) from None
+    try:
+        # its stubs take **settings for one dictionary each
+        made = moderngl.create_standalone_context(require=330, backend="egl")  # type: ignore[arg-type]
+    except Exception as error:  # moderngl raises plain Exceptions
+        reason = " ".join(str(error).split())
+        raise DeviceError(
+            f"no OpenGL 3.3 context without a window ({reason}); install a driver (Debian: libegl1 libgl1 "
+            "libgl1-mesa-dri), or use --renderer cpu"
+        ) from None
+    made.gc_mode = "auto"  # a program that leaves the cache is released
+    with made:
+        pass  # leaves it current in no thread, so that any may use it
+    return made
+
+
+def compiled(fragment_source: str) -> Any:
+    """Compile a fragment shader; what is returned draws it on a triangle that covers the image.
+
+    Raises
+    ------
+    DeviceError
+        If the driver refuses it.
+    """
+    gl = context()
+    try:
+        made = gl.program(vertex_shader=vertex_source(VERSION), fragment_shader=fragment_source)
+    except Exception as error:  # moderngl's own class is not to be imported before the context
+        reason = " ".join(str(error).split())[:200]
+        raise DeviceError(
+            f"the OpenGL driver refuses the shader ({reason}); update it, or use --renderer cpu"
+        ) from None
+    return gl.vertex_array(made, [])
+
+
+def draw(gl: Any, triangle: Any, size: tuple[int, int]) -> NDArray[np.float32]:
+    """Draw a compiled shader whose uniforms are set, (height, width); its first row is the image's top."""
+    width, height = size
+    limit = gl.info["GL_MAX_TEXTURE_SIZE"]
+    if max(width, height) > limit:
+        raise LimitError(f"size is {width} x {height}; this device draws up to {limit}, give a smaller --size")
+    image = gl.texture((width, height), 1, dtype="f4")
+    target = gl.framebuffer([image])
+    target.use()
+    triangle.render(vertices=3)
+    pixels = np.frombuffer(target.read(components=1, dtype="f4"), np.float32).reshape(height, width).copy()
+    for made in (target, image):
+        made.release()
+    return pixels

@@ -1,0 +1,40 @@
+"""Layers in their colours, composited into one picture."""
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.drawing import Paint
+
+__all__ = ["painted"]
+
+
+def painted(size: tuple[int, int], layers: Iterable[tuple[Paint, NDArray[np.float32]]]) -> NDArray[np.float32]:
+    """Composite flat colours one over the other, as SVG does: source-over in sRGB.
+
+    Parameters
+    ----------
+    size : tuple of int
+        Width and height in pixels.
+    layers : iterable of Paint and (height, width) float32 array
+        Colours and coverages, the lowest first.
+
+    Returns
+    -------
+    (height, width, 4) float32 array
+        Premultiplied RGBA, 0..1.
+
+    Examples
+    --------
+    >>> full = np.ones((1, 1), np.float32)
+    >>> painted((1, 1), [(Paint((1.0, 0.0, 0.0)), full), (Paint(opacity=0.25), full)])
+    array([[[0.75, 0.  , 0.  , 1.  ]]], dtype=float32)
+    """
+    width, height = size
+    picture = np.zeros((height, width, 4), np.float32)
+    for paint, covered in layers:
+        alpha = covered[..., None] * np.float32(paint.opacity)
+        picture *= 1.0 - alpha
+        picture += alpha * np.array((*paint.color, 1.0), np.float32)
+    return picture

@@ -1,1 +1,0 @@
-"""Readers: each turns one file format into a `Drawing`; nothing else knows a file format."""

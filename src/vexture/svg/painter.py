@@ -1,0 +1,139 @@
+"""Painting one shape: its fill and its stroke become paths in the drawing's coordinates."""
+
+from dataclasses import replace
+from math import inf
+
+import numpy as np
+from fontTools.misc.transform import Identity
+from lxml import etree
+from numpy.typing import NDArray
+
+from vexture.drawing import FillRule, Paint, Path
+from vexture.errors import SourceError
+from vexture.svg.outline import Outline
+from vexture.svg.report import Report
+from vexture.svg.servers import Servers
+from vexture.svg.shapes import Shape, shape_outlines
+from vexture.svg.space import Place
+from vexture.svg.strokes import Stroke, arc_length, stroke_contours
+from vexture.svg.transform import mapped, scale_of
+from vexture.svg.values import number
+from vexture.tolerance import ROUND
+
+__all__ = ["Painter"]
+
+MOST_SEGMENTS = 5_000_000
+"""Cubics in one drawing."""
+
+FILL_RULES = {"nonzero": FillRule.NONZERO, "evenodd": FillRule.EVENODD}
+
+
+class Painter:
+    """Collects what is painted, in order.
+
+    Parameters
+    ----------
+    servers : Servers
+        Knows what paint references mean.
+    report : Report
+        Told what is left out.
+    size : float or None
+        The larger side of the drawing, which says how exact approximations must be; None to find that side out.
+    """
+
+    def __init__(self, servers: Servers, report: Report, size: float | None) -> None:
+        self.servers = servers
+        self.report = report
+        self.size = size
+        self.paths: list[Path] = []
+        self.segments = 0
+
+    def paint(self, element: etree._Element, place: Place) -> None:
+        """Paint a shape that stands at a place, which has the shape's own style and transform."""
+        style = place.style
+        if style["visibility"].lower() != "visible" or place.space.flat:
+            return
+        fill = self.servers.paint(style, "fill", place.opacity)
+        line = self.servers.paint(style, "stroke", place.opacity)
+        if fill is None and line is None:
+            return
+        scale = scale_of(place.space.whole)
+        size = inf if self.size is None else self.size / scale
+        shape = Shape(element, style, place.viewport, ROUND * size, self.report)
+        outlines = shape_outlines(shape)
+        if not outlines:
+            return
+        order = style["paint-order"].lower()
+        if "stroke" in order and order.find("stroke") < order.find("fill") % (len(order) + 1):
+            self.stroke(shape, outlines, place, line, size)
+            self.fill(shape, outlines, place, fill)
+        else:
+            self.fill(shape, outlines, place, fill)
+            self.stroke(shape, outlines, place, line, size)
+
+    def fill(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | None) -> None:
+        """Paint the inside of the outlines."""
+        if paint is not None:
+            rule = FILL_RULES[shape.style["fill-rule"].lower()]
+            self.add([outline.loop for outline in outlines], place, rule, paint)
+
+    def stroke(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | None, size: float) -> None:
+        """Paint along the outlines; `size` is the drawing's, in the shape's user units."""
+        stroke = stroke_of(shape, outlines) if paint is not None else None
+        if paint is None or stroke is None:
+            return
+        effect = shape.style["vector-effect"].lower()
+        screen = Identity
+        if effect == "non-scaling-stroke":
+            screen = place.space.whole
+            outlines = [replace(outline, cubics=mapped(outline.cubics, screen)) for outline in outlines]
+            size *= scale_of(screen)
+        elif effect != "none":
+            self.report.left_out(f"vector-effect '{effect[:40]}'")
+        if size == inf:
+            size = max(stroke.width, *(float(np.ptp(outline.cubics, axis=(0, 1)).max()) for outline in outlines))
+        contours = stroke_contours(outlines, stroke, size)
+        if screen is not Identity:
+            contours = [mapped(contour, screen.inverse()) for contour in contours]
+        self.add(contours, place, FillRule.NONZERO, paint)
+
+    def add(self, contours: list[NDArray[np.float64]], place: Place, rule: FillRule, paint: Paint) -> None:
+        """Keep contours given in the units of a place."""
+        self.segments += sum(map(len, contours))
+        if self.segments > MOST_SEGMENTS:
+            raise SourceError(f"here the drawing exceeds the limit of {MOST_SEGMENTS:,} segments; simplify it")
+        shown = [place.space.to_drawing(contour) for contour in contours]
+        shown = [contour for contour in shown if len(contour)]
+        if shown:
+            self.paths.append(Path(tuple(shown), rule, paint))
+
+
+def stroke_of(shape: Shape, outlines: list[Outline]) -> Stroke | None:
+    """How a shape is stroked; None if its stroke has no width."""
+    style = shape.style
+    width = shape.length("stroke-width") or 0.0
+    if width <= 0.0:
+        return None
+    join = style["stroke-linejoin"].lower()
+    if join in ("miter-clip", "arcs"):
+        shape.report.simplified(f"stroke-linejoin {join} drawn as miter")
+        join = "miter"
+    dashes = dashes_of(shape)
+    offset = shape.length("stroke-dashoffset") or 0.0
+    whole = number(shape.element.get("pathLength", ""))
+    if dashes and whole is not None and whole > 0.0:
+        factor = sum(arc_length(outline.cubics) for outline in outlines) / whole
+        dashes, offset = tuple(dash * factor for dash in dashes), offset * factor
+    limit = max(number(style["stroke-miterlimit"]) or 0.0, 1.0)
+    return Stroke(width, style["stroke-linecap"].lower(), join, limit, dashes, offset)
+
+
+def dashes_of(shape: Shape) -> tuple[float, ...]:
+    """Dashes and gaps, an even number; empty for a solid line."""
+    text = shape.style["stroke-dasharray"]
+    if text.lower() == "none":
+        return ()
+    lengths = [shape.read_length("stroke-dasharray", part) or 0.0 for part in text.replace(",", " ").split()]
+    if len(lengths) % 2:
+        lengths *= 2
+    return tuple(lengths) if sum(lengths) > 0.0 else ()

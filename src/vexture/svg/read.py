@@ -1,0 +1,175 @@
+"""Reading SVG: the silhouette and the flat colours of what a drawing paints."""
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from fontTools.misc.transform import Identity, Transform
+from numpy.typing import NDArray
+
+from vexture.bezier.bounds import bounds
+from vexture.drawing import Drawing
+from vexture.errors import LimitError, SourceError
+from vexture.svg.document import decompressed, parse_svg, read_bytes
+from vexture.svg.report import Report
+from vexture.svg.scene import Scene
+from vexture.svg.select import chosen, nothing_painted
+from vexture.svg.values import Viewport
+from vexture.svg.viewport import THINNEST, Rectangle, view_box
+
+__all__ = ["read_svg", "svg_drawing"]
+
+
+def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing:
+    """Read an SVG file, plain or gzipped.
+
+    Shapes, paths, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as browsers
+    draw them. Gradients become the mean of their colours. What is not supported is left out and named.
+
+    The box of the drawing is the outermost viewport: `width` and `height`, or where one is missing or a percentage,
+    what `viewBox` gives; a drawing without any of them is as large as what it paints.
+
+    Parameters
+    ----------
+    path : str or path-like
+        The file.
+    select : str, optional
+        A CSS selector: only elements that match are painted, with all that is inside them, `use` followed. The rest
+        stays as it is, the box of the whole drawing above all, so that parts of one drawing lie on one another.
+
+    Returns
+    -------
+    Drawing
+        In the unit square, y up; `to_source` maps it to the user units of the outermost `<svg>`. Without paths if
+        nothing is painted.
+
+    Raises
+    ------
+    SourceError
+        If the file cannot be read, is not SVG or exceeds a limit.
+    LimitError
+        If `select` is no selector or matches nothing that is painted.
+
+    Warns
+    -----
+    SourceWarning
+        Once for a file, naming everything that was left out, simplified or invalid.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "half.svg"
+    ...     _ = file.write_text('<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>')
+    ...     drawing = read_svg(file)
+    >>> drawing.name, drawing.segments
+    ('half', 4)
+    >>> drawing.paths[0].contours[0][:, 0]
+    array([[0. , 1. ],
+           [1. , 1. ],
+           [1. , 0.5],
+           [0. , 0.5]])
+    """
+    try:
+        content = read_bytes(path)
+    except SourceError as error:
+        raise SourceError(f"{os.fspath(path)}: {error}") from None
+    drawing, report = _read(content, os.fspath(path), select)
+    report.warn(stacklevel=2)
+    return drawing
+
+
+def svg_drawing(content: bytes, source: str, select: str | None = None) -> Drawing:
+    """Read the content of an SVG file, as `read_svg` does.
+
+    Parameters
+    ----------
+    content : bytes
+        Plain or gzipped.
+    source : str
+        Name of the file: it is nowhere opened, but names the drawing and stands in messages.
+    select : str, optional
+        As for `read_svg`.
+
+    Examples
+    --------
+    >>> svg_drawing(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "half.svg").name
+    'half'
+    """
+    try:
+        plain = decompressed(content)
+    except SourceError as error:
+        raise SourceError(f"{source}: {error}") from None
+    drawing, report = _read(plain, source, select)
+    report.warn(stacklevel=2)
+    return drawing
+
+
+def _read(content: bytes, source: str, select: str | None) -> tuple[Drawing, Report]:
+    """Drawing of an SVG document, and what could not be honoured."""
+    report = Report(source)
+    try:
+        root = parse_svg(content)
+        part = None if select is None else chosen(root, select)
+        drawing = drawing_of(Scene(root, report, part), Path(source).stem)
+        if select is not None and part is not None and not drawing.paths:
+            raise nothing_painted(select, len(part))
+    except (SourceError, LimitError) as error:
+        raise type(error)(f"{source}: {error}") from None
+    except RecursionError:  # tinycss2 and cssselect2 follow nested brackets by calling themselves
+        raise SourceError(f"{source}: its style sheet nests brackets too deeply; simplify it") from None
+    return drawing, report
+
+
+def drawing_of(scene: Scene, name: str) -> Drawing:
+    """Paint a scene into the frame that its outermost element sets, or around what it paints."""
+    framed = frame(scene)
+    if framed is not None:
+        size, viewport, matrix = framed
+        box: Rectangle = (0.0, 0.0, *size)
+    else:
+        viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
+        paths = Scene(scene.root, Report("")).paint(viewport, matrix, None)  # what it says, the second pass says
+        if not paths:
+            return Drawing((), name=name)
+        left, top, right, bottom = bounds(np.concatenate([contour for path in paths for contour in path.contours]))
+        box = (left, top, right - left, bottom - top)
+        if box[2] == 0.0 or box[3] == 0.0:
+            return Drawing((), name=name)
+    drawing = Drawing.from_source(scene.paint(viewport, matrix, max(box[2:])), box, name)
+    return replace(drawing, to_source=after(drawing.to_source, matrix.inverse()))
+
+
+def frame(scene: Scene) -> tuple[tuple[float, float], Viewport, Transform] | None:
+    """Size of the drawing in pixels, the root's viewport, and the map from user units to pixels; None if unsized."""
+    root, style = scene.root, scene.style
+    box = view_box(root.get("viewBox"))
+    absolute = Viewport(0.0, 0.0, style.font_size)
+    sides = []
+    for name in ("width", "height"):
+        text = style[name]
+        relative = text.lower() == "auto" or text.endswith("%")
+        side = None if relative else absolute.length(text, 0.0, style.font_size)
+        if side is not None and side < THINNEST:
+            raise SourceError(
+                f"the {name} of the outermost <svg> is {text}; it must be at least {THINNEST:g}, not zero"
+            )
+        sides.append(side)
+    width, height = sides
+    if box is not None:
+        ratio = box[2] / box[3]
+        if width is None and height is None:
+            width, height = box[2:]
+        size = (width or (height or 0.0) * ratio, height or (width or 0.0) / ratio)
+        return size, replace(absolute, width=box[2], height=box[3]), scene.fit(root, box, *size)
+    if width is None or height is None:
+        return None
+    return (width, height), replace(absolute, width=width, height=height), Identity
+
+
+def after(first: NDArray[np.float64], second: Transform) -> NDArray[np.float64]:
+    """Affine map (2, 3) that applies one and then another."""
+    a, b, c, d, e, f = second
+    product: NDArray[np.float64] = np.array([[a, c], [b, d]]) @ first + np.array([[0.0, 0.0, e], [0.0, 0.0, f]])
+    return product

@@ -1,0 +1,257 @@
+"""Walking an SVG document in painting order.
+
+The walk keeps its own stack, so that no depth of nesting can exhaust Python's; `use` is expanded on the way, within
+limits.
+"""
+
+from dataclasses import replace
+from math import inf
+
+import numpy as np
+from fontTools.misc.transform import Identity, Transform
+from lxml import etree
+
+from vexture.bezier.bounds import bounds
+from vexture.drawing import Path
+from vexture.errors import SourceError
+from vexture.svg.document import local_name
+from vexture.svg.painter import Painter
+from vexture.svg.report import Report, described
+from vexture.svg.servers import Servers, reference
+from vexture.svg.shapes import SHAPES, Shape, shape_outlines
+from vexture.svg.space import Place, Space
+from vexture.svg.style import INITIAL, Cascade, Style
+from vexture.svg.transform import parse_origin, parse_transform
+from vexture.svg.values import Viewport
+from vexture.svg.viewport import CENTRED, Rectangle, parse_fit, view_box, view_transform
+
+__all__ = ["Scene"]
+
+MOST_USED = 50_000
+"""Elements that `use` may show, each time counted."""
+
+DEEPEST = 1_000
+"""Elements around an element, those that `use` adds included."""
+
+CONTAINERS = frozenset({"a", "g", "svg", "switch", "symbol"})
+UNSEEN = frozenset(
+    {
+        *("clipPath", "color-profile", "cursor", "defs", "desc", "filter", "font", "font-face", "hatch"),
+        *("linearGradient", "marker", "mask", "meshgradient", "metadata", "pattern", "radialGradient"),
+        *("solidcolor", "style", "title", "view"),
+    }
+)
+"""Elements that paint nothing where they stand."""
+
+ANIMATIONS = frozenset({"animate", "animateColor", "animateMotion", "animateTransform", "discard", "set"})
+EFFECTS = ("clip-path", "filter", "mask", "rotate", "scale", "translate")
+MARKED = frozenset({"line", "path", "polygon", "polyline"})
+LANGUAGE = "en"
+"""Answer to `systemLanguage`, so that a drawing looks the same on every machine."""
+
+Standing = tuple[etree._Element, Place]
+
+
+class Scene:
+    """A document that can be painted.
+
+    Parameters
+    ----------
+    root : lxml element
+        The outermost `<svg>`.
+    report : Report
+        Told what is not supported.
+    chosen : set of lxml elements, optional
+        Those that are painted, with all that is inside them; None paints everything.
+    """
+
+    def __init__(self, root: etree._Element, report: Report, chosen: set[etree._Element] | None = None) -> None:
+        self.root = root
+        self.chosen = chosen
+        self.report = report
+        self.cascade = Cascade(root, report)
+        self.servers = Servers(root, self.cascade, report)
+        self.style = self.cascade.style(root, INITIAL)
+
+    def paint(self, viewport: Viewport, matrix: Transform, size: float | None) -> list[Path]:
+        """Paint everything.
+
+        Parameters
+        ----------
+        viewport : Viewport
+            What percentages relate to at the root.
+        matrix : Transform
+            From the root's user units to the drawing's coordinates.
+        size : float or None
+            The drawing's larger side, None to find it out.
+
+        Raises
+        ------
+        SourceError
+            If a limit is exceeded or `use` shows itself.
+        """
+        painter = Painter(self.servers, self.report, size)
+        opacity = self.style.opacity("opacity")
+        if self.style["display"].lower() == "none" or opacity == 0.0:
+            return []
+        self.note_effects(self.style)
+        if "transform" in self.style.own:
+            self.report.left_out("transform of the outermost <svg>")
+        chosen = self.chosen is None or self.root in self.chosen
+        place = Place(viewport, Space().moved(matrix), self.style, opacity, self.root, chosen=chosen)
+        used = 0
+        stack = [(child, place) for child in reversed(self.root)]
+        while stack:
+            element, place = stack.pop()
+            used += place.used
+            if used > MOST_USED:
+                raise SourceError(f"<use> shows more than {MOST_USED:,} elements (a use bomb?); draw fewer copies")
+            try:
+                stack.extend(reversed(self.visit(element, place, painter)))
+            except SourceError as error:
+                raise SourceError(f"{described(element)}: {error}") from None
+        return painter.paths
+
+    def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Standing]:
+        """Paint an element, or list what it shows."""
+        name = local_name(element)
+        if name is None or name in UNSEEN or (name == "symbol" and place.use is None) or not applies(element):
+            return []
+        chosen = place.chosen or (self.chosen is not None and element in self.chosen)
+        if name in ANIMATIONS or name == "script":
+            if chosen:
+                self.report.left_out("script" if name == "script" else "animation")
+            return []
+        style = self.cascade.style(element, place.style)
+        opacity = place.opacity * style.opacity("opacity")
+        if style["display"].lower() == "none" or opacity == 0.0:
+            return []
+        if name not in SHAPES and name not in CONTAINERS and name != "use":
+            if chosen:
+                self.report.left_out(f"<{name[:40]}>")
+            return []
+        if name in SHAPES and not chosen:
+            return []
+        self.note_effects(style)
+        matrix = self.transform(element, style, place)
+        if place.depth >= DEEPEST:
+            raise SourceError(f"it stands inside {DEEPEST:,} others; flatten the groups or the uses")
+        space, depth = place.space.moved(matrix), place.depth + 1
+        inner = Place(place.viewport, space, style, opacity, element, place, depth, place.used, chosen=chosen)
+        if opacity < place.opacity and name not in SHAPES and len(element) > 1:
+            self.report.simplified("opacity of a group, which each of its shapes has by itself")
+        if name in SHAPES:
+            self.note_children(element, name, style)
+            painter.paint(element, inner)
+            return []
+        if name == "use":
+            return self.used(element, inner)
+        if name in ("svg", "symbol"):
+            window = self.window(element, inner, place.use)
+            return [] if window is None else [(child, window) for child in element]
+        if name == "switch":
+            return [(child, inner) for child in element if local_name(child) is not None and applies(child)][:1]
+        return [(child, inner) for child in element]
+
+    def used(self, element: etree._Element, place: Place) -> list[Standing]:
+        """List what a `use` shows."""
+        link = reference(element) or ""
+        target = self.servers.target(link)
+        if target is None:
+            self.report.left_out(f"<use> of '{link[:40]}'")
+            return []
+        if place.inside(target):
+            raise SourceError(f"it shows itself (a cycle through {described(target)}); break the cycle")
+        x, y = self.lengths(place.style, place.viewport, "x", "y")
+        space = place.space.moved(Identity.translate(x, y))
+        return [(target, replace(place, space=space, used=True, use=place.style))]
+
+    def window(self, element: etree._Element, place: Place, use: Style | None) -> Place | None:
+        """Place inside a nested `<svg>` or a shown `<symbol>`; None if it has no size."""
+        style = place.style
+        x, y = self.lengths(style, place.viewport, "x", "y")
+        width, height = (
+            whole if text.lower() == "auto" else place.viewport.length(text, whole, style.font_size) or 0.0
+            for text, whole in (
+                (use[name] if use is not None and use[name].lower() != "auto" else style[name], whole)
+                for name, whole in (("width", place.viewport.width), ("height", place.viewport.height))
+            )
+        )
+        if width <= 0.0 or height <= 0.0:
+            return None
+        box = view_box(element.get("viewBox"))
+        shown = self.fit(element, box or (0.0, 0.0, width, height), width, height)
+        matrix = Identity.translate(x, y).transform(shown)
+        if style["overflow"].lower() in ("visible", "auto"):
+            space = place.space.moved(matrix)
+        else:
+            space = place.space.window((x, y, width, height), matrix)
+        size = box[2:] if box else (width, height)
+        return replace(place, viewport=replace(place.viewport, width=size[0], height=size[1]), space=space)
+
+    def fit(self, element: etree._Element, box: Rectangle, width: float, height: float) -> Transform:
+        """Map a view box into a viewport as the element's `preserveAspectRatio` says."""
+        fit = CENTRED
+        text = element.get("preserveAspectRatio")
+        if text is not None:
+            fit = parse_fit(text) or CENTRED
+            if parse_fit(text) is None:
+                self.report.invalid("preserveAspectRatio", text, element)
+        return view_transform(box, fit, width, height)
+
+    def lengths(self, style: Style, viewport: Viewport, across: str, down: str) -> tuple[float, float]:
+        """Two lengths, along x and y; those that are "auto" are 0."""
+        x = viewport.length(style[across], viewport.width, style.font_size)
+        y = viewport.length(style[down], viewport.height, style.font_size)
+        return x or 0.0, y or 0.0
+
+    def transform(self, element: etree._Element, style: Style, place: Place) -> Transform:
+        """Transform of an element, about its origin."""
+        text = style["transform"]
+        if text == "none":
+            return Identity
+        left, top, width, height = 0.0, 0.0, place.viewport.width, place.viewport.height
+        if style["transform-box"].lower() != "view-box":
+            shape = Shape(element, style, place.viewport, inf, self.report)
+            outlines = shape_outlines(shape) if local_name(element) in SHAPES else []
+            if outlines:
+                left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in outlines]))
+                width, height = right - left, bottom - top
+            else:
+                self.report.simplified("transform-box of a group read as view-box")
+
+        def length(value: str, axis: int) -> float | None:
+            return place.viewport.length(value, (width, height)[axis], style.font_size)
+
+        matrix = parse_transform(text, length)
+        origin = parse_origin(style["transform-origin"], length)
+        if matrix is None or origin is None:
+            name = "transform" if matrix is None else "transform-origin"
+            self.report.invalid(name, style[name], element)
+            return Identity if matrix is None else matrix
+        x, y = left + origin[0], top + origin[1]
+        return Identity.translate(x, y).transform(matrix).translate(-x, -y) if x or y else matrix
+
+    def note_effects(self, style: Style) -> None:
+        """Report effects that are not supported."""
+        if style.own:
+            for name in EFFECTS:
+                if style.own.get(name, "none").lower() != "none":
+                    self.report.left_out(name)
+
+    def note_children(self, element: etree._Element, name: str, style: Style) -> None:
+        """Report what is attached to a shape and not supported."""
+        if any(local_name(child) in ANIMATIONS for child in element):
+            self.report.left_out("animation")
+        if name in MARKED and any(style[f"marker-{end}"].lower() != "none" for end in ("start", "mid", "end")):
+            self.report.left_out("marker")
+
+
+def applies(element: etree._Element) -> bool:
+    """Tell whether the conditions on an element hold (SVG 2, 5.9)."""
+    if element.get("requiredExtensions") is not None:
+        return False
+    languages = element.get("systemLanguage")
+    if languages is None:
+        return True
+    return any(tag.strip().lower().split("-")[0] == LANGUAGE for tag in languages.split(","))

@@ -1,0 +1,193 @@
+"""The basic shapes and paths of SVG as outlines (SVG 2, 9 and 10)."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from lxml import etree
+from numpy.typing import NDArray
+
+from vexture.bezier.convert import arc_cubics, ellipse_cubics
+from vexture.errors import SourceError
+from vexture.svg.outline import Outline
+from vexture.svg.path_data import NUMBER, POINTS, path_outlines, valid_length
+from vexture.svg.report import Report
+from vexture.svg.style import Style
+from vexture.svg.values import LARGEST, Viewport
+
+__all__ = ["SHAPES", "Shape", "shape_outlines"]
+
+CSS_PATH = re.compile(r"path\(\s*(?:(?:nonzero|evenodd)\s*,\s*)?(['\"])(.*)\1\s*\)", re.DOTALL)
+HORIZONTAL = frozenset({"x", "cx", "rx", "width", "x1", "x2"})
+VERTICAL = frozenset({"y", "cy", "ry", "height", "y1", "y2"})
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """A shape element and what its geometry depends on.
+
+    Parameters
+    ----------
+    element : lxml element
+    style : Style
+        Its own.
+    viewport : Viewport
+        What its percentages relate to.
+    tolerance : float
+        Largest distance of a cubic from the arc it stands for, in user units.
+    report : Report
+        Told what is invalid.
+    """
+
+    element: etree._Element
+    style: Style
+    viewport: Viewport
+    tolerance: float
+    report: Report
+
+    def length(self, name: str) -> float | None:
+        """Length that a property gives; None for "auto"."""
+        return self.read_length(name, self.style[name])
+
+    def attribute(self, name: str) -> float:
+        """Length that an attribute gives; 0 without it."""
+        text = self.element.get(name)
+        length = self.read_length(name, text) if text is not None else 0.0
+        if length is None:
+            self.report.invalid(name, text or "", self.element)
+            return 0.0
+        return length
+
+    def read_length(self, name: str, text: str) -> float | None:
+        """Length in user units of a text whose name says what percentages mean."""
+        whole = self.viewport.diagonal
+        if name in HORIZONTAL:
+            whole = self.viewport.width
+        elif name in VERTICAL:
+            whole = self.viewport.height
+        return self.viewport.length(text, whole, self.style.font_size)
+
+
+def shape_outlines(shape: Shape) -> list[Outline]:
+    """Outlines of a shape in its own user units; none if it has no size.
+
+    Raises
+    ------
+    SourceError
+        If a coordinate is not finite or larger than `LARGEST`.
+    """
+    outlines = SHAPES[etree.QName(shape.element).localname](shape)
+    for outline in outlines:
+        check(outline.cubics)
+    return outlines
+
+
+def check(coordinates: NDArray[np.float64]) -> None:
+    """Refuse coordinates that are too large to compute with."""
+    largest = np.abs(coordinates).max(initial=0.0)
+    if not largest <= LARGEST:
+        raise SourceError(f"it has a coordinate of {largest:g}; the limit is {LARGEST:g}; correct it")
+
+
+def path(shape: Shape) -> list[Outline]:
+    """Outlines of `<path>`, up to the first error in its data."""
+    data = shape.style["d"]
+    if data == "none":
+        return []
+    if css := CSS_PATH.fullmatch(data):
+        data = css[2]
+    valid = valid_length(data)
+    if valid < len(data):
+        shape.report.invalid("d", f"...{data[valid:]}", shape.element)
+    return path_outlines(data[:valid], shape.tolerance)
+
+
+def rect(shape: Shape) -> list[Outline]:
+    """Outline of `<rect>`, from the end of its top left corner, clockwise as seen."""
+    x, y = shape.length("x") or 0.0, shape.length("y") or 0.0
+    width, height = shape.length("width") or 0.0, shape.length("height") or 0.0
+    if width <= 0.0 or height <= 0.0:
+        return []
+    rx, ry = corner_radii(shape)
+    rx, ry = min(rx, width / 2.0), min(ry, height / 2.0)
+    right, bottom = x + width, y + height
+    if rx <= 0.0 or ry <= 0.0:
+        return [Outline.polygon(np.array([(x, y), (right, y), (right, bottom), (x, bottom)]), closed=True)]
+    at = (x + rx, y)
+    cubics = []
+    for side, corner in (
+        ((right - rx, y), (right, y + ry)),
+        ((right, bottom - ry), (right - rx, bottom)),
+        ((x + rx, bottom), (x, bottom - ry)),
+        ((x, y + ry), (x + rx, y)),
+    ):
+        line = arc_cubics(at, (0.0, 0.0), 0.0, False, True, side, shape.tolerance)
+        for step in line + arc_cubics(side, (rx, ry), 0.0, False, True, corner, shape.tolerance):
+            cubics.append((*at, *step))
+            at = step[4:]
+    return [Outline(np.array(cubics).reshape(-1, 4, 2), closed=True)]
+
+
+def corner_radii(shape: Shape) -> tuple[float, float]:
+    """`rx` and `ry`, where "auto" takes the other's value."""
+    rx, ry = shape.length("rx"), shape.length("ry")
+    return (rx if rx is not None else ry) or 0.0, (ry if ry is not None else rx) or 0.0
+
+
+def circle(shape: Shape) -> list[Outline]:
+    """Outline of `<circle>`."""
+    radius = shape.length("r") or 0.0
+    return round_outline(shape, radius, radius)
+
+
+def ellipse(shape: Shape) -> list[Outline]:
+    """Outline of `<ellipse>`."""
+    return round_outline(shape, *corner_radii(shape))
+
+
+def round_outline(shape: Shape, rx: float, ry: float) -> list[Outline]:
+    """Whole ellipse around `cx` and `cy`."""
+    if rx <= 0.0 or ry <= 0.0:
+        return []
+    center = shape.length("cx") or 0.0, shape.length("cy") or 0.0
+    return [Outline(ellipse_cubics(center, (rx, ry), shape.tolerance), closed=True)]
+
+
+def line(shape: Shape) -> list[Outline]:
+    """Outline of `<line>`."""
+    ends = [(shape.attribute(f"x{n}"), shape.attribute(f"y{n}")) for n in (1, 2)]
+    return [Outline.polygon(np.array(ends), closed=False)]
+
+
+def polyline(shape: Shape) -> list[Outline]:
+    """Outline of `<polyline>`."""
+    return corners(shape, closed=False)
+
+
+def polygon(shape: Shape) -> list[Outline]:
+    """Outline of `<polygon>`."""
+    return corners(shape, closed=True)
+
+
+def corners(shape: Shape, closed: bool) -> list[Outline]:
+    """Straight sides through `points`, up to the first error in them."""
+    text = shape.element.get("points", "")
+    match = POINTS.match(text)
+    valid = match.end() if match else 0
+    if valid < len(text):
+        shape.report.invalid("points", f"...{text[valid:]}", shape.element)
+    coordinates = np.array(re.findall(NUMBER, text[:valid]), dtype=np.float64)
+    check(coordinates)
+    return [Outline.polygon(coordinates.reshape(-1, 2), closed)] if len(coordinates) > 2 else []
+
+
+SHAPES: dict[str, Callable[[Shape], list[Outline]]] = {
+    "path": path,
+    "rect": rect,
+    "circle": circle,
+    "ellipse": ellipse,
+    "line": line,
+    "polyline": polyline,
+    "polygon": polygon,
+}

@@ -1,0 +1,185 @@
+"""Strokes as outlines to fill, by Skia.
+
+Skia works in float32 and stops refining at a quarter of a unit, so it is given coordinates around the origin in which
+the drawing measures `RESOLUTION`: a quarter unit and the rounding then both lie below `ROUND` of the drawing.
+"""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import pathops
+from numpy.typing import NDArray
+
+from vexture.bezier.bounds import bounds
+from vexture.bezier.convert import conic_cubics, straight
+from vexture.errors import SourceError
+from vexture.svg.outline import Outline
+from vexture.tolerance import ROUND
+
+__all__ = ["Stroke", "arc_length", "stroke_contours"]
+
+RESOLUTION: Final = 0.25 / ROUND
+"""Skia units across the drawing."""
+
+SHORTEST: Final = 1 / 64
+"""Skia units. A shorter step has no direction in float32 (its joins would point anywhere) and is passed over."""
+
+MOST_DASHES: Final = 100_000
+"""In one path; Skia itself gives up at ten times as many, and says nothing."""
+
+CAPS = {"butt": pathops.LineCap.BUTT_CAP, "round": pathops.LineCap.ROUND_CAP, "square": pathops.LineCap.SQUARE_CAP}
+JOINS = {
+    "miter": pathops.LineJoin.MITER_JOIN,
+    "round": pathops.LineJoin.ROUND_JOIN,
+    "bevel": pathops.LineJoin.BEVEL_JOIN,
+}
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
+
+
+@dataclass(frozen=True, slots=True)
+class Stroke:
+    """How a line is drawn, in the units of its path.
+
+    Parameters
+    ----------
+    width : float
+    cap : str
+        "butt", "round" or "square".
+    join : str
+        "miter", "round" or "bevel".
+    miter_limit : float
+        Longest miter, in stroke widths.
+    dashes : tuple of float
+        Lengths of dashes and gaps in turn, an even number of them; empty for a solid line.
+    dash_offset : float
+        Where in the pattern the line starts.
+    """
+
+    width: float
+    cap: str = "butt"
+    join: str = "miter"
+    miter_limit: float = 4.0
+    dashes: tuple[float, ...] = ()
+    dash_offset: float = 0.0
+
+
+def arc_length(cubics: NDArray[np.float64]) -> float:
+    """Length of cubics (n, 4, 2), by Gauss-Legendre quadrature.
+
+    Examples
+    --------
+    >>> arc_length(Outline.polygon(np.array([[0.0, 0.0], [3.0, 4.0]]), closed=True).cubics)
+    10.0
+    """
+    t = (NODES + 1.0) / 2.0
+    s = 1.0 - t
+    blend = 3.0 * np.stack([s * s, 2.0 * s * t, t * t], axis=1)
+    speed = blend @ np.diff(cubics, axis=1)
+    lengths = np.sqrt((speed * speed).sum(axis=2)) @ WEIGHTS / 2.0
+    return float(lengths.sum())
+
+
+def stroke_contours(outlines: list[Outline], stroke: Stroke, size: float) -> list[NDArray[np.float64]]:
+    """Contours that, filled by the non-zero rule, are the stroke of the outlines.
+
+    Parameters
+    ----------
+    outlines : list of Outline
+    stroke : Stroke
+    size : float
+        The drawing's size in the units of the outlines: what the stroke must look good in.
+
+    Raises
+    ------
+    SourceError
+        If there are too many dashes.
+
+    Examples
+    --------
+    >>> line = Outline.polygon(np.array([[0.0, 0.0], [10.0, 0.0]]), closed=False)
+    >>> (contour,) = stroke_contours([line], Stroke(2.0), 10.0)
+    >>> np.ptp(contour[:, 0], axis=0).round(6)
+    array([10.,  2.])
+    """
+    together = np.concatenate([outline.cubics for outline in outlines])
+    if stroke.dashes:
+        dashes = arc_length(together) / sum(stroke.dashes) * len(stroke.dashes) / 2
+        if not dashes <= MOST_DASHES:
+            raise SourceError(
+                f"a stroke has {dashes:.3g} dashes; the limit is {MOST_DASHES:,}; lengthen stroke-dasharray"
+            )
+    left, low, right, high = bounds(together)
+    scale = RESOLUTION / size
+    middle = np.array([(left + right) / 2.0, (low + high) / 2.0])
+    path = pathops.Path()
+    for outline in outlines:
+        feed(path, (outline.cubics - middle) * scale, outline.closed)
+    path.stroke(
+        stroke.width * scale,
+        CAPS[stroke.cap],
+        JOINS[stroke.join],
+        stroke.miter_limit,
+        [dash * scale for dash in stroke.dashes] or None,
+        stroke.dash_offset * scale,
+    )
+    return [contour / scale + middle for contour in read(path)]
+
+
+def feed(path: pathops.Path, cubics: NDArray[np.float64], closed: bool) -> None:
+    """Draw an outline into Skia's path, without steps too short to have a direction."""
+    x0, y0 = cubics[0, 0].tolist()
+    start = x0, y0
+    path.moveTo(x0, y0)
+    drawn = False
+    for is_line, (x1, y1, x2, y2, x3, y3) in zip(
+        straight(cubics).tolist(), cubics[:, 1:].reshape(-1, 6).tolist(), strict=True
+    ):
+        if max(abs(x1 - x0), abs(y1 - y0), abs(x2 - x0), abs(y2 - y0), abs(x3 - x0), abs(y3 - y0)) < SHORTEST:
+            continue
+        if is_line:
+            path.lineTo(x3, y3)
+        else:
+            path.cubicTo(x1, y1, x2, y2, x3, y3)
+        x0, y0 = x3, y3
+        drawn = True
+    if not drawn:
+        path.lineTo(*start)  # a point: Skia gives it its cap
+    elif closed:
+        path.close()
+
+
+def read(path: pathops.Path) -> list[NDArray[np.float64]]:
+    """Contours of Skia's path, closed bit for bit; Skia leaves the contours of some dashes open."""
+    contours: list[list[complex]] = []
+    tolerance = RESOLUTION * ROUND
+    for verb, arguments in path:
+        if verb == pathops.PathVerb.MOVE:
+            contours.append([complex(*arguments[0])])
+        elif verb == pathops.PathVerb.CONIC:
+            p1, p2, weight = complex(*arguments[0]), complex(*arguments[1]), arguments[2]
+            contours[-1] += conic_cubics(contours[-1][-1], p1, p2, weight, tolerance)
+        elif verb != pathops.PathVerb.CLOSE:
+            contours[-1] += raised([contours[-1][-1], *(complex(*point) for point in arguments)])
+    return [closed_contour(points) for points in contours if len(points) > 1]
+
+
+def raised(points: list[complex]) -> list[complex]:
+    """P1, P2 and P3 of the cubic that a line, quadratic or cubic is."""
+    start, end = points[0], points[-1]
+    if len(points) == 2:
+        return [start + (end - start) / 3.0, start + (end - start) * (2.0 / 3.0), end]
+    if len(points) == 3:
+        return [start + (points[1] - start) * (2.0 / 3.0), end + (points[1] - end) * (2.0 / 3.0), end]
+    return points[1:]
+
+
+def closed_contour(points: list[complex]) -> NDArray[np.float64]:
+    """Contour from its first point and P1, P2, P3 of its cubics, closed by a line if need be."""
+    if abs(points[-1] - points[0]) < SHORTEST:
+        points[-1] = points[0]
+    else:
+        points = points + raised([points[-1], points[0]])
+    flat = np.array(points).view(np.float64).reshape(-1, 2)
+    return np.concatenate([flat[:-1:3, None], flat[1:].reshape(-1, 3, 2)], axis=1)

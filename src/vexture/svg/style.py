@@ -1,0 +1,228 @@
+"""The CSS cascade: attributes, style sheets, `style`, `!important` and inheritance (CSS Cascade 4)."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import cssselect2
+import tinycss2
+from lxml import etree
+
+from vexture.svg.colors import Color, parse_color
+from vexture.svg.properties import CSS_ONLY, PROPERTIES
+from vexture.svg.report import Report
+from vexture.svg.values import Viewport, opacity
+
+__all__ = ["INITIAL", "Cascade", "Style"]
+
+PLAIN = re.compile(r"[^\"'\\/(){}\[\]@!<&]*")
+"""A style attribute of this kind needs no tokeniser: splitting at ; and : is the same."""
+
+SCREEN = re.compile(r"\s*(?:only\s+)?(?:all|screen)?\s*", re.IGNORECASE)
+"""A media query that holds for a drawing on a screen, whatever its size."""
+
+OTHER_MEDIUM = re.compile(r"\s*(?:only\s+)?(?:print|speech)\b.*|\s*not\s+(?:all|screen)\s*", re.IGNORECASE | re.DOTALL)
+
+MARKERS = ("marker-start", "marker-mid", "marker-end")
+TEXT_SIZES = {
+    "xx-small": 9.0,
+    "x-small": 10.0,
+    "small": 13.0,
+    "medium": 16.0,
+    "large": 18.0,
+    "x-large": 24.0,
+    "xx-large": 32.0,
+}
+"""User units to a font size in words (CSS Fonts 4, 2.5)."""
+
+UNSET = ("unset", "revert", "revert-layer")
+"""Keywords for no value at all: what is inherited, or else the initial value."""
+
+Declaration = tuple[str, str, bool]
+"""Property, value, and whether it is important."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Style:
+    """Values of all properties at one element, as text.
+
+    Parameters
+    ----------
+    inherited : dict
+        Values of inherited properties that differ from the initial ones.
+    own : dict
+        Values of the other properties, where the element sets them.
+    font_size : float
+        In user units.
+    """
+
+    inherited: dict[str, str]
+    own: dict[str, str]
+    font_size: float
+
+    def __getitem__(self, name: str) -> str:
+        value = self.own.get(name) or self.inherited.get(name)
+        return PROPERTIES[name].initial if value is None else value
+
+    def opacity(self, name: str) -> float:
+        """Opacity that a property gives, 0..1."""
+        return opacity(self[name])
+
+    @property
+    def color(self) -> Color:
+        """What `currentcolor` means here."""
+        color = parse_color(self["color"])
+        return color if isinstance(color, Color) else Color((0.0, 0.0, 0.0), 1.0)
+
+
+INITIAL = Style({}, {}, 16.0)
+"""What the outermost element inherits."""
+
+
+class Cascade:
+    """Finds the style of an element from that of its parent.
+
+    Parameters
+    ----------
+    root : lxml element
+        The document, with its `<style>` elements.
+    report : Report
+        Told what is not supported or invalid.
+    """
+
+    def __init__(self, root: etree._Element, report: Report) -> None:
+        self.report = report
+        self.matcher: Any = None
+        self.wrappers: dict[etree._Element, Any] = {}
+        sheets = [element for element in root.iter("{*}style") if element.text]
+        if sheets:
+            self.matcher = cssselect2.Matcher()
+            for sheet in sheets:
+                if sheet.get("type", "text/css").strip().lower() in ("", "text/css"):
+                    self.add_rules(tinycss2.parse_stylesheet(sheet.text, skip_comments=True, skip_whitespace=True))
+            for wrapper in cssselect2.ElementWrapper.from_xml_root(root).iter_subtree():
+                self.wrappers[wrapper.etree_element] = wrapper
+
+    def add_rules(self, rules: list[Any]) -> None:
+        """Add the rules of a style sheet to the matcher, in order."""
+        for rule in rules:
+            if rule.type == "qualified-rule":
+                declarations = list(read_declarations(rule.content))
+                try:
+                    selectors = cssselect2.compile_selector_list(rule.prelude)
+                except (cssselect2.SelectorError, SyntaxError, RecursionError, MemoryError):
+                    self.report.left_out("a CSS selector that cannot be read")
+                    continue
+                for selector in selectors:
+                    self.matcher.add_selector(selector, declarations)
+            elif rule.type == "at-rule":
+                self.add_at_rule(rule)
+
+    def add_at_rule(self, rule: Any) -> None:
+        """Add what an at-rule holds, if it is a medium that applies."""
+        name = rule.lower_at_keyword
+        if name in ("charset", "font-face", "namespace"):
+            return
+        queries = tinycss2.serialize(rule.prelude).split(",")
+        if name == "media" and any(map(SCREEN.fullmatch, queries)):
+            content = rule.content or []
+            self.add_rules(tinycss2.parse_rule_list(content, skip_comments=True, skip_whitespace=True))
+        elif name != "media" or not all(map(OTHER_MEDIUM.fullmatch, queries)):
+            self.report.left_out(f"@{name[:40]}")
+
+    def style(self, element: etree._Element, parent: Style) -> Style:
+        """Style of an element whose parent, or the `use` that shows it, has the style `parent`."""
+        inherited, own = parent.inherited, dict[str, str]()
+        for name, value in self.specified(element).items():
+            keyword = value.lower()
+            entry = PROPERTIES[name]
+            if keyword in UNSET or (keyword == "inherit" and entry.inherited):
+                continue
+            if keyword == "inherit":
+                value = parent[name]
+            elif keyword == "initial":
+                value = entry.initial
+            if not entry.inherited:
+                own[name] = value
+            elif inherited.get(name) != value:
+                if inherited is parent.inherited:
+                    inherited = dict(inherited)
+                inherited[name] = value
+        font_size = parent.font_size
+        if inherited is not parent.inherited and "font-size" in inherited:
+            font_size = text_size(inherited.pop("font-size"), parent.font_size)
+        return Style(inherited, own, font_size)
+
+    def specified(self, element: etree._Element) -> dict[str, str]:
+        """Winning declaration of each property, in rising order: attributes, rules, `style`, then the important."""
+        found: dict[str, str] = {}
+        for key, value in element.attrib.items():
+            name = str(key)
+            if name in PROPERTIES and name not in CSS_ONLY:
+                self.declare(found, name, str(value), element)
+        important: list[Declaration] = []
+        for declaration in self.declared(element):
+            if declaration[2]:
+                important.append(declaration)
+            else:
+                self.declare(found, declaration[0], declaration[1], element)
+        for name, value, _ in important:
+            self.declare(found, name, value, element)
+        return found
+
+    def declare(self, found: dict[str, str], name: str, value: str, element: etree._Element) -> None:
+        """Put a declaration above those before it, unless it is invalid."""
+        value = value.strip()
+        if PROPERTIES[name].accepts(value) or value.lower() in ("inherit", "initial", *UNSET):
+            found[name] = value
+        elif "var(" in value:
+            self.report.left_out("CSS variables")
+        else:
+            self.report.invalid(name, value, element)
+
+    def declared(self, element: etree._Element) -> Iterator[Declaration]:
+        """Yield the declarations of the style sheets and then of the `style` attribute, in rising order."""
+        if self.matcher is not None:
+            for _, _, pseudo, declarations in self.matcher.match(self.wrappers[element]):
+                if pseudo is None:
+                    yield from declarations
+        text = element.get("style")
+        if text:
+            yield from read_style(text)
+
+
+def read_style(text: str) -> Iterator[Declaration]:
+    """Yield the declarations of a `style` attribute that concern us."""
+    if PLAIN.fullmatch(text):
+        for part in text.split(";"):
+            name, _, value = part.partition(":")
+            yield from expanded(name.strip().lower(), value.strip(), False)
+    else:
+        yield from read_declarations(text)
+
+
+def read_declarations(content: Any) -> Iterator[Declaration]:
+    """Yield the declarations of a style sheet's rule or of a `style` attribute that concern us."""
+    for item in tinycss2.parse_blocks_contents(content, skip_comments=True, skip_whitespace=True):
+        if item.type == "declaration":
+            yield from expanded(item.lower_name, tinycss2.serialize(item.value).strip(), item.important)
+
+
+def expanded(name: str, value: str, important: bool) -> Iterator[Declaration]:
+    """Yield the declaration of a property in the table, a shorthand as what it stands for."""
+    if name in PROPERTIES and value:
+        yield name, value, important
+    elif name == "marker" and value:
+        for marker in MARKERS:
+            yield marker, value, important
+
+
+def text_size(text: str, parent: float) -> float:
+    """Font size in user units, from its value and the parent's size."""
+    word = text.lower()
+    if word in TEXT_SIZES:
+        return TEXT_SIZES[word]
+    if word in ("smaller", "larger"):
+        return parent * (1.2 if word == "larger" else 1 / 1.2)
+    return Viewport(parent, parent).length(text, parent, parent) or 0.0

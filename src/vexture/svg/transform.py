@@ -1,0 +1,152 @@
+"""Transforms: the attribute's grammar and the CSS property's, read as one (CSS Transforms 1)."""
+
+import re
+from collections.abc import Callable
+from math import pi, radians, sqrt, tan
+
+import numpy as np
+from fontTools.misc.transform import Identity, Transform
+from numpy.typing import NDArray
+
+from vexture.svg.path_data import GAP, NUMBER, SPACE
+from vexture.svg.values import number
+
+__all__ = ["mapped", "parse_origin", "parse_transform", "scale_of"]
+
+TURN = {"": pi / 180, "deg": pi / 180, "grad": pi / 200, "rad": 1.0, "turn": 2 * pi}
+"""Radians to a unit of angle; an attribute gives degrees without a unit."""
+
+KEYWORDS = {"left": "0%", "top": "0%", "center": "50%", "right": "100%", "bottom": "100%"}
+
+WITH_UNIT = rf"{NUMBER}(?:[a-zA-Z]++|%)?+"
+ARGUMENT = re.compile(WITH_UNIT)
+FUNCTION = re.compile(rf"{GAP}([a-zA-Z]++){SPACE}\({SPACE}({WITH_UNIT}(?:{GAP}{WITH_UNIT})*+){SPACE}\){SPACE}")
+ANGLE = re.compile(rf"({NUMBER})([a-zA-Z]*)")
+
+Length = Callable[[str, int], float | None]
+"""Reads a length along x (0) or y (1)."""
+
+
+def angle(text: str) -> float | None:
+    """Angle in radians; None if the text is no angle."""
+    match = ANGLE.fullmatch(text)
+    unit = TURN.get(match[2].lower()) if match else None
+    value = number(match[1]) if match else None
+    return None if value is None or unit is None else value * unit
+
+
+def parse_transform(text: str, length: Length) -> Transform | None:
+    """Product of a list of transforms; None if the list is not valid.
+
+    Parameters
+    ----------
+    text : str
+        Value of the attribute or of the CSS property; "none" is the identity.
+    length : callable
+        Turns the text of a length along x (0) or y (1) into user units, or None.
+
+    Examples
+    --------
+    >>> move = parse_transform("translate(10) scale(2, 3)", lambda text, axis: number(text))
+    >>> move.transformPoint((1, 1))
+    (12.0, 3.0)
+    """
+    if text.strip().lower() in ("", "none"):
+        return Identity
+    product, at = Identity, 0
+    while at < len(text):
+        match = FUNCTION.match(text, at)
+        if match is None:
+            return None
+        one = single_transform(match[1].lower(), ARGUMENT.findall(match[2]), length)
+        if one is None:
+            return None
+        product = product.transform(one)
+        at = match.end()
+    return product
+
+
+def single_transform(name: str, arguments: list[str], length: Length) -> Transform | None:
+    """One function of a transform list; None if it is unknown or has wrong arguments."""
+    values: list[float | None]
+    if name.startswith("translate"):
+        values = [length(text, 1 if name == "translatey" else min(axis, 1)) for axis, text in enumerate(arguments)]
+    elif name.startswith("skew") or (name == "rotate" and len(arguments) == 1):
+        values = [angle(text) for text in arguments]
+    else:
+        values = [number(text) for text in arguments]
+    match name, values:
+        case "matrix", [float(a), float(b), float(c), float(d), float(e), float(f)]:
+            return Transform(a, b, c, d, e, f)
+        case "translate" | "translatex", [float(x)]:
+            return Identity.translate(x, 0.0)
+        case "translate", [float(x), float(y)]:
+            return Identity.translate(x, y)
+        case "translatey", [float(y)]:
+            return Identity.translate(0.0, y)
+        case "scale", [float(x)]:
+            return Identity.scale(x, x)
+        case "scale", [float(x), float(y)]:
+            return Identity.scale(x, y)
+        case "scalex", [float(x)]:
+            return Identity.scale(x, 1.0)
+        case "scaley", [float(y)]:
+            return Identity.scale(1.0, y)
+        case "rotate", [float(turn)]:
+            return Identity.rotate(turn)
+        case "rotate", [float(degrees), float(x), float(y)]:
+            return Identity.translate(x, y).rotate(radians(degrees)).translate(-x, -y)
+        case "skew" | "skewx", [float(x)]:
+            return Transform(1.0, 0.0, tan(x), 1.0, 0.0, 0.0)
+        case "skew", [float(x), float(y)]:
+            return Transform(1.0, tan(y), tan(x), 1.0, 0.0, 0.0)
+        case "skewy", [float(y)]:
+            return Transform(1.0, tan(y), 0.0, 1.0, 0.0, 0.0)
+    return None
+
+
+def parse_origin(text: str, length: Length) -> tuple[float, float] | None:
+    """Point that `transform-origin` gives (CSS Transforms 1, 5); None if it is not valid.
+
+    Examples
+    --------
+    >>> parse_origin("right 3", lambda text, axis: {"100%": 10.0, "3": 3.0}[text])
+    (10.0, 3.0)
+    """
+    words = text.lower().split()[:2]
+    if len(words) == 1:
+        words = ["center", words[0]] if words[0] in ("top", "bottom") else [words[0], "center"]
+    if len(words) != 2:
+        return None
+    if words[0] in ("top", "bottom") or words[1] in ("left", "right"):
+        words.reverse()
+    x, y = (length(KEYWORDS.get(word, word), axis) for axis, word in enumerate(words))
+    return None if x is None or y is None else (x, y)
+
+
+def mapped(cubics: NDArray[np.float64], matrix: Transform) -> NDArray[np.float64]:
+    """Apply an affine map to points (..., 2).
+
+    Written out, because a matrix product may round the same point differently in two places of an array.
+
+    Examples
+    --------
+    >>> mapped(np.array([[1.0, 2.0]]), Identity.scale(2, 3))
+    array([[2., 6.]])
+    """
+    x, y = cubics[..., 0], cubics[..., 1]
+    a, b, c, d, e, f = matrix
+    return np.stack([a * x + c * y + e, b * x + d * y + f], axis=-1)
+
+
+def scale_of(matrix: Transform) -> float:
+    """Largest factor by which a map stretches a length (its larger singular value).
+
+    Examples
+    --------
+    >>> scale_of(Identity.rotate(radians(30)).scale(2, 5))
+    5.0
+    """
+    a, b, c, d = matrix[:4]
+    x, y = a * a + b * b, c * c + d * d
+    return sqrt((x + y + sqrt((x - y) ** 2 + 4.0 * (a * c + b * d) ** 2)) / 2.0)

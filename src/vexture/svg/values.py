@@ -1,0 +1,140 @@
+"""Numbers and lengths of SVG: what they may look like, their units, and how large they may be."""
+
+import re
+from dataclasses import dataclass
+from math import hypot
+from typing import Final
+
+from vexture.errors import SourceError
+from vexture.svg.path_data import NUMBER
+
+__all__ = ["LARGEST", "Viewport", "number", "numbers", "opacity"]
+
+LARGEST: Final = 1e12
+"""User units. Larger numbers are refused: products of two of them and a matrix must stay finite."""
+
+PIXELS: Final = {
+    "": 1.0,
+    "px": 1.0,
+    "pt": 4 / 3,
+    "pc": 16.0,
+    "in": 96.0,
+    "cm": 96 / 2.54,
+    "mm": 96 / 25.4,
+    "q": 96 / 101.6,
+}
+"""CSS pixels to an absolute unit (CSS Values 4, 6.2)."""
+
+FONT_UNITS: Final = {"em": 1.0, "ex": 0.5, "ch": 0.5}
+"""Font sizes to a unit that follows the font; ex and ch by the rule for fonts that do not tell."""
+
+LENGTH = re.compile(rf"\s*({NUMBER})\s*([a-zA-Z]*|%)\s*")
+SEPARATOR = re.compile(r"\s*,\s*|\s+")
+
+
+def number(text: str) -> float | None:
+    """Finite number of at most `LARGEST`; None if the text is anything else.
+
+    Raises
+    ------
+    SourceError
+        If it is a number, but too large.
+
+    Examples
+    --------
+    >>> number(" -1.5e2 "), number("1 2"), number("nan")
+    (-150.0, None, None)
+    """
+    match = LENGTH.fullmatch(text)
+    if match is None or match[2]:
+        return None
+    return bounded(match[1])
+
+
+def numbers(text: str) -> list[float] | None:
+    """Numbers between commas or spaces; None if there is anything else.
+
+    Examples
+    --------
+    >>> numbers("0 0, 24,24")
+    [0.0, 0.0, 24.0, 24.0]
+    """
+    found = [number(part) for part in SEPARATOR.split(text.strip())]
+    return None if None in found else [value for value in found if value is not None]
+
+
+def bounded(text: str) -> float:
+    """Value of a number that is not too large."""
+    value = float(text)
+    if not abs(value) <= LARGEST:
+        raise SourceError(f"the number {text[:40]} is too large; the limit is {LARGEST:g}")
+    return value
+
+
+def opacity(text: str) -> float:
+    """Opacity as a number or percentage, cut to 0..1; 1 if it is neither.
+
+    Examples
+    --------
+    >>> opacity("25%"), opacity("7"), opacity("?")
+    (0.25, 1.0, 1.0)
+    """
+    match = LENGTH.fullmatch(text)
+    if match is None or match[2] not in ("", "%"):
+        return 1.0
+    return min(max(bounded(match[1]) / (100.0 if match[2] else 1.0), 0.0), 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Viewport:
+    """What relative lengths relate to.
+
+    Parameters
+    ----------
+    width, height : float
+        Size of the nearest viewport, in its own user units.
+    root_font_size : float
+        Font size of the outermost element, in user units.
+    """
+
+    width: float
+    height: float
+    root_font_size: float = 16.0
+
+    @property
+    def diagonal(self) -> float:
+        """What a percentage of neither width nor height relates to (SVG 2, 8.9)."""
+        return hypot(self.width, self.height) / 2**0.5
+
+    def length(self, text: str, whole: float, font_size: float) -> float | None:
+        """Length in user units; None if the text is no length.
+
+        Parameters
+        ----------
+        text : str
+            Number with a unit or a percent sign, or without.
+        whole : float
+            What 100% is.
+        font_size : float
+            What 1em is.
+
+        Examples
+        --------
+        >>> Viewport(200, 100).length("25.4mm", 200, 16), Viewport(200, 100).length("50%", 200, 16)
+        (96.0, 100.0)
+        """
+        match = LENGTH.fullmatch(text)
+        if match is None:
+            return None
+        unit = match[2].lower()
+        if unit in PIXELS:
+            factor = PIXELS[unit]
+        elif unit == "%":
+            factor = whole / 100.0
+        elif unit in FONT_UNITS:
+            factor = FONT_UNITS[unit] * font_size
+        elif unit == "rem":
+            factor = self.root_font_size
+        else:
+            return None
+        return bounded(match[1]) * factor

@@ -1,0 +1,106 @@
+"""Where a viewport shows its content: `viewBox` and `preserveAspectRatio` (SVG 2, 8.2)."""
+
+import re
+from typing import Final, NamedTuple
+
+from fontTools.misc.transform import Transform
+
+from vexture.errors import SourceError
+from vexture.svg.values import numbers
+
+__all__ = ["CENTRED", "THINNEST", "Fit", "Rectangle", "parse_fit", "view_box", "view_transform"]
+
+Rectangle = tuple[float, float, float, float]
+"""Least x, least y, width and height."""
+
+
+class Fit(NamedTuple):
+    """How a view box is fitted into a viewport of another shape.
+
+    Parameters
+    ----------
+    across, down : float
+        Which part of the spare room lies left and above, 0..1.
+    rule : str
+        "meet" shows the whole box, "slice" fills the viewport, "none" stretches.
+    """
+
+    across: float
+    down: float
+    rule: str
+
+
+THINNEST: Final = 1e-9
+"""User units. A drawing less wide or high than this counts as having no size."""
+
+CENTRED = Fit(0.5, 0.5, "meet")
+"""What the standard says where a document says nothing."""
+
+PART = {"min": 0.0, "mid": 0.5, "max": 1.0}
+ASPECT = re.compile(r"\s*(?:defer\s+)?(?:(none)|x(min|mid|max)y(min|mid|max))(?:\s+(meet|slice))?\s*", re.IGNORECASE)
+
+
+def view_box(text: str | None) -> Rectangle | None:
+    """Parse `viewBox`; None without it.
+
+    Raises
+    ------
+    SourceError
+        If it is not four numbers, or has no size.
+
+    Examples
+    --------
+    >>> view_box("0 0 24 12")
+    (0.0, 0.0, 24.0, 12.0)
+    """
+    if text is None:
+        return None
+    values = numbers(text)
+    if values is None or len(values) != 4:
+        raise SourceError(f"viewBox is '{text[:60]}'; it must be four numbers")
+    x, y, width, height = values
+    if width < THINNEST or height < THINNEST:
+        raise SourceError(f"viewBox is '{text[:60]}'; its width and height must be at least {THINNEST:g}, not zero")
+    return x, y, width, height
+
+
+def parse_fit(text: str) -> Fit | None:
+    """Parse `preserveAspectRatio`; None if it is not valid.
+
+    Examples
+    --------
+    >>> parse_fit("xMinYMax slice")
+    Fit(across=0.0, down=1.0, rule='slice')
+    """
+    match = ASPECT.fullmatch(text)
+    if match is None:
+        return None
+    none, across, down, rule = match.groups()
+    if none:
+        return Fit(0.5, 0.5, "none")
+    return Fit(PART[across.lower()], PART[down.lower()], (rule or "meet").lower())
+
+
+def view_transform(box: Rectangle, fit: Fit, width: float, height: float) -> Transform:
+    """Map a view box into a viewport whose least corner is the origin.
+
+    Parameters
+    ----------
+    box : Rectangle
+        What is shown.
+    fit : Fit
+        How.
+    width, height : float
+        Size of the viewport.
+
+    Examples
+    --------
+    >>> tuple(view_transform((0, 0, 10, 10), Fit(1.0, 0.0, "meet"), 40, 20))
+    (2.0, 0, 0, 2.0, 20.0, 0.0)
+    """
+    x, y, box_width, box_height = box
+    across, down = width / box_width, height / box_height
+    if fit.rule != "none":
+        across = down = min(across, down) if fit.rule == "meet" else max(across, down)
+    left, top = (width - box_width * across) * fit.across, (height - box_height * down) * fit.down
+    return Transform(across, 0, 0, down, left - x * across, top - y * down)

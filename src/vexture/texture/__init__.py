@@ -1,0 +1,1 @@
+"""The texture: bits, files, and what can be read of it."""

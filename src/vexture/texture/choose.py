@@ -1,0 +1,103 @@
+"""Which shape of a texture a caller means, and which layers; one meaning of a missing `root` for all.
+
+A missing `root` means the whole texture where the answer can be of the whole: its outlines, its layers if they are of
+one drawing. Where one shape is needed it means the only one; of several, one must be chosen.
+"""
+
+import difflib
+from collections.abc import Sequence
+from typing import Final
+
+from vexture.errors import ParameterError
+from vexture.texture.root import Root
+
+__all__ = ["layers_of", "place_of"]
+
+MOST_NAMED: Final = 6
+"""Shapes that a message names."""
+
+
+def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "texture") -> int:
+    """Place of the one shape that a name or a place means, or of the only one.
+
+    Parameters
+    ----------
+    roots : sequence of Root
+    root : str, int or None
+        Name, or place from 0.
+    texture : str
+        Names the texture in messages.
+
+    Raises
+    ------
+    ParameterError
+        If there is none of that name or place, or none is given and there are several.
+
+    Examples
+    --------
+    >>> place_of([Root("anchor"), Root("apple")], "apple")
+    1
+    >>> place_of([Root("anchor"), Root("apple")], None)
+    Traceback (most recent call last):
+    vexture.errors.ParameterError: texture holds 2 shapes (anchor, apple); choose one by `root`
+    >>> place_of([Root("anchor"), Root("apple")], "anker")
+    Traceback (most recent call last):
+    vexture.errors.ParameterError: texture: no shape 'anker'; near names are 'anchor', 'apple'; there are 2
+    """
+    if root is None:
+        if len(roots) > 1:
+            raise ParameterError(
+                f"{texture} holds {len(roots)} shapes ({_listed([one.name for one in roots])}); choose one by `root`"
+            )
+        return 0
+    names = [one.name for one in roots]
+    if isinstance(root, str):
+        if root in names:
+            return names.index(root)
+        near = difflib.get_close_matches(root, names, n=5) or names[:5]
+        listed = ", ".join(map(repr, near))
+        raise ParameterError(f"{texture}: no shape {root!r}; near names are {listed}; there are {len(names)}")
+    if not 0 <= root < len(roots):
+        raise ParameterError(f"{texture}: no shape {root}; they are numbered 0 to {len(roots) - 1}")
+    return int(root)
+
+
+def layers_of(roots: Sequence[Root], root: str | int | None, texture: str = "texture") -> list[int]:
+    """Places of the shapes that a picture shows, in painting order.
+
+    Parameters
+    ----------
+    roots : sequence of Root
+    root : str, int or None
+        Name of a drawing: what stands before ``/layer`` in the names of painted shapes, or the name of a shape without
+        paint. Or name or place of one shape. None means the only drawing.
+    texture : str
+        Names the texture in messages.
+
+    Raises
+    ------
+    ParameterError
+        If there is no such drawing or shape, or none is named and there are several drawings.
+
+    Examples
+    --------
+    >>> from vexture.drawing import Paint
+    >>> logo = [Root("logo/1", paint=Paint()), Root("logo/2", paint=Paint((1.0, 0.0, 0.0)))]
+    >>> layers_of(logo, None), layers_of([*logo, Root("map")], "logo"), layers_of(logo, "logo/2")
+    ([0, 1], [0, 1], [1])
+    """
+    owners = [one.name if one.paint is None else one.name.rpartition("/")[0] or one.name for one in roots]
+    if root is None:
+        different = list(dict.fromkeys(owners))
+        if len(different) > 1:
+            raise ParameterError(
+                f"{texture} holds {len(different)} drawings ({_listed(different)}); choose one by `root`"
+            )
+        return list(range(len(owners)))
+    layers = [place for place, owner in enumerate(owners) if owner == root]
+    return layers or [place_of(roots, root, texture)]
+
+
+def _listed(names: list[str]) -> str:
+    listed = ", ".join(name[:60] for name in names[:MOST_NAMED])
+    return listed + (f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else "")

@@ -1,0 +1,60 @@
+"""From a texture (FORMAT.md, part B) back to the trees of its shapes."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture import layout
+from vexture.texture.texels import curve_points
+from vexture.texture.texture import Texture
+from vexture.texture.walk import WalkLevel, walk
+from vexture.tree.tree import Tree
+
+__all__ = ["decode"]
+
+
+
+def decode(texture: Texture, root: str | int = 0) -> Tree:
+    """Tree of one shape of a texture, with `deviation` and `unresolved` 0.
+
+    What `encode` has written comes back as it was but for the rounding of coverages, and becomes the same
+    texels again. In what others have written quads and curves may lie in another order; here they are numbered as
+    `Tree` says.
+
+    Parameters
+    ----------
+    texture : Texture
+    root : str or int
+        Name or place of the shape.
+
+    Raises
+    ------
+    FormatError
+        If there is no such shape, or its texels are no tree.
+
+    Examples
+    --------
+    >>> texels = np.array([[[0, 0, 0, 0xFF]]], np.uint32)
+    >>> decode(Texture(texels, (Root("a quarter"),))).coverage
+    array([[1., 0., 0., 0.]])
+    """
+    flat = texture.flat
+    levels = walk(flat, np.array([texture.root(root).quad]))
+    is_quad, count = _joined(levels, "is_quad"), _joined(levels, "counts")
+    quads_in, curves_in = is_quad.sum(axis=1), count.sum(axis=1)
+    return Tree(
+        is_quad,
+        count.astype(np.uint8),
+        _joined(levels, "windings").astype(np.int8),
+        (1 + np.cumsum(quads_in) - quads_in).astype(np.int32),
+        (np.cumsum(curves_in) - curves_in).astype(np.int32),
+        _joined(levels, "coverages") / layout.COVERAGE_ONE,
+        curve_points(flat[_joined(levels, "curves")]),
+        deviation=0.0,
+        unresolved=0,
+    )
+
+
+def _joined(levels: list[WalkLevel], what: str) -> NDArray[Any]:
+    return np.concatenate([getattr(level, what) for level in levels])

@@ -1,0 +1,130 @@
+"""Reading a texture's file."""
+
+import os
+from pathlib import Path
+from typing import Final, Literal, overload
+
+from vexture import layout
+from vexture.encodings import DEFAULT, EncodedTexture, find_encoding, owner_of
+from vexture.errors import FormatError
+from vexture.texture.files import read_file
+from vexture.texture.ktx2 import MAGIC, read_ktx2
+from vexture.texture.root import read_roots
+from vexture.texture.texture import REMEDY, Texture
+
+__all__ = ["load", "load_any", "texture_from"]
+
+NOT_FOUND: Final = f"a texture is a file NAME{layout.PACKED_SUFFIX}; convert a drawing to make one"
+
+
+@overload
+def load(path: str | os.PathLike[str], *, encoding: Literal["packed"] = ...) -> Texture: ...
+
+
+@overload
+def load(path: str | os.PathLike[str], *, encoding: str) -> EncodedTexture: ...
+
+
+def load(path: str | os.PathLike[str], *, encoding: str = DEFAULT) -> EncodedTexture:
+    """Read a texture's file.
+
+    Parameters
+    ----------
+    path : path
+        The file; its suffix ``.ktx2`` may be left out.
+    encoding : str
+        ``"packed"``, or the name of a registered encoding; see `vexture.convert`.
+
+    Returns
+    -------
+    Texture
+        Checked: none of its indices leads outside it. Or the texture of another encoding.
+
+    Raises
+    ------
+    FormatError
+        If the file is missing, damaged or not a texture.
+    DeviceError
+        If it may not be read.
+    ParameterError
+        If there is no such encoding.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import vexture
+    >>> kite = vexture.convert(vexture.Drawing.polygon([(0.5, 0.1), (0.8, 0.6), (0.5, 0.9), (0.2, 0.6)]))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     again = load(kite.save(Path(folder) / "kite.ktx2"))
+    >>> bool((again.texels == kite.texels).all())
+    True
+    """
+    if encoding != DEFAULT:
+        return find_encoding(encoding).load(path)
+    given = Path(path)
+    if not given.is_file():
+        named = given.with_name(given.name + layout.PACKED_SUFFIX) if given.name else given
+        if named.is_file():
+            given = named
+        elif (other := owner_of(given)) is not None:
+            raise FormatError(f"{path}: a texture in the encoding {other}; load it with `encoding`='{other}'")
+    return texture_from(read_file(given, layout.PACKED_FILE_LIMIT, NOT_FOUND), str(given))
+
+
+def load_any(path: str | os.PathLike[str]) -> EncodedTexture:
+    """Read a texture in whichever encoding the path means.
+
+    Raises
+    ------
+    FormatError
+        If the path means textures in two encodings, or as `load` says.
+    """
+    given = Path(path)
+    other = None if _is_ktx2(given) else owner_of(given)
+    packed = given.with_name(given.name + layout.PACKED_SUFFIX) if given.name else given
+    if other is not None and packed.is_file() and not given.is_file():
+        raise FormatError(f"{path} means {packed} as well as a texture in the encoding {other}; name one of the files")
+    return load(given, encoding=other or DEFAULT)
+
+
+def _is_ktx2(path: Path) -> bool:
+    """Whether there is such a file and it begins as KTX 2.0 does."""
+    try:
+        with path.open("rb") as file:
+            return file.read(len(MAGIC)) == MAGIC
+    except OSError:
+        return False
+
+
+def texture_from(data: bytes, source: str) -> Texture:
+    """Read the content of a texture's file, and check it.
+
+    Parameters
+    ----------
+    data : bytes
+    source : str
+        Name of the file, for messages, and for a texture that says no name.
+
+    Raises
+    ------
+    FormatError
+        If it is damaged or not a texture.
+    """
+    if len(data) > layout.PACKED_FILE_LIMIT:
+        raise FormatError(f"{source}: longer than {layout.PACKED_FILE_LIMIT} bytes, so not a texture; {REMEDY}")
+    texels, texts = read_ktx2(data, source)
+    try:
+        for key, known in (
+            (layout.TEXT_ENCODING, layout.ENCODING_PACKED),
+            (layout.TEXT_VERSION, layout.PACKED_VERSION),
+        ):
+            if texts.get(key) != known:
+                found = repr(texts.get(key))[:80]
+                raise FormatError(f"{key} is {found}; this program reads {known!r}; update it or {REMEDY}")
+        name = texts.get(layout.TEXT_NAME) or Path(source).name.removesuffix(layout.PACKED_SUFFIX)
+        roots = read_roots(texts.get(layout.TEXT_ROOTS, ""))
+        texture = Texture(texels, roots, name, texts.get(layout.TEXT_SOURCE))
+        texture.check()
+    except FormatError as error:
+        raise FormatError(f"{source}: {error}") from None
+    return texture

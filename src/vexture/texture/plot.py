@@ -1,0 +1,95 @@
+"""A texture as a figure for a notebook: cells, their coverage, and the picture that they make."""
+
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture import layout
+from vexture.errors import DeviceError
+from vexture.texture.walk import walk
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["PICTURE", "cells_of", "plot_shape"]
+
+PICTURE: Final = 256
+"""Pixels of the picture's side."""
+
+FINEST: Final = 256
+"""Cells smaller than this part of the unit square are shown by the mean of their quad."""
+
+
+def cells_of(flat: NDArray[np.uint32], quad: int) -> NDArray[np.float64]:
+    """Cells of one shape that are not divided, or are too small to be seen.
+
+    Returns
+    -------
+    (n, 5) float64 array
+        Left, bottom, side, depth and coverage of each, in unit-square units and 0..1.
+
+    Examples
+    --------
+    >>> cells_of(np.array([[0, 0, 0, 0xFF]], np.uint32), 0).tolist()[0]
+    [0.0, 0.0, 0.5, 1.0, 1.0]
+    """
+    corners, side, found = np.zeros((1, 2)), 0.5, []
+    for depth, level in enumerate(walk(flat, np.array([quad])), 1):
+        low = (corners[:, None] + side * np.array([(0, 0), (1, 0), (0, 1), (1, 1)])).reshape(-1, 2)
+        divided = level.is_quad.ravel() & (side * FINEST > 1.0)
+        coverage = level.coverages.ravel() / layout.COVERAGE_ONE
+        shown = np.column_stack([low, np.full(len(low), side), np.full(len(low), depth), coverage])
+        found.append(shown[~divided])
+        if not divided.any():
+            break
+        corners, side = low[level.is_quad.ravel()], side / 2
+    return np.concatenate(found)
+
+
+def plot_shape(flat: NDArray[np.uint32], quad: int, picture: NDArray[np.float32], title: str) -> "Figure":
+    """Draw the three panels.
+
+    Parameters
+    ----------
+    flat : (n, 4) uint32 array
+        The texels.
+    quad : int
+        Root quad of the shape.
+    picture : (height, width) float32 array
+        Its coverage.
+    title : str
+        Of the last panel.
+
+    Raises
+    ------
+    DeviceError
+        If matplotlib is not installed.
+    """
+    try:
+        from matplotlib.figure import Figure
+    except ModuleNotFoundError:
+        raise DeviceError("plot needs the package matplotlib: pip install matplotlib") from None
+    cells = cells_of(flat, quad)
+    figure = Figure(figsize=(11.0, 3.6), layout="constrained")
+    depths, coverages, image = figure.subplots(1, 3)
+    _draw(figure, depths, cells, 3, "cells", cmap="YlOrBr", label="depth")
+    _draw(figure, coverages, cells, 4, "coverage", cmap="Blues", label="covered part", clim=(0.0, 1.0))
+    image.imshow(1.0 - picture, cmap="gray", vmin=0.0, vmax=1.0, extent=(0.0, 1.0, 0.0, 1.0))
+    image.set_title(title, loc="left")
+    return figure
+
+
+def _draw(
+    figure: "Figure", axes: "Axes", cells: NDArray[np.float64], column: int, title: str, label: str, **style: Any
+) -> None:
+    from matplotlib.collections import PolyCollection
+
+    x, y, side = cells[:, 0], cells[:, 1], cells[:, 2]
+    squares = np.stack([x, y, x + side, y, x + side, y + side, x, y + side], axis=1).reshape(-1, 4, 2)
+    drawn = PolyCollection(list(squares), array=cells[:, column], edgecolors="#00000030", linewidths=0.5, **style)
+    axes.add_collection(drawn)
+    axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.0), aspect="equal")
+    axes.set_title(title, loc="left")
+    figure.colorbar(drawn, ax=axes, label=label)

@@ -1,0 +1,166 @@
+"""A shape of a packed texture, and how the texture's file says what its shapes are."""
+
+import json
+import math
+import reprlib
+import sys
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.drawing import IDENTITY, Paint
+from vexture.errors import FormatError, LimitError
+from vexture.layout import TEXT_ROOTS
+
+__all__ = ["Root", "read_roots", "roots_text"]
+
+REMEDY = "convert the drawing again"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Root:
+    """One shape of a packed texture.
+
+    Parameters
+    ----------
+    name : str
+        Names the shape within its texture.
+    quad : int
+        Index of its root quad's texel: all that a shader needs.
+    to_source : (2, 3) float64 array
+        Affine map from the unit square to the units of the source.
+    tolerance : float
+        Largest distance between the drawing's outline and the texture's before quantisation, in unit-square units.
+    crs : str or None
+        Coordinate reference system of the source units, where there is one.
+    paint : Paint or None
+        Its colour, where it is one layer of a drawing; None for a silhouette.
+
+    Examples
+    --------
+    >>> root = Root("lake", to_source=np.array([[200.0, 0.0, 5000.0], [0.0, 200.0, 7000.0]]), crs="EPSG:28992")
+    >>> root.to_source @ (0.5, 0.5, 1.0)
+    array([5100., 7100.])
+    """
+
+    name: str
+    quad: int = 0
+    to_source: NDArray[np.float64] = field(default_factory=IDENTITY.copy)
+    tolerance: float = 0.0
+    crs: str | None = None
+    paint: Paint | None = None
+
+
+def roots_text(roots: tuple[Root, ...]) -> str:
+    """Return the JSON text of a texture's roots (FORMAT.md, B.5): compact, always the same for the same roots.
+
+    Raises
+    ------
+    LimitError
+        If a number is not finite.
+
+    Examples
+    --------
+    >>> roots_text((Root("agate", 5, tolerance=1e-6),))
+    '[{"name":"agate","quad":5,"transform":[1,0,0,0,1,0],"tolerance":1e-06}]'
+    """
+    try:
+        text = json.dumps(
+            [_as_json(root) for root in roots], ensure_ascii=False, allow_nan=False, separators=(",", ":")
+        )
+    except ValueError:
+        raise LimitError("a root's transform, tolerance or paint is not finite; scale the drawing down") from None
+    return text.encode(errors="backslashreplace").decode()  # a lone surrogate becomes its JSON escape
+
+
+def _as_json(root: Root) -> dict[str, Any]:
+    entry = {
+        "name": root.name,
+        "quad": int(root.quad),
+        "transform": [_short(number) for number in root.to_source.flat],
+        "tolerance": _short(root.tolerance),
+    }
+    if root.crs is not None:
+        entry["crs"] = root.crs
+    if root.paint is not None:
+        entry["paint"] = {"color": [*map(_short, root.paint.color)], "opacity": _short(root.paint.opacity)}
+    return entry
+
+
+def _short(number: float) -> float:
+    """Return a number as JSON says it shortest: integers without a point, but for -0.0, which keeps its sign."""
+    value = float(number)
+    whole = value.is_integer() and abs(value) < 2.0**53 and (value != 0.0 or math.copysign(1.0, value) > 0.0)
+    return int(value) if whole else value
+
+
+def read_roots(text: str) -> tuple[Root, ...]:
+    """Roots from their JSON text; members that are not known are ignored.
+
+    Raises
+    ------
+    FormatError
+        If it is not what FORMAT.md says.
+
+    Examples
+    --------
+    >>> read_roots('[{"name": "agate", "quad": 5, "transform": [1, 0, 0, 0, 1, 0], "tolerance": 0}]')[0].quad
+    5
+    """
+    try:
+        entries = json.loads(text, parse_constant=_refuse_constant)
+    except (ValueError, RecursionError) as error:
+        raise FormatError(f"{TEXT_ROOTS} is not JSON ({_line(error)}); {REMEDY}") from None
+    if not isinstance(entries, list) or not entries:
+        raise FormatError(f"{TEXT_ROOTS} is {_line(text)}; it must be a list of at least one root; {REMEDY}")
+    return tuple(_read_root(entry, place) for place, entry in enumerate(entries))
+
+
+def _read_root(entry: Any, place: int) -> Root:
+    if not isinstance(entry, dict):
+        raise FormatError(f"root {place} is {_line(entry)}; it must be an object; {REMEDY}")
+    name, quad, crs = entry.get("name"), entry.get("quad"), entry.get("crs")
+    if not isinstance(name, str):
+        raise FormatError(f"root {place} has the name {_line(name)}; it must be a text; {REMEDY}")
+    if type(quad) is not int or not 0 <= quad < 1 << 32:
+        raise FormatError(f"root {place} has the quad {_line(quad)}; it must be an index of a texel; {REMEDY}")
+    if crs is not None and not isinstance(crs, str):
+        raise FormatError(f"root {place} has the crs {_line(crs)}; it must be a text; {REMEDY}")
+    transform = _numbers(entry.get("transform"), 6, f"root {place}: transform")
+    (tolerance,) = _numbers([entry.get("tolerance", 0)], 1, f"root {place}: tolerance")
+    if tolerance < 0.0:
+        raise FormatError(f"root {place}: tolerance is {tolerance:g}; it must be at least 0; {REMEDY}")
+    return Root(name, quad, np.array(transform).reshape(2, 3), tolerance, crs, _read_paint(entry.get("paint"), place))
+
+
+def _read_paint(paint: Any, place: int) -> Paint | None:
+    if paint is None:
+        return None
+    if not isinstance(paint, dict):
+        raise FormatError(f"root {place}: paint is {_line(paint)}; it must be an object; {REMEDY}")
+    red, green, blue = _numbers(paint.get("color"), 3, f"root {place}: color")
+    (opacity,) = _numbers([paint.get("opacity", 1)], 1, f"root {place}: opacity")
+    if not all(0.0 <= part <= 1.0 for part in (red, green, blue, opacity)):
+        raise FormatError(f"root {place}: paint is {_line(paint)}; its numbers must be in 0..1; {REMEDY}")
+    return Paint((red, green, blue), opacity)
+
+
+def _numbers(values: Any, count: int, what: str) -> list[float]:
+    """So many finite numbers."""
+    fits = isinstance(values, list) and len(values) == count
+    if fits and all(type(value) in (int, float) and abs(value) <= sys.float_info.max for value in values):
+        return [float(value) for value in values]
+    kind = "finite number" + ("s" if count > 1 else "")
+    raise FormatError(f"{what} is {_line(values)}; it must be {count} {kind}; {REMEDY}")
+
+
+def _refuse_constant(name: str) -> float:
+    raise ValueError(f"{name} is no number of JSON")
+
+
+def _line(value: Any) -> str:
+    """Return something of a stranger's as one short line."""
+    text = str(value) if isinstance(value, Exception) else reprlib.repr(value)
+    return " ".join(text.split())[:60].encode(errors="backslashreplace").decode()

@@ -1,0 +1,394 @@
+"""The texture itself: one array of texels, any number of shapes, one file."""
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vexture import layout
+from vexture.drawing import Paint
+from vexture.errors import FormatError, LimitError, ParameterError
+from vexture.renderers.picture import painted
+from vexture.renderers.view import Size, ViewLike, size_of
+from vexture.texture.choose import layers_of, place_of
+from vexture.texture.facts import facts
+from vexture.texture.files import target_of, write_together
+from vexture.texture.ktx2 import write_ktx2
+from vexture.texture.root import Root, roots_text
+from vexture.texture.walk import walk
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["REMEDY", "Root", "Texture"]
+
+REMEDY: Final = "convert the drawing again"
+WRITER: Final = "vexture"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Texture:
+    """A texture of packed quads and curves (FORMAT.md, part B).
+
+    Parameters
+    ----------
+    texels : (rows, width, 4) uint32 array
+        Texel i lies in row i >> `layout.ROW_BITS`; the width is a power of two.
+    roots : tuple of Root
+        Its shapes; the layers of one drawing in painting order.
+    name : str
+        Names the texture in messages and files.
+    source : str or None
+        Where it was made from, for people.
+
+    Raises
+    ------
+    FormatError
+        If the texels are of another shape or type, or there is no root.
+
+    Examples
+    --------
+    >>> import vexture
+    >>> texture = vexture.convert(vexture.Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.5, 0.8)]))
+    >>> texture.roots[0].name, texture.depth, texture.texels.dtype
+    ('drawing', 0, dtype('uint32'))
+    """
+
+    texels: NDArray[np.uint32]
+    roots: tuple[Root, ...]
+    name: str = "texture"
+    source: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.texels.ndim != 3 or self.texels.shape[2] != 4 or self.texels.dtype != np.uint32:
+            raise FormatError(
+                f"texels are {self.texels.dtype}{self.texels.shape}; they must be uint32 (rows, width, 4)"
+            )
+        rows, width, _ = self.texels.shape
+        full = width == 1 << layout.ROW_BITS
+        if width.bit_count() != 1 or width > 1 << layout.ROW_BITS or not 1 <= rows <= (layout.MOST_ROWS if full else 1):
+            raise FormatError(
+                f"{width} x {rows} texels; a texture is {1 << layout.ROW_BITS} wide and 1 to {layout.MOST_ROWS} high, "
+                "or one row of a smaller power of two"
+            )
+        if not self.roots:
+            raise FormatError("a texture has at least one root; give one for each shape")
+
+    @property
+    def flat(self) -> NDArray[np.uint32]:
+        """The texels by their index, (n, 4)."""
+        return self.texels.reshape(-1, 4)
+
+    @property
+    def quads(self) -> NDArray[np.int64]:
+        """Index of each root's quad."""
+        return np.array([root.quad for root in self.roots], np.int64)
+
+    @property
+    def depth(self) -> int:
+        """Depth of the deepest quad; a root has depth 0. A shader descends at most this often."""
+        return len(walk(self.flat, self.quads)) - 1
+
+    @property
+    def nbytes(self) -> int:
+        """Size in memory, of a GPU too."""
+        return self.texels.nbytes
+
+    def root(self, root: str | int | None = None) -> Root:
+        """One of the shapes, by its name or its place; the only one if neither is given.
+
+        Raises
+        ------
+        ParameterError
+            If there is none of that name or place, or none is given and there are several.
+
+        Examples
+        --------
+        >>> texture = Texture(np.zeros((1, 1, 4), np.uint32), (Root("anchor"), Root("apple")))
+        >>> texture.root("anchor").quad
+        0
+        """
+        return self.roots[place_of(self.roots, root, self.name)]
+
+    def check(self) -> None:
+        """Raise a `FormatError` where the texels contradict FORMAT.md; takes time in proportion to their number."""
+        flat = self.flat
+        levels = walk(flat, self.quads)
+        met = np.zeros(len(flat), np.bool_)
+        for level in levels:
+            met[level.quads], met[level.curves] = True, True
+        unmet = flat.any(axis=1) & ~met
+        if unmet.any():
+            raise FormatError(f"texel {unmet.argmax()} belongs to no root and is not 0; {REMEDY}")
+        curves = np.concatenate([level.curves for level in levels])
+        ends = flat[curves][:, [0, 3]]
+        most = np.maximum(ends & ((1 << layout.COORDINATE_BITS) - 1), ends >> layout.COORDINATE_BITS).max(
+            axis=1, initial=0
+        )
+        if len(most) and most.max() > layout.LATTICE:
+            raise FormatError(
+                f"curve {curves[most.argmax()]} has an end at {most.max()}; the limit is {layout.LATTICE:.0f}; {REMEDY}"
+            )
+
+    def contains(self, points: ArrayLike, root: str | int | None = None) -> NDArray[np.bool_]:
+        """Which points are inside a shape, by the outlines as they are stored.
+
+        Parameters
+        ----------
+        points : (n, 2) array
+            In unit-square units, y up. Nothing is inside beyond 0 <= x < 1, 0 <= y < 1.
+        root : str, int or None
+            Name or place of the shape; not needed if there is only one.
+
+        Returns
+        -------
+        (n,) bool array
+            For each point whether it is inside.
+
+        Raises
+        ------
+        ParameterError
+            If the points are of another shape, there is no such shape, or none is named where there are several.
+
+        Examples
+        --------
+        >>> import vexture
+        >>> texture = vexture.convert(vexture.Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)]))
+        >>> texture.contains([(0.5, 0.5), (0.1, 0.5)])
+        array([ True, False])
+        """
+        from vexture.texture.contains import points_inside  # late: compiled code, which readers need not wait for
+
+        wanted = np.asarray(points, np.float64)
+        if wanted.ndim != 2 or wanted.shape[1] != 2:
+            raise ParameterError(f"`points` has the shape {wanted.shape}; it must be (n, 2)")
+        inside = np.empty(len(wanted), np.bool_)
+        points_inside(self.flat, self.root(root).quad, wanted, inside)
+        return inside
+
+    def coverage(
+        self,
+        size: Size,
+        view: ViewLike = None,
+        *,
+        renderer: Literal["cpu", "gpu"] = "cpu",
+        root: str | int | None = None,
+        quality: Literal["fast", "exact"] = "exact",
+    ) -> NDArray[np.float32]:
+        """Covered part of each pixel, by one shape.
+
+        Parameters
+        ----------
+        size, view, renderer, root, quality
+            As in `vexture.coverage`.
+
+        Returns
+        -------
+        (height, width) float32 array
+            Coverage, 0..1, top row first.
+
+        Raises
+        ------
+        ParameterError
+            If an argument is out of range, or `root` is missing where there are several shapes.
+        DeviceError
+            If there is no GPU.
+
+        Examples
+        --------
+        >>> full_cells = np.array([[[0, 0, 0, 0xFFFFFFFF]]], np.uint32)
+        >>> Texture(full_cells, (Root("full"),)).coverage((2, 1))
+        array([[0.5, 0.5]], dtype=float32)
+        """
+        place = place_of(self.roots, root, self.name)
+        if renderer == "cpu":
+            from vexture.renderers.cpu import render_cpu  # late: compiled code, which readers need not wait for
+
+            return render_cpu(self, size, view, root=place, quality=quality)
+        if renderer != "gpu":
+            raise ParameterError(f"`renderer` is {renderer!r}; a texture is rendered by 'cpu' or 'gpu'")
+        from vexture.renderers.gpu import render_gpu
+
+        return render_gpu(self, size, view, root=place, quality=quality)
+
+    def render(
+        self,
+        size: Size,
+        view: ViewLike = None,
+        *,
+        renderer: Literal["cpu", "gpu"] = "cpu",
+        root: str | int | None = None,
+        quality: Literal["fast", "exact"] = "exact",
+    ) -> NDArray[np.float32]:
+        """Picture of a drawing in its colours: its layers, one over the other. Silhouettes are black.
+
+        Parameters
+        ----------
+        size, view, renderer, root, quality
+            As in `vexture.render`.
+
+        Returns
+        -------
+        (height, width, 4) float32 array
+            sRGB and opacity, 0..1, premultiplied, top row first.
+
+        Raises
+        ------
+        ParameterError
+            If an argument is out of range, or `root` is missing where there are several drawings.
+        DeviceError
+            If there is no GPU.
+        """
+        layers = (
+            (
+                self.roots[place].paint or Paint(),
+                self.coverage(size, view, renderer=renderer, root=place, quality=quality),
+            )
+            for place in layers_of(self.roots, root, self.name)
+        )
+        return painted(size_of(size), layers)
+
+    def plot(self, root: str | int | None = None) -> "Figure":
+        """Show a shape's cells by depth, their coverage, and the picture they make, in a notebook too.
+
+        Parameters
+        ----------
+        root : str or int, optional
+            Name or place of the shape; not needed if there is only one.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            Shows itself as the last value of a notebook's cell.
+
+        Raises
+        ------
+        DeviceError
+            If matplotlib is not installed.
+        ParameterError
+            If there is no such shape, or none is named where there are several.
+
+        Examples
+        --------
+        >>> import vexture
+        >>> kite = vexture.convert(vexture.Drawing.polygon([(0.5, 0.1), (0.8, 0.6), (0.5, 0.9), (0.2, 0.6)]))
+        >>> [axes.get_title(loc="left") for axes in kite.plot().axes[:3]]
+        ['cells', 'coverage', 'drawing']
+        """
+        from vexture.texture.plot import PICTURE, plot_shape
+
+        shape = self.root(root)
+        return plot_shape(self.flat, shape.quad, self.coverage(PICTURE, root=root), shape.name)
+
+    def to_svg(self, root: str | int | None = None) -> str:
+        """Return the outlines as an SVG document in the units of the source.
+
+        Parameters
+        ----------
+        root : str, int or None
+            Name or place of a shape; None draws all of them, one above the other.
+
+        Returns
+        -------
+        str
+            A document, of which each shape is a path in its colour, else black.
+
+        Raises
+        ------
+        ParameterError
+            If there is no such shape.
+
+        Examples
+        --------
+        >>> import vexture
+        >>> texture = vexture.convert(vexture.Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.5, 0.8)]))
+        >>> texture.to_svg().count("<path")
+        1
+        """
+        from vexture.texture.outlines import outlines
+        from vexture.texture.svg_text import svg_document
+
+        roots = self.roots if root is None else (self.root(root),)
+        return svg_document(((one, outlines(self.flat, one.quad)) for one in roots), self.name)
+
+    def info(self) -> dict[str, Any]:
+        """Describe the texture and its shapes, ready for JSON.
+
+        Examples
+        --------
+        >>> texels = np.array([[[0, 0, 0, 0xFF]]], np.uint32)
+        >>> Texture(texels, (Root("a quarter"),)).info()["roots"][0]["coverage"]
+        0.25
+        """
+        found = facts(self.flat, self.roots)
+        return {
+            "encoding": layout.ENCODING_PACKED,
+            "version": layout.PACKED_VERSION,
+            "name": self.name,
+            "source": self.source,
+            "width": self.texels.shape[1],
+            "height": self.texels.shape[0],
+            "texels": found["texels"],
+            "depth": found["depth"],
+            "bytes": self.nbytes,
+            "roots": found["roots"],
+        }
+
+    def texts(self) -> dict[str, str]:
+        """Key/value data of the file (FORMAT.md, B.5), by their keys."""
+        texts = {
+            layout.TEXT_WRITER: WRITER,
+            layout.TEXT_VERSION: layout.PACKED_VERSION,
+            layout.TEXT_ENCODING: layout.ENCODING_PACKED,
+            layout.TEXT_NAME: self.name,
+            layout.TEXT_SOURCE: self.source,
+            layout.TEXT_ROOTS: roots_text(self.roots),
+        }
+        return {key: text.encode(errors="replace").decode() for key, text in texts.items() if text is not None}
+
+    def to_ktx2(self) -> bytes:
+        """Return the contents of the file.
+
+        Raises
+        ------
+        LimitError
+            If the names and transforms of the roots are too long.
+        """
+        texts = self.texts()
+        length = sum(len(key.encode()) + len(text.encode()) + 16 for key, text in texts.items())
+        if length > layout.MOST_TEXT_BYTES:
+            raise LimitError(
+                f"{self.name}: {length} bytes say what its {len(self.roots)} roots are; the limit is "
+                f"{layout.MOST_TEXT_BYTES}; use several textures"
+            )
+        return write_ktx2(self.texels, texts)
+
+    def files(self) -> dict[str, bytes]:
+        """Contents of the file, by what follows the texture's name in its name."""
+        return {layout.PACKED_SUFFIX: self.to_ktx2()}
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the file.
+
+        Parameters
+        ----------
+        path : path
+            A folder (that exists or ends with a separator): the file gets the texture's name and ``.ktx2``. Else
+            the file itself.
+
+        Returns
+        -------
+        Path
+            The file.
+
+        Raises
+        ------
+        DeviceError
+            If the disk refuses.
+        """
+        target = target_of(path, self.name)
+        write_together({target: self.to_ktx2()})
+        return target

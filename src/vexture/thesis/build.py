@@ -1,0 +1,284 @@
+"""From a drawing to a `CellTree`, level by level."""
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.bezier.monotone import Pieces, monotone_pieces
+from vexture.bezier.split import copy_curve
+from vexture.drawing import Drawing
+from vexture.errors import LimitError, SourceError
+from vexture.kernels import kernel
+from vexture.layout import MOST_DEPTH
+from vexture.thesis.accuracy import Accuracy, accuracy_of, cell_tolerance
+from vexture.thesis.chain import Chain
+from vexture.thesis.leaf import (
+    CORNER,
+    CURVE,
+    EMPTY,
+    FULL,
+    NO_LEAF,
+    QUAD,
+    Leaf,
+    cell_chain,
+    chain_leaf,
+    limit_leaf,
+    nearest_constant,
+    no_leaf,
+    own_leaf,
+)
+from vexture.thesis.level import Level, children
+from vexture.thesis.plain import plain_chain
+from vexture.thesis.sampled import build_sampled
+from vexture.thesis.tree import CellTree
+from vexture.tolerance import CLOSED, GRAIN
+from vexture.tree.boundary import HOPELESS, crowded_area
+from vexture.tree.cubics import gather
+from vexture.tree.pool import MOST_QUADS, with_room
+
+__all__ = ["DEFAULT_DEPTH", "DEPTH_RANGE", "build", "root_level"]
+
+DEPTH_RANGE = (1, MOST_DEPTH)
+"""Depth limits that a caller may ask for."""
+
+DEFAULT_DEPTH = 10
+"""Cells of a thousandth of the drawing."""
+
+
+CROWDED = 8
+"""Pieces in a cell above which it is resolved only if its boundary meets the cell's edge exactly twice."""
+
+
+@kernel
+def _ends_on_edge(pieces: Pieces, first: int, last: int, x0: float, y0: float, size: float) -> int:
+    """Number of ends of chains on the cell's edge: of ends there that the next piece does not go on from."""
+    count = 0
+    for i in range(first, last):
+        for end in (0, 3):
+            neighbour = i - 1 if end == 0 else i + 1
+            x, y = pieces.points[i, end, 0], pieces.points[i, end, 1]
+            if x != x0 and x != x0 + size and y != y0 and y != y0 + size:
+                continue
+            if first <= neighbour < last and (
+                pieces.points[neighbour, 3 - end, 0] == x and pieces.points[neighbour, 3 - end, 1] == y
+            ):
+                continue
+            count += 1
+    return count
+
+
+@kernel
+def _leaf_or_limit(
+    chain: Chain,
+    area: float,
+    cubics: NDArray[np.float64],
+    x0: float,
+    y0: float,
+    size: float,
+    tolerance: float,
+    at_limit: bool,
+) -> Leaf:
+    """Leaf of a chain; at the depth limit there always is one."""
+    leaf = chain_leaf(chain, area, cubics, x0, y0, size, tolerance / size)
+    if leaf.kind == NO_LEAF and at_limit:
+        return limit_leaf(chain, area)
+    return leaf
+
+
+@kernel
+def _leaf_of(
+    level: Level,
+    c: int,
+    cubics: NDArray[np.float64],
+    rules: NDArray[np.int64],
+    size: float,
+    tolerance: float,
+    at_limit: bool,
+) -> Leaf:
+    """Leaf of cell c, or `NO_LEAF` to divide it."""
+    first, last = level.piece_at[c], level.piece_at[c + 1]
+    present = level.present[level.path_at[c] : level.path_at[c + 1]]
+    x0, y0 = level.origin[c, 0], level.origin[c, 1]
+    if len(present) == 1:
+        leaf = own_leaf(level.pieces, first, last, cubics, present[0, 1], rules[present[0, 0]], x0, y0, size)
+        if leaf.kind != NO_LEAF:
+            return leaf
+        if last - first <= HOPELESS:
+            chain, area = plain_chain(level.pieces, first, last, present[0, 1], rules[present[0, 0]], x0, y0, size)
+            if chain.chains < 2:
+                return _leaf_or_limit(chain, area, cubics, x0, y0, size, tolerance, at_limit)
+    if last - first > HOPELESS:
+        if at_limit:
+            return nearest_constant(
+                crowded_area(
+                    level.pieces.points[first:last], level.pieces.path[first:last], present, rules, x0, y0, size
+                )
+            )
+        return no_leaf()
+    if not at_limit and last - first > CROWDED and _ends_on_edge(level.pieces, first, last, x0, y0, size) != 2:
+        return no_leaf()
+    chain, area = cell_chain(level.pieces, first, last, present, rules, x0, y0, size)
+    return _leaf_or_limit(chain, area, cubics, x0, y0, size, tolerance, at_limit)
+
+
+
+
+@kernel
+def _add_quads(cells: NDArray[np.float64], level: Level, split_cells: NDArray[np.bool_], quad: int) -> int:
+    """Enter the quads that cells of a level become, their cells empty; return the new number of quads."""
+    for c in range(len(split_cells)):
+        if split_cells[c]:
+            if level.slot[c] >= 0:
+                slot = cells[level.slot[c] // 4, level.slot[c] % 4]
+                slot[0], slot[1] = QUAD, quad
+            for k in range(4):
+                cells[quad, k, 0], cells[quad, k, 1], cells[quad, k, 2] = EMPTY, -1.0, 0.0
+            quad += 1
+    return quad
+
+
+@kernel
+def grow(
+    level: Level,
+    cubics: NDArray[np.float64],
+    rules: NDArray[np.int64],
+    accuracy: Accuracy,
+    max_depth: int,
+    most_quads: int,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], float, int]:
+    """Divide the unit square level by level until every cell is a leaf.
+
+    Returned are the cells, (quads, 4, 3): kind, reference, coverage; the curves; deviation; unresolved. If that
+    takes more than `most_quads`, nothing but the number needed so far, negative, as the last.
+    """
+    cells, quads = np.empty((16, 4, 3)), 0
+    curves, curve_count = np.empty((16, 4, 2)), 0
+    unresolved, deviation, size = 0, 0.0, 1.0
+    for depth in range(max_depth + 1):
+        count = len(level.slot)
+        split_cells, split_count = np.zeros(count, np.bool_), 0
+        curves = with_room(curves, curve_count, count)
+        for c in range(count):
+            tolerance = cell_tolerance(accuracy, size)
+            leaf = no_leaf()
+            if depth > 0:  # the root is always a quad
+                leaf = _leaf_of(level, c, cubics, rules, size, tolerance, depth == max_depth)
+            if leaf.kind == NO_LEAF:
+                split_cells[c] = True
+                split_count += 1
+                continue
+            slot = cells[level.slot[c] // 4, level.slot[c] % 4]
+            slot[0], slot[2] = leaf.kind, leaf.coverage
+            deviation = max(deviation, leaf.distance * size)
+            unresolved += 0 if leaf.resolved else 1
+            if leaf.kind in (CURVE, CORNER):
+                slot[1] = curve_count
+                copy_curve(leaf.curve, curves[curve_count])
+                curve_count += 1
+        if split_count == 0:
+            break
+        if quads + split_count > most_quads:
+            return cells[:0], curves[:0], 0.0, -(quads + split_count)
+        cells = with_room(cells, quads, split_count)
+        first_quad = quads
+        quads = _add_quads(cells, level, split_cells, first_quad)
+        level, full = children(level, split_cells, split_count, rules, size, GRAIN, first_quad)
+        for slot_index in full:
+            cell = cells[slot_index // 4, slot_index % 4]
+            cell[0], cell[2] = FULL, 1.0
+        size *= 0.5
+    for quad in range(quads - 1, -1, -1):
+        for k in range(4):
+            if cells[quad, k, 0] == QUAD:
+                below = cells[int(cells[quad, k, 1])]
+                cells[quad, k, 2] = 0.25 * (below[0, 2] + below[1, 2] + below[2, 2] + below[3, 2])
+    return cells[:quads], curves[:curve_count], deviation, unresolved
+
+
+
+
+def root_level(drawing: Drawing, pieces: Pieces) -> Level:
+    """The unit square as the only cell of its level; every path has corner winding 0 there."""
+    ends = pieces.points[:, [0, 3]]
+    worst = np.abs(ends - np.clip(ends, 0.0, 1.0)).max()
+    if not worst <= CLOSED:  # not a number counts as outside
+        raise SourceError(f"{drawing.name}: a curve leaves the unit square by {worst:.3g}; clip or scale it first")
+    pieces.points[:, [0, 3]] = np.clip(ends, 0.0, 1.0)
+    paths = np.unique(pieces.path)
+    return Level(
+        np.zeros((1, 2)),
+        np.full(1, -1),
+        np.array([0, len(pieces.path)]),
+        np.array([0, len(paths)]),
+        pieces,
+        np.column_stack((paths, np.zeros_like(paths))),
+    )
+
+
+def build(
+    drawing: Drawing,
+    tolerance: float | Literal["auto"] = "auto",
+    max_depth: int = DEFAULT_DEPTH,
+    strategy: Literal["direct", "sampled"] = "direct",
+    step: float = 0.0,
+    most_quads: int = MOST_QUADS,
+) -> CellTree:
+    """Quad-tree of a drawing's silhouette, with thesis leaves.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        In normal form.
+    tolerance : float or "auto"
+        Largest distance between the drawing's outline and a leaf's, in unit-square units. "auto" follows the
+        smallest detail of the drawing and the size of the cell.
+    max_depth : int
+        Cells of this depth are not divided further; the unit square has depth 0.
+    strategy : "direct" or "sampled"
+        Leaves found from the drawing's own cubics, or the thesis's original way by sampling and fitting.
+    step : float
+        Share of a cell by which an encoding's quantisation moves an outline: "auto" is no finer than that.
+    most_quads : int
+        A tree that needs more is given up.
+
+    Returns
+    -------
+    CellTree
+
+    Raises
+    ------
+    LimitError
+        If a parameter is out of range, or the tree too large.
+    SourceError
+        If the drawing leaves the unit square.
+
+    Examples
+    --------
+    >>> tree = build(Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)]))
+    >>> len(tree.kind), len(tree.curves), round(float(tree.quad_coverage[0]), 4)
+    (1, 4, 0.36)
+    """
+    if strategy not in ("direct", "sampled"):
+        raise LimitError(f"strategy {strategy!r} is not known; use direct or sampled")
+    low, high = DEPTH_RANGE
+    if not (isinstance(max_depth, int | np.integer) and low <= max_depth <= high):
+        raise LimitError(f"depth limit {max_depth} is outside {low}..{high}; the default is {DEFAULT_DEPTH}")
+    cubics, owner, rules = gather(drawing)
+    accuracy = accuracy_of(tolerance, cubics, step)
+    pieces = monotone_pieces(cubics, owner)
+    if not len(pieces.path):
+        nothing = np.full((1, 4), EMPTY, np.uint8)
+        return CellTree(nothing, np.full((1, 4), -1, np.int32), np.zeros((1, 4)), np.empty((0, 4, 2)), 0.0, 0)
+    if strategy == "sampled":
+        return build_sampled(drawing, cubics, owner, rules, accuracy, max_depth)
+    cells, curves, deviation, unresolved = grow(
+        root_level(drawing, pieces), cubics, rules, accuracy, max_depth, most_quads
+    )
+    if unresolved < 0:
+        raise LimitError(
+            f"{drawing.name}: {-unresolved} quads at least; the limit is {most_quads}; "
+            "use --bits 16, a smaller --max-depth or a larger --tolerance"
+        )
+    kind, ref, coverage = cells[:, :, 0].astype(np.uint8), cells[:, :, 1].astype(np.int32), cells[:, :, 2].copy()
+    return CellTree(kind, ref, coverage, curves.copy(), deviation, unresolved)

@@ -1,0 +1,286 @@
+"""The boundary in a leaf as one chain of cubics from edge to edge, if it is one."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.bezier.area import integral_x_dy
+from vexture.bezier.roots import solve_monotone
+from vexture.bezier.split import copy_curve, subcubic
+from vexture.kernels import kernel
+from vexture.layout import LATTICE
+from vexture.tree.boundary import Boundary
+
+__all__ = [
+    "JOIN",
+    "Chain",
+    "boundary_area",
+    "link_chain",
+    "on_edge",
+]
+
+JOIN = 3.0 / LATTICE
+"""Cell-local units. Ends nearer than this are one point: runs that meet at a crossing may differ by two units."""
+
+LEFT_EDGE, RIGHT_EDGE = -1, -2
+"""Ends of a connector that are no part's end but points of the cell's edge."""
+
+
+class Chain(NamedTuple):
+    """Cubics of a leaf's boundary, each with the filled side on its right, as arrays of n.
+
+    Attributes
+    ----------
+    curves : (n, 4, 2) float64 array
+        In the cell's own unit square.
+    segment : (n,) int64 array
+        Cubic of the source that each is a part of; -1 for a horizontal stretch.
+    span : (n, 2) float64 array
+        Its parameters on that cubic, in the direction of travel.
+    chains : int
+        0 if nothing bounds inside in the cell, 1 if the cubics are one open chain, in order, 2 if they are more.
+    """
+
+    curves: NDArray[np.float64]
+    segment: NDArray[np.int64]
+    span: NDArray[np.float64]
+    chains: int
+
+
+@kernel
+def boundary_area(boundary: Boundary, parts: NDArray[np.float64]) -> float:
+    """Filled part of the cell: what is inside at the left edge, corrected at each run by the part on its right.
+
+    Parameters
+    ----------
+    boundary : Boundary
+        Resolved.
+    parts : (runs, 4, 2) float64 array
+        Its runs in the cell's unit square, the filled side on their right.
+    """
+    area = 0.0
+    for slab in range(len(boundary.left)):
+        if boundary.left[slab] == 1:
+            area += (boundary.heights[slab + 1] - boundary.heights[slab]) / LATTICE
+    for part in parts:
+        area += part[3, 1] - part[0, 1] - integral_x_dy(part)
+    return min(max(area, 0.0), 1.0)
+
+
+@kernel
+def _run_parts(
+    curves: NDArray[np.float64],
+    segment: NDArray[np.int64],
+    span: NDArray[np.float64],
+    boundary: Boundary,
+    room: int,
+) -> Chain:
+    """Runs as cubics in the cell's unit square, with room for connectors behind them."""
+    runs = len(boundary.run_piece)
+    out, out_span = np.zeros((runs + room, 4, 2)), np.zeros((runs + room, 2))
+    out_segment = np.empty(runs + room, np.int64)
+    for r in range(runs, runs + room):
+        out_segment[r] = -1
+    for r in range(runs):
+        i = boundary.run_piece[r]
+        curve = curves[i]
+        upwards = boundary.run_role[r] == 1  # then what is filled lies to the right of a traveller going up
+        start, stop = boundary.run_y[r, 0 if upwards else 1], boundary.run_y[r, 1 if upwards else 0]
+        u0 = solve_monotone(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], start)
+        u1 = solve_monotone(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], stop)
+        subcubic(curve, u0, u1, out[r])
+        out[r, 0, 1], out[r, 3, 1] = start, stop
+        for k in range(4):
+            out[r, k, 0] /= LATTICE
+            out[r, k, 1] /= LATTICE
+        out_segment[r] = segment[i]
+        for end, u in ((0, u0), (1, u1)):
+            whole = span[i, 0] if u == 0.0 else span[i, 1]  # the very number that the next piece has
+            out_span[r, end] = whole if u == 0.0 or u == 1.0 else span[i, 0] + u * (span[i, 1] - span[i, 0])
+    return Chain(out, out_segment, out_span, runs)
+
+
+@kernel
+def _ends_at(parts: NDArray[np.float64], runs: int, y: float, ends: NDArray[np.int64]) -> int:
+    """Write the runs' ends at a height from left to right, 2 r for the start of run r, 2 r + 1 for its end."""
+    count = 0
+    for r in range(runs):
+        for which in range(2):
+            if parts[r, 3 * which, 1] == y:
+                x, k = parts[r, 3 * which, 0], count
+                while k > 0 and parts[ends[k - 1] // 2, 3 * (ends[k - 1] & 1), 0] > x:
+                    ends[k] = ends[k - 1]
+                    k -= 1
+                ends[k] = 2 * r + which
+                count += 1
+    return count
+
+
+@kernel
+def _point(parts: NDArray[np.float64], end: int, y: float, out: NDArray[np.float64]) -> None:
+    """Write the point of a run's end, or of the cell's edge at height y."""
+    if end >= 0:
+        out[0], out[1] = parts[end // 2, 3 * (end & 1), 0], y
+    else:
+        out[0], out[1] = (0.0 if end == LEFT_EDGE else 1.0), y
+
+
+@kernel
+def _connect(chain: Chain, parts: int, source: int, target: int, y: float, following: NDArray[np.int64]) -> int:
+    """Let travel go on from one end to another at the same height; return the new number of parts.
+
+    Ends that nearly meet are joined in their middle, others by a horizontal stretch: that is the boundary that
+    the sweep drops, because horizontal pieces span no slab.
+    """
+    a, b = np.empty(2), np.empty(2)
+    _point(chain.curves, source, y, a)
+    _point(chain.curves, target, y, b)
+    if abs(a[0] - b[0]) <= JOIN:
+        x = 0.5 * (a[0] + b[0])
+        if source < 0 or target < 0:
+            x = a[0] if source < 0 else b[0]
+        for end in (source, target):
+            if end >= 0:
+                chain.curves[end // 2, 3 * (end & 1), 0] = x
+        if source >= 0 and target >= 0:
+            following[source // 2] = target // 2
+        return parts
+    for k in range(4):
+        chain.curves[parts, k, 0] = a[0] + (b[0] - a[0]) * (k / 3.0)
+        chain.curves[parts, k, 1] = y
+    if source >= 0:
+        following[source // 2] = parts
+    if target >= 0:
+        following[parts] = target // 2
+    return parts + 1
+
+
+@kernel
+def _link_at(
+    chain: Chain,
+    runs: int,
+    parts: int,
+    y: float,
+    below: int,
+    above: int,
+    following: NDArray[np.int64],
+    ends: NDArray[np.int64],
+) -> int:
+    """Link all ends at one height; return the new number of parts.
+
+    Going right along that height, inside differs between just below and just above exactly between the first
+    and the second end, the third and the fourth, and so on, counting the cell's left edge as an end where
+    inside differs there, and its right edge if the number is odd then.
+    """
+    count = _ends_at(chain.curves, runs, y, ends)
+    if below != above:
+        for k in range(count, 0, -1):
+            ends[k] = ends[k - 1]
+        ends[0] = LEFT_EDGE
+        count += 1
+    if count % 2 == 1:
+        ends[count] = RIGHT_EDGE
+        count += 1
+    k = 0
+    while k + 1 < count:
+        first = ends[k]
+        m = k + 1  # a start must meet an end: where crossing curves share a point, their order is arbitrary
+        while m + 1 < count and first >= 0 and ends[m] >= 0 and (first & 1) == (ends[m] & 1):
+            m += 1
+        second = ends[m]
+        ends[m] = ends[k + 1]
+        if first == LEFT_EDGE and second == RIGHT_EDGE:
+            forward = below == 1  # filled below: going right has it on the right
+        else:
+            forward = (first & 1) == 1 if first >= 0 else (second & 1) == 0
+        if forward:
+            parts = _connect(chain, parts, first, second, y, following)
+        else:
+            parts = _connect(chain, parts, second, first, y, following)
+        k += 2
+    return parts
+
+
+@kernel
+def on_edge(x: float, y: float) -> bool:
+    """Whether a point lies on the edge of the unit square, within `JOIN`."""
+    return min(x, 1.0 - x, y, 1.0 - y) <= JOIN
+
+
+@kernel
+def _along_edge(curve: NDArray[np.float64]) -> bool:
+    """Whether a part of a chain runs along the cell's edge, where it bounds nothing inside the cell."""
+    for axis in range(2):
+        for line in (0.0, 1.0):
+            if abs(curve[0, axis] - line) <= JOIN and abs(curve[3, axis] - line) <= JOIN:
+                return True
+    return False
+
+
+@kernel
+def _travel(chain: Chain, parts: int, following: NDArray[np.int64]) -> Chain:
+    """Order the parts from the one start, without those along the cell's edge at either end."""
+    preceded = np.zeros(parts, np.bool_)
+    for k in range(parts):
+        if following[k] >= 0:
+            preceded[following[k]] = True
+    heads, head, beside = 0, -1, 0
+    for k in range(parts):
+        if not preceded[k] and following[k] < 0 and _along_edge(chain.curves[k]):
+            beside += 1  # follows the cell's edge from corner to corner, say, and bounds nothing inside
+        elif not preceded[k]:
+            heads, head = heads + 1, k
+    order = np.empty(parts, np.int64)
+    length = 0
+    while heads == 1 and head >= 0:
+        order[length] = head
+        length += 1
+        head = following[head]
+    if heads != 1 or length + beside != parts:  # none, several, or closed ones beside it
+        none = heads == 0 and beside == parts
+        return Chain(chain.curves[:parts], chain.segment[:parts], chain.span[:parts], 0 if none else 2)
+    first, last = 0, length
+    while first < last and _along_edge(chain.curves[order[first]]):
+        first += 1
+    while last > first and _along_edge(chain.curves[order[last - 1]]):
+        last -= 1
+    n = last - first
+    out = Chain(np.empty((n, 4, 2)), np.empty(n, np.int64), np.empty((n, 2)), min(n, 1))
+    for k in range(n):
+        part = order[first + k]
+        copy_curve(chain.curves[part], out.curves[k])
+        out.segment[k] = chain.segment[part]
+        out.span[k, 0], out.span[k, 1] = chain.span[part, 0], chain.span[part, 1]
+    return out
+
+
+@kernel
+def link_chain(
+    curves: NDArray[np.float64], segment: NDArray[np.int64], span: NDArray[np.float64], boundary: Boundary
+) -> tuple[Chain, float]:
+    """Chain of a leaf's boundary, and its exact filled area.
+
+    Parameters
+    ----------
+    curves : (n, 4, 2) float64 array
+        The pieces that `boundary` refers to, on the leaf's lattice.
+    segment : (n,) int64 array
+        Cubic of the source that each is a part of.
+    span : (n, 2) float64 array
+        Its parameters on that cubic.
+    boundary : Boundary
+        Resolved.
+    """
+    runs, slabs = len(boundary.run_piece), len(boundary.left)
+    chain = _run_parts(curves, segment, span, boundary, 2 * runs + slabs + 2)
+    area = boundary_area(boundary, chain.curves[:runs])
+    following = np.empty(len(chain.curves), np.int64)
+    for k in range(len(following)):
+        following[k] = -1
+    ends = np.empty(2 * runs + 2, np.int64)
+    parts = runs
+    for k in range(1, slabs):
+        y = boundary.heights[k] / LATTICE
+        parts = _link_at(chain, runs, parts, y, boundary.left[k - 1], boundary.left[k], following, ends)
+    return _travel(chain, parts, following), area

@@ -1,0 +1,72 @@
+"""The quad-tree of the thesis, as arrays: one cubic or one corner in a leaf."""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["CellKind", "CellTree"]
+
+
+class CellKind(IntEnum):
+    """What a cell of a quad is."""
+
+    CURVE = 0
+    QUAD = 1
+    CORNER = 2
+    FULL = 3
+    EMPTY = 4
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CellTree:
+    """A quad-tree with thesis leaves: one cubic or one straight corner from edge to edge of its cell.
+
+    Quads are numbered breadth first, quad 0 is the unit square; cell k of a quad is its (x half) + 2 (y half),
+    y up. References rise with the index of the quad and the cell that hold them. The filled side of a curve or
+    corner is on the right going from P0 to P3.
+
+    Parameters
+    ----------
+    kind : (quads, 4) uint8 array
+        A `CellKind` for each cell.
+    ref : (quads, 4) int32 array
+        Index of the quad (QUAD) or of the curve (CURVE, CORNER) that a cell refers to; -1 where it is constant.
+    coverage : (quads, 4) float64 array
+        Filled part of each cell, 0..1.
+    curves : (curves, 4, 2) float64 array
+        P0 P1 P2 P3 in their cell's own unit square; P0 and P3 lie on its edge. A corner's P1 and P2 are both the
+        corner.
+    deviation : float
+        Largest distance between the drawing's outline and the leaves', in unit-square units, before quantisation.
+    unresolved : int
+        Number of cells at the depth limit that hold more than a leaf can say.
+    """
+
+    kind: NDArray[np.uint8]
+    ref: NDArray[np.int32]
+    coverage: NDArray[np.float64]
+    curves: NDArray[np.float64]
+    deviation: float
+    unresolved: int
+
+    @property
+    def quad_coverage(self) -> NDArray[np.float64]:
+        """Filled part of each quad: the mean of its cells', (quads,)."""
+        mean: NDArray[np.float64] = self.coverage.mean(axis=1)
+        return mean
+
+    @property
+    def quad_depth(self) -> NDArray[np.int32]:
+        """Depth of each quad, (quads,); the unit square has depth 0."""
+        depth = np.zeros(len(self.kind), np.int32)
+        for quad, cell in zip(*np.nonzero(self.kind == CellKind.QUAD), strict=True):
+            depth[self.ref[quad, cell]] = depth[quad] + 1
+        return depth
+
+    @property
+    def widest_leaf(self) -> float:
+        """Width of the largest cell with a curve or corner, in unit-square units; 0 if there is none."""
+        drawn = np.isin(self.kind, (CellKind.CURVE, CellKind.CORNER)).any(axis=1)
+        return 0.5 ** (1 + int(self.quad_depth[drawn].min())) if drawn.any() else 0.0

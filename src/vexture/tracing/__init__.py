@@ -1,0 +1,1 @@
+"""Pictures of pixels, traced into drawings."""

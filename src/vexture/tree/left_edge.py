@@ -1,0 +1,85 @@
+"""A packed leaf's left edge: the ends on it must say what is inside there, for the rule of windings counts them."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.kernels import kernel
+from vexture.layout import LATTICE
+from vexture.tree.separate import CellPieces, any_inside, left_edge_windings
+
+__all__ = ["corner_winding"]
+
+TOUCH = 2.0
+"""Lattice units: a resolved end nearer to the left edge may be moved onto it."""
+
+
+@kernel(allocates=False)
+def _events(out: NDArray[np.float64], count: int, y: float) -> int:
+    """Starts minus ends on the left edge at a height."""
+    total = 0
+    for k in range(count):
+        for end, event in ((0, 1), (3, -1)):
+            if out[k, end, 0] == 0.0 and out[k, end, 1] == y:
+                total += event
+    return total
+
+
+@kernel(allocates=False)
+def _match_left_edge(out: NDArray[np.float64], count: int, y: float, wanted: int) -> int:
+    """Make starts minus ends on the left edge at a height what inside says there; return the new count.
+
+    Where they disagree an end is nudged off the edge, or one beside it onto it, or, where the boundary leaves the
+    edge horizontally, a horizontal piece says so.
+    """
+    for _ in range(2 * len(out)):
+        missing = wanted - _events(out, count, y)
+        if missing == 0:
+            break
+        best, best_end, best_x = -1, 0, TOUCH
+        for k in range(count):
+            for end, event in ((0, 1), (3, -1)):
+                x = out[k, end, 0]
+                if out[k, end, 1] != y:
+                    continue
+                if x == 0.0 and event * missing < 0:
+                    best, best_end, best_x = k, end, -1.0
+                elif 0.0 < x <= best_x and event * missing > 0:
+                    best, best_end, best_x = k, end, x
+        if best < 0:
+            count = _add_horizontal(out, count, y, missing > 0)
+            continue
+        moved = 1.0 if best_x < 0.0 else -best_x
+        out[best, best_end, 0] += moved
+        out[best, 1 if best_end == 0 else 2, 0] += moved
+    return count
+
+
+@kernel(allocates=False)
+def _add_horizontal(out: NDArray[np.float64], count: int, y: float, starts: bool) -> int:
+    """Append a horizontal piece that starts or ends on the left edge, to where the next end is; return the count."""
+    x = LATTICE
+    for k in range(count):
+        for end in (0, 3):
+            if out[k, end, 1] == y and 0.0 < out[k, end, 0] < x:
+                x = out[k, end, 0]
+    for k in range(4):
+        part = k if starts else 3 - k
+        out[count, k, 0], out[count, k, 1] = x * part / 3.0, y
+    return count + 1
+
+
+@kernel(allocates=False)
+def corner_winding(cell: CellPieces, out: NDArray[np.float64], count: int) -> tuple[int, int]:
+    """Let the ends on the left edge say what is inside there; return the new count and the corner winding."""
+    curves, windings, rules = cell.curves, cell.windings, cell.rules
+    for i in range(len(curves)):
+        for end in (0, 3):
+            y = curves[i, end, 1]
+            if curves[i, end, 0] == 0.0 and 0.0 < y < LATTICE:
+                left_edge_windings(cell, y, True)
+                below = 1 if any_inside(windings, rules) else 0
+                left_edge_windings(cell, y, False)
+                above = 1 if any_inside(windings, rules) else 0
+                count = _match_left_edge(out, count, y, above - below)
+    left_edge_windings(cell, 0.0, False)
+    return count, (1 if any_inside(windings, rules) else 0) - _events(out, count, 0.0)

@@ -1,0 +1,144 @@
+"""Chains of pieces that one cubic describes within tolerance become that cubic (the thesis's fit).
+
+It works on one cell after its pieces are on the lattice. The ends of a chain stay where they are, so neighbouring
+cells still meet; what a fitted cubic crosses is resolved afterwards like any other crossing.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.bezier.fit import fit_cubic
+from vexture.bezier.monotone import turns
+from vexture.bezier.roots import cubic_at
+from vexture.bezier.split import copy_curve, split
+from vexture.kernels import kernel
+from vexture.layout import LATTICE
+
+__all__ = ["MOST_MERGED", "merge_chains"]
+
+MOST_MERGED = 64
+"""Pieces in a cell above which nothing is merged: it will be divided."""
+
+MOST_SAMPLES, LEAST_PER_PIECE, MOST_PER_PIECE = 96, 2, 8
+"""Points of a chain that a fit looks at: in all, unless the pieces are many, and on each piece."""
+
+MONOTONE_PARTS = 5
+"""A cubic turns at most twice in x and twice in y."""
+
+
+@kernel
+def _fit_run(
+    curves: NDArray[np.float64], first: int, last: int, tolerance: float, out: NDArray[np.float64]
+) -> tuple[int, float]:
+    """Write the monotone parts of one cubic for pieces first..last-1; return how many, or 0, and the distance."""
+    per_piece = min(max(MOST_SAMPLES // (last - first), LEAST_PER_PIECE), MOST_PER_PIECE)
+    points = np.empty(((last - first) * per_piece + 1, 2))
+    count = 0
+    for i in range(first, last):
+        for m in range(per_piece):
+            for axis in range(2):
+                p0, p1, p2, p3 = curves[i, 0, axis], curves[i, 1, axis], curves[i, 2, axis], curves[i, 3, axis]
+                points[count, axis] = cubic_at(p0, p1, p2, p3, m / per_piece)
+            count += 1
+    points[count, 0], points[count, 1] = curves[last - 1, 3, 0], curves[last - 1, 3, 1]
+    if points[0, 0] == points[count, 0] and points[0, 1] == points[count, 1]:
+        return 0, 0.0
+    rest = np.empty((4, 2))
+    distance = fit_cubic(points, tolerance, rest)
+    if not distance <= tolerance:
+        return 0, 0.0
+    return _monotone_parts(rest, out), distance
+
+
+@kernel
+def _monotone_parts(rest: NDArray[np.float64], out: NDArray[np.float64]) -> int:
+    """Write the monotone parts of a cubic, their inner ends on the lattice within the cell; return how many.
+
+    `rest` is overwritten.
+    """
+    t = np.empty(4)
+    count, parts, before = turns(rest, t), 0, 0.0
+    for k in range(count):
+        split(rest, (t[k] - before) / (1.0 - before), out[parts], rest)
+        before = t[k]
+        for axis in range(2):
+            inner = min(max(np.rint(rest[0, axis]), 1.0 if axis == 0 else 0.0), LATTICE)
+            out[parts, 2, axis] += inner - out[parts, 3, axis]
+            rest[1, axis] += inner - rest[0, axis]
+            out[parts, 3, axis], rest[0, axis] = inner, inner
+        if out[parts, 0, 0] != out[parts, 3, 0] or out[parts, 0, 1] != out[parts, 3, 1]:
+            parts += 1
+    if rest[0, 0] != rest[3, 0] or rest[0, 1] != rest[3, 1]:
+        copy_curve(rest, out[parts])
+        parts += 1
+    return parts
+
+
+@kernel(allocates=False)
+def _chain_end(curves: NDArray[np.float64], path: NDArray[np.int64], first: int) -> int:
+    """Where the chain that starts with a piece ends: the number of the piece after it."""
+    last = first + 1
+    while (
+        last < len(path)
+        and path[last] == path[first]
+        and curves[last, 0, 0] == curves[last - 1, 3, 0]
+        and curves[last, 0, 1] == curves[last - 1, 3, 1]
+    ):
+        last += 1
+    return last
+
+
+@kernel
+def merge_chains(
+    curves: NDArray[np.float64],
+    path: NDArray[np.int64],
+    tolerance: float,
+    merged: NDArray[np.float64],
+    merged_path: NDArray[np.int64],
+) -> tuple[int, float]:
+    """Write the pieces of a cell with as many merged as can be; return how many are left, and the largest distance.
+
+    Each chain is gone through once: as much as one cubic describes, then as much of the rest, and so on.
+
+    Parameters
+    ----------
+    curves : (n, 4, 2) float64 array
+        Pieces on the lattice, in the order of their contours.
+    path : (n,) int64 array
+        The path of each.
+    tolerance : float
+        Largest distance of a cubic from the pieces that it stands for, in lattice units.
+    merged : (room, 4, 2) float64 array
+        Written; room for as many as there were and `MONOTONE_PARTS` more.
+    merged_path : (room,) int64 array
+        Written.
+    """
+    trial = np.empty((MONOTONE_PARTS, 4, 2))
+    best = np.empty((MONOTONE_PARTS, 4, 2))
+    count, deviation, first, chain_end = 0, 0.0, 0, 0
+    while first < len(path):
+        if first == chain_end:
+            chain_end = _chain_end(curves, path, first)
+        fitting, failing, parts, distance = 1, chain_end - first + 1, 0, 0.0
+        length = chain_end - first
+        while length > fitting:
+            found, off = _fit_run(curves, first, first + length, tolerance, trial)
+            if 0 < found < length:
+                fitting, parts, distance = length, found, off
+                for k in range(found):
+                    copy_curve(trial[k], best[k])
+            else:
+                failing = length
+            length = (fitting + failing) // 2
+        if parts == 0:
+            copy_curve(curves[first], merged[count])
+            parts = 1
+        else:
+            for k in range(parts):
+                copy_curve(best[k], merged[count + k])
+            deviation = max(deviation, distance)
+        for k in range(parts):
+            merged_path[count + k] = path[first]
+        count += parts
+        first += fitting
+    return count, deviation

@@ -1,0 +1,27 @@
+"""Encoding and decoding in either encoding, for tests that hold for both."""
+
+from vexture.texture.decode import decode as decode_packed
+from vexture.texture.encode import encode as encode_packed
+from vexture.texture.texture import Root
+from vexture.thesis import encode as thesis
+from vexture.thesis.texture import ThesisTexture
+from vexture.thesis.tree import CellTree
+
+__all__ = ["decode", "encode", "info"]
+
+
+def encode(tree, bits=16, *, to_source, name, crs=None):
+    """Texture of one tree."""
+    if isinstance(tree, CellTree):
+        return thesis.encode(tree, bits, to_source=to_source, name=name, crs=crs)
+    return encode_packed([tree], [Root(name, 0, to_source, tree.deviation, crs)], name=name)
+
+
+def decode(texture, root=None):
+    """Tree of a texture."""
+    return thesis.decode(texture) if isinstance(texture, ThesisTexture) else decode_packed(texture, root)
+
+
+def info(texture):
+    """What a texture says of itself."""
+    return texture.info()

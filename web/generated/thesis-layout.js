@@ -1,0 +1,22 @@
+// Made by tools/make_web.py; change src/vexture/thesis/layout.py and run it again.
+export const CELL_ORDER = Object.freeze([2, 3, 0, 1]);
+export const CONSTANT_ROWS = 2;
+export const CONTROL_MAX = 2.25;
+export const CONTROL_MIN = -1.25;
+export const CURVES_SUFFIX = ".curves.png";
+export const CURVE_WIDTH = 2;
+export const EMPTY_ROW = 1;
+export const ENCODING_THESIS = "thesis";
+export const FILE_LIMIT = 3120000;
+export const FORMAT_VERSION = "1";
+export const FULL_ROW = 0;
+export const KIND_CORNER = 0.5;
+export const KIND_CURVE = 0.0;
+export const KIND_QUAD = 1.0;
+export const LIST_LIMIT = Object.freeze({"8": 256, "16": 65000});
+export const QUADS_SUFFIX = ".quads.png";
+export const QUAD_WIDTH = 4;
+export const TEXT_CRS = "vexture.crs";
+export const TEXT_TRANSFORM = "vexture.transform";
+export const THRESHOLD_CORNER = 0.25;
+export const THRESHOLD_QUAD = 0.75;
