@@ -7,18 +7,23 @@ import subprocess
 import sys
 from collections import Counter
 from functools import cache
+from graphlib import TopologicalSorter
+from itertools import combinations
 from pathlib import Path
 
 import pytest
 
+import vexture
 from vexture import layout
+from vexture.thesis import layout as thesis_layout
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "vexture"
 MODULES = sorted(PACKAGE.rglob("*.py"))
-SCRIPTS = sorted(path for folder in ("benchmarks", "tests", "tools") for path in (ROOT / folder).rglob("*.py"))
+SCRIPTS = sorted(path for folder in ("evidence", "tests", "tools") for path in (ROOT / folder).rglob("*.py"))
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
-SHADERS = sorted((PACKAGE / "glsl").glob("*.glsl"))
+SHADERS = sorted(PACKAGE.rglob("*.glsl"))
+FOLDERS = sorted({path.parent for path in MODULES} | {ROOT / "web" / name for name in ("src", "viewer", "flood")})
 
 LONGEST_MODULE = 400
 LONGEST_FUNCTION = 60  # without its docstring
@@ -26,40 +31,43 @@ LONGEST_EXAMPLE = 40
 DUMPING_GROUNDS = {"common", "helper", "helpers", "misc", "tools", "util", "utils"}
 
 BASE = {"errors", "kernels", "tolerance"}
-METHODS = BASE | {"bezier", "drawing", "encoding", "pictures", "pipeline", "quadtree", "render", "shaders", "shading"}
-METHODS |= {"sources"}
-MAY_IMPORT = {
+MAY_IMPORT: dict[str, set[str]] = {
     "errors": set(),
     "kernels": set(),
+    "layout": set(),
     "tolerance": set(),
-    "shading": set(),
+    "settings": {"errors"},
     "bezier": {"kernels", "tolerance"},
     "drawing": BASE | {"bezier"},
-    "sources": BASE | {"bezier", "drawing"},
-    "quadtree": BASE | {"bezier", "drawing"},
-    "encoding": BASE | {"bezier", "drawing", "quadtree"},
-    "shaders": {"encoding", "errors", "shading"},
-    "render": BASE | {"drawing", "encoding", "shaders", "shading"},
-    "folding": BASE | {"drawing", "encoding", "render"},
-    "evaluation": METHODS,
-    "figures": METHODS | {"evaluation"},
+    "svg": BASE | {"bezier", "drawing"},
+    "geo": BASE | {"bezier", "drawing"},
+    "tracing": BASE | {"bezier", "drawing"},
+    "reading": BASE | {"drawing", "geo", "svg", "tracing"},
+    "tree": BASE | {"bezier", "drawing", "layout"},
+    "renderers": BASE | {"drawing", "layout"},
+    "encodings": {"drawing", "errors", "renderers"},
+    "texture": BASE | {"bezier", "drawing", "encodings", "layout", "renderers", "tree"},
+    "pipeline": BASE | {"drawing", "encodings", "reading", "settings", "texture", "tree"},
+    "images": BASE | {"drawing", "encodings", "pipeline", "renderers"},
+    "thesis": BASE | {"bezier", "drawing", "encodings", "layout", "renderers", "texture", "tree"},
+    "fold": BASE | {"drawing", "layout", "renderers", "texture"},
+    "flood": BASE | {"drawing", "geo", "renderers"},
+    "live": BASE
+    | {"drawing", "encodings", "flood", "fold", "geo", "layout", "pipeline", "reading", "settings", "texture", "tree"},
 }
-"""What each part may import besides itself; the parts that are not named here stand above all of these."""
+"""What each part may import besides itself, wherever in a module; `cli` and the public face stand above all."""
 
-FOR_CONVENIENCE = {"thesis/texture.py": {"figures"}, "texture/texture.py": {"figures"}}
-"""`texture.plot()` is where people look for a picture; it imports the figures when it is called, and only there."""
-
-COMMANDS = ("cli", "cli_flood", "cli_fold", "cli_live", "cli_report", "cli_view")
+ABOVE_ALL = {"__init__", "cli"}
 
 THE_TRUTH = {"renderers/exact.py", "renderers/chords.py", "renderers/view.py"}
-TRUTH_MAY_IMPORT = BASE | {"drawing", "render.chords", "render.view"}
+TRUTH_MAY_IMPORT = BASE | {"drawing", "renderers.chords", "renderers.view"}
 """The exact renderer judges the tree, so it shares nothing with it."""
 
-LAYOUT_NUMBERS = {layout.CONTROL_MIN, layout.CONTROL_MAX, layout.LIST_LIMIT[16], 65535}
-"""Numbers of the texture layout that mean nothing else anywhere."""
+LAYOUT_NUMBERS = {thesis_layout.CONTROL_MIN, thesis_layout.CONTROL_MAX, thesis_layout.LIST_LIMIT[16], layout.LATTICE}
+"""Numbers of the textures' layouts that mean nothing else anywhere."""
 
-WITH_SHADER_TEXT = {"shaders", "evaluation"}
-"""Parts that put programs together: the one that everybody draws with, and those that are measured beside it."""
+WITH_SHADER_TEXT = {"renderers/shader.py", "thesis/shader.py"}
+"""Modules that put programs together."""
 
 SHADER_WORDS = re.compile(r"\b(texelFetch|gl_\w+|(uniform|varying|highp|mediump) \w+|[ib]?vec[234]\()|^#version", re.M)
 HEAVY = {"PIL", "cssselect2", "fontTools", "lxml", "moderngl", "numba", "pathops", "png", "scipy", "tinycss2"} | {
@@ -110,6 +118,11 @@ def exists(module):
     return path.is_dir() or path.with_suffix(".py").is_file()
 
 
+def module_name(path):
+    """Name of a module within the package: ``renderers.view``; that of a folder is the folder's."""
+    return name_of(path).removesuffix(".py").removesuffix("/__init__").replace("/", ".")
+
+
 def part_of(path):
     return name_of(path).removesuffix(".py").split("/")[0]
 
@@ -147,22 +160,25 @@ def texts(path):
 @pytest.mark.parametrize("path", MODULES, ids=name_of)
 def test_imports_point_one_way(path):
     part = part_of(path)
-    if part in MAY_IMPORT:
-        reached = {name.split(".")[0] for name in imported(path)}
-        assert reached <= MAY_IMPORT[part] | {part} | FOR_CONVENIENCE.get(name_of(path), set())
-    elif part not in COMMANDS:
-        assert not imported(path) & {*COMMANDS, "messages"}
+    reached = {name.split(".")[0] for name in imported(path)}
+    if part not in ABOVE_ALL:
+        assert reached <= MAY_IMPORT[part] | {part}
+    assert "thesis" not in reached or part == "thesis", "the thesis's encoding is registered by name"
+    assert "vexture_evidence" not in path.read_text(encoding="utf-8"), "evidence stands on the library"
 
 
-@pytest.mark.parametrize("path", sorted(FOR_CONVENIENCE))
-def test_what_is_imported_for_convenience_is_imported_by_plot_alone(path):
-    def asks(node):
-        return isinstance(node, ast.ImportFrom) and {*node.module.split(".")} & FOR_CONVENIENCE[path] != set()
+def test_no_imports_run_in_a_circle():
+    arrows = {module_name(path): {name for name in imported(path) if exists(f"vexture.{name}")} for path in MODULES}
+    sorter = TopologicalSorter({name: reached - {name} for name, reached in arrows.items()})
+    sorter.prepare()  # raises CycleError, which names the circle
 
-    tree = tree_of(PACKAGE / path)
-    plots = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name == "plot"]
-    assert len(plots) == 1
-    assert sum(map(asks, ast.walk(plots[0]))) == sum(map(asks, ast.walk(tree))) == 1
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda path: path.relative_to(ROOT).as_posix())
+def test_names_of_a_folder_do_not_differ_by_an_ending(folder):
+    names = sorted(path.stem for path in folder.iterdir() if path.suffix in (".py", ".js", ".glsl") or path.is_dir())
+    stems = {name: re.sub(r"(ings?|ers?|ed|es|e|s)$", "", name) for name in names if not name.startswith("_")}
+    twins = [(a, b) for a, b in combinations(stems, 2) if stems[a] == stems[b]]
+    assert not twins
 
 
 @pytest.mark.parametrize("path", [path for path in MODULES if name_of(path) in THE_TRUTH], ids=name_of)
@@ -205,7 +221,7 @@ def test_example_is_short(path):
 @pytest.mark.parametrize("number", sorted(LAYOUT_NUMBERS))
 def test_layout_number_is_typed_once(number):
     homes = [name_of(path) for path in MODULES if number in numbers(path)]
-    assert homes in ([], ["layout.py"], ["tree/tree.py"])  # the tree states what range its curves keep to
+    assert homes in (["layout.py"], ["thesis/layout.py"])
 
 
 @pytest.mark.parametrize("path", SHADERS, ids=lambda path: path.name)
@@ -221,35 +237,30 @@ def test_shader_file_lists_its_exports_and_leaves_the_rest_to_shaders_py(path):
         assert re.search(rf"\b(struct {name} {{|\w+ {name}\()", text), f"{name} is not in the file"
 
 
-@pytest.mark.parametrize("path", [path for path in MODULES if part_of(path) not in WITH_SHADER_TEXT], ids=name_of)
+@pytest.mark.parametrize("path", [path for path in MODULES if name_of(path) not in WITH_SHADER_TEXT], ids=name_of)
 def test_no_shader_text_outside_glsl(path):
     assert not [text for text in texts(path) if SHADER_WORDS.search(text)]
 
 
-def test_shader_names_are_each_defined_in_one_file():
+@pytest.mark.parametrize("folder", sorted({path.parent for path in SHADERS}), ids=name_of)
+def test_shader_names_are_each_defined_in_one_file(folder):
     definition = re.compile(r"^(?:struct|[a-z]\w*) (\w+)(?:\([^;]*\))? {$", re.M | re.I)
-    defined = Counter(name for path in SHADERS for name in set(definition.findall(path.read_text(encoding="utf-8"))))
+    defined = Counter(
+        name for path in folder.glob("*.glsl") for name in set(definition.findall(path.read_text("utf-8")))
+    )
     assert [name for name, count in defined.items() if count > 1] == []
 
 
-@pytest.mark.parametrize("first", ["vexture.convert", "vexture.render", "import vexture.renderers.view"])
-def test_function_render_is_not_hidden_by_the_package_of_its_name(first):
-    code = f"import vexture\n{first}\nimport vexture.renderers.view\nassert not hasattr(vexture.render, '__path__')"
-    assert subprocess.run([sys.executable, "-c", code], stderr=subprocess.DEVNULL, check=False).returncode == 0
+def test_no_function_hides_a_package_of_its_name():
+    packages = {path.name for path in PACKAGE.iterdir() if path.is_dir()} | {path.stem for path in PACKAGE.glob("*.py")}
+    assert packages & set(vexture.__all__) == set()
 
 
-@pytest.mark.parametrize("statement", ["import vexture", "import vexture.cli", "vexture --help"])
+@pytest.mark.parametrize("statement", ["import vexture", "import vexture.cli.main", "vexture --help"])
 def test_start_brings_in_nothing_heavy(statement):
-    run = "import contextlib, vexture.cli\nwith contextlib.suppress(SystemExit): vexture.cli.main(['--help'])"
+    run = "import contextlib, vexture.cli.main\nwith contextlib.suppress(SystemExit): vexture.cli.main.main(['--help'])"
     code = f"{run if statement == 'vexture --help' else statement}\nimport json, sys\nprint(json.dumps([*sys.modules]))"
     outcome = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     modules = json.loads(outcome.stdout.splitlines()[-1])
     assert "vexture" in modules
     assert {module.split(".")[0] for module in modules} & HEAVY == set()
-
-
-def test_architecture_names_every_module_and_no_other():
-    text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
-    rows = re.findall(r"^\| `([\w/]+\.(?:py|glsl))` \|", text, re.M)
-    modules = {name_of(path) for path in MODULES if path.name != "__init__.py"} | {"__init__.py"}
-    assert sorted(rows) == sorted(modules | {f"glsl/{path.name}" for path in SHADERS})

@@ -164,7 +164,11 @@ def packed_panels() -> list[list[Panel]]:
     x, y = coast.paths[0].contours[0][COAST_POINT, 0]
     texture = vexture.convert(coast, precision=1e-7)
     row = [
-        ("on a plane", f"{lettering.nbytes:,} bytes", inked(vexture.coverage(lettering, (PANEL, PANEL), LEANING, "cpu")))
+        (
+            "on a plane",
+            f"{lettering.nbytes:,} bytes",
+            inked(vexture.coverage(lettering, (PANEL, PANEL), LEANING, "cpu")),
+        )
     ]
     for zoom in COAST_ZOOMS:
         side = 1.0 / zoom

@@ -20,8 +20,8 @@ from santa_cruz.make_flood import make_flood  # noqa: E402
 from chromium import chromium  # noqa: E402 - the browser of the tests
 from vexture.flood.asked import Asked  # noqa: E402
 from vexture.live.documents import VIEWER_SETTINGS  # noqa: E402
-from vexture.live.flooding import export as export_flood  # noqa: E402
-from vexture.live.viewing import export  # noqa: E402
+from vexture.live.flood import export as export_flood  # noqa: E402
+from vexture.live.view import export  # noqa: E402
 
 __all__ = ["main"]
 

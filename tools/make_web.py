@@ -15,7 +15,7 @@ from vexture import layout
 from vexture.fold import layout as fold_layout
 from vexture.renderers.shader import QUALITIES, WRAPS, included, shader_text
 from vexture.thesis import layout as thesis_layout
-from vexture.thesis import shading as thesis_shading
+from vexture.thesis import method as thesis_method
 from vexture.thesis.shader import FOLD_HEIGHT, constants, thesis_text
 
 __all__ = ["main"]
@@ -93,14 +93,18 @@ def shaders() -> str:
 def thesis_module() -> str:
     """Text of the module with the thesis's shader: apart, since most pages have no use for it."""
     coverage = thesis_text("coverage.glsl")
-    text = bare(apart(used(constants(thesis_layout) + constants(thesis_shading), coverage) + coverage))
+    text = bare(apart(used(constants(thesis_layout) + constants(thesis_method), coverage) + coverage))
     comment = (
         "coverage.glsl; its names begin with thesis_, and const int thesis_LEVELS and thesis_FOLD_HEIGHT must\n"
         " * stand before it."
     )
-    return HEADER.format(owner="src/vexture/thesis/glsl/") + module_text("thesis", text, comment) + (
-        "/** Rows of a texture on the GPU: a longer list goes on in the columns to its right. */\n"
-        f"export const FOLD_HEIGHT = {FOLD_HEIGHT};\n"
+    return (
+        HEADER.format(owner="src/vexture/thesis/glsl/")
+        + module_text("thesis", text, comment)
+        + (
+            "/** Rows of a texture on the GPU: a longer list goes on in the columns to its right. */\n"
+            f"export const FOLD_HEIGHT = {FOLD_HEIGHT};\n"
+        )
     )
 
 

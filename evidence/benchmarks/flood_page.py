@@ -143,7 +143,7 @@ def made(folder: Path) -> Made:
     """Export the example's page."""
     from vexture.flood.asked import Asked
     from vexture.geo.extent import read_extent
-    from vexture.live.flooding import export
+    from vexture.live.flood import export
 
     flood, ground = example()(folder)
     page = folder / "flood.html"

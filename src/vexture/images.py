@@ -133,14 +133,10 @@ def render(
     from vexture.renderers.view import size_of
 
     layers = drawing.layers()
-    return painted(
-        size_of(size), ((layer.paths[0].paint, render_exact(layer, size, view)) for layer in layers)
-    )
+    return painted(size_of(size), ((layer.paths[0].paint, render_exact(layer, size, view)) for layer in layers))
 
 
-def _drawing_in(
-    thing: Shown, renderer: Renderer, root: str | int | None, quality: Quality
-) -> "Drawing | None":
+def _drawing_in(thing: Shown, renderer: Renderer, root: str | int | None, quality: Quality) -> "Drawing | None":
     """Return the drawing that is to be shown, or None for a texture, once the arguments are checked."""
     from vexture.drawing import Drawing
 

@@ -93,9 +93,7 @@ def run(
 ) -> Conversion[EncodedTexture]: ...
 
 
-def run(
-    source: Source, *, encoding: str = DEFAULT, select: str | None = None, **parameters: Any
-) -> Conversion[Any]:
+def run(source: Source, *, encoding: str = DEFAULT, select: str | None = None, **parameters: Any) -> Conversion[Any]:
     """Convert and keep what lies between; see `convert`."""
     start = time.perf_counter()
     if encoding == DEFAULT:
@@ -128,9 +126,7 @@ def shapes_of(source: Source, settings: Settings) -> Shapes:
         for layer in layers or (drawing,)
     )
     roots = tuple(
-        Root(
-            layer.name, 0, layer.to_source, settings.distance, layer.crs, layer.paths[0].paint if layers else None
-        )
+        Root(layer.name, 0, layer.to_source, settings.distance, layer.crs, layer.paths[0].paint if layers else None)
         for layer in layers or (drawing,)
     )
     named = source if isinstance(source, str) else drawing.name if _is_drawing(source) else os.fspath(source)  # type: ignore[arg-type]

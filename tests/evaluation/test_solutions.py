@@ -6,7 +6,7 @@ import pytest
 from vexture.errors import DeviceError
 from vexture.renderers.device import context
 from vexture.thesis.cubic import solution_path
-from vexture.thesis.shading import QUADRATIC
+from vexture.thesis.method import QUADRATIC
 from vexture_evidence.measures import solutions
 from vexture_evidence.measures.solutions import BOX, SOLUTIONS, by_cpu, by_gpu, roots_by_gpu, solve
 

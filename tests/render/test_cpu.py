@@ -23,7 +23,6 @@ from hand import (
 
 from vexture.errors import LimitError
 from vexture.images import coverage
-from vexture.renderers import shading
 from vexture.renderers.view import fit
 from vexture.thesis.cpu import render_thesis_cpu
 from vexture.thesis.cubic import solution_path, solve_cubic
@@ -57,7 +56,7 @@ CASES = {
 @pytest.mark.parametrize("name", CASES)
 def test_each_path_finds_its_roots(name: str) -> None:
     coefficients, path = CASES[name]
-    assert solution_path(*coefficients) == getattr(shading, path)
+    assert solution_path(*coefficients) == getattr(method, path)
     roots = solve_cubic(*coefficients)
     expected = np.roots(np.trim_zeros(coefficients, "f"))
     real = np.sort(expected[np.abs(expected.imag) < 1e-4].real)

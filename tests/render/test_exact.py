@@ -132,7 +132,11 @@ def test_degenerate_drawings_agree_with_exact_scanlines(shape, seed):
     rng = np.random.default_rng(seed)
     size = (7, 5)
     upright = rng.random() < 0.5
-    view = fit(size) if upright else window(*rng.uniform(0, 0.4, 2), *rng.uniform(0.3, 1, 2), rng.uniform(0, 360)).matrix(size)
+    view = (
+        fit(size)
+        if upright
+        else window(*rng.uniform(0, 0.4, 2), *rng.uniform(0.3, 1, 2), rng.uniform(0, 360)).matrix(size)
+    )
     image = render_exact(shape, size, view)
     row = int(rng.integers(size[1]))
     assert max_difference(image[row], coverage_of_row(shape, to_pixel(view), size[0], row)) < PROMISE

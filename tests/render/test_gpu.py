@@ -60,7 +60,9 @@ def test_a_folded_texture_is_the_same_picture(fold_height: int) -> None:
     need_gpu()
     texture = texture_of(TREE)
     assert len(texture.curves) > 2 * 5
-    np.testing.assert_array_equal(render_thesis_gpu(texture, (64, 64), fold_height=fold_height), render_thesis_gpu(texture, (64, 64)))
+    np.testing.assert_array_equal(
+        render_thesis_gpu(texture, (64, 64), fold_height=fold_height), render_thesis_gpu(texture, (64, 64))
+    )
 
 
 def test_folding_puts_the_next_rows_on_the_right() -> None:
@@ -103,7 +105,9 @@ def test_too_large_a_picture_names_the_limit() -> None:
 def test_a_texture_without_end_is_refused() -> None:
     need_gpu()
     with pytest.raises(FormatError, match="below itself"):
-        render_thesis_gpu(ThesisTexture(np.full((1, 4, 3), (255, 0, 0), np.uint8), np.zeros((2, 2, 3), np.uint8)), (4, 4))
+        render_thesis_gpu(
+            ThesisTexture(np.full((1, 4, 3), (255, 0, 0), np.uint8), np.zeros((2, 2, 3), np.uint8)), (4, 4)
+        )
 
 
 ONE_LINE = """

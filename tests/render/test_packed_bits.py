@@ -14,8 +14,8 @@ from vexture.renderers import cpu, gpu
 from vexture.renderers.cpu import render_cpu, texel
 from vexture.renderers.device import VERSION, compiled, context
 from vexture.renderers.gpu import render_gpu
+from vexture.renderers.method import MOST_CELLS, MOST_PARTS, STEPS
 from vexture.renderers.shader import QUALITIES, view_source
-from vexture.renderers.shading import MOST_CELLS, MOST_PARTS, STEPS
 from vexture.renderers.view import fit, window
 from vexture.texture.texture import Root, Texture
 

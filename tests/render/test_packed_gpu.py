@@ -99,7 +99,9 @@ def test_the_inside_is_plain_though_a_step_of_t_is_a_part_of_a_pixel(quality: st
     need_gpu()
     steep = np.array([(0.1, 0.1), (0.1, 0.85), (0.9, 0.15), (0.9, 0.9)])
     contour = np.array([steep, straight((0.9, 0.9), (0.9, 0.1)), straight((0.9, 0.1), (0.1, 0.1))])
-    view = window(0.4999, 0.0999, 2e-4, 2e-4).matrix((200, 200))  # on the straight side, far from the curve in the same leaf
+    view = window(0.4999, 0.0999, 2e-4, 2e-4).matrix(
+        (200, 200)
+    )  # on the straight side, far from the curve in the same leaf
     drawing = Drawing((Path((contour,)),), name="s")
     image = render_gpu(texture_of(drawing), (200, 200), view, quality=quality)
     assert render_exact(drawing, (200, 200), view)[:90].min() == 1.0

@@ -11,7 +11,7 @@ from vexture.renderers import cpu, piece
 from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, included, vertex_source
 from vexture.thesis import cpu as thesis_cpu
-from vexture.thesis import cubic, layout, shading
+from vexture.thesis import cubic, layout
 from vexture.thesis.shader import TextureSizes, constants, source, thesis_text
 
 
@@ -123,14 +123,14 @@ def test_the_mirror_has_the_same_structures() -> None:
             assert fields == getattr(MIRROR[file], plain(name))._fields
 
 
-@pytest.mark.parametrize("module", [layout, shading])
+@pytest.mark.parametrize("module", [layout, method])
 def test_the_numbers_are_pythons(module: object) -> None:
     text = constants(module)  # type: ignore[arg-type]
     for kind, name, value in re.findall(r"^const (int|float) (\w+) = (.*);$", text, re.MULTILINE):
         assert {"int": int, "float": float}[kind](value) == getattr(module, name)
     assert "const int CELL_ORDER[4]" in constants(layout)
     assert "const float CONTROL_MIN = -1.25;" in constants(layout)
-    assert "const int SAMPLES = 4;" in constants(shading)
+    assert "const int SAMPLES = 4;" in constants(method)
 
 
 def test_the_bounds_of_the_loops_are_the_textures() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hand import EMPTY, Corner, Curve, Floats, decode, need_gpu, samples, speckles, texture_of, view_of
 
-from vexture.renderers import shading
+from vexture.renderers import method
 from vexture.thesis import cpu
 from vexture.thesis.cpu import render_thesis_cpu
 from vexture.thesis.cubic import solution_path, solve_cubic
@@ -120,7 +120,10 @@ def test_cpu_gpu_and_truth_agree_at_every_step(name: str) -> None:
     largest, mean = 0.0, 0.0
     for tree, view in SWEEPS[name]():
         texture = texture_of(tree)
-        on_cpu, on_gpu = render_thesis_cpu(texture, (PIXELS, PIXELS), view), render_thesis_gpu(texture, (PIXELS, PIXELS), view)
+        on_cpu, on_gpu = (
+            render_thesis_cpu(texture, (PIXELS, PIXELS), view),
+            render_thesis_gpu(texture, (PIXELS, PIXELS), view),
+        )
         assert speckles(texture, on_cpu, view) == 0
         assert speckles(texture, on_gpu, view) == 0
         difference = np.abs(on_cpu - on_gpu)
@@ -135,7 +138,7 @@ def count_paths(quads, curves, points, counts):
     """Solution path of every point that reaches the solver; the quadratic's by its number of roots on the curve."""
     for i in range(len(points)):
         cell = cpu.find_cell(quads, curves, (points[i, 0], points[i, 1]), 0.0)
-        if cell.shape != shading.CURVE:
+        if cell.shape != method.CURVE:
             continue
         x, y = cpu.cell_point(cell, (points[i, 0], points[i, 1]))
         if not cell.heights[0] <= y < cell.heights[1]:
@@ -143,7 +146,7 @@ def count_paths(quads, curves, points, counts):
         x1, x2 = cell.p1[0], cell.p2[0]
         a, b, c = 3.0 * (x1 - x2) + 1.0, 3.0 * x2 - 6.0 * x1, 3.0 * x1
         path = solution_path(a, b, c, -x)
-        if path != shading.QUADRATIC:
+        if path != method.QUADRATIC:
             counts[path, 0] += 1
             continue
         roots = solve_cubic(a, b, c, -x)
@@ -160,8 +163,8 @@ def test_the_sweep_takes_all_nine_paths() -> None:
             texture = texture_of(tree)
             points = samples((PIXELS, PIXELS), view).reshape(-1, 2)
             count_paths(texture.quads / 65535, texture.curves / 65535, points, counts)
-    taken = Counter({name: int(counts[getattr(shading, name), 0]) for name in PATHS if name != "QUADRATIC"})
-    taken["QUADRATIC, one root"], taken["QUADRATIC, two roots"] = map(int, counts[shading.QUADRATIC, 1:])
+    taken = Counter({name: int(counts[getattr(method, name), 0]) for name in PATHS if name != "QUADRATIC"})
+    taken["QUADRATIC, one root"], taken["QUADRATIC, two roots"] = map(int, counts[method.QUADRATIC, 1:])
     print(dict(taken))
     assert len(taken) == 9
     assert min(taken.values()) > 0, f"the sweep misses {[name for name, times in taken.items() if not times]}"

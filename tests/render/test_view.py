@@ -28,7 +28,10 @@ def test_a_window_is_shown_whole_and_upright():
 
 
 def test_rotating_turns_the_picture_counter_clockwise_about_the_centre():
-    straight, turned = window(0.1, 0.2, 0.4, 0.3).matrix((80, 60)), window(0.1, 0.2, 0.4, 0.3, rotate=90).matrix((80, 60))
+    straight, turned = (
+        window(0.1, 0.2, 0.4, 0.3).matrix((80, 60)),
+        window(0.1, 0.2, 0.4, 0.3, rotate=90).matrix((80, 60)),
+    )
     np.testing.assert_allclose(unit(turned, 40, 30), unit(straight, 40, 30), atol=1e-15)
     # what was 10 pixels to the right of the centre is now 10 pixels above it
     np.testing.assert_allclose(unit(turned, 40, 20), unit(straight, 50, 30), atol=1e-15)

@@ -21,7 +21,7 @@ __all__ = ["export"]
 def export(files: tuple[Path, ...], output: Path, title: str | None, **conversion: Any) -> None:
     """Write one page that shows drawings, with everything in it."""
     with one_line():
-        from vexture.live.viewing import export as write
+        from vexture.live.view import export as write
 
         size = write(files, output, title, viewer_settings(**conversion), say)
         click.echo(f"{output}: {len(files)} file{'s' * (len(files) > 1)}, {size} bytes")

@@ -57,7 +57,7 @@ def flood(
         if token_file is not None and not serving:
             raise LimitError(f"--token-file {token_file}: one page takes no uploads; use it with --serve")
         asked = Asked(bounds=None if bounds is None else bounds_of(bounds), **parameters)
-        from vexture.live.flooding import Made, export, serve
+        from vexture.live.flood import Made, export, serve
 
         if output is not None:
             made, size = export(asked, output, say)

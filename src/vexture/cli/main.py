@@ -9,7 +9,8 @@ import click
 __all__ = ["COMMANDS", "main"]
 
 COMMANDS: Final = {
-    name: f"vexture.cli.{name}" for name in ("convert", "render", "info", "view", "export", "serve", "push", "flood", "fold")
+    name: f"vexture.cli.{name}"
+    for name in ("convert", "render", "info", "view", "export", "serve", "push", "flood", "fold")
 }
 """Module of each command; it is imported when the command is used or listed."""
 

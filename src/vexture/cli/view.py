@@ -11,10 +11,6 @@ from vexture.cli.options import conversion_options, viewer_settings
 __all__ = ["view"]
 
 
-
-
-
-
 @click.command()
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option("--watch", "watching", is_flag=True, help="Show files anew whenever they are saved.")
@@ -25,7 +21,7 @@ __all__ = ["view"]
 def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening: bool, **conversion: Any) -> None:
     """Show drawings or packed textures in the browser, until Ctrl-C."""
     with one_line(), with_servers("view"):
-        from vexture.live.viewing import view as serve
+        from vexture.live.view import view as serve
 
         def show(where: str, shapes: int) -> None:
             click.echo(f"vexture: {where} shows {shapes} shape{'s' * (shapes != 1)}; Ctrl-C ends it")

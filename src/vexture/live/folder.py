@@ -11,9 +11,9 @@ from typing import IO, Final
 
 from vexture.errors import DeviceError, LimitError, VextureError
 from vexture.live.converter import Converter
-from vexture.live.limited import LimitedShelf
 from vexture.live.limits import Limits
 from vexture.live.names import checked_name, manifest_name
+from vexture.live.quota import LimitedShelf
 from vexture.live.shelf import File, Shape
 
 __all__ = ["Folder"]

@@ -15,10 +15,10 @@ from starlette.routing import BaseRoute, Route
 from vexture.errors import DeviceError, LimitError, VextureError
 from vexture.live.converter import BusyError, Converter
 from vexture.live.folder import Folder
-from vexture.live.limited import FullError, LimitedShelf
 from vexture.live.limits import Limits, Pace
 from vexture.live.manifest import manifest
 from vexture.live.names import checked_name
+from vexture.live.quota import FullError, LimitedShelf
 from vexture.live.routes import entity_tag, levels_below, refusal
 
 __all__ = ["publishing_routes", "working"]

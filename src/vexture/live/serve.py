@@ -13,11 +13,11 @@ from vexture.live.converter import Converter
 from vexture.live.documents import PUBLISHED_SETTINGS
 from vexture.live.folder import Folder
 from vexture.live.limits import Limits
+from vexture.live.listen import address, bind, serve_until_stopped
+from vexture.live.page_routes import page_routes
 from vexture.live.publishing import publishing_routes, working
 from vexture.live.routes import application, routes
-from vexture.live.serving import address, bind, serve_until_stopped
 from vexture.live.tokens import read_token
-from vexture.live.viewer import page_routes
 
 __all__ = ["serve"]
 

@@ -25,8 +25,7 @@ from vexture.layout import (
     ROW_BITS,
     WINDING_OFFSET,
 )
-from vexture.renderers.piece import Frame, Texel, Vec2, Whole2, box_area, clear_side, frame, piece, piece_area
-from vexture.renderers.shading import (
+from vexture.renderers.method import (
     CROSSING,
     FARTHEST,
     LEAST_FINEST,
@@ -37,6 +36,7 @@ from vexture.renderers.shading import (
     POSITION_BITS,
     SMALL_FINEST,
 )
+from vexture.renderers.piece import Frame, Texel, Vec2, Whole2, box_area, clear_side, frame, piece, piece_area
 from vexture.renderers.texels import Texels as Readable
 from vexture.renderers.texels import asked_of
 from vexture.renderers.view import Size, ViewLike, size_of, view_base, view_matrix

@@ -13,7 +13,6 @@ from vexture.renderers.shader import vertex_source
 __all__ = ["ONE_AT_A_TIME", "VERSION", "compiled", "context", "draw"]
 
 
-
 VERSION: Final = "330"
 
 

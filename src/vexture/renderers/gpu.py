@@ -20,8 +20,6 @@ def program(quality: str) -> Any:
     return compiled(view_source(VERSION, quality))
 
 
-
-
 def render_gpu(
     texture: Texels,
     size: Size,

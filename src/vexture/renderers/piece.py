@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from vexture.kernels import kernel
 from vexture.layout import CONTROL_OFFSET, COORDINATE_BITS
-from vexture.renderers.shading import (
+from vexture.renderers.method import (
     BEND,
     CLOSE,
     CROSSING,

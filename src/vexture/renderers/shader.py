@@ -1,7 +1,7 @@
 """Shader text: the files of ``glsl/``, each after those that it includes, below the numbers that they share with Python.
 
 A file names what it needs by ``#include "other.glsl"``; each is included once. The numbers are those of the texture's
-layout (`vexture.layout`) and of the method (`vexture.renderers.shading`).
+layout (`vexture.layout`) and of the method (`vexture.renderers.method`).
 """
 
 import re
@@ -12,7 +12,7 @@ from typing import Final
 
 from vexture import layout
 from vexture.errors import LimitError
-from vexture.renderers import shading
+from vexture.renderers import method
 
 __all__ = ["QUALITIES", "VERSIONS", "WRAPS", "included", "shader_source", "shader_text", "vertex_source", "view_source"]
 
@@ -23,10 +23,10 @@ VERSIONS: Final = {
 """How a shader begins in each dialect that the files are written in."""
 
 
-QUALITIES: Final = {"fast": shading.FAST, "exact": shading.EXACT}
+QUALITIES: Final = {"fast": method.FAST, "exact": method.EXACT}
 """What the packed texture's shader can be compiled for."""
 
-WRAPS: Final = {"none": shading.WRAP_NONE, "clamp": shading.WRAP_CLAMP, "repeat": shading.WRAP_REPEAT}
+WRAPS: Final = {"none": method.WRAP_NONE, "clamp": method.WRAP_CLAMP, "repeat": method.WRAP_REPEAT}
 """What ``glsl/wrap.glsl`` can be compiled for."""
 
 CHOSEN: Final = {"QUALITY", "WRAP"}
@@ -36,12 +36,6 @@ PREFIXED: Final = re.compile(r"\bVEXTURE_(\w+)")
 """A number as the packed texture's files name it: other people's shaders have names of their own."""
 
 INCLUDE: Final = re.compile(r'^#include "(.*)"$', re.MULTILINE)
-
-
-
-
-
-
 
 
 @cache
@@ -123,7 +117,7 @@ def shader_source(version: str = "300 es", quality: str = "exact") -> str:
 def shader_text(file: str, quality: str | None, *owners: ModuleType) -> str:
     """Text of one of the packed texture's files, below the numbers that it and its includes name.
 
-    The numbers are those of `vexture.renderers.shading`, of `vexture.layout` and of further owners.
+    The numbers are those of `vexture.renderers.method`, of `vexture.layout` and of further owners.
 
     Without a quality ``VEXTURE_QUALITY`` is left to whoever compiles it, one of the values of `QUALITIES`; and so is
     ``VEXTURE_WRAP`` always, one of the values of `WRAPS`.
@@ -133,7 +127,7 @@ def shader_text(file: str, quality: str | None, *owners: ModuleType) -> str:
     text = included(file)
     lines = [] if quality is None else [f"#define VEXTURE_QUALITY {QUALITIES[quality]!r}\n"]
     for name in sorted(set(PREFIXED.findall(text)) - CHOSEN):
-        value = next((getattr(owner, name) for owner in (shading, layout, *owners) if hasattr(owner, name)), None)
+        value = next((getattr(owner, name) for owner in (method, layout, *owners) if hasattr(owner, name)), None)
         if value is None:
             raise NameError(f"{file} names VEXTURE_{name}, which no owner of numbers defines")
         lines.append(f"#define VEXTURE_{name} {value!r}\n")

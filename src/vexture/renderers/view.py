@@ -101,7 +101,9 @@ class Window:
         angle = math.radians(self.rotate)
         cosine, sine = pixel * math.cos(angle), pixel * math.sin(angle)
         # the picture turns one way, so the pixel looks up its point the other way; pixel y points down
-        matrix = np.array([[cosine, -sine, self.x + self.w / 2], [-sine, -cosine, self.y + self.h / 2], [0.0, 0.0, 1.0]])
+        matrix = np.array(
+            [[cosine, -sine, self.x + self.w / 2], [-sine, -cosine, self.y + self.h / 2], [0.0, 0.0, 1.0]]
+        )
         matrix[:2, 2] -= matrix[:2, :2] @ (width / 2, height / 2)
         return matrix
 

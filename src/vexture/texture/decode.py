@@ -14,7 +14,6 @@ from vexture.tree.tree import Tree
 __all__ = ["decode"]
 
 
-
 def decode(texture: Texture, root: str | int = 0) -> Tree:
     """Tree of one shape of a texture, with `deviation` and `unresolved` 0.
 

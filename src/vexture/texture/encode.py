@@ -15,9 +15,7 @@ from vexture.tree.tree import Tree
 __all__ = ["encode"]
 
 
-def encode(
-    trees: Sequence[Tree], roots: Sequence[Root], *, name: str, source: str | None = None
-) -> Texture:
+def encode(trees: Sequence[Tree], roots: Sequence[Root], *, name: str, source: str | None = None) -> Texture:
     """Texture of some trees, one after another: the quads of each, then its curves.
 
     Parameters

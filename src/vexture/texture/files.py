@@ -26,10 +26,6 @@ def file_name(name: str) -> str:
     return safe.encode()[:NAME_BYTES].decode(errors="ignore") or "drawing"
 
 
-
-
-
-
 def target_of(path: str | os.PathLike[str], name: str) -> Path:
     """Return the packed texture's file to write: named `name` in a folder, or the path itself.
 

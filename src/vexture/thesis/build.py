@@ -122,8 +122,6 @@ def _leaf_of(
     return _leaf_or_limit(chain, area, cubics, x0, y0, size, tolerance, at_limit)
 
 
-
-
 @kernel
 def _add_quads(cells: NDArray[np.float64], level: Level, split_cells: NDArray[np.bool_], quad: int) -> int:
     """Enter the quads that cells of a level become, their cells empty; return the new number of quads."""
@@ -194,8 +192,6 @@ def grow(
                 below = cells[int(cells[quad, k, 1])]
                 cells[quad, k, 2] = 0.25 * (below[0, 2] + below[1, 2] + below[2, 2] + below[3, 2])
     return cells[:quads], curves[:curve_count], deviation, unresolved
-
-
 
 
 def root_level(drawing: Drawing, pieces: Pieces) -> Level:

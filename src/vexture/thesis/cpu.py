@@ -24,8 +24,8 @@ from vexture.thesis.layout import (
     THRESHOLD_CORNER,
     THRESHOLD_QUAD,
 )
+from vexture.thesis.method import CONSTANT, CORNER, CURVE, SAMPLES, SHORTEST_CHORD
 from vexture.thesis.shader import Pair
-from vexture.thesis.shading import CONSTANT, CORNER, CURVE, SAMPLES, SHORTEST_CHORD
 
 __all__ = ["render_thesis_cpu"]
 

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from vexture.kernels import kernel
-from vexture.thesis.shading import (
+from vexture.thesis.method import (
     CUBE_ROOT,
     DOUBLE,
     HYPERBOLIC_COSINE,
@@ -74,7 +74,7 @@ def discriminant(a: float, b: float, c: float, d: float) -> tuple[float, float]:
 
 @kernel
 def solution_path(a: float, b: float, c: float, d: float) -> int:
-    """Which path of thesis Figure 3.5 solves a t^3 + b t^2 + c t + d, by its number in `vexture.renderers.shading`.
+    """Which path of thesis Figure 3.5 solves a t^3 + b t^2 + c t + d, by its number in `vexture.renderers.method`.
 
     Examples
     --------

@@ -13,18 +13,10 @@ from vexture.thesis.shader import Pair, TextureSizes, view_source
 __all__ = ["fold", "render_thesis_gpu"]
 
 
-
-
-
-
 @lru_cache(maxsize=64)
 def program(sizes: TextureSizes) -> Any:
     """Compiled shader for all textures of some sizes, with its triangle."""
     return compiled(view_source(VERSION, sizes))
-
-
-
-
 
 
 def fold(rows: NDArray[Any], height: int) -> NDArray[np.float32]:

@@ -53,8 +53,6 @@ def _copy_piece(source: Pieces, i: int, target: Pieces, k: int) -> None:
     target.span[k, 0], target.span[k, 1] = source.span[i, 0], source.span[i, 1]
 
 
-
-
 @kernel(allocates=False)
 def _cut(source: Pieces, first: int, last: int, axis: int, line: float, grain: float, target: Pieces, end: int) -> int:
     """Append pieces first..last-1 to target[end:], cut where they cross a line; return the new end."""
@@ -81,8 +79,6 @@ def _cut(source: Pieces, first: int, last: int, axis: int, line: float, grain: f
             end += 1
         end += 1
     return end
-
-
 
 
 @kernel(allocates=False)

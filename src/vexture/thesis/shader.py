@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from vexture.errors import FormatError
 from vexture.renderers.shader import VERSIONS, included
-from vexture.thesis import layout, shading
+from vexture.thesis import layout
 
 __all__ = ["FOLD_HEIGHT", "Pair", "TextureSizes", "compose", "constants", "source", "thesis_text", "view_source"]
 
@@ -115,7 +115,7 @@ def compose(version: str, file: str, main: str, sizes: TextureSizes | None = Non
         Of the texture that is read, if one is.
     """
     injected = "".join(f"const int {name.upper()} = {size};\n" for name, size in asdict(sizes).items()) if sizes else ""
-    return VERSIONS[version] + constants(layout) + constants(shading) + injected + thesis_text(file) + main
+    return VERSIONS[version] + constants(layout) + constants(method) + injected + thesis_text(file) + main
 
 
 def thesis_text(file: str) -> str:

@@ -291,7 +291,9 @@ def load_thesis(path: str | os.PathLike[str]) -> ThesisTexture:
     """
     quads_path, curves_path = pair_of(path)
     quads, texts = read_png(read_file(quads_path, layout.FILE_LIMIT, NOT_FOUND), layout.QUAD_WIDTH, str(quads_path))
-    curves, other_texts = read_png(read_file(curves_path, layout.FILE_LIMIT, NOT_FOUND), layout.CURVE_WIDTH, str(curves_path))
+    curves, other_texts = read_png(
+        read_file(curves_path, layout.FILE_LIMIT, NOT_FOUND), layout.CURVE_WIDTH, str(curves_path)
+    )
     try:
         for key in (TEXT_VERSION, TEXT_ENCODING, layout.TEXT_TRANSFORM, layout.TEXT_CRS):
             if texts.get(key) != other_texts.get(key):

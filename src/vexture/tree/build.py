@@ -204,9 +204,7 @@ def _grow_quad(
             paths, target = present[end_path:here], tree.curves[counts[CURVES] :]
             at_limit = depth + 1 == bounds.max_depth
             capacity, tolerance, first = bounds.capacity, bounds.tolerance, child_at[child]
-            leaf = leaf_of(
-                pool, first, end, paths, rules, x, y, half, capacity, tolerance, at_limit, work.leaf, target
-            )
+            leaf = leaf_of(pool, first, end, paths, rules, x, y, half, capacity, tolerance, at_limit, work.leaf, target)
         if leaf.size == DIVIDE:
             cells[quad, child, IS_QUAD] = 1.0
             stack[top, QUAD], stack[top, DEPTH], stack[top, FIRST] = counts[QUADS], depth + 1, child_at[child]

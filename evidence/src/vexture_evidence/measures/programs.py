@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
-from vexture.renderers import shading
+from vexture.renderers import method
 from vexture.renderers.device import context
 from vexture.renderers.exact import render_exact
 from vexture.renderers.shader import shader_source, vertex_source
@@ -224,7 +224,7 @@ def thesis_program(texture: ThesisTexture) -> Program:
     inputs = "uniform sampler2D quads;\nuniform sampler2D curves;\n"
     source = compose(VERSION, "coverage.glsl", inputs + main_calling("coverage(quads, curves, uv, dx, dy)"), sizes)
     lengths = {"list_lengths": (len(texture.quads), len(texture.curves))}
-    constants = {"SAMPLES": shading.SAMPLES, "bits": 8 * texture.quads.dtype.itemsize}
+    constants = {"SAMPLES": method.SAMPLES, "bits": 8 * texture.quads.dtype.itemsize}
     return Program("thesis", constants, compiled(source), textures, lengths)
 
 

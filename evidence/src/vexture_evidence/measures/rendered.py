@@ -197,7 +197,12 @@ def with_tolerances(
     whole = _all_of(drawing, textures, (side, side), None)
     off = sum(np.abs(image - whole.truth) for image in whole.images.values())
     square = *_worst(np.asarray(off), round(part * side)), part
-    return tuple(fitted), whole, _all_of(drawing, textures, (side, side), window(*square, rotate=part).matrix((side, side))), square
+    return (
+        tuple(fitted),
+        whole,
+        _all_of(drawing, textures, (side, side), window(*square, rotate=part).matrix((side, side))),
+        square,
+    )
 
 
 def _sampled(shape: Shape) -> ThesisTexture:

@@ -14,8 +14,7 @@ from vexture.renderers.shader import vertex_source
 from vexture.renderers.view import window
 from vexture.thesis.cpu import height, inside_curve
 from vexture.thesis.cubic import solution_path, solve_cubic
-from vexture.thesis.shader import compose
-from vexture.thesis.shading import (
+from vexture.thesis.method import (
     CUBE_ROOT,
     DOUBLE,
     HYPERBOLIC_COSINE,
@@ -25,6 +24,7 @@ from vexture.thesis.shading import (
     THREE,
     TRIPLE,
 )
+from vexture.thesis.shader import compose
 from vexture_evidence.measures.programs import current
 
 __all__ = ["BOX", "SOLUTIONS", "Solution", "SolutionPath", "by_cpu", "by_gpu", "roots_by_gpu", "solve"]
@@ -64,7 +64,7 @@ class SolutionPath:
     ----------
     name : str
     path : int
-        Its number in `vexture.renderers.shading`.
+        Its number in `vexture.renderers.method`.
     p1, p2 : tuple of float
         Inner control points.
     x : float

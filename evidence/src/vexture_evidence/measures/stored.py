@@ -10,7 +10,7 @@ from vexture.drawing import Drawing
 from vexture.renderers.exact import render_exact
 from vexture.thesis.cpu import cell_value, read_leaf
 from vexture.thesis.layout import CONSTANT_ROWS
-from vexture.thesis.shading import CURVE, SAMPLES
+from vexture.thesis.method import CURVE, SAMPLES
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellKind, CellTree
 from vexture_evidence.measures.leaves import Leaves, Tree, leaves, quads

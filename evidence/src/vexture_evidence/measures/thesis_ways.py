@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vexture.renderers.view import size_of, view_matrix
 from vexture.thesis.cpu import cell_value, find_cell, view_point, view_step
-from vexture.thesis.shading import CONSTANT, SAMPLES
+from vexture.thesis.method import CONSTANT, SAMPLES
 from vexture.thesis.texture import ThesisTexture
 
 __all__ = ["CUT_OFF", "AsThesis", "draw_as_thesis"]

@@ -119,13 +119,18 @@ def thesis_addresses(shape: Shape) -> dict[str, list[str]]:
     """
     if "svg" not in shape.views:
         return {}
-    return {view: [f"../views/{shape.version}/{view}{suffix}" for suffix in find_encoding("thesis").SUFFIXES] for view in THESIS_BITS}
+    return {
+        view: [f"../views/{shape.version}/{view}{suffix}" for suffix in find_encoding("thesis").SUFFIXES]
+        for view in THESIS_BITS
+    }
 
 
 def thesis_routes(shelf: Shelf) -> list[BaseRoute]:
     """Routes of the thesis encodings of a shelf's shapes, which are made when someone wants to see them."""
     files = {
-        view + suffix: (bits, place) for view, bits in THESIS_BITS.items() for place, suffix in enumerate(find_encoding("thesis").SUFFIXES)
+        view + suffix: (bits, place)
+        for view, bits in THESIS_BITS.items()
+        for place, suffix in enumerate(find_encoding("thesis").SUFFIXES)
     }
     pairs: OrderedDict[tuple[str, int], asyncio.Future[tuple[bytes, ...]]] = OrderedDict()
 

@@ -34,11 +34,6 @@ __all__ = [
 ]
 
 
-
-
-
-
-
 FAST: Final = 0
 EXACT: Final = 1
 """Qualities of the packed texture's shader: how finely it looks at bent pieces and at cells smaller than a pixel."""

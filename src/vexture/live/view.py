@@ -82,9 +82,9 @@ def view(
     from starlette.middleware import Middleware
     from starlette.routing import Mount
 
+    from vexture.live.listen import address, bind, serve_until_stopped
+    from vexture.live.page_routes import KnownHosts, dropping_routes, page_routes, thesis_addresses, thesis_routes
     from vexture.live.routes import application, routes
-    from vexture.live.serving import address, bind, serve_until_stopped
-    from vexture.live.viewer import KnownHosts, dropping_routes, page_routes, thesis_addresses, thesis_routes
 
     page = page_routes()
     with bind(host, port) as taken:

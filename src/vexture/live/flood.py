@@ -205,12 +205,12 @@ def serve(
 
     from vexture.flood.ground import GROUND_TYPE
     from vexture.live.converter import Converter
-    from vexture.live.limited import LimitedShelf
+    from vexture.live.listen import address, bind, serve_until_stopped
+    from vexture.live.page_routes import KnownHosts, page_routes
     from vexture.live.publishing import publishing_routes
+    from vexture.live.quota import LimitedShelf
     from vexture.live.routes import application, fixed, routes
-    from vexture.live.serving import address, bind, serve_until_stopped
     from vexture.live.tokens import read_token
-    from vexture.live.viewer import KnownHosts, page_routes
 
     built(FLOOD.script)
     token = None if token_file is None else read_token(token_file)
