@@ -24,6 +24,7 @@ from hand import (
 from vexture.errors import LimitError
 from vexture.images import coverage
 from vexture.renderers.view import fit
+from vexture.thesis import method
 from vexture.thesis.cpu import render_thesis_cpu
 from vexture.thesis.cubic import solution_path, solve_cubic
 from vexture.thesis.texture import ThesisTexture

@@ -11,7 +11,7 @@ from vexture.renderers import cpu, piece
 from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, included, vertex_source
 from vexture.thesis import cpu as thesis_cpu
-from vexture.thesis import cubic, layout
+from vexture.thesis import cubic, layout, method
 from vexture.thesis.shader import TextureSizes, constants, source, thesis_text
 
 

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from hand import EMPTY, Corner, Curve, Floats, decode, need_gpu, samples, speckles, texture_of, view_of
 
-from vexture.renderers import method
-from vexture.thesis import cpu
+from vexture.thesis import cpu, method
 from vexture.thesis.cpu import render_thesis_cpu
 from vexture.thesis.cubic import solution_path, solve_cubic
 from vexture.thesis.gpu import render_thesis_gpu

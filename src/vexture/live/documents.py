@@ -204,7 +204,6 @@ def converted(drawing: "Drawing", file_name: str, settings: Settings, start: flo
 
 def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
     """Shape of a texture that is there already: what it does not say is None."""
-
     from vexture.texture.load import texture_from
 
     texture = texture_from(data, file_name)

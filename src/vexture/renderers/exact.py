@@ -1,10 +1,10 @@
 """The truth for every renderer: exact area coverage of a drawing, straight from its curves.
 
 Written on purpose without the quad-tree, its boundary code or a fill library, so that it can judge them. The image is
-swept from top to bottom over the drawing's chords (`vexture.renderers.chords`). Between two neighbouring heights at which
-a chord begins, ends or crosses another lies a *slab*, in which all chords run from top to bottom in one order. Counting
-each path's winding from left to right tells which chords bound the union; each of those adds its exact trapezoids to
-the pixels of its row.
+swept from top to bottom over the drawing's chords (`vexture.renderers.chords`). Between two neighbouring heights at
+which a chord begins, ends or crosses another lies a *slab*, in which all chords run from top to bottom in one order.
+Counting each path's winding from left to right tells which chords bound the union; each of those adds its exact
+trapezoids to the pixels of its row.
 
 No slab is thinner than `SCANLINE` pixels, and a wrong order within such a one costs no more than its area.
 """

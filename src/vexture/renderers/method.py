@@ -1,4 +1,4 @@
-"""The numbers of the shading method, defined once: the shader (`vexture.renderers.shader`) and its mirror read them here."""
+"""The numbers of the shading method, defined once: the shader and its mirror read them here."""
 
 from typing import Final
 

@@ -1,4 +1,4 @@
-"""Shader text: the files of ``glsl/``, each after those that it includes, below the numbers that they share with Python.
+"""Shader text: the files of ``glsl/``, each after those that it includes, below the numbers they share with Python.
 
 A file names what it needs by ``#include "other.glsl"``; each is included once. The numbers are those of the texture's
 layout (`vexture.layout`) and of the method (`vexture.renderers.method`).

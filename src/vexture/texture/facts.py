@@ -14,7 +14,7 @@ __all__ = ["facts"]
 
 
 def facts(flat: NDArray[np.uint32], roots: Sequence[Root]) -> dict[str, Any]:
-    """Number of texels and depth of all trees; for each shape its coverage, quads, curves, depth, and what is said of it.
+    """Number of texels and depth of all trees; for each shape its coverage, quads, curves, depth and description.
 
     Parameters
     ----------

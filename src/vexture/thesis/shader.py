@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from vexture.errors import FormatError
 from vexture.renderers.shader import VERSIONS, included
-from vexture.thesis import layout
+from vexture.thesis import layout, method
 
 __all__ = ["FOLD_HEIGHT", "Pair", "TextureSizes", "compose", "constants", "source", "thesis_text", "view_source"]
 

@@ -21,7 +21,7 @@ from vexture.tree.pool import Pool
 from vexture.tree.separate import UNSURE, CellPieces, all_separate, clean_pieces
 from vexture.tree.winding import winding_area
 
-__all__ = ["DIVIDE", "Leaf", "new_workspace", "leaf_of"]
+__all__ = ["DIVIDE", "Leaf", "leaf_of", "new_workspace"]
 
 DIVIDE = -1
 """Count of pieces of a cell that is to be divided."""
