@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from vexture.arguments import Tolerance
-from vexture.messages import one_line, say, with_servers
+from vexture.messages import one_line, say
 from vexture.settings import Settings
 
 __all__ = ["export", "view"]
@@ -47,7 +47,7 @@ def _settings(tolerance: Any, precision: float | None, select: str | None) -> Se
 @_conversion
 def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening: bool, **conversion: Any) -> None:
     """Show drawings or packed textures in the browser, until Ctrl-C."""
-    with one_line(), with_servers("view"):
+    with one_line():
         from vexture.live.viewing import view as serve
 
         def show(where: str, shapes: int) -> None:

@@ -7,11 +7,9 @@ from contextlib import contextmanager
 
 import click
 
-from vexture.errors import DeviceError, VextureError
+from vexture.errors import VextureError
 
-__all__ = ["one_line", "say", "with_servers"]
-
-SERVERS = ("sse_starlette", "starlette", "uvicorn", "watchfiles")
+__all__ = ["one_line", "say"]
 
 
 def say(message: str) -> None:
@@ -36,14 +34,3 @@ def one_line() -> Iterator[None]:
         except MemoryError:
             say("out of memory; use a smaller drawing or a smaller --size")
             sys.exit(1)
-
-
-@contextmanager
-def with_servers(command: str) -> Iterator[None]:
-    """Say what to install where the packages of servers are missing."""
-    try:
-        yield
-    except ModuleNotFoundError as error:
-        if (error.name or "").split(".")[0] not in SERVERS:
-            raise
-        raise DeviceError(f"vexture {command} needs the package {error.name}: pip install 'vexture[live]'") from None
