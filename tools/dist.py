@@ -27,7 +27,8 @@ from typing import Any, Final
 __all__ = ["absolute_links", "build", "epoch"]
 
 ROOT: Final = Path(__file__).resolve().parents[1]
-LINK: Final = re.compile(r"(?P<picture>!?)\[(?P<text>[^][]*)\]\((?!\w+:|#)(?P<target>[^)\s]+)\)")
+LINK: Final = re.compile(r"(?<=\]\()(?!\w+:|#)[^)\s]+")
+PICTURES: Final = (".gif", ".jpg", ".png", ".svg", ".webp")
 FENCED: Final = re.compile(r"^(```.*?^```)$", re.M | re.S)
 STALE: Final = shutil.ignore_patterns(".*", "__pycache__", "*.egg-info", "build", "dist", "node_modules")
 EARLIEST: Final = 315532800
@@ -74,9 +75,9 @@ def absolute_links(text: str, home: str, repository: str, version: str) -> str:
     """
 
     def absolute(match: re.Match[str]) -> str:
-        path = posixpath.normpath(posixpath.join(home, match["target"]))
-        kind = "raw" if match["picture"] else "blob"
-        return f"{match['picture']}[{match['text']}]({repository}/{kind}/v{version}/{path})"
+        path = posixpath.normpath(posixpath.join(home, match[0]))
+        kind = "raw" if path.endswith(PICTURES) else "blob"
+        return f"{repository}/{kind}/v{version}/{path}"
 
     parts = FENCED.split(text)
     return "".join(part if part.startswith("```") else LINK.sub(absolute, part) for part in parts)
