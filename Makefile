@@ -12,10 +12,12 @@ WEB_BENCHMARKS := page_fidelity web_speed editing flood
 VIEWER := src/vexture/live/built/viewer.js
 WEB_SOURCES := $(shell find web/src web/viewer web/flood web/generated -name '*.js' -o -name '*.css')
 QUICK ?=
+RELEASED := . web
+REPOSITORY ?=
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help demo docs report viewer test checks kernels test-web bench clean
+.PHONY: help demo docs report viewer test checks kernels test-web bench dist dist-check clean
 
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
@@ -24,6 +26,7 @@ help:
 	@echo 'make docs    build the documentation into site/, to be read from the disk'
 	@echo 'make report  measure the tables and figures of the thesis again; the page is demo/report/index.html'
 	@echo 'make bench   measure fidelity, speed and size; the figures come into evidence/benchmarks/results/'
+	@echo 'make dist    build the wheels, the sdist and the npm tarball into dist/; make dist-check tries them'
 	@echo 'make clean   remove all of that again'
 
 .venv/made:
@@ -34,17 +37,22 @@ help:
 
 .venv/for-demo: pyproject.toml | .venv/made
 	@echo 'installing vexture and its libraries into .venv (a minute or less) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,live,trace]'
+	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,trace]'
 	@touch $@
 
 .venv/for-test: pyproject.toml | .venv/made
 	@echo 'installing vexture, its libraries and the tools of its tests into .venv (a minute or two) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[docs,gis,gpu,live,report,trace,test]'
+	@$(BIN)/python -m pip install --quiet --editable '.[docs,gis,gpu,report,trace,test]'
 	@touch .venv/for-demo .venv/for-docs .venv/for-report $@
 
 .venv/for-report: pyproject.toml | .venv/made
 	@echo 'installing vexture and what its report draws and compares with into .venv (a minute or less) ...'
 	@$(BIN)/python -m pip install --quiet --editable '.[report,trace]'
+	@touch $@
+
+.venv/for-dist: pyproject.toml | .venv/made
+	@echo 'installing what builds a release into .venv (a minute or less) ...'
+	@$(BIN)/python -m pip install --quiet --editable '.[dist]'
 	@touch $@
 
 .venv/for-docs: pyproject.toml | .venv/made
@@ -58,8 +66,9 @@ web/node_modules/made: web/package.json web/package-lock.json
 	@npm ci --prefix web --no-audit --no-fund --loglevel error
 	@touch $@
 
-$(VIEWER): web/node_modules/made $(WEB_SOURCES)
+$(VIEWER): web/node_modules/made tools/notices.py $(WEB_SOURCES)
 	@npm run --silent viewer --prefix web && npm run --silent flood --prefix web
+	@$(PYTHON) tools/notices.py $(@D)
 
 viewer: $(VIEWER)
 
@@ -143,6 +152,17 @@ bench: .venv/for-test
 	else echo 'so the web is not measured: $(WEB_BENCHMARKS)'; fi; \
 	for name in $$names; do echo && $(BIN)/python "evidence/benchmarks/$$name.py" $(QUICK) || exit 1; done
 
+# of RELEASED, the folders of projects; with REPOSITORY=https://..., a registry's pages can link to the sources
+dist: $(VIEWER) .venv/for-dist
+	@$(BIN)/python tools/release.py
+	@rm -rf dist
+	@$(BIN)/python tools/dist.py --output dist --repository '$(REPOSITORY)' $(RELEASED)
+	@$(BIN)/python -m twine check --strict dist/*.whl dist/*.tar.gz
+
+# installed as anyone would: with all packages from the registry, and kernels compiled for the first time
+dist-check: dist .venv/for-test
+	VEXTURE_DIST=dist $(BIN)/python -m pytest --quiet tests/release
+
 clean:
-	rm -rf .venv demo build src/*.egg-info evidence/benchmarks/results .hypothesis .mypy_cache .pytest_cache .ruff_cache \
+	rm -rf .venv demo build dist src/*.egg-info evidence/src/*.egg-info evidence/benchmarks/results .hypothesis .mypy_cache .pytest_cache .ruff_cache \
 		web/node_modules web/types src/vexture/live/built tests/web/screenshots site

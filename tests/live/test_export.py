@@ -106,7 +106,8 @@ def test_file_that_is_no_drawing_leaves_the_page_as_it_was(tmp_path):
 
 
 def test_page_that_is_not_built_names_the_remedy():
-    with pytest.raises(DeviceError, match=r"not built; run `make viewer` \(needs node and npm\)$"):
+    remedy = r"run `make viewer` in the repository \(needs node and npm\), or install a wheel, which holds them"
+    with pytest.raises(DeviceError, match=f"not built; {remedy}$"):
         built("nothing.js")
 
 

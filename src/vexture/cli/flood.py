@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from vexture.cli.messages import one_line, say, with_servers
+from vexture.cli.messages import one_line, say
 from vexture.errors import LimitError
 from vexture.flood.asked import PERIOD, Asked, bounds_of
 from vexture.tolerance import HMIN
@@ -50,7 +50,7 @@ def flood(
     """
     from vexture.geo.reference import gis_packages
 
-    with one_line(), gis_packages(), with_servers("flood --serve"):
+    with one_line(), gis_packages():
         if (output is None) == (not serving):
             both = "either -o PAGE.html or --serve" if serving else "-o PAGE.html for one page, or --serve for a server"
             raise LimitError(f"vexture flood needs to know where to show it; give {both}")

@@ -8,14 +8,12 @@ from contextlib import contextmanager
 
 import click
 
-from vexture.errors import DeviceError, ParameterError, VextureError
+from vexture.errors import ParameterError, VextureError
 
-__all__ = ["one_line", "say", "with_servers"]
+__all__ = ["as_options", "one_line", "say"]
 
 PARAMETER = re.compile(r"`([a-z_]+)`")
 """A parameter, as messages of the library name it."""
-
-SERVERS = ("sse_starlette", "starlette", "uvicorn", "watchfiles")
 
 
 def say(message: str) -> None:
@@ -51,14 +49,3 @@ def one_line() -> Iterator[None]:
         except MemoryError:
             say("out of memory; use a smaller drawing or a smaller --size")
             sys.exit(1)
-
-
-@contextmanager
-def with_servers(command: str) -> Iterator[None]:
-    """Say what to install where the packages of servers are missing."""
-    try:
-        yield
-    except ModuleNotFoundError as error:
-        if (error.name or "").split(".")[0] not in SERVERS:
-            raise
-        raise DeviceError(f"vexture {command} needs the package {error.name}: pip install 'vexture[live]'") from None

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from vexture.cli.messages import one_line, with_servers
+from vexture.cli.messages import one_line
 from vexture.live.limits import Limits
 
 __all__ = ["serve"]
@@ -36,7 +36,7 @@ def serve(
     precision: float | None,
 ) -> None:
     """Serve a folder of shapes, and take new ones by a token."""
-    with one_line(), with_servers("serve"):
+    with one_line():
         from vexture.live.serve import serve as run
 
         limits = Limits(body_bytes=max_bytes, total_bytes=max_total, shapes=max_shapes, rate=rate)

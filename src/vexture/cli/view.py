@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from vexture.cli.messages import one_line, say, with_servers
+from vexture.cli.messages import one_line, say
 from vexture.cli.options import conversion_options, viewer_settings
 
 __all__ = ["view"]
@@ -20,7 +20,7 @@ __all__ = ["view"]
 @conversion_options
 def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening: bool, **conversion: Any) -> None:
     """Show drawings or packed textures in the browser, until Ctrl-C."""
-    with one_line(), with_servers("view"):
+    with one_line():
         from vexture.live.view import view as serve
 
         def show(where: str, shapes: int) -> None:

@@ -86,7 +86,10 @@ def built(name: str) -> bytes:
     try:
         return files("vexture.live").joinpath("built", name).read_bytes()
     except OSError:
-        raise DeviceError("the viewer's page is not built; run `make viewer` (needs node and npm)") from None
+        raise DeviceError(
+            "the pages are not built; run `make viewer` in the repository (needs node and npm), or install a wheel, "
+            "which holds them"
+        ) from None
 
 
 def served_page(bundle: Bundle = VIEWER, scene: Mapping[str, Any] = SERVED_SCENE, title: str = "vexture") -> bytes:

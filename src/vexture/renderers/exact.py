@@ -165,7 +165,7 @@ def fill_slab(
         before = winding[path]
         after = before + (1 if owner > 0 else -1)
         winding[path] = after
-        step = (after & 1) - (before & 1) if evenodd[path] else (after != 0) - (before != 0)
+        step = (after & 1) - (before & 1) if evenodd[path] else int(after != 0) - int(before != 0)
         covering += step
         if step > 0 and covering == 1:
             add_edge(highs[k], lows[k], height, change)

@@ -1,6 +1,5 @@
 """A drawing with all that is made of it, each made once: what tables and figures are about."""
 
-import sysconfig
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -27,10 +26,8 @@ WAYS: Final[dict[str, dict[str, Any]]] = {
 MOST_FOR_SAMPLED: Final = 3000
 """Quads of ``direct``; where there are more, ``sampled`` takes minutes."""
 
-FOLDERS: Final = (
-    Path(__file__).resolve().parents[4] / "examples" / "shapes",  # in a clone
-    Path(sysconfig.get_path("data")) / "share" / "vexture" / "shapes",  # where a wheel puts them
-)
+EXAMPLES: Final = Path(__file__).resolve().parents[4] / "examples" / "shapes"
+"""The example drawings of the repository; they are not installed."""
 
 
 def example(name: str) -> Path:
@@ -46,10 +43,10 @@ def example(name: str) -> Path:
     >>> example("duck").name
     'duck.svg'
     """
-    for folder in FOLDERS:
-        if (path := folder / f"{name}.svg").is_file():
-            return path
-    raise SourceError(f"the example drawing {name}.svg is in none of {', '.join(map(str, FOLDERS))}; install again")
+    path = EXAMPLES / f"{name}.svg"
+    if not path.is_file():
+        raise SourceError(f"{path}: no such example drawing; run `vexture report` from a clone of the repository")
+    return path
 
 
 def file_bytes(texture: "Texture | ThesisTexture") -> int:

@@ -1,0 +1,87 @@
+"""A wheel installed in an environment of its own, with nothing beside it but what it requires."""
+
+import subprocess
+import sys
+from importlib.metadata import Distribution, distribution, distributions
+from pathlib import Path
+
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+
+class Installed:
+    """A wheel's commands, run outside the checkout and without Node.js.
+
+    Parameters
+    ----------
+    folder : path
+        An empty folder: the environment is made in it, and the commands work in it.
+    wheel : path
+    whole : bool
+        Install all requirements from the registry, and compile kernels as on a new machine; else the requirements are
+        those of the environment that runs the tests, and kernels run as they are written.
+    """
+
+    def __init__(self, folder: Path, wheel: Path, *, whole: bool) -> None:
+        self.bin, self.work = folder / "venv" / "bin", folder / "work"
+        self.work.mkdir()
+        subprocess.run([sys.executable, "-m", "venv", "--without-pip", self.bin.parent], check=True)
+        self.environment = {"PATH": str(self.bin), "HOME": str(folder), "PYTHONWARNINGS": "error"}
+        if whole:
+            self.pip("install", "--quiet", str(wheel))
+        else:
+            self.environment["NUMBA_DISABLE_JIT"] = "1"
+            self.pip("install", "--quiet", "--no-index", "--no-deps", str(wheel))
+            (wheel_itself,) = distributions(name="vexture", path=[str(self.site)])
+            for needed in required(wheel_itself).values():
+                self._link(needed)
+
+    @property
+    def site(self) -> Path:
+        """Where its packages are."""
+        (found,) = self.bin.parent.glob("lib/python3*/site-packages")
+        return found
+
+    def pip(self, *arguments: str) -> str:
+        """What pip of the tests' environment says about this one."""
+        command = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--python", self.bin / "python"]
+        outcome = subprocess.run([*command, *arguments], capture_output=True, text=True, check=False)
+        assert outcome.returncode == 0, outcome.stdout + outcome.stderr
+        return outcome.stdout
+
+    def command(self, *arguments: str | Path) -> list[str]:
+        """The words of a command of vexture."""
+        return [str(self.bin / "vexture"), *map(str, arguments)]
+
+    def run(self, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
+        """Run a command of vexture."""
+        return self._ran(self.command(*arguments))
+
+    def python(self, program: str) -> subprocess.CompletedProcess[str]:
+        """Run Python text."""
+        return self._ran([str(self.bin / "python"), "-c", program])
+
+    def _link(self, package: Distribution) -> None:
+        """Make a package of the tests' environment one of this environment."""
+        for name in {path.parts[0] for path in package.files or ()} - {"..", "__pycache__"}:
+            (self.site / name).symlink_to(Path(str(package.locate_file(name))))
+
+    def _ran(self, command: list[str]) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(command, cwd=self.work, env=self.environment, capture_output=True, text=True, check=False)
+
+
+def required(package: Distribution) -> dict[str, Distribution]:
+    """Packages that one requires, and those that they require, without extras but those that they name."""
+    found: dict[str, Distribution] = {}
+    wanted = [(package, "")]
+    while wanted:
+        one, extra = wanted.pop()
+        for requirement in map(Requirement, one.requires or ()):
+            if requirement.marker and not requirement.marker.evaluate({"extra": extra}):
+                continue
+            name = canonicalize_name(requirement.name)
+            if name not in found:
+                found[name] = distribution(name)
+                wanted.append((found[name], ""))
+            wanted += [(found[name], further) for further in requirement.extras]
+    return found

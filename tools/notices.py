@@ -1,0 +1,37 @@
+"""Write the licences of what is bundled into the built pages beside them: LICENSES.txt.
+
+`notices.py FOLDER` takes them from web/node_modules: of the packages that the npm package depends on, and of three.js.
+"""
+
+import json
+import sys
+from pathlib import Path
+from typing import Final
+
+__all__ = ["bundled", "notices"]
+
+WEB: Final = Path(__file__).resolve().parents[1] / "web"
+HEADING: Final = "The pages of vexture hold code of these packages, each under its own licence.\n"
+
+
+def bundled() -> list[str]:
+    """Names of the packages that the pages hold."""
+    locked = json.loads((WEB / "package-lock.json").read_text(encoding="utf-8"))["packages"]
+    peers = json.loads((WEB / "package.json").read_text(encoding="utf-8"))["peerDependencies"]
+    needed = [place.removeprefix("node_modules/") for place, entry in locked.items() if place and not entry.get("dev")]
+    return sorted({*needed, *peers})
+
+
+def notices() -> str:
+    """Their licences, one after another."""
+    parts = [HEADING]
+    for name in bundled():
+        folder = WEB / "node_modules" / name
+        version = json.loads((folder / "package.json").read_text(encoding="utf-8"))["version"]
+        (licence,) = folder.glob("LICENSE*")
+        parts.append(f"{name} {version}\n\n{licence.read_text(encoding='utf-8').strip()}\n")
+    return f"\n{'-' * 80}\n\n".join(parts)
+
+
+if __name__ == "__main__":
+    (Path(sys.argv[1]) / "LICENSES.txt").write_text(notices(), encoding="utf-8")
