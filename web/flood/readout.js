@@ -3,6 +3,7 @@ import { Raycaster, Vector2 } from 'three';
 import { element } from '../viewer/dom.js';
 import { bytesOf } from '../viewer/scene.js';
 import { Depths } from './depths.js';
+import { WATER } from './sea.js';
 
 /** @typedef {import('./stage.js').Stage} Stage @typedef {import('./player.js').Player} Player */
 
@@ -52,7 +53,7 @@ export function createReadout(stage, player, surface, fold) {
     const [s, t] = place;
     const [u, v] = places.toUnit(s, t);
     const moved = fold ? fold.at(u, v, stage.seconds) : { u, v };
-    const isWet = player.step.texture.contains(moved.u, moved.v);
+    const isWet = player.step.texture.contains(moved.u, moved.v, WATER);
     const depth = isWet ? known.depths?.at(s, t) : undefined;
     state.textContent = isWet ? (depth ? `Wet, ${metres(depth)} deep` : 'Wet') : 'Dry';
     where.textContent = `${places.text(u, v)} · ${places.crs}`;

@@ -13,6 +13,8 @@ const LOOK = Object.freeze({
   sky: 0x86b2d6, horizon: 0xd3e2ec,
 });
 const FOAM = Object.freeze({ width: 0.015, period: 6 });
+/** Place of the water among the shapes of a step's texture, which normally holds no other. */
+export const WATER = 0;
 /** Milliseconds of a cross-fade. */
 const FADE = 900;
 /** How much further inside the lower border of a wall looks into the shape: a look without width would see nothing. */
@@ -40,7 +42,7 @@ export class Sea {
     this.#transform = transform;
     this.#fold = fold;
     this.water = new Water(gridGeometry(surface, (height) => Math.max(0, height)), null, {
-      ...LOOK, transform, fold, foam: FOAM, sunDirection: sun, textureWidth: mirror, textureHeight: mirror,
+      ...LOOK, root: WATER, transform, fold, foam: FOAM, sunDirection: sun, textureWidth: mirror, textureHeight: mirror,
     });
     const { material } = this.water;
     material.polygonOffset = true; // over the ground on which it lies, whatever the rounding
@@ -86,7 +88,7 @@ export class Sea {
     if (this.#mask) this.#mask.texture = texture;
     else {
       const [transform, fold] = [this.#transform, this.#fold];
-      this.#mask = applyVectorMask(this.walls.material, texture, { transform, fold, wrap: 'clamp' });
+      this.#mask = applyVectorMask(this.walls.material, texture, { root: WATER, transform, fold, wrap: 'clamp' });
     }
     this.walls.visible = !this.#isFlat;
   }

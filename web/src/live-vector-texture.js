@@ -54,7 +54,7 @@ export class LiveVectorTexture extends VectorTexture {
   /**
    * Use `LiveVectorTexture.connect`.
    *
-   * @param {import('./data.js').TextureData} data
+   * @param {import('./data.js').PackedData} data
    * @param {Source} source
    */
   constructor(data, source) {

@@ -5,9 +5,9 @@ import { check, insert, takePart } from './hooks.js';
 import { MaskedMesh } from './mask-mesh.js';
 import { lookedUp } from './mask-lookup.js';
 import { checkOptions, complete, isTranslucent } from './mask-options.js';
-import { ROOT_ATTRIBUTE, texts, thesisReader } from './mask-shader.js';
+import { FOOTPRINT, ROOT_ATTRIBUTE, texts } from './mask-shader.js';
 
-/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
 /** @typedef {import('./mask-shader.js').Variant} Variant */
 
 /** @typedef {import('./mask-options.js').MaskOptions} MaskOptions */
@@ -73,10 +73,9 @@ export class VectorMask {
   /** @returns {Variant} */
   #variant() {
     const { mode, wrap, quality, invert, background, instanced, map, fold } = this.#options;
-    const { data } = this.#texture;
+    const reader = this.#texture.maskReader();
     return {
-      encoding: data.encoding,
-      thesis: thesisReader(data),
+      other: reader && { declared: reader.declared, coverage: reader.coverage(FOOTPRINT) },
       mode,
       inLayers: mode === 'paint',
       wrap,
@@ -89,11 +88,17 @@ export class VectorMask {
     };
   }
 
-  /** Find the root in the texture. */
+  /** Whether only the instances have roots. */
+  get #isRootless() {
+    return this.#options.instanced && (this.#options.root ?? null) === null;
+  }
+
+  /** Find the shape or the drawing's layers in the texture. */
   #resolve() {
     const { root, mode } = this.#options;
     const inLayers = mode === 'paint' && this.#texture.encoding === 'packed';
-    this.#range = inLayers ? this.#texture.layersOf(root) : { first: this.#texture.index(root ?? 0), count: 1 };
+    if (this.#isRootless) this.#range = { first: 0, count: 1 }; // the shader does not read it
+    else this.#range = inLayers ? this.#texture.layersOf(root) : { first: this.#texture.index(root), count: 1 };
   }
 
   /** Give the shader what the texture and the options are now. */
@@ -101,21 +106,19 @@ export class VectorMask {
     try {
       this.#resolve();
     } catch (error) {
-      if (!(error instanceof VextureError)) throw error; // the new shapes lack this one: show the first, and say so
+      if (!(error instanceof VextureError)) throw error; // new data lack the root: show the first shape, with a note
       this.#range = { first: 0, count: 1 };
       this.#texture.dispatchEvent({ type: 'note', message: error.message });
     }
-    const { data, textures } = this.#texture;
+    const { roots, textures } = this.#texture;
     const { transform, threshold, color, map, fold, time } = this.#options;
     const { first, count } = this.#range;
     /** @type {Record<string, unknown>} */
     const values = {
       vextureTexels: textures.texels ?? null,
       vexturePaints: textures.layers ?? null,
-      vextureQuads: textures.quads ?? null,
-      vextureCurves: textures.curves ?? null,
-      thesis_list_lengths: data.encoding === 'thesis' ? [data.quadCount, data.curveCount] : [0, 0],
-      vextureRootQuad: data.roots[first].quad,
+      ...this.#texture.maskReader()?.uniforms,
+      vextureRootQuad: roots[first].quad,
       vextureFirst: first,
       vextureCount: count,
       vextureTransform: transform,
@@ -198,6 +201,7 @@ export class VectorMask {
     this.set({ texture });
   }
 
+  /** @returns {string | number | null | undefined} */
   get root() {
     return this.#options.root;
   }
@@ -312,6 +316,7 @@ export class VectorMask {
   hits(u, v, root) {
     const { mode, background, invert } = this.#options;
     if (mode === 'mix' || (mode === 'paint' && background === 'own')) return true;
+    if (this.#isRootless && root === undefined) root = this.#texture.index();
     const { x, y } = lookedUp(u, v, this.#options);
     const first = root ?? this.#range.first;
     const end = root === undefined ? first + this.#range.count : root + 1;
@@ -344,8 +349,7 @@ export class VectorMask {
         material: this.#material,
         cuts: () => this.#options.mode === 'cut' || isTranslucent(this.#options),
         hits: (u, v, instance) => {
-          const { instanced } = this.#options;
-          const roots = instanced && instance !== undefined ? mesh.geometry.getAttribute(ROOT_ATTRIBUTE) : null;
+          const roots = this.#options.instanced ? mesh.geometry.getAttribute(ROOT_ATTRIBUTE) : null;
           return this.hits(u, v, roots?.getX(instance ?? 0));
         },
         key: () => JSON.stringify({ ...this.#variant(), mode: 'cut' }),

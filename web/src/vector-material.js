@@ -1,7 +1,7 @@
 import { MeshBasicMaterial } from 'three';
 import { VectorMask } from './vector-mask.js';
 
-/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
 
 /**
  * @typedef {object} ShapeParameters
@@ -61,6 +61,7 @@ export class VectorMaterial extends MeshBasicMaterial {
     }
   }
 
+  /** @returns {string | number | null | undefined} */
   get root() {
     return this.#mask ? this.#mask.root : this.#options.root;
   }

@@ -15,7 +15,8 @@ import { Shores } from './water-shore.js';
  * @property {number} [amount] 0: none, to 1
  *
  * @typedef {object} WaterShapeOptions
- * @property {string | number} [root] name or place of the shape in each texture
+ * @property {string | number | null} [root] name or place of the shape in each texture; needed if a texture holds
+ *   several shapes
  * @property {Matrix3} [transform] from the mesh's uv to the unit square; it may be changed at any time
  * @property {'exact' | 'fast'} [quality]
  * @property {Foam} [foam]
@@ -50,9 +51,6 @@ function stacked(first, second) {
 /** @param {VectorTexture} texture one that has been checked */
 const texelsOf = (texture) => /** @type {import('three').DataTexture} */ (texture.textures.texels);
 
-/** @param {VectorTexture} texture one that has been checked */
-const dataOf = (texture) => /** @type {import('./data.js').PackedData} */ (texture.data);
-
 /**
  * What the water is read from: a texture, or two while one turns into the other.
  */
@@ -77,7 +75,7 @@ export class WaterShape {
    * @param {(shown: boolean) => void} shown is told whether there is any water
    */
   constructor(texture, options, shown) {
-    const { root = 0, transform = new Matrix3(), quality = 'exact', foam = {}, shallow = null, flat = null } = options;
+    const { root, transform = new Matrix3(), quality = 'exact', foam = {}, shallow = null, flat = null } = options;
     if (!(quality in QUALITIES)) {
       throw new VextureError(`quality is ${line(quality)}; it must be one of ${Object.keys(QUALITIES).join(', ')}`, 'quality');
     }
@@ -220,7 +218,7 @@ export class WaterShape {
   #refresh() {
     const [texture, next] = [this.#texture, this.#next];
     this.#both?.dispose();
-    this.#both = texture && next && texture !== next ? stacked(dataOf(texture), dataOf(next)) : null;
+    this.#both = texture && next && texture !== next ? stacked(texture.data, next.data) : null;
     const textures = [texture, next].filter((one) => one !== null);
     this.#roots = new Map(textures.map((one) => [one, this.#quad(one)]));
     nothing ??= wordTexture(new Uint32Array(4), 1, 1);
@@ -231,7 +229,7 @@ export class WaterShape {
   /** Tell the shader which shapes to read; one that is not seen costs nothing. */
   #weigh() {
     const [texture, next] = [this.#texture, this.#next];
-    const below = this.#both && texture ? dataOf(texture).height : 0;
+    const below = this.#both && texture ? texture.data.height : 0;
     const shapes = [
       { texture, row: 0, share: 1 - this.#fade },
       { texture: next, row: below, share: this.#fade },
@@ -252,7 +250,7 @@ export class WaterShape {
     try {
       return texture.roots[texture.index(this.#root)].quad;
     } catch (error) {
-      if (!(error instanceof VextureError)) throw error; // the new shapes lack this one: show the first, and say so
+      if (!(error instanceof VextureError)) throw error; // new data lack the root: show the first shape, with a note
       texture.dispatchEvent({ type: 'note', message: error.message });
       return texture.roots[0].quad;
     }

@@ -67,7 +67,7 @@ export class ChosenLayer extends EventTarget {
 
   #reset() {
     const data = this.#engine.drawing?.texture.data;
-    this.#data = data?.encoding === 'packed' ? data : null;
+    this.#data = data ?? null;
     const { layers } = this;
     const stays = !this.#follows && layers.includes(this.#index);
     if (!stays) this.#index = layers.at(-1) ?? 0;

@@ -50,7 +50,7 @@ export function create(engine, _state) {
   function update() {
     const { document: opened, drawing } = engine;
     const data = drawing?.texture.data;
-    if (!opened || !drawing || data?.encoding !== 'packed') return;
+    if (!opened || !drawing || !data) return;
     const facts = opened.manifest.facts ?? {};
     const layers = data.roots.slice(drawing.first, drawing.first + drawing.count);
     const found = [...new Set(layers.map(({ quad }) => quad))].map((quad) => counts(data, quad));
