@@ -73,7 +73,7 @@ def bundle(entry: Path, output: Path, three: str = "three") -> None:
     command = [str(esbuild), str(entry), "--bundle", "--format=esm", f"--outfile={output}"]
     command += [f"--alias:vexture={WEB / 'src' / 'index.js'}"]
     command += [f"--alias:vexture/thesis={WEB / 'src' / 'thesis' / 'index.js'}"]
-    command += [f"--alias:vexture/water={WEB / 'src' / 'water.js'}"]
+    command += [f"--alias:vexture/water={WEB / 'src' / 'water' / 'index.js'}"]
     command += [f"--alias:three={WEB / 'node_modules' / three}"]
     command += [f"--alias:three/addons={WEB / 'node_modules' / three / 'examples' / 'jsm'}"]
     outcome = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=False)

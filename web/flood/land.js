@@ -2,7 +2,7 @@
 import {
   BufferAttribute, BufferGeometry, FrontSide, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial,
 } from 'three';
-import { earthTexture } from './drawn.js';
+import { earthTexture } from './canvas-textures.js';
 
 /** @typedef {import('./relief.js').Surface} Surface */
 

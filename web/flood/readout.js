@@ -1,7 +1,7 @@
 /** What is where a person points: wet or dry, how deep, and where that is. */
 import { Raycaster, Vector2 } from 'three';
 import { element } from '../viewer/dom.js';
-import { bytesOf } from '../viewer/scene.js';
+import { bytesOf } from '../viewer/library.js';
 import { Depths } from './depths.js';
 import { WATER } from './sea.js';
 

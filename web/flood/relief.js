@@ -26,7 +26,7 @@ export class Relief {
   /**
    * From the scene.
    *
-   * @param {import('./scene.js').ReliefFacts} facts
+   * @param {import('./page-data.js').ReliefFacts} facts
    * @param {ArrayBuffer} bytes
    */
   static read({ columns, rows, unit }, bytes) {

@@ -6,7 +6,7 @@ import { gridGeometry, LEAST_RISE, wallGeometry } from './land.js';
 /** @typedef {import('../src/vector-texture.js').VectorTexture} VectorTexture */
 /** @typedef {import('../src/vector-mask.js').VectorMask} VectorMask */
 /** @typedef {import('../src/fold-texture.js').FoldTexture} FoldTexture */
-/** @typedef {ReturnType<typeof import('../src/water.js').chooseWater>} Kind */
+/** @typedef {ReturnType<typeof import('../src/water/index.js').chooseWater>} Kind */
 
 const LOOK = Object.freeze({
   waterColor: 0x0d6480, sunColor: 0x7f8f98, distortionScale: 1.8, size: 15, shallow: 0x62b7aa, clipBias: 0.002,

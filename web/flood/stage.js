@@ -4,7 +4,7 @@ import {
   SphereGeometry, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { skyTexture } from './drawn.js';
+import { skyTexture } from './canvas-textures.js';
 import { Land } from './land.js';
 import { FIELD, between, pose, sunOver } from './presets.js';
 import { mostSamples, sharpen } from './sharpness.js';

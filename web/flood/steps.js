@@ -4,10 +4,10 @@ import { LiveVectorTexture } from '../src/live-vector-texture.js';
 import { readPacked } from '../src/packed.js';
 import { backOff } from '../src/patience.js';
 import { VectorTexture } from '../src/vector-texture.js';
-import { bytesOf } from '../viewer/scene.js';
+import { bytesOf } from '../viewer/library.js';
 
 /**
- * @typedef {import('./scene.js').Manifest} Manifest
+ * @typedef {import('./page-data.js').Manifest} Manifest
  *
  * @typedef {object} Step
  * @property {string} name
@@ -46,7 +46,7 @@ export class Steps extends EventTarget {
   #prefix;
   #server;
 
-  /** @param {import('./scene.js').Scene} scene */
+  /** @param {import('./page-data.js').Scene} scene */
   constructor({ server, flood }) {
     super();
     this.#prefix = flood.prefix;

@@ -1,6 +1,6 @@
 /** The wooden box around the ground, and its shadow. */
 import { BoxGeometry, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial, PlaneGeometry } from 'three';
-import { shadowTexture, woodTexture } from './drawn.js';
+import { shadowTexture, woodTexture } from './canvas-textures.js';
 
 const THICK = 2.2;
 /** From the lower border of the earth: how far the planks stand up, and how far down. */

@@ -1,7 +1,7 @@
 // The layers texture, from which a shader reads each root's quad, paint and bounds.
 import { MOST_ROWS } from '../generated/layout.js';
 import { VextureError } from './errors.js';
-import { layerRange } from './shapes.js';
+import { layerRange } from './select-root.js';
 import { wordTexture } from './upload.js';
 import { bounds } from './walk.js';
 
@@ -53,7 +53,7 @@ function outwards([x0, y0, x1, y1]) {
  * Range of a drawing's layers in the layers texture.
  *
  * @param {import('./data.js').PackedData} data
- * @param {import('./shapes.js').RootChoice} root
+ * @param {import('./select-root.js').RootChoice} root
  * @returns {{ first: number, count: number }}
  * @throws {VextureError} if there is no such drawing, several and no choice, or it lies beyond the texture's rows
  */

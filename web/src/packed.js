@@ -8,10 +8,10 @@ import {
   TEXT_ROOTS,
   TEXT_VERSION,
 } from '../generated/layout.js';
-import { checkForest } from './packed-check.js';
+import { checkForest } from './check-texels.js';
 import { REMEDY, VextureError, line } from './errors.js';
 import { readKtx2 } from './ktx2.js';
-import { readRoots } from './roots.js';
+import { readRoots } from './read-roots.js';
 
 /**
  * Read a packed texture and check it.

@@ -1,13 +1,13 @@
 import { EventDispatcher } from 'three';
 import { layersOf, layersTexture } from './layers.js';
-import { shapeIndex } from './shapes.js';
+import { shapeIndex } from './select-root.js';
 import { wordTexture } from './upload.js';
 import { contains } from './walk.js';
 
 /** @typedef {import('three').DataTexture} DataTexture */
 /** @typedef {import('./data.js').TextureData} TextureData */
 /** @typedef {import('./data.js').PackedData} PackedData */
-/** @typedef {import('./shapes.js').RootChoice} RootChoice */
+/** @typedef {import('./select-root.js').RootChoice} RootChoice */
 
 /** @typedef {VectorTexture<TextureData>} AnyVectorTexture a texture of any encoding */
 

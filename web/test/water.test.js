@@ -5,8 +5,8 @@ import { VextureError } from '../src/errors.js';
 import { insert } from '../src/hooks.js';
 import { readPacked } from '../src/packed.js';
 import { VectorTexture } from '../src/vector-texture.js';
-import { SimpleWater, VectorWater, waterNormals } from '../src/water.js';
-import { waterTexts } from '../src/water-shader.js';
+import { SimpleWater, VectorWater, waterNormals } from '../src/water/index.js';
+import { waterTexts } from '../src/water/shader.js';
 import { fixture } from './files.js';
 
 const read = async (/** @type {string} */ name) => new VectorTexture(await readPacked(fixture(`${name}.ktx2`), name));

@@ -2,13 +2,13 @@
 import { BrowserSvg } from './browser-svg.js';
 import { element } from './dom.js';
 import { rasterRival } from './rivals.js';
-import { bytesOf } from './scene.js';
+import { bytesOf } from './library.js';
 import { thesisRival } from './thesis-rival.js';
 
 /**
  * @typedef {import('./engine.js').Engine} Engine
  * @typedef {import('./state.js').State} State
- * @typedef {import('./scene.js').Document} Document
+ * @typedef {import('./library.js').Document} Document
  */
 
 const STEP = 0.02;

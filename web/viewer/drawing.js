@@ -1,5 +1,5 @@
 // The drawings of a texture, and the one that is shown.
-import { drawingOf } from '../src/shapes.js';
+import { drawingOf } from '../src/select-root.js';
 
 /**
  * @typedef {object} ShownDrawing

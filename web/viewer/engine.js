@@ -24,7 +24,7 @@ export class Engine extends EventTarget {
   overlayUniforms = {};
   /** @type {import('./drawing.js').ShownDrawing | null} */
   drawing = null;
-  /** @type {import('./scene.js').Document | null} */
+  /** @type {import('./library.js').Document | null} */
   document = null;
   /** @type {Size} */
   size = { width: 1, height: 1 };
@@ -76,7 +76,7 @@ export class Engine extends EventTarget {
   /**
    * Show a shape; what was shown stays on the canvas until this can be drawn.
    *
-   * @param {import('./scene.js').Document} document
+   * @param {import('./library.js').Document} document
    */
   async show(document) {
     this.document = document;

@@ -1,7 +1,7 @@
 /** The cell under the pointer: its curves with their control points, and how a point's being inside is found. */
 import { cellAt, contains } from '../src/walk.js';
 import { chosenLayer } from './chosen-layer.js';
-import { drawCell } from './cell-drawing.js';
+import { drawCell } from './cell-figure.js';
 import { element, section } from './dom.js';
 import { watchPointer } from './pointer.js';
 import { nearestCurve, solutionsAt } from './solutions.js';
@@ -11,7 +11,7 @@ import { svgElement, svgLayer } from './svg.js';
  * @typedef {import('./engine.js').Engine} Engine
  * @typedef {import('./state.js').State} State
  * @typedef {[number, number]} Point
- * @typedef {import('./cell-drawing.js').Found} Found
+ * @typedef {import('./cell-figure.js').Found} Found
  */
 
 /** Milliseconds between two texts that a screen reader is given. */

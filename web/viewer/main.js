@@ -9,7 +9,7 @@ import { ZOOM_STEP, listen } from './gestures.js';
 import { followLink, linkTo, linkedView } from './link.js';
 import { Notes } from './notes.js';
 import { createPanel, createTools } from './panel.js';
-import { Library, readScene } from './scene.js';
+import { Library, readScene } from './library.js';
 import { START, State, THEMES } from './state.js';
 import { applyTheme, watchSystemTheme } from './theme.js';
 
@@ -116,7 +116,7 @@ async function openFiles(files, state, library) {
   }
 }
 
-/** What is to be said of a shape while it is shown. @param {import('./scene.js').Document} document */
+/** What is to be said of a shape while it is shown. @param {import('./library.js').Document} document */
 function noteOf({ name, manifest }) {
   return manifest.note ?? (manifest.facts?.segments === 0 ? `Nothing is drawn in ${name}.` : '');
 }
@@ -128,7 +128,7 @@ function noteOf({ name, manifest }) {
  */
 function opener(engine, state, library, opened) {
   let turn = 0;
-  /** @type {import('./scene.js').Document | null} */
+  /** @type {import('./library.js').Document | null} */
   let current = null;
   const again = () => {
     if (!current) return;

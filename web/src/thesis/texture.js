@@ -41,7 +41,7 @@ export class ThesisTexture extends VectorTexture {
    * @override
    * @param {number} u
    * @param {number} v upwards
-   * @param {import('../shapes.js').RootChoice} [root] 0 or the texture's name; not needed
+   * @param {import('../select-root.js').RootChoice} [root] 0 or the texture's name; not needed
    * @returns {boolean}
    */
   contains(u, v, root) {

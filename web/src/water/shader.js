@@ -1,8 +1,8 @@
 // What water adds to a shader: declarations, and lines that call the functions of src/vexture/glsl/water.glsl.
-import { fold } from '../generated/fold-shader.js';
-import { QUALITIES, WRAPS, steps } from '../generated/shaders.js';
-import { shore, water } from '../generated/water-shader.js';
-import { foldLines, footprint } from './mask-shader.js';
+import { fold } from '../../generated/fold-shader.js';
+import { QUALITIES, WRAPS, steps } from '../../generated/shaders.js';
+import { shore, water } from '../../generated/water-shader.js';
+import { foldLines, footprint } from '../mask-shader.js';
 
 /** @typedef {keyof typeof QUALITIES} Quality */
 
@@ -72,7 +72,7 @@ if (vextureHere.coverage == 0.0) discard;`;
  * Texts for the hooks in the shader of three.js' Water.
  *
  * @param {Quality} quality
- * @returns {Partial<Record<import('./hooks.js').HookName, string>>}
+ * @returns {Partial<Record<import('../hooks.js').HookName, string>>}
  */
 export function waterTexts(quality) {
   return {

@@ -4,7 +4,7 @@ import { VectorWater } from './vector-water.js';
 
 export { SimpleWater } from './simple-water.js';
 export { VectorWater } from './vector-water.js';
-export { waterNormals } from './water-normals.js';
+export { waterNormals } from './normals.js';
 
 /** Gigabytes of memory up to which a device gets the simple water. */
 const LITTLE_MEMORY = 4;

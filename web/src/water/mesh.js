@@ -1,10 +1,10 @@
 // What all kinds of water are, whatever they look like: a mesh with a shape, in time.
-import { VextureError, line } from './errors.js';
-import { FOLD } from './water-shader.js';
+import { VextureError, line } from '../errors.js';
+import { FOLD } from './shader.js';
 
-/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
-/** @typedef {import('./water-shape.js').WaterShape} WaterShape */
-/** @typedef {import('./fold-texture.js').FoldTexture} FoldTexture */
+/** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('./shape.js').WaterShape} WaterShape */
+/** @typedef {import('../fold-texture.js').FoldTexture} FoldTexture */
 /** @typedef {import('three').ColorRepresentation} ColorRepresentation */
 /** @typedef {import('three').Mesh<import('three').BufferGeometry, import('three').ShaderMaterial>} WaterMesh */
 
@@ -104,7 +104,7 @@ export function watered(base) {
       return this.shape.foam;
     }
 
-    set foam(/** @type {import('./water-shape.js').Foam} */ foam) {
+    set foam(/** @type {import('./shape.js').Foam} */ foam) {
       this.shape.foam = foam;
     }
 

@@ -1,15 +1,15 @@
 import { Water } from 'three/addons/objects/Water.js';
-import { insert } from './hooks.js';
-import { SEA, checkGeometry, watered } from './water-mesh.js';
-import { waterNormals } from './water-normals.js';
-import { waterTexts } from './water-shader.js';
-import { WaterShape } from './water-shape.js';
+import { insert } from '../hooks.js';
+import { SEA, checkGeometry, watered } from './mesh.js';
+import { waterNormals } from './normals.js';
+import { waterTexts } from './shader.js';
+import { WaterShape } from './shape.js';
 
-/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
 
 /**
- * @typedef {import('./water-shape.js').WaterShapeOptions & import('three/addons/objects/Water.js').WaterOptions
- *   & { size?: number, fold?: import('./fold-texture.js').FoldTexture | null }} VectorWaterOptions
+ * @typedef {import('./shape.js').WaterShapeOptions & import('three/addons/objects/Water.js').WaterOptions
+ *   & { size?: number, fold?: import('../fold-texture.js').FoldTexture | null }} VectorWaterOptions
  *   `size` is that of three.js' uniform: how small the waves are
  */
 

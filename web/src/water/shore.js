@@ -12,7 +12,7 @@ import {
   WebGLRenderTarget,
 } from 'three';
 import { FullScreenQuad } from 'three/addons/postprocessing/Pass.js';
-import { SHORE_SHADER, SPREAD_SHADER } from './water-shader.js';
+import { SHORE_SHADER, SPREAD_SHADER } from './shader.js';
 
 /**
  * @typedef {object} Shape

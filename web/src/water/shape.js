@@ -1,11 +1,11 @@
 // The shape of water: which textures it is read from, and what the shader is told of them.
 import { Color, Matrix3, Vector2, Vector4 } from 'three';
-import { QUALITIES } from '../generated/shaders.js';
-import { VextureError, line } from './errors.js';
-import { wordTexture } from './upload.js';
-import { Shores } from './water-shore.js';
+import { QUALITIES } from '../../generated/shaders.js';
+import { VextureError, line } from '../errors.js';
+import { wordTexture } from '../upload.js';
+import { Shores } from './shore.js';
 
-/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
 
 /**
  * @typedef {object} Foam
@@ -33,8 +33,8 @@ let nothing = /** @type {import('three').DataTexture | null} */ (null);
 /**
  * Texels of two textures in one image, the second's below the first's.
  *
- * @param {import('./data.js').PackedData} first
- * @param {import('./data.js').PackedData} second
+ * @param {import('../data.js').PackedData} first
+ * @param {import('../data.js').PackedData} second
  */
 function stacked(first, second) {
   const width = Math.max(first.width, second.width);

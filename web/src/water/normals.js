@@ -1,5 +1,5 @@
 import { DataTexture, LinearFilter, LinearMipmapLinearFilter, RepeatWrapping } from 'three';
-import { VextureError, line } from './errors.js';
+import { VextureError, line } from '../errors.js';
 
 /** Waves that are summed. */
 const WAVES = 40;
