@@ -1,4 +1,4 @@
-/** The ground: its surface, and the sides along which it is cut. */
+/** The ground: its surface, and the sides of the cut-out box. */
 import {
   BufferAttribute, BufferGeometry, FrontSide, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial,
 } from 'three';

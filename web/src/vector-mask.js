@@ -15,7 +15,7 @@ import { FOOTPRINT, ROOT_ATTRIBUTE, texts } from './mask-shader.js';
 /** @type {WeakMap<import('three').Material, VectorMask>} */
 const MASKS = new WeakMap();
 
-/** A shape as a mask of a material. Made by `applyVectorMask`; what is set here shows in the next picture. */
+/** A shape as the mask of a material, made by `applyVectorMask`. Changes take effect in the next frame. */
 export class VectorMask {
   #material;
   #texture;
@@ -101,7 +101,7 @@ export class VectorMask {
     else this.#range = inLayers ? this.#texture.layersOf(root) : { first: this.#texture.index(root), count: 1 };
   }
 
-  /** Give the shader what the texture and the options are now. */
+  /** Update the uniforms from the texture and the options. */
   #refresh() {
     try {
       this.#resolve();
@@ -156,11 +156,11 @@ export class VectorMask {
   }
 
   /**
-   * Change several at once that only go together, such as a texture and a shape of it. Either all of it is changed or,
-   * after an error, nothing.
+   * Change several options at once, such as a texture and its root. After an error nothing is changed.
    *
    * @param {MaskOptions & { texture?: VectorTexture }} changes
-   * @throws {VextureError} if they do not go together, or there is no such root
+   * @throws {VextureError} if an option is out of range, options exclude each other, or the root is unknown or
+   *   ambiguous
    */
   set({ texture = this.#texture, ...changes }) {
     const [texturedBefore, before] = [this.#texture, this.#options];
@@ -179,7 +179,7 @@ export class VectorMask {
     }
   }
 
-  /** All of it, as `applyVectorMask` takes it. */
+  /** The options, as `applyVectorMask` takes them. */
   get options() {
     return { ...this.#options };
   }
@@ -295,7 +295,7 @@ export class VectorMask {
     this.set({ fold });
   }
 
-  /** Seconds of the fold: set it for every picture, it costs nothing. */
+  /** Time of the fold in seconds; cheap to set in every frame. */
   get time() {
     return this.#options.time;
   }
@@ -306,11 +306,11 @@ export class VectorMask {
   }
 
   /**
-   * Whether the masked surface is at a place of a mesh: a click on a hole misses.
+   * Whether the masked surface covers a point of a mesh; false in a hole.
    *
    * @param {number} u
    * @param {number} v the mesh's uv
-   * @param {number} [root] place of another root than the mask's
+   * @param {number} [root] place of another shape than the mask's
    * @returns {boolean}
    */
   hits(u, v, root) {
@@ -327,7 +327,7 @@ export class VectorMask {
   }
 
   /**
-   * Let rays through a mesh where the shape is not, and light where the mask draws nothing.
+   * Let rays and light pass through a mesh outside the shape.
    *
    * @param {import('./mask-mesh.js').Masked} mesh that has this material
    * @returns {this}
@@ -360,7 +360,7 @@ export class VectorMask {
   }
 
   /**
-   * Take back what `attach` did.
+   * Undo `attach`.
    *
    * @param {import('./mask-mesh.js').Masked} mesh
    */
@@ -369,7 +369,7 @@ export class VectorMask {
     this.#meshes.delete(mesh);
   }
 
-  /** Make the material and all meshes what they were. The texture stays: others may use it. */
+  /** Restore the material and all meshes. The texture, which others may use, is not disposed of. */
   remove() {
     for (const mesh of [...this.#meshes.keys()]) this.detach(mesh);
     this.#takeBack();
@@ -379,14 +379,14 @@ export class VectorMask {
     if (MASKS.get(this.#material) === this) MASKS.delete(this.#material);
   }
 
-  /** The same as `remove`: it frees what the mask itself has on the GPU. */
+  /** The same as `remove`, which frees the mask's own GPU memory. */
   dispose() {
     this.remove();
   }
 }
 
 /**
- * Uniform of the inside map's own transform, as it is when a picture is drawn: three.js looks at its maps then, too.
+ * Uniform with the transform of the inside map, read when a frame is drawn, as three.js reads those of its own maps.
  *
  * @param {() => Pick<MaskOptions, 'map' | 'transform'>} options
  */
@@ -401,20 +401,21 @@ function mapTransform(options) {
 }
 
 /**
- * Make a shape the mask of any built-in mesh material, or of a sprite's. A clone of the material has none.
+ * Mask a built-in mesh material or sprite material with a shape. A clone of the material has no mask.
  *
- * @param {import('three').Material} material which may have an `onBeforeCompile` of its own already: it runs first
+ * @param {import('three').Material} material its own `onBeforeCompile`, if any, runs first
  * @param {VectorTexture} texture
  * @param {MaskOptions} [options]
  * @returns {VectorMask}
- * @throws {VextureError} if the material has a mask, or a shader that cannot be masked; if there is no such root
+ * @throws {VextureError} if the material has a mask already or cannot be masked, or the root is unknown or
+ *   ambiguous
  */
 export function applyVectorMask(material, texture, options) {
   return new VectorMask(material, texture, options);
 }
 
 /**
- * Attribute for the geometry of an `InstancedMesh`, by the name `vextureRoot`: which shape each instance shows.
+ * Attribute `vextureRoot` for the geometry of an `InstancedMesh`: the shape of each instance.
  *
  * @param {VectorTexture} texture
  * @param {readonly (string | number)[]} roots names or places in `texture.roots`, one for each instance

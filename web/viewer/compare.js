@@ -1,4 +1,4 @@
-/** The divider: this texture on its left, another way to hold the drawing on its right. */
+/** The divider: this texture on its left, another representation of the drawing on its right. */
 import { BrowserSvg } from './browser-svg.js';
 import { element } from './dom.js';
 import { rasterRival } from './rivals.js';

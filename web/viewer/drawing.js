@@ -3,7 +3,7 @@ import { drawingOf } from '../src/select-root.js';
 
 /**
  * @typedef {object} ShownDrawing
- * @property {import('../src/vector-texture.js').VectorTexture} texture a packed one
+ * @property {import('../src/vector-texture.js').VectorTexture} texture
  * @property {string} name
  * @property {number} first layer
  * @property {number} count of layers
@@ -25,7 +25,7 @@ export function drawingNames(texture) {
 const isBlack = (root) => !root.paint || (root.paint.opacity === 1 && root.paint.color.every((part) => part === 0));
 
 /**
- * The drawing of a name, or the first one if there is none of it.
+ * The drawing of a name, or the first one if there is no such drawing.
  *
  * @param {import('../src/vector-texture.js').VectorTexture} texture
  * @param {string} name

@@ -1,4 +1,4 @@
-// The shape of water: which textures it is read from, and what the shader is told of them.
+// The shape of water: the textures it is read from, and their uniforms.
 import { Color, Matrix3, Vector2, Vector4 } from 'three';
 import { QUALITIES } from '../../generated/shaders.js';
 import { VextureError, line } from '../errors.js';
@@ -9,29 +9,29 @@ import { Shores } from './shore.js';
 
 /**
  * @typedef {object} Foam
- * @property {number} [width] of the strip along the shore with foam and shallows, in units of the unit square; 0: none
+ * @property {number} [width] of the foam and shallows along the shore, in unit-square units; 0: none
  * @property {number} [period] seconds from one line of foam to the next
  * @property {import('three').ColorRepresentation} [color]
- * @property {number} [amount] 0: none, to 1
+ * @property {number} [amount] 0 (none) to 1
  *
  * @typedef {object} WaterShapeOptions
  * @property {string | number | null} [root] name or place of the shape in each texture; needed if a texture holds
  *   several shapes
- * @property {Matrix3} [transform] from the mesh's uv to the unit square; it may be changed at any time
+ * @property {Matrix3} [transform] from the mesh's uv to the unit square; its elements may be changed at any time
  * @property {'exact' | 'fast'} [quality]
  * @property {Foam} [foam]
- * @property {import('three').ColorRepresentation | null} [shallow] colour of the water on the shore; null: as elsewhere
- * @property {import('three').ColorRepresentation | null} [flat] the one colour of all the water, without light and tone
- *   mapping, for measurements; null: as water looks
+ * @property {import('three').ColorRepresentation | null} [shallow] colour of the water at the shore; null: as elsewhere
+ * @property {import('three').ColorRepresentation | null} [flat] uniform colour of the water, without lighting and tone
+ *   mapping, for measurements; null: none
  */
 
 const FOAM = Object.freeze({ width: 0, period: 7, color: 0xf2f6f7, amount: 0.9 });
 
-/** What a shader reads while there is no texture: nothing of it, but it must be of this kind. */
+/** Bound while there is no texture: the shader does not read it, but its sampler needs an integer texture. */
 let nothing = /** @type {import('three').DataTexture | null} */ (null);
 
 /**
- * Texels of two textures in one image, the second's below the first's.
+ * Texels of two textures in one image, the second below the first.
  *
  * @param {import('../data.js').PackedData} first
  * @param {import('../data.js').PackedData} second
@@ -48,11 +48,11 @@ function stacked(first, second) {
   return wordTexture(words, width, first.height + second.height);
 }
 
-/** @param {VectorTexture} texture one that has been checked */
+/** @param {VectorTexture} texture a checked one */
 const texelsOf = (texture) => /** @type {import('three').DataTexture} */ (texture.textures.texels);
 
 /**
- * What the water is read from: a texture, or two while one turns into the other.
+ * The texture that the water is read from, or two during a fade.
  */
 export class WaterShape {
   /** @type {VectorTexture | null} */
@@ -60,10 +60,10 @@ export class WaterShape {
   /** @type {VectorTexture | null} */
   #next = null;
   #fade = 0;
-  /** @type {import('three').DataTexture | null} both, while one turns into the other */
+  /** @type {import('three').DataTexture | null} both, during a fade */
   #both = null;
   #shores = new Shores();
-  /** @type {Map<VectorTexture, number>} each texture's root */
+  /** @type {Map<VectorTexture, number>} root quad of each texture */
   #roots = new Map();
   #root;
   #shown;
@@ -72,7 +72,7 @@ export class WaterShape {
   /**
    * @param {VectorTexture | null} texture
    * @param {WaterShapeOptions} options
-   * @param {(shown: boolean) => void} shown is told whether there is any water
+   * @param {(shown: boolean) => void} shown called with whether there is any water
    */
   constructor(texture, options, shown) {
     const { root, transform = new Matrix3(), quality = 'exact', foam = {}, shallow = null, flat = null } = options;
@@ -172,9 +172,9 @@ export class WaterShape {
   }
 
   /**
-   * Draw the rasters along the shores, if anything that they show has changed.
+   * Draw the shore rasters, if their shapes have changed.
    *
-   * @param {import('three').WebGLRenderer} renderer which is about to draw the water
+   * @param {import('three').WebGLRenderer} renderer that is about to draw the water
    */
   prepare(renderer) {
     const shapes = [...this.#roots].map(([one, quad]) => ({ texels: texelsOf(one), quad }));
@@ -186,7 +186,7 @@ export class WaterShape {
     vextureBox.value.set(reach, reach - texel);
   }
 
-  /** Follow no texture any more, and free what is not the textures' own. */
+  /** Stop following textures, and free all GPU memory but theirs. */
   dispose() {
     this.#put(null, null);
     this.#shores.dispose();
@@ -214,7 +214,7 @@ export class WaterShape {
     this.#refresh();
   }
 
-  /** Give the shader what the textures hold now. */
+  /** Update the uniforms from the textures. */
   #refresh() {
     const [texture, next] = [this.#texture, this.#next];
     this.#both?.dispose();
@@ -226,7 +226,7 @@ export class WaterShape {
     this.#weigh();
   }
 
-  /** Tell the shader which shapes to read; one that is not seen costs nothing. */
+  /** Set the shapes that the shader reads and their weights; a shape of weight 0 is not read. */
   #weigh() {
     const [texture, next] = [this.#texture, this.#next];
     const below = this.#both && texture ? texture.data.height : 0;

@@ -21,11 +21,11 @@ import { WaterShape } from './shape.js';
  *   side?: import('three').Side,
  *   fog?: boolean,
  *   fold?: import('../fold-texture.js').FoldTexture | null,
- * }} SimpleWaterOptions those of `VectorWater`, of which the mirror's say nothing here; and the sky's colours above and
- *   at its edge, which this water mirrors instead of the scene
+ * }} SimpleWaterOptions those of `VectorWater`, except for its mirror; and the colours of the sky at the zenith and at
+ *   the horizon, which this water mirrors instead of the scene
  */
 
-/** Water for phones: it mirrors two colours of a sky instead of the scene, and is `VectorWater` in all else. */
+/** Water for phones: like `VectorWater`, but it mirrors a sky of two colours instead of the scene. */
 export class SimpleWater extends watered(
   /** @type {new (...args: any[]) => import('./mesh.js').WaterMesh} */ (Mesh),
 ) {
@@ -33,7 +33,7 @@ export class SimpleWater extends watered(
    * @param {import('three').BufferGeometry} geometry a plane, as `VectorWater` takes it
    * @param {VectorTexture | null} texture
    * @param {SimpleWaterOptions} [options]
-   * @throws {VextureError} if an option is wrong
+   * @throws {VextureError} if an option is out of range
    */
   constructor(geometry, texture, options = {}) {
     checkGeometry(geometry);
