@@ -6,6 +6,7 @@ import { MaskedMesh } from './mask-mesh.js';
 import { lookedUp } from './mask-lookup.js';
 import { checkOptions, complete, isTranslucent } from './mask-options.js';
 import { FOOTPRINT, ROOT_ATTRIBUTE, texts } from './mask-shader.js';
+import { mapTransform, uniformValues } from './mask-uniforms.js';
 
 /** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
 /** @typedef {import('./mask-shader.js').Variant} Variant */
@@ -110,25 +111,7 @@ export class VectorMask {
       this.#range = { first: 0, count: 1 };
       this.#texture.dispatchEvent({ type: 'note', message: error.message });
     }
-    const { roots, textures } = this.#texture;
-    const { transform, threshold, color, map, fold, time } = this.#options;
-    const { first, count } = this.#range;
-    /** @type {Record<string, unknown>} */
-    const values = {
-      vextureTexels: textures.texels ?? null,
-      vexturePaints: textures.layers ?? null,
-      ...this.#texture.maskReader()?.uniforms,
-      vextureRootQuad: roots[first].quad,
-      vextureFirst: first,
-      vextureCount: count,
-      vextureTransform: transform,
-      vextureThreshold: threshold,
-      vextureInside: color instanceof Color ? color : this.#inside.set(color),
-      vextureInsideMap: map,
-      vextureFolding: fold?.texture ?? null,
-      vextureCycle: fold?.cycle ?? 0,
-      vextureTime: fold?.clock(time) ?? 0,
-    };
+    const values = uniformValues(this.#texture, this.#options, this.#range, this.#inside);
     for (const [name, value] of Object.entries(values)) (this.#uniforms[name] ??= { value }).value = value;
     this.#material.transparent = isTranslucent(this.#options) || this.#transparent;
     const key = JSON.stringify(this.#variant());
@@ -383,21 +366,6 @@ export class VectorMask {
   dispose() {
     this.remove();
   }
-}
-
-/**
- * Uniform with the transform of the inside map, read when a frame is drawn, as three.js reads those of its own maps.
- *
- * @param {() => Pick<MaskOptions, 'map' | 'transform'>} options
- */
-function mapTransform(options) {
-  return {
-    get value() {
-      const { map, transform } = options();
-      if (map?.matrixAutoUpdate) map.updateMatrix();
-      return map?.matrix ?? transform;
-    },
-  };
 }
 
 /**
