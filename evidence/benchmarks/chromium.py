@@ -67,12 +67,13 @@ def served(folder: Path) -> Iterator[str]:
 def bundle(entry: Path, output: Path, three: str = "three") -> None:
     """Bundle a module with all that it imports; `three` is the package that stands for three.js.
 
-    The entry's ``import ... from "vexture"`` is the package in web/, and so is ``"vexture/water"``.
+    The entry's ``import ... from "vexture"`` is the package in web/, and so are its other entries.
     """
     esbuild = WEB / "node_modules" / ".bin" / "esbuild"
     command = [str(esbuild), str(entry), "--bundle", "--format=esm", f"--outfile={output}"]
     command += [f"--alias:vexture={WEB / 'src' / 'index.js'}"]
-    command += [f"--alias:vexture/water={WEB / 'src' / 'water.js'}"]
+    command += [f"--alias:vexture/thesis={WEB / 'src' / 'thesis' / 'index.js'}"]
+    command += [f"--alias:vexture/water={WEB / 'src' / 'water' / 'index.js'}"]
     command += [f"--alias:three={WEB / 'node_modules' / three}"]
     command += [f"--alias:three/addons={WEB / 'node_modules' / three / 'examples' / 'jsm'}"]
     outcome = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=False)

@@ -221,7 +221,7 @@ def test_a_click_on_a_hole_misses(page: Any) -> None:
 
 
 def test_what_is_changed_shows_in_the_next_picture(page: Any) -> None:
-    config = {"texture": "atlas", "mask": {}, "parameters": {"color": 0}, "size": 256}
+    config = {"texture": "atlas", "mask": {"root": 0}, "parameters": {"color": 0}, "size": 256}
     steps = [{"root": "cake"}, {"replace": "atlas"}, {"replace": "duck"}, {"root": 0}, {"texture": "thesis"}]
     steps += [
         {"texture": "border"},
@@ -267,6 +267,7 @@ def test_what_cannot_be_is_refused_in_one_line(page: Any) -> None:
         "mode": ("mode", "must be one of alpha, mix, cut, paint"),
         "colorless": ("mode", "use alpha or cut"),
         "root": ("root", "duck"),
+        "several": ("root", "atlas holds 4 shapes (holes, flame, cake, thumb); choose one by root"),
         "thesis": ("encoding", "convert the drawing to KTX2"),
         "mesh": ("mesh", "give each a mesh of its own"),
         "setter": ("wrap", "must be one of none, clamp, repeat"),

@@ -1,4 +1,4 @@
-/** How deep the water is, from a picture of it. */
+/** Depths of the water, from an image of them. */
 import { decode } from 'fast-png';
 
 export class Depths {

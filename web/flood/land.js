@@ -1,8 +1,8 @@
-/** The ground: its surface, and the sides along which it is cut. */
+/** The ground: its surface, and the sides of the cut-out box. */
 import {
   BufferAttribute, BufferGeometry, FrontSide, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial,
 } from 'three';
-import { earthTexture } from './drawn.js';
+import { earthTexture } from './canvas-textures.js';
 
 /** @typedef {import('./relief.js').Surface} Surface */
 

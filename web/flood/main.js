@@ -1,17 +1,17 @@
-/** The page of `vexture flood`: makes its elements, brings them together, and starts. */
+/** Entry of the page of `vexture flood`: makes and connects its elements, and starts. */
 import { Matrix3, SRGBColorSpace, TextureLoader } from 'three';
 import { FoldTexture } from '../src/fold-texture.js';
-import { SimpleWater, chooseWater } from '../src/water.js';
+import { SimpleWater, chooseWater } from '../src/water/index.js';
 import { element } from '../viewer/dom.js';
 import { Notes } from '../viewer/notes.js';
-import { bytesOf } from '../viewer/scene.js';
+import { bytesOf } from '../viewer/library.js';
 import { createPanel } from './panel.js';
 import { Places } from './place.js';
 import { Player } from './player.js';
 import { PRESETS } from './presets.js';
 import { createReadout } from './readout.js';
 import { Relief, Surface } from './relief.js';
-import { readScene } from './scene.js';
+import { readScene } from './page-data.js';
 import { Sea } from './sea.js';
 import { Stage } from './stage.js';
 import { Steps } from './steps.js';
@@ -22,7 +22,7 @@ import { Tray } from './tray.js';
 
 const DRY = 'Nothing is under water at this time.';
 
-/** Pixels of a side of what the water mirrors. */
+/** Side of the mirror's image in pixels. */
 const MIRROR = 512;
 
 const bare = new URLSearchParams(location.search).has('bare');
@@ -34,7 +34,7 @@ const canvas = element('canvas', {
 });
 const notes = new Notes();
 
-/** From places of the box to the unit square. @param {import('./scene.js').FrameFacts} frame */
+/** Transform from the box to the unit square. @param {import('./page-data.js').FrameFacts} frame */
 function boxTransform({ box: [u0, v0, u1, v1] }) {
   return new Matrix3().set(u1 - u0, 0, u0, 0, v1 - v0, v0, 0, 0, 1);
 }
@@ -47,7 +47,7 @@ async function pictureOf(url) {
   return texture;
 }
 
-/** Where the presets stand. @param {import('./scene.js').Flood} flood @param {Surface} surface */
+/** The scene's dimensions for the presets. @param {import('./page-data.js').Flood} flood @param {Surface} surface */
 function standOf({ shore }, surface) {
   const { places } = surface;
   const [x, y] = shore?.seaward ?? [0, -1];
@@ -60,7 +60,7 @@ function standOf({ shore }, surface) {
   };
 }
 
-/** Say why the last update of a step was refused, until one is not. @param {import('./steps.js').Step} step */
+/** Note why the last update of a step was refused, until one is accepted. @param {import('./steps.js').Step} step */
 function tell({ name, manifest }) {
   notes.keep(`step ${name}`, manifest.note ?? '');
 }
@@ -79,7 +79,7 @@ function follow(stage, player) {
   stage.addEventListener('restored', () => notes.keep('driver', ''));
 }
 
-/** Say what becomes of a server, for each texture once. */
+/** Note that a server is lost or back, once for each texture. */
 function listener() {
   const known = new WeakSet();
   return (/** @type {import('./steps.js').Step} */ step) => {
@@ -107,7 +107,7 @@ function listenToKeys(viewed, player) {
   });
 }
 
-/** What of the picture stands free. @param {Element} panel @param {Element} bar */
+/** The part of the canvas that nothing covers. @param {Element} panel @param {Element} bar */
 function insetOf(panel, bar) {
   const [over, below] = [panel.getBoundingClientRect(), bar.getBoundingClientRect()];
   const bottom = below.height;
@@ -141,7 +141,7 @@ async function start() {
 }
 
 /**
- * @param {Stage} stage @param {import('./scene.js').Scene} scene @param {Surface} surface
+ * @param {Stage} stage @param {import('./page-data.js').Scene} scene @param {Surface} surface
  * @param {FoldTexture | null} fold
  */
 async function run(stage, scene, surface, fold) {

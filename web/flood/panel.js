@@ -1,4 +1,4 @@
-/** What stands over the picture: title, views, relief, waves, notes. */
+/** The panel over the canvas: title, views, relief, waves, notes. */
 import { element } from '../viewer/dom.js';
 import { PRESETS } from './presets.js';
 

@@ -1,7 +1,7 @@
-// One place in its four ways: in the box (0..1 to the east and to the north), in the unit square, in the picture's
-// world (x east, y up, z south), and in the source's reference system.
+// Conversions between four coordinate systems: the box (0..1 to the east and to the north), the unit square, the world
+// of the scene (x east, y up, z south), and the source's reference system.
 
-/** @typedef {import('./scene.js').FrameFacts} FrameFacts */
+/** @typedef {import('./page-data.js').FrameFacts} FrameFacts */
 
 /** Length of the longer side of the box in the world. */
 export const SIDE = 100;

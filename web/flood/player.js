@@ -1,4 +1,4 @@
-/** Which step is shown, and going on from one to the next. */
+/** The shown step, and playback. */
 import { labelOf } from './steps.js';
 
 /** @typedef {import('./steps.js').Step} Step */
@@ -7,8 +7,8 @@ import { labelOf } from './steps.js';
 const PACE = 1000;
 
 /**
- * Events: `step` when another one is shown or its water has changed, `steps` when there are others, `play` when playing
- * begins or ends, `newer` when there is a newer one that is not shown, `failed` with the error in its `detail`.
+ * Events: `step` when another step is shown or its water has changed, `steps` when the list of steps changes, `play`
+ * when playback starts or stops, `newer` when there is a newer step that is not shown, `failed` with the error in `detail`.
  */
 export class Player extends EventTarget {
   #show;
@@ -26,8 +26,8 @@ export class Player extends EventTarget {
 
   /**
    * @param {import('./steps.js').Steps} steps
-   * @param {{show: (step: Step, fading: boolean) => void, prepare: (step: Step) => void}} how to show a step, and to
-   *   make all ready for showing it
+   * @param {{show: (step: Step, fading: boolean) => void, prepare: (step: Step) => void}} how shows a step; prepares
+   *   one for showing
    */
   constructor(steps, { show, prepare }) {
     super();
@@ -45,13 +45,13 @@ export class Player extends EventTarget {
     return this.names.length;
   }
 
-  /** Time of a step as far as it is known. @param {number} index */
+  /** Time of a step, or its name while the time is unknown. @param {number} index */
   label(index) {
     const name = this.names[index];
     return this.#labels.get(name) ?? name;
   }
 
-  /** The steps are others: show the newest, or stay where someone has gone back to. */
+  /** After a change of the list: show the newest step, or stay at an older one that the user chose. */
   #renamed() {
     const name = this.step?.name ?? '';
     const at = this.names.indexOf(name);
@@ -66,14 +66,14 @@ export class Player extends EventTarget {
     if (isNewer) this.dispatchEvent(new Event('newer'));
   }
 
-  /** Whether newer steps are shown as they come: until someone goes to another than the last. */
+  /** Whether newer steps are shown as they arrive; ends when the user chooses another than the last. */
   follows = true;
 
   /** @type {string | undefined} */
   #newest;
 
   /**
-   * Show a step once it is loaded; until then, and if it cannot be, the one before stays.
+   * Show a step once it is loaded; until then, or after an error, the shown one stays.
    *
    * @param {number} index
    */
@@ -82,7 +82,7 @@ export class Player extends EventTarget {
     await this.#go(index);
   }
 
-  /** Show the first step, and newer ones as they come. */
+  /** Show the first step, and newer ones as they arrive. */
   async start() {
     this.#newest = this.names[this.count - 1];
     await this.#go(0);
@@ -110,7 +110,7 @@ export class Player extends EventTarget {
       return;
     }
     const next = this.names[this.index + 1];
-    if (next !== undefined) this.#ready(next).catch(() => {}); // said when it is to be shown
+    if (next !== undefined) this.#ready(next).catch(() => {}); // reported when it is to be shown
   }
 
   #changed = () => {
@@ -127,7 +127,7 @@ export class Player extends EventTarget {
     return step;
   }
 
-  /** Go on by itself, from the start if this is the end. */
+  /** Start playback, from the first step if the last one is shown. */
   play() {
     if (this.playing || this.count < 2) return;
     this.playing = true;

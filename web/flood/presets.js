@@ -1,11 +1,11 @@
-/** Where the camera stands, from high in the sky to the beach. */
+/** Camera presets, from high in the sky to the beach. */
 
 /**
  * @typedef {{x: number, y: number, z: number}} Vector
- * @typedef {{from: Vector, to: Vector}} Pose where the camera is, and what it looks at
+ * @typedef {{from: Vector, to: Vector}} Pose position of the camera, and its target
  * @typedef {'Sky' | 'Bird' | 'Coast' | 'Shore' | 'Beach'} Preset
  *
- * @typedef {object} Stand what the presets go by
+ * @typedef {object} Stand the scene's dimensions that the presets depend on
  * @property {number} width of the box in the world
  * @property {number} depth
  * @property {number} low the box's lower end

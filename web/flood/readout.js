@@ -1,8 +1,9 @@
-/** What is where a person points: wet or dry, how deep, and where that is. */
+/** Readout at the pointer: wet or dry, depth, coordinates. */
 import { Raycaster, Vector2 } from 'three';
 import { element } from '../viewer/dom.js';
-import { bytesOf } from '../viewer/scene.js';
+import { bytesOf } from '../viewer/library.js';
 import { Depths } from './depths.js';
+import { WATER } from './sea.js';
 
 /** @typedef {import('./stage.js').Stage} Stage @typedef {import('./player.js').Player} Player */
 
@@ -37,7 +38,7 @@ export function createReadout(stage, player, surface, fold) {
       const bytes = new Uint8Array(await bytesOf(url, step.base));
       if (known.key === key) known = { key, depths: new Depths(bytes, deepest) };
     } catch {
-      return; // wet or dry is known without
+      return; // wet or dry does not depend on it
     }
     show();
   }
@@ -52,7 +53,7 @@ export function createReadout(stage, player, surface, fold) {
     const [s, t] = place;
     const [u, v] = places.toUnit(s, t);
     const moved = fold ? fold.at(u, v, stage.seconds) : { u, v };
-    const isWet = player.step.texture.contains(moved.u, moved.v);
+    const isWet = player.step.texture.contains(moved.u, moved.v, WATER);
     const depth = isWet ? known.depths?.at(s, t) : undefined;
     state.textContent = isWet ? (depth ? `Wet, ${metres(depth)} deep` : 'Wet') : 'Dry';
     where.textContent = `${places.text(u, v)} · ${places.crs}`;
@@ -73,7 +74,7 @@ export function createReadout(stage, player, surface, fold) {
   stage.canvas.addEventListener('pointerdown', point);
   stage.canvas.addEventListener('pointermove', point);
   stage.canvas.addEventListener('pointerleave', (event) => {
-    if (event.pointerType !== 'mouse') return; // what a finger touched stays to be read
+    if (event.pointerType !== 'mouse') return; // a touched point stays
     pointed = null;
     show();
   });
@@ -82,7 +83,7 @@ export function createReadout(stage, player, surface, fold) {
     show();
   });
   stage.addEventListener('frame', () => {
-    if (pointed) show(); // the waves have moved, or the camera
+    if (pointed) show(); // the waves or the camera may have moved
   });
   show();
   return region;

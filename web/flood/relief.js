@@ -1,10 +1,10 @@
-/** Heights of the ground, and where a look meets it. */
+/** Heights of the ground, and its intersection with rays. */
 
 /** How high the relief stands in the world at first, from its deepest to its highest. */
 const STANDING = 10;
 const MOST_EXAGGERATION = 60;
 
-/** Steps in which a look is followed through the box. */
+/** Steps of a ray through the box. */
 const MARCH = 400;
 const HALVINGS = 20;
 
@@ -26,7 +26,7 @@ export class Relief {
   /**
    * From the scene.
    *
-   * @param {import('./scene.js').ReliefFacts} facts
+   * @param {import('./page-data.js').ReliefFacts} facts
    * @param {ArrayBuffer} bytes
    */
   static read({ columns, rows, unit }, bytes) {
@@ -59,7 +59,7 @@ export class Relief {
   }
 
   /**
-   * Exaggeration at which the relief can be seen from high above.
+   * Vertical exaggeration at which the relief is visible from high above.
    *
    * @param {number} scale world units to a metre
    */
@@ -70,7 +70,7 @@ export class Relief {
   }
 }
 
-/** The surface that people see: the ground, and the water where the ground is below its level. */
+/** The visible surface: the ground, and the water where the ground is below its level. */
 export class Surface {
   /**
    * @param {Relief} relief
@@ -93,7 +93,7 @@ export class Surface {
   }
 
   /**
-   * Where a look meets the surface, as a place of the box; null where it goes past it.
+   * Intersection of a ray with the surface, in the box's coordinates; null without one.
    *
    * @param {Vector} from
    * @param {Vector} along
@@ -111,7 +111,7 @@ export class Surface {
     if (!(near < far) || far === Infinity) return null;
     const above = (/** @type {number} */ at) =>
       from.y + at * along.y - this.height(from.x + at * along.x, from.z + at * along.z);
-    if (above(near) < 0) return null; // it comes in through a side
+    if (above(near) < 0) return null; // it enters through a side
     let before = near;
     for (let step = 1; step <= MARCH; step++) {
       let at = near + ((far - near) * step) / MARCH;

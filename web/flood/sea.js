@@ -1,4 +1,4 @@
-/** The water: its surface over the ground, and what is seen of it along the cut sides. */
+/** The water: its surface over the ground, and its cross-section along the sides of the box. */
 import { BufferGeometry, Group, Mesh, MeshBasicMaterial } from 'three';
 import { applyVectorMask } from '../src/vector-mask.js';
 import { gridGeometry, LEAST_RISE, wallGeometry } from './land.js';
@@ -6,16 +6,18 @@ import { gridGeometry, LEAST_RISE, wallGeometry } from './land.js';
 /** @typedef {import('../src/vector-texture.js').VectorTexture} VectorTexture */
 /** @typedef {import('../src/vector-mask.js').VectorMask} VectorMask */
 /** @typedef {import('../src/fold-texture.js').FoldTexture} FoldTexture */
-/** @typedef {ReturnType<typeof import('../src/water.js').chooseWater>} Kind */
+/** @typedef {ReturnType<typeof import('../src/water/index.js').chooseWater>} Kind */
 
 const LOOK = Object.freeze({
   waterColor: 0x0d6480, sunColor: 0x7f8f98, distortionScale: 1.8, size: 15, shallow: 0x62b7aa, clipBias: 0.002,
   sky: 0x86b2d6, horizon: 0xd3e2ec,
 });
 const FOAM = Object.freeze({ width: 0.015, period: 6 });
+/** Place of the water among the shapes of a step's texture, which normally holds no other. */
+export const WATER = 0;
 /** Milliseconds of a cross-fade. */
 const FADE = 900;
-/** How much further inside the lower border of a wall looks into the shape: a look without width would see nothing. */
+/** Shift of a wall's lower border into the shape: with equal uv at both borders the footprint would be empty. */
 const INWARD = 1e-3;
 
 export class Sea {
@@ -32,18 +34,18 @@ export class Sea {
    * @param {Kind} Water
    * @param {import('./relief.js').Surface} surface
    * @param {{transform: import('three').Matrix3, fold: FoldTexture | null, sun: import('three').Vector3,
-   *   mirror: number}} how from the box to the unit square; what moves the shore; where the sun is; pixels of the
-   *   mirror's sides
+   *   mirror: number}} how from the box to the unit square; the fold of the shore; direction of the sun; side of
+   *   the mirror's image in pixels
    */
   constructor(Water, surface, { transform, fold, sun, mirror }) {
     this.#surface = surface;
     this.#transform = transform;
     this.#fold = fold;
     this.water = new Water(gridGeometry(surface, (height) => Math.max(0, height)), null, {
-      ...LOOK, transform, fold, foam: FOAM, sunDirection: sun, textureWidth: mirror, textureHeight: mirror,
+      ...LOOK, root: WATER, transform, fold, foam: FOAM, sunDirection: sun, textureWidth: mirror, textureHeight: mirror,
     });
     const { material } = this.water;
-    material.polygonOffset = true; // over the ground on which it lies, whatever the rounding
+    material.polygonOffset = true; // above the ground that it lies on, despite rounding
     material.polygonOffsetFactor = -1;
     material.polygonOffsetUnits = -4;
     this.water.rotation.x = -Math.PI / 2;
@@ -86,13 +88,13 @@ export class Sea {
     if (this.#mask) this.#mask.texture = texture;
     else {
       const [transform, fold] = [this.#transform, this.#fold];
-      this.#mask = applyVectorMask(this.walls.material, texture, { transform, fold, wrap: 'clamp' });
+      this.#mask = applyVectorMask(this.walls.material, texture, { root: WATER, transform, fold, wrap: 'clamp' });
     }
     this.walls.visible = !this.#isFlat;
   }
 
   /**
-   * Go on with a fade.
+   * Advance a fade.
    *
    * @returns {boolean} whether it goes on
    */
@@ -104,7 +106,7 @@ export class Sea {
     return true;
   }
 
-  /** Stand as high as the surface says. */
+  /** Follow the surface's exaggeration. */
   raise() {
     const { rise } = this.#surface;
     this.water.scale.z = Math.max(rise, LEAST_RISE);
@@ -114,13 +116,13 @@ export class Sea {
     }));
   }
 
-  /** Seconds, of waves and folds. */
+  /** Time of waves and folds, in seconds. */
   set time(/** @type {number} */ seconds) {
     this.water.time = seconds;
     if (this.#mask) this.#mask.time = seconds;
   }
 
-  /** The one colour of all water, or null. */
+  /** Uniform colour of the water, or null. */
   set flat(/** @type {import('three').ColorRepresentation | null} */ color) {
     this.#isFlat = color !== null;
     this.water.flat = color;

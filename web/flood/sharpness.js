@@ -1,11 +1,11 @@
-/** How sharply pictures are seen along the ground. */
+/** Anisotropic filtering of textures. */
 
-/** Renderers on the processor, by the names that drivers give. */
+/** Names of software renderers. */
 const SOFTWARE = /llvmpipe|softpipe|swiftshader|software|basic render/i;
 
 /**
- * Samples along a footprint that textures take: as many as the device offers. A renderer on the processor takes one:
- * its filter walks through the whole box of a footprint, which for one pixel on the horizon can take seconds.
+ * Anisotropy of textures: the device's maximum. A software renderer gets 1, since its filter visits the whole bounding
+ * box of a footprint, which can take seconds for one pixel on the horizon.
  *
  * @param {import('three').WebGLRenderer} renderer
  */
@@ -17,7 +17,7 @@ export function mostSamples(renderer) {
 }
 
 /**
- * Have all pictures of a scene seen so.
+ * Set it for all textures of a scene.
  *
  * @param {import('three').Object3D} scene
  * @param {number} samples

@@ -1,10 +1,10 @@
-/** The picture: everything that is drawn, from where it is seen, and when. */
+/** The rendered scene, its camera and its frames. */
 import {
   BackSide, Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene,
   SphereGeometry, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { skyTexture } from './drawn.js';
+import { skyTexture } from './canvas-textures.js';
 import { Land } from './land.js';
 import { FIELD, between, pose, sunOver } from './presets.js';
 import { mostSamples, sharpen } from './sharpness.js';
@@ -15,7 +15,7 @@ import { Tray } from './tray.js';
 const MOST_RATIO = 2;
 const FLIGHT = 2600; // ms
 const SKY = 900;
-/** World units between the camera and whatever is below it, at least. */
+/** Least height of the camera above the surface, in world units. */
 const CLEARANCE = 0.25;
 const MOST_DISTANCE = 420;
 /** Colours of the flat picture, for measurements: the ground and all around it, the water. */
@@ -24,7 +24,7 @@ const FLAT = Object.freeze({ ground: 0x000000, water: 0xffffff });
 const STILL = matchMedia('(prefers-reduced-motion: reduce)');
 
 /**
- * Events: `frame` after each picture, `relief` when it stands higher or lower, `lost` and `restored` of the driver.
+ * Events: `frame` after each frame, `relief` when the exaggeration changes, `lost` and `restored` for the context.
  */
 export class Stage extends EventTarget {
   #stand;
@@ -121,14 +121,14 @@ export class Stage extends EventTarget {
   /** Pixels at the borders that something stands over: the middle of the picture is between. */
   inset = () => /** @type {{left?: number, top?: number, right?: number, bottom?: number}} */ ({});
 
-  /** All is as high as the surface says. */
+  /** Follow the surface's exaggeration. */
   #settle() {
     this.land.raise();
     this.sea.raise();
     this.tray.group.position.y = this.land.floor;
   }
 
-  /** Times that heights are exaggerated. @param {number} times */
+  /** Set the vertical exaggeration. @param {number} times */
   relief(times) {
     this.surface.exaggeration = times;
     this.#settle();
@@ -150,7 +150,7 @@ export class Stage extends EventTarget {
   /** @param {Preset} preset @param {{fly?: boolean}} [how] */
   view(preset, { fly = true } = {}) {
     const end = this.pose(preset);
-    this.controls.enableDamping = false; // what is left of a turn would lead astray
+    this.controls.enableDamping = false; // leftover inertia would change the view
     this.controls.update();
     this.controls.enableDamping = !STILL.matches;
     if (fly && !STILL.matches) {
@@ -170,7 +170,7 @@ export class Stage extends EventTarget {
     this.camera.lookAt(this.controls.target);
   }
 
-  /** Camera where it may be. */
+  /** Keep the camera within its limits. */
   #move() {
     const flight = this.#flight;
     if (flight) {
@@ -191,7 +191,7 @@ export class Stage extends EventTarget {
     this.camera.updateMatrixWorld();
   }
 
-  /** Waves stand, or move again. @param {boolean} moving */
+  /** Stop or start the waves. @param {boolean} moving */
   set waving(moving) {
     this.#waving = moving;
     this.#last = 0;
@@ -202,19 +202,19 @@ export class Stage extends EventTarget {
     return this.#waving;
   }
 
-  /** Hold the clock of waves and folds at a time, or let it go. @param {number | null} seconds */
+  /** Stop the clock of waves and folds at a time, or with null let it run. @param {number | null} seconds */
   freeze(seconds) {
     this.#frozen = seconds;
     this.#last = 0;
     this.render();
   }
 
-  /** Seconds of waves and folds. */
+  /** Time of waves and folds, in seconds. */
   get seconds() {
     return this.#frozen ?? this.#seconds;
   }
 
-  /** One colour for the water, one for all else. @param {boolean} wanted */
+  /** Draw the water in one colour and all else in another. @param {boolean} wanted */
   flat(wanted) {
     this.#isFlat = wanted;
     this.scene.background = wanted ? this.#background : null;

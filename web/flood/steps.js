@@ -1,22 +1,22 @@
-/** Steps of the flood: those in the page, or those that a server has, which may become more. */
+/** Steps of the flood: those embedded in the page, or those of a server, whose list may grow. */
 import { listen } from '../src/event-stream.js';
 import { LiveVectorTexture } from '../src/live-vector-texture.js';
 import { readPacked } from '../src/packed.js';
 import { backOff } from '../src/patience.js';
 import { VectorTexture } from '../src/vector-texture.js';
-import { bytesOf } from '../viewer/scene.js';
+import { bytesOf } from '../viewer/library.js';
 
 /**
- * @typedef {import('./scene.js').Manifest} Manifest
+ * @typedef {import('./page-data.js').Manifest} Manifest
  *
  * @typedef {object} Step
  * @property {string} name
  * @property {VectorTexture} texture
- * @property {Manifest} manifest of what is in place now
+ * @property {Manifest} manifest of the data in place
  * @property {string} base what its addresses are relative to
  */
 
-/** Names in the order of the numbers in them. The prefix by itself is the newest water. */
+/** Names are sorted by the numbers in them. The prefix alone is the name of the newest step. */
 const IN_ORDER = new Intl.Collator('en', { numeric: true });
 
 /**
@@ -37,7 +37,7 @@ export function stepsAmong(names, prefix) {
     .sort((one, other) => newest(one) - newest(other) || IN_ORDER.compare(one, other));
 }
 
-/** Events: `names` when there are others. */
+/** Dispatches `names` when the list changes. */
 export class Steps extends EventTarget {
   /** @type {Map<string, Manifest>} */
   #embedded = new Map();
@@ -46,7 +46,7 @@ export class Steps extends EventTarget {
   #prefix;
   #server;
 
-  /** @param {import('./scene.js').Scene} scene */
+  /** @param {import('./page-data.js').Scene} scene */
   constructor({ server, flood }) {
     super();
     this.#prefix = flood.prefix;
@@ -56,7 +56,7 @@ export class Steps extends EventTarget {
     for (const step of flood.steps) if (typeof step !== 'string') this.#embedded.set(step.name, step);
   }
 
-  /** Hear of what the server gets and loses. */
+  /** Listen for added and removed steps. */
   follow() {
     if (this.#server) this.#listen(this.#server);
   }
@@ -67,7 +67,7 @@ export class Steps extends EventTarget {
     const leave = listen(new URL('events', server), false, {
       opened: (wasOpen) => {
         failed = 0;
-        if (wasOpen) this.#ask(server).catch(() => {}); // whoever shows a step says that the server is gone
+        if (wasOpen) this.#ask(server).catch(() => {}); // the shown step reports the lost connection
       },
       heard: (kind, data) => {
         if (kind === 'hello') this.#setNames(Object.keys(data.versions));
@@ -89,7 +89,7 @@ export class Steps extends EventTarget {
   /** @param {string[]} names */
   #setNames(names) {
     const wanted = stepsAmong(names, this.#prefix);
-    if (wanted.length === 0 || wanted.join('\n') === this.names.join('\n')) return; // the last one stays to be seen
+    if (wanted.length === 0 || wanted.join('\n') === this.names.join('\n')) return; // the last step stays
     for (const name of this.names) if (!wanted.includes(name)) this.#close(name);
     this.names = wanted;
     this.dispatchEvent(new Event('names'));
@@ -102,7 +102,7 @@ export class Steps extends EventTarget {
   }
 
   /**
-   * A step, loaded; the same one again while it is there.
+   * Load a step; the same object as long as the step exists.
    *
    * @param {string} name
    * @returns {Promise<Step>}
@@ -112,7 +112,7 @@ export class Steps extends EventTarget {
     if (known) return known;
     const opening = this.#load(name);
     this.#opened.set(name, opening);
-    opening.catch(() => this.#opened.get(name) === opening && this.#opened.delete(name)); // it is tried again
+    opening.catch(() => this.#opened.get(name) === opening && this.#opened.delete(name)); // so that it is tried again
     return opening;
   }
 
@@ -133,7 +133,7 @@ export class Steps extends EventTarget {
 }
 
 /**
- * When a step is, for people.
+ * Label of a step's time.
  *
  * @param {Manifest | undefined} manifest
  * @param {string} name

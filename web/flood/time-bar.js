@@ -1,4 +1,4 @@
-/** The bar below the picture that goes through the steps. */
+/** The bar below the canvas for choosing a step. */
 import { element } from '../viewer/dom.js';
 
 const SPEEDS = Object.freeze([0.5, 1, 2, 4]);

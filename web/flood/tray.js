@@ -1,13 +1,13 @@
 /** The wooden box around the ground, and its shadow. */
 import { BoxGeometry, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial, PlaneGeometry } from 'three';
-import { shadowTexture, woodTexture } from './drawn.js';
+import { shadowTexture, woodTexture } from './canvas-textures.js';
 
 const THICK = 2.2;
-/** From the lower border of the earth: how far the planks stand up, and how far down. */
+/** Extent of the planks above and below the lower border of the ground. */
 const UP = 2.2;
 const DOWN = 2.6;
 const FLOOR = 1.2;
-/** World units that the picture of a plank is long. */
+/** Length of the wood texture in world units. */
 const PLANK = 60;
 
 /**
@@ -57,12 +57,12 @@ export class Tray {
     this.group.add(shadow);
   }
 
-  /** How much wider it is than the ground, on each side. */
+  /** Margin around the ground on each side. */
   static get around() {
     return 2.5 * THICK;
   }
 
-  /** Lower end of it all, from where it stands. */
+  /** Height of its lower end. */
   static get down() {
     return DOWN + FLOOR;
   }

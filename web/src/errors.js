@@ -1,25 +1,25 @@
 /**
- * Something that a person can act upon: a damaged file, a shape that is not there, a server that refuses.
+ * An error that the user can act on: a damaged file, a missing shape, a refused request.
  *
- * Its message is one line: what is wrong, what it must be, what to do.
+ * The message is one line: what is wrong, what is allowed, what to do.
  */
 export class VextureError extends Error {
   /**
    * @param {string} message
-   * @param {string} field name of what is at fault, such as `vkFormat`, `vexture.roots` or `quad 17`
+   * @param {string} field name of the value at fault, such as `vkFormat`, `vexture.roots` or `quad 17`
    * @param {{ cause?: unknown }} [options]
    */
   constructor(message, field, options) {
     super(message, options);
     this.name = 'VextureError';
-    /** Name of what is at fault. */
+    /** Name of the value at fault. */
     this.field = field;
   }
 
   /**
-   * The same error, of something that has a name.
+   * The same error with the name of the file or address in front of its message.
    *
-   * @param {string} where a file's name or address
+   * @param {string} where
    * @returns {VextureError}
    */
   in(where) {
@@ -27,19 +27,27 @@ export class VextureError extends Error {
   }
 }
 
-/** What to do about most damage. */
+/** Remedy for most damaged files. */
 export const REMEDY = 'convert the drawing again';
 
 const LONGEST = 60;
 
 /**
- * Something of a stranger's as a part of one short line.
+ * Text as part of a one-line message: white space and control characters collapsed, cut to 60 characters.
+ *
+ * @param {string} text
+ */
+export function shortened(text) {
+  const words = text.replace(/[\s\p{Cc}]+/gu, ' ').trim();
+  return words.length > LONGEST ? `${words.slice(0, LONGEST)}...` : words;
+}
+
+/**
+ * An untrusted value as part of a one-line message: an error's own message, anything else as JSON.
  *
  * @param {unknown} value
  * @returns {string}
  */
 export function line(value) {
-  const text = value instanceof Error ? value.message : (JSON.stringify(value) ?? String(value));
-  const words = text.replace(/[\s\p{Cc}]+/gu, ' ').trim();
-  return words.length > LONGEST ? `${words.slice(0, LONGEST)}...` : words;
+  return shortened(value instanceof Error ? value.message : (JSON.stringify(value) ?? String(value)));
 }

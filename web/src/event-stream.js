@@ -1,15 +1,15 @@
-// Streams of a server's events. Browsers open few connections to one server, so all textures of a page share one, and a
-// page that nobody sees has none: when it is seen again, it hears what it has missed.
+// A server's event stream (EventSource). Browsers open only six connections to an HTTP/1.1 server, so all textures of a
+// page share one stream. A hidden page closes it, and catches up when it is shown again.
 import { parsed } from './json.js';
 
 /**
  * @typedef {object} Listener
- * @property {(wasOpen: boolean) => void} opened the stream has come; if it was open before, what it said then is missed
+ * @property {(wasOpen: boolean) => void} opened the stream is open; if it was open before, events may have been missed
  * @property {(kind: string, data: any) => void} heard
- * @property {() => void} failed it has ended
+ * @property {() => void} failed the stream has ended
  */
 
-/** Kinds of events that servers send. */
+/** Event types that a server sends. */
 const KINDS = Object.freeze(['hello', 'shape', 'gone', 'note']);
 
 /** @type {Map<string, Stream>} */
@@ -48,7 +48,7 @@ class Stream {
       for (const listener of this.listeners) listener.opened(false);
     };
     source.onerror = () => {
-      this.end(); // its own retries know neither bounds nor that it is polled meanwhile
+      this.end(); // EventSource itself would retry without limit, although the caller polls meanwhile
       for (const listener of this.listeners) listener.failed();
     };
     for (const kind of KINDS) {
@@ -72,11 +72,11 @@ class Stream {
   }
 }
 
-/** Whether the platform has such streams. */
+/** Whether the platform has EventSource. */
 export const hasStreams = () => typeof EventSource === 'function';
 
 /**
- * Listen to a server.
+ * Listen to a server's events.
  *
  * @param {URL} url
  * @param {boolean} withCredentials

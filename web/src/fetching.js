@@ -1,4 +1,4 @@
-// Files over HTTP, with progress, limits and errors that say which address and why.
+// HTTP requests with progress, size limits and errors that name the address and the cause.
 import { VextureError, line } from './errors.js';
 
 /**
@@ -17,7 +17,7 @@ import { VextureError, line } from './errors.js';
  * @returns {void}
  */
 
-/** Node has none. */
+/** Node.js has no ProgressEvent. */
 const ProgressEventClass =
   globalThis.ProgressEvent ??
   class ProgressEvent extends Event {
@@ -38,7 +38,7 @@ export function progressEvent(loaded, total) {
 }
 
 /**
- * A response that is no error.
+ * A successful response.
  *
  * @param {string} url
  * @param {FetchOptions} options
@@ -60,7 +60,7 @@ export async function fetchResponse(url, options, accepted = []) {
 }
 
 /**
- * All bytes of a file.
+ * The bytes of a file.
  *
  * @param {string} url
  * @param {FetchOptions} options
@@ -92,7 +92,7 @@ export async function fetchBytes(url, options, most, onBytes) {
 }
 
 /**
- * Whether an error says that a file could not be had, rather than that it is wrong.
+ * Whether an error means that a file could not be fetched, as opposed to invalid contents.
  *
  * @param {unknown} error
  */
@@ -106,7 +106,7 @@ export function isTransport(error) {
  * @param {unknown} error
  */
 function failure(url, signal, error) {
-  if (signal.aborted) return error; // three's loaders hand on an AbortError as it is
+  if (signal.aborted) return error; // as three's loaders do: an AbortError stays one
   const cause = error instanceof Error && error.cause instanceof Error ? error.cause : error;
   return new VextureError(`${shown(url)}: cannot be fetched (${line(cause)}); check the address and the network`, 'url', {
     cause: error,
@@ -114,7 +114,7 @@ function failure(url, signal, error) {
 }
 
 /**
- * An address in a message: those that hold their own content are long.
+ * An address in a message; data addresses are cut, since they carry the whole content.
  *
  * @param {string} url
  */

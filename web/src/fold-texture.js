@@ -1,4 +1,4 @@
-// Texture folding: where a shape is looked up moves with time (FORMAT.md, part C).
+// Texture folding: the positions at which a shape is looked up move with time (FORMAT.md, part C).
 import {
   ENCODING_FOLD,
   FOLD_FILE_LIMIT,
@@ -22,22 +22,22 @@ import { wordTexture } from './upload.js';
 
 const REMEDY = 'make the fold again';
 
-/** Ticks of the largest time. */
+/** The largest time, in ticks. */
 const MOST_TICKS = FOLD_MOST_SECONDS * FOLD_TICKS;
 
-/** What of a texel's third word is its begin. */
+/** Bits of a texel's third word that hold its start. */
 const BEGIN_MASK = 2 ** FOLD_KIND_SHIFT - 1;
 
 /**
- * @typedef {object} FoldFacts What a fold's file says of it.
+ * @typedef {object} FoldFacts The parameters in a fold's file.
  * @property {number} columns
  * @property {number} rows
  * @property {number} cycle seconds; 0: once
  */
 
 /**
- * Moves the places where a mask looks its shape up: `fold` of `applyVectorMask`'s options. Its time is the mask's, so
- * that several masks may share one. Made by `FoldTexture.parse`.
+ * Moves the positions at which a mask looks up its shape: the option `fold` of `applyVectorMask`. The mask holds the
+ * time, so several masks may share a fold. Made by `FoldTexture.parse`.
  */
 export class FoldTexture {
   #facts;
@@ -47,7 +47,7 @@ export class FoldTexture {
 
   /**
    * @param {FoldFacts} facts
-   * @param {Uint32Array} words four to a texel, checked
+   * @param {Uint32Array} words four to a texel, validated
    */
   constructor(facts, words) {
     this.#facts = facts;
@@ -57,7 +57,7 @@ export class FoldTexture {
   }
 
   /**
-   * Read a fold's file, and check it.
+   * Read and validate a fold's file.
    *
    * @param {ArrayBuffer | Uint8Array} buffer
    * @param {string} [name] names it in messages
@@ -93,7 +93,7 @@ export class FoldTexture {
     return true;
   }
 
-  /** For a shader's `vextureFolding`. */
+  /** Value of the uniform `vextureFolding`. */
   get texture() {
     return this.#texture;
   }
@@ -103,18 +103,18 @@ export class FoldTexture {
     return { columns: this.#facts.columns, rows: this.#facts.rows };
   }
 
-  /** Seconds until everything begins anew; 0: never. For a shader's `vextureCycle`. */
+  /** Period in seconds; 0: not periodic. Value of the uniform `vextureCycle`. */
   get cycle() {
     return this.#facts.cycle;
   }
 
-  /** Text of the function `vextureFold`. */
+  /** GLSL of the function `vextureFold`. */
   get glsl() {
     return glsl;
   }
 
   /**
-   * What a shader is given as `vextureTime`: within the cycle, for its floats hold few digits.
+   * Value of the uniform `vextureTime`: modulo the period, since a shader's float has 24 bits.
    *
    * @param {number} seconds
    */
@@ -124,12 +124,12 @@ export class FoldTexture {
   }
 
   /**
-   * Where a place of the unit square shows the texture at a time: the shader's function again.
+   * Position at which the texture is looked up, for a point and a time; mirror of the shader's function.
    *
    * @param {number} u
    * @param {number} v
    * @param {number} seconds
-   * @param {'none' | 'clamp' | 'repeat'} [wrap] whether the shape repeats, and the fold with it
+   * @param {'none' | 'clamp' | 'repeat'} [wrap] `repeat`: the fold repeats with the shape
    */
   at(u, v, seconds, wrap = 'none') {
     const time = this.clock(seconds);
@@ -147,7 +147,7 @@ export class FoldTexture {
   }
 
   /**
-   * @param {number} at where a texel's words begin
+   * @param {number} at offset of a texel's words
    * @param {number} time
    */
   #progress(at, time) {
@@ -170,14 +170,14 @@ export class FoldTexture {
     }
   }
 
-  /** Free what the GPU holds. */
+  /** Free the GPU memory. */
   dispose() {
     this.#texture.dispose();
   }
 }
 
 /**
- * The three texels of a row or a column that a place depends on, and how much on each.
+ * The three texels of a row or a column that a position depends on, and their weights.
  *
  * @param {number} place
  * @param {number} count
@@ -226,7 +226,7 @@ function readFacts(text) {
 }
 
 /**
- * Throw a `VextureError` where texels contradict the format.
+ * Check that texels follow the format.
  *
  * @param {Uint32Array} texels
  * @param {FoldFacts} facts

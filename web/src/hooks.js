@@ -1,4 +1,4 @@
-// Where text goes into three.js' own shaders, by names that say what for.
+// Named places in three.js's own shaders where text is inserted.
 import { Material, ShaderLib } from 'three';
 import { VextureError } from './errors.js';
 
@@ -14,10 +14,10 @@ import { VextureError } from './errors.js';
  */
 
 /**
- * The include that each text follows. vertexDeclare and fragmentDeclare stand outside of functions; at vertexUv the
- * attribute uv is known; at fragmentCut nothing has been computed; at fragmentColor `diffuseColor` is complete and has
- * not been tested against alphaTest. fragmentLight stands before its include, where `gl_FragColor` is the light that a
- * surface sends out, in linear colour; at fragmentLast it is what the canvas gets.
+ * The include that each text follows. vertexDeclare and fragmentDeclare are outside functions. At vertexUv the
+ * attribute uv is available. At fragmentCut nothing has been computed. At fragmentColor `diffuseColor` is complete,
+ * before alphaTest. fragmentLight precedes its include; there `gl_FragColor` is the outgoing light in linear colour. At
+ * fragmentLast `gl_FragColor` is in the colour space of the canvas.
  *
  * @type {Readonly<Record<HookName, { stage: 'vertexShader' | 'fragmentShader', include: string, before?: boolean }>>}
  */
@@ -32,7 +32,7 @@ const HOOKS = Object.freeze({
 });
 
 /**
- * Materials whose shader has another include in its place.
+ * Materials whose shader has a different include at a hook.
  *
  * @type {Readonly<Record<string, Partial<Record<HookName, string>>>>}
  */
@@ -44,14 +44,14 @@ const EXCEPTIONS = Object.freeze({
 const REMEDY = 'use a built-in mesh material';
 
 /**
- * What to do about shaders that nobody chose.
+ * Remedies for shaders that the user did not choose.
  *
  * @type {Readonly<Record<string, string>>}
  */
 const REMEDIES = Object.freeze({ Water: 'this three.js is not known to work: use another version of it' });
 
 /**
- * Names of three.js' shaders; those of distances have had two.
+ * Names of three.js's shaders; the one of distances has had two.
  *
  * @type {Readonly<Record<string, string[]>>}
  */
@@ -83,7 +83,7 @@ function shaderOf(material) {
 }
 
 /**
- * Put texts into a shader, each behind its hook's include.
+ * Insert texts into a shader, each after its hook's include.
  *
  * @param {Shader} shader
  * @param {string} type of its material
@@ -106,7 +106,7 @@ export function insert(shader, type, texts) {
 }
 
 /**
- * Check that a material's shader has the includes for some texts.
+ * Check that a material's shader has the includes of these hooks.
  *
  * @param {Material} material
  * @param {Partial<Record<HookName, string>>} texts
@@ -117,7 +117,7 @@ export function check(material, texts) {
 }
 
 /**
- * Take part in a material's compilation, after whatever takes part in it already.
+ * Run a function when a material is compiled, after the functions that are registered already.
  *
  * @param {Material} material
  * @param {() => string} key names what is done to the program: programs of one key are shared
@@ -141,7 +141,7 @@ export function takePart(material, key, compile) {
   material.customProgramCacheKey = chainedKey;
   material.needsUpdate = true;
   return () => {
-    taken = false; // whoever chained theirs to these still calls them
+    taken = false; // functions chained to these later still call them
     if (material.onBeforeCompile === chained) material.onBeforeCompile = onBeforeCompile;
     if (material.customProgramCacheKey === chainedKey) material.customProgramCacheKey = customProgramCacheKey;
     material.needsUpdate = true;

@@ -2,7 +2,6 @@ export { VextureError } from './errors.js';
 export { FoldTexture } from './fold-texture.js';
 export { LiveVectorTexture } from './live-vector-texture.js';
 export { readPacked } from './packed.js';
-export { readThesis } from './read-thesis.js';
 export { VectorTextureLoader } from './vector-texture-loader.js';
 export { VectorTexture } from './vector-texture.js';
 export { bounds, cellAt, contains, counts } from './walk.js';

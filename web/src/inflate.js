@@ -1,14 +1,14 @@
-// Inflating what strangers deflated, by the platform's own inflater.
+// Inflates untrusted zlib streams with the platform's DecompressionStream.
 import { REMEDY, VextureError, line } from './errors.js';
 
-/** Bytes that one byte of a deflate stream can become at most (zlib's technical details). */
+/** Largest compression ratio of deflate (zlib, "Technical Details"). */
 const DEFLATE_RATIO = 1032;
 
-/** Bytes handed to the inflater at once, which may hand out all that they become: 1032 times as many. */
+/** Bytes passed to the inflater at once; it may return 1032 times as many in one piece. */
 const SLICE = 1 << 14;
 
 /**
- * Inflate to so many bytes; memory is taken for no more, but for what one slice becomes.
+ * Inflate to a known size. Memory is bounded by that size and the output of one slice.
  *
  * @param {Uint8Array} stored zlib stream (RFC 1950)
  * @param {number} size bytes that it must become
@@ -42,7 +42,7 @@ export async function inflate(stored, size, field) {
       filled += value.length;
     }
   } catch (error) {
-    reader.cancel().catch(() => {}); // what the stream says of its own end is no news
+    reader.cancel().catch(() => {}); // the error above already says what is wrong
     if (error instanceof VextureError) throw error;
     throw new VextureError(`${field} cannot be inflated (${line(error)}); ${REMEDY}`, field, { cause: error });
   }

@@ -1,5 +1,5 @@
 /**
- * What a JSON text of a stranger says.
+ * The value of untrusted JSON text.
  *
  * @param {string} text
  * @returns {any} undefined if it is not JSON

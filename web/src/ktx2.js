@@ -1,11 +1,10 @@
-// One image of four unsigned 32-bit words to a texel, with texts, from KTX 2.0; safe to read from strangers.
-// The container is that of the Khronos KTX File Format Specification, version 2.0. Numbers are little-endian, as those
-// of every machine with WebGL are.
+// Reads one RGBA32UI image and its texts from an untrusted KTX 2.0 file (Khronos KTX File Format Specification, version
+// 2.0). Numbers are little-endian in the file, as on every machine with WebGL.
 import { MOST_ROWS, MOST_TEXT_BYTES, ROW_BITS } from '../generated/layout.js';
 import { REMEDY, VextureError, line } from './errors.js';
 import { inflate } from './inflate.js';
 
-/** How every KTX 2.0 file begins. */
+/** The file identifier of KTX 2.0. */
 export const MAGIC = Object.freeze([0xab, 0x4b, 0x54, 0x58, 0x20, 0x32, 0x30, 0xbb, 0x0d, 0x0a, 0x1a, 0x0a]);
 
 const HEADER_BYTES = 80;
@@ -19,7 +18,7 @@ const R32G32B32A32_UINT = 107;
 const NONE = 0;
 const ZLIB = 3;
 
-/** Where the header has fields that must have one of some values. */
+/** Header fields with a fixed set of values: their offsets and these values. */
 const FIXED = /** @type {const} */ ([
   ['vkFormat', 12, [R32G32B32A32_UINT]],
   ['typeSize', 16, [4]],
@@ -35,11 +34,11 @@ const FIXED = /** @type {const} */ ([
  * @property {number} width texels in a row
  * @property {number} height rows
  * @property {Uint32Array} texels four words each, row by row
- * @property {Map<string, string>} texts values by key, without the zero byte at their end; those not UTF-8 are left out
+ * @property {Map<string, string>} texts values by key, without their terminating zero; others than UTF-8 are omitted
  */
 
 /**
- * Whether bytes begin like a KTX 2.0 file.
+ * Whether bytes begin with the file identifier of KTX 2.0.
  *
  * @param {ArrayBuffer | Uint8Array} file
  */
@@ -49,7 +48,7 @@ export function isKtx2(file) {
 }
 
 /**
- * Texels and texts of a file. What costs memory is bounded by the header, and the header by the format's limits.
+ * Texels and texts of a file. The header bounds the memory used, and the format's limits bound the header.
  *
  * @param {ArrayBuffer | Uint8Array} file
  * @returns {Promise<Ktx2Image>}
@@ -120,7 +119,7 @@ function readHeader(bytes, view) {
 }
 
 /**
- * Bytes of the file, if it has so many.
+ * A range of the file's bytes, checked against its length.
  *
  * @param {Uint8Array} bytes
  * @param {number} offset
@@ -162,7 +161,7 @@ function readTexts(pairs) {
     if (key !== undefined && texts.has(key)) {
       throw new VextureError(`key ${line(key)} is there twice; each may be there once; ${REMEDY}`, key);
     }
-    const text = decoded(decoder, value); // other writers may store anything under their own keys
+    const text = decoded(decoder, value); // keys of other writers may hold any bytes
     if (key !== undefined && text !== undefined) texts.set(key, text);
     at += length + (-length & 3);
   }
@@ -196,7 +195,7 @@ async function readImage(bytes, view, size) {
         'byteLength',
       );
     }
-    return stored.slice().buffer; // texels must begin at a multiple of four bytes
+    return stored.slice().buffer; // a Uint32Array needs an offset that is a multiple of four
   }
   if (inflated !== size) {
     throw new VextureError(

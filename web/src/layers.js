@@ -1,11 +1,11 @@
-// The layers of drawings: which roots they are, and the texture that tells a shader of them.
+// The layers texture, from which a shader reads each root's quad, paint and bounds.
 import { MOST_ROWS } from '../generated/layout.js';
 import { VextureError } from './errors.js';
-import { indexOf } from './names.js';
+import { layerRange } from './select-root.js';
 import { wordTexture } from './upload.js';
 import { bounds } from './walk.js';
 
-/** Coordinates of bounds: 16 bits behind the point. */
+/** 1 as a fixed-point coordinate of bounds: 16 fractional bits. */
 const FIXED_ONE = 65536;
 
 const UNORM_ONE = 65535;
@@ -13,8 +13,8 @@ const UNORM_ONE = 65535;
 const SILHOUETTE = Object.freeze({ color: Object.freeze([0, 0, 0]), opacity: 1 });
 
 /**
- * Texture with a row of two texels for each root: (quad, red and green, blue and opacity, 0), colours as 16 bits of
- * sRGB each; (x0, y0, x1, y1), the box around what is not empty, in 1/65536. It holds the first 16,384 roots.
+ * Texture with a row of two texels for each of the first 16,384 roots: (quad, red and green, blue and opacity, 0), with
+ * 16 bits of sRGB for each component; and (x0, y0, x1, y1), the bounds of the shape in 1/65536.
  *
  * @param {import('./data.js').PackedData} data
  * @returns {import('three').DataTexture}
@@ -36,7 +36,7 @@ export function layersTexture(data) {
 }
 
 /**
- * A box in fixed point, rounded so that it grows.
+ * A box in fixed point, rounded outwards.
  *
  * @param {number[]} box x0 y0 x1 y1
  */
@@ -50,34 +50,19 @@ function outwards([x0, y0, x1, y1]) {
 }
 
 /**
- * Which layers a drawing consists of: those of an atlas' drawing are named `NAME/...` and stand in a row.
+ * Range of a drawing's layers in the layers texture.
  *
  * @param {import('./data.js').PackedData} data
- * @param {string | number} [root] name or place; without it all roots if they have paints, else the first one
+ * @param {import('./select-root.js').RootChoice} root
  * @returns {{ first: number, count: number }}
+ * @throws {VextureError} if there is no such drawing, several and no choice, or it lies beyond the texture's rows
  */
-export function layersOf({ name, roots }, root) {
-  const found = named(roots, root, name);
-  if (found.first + found.count > MOST_ROWS) {
-    throw new VextureError(
-      `${name}: layers ${found.first} to ${found.first + found.count - 1}; only the first ${MOST_ROWS} can be drawn ` +
-        'as layers; use several textures',
-      'root',
-    );
-  }
-  return found;
-}
-
-/**
- * @param {import('./data.js').Root[]} roots
- * @param {string | number | undefined} root
- * @param {string} texture
- */
-function named(roots, root, texture) {
-  if (root === undefined) return { first: 0, count: roots.every(({ paint }) => paint) ? roots.length : 1 };
-  const first = typeof root === 'string' ? roots.findIndex(({ name }) => name.startsWith(`${root}/`)) : -1;
-  if (first < 0 || roots.some(({ name }) => name === root)) return { first: indexOf(roots, root, texture), count: 1 };
-  let end = first;
-  while (end < roots.length && roots[end].name.startsWith(`${root}/`)) end++;
-  return { first, count: end - first };
+export function layersOf(data, root) {
+  const range = layerRange(data, root);
+  if (range.first + range.count <= MOST_ROWS) return range;
+  throw new VextureError(
+    `${data.name}: layers ${range.first} to ${range.first + range.count - 1}; only the first ${MOST_ROWS} can be drawn ` +
+      'as layers; use several textures',
+    'root',
+  );
 }

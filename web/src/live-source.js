@@ -5,7 +5,7 @@ import { parsed } from './json.js';
 import { withTimeLimit } from './patience.js';
 
 /**
- * @typedef {object} Manifest What a server says of a shape; addresses in it are relative to its own.
+ * @typedef {object} Manifest A server's description of a shape; its addresses are relative to its own.
  * @property {string} name
  * @property {string} version
  * @property {string} texture address of its packed texture
@@ -17,7 +17,7 @@ import { withTimeLimit } from './patience.js';
 
 const NOT_MODIFIED = 304;
 
-/** Times that a texture is asked for because it was replaced while its manifest was on the way. */
+/** Attempts at a texture that is replaced between the request for its manifest and its own. */
 const OVERTAKEN = 3;
 
 /** A shape on a server: its manifest, its texture, its events. */
@@ -46,7 +46,7 @@ export class Source {
     this.#loader = loader;
   }
 
-  /** Whether there are events, and the platform has what listens to them. */
+  /** Whether the server has an event stream and the platform has EventSource. */
   get hasEvents() {
     return this.manifest.events !== undefined && hasStreams();
   }
@@ -63,7 +63,7 @@ export class Source {
   }
 
   /**
-   * Ask for the manifest.
+   * Request the manifest.
    *
    * @param {AbortSignal} signal
    * @returns {Promise<boolean>} whether it is another one than before
@@ -84,13 +84,13 @@ export class Source {
     }
   }
 
-  /** Whether the texture that the manifest names has been loaded, or found to be damaged. */
+  /** Whether the manifest's texture has been loaded, or refused as damaged. */
   get isLoaded() {
     return this.#loaded === this.manifest.texture;
   }
 
   /**
-   * Whether this version is what has been loaded.
+   * Whether this version is the loaded one.
    *
    * @param {unknown} version
    */
@@ -99,7 +99,7 @@ export class Source {
   }
 
   /**
-   * Load the texture that the manifest names.
+   * Load the manifest's texture.
    *
    * @param {AbortSignal} signal
    */
@@ -113,7 +113,7 @@ export class Source {
       } catch (error) {
         if (!isTransport(error)) this.#loaded = texture;
         const isGone = error instanceof VextureError && error.field === 'status 404';
-        if (isTransport(error)) this.#etag = ''; // so that it is asked for again
+        if (isTransport(error)) this.#etag = ''; // so that the next request is answered in full
         if (!isGone || attempt === OVERTAKEN) throw error;
         await this.look(signal);
       }

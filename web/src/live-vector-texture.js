@@ -6,20 +6,19 @@ import { VectorTexture } from './vector-texture.js';
 
 /**
  * @typedef {object} LiveOptions
- * @property {VectorTextureLoader} [loader] with headers and credentials that the server wants
- * @property {boolean} [events] whether to listen to the server's events; without them it is polled
- * @property {number} [interval] milliseconds between two looks where there are no events
+ * @property {VectorTextureLoader} [loader] for headers and credentials
+ * @property {boolean} [events] whether to use the server's event stream; otherwise the server is polled
+ * @property {number} [interval] milliseconds between two polls
  */
 
 const INTERVAL = 2000;
-/** Milliseconds for the stream of events to open; some proxies hold it back until it ends. */
+/** Time limit for opening the event stream, in milliseconds; some proxies hold a response back until it ends. */
 const OPENING = 10000;
 
 /**
- * A shape of a server that stays what the server has: an update takes the place of the last one in one go, and whatever
- * goes wrong leaves the last good one where it is.
+ * A texture that follows a server. An update replaces all data at once. After an error the last valid data stay.
  *
- * Its events: `change` (another shape is in place), `note` (why an update is not shown), `offline`, `online`.
+ * Events: `change` (new data are in place), `note` (why an update is not shown), `offline`, `online`.
  */
 export class LiveVectorTexture extends VectorTexture {
   #source;
@@ -28,14 +27,14 @@ export class LiveVectorTexture extends VectorTexture {
   #online = true;
   /** @type {string | null} */
   #note = null;
-  /** Whether the note is one of the stream, which the manifest may not show any more. */
+  /** Whether the note came by the event stream; a later manifest may lack it. */
   #heard = false;
   /** @type {Promise<void> | null} */
   #refreshing = null;
   #again = false;
 
   /**
-   * Connect to a server; gives the texture once it holds a shape.
+   * Connect to a server; resolves once the first data are loaded.
    *
    * @param {string} manifestUrl such as `https://example.org/shapes/duck`
    * @param {LiveOptions} [options]
@@ -54,7 +53,7 @@ export class LiveVectorTexture extends VectorTexture {
   /**
    * Use `LiveVectorTexture.connect`.
    *
-   * @param {import('./data.js').TextureData} data
+   * @param {import('./data.js').PackedData} data
    * @param {Source} source
    */
   constructor(data, source) {
@@ -64,17 +63,17 @@ export class LiveVectorTexture extends VectorTexture {
     this.#note = source.manifest.note ?? null;
   }
 
-  /** What the server said of the shape that is in place: facts, views and more. */
+  /** The manifest of the data in place: facts, views and more. */
   get manifest() {
     return this.#manifest;
   }
 
-  /** Why the last update is not shown, if it is not. */
+  /** Why the last update is not shown; null if it is. */
   get note() {
     return this.#note;
   }
 
-  /** Whether the server could be reached when it was last tried. */
+  /** Whether the last request reached the server. */
   get online() {
     return this.#online;
   }
@@ -83,7 +82,7 @@ export class LiveVectorTexture extends VectorTexture {
     return this.#closing.signal.aborted;
   }
 
-  /** Stop following the server; the last shape stays. */
+  /** Stop following the server; the last data stay in place. */
   close() {
     this.#closing.abort();
   }
@@ -94,7 +93,7 @@ export class LiveVectorTexture extends VectorTexture {
   }
 
   /**
-   * Until closed: be up to date, listen to events while there are some, look again after a while.
+   * Until closed: refresh, listen to the event stream while it is open, poll otherwise.
    *
    * @param {boolean} events
    * @param {number} interval
@@ -102,7 +101,7 @@ export class LiveVectorTexture extends VectorTexture {
   async #follow(events, interval) {
     const { signal } = this.#closing;
     let failures = 0;
-    let refusals = 0; // of the stream of events
+    let refusals = 0; // of the event stream
     let listenAt = 0;
     while (!signal.aborted) {
       try {
@@ -118,14 +117,14 @@ export class LiveVectorTexture extends VectorTexture {
       } catch (error) {
         if (signal.aborted) return;
         this.#setOnline(false, error);
-        listenAt = 0; // events come first when it is back
+        listenAt = 0; // prefer events when the server is back
         await sleep(backOff(++failures), signal);
       }
     }
   }
 
   /**
-   * Listen to the server's events for as long as they come and what they tell of can be had.
+   * Listen to the event stream until it ends or an update cannot be fetched.
    *
    * @param {AbortSignal} signal
    * @returns {Promise<boolean>} whether they came at all
@@ -161,7 +160,7 @@ export class LiveVectorTexture extends VectorTexture {
   #hear(kind, data, refresh) {
     const { name } = this.#manifest;
     const version = kind === 'hello' ? data.versions?.[name] : data.name === name ? data.version : undefined;
-    const mayBeNews = kind === 'shape' || !this.#source.has(version); // the same shape again ends a refusal's note
+    const mayBeNews = kind === 'shape' || !this.#source.has(version); // the same version clears a note
     if (version !== undefined && mayBeNews) refresh();
     else if (kind === 'hello') this.#setOnline(true);
     else if (kind === 'note' && data.name === name) {
@@ -170,7 +169,7 @@ export class LiveVectorTexture extends VectorTexture {
     }
   }
 
-  /** Be what the server has; one at a time, and once more if asked meanwhile. */
+  /** Fetch the server's current data. One refresh runs at a time; a call meanwhile runs another afterwards. */
   #refresh() {
     this.#again = true;
     this.#refreshing ??= this.#refreshWhileAsked().finally(() => {
@@ -234,7 +233,7 @@ export class LiveVectorTexture extends VectorTexture {
 }
 
 /**
- * Call what calls others' listeners: what goes wrong there must not look like a server that cannot be reached.
+ * Dispatch an event. An error in a listener must not be taken for an unreachable server.
  *
  * @param {() => void} call
  */

@@ -1,7 +1,7 @@
-// Which place of the unit square a mask looks up: what its shader does, for one place.
+// Position in the unit square at which a mask looks up its shape; mirror of the shader for one point.
 import { Vector2 } from 'three';
 
-/** Where clamped places end: the upper and right borders of the square are outside. */
+/** Distance of clamped positions from the upper and right borders, which are outside the unit square. */
 const BORDER = 2 ** -32;
 
 /**

@@ -1,12 +1,12 @@
-// A mesh that is seen, casts shadows and is hit by rays only where its mask lets it.
+// Applies a mask to a mesh's shadows and raycasting.
 import { MeshDepthMaterial, MeshDistanceMaterial, RGBADepthPacking } from 'three';
 import { VextureError } from './errors.js';
 import { takePart } from './hooks.js';
 
 /**
- * @typedef {object} Cut What the mask of a mesh offers.
+ * @typedef {object} Cut The interface of a mask to its meshes.
  * @property {import('three').Material} material
- * @property {() => boolean} cuts whether light passes where the shape is not
+ * @property {() => boolean} cuts whether light passes outside the shape
  * @property {(u: number, v: number, instance?: number) => boolean} hits
  * @property {() => string} key
  * @property {(program: import('./hooks.js').Program, type: string) => void} compile for depths and distances
@@ -29,7 +29,7 @@ function cutsOne({ material }, cut) {
   return cut.cuts();
 }
 
-/** One mesh under a mask, until it is released. */
+/** A mesh attached to a mask. */
 export class MaskedMesh {
   #mesh;
   #cut;
@@ -70,7 +70,7 @@ export class MaskedMesh {
     return uv === undefined || one !== this.#cut.material || this.#cut.hits(uv.x, uv.y, instanceId);
   }
 
-  /** After a change of the mask. */
+  /** Follow a change of the mask. */
   update() {
     const cuts = cutsOne(this.#mesh, this.#cut);
     this.#mesh.customDepthMaterial = cuts ? this.#depth : this.#before.depth;
@@ -78,7 +78,7 @@ export class MaskedMesh {
     for (const material of [this.#depth, this.#distance]) material.needsUpdate = true;
   }
 
-  /** Free what is on the GPU; it comes again when it is needed. */
+  /** Free the GPU memory; the next use allocates it again. */
   dispose() {
     this.#depth.dispose();
     this.#distance.dispose();

@@ -1,25 +1,26 @@
-// What a mask can be told, and which of it goes together.
+// The options of a mask, their defaults and their validation.
 import { Matrix3 } from 'three';
 import { QUALITIES, WRAPS } from '../generated/shaders.js';
 import { VextureError, line } from './errors.js';
 
 /**
  * @typedef {object} MaskOptions
- * @property {string | number} [root] name or place of the shape; `NAME` also stands for the layers `NAME/...` when they
- *   are painted. Without it the first shape, or in mode `paint` the whole drawing.
- * @property {Matrix3} [transform] from the mesh's uv to the unit square; it may be changed at any time
- * @property {'alpha' | 'mix' | 'cut' | 'paint'} [mode] `alpha`: opacity outside of the shape is 0. `mix`: inside it is
- *   another colour or map. `cut`: outside of it nothing is drawn, not even depth. `paint`: a drawing in its colours.
- * @property {'none' | 'clamp' | 'repeat'} [wrap] what lies beyond the unit square: nothing, what its border shows, or
- *   the shape again
+ * @property {string | number | null} [root] name or place of the shape; in mode `paint` `NAME` also selects the layers
+ *   `NAME/...`. Needed if the texture holds several shapes, in mode `paint` if it holds several drawings, unless
+ *   `instanced` is set.
+ * @property {Matrix3} [transform] from the mesh's uv to the unit square; its elements may be changed at any time
+ * @property {'alpha' | 'mix' | 'cut' | 'paint'} [mode] `alpha`: opacity is 0 outside the shape. `mix`: another colour or
+ *   map inside the shape. `cut`: nothing is drawn outside the shape, not even depth. `paint`: the drawing's own colours.
+ * @property {'none' | 'clamp' | 'repeat'} [wrap] beyond the unit square: nothing, the value at its border, or the shape
+ *   again
  * @property {'exact' | 'fast'} [quality]
- * @property {boolean} [invert] the shape is where it is not; not in mode `paint`
+ * @property {boolean} [invert] exchange inside and outside; not in mode `paint`
  * @property {import('three').ColorRepresentation} [color] mode `mix`: colour inside; a `Color` may be changed at any time
- * @property {import('three').Texture | null} [map] mode `mix`: map inside, by the mesh's uv and its own transform
- * @property {number} [threshold] mode `cut`: coverage of a pixel from which it is drawn
- * @property {'own' | 'none'} [background] mode `paint`: what is around the drawing, the material's own colour or nothing
- * @property {boolean} [instanced] each instance shows the root that its attribute `vextureRoot` says (`rootAttribute`);
- *   in mode `paint` that one layer
+ * @property {import('three').Texture | null} [map] mode `mix`: map inside, with the mesh's uv and its own transform
+ * @property {number} [threshold] mode `cut`: pixels with at least this coverage are drawn
+ * @property {'own' | 'none'} [background] mode `paint`: around the drawing, the material's own colour or nothing
+ * @property {boolean} [instanced] each instance shows the root in its attribute `vextureRoot` (see `rootAttribute`), in
+ *   mode `paint` one layer
  * @property {import('./fold-texture.js').FoldTexture | null} [fold] moves the shape with time; packed textures only
  * @property {number} [time] seconds of the fold
  */
@@ -31,7 +32,7 @@ const NAMES = Object.freeze([
 
 const MODES = Object.freeze(['alpha', 'mix', 'cut', 'paint']);
 
-/** Materials that have no colour, and what a mask can be to them. */
+/** Materials without colour, and the modes that they allow. */
 const COLORLESS = Object.freeze({
   MeshNormalMaterial: ['alpha', 'cut'],
   MeshDepthMaterial: ['cut'],
@@ -75,7 +76,7 @@ export function complete(options) {
 }
 
 /**
- * Whether a mask needs blending; it then makes its material transparent.
+ * Whether a mask needs blending, for which it makes its material transparent.
  *
  * @param {MaskOptions} options
  */
@@ -86,8 +87,8 @@ export function isTranslucent({ mode, background }) {
 /**
  * @param {ReturnType<typeof complete>} options
  * @param {string} type of the material
- * @param {import('./vector-texture.js').VectorTexture} texture
- * @throws {VextureError} if they do not go together
+ * @param {import('./vector-texture.js').AnyVectorTexture} texture
+ * @throws {VextureError} if an option is out of range, or options exclude each other
  */
 export function checkOptions(options, type, texture) {
   const { mode, wrap, quality, background, invert, instanced, threshold, transform, fold, time } = options;
@@ -113,9 +114,9 @@ export function checkOptions(options, type, texture) {
     throw new VextureError(`${type} has no colours for mode ${mode}; use ${possible.join(' or ')}`, 'mode');
   }
   if (invert && mode === 'paint') throw new VextureError('mode paint cannot be inverted; use another mode', 'invert');
-  if (texture.encoding === 'thesis' && (wrap !== 'none' || instanced || fold)) {
+  if (texture.encoding !== 'packed' && (wrap !== 'none' || instanced || fold)) {
     throw new VextureError(
-      `${texture.name}: a thesis texture has one root, no wrap and no fold; convert the drawing to KTX2`,
+      `${texture.name}: a ${texture.encoding} texture has one root, no wrap and no fold; convert the drawing to KTX2`,
       'encoding',
     );
   }

@@ -1,29 +1,29 @@
-// What a mask adds to a material's shader: declarations, and lines that call the functions of src/vexture/glsl.
-import { FOLD_HEIGHT, QUALITIES, WRAPS, packed, steps } from '../generated/shaders.js';
+// Text that a mask inserts into a material's shader: declarations, and calls of the functions of src/vexture/glsl.
+import { QUALITIES, WRAPS, packed, steps } from '../generated/shaders.js';
 
 /**
  * @typedef {object} Variant All that makes one program differ from another.
- * @property {'packed' | 'thesis'} encoding
- * @property {string} thesis what reads a thesis texture
+ * @property {{ declared: string, coverage: string } | null} other GLSL declarations and coverage expression of an
+ *   encoding other than the packed one
  * @property {'alpha' | 'mix' | 'cut' | 'paint'} mode
- * @property {boolean} inLayers whether the shape is a drawing's layers together
+ * @property {boolean} inLayers whether the shape is the union of a drawing's layers
  * @property {'none' | 'clamp' | 'repeat'} wrap
  * @property {'exact' | 'fast'} quality
  * @property {boolean} invert
  * @property {'own' | 'none'} background
  * @property {boolean} instanced
  * @property {boolean} hasMap
- * @property {string} fold what moves the places with time, or nothing
+ * @property {string} fold GLSL of the fold that moves the shape, or ''
  */
 
-/** Name of the attribute with each instance's root. */
+/** Name of the attribute that holds each instance's root. */
 export const ROOT_ATTRIBUTE = 'vextureRoot';
 
-/** The derivatives are those of a position that has no jumps: borders are looked at below. */
-const FOOTPRINT = 'vextureUv, vextureStepX(vextureUv), vextureStepY(vextureUv)';
+/** Position and derivatives. The position is continuous: wrapping comes later, so that derivatives have no jumps. */
+export const FOOTPRINT = 'vextureUv, vextureStepX(vextureUv), vextureStepY(vextureUv)';
 
 /**
- * What must stand before the first `footprint`.
+ * Lines that must precede the first `footprint`.
  *
  * @param {Pick<Variant, 'fold'>} variant
  */
@@ -32,7 +32,7 @@ export function foldLines({ fold }) {
 }
 
 /**
- * Arguments of the functions that give a coverage: where a pixel is looked up, and the steps to the next ones.
+ * Arguments of the coverage functions: the position looked up for a pixel, and its two derivatives.
  *
  * @param {Pick<Variant, 'fold'>} variant
  */
@@ -42,44 +42,26 @@ export function footprint({ fold }) {
 
 /** @param {Variant} variant */
 function coverage(variant) {
-  const { encoding, inLayers, instanced, invert } = variant;
+  const { other, inLayers, instanced, invert } = variant;
   const root = instanced ? 'vextureQuad(vextureInstance)' : 'vextureRootQuad';
-  const layers = instanced ? 'int(vextureInstance), 1' : 'vextureFirst, vextureCount';
-  let text = `vextureWrapped(${root}, ${footprint(variant)})`;
-  if (inLayers) text = `vextureLayers(${layers}, ${footprint(variant)}).a`;
-  if (encoding === 'thesis') text = `thesis_coverage(vextureQuads, vextureCurves, ${FOOTPRINT})`;
+  let text = inLayers ? `${layers(variant)}.a` : `vextureWrapped(${root}, ${footprint(variant)})`;
+  if (other) text = other.coverage;
   return invert ? `(1.0 - ${text})` : text;
 }
 
 /** @param {Variant} variant */
-function paint(variant) {
-  const { encoding, instanced } = variant;
-  if (encoding === 'thesis') return `vec4(vec3(0.0), thesis_coverage(vextureQuads, vextureCurves, ${FOOTPRINT}))`;
-  return `vextureLayers(${instanced ? 'int(vextureInstance), 1' : 'vextureFirst, vextureCount'}, ${footprint(variant)})`;
+function layers(variant) {
+  return `vextureLayers(${variant.instanced ? 'int(vextureInstance), 1' : 'vextureFirst, vextureCount'}, ${footprint(variant)})`;
 }
 
 /** @param {Variant} variant */
-function reader({ encoding, thesis, wrap, quality, fold }) {
-  if (encoding === 'packed') {
-    const declared = 'uniform uint vextureRootQuad;\nuniform int vextureFirst;\nuniform int vextureCount;\n';
-    return `#define VEXTURE_QUALITY ${QUALITIES[quality]}\n#define VEXTURE_WRAP ${WRAPS[wrap]}\n${packed}${fold}${declared}`;
-  }
-  return thesis;
+function reader({ other, wrap, quality, fold }) {
+  if (other) return other.declared;
+  const declared = 'uniform uint vextureRootQuad;\nuniform int vextureFirst;\nuniform int vextureCount;\n';
+  return `#define VEXTURE_QUALITY ${QUALITIES[quality]}\n#define VEXTURE_WRAP ${WRAPS[wrap]}\n${packed}${fold}${declared}`;
 }
 
-/**
- * What reads a thesis texture; nothing for others.
- *
- * @param {import('./data.js').TextureData} data
- */
-export function thesisReader(data) {
-  if (data.encoding !== 'thesis') return '';
-  const sizes = `const int thesis_LEVELS = ${data.levels};\nconst int thesis_FOLD_HEIGHT = ${FOLD_HEIGHT};\n`;
-  const lists = 'precision highp sampler2D;\nuniform sampler2D vextureQuads;\nuniform sampler2D vextureCurves;\n';
-  return sizes + lists + data.glsl;
-}
-
-/** What is not there at all must not hide what lies behind it: it writes no depth. */
+/** Fully transparent pixels write no depth, so that they hide nothing. */
 const NOTHING = 'if (diffuseColor.a == 0.0) discard;';
 
 /** @param {Variant} variant */
@@ -93,12 +75,12 @@ function colorLines(variant) {
     variant.background === 'own'
       ? 'diffuseColor.rgb = mix(diffuseColor.rgb, vexturePaint.rgb, vexturePaint.a);'
       : `diffuseColor = vec4(vexturePaint.rgb, vexturePaint.a * diffuseColor.a);\n${NOTHING}`;
-  const straight = variant.encoding === 'packed' ? `vextureStraight(${paint(variant)})` : paint(variant);
+  const straight = variant.other ? `vec4(vec3(0.0), ${variant.other.coverage})` : `vextureStraight(${layers(variant)})`;
   return `vec4 vexturePaint = ${straight};\n${over}`;
 }
 
 /**
- * Texts for the hooks.
+ * Text for each hook.
  *
  * @param {Variant} variant
  * @returns {Partial<Record<import('./hooks.js').HookName, string>>}

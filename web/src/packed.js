@@ -1,4 +1,4 @@
-// A packed texture from its file (FORMAT.md, part B), with everything checked that a shader relies upon.
+// Reads a packed texture from its file (FORMAT.md, part B) and validates all that a shader relies on.
 import {
   ENCODING_PACKED,
   PACKED_FILE_LIMIT,
@@ -8,18 +8,18 @@ import {
   TEXT_ROOTS,
   TEXT_VERSION,
 } from '../generated/layout.js';
-import { checkForest } from './packed-check.js';
+import { checkForest } from './check-texels.js';
 import { REMEDY, VextureError, line } from './errors.js';
 import { readKtx2 } from './ktx2.js';
-import { readRoots } from './roots.js';
+import { readRoots } from './read-roots.js';
 
 /**
- * Read a packed texture and check it.
+ * Read and validate a packed texture.
  *
  * @param {ArrayBuffer | Uint8Array} file
- * @param {string} [name] names it in messages, and the texture where the file does not
+ * @param {string} [name] name for messages, and for the texture if the file has none
  * @returns {Promise<import('./data.js').PackedData>}
- * @throws {VextureError} if the file is damaged or breaks the format in any way that a reader could see
+ * @throws {VextureError} if the file is damaged or violates the format
  */
 export async function readPacked(file, name = 'texture') {
   try {

@@ -1,15 +1,15 @@
-// Waiting: for a while, for longer after each failure, and never for ever.
+// Delays, exponential back-off and time limits.
 import { VextureError } from './errors.js';
 
 const FIRST = 500;
 const LONGEST = 30000;
 
-/** Milliseconds after which a small file is not waited for any longer. */
+/** Time limit for a small file, in milliseconds. */
 const TIME_LIMIT = 30000;
 
 /**
- * Milliseconds to wait after some failures in a row: about twice as long after each, half a minute at most; at random,
- * so that the clients of a server that comes back do not all ask at once.
+ * Milliseconds to wait after consecutive failures: doubled after each, half a minute at most. Randomized, so that the
+ * clients of a restarted server do not all ask at once.
  *
  * @param {number} failures
  */
@@ -37,7 +37,7 @@ export function sleep(milliseconds, signal) {
 }
 
 /**
- * A signal that gives up after a while, too.
+ * A signal that also aborts after the time limit.
  *
  * @param {AbortSignal} signal
  * @param {string} url that it is for

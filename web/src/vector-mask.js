@@ -5,9 +5,10 @@ import { check, insert, takePart } from './hooks.js';
 import { MaskedMesh } from './mask-mesh.js';
 import { lookedUp } from './mask-lookup.js';
 import { checkOptions, complete, isTranslucent } from './mask-options.js';
-import { ROOT_ATTRIBUTE, texts, thesisReader } from './mask-shader.js';
+import { FOOTPRINT, ROOT_ATTRIBUTE, texts } from './mask-shader.js';
+import { mapTransform, uniformValues } from './mask-uniforms.js';
 
-/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
 /** @typedef {import('./mask-shader.js').Variant} Variant */
 
 /** @typedef {import('./mask-options.js').MaskOptions} MaskOptions */
@@ -15,7 +16,7 @@ import { ROOT_ATTRIBUTE, texts, thesisReader } from './mask-shader.js';
 /** @type {WeakMap<import('three').Material, VectorMask>} */
 const MASKS = new WeakMap();
 
-/** A shape as a mask of a material. Made by `applyVectorMask`; what is set here shows in the next picture. */
+/** A shape as the mask of a material, made by `applyVectorMask`. Changes take effect in the next frame. */
 export class VectorMask {
   #material;
   #texture;
@@ -73,10 +74,9 @@ export class VectorMask {
   /** @returns {Variant} */
   #variant() {
     const { mode, wrap, quality, invert, background, instanced, map, fold } = this.#options;
-    const { data } = this.#texture;
+    const reader = this.#texture.maskReader();
     return {
-      encoding: data.encoding,
-      thesis: thesisReader(data),
+      other: reader && { declared: reader.declared, coverage: reader.coverage(FOOTPRINT) },
       mode,
       inLayers: mode === 'paint',
       wrap,
@@ -89,43 +89,29 @@ export class VectorMask {
     };
   }
 
-  /** Find the root in the texture. */
+  /** Whether only the instances have roots. */
+  get #isRootless() {
+    return this.#options.instanced && (this.#options.root ?? null) === null;
+  }
+
+  /** Find the shape or the drawing's layers in the texture. */
   #resolve() {
     const { root, mode } = this.#options;
     const inLayers = mode === 'paint' && this.#texture.encoding === 'packed';
-    this.#range = inLayers ? this.#texture.layersOf(root) : { first: this.#texture.index(root ?? 0), count: 1 };
+    if (this.#isRootless) this.#range = { first: 0, count: 1 }; // the shader does not read it
+    else this.#range = inLayers ? this.#texture.layersOf(root) : { first: this.#texture.index(root), count: 1 };
   }
 
-  /** Give the shader what the texture and the options are now. */
+  /** Update the uniforms from the texture and the options. */
   #refresh() {
     try {
       this.#resolve();
     } catch (error) {
-      if (!(error instanceof VextureError)) throw error; // the new shapes lack this one: show the first, and say so
+      if (!(error instanceof VextureError)) throw error; // new data lack the root: show the first shape, with a note
       this.#range = { first: 0, count: 1 };
       this.#texture.dispatchEvent({ type: 'note', message: error.message });
     }
-    const { data, textures } = this.#texture;
-    const { transform, threshold, color, map, fold, time } = this.#options;
-    const { first, count } = this.#range;
-    /** @type {Record<string, unknown>} */
-    const values = {
-      vextureTexels: textures.texels ?? null,
-      vexturePaints: textures.layers ?? null,
-      vextureQuads: textures.quads ?? null,
-      vextureCurves: textures.curves ?? null,
-      thesis_list_lengths: data.encoding === 'thesis' ? [data.quadCount, data.curveCount] : [0, 0],
-      vextureRootQuad: data.roots[first].quad,
-      vextureFirst: first,
-      vextureCount: count,
-      vextureTransform: transform,
-      vextureThreshold: threshold,
-      vextureInside: color instanceof Color ? color : this.#inside.set(color),
-      vextureInsideMap: map,
-      vextureFolding: fold?.texture ?? null,
-      vextureCycle: fold?.cycle ?? 0,
-      vextureTime: fold?.clock(time) ?? 0,
-    };
+    const values = uniformValues(this.#texture, this.#options, this.#range, this.#inside);
     for (const [name, value] of Object.entries(values)) (this.#uniforms[name] ??= { value }).value = value;
     this.#material.transparent = isTranslucent(this.#options) || this.#transparent;
     const key = JSON.stringify(this.#variant());
@@ -153,11 +139,11 @@ export class VectorMask {
   }
 
   /**
-   * Change several at once that only go together, such as a texture and a shape of it. Either all of it is changed or,
-   * after an error, nothing.
+   * Change several options at once, such as a texture and its root. After an error nothing is changed.
    *
    * @param {MaskOptions & { texture?: VectorTexture }} changes
-   * @throws {VextureError} if they do not go together, or there is no such root
+   * @throws {VextureError} if an option is out of range, options exclude each other, or the root is unknown or
+   *   ambiguous
    */
   set({ texture = this.#texture, ...changes }) {
     const [texturedBefore, before] = [this.#texture, this.#options];
@@ -176,7 +162,7 @@ export class VectorMask {
     }
   }
 
-  /** All of it, as `applyVectorMask` takes it. */
+  /** The options, as `applyVectorMask` takes them. */
   get options() {
     return { ...this.#options };
   }
@@ -198,6 +184,7 @@ export class VectorMask {
     this.set({ texture });
   }
 
+  /** @returns {string | number | null | undefined} */
   get root() {
     return this.#options.root;
   }
@@ -291,7 +278,7 @@ export class VectorMask {
     this.set({ fold });
   }
 
-  /** Seconds of the fold: set it for every picture, it costs nothing. */
+  /** Time of the fold in seconds; cheap to set in every frame. */
   get time() {
     return this.#options.time;
   }
@@ -302,16 +289,17 @@ export class VectorMask {
   }
 
   /**
-   * Whether the masked surface is at a place of a mesh: a click on a hole misses.
+   * Whether the masked surface covers a point of a mesh; false in a hole.
    *
    * @param {number} u
    * @param {number} v the mesh's uv
-   * @param {number} [root] place of another root than the mask's
+   * @param {number} [root] place of another shape than the mask's
    * @returns {boolean}
    */
   hits(u, v, root) {
     const { mode, background, invert } = this.#options;
     if (mode === 'mix' || (mode === 'paint' && background === 'own')) return true;
+    if (this.#isRootless && root === undefined) root = this.#texture.index();
     const { x, y } = lookedUp(u, v, this.#options);
     const first = root ?? this.#range.first;
     const end = root === undefined ? first + this.#range.count : root + 1;
@@ -322,7 +310,7 @@ export class VectorMask {
   }
 
   /**
-   * Let rays through a mesh where the shape is not, and light where the mask draws nothing.
+   * Let rays and light pass through a mesh outside the shape.
    *
    * @param {import('./mask-mesh.js').Masked} mesh that has this material
    * @returns {this}
@@ -344,8 +332,7 @@ export class VectorMask {
         material: this.#material,
         cuts: () => this.#options.mode === 'cut' || isTranslucent(this.#options),
         hits: (u, v, instance) => {
-          const { instanced } = this.#options;
-          const roots = instanced && instance !== undefined ? mesh.geometry.getAttribute(ROOT_ATTRIBUTE) : null;
+          const roots = this.#options.instanced ? mesh.geometry.getAttribute(ROOT_ATTRIBUTE) : null;
           return this.hits(u, v, roots?.getX(instance ?? 0));
         },
         key: () => JSON.stringify({ ...this.#variant(), mode: 'cut' }),
@@ -356,7 +343,7 @@ export class VectorMask {
   }
 
   /**
-   * Take back what `attach` did.
+   * Undo `attach`.
    *
    * @param {import('./mask-mesh.js').Masked} mesh
    */
@@ -365,7 +352,7 @@ export class VectorMask {
     this.#meshes.delete(mesh);
   }
 
-  /** Make the material and all meshes what they were. The texture stays: others may use it. */
+  /** Restore the material and all meshes. The texture, which others may use, is not disposed of. */
   remove() {
     for (const mesh of [...this.#meshes.keys()]) this.detach(mesh);
     this.#takeBack();
@@ -375,42 +362,28 @@ export class VectorMask {
     if (MASKS.get(this.#material) === this) MASKS.delete(this.#material);
   }
 
-  /** The same as `remove`: it frees what the mask itself has on the GPU. */
+  /** The same as `remove`, which frees the mask's own GPU memory. */
   dispose() {
     this.remove();
   }
 }
 
 /**
- * Uniform of the inside map's own transform, as it is when a picture is drawn: three.js looks at its maps then, too.
+ * Mask a built-in mesh material or sprite material with a shape. A clone of the material has no mask.
  *
- * @param {() => Pick<MaskOptions, 'map' | 'transform'>} options
- */
-function mapTransform(options) {
-  return {
-    get value() {
-      const { map, transform } = options();
-      if (map?.matrixAutoUpdate) map.updateMatrix();
-      return map?.matrix ?? transform;
-    },
-  };
-}
-
-/**
- * Make a shape the mask of any built-in mesh material, or of a sprite's. A clone of the material has none.
- *
- * @param {import('three').Material} material which may have an `onBeforeCompile` of its own already: it runs first
+ * @param {import('three').Material} material its own `onBeforeCompile`, if any, runs first
  * @param {VectorTexture} texture
  * @param {MaskOptions} [options]
  * @returns {VectorMask}
- * @throws {VextureError} if the material has a mask, or a shader that cannot be masked; if there is no such root
+ * @throws {VextureError} if the material has a mask already or cannot be masked, or the root is unknown or
+ *   ambiguous
  */
 export function applyVectorMask(material, texture, options) {
   return new VectorMask(material, texture, options);
 }
 
 /**
- * Attribute for the geometry of an `InstancedMesh`, by the name `vextureRoot`: which shape each instance shows.
+ * Attribute `vextureRoot` for the geometry of an `InstancedMesh`: the shape of each instance.
  *
  * @param {VectorTexture} texture
  * @param {readonly (string | number)[]} roots names or places in `texture.roots`, one for each instance

@@ -1,7 +1,7 @@
 import { MeshBasicMaterial } from 'three';
 import { VectorMask } from './vector-mask.js';
 
-/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
 
 /**
  * @typedef {object} ShapeParameters
@@ -14,8 +14,8 @@ import { VectorMask } from './vector-mask.js';
  */
 
 /**
- * A shape in a colour, or a drawing in its colours, on any mesh; not lit. Fog, tone mapping, colour space, logarithmic
- * depth, clipping and skinning are `MeshBasicMaterial`'s. For other materials there is `applyVectorMask`.
+ * An unlit material that shows a shape in one colour, or a drawing in its own colours. Fog, tone mapping, colour space,
+ * logarithmic depth, clipping and skinning are those of `MeshBasicMaterial`. `applyVectorMask` masks other materials.
  */
 export class VectorMaterial extends MeshBasicMaterial {
   /** @type {VectorMask | null} */
@@ -38,7 +38,7 @@ export class VectorMaterial extends MeshBasicMaterial {
     return true;
   }
 
-  /** All that can be changed, once there is a texture; `mask.attach(mesh)` cuts shadows and lets rays through. */
+  /** The mask with all options; null without a texture. `mask.attach(mesh)` applies it to shadows and raycasting. */
   get mask() {
     return this.#mask;
   }
@@ -48,7 +48,7 @@ export class VectorMaterial extends MeshBasicMaterial {
     return this.#mask?.texture ?? null;
   }
 
-  /** What it shows; without one it is a `MeshBasicMaterial`. */
+  /** The texture; with null the material is a plain `MeshBasicMaterial`. */
   set texture(texture) {
     if (texture === null) {
       if (this.#mask) this.#options = this.#mask.options;
@@ -61,6 +61,7 @@ export class VectorMaterial extends MeshBasicMaterial {
     }
   }
 
+  /** @returns {string | number | null | undefined} */
   get root() {
     return this.#mask ? this.#mask.root : this.#options.root;
   }

@@ -1,80 +1,73 @@
 import { EventDispatcher } from 'three';
-import { CURVE_WIDTH, QUAD_WIDTH } from '../generated/layout.js';
-import { FOLD_HEIGHT } from '../generated/shaders.js';
-import { VextureError } from './errors.js';
 import { layersOf, layersTexture } from './layers.js';
-import { indexOf } from './names.js';
-import { listTexture, wordTexture } from './upload.js';
-import { containsThesis } from './thesis-walk.js';
+import { shapeIndex } from './select-root.js';
+import { wordTexture } from './upload.js';
 import { contains } from './walk.js';
 
 /** @typedef {import('three').DataTexture} DataTexture */
+/** @typedef {import('./data.js').TextureData} TextureData */
+/** @typedef {import('./data.js').PackedData} PackedData */
+/** @typedef {import('./select-root.js').RootChoice} RootChoice */
+
+/** @typedef {VectorTexture<TextureData>} AnyVectorTexture a texture of any encoding */
 
 /**
- * @typedef {object} TextureMap What a shader reads: `texels` and `layers` of a packed texture, `quads` and `curves` of
- * a thesis texture.
- * @property {DataTexture} [texels]
- * @property {DataTexture} [layers] two texels to a root: its quad, its paint, its bounds
- * @property {DataTexture} [quads]
- * @property {DataTexture} [curves]
+ * @typedef {Record<string, DataTexture>} TextureMap The textures that a shader reads: `texels` and `layers` of a packed
+ *   texture. `layers` holds two texels for each root: its quad, its paint, its bounds.
+ */
+
+/**
+ * @typedef {object} MaskReader How the shader of a mask reads an encoding other than the packed one.
+ * @property {string} declared GLSL declarations and functions
+ * @property {(footprint: string) => string} coverage GLSL expression of the coverage, from a position and its two
+ *   derivatives
+ * @property {Record<string, unknown>} uniforms values of the declared uniforms
  */
 
 /**
  * @typedef {object} VectorTextureEvents
  * @property {{}} change other data are in place
- * @property {{ message: string }} note of a live texture: why an update is not shown
- * @property {{ message: string }} offline of a live texture: the server cannot be reached; the last picture stays
- * @property {{}} online of a live texture: it can again
+ * @property {{ message: string }} note a live texture's update was not shown, or a mask's root is missing in new data
+ * @property {{ message: string }} offline a live texture's server cannot be reached; the last data stay in place
+ * @property {{}} online the server can be reached again
  */
 
 /**
- * @param {import('./data.js').TextureData} data
- * @returns {TextureMap}
- */
-function upload(data) {
-  if (data.encoding === 'packed') {
-    return { texels: wordTexture(data.texels, data.width, data.height), layers: layersTexture(data) };
-  }
-  return {
-    quads: listTexture(data.quads, QUAD_WIDTH, FOLD_HEIGHT),
-    curves: listTexture(data.curves, CURVE_WIDTH, FOLD_HEIGHT),
-  };
-}
-
-/**
- * Shapes that a shader reads at random. Made by `VectorTextureLoader`, which has checked the data.
+ * Shapes with random access for shaders. `VectorTextureLoader` makes it from validated data.
  *
+ * @template {TextureData} [Data=PackedData]
  * @extends {EventDispatcher<VectorTextureEvents>}
  */
 export class VectorTexture extends EventDispatcher {
-  /** @type {import('./data.js').TextureData} */
+  /** @type {Data} */
   #data;
   /** @type {TextureMap} */
   #textures;
 
   /**
-   * @param {import('./data.js').TextureData} data as `readPacked` or `readThesis` gives them
+   * @param {Data} data as returned by `readPacked`
    */
   constructor(data) {
     super();
     this.#data = data;
-    this.#textures = upload(data);
+    this.#textures = this.upload(data);
   }
 
   get isVectorTexture() {
     return true;
   }
 
-  /** What the file held. */
+  /** The file's contents. */
   get data() {
     return this.#data;
   }
 
-  /** What the GPU holds; others after a `change`. */
+  /** The textures on the GPU; a `change` replaces them. */
   get textures() {
     return this.#textures;
   }
 
+  /** @returns {Data['encoding']} */
   get encoding() {
     return this.#data.encoding;
   }
@@ -88,74 +81,102 @@ export class VectorTexture extends EventDispatcher {
     return this.#data.roots;
   }
 
-  /** Size in the GPU's memory, the list of layers not counted. */
+  /** Bytes of GPU memory, without the layers texture. */
   get nbytes() {
-    const { texels, quads, curves } = this.#textures;
-    return [texels, quads, curves].reduce((sum, one) => sum + (one?.image.data?.byteLength ?? 0), 0);
+    const { layers, ...lists } = this.#textures;
+    return Object.values(lists).reduce((sum, one) => sum + (one.image.data?.byteLength ?? 0), 0);
   }
 
   /**
    * Place of a shape in `roots`.
    *
-   * @param {string | number} which its name or its place
+   * @param {RootChoice} [root] name or place of the shape; not needed if there is only one
    * @returns {number}
-   * @throws {VextureError} if there is none; it names those whose names are near
+   * @throws {VextureError} if there is no such shape (the message lists near names), or several and no choice
    */
-  index(which) {
-    return indexOf(this.roots, which, this.name);
+  index(root) {
+    return shapeIndex(this.#data, root);
   }
 
   /**
-   * Whether a point of the unit square is inside a shape, by the outlines themselves.
+   * Whether a point of the unit square is inside a shape, computed from the stored outlines.
    *
    * @param {number} u
    * @param {number} v upwards
-   * @param {string | number} [root] name or place of the shape
+   * @param {RootChoice} [root] name or place of the shape; not needed if there is only one
    * @returns {boolean}
+   * @throws {VextureError} if there is no such shape, or several and no choice
    */
-  contains(u, v, root = 0) {
-    const data = this.#data;
-    const { quad } = data.roots[this.index(root)];
-    return data.encoding === 'packed' ? contains(data, quad, u, v) : containsThesis(data, u, v);
+  contains(u, v, root) {
+    const data = packed(this.#data);
+    return contains(data, data.roots[this.index(root)].quad, u, v);
   }
 
   /**
-   * Which rows of `textures.layers` a drawing consists of.
+   * Rows of `textures.layers` that hold a drawing.
    *
-   * @param {string | number} [root] name or place: `NAME` stands for the layers `NAME/...` of an atlas. Without it all
-   *   roots if they have paints, else the first one.
+   * @param {RootChoice} [root] name or place; `NAME` selects the layers `NAME/...` of an atlas. Not needed if there is
+   *   only one drawing.
    * @returns {{ first: number, count: number }}
+   * @throws {VextureError} if there is no such drawing, or several and no choice
    */
   layersOf(root) {
-    if (this.#data.encoding === 'packed') return layersOf(this.#data, root);
-    throw new VextureError(`${this.name}: a thesis texture has no layers; convert the drawing to KTX2`, 'encoding');
+    return layersOf(packed(this.#data), root);
   }
 
   /**
-   * Put other data in place, all at once: what is drawn next is drawn with them.
+   * Replace the data; the next frame shows the new ones.
    *
-   * @param {import('./data.js').TextureData} data
+   * @param {Data} data
    */
   replace(data) {
     const before = this.#textures;
-    this.#textures = upload(data);
+    this.#textures = this.upload(data);
     this.#data = data;
     try {
       this.dispatchEvent({ type: 'change' });
     } finally {
-      disposeAll(before); // whatever a listener does
+      disposeAll(before); // even if a listener throws
     }
   }
 
-  /** Free the GPU's memory. What still draws with it uploads it again. */
+  /** Free the GPU memory. A material that still uses the texture uploads it again. */
   dispose() {
     disposeAll(this.#textures);
+  }
+
+  /**
+   * Textures of other data. Other encodings override it; the constructor calls it.
+   *
+   * @protected
+   * @param {Data} data
+   * @returns {TextureMap}
+   */
+  upload(data) {
+    const { texels, width, height } = packed(data);
+    return { texels: wordTexture(texels, width, height), layers: layersTexture(packed(data)) };
+  }
+
+  /**
+   * What a mask needs to read another encoding; null for the packed one. Other encodings override it.
+   *
+   * @returns {MaskReader | null}
+   */
+  maskReader() {
+    return null;
   }
 }
 
 /**
- * @param {TextureMap} textures
+ * Data of a class that does not override the methods for packed textures.
+ *
+ * @param {TextureData} data
  */
+function packed(data) {
+  return /** @type {PackedData} */ (data);
+}
+
+/** @param {TextureMap} textures */
 function disposeAll(textures) {
   for (const texture of Object.values(textures)) texture.dispose();
 }

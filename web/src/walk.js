@@ -1,4 +1,4 @@
-// Down the trees of a checked packed texture, on the CPU: what lies at a point, what a shape takes up.
+// Descends the trees of a validated packed texture on the CPU: the cell at a point, containment, bounds, counts.
 // Plain data, without three.js.
 import {
   CELL_BITS,
@@ -20,7 +20,7 @@ const CELL_MASK = (1 << CELL_BITS) - 1;
 const WINDING_MASK = (1 << COUNT_SHIFT) - 1;
 const COORDINATE_MASK = (1 << COORDINATE_BITS) - 1;
 
-/** How deep `bounds` looks: quads of 1/256 of the unit square are taken whole. */
+/** Largest depth of `bounds`: quads with a side of 1/256 count as full. */
 const BOUNDS_DEPTH = 8;
 
 /**
@@ -38,10 +38,10 @@ const BOUNDS_DEPTH = 8;
  */
 
 /**
- * @typedef {object} Leaf A cell as its quad's texel says it.
+ * @typedef {object} Leaf A cell as stored in its quad's texel.
  * @property {number} byte of word 2
- * @property {number} below index of its quad, if it is one
- * @property {number} first index of its first curve, if it has some
+ * @property {number} below index of its quad, if it is a quad
+ * @property {number} first index of its first curve, if it has any
  * @property {number} coverage 0..255
  */
 
@@ -110,7 +110,7 @@ function cornerOf(byte) {
  * @param {number} quad index of the shape's root quad
  * @param {number} u
  * @param {number} v upwards
- * @param {number} [mostDepth] a quad of this depth is given as it is
+ * @param {number} [mostDepth] a quad at this depth is returned undivided
  * @returns {Cell | null} null beyond 0 <= u < 1, 0 <= v < 1
  */
 export function cellAt(data, quad, u, v, mostDepth = MOST_DEPTH) {
@@ -156,7 +156,7 @@ function top(texels, quad) {
 }
 
 /**
- * Whether a point is inside a shape, by the outlines as they are stored (FORMAT.md, B.6).
+ * Whether a point is inside a shape, computed from the stored outlines (FORMAT.md, B.6).
  *
  * @param {PackedData} data
  * @param {number} quad index of the shape's root quad
@@ -184,7 +184,7 @@ export function contains(data, quad, u, v) {
 }
 
 /**
- * Box around all that is not empty, by whole quads where it is finer than 1/256; x0 = x1 if everything is empty.
+ * Bounding box of a shape, rounded outwards to quads with a side of 1/256; x0 = x1 for an empty shape.
  *
  * @param {PackedData} data
  * @param {number} quad index of the shape's root quad
@@ -217,7 +217,7 @@ export function bounds(data, quad) {
 }
 
 /**
- * How many quads and curves a shape has, and the depth of its deepest quad; its root has depth 0.
+ * Number of quads and curves of a shape, and the depth of its deepest quad; the root has depth 0.
  *
  * @param {PackedData} data
  * @param {number} quad index of the shape's root quad

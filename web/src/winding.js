@@ -1,7 +1,7 @@
-// Winding numbers of a leaf at a point, counted from the pieces of outline at or left of it; cubics as x0 y0 x1 y1 x2 y2 x3 y3.
+// Winding numbers of a leaf at a point, counted from the curves at or left of it. A cubic is x0 y0 x1 y1 x2 y2 x3 y3.
 import { LATTICE } from '../generated/layout.js';
 
-/** Halvings of the interval of t: as many as a float64 has bits. */
+/** Bisections of the interval of t, one for each bit of a float64's significand. */
 const HALVINGS = 53;
 
 /**
@@ -17,7 +17,7 @@ function cubicAt(cubic, axis, t) {
 }
 
 /**
- * Place where a cubic that is monotone in y, but for rounding, has a height between those of its ends.
+ * x of a cubic at a height between its ends. The cubic is monotone in y up to rounding.
  *
  * @param {number[]} cubic
  * @param {number} y
@@ -57,10 +57,10 @@ export function winding(curves, corner, x, y) {
 }
 
 /**
- * Box around the filled part of a packed leaf, in its own unit square; it may be larger by a lattice unit.
+ * Bounding box of the filled part of a packed leaf, in its own unit square; it may be larger by a lattice unit.
  *
- * Beyond the box around the curves' ends, what is left of it or below is as the corner, what is above is one, and what
- * is right of it changes from one end's height to the next.
+ * Outside the bounding box of the curves' ends, the winding number to the left and below is that of the corner; above
+ * it is constant; to the right it changes only at the heights of ends.
  *
  * @param {number[][]} curves of the leaf, in its lattice units
  * @param {number} corner winding number at its lower left corner
@@ -74,7 +74,7 @@ export function filledBox(curves, corner) {
   const below = corner > 0 && ys[0] > 0;
   const above = ys[last] < LATTICE && winding(curves, corner, LATTICE, LATTICE) > 0;
   const right = ys.some((y, i) => y < ys[i + 1] && winding(curves, corner, LATTICE, (y + ys[i + 1]) / 2) > 0);
-  const low = (/** @type {number} */ at) => Math.max(0, at - 1) / LATTICE; // curves are monotone but for rounding
+  const low = (/** @type {number} */ at) => Math.max(0, at - 1) / LATTICE; // curves are monotone up to rounding
   const high = (/** @type {number} */ at) => Math.min(LATTICE, at + 1) / LATTICE;
   return [
     left || below || above ? 0 : low(xs[0]),

@@ -14,7 +14,7 @@ describe('steps of a server', () => {
 });
 
 describe('labelOf', () => {
-  const manifest = (/** @type {import('../flood/scene.js').Facts} */ facts) => ({ name: 'flood', texture: '', facts });
+  const manifest = (/** @type {import('../flood/page-data.js').Facts} */ facts) => ({ name: 'flood', texture: '', facts });
 
   it('is what the step says, its time, or its name', () => {
     expect(labelOf(manifest({ label: '06:00', time: '2026-01-05T06:00:00Z' }), 'flood')).toBe('06:00');

@@ -5,7 +5,7 @@ import { TEXT_ENCODING, TEXT_VERSION } from '../generated/layout.js';
 import { VextureError } from '../src/errors.js';
 import { FoldTexture } from '../src/fold-texture.js';
 import { readPacked } from '../src/packed.js';
-import { readThesis } from '../src/read-thesis.js';
+import { ThesisTexture, readThesis } from '../src/thesis/index.js';
 import { applyVectorMask } from '../src/vector-mask.js';
 import { VectorMaterial } from '../src/vector-material.js';
 import { VectorTexture } from '../src/vector-texture.js';
@@ -164,7 +164,7 @@ describe('a mask', async () => {
   });
 
   test('refuses what does not go with one', async () => {
-    const thesis = new VectorTexture(
+    const thesis = new ThesisTexture(
       await readThesis(fixture('eight/simple-small.quads.png'), fixture('eight/simple-small.curves.png'), 'thesis'),
     );
     const mask = (/** @type {any} */ texture, /** @type {any} */ options) =>

@@ -1,8 +1,9 @@
 import { describe, expect, test } from 'vitest';
 import { deflateSync } from 'node:zlib';
-import { TEXT_CRS, TEXT_ENCODING, TEXT_TRANSFORM, TEXT_VERSION } from '../generated/layout.js';
-import { readPng } from '../src/png.js';
-import { readThesis } from '../src/read-thesis.js';
+import { TEXT_ENCODING, TEXT_VERSION } from '../generated/layout.js';
+import { TEXT_CRS, TEXT_TRANSFORM } from '../generated/thesis-layout.js';
+import { readThesis } from '../src/thesis/index.js';
+import { readPng } from '../src/thesis/png.js';
 import { chunksOf, fixture, png, rechunked, repainted } from './files.js';
 import { expectRefusal } from './refused.js';
 

@@ -8,7 +8,7 @@ import { VectorTexture } from '../src/vector-texture.js';
 import { fixture } from './files.js';
 
 const read = async (/** @type {string} */ name) => new VectorTexture(await readPacked(fixture(`${name}.ktx2`), name));
-const [duck, drawings] = await Promise.all([read('duck'), read('drawings')]);
+const [duck, badge, drawings] = await Promise.all([read('duck'), read('badge'), read('drawings')]);
 const other = drawings.roots[1].name;
 
 describe('several changes at once', () => {
@@ -32,6 +32,38 @@ describe('several changes at once', () => {
     material.mask?.set({ texture: drawings, root: other });
     expect([material.texture, material.root]).toEqual([drawings, other]);
     expect(material.clone().root).toBe(other);
+  });
+});
+
+describe('without a root', () => {
+  test('the only shape or the only drawing is shown', () => {
+    expect(applyVectorMask(new MeshBasicMaterial(), duck).hits(0.5, 0.5)).toBe(true);
+    const painted = new VectorMaterial({ texture: badge, mode: 'paint' });
+    expect(painted.mask?.hits(0.5, 0.5)).toBe(badge.roots.some((_, place) => badge.contains(0.5, 0.5, place)));
+  });
+
+  test.each(/** @type {const} */ (['alpha', 'cut', 'mix']))('mode %s refuses several shapes', (mode) => {
+    const names = badge.roots.map(({ name }) => name).join(', ');
+    const message = `badge holds 3 shapes (${names}); choose one by root`;
+    expect(() => applyVectorMask(new MeshBasicMaterial(), badge, { mode })).toThrow(message);
+    expect(() => applyVectorMask(new MeshBasicMaterial(), badge, { mode, root: null })).toThrow(message);
+    const material = new VectorMaterial({ texture: duck, root: 0 });
+    if (mode !== 'mix') expect(() => new VectorMaterial({ texture: badge, mode })).toThrow(message);
+    expect(() => material.mask?.set({ texture: badge, root: null })).toThrow(message);
+    expect(material.texture).toBe(duck);
+  });
+
+  test('mode paint refuses several drawings', () => {
+    const message = 'drawings holds 2 drawings (badge, flag); choose one by root';
+    expect(() => new VectorMaterial({ texture: drawings, mode: 'paint' })).toThrow(message);
+    expect(new VectorMaterial({ texture: drawings, mode: 'paint', root: 'flag' }).root).toBe('flag');
+  });
+
+  test('instances have their own', () => {
+    const material = new MeshBasicMaterial();
+    const mask = applyVectorMask(material, drawings, { instanced: true });
+    expect(() => mask.hits(0.5, 0.5)).toThrow('choose one by root');
+    for (const root of drawings.roots.keys()) expect(mask.hits(0.5, 0.5, root)).toBe(drawings.contains(0.5, 0.5, root));
   });
 });
 

@@ -1,14 +1,10 @@
-import { DataTexture, FloatType, NearestFilter, NoColorSpace, RGBAIntegerFormat, UnsignedIntType } from 'three';
+import { DataTexture, NearestFilter, NoColorSpace, RGBAIntegerFormat, UnsignedIntType } from 'three';
 import { describe, expect, test } from 'vitest';
-import { FOLD_HEIGHT } from '../generated/shaders.js';
 import { readPacked } from '../src/packed.js';
-import { readThesis } from '../src/read-thesis.js';
-import { listTexture } from '../src/upload.js';
 import { VectorTexture } from '../src/vector-texture.js';
 import { fixture } from './files.js';
 
 const read = (/** @type {string} */ name) => readPacked(fixture(`${name}.ktx2`), name);
-const pair = (/** @type {string} */ stem) => readThesis(fixture(`${stem}.quads.png`), fixture(`${stem}.curves.png`), 'pair');
 
 /** Words of a row of the layers. */
 const row = (/** @type {VectorTexture} */ texture, /** @type {number} */ place) =>
@@ -54,34 +50,6 @@ describe('what the GPU gets', () => {
     const texture = new VectorTexture(await read('duck'));
     expect(row(texture, 0).slice(1, 4)).toEqual([0, 0xffff0000, 0]);
   });
-
-  test('the lists of a thesis texture as numbers in 0..1', async () => {
-    const data = await pair('sixteen/duck');
-    const { quads, curves, texels } = new VectorTexture(data).textures;
-    expect(texels).toBeUndefined();
-    expect(quads).toMatchObject({ type: FloatType, internalFormat: 'RGBA32F', minFilter: NearestFilter });
-    expect(quads?.image).toMatchObject({ width: 4, height: data.quadCount });
-    expect(curves?.image).toMatchObject({ width: 2, height: data.curveCount });
-    const at = 4 * (2 * 7 + 1); // row 7, second pixel
-    const numbers = /** @type {Float32Array} */ (curves?.image.data).subarray(at, at + 4);
-    const channels = data.curves.subarray(3 * (2 * 7 + 1), 3 * (2 * 7 + 1) + 3);
-    expect([...numbers]).toEqual([...channels].map((channel) => Math.fround(channel / 65535)).concat(0));
-  });
-
-  test('a list longer than a texture is high goes on in the columns to its right', () => {
-    const pixels = Uint8Array.from({ length: 5 * 2 * 3 }, (_, place) => place); // 5 rows of 2 pixels
-    const { image } = listTexture(pixels, 2, 2);
-    expect([image.width, image.height]).toEqual([6, 2]);
-    const numbers = /** @type {Float32Array} */ (image.data);
-    for (let list = 0; list < 5; list++) {
-      for (let column = 0; column < 2; column++) {
-        const texel = 6 * (list % 2) + 2 * Math.floor(list / 2) + column;
-        const expected = [0, 1, 2].map((channel) => Math.fround((6 * list + 3 * column + channel) / 255));
-        expect([...numbers.subarray(4 * texel, 4 * texel + 3)]).toEqual(expected);
-      }
-    }
-    expect(FOLD_HEIGHT).toBe(16384);
-  });
 });
 
 describe('shapes by name', () => {
@@ -97,15 +65,34 @@ describe('shapes by name', () => {
 
   test('layers of drawings', async () => {
     const texture = new VectorTexture(await read('drawings'));
-    expect(texture.layersOf()).toEqual({ first: 0, count: 6 });
     expect(texture.layersOf('badge')).toEqual({ first: 0, count: 3 });
     expect(texture.layersOf('flag')).toEqual({ first: 3, count: 3 });
     expect(texture.layersOf('flag/2-#ffffff')).toEqual({ first: 4, count: 1 });
     expect(texture.layersOf(1)).toEqual({ first: 1, count: 1 });
     expect(() => texture.layersOf('fla')).toThrow('no root "fla"');
-    expect(new VectorTexture(await read('duck')).layersOf()).toEqual({ first: 0, count: 1 });
-    const thesis = new VectorTexture(await pair('sixteen/duck'));
-    expect(() => thesis.layersOf()).toThrow('has no layers');
+  });
+
+  test('without a choice: the only shape, the only drawing', async () => {
+    const [duck, badge] = [new VectorTexture(await read('duck')), new VectorTexture(await read('badge'))];
+    expect([duck.index(), duck.contains(0.5, 0.5), duck.contains(0.5, 0.5, null)]).toEqual([0, true, true]);
+    expect(duck.layersOf()).toEqual({ first: 0, count: 1 });
+    expect(badge.layersOf()).toEqual({ first: 0, count: 3 });
+    const names = badge.roots.map(({ name }) => name).join(', ');
+    const message = `badge holds 3 shapes (${names}); choose one by root`;
+    for (const choose of [() => badge.index(), () => badge.contains(0.5, 0.5), () => badge.contains(0.5, 0.5, null)]) {
+      expect(choose).toThrow(message);
+    }
+  });
+
+  test('without a choice several drawings are ambiguous', async () => {
+    const texture = new VectorTexture(await read('drawings'));
+    expect(() => texture.layersOf()).toThrow('drawings holds 2 drawings (badge, flag); choose one by root');
+    expect(() => texture.index()).toThrow(/^drawings holds 6 shapes \((\S+, ){5}\S+\); choose one by root$/);
+    const data = await read('duck');
+    const roots = Array.from({ length: 9 }, (_, place) => ({ ...data.roots[0], name: place ? `${place}` : 'a\nb' }));
+    expect(() => new VectorTexture({ ...data, roots }).layersOf()).toThrow(
+      'duck holds 9 drawings (a b, 1, 2, 3, 4, 5 and 3 more); choose one by root',
+    );
   });
 
   test('only as many layers as a texture has rows', async () => {
@@ -123,7 +110,6 @@ describe('a texture in use', () => {
   test('sizes and names', async () => {
     const texture = new VectorTexture(await read('drawings'));
     expect(texture).toMatchObject({ encoding: 'packed', name: 'drawings', nbytes: 64 * 16, isVectorTexture: true });
-    expect(new VectorTexture(await pair('eight/simple-small'))).toMatchObject({ encoding: 'thesis', name: 'pair' });
   });
 
   test('another shape takes its place in one go', async () => {
@@ -155,7 +141,7 @@ describe('a texture in use', () => {
   });
 
   test('dispose', async () => {
-    const texture = new VectorTexture(await pair('eight/simple-small'));
+    const texture = new VectorTexture(await read('duck'));
     let disposed = 0;
     for (const one of Object.values(texture.textures)) one.addEventListener('dispose', () => disposed++);
     texture.dispose();

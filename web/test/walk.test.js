@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { readPacked } from '../src/packed.js';
-import { readThesis } from '../src/read-thesis.js';
+import { ThesisTexture, readThesis } from '../src/thesis/index.js';
 import { VectorTexture } from '../src/vector-texture.js';
 import { bounds, cellAt, contains, counts } from '../src/walk.js';
 import { fixture, ktx2 } from './files.js';
@@ -43,7 +43,7 @@ describe('contains', () => {
 
   test('a thesis texture agrees but for its tolerance', async () => {
     const pair = await readThesis(fixture('sixteen/duck.quads.png'), fixture('sixteen/duck.curves.png'));
-    const [packed, thesis] = [new VectorTexture(duck), new VectorTexture(pair)];
+    const [packed, thesis] = [new VectorTexture(duck), new ThesisTexture(pair)];
     const differ = points.filter(([u, v]) => packed.contains(u, v) !== thesis.contains(u, v));
     expect(differ.length).toBeLessThan(points.length / 500);
     expect(points.filter(([u, v]) => thesis.contains(u, v)).length).toBeGreaterThan(1000);

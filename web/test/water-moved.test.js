@@ -1,7 +1,7 @@
 // A three.js whose Water has changed: its real shader, with one include gone.
 import { PlaneGeometry } from 'three';
 import { expect, test, vi } from 'vitest';
-import { VectorWater } from '../src/water.js';
+import { VectorWater } from '../src/water/index.js';
 
 const gone = vi.hoisted(() => ({ include: '' }));
 

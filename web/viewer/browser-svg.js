@@ -1,4 +1,4 @@
-/** The source as the browser itself draws it, in step with the picture: an image, so nothing in it runs. */
+/** The source drawn by the browser, following the view. It is an image element, so its scripts do not run. */
 import { element } from './dom.js';
 import { toUnit } from './view.js';
 
@@ -10,8 +10,8 @@ import { toUnit } from './view.js';
 const SVG = 'http://www.w3.org/2000/svg';
 
 /**
- * The source's outermost element, made to stand in another one where its own window is: its viewBox, its aspect ratio
- * and its clipping do what they do when it stands alone.
+ * The source's root element, placed in another SVG at its own window: viewBox, aspect ratio and clipping act as in the
+ * standalone document.
  *
  * @param {string} text
  * @param {[number, number, number, number]} window left, top, width and height, in the source's user units
@@ -27,12 +27,12 @@ function nested(text, [x, y, width, height]) {
   const { style } = /** @type {SVGSVGElement} */ (/** @type {unknown} */ (root));
   style.setProperty('width', `${width}px`, 'important');
   style.setProperty('height', `${height}px`, 'important');
-  style.setProperty('overflow', framed ? 'hidden' : 'visible', 'important'); // without a size nothing is cut off
+  style.setProperty('overflow', framed ? 'hidden' : 'visible', 'important'); // without a size nothing is clipped
   return new XMLSerializer().serializeToString(root);
 }
 
 export class BrowserSvg {
-  /** @type {{view: View, size: Size} | null} what the shown image was made for */
+  /** @type {{view: View, size: Size} | null} view of the image in place */
   #shown = null;
   #busy = false;
   #again = false;
@@ -62,7 +62,7 @@ export class BrowserSvg {
     return [a * u + b * v + c, d * u + e * v + f];
   }
 
-  /** The whole document that shows what the canvas shows. */
+  /** The whole document with the canvas's view. */
   #document() {
     const [x0, y0] = this.#user(toUnit(this.#view, this.#size, 0, 0));
     const [x1, y1] = this.#user(toUnit(this.#view, this.#size, this.#size.width, this.#size.height));
@@ -83,7 +83,7 @@ export class BrowserSvg {
     else void this.#draw();
   }
 
-  /** Until an image of this view is there, the last one is moved to where it belongs. */
+  /** Until the image of this view is ready, transform the last one. */
   #place() {
     if (!this.#shown || !this.image) return;
     const { view, size } = this.#shown;

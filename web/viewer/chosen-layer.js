@@ -1,4 +1,4 @@
-/** Which layer of a drawing the overlays tell of: one that a person chose, or the topmost one under the pointer. */
+/** The layer that the overlays show: the user's choice, or the topmost layer under the pointer. */
 import { contains } from '../src/walk.js';
 
 /**
@@ -6,7 +6,7 @@ import { contains } from '../src/walk.js';
  * @typedef {import('../src/data.js').PackedData} PackedData
  */
 
-/** Dispatches `change` when another layer is told of. */
+/** Dispatches `change` when the layer changes. */
 export class ChosenLayer extends EventTarget {
   #engine;
   /** @type {PackedData | null} */
@@ -22,7 +22,7 @@ export class ChosenLayer extends EventTarget {
     this.#reset();
   }
 
-  /** Data of the packed texture; null while there is none. */
+  /** Data of the texture; null while there is none. */
   get data() {
     return this.#data;
   }
@@ -54,7 +54,7 @@ export class ChosenLayer extends EventTarget {
   }
 
   /**
-   * Follow the pointer to a point of the unit square; where there is nothing, what was told of stays.
+   * Follow the pointer to a point of the unit square; the layer stays where the drawing is empty.
    *
    * @param {number} u @param {number} v
    */
@@ -67,7 +67,7 @@ export class ChosenLayer extends EventTarget {
 
   #reset() {
     const data = this.#engine.drawing?.texture.data;
-    this.#data = data?.encoding === 'packed' ? data : null;
+    this.#data = data ?? null;
     const { layers } = this;
     const stays = !this.#follows && layers.includes(this.#index);
     if (!stays) this.#index = layers.at(-1) ?? 0;
@@ -87,7 +87,7 @@ export class ChosenLayer extends EventTarget {
 const CHOSEN = new WeakMap();
 
 /**
- * The one that all parts of a page share.
+ * The instance shared by all parts of a page.
  *
  * @param {Engine} engine
  */

@@ -1,15 +1,14 @@
-/** The divider: this texture on its left, another way to hold the drawing on its right. */
+/** The divider: this texture on its left, another representation of the drawing on its right. */
 import { BrowserSvg } from './browser-svg.js';
 import { element } from './dom.js';
-import { rasterRival, thesisRival } from './rivals.js';
-import { bytesOf } from './scene.js';
-import { readThesis } from '../src/read-thesis.js';
-import { VectorTexture } from '../src/vector-texture.js';
+import { rasterRival } from './rivals.js';
+import { bytesOf } from './library.js';
+import { thesisRival } from './thesis-rival.js';
 
 /**
  * @typedef {import('./engine.js').Engine} Engine
  * @typedef {import('./state.js').State} State
- * @typedef {import('./scene.js').Document} Document
+ * @typedef {import('./library.js').Document} Document
  */
 
 const STEP = 0.02;
@@ -69,9 +68,9 @@ async function prepared(which, shown, engine) {
     if (!box) throw new Error('where the SVG stands is not in this file');
     return new BrowserSvg(text, shown.texture.roots[drawing?.first ?? 0].transform, box);
   }
-  const [quads, curves] = await Promise.all(view.map((/** @type {string} */ url) => bytesOf(url, shown.base)));
+  const pair = await Promise.all(view.map((/** @type {string} */ url) => bytesOf(url, shown.base)));
   if (!drawing) throw new Error('nothing is shown');
-  const rival = thesisRival(new VectorTexture(await readThesis(quads, curves, shown.name)), drawing);
+  const rival = await thesisRival(pair, shown.name, drawing);
   await rival.pass.compile(engine.renderer);
   return rival;
 }

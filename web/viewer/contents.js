@@ -1,4 +1,4 @@
-/** The texture itself: its texels as a picture, what each one says, and where it stands in the drawing. */
+/** The texture's contents: its texels as a picture, the meaning of each, and its place in the drawing. */
 import { chosenLayer } from './chosen-layer.js';
 import { element, section } from './dom.js';
 import { paintTexels } from './texel-image.js';
@@ -10,10 +10,10 @@ import { cellRect, svgLayer } from './svg.js';
  * @typedef {import('./state.js').State} State
  */
 
-/** Texels shown of a larger texture, from the root of the chosen shape on. */
+/** Largest number of texels shown, from the root of the chosen shape on. */
 const MOST_SHOWN = 1 << 16;
 const MOST_COLUMNS = 256;
-/** CSS pixels of a texel: the least, and the most. */
+/** Least and largest size of a texel in CSS pixels. */
 const LEAST_TEXEL = 4;
 const MOST_TEXEL = 16;
 

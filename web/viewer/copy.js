@@ -1,4 +1,4 @@
-/** The picture and the address of what is seen, for other programs. */
+/** The picture and the address of the view, copied to the clipboard. */
 
 /** @param {string} text */
 export async function copyText(text) {
@@ -6,12 +6,12 @@ export async function copyText(text) {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    return false; // no permission, or a page that was not served securely
+    return false; // no permission, or an insecure context
   }
 }
 
 /**
- * The canvas with what lies over it.
+ * The canvas with its overlays.
  *
  * @param {import('./engine.js').Engine} engine
  * @param {HTMLImageElement | null} image right of the divider
@@ -24,7 +24,7 @@ export async function pictureOf(engine, image) {
   sheet.height = canvas.height;
   const context = /** @type {CanvasRenderingContext2D} */ (sheet.getContext('2d'));
   engine.render();
-  context.drawImage(canvas, 0, 0); // in the same turn: later the canvas may be empty
+  context.drawImage(canvas, 0, 0); // in the same task as the frame: later the canvas may be empty
   if (image) {
     const from = state.value.split * canvas.width;
     context.save();

@@ -19,10 +19,10 @@ export function element(tag, attributes = {}, ...children) {
 }
 
 /**
- * A labelled choice.
+ * A labelled select element.
  *
  * @param {string} label
- * @param {Iterable<readonly [string, string]>} choices values and what people read
+ * @param {Iterable<readonly [string, string]>} choices values and labels
  * @param {(value: string) => void} chosen
  */
 export function select(label, choices, chosen) {
@@ -33,7 +33,7 @@ export function select(label, choices, chosen) {
 }
 
 /**
- * A titled part of the panel.
+ * A titled section of the panel.
  *
  * @param {string} title
  * @param {(Node | string)[]} children

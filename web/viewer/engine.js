@@ -1,4 +1,4 @@
-/** The canvas: what is on it, and when it is drawn. */
+/** The canvas: its contents, and when to draw them. */
 import { SRGBColorSpace, WebGLRenderer } from 'three';
 import { shownDrawing } from './drawing.js';
 import { Flat } from './flat.js';
@@ -16,15 +16,15 @@ import { panned, toScreen, toUnit, zoomed } from './view.js';
 const TURN_RATE = 0.008; // radians to a CSS pixel
 
 /**
- * Draws what the state says, when it changes. Events: `view` when the point of view or the size changes, `shape` when
- * another texture or drawing is shown, `frame` after each picture, with `detail.milliseconds`; `lost` and `restored`.
+ * Draws the state when it changes. Events: `view` when the view or the size changes, `shape` when another texture or
+ * drawing is shown, `frame` after each frame, with `detail.milliseconds`; `lost` and `restored` for the context.
  */
 export class Engine extends EventTarget {
-  /** Uniforms of packed_overlay.glsl, to be filled before the first picture. @type {Record<string, {value: any}>} */
+  /** Uniforms of overlay.glsl, to be set before the first frame. @type {Record<string, {value: any}>} */
   overlayUniforms = {};
   /** @type {import('./drawing.js').ShownDrawing | null} */
   drawing = null;
-  /** @type {import('./scene.js').Document | null} */
+  /** @type {import('./library.js').Document | null} */
   document = null;
   /** @type {Size} */
   size = { width: 1, height: 1 };
@@ -68,15 +68,15 @@ export class Engine extends EventTarget {
     this.resize(box.clientWidth, box.clientHeight);
   }
 
-  /** The texture whose drawing is shown. */
+  /** The shown texture. */
   get texture() {
     return this.drawing?.texture ?? null;
   }
 
   /**
-   * Show a shape; what was shown stays on the canvas until this can be drawn.
+   * Show a shape. The canvas keeps its contents until the shape can be drawn.
    *
-   * @param {import('./scene.js').Document} document
+   * @param {import('./library.js').Document} document
    */
   async show(document) {
     this.document = document;
@@ -94,7 +94,7 @@ export class Engine extends EventTarget {
     this.rival = rival;
   }
 
-  /** Have the surface that the state asks for; what is on the canvas stays until it can be drawn. */
+  /** Switch to the state's surface. The canvas keeps its contents until the surface can be drawn. */
   async #raise() {
     const { mode } = this.state.value;
     if (mode === 'flat' || !this.drawing) return;
@@ -102,7 +102,7 @@ export class Engine extends EventTarget {
     const solid = new Solid(mode, this.drawing);
     await solid.compile(this.renderer);
     if (solid.surface !== this.state.value.mode || solid.drawing !== this.drawing) {
-      solid.dispose(); // while it was made, another was asked for
+      solid.dispose(); // the state has changed meanwhile
       return;
     }
     this.#solid?.dispose();
@@ -120,7 +120,7 @@ export class Engine extends EventTarget {
     if (this.drawing && this.flat.plain.ready) this.render(); // a resized canvas is blank until it is drawn
   }
 
-  /** Take the theme's colours again. */
+  /** Read the theme's colours again. */
   recolor() {
     this.#colors = pictureColors();
     if (this.drawing) this.flat.setDrawing(this.drawing, this.#colors);
@@ -176,7 +176,7 @@ export class Engine extends EventTarget {
   }
 
   /**
-   * Point of the unit square at a place on the canvas; null where the surface is none.
+   * Point of the unit square at a place on the canvas; null beside the surface.
    *
    * @param {number} px @param {number} py
    * @returns {[number, number] | null}

@@ -4,7 +4,7 @@ import { create as createInspector } from './inspector.js';
 import { create as createOverlays } from './overlays.js';
 
 /**
- * What is added to the page beside its engine, in the order in which it stands there.
+ * Parts of the page beside its engine, in their order on the page.
  *
  * @typedef {object} Extra
  * @property {(engine: import('./engine.js').Engine, state: import('./state.js').State) => Element} create

@@ -1,4 +1,4 @@
-/** What is known of the shape, and how fast it is drawn. */
+/** Facts about the shape, and its frame time. */
 import { counts } from '../src/walk.js';
 import { element, section } from './dom.js';
 import { median } from './median.js';
@@ -50,7 +50,7 @@ export function create(engine, _state) {
   function update() {
     const { document: opened, drawing } = engine;
     const data = drawing?.texture.data;
-    if (!opened || !drawing || data?.encoding !== 'packed') return;
+    if (!opened || !drawing || !data) return;
     const facts = opened.manifest.facts ?? {};
     const layers = data.roots.slice(drawing.first, drawing.first + drawing.count);
     const found = [...new Set(layers.map(({ quad }) => quad))].map((quad) => counts(data, quad));
@@ -84,7 +84,7 @@ export function create(engine, _state) {
 }
 
 /**
- * Median time of a picture in milliseconds, from the call until its pixels are there.
+ * Median frame time in milliseconds, from the call until the pixels can be read.
  *
  * @param {Engine} engine
  */
@@ -96,7 +96,7 @@ async function measure(engine) {
     await new Promise((next) => requestAnimationFrame(next));
     const begin = performance.now();
     engine.render();
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); // waits for the picture
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); // waits for the frame
     times.push(performance.now() - begin);
   }
   return median(times);

@@ -1,4 +1,4 @@
-/** The flat picture of a packed texture, its layers on the theme's paper. */
+/** The flat view of a texture: its layers on the theme's paper. */
 import { Vector2, Vector3, Vector4 } from 'three';
 import { QUALITIES, packed, packedOverlay } from '../generated/shaders.js';
 import { Pass } from './pass.js';
@@ -33,9 +33,9 @@ void main() {
 }
 `;
 
-/** Two programs with the same uniforms: the picture, and the picture below overlays. */
+/** Two programs with the same uniforms: the drawing, and the drawing below overlays. */
 export class Flat {
-  /** @param {Record<string, {value: any}>} overlays uniforms of packed_overlay.glsl, filled by whoever switches them */
+  /** @param {Record<string, {value: any}>} overlays uniforms of overlay.glsl, set by the module `overlays` */
   constructor(overlays) {
     const nothing = /** @type {Texture | undefined} */ (undefined);
     this.uniforms = Object.assign(overlays, {
@@ -86,7 +86,7 @@ export class Flat {
    *
    * @param {WebGLRenderer} renderer
    * @param {import('three').WebGLRenderTarget} target
-   * @param {boolean} asSilhouette in white, instead of in its colours
+   * @param {boolean} asSilhouette in white instead of its colours
    */
   drawSquare(renderer, target, asSilhouette) {
     const { base, start, side, ink, paper, silhouette } = this.uniforms;

@@ -1,4 +1,4 @@
-/** How long pictures take, from the first command to the GPU's last, without waiting for it. */
+/** Frame times from the first command until the GPU has finished, without blocking. */
 
 const PATIENCE = 2000; // ms
 
@@ -7,7 +7,7 @@ export class FrameClock {
 
   /**
    * @param {import('three').WebGLRenderer} renderer
-   * @param {number} begin when the picture was begun
+   * @param {number} begin start of the frame
    * @param {(milliseconds: number) => void} done
    */
   measure(renderer, begin, done) {
@@ -17,7 +17,7 @@ export class FrameClock {
     if (!fence) return done(performance.now() - begin);
     gl.flush();
     this.#waiting = true;
-    const channel = new MessageChannel(); // timers are too coarse
+    const channel = new MessageChannel(); // timers are too coarse: at least 4 ms
     channel.port1.onmessage = () => {
       const now = performance.now();
       const state = gl.isContextLost() ? gl.ALREADY_SIGNALED : gl.clientWaitSync(fence, 0, 0);

@@ -1,5 +1,5 @@
 /**
- * Pointer, wheel, touch and keys on the stage, as movements of what is seen.
+ * Pointer, wheel, touch and keyboard input on the stage, as changes of the view.
  *
  * @typedef {object} Moves
  * @property {(dx: number, dy: number) => void} drag by CSS pixels

@@ -1,7 +1,7 @@
-/** The cell under the pointer: its curves with their control points, and how a point's being inside is found. */
+/** The cell under the pointer: its curves with their control points, and the containment test of a point. */
 import { cellAt, contains } from '../src/walk.js';
 import { chosenLayer } from './chosen-layer.js';
-import { drawCell } from './cell-drawing.js';
+import { drawCell } from './cell-figure.js';
 import { element, section } from './dom.js';
 import { watchPointer } from './pointer.js';
 import { nearestCurve, solutionsAt } from './solutions.js';
@@ -11,12 +11,12 @@ import { svgElement, svgLayer } from './svg.js';
  * @typedef {import('./engine.js').Engine} Engine
  * @typedef {import('./state.js').State} State
  * @typedef {[number, number]} Point
- * @typedef {import('./cell-drawing.js').Found} Found
+ * @typedef {import('./cell-figure.js').Found} Found
  */
 
-/** Milliseconds between two texts that a screen reader is given. */
+/** Least milliseconds between two announcements to screen readers. */
 const QUIET = 300;
-/** CSS pixels: the plot in the panel, and the room around the cell in it. */
+/** Size of the plot in the panel and its margin around the cell, in CSS pixels. */
 const PLOT = 280;
 const MARGIN = 34;
 
@@ -37,7 +37,7 @@ export function create(engine, state) {
   let pointer = null;
   let timer = 0;
 
-  /** The point that is asked about: whoever moves the picture by keys looks at its middle. */
+  /** The inspected point: the pointer's, or the middle of the view when it moves by keys. */
   function asked() {
     const { width, height } = engine.size;
     return engine.toUnit(...(pointer ?? /** @type {Point} */ ([width / 2, height / 2])));
@@ -61,7 +61,7 @@ export function create(engine, state) {
     const hint = state.value.mode === 'flat' ? 'There is no cell here.' : 'Cells are inspected in the flat view.';
     const parts = found ? described(found) : state.overlays.inspect ? [element('p', { class: 'hint' }, hint)] : [];
     const said = parts.map((part) => part.textContent).join('');
-    if (said !== text.textContent) text.replaceChildren(...parts); // not to be read out again
+    if (said !== text.textContent) text.replaceChildren(...parts); // avoids a repeated announcement
   }
 
   /** @param {Point | null} at */
@@ -82,7 +82,7 @@ export function create(engine, state) {
     timer ||= window.setTimeout(write, QUIET);
   }
 
-  watchPointer(engine, (px, py) => point([px, py])); // what was pointed at last stays: the table is read elsewhere
+  watchPointer(engine, (px, py) => point([px, py])); // the last point stays when it leaves
   engine.canvas.parentElement?.addEventListener('keydown', () => point(null));
   state.addEventListener('change', update);
   chosen.addEventListener('change', update);
@@ -92,7 +92,7 @@ export function create(engine, state) {
 }
 
 /**
- * From the unit square to the plot, which shows a cell always as large.
+ * From the unit square to the plot, in which every cell has the same size.
  *
  * @param {Found['cell']} cell
  * @returns {(u: number, v: number) => Point}

@@ -1,4 +1,4 @@
-/** The address of what is seen. */
+/** The address of the view. */
 import { START, decodeView, encodeView } from './state.js';
 
 const KEY = '#view=';
@@ -10,7 +10,7 @@ export function linkTo(state) {
 }
 
 /**
- * The state that the address asks for: null if it asks for none, undefined if its link is damaged.
+ * The state in the address: null without one, undefined if it is damaged.
  *
  * @returns {import('./state.js').ViewState | null | undefined}
  */
@@ -20,7 +20,7 @@ export function linkedView() {
 }
 
 /**
- * Keep address and state the same.
+ * Synchronize the address and the state.
  *
  * @param {import('./state.js').State} state
  * @param {(message: string) => void} note

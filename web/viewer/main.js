@@ -1,4 +1,4 @@
-/** The page: makes its elements, brings them together, and starts. */
+/** Entry of the page: makes and connects its elements, and starts. */
 import { createCompare } from './compare.js';
 import { copyPicture, copyText, pictureOf } from './copy.js';
 import { element } from './dom.js';
@@ -9,7 +9,7 @@ import { ZOOM_STEP, listen } from './gestures.js';
 import { followLink, linkTo, linkedView } from './link.js';
 import { Notes } from './notes.js';
 import { createPanel, createTools } from './panel.js';
-import { Library, readScene } from './scene.js';
+import { Library, readScene } from './library.js';
 import { START, State, THEMES } from './state.js';
 import { applyTheme, watchSystemTheme } from './theme.js';
 
@@ -23,7 +23,7 @@ const stage = element('div', {
   class: 'stage', tabindex: 0, role: 'application', 'aria-label':
     'Picture. Drag or press the arrow keys to move, + and − to zoom, 0 to see all of it.',
 }, canvas);
-/** The picture and what stands over it. */
+/** The canvas and its overlays. */
 const scene = element('main', { class: 'scene' });
 
 /** @param {State} state */
@@ -116,7 +116,7 @@ async function openFiles(files, state, library) {
   }
 }
 
-/** What is to be said of a shape while it is shown. @param {import('./scene.js').Document} document */
+/** Notes about a shape while it is shown. @param {import('./library.js').Document} document */
 function noteOf({ name, manifest }) {
   return manifest.note ?? (manifest.facts?.segments === 0 ? `Nothing is drawn in ${name}.` : '');
 }
@@ -128,7 +128,7 @@ function noteOf({ name, manifest }) {
  */
 function opener(engine, state, library, opened) {
   let turn = 0;
-  /** @type {import('./scene.js').Document | null} */
+  /** @type {import('./library.js').Document | null} */
   let current = null;
   const again = () => {
     if (!current) return;
@@ -207,7 +207,7 @@ app.classList.toggle('bare', bare);
 scene.append(stage, notes.element);
 app.append(scene);
 
-/** For tests and for the curious. */
+/** For tests and for the console. */
 const viewer = {
   state,
   /** @type {Engine | null} */

@@ -12,14 +12,14 @@ export class Notes {
     this.element = element('div', { role: 'status', 'aria-live': 'polite', class: 'notes' });
   }
 
-  /** A message that goes by itself. @param {string} message */
+  /** A message that disappears after a while. @param {string} message */
   say(message) {
     this.#show(message);
     this.#timer = window.setTimeout(() => this.#show(this.#all()), SHOWN_FOR);
   }
 
   /**
-   * A message that stays until another of the same subject, or none, takes its place.
+   * A message that stays until it is replaced by another one of the same subject, or by null.
    *
    * @param {string} subject @param {string} message
    */

@@ -1,6 +1,6 @@
 /**
- * Colours of what lies over the picture. They rise or fall in lightness alone wherever they stand for a number, so that
- * their order is seen by everyone.
+ * Colours of the overlays. Colours that represent a number are monotone in lightness, so that colour-blind readers see
+ * their order.
  *
  * @typedef {[number, number, number]} Rgb sRGB, 0..1
  */
@@ -9,8 +9,8 @@
 export const OPACITY = Object.freeze({ cells: 0.6, coverage: 0.85, depth: 0.75 });
 
 /**
- * For each theme the colours of nothing and of everything: of cells by their stored coverage, and of quads at the
- * cut-off, which must not be taken for the picture.
+ * For each theme the colours of coverage 0 and 1: of cells by their stored coverage, and of quads at the cut-off, which
+ * must differ from the drawing.
  *
  * @type {Record<'light' | 'dark', {coverage: [Rgb, Rgb], stored: [Rgb, Rgb]}>}
  */

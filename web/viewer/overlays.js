@@ -1,4 +1,4 @@
-/** Switches of what lies over the picture, and their legend. */
+/** Switches of the overlays, and their legend. */
 import { Color } from 'three';
 import { MOST_DEPTH } from '../generated/layout.js';
 import { counts } from '../src/walk.js';

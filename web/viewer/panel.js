@@ -1,4 +1,4 @@
-/** The side panel: which shape, on which surface, against what; and the page's buttons. */
+/** The side panel: choice of shape, surface and comparison; and the page's buttons. */
 import { element, section, select } from './dom.js';
 import { drawingNames } from './drawing.js';
 

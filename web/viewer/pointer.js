@@ -1,4 +1,4 @@
-/** Where on the picture a person points. */
+/** Position of the pointer on the canvas. */
 
 /**
  * @param {import('./engine.js').Engine} engine

@@ -1,8 +1,5 @@
-/** Other ways to hold the same drawing, drawn for comparison: the thesis's textures, and pixels. */
+/** Other representations of the same drawing, drawn for comparison; here a raster. */
 import { LinearFilter, LinearMipmapLinearFilter, RGBAFormat, RedFormat, Vector2, Vector3, Vector4, WebGLRenderTarget } from 'three';
-import { CURVE_WIDTH, QUAD_WIDTH } from '../generated/layout.js';
-import { FOLD_HEIGHT } from '../generated/shaders.js';
-import { thesis } from '../generated/thesis-shader.js';
 import { Pass } from './pass.js';
 import { pixelSide, toUnit } from './view.js';
 
@@ -17,22 +14,13 @@ import { pixelSide, toUnit } from './view.js';
  * @property {() => void} dispose
  */
 
-const HEAD = `
+/** Uniforms and output of every rival's shader. */
+export const HEAD = `
 uniform vec2 start;
 uniform float side;
 uniform vec3 ink;
 uniform vec4 paper;
 out vec4 pixel;
-`;
-
-const THESIS = `
-uniform sampler2D quads;
-uniform sampler2D curves;
-void main() {
-  vec2 center = start + gl_FragCoord.xy * side;
-  float cover = thesis_coverage(quads, curves, center, vec2(side, 0.0), vec2(0.0, side));
-  pixel = mix(paper, vec4(ink, 1.0), cover);
-}
 `;
 
 const RASTER = `
@@ -49,8 +37,8 @@ void main() {
 
 const MIPS = 4 / 3; // all levels of a texture to its largest
 
-/** @param {Record<string, {value: any}>} own */
-function uniforms(own) {
+/** The uniforms of `HEAD`, and a rival's own. @param {Record<string, {value: any}>} own */
+export function uniforms(own) {
   return {
     start: { value: new Vector2() }, side: { value: 1 }, ink: { value: new Vector3() }, paper: { value: new Vector4() },
     ...own,
@@ -72,35 +60,9 @@ export function setRivalView(rival, view, size, ratio, colors) {
   paper.value.set(...colors.paper, 1);
 }
 
-/** Colour of a drawing that has but one of its own. @param {import('./drawing.js').ShownDrawing} drawing */
-function tintOf({ texture, first, count, silhouette }) {
+/** Colour of a drawing of one painted layer; null for others. @param {import('./drawing.js').ShownDrawing} drawing */
+export function tintOf({ texture, first, count, silhouette }) {
   return count === 1 && !silhouette ? (texture.roots[first].paint?.color ?? null) : null;
-}
-
-/**
- * @param {import('../src/vector-texture.js').VectorTexture} texture of thesis data, which knows no colours
- * @param {import('./drawing.js').ShownDrawing} drawing what it is compared with
- * @returns {Rival}
- */
-export function thesisRival(texture, drawing) {
-  const data = /** @type {import('../src/data.js').ThesisData} */ (texture.data);
-  const sizes = `const int thesis_LEVELS = ${data.levels};\nconst int thesis_FOLD_HEIGHT = ${FOLD_HEIGHT};\n`;
-  const pass = new Pass(sizes + thesis + HEAD + THESIS, uniforms({
-    quads: { value: texture.textures.quads }, curves: { value: texture.textures.curves },
-    thesis_list_lengths: { value: [data.quadCount, data.curveCount] },
-  }));
-  return {
-    pass, tint: tintOf(drawing), label: `Thesis, ${data.bits} bit${drawing.count > 1 ? ': silhouette' : ''}`, dispose: () => {
-      pass.dispose();
-      texture.dispose();
-    },
-  };
-}
-
-/** Bytes of the thesis's files on the GPU, as it counts them: three channels to a pixel. */
-/** @param {import('../src/data.js').ThesisData} data */
-export function thesisBytes(data) {
-  return (data.quadCount * QUAD_WIDTH + data.curveCount * CURVE_WIDTH) * 3 * (data.bits / 8);
 }
 
 /**
@@ -109,7 +71,7 @@ export function thesisBytes(data) {
  * @param {number} bytes
  * @param {number} texel bytes of a pixel
  */
-export function rasterSide(bytes, texel) {
+function rasterSide(bytes, texel) {
   return Math.max(1, Math.floor(Math.sqrt(bytes / (texel * MIPS))));
 }
 

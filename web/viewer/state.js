@@ -1,5 +1,5 @@
 /**
- * What a person sees, as one value, and its text for links.
+ * The state of the page as one value, and its encoding in links.
  *
  * @typedef {'flat' | 'plane' | 'sphere' | 'cube'} Mode
  * @typedef {'light' | 'dark' | 'system'} Theme

@@ -16,7 +16,14 @@
  * @property {string[]} words what its four words say
  */
 import {
-  CELL_BITS, CONTROL_OFFSET, COORDINATE_BITS, COUNT_SHIFT, COVERAGE_ONE, LATTICE, MOST_CURVES, QUAD_FLAG,
+  CELL_BITS,
+  CONTROL_OFFSET,
+  COORDINATE_BITS,
+  COUNT_SHIFT,
+  COVERAGE_ONE,
+  LATTICE,
+  MOST_CURVES,
+  QUAD_FLAG,
   WINDING_OFFSET,
 } from '../generated/layout.js';
 

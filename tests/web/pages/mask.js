@@ -1,6 +1,7 @@
 // Scenes with masked materials, drawn one at a time as a test describes them.
 import * as THREE from 'three';
 import { FoldTexture, VectorMaterial, VectorTextureLoader, VextureError, applyVectorMask, rootAttribute } from 'vexture';
+import { ThesisLoader } from 'vexture/thesis';
 
 const textures = {};
 const folds = {};
@@ -9,7 +10,7 @@ const renderers = {};
 const loader = new VectorTextureLoader();
 
 function load(name) {
-  return loader.loadAsync(name === 'thesis' ? 'thesis.quads.png' : `${name}.ktx2`);
+  return name === 'thesis' ? new ThesisLoader().loadAsync(name) : loader.loadAsync(`${name}.ktx2`);
 }
 
 async function textureOf(name) {
@@ -229,6 +230,7 @@ async function loss(config) {
 
 async function refusals() {
   const texture = await textureOf('duck');
+  const atlas = await textureOf('atlas');
   const thesis = await textureOf('thesis');
   const masked = new THREE.MeshBasicMaterial({ name: 'sea' });
   const first = applyVectorMask(masked, texture);
@@ -239,6 +241,7 @@ async function refusals() {
     mode: () => applyVectorMask(new THREE.MeshBasicMaterial(), texture, { mode: 'glow' }),
     colorless: () => applyVectorMask(new THREE.MeshNormalMaterial(), texture, { mode: 'paint' }),
     root: () => applyVectorMask(new THREE.MeshBasicMaterial(), texture, { root: 'dukc' }),
+    several: () => applyVectorMask(new THREE.MeshBasicMaterial(), atlas),
     thesis: () => applyVectorMask(new THREE.MeshBasicMaterial(), thesis, { wrap: 'repeat' }),
     mesh: () => first.attach(new THREE.Mesh(new THREE.BoxGeometry(), [masked, masked])),
     setter: () => (first.wrap = 'mirror'),

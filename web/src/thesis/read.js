@@ -1,4 +1,5 @@
-// A thesis texture from its pair of files (FORMAT.md, part A), with everything checked that a shader relies upon.
+// Reads a thesis texture from its pair of files (FORMAT.md, part A) and validates all that a shader relies on.
+import { TEXT_ENCODING, TEXT_VERSION } from '../../generated/layout.js';
 import {
   CONSTANT_ROWS,
   CURVE_WIDTH,
@@ -6,26 +7,37 @@ import {
   FORMAT_VERSION,
   QUAD_WIDTH,
   TEXT_CRS,
-  TEXT_ENCODING,
   TEXT_TRANSFORM,
-  TEXT_VERSION,
-} from '../generated/layout.js';
-import { thesis as glsl } from '../generated/thesis-shader.js';
-import { REMEDY, VextureError, line } from './errors.js';
+} from '../../generated/thesis-layout.js';
+import { REMEDY, VextureError, line } from '../errors.js';
 import { readPng } from './png.js';
-import { thesisCell } from './thesis-walk.js';
+import { thesisCell } from './walk.js';
 
 const NUMBER = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
 
 /**
- * What `readThesis` gives.
- *
- * @param {ArrayBuffer | Uint8Array} quadsPng
- * @param {ArrayBuffer | Uint8Array} curvesPng
- * @param {string} [name]
- * @returns {Promise<import('./data.js').ThesisData>}
+ * @typedef {object} ThesisData FORMAT.md, part A.
+ * @property {'thesis'} encoding
+ * @property {string} name
+ * @property {8 | 16} bits of each channel
+ * @property {number} quadCount rows of the list of quads
+ * @property {number} curveCount rows of the list of curves
+ * @property {Uint8Array | Uint16Array} quads RGB, four pixels to a row
+ * @property {Uint8Array | Uint16Array} curves RGB, two pixels to a row
+ * @property {number} levels levels of quads, the largest number of steps of a descent
+ * @property {import('../data.js').Root[]} roots one
  */
-export async function checkedThesis(quadsPng, curvesPng, name = 'texture') {
+
+/**
+ * Read and validate a pair of files.
+ *
+ * @param {ArrayBuffer | Uint8Array} quadsPng contents of `NAME.quads.png`
+ * @param {ArrayBuffer | Uint8Array} curvesPng contents of `NAME.curves.png`
+ * @param {string} [name]
+ * @returns {Promise<ThesisData>}
+ * @throws {VextureError} if a file is damaged, or the two do not belong together
+ */
+export async function readThesis(quadsPng, curvesPng, name = 'texture') {
   try {
     const [quads, curves] = await Promise.all([
       readList(quadsPng, QUAD_WIDTH, 'quads'),
@@ -47,7 +59,7 @@ export async function checkedThesis(quadsPng, curvesPng, name = 'texture') {
     }
     const transform = readTransform(quads.texts);
     const crs = quads.texts.get(TEXT_CRS) ?? null;
-    /** @type {import('./data.js').ThesisData} */
+    /** @type {ThesisData} */
     const data = {
       encoding: 'thesis',
       name,
@@ -57,7 +69,6 @@ export async function checkedThesis(quadsPng, curvesPng, name = 'texture') {
       quads: quads.pixels,
       curves: curves.pixels,
       levels: 0,
-      glsl,
       roots: [{ name, quad: 0, transform, tolerance: 0, crs, paint: null }],
     };
     data.levels = checkTree(data);
@@ -109,9 +120,9 @@ function readTransform(texts) {
 }
 
 /**
- * Check that every row is referred to once, in order, and later than what refers to it: so they are a tree.
+ * Check that the rows form a tree: each is referred to once, in order, by an earlier row.
  *
- * @param {import('./data.js').ThesisData} data
+ * @param {ThesisData} data
  * @returns {number} its levels
  */
 function checkTree(data) {
@@ -147,9 +158,9 @@ function checkTree(data) {
 }
 
 /**
- * Check what the tree does not say.
+ * Check the coverages of quads and the ends of curves, which `checkTree` does not look at.
  *
- * @param {import('./data.js').ThesisData} data
+ * @param {ThesisData} data
  */
 function checkPixels(data) {
   for (let quad = 0; quad < data.quadCount; quad++) {

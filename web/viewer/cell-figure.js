@@ -9,7 +9,7 @@
  * @property {Point} point in the unit square
  * @property {boolean} inside
  * @property {import('./solutions.js').Solution[]} solutions
- * @property {number} nearest which curve is the nearest one to the point; -1 without curves
+ * @property {number} nearest index of the curve nearest to the point; -1 without curves
  */
 import { coordinateAt, filledStrip } from './solutions.js';
 import { cellRect, svgElement } from './svg.js';
@@ -52,10 +52,10 @@ function isLegible(points) {
 }
 
 /**
- * A way from a curve to its filled side.
+ * Direction from a curve to its filled side.
  *
  * @param {Point[]} points P0 to P3 on the screen, y down
- * @param {number} [times] how often as far as usual
+ * @param {number} [times] factor of its length
  * @returns {Point}
  */
 function asideOf([p0, , , p3], times = 1) {

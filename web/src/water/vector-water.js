@@ -1,25 +1,25 @@
 import { Water } from 'three/addons/objects/Water.js';
-import { insert } from './hooks.js';
-import { SEA, checkGeometry, watered } from './water-mesh.js';
-import { waterNormals } from './water-normals.js';
-import { waterTexts } from './water-shader.js';
-import { WaterShape } from './water-shape.js';
+import { insert } from '../hooks.js';
+import { SEA, checkGeometry, watered } from './mesh.js';
+import { waterNormals } from './normals.js';
+import { waterTexts } from './shader.js';
+import { WaterShape } from './shape.js';
 
-/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
 
 /**
- * @typedef {import('./water-shape.js').WaterShapeOptions & import('three/addons/objects/Water.js').WaterOptions
- *   & { size?: number, fold?: import('./fold-texture.js').FoldTexture | null }} VectorWaterOptions
- *   `size` is that of three.js' uniform: how small the waves are
+ * @typedef {import('./shape.js').WaterShapeOptions & import('three/addons/objects/Water.js').WaterOptions
+ *   & { size?: number, fold?: import('../fold-texture.js').FoldTexture | null }} VectorWaterOptions
+ *   `size` is the uniform of three.js's Water: larger values give smaller waves
  */
 
-/** three.js' Water where a shape is: it mirrors the scene, and has foam and shallows along the shore. */
+/** three.js's Water within a shape: it mirrors the scene, and has foam and shallows along the shore. */
 export class VectorWater extends watered(Water) {
   /**
    * @param {import('three').BufferGeometry} geometry a plane; its vertices may be moved along z
    * @param {VectorTexture | null} texture
-   * @param {VectorWaterOptions} [options] those of three.js' Water, too
-   * @throws {VextureError} if an option is wrong, or this three.js' Water has lost a place that is needed
+   * @param {VectorWaterOptions} [options] and those of three.js's Water
+   * @throws {VextureError} if an option is out of range, or the shader of this three.js's Water lacks a hook
    */
   constructor(geometry, texture, options = {}) {
     checkGeometry(geometry);

@@ -1,4 +1,4 @@
-// Whether texels are what FORMAT.md, B.2 to B.4 says: trees that share nothing, end, and leave nothing over.
+// Validates texels (FORMAT.md, B.2 to B.4): they form disjoint trees of limited depth, and all others are zero.
 import {
   CELL_BITS,
   COORDINATE_BITS,
@@ -14,14 +14,14 @@ const CELL_MASK = (1 << CELL_BITS) - 1;
 const WINDING_MASK = (1 << COUNT_SHIFT) - 1;
 const COORDINATE_MASK = (1 << COORDINATE_BITS) - 1;
 
-/** What a texel has been met as. */
+/** Kinds of texels already visited. */
 const QUAD = 1;
 const CURVE = 2;
 
 /**
- * Throw a `VextureError` where texels contradict the format; takes time in proportion to their number.
+ * Check that texels follow the format, in linear time.
  *
- * Nothing is believed: the walk stays within the texels, meets each once, and ends.
+ * Untrusted input is validated: the walk stays within the texels, visits each once and therefore ends.
  *
  * @param {Uint32Array} texels
  * @param {number[]} roots index of each root's quad
@@ -47,7 +47,7 @@ export function checkForest(texels, roots) {
 }
 
 /**
- * Check the quads of a depth; those of the next.
+ * Check the quads of one depth, and return those of the next.
  *
  * @param {Uint32Array} texels
  * @param {Uint8Array} met
@@ -87,7 +87,7 @@ function checkLevel(texels, met, quads, depth) {
 }
 
 /**
- * Texels to which a quad refers are now met.
+ * Mark the texels that a quad refers to as visited.
  *
  * @param {Uint8Array} met
  * @param {number} quad
@@ -115,7 +115,7 @@ function meet(met, quad, first, count, kind) {
 }
 
 /**
- * Check the curves, and what no root reaches.
+ * Check the curves, and that texels reached from no root are zero.
  *
  * @param {Uint32Array} texels
  * @param {Uint8Array} met

@@ -1,14 +1,14 @@
-// RGB images with texts from PNG, all their bits kept; safe to read from strangers.
+// Reads RGB images of 8 or 16 bits and their texts from untrusted PNG files.
 import { decode } from 'fast-png';
-import { FILE_LIMIT, LIST_LIMIT } from '../generated/layout.js';
-import { REMEDY, VextureError, line } from './errors.js';
-import { inflate } from './inflate.js';
+import { FILE_LIMIT, LIST_LIMIT } from '../../generated/thesis-layout.js';
+import { REMEDY, VextureError, line } from '../errors.js';
+import { inflate } from '../inflate.js';
 
 const SIGNATURE = Object.freeze([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
 const RGB = 2; // colour type
 const FRAME_BYTES = 12; // length, tag and checksum of a chunk
 
-/** What is handed on to be decoded; others may hold anything, such as profiles that inflate without end. */
+/** Chunks passed to the decoder. Others are untrusted: a colour profile, for example, may inflate without bound. */
 const KEPT = ['IHDR', 'tEXt', 'IDAT', 'IEND'];
 
 /**
@@ -27,16 +27,16 @@ const KEPT = ['IHDR', 'tEXt', 'IDAT', 'IEND'];
  */
 
 /**
- * Whether bytes begin like a PNG.
+ * Whether bytes begin with the signature of PNG.
  *
  * @param {Uint8Array} bytes
  */
-export function isPng(bytes) {
+function isPng(bytes) {
   return SIGNATURE.every((byte, place) => bytes[place] === byte);
 }
 
 /**
- * Pixels and texts of a file. What costs memory is bounded by the header, and the header by the format's limits.
+ * Pixels and texts of a file. The header bounds the memory used, and the format's limits bound the header.
  *
  * @param {Uint8Array} file
  * @param {number} width that it must have
@@ -49,7 +49,7 @@ export async function readPng(file, width) {
   const chunks = readChunks(file);
   const { height, bits } = readHeader(chunks, width);
   const deflated = joined(chunks.filter(({ tag }) => tag === 'IDAT').map(({ body }) => body));
-  await inflate(deflated, height * (1 + (width * 3 * bits) / 8), 'IDAT'); // the decoder itself knows no bounds
+  await inflate(deflated, height * (1 + (width * 3 * bits) / 8), 'IDAT'); // bounds the size, which the decoder does not
   const kept = chunks.filter(({ tag }) => KEPT.includes(tag)).map(({ framed }) => framed);
   let image;
   try {

@@ -1,5 +1,5 @@
 /**
- * What the page is given.
+ * The data embedded in the page.
  *
  * @typedef {object} Facts
  * @property {string | null} [time] ISO 8601

@@ -1,39 +1,40 @@
-// The shape of water: which textures it is read from, and what the shader is told of them.
+// The shape of water: the textures it is read from, and their uniforms.
 import { Color, Matrix3, Vector2, Vector4 } from 'three';
-import { QUALITIES } from '../generated/shaders.js';
-import { VextureError, line } from './errors.js';
-import { wordTexture } from './upload.js';
-import { Shores } from './water-shore.js';
+import { QUALITIES } from '../../generated/shaders.js';
+import { VextureError, line } from '../errors.js';
+import { wordTexture } from '../upload.js';
+import { Shores } from './shore.js';
 
-/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
 
 /**
  * @typedef {object} Foam
- * @property {number} [width] of the strip along the shore with foam and shallows, in units of the unit square; 0: none
+ * @property {number} [width] of the foam and shallows along the shore, in unit-square units; 0: none
  * @property {number} [period] seconds from one line of foam to the next
  * @property {import('three').ColorRepresentation} [color]
- * @property {number} [amount] 0: none, to 1
+ * @property {number} [amount] 0 (none) to 1
  *
  * @typedef {object} WaterShapeOptions
- * @property {string | number} [root] name or place of the shape in each texture
- * @property {Matrix3} [transform] from the mesh's uv to the unit square; it may be changed at any time
+ * @property {string | number | null} [root] name or place of the shape in each texture; needed if a texture holds
+ *   several shapes
+ * @property {Matrix3} [transform] from the mesh's uv to the unit square; its elements may be changed at any time
  * @property {'exact' | 'fast'} [quality]
  * @property {Foam} [foam]
- * @property {import('three').ColorRepresentation | null} [shallow] colour of the water on the shore; null: as elsewhere
- * @property {import('three').ColorRepresentation | null} [flat] the one colour of all the water, without light and tone
- *   mapping, for measurements; null: as water looks
+ * @property {import('three').ColorRepresentation | null} [shallow] colour of the water at the shore; null: as elsewhere
+ * @property {import('three').ColorRepresentation | null} [flat] uniform colour of the water, without lighting and tone
+ *   mapping, for measurements; null: none
  */
 
 const FOAM = Object.freeze({ width: 0, period: 7, color: 0xf2f6f7, amount: 0.9 });
 
-/** What a shader reads while there is no texture: nothing of it, but it must be of this kind. */
+/** Bound while there is no texture: the shader does not read it, but its sampler needs an integer texture. */
 let nothing = /** @type {import('three').DataTexture | null} */ (null);
 
 /**
- * Texels of two textures in one image, the second's below the first's.
+ * Texels of two textures in one image, the second below the first.
  *
- * @param {import('./data.js').PackedData} first
- * @param {import('./data.js').PackedData} second
+ * @param {import('../data.js').PackedData} first
+ * @param {import('../data.js').PackedData} second
  */
 function stacked(first, second) {
   const width = Math.max(first.width, second.width);
@@ -47,14 +48,11 @@ function stacked(first, second) {
   return wordTexture(words, width, first.height + second.height);
 }
 
-/** @param {VectorTexture} texture one that has been checked */
+/** @param {VectorTexture} texture a checked one */
 const texelsOf = (texture) => /** @type {import('three').DataTexture} */ (texture.textures.texels);
 
-/** @param {VectorTexture} texture one that has been checked */
-const dataOf = (texture) => /** @type {import('./data.js').PackedData} */ (texture.data);
-
 /**
- * What the water is read from: a texture, or two while one turns into the other.
+ * The texture that the water is read from, or two during a fade.
  */
 export class WaterShape {
   /** @type {VectorTexture | null} */
@@ -62,10 +60,10 @@ export class WaterShape {
   /** @type {VectorTexture | null} */
   #next = null;
   #fade = 0;
-  /** @type {import('three').DataTexture | null} both, while one turns into the other */
+  /** @type {import('three').DataTexture | null} both, during a fade */
   #both = null;
   #shores = new Shores();
-  /** @type {Map<VectorTexture, number>} each texture's root */
+  /** @type {Map<VectorTexture, number>} root quad of each texture */
   #roots = new Map();
   #root;
   #shown;
@@ -74,10 +72,10 @@ export class WaterShape {
   /**
    * @param {VectorTexture | null} texture
    * @param {WaterShapeOptions} options
-   * @param {(shown: boolean) => void} shown is told whether there is any water
+   * @param {(shown: boolean) => void} shown called with whether there is any water
    */
   constructor(texture, options, shown) {
-    const { root = 0, transform = new Matrix3(), quality = 'exact', foam = {}, shallow = null, flat = null } = options;
+    const { root, transform = new Matrix3(), quality = 'exact', foam = {}, shallow = null, flat = null } = options;
     if (!(quality in QUALITIES)) {
       throw new VextureError(`quality is ${line(quality)}; it must be one of ${Object.keys(QUALITIES).join(', ')}`, 'quality');
     }
@@ -174,9 +172,9 @@ export class WaterShape {
   }
 
   /**
-   * Draw the rasters along the shores, if anything that they show has changed.
+   * Draw the shore rasters, if their shapes have changed.
    *
-   * @param {import('three').WebGLRenderer} renderer which is about to draw the water
+   * @param {import('three').WebGLRenderer} renderer that is about to draw the water
    */
   prepare(renderer) {
     const shapes = [...this.#roots].map(([one, quad]) => ({ texels: texelsOf(one), quad }));
@@ -188,7 +186,7 @@ export class WaterShape {
     vextureBox.value.set(reach, reach - texel);
   }
 
-  /** Follow no texture any more, and free what is not the textures' own. */
+  /** Stop following textures, and free all GPU memory but theirs. */
   dispose() {
     this.#put(null, null);
     this.#shores.dispose();
@@ -216,11 +214,11 @@ export class WaterShape {
     this.#refresh();
   }
 
-  /** Give the shader what the textures hold now. */
+  /** Update the uniforms from the textures. */
   #refresh() {
     const [texture, next] = [this.#texture, this.#next];
     this.#both?.dispose();
-    this.#both = texture && next && texture !== next ? stacked(dataOf(texture), dataOf(next)) : null;
+    this.#both = texture && next && texture !== next ? stacked(texture.data, next.data) : null;
     const textures = [texture, next].filter((one) => one !== null);
     this.#roots = new Map(textures.map((one) => [one, this.#quad(one)]));
     nothing ??= wordTexture(new Uint32Array(4), 1, 1);
@@ -228,10 +226,10 @@ export class WaterShape {
     this.#weigh();
   }
 
-  /** Tell the shader which shapes to read; one that is not seen costs nothing. */
+  /** Set the shapes that the shader reads and their weights; a shape of weight 0 is not read. */
   #weigh() {
     const [texture, next] = [this.#texture, this.#next];
-    const below = this.#both && texture ? dataOf(texture).height : 0;
+    const below = this.#both && texture ? texture.data.height : 0;
     const shapes = [
       { texture, row: 0, share: 1 - this.#fade },
       { texture: next, row: below, share: this.#fade },
@@ -252,7 +250,7 @@ export class WaterShape {
     try {
       return texture.roots[texture.index(this.#root)].quad;
     } catch (error) {
-      if (!(error instanceof VextureError)) throw error; // the new shapes lack this one: show the first, and say so
+      if (!(error instanceof VextureError)) throw error; // new data lack the root: show the first shape, with a note
       texture.dispatchEvent({ type: 'note', message: error.message });
       return texture.roots[0].quad;
     }

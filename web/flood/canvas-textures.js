@@ -1,4 +1,4 @@
-/** Pictures that the page draws itself: wood, layers of earth, sky, the box's shadow. */
+/** Textures drawn on a canvas: wood, layers of earth, sky, the box's shadow. */
 import { CanvasTexture, MirroredRepeatWrapping, RepeatWrapping, SRGBColorSpace } from 'three';
 
 /** Numbers 0..1 that are the same on each page. @param {number} seed @returns {() => number} */

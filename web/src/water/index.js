@@ -1,17 +1,17 @@
-// The package's entry `vexture/water`: apart, since it needs an addon of three.js.
+// The package's entry `vexture/water`, separate because it needs an addon of three.js.
 import { SimpleWater } from './simple-water.js';
 import { VectorWater } from './vector-water.js';
 
 export { SimpleWater } from './simple-water.js';
 export { VectorWater } from './vector-water.js';
-export { waterNormals } from './water-normals.js';
+export { waterNormals } from './normals.js';
 
-/** Gigabytes of memory up to which a device gets the simple water. */
+/** Devices with up to this many gigabytes of memory get the simple water. */
 const LITTLE_MEMORY = 4;
 
 /**
- * The kind of water for this device: without a mirror where a finger points (phones, tablets) and where there is little
- * memory. A page that knows better takes the class that it likes.
+ * The kind of water for this device: `SimpleWater` on touch screens (phones, tablets) and with little memory, otherwise
+ * `VectorWater`. A page may also choose the class itself.
  *
  * @returns {typeof VectorWater | typeof SimpleWater}
  */

@@ -1,19 +1,19 @@
-// What all kinds of water are, whatever they look like: a mesh with a shape, in time.
-import { VextureError, line } from './errors.js';
-import { FOLD } from './water-shader.js';
+// Common to all kinds of water: a mesh with a shape that changes with time.
+import { VextureError, line } from '../errors.js';
+import { FOLD } from './shader.js';
 
-/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
-/** @typedef {import('./water-shape.js').WaterShape} WaterShape */
-/** @typedef {import('./fold-texture.js').FoldTexture} FoldTexture */
+/** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('./shape.js').WaterShape} WaterShape */
+/** @typedef {import('../fold-texture.js').FoldTexture} FoldTexture */
 /** @typedef {import('three').ColorRepresentation} ColorRepresentation */
 /** @typedef {import('three').Mesh<import('three').BufferGeometry, import('three').ShaderMaterial>} WaterMesh */
 
-/** Colours of the sea by day, unlike three.js' greys. */
+/** Colours of the sea by day; three.js's defaults are grey. */
 export const SEA = Object.freeze({ waterColor: 0x0b5068, sunColor: 0x9fb0b8 });
 
 /**
  * @param {import('three').BufferGeometry} geometry
- * @throws {VextureError} if water cannot be on it
+ * @throws {VextureError} if it has no uv
  */
 export function checkGeometry(geometry) {
   if (geometry?.getAttribute?.('uv')) return;
@@ -24,21 +24,21 @@ export function checkGeometry(geometry) {
 }
 
 /**
- * A class of meshes, as water.
+ * Extend a class of meshes with the properties of water.
  *
  * @template {new (...args: any[]) => WaterMesh} Base
  * @param {Base} base
  */
 export function watered(base) {
   return class extends base {
-    /** @type {WaterShape} which its class makes */
+    /** @type {WaterShape} made by the subclass */
     shape = /** @type {any} */ (null);
-    /** @type {import('three').Texture | null} waves that nobody else has */
+    /** @type {import('three').Texture | null} normals that this water owns */
     ownNormals = null;
     /** @type {FoldTexture | null} */
     ownFold = null;
 
-    /** Where the water is: a texture, or null for no water at all. To set it ends a fade. */
+    /** The texture with the water's shape; null: no water. Setting it ends a fade. */
     get texture() {
       return this.shape.texture;
     }
@@ -47,13 +47,13 @@ export function watered(base) {
       this.shape.texture = texture;
     }
 
-    /** What `fadeTo` was given; null too while there is no fade. */
+    /** The texture given to `fadeTo`; also null without a fade. */
     get next() {
       return this.shape.next;
     }
 
     /**
-     * Make another texture ready to fade to, or null, no water. A fade in progress becomes the nearer of its two ends.
+     * Prepare a fade to another texture, or to no water (null). A fade in progress jumps to the nearer of its ends.
      *
      * @param {VectorTexture | null} texture
      */
@@ -61,7 +61,7 @@ export function watered(base) {
       this.shape.fadeTo(texture);
     }
 
-    /** How far the water has become what `fadeTo` was given, 0 to 1. At 1 it is that, and can still go back. */
+    /** Progress of the fade, 0 to 1. At 1 the next texture is shown; setting a smaller value goes back. */
     get fade() {
       return this.shape.fade;
     }
@@ -70,7 +70,7 @@ export function watered(base) {
       this.shape.fade = fade;
     }
 
-    /** What moves the shore with time, or null. With one and without are two programs. */
+    /** The fold that moves the shore, or null. Water with and without a fold are different programs. */
     get fold() {
       return this.ownFold;
     }
@@ -89,7 +89,7 @@ export function watered(base) {
       this.time = this.time;
     }
 
-    /** Seconds: where the waves and the fold are. */
+    /** Time of the waves and the fold, in seconds. */
     get time() {
       return this.material.uniforms.time.value;
     }
@@ -99,12 +99,12 @@ export function watered(base) {
       this.material.uniforms.vextureTime.value = this.ownFold?.clock(seconds) ?? 0;
     }
 
-    /** The strip along the shore. */
+    /** The foam along the shore. */
     get foam() {
       return this.shape.foam;
     }
 
-    set foam(/** @type {import('./water-shape.js').Foam} */ foam) {
+    set foam(/** @type {import('./shape.js').Foam} */ foam) {
       this.shape.foam = foam;
     }
 
@@ -117,7 +117,7 @@ export function watered(base) {
       this.shape.shallow = color;
     }
 
-    /** The one colour of all the water, or null. */
+    /** The uniform colour of the water, or null. */
     get flat() {
       return this.shape.flat;
     }
@@ -126,7 +126,7 @@ export function watered(base) {
       this.shape.flat = color;
     }
 
-    /** Be ready for the shape before each picture; its class calls this when `shape` is there. */
+    /** Update the shape's rasters before each frame. The subclass calls this once `shape` is set. */
     follow() {
       const before = this.onBeforeRender;
       /** @type {typeof before} */
@@ -138,12 +138,12 @@ export function watered(base) {
       };
     }
 
-    /** Free what the GPU holds for this water; textures and geometry stay, others may use them. */
+    /** Free the water's own GPU memory; textures and geometry, which others may use, stay. */
     dispose() {
       this.shape.dispose();
       this.ownNormals?.dispose();
       const mirror = /** @type {any} */ (this.material.uniforms.mirrorSampler?.value);
-      mirror?.renderTarget?.dispose(); // older ones of three.js have no way from one to the other
+      mirror?.renderTarget?.dispose(); // older versions of three.js do not link it to the mesh
       this.material.dispose();
     }
   };

@@ -1,5 +1,5 @@
 /**
- * What the page shows: shapes of a server, or those embedded in the page itself.
+ * The shapes that the page can show: those of a server, or those embedded in the page.
  *
  * @typedef {object} Facts
  * @property {number | null} [segments]
@@ -9,7 +9,7 @@
  * @property {number | null} [bytes]
  * @property {number | null} [milliseconds]
  * @property {number | null} [distance]
- * @property {[number, number, number, number] | null} [box] where the browser's own picture stands in the unit square
+ * @property {[number, number, number, number] | null} [box] window of the SVG in the unit square
  * @property {string[]} [warnings]
  *
  * @typedef {object} Manifest as the server and the exported page write it
@@ -22,7 +22,7 @@
  * @property {{svg?: string | Missing, thesis16?: [string, string] | Missing, thesis8?: [string, string] | Missing}} [views]
  * @property {string | null} [note]
  *
- * @typedef {{error: string}} Missing why a view is not there
+ * @typedef {{error: string}} Missing why a view is missing
  *
  * @typedef {object} Document
  * @property {string} name
@@ -37,7 +37,7 @@ import { backOff } from '../src/patience.js';
 import { VectorTexture } from '../src/vector-texture.js';
 
 /**
- * Bytes behind a URL. A data: URL is decoded here: a page from disk may not be allowed to fetch it.
+ * Bytes of a URL. A data: URL is decoded here, since browsers may refuse to fetch it for a page from disk.
  *
  * @param {string} url
  * @param {string} base
@@ -54,7 +54,7 @@ export async function bytesOf(url, base) {
   return response.arrayBuffer();
 }
 
-/** Shapes by name. `names` events say that there are others; open documents of a server follow it. */
+/** Shapes by name. Dispatches `names` when the names change; open documents of a server follow it. */
 export class Library extends EventTarget {
   /** @type {Map<string, Manifest>} */
   #embedded = new Map();
@@ -78,7 +78,7 @@ export class Library extends EventTarget {
     return [...new Set([...this.#served, ...this.#embedded.keys(), ...this.#own.keys()])];
   }
 
-  /** Ask the server what it has, and listen for more. */
+  /** Request the server's list of shapes, and listen for changes. */
   async start() {
     if (!this.server) return;
     await this.#ask(this.server);
@@ -90,13 +90,13 @@ export class Library extends EventTarget {
     this.#setServed(JSON.parse(new TextDecoder().decode(await bytesOf('shapes', server))).shapes);
   }
 
-  /** Hear of new shapes, by the stream that the shown one listens to as well. @param {string} server */
+  /** Listen for new shapes, on the stream shared with the shown one. @param {string} server */
   #listen(server, failures = 0) {
     let failed = failures;
     const leave = listen(new URL('events', server), false, {
       opened: (wasOpen) => {
         failed = 0;
-        if (wasOpen) this.#ask(server).catch(() => {}); // whoever shows a shape says that the server is gone
+        if (wasOpen) this.#ask(server).catch(() => {}); // the shown shape reports the lost connection
       },
       heard: (kind, data) => {
         const names = this.#served;
@@ -166,7 +166,7 @@ export class Library extends EventTarget {
   }
 
   /**
-   * Have the server convert a drawing.
+   * Let the server convert a drawing.
    *
    * @param {File} file
    * @returns {Promise<string>} name of the shape

@@ -1,4 +1,4 @@
-// Down the tree of a checked thesis texture (FORMAT.md, part A), on the CPU.
+// Descends the tree of a validated thesis texture on the CPU (FORMAT.md, part A).
 import {
   CONSTANT_ROWS,
   CONTROL_MAX,
@@ -9,13 +9,13 @@ import {
   THRESHOLD_CORNER,
   THRESHOLD_QUAD,
   CELL_ORDER,
-} from '../generated/layout.js';
-import { xAt } from './winding.js';
+} from '../../generated/thesis-layout.js';
+import { xAt } from '../winding.js';
 
-/** @typedef {import('./data.js').ThesisData} ThesisData */
+/** @typedef {import('./read.js').ThesisData} ThesisData */
 
 /**
- * What a cell is: a quad (`row` of quads), a constant or curve (`row` of curves), or a corner.
+ * A cell: a quad (`row` of quads), or a constant, curve or corner (`row` of curves).
  *
  * @param {ThesisData} data
  * @param {number} quad
@@ -32,9 +32,9 @@ export function thesisCell(data, quad, k) {
 }
 
 /**
- * Point of a cell's edge: distance clockwise from the top left corner, divided by 4.
+ * Point on a cell's edge.
  *
- * @param {number} edge
+ * @param {number} edge distance clockwise from the top left corner, divided by 4
  * @returns {[number, number]}
  */
 function edgePoint(edge) {
@@ -81,7 +81,7 @@ function straight([x0, y0], [x3, y3]) {
 }
 
 /**
- * A cubic in pieces that are monotone in y; neighbours share their ends bit for bit.
+ * Split a cubic into pieces that are monotone in y. Adjacent pieces share their ends bit for bit.
  *
  * @param {number[]} cubic
  */
@@ -102,7 +102,7 @@ function monotone(cubic) {
 }
 
 /**
- * de Casteljau.
+ * Split a cubic at t, by de Casteljau's algorithm.
  *
  * @param {number[]} p
  * @param {number} t
@@ -142,7 +142,7 @@ export function containsThesis(data, u, v) {
 }
 
 /**
- * Whether closed outlines of pieces that are monotone in y go around a point an odd number of times.
+ * Whether the winding number of closed outlines at a point is odd. Their pieces are monotone in y.
  *
  * @param {number[][]} cubics
  * @param {number} x

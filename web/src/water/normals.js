@@ -1,10 +1,10 @@
 import { DataTexture, LinearFilter, LinearMipmapLinearFilter, RepeatWrapping } from 'three';
-import { VextureError, line } from './errors.js';
+import { VextureError, line } from '../errors.js';
 
-/** Waves that are summed. */
+/** Number of waves in the sum. */
 const WAVES = 40;
 
-/** Waves across the tile, of the longest and the shortest. */
+/** Periods across the tile, of the longest and the shortest waves. */
 const LONGEST = 2;
 const SHORTEST = 24;
 
@@ -12,16 +12,16 @@ const SHORTEST = 24;
 const STEEPNESS = 0.3;
 
 /**
- * What is left of the slopes in each next smaller image, beside their mean: from far away the tile must not be seen to
- * repeat, and the sea looks calm.
+ * Factor of the slopes in each smaller mip level, in addition to averaging: from far away the repetition of the tile
+ * must not show, and the sea looks calm.
  */
 const FAR = 0.62;
 
-/** Least and most of a side. */
+/** Limits of the tile's side in pixels. */
 const SIDES = Object.freeze([8, 2048]);
 
 /**
- * Random numbers from 0 to 1, the same for the same seed.
+ * Seeded random numbers from 0 to 1.
  *
  * @param {number} seed
  * @returns {() => number}
@@ -37,8 +37,8 @@ function randomOf(seed) {
 }
 
 /**
- * Waves with whole numbers of crests in both directions, so that the tile repeats. Most run about one way, shorter ones
- * any way; all are about as steep, as where wind keeps up a sea.
+ * Waves with a whole number of periods in both directions, so that the tile repeats. Most run in similar directions,
+ * the shorter ones in any; all have similar slopes, as in a wind sea.
  *
  * @param {() => number} random
  */
@@ -53,7 +53,7 @@ function wavesOf(random) {
 }
 
 /**
- * Slopes of the sum of all waves, of which each pixel's are looked up: sines of whole multiples of one angle.
+ * Slopes of the sum of all waves. Their sines are looked up in a table, since all angles are multiples of one.
  *
  * @param {number} size
  * @param {ReturnType<typeof wavesOf>} waves
@@ -80,7 +80,7 @@ function slopesOf(size, waves) {
 }
 
 /**
- * Slopes in half as many pixels along each side.
+ * Slopes at half the resolution.
  *
  * @param {Float32Array} slopes
  * @param {number} size
@@ -118,13 +118,13 @@ function imageOf(slopes, size, scale) {
 }
 
 /**
- * The normals of a sea that repeats in both directions, as three.js' Water reads them: x, y along the surface and z up,
- * from -1..1 in 0..255.
+ * Normal map of a sea that repeats in both directions, in the format of three.js's Water: x, y along the surface and z
+ * up, -1..1 mapped to 0..255.
  *
  * @param {number} [size] pixels of a side
- * @param {number} [seed] another sea for each
+ * @param {number} [seed] of the random waves
  * @returns {DataTexture}
- * @throws {VextureError} if the size is none
+ * @throws {VextureError} if the size is out of range
  */
 export function waterNormals(size = 256, seed = 1) {
   if (!Number.isInteger(size) || size < SIDES[0] || size > SIDES[1]) {

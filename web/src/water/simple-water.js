@@ -1,14 +1,14 @@
 import { Color, FrontSide, Mesh, ShaderMaterial, UniformsLib, UniformsUtils, Vector3 } from 'three';
-import { SEA, checkGeometry, watered } from './water-mesh.js';
-import { waterNormals } from './water-normals.js';
-import { simpleShader } from './water-shader.js';
-import { WaterShape } from './water-shape.js';
+import { SEA, checkGeometry, watered } from './mesh.js';
+import { waterNormals } from './normals.js';
+import { simpleShader } from './shader.js';
+import { WaterShape } from './shape.js';
 
-/** @typedef {import('./vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
 /** @typedef {import('three').ColorRepresentation} ColorRepresentation */
 
 /**
- * @typedef {import('./water-shape.js').WaterShapeOptions & {
+ * @typedef {import('./shape.js').WaterShapeOptions & {
  *   waterNormals?: import('three').Texture,
  *   sunDirection?: Vector3,
  *   sunColor?: ColorRepresentation,
@@ -20,20 +20,20 @@ import { WaterShape } from './water-shape.js';
  *   time?: number,
  *   side?: import('three').Side,
  *   fog?: boolean,
- *   fold?: import('./fold-texture.js').FoldTexture | null,
- * }} SimpleWaterOptions those of `VectorWater`, of which the mirror's say nothing here; and the sky's colours above and
- *   at its edge, which this water mirrors instead of the scene
+ *   fold?: import('../fold-texture.js').FoldTexture | null,
+ * }} SimpleWaterOptions those of `VectorWater`, except for its mirror; and the colours of the sky at the zenith and at
+ *   the horizon, which this water mirrors instead of the scene
  */
 
-/** Water for phones: it mirrors two colours of a sky instead of the scene, and is `VectorWater` in all else. */
+/** Water for phones: like `VectorWater`, but it mirrors a sky of two colours instead of the scene. */
 export class SimpleWater extends watered(
-  /** @type {new (...args: any[]) => import('./water-mesh.js').WaterMesh} */ (Mesh),
+  /** @type {new (...args: any[]) => import('./mesh.js').WaterMesh} */ (Mesh),
 ) {
   /**
    * @param {import('three').BufferGeometry} geometry a plane, as `VectorWater` takes it
    * @param {VectorTexture | null} texture
    * @param {SimpleWaterOptions} [options]
-   * @throws {VextureError} if an option is wrong
+   * @throws {VextureError} if an option is out of range
    */
   constructor(geometry, texture, options = {}) {
     checkGeometry(geometry);

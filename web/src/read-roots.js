@@ -1,11 +1,11 @@
-// What a packed texture's file says of its shapes (FORMAT.md, B.5).
+// Reads and validates the list of roots in a packed texture's file (FORMAT.md, B.5).
 import { TEXT_ROOTS } from '../generated/layout.js';
 import { REMEDY, VextureError, line } from './errors.js';
 
 const MOST_INDEX = 2 ** 32;
 
 /**
- * Roots from their JSON text; members that are not known are ignored.
+ * Roots from their JSON text; unknown members are ignored.
  *
  * @param {string} text
  * @returns {import('./data.js').Root[]}

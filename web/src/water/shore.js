@@ -1,5 +1,4 @@
-// The rasters that water reads along the shore: how much of the shape lies around each place. They are drawn by the GPU,
-// from the shape itself, when it changes.
+// The shore rasters: the fraction of the shape around each point. The GPU draws them from the shape when it changes.
 import {
   ClampToEdgeWrapping,
   HalfFloatType,
@@ -12,29 +11,29 @@ import {
   WebGLRenderTarget,
 } from 'three';
 import { FullScreenQuad } from 'three/addons/postprocessing/Pass.js';
-import { SHORE_SHADER, SPREAD_SHADER } from './water-shader.js';
+import { SHORE_SHADER, SPREAD_SHADER } from './shader.js';
 
 /**
  * @typedef {object} Shape
  * @property {import('three').DataTexture} texels
  * @property {number} quad its root
  *
- * @typedef {Shape & { reach: number, target: WebGLRenderTarget }} Raster a shape's; around each texel of a box there are
- *   `reach` more on either side
+ * @typedef {Shape & { reach: number, target: WebGLRenderTarget }} Raster of a shape; its box filter has 2 `reach` + 1
+ *   texels
  */
 
-/** Texels in half a box at least; blended, so few show its smooth edges as well as more would. */
+/** Least texels in half a box: with linear interpolation, more would not look smoother. */
 const TEXELS = 4;
 
-/** Least and most texels of a side. With the most, boxes of little foam hold fewer. */
+/** Least and most texels of a side. At the most, narrow foam gets smaller boxes. */
 const LEAST_SIDE = 256;
 const MOST_SIDE = 1024;
 
-/** Texels in half a box where that is wider than the foam: enough to know where no outline is. */
+/** Texels in half a box that is wider than the foam: enough to tell where there is no outline. */
 const LEAST_TEXELS = 2;
 
 /**
- * In eight bits, for the GPUs that draw no others, lines of foam have little steps.
+ * Format of the rasters. With eight bits, for GPUs that cannot render to others, lines of foam show small steps.
  *
  * @param {import('three').WebGLRenderer} renderer
  * @param {number} side
@@ -54,7 +53,7 @@ function targetOf({ extensions }, side) {
 }
 
 /**
- * Draw without a trace in the renderer's state: it is in the middle of a picture.
+ * Draw and restore the renderer's state, since a frame is in progress.
  *
  * @param {import('three').WebGLRenderer} renderer
  * @param {WebGLRenderTarget} target
@@ -74,7 +73,7 @@ function drawInto(renderer, target, draw) {
 }
 
 /**
- * Something that is drawn over the whole of a target.
+ * A full-screen pass.
  *
  * @param {string} name
  * @param {{ vertexShader: string, fragmentShader: string }} shader
@@ -105,7 +104,7 @@ export class Shores {
   #onRestored = () => this.#drop(this.#rasters);
 
   /**
-   * Rasters of some shapes; only those that are new are drawn.
+   * Rasters of shapes; only new ones are drawn.
    *
    * @param {import('three').WebGLRenderer} renderer
    * @param {Shape[]} shapes
@@ -152,7 +151,7 @@ export class Shores {
   }
 
   /**
-   * What a GPU has drawn is lost with its context, and another renderer does not have it.
+   * Drop the rasters with a lost context or for another renderer.
    *
    * @param {import('three').WebGLRenderer | null} renderer
    */
@@ -164,7 +163,7 @@ export class Shores {
     this.#drop(this.#rasters);
   }
 
-  /** Free what the GPU holds. */
+  /** Free the GPU memory. */
   dispose() {
     this.#use(null);
     for (const quad of [this.#texels, this.#spread]) {

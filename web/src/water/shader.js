@@ -1,18 +1,18 @@
-// What water adds to a shader: declarations, and lines that call the functions of src/vexture/glsl/water.glsl.
-import { fold } from '../generated/fold-shader.js';
-import { QUALITIES, WRAPS, steps } from '../generated/shaders.js';
-import { shore, water } from '../generated/water-shader.js';
-import { foldLines, footprint } from './mask-shader.js';
+// Text that water inserts into a shader: declarations, and calls of the functions of src/vexture/glsl/water.glsl.
+import { fold } from '../../generated/fold-shader.js';
+import { QUALITIES, WRAPS, steps } from '../../generated/shaders.js';
+import { shore, water } from '../../generated/water-shader.js';
+import { foldLines, footprint } from '../mask-shader.js';
 
 /** @typedef {keyof typeof QUALITIES} Quality */
 
-/** What a program with a fold defines. */
+/** Macro of programs with a fold. */
 export const FOLD = 'VEXTURE_FOLD';
 
 const VARYINGS = 'varying vec2 vextureUv;\n';
 
 /**
- * The shader's functions and what else it declares. Water goes on beyond the unit square as it is on its border.
+ * The fragment shader's declarations and functions. Beyond the unit square, water continues as on its border.
  *
  * @param {Quality} quality
  */
@@ -24,7 +24,7 @@ export function declarations(quality) {
 
 const COVER = 'void main() { gl_Position = vec4(position.xy, 1.0, 1.0); }';
 
-/** The shader that draws the raster along the shore, over the whole of a target: each texel by itself. */
+/** The shader that draws the coverage of each texel of the shore raster. */
 export const SHORE_SHADER = Object.freeze({
   vertexShader: COVER,
   fragmentShader: `#define VEXTURE_QUALITY ${QUALITIES.fast}
@@ -34,7 +34,7 @@ uniform float vextureTexel;
 void main() { gl_FragColor = vec4(vextureTexelOf(vextureRoot, gl_FragCoord.xy * vextureTexel, vextureTexel)); }`,
 });
 
-/** The shader that spreads it, along one axis at a time: a box around each texel. */
+/** The shader that blurs it with a box filter along one axis. */
 export const SPREAD_SHADER = Object.freeze({
   vertexShader: COVER,
   fragmentShader: `#define VEXTURE_QUALITY ${QUALITIES.fast}
@@ -45,13 +45,13 @@ uniform int vextureReach;
 void main() { gl_FragColor = vec4(vextureSpread(vextureRaster, ivec2(gl_FragCoord.xy), vextureWay, vextureReach)); }`,
 });
 
-/** What the vertex shader declares. */
+/** Declarations of the vertex shader. */
 export const VERTEX_DECLARE = `uniform mat3 vextureTransform;\n${VARYINGS}`;
 
-/** Where uv is known. */
+/** Text at vertexUv. */
 export const VERTEX_UV = 'vextureUv = (vextureTransform * vec3(uv, 1.0)).xy;';
 
-/** Where gl_FragColor is the water's light, in linear colour: shallows and foam. */
+/** Text at fragmentLight, where gl_FragColor is in linear colour: shallows and foam. */
 export const LIGHT = `#ifdef ${FOLD}
 ${foldLines({ fold })}VextureWater vextureHere = vextureWater(${footprint({ fold })});
 #else
@@ -60,8 +60,8 @@ VextureWater vextureHere = vextureWater(${footprint({ fold: '' })});
 gl_FragColor.rgb = vextureInshore(gl_FragColor.rgb, vextureHere, normalSampler, time, vextureShallow, vextureFoamColor);`;
 
 /**
- * Where gl_FragColor is what the canvas gets: the flat colour, and coverage, which changes nothing but alpha. What is
- * drawn is colour * alpha + ground * (1 - alpha) of values as the canvas holds them, that is encoded (sRGB).
+ * Text at fragmentLast, where gl_FragColor is in the colour space of the canvas: the flat colour, and the coverage,
+ * which changes only alpha. Blending is colour * alpha + ground * (1 - alpha) of encoded (sRGB) values.
  */
 export const LAST = `vec4 vexturePlain = linearToOutputTexel(vec4(vextureFlat.rgb, 1.0));
 gl_FragColor = mix(gl_FragColor, vexturePlain, vextureFlat.a);
@@ -69,10 +69,10 @@ gl_FragColor.a *= vextureHere.coverage;
 if (vextureHere.coverage == 0.0) discard;`;
 
 /**
- * Texts for the hooks in the shader of three.js' Water.
+ * Text for each hook of the shader of three.js's Water.
  *
  * @param {Quality} quality
- * @returns {Partial<Record<import('./hooks.js').HookName, string>>}
+ * @returns {Partial<Record<import('../hooks.js').HookName, string>>}
  */
 export function waterTexts(quality) {
   return {
@@ -84,7 +84,7 @@ export function waterTexts(quality) {
   };
 }
 
-/** What the simple water's functions read, by the names of three.js' Water. */
+/** Uniforms of the simple water's functions, with the names of three.js's Water. */
 const SIMPLE_UNIFORMS = `uniform sampler2D normalSampler;
 uniform vec3 sunDirection, sunColor, waterColor, vextureZenith, vextureHorizon;
 uniform float time, size, alpha;
@@ -92,7 +92,7 @@ varying vec3 vextureWorld;
 `;
 
 /**
- * The simple water's own shader: the frame that three.js wants, around the same lines.
+ * The simple water's own shader, around the same lines.
  *
  * @param {Quality} quality
  */

@@ -1,0 +1,160 @@
+import { Loader } from 'three';
+import { VextureError, line } from './errors.js';
+import { fetchBytes, progressEvent } from './fetching.js';
+
+/**
+ * @typedef {ArrayBuffer | Uint8Array} Bytes
+ * @typedef {(event: ProgressEvent) => void} OnProgress
+ * @typedef {{ signal: AbortSignal, onProgress?: OnProgress }} Request
+ */
+
+/** Addresses that carry their content and therefore have no file name. */
+const NAMELESS = /^(data|blob):/;
+
+/** Addresses that the loader's path is not put in front of. */
+const ABSOLUTE = /^([a-z][a-z\d+.-]+:|\/\/)/i;
+
+/**
+ * An address without its query and fragment, and these.
+ *
+ * @param {string} url
+ */
+export function divided(url) {
+  const end = NAMELESS.test(url) ? url.length : url.search(/[?#]|$/);
+  return { path: url.slice(0, end), rest: url.slice(end) };
+}
+
+/**
+ * Name of a texture from its address: the file name without its suffix.
+ *
+ * @param {string} url
+ * @param {string[]} suffixes
+ */
+export function nameOf(url, suffixes) {
+  if (NAMELESS.test(url)) return 'texture';
+  const file = divided(url).path.split('/').at(-1) ?? '';
+  const suffix = suffixes.find((one) => file.endsWith(one)) ?? '';
+  const name = file.slice(0, file.length - suffix.length);
+  try {
+    return decodeURIComponent(name) || 'texture';
+  } catch {
+    return name;
+  }
+}
+
+/** @param {ArrayBuffer | Uint8Array} file */
+function isPage(file) {
+  const start = String.fromCharCode(...new Uint8Array(file.slice(0, 64)));
+  return /^\s*<(!doctype html|html)\b/i.test(start);
+}
+
+/** @param {number[]} numbers */
+const sum = (numbers) => numbers.reduce((one, other) => one + other, 0);
+
+/**
+ * Common to the loaders of all encodings: requests with progress, limits and `abort`.
+ *
+ * @template Texture
+ * @template Url
+ * @extends {Loader<Texture, Url>}
+ */
+export class BaseLoader extends Loader {
+  #controller = new AbortController();
+
+  /**
+   * @param {Url} url
+   * @param {(texture: Texture) => void} onLoad
+   * @param {OnProgress} [onProgress]
+   * @param {(error: unknown) => void} [onError]
+   */
+  load(url, onLoad, onProgress, onError = console.error) {
+    this.loadAsync(url, onProgress).then(onLoad, onError);
+  }
+
+  /** Stop all requests; each rejects with an `AbortError`. */
+  abort() {
+    this.#controller.abort();
+    this.#controller = new AbortController();
+    return this;
+  }
+
+  /**
+   * Absolute address of a file, by the loader's path and its manager's rules.
+   *
+   * @param {string} url
+   */
+  addressOf(url) {
+    return this.manager.resolveURL(ABSOLUTE.test(url) ? url : this.path + url);
+  }
+
+  /** Headers, credentials, cache mode and priority of requests. */
+  requestOptions() {
+    return {
+      headers: this.requestHeader,
+      credentials: /** @type {RequestCredentials} */ (this.withCredentials ? 'include' : 'same-origin'),
+      cache: this.cache ?? 'default', // neither exists in three 0.163
+      priority: this.priority ?? 'auto',
+    };
+  }
+
+  /**
+   * A request that ends by the caller's signal, by the loader's `abort` or by its manager's.
+   *
+   * @protected
+   * @param {OnProgress} [onProgress]
+   * @param {AbortSignal} [signal]
+   * @returns {Request}
+   */
+  startRequest(onProgress, signal) {
+    const signals = [this.#controller.signal];
+    if (signal) signals.unshift(signal);
+    if (this.manager.abortController) signals.push(this.manager.abortController.signal); // in newer three
+    return { signal: typeof AbortSignal.any === 'function' ? AbortSignal.any(signals) : signals[0], onProgress };
+  }
+
+  /**
+   * Fetch files in parallel.
+   *
+   * @protected
+   * @param {string[]} urls
+   * @param {number} most bytes of each
+   * @param {Request} request
+   */
+  async fetchAll(urls, most, { signal, onProgress }) {
+    for (const url of urls) {
+      if (typeof url !== 'string') throw new VextureError(`the address is ${line(url)}; it must be a text`, 'url');
+    }
+    const loaded = urls.map(() => 0);
+    const totals = urls.map(() => 0);
+    return Promise.all(
+      urls.map((url, place) =>
+        this.#fetchOne(url, signal, most, (bytes, total) => {
+          loaded[place] = bytes;
+          totals[place] = total;
+          onProgress?.(progressEvent(sum(loaded), totals.every(Boolean) ? sum(totals) : 0));
+        }),
+      ),
+    );
+  }
+
+  /**
+   * @param {string} url
+   * @param {AbortSignal} signal
+   * @param {number} most
+   * @param {import('./fetching.js').OnBytes} onBytes
+   */
+  async #fetchOne(url, signal, most, onBytes) {
+    const resolved = this.addressOf(url);
+    this.manager.itemStart(resolved);
+    try {
+      const bytes = await fetchBytes(resolved, { signal, ...this.requestOptions() }, most, onBytes);
+      if (isPage(bytes)) throw new VextureError(`${resolved}: is a web page, not a texture; check the address`, 'page');
+      return bytes;
+    } catch (error) {
+      this.manager.itemError(resolved);
+      throw error;
+    } finally {
+      this.manager.itemEnd(resolved);
+    }
+  }
+}

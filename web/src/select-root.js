@@ -1,0 +1,103 @@
+// The shape or the layers that `root` selects. Without a root a texture is used whole if that is unambiguous.
+import { VextureError, line, shortened } from './errors.js';
+
+/** Near names listed by the message about an unknown root. */
+const MOST_NEAR = 5;
+
+/** Names listed by the message about a missing root. */
+const MOST_LISTED = 6;
+
+/**
+ * @typedef {string | number | null | undefined} RootChoice name of a shape or its place in `roots`; null and undefined:
+ *   no choice
+ * @typedef {Pick<import('./data.js').TextureData, 'name' | 'roots'>} Shapes
+ */
+
+
+/**
+ * Levenshtein distance: letters to change, add or remove between two words.
+ *
+ * @param {string} one
+ * @param {string} other
+ */
+function distance(one, other) {
+  let row = Array.from({ length: other.length + 1 }, (_, place) => place);
+  for (let i = 1; i <= one.length; i++) {
+    const next = [i];
+    for (let j = 1; j <= other.length; j++) {
+      next.push(Math.min(row[j] + 1, next[j - 1] + 1, row[j - 1] + (one[i - 1] === other[j - 1] ? 0 : 1)));
+    }
+    row = next;
+  }
+  return row[other.length];
+}
+
+/**
+ * Name of the drawing that a shape belongs to: `NAME` of a painted layer `NAME/LAYER`, otherwise the shape's own name.
+ *
+ * @param {import('./data.js').Root} root
+ */
+export function drawingOf({ name, paint }) {
+  const end = paint ? name.lastIndexOf('/') : -1;
+  return end > 0 ? name.slice(0, end) : name;
+}
+
+/**
+ * Place in `roots` of one shape: the chosen one, or the only one.
+ *
+ * @param {Shapes} texture
+ * @param {RootChoice} choice
+ * @returns {number}
+ * @throws {VextureError} if there is no such shape, or several and no choice
+ */
+export function shapeIndex({ name, roots }, choice) {
+  if (choice === undefined || choice === null) {
+    if (roots.length > 1) throw ambiguous(name, 'shapes', roots.map((root) => root.name));
+    return 0;
+  }
+  if (typeof choice === 'number') {
+    if (Number.isInteger(choice) && choice >= 0 && choice < roots.length) return choice;
+    throw new VextureError(`${name}: no root ${choice}; they are numbered 0 to ${roots.length - 1}`, 'root');
+  }
+  const place = roots.findIndex((root) => root.name === choice);
+  if (place >= 0) return place;
+  const far = new Map(roots.map((root) => [root.name, distance(choice.slice(0, 99), root.name.slice(0, 99))]));
+  const near = [...far].sort((a, b) => a[1] - b[1]).slice(0, MOST_NEAR);
+  const listed = near.map(([other]) => line(other)).join(', ');
+  throw new VextureError(`${name}: no root ${line(choice)}; near names are ${listed}; there are ${roots.length}`, 'root');
+}
+
+/**
+ * Range in `roots` of a drawing's layers: of the chosen drawing or shape, or of the only drawing. The layers of a drawing
+ * in an atlas are named `NAME/...` and are consecutive.
+ *
+ * @param {Shapes} texture
+ * @param {RootChoice} choice
+ * @returns {{ first: number, count: number }}
+ * @throws {VextureError} if there is no such drawing, or several and no choice
+ */
+export function layerRange(texture, choice) {
+  const { name, roots } = texture;
+  if (choice === undefined || choice === null) {
+    const drawings = [...new Set(roots.map(drawingOf))];
+    if (drawings.length > 1) throw ambiguous(name, 'drawings', drawings);
+    return { first: 0, count: roots.length };
+  }
+  const isLayer = (/** @type {import('./data.js').Root} */ root) => root.name.startsWith(`${choice}/`);
+  const first = typeof choice === 'string' ? roots.findIndex(isLayer) : -1;
+  if (first < 0 || roots.some((root) => root.name === choice)) return { first: shapeIndex(texture, choice), count: 1 };
+  let end = first;
+  while (end < roots.length && isLayer(roots[end])) end++;
+  return { first, count: end - first };
+}
+
+/**
+ * @param {string} texture its name
+ * @param {'shapes' | 'drawings'} what
+ * @param {string[]} names
+ */
+function ambiguous(texture, what, names) {
+  const more = names.length > MOST_LISTED ? ` and ${names.length - MOST_LISTED} more` : '';
+  const listed = names.slice(0, MOST_LISTED).map(shortened).join(', ') + more;
+  return new VextureError(`${texture} holds ${names.length} ${what} (${listed}); choose one by root`, 'root');
+}

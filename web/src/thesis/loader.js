@@ -1,0 +1,70 @@
+import { CURVES_SUFFIX, FILE_LIMIT, QUADS_SUFFIX } from '../../generated/thesis-layout.js';
+import { BaseLoader, divided, nameOf } from '../base-loader.js';
+import { readThesis } from './read.js';
+import { ThesisTexture } from './texture.js';
+
+/**
+ * @typedef {string | [string, string]} PairUrl the common stem of both files, either file, or both
+ * @typedef {import('../base-loader.js').Bytes} Bytes
+ * @typedef {import('../base-loader.js').OnProgress} OnProgress
+ */
+
+const SUFFIXES = [QUADS_SUFFIX, CURVES_SUFFIX];
+
+/**
+ * The two addresses of a pair.
+ *
+ * @param {PairUrl} url
+ * @returns {string[]}
+ */
+function pairOf(url) {
+  if (typeof url !== 'string') return Array.isArray(url) ? url : [url];
+  const { path, rest } = divided(url);
+  const suffix = SUFFIXES.find((one) => path.endsWith(one)) ?? '';
+  const stem = path.slice(0, path.length - suffix.length);
+  return SUFFIXES.map((one) => stem + one + rest);
+}
+
+/**
+ * Loads thesis textures from pairs of files, `NAME.quads.png` and `NAME.curves.png`.
+ *
+ * @extends {BaseLoader<ThesisTexture, PairUrl>}
+ */
+export class ThesisLoader extends BaseLoader {
+  /**
+   * @param {PairUrl} url
+   * @param {OnProgress} [onProgress]
+   * @returns {Promise<ThesisTexture>}
+   */
+  async loadAsync(url, onProgress) {
+    return new ThesisTexture(await this.loadData(url, onProgress));
+  }
+
+  /**
+   * Contents of both files, read and validated, without three.js objects.
+   *
+   * @param {PairUrl} url
+   * @param {OnProgress} [onProgress]
+   * @param {AbortSignal} [signal] stops this request only; `abort` stops all
+   * @returns {Promise<import('./read.js').ThesisData>}
+   */
+  async loadData(url, onProgress, signal) {
+    const request = this.startRequest(onProgress, signal);
+    const urls = pairOf(url);
+    const [quads, curves] = await this.fetchAll(urls, FILE_LIMIT, request);
+    const data = await readThesis(quads, curves, nameOf(urls[0], SUFFIXES));
+    request.signal.throwIfAborted();
+    return data;
+  }
+
+  /**
+   * A texture from the contents of both files.
+   *
+   * @param {[Bytes, Bytes]} contents
+   * @param {string} [name]
+   * @returns {Promise<ThesisTexture>}
+   */
+  async parse([quads, curves], name) {
+    return new ThesisTexture(await readThesis(quads, curves, name));
+  }
+}
