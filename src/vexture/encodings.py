@@ -7,7 +7,7 @@ vexture imports it.
 import os
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol, cast
+from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple, Protocol, TypeAlias, cast
 
 from vexture.errors import ParameterError
 
@@ -18,7 +18,23 @@ if TYPE_CHECKING:
     from vexture.drawing import Drawing
     from vexture.renderers.view import Size, ViewLike
 
-__all__ = ["DEFAULT", "REGISTERED", "Encoded", "EncodedTexture", "Encoding", "find_encoding", "owner_of"]
+__all__ = [
+    "DEFAULT",
+    "REGISTERED",
+    "Encoded",
+    "EncodedTexture",
+    "Encoding",
+    "Quality",
+    "TextureRenderer",
+    "find_encoding",
+    "owner_of",
+]
+
+TextureRenderer: TypeAlias = Literal["cpu", "gpu"]
+"""What renders a texture: the shader's mirror in Python, or the shader."""
+
+Quality: TypeAlias = Literal["fast", "exact"]
+"""How closely a pixel that is turned or tilted is computed."""
 
 DEFAULT: Final = "packed"
 """Encoding of `vexture.Texture`."""
@@ -38,10 +54,26 @@ class EncodedTexture(Protocol):
     def nbytes(self) -> int:
         """Size in memory, of a GPU too."""
 
-    def coverage(self, size: "Size", view: "ViewLike" = None, **options: Any) -> "NDArray[np.float32]":
+    def coverage(
+        self,
+        size: "Size",
+        view: "ViewLike" = None,
+        *,
+        renderer: "TextureRenderer" = "cpu",
+        root: str | int | None = None,
+        quality: "Quality" = "exact",
+    ) -> "NDArray[np.float32]":
         """Covered part of each pixel, (height, width), 0..1; see `vexture.coverage`."""
 
-    def render(self, size: "Size", view: "ViewLike" = None, **options: Any) -> "NDArray[np.float32]":
+    def render(
+        self,
+        size: "Size",
+        view: "ViewLike" = None,
+        *,
+        renderer: "TextureRenderer" = "cpu",
+        root: str | int | None = None,
+        quality: "Quality" = "exact",
+    ) -> "NDArray[np.float32]":
         """Picture, (height, width, 4), premultiplied RGBA; see `vexture.render`."""
 
     def info(self) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
-from vexture.encodings import EncodedTexture
+from vexture.encodings import EncodedTexture, Quality
 from vexture.errors import ParameterError
 from vexture.pipeline import convert
 
@@ -13,11 +13,10 @@ if TYPE_CHECKING:  # at run time they come when they are needed: compiler and dr
     from vexture.drawing import Drawing
     from vexture.renderers.view import Size, ViewLike
 
-__all__ = ["RENDERERS", "Quality", "Renderer", "Shown", "coverage", "render"]
+__all__ = ["RENDERERS", "Renderer", "Shown", "coverage", "render"]
 
 Shown: TypeAlias = "Drawing | EncodedTexture"
 Renderer: TypeAlias = Literal["exact", "cpu", "gpu"]
-Quality: TypeAlias = Literal["fast", "exact"]
 
 RENDERERS: Final[tuple[Renderer, ...]] = ("exact", "cpu", "gpu")
 """The truth, from a drawing; from a texture on the CPU; on the GPU."""

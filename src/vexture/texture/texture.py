@@ -3,13 +3,14 @@
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Literal
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vexture import layout
 from vexture.drawing import Paint
+from vexture.encodings import Quality, TextureRenderer
 from vexture.errors import FormatError, LimitError, ParameterError
 from vexture.renderers.picture import painted
 from vexture.renderers.view import Size, ViewLike, size_of
@@ -174,9 +175,9 @@ class Texture:
         size: Size,
         view: ViewLike = None,
         *,
-        renderer: Literal["cpu", "gpu"] = "cpu",
+        renderer: TextureRenderer = "cpu",
         root: str | int | None = None,
-        quality: Literal["fast", "exact"] = "exact",
+        quality: Quality = "exact",
     ) -> NDArray[np.float32]:
         """Covered part of each pixel, by one shape.
 
@@ -219,9 +220,9 @@ class Texture:
         size: Size,
         view: ViewLike = None,
         *,
-        renderer: Literal["cpu", "gpu"] = "cpu",
+        renderer: TextureRenderer = "cpu",
         root: str | int | None = None,
-        quality: Literal["fast", "exact"] = "exact",
+        quality: Quality = "exact",
     ) -> NDArray[np.float32]:
         """Picture of a drawing in its colours: its layers, one over the other. Silhouettes are black.
 

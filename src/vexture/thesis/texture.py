@@ -3,12 +3,13 @@
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Final, Literal
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import IDENTITY, Paint
+from vexture.encodings import Quality, TextureRenderer
 from vexture.errors import FormatError, LimitError, ParameterError
 from vexture.layout import TEXT_ENCODING, TEXT_VERSION
 from vexture.renderers.picture import painted
@@ -167,9 +168,9 @@ class ThesisTexture:
         size: Size,
         view: ViewLike = None,
         *,
-        renderer: Literal["cpu", "gpu"] = "cpu",
+        renderer: TextureRenderer = "cpu",
         root: str | int | None = None,
-        quality: str = "exact",
+        quality: Quality = "exact",
     ) -> NDArray[np.float32]:
         """Covered part of each pixel; the parameters are those of `vexture.coverage`."""
         if root not in (None, 0, self.name):
@@ -186,9 +187,18 @@ class ThesisTexture:
 
         return render_thesis_gpu(self, size, view)
 
-    def render(self, size: Size, view: ViewLike = None, **options: Any) -> NDArray[np.float32]:
+    def render(
+        self,
+        size: Size,
+        view: ViewLike = None,
+        *,
+        renderer: TextureRenderer = "cpu",
+        root: str | int | None = None,
+        quality: Quality = "exact",
+    ) -> NDArray[np.float32]:
         """Picture of the shape in black; the parameters are those of `vexture.render`."""
-        return painted(size_of(size), [(Paint(), self.coverage(size, view, **options))])
+        covered = self.coverage(size, view, renderer=renderer, root=root, quality=quality)
+        return painted(size_of(size), [(Paint(), covered)])
 
     def info(self) -> dict[str, Any]:
         """Describe the texture, ready for JSON.
