@@ -143,7 +143,7 @@ def made(folder: Path) -> Made:
     """Export the example's page."""
     from vexture.flood.asked import Asked
     from vexture.live.flooding import export
-    from vexture.sources.extent import read_extent
+    from vexture.sources.reading import read_extent
 
     flood, ground = example()(folder)
     page = folder / "flood.html"

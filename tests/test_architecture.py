@@ -27,20 +27,22 @@ DUMPING_GROUNDS = {"common", "helper", "helpers", "misc", "tools", "util", "util
 
 BASE = {"errors", "kernels", "tolerance"}
 METHODS = BASE | {"bezier", "drawing", "encoding", "pictures", "pipeline", "quadtree", "render", "shaders", "shading"}
-METHODS |= {"sources"}
+METHODS |= {"content", "notes", "sources"}
 MAY_IMPORT = {
     "errors": set(),
     "kernels": set(),
     "tolerance": set(),
+    "content": {"errors"},
+    "notes": {"errors"},
     "shading": set(),
     "bezier": {"kernels", "tolerance"},
-    "drawing": BASE | {"bezier"},
-    "sources": BASE | {"bezier", "drawing"},
+    "drawing": BASE | {"bezier", "notes"},
+    "sources": BASE | {"bezier", "content", "drawing", "notes"},
     "quadtree": BASE | {"bezier", "drawing"},
     "encoding": BASE | {"bezier", "drawing", "quadtree"},
     "shaders": {"encoding", "errors", "shading"},
     "render": BASE | {"drawing", "encoding", "shaders", "shading"},
-    "folding": BASE | {"drawing", "encoding", "render"},
+    "folding": BASE | {"drawing", "encoding", "notes", "render"},
     "evaluation": METHODS,
     "figures": METHODS | {"evaluation"},
 }

@@ -18,6 +18,7 @@ __all__ = [
     "FormatError",
     "Frame",
     "LimitError",
+    "Note",
     "PackedTexture",
     "Paint",
     "Path",
@@ -31,6 +32,7 @@ __all__ = [
     "fold_from",
     "fold_picture",
     "load",
+    "read",
     "read_extent",
     "read_geojson",
     "read_image",
@@ -48,10 +50,12 @@ if TYPE_CHECKING:
     from vexture.folding.fold import Fold, fold_from
     from vexture.folding.picture import fold_picture
     from vexture.folding.shore import shore_fold
+    from vexture.notes import Note
     from vexture.shaders import shader_source
-    from vexture.sources.extent import Extent, read_extent
+    from vexture.sources.extent import Extent
     from vexture.sources.frame import Frame
     from vexture.sources.geojson import read_geojson
+    from vexture.sources.reading import read, read_extent
     from vexture.sources.svg import read_svg
     from vexture.sources.traced import read_image, trace
 
@@ -61,10 +65,12 @@ _HOMES = {
     "vexture.folding.fold": ("Fold", "fold_from"),
     "vexture.folding.picture": ("fold_picture",),
     "vexture.folding.shore": ("shore_fold",),
+    "vexture.notes": ("Note",),
     "vexture.shaders": ("shader_source",),
-    "vexture.sources.extent": ("Extent", "read_extent"),
+    "vexture.sources.extent": ("Extent",),
     "vexture.sources.frame": ("Frame",),
     "vexture.sources.geojson": ("read_geojson",),
+    "vexture.sources.reading": ("read", "read_extent"),
     "vexture.sources.svg": ("read_svg",),
     "vexture.sources.traced": ("read_image", "trace"),
 }

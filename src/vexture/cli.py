@@ -1,10 +1,8 @@
 """The command line: arguments and messages only."""
 
 import json
-import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,7 +16,7 @@ from vexture.cli_live import push, serve
 from vexture.cli_report import report
 from vexture.cli_view import export, view
 from vexture.errors import DeviceError, LimitError, VextureError
-from vexture.messages import one_line, say
+from vexture.messages import one_line, say, say_notes
 from vexture.settings import Settings
 
 if TYPE_CHECKING:
@@ -130,6 +128,7 @@ def _convert_each(sources: tuple[Path, ...], output: Path, settings: Settings) -
 
     def convert_one(source: Path) -> str:
         conversion = run(source, **asdict(settings))
+        say_notes(source, conversion.drawing.notes)
         name = conversion.texture.name
         first = packed_target(output, name) if settings.encoding == "packed" else target_of(output, name)[0]
         if first in written:
@@ -157,6 +156,7 @@ def _convert_together(sources: tuple[Path, ...], atlas: Path, settings: Settings
 
     def convert_one(source: Path) -> str:
         part = shapes_of(source, settings)
+        say_notes(source, part.drawing.notes)
         parts.append(part)
         texels = sum(len(tree.count) + len(tree.curves) for tree in part.trees)
         return _described(part.drawing, part.trees, TEXEL_BYTES * texels, part.seconds, settings)
@@ -278,15 +278,18 @@ def render(
 
 def _shape_of(path: Path, split: str | None, select: str | None) -> "Drawing | PackedTexture | ThesisTexture":
     """Read a drawing, or load a texture by one of its files or its stem."""
+    from vexture.content import FileKind, kind_of, start_of
     from vexture.encoding import load
-    from vexture.encoding.layout import CURVES_SUFFIX, PACKED_SUFFIX, QUADS_SUFFIX
+    from vexture.encoding.layout import CURVES_SUFFIX, QUADS_SUFFIX
     from vexture.sources.images import is_texture_image
 
-    named_so = path.name.lower().endswith((PACKED_SUFFIX, QUADS_SUFFIX, CURVES_SUFFIX))
-    if path.is_file() and not named_so and not is_texture_image(path):
+    is_image = path.name.lower().endswith((QUADS_SUFFIX, CURVES_SUFFIX)) or is_texture_image(path)
+    if path.is_file() and not is_image and kind_of(start_of(path), path) is not FileKind.TEXTURE:
         from vexture.sources.reading import read_drawing
 
-        return read_drawing(path, select)
+        drawing = read_drawing(path, select=select)
+        say_notes(path, drawing.notes)
+        return drawing
 
     texture = load(path)
     for option, value in (("split", split), ("select", select)):
@@ -296,23 +299,19 @@ def _shape_of(path: Path, split: str | None, select: str | None) -> "Drawing | P
 
 
 def _write_png(image: Any, output: Path) -> None:
-    """Write a picture of values 0..1, by a temporary name."""
+    """Write a picture of values 0..1."""
+    from io import BytesIO
+
     import numpy as np
     from PIL import Image
 
+    from vexture.encoding.files import write_together
+
     if output.suffix.lower() != ".png":
         raise LimitError(f"--output {output}: pictures are PNG files; name one that ends in .png")
-    output = output.resolve()  # a link is not replaced, but what it stands for
-    if output.exists() and not output.is_file():
-        raise DeviceError(f"{output}: cannot be written (not a regular file); choose another file with -o")
-    partial = output.with_name(f".{output.name}.{os.getpid()}.part")
-    try:
-        Image.fromarray(np.rint(255.0 * image).astype(np.uint8)).save(partial, format="PNG")
-        partial.replace(output)
-    except OSError as error:
-        with suppress(OSError):
-            partial.unlink()
-        raise DeviceError(f"{output}: cannot be written ({error.strerror}); choose another file with -o") from None
+    data = BytesIO()
+    Image.fromarray(np.rint(255.0 * image).astype(np.uint8)).save(data, format="PNG")
+    write_together({output: data.getvalue()})
 
 
 @main.command()

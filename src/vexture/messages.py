@@ -2,14 +2,15 @@
 
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 import click
 
 from vexture.errors import DeviceError, VextureError
+from vexture.notes import Note, line_of
 
-__all__ = ["one_line", "say", "with_servers"]
+__all__ = ["one_line", "say", "say_notes", "with_servers"]
 
 SERVERS = ("sse_starlette", "starlette", "uvicorn", "watchfiles")
 
@@ -19,9 +20,15 @@ def say(message: str) -> None:
     click.echo(f"vexture: {message}", err=True)
 
 
+def say_notes(source: object, notes: Sequence[Note]) -> None:
+    """Print in a line what was noticed about a source, if anything was."""
+    if line := line_of(str(source), notes):
+        say(f"warning: {line}")
+
+
 @contextmanager
 def one_line() -> Iterator[None]:
-    """Errors that are the user's to mend, and warnings, become one line each."""
+    """Errors that are the user's to mend, and warnings of libraries, become one line each."""
     with warnings.catch_warnings():
         warnings.showwarning = lambda message, *_args, **_kwargs: say(f"warning: {message}")
         warnings.simplefilter("always")

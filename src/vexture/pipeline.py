@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 from vexture.errors import LimitError
+from vexture.notes import warn_of
 from vexture.settings import Settings
 
 if TYPE_CHECKING:  # at run time they come when they are needed: compiler, parser and driver take their time
@@ -168,7 +169,7 @@ def convert(
     Parameters
     ----------
     source : Drawing or path
-        A drawing, or a file that `vexture.read_svg`, `vexture.read_geojson` or `vexture.read_image` reads.
+        A drawing, or a file that `vexture.read` reads.
     encoding : str
         ``"packed"``: several exact pieces in each leaf, one KTX2 file. ``"thesis"``: one curve in each leaf, a pair
         of PNG files.
@@ -206,6 +207,11 @@ def convert(
         If a parameter is out of range or belongs to the other encoding, a selector chooses nothing, or the tree is
         too large.
 
+    Warns
+    -----
+    SourceWarning
+        Once for a file, of all that was noticed while it was read (`Drawing.notes`).
+
     Examples
     --------
     >>> from vexture.drawing import Drawing
@@ -215,7 +221,7 @@ def convert(
     >>> convert(triangle, encoding="thesis", bits=8).quads.shape[0]
     1
     """
-    return run(
+    conversion = run(
         source,
         encoding=encoding,
         split=split,
@@ -226,7 +232,10 @@ def convert(
         precision=precision,
         bits=bits,
         strategy=strategy,
-    ).texture
+    )
+    if not _is_drawing(source):  # who read the drawing was told
+        warn_of(os.fspath(cast("str | os.PathLike[str]", source)), conversion.drawing.notes)
+    return conversion.texture
 
 
 def atlas(
@@ -263,6 +272,11 @@ def atlas(
     LimitError
         If two shapes have one name, there is no source, or as `vexture.convert` says.
 
+    Warns
+    -----
+    SourceWarning
+        As `vexture.convert` does.
+
     Examples
     --------
     >>> from dataclasses import replace
@@ -276,7 +290,12 @@ def atlas(
         split=split, select=select, tolerance=tolerance, max_depth=max_depth, capacity=capacity, precision=precision
     )
     listed = [sources] if isinstance(sources, str | os.PathLike) or _is_drawing(sources) else sources
-    return join([shapes_of(cast("Source", source), settings) for source in listed], name)
+    parts = []
+    for source in listed:
+        parts.append(shapes_of(cast("Source", source), settings))
+        if not _is_drawing(source):
+            warn_of(parts[-1].source, parts[-1].drawing.notes)
+    return join(parts, name)
 
 
 def _is_drawing(source: Any) -> bool:
@@ -292,7 +311,7 @@ def _drawing_of(source: "Source", settings: Settings) -> "Drawing":
     if not isinstance(source, Drawing):
         from vexture.sources.reading import read_drawing
 
-        return read_drawing(source, settings.select)
+        return read_drawing(source, select=settings.select)
     if settings.select is not None:
         raise LimitError(
             f"{source.name}: select={settings.select!r} chooses elements of a file, which a drawing has no longer; "

@@ -14,6 +14,7 @@ from vexture.encoding.packed import texel_rows
 from vexture.errors import FormatError, LimitError
 from vexture.folding import layout
 from vexture.folding.blend import fold, progress
+from vexture.notes import Note
 
 __all__ = ["Fold", "Kind", "fold_from"]
 
@@ -59,6 +60,8 @@ class Fold:
         Seconds, kept in steps of 1/65536. With a cycle, begin is below it and duration is not above.
     cycle : float
         Seconds, in the same steps.
+    notes : tuple of Note
+        What was noticed while it was made; a file does not hold them.
 
     Raises
     ------
@@ -77,6 +80,7 @@ class Fold:
     begin: NDArray[np.float64] = 0.0  # type: ignore[assignment]
     duration: NDArray[np.float64] = 1.0  # type: ignore[assignment]
     cycle: float = 0.0
+    notes: tuple[Note, ...] = ()
 
     def __post_init__(self) -> None:
         with np.errstate(over="ignore"):
