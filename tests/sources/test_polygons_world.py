@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 import vexture
 from vexture.errors import SourceError, SourceWarning
-from vexture.sources.reading import read_extent
 from vexture.sources.frame import Frame
+from vexture.sources.reading import read_extent
 from vexture.sources.reference import frame_around, transformed
 
 
