@@ -309,6 +309,8 @@ def _write_png(image: Any, output: Path) -> None:
 
     if output.suffix.lower() != ".png":
         raise LimitError(f"--output {output}: pictures are PNG files; name one that ends in .png")
+    if not output.resolve().parent.is_dir():
+        raise DeviceError(f"{output}: cannot be written (there is no such folder); choose another file with -o")
     data = BytesIO()
     Image.fromarray(np.rint(255.0 * image).astype(np.uint8)).save(data, format="PNG")
     write_together({output: data.getvalue()})

@@ -106,11 +106,20 @@ class Path:
         joined = np.concatenate(self.contours) if len(self.contours) > 1 else self.contours[0]
         if not np.isfinite(joined).all():
             raise SourceError("a contour holds a coordinate that is not finite; correct the drawing")
-        ends = np.cumsum([len(contour) for contour in self.contours])
-        before = np.arange(-1, len(joined) - 1)
-        before[np.append(0, ends[:-1])] = ends - 1
-        if (joined[:, 0] != joined[before, 3]).any():
+        begins = np.roll(joined[:, 0], -1, axis=0)
+        if len(self.contours) > 1:
+            ends = np.cumsum([len(contour) for contour in self.contours])
+            begins[ends - 1] = joined[np.append(0, ends[:-1]), 0]
+        if (joined[:, 3] != begins).any():
             raise SourceError("a contour is open; every cubic must start exactly where the one before it ends")
+
+    @classmethod
+    def _sound(cls, contours: tuple[NDArray[np.float64], ...], fill_rule: FillRule, paint: Paint) -> "Path":
+        """Path of contours that were made to be finite and closed, and are not checked again."""
+        path = object.__new__(cls)
+        for name, value in zip(cls.__slots__, (contours, fill_rule, paint), strict=True):
+            object.__setattr__(path, name, value)
+        return path
 
     @property
     def box(self) -> NDArray[np.float64]:
@@ -281,7 +290,7 @@ class Drawing:
             inside = tuple(kept[k] for k in range(at, after) if k in kept)
             at = after
             if inside:
-                normal.append(Path(inside, path.fill_rule, path.paint))
+                normal.append(Path._sound(inside, path.fill_rule, path.paint))
         return cls(tuple(normal), to_source, name)
 
 
