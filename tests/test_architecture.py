@@ -31,29 +31,32 @@ LONGEST_EXAMPLE = 40
 DUMPING_GROUNDS = {"common", "helper", "helpers", "misc", "tools", "util", "utils"}
 
 BASE = {"errors", "kernels", "tolerance"}
+SOURCES = BASE | {"bezier", "content", "drawing", "notes"}
 MAY_IMPORT: dict[str, set[str]] = {
     "errors": set(),
     "kernels": set(),
     "layout": set(),
     "tolerance": set(),
+    "content": {"errors"},
+    "notes": {"errors"},
     "settings": {"errors"},
     "bezier": {"kernels", "tolerance"},
-    "drawing": BASE | {"bezier"},
-    "svg": BASE | {"bezier", "drawing"},
-    "geo": BASE | {"bezier", "drawing"},
-    "tracing": BASE | {"bezier", "drawing"},
-    "reading": BASE | {"drawing", "geo", "svg", "tracing"},
+    "drawing": BASE | {"bezier", "notes"},
+    "svg": SOURCES,
+    "geo": SOURCES,
+    "tracing": SOURCES,
+    "reading": SOURCES | {"geo", "svg", "tracing"},
     "tree": BASE | {"bezier", "drawing", "layout"},
     "renderers": BASE | {"drawing", "layout"},
     "encodings": {"drawing", "errors", "renderers"},
     "texture": BASE | {"bezier", "drawing", "encodings", "layout", "renderers", "tree"},
-    "pipeline": BASE | {"drawing", "encodings", "reading", "settings", "texture", "tree"},
+    "pipeline": BASE | {"drawing", "encodings", "notes", "reading", "settings", "texture", "tree"},
     "images": BASE | {"drawing", "encodings", "pipeline", "renderers"},
     "thesis": BASE | {"bezier", "drawing", "encodings", "layout", "renderers", "texture", "tree"},
-    "fold": BASE | {"drawing", "layout", "renderers", "texture"},
-    "flood": BASE | {"drawing", "geo", "renderers"},
-    "live": BASE
-    | {"drawing", "encodings", "flood", "fold", "geo", "layout", "pipeline", "reading", "settings", "texture", "tree"},
+    "fold": BASE | {"drawing", "layout", "notes", "renderers", "texture"},
+    "flood": BASE | {"drawing", "geo", "notes", "renderers"},
+    "live": SOURCES
+    | {"encodings", "flood", "fold", "geo", "layout", "pipeline", "reading", "settings", "svg", "texture", "tree"},
 }
 """What each part may import besides itself, wherever in a module; `cli` and the public face stand above all."""
 

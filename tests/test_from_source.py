@@ -70,3 +70,12 @@ def test_coordinates_far_away_are_refused() -> None:
 
 def test_nothing_is_a_drawing() -> None:
     assert Drawing.from_source([], (0, 0, 1, 1)).paths == ()
+
+
+def test_contours_that_close_one_another_only_are_open():
+    there, back = (
+        line_cubics(*np.array([[start], [end]], float)) for start, end in (((0, 0), (1, 0)), ((1, 0), (0, 0)))
+    )
+    Path((np.concatenate([there, back]), np.concatenate([back, there])))
+    with pytest.raises(SourceError, match="a contour is open"):
+        Path((there, back))

@@ -142,8 +142,8 @@ def example() -> Any:
 def made(folder: Path) -> Made:
     """Export the example's page."""
     from vexture.flood.asked import Asked
-    from vexture.geo.extent import read_extent
     from vexture.live.flood import export
+    from vexture.reading import read_extent
 
     flood, ground = example()(folder)
     page = folder / "flood.html"

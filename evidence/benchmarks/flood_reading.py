@@ -73,7 +73,7 @@ class Taken(NamedTuple):
 
 def reading_times(path: Path, repeat: int) -> Taken:
     """Milliseconds from a file to its drawing, to its texture in memory, to the bytes of its texture's file."""
-    from vexture.geo.extent import read_extent
+    from vexture.reading import read_extent
 
     taken = Taken([], [], [], 0)
     for _ in range(repeat + 2):  # the first two find nothing warm

@@ -18,11 +18,13 @@ if TYPE_CHECKING:
     from vexture.fold.fold import Fold, fold_from
     from vexture.fold.picture import fold_picture
     from vexture.fold.shore import shore_fold
-    from vexture.geo.extent import Extent, read_extent
+    from vexture.geo.extent import Extent
     from vexture.geo.frame import Frame
     from vexture.geo.geojson import read_geojson
     from vexture.images import coverage, render
+    from vexture.notes import Note
     from vexture.pipeline import atlas, convert
+    from vexture.reading import read, read_extent
     from vexture.renderers.shader import shader_source
     from vexture.renderers.view import View, window
     from vexture.svg.read import read_svg
@@ -39,6 +41,7 @@ __all__ = [
     "FormatError",
     "Frame",
     "LimitError",
+    "Note",
     "Paint",
     "ParameterError",
     "Path",
@@ -54,6 +57,7 @@ __all__ = [
     "fold_from",
     "fold_picture",
     "load",
+    "read",
     "read_extent",
     "read_geojson",
     "read_image",
@@ -70,11 +74,13 @@ _HOMES = {
     "vexture.fold.fold": ("Fold", "fold_from"),
     "vexture.fold.picture": ("fold_picture",),
     "vexture.fold.shore": ("shore_fold",),
-    "vexture.geo.extent": ("Extent", "read_extent"),
+    "vexture.geo.extent": ("Extent",),
     "vexture.geo.frame": ("Frame",),
     "vexture.geo.geojson": ("read_geojson",),
     "vexture.images": ("coverage", "render"),
+    "vexture.notes": ("Note",),
     "vexture.pipeline": ("atlas", "convert"),
+    "vexture.reading": ("read", "read_extent"),
     "vexture.renderers.shader": ("shader_source",),
     "vexture.renderers.view": ("View", "window"),
     "vexture.svg.read": ("read_svg",),

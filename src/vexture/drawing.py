@@ -6,7 +6,8 @@ one and two thirds.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from copy import copy
+from dataclasses import dataclass, field
 from enum import IntEnum
 from itertools import pairwise
 from typing import Final
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics, straight
 from vexture.errors import SourceError
+from vexture.notes import Note
 from vexture.tolerance import CLOSED
 
 __all__ = ["FARTHEST", "Drawing", "FillRule", "Paint", "Path"]
@@ -99,10 +101,25 @@ class Path:
         for contour in self.contours:
             if contour.dtype != np.float64 or contour.ndim != 3 or contour.shape[1:] != (4, 2) or not len(contour):
                 raise SourceError(f"a contour is {contour.dtype}{contour.shape}; it must be float64 (n, 4, 2), n >= 1")
-            if not np.isfinite(contour).all():
-                raise SourceError("a contour holds a coordinate that is not finite; correct the drawing")
-            if (contour[:-1, 3] != contour[1:, 0]).any() or (contour[-1, 3] != contour[0, 0]).any():
-                raise SourceError("a contour is open; every cubic must start exactly where the one before it ends")
+        if not self.contours:
+            return
+        joined = np.concatenate(self.contours) if len(self.contours) > 1 else self.contours[0]
+        if not np.isfinite(joined).all():
+            raise SourceError("a contour holds a coordinate that is not finite; correct the drawing")
+        begins = np.roll(joined[:, 0], -1, axis=0)
+        if len(self.contours) > 1:
+            ends = np.cumsum([len(contour) for contour in self.contours])
+            begins[ends - 1] = joined[np.append(0, ends[:-1]), 0]
+        if (joined[:, 3] != begins).any():
+            raise SourceError("a contour is open; every cubic must start exactly where the one before it ends")
+
+    @classmethod
+    def _sound(cls, contours: tuple[NDArray[np.float64], ...], fill_rule: FillRule, paint: Paint) -> "Path":
+        """Path of contours that were made to be finite and closed, and are not checked again."""
+        path = object.__new__(cls)
+        for name, value in zip(cls.__slots__, (contours, fill_rule, paint), strict=True):
+            object.__setattr__(path, name, value)
+        return path
 
     @property
     def box(self) -> NDArray[np.float64]:
@@ -129,6 +146,8 @@ class Drawing:
         Names the shape in messages and files.
     crs : str or None
         Coordinate reference system of the units of the source, where there is one.
+    notes : tuple of Note
+        What was noticed while it was read: what was left out, simplified or invalid.
 
     Examples
     --------
@@ -141,15 +160,16 @@ class Drawing:
     to_source: NDArray[np.float64] = field(default_factory=IDENTITY.copy)
     name: str = "drawing"
     crs: str | None = None
+    notes: tuple[Note, ...] = ()
 
     def __post_init__(self) -> None:
         if np.shape(self.to_source) != (2, 3) or not np.isfinite(self.to_source).all():
             raise SourceError(f"{self.name}: to_source must be a finite (2, 3) array")
-        for path in self.paths:
-            for contour in path.contours:
-                ends = contour[:, 0]
-                if ends.min() < 0.0 or ends.max() > 1.0:
-                    raise SourceError(f"{self.name}: a contour leaves the unit square; clip or scale it first")
+        ends = [contour[:, 0] for path in self.paths for contour in path.contours]
+        if ends:
+            joined = np.concatenate(ends)
+            if joined.min() < 0.0 or joined.max() > 1.0:
+                raise SourceError(f"{self.name}: a contour leaves the unit square; clip or scale it first")
 
     @property
     def segments(self) -> int:
@@ -165,8 +185,8 @@ class Drawing:
         Returns
         -------
         tuple of Drawing
-            In painting order, each of one paint and named ``name/number-colour``, counted from 1; an empty tuple if
-            nothing is painted.
+            In painting order, each of one paint and named ``name/number-colour``, counted from 1, with the notes of
+            the whole; an empty tuple if nothing is painted.
 
         Examples
         --------
@@ -186,9 +206,16 @@ class Drawing:
                     continue
             starts.append(place)
         return tuple(
-            replace(self, paths=self.paths[start:end], name=f"{self.name}/{number}-{self.paths[start].paint.hex}")
+            self._part(start, end, f"{self.name}/{number}-{self.paths[start].paint.hex}")
             for number, (start, end) in enumerate(pairwise([*starts, len(self.paths)]), 1)
         )
+
+    def _part(self, start: int, end: int, name: str) -> "Drawing":
+        """Some of the paths, which were checked when this drawing was made and are not checked again."""
+        part = copy(self)
+        object.__setattr__(part, "paths", self.paths[start:end])
+        object.__setattr__(part, "name", name)
+        return part
 
     @classmethod
     def polygon(cls, *contours: Iterable[tuple[float, float]], fill_rule: FillRule = FillRule.NONZERO) -> "Drawing":
@@ -263,7 +290,7 @@ class Drawing:
             inside = tuple(kept[k] for k in range(at, after) if k in kept)
             at = after
             if inside:
-                normal.append(Path(inside, path.fill_rule, path.paint))
+                normal.append(Path._sound(inside, path.fill_rule, path.paint))
         return cls(tuple(normal), to_source, name)
 
 

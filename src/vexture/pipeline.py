@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, ove
 
 from vexture.encodings import DEFAULT, EncodedTexture, find_encoding
 from vexture.errors import LimitError, ParameterError
+from vexture.notes import warn_of
 from vexture.settings import Settings
 
 if TYPE_CHECKING:  # at run time they come when they are needed: compiler and parser take their time
@@ -216,6 +217,11 @@ def convert(source: Source, *, encoding: str = DEFAULT, **parameters: Any) -> En
     ParameterError
         If a parameter is out of range.
 
+    Warns
+    -----
+    SourceWarning
+        Once for a file, of all that was noticed while it was read (`Drawing.notes`).
+
     Examples
     --------
     >>> from vexture.drawing import Drawing
@@ -223,7 +229,10 @@ def convert(source: Source, *, encoding: str = DEFAULT, **parameters: Any) -> En
     >>> [root.name for root in convert(triangle).roots]
     ['drawing']
     """
-    return run(source, encoding=encoding, **parameters).texture
+    conversion = run(source, encoding=encoding, **parameters)
+    if not _is_drawing(source):  # whoever read the drawing has been told
+        warn_of(os.fspath(source), conversion.drawing.notes)  # type: ignore[arg-type]
+    return conversion.texture
 
 
 def atlas(
@@ -262,6 +271,11 @@ def atlas(
     ParameterError
         As in `vexture.convert`.
 
+    Warns
+    -----
+    SourceWarning
+        As `vexture.convert` does.
+
     Examples
     --------
     >>> from dataclasses import replace
@@ -276,7 +290,12 @@ def atlas(
     )
     if isinstance(sources, str | os.PathLike) or _is_drawing(sources):
         sources = [sources]  # type: ignore[list-item]
-    return combine([shapes_of(source, settings) for source in sources], name)
+    parts = []
+    for source in sources:
+        parts.append(shapes_of(source, settings))
+        if not _is_drawing(source):
+            warn_of(parts[-1].source, parts[-1].drawing.notes)
+    return combine(parts, name)
 
 
 def _is_drawing(source: Any) -> bool:
@@ -292,7 +311,7 @@ def _drawing_of(source: Source, select: str | None) -> "Drawing":
     if not isinstance(source, Drawing):
         from vexture.reading import read_drawing
 
-        return read_drawing(source, select)
+        return read_drawing(source, select=select)
     if select is not None:
         raise ParameterError(
             f"`select` is {select!r}, but {source.name} is a drawing, whose elements have no names any more; "

@@ -1,188 +1,269 @@
-"""Which reader a file needs, by its suffix or its first bytes."""
+"""The one gate: whatever a file holds, its content decides what reads it, for every command and server alike."""
 
 import os
-import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import IO, TYPE_CHECKING, TypeAlias
 
-from vexture.errors import LimitError, SourceError, SourceWarning
+from vexture.content import LARGEST_FILE, SHAPEFILE, FileKind, about, kind_of, read_bytes, start_of, unpacked
+from vexture.errors import LimitError, SourceError
+from vexture.notes import Note, warn_of
+from vexture.tolerance import HMIN
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # at run time each reader comes when there is something for it to read
     from vexture.drawing import Drawing
+    from vexture.geo.extent import Extent
+    from vexture.geo.frame import Frame
 
-__all__ = [
-    "BYTE_ORDER_MARK",
-    "FLATGEOBUF",
-    "NETCDF",
-    "PNG",
-    "SHAPEFILE",
-    "SQLITE",
-    "TIFF",
-    "ZIP",
-    "holds_depths",
-    "is_geographic",
-    "is_geojson",
-    "is_picture",
-    "read_drawing",
-    "start_of",
-]
+__all__ = ["Source", "content_of", "extent_of", "name_of", "read", "read_drawing", "read_extent"]
 
-GEOJSON_SUFFIXES: Final = (".geojson", ".json")
-BYTE_ORDER_MARK: Final = b"\xef\xbb\xbf"
+Place: TypeAlias = str | os.PathLike[str]
+Source: TypeAlias = Place | bytes | IO[bytes]
+"""A path, the content of a file, or a binary file that is open."""
 
-FLATGEOBUF: Final = b"fgb\x03fgb"
-KTX: Final = b"\xabKTX"
-SHAPEFILE: Final = b"\0\0\x27\x0a"
-SQLITE: Final = b"SQLite format 3\0"
-ZIP: Final = b"PK\x03\x04"
-
-TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
-NETCDF: Final = (b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
-"""How TIFF and BigTIFF start, and NetCDF of all kinds."""
-
-PNG: Final = b"\x89PNG"
-PICTURES: Final = (PNG, b"\xff\xd8\xff", b"GIF87a", b"GIF89a")
-"""How PNG, JPEG and GIF start; WebP and BMP have something in between."""
-
-DEPTH_SUFFIXES: Final = (".tif", ".tiff", ".nc", ".nc4", ".cdf")
-AREA_SUFFIXES: Final = (".gpkg", ".fgb", ".shp")
-
-START: Final = 64
-"""Bytes that tell what a file is."""
+UNNAMED = "drawing"
 
 
-def is_geojson(start: bytes, file_name: str | os.PathLike[str]) -> bool:
-    """Whether a file is GeoJSON, from how its content starts and what it is called.
+def read(source: Source, *, name: str | None = None, select: str | None = None) -> "Drawing":
+    """Read a drawing from any kind of file that there is a reader for, whatever its name ends in.
 
-    Examples
-    --------
-    >>> is_geojson(b'  {"type": "Feature"}', "delft"), is_geojson(b"<svg/>", "delft.svg")
-    (True, False)
-    """
-    by_name = Path(file_name).suffix.lower() in GEOJSON_SUFFIXES
-    return by_name or start.removeprefix(BYTE_ORDER_MARK).lstrip()[:1] == b"{"
-
-
-def holds_depths(start: bytes, file_name: str | os.PathLike[str]) -> bool:
-    r"""Whether a file is a grid or a mesh, which may hold depths: GeoTIFF, NetCDF.
-
-    Its first bytes decide; its name only where they say nothing.
-
-    Examples
-    --------
-    >>> holds_depths(b"CDF\x01", "run"), holds_depths(b"fgb\x03fgb", "run.nc")
-    (True, False)
-    """
-    if start.startswith((*TIFF, *NETCDF)):
-        return True
-    return Path(file_name).suffix.lower() in DEPTH_SUFFIXES and not _holds_areas(start)
-
-
-def _holds_areas(start: bytes) -> bool:
-    text = start.removeprefix(BYTE_ORDER_MARK).lstrip()[:1] == b"{"
-    return text or start.startswith((FLATGEOBUF, SHAPEFILE, SQLITE, ZIP))
-
-
-def is_picture(start: bytes) -> bool:
-    r"""Whether a file is a picture of pixels, from how its content starts: PNG, JPEG, GIF, WebP or BMP.
-
-    Examples
-    --------
-    >>> is_picture(b"GIF89a"), is_picture(b"RIFF\x1a\0\0\0WEBPVP8L"), is_picture(b"<svg/>")
-    (True, True, False)
-    """
-    if start.startswith(PICTURES):
-        return True
-    webp = start.startswith(b"RIFF") and start[8:12] == b"WEBP"
-    return webp or (start.startswith(b"BM") and start[6:10] == bytes(4))
-
-
-def is_geographic(start: bytes, file_name: str | os.PathLike[str]) -> bool:
-    r"""Whether a file is geographic data, which `read_extent` reads: GeoJSON is, as are GeoPackage and NetCDF.
+    SVG, plain or gzipped (`vexture.read_svg`); GeoJSON (`vexture.read_geojson`); PNG, JPEG, WebP, GIF or BMP, traced,
+    with the package of ``vexture[trace]`` (`vexture.read_image`); where water is in a GeoPackage, FlatGeobuf, zipped
+    shapefile, GeoTIFF or NetCDF, of a series at its first time, with those of ``vexture[gis]``
+    (`vexture.read_extent`).
 
     Parameters
     ----------
-    start : bytes
-        How its content starts, as `start_of` gives it.
-    file_name : path
-        What it is called.
-
-    Examples
-    --------
-    >>> is_geographic(b"SQLite format 3\0", "flood"), is_geographic(b"<svg/>", "flood.svg")
-    (True, False)
-    """
-    if is_geojson(start, file_name) or _holds_areas(start) or holds_depths(start, file_name):
-        return True
-    return Path(file_name).suffix.lower() in AREA_SUFFIXES
-
-
-def read_drawing(path: str | os.PathLike[str], select: str | None = None) -> "Drawing":
-    """Read a drawing of any kind of file that there is a reader for.
-
-    Parameters
-    ----------
-    path : path
-        SVG, GeoJSON, or other geographic data with the packages of ``vexture[gis]``: of a series, its first step; or
-        PNG, JPEG, WebP, GIF or BMP with the package of ``vexture[trace]``.
+    source : path, bytes or binary file
+        Where it is, or its content. A shapefile by its path needs no zip.
+    name : str, optional
+        What the file is called: names the drawing, without its suffix, and stands in messages; by default the path.
     select : str, optional
-        A CSS selector, of SVG only.
+        A CSS selector, of SVG only; see `vexture.read_svg`.
+
+    Returns
+    -------
+    Drawing
+        Its `notes` say what was left out, simplified or chosen.
 
     Raises
     ------
     SourceError
-        If it cannot be read.
+        If it cannot be read, or is a texture.
     LimitError
-        If `select` is given where it means nothing, or as `read_svg` says.
+        If `select` is given where it means nothing, or a limit is exceeded.
+    DeviceError
+        If a package is missing.
+
+    Warns
+    -----
+    SourceWarning
+        Once, of all notes.
+
+    Examples
+    --------
+    >>> read(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', name="half.svg").name
+    'half'
+    >>> read(b'{"type": "Polygon", "coordinates": [[[4, 52], [6, 52], [6, 53], [4, 53]]]}').crs
+    'OGC:CRS84'
     """
-    start = start_of(path)
-    if start.startswith(KTX):
-        raise SourceError(f"{os.fspath(path)}: is a texture already; give the drawing that it was made from")
-    if is_picture(start):
-        if select is not None:
-            raise LimitError(f"{os.fspath(path)}: select={select!r} chooses elements of an SVG; leave it out")
-        from vexture.tracing.trace import read_image
-
-        return read_image(path)
-    if is_geographic(start, path):
-        if select is not None:
-            raise LimitError(f"{os.fspath(path)}: select={select!r} chooses elements of an SVG; leave it out")
-        if not is_geojson(start, path):
-            return _read_geographic(path)
-        from vexture.geo.geojson import read_geojson
-
-        return read_geojson(path)
-    from vexture.svg.read import read_svg
-
-    return read_svg(path, select)
+    drawing = read_drawing(source, name=name, select=select)
+    warn_of(name_of(source, name), drawing.notes)
+    return drawing
 
 
-def _read_geographic(path: str | os.PathLike[str]) -> "Drawing":
-    """Where water is, of a file that need not say where in the world it is."""
-    from vexture.geo.extent import read_extent
+def read_drawing(source: Source, *, name: str | None = None, select: str | None = None) -> "Drawing":
+    """Read a drawing as `read` does, but without a warning: its notes say all.
+
+    Examples
+    --------
+    >>> drawing = read_drawing(b'<svg viewBox="0 0 9 9"><text>a</text></svg>')
+    >>> drawing.notes
+    (Note(kind='left out', message='<text>', count=1),)
+    """
+    shown = name_of(source, name)
+    with about(shown):
+        given = unpacked(_received(source))
+        kind = kind_of(start_of(given), shown)
+        if kind is not FileKind.SVG:
+            return _read_other(kind, given, shown, select)
+        content = given if isinstance(given, bytes) else read_bytes(given)
+    from vexture.svg.read import svg_drawing
+
+    return svg_drawing(content, shown, select)
+
+
+def name_of(source: Source, name: str | None = None) -> str:
+    """Name of a source in messages: the one that is given, or its path."""
+    if name is not None:
+        return name
+    if isinstance(source, bytes):
+        return UNNAMED
+    if isinstance(source, str | os.PathLike):
+        return os.fspath(source)
+    called = getattr(source, "name", None)  # of a pipe it is a number
+    return called if isinstance(called, str) else UNNAMED
+
+
+def _received(source: Source) -> Place | bytes:
+    """Content of a file that is open; other sources as they are."""
+    return source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1)
+
+
+def _read_other(kind: FileKind, source: Place | bytes, shown: str, select: str | None) -> "Drawing":
+    """Read anything but SVG; the caller puts the name in front of errors."""
+    if kind is FileKind.TEXTURE:
+        raise SourceError("is a texture already; give the drawing that it was made from")
+    if select is not None:
+        raise LimitError(f"select={select!r} chooses elements of an SVG; leave it out")
+    name = Path(shown).stem or UNNAMED
+    if kind is FileKind.PICTURE:
+        from vexture.tracing.trace import image_drawing
+
+        return image_drawing(source, name)
+    if kind is FileKind.GEOJSON:
+        from vexture.geo.geojson import geojson_drawing
+
+        return geojson_drawing(source if isinstance(source, bytes) else read_bytes(source), name)
+    return _read_first_step(source, shown)
+
+
+def _read_first_step(source: Place | bytes, shown: str) -> "Drawing":
+    """Where water is first, of a file that need not say where in the world it is."""
+    from dataclasses import replace
+
     from vexture.geo.reference import UNPLACED, MissingReferenceError
 
-    name = Path(path).name
     try:
-        extent = read_extent(path, name)
+        extent = extent_of(source, shown)
     except MissingReferenceError:
-        extent = read_extent(path, name, crs=UNPLACED)
-    if len(extent.steps) > 1:
-        warnings.warn(
-            SourceWarning(
-                f"{name}: it has {len(extent.steps)} times, of which the first is read; vexture flood shows all"
-            ),
-            stacklevel=3,
-        )
-    return extent.steps[0].drawing
+        extent = extent_of(source, shown, crs=UNPLACED)
+    drawing, count = extent.steps[0].drawing, len(extent.steps)
+    if count == 1:
+        return drawing
+    told = Note("remark", f"it has {count} times, of which the first is read; vexture flood shows all")
+    return replace(drawing, notes=(*drawing.notes, told))
 
 
-def start_of(source: str | os.PathLike[str] | bytes) -> bytes:
-    """Return first bytes of a file, or of its content; none if it cannot be read: the reader says why."""
-    if isinstance(source, bytes):
-        return source[:START]
+def read_extent(
+    source: Place | bytes,
+    file_name: str | None = None,
+    *,
+    frame: "Frame | None" = None,
+    bounds: tuple[float, float, float, float] | None = None,
+    crs: str | None = None,
+    time_dim: str | None = None,
+    hmin: float = HMIN,
+    variable: str | None = None,
+    layer: str | None = None,
+) -> "Extent":
+    """Read where water is from any geographic data that there is a reader for.
+
+    Parameters
+    ----------
+    source : path or bytes
+        Polygons (GeoJSON, GeoPackage, FlatGeobuf, shapefile) or depths (GeoTIFF, NetCDF, UGRID).
+    file_name : str, optional
+        What it is called: names the drawings; by default the path.
+    frame : Frame, optional
+        Where the water is put; by default a new frame around `bounds`.
+    bounds : tuple of float, optional
+        West, south, east, north in the reference system of the data; by default all of it.
+    crs : str, optional
+        Reference system of the data, above what the file says.
+    time_dim : str, optional
+        Dimension that is time, for depths; by default the one that looks like it. With any name the bands of a
+        GeoTIFF are steps.
+    hmin : float
+        Depth in metres from which there is water, for depths; 0.05 by default.
+    variable : str, optional
+        Variable that holds the depth, where there are several that could.
+    layer : str, optional
+        Layer of polygons, where there are several.
+
+    Returns
+    -------
+    Extent
+        One step for each time, or one for a file without times. Its `notes` say what was left out or chosen.
+
+    Raises
+    ------
+    SourceError
+        If it cannot be read; a line that says what to do.
+    LimitError
+        If a parameter does not fit it.
+    DeviceError
+        If a package is missing.
+
+    Warns
+    -----
+    SourceWarning
+        Once, of all notes.
+
+    Examples
+    --------
+    >>> lake = b'{"type": "Polygon", "coordinates": [[[4, 52], [5, 52], [5, 53], [4, 53]]]}'
+    >>> extent = read_extent(lake, "lake.geojson")
+    >>> extent.frame.crs, extent.steps[0].drawing.name
+    ('OGC:CRS84', 'lake')
+    """
+    shown = file_name or ("the data" if isinstance(source, bytes) else os.fspath(source))
+    options = {"frame": frame, "bounds": bounds, "crs": crs, "time_dim": time_dim, "variable": variable, "layer": layer}
     try:
-        with Path(source).open("rb") as file:
-            return file.read(START)
-    except (OSError, ValueError):
-        return b""
+        extent = extent_of(source, shown, hmin=hmin, **options)  # type: ignore[arg-type]
+    except (SourceError, LimitError) as error:
+        if isinstance(source, bytes):
+            raise
+        raise type(error)(f"{os.fspath(source)}: {error}") from None
+    warn_of(shown, extent.notes)
+    return extent
+
+
+def extent_of(
+    source: Place | bytes,
+    file_name: str,
+    *,
+    frame: "Frame | None" = None,
+    bounds: tuple[float, float, float, float] | None = None,
+    crs: str | None = None,
+    time_dim: str | None = None,
+    hmin: float = HMIN,
+    variable: str | None = None,
+    layer: str | None = None,
+) -> "Extent":
+    """Read where water is as `read_extent` does, but without a warning, and without a name before what is wrong."""
+    source = unpacked(source)
+    if kind_of(start_of(source), file_name) is FileKind.DEPTHS:
+        from vexture.geo.depths import read_depths
+
+        _refuse({"--layer": layer}, "polygons, and this file holds depths")
+        return read_depths(
+            source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable
+        )
+    from vexture.geo.polygons import read_polygons
+
+    _refuse({"--time-dim": time_dim, "--variable": variable}, "depths, and this file holds polygons")
+    return read_polygons(source, file_name, frame=frame, bounds=bounds, crs=crs, layer=layer)
+
+
+def _refuse(options: dict[str, str | None], kind: str) -> None:
+    """Refuse options that mean nothing."""
+    for option, value in options.items():
+        if value is not None:
+            raise LimitError(f"{option} {value!r} is for {kind}; leave it out")
+
+
+def content_of(path: str | os.PathLike[str]) -> bytes:
+    """All that a file holds, decompressed; of a shapefile with the files beside it, as a zip.
+
+    Raises
+    ------
+    SourceError
+        If it cannot be read or is too large.
+    """
+    with about(os.fspath(path)):
+        content = read_bytes(path)
+        if not content.startswith(SHAPEFILE):
+            return content
+        from vexture.geo.vectors import whole_shapefile
+
+        return whole_shapefile(Path(path))

@@ -105,7 +105,7 @@ def test_dropped_drawing_is_published_and_takes_no_name_of_others(view):
     [
         ("notes.txt", b"no drawing", "notes.txt: not well-formed XML"),
         ("empty.svg", b"", "empty.svg: not well-formed XML"),
-        ("broken.ktx2", DUCK, "broken.ktx2: begins with"),
+        ("broken.ktx2", b"no texture", "broken.ktx2: begins with"),
         ("photo.png", b"\x89PNG", "photo.png"),
         ("map.geojson", b"{", "map.geojson"),
         ("", DUCK, "the name of the file must have"),

@@ -13,7 +13,9 @@ from rasterio.transform import Affine
 from vexture.errors import LimitError, SourceError, SourceWarning
 from vexture.geo.depths import read_depths
 from vexture.geo.reference import frame_around
-from vexture.reading import read_drawing
+from vexture.notes import line_of
+from vexture.reading import read as read_any
+from vexture.reading import read_extent
 from vexture.renderers.exact import render_exact
 
 CRS = "EPSG:32610"
@@ -205,8 +207,12 @@ def test_a_turned_geotiff(tmp_path):
 def test_bands_are_steps_only_if_time_is_asked_for(tmp_path):
     path = geotiff(tmp_path / "a.tif", lake_rows(), NORTH_UP, bands=3)
     with pytest.warns(SourceWarning, match="3 bands, of which the first is read"):
-        assert len(read(path).steps) == 1
-    assert len(read(path, time_dim="band").steps) == 3
+        first = read_extent(path)
+    assert len(first.steps) == 1
+    assert first.notes == first.steps[0].drawing.notes
+    assert [(note.kind, note.count) for note in first.notes] == [("remark", 1)]
+    every = read(path, time_dim="band")
+    assert (len(every.steps), every.notes) == (3, ())
 
 
 def flood(path, frame=None, **options):
@@ -235,8 +241,8 @@ def test_only_what_the_bounds_need_is_read(tmp_path, monkeypatch):
 
     monkeypatch.setattr(placing, "MOST_CELLS", 3000)
     path = geotiff(tmp_path / "a.tif", lake_rows(), NORTH_UP)
-    with pytest.warns(SourceWarning, match="one in 2 x 2 was read"):
-        whole = read(path)
+    whole = read(path)
+    assert "one in 2 x 2 was read" in line_of("a.tif", whole.notes)
     assert off_shore(whole.steps[0].drawing) < 1.0
     west, south = MIDDLE[0] - 230.0, MIDDLE[1] - 50.0
     part = read(path, bounds=(west, south, west + 100.0, south + 100.0))
@@ -381,5 +387,5 @@ def test_damaged_files_are_one_line_and_nothing_on_stderr(tmp_path):
 def test_a_series_is_converted_at_its_first_time_and_says_so(tmp_path):
     lake((-1.0, 0.0, 0.5)).to_netcdf(tmp_path / "a.nc")
     with pytest.warns(SourceWarning, match="3 times, of which the first is read"):
-        drawing = read_drawing(tmp_path / "a.nc")
+        drawing = read_any(tmp_path / "a.nc")
     assert drawing.paths

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from vexture.errors import SourceError, SourceWarning, VextureError
-from vexture.geo.extent import read_extent
+from vexture.reading import read_extent
 
 
 @pytest.mark.parametrize("name", ["a.gpkg", "a.fgb", "a.geojson"])

@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 import vexture
 from vexture.errors import SourceError, SourceWarning
-from vexture.geo.extent import read_extent
 from vexture.geo.frame import Frame
 from vexture.geo.reference import frame_around, transformed
+from vexture.reading import read_extent
 
 
 def test_a_frame_decides_and_the_data_is_transformed_into_it(tmp_path):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from vexture.svg.path_data import path_outlines, valid_length
+from vexture.svg.path_data import path_outlines
 
 
 @pytest.mark.parametrize(
@@ -31,23 +31,25 @@ from vexture.svg.path_data import path_outlines, valid_length
         ("M0 0h1 2 3v-1", 13, [(6, -1)]),
         ("M0 0C1 1 2 2 3 3 4 4 5 5", 17, [(3, 3)]),
         ("M0 0L1 1M5 5", 12, [(1, 1)]),
+        ("M0 0A1 1 0 1 100.5 , 5", 22, [(0.5, 5)]),
     ],
 )
 def test_where_path_data_ends(data: str, valid: int, ends: list[tuple[float, float]]) -> None:
-    assert valid_length(data) == valid
-    assert [tuple(outline.cubics[-1, 3].tolist()) for outline in path_outlines(data, 1e-3)] == ends
+    outlines, length = path_outlines(data, 1e-3)
+    assert length == valid
+    assert [tuple(outline.cubics[-1, 3].tolist()) for outline in outlines] == ends
 
 
 def test_smooth_commands_mirror_only_their_own_kind() -> None:
-    (curve,) = path_outlines("M0 0C0 1 1 1 1 0S2 -1 2 0T4 0t2 0", 1e-3)
+    ((curve,), _) = path_outlines("M0 0C0 1 1 1 1 0S2 -1 2 0T4 0t2 0", 1e-3)
     assert curve.cubics[1, 1].tolist() == [1, -1]
     assert curve.cubics[2, 1].tolist() == [2, 0]
-    (wave,) = path_outlines("M0 0Q1 1 2 0T4 0", 1e-3)
+    ((wave,), _) = path_outlines("M0 0Q1 1 2 0T4 0", 1e-3)
     assert wave.cubics[1, 1].tolist() == pytest.approx([2 + 2 / 3, -2 / 3])
 
 
 def test_closing_returns_to_the_start() -> None:
-    first, second = path_outlines("M1 1h5v5zl1 0", 1e-3)
+    (first, second), _ = path_outlines("M1 1h5v5zl1 0", 1e-3)
     assert first.closed
     assert not second.closed
     assert second.cubics[0, 0].tolist() == [1, 1]

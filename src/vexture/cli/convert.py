@@ -1,54 +1,75 @@
 """The command `convert`."""
 
+import json
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from vexture.cli.messages import one_line, say
-from vexture.cli.options import Tolerance
-from vexture.encodings import DEFAULT
-from vexture.errors import DeviceError, LimitError, VextureError
-from vexture.settings import Settings
+from vexture.cli.messages import as_options, one_line, say
+from vexture.cli.options import STANDARD, Sectioned, Tolerance, binary_output, standard_input
+from vexture.encodings import DEFAULT, REGISTERED
+from vexture.errors import DeviceError, LimitError, ParameterError, VextureError
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
+    from vexture.pipeline import Shapes
 
 __all__ = ["convert"]
 
 BELONGS_TO: Final = {
-    "split": "packed",
-    "capacity": "packed",
-    "precision": "packed",
+    "split": DEFAULT,
+    "capacity": DEFAULT,
+    "precision": DEFAULT,
     "bits": "thesis",
     "strategy": "thesis",
 }
 """Encoding of each option that means nothing in the others."""
 
+QUIET, NORMAL, VERBOSE = -1, 0, 1
 
-@click.command()
+EXAMPLE = """\b
+Examples:
+  vexture convert logo.svg                              logo.ktx2, a silhouette
+  vexture convert logo.svg --split paint                a shape for each colour
+  vexture convert icons/*.svg --atlas icons.ktx2 -j 4   one texture of all icons
+  cat logo.svg | vexture convert - -o - > logo.ktx2     from and to a pipe
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What became of one source: files or shapes, or the line that says why there are none."""
+
+    source: Path
+    facts: dict[str, Any]
+    name: str = ""
+    files: "dict[str, bytes] | None" = None
+    shapes: "Shapes | None" = None
+    warning: str = ""
+    error: str = ""
+
+
+@click.command(cls=Sectioned, epilog=EXAMPLE)
 @click.argument("sources", metavar="SOURCE...", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option(
     "-o",
     "--output",
-    metavar="DIR|FILE.ktx2",
+    metavar="DIR|FILE.ktx2|-",
     type=click.Path(path_type=Path),
-    help="Folder to write to, or the file for one drawing.  [default: .]",
+    help="Folder to write to, or the file for one drawing; - is standard output.  [default: .]",
 )
 @click.option(
     "--atlas",
-    metavar="FILE.ktx2",
+    metavar="FILE.ktx2|-",
     type=click.Path(path_type=Path),
-    help="Write one texture of all the drawings instead, each a shape of its file's name.",
-)
-@click.option(
-    "--encoding",
-    type=click.Choice(["packed", "thesis"]),
-    default="packed",
-    show_default=True,
-    help="Several exact pieces in a leaf, one file; or the thesis's one curve, a pair of images.",
+    help="Write one texture of all drawings instead, each a shape of its file's name.",
 )
 @click.option("--split", type=click.Choice(["paint"]), help="Make each colour a shape of its own, in painting order.")
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
@@ -57,156 +78,257 @@ BELONGS_TO: Final = {
     type=Tolerance(),
     default="auto",
     show_default=True,
-    help="Largest distance from the drawing's outline, in drawing sizes; for packed, auto is 0.",
+    help="Largest distance from the drawing's outline, in drawing sizes; auto is 0.",
 )
-@click.option("--max-depth", metavar="D", type=int, help="Divide no further.  [default: 16; for thesis 10]")
-@click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15 (packed).  [default: 4]")
-@click.option("--precision", metavar="P", type=float, help="Largest shift by rounding, in drawing sizes (packed).")
-@click.option("--bits", type=click.Choice(["8", "16"]), help="Bits per channel (thesis).  [default: 16]")
+@click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
+@click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 4]")
+@click.option("--precision", metavar="P", type=float, help="Largest shift by rounding, in drawing sizes.")
+@click.option(
+    "-j", "--jobs", metavar="N", type=click.IntRange(1), default=1, show_default=True, help="Processes to use."
+)
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON list with the facts of each source.")
+@click.option("-q", "--quiet", is_flag=True, help="Print errors only.")
+@click.option("-v", "--verbose", is_flag=True, help="Print each shape, too.")
+@click.option(
+    "--encoding", type=click.Choice([DEFAULT, *REGISTERED]), default=DEFAULT, show_default=True, help="Encoding to use."
+)
+@click.option("--bits", type=click.Choice(["8", "16"]), help="thesis: bits per channel.  [default: 16]")
 @click.option(
     "--strategy",
     type=click.Choice(["direct", "sampled"]),
-    help="Take leaves from the drawing's own cubics, or sample and fit (thesis).  [default: direct]",
+    help="thesis: leaves from the drawing's own cubics, or sampled and fitted.  [default: direct]",
 )
 def convert(
     sources: tuple[Path, ...],
     output: Path | None,
     atlas: Path | None,
     encoding: str,
-    bits: str | None,
-    strategy: str | None,
-    **parameters: Any,
+    jobs: int,
+    as_json: bool,
+    quiet: bool,
+    verbose: bool,
+    **options: Any,
 ) -> None:
-    """Convert drawings (SVG, GeoJSON) and pictures to trace (PNG, JPEG, WebP, GIF, BMP) into textures.
+    """Convert drawings into textures.
 
-    Of geographic data (GeoPackage, FlatGeobuf, shapefile; GeoTIFF, NetCDF) it takes where water is, of several times
-    the first.
+    A source is an SVG, GeoJSON, a picture to trace (PNG, JPEG, WebP, GIF, BMP), geographic data (GeoPackage,
+    FlatGeobuf, shapefile, GeoTIFF, NetCDF; where water is, at the first time), or - for standard input.
     """
     with one_line():
-        asked = {name: value for name, value in parameters.items() if value is not None}
-        if bits is not None:
-            asked["bits"] = int(bits)
-        if strategy is not None:
-            asked["strategy"] = strategy
-        _refuse_foreign(encoding, asked)
-        if atlas is None:
-            failed = _convert_each(sources, output or Path(), encoding, asked)
-        elif output is not None:
-            raise LimitError(f"--output {output} and --atlas {atlas}: an atlas is one file; leave --output out")
-        elif encoding != DEFAULT:
-            raise LimitError(f"--atlas {atlas}: the encoding {encoding} holds one shape; use the encoding {DEFAULT}")
-        else:
-            failed = _convert_together(sources, atlas, Settings(**asked))
+        parameters = _checked(encoding, options)
+        to_pipe = Path(STANDARD) in (output, atlas)
+        level = QUIET if quiet else VERBOSE if verbose else NORMAL
+        _check_places(sources, output, atlas, encoding, to_pipe)
+        work = partial(_convert_one, encoding=encoding, parameters=parameters, keep_shapes=atlas is not None)
+        outcomes: list[Outcome] = []
+        owners: dict[str, Path] = {}
+        for found in _outcomes(work, sources, jobs, level):
+            outcome = found
+            if atlas is None and not outcome.error:
+                outcome = _written(outcome, output or Path(), owners)
+            _say(outcome, level, quiet=as_json, to_pipe=to_pipe)
+            outcomes.append(outcome)
+        failed = sum(bool(outcome.error) for outcome in outcomes)
+        if atlas is not None and not failed:
+            _write_atlas(outcomes, atlas, silent=as_json or level == QUIET, to_pipe=to_pipe)
+        if as_json:
+            click.echo(json.dumps([_facts_of(outcome) for outcome in outcomes], indent=2), err=to_pipe)
     if failed:
         if len(sources) > 1:
             say(f"{failed} of {len(sources)} files failed{'' if atlas is None else f'; {atlas} is not written'}")
         sys.exit(1)
 
 
-def _refuse_foreign(encoding: str, asked: dict[str, Any]) -> None:
-    """Refuse options that belong to another encoding."""
+def _checked(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
+    """Parameters of the conversion, without those that were not given."""
+    parameters = {name: value for name, value in options.items() if value is not None}
     for name, owner in BELONGS_TO.items():
-        if name in asked and owner != encoding:
-            raise LimitError(
-                f"--{name} {asked[name]} means nothing to the encoding {encoding}; "
-                f"leave it out or use --encoding {owner}"
+        if name in parameters and owner != encoding:
+            raise ParameterError(
+                f"`{name}` {parameters[name]} means nothing to the encoding {encoding}; "
+                f"leave it out or use `encoding` {owner}"
             )
+    if "bits" in parameters:
+        parameters["bits"] = int(parameters["bits"])
+    return parameters
 
 
-def _convert_each(sources: tuple[Path, ...], output: Path, encoding: str, asked: dict[str, Any]) -> int:
-    """Convert each file to files of its own, print a line for each, return how many failed."""
+def _check_places(
+    sources: tuple[Path, ...], output: Path | None, atlas: Path | None, encoding: str, to_pipe: bool
+) -> None:
+    """Refuse places that cannot be written to before anything is converted."""
     from vexture.layout import PACKED_SUFFIX
-    from vexture.pipeline import run
 
-    is_file = encoding == DEFAULT and output.suffix.lower() == PACKED_SUFFIX and not output.is_dir()
+    if atlas is not None:
+        if output is not None:
+            raise LimitError(f"--output {output} and --atlas {atlas}: an atlas is one file; leave --output out")
+        if encoding != DEFAULT:
+            raise LimitError(f"--atlas {atlas}: the encoding {encoding} holds one shape; use the encoding {DEFAULT}")
+        if not to_pipe and (atlas.suffix.lower() != PACKED_SUFFIX or atlas.is_dir()):
+            raise LimitError(f"--atlas {atlas}: a texture is a file whose name ends in {PACKED_SUFFIX}; name one")
+        return
+    if to_pipe and (encoding != DEFAULT or len(sources) > 1):
+        raise LimitError("--output -: standard output takes one texture of one file; use --atlas - or name a folder")
+    place = output or Path()
+    is_file = to_pipe or _is_texture_file(place, encoding)
     if is_file and len(sources) > 1:
         raise LimitError(f"--output {output}: one file for {len(sources)} drawings; use --atlas, or name a folder")
-    folder = output.parent if is_file else output
+    folder = place.parent if is_file else place
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise DeviceError(f"{folder}: cannot be made ({error.strerror}); choose another folder with -o") from None
-    written: dict[str, Path] = {}
-
-    def convert_one(source: Path) -> str:
-        conversion = run(source, encoding=encoding, **asked)
-        name = conversion.texture.name
-        if name in written:
-            raise LimitError(
-                f"{source}: {name} is already the name of what {written[name]} became; convert it to another folder"
-            )
-        saved = conversion.texture.save(output)
-        files = saved if isinstance(saved, tuple) else (saved,)
-        written[name] = source
-        size = sum(file.stat().st_size for file in files)
-        return _described(conversion.drawing, conversion.trees, size, conversion.seconds, conversion.rounding)
-
-    return _work_through(sources, convert_one)
 
 
-def _convert_together(sources: tuple[Path, ...], atlas: Path, settings: Settings) -> int:
-    """Convert all files to one texture, written if none failed; print a line for each, return how many failed."""
+def _is_texture_file(output: Path, encoding: str) -> bool:
     from vexture.layout import PACKED_SUFFIX
-    from vexture.pipeline import Shapes, combine, shapes_of
+
+    return encoding == DEFAULT and output.suffix.lower() == PACKED_SUFFIX and not output.is_dir()
+
+
+def _convert_one(
+    source: Path, content: bytes | None, encoding: str, parameters: dict[str, Any], keep_shapes: bool
+) -> Outcome:
+    """Convert one source, in this process or another; errors are returned as their line."""
+    from vexture.notes import line_of
+    from vexture.pipeline import run, shapes_of
+    from vexture.reading import read_drawing
+    from vexture.settings import Settings
     from vexture.texture.ktx2 import TEXEL_BYTES
 
-    if atlas.suffix.lower() != PACKED_SUFFIX or atlas.is_dir():
-        raise LimitError(f"--atlas {atlas}: a packed texture is a file whose name ends in {PACKED_SUFFIX}; name one")
-    parts: list[Shapes] = []
-
-    def convert_one(source: Path) -> str:
-        part = shapes_of(source, settings)
-        parts.append(part)
-        texels = sum(len(tree.count) + len(tree.curves) for tree in part.trees)
-        return _described(part.drawing, part.trees, TEXEL_BYTES * texels, part.seconds, part.rounding)
-
-    failed = _work_through(sources, convert_one)
-    if not failed:
-        texture = combine(parts, atlas.stem)
-        texture.save(atlas)
-        click.echo(f"{atlas}: {len(texture.roots)} shapes, {atlas.stat().st_size} bytes")
-    return failed
-
-
-def _work_through(sources: tuple[Path, ...], work: Callable[[Path], str]) -> int:
-    """Print what becomes of each file, or in one line why nothing does; return how many failed."""
-    failed = 0
-
-    def attempt(source: Path) -> str | None:
-        nonlocal failed
-        try:
-            return work(source)
-        except VextureError as error:
-            failed += 1
-            say(str(error))
-            return None
-
-    for line in _with_progress(sources, attempt):
-        if line:
-            click.echo(line)
-    return failed
+    given: Drawing | Path = source
+    try:
+        if content is not None:
+            parameters = dict(parameters)
+            given = read_drawing(content, name="standard input", select=parameters.pop("select", None))
+        if keep_shapes:
+            shapes = shapes_of(given, Settings(**parameters))
+            texels = sum(len(tree.count) + len(tree.curves) for tree in shapes.trees)
+            facts = _facts(shapes.drawing, shapes.trees, shapes.seconds, shapes.rounding)
+            warning = line_of(str(source), shapes.drawing.notes)
+            return Outcome(source, facts | {"bytes": TEXEL_BYTES * texels}, shapes.drawing.name, None, shapes, warning)
+        done = run(given, encoding=encoding, **parameters)
+        files = done.texture.files()
+    except (VextureError, ParameterError) as error:
+        return Outcome(source, {}, error=str(error))
+    facts = _facts(done.drawing, done.trees, done.seconds, done.rounding)
+    size = sum(map(len, files.values()))
+    warning = line_of(str(source), done.drawing.notes)
+    return Outcome(source, facts | {"bytes": size}, done.texture.name, files, None, warning)
 
 
-def _described(drawing: "Drawing", trees: tuple[Any, ...], size: int, seconds: float, rounding: float) -> str:
-    """One line about a source."""
-    unresolved = sum(tree.unresolved for tree in trees)
-    layers = f"{len(trees)} layers, " if len(trees) > 1 else ""
-    line = (
-        f"{drawing.name}: {drawing.segments} segments, {layers}{sum(len(tree.coverage) for tree in trees)} quads, "
-        f"{sum(len(tree.curves) for tree in trees)} curves, {size} bytes, {1000 * seconds:.1f} ms, "
-        f"distance {max(tree.deviation for tree in trees):.1e} + {rounding:.1e}"
-    )
-    return line + (f", {unresolved} cells at the depth limit" if unresolved else "")
+def _facts(drawing: "Drawing", trees: tuple[Any, ...], seconds: float, rounding: float) -> dict[str, Any]:
+    """Facts of a conversion, ready for JSON."""
+    return {
+        "name": drawing.name,
+        "segments": drawing.segments,
+        "layers": len(trees),
+        "quads": sum(len(tree.coverage) for tree in trees),
+        "curves": sum(len(tree.curves) for tree in trees),
+        "milliseconds": round(1000.0 * seconds, 1),
+        "deviation": max(float(tree.deviation) for tree in trees),
+        "rounding": rounding,
+        "unresolved": sum(int(tree.unresolved) for tree in trees),
+        "shapes": [
+            {"quads": len(tree.coverage), "curves": len(tree.curves), "unresolved": int(tree.unresolved)}
+            for tree in trees
+        ],
+    }
 
 
-def _with_progress(items: tuple[Path, ...], work: Callable[[Path], str | None]) -> Iterator[str | None]:
-    """Results one by one, behind a progress bar if there are many and someone watches."""
-    if len(items) < 2 or not sys.stderr.isatty():
-        yield from map(work, items)
+def _outcomes(work: Any, sources: tuple[Path, ...], jobs: int, level: int) -> Iterator[Outcome]:
+    """Outcomes in the order of the sources, from this process or from others, behind a progress bar if it pays."""
+    tasks = [(source, standard_input() if source == Path(STANDARD) else None) for source in sources]
+    if jobs == 1 or len(sources) == 1:
+        yield from _with_progress((work(*task) for task in tasks), len(tasks), level)
+        return
+    with ProcessPoolExecutor(min(jobs, len(tasks)), get_context("spawn")) as pool:
+        yield from _with_progress(pool.map(work, *zip(*tasks, strict=True)), len(tasks), level)
+
+
+def _with_progress(outcomes: Iterable[Outcome], count: int, level: int) -> Iterator[Outcome]:
+    if count < 2 or level == QUIET or not sys.stderr.isatty():
+        yield from outcomes
         return
     from rich.console import Console
     from rich.progress import Progress
 
     with Progress(console=Console(stderr=True), transient=True) as progress:
-        for item in progress.track(items, description="converting"):
-            yield work(item)
+        yield from progress.track(outcomes, total=count, description="converting")
+
+
+def _written(outcome: Outcome, output: Path, owners: dict[str, Path]) -> Outcome:
+    """Write the files of an outcome; what became of it."""
+    from dataclasses import replace
+
+    from vexture.texture.files import file_name, write_together
+
+    assert outcome.files is not None
+    if output == Path(STANDARD):
+        binary_output().write(next(iter(outcome.files.values())))
+        return outcome
+    if _is_texture_file(output, DEFAULT if len(outcome.files) == 1 else ""):
+        places = {output: next(iter(outcome.files.values()))}
+    else:
+        stem = file_name(outcome.name)
+        places = {output / (stem + suffix): data for suffix, data in outcome.files.items()}
+    first = str(next(iter(places)))
+    if first in owners:
+        error = f"{outcome.source}: {first} is already what {owners[first]} became; convert it to another folder"
+        return replace(outcome, error=error)
+    try:
+        write_together(places)
+    except VextureError as error:
+        return replace(outcome, error=str(error))
+    owners[first] = outcome.source
+    return replace(outcome, facts=outcome.facts | {"files": [str(place) for place in places]})
+
+
+def _write_atlas(outcomes: list[Outcome], atlas: Path, *, silent: bool, to_pipe: bool) -> None:
+    """Write one texture of all shapes."""
+    from vexture.pipeline import combine
+
+    parts = [outcome.shapes for outcome in outcomes if outcome.shapes is not None]
+    texture = combine(parts, "atlas" if to_pipe else atlas.stem)
+    data = texture.to_ktx2()
+    if to_pipe:
+        binary_output().write(data)
+    else:
+        texture.save(atlas)
+    if not silent:
+        click.echo(f"{atlas}: {len(texture.roots)} shapes, {len(data)} bytes", err=to_pipe)
+
+
+def _say(outcome: Outcome, level: int, *, quiet: bool, to_pipe: bool) -> None:
+    """Print what became of one source."""
+    if outcome.error:
+        say(outcome.error)
+        return
+    if level > QUIET and outcome.warning:
+        say(f"warning: {outcome.warning}")
+    if level > QUIET and not quiet:
+        click.echo(_line(outcome.facts), err=to_pipe)
+    if level == VERBOSE and not quiet:
+        for place, shape in enumerate(outcome.facts["shapes"]):
+            click.echo(f"  shape {place}: {shape['quads']} quads, {shape['curves']} curves", err=to_pipe)
+        for file in outcome.facts.get("files", ()):
+            click.echo(f"  {file}", err=to_pipe)
+
+
+def _line(facts: dict[str, Any]) -> str:
+    """One line about a source."""
+    layers = f"{facts['layers']} layers, " if facts["layers"] > 1 else ""
+    line = (
+        f"{facts['name']}: {facts['segments']} segments, {layers}{facts['quads']} quads, {facts['curves']} curves, "
+        f"{facts['bytes']} bytes, {facts['milliseconds']:.1f} ms, "
+        f"distance {facts['deviation']:.1e} + {facts['rounding']:.1e}"
+    )
+    return line + (f", {facts['unresolved']} cells at the depth limit" if facts["unresolved"] else "")
+
+
+def _facts_of(outcome: Outcome) -> dict[str, Any]:
+    """Facts of a source for JSON, its error or warning included."""
+    facts: dict[str, Any] = {"source": str(outcome.source)}
+    if outcome.error:
+        return facts | {"error": as_options(outcome.error)}
+    return facts | outcome.facts | ({"warning": outcome.warning} if outcome.warning else {})

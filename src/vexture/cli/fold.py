@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from vexture.cli.messages import one_line
+from vexture.cli.messages import one_line, say_notes
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
@@ -37,7 +37,7 @@ def fold(drawing: Path, output: Path, amplitude: float, period: float, size: int
 
         from vexture.errors import LimitError
         from vexture.fold.layout import FOLD_SUFFIX
-        from vexture.fold.shore import shore_fold
+        from vexture.fold.shore import fold_of_shore
         from vexture.layout import PACKED_SUFFIX
         from vexture.reading import read_drawing
         from vexture.texture.files import file_name, write_together
@@ -47,7 +47,8 @@ def fold(drawing: Path, output: Path, amplitude: float, period: float, size: int
         if not output.is_dir() and output.suffix.lower() != PACKED_SUFFIX:
             raise LimitError(f"-o {output}: folds are KTX2 files; name one that ends in {FOLD_SUFFIX}")
         shape = read_drawing(drawing)
-        made = shore_fold(shape, amplitude=amplitude, period=period, size=size)
+        made = fold_of_shore(shape, amplitude=amplitude, period=period, size=size)
+        say_notes(drawing, (*shape.notes, *made.notes))
         target = output / (file_name(shape.name) + FOLD_SUFFIX) if output.is_dir() else output
         files = {target: made.to_ktx2()}
         if picture is not None:

@@ -6,19 +6,31 @@ from pathlib import Path
 import click
 
 from vexture.cli.messages import one_line
+from vexture.cli.options import STANDARD, standard_input
+from vexture.errors import FormatError
 
 __all__ = ["info"]
 
+EXAMPLE = """\b
+Examples:
+  vexture info logo.ktx2
+  vexture info logo.ktx2 --json | jq .texels
+"""
 
-@click.command()
-@click.argument("texture", type=click.Path(path_type=Path))
+
+@click.command(epilog=EXAMPLE)
+@click.argument("texture", metavar="TEXTURE|-", type=click.Path(path_type=Path))
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 def info(texture: Path, as_json: bool) -> None:
     """Describe a texture."""
     with one_line():
-        from vexture.texture.load import load_any
+        from vexture.texture.load import load_any, texture_from
 
-        facts = load_any(texture).info()
+        if texture == Path(STANDARD):
+            facts = texture_from(standard_input(), "standard input").info()
+        else:
+            _refuse_drawing(texture)
+            facts = load_any(texture).info()
         if as_json:
             click.echo(json.dumps(facts, indent=2))
             return
@@ -26,3 +38,17 @@ def info(texture: Path, as_json: bool) -> None:
             for line in value if isinstance(value, list) and key == "roots" else [value]:
                 text = ", ".join(f"{name} {count}" for name, count in line.items()) if isinstance(line, dict) else line
                 click.echo(f"{key:<12}{text}")
+
+
+def _refuse_drawing(path: Path) -> None:
+    """Say so if a file is no texture."""
+    from vexture.content import FileKind, kind_of, start_of
+    from vexture.encodings import owner_of
+
+    if not path.is_file() or owner_of(path) is not None:
+        return
+    kind = kind_of(start_of(path), path)
+    if kind is not FileKind.TEXTURE:
+        raise FormatError(
+            f"{path}: not a texture, but a file of the kind {kind}; vexture convert makes textures of drawings"
+        )

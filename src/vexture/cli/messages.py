@@ -3,14 +3,15 @@
 import re
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 import click
 
 from vexture.errors import ParameterError, VextureError
+from vexture.notes import Note, line_of
 
-__all__ = ["as_options", "one_line", "say"]
+__all__ = ["as_options", "one_line", "say", "say_notes"]
 
 PARAMETER = re.compile(r"`([a-z_]+)`")
 """A parameter, as messages of the library name it."""
@@ -32,9 +33,15 @@ def as_options(message: str) -> str:
     return PARAMETER.sub(lambda found: "--" + found[1].replace("_", "-"), message)
 
 
+def say_notes(source: object, notes: Sequence[Note]) -> None:
+    """Print in a line what was noticed about a source, if anything was."""
+    if line := line_of(str(source), notes):
+        say(f"warning: {line}")
+
+
 @contextmanager
 def one_line() -> Iterator[None]:
-    """Errors that are the user's to mend, and warnings, become one line each."""
+    """Errors that are the user's to mend, and warnings of libraries, become one line each."""
     with warnings.catch_warnings():
         warnings.showwarning = lambda message, *_args, **_kwargs: say(f"warning: {message}")
         warnings.simplefilter("always")

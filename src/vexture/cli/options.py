@@ -2,13 +2,92 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import IO, Any, Final
 
 import click
 
 from vexture.settings import Settings
 
-__all__ = ["Tolerance", "conversion_options", "viewer_settings"]
+__all__ = [
+    "STANDARD",
+    "Colour",
+    "Rectangle",
+    "Sectioned",
+    "Tolerance",
+    "binary_output",
+    "conversion_options",
+    "standard_input",
+    "viewer_settings",
+]
+
+STANDARD: Final = "-"
+"""Name of standard input and output among files."""
+
+RESEARCH: Final = ("encoding", "bits", "strategy")
+"""Options that only those need who compare encodings."""
+
+
+class Sectioned(click.Command):
+    """A command whose help lists the options for research in a section of their own."""
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the options in two sections."""
+        rows: dict[bool, list[tuple[str, str]]] = {False: [], True: []}
+        for parameter in self.get_params(ctx):
+            record = parameter.get_help_record(ctx)
+            if record is not None:
+                rows[parameter.name in RESEARCH].append(record)
+        with formatter.section("Options"):
+            formatter.write_dl(rows[False])
+        if rows[True]:
+            with formatter.section("Options for research: the encoding of the thesis that vexture began with"):
+                formatter.write_dl(rows[True])
+
+
+class Rectangle(click.ParamType[Any]):
+    """Four numbers, separated by commas."""
+
+    name = "X,Y,W,H"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the numbers."""
+        try:
+            x, y, w, h = (float(part) for part in str(value).split(","))
+        except ValueError:
+            self.fail(f"{value!r} is not four numbers X,Y,W,H", param, ctx)
+        return x, y, w, h
+
+
+class Colour(click.ParamType[Any]):
+    """A CSS colour, or none."""
+
+    name = "COLOR|none"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return red, green, blue and opacity, 0..1, premultiplied."""
+        if isinstance(value, tuple):
+            return value
+        if value == "none":
+            return 0.0, 0.0, 0.0, 0.0
+        from vexture.svg.colors import parse_color
+
+        found = parse_color(str(value))
+        if found is None or isinstance(found, str):
+            self.fail(f"{value!r} is neither a CSS colour, such as white or #f4f1e8, nor none", param, ctx)
+        red, green, blue = found.rgb
+        return red * found.alpha, green * found.alpha, blue * found.alpha, found.alpha
+
+
+def standard_input() -> bytes:
+    """All that standard input holds, up to the limit of a file."""
+    from vexture.content import LARGEST_FILE
+
+    return click.get_binary_stream("stdin").read(LARGEST_FILE + 1)
+
+
+def binary_output() -> IO[bytes]:
+    """Standard output, for the bytes of a file."""
+    return click.get_binary_stream("stdout")
 
 
 class Tolerance(click.ParamType[Any]):

@@ -1,46 +1,59 @@
 """The command `render`."""
 
-import os
-from contextlib import suppress
+from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from vexture.cli.messages import one_line
-from vexture.errors import DeviceError, LimitError
+from vexture.cli.messages import one_line, say_notes
+from vexture.cli.options import STANDARD, Colour, Rectangle, binary_output, standard_input
+from vexture.errors import DeviceError, LimitError, ParameterError
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from vexture.images import Shown
 
 __all__ = ["render"]
 
-DEFAULT_SIZE = 512
+DEFAULT_SIZE: Final = 512
+
+EXAMPLE = """\b
+Examples:
+  vexture render logo.svg -o logo.png                              in its colours on white
+  vexture render logo.ktx2 -o logo.png --width 800 --height 200
+  vexture render logo.ktx2 -o bill.png --view 0.5,0.5,0.25,0.25    the lower left of the upper right quarter
+  vexture render icons.ktx2 -o duck.png --root duck --background none
+"""
 
 
-class _View(click.ParamType[Any]):
-    """Four numbers, separated by commas."""
-
-    name = "X,Y,W,H"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        try:
-            x, y, w, h = (float(part) for part in str(value).split(","))
-        except ValueError:
-            self.fail(f"{value!r} is not four numbers X,Y,W,H", param, ctx)
-        return x, y, w, h
-
-
-@click.command()
+@click.command(epilog=EXAMPLE)
 @click.argument("source", metavar="SOURCE_OR_TEXTURE", type=click.Path(path_type=Path))
-@click.option("-o", "--output", metavar="PNG", required=True, type=click.Path(path_type=Path), help="File to write.")
-@click.option("--size", metavar="N", type=int, default=DEFAULT_SIZE, show_default=True, help="Longer side in pixels.")
+@click.option(
+    "-o",
+    "--output",
+    metavar="PNG|-",
+    required=True,
+    type=click.Path(path_type=Path),
+    help="File to write; - is standard output.",
+)
+@click.option("--size", metavar="N", type=int, help=f"Longer side in pixels.  [default: {DEFAULT_SIZE}]")
+@click.option("--width", metavar="W", type=int, help="Width in pixels; the height follows from the view.")
+@click.option("--height", metavar="H", type=int, help="Height in pixels; the width follows from the view.")
+@click.option("--background", type=Colour(), default="white", show_default=True, help="Colour below the drawing.")
+@click.option("--silhouette", is_flag=True, help="Draw the covered part of each pixel in black, without colours.")
+@click.option("--view", type=Rectangle(), default="0,0,1,1", show_default=True, help="Part of the unit square, y up.")
+@click.option("--rotate", metavar="DEG", type=float, default=0.0, help="Turn the picture counter-clockwise.")
+@click.option("--root", metavar="NAME_OR_INDEX", help="Shape of a texture, or drawing of an atlas.")
+@click.option("--select", metavar="SELECTOR", help="Draw only the elements of an SVG that a CSS selector matches.")
 @click.option(
     "--renderer",
-    type=click.Choice(["exact", "cpu", "gpu"]),
+    type=click.Choice(["cpu", "gpu", "exact"]),
     default="cpu",
     show_default=True,
-    help="The drawing itself, exactly; its texture by Python; its texture by the shader.",
+    help="The texture in Python; the texture by the shader; the drawing itself, exactly.",
 )
 @click.option(
     "--quality",
@@ -49,41 +62,75 @@ class _View(click.ParamType[Any]):
     show_default=True,
     help="How closely pixels that are turned or tilted are computed.",
 )
-@click.option("--view", type=_View(), default="0,0,1,1", show_default=True, help="Part of the unit square, y up.")
-@click.option("--rotate", metavar="DEG", type=float, default=0.0, help="Turn the picture counter-clockwise.")
-@click.option("--root", metavar="NAME_OR_INDEX", help="Shape of a texture, or drawing of an atlas of layers.")
-@click.option("--silhouette", is_flag=True, help="Draw the covered part of each pixel in black, without colours.")
-@click.option("--select", metavar="SELECTOR", help="Draw only the elements of an SVG that a CSS selector matches.")
 def render(
     source: Path,
     output: Path,
-    size: int,
+    size: int | None,
+    width: int | None,
+    height: int | None,
+    background: tuple[float, float, float, float],
     view: tuple[float, float, float, float],
     rotate: float,
     root: str | None,
-    silhouette: bool,
     select: str | None,
     **options: Any,
 ) -> None:
-    """Draw a drawing, a picture as it is traced, or a texture as a PNG, in its colours on white."""
+    """Draw a drawing, a picture as it is traced, or a texture as a PNG, in its colours.
+
+    SOURCE_OR_TEXTURE may be - for a drawing on standard input.
+    """
     with one_line():
-        from vexture.images import coverage
-        from vexture.images import render as picture_of
         from vexture.renderers.view import window
 
+        if output != Path(STANDARD) and output.suffix.lower() != ".png":
+            raise LimitError(f"--output {output}: pictures are PNG files; name one that ends in .png")
+        pixels = _pixels(size, width, height, view)
         shown = _shown(source, select)
-        _, _, w, h = view
-        longer = max(w, h)
-        ratio = (w / longer, h / longer) if longer > 0.0 else (1.0, 1.0)
-        width, height = (max(round(size * side), min(size, 1)) for side in ratio)
-        shape = _root_of(shown, root)
-        where = (width, height), window(*view, rotate)
-        if silhouette:
-            image = 1.0 - coverage(shown, *where, root=shape, **options)
-        else:
-            picture = picture_of(shown, *where, root=shape, **options)
-            image = picture[..., :3] + (1.0 - picture[..., 3:])
-        _write_png(image, output)
+        picture = _picture(shown, pixels, window(*view, rotate), root=_root_of(shown, root), **options)
+        _write_png(_over(picture, background), output)
+
+
+def _pixels(
+    size: int | None, width: int | None, height: int | None, view: tuple[float, float, float, float]
+) -> tuple[int, int]:
+    """Width and height of the picture: as given, and what is not given in proportion to the view."""
+    if size is not None and (width is not None or height is not None):
+        raise ParameterError(f"`size` {size} sets the longer side; leave it out beside `width` or `height`")
+    _, _, w, h = view
+    ratio = w / h if w > 0.0 and h > 0.0 else 1.0
+    if width is None and height is None:
+        side = DEFAULT_SIZE if size is None else size
+        across, up = (side, side / ratio) if ratio >= 1.0 else (side * ratio, side)
+        return max(round(across), min(side, 1)), max(round(up), min(side, 1))
+    if width is None:
+        assert height is not None
+        return max(round(height * ratio), min(height, 1)), height
+    return width, height if height is not None else max(round(width / ratio), min(width, 1))
+
+
+def _picture(shown: "Shown", pixels: tuple[int, int], view: Any, *, silhouette: bool, **options: Any) -> "NDArray[Any]":
+    """Premultiplied RGBA."""
+    import numpy as np
+
+    from vexture.images import coverage
+    from vexture.images import render as picture_of
+
+    if not silhouette:
+        return picture_of(shown, pixels, view, **options)
+    covered = coverage(shown, pixels, view, **options)
+    return np.stack([np.zeros_like(covered)] * 3 + [covered], axis=2)
+
+
+def _over(picture: "NDArray[Any]", background: tuple[float, float, float, float]) -> "NDArray[np.uint8]":
+    """Picture on a background, as bytes: RGB on an opaque one, else RGBA, not premultiplied."""
+    import numpy as np
+
+    whole = picture + (1.0 - picture[..., 3:]) * np.array(background, np.float32)
+    if background[3] >= 1.0:
+        return np.rint(255.0 * whole[..., :3]).astype(np.uint8)
+    alpha = whole[..., 3:]
+    straight = np.divide(whole[..., :3], alpha, out=np.zeros_like(whole[..., :3]), where=alpha > 0.0)
+    return np.rint(255.0 * np.concatenate([straight.clip(0.0, 1.0), alpha], axis=2)).astype(np.uint8)
 
 
 def _root_of(shown: "Shown", root: str | None) -> str | int | None:
@@ -100,35 +147,35 @@ def _root_of(shown: "Shown", root: str | None) -> str | int | None:
 
 def _shown(path: Path, select: str | None) -> "Shown":
     """Read a drawing, or load a texture by one of its files or what their names have in common."""
+    from vexture.content import FileKind, kind_of, start_of
     from vexture.encodings import owner_of
-    from vexture.layout import PACKED_SUFFIX
+    from vexture.reading import read_drawing
     from vexture.texture.load import load_any
 
-    is_texture = path.name.lower().endswith(PACKED_SUFFIX) or owner_of(path) is not None
-    if path.is_file() and not is_texture:
-        from vexture.reading import read_drawing
-
-        return read_drawing(path, select)
+    if path == Path(STANDARD):
+        drawing = read_drawing(standard_input(), name="standard input", select=select)
+        say_notes("standard input", drawing.notes)
+        return drawing
+    if path.is_file() and owner_of(path) is None and kind_of(start_of(path), path) is not FileKind.TEXTURE:
+        drawing = read_drawing(path, select=select)
+        say_notes(path, drawing.notes)
+        return drawing
     if select is not None:
         raise LimitError(f"{path}: --select {select} needs the drawing; give it to vexture convert")
     return load_any(path)
 
 
-def _write_png(image: Any, output: Path) -> None:
-    """Write a picture of values 0..1, by a temporary name."""
-    import numpy as np
+def _write_png(image: "NDArray[np.uint8]", output: Path) -> None:
+    """Write a picture, (height, width, 3 or 4)."""
     from PIL import Image
 
-    if output.suffix.lower() != ".png":
-        raise LimitError(f"--output {output}: pictures are PNG files; name one that ends in .png")
-    output = output.resolve()  # a link is not replaced, but what it stands for
-    if output.exists() and not output.is_file():
-        raise DeviceError(f"{output}: cannot be written (not a regular file); choose another file with -o")
-    partial = output.with_name(f".{output.name}.{os.getpid()}.part")
-    try:
-        Image.fromarray(np.rint(255.0 * image).astype(np.uint8)).save(partial, format="PNG")
-        partial.replace(output)
-    except OSError as error:
-        with suppress(OSError):
-            partial.unlink()
-        raise DeviceError(f"{output}: cannot be written ({error.strerror}); choose another file with -o") from None
+    from vexture.texture.files import write_together
+
+    data = BytesIO()
+    Image.fromarray(image).save(data, format="PNG")
+    if output == Path(STANDARD):
+        binary_output().write(data.getvalue())
+        return
+    if not output.resolve().parent.is_dir():
+        raise DeviceError(f"{output}: cannot be written (there is no such folder); choose another file with -o")
+    write_together({output: data.getvalue()})

@@ -12,6 +12,7 @@ from vexture.errors import FormatError, LimitError
 from vexture.fold import layout
 from vexture.fold.blend import fold, progress
 from vexture.layout import ROW_BITS, TEXT_ENCODING, TEXT_VERSION, TEXT_WRITER
+from vexture.notes import Note
 from vexture.texture.ktx2 import read_ktx2, write_ktx2
 from vexture.texture.texels import texel_rows
 
@@ -59,6 +60,8 @@ class Fold:
         Seconds, kept in steps of 1/65536. With a cycle, begin is below it and duration is not above.
     cycle : float
         Seconds, in the same steps.
+    notes : tuple of Note
+        What was noticed while it was made; a file does not hold them.
 
     Raises
     ------
@@ -77,6 +80,7 @@ class Fold:
     begin: NDArray[np.float64] = 0.0  # type: ignore[assignment]
     duration: NDArray[np.float64] = 1.0  # type: ignore[assignment]
     cycle: float = 0.0
+    notes: tuple[Note, ...] = ()
 
     def __post_init__(self) -> None:
         with np.errstate(over="ignore"):

@@ -1,21 +1,21 @@
 """From a shoreline to a fold: the water's edge slides up and down the beach."""
 
-import warnings
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.errors import LimitError, SourceWarning
+from vexture.errors import LimitError
 from vexture.fold.blend import fold as folded
 from vexture.fold.fold import Fold, Kind
 from vexture.fold.layout import FOLD_MOST_SECONDS, FOLD_MOST_SIDE, FOLD_TICKS
+from vexture.notes import Notes, warn_of
 from vexture.renderers.exact import render_exact
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
 
-__all__ = ["STEEPEST", "shore_fold"]
+__all__ = ["STEEPEST", "fold_of_shore", "shore_fold"]
 
 STEEPEST: Final = 0.5
 """Most that the displacements of two places may differ by, in distances of the two: far from a fold that turns over."""
@@ -93,6 +93,15 @@ def shore_fold(
     >>> bool(np.abs(moved.displacement[32, 32, 0]) > 0.018), moved.cycle
     (True, 8.0)
     """
+    made = fold_of_shore(drawing, amplitude=amplitude, period=period, size=size, reach=reach)
+    warn_of(drawing.name, made.notes)
+    return made
+
+
+def fold_of_shore(
+    drawing: "Drawing", *, amplitude: float, period: float, size: int = 64, reach: float | None = None
+) -> Fold:
+    """Make a fold as `shore_fold` does, but without a warning: its notes say all."""
     if not 0.0 < amplitude <= MOST_AMPLITUDE:
         raise LimitError(f"amplitude is {amplitude:g}; it must be above 0 and at most {MOST_AMPLITUDE} sides")
     if not 0.01 <= period <= FOLD_MOST_SECONDS:
@@ -105,20 +114,19 @@ def shore_fold(
         raise LimitError(f"reach is {reach:g}; it must be a texel, {1.0 / size:g}, to 1")
     phase = _phases(size, amplitude)
     displacement = amplitude * _normals(drawing, size, reach)
-    steep = _steepest(displacement, phase)
+    steep, notes = _steepest(displacement, phase), Notes()
     if steep > STEEPEST:
         displacement *= STEEPEST / steep
         reached = float(np.hypot(*np.moveaxis(displacement, 2, 0)).max())
-        warnings.warn(
-            f"amplitude {amplitude:g} would turn the shore over; it is {reached:.2g}; use a larger reach or size",
-            SourceWarning,
-            stacklevel=2,
+        notes.remark(
+            f"amplitude {amplitude:g} would turn the shore over; it is {reached:.2g}; use a larger reach or size"
         )
     displacement = np.rint(displacement * GRAIN) / GRAIN
     ticks = round(period * FOLD_TICKS)
     begin = np.rint(np.rint(phase * MOMENTS) * ticks / MOMENTS) % ticks / FOLD_TICKS
     begin[~displacement.any(axis=2)] = 0.0
-    return Fold(displacement, Kind.PERIODIC, begin, ticks / FOLD_TICKS, ticks / FOLD_TICKS)  # type: ignore[arg-type]
+    seconds = ticks / FOLD_TICKS
+    return Fold(displacement, Kind.PERIODIC, begin, seconds, seconds, notes.listed)  # type: ignore[arg-type]
 
 
 def _middles(size: int) -> NDArray[np.float64]:

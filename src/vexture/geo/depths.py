@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from vexture.content import NETCDF, TIFF, start_of, unpacked
 from vexture.errors import LimitError, SourceError
 from vexture.geo.extent import Extent, Step
 from vexture.geo.frame import Frame
@@ -15,7 +16,7 @@ from vexture.geo.mesh import MeshSeries, mesh_steps
 from vexture.geo.placing import raster_steps
 from vexture.geo.reference import Bounds, frame_around, gis_packages, period, reference
 from vexture.geo.series import Series
-from vexture.reading import NETCDF, TIFF, start_of
+from vexture.notes import Notes
 from vexture.tolerance import HMIN
 
 __all__ = ["read_depths"]
@@ -40,7 +41,7 @@ def read_depths(
     source : bytes or path
         Content of the file, or where it is.
     file_name : str
-        Names it in messages.
+        Names the drawings.
     frame : Frame, optional
         Where the drawings stand; without one, a new one around the bounds.
     bounds : tuple of float, optional
@@ -62,20 +63,21 @@ def read_depths(
     """
     if not hmin > 0.0 or not np.isfinite(hmin):
         raise LimitError(f"hmin is {hmin:g} m; it must be above 0")
-    with _opened(source, time_dim, variable) as series:
-        return _extent(series, Path(file_name).stem or "flood", frame, bounds, crs, hmin)
+    notes = Notes()
+    with _opened(unpacked(source), time_dim, variable, notes) as series:
+        return _extent(series, Path(file_name).stem or "flood", frame, bounds, crs, hmin, notes)
 
 
 @contextmanager
 def _opened(
-    source: bytes | str | os.PathLike[str], time_dim: str | None, variable: str | None
+    source: bytes | str | os.PathLike[str], time_dim: str | None, variable: str | None, notes: Notes
 ) -> Iterator[Series | MeshSeries]:
     """Open a file by how it begins."""
     start = start_of(source)
     if start.startswith(TIFF):
         from vexture.geo.rasters import open_geotiff
 
-        with open_geotiff(source, time_dim, variable) as series:
+        with open_geotiff(source, time_dim, variable, notes) as series:
             yield series
     elif start.startswith(NETCDF):
         from vexture.geo.mesh import holds_mesh, mesh_series
@@ -91,7 +93,13 @@ def _opened(
 
 
 def _extent(
-    series: Series | MeshSeries, name: str, frame: Frame | None, bounds: Bounds | None, crs: str | None, hmin: float
+    series: Series | MeshSeries,
+    name: str,
+    frame: Frame | None,
+    bounds: Bounds | None,
+    crs: str | None,
+    hmin: float,
+    notes: Notes,
 ) -> Extent:
     """All steps of a series in one frame."""
     system = reference(crs, series.crs)
@@ -100,11 +108,11 @@ def _extent(
     if isinstance(series, MeshSeries):
         readings = mesh_steps(series, system, frame, hmin)
     else:
-        readings = raster_steps(series, system, frame, hmin)
+        readings = raster_steps(series, system, frame, hmin, notes)
     steps: list[Step] = []
     bed, seen = None, False
     for time, found in zip(series.times, readings, strict=True):
-        drawing = replace(found.drawing, to_source=frame.to_source, name=name, crs=frame.crs)
+        drawing = replace(found.drawing, to_source=frame.to_source, name=name, crs=frame.crs, notes=notes.listed)
         steps.append(Step(drawing, time, found.depth))
         bed = found.bed if bed is None else bed
         seen = seen or found.known
@@ -113,7 +121,7 @@ def _extent(
         raise SourceError(
             f"variable {series.variable!r} holds no number within the bounds{when}; write depths, 0 where it is dry"
         )
-    return Extent(frame, tuple(steps), bed)
+    return Extent(frame, tuple(steps), bed, notes.listed)
 
 
 def _whole(box: Bounds, system: str) -> Bounds:

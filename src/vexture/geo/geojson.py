@@ -13,13 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
+from vexture.content import BYTE_ORDER_MARK, about, decompressed, read_bytes
 from vexture.drawing import Drawing, FillRule, Paint, Path
 from vexture.errors import SourceError
-from vexture.reading import BYTE_ORDER_MARK
-from vexture.svg.document import read_bytes
-from vexture.svg.report import UNLOCATED, Report
+from vexture.notes import Notes, line_of, warn_of
 
-__all__ = ["LARGEST", "Area", "areas_of", "read_geojson"]
+__all__ = ["LARGEST", "UNLOCATED", "Area", "areas_of", "geojson_drawing", "read_geojson"]
 
 MOST_POSITIONS: Final = 20_000_000
 LARGEST: Final = 1e15
@@ -30,6 +29,9 @@ MOST_NESTED: Final = 32
 
 WORLD: Final = "OGC:CRS84"
 """What coordinates mean unless the file says otherwise: longitude and latitude in degrees (RFC 7946, 4)."""
+
+UNLOCATED: Final = "feature without geometry"
+"""Nothing is there, and nothing is missing (RFC 7946, 3.2)."""
 
 URN: Final = re.compile(r"urn:ogc:def:crs:(\w+):[^:]*:(\w+)", re.IGNORECASE)
 COLOR: Final = re.compile(r"#?([0-9a-f]{3}|[0-9a-f]{6})", re.IGNORECASE)
@@ -65,7 +67,8 @@ def read_geojson(source: str | os.PathLike[str] | bytes) -> Drawing:
     Returns
     -------
     Drawing
-        In the unit square, y up; `to_source` maps it to the coordinates of the file, `crs` says what they are.
+        In the unit square, y up; `to_source` maps it to the coordinates of the file, `crs` says what they are. Its
+        `notes` say what was left out.
 
     Raises
     ------
@@ -76,7 +79,7 @@ def read_geojson(source: str | os.PathLike[str] | bytes) -> Drawing:
     Warns
     -----
     SourceWarning
-        Once for a file, naming everything that was left out.
+        Once for a file, of all notes.
 
     Examples
     --------
@@ -91,28 +94,39 @@ def read_geojson(source: str | os.PathLike[str] | bytes) -> Drawing:
     (array([ 4., 52.]), 'OGC:CRS84')
     """
     if isinstance(source, bytes):
-        report = Report("the GeoJSON")
-        drawing = _Reader(report).drawing(_parsed(source), "drawing")
+        shown, drawing = "the GeoJSON", geojson_drawing(source, "drawing")
     else:
         shown = os.fspath(source)
-        report = Report(shown)
-        try:
-            drawing = _Reader(report).drawing(_parsed(read_bytes(source)), FilePath(source).stem)
-        except SourceError as error:
-            raise SourceError(f"{shown}: {error}") from None
-    report.warn(stacklevel=2)
+        with about(shown):
+            drawing = geojson_drawing(read_bytes(source), FilePath(source).stem)
+    warn_of(shown, drawing.notes)
     return drawing
 
 
-def areas_of(content: bytes, report: Report) -> tuple[list[Area], str]:
+def geojson_drawing(content: bytes, name: str) -> Drawing:
+    """Read the content of a GeoJSON file, as `read_geojson` does, but without a warning: its notes say all.
+
+    Parameters
+    ----------
+    content : bytes
+        Plain or gzipped.
+    name : str
+        Names the drawing.
+    """
+    notes = Notes()
+    drawing = _Reader(notes).drawing(_parsed(decompressed(content)), name)
+    return replace(drawing, notes=notes.listed)
+
+
+def areas_of(content: bytes, notes: Notes) -> tuple[list[Area], str]:
     """Areas of the content of a file, and the reference system of their coordinates.
 
     Parameters
     ----------
     content : bytes
         Not gzipped.
-    report : Report
-        Is told what is left out.
+    notes : Notes
+        Of what is left out.
 
     Raises
     ------
@@ -120,7 +134,7 @@ def areas_of(content: bytes, report: Report) -> tuple[list[Area], str]:
         As `read_geojson`, but for a file without areas.
     """
     value = _parsed(content)
-    return list(_Reader(report).areas(value)), _crs(value.get("crs"))
+    return list(_Reader(notes).areas(value)), _crs(value.get("crs"))
 
 
 def _parsed(content: bytes) -> dict[str, Any]:
@@ -143,8 +157,8 @@ def _parsed(content: bytes) -> dict[str, Any]:
 class _Reader:
     """The walk over one file: what it met so far."""
 
-    def __init__(self, report: Report) -> None:
-        self._report = report
+    def __init__(self, notes: Notes) -> None:
+        self._notes = notes
         self._positions = 0
 
     def drawing(self, value: dict[str, Any], name: str) -> Drawing:
@@ -163,7 +177,8 @@ class _Reader:
         return replace(drawing, to_source=turned, crs=_crs(value.get("crs")))
 
     def _met(self) -> str:
-        return f" ({self._report.message.partition(': ')[2]})" if self._report.message else ""
+        met = line_of("met", self._notes.listed).removeprefix("met: ")
+        return f" ({met})" if met else ""
 
     def areas(self, value: dict[str, Any]) -> Iterator[Area]:
         """Areas of the outermost object."""
@@ -181,7 +196,7 @@ class _Reader:
         if not isinstance(value, dict) or value.get("type") != "Feature":
             raise SourceError(f"{where} is not of the type Feature; correct it")
         if value.get("geometry") is None:  # RFC 7946, 3.2: an unlocated feature
-            self._report.left_out(UNLOCATED)
+            self._notes.left_out(UNLOCATED)
         else:
             yield from self._geometry(value["geometry"], where, self._paint(value.get("properties")))
 
@@ -192,7 +207,7 @@ class _Reader:
         kind = value.get("type")
         content = value.get("geometries" if kind == "GeometryCollection" else "coordinates")
         if kind in WITHOUT_AREA:
-            self._report.left_out(kind)
+            self._notes.left_out(kind)
             return
         if kind not in ("Polygon", "MultiPolygon", "GeometryCollection"):
             hint = "convert TopoJSON to GeoJSON" if kind == "Topology" else "see RFC 7946, 1.4"
@@ -231,7 +246,7 @@ class _Reader:
         if len(points) > 1 and (points[0] == points[-1]).all():
             points = points[:-1]
         if len(points) < 3:
-            self._report.left_out("ring of fewer than three positions")
+            self._notes.left_out("ring of fewer than three positions")
             return None
         return points
 
@@ -242,9 +257,9 @@ class _Reader:
         fill, opacity = properties.get("fill", "#000"), properties.get("fill-opacity", 1)
         match = COLOR.fullmatch(fill) if isinstance(fill, str) else None
         if match is None:
-            self._report.left_out(f"fill {_shown(fill)}")
+            self._notes.left_out(f"fill {_shown(fill)}")
         if type(opacity) not in NUMBERS or not 0 <= opacity <= 1:
-            self._report.left_out(f"fill-opacity {_shown(opacity)}")
+            self._notes.left_out(f"fill-opacity {_shown(opacity)}")
             opacity = 1
         digits = match[1] if match else "000"
         step = len(digits) // 3

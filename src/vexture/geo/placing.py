@@ -1,18 +1,18 @@
 """Rasters in a frame: the part that it needs, their outlines and their grids."""
 
-import warnings
 from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.errors import SourceError, SourceWarning
+from vexture.errors import SourceError
 from vexture.geo.contours import shored, wet_drawing
 from vexture.geo.frame import Frame
 from vexture.geo.lattice import Lattice
 from vexture.geo.reference import Bounds, period, shown_bounds, transformed, transformed_bounds
 from vexture.geo.series import Reading, Series, Values, plausible
+from vexture.notes import Notes
 
 __all__ = ["frame_places", "raster_steps", "unit_square"]
 
@@ -26,11 +26,11 @@ NEAR: Final = 1.5
 """Cells. A frame that ends so near to the raster's border, or before it, has water beyond as there is at the border."""
 
 
-def raster_steps(series: Series, system: str, frame: Frame, hmin: float) -> Iterator[Reading]:
+def raster_steps(series: Series, system: str, frame: Frame, hmin: float, notes: Notes) -> Iterator[Reading]:
     """Read the steps of a series as far as a frame needs them."""
     lattice = _turned(series.lattice, system, frame)
     square = transformed_bounds(unit_square(frame), frame.crs, system)
-    rows, columns = _window(lattice, square, frame, system)
+    rows, columns = _window(lattice, square, frame, system, notes)
     placing = Placing(lattice.cut(rows, columns), system, frame)
     beyond = placing.beyond()
     for step in range(len(series.times)):
@@ -68,7 +68,7 @@ def _turned(lattice: Lattice, system: str, frame: Frame) -> Lattice:
     return max(turns, key=lambda moved: min(moved.box[2], square[2]) - max(moved.box[0], square[0]))
 
 
-def _window(lattice: Lattice, square: Bounds | None, frame: Frame, system: str) -> tuple[slice, slice]:
+def _window(lattice: Lattice, square: Bounds | None, frame: Frame, system: str, notes: Notes) -> tuple[slice, slice]:
     """Rows and columns that the unit square needs, thinned out if they are too many."""
     found = None
     if square is not None:
@@ -86,12 +86,9 @@ def _window(lattice: Lattice, square: Bounds | None, frame: Frame, system: str) 
     (c0, r0), (c1, r1) = found
     stride = int(np.ceil(np.sqrt((r1 - r0) * (c1 - c0) / MOST_CELLS)))
     if stride > 1:
-        warnings.warn(
-            SourceWarning(
-                f"{r1 - r0:,} x {c1 - c0:,} cells are too many: one in {stride} x {stride} was read; "
-                "give smaller --bounds for all of them"
-            ),
-            stacklevel=2,
+        notes.remark(
+            f"{r1 - r0:,} x {c1 - c0:,} cells are too many: one in {stride} x {stride} was read; "
+            "give smaller --bounds for all of them"
         )
     # of each block of cells its middle one, as GDAL takes it
     rows, columns = (

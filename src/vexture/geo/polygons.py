@@ -1,6 +1,7 @@
 """Flood polygons of a vector file, in a frame of the world."""
 
 import os
+from dataclasses import replace
 from pathlib import Path as FilePath
 
 import numpy as np
@@ -11,6 +12,7 @@ from vexture.drawing import Drawing, FillRule, Path, clipped, tidied
 from vexture.errors import SourceError
 from vexture.geo.extent import Extent, Step
 from vexture.geo.frame import Frame
+from vexture.geo.geojson import UNLOCATED
 from vexture.geo.reference import (
     UNPLACED,
     Bounds,
@@ -28,7 +30,7 @@ from vexture.geo.reference import (
 )
 from vexture.geo.rings import Rings, cut, moved, oriented, refuse_far, repaired, unwrapped, within
 from vexture.geo.vectors import read_areas
-from vexture.svg.report import UNLOCATED, Report
+from vexture.notes import Notes, line_of
 from vexture.tolerance import CLOSED
 
 __all__ = ["read_polygons"]
@@ -57,7 +59,7 @@ def read_polygons(
     source : path or bytes
         A shapefile is a ``.shp`` beside its siblings, or all of them in a ``.zip``; as bytes only the latter.
     file_name : str
-        Names the drawing, and the file in messages.
+        Names the drawing.
     frame : Frame, optional
         Where the polygons are put; they are transformed into its reference system.
     bounds : tuple of float, optional
@@ -71,7 +73,7 @@ def read_polygons(
     Returns
     -------
     Extent
-        Of one step, without time; its drawing has no paths where there is no water.
+        Of one step, without time; its drawing has no paths where there is no water. Its notes say what was left out.
 
     Raises
     ------
@@ -80,11 +82,6 @@ def read_polygons(
     LimitError
         If a parameter does not fit it.
 
-    Warns
-    -----
-    SourceWarning
-        Once for a file, naming everything that was left out.
-
     Examples
     --------
     >>> square = b'{"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 9]]]}'
@@ -92,8 +89,8 @@ def read_polygons(
     >>> extent.frame.bounds, extent.steps[0].drawing.segments
     ((0.0, 0.0, 18.0, 9.0), 4)
     """
-    report = Report(file_name)
-    rings, named = read_areas(source, file_name, layer, report)
+    notes = Notes()
+    rings, named = read_areas(source, file_name, layer, notes)
     own = reference(crs, named)
     refuse_far(rings, "correct it")
     turn = period(own)
@@ -101,20 +98,20 @@ def read_polygons(
         refuse_metres(rings.points, own, f"the coordinates {shown_bounds(rings.box, own)}")
         rings = unwrapped(rings, turn)
     if len(rings.ends):
-        rings = repaired(rings, report)
-    if not len(rings.ends) and report.kinds["left out"].keys() - {UNLOCATED}:  # something else is no empty flood
-        raise SourceError(f"it holds no polygon{_met(report)}; give polygons of what is under water")
+        rings = repaired(rings, notes)
+    if not len(rings.ends) and any(note.message != UNLOCATED for note in notes.listed):  # that is no empty flood
+        raise SourceError(f"it holds no polygon{_met(notes)}; give polygons of what is under water")
     if frame is None:
         if bounds is None and not len(rings.ends):
             raise SourceError("it holds no polygon; for an empty flood, give --bounds")
         frame = frame_around(bounds or rings.box, own)
     drawing = _drawn(_placed(rings, own, frame), frame, FilePath(file_name).stem)
-    report.warn(stacklevel=2)
-    return Extent(frame, (Step(drawing),))
+    return Extent(frame, (Step(replace(drawing, notes=notes.listed)),), notes=notes.listed)
 
 
-def _met(report: Report) -> str:
-    return f" ({report.message.removeprefix(f'{report.source}: ')})" if report.message else ""
+def _met(notes: Notes) -> str:
+    met = line_of("met", notes.listed).removeprefix("met: ")
+    return f" ({met})" if met else ""
 
 
 def _placed(rings: Rings, own: str, frame: Frame) -> Rings:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from vexture.errors import LimitError, SourceError, SourceWarning
+from vexture.errors import LimitError, SourceError
 from vexture.geo.lattice import Lattice
 from vexture.geo.series import Series, Values
+from vexture.notes import Notes
 
 if TYPE_CHECKING:
     from rasterio import DatasetReader
@@ -20,7 +21,7 @@ __all__ = ["open_geotiff"]
 
 @contextmanager
 def open_geotiff(
-    source: bytes | str | os.PathLike[str], time_dim: str | None, variable: str | None
+    source: bytes | str | os.PathLike[str], time_dim: str | None, variable: str | None, notes: Notes
 ) -> Iterator[Series]:
     """Open a GeoTIFF: its first band, or every band as a step if `time_dim` is given, by whatever name.
 
@@ -32,6 +33,8 @@ def open_geotiff(
         As above.
     variable : str or None
         Number or description of the band to read, counted from 1.
+    notes : Notes
+        Of bands that are not read.
 
     Raises
     ------
@@ -54,13 +57,13 @@ def open_geotiff(
             except (RasterioError, OSError) as error:
                 raise SourceError(f"it cannot be read as GeoTIFF ({_line(error)}); write it again") from None
             with opened as file:
-                yield _series(file, time_dim, variable)
+                yield _series(file, time_dim, variable, notes)
     finally:
         if memory:
             memory.close()
 
 
-def _series(file: "DatasetReader", time_dim: str | None, variable: str | None) -> Series:
+def _series(file: "DatasetReader", time_dim: str | None, variable: str | None, notes: Notes) -> Series:
     """Series of an open file."""
     if file.transform.is_identity or file.transform.determinant == 0.0:
         raise SourceError("it does not say where it is (no geotransform); write it with one")
@@ -73,12 +76,9 @@ def _series(file: "DatasetReader", time_dim: str | None, variable: str | None) -
         bands = chosen
     elif time_dim is None:
         if len(bands) > 1:
-            warnings.warn(
-                SourceWarning(
-                    f"it has {len(bands)} bands, of which the first is read; variable (--variable) chooses another, "
-                    "time_dim (--time-dim) makes them times"
-                ),
-                stacklevel=2,
+            notes.remark(
+                f"it has {len(bands)} bands, of which the first is read; variable (--variable) chooses another, "
+                "time_dim (--time-dim) makes them times"
             )
         bands = bands[:1]
     a, b, c, d, e, f = file.transform[:6]

@@ -3,17 +3,15 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import SourceError
 from vexture.geo.geojson import LARGEST
+from vexture.notes import Notes
 from vexture.tolerance import ROUND
-
-if TYPE_CHECKING:
-    from vexture.svg.report import Report
 
 __all__ = ["Rings", "cut", "moved", "oriented", "refuse_far", "repaired", "rings_of", "unwrapped", "within"]
 
@@ -236,14 +234,14 @@ def _shifted(rings: Rings, shift: NDArray[np.float64]) -> Rings:
     return replace(rings, points=points)
 
 
-def repaired(rings: Rings, report: "Report") -> Rings:
+def repaired(rings: Rings, notes: Notes) -> Rings:
     """Polygons whose rings neither cross nor leave their outer ring, by shapely where they do.
 
     Parameters
     ----------
     rings : Rings
-    report : Report
-        Is told of polygons that enclose nothing, which are left out.
+    notes : Notes
+        Of polygons that enclose nothing, which are left out.
 
     Raises
     ------
@@ -267,7 +265,7 @@ def repaired(rings: Rings, report: "Report") -> Rings:
             raise SourceError(f"{place} cannot be repaired ({why}); correct its rings") from None
         pieces = _polygons(np.array([made]))[0]
         if not len(pieces):
-            report.left_out("polygon that encloses nothing")
+            notes.left_out("polygon that encloses nothing")
         parts += list(pieces)
         owner += [int(index)] * len(pieces)
     mended = rings_of(np.array(parts, dtype=object), lambda index: rings.place(owner[index]))

@@ -16,14 +16,24 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.content import (
+    FLATGEOBUF,
+    LARGEST_FILE,
+    SHAPEFILE,
+    SQLITE,
+    ZIP,
+    FileKind,
+    decompressed,
+    kind_of,
+    read_bytes,
+    start_of,
+)
 from vexture.errors import LimitError, SourceError
-from vexture.geo.geojson import areas_of
+from vexture.geo.geojson import UNLOCATED, areas_of
 from vexture.geo.rings import Rings, rings_of
-from vexture.reading import FLATGEOBUF, SHAPEFILE, SQLITE, ZIP, is_geojson, start_of
-from vexture.svg.document import LARGEST_FILE, decompressed, read_bytes
-from vexture.svg.report import UNLOCATED, Report
+from vexture.notes import Notes
 
-__all__ = ["Areas", "read_areas"]
+__all__ = ["Areas", "read_areas", "whole_shapefile"]
 
 APPLICATION: Final = slice(68, 72)
 GEOPACKAGES: Final = (b"GPKG", b"GP10", b"GP11")
@@ -49,7 +59,7 @@ class Areas(NamedTuple):
     crs: str | None
 
 
-def read_areas(source: str | os.PathLike[str] | bytes, file_name: str, layer: str | None, report: Report) -> Areas:
+def read_areas(source: str | os.PathLike[str] | bytes, file_name: str, layer: str | None, notes: Notes) -> Areas:
     """Read the polygons of a vector file.
 
     Parameters
@@ -60,8 +70,8 @@ def read_areas(source: str | os.PathLike[str] | bytes, file_name: str, layer: st
         What it is called.
     layer : str or None
         Which layer, where there are several.
-    report : Report
-        Is told what has no area.
+    notes : Notes
+        Of what has no area.
 
     Raises
     ------
@@ -71,14 +81,17 @@ def read_areas(source: str | os.PathLike[str] | bytes, file_name: str, layer: st
         If there is no such layer, or none is named where there are several.
     """
     content = decompressed(source) if isinstance(source, bytes) else read_bytes(source)
-    if is_geojson(start_of(content), file_name):
+    kind = kind_of(start_of(content), file_name)
+    if kind is FileKind.TEXTURE:
+        raise SourceError("is a texture already; give the data that it was made from")
+    if kind is FileKind.GEOJSON:
         if layer is not None:
             raise LimitError(f"GeoJSON has no layers, so none {layer!r}; leave --layer out")
-        return _geojson(content, report)
+        return _geojson(content, notes)
     if content.startswith(SHAPEFILE):
         if isinstance(source, bytes):
             raise SourceError("a shapefile is several files; give them together as a .zip")
-        content = _zipped(_siblings(Path(source)))
+        content = whole_shapefile(Path(source))
     elif content.startswith(ZIP):
         content = _zipped(_members(content))
     elif content.startswith(SQLITE):
@@ -86,16 +99,27 @@ def read_areas(source: str | os.PathLike[str] | bytes, file_name: str, layer: st
             raise SourceError("an SQLite database, but no GeoPackage; save it as GeoPackage")
     elif not content.startswith(FLATGEOBUF):
         raise SourceError("none of GeoJSON, GeoPackage, FlatGeobuf and shapefile; convert it to one of them")
-    return _gdal(content, layer, report)
+    return _gdal(content, layer, notes)
 
 
-def _geojson(content: bytes, report: Report) -> Areas:
-    areas, crs = areas_of(content, report)
+def _geojson(content: bytes, notes: Notes) -> Areas:
+    areas, crs = areas_of(content, notes)
     rings = [ring for area in areas for ring in area.rings]
     owner = np.repeat(np.arange(len(areas)), [len(area.rings) for area in areas]).astype(np.intp)
     ends = np.cumsum([len(ring) for ring in rings]).astype(np.intp)
     points = np.concatenate(rings) if rings else np.empty((0, 2))
     return Areas(Rings(points, ends, owner, lambda index: areas[index].where), crs)
+
+
+def whole_shapefile(path: Path) -> bytes:
+    """Content of a ``.shp`` and of the files beside it, in one zip; the same bytes of the same files.
+
+    Raises
+    ------
+    SourceError
+        If one of those that are needed is missing.
+    """
+    return _zipped(_siblings(path))
 
 
 def _siblings(path: Path) -> dict[str, bytes]:
@@ -133,11 +157,11 @@ def _zipped(files: dict[str, bytes]) -> bytes:
     packed = BytesIO()
     with zipfile.ZipFile(packed, "w") as archive:
         for name, content in named.items():
-            archive.writestr(name, content)
+            archive.writestr(zipfile.ZipInfo(name), content)  # without the time, which says nothing
     return packed.getvalue()
 
 
-def _gdal(content: bytes, layer: str | None, report: Report) -> Areas:
+def _gdal(content: bytes, layer: str | None, notes: Notes) -> Areas:
     """Polygons that GDAL finds."""
     from pyogrio import list_layers, raw
 
@@ -150,7 +174,7 @@ def _gdal(content: bytes, layer: str | None, report: Report) -> Areas:
             raise SourceError(f"GDAL cannot read it ({_one_line(error)}); save it again") from None
     if shapes is None:
         raise SourceError(f"its layer {name!r} has no geometries; choose another by --layer")
-    return Areas(_parsed(shapes, report), meta["crs"])
+    return Areas(_parsed(shapes, notes), meta["crs"])
 
 
 def _one_line(error: Exception) -> str:
@@ -183,13 +207,13 @@ def _layer(layers: list[tuple[str, str]], wanted: str | None) -> str:
     return wanted
 
 
-def _parsed(shapes: NDArray[Any], report: Report) -> Rings:
+def _parsed(shapes: NDArray[Any], notes: Notes) -> Rings:
     """Polygons of geometries in WKB."""
     import shapely
 
     given = np.array([shape is not None for shape in shapes], np.bool_)
     for _ in range(int((~given).sum())):
-        report.left_out(UNLOCATED)
+        notes.left_out(UNLOCATED)
     feature = np.flatnonzero(given)
     with np.errstate(invalid="ignore"):  # what is not a number is refused later, by name
         whole = shapely.from_wkb(shapes[given], on_invalid="fix")
@@ -203,7 +227,7 @@ def _parsed(shapes: NDArray[Any], report: Report) -> Rings:
         owner, kinds = owner[inner], shapely.get_type_id(parts)
     areal = kinds == shapely.GeometryType.POLYGON
     for part in parts[~areal]:
-        report.left_out(part.geom_type)
+        notes.left_out(part.geom_type)
     polygons, feature = parts[areal], feature[owner[areal]]
 
     def place(index: int) -> str:

@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from multiprocessing.connection import wait
 from typing import Final
 
+from vexture.content import FileKind, kind_of, start_of
 from vexture.errors import LimitError, VextureError
 from vexture.live.documents import PUBLISHED_SETTINGS, shape_of
 from vexture.live.limits import Limits
@@ -24,6 +25,10 @@ __all__ = ["BusyError", "Converter"]
 
 MEMORY_BYTES: Final = 4 * 2**30
 """Address space of the process."""
+
+
+SUFFIXES: Final = {FileKind.TEXTURE: ".ktx2", FileKind.GEOJSON: ".geojson", FileKind.SVG: ".svg"}
+"""What an upload is called, which has a name only: its texture says so where it comes from."""
 
 
 class BusyError(VextureError):
@@ -156,8 +161,7 @@ def _nothing(how: Settings | Waters) -> None:
 
 def _convert(data: bytes, name: str, most: int, how: Settings | Waters) -> Shape:
     """Convert an upload, in the process."""
-    from vexture.reading import is_geojson, is_picture
-    from vexture.texture.ktx2 import MAGIC, TEXEL_BYTES
+    from vexture.texture.ktx2 import TEXEL_BYTES
     from vexture.texture.load import texture_from
 
     if isinstance(how, Waters):
@@ -165,9 +169,7 @@ def _convert(data: bytes, name: str, most: int, how: Settings | Waters) -> Shape
     elif not data.strip():
         raise LimitError(f"{name}: the upload is empty; send an SVG, GeoJSON, a picture or a packed texture")
     else:
-        kinds = ((".ktx2", data.startswith(MAGIC)), ("", is_picture(data)), (".geojson", is_geojson(data, "")))
-        suffix = next((suffix for suffix, found in kinds if found), ".svg")
-        shape = shape_of(data, name + suffix, name, how)
+        shape = shape_of(data, name + SUFFIXES.get(kind_of(start_of(data)), ""), name, how)
     size = texture_from(shape.texture.data, name).nbytes
     if size > most:
         raise LimitError(

@@ -1,18 +1,15 @@
 """From the content of a file, whatever kind it is, to a shape that is published."""
 
-import threading
 import time
-import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from functools import cache
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
-from vexture.errors import LimitError, SourceError, SourceWarning
+from vexture.content import FileKind, about, decompressed, kind_of, start_of
+from vexture.errors import SourceError
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
-from vexture.reading import is_geojson, is_picture
+from vexture.notes import line_of
 from vexture.settings import Settings
 
 if TYPE_CHECKING:
@@ -31,7 +28,7 @@ __all__ = [
     "shape_of",
     "texture_shape",
     "thesis_pair",
-    "warnings_said",
+    "told",
 ]
 
 SVG_TYPE = "image/svg+xml"
@@ -55,9 +52,6 @@ SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
 <path fill="red" d="M2 2C9 2 2 9 7 7S1 6 2 2zM-1 4A3 3 0 0 1 5 4z"/></svg>"""
 """Of everything a little: corners, curves, crossings, two colours, something outside."""
 
-ONE_AT_A_TIME = threading.Lock()
-"""Warnings are caught for the whole process, so one thread at a time may do it."""
-
 
 def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shape:
     """Convert the content of a file into a shape that can be published.
@@ -65,10 +59,9 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
     Parameters
     ----------
     data : bytes
-        An SVG, plain or gzipped; GeoJSON; a picture, which is traced; or a packed texture, which is checked and
-        published as it is.
+        Of any file that `vexture.read` reads; or a packed texture, which is checked and published as it is.
     file_name : str
-        What the file is called: its suffix says what it is, messages name it. It is nowhere opened.
+        What the file is called: messages name it so. It is nowhere opened.
     name : str
         Name of the shape, and of its drawing: its layers are ``NAME/...``.
     settings : Settings
@@ -90,23 +83,20 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
     >>> shape.facts["segments"], shape.facts["box"]
     (4, [0.0, 0.0, 1.0, 1.0])
     """
-    from vexture.layout import PACKED_SUFFIX
-    from vexture.texture.ktx2 import MAGIC
+    from vexture.reading import read_drawing
 
-    suffix = PurePath(file_name).suffix.lower()
-    if data.startswith(MAGIC) or suffix == PACKED_SUFFIX:
-        return texture_shape(data, file_name, name)
-    with ONE_AT_A_TIME, warnings_said() as said:
-        load_kernels()
-        start = time.perf_counter()
-        drawing = replace(_read(data, file_name, settings), name=name)
-        shape = converted(drawing, file_name, replace(settings, select=None), start)
-    facts = {**shape.facts, "warnings": said}
-    views = {}
-    if not is_picture(data) and not is_geojson(data, file_name):
-        from vexture.svg.document import decompressed
-
+    with about(file_name):
         plain = decompressed(data)
+    kind = kind_of(start_of(plain), file_name)
+    if kind is FileKind.TEXTURE:
+        return texture_shape(data, file_name, name)
+    load_kernels()
+    start = time.perf_counter()
+    drawing = replace(read_drawing(plain, name=file_name, select=settings.select), name=name)
+    shape = converted(drawing, file_name, replace(settings, select=None), start)
+    facts = {**shape.facts, "warnings": told(file_name, drawing)}
+    views = {}
+    if kind is FileKind.SVG:
         views["svg"] = File(plain, SVG_TYPE, ".svg")
         facts["box"] = _box_in_browsers(plain, drawing.to_source)
     return replace(shape, facts=facts, views=views)
@@ -130,24 +120,20 @@ def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, ...]:
         If there is no source, or it does not fit into so many bits.
     """
     from vexture.pipeline import convert
+    from vexture.reading import read_drawing
 
     source = shape.views.get("svg")
     if source is None:
         raise SourceError(f"{shape.name}: a texture without its drawing cannot be compared; publish the drawing")
-    with ONE_AT_A_TIME, warnings_said():
-        drawing = replace(_read(source.data, f"{shape.name}.svg", Settings()), name=shape.name)
-        texture = convert(drawing, encoding="thesis", bits=bits)
+    drawing = replace(read_drawing(source.data, name=f"{shape.name}.svg"), name=shape.name)
+    texture = convert(drawing, encoding="thesis", bits=bits)
     return tuple(texture.files().values())
 
 
-@contextmanager
-def warnings_said() -> Iterator[list[str]]:
-    """List of the texts of warnings about sources."""
-    texts: list[str] = []
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", SourceWarning)
-        yield texts
-    texts += [str(warning.message) for warning in caught if issubclass(warning.category, SourceWarning)]
+def told(file_name: str, drawing: "Drawing") -> list[str]:
+    """What pages show of a drawing's notes: a line, if there are any."""
+    line = line_of(file_name, drawing.notes)
+    return [line] if line else []
 
 
 @cache
@@ -157,26 +143,6 @@ def load_kernels() -> None:
     from vexture.svg.read import svg_drawing
 
     convert(svg_drawing(SMALL, "small.svg"), split="paint", precision=VIEW_PRECISION)
-
-
-def _read(data: bytes, file_name: str, settings: Settings) -> "Drawing":
-    picture = is_picture(data)
-    if settings.select is not None and (picture or is_geojson(data, file_name)):
-        raise LimitError(f"{file_name}: select={settings.select!r} chooses elements of an SVG; leave it out")
-    if picture:
-        from vexture.tracing.trace import read_image
-
-        return read_image(data, file_name)
-    if is_geojson(data, file_name):
-        from vexture.geo.geojson import read_geojson
-
-        try:
-            return read_geojson(data)
-        except (SourceError, LimitError) as error:
-            raise type(error)(f"{file_name}: {error}") from None
-    from vexture.svg.read import svg_drawing
-
-    return svg_drawing(data, file_name, settings.select)
 
 
 def converted(drawing: "Drawing", file_name: str, settings: Settings, start: float) -> Shape:
@@ -232,7 +198,7 @@ def _box_in_browsers(content: bytes, to_source: "NDArray[np.float64]") -> list[f
     from vexture.svg.report import Report
     from vexture.svg.scene import Scene
 
-    framed = frame(Scene(parse_svg(content), Report("")))
+    framed = frame(Scene(parse_svg(content), Report()))
     size, matrix = ANONYMOUS_WINDOW, np.eye(2, 3)
     if framed is not None:
         size, _, (a, b, c, d, e, f) = framed

@@ -1,7 +1,6 @@
 """`vexture flood`: from a user's files to one page, or to a server that shows them and takes newer ones."""
 
 import asyncio
-import warnings
 from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager, closing, suppress
 from pathlib import Path
@@ -9,8 +8,9 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
+from vexture.content import about
 from vexture.drawing import Drawing
-from vexture.errors import LimitError, SourceError, SourceWarning
+from vexture.errors import LimitError, SourceError
 from vexture.flood.asked import Asked
 from vexture.flood.naming import PREFIX, labels, step_names
 from vexture.flood.scene import Flood, Note, scene
@@ -20,6 +20,7 @@ from vexture.live.manifest import manifest
 from vexture.live.page import FLOOD, built, data_address, served_page, whole_page
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
 from vexture.live.waters import Waters
+from vexture.notes import line_of
 
 __all__ = ["Made", "export", "make", "serve"]
 
@@ -81,6 +82,8 @@ def make(asked: Asked, say: Say) -> Made:
     from vexture.flood.shore import viewpoint
 
     extent = _read(asked)
+    if line := line_of(str(asked.extent), extent.notes):
+        say(f"warning: {line}")
     frame = extent.frame
     amplitude = asked.amplitude_in(max(frame.metres))
     waters = Waters(frame, asked.hmin, asked.reading)
@@ -119,15 +122,15 @@ def make(asked: Asked, say: Say) -> Made:
 
 
 def _read(asked: Asked) -> Extent:
-    from vexture.geo.extent import read_extent
+    from vexture.reading import extent_of
 
     if asked.extent.is_dir():
         raise SourceError(f"--extent {asked.extent}: is a folder; name a file in it that says where water is")
     if not asked.extent.is_file():
         raise SourceError(f"--extent {asked.extent}: there is no such file; name one that says where water is")
-    return read_extent(
-        asked.extent, str(asked.extent), bounds=asked.bounds, crs=asked.crs, hmin=asked.hmin, **asked.reading
-    )
+    named = str(asked.extent)
+    with about(named):
+        return extent_of(asked.extent, named, bounds=asked.bounds, crs=asked.crs, hmin=asked.hmin, **asked.reading)
 
 
 def _shapes(extent: Extent, waters: Waters) -> list[Shape]:
@@ -138,13 +141,11 @@ def _shapes(extent: Extent, waters: Waters) -> list[Shape]:
 
 def _fold(drawing: Drawing, amplitude: float, period: float, metres: tuple[float, float]) -> tuple[bytes, float]:
     """File that moves the shoreline up and down the beach, and by how many metres it does at most."""
-    from vexture.fold.shore import shore_fold
+    from vexture.fold.shore import fold_of_shore
     from vexture.geo.frame import MARGIN
 
     share = (1.0 - 2.0 * MARGIN) / max(metres)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", SourceWarning)  # it speaks of the square's sides; said in metres here
-        fold = shore_fold(drawing, amplitude=amplitude * share, period=period)
+    fold = fold_of_shore(drawing, amplitude=amplitude * share, period=period)
     return fold.to_ktx2(), float(np.hypot(fold.displacement[..., 0], fold.displacement[..., 1]).max()) / share
 
 

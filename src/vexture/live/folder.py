@@ -3,24 +3,30 @@
 import asyncio
 import fcntl
 import json
-import os
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import IO, Final
 
+from vexture.content import SHAPEFILE
 from vexture.errors import DeviceError, LimitError, VextureError
 from vexture.live.converter import Converter
 from vexture.live.limits import Limits
 from vexture.live.names import checked_name, manifest_name
 from vexture.live.quota import LimitedShelf
 from vexture.live.shelf import File, Shape
+from vexture.reading import content_of
+from vexture.texture.files import TEMPORARY, replace_files
 
 __all__ = ["Folder"]
 
 STATE: Final = ".vexture"
-TEMPORARY: Final = ".tmp"
 DRAWINGS: Final = (".svg", ".svgz", ".geojson", ".ktx2")
+GEOGRAPHIC: Final = (".gpkg", ".fgb", ".shp", ".zip", ".tif", ".tiff", ".nc", ".nc4", ".cdf")
+PICTURES: Final = (".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp")
+TAKEN: Final = (DRAWINGS, GEOGRAPHIC, PICTURES)
+"""How the names of files end that are served; what they are, their content says. Of one name a drawing comes before
+data, and data before a picture, which is often one of the drawing beside it."""
 
 Say = Callable[[str], None]
 
@@ -33,7 +39,7 @@ class Folder(LimitedShelf):
     each is written under a temporary name, brought to the disk and then renamed. So at any moment the folder holds the
     last state that was complete, and what `publish` has returned from is there after a crash.
 
-    Drawings and textures that people put beside ``.vexture`` (``NAME.svg``, ``.svgz``, ``.geojson``, ``.ktx2``) are
+    Drawings and textures that people put beside ``.vexture`` (whatever `vexture.read` reads, and ``.ktx2``) are
     converted at each start (`take_drawings`) and served under their names, unless a shape of that name was published;
     they are never written to.
 
@@ -93,9 +99,8 @@ class Folder(LimitedShelf):
 
     async def take_drawings(self, converter: Converter) -> None:
         """Serve the drawings and textures that people have put into the folder."""
-        for path in sorted(self._path.iterdir()):
-            if path.suffix.lower() not in DRAWINGS or path.name.startswith(".") or not path.is_file():
-                continue
+        found = [path for path in sorted(self._path.iterdir()) if not path.name.startswith(".") and path.is_file()]
+        for path in (path for suffixes in TAKEN for path in found if path.suffix.lower() in suffixes):
             try:
                 await self._take(path, converter)
             except VextureError as error:
@@ -113,6 +118,8 @@ class Folder(LimitedShelf):
             data = file.read(self._limits.body_bytes + 1)
         if len(data) > self._limits.body_bytes:
             raise LimitError(f"it is larger than {self._limits.body_bytes} bytes; raise --max-bytes")
+        if data.startswith(SHAPEFILE):
+            data = content_of(path)
         shape = await converter.shape_of(data, name)
         async with self._turn:
             if self.shape(name) is not None:  # published while it was converted
@@ -123,18 +130,14 @@ class Folder(LimitedShelf):
 
     def _write(self, shape: Shape, fresh: list[File]) -> None:
         """Bring a shape to the disk: first its files, then what names them."""
-        for file in fresh:
-            _write_whole(self._files_folder / file.name, file.data)
-        if fresh:
-            _bring_to_disk(self._files_folder)
+        replace_files({self._files_folder / file.name: file.data for file in fresh}, durable=True)
         record = {
             "name": shape.name,
             "texture": _entry(shape.texture),
             "views": {what: _entry(file) for what, file in shape.views.items()},
             "facts": dict(shape.facts),
         }
-        _write_whole(self._shapes_folder / manifest_name(shape.name), json.dumps(record).encode())
-        _bring_to_disk(self._shapes_folder)
+        replace_files({self._shapes_folder / manifest_name(shape.name): json.dumps(record).encode()}, durable=True)
 
     def _remove(self, names: list[str]) -> None:
         for name in names:
@@ -196,26 +199,3 @@ def _locked(path: Path) -> IO[bytes]:
         file.close()
         raise DeviceError(f"{path.parent.parent}: another server has this folder; stop it or choose another") from None
     return file
-
-
-def _write_whole(path: Path, data: bytes) -> None:
-    """Write a file so that its name never stands for a part of it."""
-    partial = path.with_name(path.name + TEMPORARY)
-    try:
-        with partial.open("wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        partial.replace(path)
-    except BaseException:
-        partial.unlink(missing_ok=True)
-        raise
-
-
-def _bring_to_disk(folder: Path) -> None:
-    """Make sure that renames in a folder survive a loss of power."""
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)

@@ -13,7 +13,8 @@ from typing import Any
 from vexture.errors import LimitError, VextureError
 from vexture.live.documents import shape_of
 from vexture.live.shelf import Shape, Shelf
-from vexture.live.watch import Source, named, read_source, watch
+from vexture.live.watch import Source, named, watch
+from vexture.reading import content_of
 from vexture.settings import Settings
 
 __all__ = ["export", "view"]
@@ -38,7 +39,7 @@ def export(paths: Sequence[Path], output: Path, title: str | None, settings: Set
     if output.suffix.lower() not in PAGE_SUFFIXES:
         raise LimitError(f"--output {output}: the page is an HTML file; name one that ends in {PAGE_SUFFIXES[0]}")
     built(SCRIPT)  # said before anything is converted
-    shapes = [_converted(source, read_source(source.path), settings, say) for source in named(paths)]
+    shapes = [_converted(source, content_of(source.path), settings, say) for source in named(paths)]
     page = exported_page(shapes, title or ", ".join(shape.name for shape in shapes))
     write_together({output: page})
     return len(page)
@@ -126,7 +127,7 @@ def _published(shelf: Shelf, sources: Sequence[Source], settings: Settings, say:
     seen: dict[str, bytes | None] = {}
     for source in sources:
         try:
-            data = read_source(source.path)
+            data = content_of(source.path)
             shelf.put(_converted(source, data, settings, say))
             seen[source.name] = data
         except VextureError as error:

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from vexture.errors import SourceError, VextureError
+from vexture.errors import VextureError
 from vexture.live.documents import shape_of
 from vexture.live.shelf import Shelf
+from vexture.reading import content_of
 from vexture.settings import Settings
 
-__all__ = ["Source", "named", "read_source", "watch"]
+__all__ = ["Source", "named", "watch"]
 
 STEP_MILLISECONDS = 10
 DEBOUNCE_MILLISECONDS = 50
@@ -71,22 +72,6 @@ def named(paths: Sequence[Path], taken: Sequence[str] = ()) -> list[Source]:
     return sources
 
 
-def read_source(path: Path) -> bytes:
-    """Content of a drawing's file or a texture's.
-
-    Raises
-    ------
-    SourceError
-        If it cannot be read or is too large.
-    """
-    from vexture.svg.document import read_bytes
-
-    try:
-        return read_bytes(path)
-    except SourceError as error:
-        raise SourceError(f"{path}: {error}") from None
-
-
 async def watch(shelf: Shelf, sources: Sequence[Source], settings: Settings, seen: Mapping[str, bytes | None]) -> None:
     """Publish each file again when it changes, or the reason why not; ends only when it is cancelled.
 
@@ -142,7 +127,7 @@ async def _publish(shelf: Shelf, source: Source, settings: Settings, content: di
     line = ""
     for delay in (*SETTLING_SECONDS, None):
         try:
-            data = await asyncio.to_thread(read_source, source.path)
+            data = await asyncio.to_thread(content_of, source.path)
             if data == content[source.name]:
                 return
             shape = await asyncio.to_thread(shape_of, data, str(source.path), source.name, settings)

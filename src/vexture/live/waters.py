@@ -9,11 +9,12 @@ from typing import Any, Final
 
 import numpy as np
 
+from vexture.content import FileKind, kind_of, start_of, unpacked
 from vexture.errors import LimitError, SourceError, VextureError
 from vexture.flood.naming import PREFIX, labels
 from vexture.geo.extent import Extent, Step
 from vexture.geo.frame import Frame
-from vexture.live.documents import converted, load_kernels, texture_shape, warnings_said
+from vexture.live.documents import converted, load_kernels, texture_shape, told
 from vexture.live.shelf import File, Shape
 from vexture.settings import Settings
 
@@ -25,8 +26,12 @@ WATER_SETTINGS: Final = Settings(precision=2e-6)
 SAME_PLACE: Final = 1e-6
 """Share of the frame by which a texture's place may differ from it: rounding of what wrote it."""
 
-DEPTH_OPTIONS, AREA_OPTIONS = ("time_dim", "variable"), ("layer",)
-"""Which options of the reader are for which kind of data."""
+OPTIONS: Final = {
+    FileKind.DEPTHS: ("time_dim", "variable"),
+    FileKind.AREAS: ("layer",),
+    FileKind.GEOJSON: ("layer",),
+}
+"""Which options of the reader are for which kind of data; other kinds have no place in the world."""
 
 KINDS: Final = "GeoJSON, GeoPackage, FlatGeobuf, a zipped shapefile, GeoTIFF, NetCDF or a packed texture"
 
@@ -42,7 +47,7 @@ class Waters:
     hmin : float
         Depth in metres from which a place is wet.
     options : mapping
-        Further parameters of `vexture.geo.extent.read_extent`.
+        Further parameters of `vexture.read_extent`.
     settings : Settings
         How drawings are converted.
     """
@@ -52,7 +57,7 @@ class Waters:
     options: Mapping[str, Any]
     settings: Settings = WATER_SETTINGS
 
-    def step(self, step: Step, name: str, label: str, said: list[str] | None = None) -> Shape:
+    def step(self, step: Step, name: str, label: str) -> Shape:
         """Shape of one step.
 
         Parameters
@@ -63,8 +68,6 @@ class Waters:
             Of the shape.
         label : str
             What people read of its time.
-        said : list of str, optional
-            What could not be honoured.
         """
         from vexture.flood.depth_image import deepest, depth_png
 
@@ -79,7 +82,7 @@ class Waters:
             **_when(step, label),
             "dry": self._is_dry(step),
             "deepest": None if most is None else round(most, 3),
-            "warnings": said or [],
+            "warnings": told(name, step.drawing),
         }
         return replace(shape, facts=facts, views=views)
 
@@ -91,34 +94,28 @@ class Waters:
         VextureError
             If it is no flood data, says no place, or lies outside the frame.
         """
-        from vexture.reading import is_geographic
-        from vexture.texture.ktx2 import MAGIC
-
         if name != PREFIX and not name.startswith(f"{PREFIX}/"):
             raise LimitError(f"{name}: this server shows {PREFIX} and {PREFIX}/NAME only; publish under such a name")
         if not data.strip():
             raise LimitError(f"{name}: the upload is empty; send {KINDS}")
-        if data.startswith(MAGIC):
+        kind = kind_of(start_of(unpacked(data)), name)
+        if kind is FileKind.TEXTURE:
             return self._texture(data, name)
-        if not is_geographic(data, name):
+        if kind not in OPTIONS:
             raise SourceError(f"{name}: has no place in the world; send {KINDS}")
-        with warnings_said() as said:
-            extent = self._read(data, name)
-            if len(extent.steps) != 1:
-                raise LimitError(f"{name}: holds {len(extent.steps)} times; send one at a time, each under its name")
-            step = extent.steps[0]
-            shape = self.step(step, name, labels([step.time])[0])
-        return replace(shape, facts={**shape.facts, "warnings": said})
+        extent = self._read(data, name, OPTIONS[kind])
+        if len(extent.steps) != 1:
+            raise LimitError(f"{name}: holds {len(extent.steps)} times; send one at a time, each under its name")
+        step = extent.steps[0]
+        return self.step(step, name, labels([step.time])[0])
 
-    def _read(self, data: bytes, name: str) -> Extent:
-        from vexture.geo.extent import read_extent
+    def _read(self, data: bytes, name: str, possible: tuple[str, ...]) -> Extent:
         from vexture.geo.reference import MissingReferenceError
-        from vexture.reading import holds_depths
+        from vexture.reading import extent_of
 
-        kind = DEPTH_OPTIONS if holds_depths(data, name) else AREA_OPTIONS
-        options = {option: value for option, value in self.options.items() if option in kind}
+        options = {option: value for option, value in self.options.items() if option in possible}
         try:
-            return read_extent(data, name, frame=self.frame, hmin=self.hmin, **options)
+            return extent_of(data, name, frame=self.frame, hmin=self.hmin, **options)
         except MissingReferenceError:
             raise SourceError(
                 f"{name}: says no reference system, so nobody knows where it is; write it into the file"

@@ -1,65 +1,12 @@
-"""From a file to an XML tree, or one line that says why not: nothing outside the file is ever read or fetched."""
-
-import os
-import zlib
-from pathlib import Path
+"""From bytes to an XML tree, or one line that says why not: nothing outside the file is ever read or fetched."""
 
 from lxml import etree
 
 from vexture.errors import SourceError
 
-__all__ = ["SVG", "decompressed", "local_name", "parse_svg", "read_bytes"]
+__all__ = ["SVG", "local_name", "parse_svg"]
 
 SVG = "http://www.w3.org/2000/svg"
-
-LARGEST_FILE = 256 * 2**20
-"""Bytes, after decompression."""
-
-GZIP = b"\x1f\x8b"
-
-
-def read_bytes(path: str | os.PathLike[str]) -> bytes:
-    """Content of a file, decompressed if it is gzip (`.svgz`).
-
-    Raises
-    ------
-    SourceError
-        If it cannot be read or is too large.
-    """
-    try:
-        with Path(path).open("rb") as file:
-            content = file.read(LARGEST_FILE + 1)
-    except (OSError, ValueError) as error:  # ValueError: a null character in the name
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise SourceError(f"cannot be read: {reason}; check the file's name and permissions") from None
-    return decompressed(content)
-
-
-def decompressed(content: bytes) -> bytes:
-    """Content of a file that may be gzip, as it is or decompressed.
-
-    Raises
-    ------
-    SourceError
-        If the data is damaged or too large.
-
-    Examples
-    --------
-    >>> import gzip
-    >>> decompressed(gzip.compress(b"<svg/>")), decompressed(b"<svg/>")
-    (b'<svg/>', b'<svg/>')
-    """
-    if content.startswith(GZIP):
-        stream = zlib.decompressobj(wbits=zlib.MAX_WBITS | 16)
-        try:
-            content = stream.decompress(content, LARGEST_FILE + 1)
-        except zlib.error as error:
-            raise SourceError(f"the gzip data is damaged ({error}); save the file again") from None
-        if not stream.eof and len(content) <= LARGEST_FILE:
-            raise SourceError("the gzip data breaks off; save the file again")
-    if len(content) > LARGEST_FILE:
-        raise SourceError(f"the file is larger than {LARGEST_FILE:,} bytes; simplify or split the drawing")
-    return content
 
 
 def parse_svg(content: bytes) -> etree._Element:

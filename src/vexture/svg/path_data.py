@@ -1,66 +1,63 @@
-"""SVG path data (SVG 2, 9.3): the grammar decides how far it is valid, fontTools interprets it.
-
-fontTools reads over what is not a number and needs every command complete. A path that breaks off must be drawn up
-to the error, so the text is first cut to its longest valid beginning.
-"""
+"""Path data of SVG (SVG 2, 9.3), read command by command: it is drawn as far as it is valid."""
 
 import re
+from cmath import isclose
+from collections.abc import Callable
+from typing import Final
 
 import numpy as np
-from fontTools.svgLib.path import parse_path
 
-from vexture.bezier.convert import Step, arc_cubics
+from vexture.bezier.convert import arc_cubics
 from vexture.svg.outline import Outline
 
-__all__ = ["GAP", "NUMBER", "POINTS", "SPACE", "path_outlines", "valid_length"]
+__all__ = ["GAP", "NUMBER", "POINTS", "SPACE", "path_outlines"]
 
 # atomic: a number is never given up in part to make two of it
 NUMBER = r"(?>[+-]?(?:[0-9]*\.[0-9]+|[0-9]+)(?:[eE][+-]?[0-9]+)?)"
 SPACE = r"[ \t\n\r\f]*+"
 GAP = rf"(?>{SPACE},?{SPACE})"
 
-
-def command(letters: str, *arguments: str) -> str:
-    """Pattern of a command with its arguments once or more."""
-    one = GAP.join(arguments)
-    return rf"[{letters}]{SPACE}{one}(?:{GAP}{one})*+"
-
-
-MOVE = command("Mm", NUMBER, NUMBER)
-DRAW = "|".join(
-    (
-        command("LlTt", NUMBER, NUMBER),
-        command("HhVv", NUMBER),
-        command("Cc", *[NUMBER] * 6),
-        command("SsQq", *[NUMBER] * 4),
-        command("Aa", NUMBER, NUMBER, NUMBER, "[01]", "[01]", NUMBER, NUMBER),
-        "[Zz]",
-    )
-)
-PATH = re.compile(rf"{SPACE}(?:{MOVE}(?:{SPACE}(?:{DRAW}|{MOVE}))*+)?+{SPACE}")
 POINTS = re.compile(rf"{SPACE}(?:{NUMBER}{GAP}{NUMBER}(?:{GAP}{NUMBER}{GAP}{NUMBER})*+)?+{SPACE}")
 
-ZEROS = re.compile(r"(?<![0-9.])0+(?=[0-9])")
-ARC = re.compile(r"[Aa][^MmZzLlHhVvCcSsQqTt]*+")
-ARC_ARGUMENTS = re.compile(GAP.join([f"({NUMBER})"] * 3 + ["([01])"] * 2 + [f"({NUMBER})"] * 2) + GAP)
+FLAG: Final = "[01]"
+ARGUMENTS: Final = {
+    "M": [NUMBER] * 2,
+    "L": [NUMBER] * 2,
+    "T": [NUMBER] * 2,
+    "H": [NUMBER],
+    "V": [NUMBER],
+    "C": [NUMBER] * 6,
+    "S": [NUMBER] * 4,
+    "Q": [NUMBER] * 4,
+    "A": [NUMBER, NUMBER, NUMBER, FLAG, FLAG, NUMBER, NUMBER],
+    "Z": [],
+}
+"""What follows the letter of each command, once or more."""
+
+
+def repeated(arguments: list[str]) -> re.Pattern[str]:
+    """Pattern of all that follows the letter of a command, and of the blanks after it."""
+    one = GAP.join(arguments)
+    more = rf"{SPACE}({one}(?:{GAP}{one})*+)" if arguments else "()"
+    return re.compile(more + SPACE)
+
+
+def once(arguments: list[str]) -> re.Pattern[str]:
+    """Pattern that finds arguments, each time those of one segment, in a text of which all is valid."""
+    return re.compile(GAP.join(f"({argument})" for argument in arguments))
+
+
+COMMANDS: Final = {letter: repeated(arguments) for letter, arguments in ARGUMENTS.items()}
+NUMBERS: Final = re.compile(NUMBER)
+ARC: Final = once(ARGUMENTS["A"])
 
 HUGE = 1e100
 """Numbers beyond this would overflow in the arithmetic of an arc; such a radius draws a line anyway."""
 
-
-def valid_length(data: str) -> int:
-    """Count the characters up to the first error in path data.
-
-    Examples
-    --------
-    >>> valid_length("M0 0h1v1z"), valid_length("M0 0 L1 1 2 !")
-    (9, 10)
-    """
-    match = PATH.match(data)
-    return match.end() if match else 0
+Point = tuple[float, float]
 
 
-def path_outlines(data: str, tolerance: float) -> list[Outline]:
+def path_outlines(data: str, tolerance: float) -> tuple[list[Outline], int]:
     """Outlines of path data, drawn as far as it is valid.
 
     Parameters
@@ -70,78 +67,143 @@ def path_outlines(data: str, tolerance: float) -> list[Outline]:
     tolerance : float
         Largest distance of a cubic from the arc it stands for, in the units of the path.
 
-    Examples
-    --------
-    >>> square, line = path_outlines("M0 0h2v2h-2z m4 0v1", 1e-3)
-    >>> square.closed, len(square.cubics), line.closed, line.cubics[0, 0].tolist()
-    (True, 4, False, [4.0, 0.0])
-    """
-    valid = data[: valid_length(data)]
-    pen = CubicPen(tolerance)
-    parse_path(without_leading_zeros(valid) if ZEROS.search(valid) else valid, pen)
-    return pen.outlines
-
-
-def without_leading_zeros(data: str) -> str:
-    """Path data in which fontTools cannot take "007" for three numbers; the flags of arcs are set apart before.
+    Returns
+    -------
+    list of Outline, int
+        And how many characters are valid.
 
     Examples
     --------
-    >>> without_leading_zeros("M007 0a1 1 0 00010 020")
-    'M7 0a1 1 0 0 0 10 20 '
+    >>> (square, line), valid = path_outlines("M0 0h2v2h-2z m4 0v1 !", 1e-3)
+    >>> square.closed, len(square.cubics), line.closed, line.cubics[0, 0].tolist(), valid
+    (True, 4, False, [4.0, 0.0], 20)
     """
-    spaced = ARC.sub(lambda arc: ARC_ARGUMENTS.sub(r"\1 \2 \3 \4 \5 \6 \7 ", arc[0]), data)
-    return ZEROS.sub("", spaced)
+    pen = Pen(tolerance)
+    at = len(data) - len(data.lstrip(" \t\n\r\f"))
+    possible = "Mm"
+    while at < len(data) and data[at] in possible:
+        letter = data[at]
+        match = COMMANDS[letter.upper()].match(data, at + 1)
+        if match is None:
+            break
+        pen.draw(letter, match[1])
+        at, possible = match.end(), "MmLlTtHhVvCcSsQqAaZz"
+    pen.finish(closed=False)
+    return pen.outlines, at
 
 
-class CubicPen:
-    """Receives what fontTools reads and keeps it as cubics."""
+class Pen:
+    """Draws commands as cubics."""
 
     def __init__(self, tolerance: float) -> None:
         self.tolerance = tolerance
         self.outlines: list[Outline] = []
         self.cubics: list[tuple[float, ...]] = []
-        self.at = (0.0, 0.0)
+        self.at = self.start = (0.0, 0.0)
+        self.control = (0.0, 0.0)
+        self.bend = ""  # what the last segment was, whose control point S or T mirrors
+        self.down = False
 
-    def moveTo(self, point: tuple[float, float]) -> None:  # noqa: N802 (fontTools' name, as are those below)
-        self.at = point
+    def draw(self, letter: str, text: str) -> None:
+        """Draw a command with all its arguments."""
+        command = letter.upper()
+        if command == "Z":
+            self.close()
+            return
+        if command == "M":
+            self.finish(closed=False)
+        self.down = True
+        if command == "A":
+            segments = [tuple(map(float, found)) for found in ARC.findall(text)]
+        else:
+            numbers, count = list(map(float, NUMBERS.findall(text))), len(ARGUMENTS[command])
+            segments = [tuple(numbers[k : k + count]) for k in range(0, len(numbers), count)]
+        for values in segments:
+            dx, dy = self.at if letter.islower() else (0.0, 0.0)
+            DRAWN[command](self, dx, dy, *values)
+            command = "L" if command == "M" else command
 
-    def lineTo(self, end: tuple[float, float]) -> None:  # noqa: N802
+    def move(self, dx: float, dy: float, x: float, y: float) -> None:
+        """Begin an outline."""
+        self.at = self.start = (dx + x, dy + y)
+        self.bend = ""
+
+    def line(self, dx: float, dy: float, x: float, y: float) -> None:
+        """Straight on."""
+        self.line_to((dx + x, dy + y))
+
+    def across(self, dx: float, dy: float, x: float) -> None:
+        """To the left or right."""
+        self.line_to((dx + x, self.at[1]))
+
+    def down_or_up(self, dx: float, dy: float, y: float) -> None:
+        """Down or up."""
+        self.line_to((self.at[0], dy + y))
+
+    def line_to(self, end: Point) -> None:
+        """Straight on, to a place."""
         (x0, y0), (x3, y3) = self.at, end
         dx, dy = x3 - x0, y3 - y0
         third, rest = 1.0 / 3.0, 2.0 / 3.0
         self.cubics.append((x0, y0, x0 + dx * third, y0 + dy * third, x0 + dx * rest, y0 + dy * rest, x3, y3))
-        self.at = end
+        self.at, self.bend = end, ""
 
-    def curveTo(self, *points: tuple[float, float]) -> None:  # noqa: N802
-        (x1, y1), (x2, y2), end = points
-        self.cubics.append((*self.at, x1, y1, x2, y2, *end))
-        self.at = end
+    def mirrored(self, bend: str) -> Point:
+        """First control point of a curve that goes on smoothly."""
+        (x, y), (u, v) = self.at, self.control
+        return (x + x - u, y + y - v) if self.bend == bend else self.at
 
-    def qCurveTo(self, *points: tuple[float, float]) -> None:  # noqa: N802
-        (x, y), end = points
-        (x0, y0), (x3, y3) = self.at, end
+    def cubic(self, dx: float, dy: float, *values: float) -> None:
+        """Cubic curve."""
+        x1, y1, x2, y2, x, y = values
+        self.cubic_to((dx + x1, dy + y1), (dx + x2, dy + y2), (dx + x, dy + y))
+
+    def smooth_cubic(self, dx: float, dy: float, *values: float) -> None:
+        """Cubic curve without a corner before it."""
+        x2, y2, x, y = values
+        self.cubic_to(self.mirrored("cubic"), (dx + x2, dy + y2), (dx + x, dy + y))
+
+    def cubic_to(self, first: Point, second: Point, end: Point) -> None:
+        """Cubic curve, by places."""
+        self.cubics.append((*self.at, *first, *second, *end))
+        self.at, self.control, self.bend = end, second, "cubic"
+
+    def quadratic(self, dx: float, dy: float, *values: float) -> None:
+        """Quadratic curve."""
+        x1, y1, x, y = values
+        self.quadratic_to((dx + x1, dy + y1), (dx + x, dy + y))
+
+    def smooth_quadratic(self, dx: float, dy: float, x: float, y: float) -> None:
+        """Quadratic curve without a corner before it."""
+        self.quadratic_to(self.mirrored("quadratic"), (dx + x, dy + y))
+
+    def quadratic_to(self, control: Point, end: Point) -> None:
+        """Quadratic curve, by places."""
+        (x0, y0), (x, y), (x3, y3) = self.at, control, end
         k = 2.0 / 3.0
         self.cubics.append((x0, y0, x0 + (x - x0) * k, y0 + (y - y0) * k, x3 + (x - x3) * k, y3 + (y - y3) * k, x3, y3))
-        self.at = end
+        self.at, self.control, self.bend = end, control, "quadratic"
 
-    def arcTo(  # noqa: N802
-        self, rx: float, ry: float, rotation: float, large: bool, sweep: bool, end: tuple[float, float]
-    ) -> None:
+    def arc(self, dx: float, dy: float, *values: float) -> None:
+        """Arc of an ellipse."""
+        rx, ry, rotation, large, sweep, x, y = values
+        end = (dx + x, dy + y)
         if not max(map(abs, (rx, ry, rotation, *self.at, *end))) <= HUGE:
-            self.lineTo(end)
+            self.line_to(end)
             return
-        steps: list[Step] = arc_cubics(self.at, (rx, ry), rotation, large, sweep, end, self.tolerance)
-        for step in steps:
+        for step in arc_cubics(self.at, (abs(rx), abs(ry)), rotation, bool(large), bool(sweep), end, self.tolerance):
             self.cubics.append((*self.at, *step))
             self.at = step[4:]
-        self.at = end
+        self.at, self.bend = end, ""
 
-    def closePath(self) -> None:  # noqa: N802
+    def close(self) -> None:
+        """Go back to the start, unless that was done and nothing has been drawn since."""
+        if not self.down:
+            return
+        if not isclose(complex(*self.at), complex(*self.start), rel_tol=1e-15, abs_tol=1e-15):
+            self.line_to(self.start)
         self.finish(closed=True)
-
-    def endPath(self) -> None:  # noqa: N802
-        self.finish(closed=False)
+        self.at, self.bend, self.down = self.start, "", False
 
     def finish(self, closed: bool) -> None:
         """Keep what was drawn; a closed point, which only a round or square cap shows, is a cubic without length."""
@@ -150,3 +212,17 @@ class CubicPen:
         if self.cubics:
             self.outlines.append(Outline(np.array(self.cubics).reshape(-1, 4, 2), closed))
             self.cubics = []
+
+
+DRAWN: Final[dict[str, Callable[..., None]]] = {
+    "M": Pen.move,
+    "L": Pen.line,
+    "H": Pen.across,
+    "V": Pen.down_or_up,
+    "C": Pen.cubic,
+    "S": Pen.smooth_cubic,
+    "Q": Pen.quadratic,
+    "T": Pen.smooth_quadratic,
+    "A": Pen.arc,
+}
+"""What draws one segment of a command: given the place that its numbers are relative to, and the numbers."""

@@ -9,9 +9,11 @@ from fontTools.misc.transform import Identity, Transform
 from numpy.typing import NDArray
 
 from vexture.bezier.bounds import bounds
+from vexture.content import about, decompressed, read_bytes
 from vexture.drawing import Drawing
-from vexture.errors import LimitError, SourceError
-from vexture.svg.document import decompressed, parse_svg, read_bytes
+from vexture.errors import SourceError
+from vexture.notes import warn_of
+from vexture.svg.document import parse_svg
 from vexture.svg.report import Report
 from vexture.svg.scene import Scene
 from vexture.svg.select import chosen, nothing_painted
@@ -42,7 +44,7 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
     -------
     Drawing
         In the unit square, y up; `to_source` maps it to the user units of the outermost `<svg>`. Without paths if
-        nothing is painted.
+        nothing is painted. Its `notes` say what was left out, simplified or invalid.
 
     Raises
     ------
@@ -54,7 +56,7 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
     Warns
     -----
     SourceWarning
-        Once for a file, naming everything that was left out, simplified or invalid.
+        Once for a file, of all notes.
 
     Examples
     --------
@@ -71,17 +73,15 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
            [1. , 0.5],
            [0. , 0.5]])
     """
-    try:
+    with about(os.fspath(path)):
         content = read_bytes(path)
-    except SourceError as error:
-        raise SourceError(f"{os.fspath(path)}: {error}") from None
-    drawing, report = _read(content, os.fspath(path), select)
-    report.warn(stacklevel=2)
+    drawing = svg_drawing(content, os.fspath(path), select)
+    warn_of(os.fspath(path), drawing.notes)
     return drawing
 
 
 def svg_drawing(content: bytes, source: str, select: str | None = None) -> Drawing:
-    """Read the content of an SVG file, as `read_svg` does.
+    """Read the content of an SVG file, as `read_svg` does, but without a warning: its notes say all.
 
     Parameters
     ----------
@@ -97,29 +97,17 @@ def svg_drawing(content: bytes, source: str, select: str | None = None) -> Drawi
     >>> svg_drawing(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "half.svg").name
     'half'
     """
-    try:
-        plain = decompressed(content)
-    except SourceError as error:
-        raise SourceError(f"{source}: {error}") from None
-    drawing, report = _read(plain, source, select)
-    report.warn(stacklevel=2)
-    return drawing
-
-
-def _read(content: bytes, source: str, select: str | None) -> tuple[Drawing, Report]:
-    """Drawing of an SVG document, and what could not be honoured."""
-    report = Report(source)
-    try:
-        root = parse_svg(content)
-        part = None if select is None else chosen(root, select)
-        drawing = drawing_of(Scene(root, report, part), Path(source).stem)
+    report = Report()
+    with about(source):
+        try:
+            root = parse_svg(decompressed(content))
+            part = None if select is None else chosen(root, select)
+            drawing = drawing_of(Scene(root, report, part), Path(source).stem)
+        except RecursionError:  # tinycss2 and cssselect2 follow nested brackets by calling themselves
+            raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
         if select is not None and part is not None and not drawing.paths:
             raise nothing_painted(select, len(part))
-    except (SourceError, LimitError) as error:
-        raise type(error)(f"{source}: {error}") from None
-    except RecursionError:  # tinycss2 and cssselect2 follow nested brackets by calling themselves
-        raise SourceError(f"{source}: its style sheet nests brackets too deeply; simplify it") from None
-    return drawing, report
+    return replace(drawing, notes=report.listed)
 
 
 def drawing_of(scene: Scene, name: str) -> Drawing:
@@ -130,7 +118,7 @@ def drawing_of(scene: Scene, name: str) -> Drawing:
         box: Rectangle = (0.0, 0.0, *size)
     else:
         viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
-        paths = Scene(scene.root, Report("")).paint(viewport, matrix, None)  # what it says, the second pass says
+        paths = scene.paint(viewport, matrix, None)
         if not paths:
             return Drawing((), name=name)
         left, top, right, bottom = bounds(np.concatenate([contour for path in paths for contour in path.contours]))

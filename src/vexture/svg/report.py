@@ -1,17 +1,13 @@
-"""What a reader could not honour: collected while reading, said once."""
+"""What of an SVG could not be honoured, by its elements."""
 
-import warnings
-from collections.abc import Iterable
-from typing import Final
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from lxml import etree
 
-from vexture.errors import SourceWarning
+from vexture.notes import Kind, Notes
 
-__all__ = ["UNLOCATED", "Report", "described"]
-
-MOST_NAMED = 8
-"""Kinds of things that one warning names; the others are counted."""
+__all__ = ["Report", "described"]
 
 
 def described(element: etree._Element) -> str:
@@ -28,62 +24,38 @@ def described(element: etree._Element) -> str:
     return f"<{name[:40]}{label}>{line}"
 
 
-UNLOCATED: Final = "feature without geometry"
-"""Of geographic data: nothing is there, and nothing is missing (RFC 7946, 3.2)."""
-
-
-class Report:
-    """Things left out, simplified or invalid in one file, each counted.
-
-    Parameters
-    ----------
-    source : str
-        Names the file.
+class Report(Notes):
+    """Notes about one document.
 
     Examples
     --------
-    >>> report = Report("a.svg")
-    >>> report.left_out("text"); report.left_out("text"); report.simplified("linearGradient read as a solid colour")
-    >>> report.message
-    'a.svg: left out: text (2); simplified: linearGradient read as a solid colour'
+    >>> report = Report()
+    >>> report.invalid("r", "x", etree.fromstring("<rect/>"))
+    >>> with report.silent():
+    ...     report.left_out("text")
+    >>> [str(note) for note in report.listed]
+    ["r='x' of <rect> in line 1"]
     """
 
-    def __init__(self, source: str) -> None:
-        self.source = source
-        self.kinds: dict[str, dict[str, int]] = {"left out": {}, "simplified": {}, "invalid and ignored": {}}
-
-    def left_out(self, what: str) -> None:
-        """Note a feature that is not supported and paints nothing or has no effect."""
-        self.count("left out", what)
-
-    def simplified(self, what: str) -> None:
-        """Note a feature that is painted, but not as it should be."""
-        self.count("simplified", what)
+    def __init__(self) -> None:
+        super().__init__()
+        self._silent = False
 
     def invalid(self, name: str, value: str, element: etree._Element) -> None:
         """Note a value that the standard does not allow."""
         shown = value if len(value) <= 40 else value[:37] + "..."
-        self.count("invalid and ignored", f"{name}='{' '.join(shown.split())}' of {described(element)}")
+        self.count("invalid", f"{name}='{' '.join(shown.split())}' of {described(element)}")
 
-    def count(self, kind: str, what: str) -> None:
-        """Count one more of a thing."""
-        self.kinds[kind][what] = self.kinds[kind].get(what, 0) + 1
+    def count(self, kind: Kind, what: str) -> None:
+        """Count one more of a thing, unless nothing is to be noted."""
+        if not self._silent:
+            super().count(kind, what)
 
-    @property
-    def message(self) -> str:
-        """All of it in one line; empty if there is nothing to say."""
-        parts = [f"{kind}: {', '.join(named(things.items()))}" for kind, things in self.kinds.items() if things]
-        return f"{self.source}: {'; '.join(parts)}" if parts else ""
-
-    def warn(self, stacklevel: int) -> None:
-        """Say it once, as a `SourceWarning`."""
-        if message := self.message:
-            warnings.warn(message, SourceWarning, stacklevel=stacklevel + 1)
-
-
-def named(things: Iterable[tuple[str, int]]) -> list[str]:
-    """List of things with how often they occur; a long list is cut."""
-    listed = [f"{what} ({count})" if count > 1 else what for what, count in things]
-    if len(listed) > MOST_NAMED:
-        listed[MOST_NAMED:] = [f"and {len(listed) - MOST_NAMED} more"]
-    return listed
+    @contextmanager
+    def silent(self) -> Iterator[None]:
+        """Note nothing for a while: what is looked at now will be looked at again."""
+        self._silent = True
+        try:
+            yield
+        finally:
+            self._silent = False

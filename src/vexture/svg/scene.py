@@ -83,13 +83,23 @@ class Scene:
         matrix : Transform
             From the root's user units to the drawing's coordinates.
         size : float or None
-            The drawing's larger side, None to find it out.
+            The drawing's larger side. None to find it out: everything is painted, whatever is chosen, and nothing is
+            noted, since all of it is met again when the side is known.
 
         Raises
         ------
         SourceError
             If a limit is exceeded or `use` shows itself.
         """
+        if size is not None:
+            return self.painted(viewport, matrix, size)
+        with self.report.silent():
+            paths = self.painted(viewport, matrix, None)
+        self.servers.means.clear()  # what is invalid about a gradient is noted when its mean is taken
+        return paths
+
+    def painted(self, viewport: Viewport, matrix: Transform, size: float | None) -> list[Path]:
+        """Paths of one walk through the document."""
         painter = Painter(self.servers, self.report, size)
         opacity = self.style.opacity("opacity")
         if self.style["display"].lower() == "none" or opacity == 0.0:
@@ -97,7 +107,7 @@ class Scene:
         self.note_effects(self.style)
         if "transform" in self.style.own:
             self.report.left_out("transform of the outermost <svg>")
-        chosen = self.chosen is None or self.root in self.chosen
+        chosen = size is None or self.chosen is None or self.root in self.chosen
         place = Place(viewport, Space().moved(matrix), self.style, opacity, self.root, chosen=chosen)
         used = 0
         stack = [(child, place) for child in reversed(self.root)]
@@ -194,9 +204,10 @@ class Scene:
         fit = CENTRED
         text = element.get("preserveAspectRatio")
         if text is not None:
-            fit = parse_fit(text) or CENTRED
-            if parse_fit(text) is None:
+            parsed = parse_fit(text)
+            if parsed is None:
                 self.report.invalid("preserveAspectRatio", text, element)
+            fit = parsed or CENTRED
         return view_transform(box, fit, width, height)
 
     def lengths(self, style: Style, viewport: Viewport, across: str, down: str) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vexture.bezier.convert import arc_cubics, ellipse_cubics
 from vexture.errors import SourceError
 from vexture.svg.outline import Outline
-from vexture.svg.path_data import NUMBER, POINTS, path_outlines, valid_length
+from vexture.svg.path_data import NUMBER, POINTS, path_outlines
 from vexture.svg.report import Report
 from vexture.svg.style import Style
 from vexture.svg.values import LARGEST, Viewport
@@ -97,10 +97,10 @@ def path(shape: Shape) -> list[Outline]:
         return []
     if css := CSS_PATH.fullmatch(data):
         data = css[2]
-    valid = valid_length(data)
+    outlines, valid = path_outlines(data, shape.tolerance)
     if valid < len(data):
         shape.report.invalid("d", f"...{data[valid:]}", shape.element)
-    return path_outlines(data[:valid], shape.tolerance)
+    return outlines
 
 
 def rect(shape: Shape) -> list[Outline]:

@@ -4,12 +4,25 @@ import errno
 import os
 import re
 import secrets
+from collections.abc import Mapping
 from pathlib import Path
 
 from vexture.errors import DeviceError, FormatError
 from vexture.layout import PACKED_SUFFIX
 
-__all__ = ["file_name", "is_folder", "read_file", "target_of", "writable", "write_together"]
+__all__ = [
+    "TEMPORARY",
+    "file_name",
+    "is_folder",
+    "read_file",
+    "replace_files",
+    "target_of",
+    "writable",
+    "write_together",
+]
+
+TEMPORARY = ".tmp"
+"""How the names of files end that are not complete: those that a crash has left can go."""
 
 NAME_BYTES = 200  # file systems allow 255, and suffixes are still to come
 
@@ -67,39 +80,74 @@ def writable(folder: Path) -> Path:
     return folder
 
 
-def write_together(files: dict[Path, bytes]) -> None:
-    """Write all the files or none, in folders that are made where they are missing.
-
-    Each is written under a temporary name beside its place; when all are complete they are moved.
+def write_together(files: Mapping[Path, bytes]) -> None:
+    """Write all the files or none, as `replace_files` does.
 
     Raises
     ------
     DeviceError
         If the disk refuses.
     """
-    files = {path.resolve(): data for path, data in files.items()}  # links are not replaced, but what they stand for
-    token = secrets.token_hex(4)
-    temporary = {path: path.with_name(f".{path.name}.{token}.tmp") for path in files}
-    made: list[Path] = []
     try:
-        for path, data in files.items():
+        replace_files(files)
+    except OSError as error:
+        raise DeviceError(f"{error.filename}: cannot be written ({error.strerror}); choose another place") from None
+
+
+def replace_files(files: Mapping[Path, bytes], *, durable: bool = False) -> None:
+    """Write all the files or none, in folders that are made where they are missing.
+
+    Each is written under a temporary name beside its place; when all are complete they are moved.
+
+    Parameters
+    ----------
+    files : mapping
+        Content of each; of a link, what it stands for is replaced.
+    durable : bool
+        Whether they must survive a loss of power from when this function returns.
+
+    Raises
+    ------
+    OSError
+        Naming the file that the disk refuses.
+    """
+    places = {path.resolve(): data for path, data in files.items()}
+    token = secrets.token_hex(4)
+    made: dict[Path, Path] = {}
+    try:
+        for path, data in places.items():
             path.parent.mkdir(parents=True, exist_ok=True)
-            with temporary[path].open("xb") as file:
-                made.append(temporary[path])
+            partial = path.with_name(f".{path.name}.{token}{TEMPORARY}")
+            with partial.open("xb") as file:
+                made[path] = partial
                 file.write(data)
-        for path in files:  # seen before anything is replaced
+                if durable:
+                    file.flush()
+                    os.fsync(file.fileno())
+        for path in places:  # seen before anything is replaced
             if path.is_dir():
                 raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
             if path.exists() and not path.is_file():
                 raise OSError(errno.EINVAL, "not a regular file")
-        for place, path in enumerate(files):
-            made[place] = made[place].replace(path)
+        for path in places:
+            made[path] = made[path].replace(path)
     except BaseException as error:
-        for file_made in made:
+        for file_made in made.values():
             file_made.unlink(missing_ok=True)
         if isinstance(error, OSError):
-            raise DeviceError(f"{path}: cannot be written ({error.strerror}); choose another place") from None
+            raise OSError(error.errno, error.strerror, str(path)) from None
         raise
+    for folder in {path.parent for path in places} if durable else ():
+        _keep_renames(folder)
+
+
+def _keep_renames(folder: Path) -> None:
+    """Bring a folder's entries to the disk: a rename is there after a loss of power only then."""
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
 
 
 def read_file(path: Path, limit: int, remedy: str) -> bytes:

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.content import PNG, FileKind, kind_of, read_bytes, start_of
 from vexture.errors import LimitError, SourceError
-from vexture.reading import PNG, is_picture, start_of
-from vexture.svg.document import read_bytes
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -75,7 +74,7 @@ def pixels_of(source: str | os.PathLike[str] | bytes) -> NDArray[np.uint8]:
         If it has more than `MOST_PIXELS` pixels.
     """
     content = source if isinstance(source, bytes) else read_bytes(source)
-    if not is_picture(content):
+    if kind_of(start_of(content)) is not FileKind.PICTURE:
         raise SourceError("is no picture; give a PNG, JPEG, WebP, GIF or BMP")
     from PIL import Image, UnidentifiedImageError
 

@@ -2,7 +2,7 @@
 
 import os
 import re
-import warnings
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path as FilePath
 from typing import Any, Final
@@ -10,13 +10,15 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vexture.content import about
 from vexture.drawing import Drawing, Paint
-from vexture.errors import DeviceError, LimitError, SourceError, SourceWarning
+from vexture.errors import DeviceError, LimitError, SourceError
+from vexture.notes import Notes, warn_of
 from vexture.svg.read import svg_drawing
 from vexture.tracing.colours import background_of, flat_colours, mixture, widened
 from vexture.tracing.images import MOST_PIXELS, pixels_of
 
-__all__ = ["read_image", "trace"]
+__all__ = ["image_drawing", "read_image", "trace"]
 
 LONGEST: Final = 2048
 """Pixels of the longer side that are traced; a larger picture is reduced to it first."""
@@ -102,10 +104,23 @@ def read_image(source: str | os.PathLike[str] | bytes, file_name: str | None = N
     """
     given = file_name or (None if isinstance(source, bytes) else os.fspath(source))
     shown = given or "the picture"
-    try:
-        return _traced(pixels_of(source), FilePath(given).stem if given else "drawing", shown)
-    except (SourceError, LimitError, DeviceError) as error:
-        raise type(error)(f"{shown}: {error}") from None
+    with about(shown):
+        drawing = image_drawing(source, FilePath(given).stem if given else "drawing")
+    warn_of(shown, drawing.notes)
+    return drawing
+
+
+def image_drawing(source: str | os.PathLike[str] | bytes, name: str) -> Drawing:
+    """Read a picture of pixels, as `read_image` does, but without a warning: its notes say all.
+
+    Parameters
+    ----------
+    source : path or bytes
+        The file, or its content.
+    name : str
+        Names the drawing.
+    """
+    return _traced(pixels_of(source), name)
 
 
 def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
@@ -146,10 +161,10 @@ def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
     >>> [path.paint.hex for path in drawing.paths]
     ['#000000']
     """
-    try:
-        return _traced(_as_pixels(np.asarray(image)), name, name)
-    except (SourceError, LimitError, DeviceError) as error:
-        raise type(error)(f"{name}: {error}") from None
+    with about(name):
+        drawing = _traced(_as_pixels(np.asarray(image)), name)
+    warn_of(name, drawing.notes)
+    return drawing
 
 
 def _as_pixels(image: NDArray[Any]) -> NDArray[np.uint8]:
@@ -168,8 +183,8 @@ def _as_pixels(image: NDArray[Any]) -> NDArray[np.uint8]:
     return np.concatenate([image, opaque], axis=2) if image.shape[2] == 3 else image
 
 
-def _traced(pixels: NDArray[np.uint8], name: str, shown: str) -> Drawing:
-    """Trace bytes of sRGB and opacity; `shown` names the picture in messages."""
+def _traced(pixels: NDArray[np.uint8], name: str) -> Drawing:
+    """Trace bytes of sRGB and opacity."""
     height, width = pixels.shape[:2]
     image = _reduced(pixels, LONGEST)
     background = background_of(image)
@@ -178,7 +193,7 @@ def _traced(pixels: NDArray[np.uint8], name: str, shown: str) -> Drawing:
         background = colours[int(colours.sum(axis=1).argmax())]  # the lighter one: a scan that reaches its border
         colours = np.concatenate([background[None], colours[(colours != background).any(axis=1)]])
     first = 0 if background is None else 1
-    said = []
+    notes = Notes()
     try:
         if colours is None:
             raise LimitError("it has too many colours")
@@ -186,16 +201,14 @@ def _traced(pixels: NDArray[np.uint8], name: str, shown: str) -> Drawing:
     except LimitError:
         image, colours = _posterised(_reduced(pixels, PHOTO_LONGEST), background)
         document, size = _document(image, colours, first, PHOTO_SPECKLE)
-        said.append(f"is no drawing of a few flat colours, so it is traced coarsely, in {len(colours) - first}")
+        notes.remark(f"is no drawing of a few flat colours, so it is traced coarsely, in {len(colours) - first}")
     drawing = svg_drawing(document, f"{name}.svg")
     if not drawing.paths:
-        said.append("is all background, so that nothing of it is painted")
+        notes.remark("is all background, so that nothing of it is painted")
     elif background is None:
-        said.append("has no background, since its border has several colours: its silhouette is the whole picture")
-    if said:
-        warnings.warn(f"{shown}: {'; '.join(said)}", SourceWarning, stacklevel=3)
+        notes.remark("has no background, since its border has several colours: its silhouette is the whole picture")
     scale = np.array([[width], [height]]) / np.array([[size[0]], [size[1]]])
-    return Drawing(drawing.paths, drawing.to_source * scale, name)
+    return replace(drawing, to_source=drawing.to_source * scale, name=name, notes=notes.listed)
 
 
 def _reduced(pixels: NDArray[np.uint8], longest: int) -> NDArray[np.float32]:

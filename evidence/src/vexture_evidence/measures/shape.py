@@ -91,9 +91,9 @@ class Shape:
     @cached_property
     def drawing(self) -> "Drawing":
         """The normal form."""
-        from vexture.reading import read_drawing
+        from vexture.reading import read
 
-        return read_drawing(self.path)
+        return read(self.path)
 
     def way(self, way: str, bits: int | None = None) -> Conversion:
         """Tree and texture by one of `WAYS`; `bits` of those with the encoding ``thesis``, 16 if None.

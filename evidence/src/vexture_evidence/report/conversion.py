@@ -1,6 +1,5 @@
 """Table 5.1: what conversions take and make."""
 
-import warnings
 from collections.abc import Mapping
 from functools import partial
 from statistics import median
@@ -183,9 +182,7 @@ def _size_table(
 
 
 def _reading_seconds(shape: Shape) -> float:
-    with warnings.catch_warnings():  # they were said when it was first read
-        warnings.simplefilter("ignore")
-        return median_seconds(partial(read_drawing, shape.path), READ_REPEAT)
+    return median_seconds(partial(read_drawing, shape.path), READ_REPEAT)
 
 
 def _printed(value: int | float | None) -> Printed | None:

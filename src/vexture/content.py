@@ -1,0 +1,199 @@
+"""The content of a source file: its bytes, and what kind of file they say it is."""
+
+import os
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from enum import StrEnum
+from pathlib import Path
+from typing import Final
+
+from vexture.errors import DeviceError, LimitError, SourceError
+
+__all__ = [
+    "BYTE_ORDER_MARK",
+    "FLATGEOBUF",
+    "LARGEST_FILE",
+    "NETCDF",
+    "PNG",
+    "SHAPEFILE",
+    "SQLITE",
+    "TIFF",
+    "ZIP",
+    "FileKind",
+    "about",
+    "decompressed",
+    "kind_of",
+    "read_bytes",
+    "start_of",
+    "unpacked",
+]
+
+LARGEST_FILE: Final = 256 * 2**20
+"""Bytes, after decompression."""
+
+BYTE_ORDER_MARK: Final = b"\xef\xbb\xbf"
+
+GZIP: Final = b"\x1f\x8b"
+KTX: Final = b"\xabKTX"
+FLATGEOBUF: Final = b"fgb\x03fgb"
+SHAPEFILE: Final = b"\0\0\x27\x0a"
+SQLITE: Final = b"SQLite format 3\0"
+ZIP: Final = b"PK\x03\x04"
+
+TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+NETCDF: Final = (b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
+"""How TIFF and BigTIFF start, and NetCDF of all kinds."""
+
+PNG: Final = b"\x89PNG"
+PICTURES: Final = (PNG, b"\xff\xd8\xff", b"GIF87a", b"GIF89a")
+"""How PNG, JPEG and GIF start; WebP and BMP have something in between."""
+
+START: Final = 4096
+"""Bytes that tell what a file is: more than a text begins with blanks."""
+
+
+class FileKind(StrEnum):
+    """What a file holds, which says what reads it."""
+
+    TEXTURE = "texture"
+    PICTURE = "picture"
+    GEOJSON = "GeoJSON"
+    AREAS = "areas"
+    DEPTHS = "depths"
+    SVG = "SVG"
+
+
+SUFFIXES: Final = {
+    FileKind.TEXTURE: (".ktx2",),
+    FileKind.GEOJSON: (".geojson", ".json"),
+    FileKind.AREAS: (".gpkg", ".fgb", ".shp"),
+    FileKind.DEPTHS: (".tif", ".tiff", ".nc", ".nc4", ".cdf"),
+}
+"""Names of files whose content tells nothing: what should read them says best what is wrong with them."""
+
+
+def kind_of(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind:
+    r"""Tell what kind of file it is.
+
+    Parameters
+    ----------
+    start : bytes
+        How its content starts, as `start_of` gives it.
+    file_name : path
+        What it is called, which matters only where the content starts as that of no file that there is a reader for.
+
+    Returns
+    -------
+    FileKind
+        ``SVG`` of what nothing else reads.
+
+    Examples
+    --------
+    >>> kind_of(b"GIF89a"), kind_of(b"RIFF\x1a\0\0\0WEBPVP8L")
+    (<FileKind.PICTURE: 'picture'>, <FileKind.PICTURE: 'picture'>)
+    >>> kind_of(b'  {"type": "Feature"}', "delft.svg"), kind_of(b"<svg/>", "delft.geojson")
+    (<FileKind.GEOJSON: 'GeoJSON'>, <FileKind.SVG: 'SVG'>)
+    >>> kind_of(b"CDF\x01", "run"), kind_of(b"fgb\x03fgb", "run.nc"), kind_of(b"?", "run.nc")
+    (<FileKind.DEPTHS: 'depths'>, <FileKind.AREAS: 'areas'>, <FileKind.DEPTHS: 'depths'>)
+    """
+    if start.startswith(KTX):
+        return FileKind.TEXTURE
+    webp = start.startswith(b"RIFF") and start[8:12] == b"WEBP"
+    if start.startswith(PICTURES) or webp or (start.startswith(b"BM") and start[6:10] == bytes(4)):
+        return FileKind.PICTURE
+    if start.startswith((FLATGEOBUF, SHAPEFILE, SQLITE, ZIP)):
+        return FileKind.AREAS
+    if start.startswith((*TIFF, *NETCDF)):
+        return FileKind.DEPTHS
+    first = start.removeprefix(BYTE_ORDER_MARK).lstrip()[:1]
+    if first == b"{":
+        return FileKind.GEOJSON
+    suffix = Path(file_name).suffix.lower()
+    named = next((kind for kind, suffixes in SUFFIXES.items() if suffix in suffixes), FileKind.SVG)
+    return FileKind.SVG if first == b"<" else named
+
+
+def start_of(source: str | os.PathLike[str] | bytes) -> bytes:
+    """Return first bytes of a file, or of its content; none if it cannot be read: the reader says why."""
+    if isinstance(source, bytes):
+        return source[:START]
+    try:
+        with Path(source).open("rb") as file:
+            return file.read(START)
+    except (OSError, ValueError):
+        return b""
+
+
+def unpacked(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] | bytes:
+    """Return the source itself or, of a gzipped file, its content.
+
+    Raises
+    ------
+    SourceError
+        As `decompressed` does.
+    """
+    if not start_of(source).startswith(GZIP):
+        return source
+    return decompressed(source) if isinstance(source, bytes) else read_bytes(source)
+
+
+def read_bytes(path: str | os.PathLike[str]) -> bytes:
+    """Content of a file, decompressed if it is gzip (`.svgz`).
+
+    Raises
+    ------
+    SourceError
+        If it cannot be read or is too large.
+    """
+    try:
+        with Path(path).open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+    except (OSError, ValueError) as error:  # ValueError: a null character in the name
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise SourceError(f"cannot be read: {reason}; check the file's name and permissions") from None
+    return decompressed(content)
+
+
+def decompressed(content: bytes) -> bytes:
+    """Content of a file that may be gzip, as it is or decompressed.
+
+    Raises
+    ------
+    SourceError
+        If the data is damaged or too large.
+
+    Examples
+    --------
+    >>> import gzip
+    >>> decompressed(gzip.compress(b"<svg/>")), decompressed(b"<svg/>")
+    (b'<svg/>', b'<svg/>')
+    """
+    if content.startswith(GZIP):
+        stream = zlib.decompressobj(wbits=zlib.MAX_WBITS | 16)
+        try:
+            content = stream.decompress(content, LARGEST_FILE + 1)
+        except zlib.error as error:
+            raise SourceError(f"the gzip data is damaged ({error}); save the file again") from None
+        if not stream.eof and len(content) <= LARGEST_FILE:
+            raise SourceError("the gzip data breaks off; save the file again")
+    if len(content) > LARGEST_FILE:
+        raise SourceError(f"the file is larger than {LARGEST_FILE:,} bytes; simplify or split the drawing")
+    return content
+
+
+@contextmanager
+def about(source: str) -> Iterator[None]:
+    """Put the name of a source in front of what is wrong with it.
+
+    Examples
+    --------
+    >>> with about("duck.svg"):
+    ...     raise SourceError("it is empty")
+    Traceback (most recent call last):
+    vexture.errors.SourceError: duck.svg: it is empty
+    """
+    try:
+        yield
+    except (SourceError, LimitError, DeviceError) as error:
+        raise type(error)(f"{source}: {error}") from None

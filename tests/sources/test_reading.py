@@ -1,0 +1,140 @@
+"""One gate: the content of a file says what it is, whatever way it comes and whatever it is called."""
+
+import warnings
+from collections.abc import Iterator
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from kinds import SVG, one_of_each
+
+import vexture
+from vexture.cli.main import main
+from vexture.content import SHAPEFILE
+from vexture.drawing import Drawing
+from vexture.errors import LimitError, SourceError, SourceWarning
+from vexture.notes import Note, line_of
+from vexture.reading import content_of, read_drawing
+
+NOTED = {
+    "packed.svgz": (Note("left out", "<text>"),),
+    "plain.svg": (Note("left out", "<text>"),),
+    "raster.tif": (
+        Note(
+            "remark",
+            "it has 2 bands, of which the first is read; variable (--variable) chooses another, "
+            "time_dim (--time-dim) makes them times",
+        ),
+    ),
+    "rings.geojson": (Note("left out", "Point"),),
+    "series.nc": (Note("remark", "it has 2 times, of which the first is read; vexture flood shows all"),),
+}
+"""What is noted of them; nothing of the others."""
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[Path]]:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of what writes them
+        yield one_of_each(tmp_path_factory.mktemp("kinds"))
+
+
+def assert_same(one: Drawing, other: Drawing) -> None:
+    assert one.name == other.name
+    assert one.crs == other.crs
+    assert one.notes == other.notes
+    np.testing.assert_array_equal(one.to_source, other.to_source)
+    assert len(one.paths) == len(other.paths)
+    for path, twin in zip(one.paths, other.paths, strict=True):
+        assert (path.paint, path.fill_rule) == (twin.paint, twin.fill_rule)
+        assert len(path.contours) == len(twin.contours)
+        for contour, again in zip(path.contours, twin.contours, strict=True):
+            np.testing.assert_array_equal(contour, again)
+
+
+def test_path_bytes_and_open_file_give_one_drawing(files: list[Path]) -> None:
+    assert len(files) == 14
+    for path in files:
+        drawing = read_drawing(path)
+        assert drawing.paths, path
+        assert drawing.name == path.stem
+        assert drawing.notes == NOTED.get(path.name, ()), path
+        assert_same(drawing, read_drawing(content_of(path), name=str(path)))
+        assert_same(drawing, read_drawing(BytesIO(content_of(path)), name=path.name))
+        if path.suffix != ".shp":  # which needs the files beside it
+            with path.open("rb") as file:
+                assert_same(drawing, read_drawing(file))
+
+
+def test_a_misleading_name_misleads_nobody(files: list[Path], tmp_path: Path) -> None:
+    for path in files:
+        for suffix in (".svg", ".geojson", ".nc", ".gpkg", ".png", ".ktx2", ""):
+            renamed = tmp_path / f"{path.stem}{suffix}"
+            renamed.write_bytes(content_of(path))
+            assert_same(read_drawing(path), read_drawing(renamed))
+
+
+def test_python_is_warned_once_of_all_notes(files: list[Path]) -> None:
+    for path in files:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            drawing = vexture.read(path)
+            vexture.convert(path)
+        line = line_of(str(path), drawing.notes)
+        assert [(warning.category, str(warning.message)) for warning in caught] == 2 * [(SourceWarning, line)] * bool(
+            line
+        )
+        assert {warning.filename for warning in caught} <= {__file__}
+
+
+def test_commands_take_every_file_and_say_what_was_noted(files: list[Path], tmp_path: Path) -> None:
+    result = CliRunner().invoke(main, ["convert", *map(str, files), "--output", str(tmp_path)])
+    assert result.exit_code == 0, result.output
+    said = [line for line in result.output.splitlines() if "warning" in line]
+    assert said == [f"vexture: warning: {line_of(str(path), read_drawing(path).notes)}" for path in files
+                    if path.name in NOTED]  # fmt: skip
+    for path in files:
+        (root,) = vexture.load(tmp_path / f"{path.stem}.ktx2").roots
+        np.testing.assert_array_equal(root.to_source, read_drawing(path).to_source)
+
+
+def test_notes_stay_with_layers_and_what_is_made_of_a_drawing(files: list[Path]) -> None:
+    drawing = read_drawing(SVG)
+    assert [layer.notes for layer in drawing.layers()] == [drawing.notes]
+
+
+@pytest.mark.parametrize("entry", ["path", "bytes"])
+def test_a_texture_is_no_drawing(entry: str, tmp_path: Path) -> None:
+    texture = vexture.convert(Drawing.polygon([(0, 0), (1, 0), (0, 1)])).save(tmp_path / "a.ktx2")
+    renamed = tmp_path / "a.svg"
+    renamed.write_bytes(texture.read_bytes())
+    source = renamed if entry == "path" else renamed.read_bytes()
+    with pytest.raises(SourceError, match="is a texture already; give the drawing that it was made from"):
+        vexture.read(source)
+    result = CliRunner().invoke(main, ["fold", str(renamed), "-o", str(tmp_path / "b.fold.ktx2")])
+    assert result.exit_code == 1
+    assert result.output == f"vexture: {renamed}: is a texture already; give the drawing that it was made from\n"
+
+
+def test_a_selector_is_for_svg(files: list[Path]) -> None:
+    for path in files:
+        if path.suffix not in (".svg", ".svgz"):
+            with pytest.raises(LimitError, match="select='path' chooses elements of an SVG; leave it out"):
+                vexture.read(path, select="path")
+
+
+def test_a_lonely_shapefile_says_what_it_needs(tmp_path: Path) -> None:
+    with pytest.raises(SourceError, match=r"a shapefile is several files; give them together as a \.zip"):
+        vexture.read(SHAPEFILE + bytes(96), name="lake.shp")
+
+
+def test_what_is_nothing_is_named_by_its_source(tmp_path: Path) -> None:
+    for name, why in (("a.nc", "neither GeoTIFF nor NetCDF"), ("a.geojson", "not JSON"), ("a.txt", "not well-formed")):
+        path = tmp_path / name
+        path.write_bytes(b"hello")
+        for source in (path, path.read_bytes()):
+            with pytest.raises(SourceError, match=why) as caught:
+                vexture.read(source, name=str(path))
+            assert str(caught.value).startswith(f"{path}: ")
