@@ -15,7 +15,7 @@ QUICK ?=
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help demo docs report viewer test checks kernels test-web bench clean
+.PHONY: help demo docs report viewer test checks kernels test-web bench wheels clean
 
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
@@ -24,6 +24,7 @@ help:
 	@echo 'make docs    build the documentation into site/, to be read from the disk'
 	@echo 'make report  measure the tables and figures of the thesis again; the page is demo/report/index.html'
 	@echo 'make bench   measure fidelity, speed and size; the figures come into benchmarks/results/'
+	@echo 'make wheels  build the wheel for any platform, which compiles its kernels itself, and this platform'"'"'s, into dist/'
 	@echo 'make clean   remove all of that again'
 
 .venv/made:
@@ -143,6 +144,15 @@ bench: .venv/for-test
 	else echo 'so the web is not measured: $(WEB_BENCHMARKS)'; fi; \
 	for name in $$names; do echo && $(BIN)/python "benchmarks/$$name.py" $(QUICK) || exit 1; done
 
+# pip takes the platform's wheel where it can; its kernels run on Linux with any C library of the last ten years
+wheels: .venv/for-demo viewer
+	rm -rf dist build src/vexture/compiled
+	$(BIN)/python -m pip wheel --quiet --no-deps --wheel-dir dist .
+	$(BIN)/python tools/compile_kernels.py
+	$(BIN)/python -m pip wheel --quiet --no-deps --wheel-dir dist . \
+		--config-settings="--build-option=--plat-name=$$($(BIN)/python tools/compile_kernels.py --platform)"
+	rm -rf build src/vexture/compiled
+
 clean:
-	rm -rf .venv demo build src/*.egg-info benchmarks/results .hypothesis .mypy_cache .pytest_cache .ruff_cache \
+	rm -rf .venv demo build dist src/vexture/compiled src/*.egg-info benchmarks/results .hypothesis .mypy_cache .pytest_cache .ruff_cache \
 		web/node_modules web/types src/vexture/live/built tests/web/screenshots site

@@ -25,12 +25,13 @@ LONGEST_FUNCTION = 60  # without its docstring
 LONGEST_EXAMPLE = 40
 DUMPING_GROUNDS = {"common", "helper", "helpers", "misc", "tools", "util", "utils"}
 
-BASE = {"errors", "kernels", "tolerance"}
+BASE = {"errors", "kernels", "machine_code", "tolerance"}
 METHODS = BASE | {"bezier", "drawing", "encoding", "pictures", "pipeline", "quadtree", "render", "shaders", "shading"}
 METHODS |= {"sources"}
 MAY_IMPORT = {
     "errors": set(),
-    "kernels": set(),
+    "kernels": {"machine_code"},
+    "machine_code": set(),
     "tolerance": set(),
     "shading": set(),
     "bezier": {"kernels", "tolerance"},
