@@ -13,11 +13,12 @@ import hashlib
 import os
 import sys
 import tempfile
+import threading
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar, cast, overload
 
-from vexture import machine_code
+from vexture.machine_code import Compiled, described, load
 
 __all__ = ["Kernel", "kernel", "text_digest"]
 
@@ -25,6 +26,9 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 ABOVE = {"evaluation", "figures", "flood", "folding", "live", "report", "sources"}
 """Parts of the package that no kernel stands in or takes a constant from: changing them compiles nothing again."""
+
+ONE_AT_A_TIME = threading.Lock()
+"""Held while Numba's settings are not the caller's: the threads of a server may use a kernel for the first time."""
 
 
 @functools.cache
@@ -100,18 +104,19 @@ class Kernel:
         functools.update_wrapper(self, function)
         self.py_func = function
         self._allocates, self._ahead = allocates, ahead
-        self._code: machine_code.Compiled | None = None
+        self._code: Compiled | None = None
 
     @functools.cached_property
     def dispatcher(self) -> Any:
         """Numba's function."""
-        numba, folder = _numba()
-        # read while decorating; others may use Numba too
-        caller, numba.config.CACHE_DIR = numba.config.CACHE_DIR, folder
         private = self.py_func.__name__.startswith("_")  # called by kernels only: Python needs no way in
         options = {"cache": True, "error_model": "numpy", "no_cfunc_wrapper": True, "no_cpython_wrapper": private}
-        result = numba.njit(**options, _nrt=self._allocates)(self.py_func)
-        numba.config.CACHE_DIR = caller
+        with ONE_AT_A_TIME:
+            numba, folder = _numba()
+            # read while decorating; others may use Numba too
+            caller, numba.config.CACHE_DIR = numba.config.CACHE_DIR, folder
+            result = numba.njit(**options, _nrt=self._allocates)(self.py_func)
+            numba.config.CACHE_DIR = caller
         return result
 
     @property
@@ -122,9 +127,9 @@ class Kernel:
     def __call__(self, *arguments: Any) -> Any:
         """Run code that was compiled ahead of time, if there is some for such arguments, or what Numba compiles."""
         if self._ahead:
-            types = machine_code.described(arguments)
+            types = described(arguments)
             if self._code is None or self._code.code.arguments != types:
-                self._code = machine_code.load(self, text_digest(), types)
+                self._code = load(self, text_digest(), types)
                 self._ahead = self._code is not None
             if self._code is not None:
                 return self._code(*arguments)
