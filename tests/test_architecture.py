@@ -63,7 +63,19 @@ WITH_SHADER_TEXT = {"shaders", "evaluation"}
 """Parts that put programs together: the one that everybody draws with, and those that are measured beside it."""
 
 SHADER_WORDS = re.compile(r"\b(texelFetch|gl_\w+|(uniform|varying|highp|mediump) \w+|[ib]?vec[234]\()|^#version", re.M)
-HEAVY = {"PIL", "cssselect2", "fontTools", "lxml", "moderngl", "numba", "pathops", "png", "scipy", "tinycss2"} | {
+HEAVY = {
+    "PIL",
+    "cssselect2",
+    "fontTools",
+    "llvmlite",
+    "lxml",
+    "moderngl",
+    "numba",
+    "pathops",
+    "png",
+    "scipy",
+    "tinycss2",
+} | {
     "contourpy",
     "matplotlib",
     "netCDF4",

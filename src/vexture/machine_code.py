@@ -75,7 +75,7 @@ def described(value: Any) -> Described:
     Examples
     --------
     >>> described((2, 0.5, np.zeros((3, 4), np.int64)))
-    ['tuple', 'int', 'float', ['int64', 2, True]]
+    ['tuple', 'int', 'float', ['<i8', 2, True]]
     """
     if value is None:
         return None
@@ -86,8 +86,8 @@ def described(value: Any) -> Described:
     if isinstance(value, tuple):
         parts = [described(part) for part in value]
         return "" if "" in parts else ["tuple", *parts]
-    if isinstance(value, np.ndarray) and value.flags.c_contiguous and value.flags.aligned and value.dtype.isnative:
-        return [value.dtype.name, value.ndim, value.flags.writeable]
+    if isinstance(value, np.ndarray) and value.flags.c_contiguous and value.flags.aligned:
+        return [value.dtype.str, value.ndim, value.flags.writeable]
     return ""
 
 
@@ -150,11 +150,12 @@ class Compiled:
         # the interpreter's lock is kept, as by Numba
         self._function = ctypes.PYFUNCTYPE(ctypes.c_int)(self.engine.get_function_address(code.entry))
         self._layout = _layout(code.result)
-        self._release = self._released if code.result is not None else _nothing
+        address = 0 if code.result is None else self.engine.get_function_address(RELEASE)
+        self._give_up = ctypes.PYFUNCTYPE(None, ctypes.c_void_p)(address)
 
-    def _released(self, memory: int) -> None:
+    def _release(self, memory: int) -> None:
         """Give up an array; as a method it keeps the code in memory for as long as there are arrays of it."""
-        ctypes.PYFUNCTYPE(None, ctypes.c_void_p)(self.engine.get_function_address(RELEASE))(memory)
+        self._give_up(memory)
 
     def __call__(self, *arguments: Any) -> Any:
         """Run the kernel on arguments of the types that it was compiled for."""
@@ -164,10 +165,6 @@ class Compiled:
             raise MemoryError("a kernel failed: it found no memory for its arrays")
         value = held.value if isinstance(held, ctypes._SimpleCData) else held
         return _value(self.code.result, value, self._release)
-
-
-def _nothing(memory: int) -> None:
-    """Give up no array."""
 
 
 @cache
