@@ -12,7 +12,7 @@ WEB_BENCHMARKS := page_fidelity web_speed editing flood
 VIEWER := src/vexture/live/built/viewer.js
 WEB_SOURCES := $(shell find web/src web/viewer web/flood web/generated -name '*.js' -o -name '*.css')
 QUICK ?=
-RELEASED := . web
+RELEASED := . evidence web
 REPOSITORY ?=
 
 .NOTPARALLEL:
@@ -152,11 +152,15 @@ bench: .venv/for-test
 	else echo 'so the web is not measured: $(WEB_BENCHMARKS)'; fi; \
 	for name in $$names; do echo && $(BIN)/python "evidence/benchmarks/$$name.py" $(QUICK) || exit 1; done
 
-# of RELEASED, the folders of projects; with REPOSITORY=https://..., a registry's pages can link to the sources
+# of RELEASED, the folders of projects; with REPOSITORY=https://..., a registry's pages can link to the sources.
+# pip takes the wheel of the platform where it can: its kernels are compiled, for Linux with any C library of the last
+# ten years; the wheel for any platform compiles them when they are first used
 dist: $(VIEWER) .venv/for-dist
 	@$(BIN)/python tools/release.py
 	@rm -rf dist
+	$(BIN)/python tools/compile_kernels.py
 	@$(BIN)/python tools/dist.py --output dist --repository '$(REPOSITORY)' $(RELEASED)
+	@rm -rf src/vexture/compiled
 	@$(BIN)/python -m twine check --strict dist/*.whl dist/*.tar.gz
 
 # installed as anyone would: with all packages from the registry, and kernels compiled for the first time
@@ -164,5 +168,6 @@ dist-check: dist .venv/for-test
 	VEXTURE_DIST=dist $(BIN)/python -m pytest --quiet tests/release
 
 clean:
-	rm -rf .venv demo build dist src/*.egg-info evidence/src/*.egg-info evidence/benchmarks/results .hypothesis .mypy_cache .pytest_cache .ruff_cache \
+	rm -rf .venv demo build dist src/vexture/compiled src/*.egg-info evidence/src/*.egg-info evidence/benchmarks/results \
+		.hypothesis .mypy_cache .pytest_cache .ruff_cache \
 		web/node_modules web/types src/vexture/live/built tests/web/screenshots site

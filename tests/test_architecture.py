@@ -30,11 +30,12 @@ LONGEST_FUNCTION = 60  # without its docstring
 LONGEST_EXAMPLE = 40
 DUMPING_GROUNDS = {"common", "helper", "helpers", "misc", "tools", "util", "utils"}
 
-BASE = {"errors", "kernels", "tolerance"}
+BASE = {"errors", "kernels", "machine_code", "tolerance"}
 SOURCES = BASE | {"bezier", "content", "drawing", "notes"}
 MAY_IMPORT: dict[str, set[str]] = {
     "errors": set(),
-    "kernels": set(),
+    "kernels": {"machine_code"},
+    "machine_code": set(),
     "layout": set(),
     "tolerance": set(),
     "content": {"errors"},
@@ -73,7 +74,19 @@ WITH_SHADER_TEXT = {"renderers/shader.py", "thesis/shader.py"}
 """Modules that put programs together."""
 
 SHADER_WORDS = re.compile(r"\b(texelFetch|gl_\w+|(uniform|varying|highp|mediump) \w+|[ib]?vec[234]\()|^#version", re.M)
-HEAVY = {"PIL", "cssselect2", "fontTools", "lxml", "moderngl", "numba", "pathops", "png", "scipy", "tinycss2"} | {
+HEAVY = {
+    "PIL",
+    "cssselect2",
+    "fontTools",
+    "llvmlite",
+    "lxml",
+    "moderngl",
+    "numba",
+    "pathops",
+    "png",
+    "scipy",
+    "tinycss2",
+} | {
     "contourpy",
     "matplotlib",
     "netCDF4",

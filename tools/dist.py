@@ -30,7 +30,10 @@ ROOT: Final = Path(__file__).resolve().parents[1]
 LINK: Final = re.compile(r"(?<=\]\()(?!\w+:|#)[^)\s]+")
 PICTURES: Final = (".gif", ".jpg", ".png", ".svg", ".webp")
 FENCED: Final = re.compile(r"^(```.*?^```)$", re.M | re.S)
-STALE: Final = shutil.ignore_patterns(".*", "__pycache__", "*.egg-info", "build", "dist", "node_modules")
+COMPILED: Final = "src/vexture/compiled"
+"""Where `compile_kernels.py` leaves the machine code of kernels, which only the wheel of this platform holds."""
+
+STALE: Final = shutil.ignore_patterns(".*", "__pycache__", "*.egg-info", "build", "compiled", "dist", "node_modules")
 EARLIEST: Final = 315532800
 """Seconds from 1970 to 1980, where the times of zip files begin."""
 
@@ -93,6 +96,12 @@ def _build_wheel(folder: Path, copy: Path, made: Path, repository: str | None) -
             file.write(f"\n[project.urls]\n{_toml_urls(repository)}")
     command = [sys.executable, "-m", "build", "--no-isolation", "--outdir", str(made), str(copy)]
     _run(command, copy, SOURCE_DATE_EPOCH=str(epoch()))
+    if (folder / COMPILED).is_dir():
+        from compile_kernels import tag
+
+        shutil.copytree(folder / COMPILED, copy / COMPILED)
+        command = [*command[:3], "--no-isolation", "--wheel", f"-C--build-option=--plat-name={tag()}"]
+        _run([*command, "--outdir", str(made), str(copy)], copy, SOURCE_DATE_EPOCH=str(epoch()))
     for sdist in made.glob("*.tar.gz"):
         _settle(sdist)
 

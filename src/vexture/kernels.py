@@ -1,43 +1,56 @@
 """Compiled kernels: one decorator, one cache, one announcement.
 
+Numba is imported when the first kernel has to be compiled or taken from the cache: half a second that a command does
+not spend whose kernels a wheel brings along (`vexture.machine_code`).
+
 Numba's own cache watches only the file of the function itself, so a kernel would go on calling the old code of a
 kernel, or with the old value of a constant, that it imports. The cache folder is therefore named after the text of all
 modules that hold either.
 """
 
+import functools
 import hashlib
 import os
 import sys
 import tempfile
+import threading
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar, overload
+from typing import Any, TypeVar, cast, overload
 
-import numba
-from numba.core import event
+from vexture.machine_code import Compiled, described, load
 
-__all__ = ["kernel"]
+__all__ = ["Kernel", "kernel", "text_digest"]
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-ABOVE = {"evaluation", "figures", "flood", "folding", "live", "report", "sources"}
+ABOVE = {"cli", "flood", "fold", "geo", "live", "svg", "tracing"}
 """Parts of the package that no kernel stands in or takes a constant from: changing them compiles nothing again."""
 
+ONE_AT_A_TIME = threading.Lock()
+"""Held while Numba's settings are not the caller's: the threads of a server may use a kernel for the first time."""
 
-def kernel_cache() -> Path:
-    """Folder of the compiled kernels: below ``VEXTURE_CACHE``, or the user's cache folder, or a temporary one."""
+
+@functools.cache
+def text_digest() -> str:
+    """Digest of the text of all modules that hold a kernel or a constant."""
     package = Path(__file__).parent
-    digest = hashlib.sha256(numba.__version__.encode())
+    digest = hashlib.sha256()
     for module in sorted(package.rglob("*.py")):
         if module.relative_to(package).parts[0] in ABOVE:
             continue
         text = module.read_bytes()
         if b"@kernel" in text or b": Final" in text:
             digest.update(text)
+    return digest.hexdigest()[:12]
+
+
+def kernel_cache() -> Path:
+    """Folder of the compiled kernels: below ``VEXTURE_CACHE``, or the user's cache folder, or a temporary one."""
     default = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "vexture"
     root = Path(os.environ.get("VEXTURE_CACHE") or default)
     for base in (root, Path(tempfile.gettempdir()) / f"vexture-{os.getuid() if hasattr(os, 'getuid') else 0}"):
-        folder = base / f"kernels-{digest.hexdigest()[:12]}"
+        folder = base / f"kernels-{text_digest()}"
         try:
             folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         except OSError:
@@ -49,26 +62,78 @@ def kernel_cache() -> Path:
     return root
 
 
-class _Announcement(event.Listener):  # type: ignore[misc]
-    """Says once, on the first compilation of this process, why the first run takes longer."""
+@functools.cache
+def _numba() -> tuple[Any, str]:
+    """Numba, which announces from now on that it compiles, and the folder of its cache."""
+    import numba
+    from numba.core import event
 
-    def __init__(self) -> None:
-        self.made = False
+    class Announcement(event.Listener):  # type: ignore[misc]
+        """Says once, on the first compilation of this process, why the first run takes longer."""
 
-    def on_start(self, event: Any) -> None:
-        dispatcher = event.data.get("dispatcher")
-        ours = getattr(dispatcher, "py_func", None)
-        if not self.made and ours is not None and ours.__module__.startswith("vexture."):
-            self.made = True
-            line = "vexture: compiling kernels for their first use on this machine (half a minute or less) ..."
-            print(line, file=sys.stderr, flush=True)
+        def __init__(self) -> None:
+            self.made = False
 
-    def on_end(self, event: Any) -> None:
-        pass
+        def on_start(self, event: Any) -> None:
+            dispatcher = event.data.get("dispatcher")
+            ours = getattr(dispatcher, "py_func", None)
+            if not self.made and ours is not None and ours.__module__.startswith("vexture."):
+                self.made = True
+                line = "vexture: compiling kernels for their first use on this machine (half a minute or less) ..."
+                print(line, file=sys.stderr, flush=True)
+
+        def on_end(self, event: Any) -> None:
+            pass
+
+    event.register("numba:compile", Announcement())
+    return numba, str(kernel_cache())
 
 
-CACHE = str(kernel_cache())
-event.register("numba:compile", _Announcement())
+class Kernel:
+    """A function over arrays that Numba compiles when it is first called.
+
+    Parameters
+    ----------
+    function : function
+        What is compiled.
+    allocates, ahead : bool
+        See `kernel`.
+    """
+
+    def __init__(self, function: Callable[..., Any], allocates: bool, ahead: bool) -> None:
+        functools.update_wrapper(self, function)
+        self.py_func = function
+        self._allocates, self._ahead = allocates, ahead
+        self._code: Compiled | None = None
+
+    @functools.cached_property
+    def dispatcher(self) -> Any:
+        """Numba's function."""
+        private = self.py_func.__name__.startswith("_")  # called by kernels only: Python needs no way in
+        options = {"cache": True, "error_model": "numpy", "no_cfunc_wrapper": True, "no_cpython_wrapper": private}
+        with ONE_AT_A_TIME:
+            numba, folder = _numba()
+            # read while decorating; others may use Numba too
+            caller, numba.config.CACHE_DIR = numba.config.CACHE_DIR, folder
+            result = numba.njit(**options, _nrt=self._allocates)(self.py_func)
+            numba.config.CACHE_DIR = caller
+        return result
+
+    @property
+    def _numba_type_(self) -> Any:
+        """What Numba takes a kernel for that another one calls."""
+        return self.dispatcher._numba_type_
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Run code that was compiled ahead of time, if there is some for such arguments, or what Numba compiles."""
+        if self._ahead:
+            types = described(arguments)
+            if self._code is None or self._code.code.arguments != types:
+                self._code = load(self, text_digest(), types)
+                self._ahead = self._code is not None
+            if self._code is not None:
+                return self._code(*arguments)
+        return self.dispatcher(*arguments)
 
 
 @overload
@@ -76,10 +141,10 @@ def kernel(function: F) -> F: ...
 
 
 @overload
-def kernel(*, allocates: bool) -> Callable[[F], F]: ...
+def kernel(*, allocates: bool = True, ahead: bool = False) -> Callable[[F], F]: ...
 
 
-def kernel(function: F | None = None, *, allocates: bool = True) -> F | Callable[[F], F]:
+def kernel(function: F | None = None, *, allocates: bool = True, ahead: bool = False) -> F | Callable[[F], F]:
     """Compile a scalar function over arrays with Numba, cached on disk.
 
     A name with a leading underscore says that only kernels call it.
@@ -91,6 +156,8 @@ def kernel(function: F | None = None, *, allocates: bool = True) -> F | Callable
     allocates : bool
         False for a function that makes no arrays: Numba then counts no references in it, which for short functions
         costs more than what they do.
+    ahead : bool
+        True for a function that a wheel of a platform brings along compiled: what a plain command calls.
 
     Examples
     --------
@@ -100,14 +167,6 @@ def kernel(function: F | None = None, *, allocates: bool = True) -> F | Callable
     """
 
     def compiled(function: F) -> F:
-        caller, numba.config.CACHE_DIR = (
-            numba.config.CACHE_DIR,
-            CACHE,
-        )  # read while decorating; others may use Numba too
-        private = function.__name__.startswith("_")  # called by kernels only: Python needs no way in
-        options = {"cache": True, "error_model": "numpy", "no_cfunc_wrapper": True, "no_cpython_wrapper": private}
-        result: F = numba.njit(**options, _nrt=allocates)(function)
-        numba.config.CACHE_DIR = caller
-        return result
+        return cast("F", Kernel(function, allocates, ahead))
 
     return compiled if function is None else compiled(function)

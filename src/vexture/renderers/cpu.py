@@ -281,7 +281,7 @@ def view_coverage(
     return coverage(texels, quality, root, base, (u, v), dx, dy)
 
 
-@kernel(allocates=False)
+@kernel(allocates=False, ahead=True)
 def draw(
     texels: Texels, quality: int, root: int, base: Whole2, to_unit: NDArray[np.float64], image: NDArray[np.float32]
 ) -> None:

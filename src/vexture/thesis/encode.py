@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.bezier.area import edge_indices, leaf_area
 from vexture.errors import LimitError
 from vexture.thesis import layout
 from vexture.thesis.edge import edge_point, quantised_ends
@@ -81,8 +82,6 @@ def _quad_pixels(tree: CellTree, dtype: np.dtype[Any]) -> NDArray[Any]:
 
 
 def _curve_pixels(tree: CellTree, dtype: np.dtype[Any], name: str) -> NDArray[Any]:
-    from vexture.bezier.area import edge_indices  # late: Numba takes 0.3 s to import, which readers need not spend
-
     maximum = int(np.iinfo(dtype).max)
     corner = _is_corner(tree.kind, tree.ref, len(tree.curves))
     low, span = _control_range(corner)
@@ -144,8 +143,6 @@ def decode(texture: ThesisTexture) -> CellTree:
     >>> decode(ThesisTexture(pixels, np.zeros((2, 2, 3), np.uint8))).kind  # 3 is CellKind.FULL
     array([[3, 3, 3, 3]], dtype=uint8)
     """
-    from vexture.bezier.area import leaf_area  # late: see _curve_pixels
-
     texture.check()
     kind, ref = texture.cells()
     stored = texture.curves[layout.CONSTANT_ROWS :] / texture.maximum

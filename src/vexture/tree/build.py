@@ -264,7 +264,7 @@ def _typed(tree: Growth, quads: int, curves: int) -> Arrays:
     return out
 
 
-@kernel
+@kernel(ahead=True)
 def grow(
     cubics: NDArray[np.float64], owner: NDArray[np.int64], rules: NDArray[np.int64], bounds: Bounds
 ) -> tuple[Arrays, float, int, float]:
