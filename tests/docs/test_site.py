@@ -87,12 +87,25 @@ def test_what_a_command_says_of_itself_is_text(site: Path) -> None:
 
 
 def test_figures_have_a_page_once_there_are_some(site: Path) -> None:
-    folder = ROOT / "src" / "vexture" / "figures"
+    folder = ROOT / "evidence" / "src" / "vexture_evidence" / "figures"
     defined = [path for path in folder.glob("*.py") if re.search(r'\) -> "?Figure"?:$', path.read_text(), re.M)]
     page = site / "reference" / "figures.html"
     assert page.is_file() == bool(defined)
     for path in defined:
-        assert f'id="vexture.figures.{path.stem}.' in page.read_text(encoding="utf-8")
+        assert f'id="vexture_evidence.figures.{path.stem}.' in page.read_text(encoding="utf-8")
+
+
+def test_every_module_is_listed_with_what_it_is(site: Path) -> None:
+    text = (site / "project" / "modules.html").read_text(encoding="utf-8")
+    rows = re.findall(r"<td><code>([\w.]+)</code></td>\s*<td>(.*?)</td>", text, re.S)
+    listed = Counter(name for name, said in rows if said.strip())
+    there = [
+        path
+        for package in (ROOT / "src" / "vexture", ROOT / "evidence" / "src" / "vexture_evidence")
+        for path in package.rglob("*")
+        if path.suffix in (".py", ".glsl") and path.name != "__init__.py"
+    ]
+    assert listed == Counter(path.name for path in there)
 
 
 def test_nothing_comes_from_the_network(site: Path) -> None:
@@ -124,7 +137,7 @@ BREAKS = {
 @pytest.mark.parametrize("case", BREAKS)
 def test_what_is_broken_fails_the_build(case: str, tmp_path: Path) -> None:
     copied = tmp_path / "copied"
-    for name in ("src", "docs", "tools", "web/README.md", "benchmarks/README.md", "examples/shapes", "mkdocs.yml"):
+    for name in ("src", "docs", "tools", "web/README.md", "evidence", "examples/shapes", "mkdocs.yml"):
         target = copied / name
         target.parent.mkdir(parents=True, exist_ok=True)
         (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, target)
