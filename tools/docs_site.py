@@ -176,7 +176,9 @@ def command_line() -> str:
         "so in one line and its exit code is 1; arguments that it does not know end with exit code 2.",
     ]
     for name in main.list_commands(context):
-        parts += _command(name, main.commands[name], context)
+        command = main.get_command(context, name)
+        assert command is not None
+        parts += _command(name, command, context)
     return "\n\n".join(parts) + "\n"
 
 
@@ -186,9 +188,16 @@ def _command(name: str, command: click.Command, above: click.Context) -> Iterato
     usage = " ".join(command.collect_usage_pieces(context))
     yield f"## vexture {name}"
     yield f"```text\n{context.command_path} {usage}\n```"
-    yield inspect.cleandoc(command.help or "")
+    for text in (command.help, command.epilog):
+        yield from map(_paragraph, inspect.cleandoc(text or "").split("\n\n"))
     for parameter in command.get_params(context):
         record = parameter.get_help_record(context) if isinstance(parameter, click.Option) else None
         if record is not None:
             names, text = record
             yield f"`{names}`\n:   {text}"
+
+
+def _paragraph(text: str) -> str:
+    """Return a paragraph of a command's help; one that begins with a backspace keeps its lines, as in a terminal."""
+    unwrapped = text.removeprefix("\b\n")
+    return text if unwrapped == text else f"```text\n{inspect.cleandoc(unwrapped)}\n```"
