@@ -94,7 +94,7 @@ class Reader:
         python = shlex.quote(sys.executable)
         pip = f"{python} -m pip --python {shlex.quote(str(self.folder.parent / 'throwaway' / 'bin' / 'python'))}"
         for name, text in (
-            ("vexture", f"exec {python} -c 'from vexture.cli import main; main()' \"$@\""),
+            ("vexture", f"exec {python} -c 'from vexture.cli.main import main; main()' \"$@\""),
             ("python3", f'if [ "${{2-}}" = pip ]; then shift 2; exec {pip} "$@"; fi\nexec {python} "$@"'),
         ):
             (programs / name).write_text(f"#!/bin/sh\n{text}\n")

@@ -1,7 +1,8 @@
-"""What MkDocs does for the documentation beside its own: pages that have their home elsewhere in the repository.
+"""Pages of the documentation whose text has its home elsewhere in the repository; MkDocs calls this as a hook.
 
-FORMAT.md and its like stay where people who read the repository look for them, and the command line is described by
-its own text. Both become pages when the site is built, so that nothing is written down twice.
+FORMAT.md and its like stay where readers of the repository look for them. The command line is described by its own
+help, and each module by the first paragraph of its docstring. All become pages when the site is built, so nothing is
+written twice.
 """
 
 import ast
@@ -16,7 +17,7 @@ import click
 from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
 
-__all__ = ["HOMES", "command_line", "figures", "on_config", "on_files", "relinked"]
+__all__ = ["HOMES", "command_line", "figures", "modules", "on_config", "on_files", "relinked"]
 
 ROOT: Final = Path(__file__).parents[1]
 
@@ -33,6 +34,12 @@ HOMES: Final = {
 
 COMMAND_LINE: Final = "reference/command-line.md"
 FIGURES: Final = "reference/figures.md"
+MODULES: Final = "project/modules.md"
+
+EVIDENCE: Final = ROOT / "evidence" / "src" / "vexture_evidence"
+PACKAGES: Final = (ROOT / "src" / "vexture", EVIDENCE)
+"""Packages whose modules are listed."""
+
 LINK: Final = re.compile(r"(?<=\]\()(?!\w+:|#)([^)#\s]+)")
 FENCED: Final = re.compile(r"^(```.*?^```)$", re.M | re.S)
 
@@ -56,6 +63,7 @@ def on_files(files: Files, *, config: Any) -> Files:
     for path in sorted(attached):
         files.append(File.generated(config, f"files/{path}", abs_src_path=str(ROOT / path)))
     files.append(File.generated(config, COMMAND_LINE, content=command_line()))
+    files.append(File.generated(config, MODULES, content=modules()))
     if figures():
         files.append(File.generated(config, FIGURES, content=figures_page()))
     return files
@@ -91,9 +99,9 @@ def relinked(home: str) -> tuple[str, set[str]]:
 
 
 def figures() -> list[str]:
-    """Functions that make a figure, as ``module.function`` of `vexture.figures`."""
+    """Functions that make a figure, as ``module.function`` of `vexture_evidence.figures`."""
     found = []
-    for path in sorted((ROOT / "src" / "vexture" / "figures").glob("*.py")):
+    for path in sorted((EVIDENCE / "figures").glob("*.py")):
         tree = ast.parse(path.read_text(encoding="utf-8"))
         offered = [
             ast.literal_eval(node.value)
@@ -116,10 +124,45 @@ def figures_page() -> str:
     parts = [
         "# Figures",
         "Each function makes one figure of matplotlib from the library's own data, in a notebook or for a file: "
-        "`figure.savefig(...)`. `vexture report` puts them on one page. They need what `vexture[report]` installs.",
-        *(f"::: vexture.figures.{name}" for name in figures()),
+        "`figure.savefig(...)`. `vexture report` puts them on one page. They are part of the distribution "
+        "`vexture-evidence` (`pip install ./evidence` in a clone).",
+        *(f"::: vexture_evidence.figures.{name}" for name in figures()),
     ]
     return "\n\n".join(parts) + "\n"
+
+
+def modules() -> str:
+    """Page of all modules and shader files, by folder, each with the first paragraph of its own text."""
+    parts = [
+        "# Modules",
+        "What each module and shader file is, by its own text. [Architecture](architecture.md) says why.",
+    ]
+    for package in PACKAGES:
+        folders = [package, *sorted(path for path in package.rglob("*") if path.is_dir())]
+        for folder in folders:
+            rows = [f"| `{path.name}` | {_described(path)} |" for path in sorted(folder.iterdir()) if _is_listed(path)]
+            if not rows:
+                continue
+            parts.append(f"## {folder.relative_to(package.parent).as_posix()}/")
+            if (folder / "__init__.py").is_file():
+                parts.append(_described(folder / "__init__.py"))
+            parts.append("\n".join(["| module | what it is |", "|---|---|", *rows]))
+    return "\n\n".join(parts) + "\n"
+
+
+def _is_listed(path: Path) -> bool:
+    return path.suffix in (".py", ".glsl") and path.name != "__init__.py"
+
+
+def _described(path: Path) -> str:
+    """Return the first paragraph of a module's docstring, or of the comment that a shader file begins with."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".py":
+        said = ast.get_docstring(ast.parse(text)) or ""
+    else:
+        comment = text.partition("// Exports:")[0]
+        said = "\n".join(line.removeprefix("//").strip() for line in comment.splitlines())
+    return " ".join(said.split("\n\n")[0].split()).replace("``", "`").replace("|", "\\|")
 
 
 def command_line() -> str:
@@ -133,7 +176,9 @@ def command_line() -> str:
         "so in one line and its exit code is 1; arguments that it does not know end with exit code 2.",
     ]
     for name in main.list_commands(context):
-        parts += _command(name, main.commands[name], context)
+        command = main.get_command(context, name)
+        assert command is not None
+        parts += _command(name, command, context)
     return "\n\n".join(parts) + "\n"
 
 
@@ -143,9 +188,16 @@ def _command(name: str, command: click.Command, above: click.Context) -> Iterato
     usage = " ".join(command.collect_usage_pieces(context))
     yield f"## vexture {name}"
     yield f"```text\n{context.command_path} {usage}\n```"
-    yield inspect.cleandoc(command.help or "")
+    for text in (command.help, command.epilog):
+        yield from map(_paragraph, inspect.cleandoc(text or "").split("\n\n"))
     for parameter in command.get_params(context):
         record = parameter.get_help_record(context) if isinstance(parameter, click.Option) else None
         if record is not None:
             names, text = record
             yield f"`{names}`\n:   {text}"
+
+
+def _paragraph(text: str) -> str:
+    """Return a paragraph of a command's help; one that begins with a backspace keeps its lines, as in a terminal."""
+    unwrapped = text.removeprefix("\b\n")
+    return text if unwrapped == text else f"```text\n{inspect.cleandoc(unwrapped)}\n```"

@@ -1,5 +1,6 @@
 """The guides run: those that need nothing but a folder here, the others where their browser and their data are."""
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -8,7 +9,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from guides import GUIDES, Block, Reader, alike, blocks_of
+import vexture
+from guides import GUIDES, Block, Reader, alike, blocks_of, free_port
 
 ELSEWHERE = {"from-svg-to-three": "web/test_guide_three.py", "coastal-data": "flood/test_guide_coastal.py"}
 TESTS = Path(__file__).parents[1]
@@ -25,6 +27,54 @@ def test_the_guide_for_python_does_what_it_says(tmp_path: Path) -> None:
         assert image.getpixel((100, 104)) == (255, 214, 51)
     with Image.open(folder / "kite.png") as image:
         assert 1 - np.asarray(image).mean() / 255 == pytest.approx(0.24, abs=0.01)
+
+
+def test_the_guide_for_the_command_line_does_what_it_says(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    folder.mkdir()
+    with Reader(folder) as reader:
+        for block in blocks_of("command-line"):
+            reader.take(block)
+    assert {path.name for path in (folder / "out").iterdir()} == {"logo.ktx2", "kite.ktx2"}
+    assert (folder / "piped.ktx2").read_bytes()[:8] == (folder / "badge.ktx2").read_bytes()[:8]
+    roots = {name: [root.name for root in vexture.load(folder / f"{name}.ktx2").roots] for name in ("shapes", "layers")}
+    assert roots["shapes"] == ["logo", "kite"]
+    assert roots["layers"] == ["logo/1-#0066cc", "logo/2-#ffffff", "logo/3-#ffcc00cc", "kite/1-#000000"]
+    assert {root.paint.hex for root in vexture.load(folder / "traced.ktx2").roots if root.paint} >= {"#0066cc"}
+    with Image.open(folder / "colours.png") as image:
+        assert image.getpixel((30, 150))[:3] == (0, 102, 204)
+    with Image.open(folder / "kite.png") as image:
+        assert image.size == (320, 200)
+        assert image.convert("L").getpixel((160, 100)) == 0
+    with Image.open(folder / "mask.png") as image:
+        assert image.convert("L").getpixel((32, 32)) == 0
+    with Image.open(folder / "turned.png") as image:
+        assert image.convert("RGBA").getpixel((511, 0))[3] == 0
+    assert len(json.loads((folder / "shapes.json").read_text())["roots"]) == 2
+    assert vexture.fold_from((folder / "kite.fold.ktx2").read_bytes()).cycle == 6.0
+    assert (folder / "fold.png").is_file()
+
+
+def test_the_guide_for_the_thesis_does_what_it_says(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    folder.mkdir()
+    with Reader(folder) as reader:
+        for block in blocks_of("thesis"):
+            reader.take(block)
+        assert reader.names["image"].mean() == pytest.approx(0.24, abs=0.01)
+    with Image.open(folder / "kite.png") as image:
+        assert 1 - np.asarray(image.convert("L")).mean() / 255 == pytest.approx(0.24, abs=0.01)
+
+
+@pytest.mark.usefixtures("page_is_built")
+def test_the_guide_for_servers_does_what_it_says(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    folder.mkdir()
+    with Reader(folder, {"8000": free_port()}) as reader:
+        for block in blocks_of("live"):
+            reader.take(block)
+        assert "version" in reader.said, "the drawing is not published"
+    assert "<title>Our logo</title>" in (folder / "logo.html").read_text(encoding="utf-8")
 
 
 def test_every_guide_is_read_by_a_test() -> None:

@@ -66,9 +66,17 @@ def test_every_public_function_has_an_example() -> None:
     assert [function.__name__ for function in functions if ">>>" not in (function.__doc__ or "")] == []
 
 
+def commands() -> dict[str, click.Command]:
+    """All commands by name; each is imported for it."""
+    context = click.Context(main)
+    found = {name: main.get_command(context, name) for name in main.list_commands(context)}
+    return {name: command for name, command in found.items() if command is not None}
+
+
 def test_every_command_and_option_is_described(site: Path) -> None:
     text = (site / "reference" / "command-line.html").read_text(encoding="utf-8")
-    for name, command in main.commands.items():
+    assert {"convert", "render", "info", "view", "flood"} <= set(commands())
+    for name, command in commands().items():
         assert f'id="vexture-{name}"' in text
         context = click.Context(command, info_name=name)
         for parameter in command.params:
@@ -80,19 +88,32 @@ def test_every_command_and_option_is_described(site: Path) -> None:
 
 def test_what_a_command_says_of_itself_is_text(site: Path) -> None:
     text = (site / "reference" / "command-line.html").read_text(encoding="utf-8")
-    for name, command in main.commands.items():
+    for name, command in commands().items():
         for paragraph in inspect.cleandoc(command.help or "").split("\n\n"):
             assert f"<p>{paragraph[:40]}" in text, name
     assert "<code>-h, --help</code>" in text
 
 
 def test_figures_have_a_page_once_there_are_some(site: Path) -> None:
-    folder = ROOT / "src" / "vexture" / "figures"
+    folder = ROOT / "evidence" / "src" / "vexture_evidence" / "figures"
     defined = [path for path in folder.glob("*.py") if re.search(r'\) -> "?Figure"?:$', path.read_text(), re.M)]
     page = site / "reference" / "figures.html"
     assert page.is_file() == bool(defined)
     for path in defined:
-        assert f'id="vexture.figures.{path.stem}.' in page.read_text(encoding="utf-8")
+        assert f'id="vexture_evidence.figures.{path.stem}.' in page.read_text(encoding="utf-8")
+
+
+def test_every_module_is_listed_with_what_it_is(site: Path) -> None:
+    text = (site / "project" / "modules.html").read_text(encoding="utf-8")
+    rows = re.findall(r"<td><code>([\w.]+)</code></td>\s*<td>(.*?)</td>", text, re.S)
+    listed = Counter(name for name, said in rows if said.strip())
+    there = [
+        path
+        for package in (ROOT / "src" / "vexture", ROOT / "evidence" / "src" / "vexture_evidence")
+        for path in package.rglob("*")
+        if path.suffix in (".py", ".glsl") and path.name != "__init__.py"
+    ]
+    assert listed == Counter(path.name for path in there)
 
 
 def test_nothing_comes_from_the_network(site: Path) -> None:
@@ -124,7 +145,7 @@ BREAKS = {
 @pytest.mark.parametrize("case", BREAKS)
 def test_what_is_broken_fails_the_build(case: str, tmp_path: Path) -> None:
     copied = tmp_path / "copied"
-    for name in ("src", "docs", "tools", "web/README.md", "benchmarks/README.md", "examples/shapes", "mkdocs.yml"):
+    for name in ("src", "docs", "tools", "web/README.md", "evidence", "examples/shapes", "mkdocs.yml"):
         target = copied / name
         target.parent.mkdir(parents=True, exist_ok=True)
         (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, target)

@@ -1,4 +1,4 @@
-"""The README's program for three.js runs as it stands there."""
+"""The README's lines for three.js run as they stand there."""
 
 import io
 import re
@@ -16,6 +16,21 @@ import vexture
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 DUCK, PAPER = (0xE8, 0xB1, 0x00), (0xF4, 0xF1, 0xE8)
 
+SCENE = """
+import * as THREE from 'three';
+
+const renderer = new THREE.WebGLRenderer({ antialias: true });
+renderer.setSize(innerWidth, innerHeight);
+document.body.style.margin = '0';
+document.body.replaceChildren(renderer.domElement);
+const scene = new THREE.Scene();
+scene.background = new THREE.Color(0xf4f1e8);
+const camera = new THREE.PerspectiveCamera(40, innerWidth / innerHeight, 0.01, 100);
+camera.position.z = 4;
+renderer.setAnimationLoop(() => renderer.render(scene, camera));
+"""
+"""What a page has before the README's lines."""
+
 
 def shares(page: Any) -> list[float]:
     """Parts of the page that have the duck's colour, and the paper's."""
@@ -28,7 +43,7 @@ def test_the_readme_draws_a_duck(
     tmp_path: Path, open_page: Callable[..., Any], screenshot: Callable[..., Path], three: str
 ) -> None:
     program = next(block for block in re.findall(r"^```js\n(.*?)^```", README, re.M | re.S) if "loadAsync" in block)
-    (tmp_path / "main.js").write_text(program, encoding="utf-8")
+    (tmp_path / "main.js").write_text(SCENE + program, encoding="utf-8")
     bundle(tmp_path / "main.js", tmp_path / "bundle.js", three)
     (tmp_path / "index.html").write_text(
         '<!doctype html><link rel="icon" href="data:,"><body><script type="module" src="bundle.js"></script>'
@@ -37,7 +52,7 @@ def test_the_readme_draws_a_duck(
     with served(tmp_path) as address:
         page = open_page(address)
         page.wait_for_selector("canvas")
-        for _ in range(40):  # it turns: once in a while its edge is all that is seen
+        for _ in range(40):  # the file and the shader take their time
             page.wait_for_timeout(250)
             duck, paper = shares(page)
             if duck > 0.05:
