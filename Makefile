@@ -40,14 +40,14 @@ help:
 	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,trace]'
 	@touch $@
 
-.venv/for-test: pyproject.toml | .venv/made
+.venv/for-test: pyproject.toml evidence/pyproject.toml | .venv/made
 	@echo 'installing vexture, its libraries and the tools of its tests into .venv (a minute or two) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[docs,gis,gpu,report,trace,test]'
+	@$(BIN)/python -m pip install --quiet --editable '.[docs,gis,gpu,trace,test]' --editable ./evidence
 	@touch .venv/for-demo .venv/for-docs .venv/for-report $@
 
-.venv/for-report: pyproject.toml | .venv/made
+.venv/for-report: pyproject.toml evidence/pyproject.toml | .venv/made
 	@echo 'installing vexture and what its report draws and compares with into .venv (a minute or less) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[report,trace]'
+	@$(BIN)/python -m pip install --quiet --editable . --editable ./evidence
 	@touch $@
 
 .venv/for-dist: pyproject.toml | .venv/made
@@ -55,9 +55,9 @@ help:
 	@$(BIN)/python -m pip install --quiet --editable '.[dist]'
 	@touch $@
 
-.venv/for-docs: pyproject.toml | .venv/made
+.venv/for-docs: pyproject.toml evidence/pyproject.toml | .venv/made
 	@echo 'installing vexture and MkDocs into .venv (a minute or less) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[docs]'
+	@$(BIN)/python -m pip install --quiet --editable '.[docs]' --editable ./evidence
 	@touch $@
 
 web/node_modules/made: web/package.json web/package-lock.json

@@ -1,9 +1,10 @@
 """From a source to a texture: the arrows of the architecture, one after the other."""
 
+import inspect
 import os
 import time
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, overload
 
@@ -97,6 +98,7 @@ def run(
 def run(source: Source, *, encoding: str = DEFAULT, select: str | None = None, **parameters: Any) -> Conversion[Any]:
     """Convert and keep what lies between; see `convert`."""
     start = time.perf_counter()
+    _check_names(encoding, parameters)
     if encoding == DEFAULT:
         shapes = shapes_of(source, Settings(select=select, **parameters))
         origin = None if _is_drawing(source) else Path(shapes.source).name
@@ -106,6 +108,23 @@ def run(source: Source, *, encoding: str = DEFAULT, select: str | None = None, *
     drawing = _drawing_of(source, select)
     tree, other_texture, rounding = other.convert(drawing, **parameters)
     return Conversion(drawing, (tree,), other_texture, time.perf_counter() - start, rounding)
+
+
+def _check_names(encoding: str, parameters: dict[str, Any]) -> None:
+    """Refuse parameters that the encoding does not have.
+
+    Raises
+    ------
+    TypeError
+        Naming the parameter.
+    """
+    if encoding == DEFAULT:
+        known = {field.name for field in fields(Settings)}
+    else:
+        known = {*inspect.signature(find_encoding(encoding).convert).parameters}
+    for name, value in parameters.items():
+        if name not in known:
+            raise TypeError(f"`{name}` is {value!r}, but the encoding {encoding} has no such parameter; leave it out")
 
 
 def shapes_of(source: Source, settings: Settings) -> Shapes:
@@ -177,7 +196,18 @@ def convert(
 def convert(source: Source, *, encoding: str, select: str | None = ..., **parameters: Any) -> EncodedTexture: ...
 
 
-def convert(source: Source, *, encoding: str = DEFAULT, **parameters: Any) -> EncodedTexture:
+def convert(
+    source: Source,
+    *,
+    encoding: str = DEFAULT,
+    split: Literal["paint"] | None = None,
+    select: str | None = None,
+    tolerance: float | Literal["auto"] = "auto",
+    max_depth: int | None = None,
+    capacity: int | None = None,
+    precision: float | None = None,
+    **others: Any,
+) -> EncodedTexture:
     """Convert a drawing into a texture.
 
     Parameters
@@ -202,6 +232,8 @@ def convert(source: Source, *, encoding: str = DEFAULT, **parameters: Any) -> En
     precision : float, optional
         Largest shift of the outline by rounding, in unit-square units; leaves are divided until it holds. By default
         none is divided for it.
+    **others
+        Parameters of another encoding.
 
     Returns
     -------
@@ -229,7 +261,15 @@ def convert(source: Source, *, encoding: str = DEFAULT, **parameters: Any) -> En
     >>> [root.name for root in convert(triangle).roots]
     ['drawing']
     """
-    conversion = run(source, encoding=encoding, **parameters)
+    given = {
+        "split": split,
+        "tolerance": tolerance,
+        "max_depth": max_depth,
+        "capacity": capacity,
+        "precision": precision,
+    }
+    set_here = {name: value for name, value in given.items() if value is not None}
+    conversion = run(source, encoding=encoding, select=select, **set_here, **others)
     if not _is_drawing(source):  # whoever read the drawing has been told
         warn_of(os.fspath(source), conversion.drawing.notes)  # type: ignore[arg-type]
     return conversion.texture

@@ -49,7 +49,7 @@ def test_missing_matplotlib_is_one_line(tmp_path):
     outcome = report("-o", tmp_path / "out", before="import sys; sys.modules['matplotlib'] = None; ")
     assert outcome.returncode == 1
     assert outcome.stderr.splitlines() == [
-        "vexture: figures need the package matplotlib: pip install 'vexture[report]'"
+        "vexture: figures need the package matplotlib: pip install vexture-evidence"
     ]
     assert not (tmp_path / "out").exists()
 
@@ -75,7 +75,7 @@ def test_missing_renderer_is_found_before_anything_is_measured(tmp_path):
     outcome = report("-o", tmp_path / "out", before="import sys; sys.modules['skia'] = None; ")
     assert outcome.returncode == 1
     (line,) = outcome.stderr.splitlines()
-    assert line == "vexture: this comparison needs the package skia-python: pip install 'vexture[report]'"
+    assert line == "vexture: this comparison needs the package skia-python: pip install vexture-evidence"
 
 
 def test_place_that_cannot_be_written_is_found_before_anything_is_measured(tmp_path):

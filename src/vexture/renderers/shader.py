@@ -11,7 +11,7 @@ from types import ModuleType
 from typing import Final
 
 from vexture import layout
-from vexture.errors import LimitError
+from vexture.errors import ParameterError
 from vexture.renderers import method
 
 __all__ = ["QUALITIES", "VERSIONS", "WRAPS", "included", "shader_source", "shader_text", "vertex_source", "view_source"]
@@ -101,7 +101,7 @@ def shader_source(version: str = "300 es", quality: str = "exact") -> str:
 
     Raises
     ------
-    LimitError
+    ParameterError
         If there is no such version or quality.
 
     Examples
@@ -110,7 +110,7 @@ def shader_source(version: str = "300 es", quality: str = "exact") -> str:
     True
     """
     if version not in VERSIONS:
-        raise LimitError(f"version is {version!r}; there are {', '.join(map(repr, VERSIONS))}")
+        raise ParameterError(f"`version` is {version!r}; there are {', '.join(map(repr, VERSIONS))}")
     return shader_text("coverage.glsl", quality)
 
 
@@ -123,7 +123,7 @@ def shader_text(file: str, quality: str | None, *owners: ModuleType) -> str:
     ``VEXTURE_WRAP`` always, one of the values of `WRAPS`.
     """
     if quality is not None and quality not in QUALITIES:
-        raise LimitError(f"quality is {quality!r}; there are {', '.join(map(repr, QUALITIES))}")
+        raise ParameterError(f"`quality` is {quality!r}; there are {', '.join(map(repr, QUALITIES))}")
     text = included(file)
     lines = [] if quality is None else [f"#define VEXTURE_QUALITY {QUALITIES[quality]!r}\n"]
     for name in sorted(set(PREFIXED.findall(text)) - CHOSEN):

@@ -85,7 +85,7 @@ def plotting() -> Any:
     try:
         import matplotlib
     except ModuleNotFoundError:
-        raise DeviceError("figures need the package matplotlib: pip install 'vexture[report]'") from None
+        raise DeviceError("figures need the package matplotlib: pip install vexture-evidence") from None
     return matplotlib
 
 

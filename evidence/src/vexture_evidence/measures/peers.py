@@ -197,6 +197,6 @@ def _package(module: str, name: str) -> Any:
     try:
         return import_module(module)
     except ModuleNotFoundError:
-        raise DeviceError(f"this comparison needs the package {name}: pip install 'vexture[report]'") from None
+        raise DeviceError(f"this comparison needs the package {name}: pip install vexture-evidence") from None
     except ImportError as error:  # of a library of the system, such as libEGL
         raise DeviceError(f"the package {name} cannot be loaded: {error}; install what it names") from None
