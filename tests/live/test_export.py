@@ -5,7 +5,6 @@ import hashlib
 import html
 import json
 import re
-import subprocess
 
 import pytest
 
@@ -13,7 +12,8 @@ from vexture.encoding.packed_texture import packed_from
 from vexture.encoding.png import read_png
 from vexture.errors import DeviceError
 from vexture.live.page import SCRIPT, STYLE, built, served_page
-from viewing import SHAPES, VEXTURE
+from typed import typed
+from viewing import SHAPES
 
 LARGEST_DUCK = 900_000
 
@@ -27,7 +27,7 @@ def page_is_built():
 
 
 def export(*arguments):
-    return subprocess.run([*VEXTURE, "export", *map(str, arguments)], capture_output=True, text=True, check=False)
+    return typed("export", *arguments)
 
 
 def scene(text):

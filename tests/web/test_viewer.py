@@ -9,6 +9,7 @@ import pytest
 from browser import served
 from viewed import PRECISION, SIZE, Viewed, pixels, point_on_outline, ready, show, value, write_pages
 from viewer_page import FIT, view_matrix
+from waiting import drawn, quiet
 
 import vexture
 from vexture.live.documents import VIEWER_SETTINGS, shape_of
@@ -140,16 +141,16 @@ def test_buttons_zoom_and_reset(pages: dict[str, Viewed], open_page: Callable[..
 
 def test_nothing_is_drawn_while_nothing_happens(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
     page = ready(open_page, pages["duck"].url, (1000, 700))
-    page.wait_for_timeout(1500)
-    drawn = page.evaluate(
+    quiet(page, 10)
+    frames = page.evaluate(
         """async () => {
           let frames = 0;
           vexture.viewer.engine.addEventListener('frame', () => { frames += 1; });
-          await new Promise((done) => setTimeout(done, 600));
+          for (let i = 0; i < 30; i++) await new Promise((next) => requestAnimationFrame(next));
           return frames;
         }"""
     )
-    assert drawn == 0
+    assert frames == 0
 
 
 RIVALS = {
@@ -174,7 +175,9 @@ def test_rivals_stand_in_step_with_the_picture(
     show(page, center=center, zoom=zoom)
     page.get_by_role("combobox", name="Compare with").select_option(choice)
     page.locator(".half").get_by_text(label, exact=True).wait_for()
-    page.wait_for_timeout(500)
+    if rival == "svg":
+        page.locator(".browser-svg img").wait_for()
+    drawn(page)
     width, height = page.evaluate("[vexture.viewer.engine.size.width, vexture.viewer.engine.size.height]")
     screenshot(page)
     seen = pixels(page)[60 : height - 60, width // 2 + 30 : width]
@@ -213,7 +216,8 @@ def test_the_browsers_picture_stands_where_ours_does(
     ours = pixels(page)[60:500, 30:560]
     page.get_by_role("combobox", name="Compare with").select_option("Browser SVG")
     page.get_by_role("slider", name="Divider").press("Home")
-    page.wait_for_timeout(700)
+    page.locator(".browser-svg img").wait_for()
+    drawn(page)
     screenshot(page)
     theirs = pixels(page)[60:500, 30:560]
     assert np.ptp(ours) > 200
@@ -228,7 +232,7 @@ def test_raster_of_equal_bytes(
     side = int(np.sqrt(nbytes * 3 / 4))
     page.get_by_role("combobox", name="Compare with").select_option("Raster of equal bytes")
     page.locator(".half").get_by_text(f"Raster, {side} × {side}", exact=True).wait_for()
-    page.wait_for_timeout(300)
+    drawn(page)
     screenshot(page)
     width, height = page.evaluate("[vexture.viewer.engine.size.width, vexture.viewer.engine.size.height]")
     exact = pages["duck"].expected(view_matrix((0.5, 0.5), 1, (width, height)), (width, height))

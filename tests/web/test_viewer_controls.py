@@ -12,6 +12,7 @@ from browser import served
 from PIL import Image
 from viewed import SHAPES, Viewed, pixels, ready, show, value, write_pages
 from viewer_page import view_matrix
+from waiting import drawn
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +63,7 @@ def test_surfaces_turn(
     flat = pixels(page)[:, :500]
     page.get_by_role("combobox", name="Surface").select_option(surface)
     page.wait_for_function("vexture.viewer.engine.toUnit(288, 300) !== null")
-    page.wait_for_timeout(400)
+    drawn(page)
     screenshot(page)
     solid = pixels(page)[:, :500]
     assert np.abs(solid - flat).mean() > 5
@@ -79,7 +80,7 @@ def test_surfaces_turn(
     assert after["yaw"] != before["yaw"]
     assert after["pitch"] != before["pitch"]
     assert after["center"] == before["center"]
-    page.wait_for_timeout(300)
+    drawn(page)
     assert np.abs(pixels(page)[:, :500] - solid).mean() > 2
 
 
@@ -91,7 +92,7 @@ def test_theme_changes_paper_and_ink(
     seen = {}
     for _ in range(3):
         button.click()
-        page.wait_for_timeout(200)
+        drawn(page)
         theme = value(page)["theme"]
         seen[theme] = pixels(page)
         screenshot(page, theme)
@@ -117,7 +118,7 @@ def test_a_link_opens_the_same_view(pages: dict[str, Viewed], open_page: Callabl
     assert value(other) == value(page)
     for one in (page, other):
         one.evaluate("document.querySelector('.notes').textContent = ''")
-        one.wait_for_timeout(500)
+        drawn(one)
     assert np.abs(pixels(other)[:, :560] - pixels(page)[:, :560]).max() <= 1
 
 
@@ -132,15 +133,19 @@ def test_a_link_to_a_shape_that_is_gone_shows_another(pages: dict[str, Viewed], 
 LATE = """() => {
   const { renderer } = vexture.viewer.engine;
   const compile = renderer.compileAsync.bind(renderer);
-  let late = 800;
+  let release;
+  const others = new Promise((done) => { release = done; });
+  let calls = 0;
+  window.compiled = 0;
   renderer.compileAsync = async (...given) => {
-    const wait = late;
-    late = 0;
+    const isLate = calls++ === 0;
     await compile(...given);
-    await new Promise((done) => setTimeout(done, wait));
+    if (isLate) await others;
+    else setTimeout(release);
+    window.compiled += 1;
   };
 }"""
-"""The next program is compiled slowly, as by a busy driver; those after it are not."""
+"""The next program is compiled slowly, as by a busy driver: the one after it is in use before."""
 
 
 def test_a_surface_chosen_while_another_is_made(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
@@ -148,12 +153,13 @@ def test_a_surface_chosen_while_another_is_made(pages: dict[str, Viewed], open_p
     page.evaluate(LATE)
     for surface in ("Plane", "Sphere"):
         page.get_by_role("combobox", name="Surface").select_option(surface)
-    page.wait_for_timeout(2000)
+    page.wait_for_function("compiled === 2 && location.hash.includes('~sphere~')")
     anew = ready(open_page, page.evaluate("location.href"), (900, 600))
-    anew.wait_for_timeout(1500)
+    anew.wait_for_function("vexture.viewer.engine.toUnit(288, 300) !== null")
     page.get_by_role("application").press("ArrowLeft")  # it can still be turned
     anew.get_by_role("application").press("ArrowLeft")
-    page.wait_for_timeout(300)
+    drawn(page)
+    drawn(anew)
     assert np.abs(pixels(page) - pixels(anew))[:, :500].mean() < 0.1
 
 
@@ -225,9 +231,10 @@ def test_shapes_are_chosen_from_a_list(
     flag = page.get_by_role("list", name="Shapes").get_by_role("button", name="flag")
     flag.focus()
     page.keyboard.press("Enter")
+    page.wait_for_function("vexture.viewer.engine.document?.name === 'flag'")
     page.get_by_role("heading", name="flag", exact=True).wait_for()
     assert flag.get_attribute("aria-current") == "true"
-    page.wait_for_timeout(300)
+    drawn(page)
     screenshot(page)
     width, height = page.evaluate("[vexture.viewer.engine.size.width, vexture.viewer.engine.size.height]")
     expected = pages["flag"].expected(view_matrix((0.5, 0.5), 1, (width, height)), (width, height))
@@ -246,7 +253,7 @@ def test_a_lost_context_is_said_and_restored(pages: dict[str, Viewed], open_page
     page.get_by_role("status").filter(has_text="graphics driver").wait_for()
     page.evaluate("lose.restoreContext()")
     page.wait_for_function("document.querySelector('.notes').textContent === ''")
-    page.wait_for_timeout(1500)
+    drawn(page)
     assert np.abs(pixels(page)[:380, :500] - before).max() <= 1
 
 
@@ -275,13 +282,13 @@ def test_layout(
     page = context.new_page()
     page.goto(pages["both"].url)
     page.evaluate("vexture.viewer.ready")
-    page.wait_for_timeout(300)
+    drawn(page)
     screenshot(page)
     controls = page.get_by_role("button", name="Controls")
     assert controls.get_attribute("aria-expanded") == json.dumps(not narrow)
     controls.click()
     assert page.get_by_role("complementary", name="Controls").is_visible() == narrow
-    page.wait_for_timeout(300)
+    drawn(page)
     screenshot(page, "other")
     if narrow:
         for button in page.get_by_role("button").all():
