@@ -86,13 +86,13 @@ def test_wheel_zooms_towards_the_pointer(pages: dict[str, Viewed], open_page: Ca
     page = ready(open_page, pages["duck"].url + "?bare")
     page.mouse.move(400, 100)
     before = page.evaluate("vexture.viewer.engine.toUnit(400, 100)")
-    for _ in range(40):
-        page.mouse.wheel(0, -100)
+    for _ in range(16):
+        page.mouse.wheel(0, -220)
     page.wait_for_function("vexture.viewer.state.value.zoom > 1000")
     after = page.evaluate("vexture.viewer.engine.toUnit(400, 100)")
     assert after == pytest.approx(before, abs=1e-9)
-    for _ in range(200):
-        page.mouse.wheel(0, -200)
+    for _ in range(30):
+        page.mouse.wheel(0, -220)
     page.wait_for_function("vexture.viewer.state.value.zoom === 50000")
     page.mouse.dblclick(256, 256)
     assert value(page)["zoom"] == 50000
