@@ -128,7 +128,7 @@ def install(packages: list[str]) -> None:
     with Path(__file__).open() as own:
         fcntl.flock(
             own, fcntl.LOCK_EX
-        )  # the web is prepared beside the rest, and apt-get does not wait for its own kind
+        )  # two may be at it; apt-get waits for no other apt-get
         for arguments in (["update"], ["install", "--yes", "--no-install-recommends", *packages]):
             command = ["apt-get", "--quiet", "--option", "DPkg::Lock::Timeout=120", *arguments]
             outcome = subprocess.run(

@@ -8,11 +8,11 @@ import re
 
 import pytest
 
+from typed import typed
 from vexture.encoding.packed_texture import packed_from
 from vexture.encoding.png import read_png
 from vexture.errors import DeviceError
 from vexture.live.page import SCRIPT, STYLE, built, served_page
-from typed import typed
 from viewing import SHAPES
 
 LARGEST_DUCK = 900_000

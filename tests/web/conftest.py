@@ -5,10 +5,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from page_pool import PagePool
 
 from chromium import CHROMIUM, WEB
 from chromium import chromium as started_chromium
-from page_pool import PagePool
 
 SCREENSHOTS = Path(__file__).parent / "screenshots"
 
