@@ -126,9 +126,7 @@ def install(packages: list[str]) -> None:
     print(f"installing {' '.join(packages)} ...", flush=True)
     environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
     with Path(__file__).open() as own:
-        fcntl.flock(
-            own, fcntl.LOCK_EX
-        )  # two may be at it; apt-get waits for no other apt-get
+        fcntl.flock(own, fcntl.LOCK_EX)  # two may be at it; apt-get waits for no other apt-get
         for arguments in (["update"], ["install", "--yes", "--no-install-recommends", *packages]):
             command = ["apt-get", "--quiet", "--option", "DPkg::Lock::Timeout=120", *arguments]
             outcome = subprocess.run(
