@@ -68,7 +68,18 @@ def screenshot(request: pytest.FixtureRequest) -> Callable[..., Path]:
     return taken
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
+def viewer_pages(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Any]]:
+    """The viewer's pages with a silhouette, with a drawing in colours, with both."""
+    from browser import served
+    from viewed import write_pages
+
+    folder = tmp_path_factory.mktemp("viewer")
+    with served(folder) as url:
+        yield write_pages(folder, url)
+
+
+@pytest.fixture(scope="session")
 def overlay_pages(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, dict[str, Any]]]:
     """Address of the viewer's pages with one texture each, and the textures by name."""
     from browser import served
@@ -87,3 +98,11 @@ def show(overlay_pages: tuple[str, dict[str, Any]], open_page: Callable[..., Any
 
     address, textures = overlay_pages
     return lambda name: open_shape(open_page, address, textures[name])
+
+
+@pytest.fixture(scope="session")
+def mask_folder(made_once: Callable[..., Path]) -> Path:
+    """Textures, and the page of masked materials for each version of three.js."""
+    from mask_page import prepare
+
+    return made_once("mask", prepare)
