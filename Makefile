@@ -17,7 +17,7 @@ REPOSITORY ?=
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help demo docs report viewer test checks kernels test-web bench dist dist-check clean
+.PHONY: help demo docs report viewer test checks checks-web lint kernels test-web bench dist dist-check clean
 
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
@@ -110,20 +110,27 @@ docs: .venv/for-docs
 	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 	@echo 'Open site/index.html in a browser.'
 
-# the kernels are compiled on one core while the other checks; then the tests run side by side and find them there
-test: .venv/for-test
-	@$(BIN)/python tools/prepare.py system
-	@$(MAKE) --no-print-directory kernels & kernels=$$!; \
+# two cores are kept busy: the web is installed and checked beside Python's packages, lint and types; the kernels, which
+# the tests find then, are compiled beside those; the tests take from each other what is left
+test: .venv/made
+	@$(MAKE) --no-print-directory checks-web & web=$$!; \
 		$(MAKE) --no-print-directory checks; checked=$$?; \
-		wait $$kernels && exit $$checked
-	$(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4
+		wait $$web && exit $$checked
+	$(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4 --dist worksteal
 
 checks: .venv/for-test
+	@$(BIN)/python tools/prepare.py system
+	@$(MAKE) --no-print-directory kernels & kernels=$$!; \
+		$(MAKE) --no-print-directory lint; linted=$$?; \
+		wait $$kernels && exit $$linted
+
+lint: .venv/for-test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/python tools/make_web.py --check
-	$(MAKE) --no-print-directory docs
+
+checks-web:
 	@if $(MAKE) --no-print-directory web/node_modules/made; then \
 		$(MAKE) --no-print-directory test-web; \
 	else \

@@ -13,7 +13,7 @@ import httpx
 import pytest
 
 SHAPES = Path(__file__).parents[1] / "examples" / "shapes"
-VEXTURE = [sys.executable, "-c", "from vexture.cli import main; main(prog_name='vexture')"]
+VEXTURE = [sys.executable, "-c", "from vexture.cli.main import main; main(prog_name='vexture')"]
 PATIENCE = 60.0  # seconds, for a machine with much else to do
 
 

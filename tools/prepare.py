@@ -6,6 +6,7 @@ System packages are installed only by root, and only where there is apt-get; els
 the tests that are skipped without them. Whether something is there is found out by using it.
 """
 
+import fcntl
 import os
 import shutil
 import subprocess
@@ -124,14 +125,16 @@ def install(packages: list[str]) -> None:
     """Let apt-get install packages, or print why it did not; asks nothing."""
     print(f"installing {' '.join(packages)} ...", flush=True)
     environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-    for arguments in (["update"], ["install", "--yes", "--no-install-recommends", *packages]):
-        command = ["apt-get", "--quiet", "--option", "DPkg::Lock::Timeout=120", *arguments]
-        outcome = subprocess.run(
-            command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
-        )
-        if outcome.returncode:
-            *_, reason = outcome.stderr.strip().splitlines() or ["it says nothing"]
-            print(f"apt-get {arguments[0]} failed: {reason}", flush=True)
+    with Path(__file__).open() as own:
+        fcntl.flock(own, fcntl.LOCK_EX)  # two may be at it; apt-get waits for no other apt-get
+        for arguments in (["update"], ["install", "--yes", "--no-install-recommends", *packages]):
+            command = ["apt-get", "--quiet", "--option", "DPkg::Lock::Timeout=120", *arguments]
+            outcome = subprocess.run(
+                command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
+            )
+            if outcome.returncode:
+                *_, reason = outcome.stderr.strip().splitlines() or ["it says nothing"]
+                print(f"apt-get {arguments[0]} failed: {reason}", flush=True)
 
 
 def provide(needs: tuple[Need, ...]) -> bool:

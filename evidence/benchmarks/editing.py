@@ -36,7 +36,7 @@ COLOR: Final = "#e8b100"
 """Of the duck, in its file."""
 
 SIZE: Final = {"width": 900, "height": 600}
-VEXTURE: Final = [sys.executable, "-c", "from vexture.cli import main; main(prog_name='vexture')"]
+VEXTURE: Final = [sys.executable, "-c", "from vexture.cli.main import main; main(prog_name='vexture')"]
 PATIENCE: Final = 20_000  # ms
 
 WATCHED: Final = """

@@ -27,7 +27,7 @@ __all__ = ["VIEWERS", "pushed"]
 
 VIEWERS: Final = 50
 SIZE: Final = {"width": 900, "height": 600}
-VEXTURE: Final = [sys.executable, "-c", "from vexture.cli import main; main(prog_name='vexture')"]
+VEXTURE: Final = [sys.executable, "-c", "from vexture.cli.main import main; main(prog_name='vexture')"]
 TOKEN: Final = "token-of-the-benchmark"
 PATIENCE: Final = 30.0  # s
 PAUSE: Final = 2.5

@@ -22,7 +22,7 @@ from vexture_evidence.measures.machine import machine_facts, machine_line
 __all__ = ["main"]
 
 TOKEN = "token-of-the-benchmark"
-SERVE = [sys.executable, "-c", "from vexture.cli import main; main()", "serve"]
+SERVE = [sys.executable, "-c", "from vexture.cli.main import main; main()", "serve"]
 DRAWING = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><path d="M2 2h6v{}h-6z"/></svg>'
 
 GOALS = {"event_ms_p95": 100.0, "idle_rss_mb": 200.0}

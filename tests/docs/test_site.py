@@ -19,15 +19,6 @@ pytest.importorskip("mkdocs", reason="MkDocs is not installed (pip install '.[do
 LOADING = {"audio", "embed", "iframe", "img", "link", "script", "source", "video"}
 
 
-@pytest.fixture(scope="module")
-def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The documentation, built."""
-    target = tmp_path_factory.mktemp("docs") / "site"
-    outcome = build_site(ROOT, target)
-    assert outcome.returncode == 0, outcome.stderr + outcome.stdout
-    return target
-
-
 class Loaded(HTMLParser):
     """Addresses that a page loads, all that it links to, and the names of its places."""
 
@@ -140,21 +131,36 @@ BREAKS = {
     "home": ("ARCHITECTURE.md", "[FORMAT.md](FORMAT.md)", "[FORMAT.md](FORM.md)", "FORM.md"),
     "docstring": ("src/vexture/pipeline.py", "    capacity : int, opt", "    capacities : int, opt", "capacities"),
 }
+FATAL = ("object", "home")  # of which the build does not even come to its end
 
 
-@pytest.mark.parametrize("case", BREAKS)
-def test_what_is_broken_fails_the_build(case: str, tmp_path: Path) -> None:
-    copied = tmp_path / "copied"
+def built_broken(folder: Path, *cases: str) -> list[str]:
+    """Warnings and errors of the build of a copy in which something is broken; it fails."""
+    copied = folder / "copied"
     for name in ("src", "docs", "tools", "web/README.md", "evidence", "examples/shapes", "mkdocs.yml"):
         target = copied / name
         target.parent.mkdir(parents=True, exist_ok=True)
         (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, target)
     for path in ROOT.glob("*.md"):
         shutil.copy(path, copied)
-    name, good, bad, said = BREAKS[case]
-    text = (copied / name).read_text(encoding="utf-8")
-    assert good in text
-    (copied / name).write_text(text.replace(good, bad, 1), encoding="utf-8")
-    outcome = build_site(copied, tmp_path / "site")
+    for case in cases:
+        name, good, bad, _ = BREAKS[case]
+        text = (copied / name).read_text(encoding="utf-8")
+        assert good in text
+        (copied / name).write_text(text.replace(good, bad, 1), encoding="utf-8")
+    outcome = build_site(copied, folder / "site")
     assert outcome.returncode != 0
-    assert said in outcome.stderr + outcome.stdout
+    return re.findall(r"^(?:WARNING|ERROR|Aborted) .*", outcome.stderr + outcome.stdout, re.M)
+
+
+def test_each_warning_fails_the_build(tmp_path: Path) -> None:
+    cases = [case for case in BREAKS if case not in FATAL]
+    *complaints, last = built_broken(tmp_path, *cases)
+    assert last == f"Aborted with {len(cases)} warnings in strict mode!"
+    for case in cases:
+        assert [BREAKS[case][-1] in complaint for complaint in complaints].count(True) == 1, case
+
+
+@pytest.mark.parametrize("case", FATAL)
+def test_what_cannot_be_built_ends_the_build(case: str, tmp_path: Path) -> None:
+    assert any(BREAKS[case][-1] in complaint for complaint in built_broken(tmp_path, case))

@@ -170,7 +170,7 @@ def test_the_document_as_text() -> None:
 
 def test_one_shape_of_many() -> None:
     texture = painted()
-    assert texture.to_svg("front") == texture.to_svg(1)
+    assert texture.to_svg("front") == texture.to_svg(1) != texture.to_svg(0)
     assert texture.to_svg().count("<path ") == 3
     assert texture.to_svg("front").count("<path ") == 1
 

@@ -39,7 +39,7 @@ def shown(axes):
 
 @pytest.mark.parametrize("name", ["edges", "plane", "resolutions", "solutions", "tolerances"])
 def test_examples_in_the_docstrings(name):
-    found = doctest.testmod(importlib.import_module(f"vexture.figures.{name}"))
+    found = doctest.testmod(importlib.import_module(f"vexture_evidence.figures.{name}"))
     assert found.attempted
     assert not found.failed
 

@@ -8,7 +8,9 @@ from pathlib import Path
 
 import netCDF4
 import numpy as np
-from server import COMMAND, TOKEN, Server, serving
+from server import COMMAND, SECONDS, TOKEN, Server, serving
+
+from typed import typed
 
 BOUNDS = (500000.0, 4000000.0, 504000.0, 4002000.0)
 CRS = "EPSG:32610"
@@ -91,7 +93,7 @@ def series(path, edges, times=True, reverse=False):
 
 
 def flood(*arguments):
-    return subprocess.run([*COMMAND, "flood", *map(str, arguments)], capture_output=True, text=True, check=False)
+    return typed("flood", *arguments)
 
 
 def scene_of(page):
@@ -116,11 +118,12 @@ class FloodServer(Server):
 
     def put(self, name, body, token=TOKEN):
         """Status and JSON of an upload, as soon as the server takes one: many tests share it."""
-        while True:
+        for _ in range(10 * SECONDS):
             status, told = super().put(name, body, token)
             if status != TOO_MANY:
-                return status, told
+                break
             time.sleep(0.1)
+        return status, told
 
 
 def flooding(folder, *options, token=True):

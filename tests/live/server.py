@@ -8,7 +8,7 @@ import time
 from contextlib import contextmanager
 from urllib.parse import urlsplit
 
-COMMAND = [sys.executable, "-c", "from vexture.cli import main; main()"]
+COMMAND = [sys.executable, "-c", "from vexture.cli.main import main; main()"]
 TOKEN = "a-token-of-more-than-16"
 SECONDS = 120
 

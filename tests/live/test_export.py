@@ -5,15 +5,15 @@ import hashlib
 import html
 import json
 import re
-import subprocess
 
 import pytest
 
+from typed import typed
 from vexture.errors import DeviceError
 from vexture.live.page import SCRIPT, STYLE, built, served_page
 from vexture.texture.texture import packed_from
 from vexture.thesis.png import read_png
-from viewing import SHAPES, VEXTURE
+from viewing import SHAPES
 
 LARGEST_DUCK = 900_000
 
@@ -27,7 +27,7 @@ def page_is_built():
 
 
 def export(*arguments):
-    return subprocess.run([*VEXTURE, "export", *map(str, arguments)], capture_output=True, text=True, check=False)
+    return typed("export", *arguments)
 
 
 def scene(text):

@@ -1,6 +1,7 @@
 """Sections on conversions, drawings and structure: measured figures beside printed ones, for any drawing."""
 
 import pytest
+from lxml import html
 
 from vexture.pipeline import convert
 from vexture_evidence.measures.printed import TABLE_5_1
@@ -51,7 +52,10 @@ def test_own_drawings_make_whole_sections_with_nothing_printed(own):
     names = [picture.name for picture in pictures_of(sections)]
     assert len(names) == len(set(names))
     assert "printed" not in json_text({}, sections)
-    assert page("Own", {}, [], sections)
+    made = html.fromstring(page("Own", {}, [], sections))
+    assert [heading.text for heading in made.iter("h2")] == [section.title for section in sections]
+    assert len(made.xpath("//tbody/tr")) == sum(len(table.rows) for part in sections for table in tables(part).values())
+    assert made.xpath("//img/@src") == [f"figures/{name}.png" for name in names]
 
 
 def test_table_5_1_has_the_thesis_beside_all_our_ways(examples):

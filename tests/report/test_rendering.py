@@ -1,5 +1,6 @@
 """The report's part on renderings: that it is whole, that its captions say what was measured, without a GPU too."""
 
+import json
 import re
 
 import pytest
@@ -40,7 +41,14 @@ def tables(part):
 def test_every_figure_of_the_thesis_is_there(made):
     captions = [picture.caption for picture in pictures_of([made])]
     assert [re.match(r"Thesis ([\d., ]+)\. ", caption)[1] for caption in captions] == FIGURES
-    assert json_text({}, [made])
+    facts = json.loads(json_text({}, [made]))[made.anchor]
+    assert facts["title"] == made.title
+    parts = {part.anchor: part for part in made.items}
+    assert parts.keys() <= facts.keys()
+    for name, part in parts.items():
+        assert {table: facts[name][table]["head"] for table in tables(part)} == {
+            table.name: list(table.head) for table in tables(part).values()
+        }
 
 
 def test_captions_and_tables_say_what_was_measured(made, material):

@@ -12,7 +12,7 @@ import vexture
 from vexture_evidence.report.section import Material
 
 SHAPES = Path(__file__).parents[2] / "examples" / "shapes"
-RUN = "import sys; from vexture.cli import main; main()"
+RUN = "import sys; from vexture.cli.main import main; main()"
 
 
 def report(*arguments, before=""):
@@ -48,9 +48,7 @@ def test_files_of_one_name_are_told_apart(tmp_path):
 def test_missing_matplotlib_is_one_line(tmp_path):
     outcome = report("-o", tmp_path / "out", before="import sys; sys.modules['matplotlib'] = None; ")
     assert outcome.returncode == 1
-    assert outcome.stderr.splitlines() == [
-        "vexture: figures need the package matplotlib: pip install vexture-evidence"
-    ]
+    assert outcome.stderr.splitlines() == ["vexture: figures need the package matplotlib: pip install vexture-evidence"]
     assert not (tmp_path / "out").exists()
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from page_pool import PagePool
 
 from chromium import CHROMIUM, WEB
 from chromium import chromium as started_chromium
@@ -24,23 +25,23 @@ def chromium() -> Iterator[Any]:
         yield browser
 
 
+@pytest.fixture(scope="session")
+def page_pool(chromium: Any) -> PagePool:
+    """Pages that other tests have used before."""
+    return PagePool(chromium)
+
+
 @pytest.fixture
-def open_page(chromium: Any, request: pytest.FixtureRequest) -> Iterator[Callable[..., Any]]:
+def open_page(page_pool: PagePool) -> Iterator[Callable[..., Any]]:
     """Open pages by their address; errors of their scripts fail the test, unless `errors=True` expects some.
 
-    ``page.errors`` is the list of them.
+    ``page.errors`` is the list of them. Further options are those of the page's context.
     """
-    contexts, checked = [], []
+    taken, checked = [], []
 
     def opened(url: str, size: tuple[int, int] = (512, 512), *, errors: bool = False, **options: Any) -> Any:
-        context = chromium.new_context(
-            viewport={"width": size[0], "height": size[1]}, device_scale_factor=1, color_scheme="light", **options
-        )
-        contexts.append(context)
-        page = context.new_page()
-        page.errors = []
-        page.on("pageerror", lambda error: page.errors.append(str(error)))
-        page.on("console", lambda message: page.errors.append(message.text) if message.type == "error" else None)
+        page = page_pool.take(size, options)
+        taken.append(page)
         if not errors:
             checked.append(page)
         page.goto(url)
@@ -48,8 +49,8 @@ def open_page(chromium: Any, request: pytest.FixtureRequest) -> Iterator[Callabl
 
     yield opened
     found = [error for page in checked for error in page.errors]
-    for context in contexts:
-        context.close()
+    for page in taken:
+        page_pool.give_back(page)
     assert found == []
 
 
@@ -67,7 +68,18 @@ def screenshot(request: pytest.FixtureRequest) -> Callable[..., Path]:
     return taken
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
+def viewer_pages(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Any]]:
+    """The viewer's pages with a silhouette, with a drawing in colours, with both."""
+    from browser import served
+    from viewed import write_pages
+
+    folder = tmp_path_factory.mktemp("viewer")
+    with served(folder) as url:
+        yield write_pages(folder, url)
+
+
+@pytest.fixture(scope="session")
 def overlay_pages(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, dict[str, Any]]]:
     """Address of the viewer's pages with one texture each, and the textures by name."""
     from browser import served
@@ -86,3 +98,11 @@ def show(overlay_pages: tuple[str, dict[str, Any]], open_page: Callable[..., Any
 
     address, textures = overlay_pages
     return lambda name: open_shape(open_page, address, textures[name])
+
+
+@pytest.fixture(scope="session")
+def mask_folder(made_once: Callable[..., Path]) -> Path:
+    """Textures, and the page of masked materials for each version of three.js."""
+    from mask_page import prepare
+
+    return made_once("mask", prepare)

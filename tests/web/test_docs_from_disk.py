@@ -6,17 +6,7 @@ from typing import Any
 
 import pytest
 
-from guides import ROOT, build_site
-
 pytest.importorskip("mkdocs", reason="MkDocs is not installed (pip install '.[docs]')")
-
-
-@pytest.fixture(scope="module")
-def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The documentation, built."""
-    target = tmp_path_factory.mktemp("disk") / "site"
-    assert build_site(ROOT, target).returncode == 0
-    return target
 
 
 @pytest.mark.parametrize("width", [1280, 390])

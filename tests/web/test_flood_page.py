@@ -11,6 +11,7 @@ from browser import served
 from numpy.typing import NDArray
 from PIL import Image
 from playwright.sync_api import Page, expect
+from waiting import drawn
 
 import flood_page
 
@@ -257,9 +258,10 @@ def test_views_by_key_and_flight(opened: Callable[..., Page]) -> None:
     page.mouse.down()
     page.mouse.up()
     expect(page.get_by_role("button", name="Sky")).to_have_attribute("aria-pressed", "false")
-    page.wait_for_timeout(300)
+    drawn(page)
     stands = page.evaluate("vexture.flood.camera.position.y")
-    page.wait_for_timeout(300)
+    for _ in range(5):
+        drawn(page)
     assert page.evaluate("vexture.flood.camera.position.y") == pytest.approx(stands, abs=1.0)
 
 

@@ -12,6 +12,8 @@ sys.path[:0] = [str(Path(__file__).parents[1] / folder) for folder in ("flood", 
 
 from floods import BOUNDS, flood, flooding, sea  # noqa: E402  # of the folders above
 
+from viewing import until  # noqa: E402
+
 PLACE = ["--bounds", ",".join(map(str, BOUNDS)), "--amplitude", "0"]
 
 
@@ -56,11 +58,10 @@ def test_what_is_pushed_is_seen(open_page, screenshot, tmp_path):
         settle(page)
         screenshot(page, "before")
         before = white(page)
+        version = page.evaluate("vexture.flood.player.step.manifest.version")
         assert server.put("flood", sea(tmp_path / "more.geojson", 0.6).read_bytes())[0] == 200
-        for _ in range(300):
-            page.wait_for_timeout(100)
-            page.evaluate("() => window.vexture.flood.render()")
-            if (after := white(page)) != before:
-                break
+        until(lambda: page.evaluate("vexture.flood.player.step.manifest.version") != version)
+        page.evaluate("() => window.vexture.flood.render()")
+        after = white(page)
         screenshot(page, "after")
         assert 1.8 * before < after < 2.3 * before

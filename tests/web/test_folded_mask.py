@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from browser import served
-from mask_page import THREES, decode, drawing, prepare
+from mask_page import THREES, decode, drawing
 
 import vexture
 from folded import Numbers, errors
@@ -33,9 +33,10 @@ def folds() -> dict[str, Fold]:
 
 
 @pytest.fixture(scope="module")
-def address(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def address(chromium: Any, mask_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     folder = tmp_path_factory.mktemp("fold")
-    prepare(folder)
+    for file in mask_folder.iterdir():
+        (folder / file.name).symlink_to(file)
     for name, fold in folds().items():
         (folder / f"{name}.fold.ktx2").write_bytes(fold.to_ktx2())
     with served(folder) as url:

@@ -16,6 +16,7 @@ from browser import ROOT
 from PIL import Image
 
 from guides import Reader, blocks_of, free_port
+from viewing import PATIENCE
 
 BUILT = shutil.ignore_patterns("node_modules", "__pycache__", "*.egg-info", "built", "types", "*.tgz")
 PAPER, DUCK, BLUE, RED, SUN = (0xF4F1E8, 0xE8B100, 0x0066CC, 0xB71C1C, 0xFFD633)
@@ -42,10 +43,11 @@ def _share(pixels: np.ndarray, color: int) -> float:
 
 def _await(page: Any, check: Callable[[np.ndarray], None]) -> None:
     """Look until the page shows what it must: files and shaders take their time."""
-    for _ in range(60):
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
         with contextlib.suppress(AssertionError):
             return check(_pixels(page))
-        page.wait_for_timeout(500)
+        page.wait_for_timeout(100)
     return check(_pixels(page))
 
 

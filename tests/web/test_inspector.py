@@ -71,12 +71,10 @@ def test_the_inspector_says_what_numpy_solves(
             shown.look((float(u), float(v)), zoom)
         x, y = shown.point(u, v)
         page.mouse.move(round(x) + 9, round(y) - 13)
-        page.wait_for_timeout(400)
-        terms, rows, verdict = read_inspector(page)
-        u, v = float(terms["x"]), float(terms["y"])
         matrix = shown.matrix()
         pointed = matrix[:2] @ [round(x) + 9 - shown.box["x"], round(y) - 13 - shown.box["y"], 1.0]
-        assert np.abs(pointed - (u, v)).max() <= 1e-8
+        written_of(page, pointed)
+        terms, rows, verdict = read_inspector(page)
         depth, left, low, coverage, winding, curves = leaf_at(texture, *pointed)
         assert terms["Depth"] == str(depth)
         assert terms["Side"] == f"1/{2**depth}"
@@ -94,8 +92,19 @@ def test_the_inspector_says_what_numpy_solves(
     assert seen >= 3
     screenshot(page)
     page.mouse.move(shown.box["x"] + shown.box["width"] + 40, 20)  # to the panel, where the table is read
-    page.wait_for_timeout(400)
+    page.wait_for_timeout(400)  # in which another text would have been written
     assert read_inspector(page)[0] == terms
+
+
+def written_of(page: Any, point: NDArray[np.float64]) -> None:
+    """Wait until the panel tells of a point: it does so a little after the point, all at once."""
+    page.wait_for_function(
+        """(point) => {
+          const [x, y] = document.querySelectorAll('.inspected dd');
+          return x && Math.max(Math.abs(x.textContent - point[0]), Math.abs(y.textContent - point[1])) <= 1e-8;
+        }""",
+        arg=[float(part) for part in point],
+    )
 
 
 def check_drawing(shown: Shown, cell: tuple[float, float, float], curves: NDArray[np.float64]) -> None:
@@ -124,10 +133,9 @@ def test_keys_inspect_the_middle_of_the_picture(show: Callable[..., Shown]) -> N
     shown.press("Inspect cell")
     shown.page.locator(".stage").focus()
     shown.page.keyboard.press("ArrowLeft")
-    shown.page.wait_for_timeout(500)
+    shown.page.wait_for_function("vexture.viewer.state.value.center[0] !== 0.5")
     center = shown.page.evaluate("vexture.viewer.state.value.center")
-    terms, _, _ = read_inspector(shown.page)
-    assert [float(terms["x"]), float(terms["y"])] == pytest.approx(center, abs=1e-8)
+    written_of(shown.page, center)
     assert center != [0.5, 0.5]
     assert shown.page.get_by_role("region", name="Cell").locator("[aria-live=polite]").count() == 1
 

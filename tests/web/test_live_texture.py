@@ -8,6 +8,8 @@ import pytest
 from browser import WEB, bundle
 from live_server import LiveServer, running
 
+from viewing import until
+
 DUCK = (WEB / "test" / "fixtures" / "duck.ktx2").read_bytes()
 BADGE = (WEB / "test" / "fixtures" / "badge.ktx2").read_bytes()
 
@@ -43,10 +45,15 @@ def _opened(open_page: Callable[..., Any], server: LiveServer, interval: int, *,
     return page
 
 
-def _await_stream(page: Any, server: LiveServer, count: int = 1) -> None:
+def _await_stream(server: LiveServer) -> None:
     """Wait until the page listens."""
-    while len(server.streams) < count:
-        page.wait_for_timeout(20)
+    until(lambda: len(server.streams) >= 1)
+
+
+def _closed(server: LiveServer) -> bool:
+    """Whether nobody listens any more: a server learns it when it writes."""
+    server.tell("ping", {})
+    return server.streams_closed > 0
 
 
 def _events(page: Any) -> list[str]:
@@ -55,7 +62,7 @@ def _events(page: Any) -> list[str]:
 
 def test_events_bring_updates_at_once(open_page: Callable[..., Any], server: LiveServer) -> None:
     page = _opened(open_page, server, NEVER)
-    _await_stream(page, server)
+    _await_stream(server)
     page.evaluate(
         "texture.addEventListener('change', () => { window.seen = texture.textures.texels.image.data.length })"
     )
@@ -75,7 +82,7 @@ def test_events_bring_updates_at_once(open_page: Callable[..., Any], server: Liv
 def test_many_textures_share_one_stream(open_page: Callable[..., Any], server: LiveServer) -> None:
     page = _opened(open_page, server, NEVER)  # browsers open six connections to one server
     page.evaluate("(async () => { window.more = []; for (let i = 0; i < 9; i++) more.push(await follow()); })()")
-    _await_stream(page, server)
+    _await_stream(server)
     server.publish("2", BADGE)
     page.wait_for_function("[texture, ...more].every(({ name }) => name === 'badge')")
     assert len(server.streams) == 1
@@ -84,9 +91,7 @@ def test_many_textures_share_one_stream(open_page: Callable[..., Any], server: L
     page.wait_for_function("more.slice(5).every(({ name }) => name === 'duck')")
     assert page.evaluate("texture.name") == "badge"
     page.evaluate("more.forEach((one) => one.close())")
-    while not server.streams_closed:
-        server.tell("ping", {})  # a server learns that nobody listens when it writes
-        page.wait_for_timeout(50)
+    until(lambda: _closed(server))
 
 
 SEEN = """(seen) => {
@@ -97,13 +102,11 @@ SEEN = """(seen) => {
 
 def test_a_page_that_nobody_sees_takes_no_connection(open_page: Callable[..., Any], server: LiveServer) -> None:
     page = _opened(open_page, server, NEVER)
-    _await_stream(page, server)
+    _await_stream(server)
     page.evaluate(SEEN, False)  # Playwright shows all of its pages, so that this one has to be told
-    while not server.streams_closed:
-        server.tell("ping", {})
-        page.wait_for_timeout(50)
+    until(lambda: _closed(server))
     server.publish("2", BADGE)
-    page.wait_for_timeout(300)
+    page.wait_for_timeout(300)  # in which an event would have come
     assert page.evaluate("texture.name") == "duck"
     page.evaluate(SEEN, True)
     page.wait_for_function("texture.name === 'badge'")
@@ -115,13 +118,13 @@ def test_an_update_between_manifest_and_stream_is_not_missed(open_page: Callable
     server.version, server.files["/files/2.ktx2"] = "2", BADGE  # nobody is told
     server.has_events = True
     page.wait_for_function("texture.name === 'badge'")
-    _await_stream(page, server)
+    _await_stream(server)
     assert page.evaluate("texture.online")
 
 
 def test_a_broken_update_leaves_the_last_good_one(open_page: Callable[..., Any], server: LiveServer) -> None:
     page = _opened(open_page, server, NEVER)
-    _await_stream(page, server)
+    _await_stream(server)
     server.publish("2", DUCK[:500])
     page.wait_for_function("events.length === 1")
     assert page.evaluate("events[0]").startswith(f"note: {server.url}/files/2.ktx2: bytes ")
@@ -137,15 +140,14 @@ def test_without_events_it_is_polled(open_page: Callable[..., Any], server: Live
     page.wait_for_function("texture.name === 'badge'")
     assert _events(page) == ["change"]
     assert ("/events", 404) in server.requests
-    while ("/shapes/shape", 304) not in server.requests:
-        page.wait_for_timeout(20)
+    until(lambda: ("/shapes/shape", 304) in server.requests)
 
 
 def test_a_server_that_goes_and_comes_back(open_page: Callable[..., Any], files: dict[str, bytes]) -> None:
     with running(LiveServer(dict(files))) as first:
         first.publish("1", DUCK)
         page = _opened(open_page, first, NEVER, errors=True)
-        _await_stream(page, first)
+        _await_stream(first)
         port = first.server_port
         first.stop()
     page.wait_for_function("events.length === 1")
@@ -155,19 +157,18 @@ def test_a_server_that_goes_and_comes_back(open_page: Callable[..., Any], files:
         second.publish("2", BADGE)
         page.wait_for_function("texture.online && texture.name === 'badge'")
         assert sorted(_events(page)) == ["change", "offline:", "online"]
-        _await_stream(page, second)  # events come again
+        _await_stream(second)  # events come again
         second.publish("3", DUCK)
         page.wait_for_function("texture.name === 'duck'")
 
 
 def test_close_ends_the_stream(open_page: Callable[..., Any], server: LiveServer) -> None:
     page = _opened(open_page, server, OFTEN)
-    _await_stream(page, server)
+    _await_stream(server)
     page.evaluate("texture.close()")
-    while not server.streams_closed:
-        page.wait_for_timeout(20)
+    until(lambda: server.streams_closed)
     before = len(server.requests)
     server.publish("2", BADGE)
-    page.wait_for_timeout(10 * OFTEN)
+    page.wait_for_timeout(10 * OFTEN)  # in which it would have asked
     assert (len(server.requests), len(server.streams)) == (before, 1)
     assert page.evaluate("[texture.name, events.length, texture.closed]") == ["duck", 0, True]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from browser import served
-from mask_page import ATLAS, THREES, decode, distance, draw, drawing, encoded, exact, linear, prepare, tiled
+from mask_page import ATLAS, THREES, decode, distance, draw, drawing, encoded, exact, linear, tiled
 
 import vexture
 
@@ -28,10 +28,8 @@ MATERIALS = {
 
 
 @pytest.fixture(scope="module")
-def address(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    folder = tmp_path_factory.mktemp("mask")
-    prepare(folder)
-    with served(folder) as url:
+def address(chromium: Any, mask_folder: Path) -> Iterator[str]:
+    with served(mask_folder) as url:
         yield url
 
 

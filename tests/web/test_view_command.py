@@ -8,6 +8,7 @@ import httpx
 import numpy as np
 import pytest
 from PIL import Image
+from waiting import drawn
 
 from viewing import PATIENCE, SHAPES, VEXTURE, until, viewing
 
@@ -102,12 +103,10 @@ def test_no_picture_is_blank_between_two_shapes(tmp_path, logo, open_page):
         page = ready(open_page(f"{running.url}?bare", SIZE))
         until(lambda: shown(page, RED, corner=True))
         page.evaluate(WATCH)
-        for content in (disc(BLUE), square(RED), disc(BLUE)):
-            count = page.evaluate("middles.length")
-            logo.write_bytes(content)
-            until(lambda count=count: page.evaluate("middles.length") > count)
-            page.wait_for_timeout(300)
-        until(lambda: shown(page, BLUE, corner=False))
+        for content, color in ((disc, BLUE), (square, RED), (disc, BLUE)):
+            logo.write_bytes(content(color))
+            until(lambda color=color, corner=content is square: shown(page, color, corner=corner))
+        drawn(page)
         assert set(page.evaluate("middles")) == {",".join(map(str, color)) for color in (RED, BLUE)}
 
 

@@ -1,34 +1,30 @@
 """The viewer's page: its pixels against exact coverage, and how it moves."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from browser import served
-from viewed import PRECISION, SIZE, Viewed, pixels, point_on_outline, ready, show, value, write_pages
+from viewed import PRECISION, SIZE, Viewed, pixels, point_on_outline, ready, show, value
 from viewer_page import FIT, view_matrix
+from waiting import drawn, quiet
 
 import vexture
 from vexture.live.documents import VIEWER_SETTINGS, shape_of
 from vexture.live.page import exported_page
 
 
-@pytest.fixture(scope="module")
-def pages(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Viewed]]:
-    """Pages with a silhouette, with a drawing in colours, with both."""
-    folder = tmp_path_factory.mktemp("viewer")
-    with served(folder) as url:
-        yield write_pages(folder, url)
-
-
 @pytest.mark.parametrize("zoom", [1, 100, 1000, 10000])
 @pytest.mark.parametrize("name", ["duck", "flag"])
 def test_pixels_are_those_of_exact_coverage(
-    pages: dict[str, Viewed], open_page: Callable[..., Any], screenshot: Callable[..., Path], name: str, zoom: int
+    viewer_pages: dict[str, Viewed],
+    open_page: Callable[..., Any],
+    screenshot: Callable[..., Path],
+    name: str,
+    zoom: int,
 ) -> None:
-    viewed = pages[name]
+    viewed = viewer_pages[name]
     page = ready(open_page, viewed.url + "?bare")
     center = (0.5, 0.5) if zoom == 1 else point_on_outline(viewed.drawing)
     show(page, center=center, zoom=zoom)
@@ -52,19 +48,19 @@ def test_pixels_are_those_of_exact_coverage(
         assert largest <= 4 * contrast / 255
 
 
-def test_pixels_of_a_fine_screen(pages: dict[str, Viewed], chromium: Any) -> None:
+def test_pixels_of_a_fine_screen(viewer_pages: dict[str, Viewed], chromium: Any) -> None:
     context = chromium.new_context(viewport={"width": 256, "height": 256}, device_scale_factor=2, color_scheme="light")
     page = context.new_page()
-    page.goto(pages["duck"].url + "?bare")
+    page.goto(viewer_pages["duck"].url + "?bare")
     page.evaluate("vexture.viewer.ready")
-    error = pixels(page) - pages["duck"].expected(view_matrix((0.5, 0.5), 1, SIZE))
+    error = pixels(page) - viewer_pages["duck"].expected(view_matrix((0.5, 0.5), 1, SIZE))
     context.close()
     assert np.abs(error).mean() <= 0.6
     assert np.abs(error).max() <= 4
 
 
-def test_keys_move_and_zoom(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
-    page = ready(open_page, pages["duck"].url, (1000, 700))
+def test_keys_move_and_zoom(viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, viewer_pages["duck"].url, (1000, 700))
     stage = page.get_by_role("application")
     stage.focus()
     before = value(page)
@@ -81,24 +77,24 @@ def test_keys_move_and_zoom(pages: dict[str, Viewed], open_page: Callable[..., A
     assert value(page) == before
 
 
-def test_wheel_zooms_towards_the_pointer(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
-    page = ready(open_page, pages["duck"].url + "?bare")
+def test_wheel_zooms_towards_the_pointer(viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, viewer_pages["duck"].url + "?bare")
     page.mouse.move(400, 100)
     before = page.evaluate("vexture.viewer.engine.toUnit(400, 100)")
-    for _ in range(40):
-        page.mouse.wheel(0, -100)
+    for _ in range(16):
+        page.mouse.wheel(0, -220)
     page.wait_for_function("vexture.viewer.state.value.zoom > 1000")
     after = page.evaluate("vexture.viewer.engine.toUnit(400, 100)")
     assert after == pytest.approx(before, abs=1e-9)
-    for _ in range(200):
-        page.mouse.wheel(0, -200)
+    for _ in range(30):
+        page.mouse.wheel(0, -220)
     page.wait_for_function("vexture.viewer.state.value.zoom === 50000")
     page.mouse.dblclick(256, 256)
     assert value(page)["zoom"] == 50000
 
 
-def test_dragging_takes_the_picture_along(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
-    page = ready(open_page, pages["duck"].url + "?bare")
+def test_dragging_takes_the_picture_along(viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, viewer_pages["duck"].url + "?bare")
     show(page, zoom=3)
     point = page.evaluate("vexture.viewer.engine.toUnit(200, 200)")
     page.mouse.move(200, 200)
@@ -110,8 +106,8 @@ def test_dragging_takes_the_picture_along(pages: dict[str, Viewed], open_page: C
     assert page.evaluate("vexture.viewer.engine.toUnit(260, 170)") == pytest.approx(point, abs=1e-12)
 
 
-def test_two_fingers_zoom(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
-    page = ready(open_page, pages["duck"].url + "?bare", has_touch=True)
+def test_two_fingers_zoom(viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, viewer_pages["duck"].url + "?bare", has_touch=True)
     touch = page.context.new_cdp_session(page)
 
     def fingers(kind: str, *places: tuple[int, int]) -> None:
@@ -127,8 +123,8 @@ def test_two_fingers_zoom(pages: dict[str, Viewed], open_page: Callable[..., Any
     assert page.evaluate("vexture.viewer.engine.toUnit(256, 256)") == pytest.approx(held, abs=0.01)
 
 
-def test_buttons_zoom_and_reset(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
-    page = ready(open_page, pages["duck"].url, (1000, 700))
+def test_buttons_zoom_and_reset(viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, viewer_pages["duck"].url, (1000, 700))
     page.get_by_role("button", name="Zoom in").click()
     assert value(page)["zoom"] == 1.5
     page.get_by_role("button", name="Zoom out").click(click_count=1)
@@ -138,18 +134,18 @@ def test_buttons_zoom_and_reset(pages: dict[str, Viewed], open_page: Callable[..
     assert value(page)["zoom"] == 1
 
 
-def test_nothing_is_drawn_while_nothing_happens(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
-    page = ready(open_page, pages["duck"].url, (1000, 700))
-    page.wait_for_timeout(1500)
-    drawn = page.evaluate(
+def test_nothing_is_drawn_while_nothing_happens(viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, viewer_pages["duck"].url, (1000, 700))
+    quiet(page, 10)
+    frames = page.evaluate(
         """async () => {
           let frames = 0;
           vexture.viewer.engine.addEventListener('frame', () => { frames += 1; });
-          await new Promise((done) => setTimeout(done, 600));
+          for (let i = 0; i < 30; i++) await new Promise((next) => requestAnimationFrame(next));
           return frames;
         }"""
     )
-    assert drawn == 0
+    assert frames == 0
 
 
 RIVALS = {
@@ -161,26 +157,28 @@ RIVALS = {
 @pytest.mark.parametrize("zoom", [1, 40])
 @pytest.mark.parametrize("rival", RIVALS)
 def test_rivals_stand_in_step_with_the_picture(
-    pages: dict[str, Viewed],
+    viewer_pages: dict[str, Viewed],
     open_page: Callable[..., Any],
     screenshot: Callable[..., Path],
     rival: str,
     zoom: int,
 ) -> None:
-    viewed = pages["duck"]
+    viewed = viewer_pages["duck"]
     choice, label, limit = RIVALS[rival]
     page = ready(open_page, viewed.url, (900, 600))
     center = (0.5, 0.5) if zoom == 1 else point_on_outline(viewed.drawing)
     show(page, center=center, zoom=zoom)
     page.get_by_role("combobox", name="Compare with").select_option(choice)
     page.locator(".half").get_by_text(label, exact=True).wait_for()
-    page.wait_for_timeout(500)
+    if rival == "svg":
+        page.locator(".browser-svg img").wait_for()
+    drawn(page)
     width, height = page.evaluate("[vexture.viewer.engine.size.width, vexture.viewer.engine.size.height]")
     screenshot(page)
     seen = pixels(page)[60 : height - 60, width // 2 + 30 : width]
     matrix = view_matrix(center, zoom, (width, height))
     if rival == "thesis16":
-        cover = vexture.coverage(pages["thesis"].texture, (width, height), matrix, renderer="cpu")
+        cover = vexture.coverage(viewer_pages["thesis"].texture, (width, height), matrix, renderer="cpu")
         expected = np.repeat(255.0 * (1.0 - cover[..., None]), 3, axis=2)
     else:
         expected = viewed.expected(matrix, (width, height))
@@ -213,7 +211,8 @@ def test_the_browsers_picture_stands_where_ours_does(
     ours = pixels(page)[60:500, 30:560]
     page.get_by_role("combobox", name="Compare with").select_option("Browser SVG")
     page.get_by_role("slider", name="Divider").press("Home")
-    page.wait_for_timeout(700)
+    page.locator(".browser-svg img").wait_for()
+    drawn(page)
     screenshot(page)
     theirs = pixels(page)[60:500, 30:560]
     assert np.ptp(ours) > 200
@@ -221,17 +220,17 @@ def test_the_browsers_picture_stands_where_ours_does(
 
 
 def test_raster_of_equal_bytes(
-    pages: dict[str, Viewed], open_page: Callable[..., Any], screenshot: Callable[..., Path]
+    viewer_pages: dict[str, Viewed], open_page: Callable[..., Any], screenshot: Callable[..., Path]
 ) -> None:
-    page = ready(open_page, pages["duck"].url, (900, 600))
+    page = ready(open_page, viewer_pages["duck"].url, (900, 600))
     nbytes = page.evaluate("vexture.viewer.engine.texture.nbytes")
     side = int(np.sqrt(nbytes * 3 / 4))
     page.get_by_role("combobox", name="Compare with").select_option("Raster of equal bytes")
     page.locator(".half").get_by_text(f"Raster, {side} × {side}", exact=True).wait_for()
-    page.wait_for_timeout(300)
+    drawn(page)
     screenshot(page)
     width, height = page.evaluate("[vexture.viewer.engine.size.width, vexture.viewer.engine.size.height]")
-    exact = pages["duck"].expected(view_matrix((0.5, 0.5), 1, (width, height)), (width, height))
+    exact = viewer_pages["duck"].expected(view_matrix((0.5, 0.5), 1, (width, height)), (width, height))
     error = np.abs(pixels(page)[60 : height - 60, :width] - exact[60 : height - 60])
     left, right = error[:, : width // 2 - 30].mean(), error[:, width // 2 + 30 :].mean()
     assert left <= 0.1

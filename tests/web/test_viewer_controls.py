@@ -2,28 +2,20 @@
 
 import io
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from browser import served
 from PIL import Image
-from viewed import SHAPES, Viewed, pixels, ready, show, value, write_pages
+from viewed import SHAPES, Viewed, pixels, ready, show, value
 from viewer_page import view_matrix
+from waiting import drawn
 
 
-@pytest.fixture(scope="module")
-def pages(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Viewed]]:
-    """Pages with a silhouette, with a drawing in colours, with both."""
-    folder = tmp_path_factory.mktemp("viewer")
-    with served(folder) as url:
-        yield write_pages(folder, url)
-
-
-def test_divider_moves_by_keys_and_pointer(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
-    page = ready(open_page, pages["duck"].url, (900, 600))
+def test_divider_moves_by_keys_and_pointer(viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, viewer_pages["duck"].url, (900, 600))
     divider = page.get_by_role("slider", name="Divider")
     assert divider.count() == 0
     page.get_by_role("combobox", name="Compare with").select_option("Thesis 16 bit")
@@ -46,8 +38,10 @@ def test_divider_moves_by_keys_and_pointer(pages: dict[str, Viewed], open_page: 
     assert value(page)["center"] == [0.5, 0.5]
 
 
-def test_a_comparison_that_is_not_there_says_why(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
-    page = ready(open_page, pages["duck"].url, (900, 600))
+def test_a_comparison_that_is_not_there_says_why(
+    viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]
+) -> None:
+    page = ready(open_page, viewer_pages["duck"].url, (900, 600))
     choice = page.get_by_role("combobox", name="Compare with")
     choice.select_option("Thesis 8 bit")
     page.get_by_role("status").filter(has_text="too fine for 8 bits").wait_for()
@@ -56,13 +50,13 @@ def test_a_comparison_that_is_not_there_says_why(pages: dict[str, Viewed], open_
 
 @pytest.mark.parametrize("surface", ["Plane", "Sphere", "Cube"])
 def test_surfaces_turn(
-    pages: dict[str, Viewed], open_page: Callable[..., Any], screenshot: Callable[..., Path], surface: str
+    viewer_pages: dict[str, Viewed], open_page: Callable[..., Any], screenshot: Callable[..., Path], surface: str
 ) -> None:
-    page = ready(open_page, pages["flag"].url, (900, 600))
+    page = ready(open_page, viewer_pages["flag"].url, (900, 600))
     flat = pixels(page)[:, :500]
     page.get_by_role("combobox", name="Surface").select_option(surface)
     page.wait_for_function("vexture.viewer.engine.toUnit(288, 300) !== null")
-    page.wait_for_timeout(400)
+    drawn(page)
     screenshot(page)
     solid = pixels(page)[:, :500]
     assert np.abs(solid - flat).mean() > 5
@@ -79,19 +73,19 @@ def test_surfaces_turn(
     assert after["yaw"] != before["yaw"]
     assert after["pitch"] != before["pitch"]
     assert after["center"] == before["center"]
-    page.wait_for_timeout(300)
+    drawn(page)
     assert np.abs(pixels(page)[:, :500] - solid).mean() > 2
 
 
 def test_theme_changes_paper_and_ink(
-    pages: dict[str, Viewed], open_page: Callable[..., Any], screenshot: Callable[..., Path]
+    viewer_pages: dict[str, Viewed], open_page: Callable[..., Any], screenshot: Callable[..., Path]
 ) -> None:
-    page = ready(open_page, pages["duck"].url, (900, 600))
+    page = ready(open_page, viewer_pages["duck"].url, (900, 600))
     button = page.get_by_role("button", name="Theme")
     seen = {}
     for _ in range(3):
         button.click()
-        page.wait_for_timeout(200)
+        drawn(page)
         theme = value(page)["theme"]
         seen[theme] = pixels(page)
         screenshot(page, theme)
@@ -101,8 +95,8 @@ def test_theme_changes_paper_and_ink(
     assert np.abs(seen["light"][:400, :500] - seen["system"][:400, :500]).max() == 0  # the system's is light
 
 
-def test_a_link_opens_the_same_view(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
-    page = ready(open_page, pages["flag"].url, (900, 600), permissions=["clipboard-read", "clipboard-write"])
+def test_a_link_opens_the_same_view(viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, viewer_pages["flag"].url, (900, 600), permissions=["clipboard-read", "clipboard-write"])
     page.mouse.move(200, 200)
     page.mouse.wheel(0, -700)
     page.get_by_role("combobox", name="Compare with").select_option("Browser SVG")
@@ -117,13 +111,15 @@ def test_a_link_opens_the_same_view(pages: dict[str, Viewed], open_page: Callabl
     assert value(other) == value(page)
     for one in (page, other):
         one.evaluate("document.querySelector('.notes').textContent = ''")
-        one.wait_for_timeout(500)
+        drawn(one)
     assert np.abs(pixels(other)[:, :560] - pixels(page)[:, :560]).max() <= 1
 
 
-def test_a_link_to_a_shape_that_is_gone_shows_another(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+def test_a_link_to_a_shape_that_is_gone_shows_another(
+    viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]
+) -> None:
     link = "#view=1~nobody~~0.5~0.5~1~flat~0~0~1~system~~0.5~0~0"
-    page = ready(open_page, pages["both"].url + link, (900, 600))
+    page = ready(open_page, viewer_pages["both"].url + link, (900, 600))
     page.get_by_role("status").filter(has_text="no shape nobody").wait_for()
     page.wait_for_function("() => document.title.startsWith('duck')")
     assert page.get_by_role("button", name="duck").get_attribute("aria-current") == "true"
@@ -132,28 +128,33 @@ def test_a_link_to_a_shape_that_is_gone_shows_another(pages: dict[str, Viewed], 
 LATE = """() => {
   const { renderer } = vexture.viewer.engine;
   const compile = renderer.compileAsync.bind(renderer);
-  let late = 800;
+  let release;
+  const others = new Promise((done) => { release = done; });
+  let calls = 0;
+  window.compiled = 0;
   renderer.compileAsync = async (...given) => {
-    const wait = late;
-    late = 0;
+    const isLate = calls++ === 0;
     await compile(...given);
-    await new Promise((done) => setTimeout(done, wait));
+    if (isLate) await others;
+    else setTimeout(release);
+    window.compiled += 1;
   };
 }"""
-"""The next program is compiled slowly, as by a busy driver; those after it are not."""
+"""The next program is compiled slowly, as by a busy driver: the one after it is in use before."""
 
 
-def test_a_surface_chosen_while_another_is_made(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
-    page = ready(open_page, pages["flag"].url, (900, 600))
+def test_a_surface_chosen_while_another_is_made(viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, viewer_pages["flag"].url, (900, 600))
     page.evaluate(LATE)
     for surface in ("Plane", "Sphere"):
         page.get_by_role("combobox", name="Surface").select_option(surface)
-    page.wait_for_timeout(2000)
+    page.wait_for_function("compiled === 2 && location.hash.includes('~sphere~')")
     anew = ready(open_page, page.evaluate("location.href"), (900, 600))
-    anew.wait_for_timeout(1500)
+    anew.wait_for_function("vexture.viewer.engine.toUnit(288, 300) !== null")
     page.get_by_role("application").press("ArrowLeft")  # it can still be turned
     anew.get_by_role("application").press("ArrowLeft")
-    page.wait_for_timeout(300)
+    drawn(page)
+    drawn(anew)
     assert np.abs(pixels(page) - pixels(anew))[:, :500].mean() < 0.1
 
 
@@ -161,15 +162,15 @@ def test_a_surface_chosen_while_another_is_made(pages: dict[str, Viewed], open_p
     "link", ["#view=", "#view=1~duck~", "#view=%E0%A4%A", "#view=1~~~x~0~1~flat~0~0~1~system~~0~0~0"]
 )
 def test_a_damaged_link_is_ignored_with_a_note(
-    pages: dict[str, Viewed], open_page: Callable[..., Any], link: str
+    viewer_pages: dict[str, Viewed], open_page: Callable[..., Any], link: str
 ) -> None:
-    page = ready(open_page, pages["duck"].url + link, (900, 600))
+    page = ready(open_page, viewer_pages["duck"].url + link, (900, 600))
     page.get_by_role("status").filter(has_text="link is damaged").wait_for()
     assert value(page)["zoom"] == 1
 
 
-def test_copy_picture_gives_the_canvas_as_png(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
-    page = ready(open_page, pages["flag"].url, (900, 600), permissions=["clipboard-read", "clipboard-write"])
+def test_copy_picture_gives_the_canvas_as_png(viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, viewer_pages["flag"].url, (900, 600), permissions=["clipboard-read", "clipboard-write"])
     show(page, zoom=1.7)
     page.get_by_role("button", name="Copy picture").click()
     page.get_by_role("status").filter(has_text="The picture is copied").wait_for()
@@ -181,14 +182,14 @@ def test_copy_picture_gives_the_canvas_as_png(pages: dict[str, Viewed], open_pag
     )
     picture = np.asarray(Image.open(io.BytesIO(bytes(content))).convert("RGB")).astype(np.float64)
     height, width = picture.shape[:2]
-    expected = pages["flag"].expected(view_matrix((0.5, 0.5), 1.7, (width, height)), (width, height))
+    expected = viewer_pages["flag"].expected(view_matrix((0.5, 0.5), 1.7, (width, height)), (width, height))
     assert np.abs(picture - expected).mean() <= 0.6
 
 
 def test_files_are_opened_or_refused_with_a_note(
-    pages: dict[str, Viewed], open_page: Callable[..., Any], tmp_path: Path
+    viewer_pages: dict[str, Viewed], open_page: Callable[..., Any], tmp_path: Path
 ) -> None:
-    page = ready(open_page, pages["duck"].url, (900, 600))
+    page = ready(open_page, viewer_pages["duck"].url, (900, 600))
     before = pixels(page)[:380, :500]
     chosen = page.locator("input[type=file]")
     status = page.get_by_role("status")
@@ -198,15 +199,15 @@ def test_files_are_opened_or_refused_with_a_note(
     chosen.set_input_files(SHAPES / "cake.svg")
     status.filter(has_text="vexture view").wait_for()
     assert np.abs(pixels(page)[:380, :500] - before).max() == 0
-    (tmp_path / "flag.ktx2").write_bytes(pages["flag"].texture.to_ktx2())
+    (tmp_path / "flag.ktx2").write_bytes(viewer_pages["flag"].texture.to_ktx2())
     chosen.set_input_files(tmp_path / "flag.ktx2")
     page.get_by_role("list", name="Shapes").get_by_role("button", name="flag").wait_for()
     page.wait_for_function("vexture.viewer.engine.texture.roots.length === 4")
 
 
-def test_a_file_is_dropped_on_the_picture(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
-    page = ready(open_page, pages["duck"].url, (900, 600))
-    content = list(pages["flag"].texture.to_ktx2())
+def test_a_file_is_dropped_on_the_picture(viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, viewer_pages["duck"].url, (900, 600))
+    content = list(viewer_pages["flag"].texture.to_ktx2())
     page.evaluate(
         """(content) => {
           const dataTransfer = new DataTransfer();
@@ -219,24 +220,24 @@ def test_a_file_is_dropped_on_the_picture(pages: dict[str, Viewed], open_page: C
 
 
 def test_shapes_are_chosen_from_a_list(
-    pages: dict[str, Viewed], open_page: Callable[..., Any], screenshot: Callable[..., Path]
+    viewer_pages: dict[str, Viewed], open_page: Callable[..., Any], screenshot: Callable[..., Path]
 ) -> None:
-    page = ready(open_page, pages["both"].url, (900, 600))
+    page = ready(open_page, viewer_pages["both"].url, (900, 600))
     flag = page.get_by_role("list", name="Shapes").get_by_role("button", name="flag")
     flag.focus()
     page.keyboard.press("Enter")
+    page.wait_for_function("vexture.viewer.engine.document?.name === 'flag'")
     page.get_by_role("heading", name="flag", exact=True).wait_for()
     assert flag.get_attribute("aria-current") == "true"
-    page.wait_for_timeout(300)
+    drawn(page)
     screenshot(page)
     width, height = page.evaluate("[vexture.viewer.engine.size.width, vexture.viewer.engine.size.height]")
-    expected = pages["flag"].expected(view_matrix((0.5, 0.5), 1, (width, height)), (width, height))
+    expected = viewer_pages["flag"].expected(view_matrix((0.5, 0.5), 1, (width, height)), (width, height))
     assert np.abs(pixels(page)[:500, :width] - expected[:500]).mean() <= 0.6
 
 
-def test_a_lost_context_is_said_and_restored(pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
-    page = ready(open_page, pages["duck"].url, (900, 600), errors=True)
-    before = pixels(page)[:380, :500]
+def test_a_lost_context_is_said_and_restored(viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, viewer_pages["duck"].url, (900, 600), errors=True)
     page.evaluate(
         """() => {
           globalThis.lose = vexture.viewer.engine.renderer.getContext().getExtension('WEBGL_lose_context');
@@ -244,17 +245,21 @@ def test_a_lost_context_is_said_and_restored(pages: dict[str, Viewed], open_page
         }"""
     )
     page.get_by_role("status").filter(has_text="graphics driver").wait_for()
+    page.evaluate("vexture.viewer.state.update({ zoom: 2 })")  # so that what was seen before is not what is to be seen
     page.evaluate("lose.restoreContext()")
     page.wait_for_function("document.querySelector('.notes').textContent === ''")
-    page.wait_for_timeout(1500)
-    assert np.abs(pixels(page)[:380, :500] - before).max() <= 1
+    drawn(page)
+    width, height = page.evaluate("[vexture.viewer.engine.size.width, vexture.viewer.engine.size.height]")
+    expected = viewer_pages["duck"].expected(view_matrix((0.5, 0.5), 2, (width, height)), (width, height))
+    assert np.ptp(expected[:380, :500]) > 200
+    assert np.abs(pixels(page)[:380, :500] - expected[:380, :500]).mean() <= 0.6
 
 
-def test_without_webgl_the_page_says_so(pages: dict[str, Viewed], chromium: Any) -> None:
+def test_without_webgl_the_page_says_so(viewer_pages: dict[str, Viewed], chromium: Any) -> None:
     context = chromium.new_context(viewport={"width": 900, "height": 600})
     page = context.new_page()
     page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
-    page.goto(pages["duck"].url)
+    page.goto(viewer_pages["duck"].url)
     page.get_by_role("alert").filter(has_text="WebGL 2").wait_for()
     context.close()
 
@@ -262,7 +267,7 @@ def test_without_webgl_the_page_says_so(pages: dict[str, Viewed], chromium: Any)
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("size", [(1280, 800), (390, 844), (360, 640)])
 def test_layout(
-    pages: dict[str, Viewed],
+    viewer_pages: dict[str, Viewed],
     chromium: Any,
     screenshot: Callable[..., Path],
     size: tuple[int, int],
@@ -273,15 +278,15 @@ def test_layout(
         viewport={"width": size[0], "height": size[1]}, color_scheme=scheme, has_touch=narrow, is_mobile=narrow
     )
     page = context.new_page()
-    page.goto(pages["both"].url)
+    page.goto(viewer_pages["both"].url)
     page.evaluate("vexture.viewer.ready")
-    page.wait_for_timeout(300)
+    drawn(page)
     screenshot(page)
     controls = page.get_by_role("button", name="Controls")
     assert controls.get_attribute("aria-expanded") == json.dumps(not narrow)
     controls.click()
     assert page.get_by_role("complementary", name="Controls").is_visible() == narrow
-    page.wait_for_timeout(300)
+    drawn(page)
     screenshot(page, "other")
     if narrow:
         for button in page.get_by_role("button").all():
