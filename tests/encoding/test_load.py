@@ -268,7 +268,10 @@ def test_the_longest_lists_pass(tmp_path: Path) -> None:
 def test_reading_needs_no_compiler(tmp_path: Path) -> None:
     """Numba takes 0.3 s to import, which `vexture info` must not cost."""
     small().save(tmp_path)
-    program = "import sys; from vexture.texture.load import load_any; load_any(sys.argv[1]).info(); print('numba' in sys.modules)"
+    program = (
+        "import sys; from vexture.texture.load import load_any; load_any(sys.argv[1]).info(); "
+        "print('numba' in sys.modules)"
+    )
     told = subprocess.run(
         [sys.executable, "-c", program, str(tmp_path / "small")], capture_output=True, text=True, check=True
     )
