@@ -12,7 +12,6 @@ from typing import Final, Literal
 from vexture.drawing import Drawing
 from vexture.encodings import Encoded
 from vexture.errors import ParameterError
-from vexture.thesis.encode import encode, quantisation_step
 from vexture.thesis.files import pair_of
 from vexture.thesis.layout import CURVES_SUFFIX, LIST_LIMIT, QUADS_SUFFIX
 from vexture.thesis.texture import ThesisTexture, load_thesis
@@ -60,6 +59,7 @@ def convert(
     (1, 4, 3)
     """
     from vexture.thesis.build import DEFAULT_DEPTH, build
+    from vexture.thesis.encode import encode, quantisation_step
 
     bits = 16 if bits is None else bits
     if bits not in LIST_LIMIT:
