@@ -105,11 +105,11 @@ def test_an_atlas_is_whole_or_not_written(square, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (("--bits", "8"), "use the encoding thesis"),
-        (("--strategy", "sampled"), "use the encoding thesis"),
-        (("--encoding", "thesis", "--split", "paint"), "use the encoding packed"),
-        (("--encoding", "thesis", "--capacity", "4"), "use the encoding packed"),
-        (("--encoding", "thesis", "--precision", "1e-3"), "use the encoding packed"),
+        (("--bits", "8"), "--bits 8 means nothing to the encoding packed; leave it out or use --encoding thesis"),
+        (("--strategy", "sampled"), "use --encoding thesis"),
+        (("--encoding", "thesis", "--split", "paint"), "use --encoding packed"),
+        (("--encoding", "thesis", "--capacity", "4"), "use --encoding packed"),
+        (("--encoding", "thesis", "--precision", "1e-3"), "use --encoding packed"),
         (("--encoding", "thesis", "--atlas", "all.ktx2"), "use the encoding packed"),
         (("--atlas", "all.png"), "ends in .ktx2"),
         (("--atlas", "out"), "ends in .ktx2"),
@@ -118,9 +118,9 @@ def test_an_atlas_is_whole_or_not_written(square, tmp_path):
         (("--atlas", "square.svg/all.ktx2"), "choose another place"),
         (("--capacity", "0"), "1..15"),
         (("--capacity", "16"), "1..15"),
-        (("--precision", "nan"), "precision nan"),
+        (("--precision", "nan"), "--precision nan"),
         (("--max-depth", "21"), "1..20"),
-        (("--tolerance", "-1"), "tolerance -1.0 is outside 0 to 1"),
+        (("--tolerance", "-1"), "--tolerance -1.0 is outside 0 to 1"),
         (("--select", "g >"), "no CSS selector"),
     ],
 )
@@ -145,28 +145,30 @@ def drawn(folder, *arguments):
 def test_render_of_colours_and_parts_of_a_drawing(tmp_path):
     logo = tmp_path / "logo.svg"
     logo.write_text(LOGO)
-    colours = drawn(tmp_path, logo, "--split", "paint", "--renderer", "exact")
+    colours = drawn(tmp_path, logo, "--renderer", "exact")
     assert colours.shape == (20, 20, 3)
     assert colours[10, 1].tolist() == [0, 0, 255]
     assert colours[8, 6].tolist() == [255, 255, 255]
     assert colours[12, 14].tolist() == [128, 0, 128]
     assert colours[10, 6].tolist() == [255, 128, 128]
-    part = drawn(tmp_path, logo, "--select", "#word", "--renderer", "exact")
-    assert part.shape == (20, 20)
-    assert part.min() == part[8, 6] == 0
-    assert part[10, 1] == 255
+    part = drawn(tmp_path, logo, "--select", "#word", "--renderer", "exact", "--silhouette")
+    assert part.shape == (20, 20, 3)
+    assert part.min() == part[8, 6].max() == 0
+    assert part[10, 1].tolist() == [255, 255, 255]
 
 
 def test_render_of_an_atlas(square, tmp_path):
     logo, atlas = tmp_path / "logo.svg", tmp_path / "all.ktx2"
     logo.write_text(LOGO)
     run("convert", square, logo, "--atlas", atlas, "--split", "paint")
-    colours = drawn(tmp_path, logo, "--split", "paint", "--renderer", "exact")
+    colours = drawn(tmp_path, logo, "--renderer", "exact")
     for quality in ("fast", "exact"):
         assert np.abs(drawn(tmp_path, atlas, *CPU, "--root", "logo", "--quality", quality) - colours).max() <= 3
-    word = drawn(tmp_path, logo, "--select", "#word", "--renderer", "exact")
+    word = drawn(tmp_path, logo, "--select", "#word", "--renderer", "exact", "--silhouette")
     for root in ("logo/2-#ffffff", "2"):
-        assert np.abs(drawn(tmp_path, atlas, *CPU, "--root", root) - word).max() <= 3
+        assert np.abs(drawn(tmp_path, atlas, *CPU, "--root", root, "--silhouette") - word).max() <= 3
+        white = drawn(tmp_path, atlas, *CPU, "--root", root, "--background", "black")
+        assert np.abs(white - (255 - word)).max() <= 3
     run("convert", logo, "-o", tmp_path, "--split", "paint")
     assert np.abs(drawn(tmp_path, tmp_path / "logo.ktx2", *CPU) - colours).max() <= 3
     run("convert", square, "-o", tmp_path)
@@ -178,15 +180,14 @@ def test_render_of_an_atlas(square, tmp_path):
 @pytest.mark.parametrize(
     ("shown", "arguments", "says"),
     [
-        ("all.ktx2", (), "2 drawings (square, logo); choose one by root"),
+        ("all.ktx2", (), "2 drawings (square, logo); choose one by --root"),
         ("all.ktx2", ("--root", "lgo"), "lgo"),
         ("all.ktx2", ("--root", "7"), "7"),
-        ("all.ktx2", ("--root", "logo", "--split", "paint"), "needs the drawing"),
         ("all.ktx2", ("--select", "#word"), "needs the drawing"),
-        ("all.ktx2", ("--root", "logo", "--renderer", "exact"), "draws drawings"),
+        ("all.ktx2", ("--root", "logo", "--renderer", "exact"), "renders drawings"),
         ("logo.svg", ("--root", "logo"), "leave it out"),
         ("logo.svg", ("--select", "#wrod"), "matches no element"),
-        ("logo.svg", ("--quality", "fast", "--renderer", "exact"), "knows no quality"),
+        ("logo.svg", ("--quality", "fast", "--renderer", "exact"), "the renderer exact does not have"),
     ],
 )
 def test_what_cannot_be_drawn_gets_one_line(square, tmp_path, shown, arguments, says):

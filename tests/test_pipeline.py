@@ -8,7 +8,7 @@ import pytest
 
 import vexture
 from vexture.drawing import Drawing, Paint, Path
-from vexture.errors import LimitError, SourceError
+from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.pipeline import run
 from vexture.texture.encode import encode
 from vexture.texture.texture import Root, Texture
@@ -89,30 +89,41 @@ def test_tolerance_reaches_the_tree_and_the_root() -> None:
 @pytest.mark.parametrize(
     ("parameters", "says"),
     [
-        ({"encoding": "pcx"}, "use packed or thesis"),
-        ({"bits": 16}, "bits=16 means nothing to the encoding packed; .* use the encoding thesis"),
-        ({"strategy": "direct"}, "strategy=direct means nothing"),
-        ({"encoding": "thesis", "capacity": 4}, "capacity=4 means nothing to the encoding thesis; .* encoding packed"),
-        ({"encoding": "thesis", "precision": 0.1}, "precision=0.1 means nothing"),
-        ({"encoding": "thesis", "split": "paint"}, "split=paint means nothing"),
+        ({"encoding": "pcx"}, "must be 'packed' or 'thesis'"),
         ({"encoding": "thesis", "bits": 12}, "8 or 16"),
         ({"encoding": "thesis", "tolerance": 0.0}, "tolerance"),
-        ({"encoding": "thesis", "strategy": "best"}, "use direct or sampled"),
-        ({"split": "size"}, "split='size' is not known"),
-        ({"tolerance": -1e-9}, "tolerance -1e-09"),
-        ({"tolerance": float("nan")}, "tolerance nan"),
-        ({"tolerance": float("inf")}, "tolerance inf"),
+        ({"encoding": "thesis", "strategy": "best"}, "must be 'direct' or 'sampled'"),
+        ({"split": "size"}, "`split` is 'size'"),
+        ({"tolerance": -1e-9}, "`tolerance` -1e-09"),
+        ({"tolerance": float("nan")}, "`tolerance` nan"),
+        ({"tolerance": float("inf")}, "`tolerance` inf"),
         ({"capacity": 0}, "1..15"),
         ({"capacity": 16}, "1..15"),
         ({"max_depth": 0}, "1..20"),
         ({"max_depth": 21}, "1..20"),
-        ({"precision": 0.0}, "precision 0"),
-        ({"precision": float("nan")}, "precision nan"),
-        ({"select": "#a"}, "select='#a' .* read_svg"),
+        ({"precision": 0.0}, "`precision` 0"),
+        ({"precision": float("nan")}, "`precision` nan"),
+        ({"select": "#a"}, "`select` is '#a'.* read\\(path, select"),
     ],
 )
 def test_parameters_that_do_not_fit_get_one_line(parameters: dict[str, object], says: str) -> None:
-    with pytest.raises(LimitError, match=says) as caught:
+    with pytest.raises(ParameterError, match=says) as caught:
+        vexture.convert(star(5, "star"), **parameters)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "says"),
+    [
+        ({"bits": 16}, "`bits` is 16, but the encoding packed has no such parameter"),
+        ({"strategy": "direct"}, "`strategy` is 'direct', but the encoding packed"),
+        ({"encoding": "thesis", "capacity": 4}, "`capacity` is 4, but the encoding thesis"),
+        ({"encoding": "thesis", "precision": 0.1}, "`precision` is 0.1, but the encoding thesis"),
+        ({"encoding": "thesis", "split": "paint"}, "`split` is 'paint', but the encoding thesis"),
+    ],
+)
+def test_parameters_of_another_encoding_are_refused(parameters: dict[str, object], says: str) -> None:
+    with pytest.raises(TypeError, match=says) as caught:
         vexture.convert(star(5, "star"), **parameters)
     assert "\n" not in str(caught.value)
 

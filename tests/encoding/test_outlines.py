@@ -16,7 +16,7 @@ from vexture import read_svg
 from vexture.bezier.convert import line_cubics
 from vexture.drawing import Drawing, Paint
 from vexture.drawing import Path as Outline
-from vexture.errors import LimitError, VextureError
+from vexture.errors import ParameterError, VextureError
 from vexture.renderers.exact import render_exact
 from vexture.texture.encode import encode as encode_packed
 from vexture.texture.outlines import outlines
@@ -124,7 +124,7 @@ def test_points_beyond_the_square_and_no_points() -> None:
     assert full.contains(edge).tolist() == [True, False, False, False, False, False, False, True]
     assert full.contains(np.zeros((0, 2))).shape == (0,)
     for wrong in (np.zeros(2), np.zeros((3, 3)), 0.5):
-        with pytest.raises(LimitError, match=r"points have the shape .*; it must be \(n, 2\)"):
+        with pytest.raises(ParameterError, match=r"`points` has the shape .*; it must be \(n, 2\)"):
             full.contains(wrong)
 
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vexture.errors import FormatError, LimitError
+from vexture.errors import FormatError, ParameterError
 from vexture.fold.fold import Fold, Kind, fold_from
 from vexture.fold.layout import FOLD_FILE_LIMIT, FOLD_MOST_SIDE, TEXT_FOLD
 from vexture.texture.ktx2 import read_ktx2, write_ktx2
@@ -116,7 +116,7 @@ def test_a_repeated_fold_has_no_seam() -> None:
     ],
 )
 def test_what_no_fold_can_be_is_refused(changes: dict[str, Any], part: str) -> None:
-    with pytest.raises(LimitError) as error:
+    with pytest.raises(ParameterError) as error:
         Fold(**{"displacement": np.zeros((2, 2, 2)), **changes})
     assert part in str(error.value)
     assert "\n" not in str(error.value)

@@ -13,7 +13,7 @@ from PIL import Image
 import vexture
 from vexture.cli.main import main
 from vexture.drawing import Drawing
-from vexture.errors import LimitError, SourceWarning
+from vexture.errors import ParameterError, SourceWarning
 from vexture.fold.fold import Fold, Kind, fold_from
 from vexture.fold.picture import fold_picture
 from vexture.fold.shore import STEEPEST, shore_fold
@@ -114,7 +114,7 @@ def test_what_would_turn_over_moves_less_and_says_so() -> None:
     "wrong", [{"amplitude": 0.0}, {"amplitude": np.nan}, {"period": 0.0}, {"period": 1e5}, {"size": 7}, {"reach": 2.0}]
 )
 def test_parameters_out_of_range_are_refused(wrong: dict[str, float]) -> None:
-    with pytest.raises(LimitError, match=next(iter(wrong))):
+    with pytest.raises(ParameterError, match=next(iter(wrong))):
         shore_fold(SLOPE, **{"amplitude": 0.01, "period": 6.0, **wrong})  # type: ignore[arg-type]
 
 

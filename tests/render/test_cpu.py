@@ -21,7 +21,7 @@ from hand import (
     view_of,
 )
 
-from vexture.errors import LimitError
+from vexture.errors import ParameterError
 from vexture.images import coverage
 from vexture.renderers.view import fit
 from vexture.thesis import method
@@ -200,7 +200,7 @@ def test_a_texture_without_end_is_drawn_all_the_same() -> None:
     assert not render_thesis_cpu(cycle, (4, 4)).any()
 
 
-@pytest.mark.parametrize(("renderer", "message"), [("exact", "drawing"), ("magic", "exact, cpu, gpu")])
+@pytest.mark.parametrize(("renderer", "message"), [("exact", "drawing"), ("magic", "'exact', 'cpu', 'gpu'")])
 def test_a_renderer_that_cannot_draw_it_says_so(renderer: str, message: str) -> None:
-    with pytest.raises(LimitError, match=message):
+    with pytest.raises(ParameterError, match=message):
         coverage(texture_of([FULL] * 4), (4, 4), renderer=renderer)

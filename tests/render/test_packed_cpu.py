@@ -15,7 +15,7 @@ import corpora
 import degenerate
 from vexture.drawing import Drawing
 from vexture.drawing import Path as Outline
-from vexture.errors import LimitError, VextureError
+from vexture.errors import ParameterError, VextureError
 from vexture.renderers.cpu import finest_level, render_cpu
 from vexture.renderers.exact import render_exact
 from vexture.renderers.gpu import render_gpu
@@ -199,9 +199,9 @@ def test_without_a_base_and_with_one_it_is_the_same() -> None:
 
 def test_a_root_or_a_quality_that_does_not_exist_is_named() -> None:
     texture = source("duck")[1]
-    with pytest.raises(LimitError, match="root is 1; duck has 1"):
+    with pytest.raises(ParameterError, match="`root` is 1; the texture has 1"):
         render_cpu(texture, (2, 2), root=1)
-    with pytest.raises(LimitError, match="'best'"):
+    with pytest.raises(ParameterError, match="'best'"):
         render_cpu(texture, (2, 2), quality="best")
 
 

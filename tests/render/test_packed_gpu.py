@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from packed_views import texture_of, turned
 
 from vexture.drawing import Drawing, Path
-from vexture.errors import LimitError
+from vexture.errors import ParameterError
 from vexture.renderers.device import context
 from vexture.renderers.exact import render_exact
 from vexture.renderers.gpu import render_gpu
@@ -167,9 +167,9 @@ def test_random_bits_end_and_are_numbers(quality: str) -> None:
 
 
 def test_a_quality_that_does_not_exist_is_named() -> None:
-    with pytest.raises(LimitError, match="'best'"):
+    with pytest.raises(ParameterError, match="'best'"):
         shader_source(quality="best")
-    with pytest.raises(LimitError, match="'100'"):
+    with pytest.raises(ParameterError, match="'100'"):
         shader_source("100")
 
 

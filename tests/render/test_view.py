@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from vexture.errors import LimitError
+from vexture.errors import ParameterError
 from vexture.renderers.view import CONDITION_LIMIT, SIZE_LIMIT, fit, size_of, view_matrix, window
 
 
@@ -55,13 +55,14 @@ def test_affine_and_projective_matrices_are_kept():
         (float("nan"), 3),
         (float("inf"), 1),
         (3,),
-        7,
+        0,
+        2.5,
         None,
         ("a", "b"),
     ],
 )
 def test_bad_sizes_are_one_line(size):
-    with pytest.raises(LimitError, match=str(SIZE_LIMIT)) as caught:
+    with pytest.raises(ParameterError, match=str(SIZE_LIMIT)) as caught:
         size_of(size)
     assert "\n" not in str(caught.value)
 
@@ -69,6 +70,11 @@ def test_bad_sizes_are_one_line(size):
 @pytest.mark.parametrize("size", [(1, 1), (SIZE_LIMIT, SIZE_LIMIT), (np.int64(3), 4.0)])
 def test_good_sizes(size):
     assert size_of(size) == tuple(int(side) for side in size)
+
+
+@pytest.mark.parametrize("side", [1, 7, np.int64(SIZE_LIMIT)])
+def test_one_number_is_a_square(side):
+    assert size_of(side) == (side, side)
 
 
 @pytest.mark.parametrize(("matrix", "word"), [
@@ -86,7 +92,7 @@ def test_good_sizes(size):
     (-np.eye(3), "sign"),
 ])  # fmt: skip
 def test_bad_matrices_are_one_line(matrix, word):
-    with pytest.raises(LimitError, match=word) as caught:
+    with pytest.raises(ParameterError, match=word) as caught:
         view_matrix(matrix, (16, 16))
     assert "\n" not in str(caught.value)
 
@@ -104,7 +110,7 @@ def test_bad_matrices_are_one_line(matrix, word):
     ],
 )
 def test_bad_windows_are_one_line(numbers):
-    with pytest.raises(LimitError) as caught:
+    with pytest.raises(ParameterError) as caught:
         window(*numbers).matrix((16, 16))
     assert "\n" not in str(caught.value)
 

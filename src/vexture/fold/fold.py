@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vexture.errors import FormatError, LimitError
+from vexture.errors import FormatError, ParameterError
 from vexture.fold import layout
 from vexture.fold.blend import fold, progress
 from vexture.layout import ROW_BITS, TEXT_ENCODING, TEXT_VERSION, TEXT_WRITER
@@ -65,7 +65,7 @@ class Fold:
 
     Raises
     ------
-    LimitError
+    ParameterError
         If sizes, kinds, displacements or times are out of range.
 
     Examples
@@ -86,17 +86,19 @@ class Fold:
         with np.errstate(over="ignore"):
             displacement = np.array(self.displacement, np.float64).astype(np.float32)
         if displacement.ndim != 3 or displacement.shape[2] != 2:
-            raise LimitError(f"displacement has the shape {displacement.shape}; it must be (rows, columns, 2)")
+            raise ParameterError(f"`displacement` has the shape {displacement.shape}; it must be (rows, columns, 2)")
         rows, columns, _ = displacement.shape
         if not (1 <= rows <= layout.FOLD_MOST_SIDE and 1 <= columns <= layout.FOLD_MOST_SIDE):
-            raise LimitError(f"{columns} x {rows} texels; a fold has 1 to {layout.FOLD_MOST_SIDE} each way")
+            raise ParameterError(f"{columns} x {rows} texels; a fold has 1 to {layout.FOLD_MOST_SIDE} each way")
         try:
             kind, begin, duration = (
                 np.broadcast_to(np.array(values, np.float64), (rows, columns)).copy()
                 for values in (self.kind, self.begin, self.duration)
             )
         except (TypeError, ValueError):
-            raise LimitError(f"kind, begin and duration must be one number each or ({rows}, {columns})") from None
+            raise ParameterError(
+                f"`kind`, `begin` and `duration` must be one number each or ({rows}, {columns})"
+            ) from None
         begin, duration, cycle = (
             np.rint(seconds * layout.FOLD_TICKS) / layout.FOLD_TICKS
             for seconds in (begin, duration, np.float64(self.cycle))
@@ -154,11 +156,11 @@ class Fold:
 
         Raises
         ------
-        LimitError
+        ParameterError
             If there is no such wrap.
         """
         if wrap not in WRAPS:
-            raise LimitError(f"wrap is {wrap!r}; it must be one of {', '.join(WRAPS)}")
+            raise ParameterError(f"`wrap` is {wrap!r}; it must be one of {', '.join(WRAPS)}")
         places = np.asarray(points, np.float64).reshape(-1, 2)
         base = np.zeros(places.shape, np.uint32)
         right, up = np.broadcast_to((1.0, 0.0), places.shape), np.broadcast_to((0.0, 1.0), places.shape)
@@ -190,16 +192,16 @@ def _check(
     """Refuse what FORMAT.md, C.3 refuses."""
     most, tick = layout.FOLD_MOST_SECONDS, 1.0 / layout.FOLD_TICKS
     if not (np.abs(displacement) <= layout.FOLD_MOST_DISPLACEMENT).all():
-        raise LimitError(f"a displacement is not a number within {layout.FOLD_MOST_DISPLACEMENT:g} of 0")
+        raise ParameterError(f"a displacement is not a number within {layout.FOLD_MOST_DISPLACEMENT:g} of 0")
     if not np.isin(kind, list(Kind)).all():
-        raise LimitError(f"a kind is {kind[~np.isin(kind, list(Kind))][0]:g}; there are 0 to {max(Kind):d}")
+        raise ParameterError(f"a kind is {kind[~np.isin(kind, list(Kind))][0]:g}; there are 0 to {max(Kind):d}")
     if not 0.0 <= cycle <= most:
-        raise LimitError(f"cycle is {cycle:g} seconds; it must be 0 to {most}")
+        raise ParameterError(f"`cycle` is {cycle:g} seconds; it must be 0 to {most}")
     for name, values, least in (("begin", begin, 0.0), ("duration", duration, tick)):
         if not ((values >= least) & (values <= most)).all():
-            raise LimitError(f"a {name} is not a number of seconds from {least:g} to {most}")
+            raise ParameterError(f"a {name} is not a number of seconds from {least:g} to {most}")
     if cycle > 0.0 and (begin.max() >= cycle or duration.max() > cycle):
-        raise LimitError(
+        raise ParameterError(
             f"begin is up to {begin.max():g}, duration up to {duration.max():g}; in a cycle of {cycle:g} seconds "
             "begin must be less and duration no more"
         )
@@ -239,7 +241,7 @@ def fold_from(data: bytes, source: str = "fold") -> Fold:
                 raise FormatError(f"{key} is {found}; a fold has {known!r}; {REMEDY}")
         columns, rows, cycle = _read_facts(texts.get(layout.TEXT_FOLD, ""))
         return _unpacked(texels, columns, rows, cycle)
-    except LimitError as error:
+    except ParameterError as error:
         raise FormatError(f"{source}: {error}; {REMEDY}") from None
     except FormatError as error:
         raise FormatError(f"{source}: {error}") from None

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.errors import LimitError
+from vexture.errors import ParameterError
 from vexture.fold.fold import Fold, Kind
 from vexture.renderers.exact import render_exact
 
@@ -55,7 +55,7 @@ def fold_picture(fold: Fold, drawing: "Drawing | None" = None, size: int = 768) 
 
     Raises
     ------
-    LimitError
+    ParameterError
         If the size is out of range.
 
     Examples
@@ -64,7 +64,7 @@ def fold_picture(fold: Fold, drawing: "Drawing | None" = None, size: int = 768) 
     (1152, 768)
     """
     if not LEAST <= size <= MOST:
-        raise LimitError(f"size is {size}; it must be {LEAST} to {MOST} pixels")
+        raise ParameterError(f"`size` is {size}; it must be {LEAST} to {MOST} pixels")
     from PIL import Image, ImageDraw
 
     half = size // 2

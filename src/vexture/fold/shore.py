@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.errors import LimitError
+from vexture.errors import ParameterError
 from vexture.fold.blend import fold as folded
 from vexture.fold.fold import Fold, Kind
 from vexture.fold.layout import FOLD_MOST_SECONDS, FOLD_MOST_SIDE, FOLD_TICKS
@@ -77,7 +77,7 @@ def shore_fold(
 
     Raises
     ------
-    LimitError
+    ParameterError
         If a parameter is out of range.
 
     Warns
@@ -103,15 +103,15 @@ def fold_of_shore(
 ) -> Fold:
     """Make a fold as `shore_fold` does, but without a warning: its notes say all."""
     if not 0.0 < amplitude <= MOST_AMPLITUDE:
-        raise LimitError(f"amplitude is {amplitude:g}; it must be above 0 and at most {MOST_AMPLITUDE} sides")
+        raise ParameterError(f"`amplitude` is {amplitude:g}; it must be above 0 and at most {MOST_AMPLITUDE} sides")
     if not 0.01 <= period <= FOLD_MOST_SECONDS:
-        raise LimitError(f"period is {period:g}; it must be 0.01 to {FOLD_MOST_SECONDS} seconds")
+        raise ParameterError(f"`period` is {period:g}; it must be 0.01 to {FOLD_MOST_SECONDS} seconds")
     if not LEAST_SIDE <= size <= FOLD_MOST_SIDE:
-        raise LimitError(f"size is {size}; it must be {LEAST_SIDE} to {FOLD_MOST_SIDE} texels")
+        raise ParameterError(f"`size` is {size}; it must be {LEAST_SIDE} to {FOLD_MOST_SIDE} texels")
     if reach is None:
         reach = max(REACH_TEXELS / size, REACH_AMPLITUDES * amplitude)
     if not 1.0 / size <= reach <= 1.0:
-        raise LimitError(f"reach is {reach:g}; it must be a texel, {1.0 / size:g}, to 1")
+        raise ParameterError(f"`reach` is {reach:g}; it must be a texel, {1.0 / size:g}, to 1")
     phase = _phases(size, amplitude)
     displacement = amplitude * _normals(drawing, size, reach)
     steep, notes = _steepest(displacement, phase), Notes()

@@ -33,7 +33,7 @@ def context() -> Any:
         import moderngl
     except ImportError:
         raise DeviceError(
-            "the gpu renderer needs the package moderngl: pip install vexture[gpu], or use --renderer cpu"
+            "the gpu renderer needs the package moderngl: pip install 'vexture[gpu]', or use `renderer` cpu"
         ) from None
     try:
         # its stubs take **settings for one dictionary each
@@ -42,7 +42,7 @@ def context() -> Any:
         reason = " ".join(str(error).split())
         raise DeviceError(
             f"no OpenGL 3.3 context without a window ({reason}); install a driver (Debian: libegl1 libgl1 "
-            "libgl1-mesa-dri), or use --renderer cpu"
+            "libgl1-mesa-dri), or use `renderer` cpu"
         ) from None
     made.gc_mode = "auto"  # a program that leaves the cache is released
     with made:
@@ -64,7 +64,7 @@ def compiled(fragment_source: str) -> Any:
     except Exception as error:  # moderngl's own class is not to be imported before the context
         reason = " ".join(str(error).split())[:200]
         raise DeviceError(
-            f"the OpenGL driver refuses the shader ({reason}); update it, or use --renderer cpu"
+            f"the OpenGL driver refuses the shader ({reason}); update it, or use `renderer` cpu"
         ) from None
     return gl.vertex_array(made, [])
 
@@ -74,7 +74,7 @@ def draw(gl: Any, triangle: Any, size: tuple[int, int]) -> NDArray[np.float32]:
     width, height = size
     limit = gl.info["GL_MAX_TEXTURE_SIZE"]
     if max(width, height) > limit:
-        raise LimitError(f"size is {width} x {height}; this device draws up to {limit}, give a smaller --size")
+        raise LimitError(f"size is {width} x {height}; this device draws up to {limit}, give a smaller `size`")
     image = gl.texture((width, height), 1, dtype="f4")
     target = gl.framebuffer([image])
     target.use()

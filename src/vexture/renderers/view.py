@@ -96,7 +96,7 @@ class Window:
 
     def matrix(self, size: tuple[int, int]) -> NDArray[np.float64]:
         """From pixel coordinates of an image of that size to the unit square, (3, 3)."""
-        width, height = size
+        width, height = size_of(size)
         pixel = max(self.w / width, self.h / height)
         angle = math.radians(self.rotate)
         cosine, sine = pixel * math.cos(angle), pixel * math.sin(angle)
@@ -105,7 +105,7 @@ class Window:
             [[cosine, -sine, self.x + self.w / 2], [-sine, -cosine, self.y + self.h / 2], [0.0, 0.0, 1.0]]
         )
         matrix[:2, 2] -= matrix[:2, :2] @ (width / 2, height / 2)
-        return matrix
+        return view_matrix(matrix, size)
 
 
 def window(x: float, y: float, w: float, h: float, rotate: float = 0.0) -> Window:

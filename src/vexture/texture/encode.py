@@ -41,7 +41,7 @@ def encode(trees: Sequence[Tree], roots: Sequence[Root], *, name: str, source: s
         at += len(tree.count) + len(tree.curves)
     most = layout.MOST_ROWS << layout.ROW_BITS
     if at > most:
-        raise LimitError(f"{name}: {at} texels; the limit is {most}; use several textures, or a larger --tolerance")
+        raise LimitError(f"{name}: {at} texels; the limit is {most}; use several textures, or a larger `tolerance`")
     if not placed:
         raise LimitError(f"{name}: no shapes; a texture has at least one")
     return Texture(texel_rows(np.concatenate(texels)), tuple(placed), name, source)

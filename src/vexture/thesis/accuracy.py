@@ -5,7 +5,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.errors import LimitError
+from vexture.errors import ParameterError
 from vexture.kernels import kernel
 from vexture.tolerance import CELL_SHARE, COARSEST, DETAIL_SHARE, FINEST
 
@@ -70,8 +70,8 @@ def accuracy_of(tolerance: float | Literal["auto"], cubics: NDArray[np.float64],
     """
     if tolerance != "auto":
         if not (isinstance(tolerance, int | float) and 0.0 < tolerance < 1.0):
-            raise LimitError(
-                f"tolerance {tolerance!r} is not between 0 and 1 (unit-square units); use auto or e.g. 0.0005"
+            raise ParameterError(
+                f"`tolerance` {tolerance!r} is not between 0 and 1 (unit-square units); use auto or e.g. 0.0005"
             )
         return Accuracy(float(tolerance), np.inf, 0.0)
     detail = np.ptp(cubics, axis=1).max(axis=1).min() if len(cubics) else np.inf

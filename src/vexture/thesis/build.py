@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vexture.bezier.monotone import Pieces, monotone_pieces
 from vexture.bezier.split import copy_curve
 from vexture.drawing import Drawing
-from vexture.errors import LimitError, SourceError
+from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.kernels import kernel
 from vexture.layout import MOST_DEPTH
 from vexture.thesis.accuracy import Accuracy, accuracy_of, cell_tolerance
@@ -244,8 +244,10 @@ def build(
 
     Raises
     ------
+    ParameterError
+        If a parameter is out of range.
     LimitError
-        If a parameter is out of range, or the tree too large.
+        If the tree is too large.
     SourceError
         If the drawing leaves the unit square.
 
@@ -256,10 +258,10 @@ def build(
     (1, 4, 0.36)
     """
     if strategy not in ("direct", "sampled"):
-        raise LimitError(f"strategy {strategy!r} is not known; use direct or sampled")
+        raise ParameterError(f"`strategy` is {strategy!r}; it must be 'direct' or 'sampled'")
     low, high = DEPTH_RANGE
     if not (isinstance(max_depth, int | np.integer) and low <= max_depth <= high):
-        raise LimitError(f"depth limit {max_depth} is outside {low}..{high}; the default is {DEFAULT_DEPTH}")
+        raise ParameterError(f"`max_depth` {max_depth} is outside {low}..{high}; the default is {DEFAULT_DEPTH}")
     cubics, owner, rules = gather(drawing)
     accuracy = accuracy_of(tolerance, cubics, step)
     pieces = monotone_pieces(cubics, owner)
@@ -274,7 +276,7 @@ def build(
     if unresolved < 0:
         raise LimitError(
             f"{drawing.name}: {-unresolved} quads at least; the limit is {most_quads}; "
-            "use --bits 16, a smaller --max-depth or a larger --tolerance"
+            "use `bits` 16, a smaller `max_depth` or a larger `tolerance`"
         )
     kind, ref, coverage = cells[:, :, 0].astype(np.uint8), cells[:, :, 1].astype(np.int32), cells[:, :, 2].copy()
     return CellTree(kind, ref, coverage, curves.copy(), deviation, unresolved)

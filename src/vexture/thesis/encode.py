@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.area import edge_indices, leaf_area
-from vexture.errors import LimitError
+from vexture.errors import LimitError, ParameterError
 from vexture.thesis import layout
 from vexture.thesis.edge import edge_point, quantised_ends
 from vexture.thesis.texture import ThesisTexture
@@ -52,7 +52,7 @@ def encode(
     array([  0, 255,   0], dtype=uint8)
     """
     if bits not in layout.LIST_LIMIT:
-        raise LimitError(f"{name}: {bits} bits; a texture has 8 or 16")
+        raise ParameterError(f"`bits` is {bits!r}; it must be 8 or 16")
     if not np.isfinite(to_source).all():
         raise LimitError(f"{name}: the transform to source units is not finite; scale the drawing down")
     rows = len(tree.kind), layout.CONSTANT_ROWS + len(tree.curves)
@@ -61,7 +61,7 @@ def encode(
             remedy = "a larger `tolerance` or a smaller `max_depth`"
             raise LimitError(
                 f"{name}: {count} {what}; {bits} bits hold {layout.LIST_LIMIT[bits]}; "
-                f"use {'`bits`=16, ' if bits == 8 else ''}{remedy}"
+                f"use {'`bits` 16, ' if bits == 8 else ''}{remedy}"
             )
     dtype = np.dtype(f"uint{bits}")
     return ThesisTexture(_quad_pixels(tree, dtype), _curve_pixels(tree, dtype, name), to_source, name, crs)

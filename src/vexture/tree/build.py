@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from vexture.bezier.monotone import monotone_pieces
 from vexture.drawing import Drawing
-from vexture.errors import LimitError, SourceError
+from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.kernels import kernel
 from vexture.layout import LATTICE, MOST_CURVES, MOST_DEPTH
 from vexture.tolerance import CLOSED
@@ -350,8 +350,10 @@ def build_tree(
 
     Raises
     ------
+    ParameterError
+        If a parameter is out of range.
     LimitError
-        If a parameter is out of range, or the tree too large.
+        If the tree is too large.
     SourceError
         If the drawing leaves the unit square.
 
@@ -362,18 +364,18 @@ def build_tree(
     (1, 6, 0.36)
     """
     if not (isinstance(max_depth, int | np.integer) and 1 <= max_depth <= MOST_DEPTH):
-        raise LimitError(f"depth limit {max_depth} is outside 1..{MOST_DEPTH}; the default is {DEFAULT_DEPTH}")
+        raise ParameterError(f"`max_depth` {max_depth} is outside 1..{MOST_DEPTH}; the default is {DEFAULT_DEPTH}")
     if not (isinstance(capacity, int | np.integer) and 1 <= capacity <= MOST_CURVES):
-        raise LimitError(f"capacity {capacity} is outside 1..{MOST_CURVES}; the default is {DEFAULT_CAPACITY}")
+        raise ParameterError(f"`capacity` {capacity} is outside 1..{MOST_CURVES}; the default is {DEFAULT_CAPACITY}")
     finest = DISPLACEMENT * 0.5**max_depth / LATTICE
     if precision is not None and not finest <= precision <= 1.0:
-        raise LimitError(
-            f"precision {precision:g} is outside {finest:.1e}..1, in drawing sizes, at the depth limit {max_depth}; "
+        raise ParameterError(
+            f"`precision` {precision:g} is outside {finest:.1e}..1, in drawing sizes, at the depth limit {max_depth}; "
             "leave it out for views up to 1,000 times, or give 1e-7 for 10,000"
         )
     least_depth = 1 if precision is None else max(math.ceil(math.log2(DISPLACEMENT / (precision * LATTICE))), 1)
     if not (isinstance(tolerance, float | int | np.number) and 0.0 <= tolerance < 1.0):
-        raise LimitError(f"tolerance {tolerance} is outside 0 to 1, in drawing sizes; 0 keeps every piece")
+        raise ParameterError(f"`tolerance` {tolerance} is outside 0 to 1, in drawing sizes; 0 keeps every piece")
     bounds = Bounds(capacity, float(tolerance), least_depth, max_depth, most_quads)
     arrays, deviation, unresolved, outside = grow(*gather(drawing), bounds)
     if not outside <= CLOSED:  # not a number counts as outside
@@ -381,6 +383,6 @@ def build_tree(
     if unresolved < 0:
         raise LimitError(
             f"{drawing.name}: {-unresolved} quads at least; the limit is {most_quads}; "
-            "use a smaller --max-depth, a larger --tolerance or a larger --precision"
+            "use a smaller `max_depth`, a larger `tolerance` or a larger `precision`"
         )
     return Tree(*arrays, deviation=deviation, unresolved=unresolved)
