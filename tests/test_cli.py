@@ -57,7 +57,7 @@ def test_packed_is_the_default(square, tmp_path):
 def test_parameters_reach_the_conversion(square, tmp_path, bits, strategy):
     arguments = ("--encoding", "thesis", "--bits", bits, "--strategy", strategy)
     assert run("convert", square, "-o", tmp_path, *arguments, "--tolerance", "0.01", "--max-depth", 5).exit_code == 0
-    texture = vexture.load(tmp_path / "square")
+    texture = vexture.load(tmp_path / "square", encoding="thesis")
     expected = vexture.convert(square, encoding="thesis", bits=bits, strategy=strategy, tolerance=0.01, max_depth=5)
     assert texture.bits == bits
     assert (texture.quads == expected.quads).all()

@@ -103,7 +103,7 @@ def test_tolerance_reaches_the_tree_and_the_root() -> None:
         ({"max_depth": 21}, "1..20"),
         ({"precision": 0.0}, "`precision` 0"),
         ({"precision": float("nan")}, "`precision` nan"),
-        ({"select": "#a"}, "`select` is '#a'.* read\\(path, select"),
+        ({"select": "#a"}, "`select` is '#a'.* vexture.read.path, select="),
     ],
 )
 def test_parameters_that_do_not_fit_get_one_line(parameters: dict[str, object], says: str) -> None:

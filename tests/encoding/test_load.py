@@ -100,7 +100,7 @@ def test_the_transform_is_short() -> None:
 
 
 def test_missing_files(tmp_path: Path) -> None:
-    assert "bad.quads.png: not found" in refusal(tmp_path / "bad")
+    assert "bad: not found; a texture is NAME.ktx2, or NAME.quads.png" in refusal(tmp_path / "bad")
     path = write(tmp_path, small().quads, small().curves)
     path.with_name("bad.curves.png").unlink()
     assert "bad.curves.png: not found" in refusal(path)

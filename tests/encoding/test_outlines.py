@@ -155,7 +155,7 @@ def test_layers_keep_their_paint(tmp_path: Path) -> None:
     assert [path.paint.opacity for path in found.paths] == [1.0, 0.25, 1.0]
     colors = [path.paint.color for path in found.paths]
     np.testing.assert_allclose(colors, [(0.0, 0.2, 1.0), (0.3, 0.55555, 1.0), (0.0, 0.0, 0.0)], atol=1e-9)
-    np.testing.assert_array_equal(found.to_source, texture.root().to_source)
+    np.testing.assert_array_equal(found.to_source, texture.roots[0].to_source)
 
 
 def test_the_document_as_text() -> None:

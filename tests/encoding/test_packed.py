@@ -13,7 +13,7 @@ from either import decode, encode, info
 from strategies import packed_trees
 from vexture import layout
 from vexture.drawing import Paint
-from vexture.errors import FormatError, LimitError
+from vexture.errors import FormatError, LimitError, ParameterError
 from vexture.texture.encode import encode as encode_packed
 from vexture.texture.texture import Root, Texture
 from vexture.tree.tree import Tree
@@ -86,10 +86,10 @@ def test_one_name_for_both_encodings() -> None:
 def test_roots_by_name_and_place() -> None:
     texture = encode_packed([chain(1)] * 3, [Root("arrow-up"), Root("arrow-down"), Root("zebra")], name="icons")
     assert texture.root("zebra").quad == texture.root(2).quad == 2
-    with pytest.raises(FormatError, match=r"icons: no root 'arow-up'; near names are 'arrow-up'; there are 3"):
+    with pytest.raises(ParameterError, match=r"icons: no shape 'arow-up'; near names are 'arrow-up'; there are 3"):
         texture.root("arow-up")
     for place in (3, -1):
-        with pytest.raises(FormatError, match=rf"no root {place}; they are numbered 0 to 2"):
+        with pytest.raises(ParameterError, match=rf"no shape {place}; they are numbered 0 to 2"):
             texture.root(place)
 
 

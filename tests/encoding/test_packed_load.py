@@ -119,9 +119,11 @@ def test_the_kind_is_found_by_what_is_there(tmp_path: Path) -> None:
 
 
 def test_nothing_there(tmp_path: Path) -> None:
-    for way in ("x", "x.ktx2", "x.quads.png"):
-        with pytest.raises(FormatError, match=r"not found; a texture is NAME\.ktx2, or the pair"):
+    for way in ("x", "x.ktx2"):
+        with pytest.raises(FormatError, match=r"not found; a texture is NAME\.ktx2, or NAME\.quads\.png, NAME\.curves"):
             load(tmp_path / way)
+    with pytest.raises(FormatError, match=r"x\.quads\.png: not found; .* the pair NAME\.quads\.png and NAME"):
+        load(tmp_path / "x.quads.png")
 
 
 def refusal(path: Path) -> str:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from either import decode, encode, info
 from strategies import cell_trees
 from vexture.bezier.area import leaf_area
-from vexture.errors import LimitError
+from vexture.errors import LimitError, ParameterError
 from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN, LIST_LIMIT
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellKind, CellTree
@@ -167,14 +167,14 @@ def test_lists_too_long_name_count_limit_and_remedy(bits: int, quads: int, curve
     message = str(caught.value)
     assert str(quads if quads > 1 else curves + 2) in message
     assert str(LIST_LIMIT[bits]) in message
-    assert "--tolerance" in message
-    assert "--max-depth" in message
-    assert ("--bits 16" in message) == (bits == 8)
+    assert "`tolerance`" in message
+    assert "`max_depth`" in message
+    assert ("`bits` 16" in message) == (bits == 8)
     assert "\n" not in message
 
 
 def test_bits_other_than_8_or_16() -> None:
-    with pytest.raises(LimitError, match="12 bits"):
+    with pytest.raises(ParameterError, match="`bits` is 12"):
         texture_of(leaf_tree(ACROSS), 12)
 
 

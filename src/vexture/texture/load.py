@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Final, Literal, overload
 
 from vexture import layout
-from vexture.encodings import DEFAULT, EncodedTexture, find_encoding, owner_of
+from vexture.encodings import DEFAULT, REGISTERED, EncodedTexture, find_encoding, owner_of
 from vexture.errors import FormatError
 from vexture.texture.files import read_file
 from vexture.texture.ktx2 import MAGIC, read_ktx2
@@ -83,7 +83,11 @@ def load_any(path: str | os.PathLike[str]) -> EncodedTexture:
     other = None if _is_ktx2(given) else owner_of(given)
     packed = given.with_name(given.name + layout.PACKED_SUFFIX) if given.name else given
     if other is not None and packed.is_file() and not given.is_file():
-        raise FormatError(f"{path} means {packed} as well as a texture in the encoding {other}; name one of the files")
+        first = given.with_name(given.name + find_encoding(other).SUFFIXES[0])
+        raise FormatError(f"{path} means {packed} as well as {first}; name one of them")
+    if other is None and not given.is_file() and not packed.is_file():
+        names = (", ".join(f"NAME{suffix}" for suffix in find_encoding(name).SUFFIXES) for name in REGISTERED)
+        raise FormatError(f"{path}: not found; a texture is NAME{layout.PACKED_SUFFIX}, or {'; or '.join(names)}")
     return load(given, encoding=other or DEFAULT)
 
 
