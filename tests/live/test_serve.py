@@ -5,11 +5,13 @@ import itertools
 import json
 import signal
 import subprocess
-from contextlib import closing
+from contextlib import ExitStack, closing
 
 import pytest
 from PIL import Image
 from server import COMMAND, TOKEN, Server, Stream, serving, square
+
+from vexture.live.limits import Limits
 
 
 @pytest.fixture(scope="module")
@@ -263,13 +265,15 @@ def test_it_stops_cleanly_while_clients_listen_and_drawings_are_converted(tmp_pa
 
 
 def test_slow_uploads_keep_nobody_waiting(tmp_path):
-    with serving(tmp_path / "shapes", "--rate", 1000) as server:
-        slow = [server.connect() for _ in range(20)]
-        for number, connection in enumerate(slow):
+    """More of them than may be converted at once; with the quick one they are as many as may come at once."""
+    limits = Limits()
+    slow_ones = limits.burst - 1
+    assert slow_ones > limits.conversions
+    with serving(tmp_path / "shapes", "--rate", 1000) as server, ExitStack() as opened:
+        for number in range(slow_ones):
+            connection = opened.enter_context(closing(server.connect()))
             connection.putrequest("PUT", f"/shapes/slow{number}")
             connection.putheader("Authorization", f"Bearer {TOKEN}")
             connection.putheader("Content-Length", "1000")
             connection.endheaders(b"<svg")
         assert server.put("quick", square())[0] == 201
-        for connection in slow:
-            connection.close()
