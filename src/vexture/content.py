@@ -64,7 +64,7 @@ class FileKind(StrEnum):
     SVG = "SVG"
 
 
-SUFFIXES: Final = {
+SUFFIXES: Final[dict[FileKind, tuple[str, ...]]] = {
     FileKind.TEXTURE: (".ktx2",),
     FileKind.GEOJSON: (".geojson", ".json"),
     FileKind.AREAS: (".gpkg", ".fgb", ".shp"),

@@ -144,7 +144,7 @@ class Compiled:
 
         self.code = code
         machine = llvm.Target.from_triple(code.platform).create_target_machine()
-        self.engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
+        self.engine: Any = llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
         self.engine.add_object_file(llvm.ObjectFileRef.from_data(machine_code))
         self.engine.finalize_object()
         # the interpreter's lock is kept, as by Numba

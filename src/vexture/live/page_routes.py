@@ -49,7 +49,7 @@ class KnownHosts:
 
     def __init__(self, app: ASGIApp, names: Collection[str] = ()) -> None:
         self.app = app
-        self.names = {"localhost", *(name.lower() for name in names)}
+        self.names: set[str] = {"localhost", *(name.lower() for name in names)}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass on, or refuse."""

@@ -26,7 +26,7 @@ WATER_SETTINGS: Final = Settings(precision=2e-6)
 SAME_PLACE: Final = 1e-6
 """Share of the frame by which a texture's place may differ from it: rounding of what wrote it."""
 
-OPTIONS: Final = {
+OPTIONS: Final[dict[FileKind, tuple[str, ...]]] = {
     FileKind.DEPTHS: ("time_dim", "variable"),
     FileKind.AREAS: ("layer",),
     FileKind.GEOJSON: ("layer",),

@@ -4,12 +4,12 @@ from dataclasses import replace
 from math import inf
 
 import numpy as np
-from fontTools.misc.transform import Identity
 from lxml import etree
 from numpy.typing import NDArray
 
 from vexture.drawing import FillRule, Paint, Path
 from vexture.errors import SourceError
+from vexture.svg.affine import Identity
 from vexture.svg.outline import Outline
 from vexture.svg.report import Report
 from vexture.svg.servers import Servers
@@ -46,7 +46,7 @@ class Painter:
         self.report = report
         self.size = size
         self.paths: list[Path] = []
-        self.segments = 0
+        self.segments: int = 0
 
     def paint(self, element: etree._Element, place: Place) -> None:
         """Paint a shape that stands at a place, which has the shape's own style and transform."""

@@ -20,7 +20,7 @@ GAP = rf"(?>{SPACE},?{SPACE})"
 POINTS = re.compile(rf"{SPACE}(?:{NUMBER}{GAP}{NUMBER}(?:{GAP}{NUMBER}{GAP}{NUMBER})*+)?+{SPACE}")
 
 FLAG: Final = "[01]"
-ARGUMENTS: Final = {
+ARGUMENTS: Final[dict[str, list[str]]] = {
     "M": [NUMBER] * 2,
     "L": [NUMBER] * 2,
     "T": [NUMBER] * 2,
@@ -99,10 +99,11 @@ class Pen:
         self.tolerance = tolerance
         self.outlines: list[Outline] = []
         self.cubics: list[tuple[float, ...]] = []
-        self.at = self.start = (0.0, 0.0)
-        self.control = (0.0, 0.0)
-        self.bend = ""  # what the last segment was, whose control point S or T mirrors
-        self.down = False
+        self.at: tuple[float, float] = (0.0, 0.0)
+        self.start: tuple[float, float] = (0.0, 0.0)
+        self.control: tuple[float, float] = (0.0, 0.0)
+        self.bend: str = ""  # what the last segment was, whose control point S or T mirrors
+        self.down: bool = False
 
     def draw(self, letter: str, text: str) -> None:
         """Draw a command with all its arguments."""

@@ -5,7 +5,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from fontTools.misc.transform import Identity, Transform
 from numpy.typing import NDArray
 
 from vexture.bezier.bounds import bounds
@@ -13,6 +12,7 @@ from vexture.content import about, decompressed, read_bytes
 from vexture.drawing import Drawing
 from vexture.errors import SourceError
 from vexture.notes import warn_of
+from vexture.svg.affine import Identity, Transform
 from vexture.svg.document import parse_svg
 from vexture.svg.report import Report
 from vexture.svg.scene import Scene

@@ -8,12 +8,12 @@ from dataclasses import replace
 from math import inf
 
 import numpy as np
-from fontTools.misc.transform import Identity, Transform
 from lxml import etree
 
 from vexture.bezier.bounds import bounds
 from vexture.drawing import Path
 from vexture.errors import SourceError
+from vexture.svg.affine import Identity, Transform
 from vexture.svg.document import local_name
 from vexture.svg.painter import Painter
 from vexture.svg.report import Report, described
@@ -69,9 +69,9 @@ class Scene:
         self.root = root
         self.chosen = chosen
         self.report = report
-        self.cascade = Cascade(root, report)
-        self.servers = Servers(root, self.cascade, report)
-        self.style = self.cascade.style(root, INITIAL)
+        self.cascade: Cascade = Cascade(root, report)
+        self.servers: Servers = Servers(root, self.cascade, report)
+        self.style: Style = self.cascade.style(root, INITIAL)
 
     def paint(self, viewport: Viewport, matrix: Transform, size: float | None) -> list[Path]:
         """Paint everything.

@@ -3,12 +3,12 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from fontTools.misc.transform import Identity, Transform
 from lxml import etree
 from numpy.typing import NDArray
 
 from vexture.bezier.clip import clip_contour
 from vexture.errors import SourceError
+from vexture.svg.affine import Identity, Transform
 from vexture.svg.style import INITIAL, Style
 from vexture.svg.transform import mapped
 from vexture.svg.values import LARGEST, Viewport

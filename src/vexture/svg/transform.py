@@ -5,9 +5,9 @@ from collections.abc import Callable
 from math import pi, radians, sqrt, tan
 
 import numpy as np
-from fontTools.misc.transform import Identity, Transform
 from numpy.typing import NDArray
 
+from vexture.svg.affine import Identity, Transform
 from vexture.svg.path_data import GAP, NUMBER, SPACE
 from vexture.svg.values import number
 

@@ -3,9 +3,8 @@
 import re
 from typing import Final, NamedTuple
 
-from fontTools.misc.transform import Transform
-
 from vexture.errors import SourceError
+from vexture.svg.affine import Transform
 from vexture.svg.values import numbers
 
 __all__ = ["CENTRED", "THINNEST", "Fit", "Rectangle", "parse_fit", "view_box", "view_transform"]
