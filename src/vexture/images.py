@@ -1,6 +1,6 @@
 """Pixels of a drawing or a texture: how much of each is covered, and the picture in its colours."""
 
-from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias, cast
 
 from vexture.encodings import EncodedTexture, Quality
 from vexture.errors import ParameterError
@@ -73,14 +73,15 @@ def coverage(
     array([[1., 0.],
            [1., 0.]], dtype=float32)
     """
-    drawing = _drawing_in(thing, renderer, root, quality)
-    if drawing is None:
-        return thing.coverage(size, view, renderer=renderer, root=root, quality=quality)  # type: ignore[union-attr]
+    from vexture.drawing import Drawing
+
+    _check(thing, renderer, root, quality)
     if renderer == "exact":
         from vexture.renderers.exact import render_exact
 
-        return render_exact(drawing, size, view)
-    return convert(drawing).coverage(size, view, renderer=renderer, quality=quality)
+        return render_exact(cast("Drawing", thing), size, view)
+    texture = convert(thing) if isinstance(thing, Drawing) else thing
+    return texture.coverage(size, view, renderer=renderer, root=root, quality=quality)
 
 
 def render(
@@ -122,21 +123,23 @@ def render(
     array([[[0.5, 0. , 0. , 0.5],
             [0. , 0. , 0. , 0. ]]], dtype=float32)
     """
-    drawing = _drawing_in(thing, renderer, root, quality)
-    if drawing is None:
-        return thing.render(size, view, renderer=renderer, root=root, quality=quality)  # type: ignore[union-attr]
-    if renderer != "exact" and drawing.paths:
-        return convert(drawing, split="paint").render(size, view, renderer=renderer, quality=quality)
+    from vexture.drawing import Drawing
+
+    _check(thing, renderer, root, quality)
+    empty = isinstance(thing, Drawing) and not thing.paths
+    if renderer != "exact" and not empty:
+        texture = convert(thing, split="paint") if isinstance(thing, Drawing) else thing
+        return texture.render(size, view, renderer=renderer, root=root, quality=quality)
     from vexture.renderers.exact import render_exact
     from vexture.renderers.picture import painted
     from vexture.renderers.view import size_of
 
-    layers = drawing.layers()
+    layers = cast("Drawing", thing).layers()
     return painted(size_of(size), ((layer.paths[0].paint, render_exact(layer, size, view)) for layer in layers))
 
 
-def _drawing_in(thing: Shown, renderer: Renderer, root: str | int | None, quality: Quality) -> "Drawing | None":
-    """Return the drawing that is to be shown, or None for a texture, once the arguments are checked."""
+def _check(thing: Shown, renderer: Renderer, root: str | int | None, quality: Quality) -> None:
+    """Raise an error unless the arguments fit each other: the renderer ``"exact"`` is for drawings alone."""
     from vexture.drawing import Drawing
 
     if renderer not in RENDERERS:
@@ -150,7 +153,5 @@ def _drawing_in(thing: Shown, renderer: Renderer, root: str | int | None, qualit
             )
         if renderer == "exact":
             raise ParameterError("`renderer` is 'exact', which renders drawings; use cpu or gpu for a texture")
-        return None
-    if root is not None:
+    elif root is not None:
         raise ParameterError(f"`root` is {root!r}, which chooses a shape of a texture; leave it out for a drawing")
-    return thing

@@ -10,7 +10,9 @@ from PIL import Image
 
 import vexture
 from vexture.drawing import Drawing, FillRule
+from vexture.errors import ParameterError
 from vexture.renderers.exact import render_exact
+from vexture.texture.texture import Texture
 from vexture_evidence.figures.overview import overview, picture_error, summary
 from vexture_evidence.measures.leaves import leaves
 from vexture_evidence.measures.shape import example, file_bytes
@@ -55,10 +57,10 @@ def test_error_is_that_of_the_texture():
     assert picture_error(star, vexture.convert(low), 64)[1] > 100
 
 
-@pytest.mark.parametrize("given", [{}, {"encoding": "thesis"}])
+@pytest.mark.parametrize(("plot", "given"), [(Texture.plot, {}), (summary, {}), (summary, {"encoding": "thesis"})])
 @pytest.mark.parametrize("name", DRAWINGS)
-def test_plot_shows_cells_coverage_and_picture(name, given):
-    figure = vexture.convert(DRAWINGS[name], **given).plot()
+def test_plot_shows_cells_coverage_and_picture(name, plot, given):
+    figure = plot(vexture.convert(DRAWINGS[name], **given))
     assert [axes.get_title(loc="left") for axes in figure.axes[:3]] == ["cells", "coverage", "picture"]
     assert_legible(figure)
     np.testing.assert_allclose(figure.axes[2].images[0].get_array(), render_exact(DRAWINGS[name], (256, 256)), atol=0.2)
@@ -66,10 +68,14 @@ def test_plot_shows_cells_coverage_and_picture(name, given):
 
 def test_plot_shows_the_shape_that_is_asked_for():
     both = vexture.atlas([example("duck"), example("holes")])
-    shown = [both.plot("holes"), summary(vexture.convert(example("holes")))]
-    first, second = (figure.axes[2].images[0].get_array() for figure in shown)
-    assert np.array_equal(first, second)
-    assert not np.array_equal(first, both.plot().axes[2].images[0].get_array())
+    holes = summary(vexture.convert(example("holes"))).axes[2]
+    for plot in (Texture.plot, summary):
+        named = plot(both, root="holes").axes[2]
+        assert named.get_title(loc="left") == "picture of holes"
+        assert np.array_equal(named.images[0].get_array(), holes.images[0].get_array())
+        assert not np.array_equal(named.images[0].get_array(), plot(both, root="duck").axes[2].images[0].get_array())
+        with pytest.raises(ParameterError, match=r"choose one by `root`"):
+            plot(both)
 
 
 def test_plot_shows_itself_in_a_notebook():

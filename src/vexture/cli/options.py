@@ -1,8 +1,9 @@
 """Types of options, and options that several commands have."""
 
+import sys
 from collections.abc import Callable
 from dataclasses import replace
-from typing import IO, Any, Final
+from typing import IO, TYPE_CHECKING, Any, Final
 
 import click
 
@@ -19,6 +20,11 @@ __all__ = [
     "standard_input",
     "viewer_settings",
 ]
+
+if TYPE_CHECKING:
+    ParamType = click.ParamType[Any]
+else:  # generic since click 8.4
+    ParamType = click.ParamType
 
 STANDARD: Final = "-"
 """Name of standard input and output among files."""
@@ -44,7 +50,7 @@ class Sectioned(click.Command):
                 formatter.write_dl(rows[True])
 
 
-class Rectangle(click.ParamType[Any]):
+class Rectangle(ParamType):
     """Four numbers, separated by commas."""
 
     name = "X,Y,W,H"
@@ -58,7 +64,7 @@ class Rectangle(click.ParamType[Any]):
         return x, y, w, h
 
 
-class Colour(click.ParamType[Any]):
+class Colour(ParamType):
     """A CSS colour, or none."""
 
     name = "COLOR|none"
@@ -82,15 +88,15 @@ def standard_input() -> bytes:
     """All that standard input holds, up to the limit of a file."""
     from vexture.content import LARGEST_FILE
 
-    return click.get_binary_stream("stdin").read(LARGEST_FILE + 1)
+    return sys.stdin.buffer.read(LARGEST_FILE + 1)
 
 
 def binary_output() -> IO[bytes]:
     """Standard output, for the bytes of a file."""
-    return click.get_binary_stream("stdout")
+    return sys.stdout.buffer
 
 
-class Tolerance(click.ParamType[Any]):
+class Tolerance(ParamType):
     """A number, or auto."""
 
     name = "T"

@@ -14,7 +14,7 @@ from vexture.tree.tree import Tree
 __all__ = ["decode"]
 
 
-def decode(texture: Texture, root: str | int = 0) -> Tree:
+def decode(texture: Texture, root: str | int | None = None) -> Tree:
     """Tree of one shape of a texture, with `deviation` and `unresolved` 0.
 
     What `encode` has written comes back as it was but for the rounding of coverages, and becomes the same
@@ -24,16 +24,19 @@ def decode(texture: Texture, root: str | int = 0) -> Tree:
     Parameters
     ----------
     texture : Texture
-    root : str or int
-        Name or place of the shape.
+    root : str or int, optional
+        Name or place of the shape; not needed if there is only one.
 
     Raises
     ------
+    ParameterError
+        If there is no such shape, or none is named where there are several.
     FormatError
-        If there is no such shape, or its texels are no tree.
+        If its texels are no tree.
 
     Examples
     --------
+    >>> from vexture.texture.root import Root
     >>> texels = np.array([[[0, 0, 0, 0xFF]]], np.uint32)
     >>> decode(Texture(texels, (Root("a quarter"),))).coverage
     array([[1., 0., 0., 0.]])

@@ -1,5 +1,6 @@
 """A texture as a figure for a notebook: cells, their coverage, and the picture that they make."""
 
+from io import BytesIO
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -17,6 +18,9 @@ __all__ = ["PICTURE", "cells_of", "plot_shape"]
 
 PICTURE: Final = 256
 """Pixels of the picture's side."""
+
+RESOLUTION: Final = 160
+"""Pixels per inch where a notebook shows it."""
 
 FINEST: Final = 256
 """Cells smaller than this part of the unit square are shown by the mean of their quad."""
@@ -62,21 +66,37 @@ def plot_shape(flat: NDArray[np.uint32], quad: int, picture: NDArray[np.float32]
     title : str
         Of the last panel.
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Shows itself as the last value of a notebook's cell.
+
     Raises
     ------
     DeviceError
         If matplotlib is not installed.
     """
     try:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
     except ModuleNotFoundError:
         raise DeviceError("plot needs the package matplotlib: pip install matplotlib") from None
+
+    class Shown(Figure):
+        """A figure that notebooks show without pyplot."""
+
+        def _repr_png_(self) -> bytes:
+            data = BytesIO()
+            self.savefig(data, format="png", dpi=RESOLUTION)
+            return data.getvalue()
+
     cells = cells_of(flat, quad)
-    figure = Figure(figsize=(11.0, 3.6), layout="constrained")
+    figure = Shown(figsize=(11.0, 3.6), layout="constrained")
+    FigureCanvasAgg(figure)
     depths, coverages, image = figure.subplots(1, 3)
     _draw(figure, depths, cells, 3, "cells", cmap="YlOrBr", label="depth")
     _draw(figure, coverages, cells, 4, "coverage", cmap="Blues", label="covered part", clim=(0.0, 1.0))
-    image.imshow(1.0 - picture, cmap="gray", vmin=0.0, vmax=1.0, extent=(0.0, 1.0, 0.0, 1.0))
+    image.imshow(picture, cmap="gray_r", vmin=0.0, vmax=1.0, extent=(0.0, 1.0, 0.0, 1.0))
     image.set_title(title, loc="left")
     return figure
 

@@ -277,12 +277,13 @@ class Texture:
         >>> import vexture
         >>> kite = vexture.convert(vexture.Drawing.polygon([(0.5, 0.1), (0.8, 0.6), (0.5, 0.9), (0.2, 0.6)]))
         >>> [axes.get_title(loc="left") for axes in kite.plot().axes[:3]]
-        ['cells', 'coverage', 'drawing']
+        ['cells', 'coverage', 'picture']
         """
         from vexture.texture.plot import PICTURE, plot_shape
 
         shape = self.root(root)
-        return plot_shape(self.flat, shape.quad, self.coverage(PICTURE, root=root), shape.name)
+        title = "picture" if len(self.roots) == 1 else f"picture of {shape.name}"
+        return plot_shape(self.flat, shape.quad, self.coverage(PICTURE, root=root), title)
 
     def to_svg(self, root: str | int | None = None) -> str:
         """Return the outlines as an SVG document in the units of the source.

@@ -101,7 +101,7 @@ def draw_cells(
     return cells
 
 
-def draw_level_lines(axes: "Axes", texture: Texture, root: str | int = 0, *, colour: str = INK) -> None:
+def draw_level_lines(axes: "Axes", texture: Texture, root: str | int | None = None, *, colour: str = INK) -> None:
     """Dot the horizontal lines of a packed shape: leaves hold few of them, for they follow from the other curves."""
     contours = outlines(texture.flat, texture.root(root).quad)
     arcs = np.concatenate([np.empty((0, 4, 2)), *contours])
@@ -130,7 +130,7 @@ def curve_lines(found: Leaves, bounds: Sequence[float] = UNIT) -> NDArray[np.flo
 def subdivision(
     shape: Tree | ThesisTexture | Texture,
     *,
-    root: str | int = 0,
+    root: str | int | None = None,
     shades: Literal["coverage", "depth"] = "coverage",
     bounds: Sequence[float] = UNIT,
 ) -> "Figure":
@@ -141,8 +141,8 @@ def subdivision(
     Parameters
     ----------
     shape : CellTree, PackedTree, ThesisTexture or Texture
-    root : str or int
-        Name or place of the shape in a packed texture.
+    root : str or int, optional
+        Name or place of the shape in a packed texture; not needed if there is only one.
     shades : str
         ``"coverage"`` shades every cell by how much of it is filled, ``"depth"`` by how deep in the tree it is.
     bounds : sequence of float

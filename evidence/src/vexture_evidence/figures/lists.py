@@ -53,7 +53,7 @@ class Counts(NamedTuple):
     grid: int
 
 
-def counts(shape: Tree | ThesisTexture | Texture, root: str | int = 0) -> Counts:
+def counts(shape: Tree | ThesisTexture | Texture, root: str | int | None = None) -> Counts:
     """Cells of a tree's two lists, four for each quad and one for each curve, and of the grid of its smallest cells.
 
     Examples
@@ -68,7 +68,7 @@ def counts(shape: Tree | ThesisTexture | Texture, root: str | int = 0) -> Counts
     return Counts(number, curves, 4 * number + curves, 4 ** int(1 + quads(tree).depth.max()))
 
 
-def hierarchy(shape: Tree | ThesisTexture | Texture, *, root: str | int = 0) -> "Figure":
+def hierarchy(shape: Tree | ThesisTexture | Texture, *, root: str | int | None = None) -> "Figure":
     """Show the subdivision above the grid that it replaces, and beside it the tree of its quads.
 
     Gray cells refer to the quad that hangs below; white cells are leaves, with their curves.
@@ -76,8 +76,8 @@ def hierarchy(shape: Tree | ThesisTexture | Texture, *, root: str | int = 0) -> 
     Parameters
     ----------
     shape : CellTree, PackedTree, ThesisTexture or Texture
-    root : str or int
-        Name or place of the shape in a packed texture.
+    root : str or int, optional
+        Name or place of the shape in a packed texture; not needed if there is only one.
 
     Returns
     -------
@@ -108,14 +108,14 @@ def hierarchy(shape: Tree | ThesisTexture | Texture, *, root: str | int = 0) -> 
     return figure
 
 
-def lists(shape: Tree | ThesisTexture | Texture, *, root: str | int = 0) -> "Figure":
+def lists(shape: Tree | ThesisTexture | Texture, *, root: str | int | None = None) -> "Figure":
     """Show the list of quads and the list of curves, level with their depth in the tree, and the coverage of each.
 
     Parameters
     ----------
     shape : CellTree, PackedTree, ThesisTexture or Texture
-    root : str or int
-        Name or place of the shape in a packed texture.
+    root : str or int, optional
+        Name or place of the shape in a packed texture; not needed if there is only one.
 
     Returns
     -------

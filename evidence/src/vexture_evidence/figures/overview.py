@@ -97,14 +97,14 @@ def overview(drawing: Drawing, textures: Mapping[str, ThesisTexture | Texture], 
     return figure
 
 
-def summary(texture: ThesisTexture | Texture, *, root: str | int = 0, size: int = SIDE) -> "Figure":
+def summary(texture: ThesisTexture | Texture, *, root: str | int | None = None, size: int = SIDE) -> "Figure":
     """Show a texture: its cells by their depth with their curves, its cells' coverage, and the picture it makes.
 
     Parameters
     ----------
     texture : ThesisTexture or Texture
-    root : str or int
-        Name or place of the shape in a packed texture.
+    root : str or int, optional
+        Name or place of the shape in a packed texture; not needed if there is only one.
     size : int
         Pixels of the picture's sides.
 
@@ -132,7 +132,7 @@ def summary(texture: ThesisTexture | Texture, *, root: str | int = 0, size: int 
     return figure
 
 
-def _picture(texture: ThesisTexture | Texture, size: int, root: str | int = 0) -> NDArray[np.float32]:
+def _picture(texture: ThesisTexture | Texture, size: int, root: str | int | None = None) -> NDArray[np.float32]:
     """Picture of the unit square by the renderer on the CPU."""
     if isinstance(texture, Texture):
         return render_cpu(texture, (size, size), root=texture.roots.index(texture.root(root)))

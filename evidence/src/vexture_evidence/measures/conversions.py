@@ -1,17 +1,14 @@
 """What Table 5.1 of the thesis says of a drawing, measured: time, size of the tree, bytes, frames per second."""
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from vexture.errors import LimitError
 from vexture.pipeline import run
 from vexture.texture.texture import Texture
 from vexture.thesis.layout import LIST_LIMIT
-from vexture_evidence.measures.shape import WAYS, Shape, file_bytes
+from vexture_evidence.measures.shape import WAYS, Made, Shape, file_bytes
 from vexture_evidence.measures.timing import FRAME, frames_per_second, median_seconds
-
-if TYPE_CHECKING:
-    from vexture.pipeline import Conversion
 
 __all__ = ["Measured", "frame_side", "measured"]
 
@@ -114,7 +111,7 @@ def _bytes_8(shape: Shape, way: str) -> int | None:
         return None
 
 
-def _rate(made: "Conversion", side: int) -> float:
+def _rate(made: Made, side: int) -> float:
     from vexture_evidence.measures.programs import packed_program, thesis_program
 
     texture = made.texture

@@ -102,21 +102,21 @@ class Leaves:
         return points
 
 
-def tree_of(shape: Tree | ThesisTexture | Texture, root: str | int = 0) -> Tree:
+def tree_of(shape: Tree | ThesisTexture | Texture, root: str | int | None = None) -> Tree:
     """The tree itself, or that of a texture's shape; `root` chooses one of a packed texture."""
     if isinstance(shape, Texture):
         return decode_packed(shape, root)
     return decode_thesis(shape) if isinstance(shape, ThesisTexture) else shape
 
 
-def leaves(shape: Tree | ThesisTexture | Texture, root: str | int = 0) -> Leaves:
+def leaves(shape: Tree | ThesisTexture | Texture, root: str | int | None = None) -> Leaves:
     """All leaves of a tree, or of a texture's shape.
 
     Parameters
     ----------
     shape : CellTree, Tree, ThesisTexture or Texture
-    root : str or int
-        Name or place of the shape in a packed texture.
+    root : str or int, optional
+        Name or place of the shape in a packed texture; not needed if there is only one.
 
     Examples
     --------
@@ -147,7 +147,7 @@ def leaves(shape: Tree | ThesisTexture | Texture, root: str | int = 0) -> Leaves
     return Leaves(low[:, 0], low[:, 1], side, coverage, depth, quad, cell, curves, owner, corners[owner])
 
 
-def quads(shape: Tree | ThesisTexture | Texture, root: str | int = 0) -> Quads:
+def quads(shape: Tree | ThesisTexture | Texture, root: str | int | None = None) -> Quads:
     """All quads of a tree, or of a texture's shape; parameters as of `leaves`.
 
     Examples

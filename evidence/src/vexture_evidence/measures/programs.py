@@ -15,13 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
-from vexture.renderers import method
 from vexture.renderers.device import context
 from vexture.renderers.exact import render_exact
 from vexture.renderers.shader import shader_source, vertex_source
 from vexture.renderers.view import view_base
 from vexture.texture.encode import encode
 from vexture.texture.texture import Root, Texture
+from vexture.thesis import method
 from vexture.thesis.gpu import fold
 from vexture.thesis.shader import TextureSizes, compose
 from vexture.thesis.texture import ThesisTexture

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vexture.drawing import Drawing
 from vexture.errors import LimitError
 from vexture.images import coverage
-from vexture.pipeline import Conversion, run
+from vexture.pipeline import run
 from vexture.renderers.exact import render_exact
 from vexture.renderers.view import window
 from vexture.texture.texture import Texture
@@ -21,7 +21,7 @@ from vexture.tree.cubics import gather
 from vexture_evidence.measures.closeups import outline_places
 from vexture_evidence.measures.metrics import Errors, errors
 from vexture_evidence.measures.rivals import texture_rival
-from vexture_evidence.measures.shape import WAYS, Shape
+from vexture_evidence.measures.shape import WAYS, Made, Shape
 from vexture_evidence.measures.thesis_ways import AsThesis, draw_as_thesis
 
 __all__ = [
@@ -176,7 +176,7 @@ def with_tolerances(
     right = accuracy_of("auto", gather(drawing)[0]).distance
     loose = LOOSE * right
     textures, fitted = {}, []
-    conversion: Callable[[], Conversion]
+    conversion: Callable[[], Made]
     for name, tolerance, conversion in (
         ("sampled", right, lambda: shape.way("sampled")),
         ("sampled, ten times too loose", loose, lambda: run(drawing, **(WAYS["sampled"] | {"tolerance": loose}))),
@@ -200,7 +200,7 @@ def with_tolerances(
     return (
         tuple(fitted),
         whole,
-        _all_of(drawing, textures, (side, side), window(*square, rotate=part).matrix((side, side))),
+        _all_of(drawing, textures, (side, side), window(*square, part).matrix((side, side))),
         square,
     )
 

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from vexture.errors import LimitError, SourceError
 from vexture.pipeline import Conversion, run
@@ -14,7 +14,10 @@ if TYPE_CHECKING:
     from vexture.texture.texture import Texture
     from vexture.thesis.texture import ThesisTexture
 
-__all__ = ["WAYS", "Shape", "example", "file_bytes"]
+__all__ = ["WAYS", "Made", "Shape", "example", "file_bytes"]
+
+Made: TypeAlias = "Conversion[Texture | ThesisTexture]"
+"""A conversion by one of `WAYS`."""
 
 WAYS: Final[dict[str, dict[str, Any]]] = {
     "sampled": {"encoding": "thesis", "strategy": "sampled"},
@@ -81,7 +84,7 @@ class Shape:
     def __init__(self, path: Path, name: str | None = None) -> None:
         self.path = path
         self._name = name
-        self._ways: dict[tuple[str, int | None], Conversion | LimitError] = {}
+        self._ways: dict[tuple[str, int | None], Made | LimitError] = {}
 
     @property
     def name(self) -> str:
@@ -95,7 +98,7 @@ class Shape:
 
         return read(self.path)
 
-    def way(self, way: str, bits: int | None = None) -> Conversion:
+    def way(self, way: str, bits: int | None = None) -> Made:
         """Tree and texture by one of `WAYS`; `bits` of those with the encoding ``thesis``, 16 if None.
 
         Raises
@@ -119,7 +122,7 @@ class Shape:
             raise made
         return made
 
-    def _as_saved(self, made: Conversion) -> Conversion:
+    def _as_saved(self, made: Made) -> Made:
         """The same with the source's name in a packed texture, which takes bytes of the file that `convert` writes."""
         from vexture.texture.texture import Texture
 

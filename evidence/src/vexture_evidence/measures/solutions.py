@@ -64,7 +64,7 @@ class SolutionPath:
     ----------
     name : str
     path : int
-        Its number in `vexture.renderers.method`.
+        Its number in `vexture.thesis.method`.
     p1, p2 : tuple of float
         Inner control points.
     x : float

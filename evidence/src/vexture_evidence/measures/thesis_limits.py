@@ -295,9 +295,10 @@ def list_lengths(drawing: Drawing, way: dict[str, str], across: Sequence[int]) -
         except LimitError as error:
             found.append(Lengths(number * number, None, refused=str(error).splitlines()[0]))
             break
-        if isinstance(texture, ThesisTexture):
-            entries = max(len(texture.quads), len(texture.curves))
-        else:
+        if isinstance(texture, Texture):
             entries = len(texture.flat)
+        else:
+            assert isinstance(texture, ThesisTexture)
+            entries = max(len(texture.quads), len(texture.curves))
         found.append(Lengths(number * number, entries, texture))
     return found

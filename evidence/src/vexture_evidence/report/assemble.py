@@ -84,7 +84,7 @@ def assemble(
     for name in only:
         say(f"{name} ...")
         start = time.perf_counter()
-        sections.append(import_module(f"vexture.report.{name}").section(material))
+        sections.append(import_module(f"vexture_evidence.report.{name}").section(material))
         seconds[name] = time.perf_counter() - start
     start = time.perf_counter()
     files = {folder / "figures" / f"{picture.name}.png": png_of(picture) for picture in pictures_of(sections)}
