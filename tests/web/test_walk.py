@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 import vexture
 from packed_walk import leaf_at, leaves
-from vexture.texture.decode import decode, info
-from vexture.texture.texture import Texture, load_packed
+from vexture.texture.decode import decode
 
 SHAPES = ROOT / "examples" / "shapes"
 FIXTURES = ROOT / "web" / "test" / "fixtures"
@@ -46,15 +45,13 @@ def _saved(name: str, folder: Path) -> Path:
     """A texture of an example."""
     if name.endswith(".ktx2"):
         return FIXTURES / name
-    texture = vexture.convert(SHAPES / f"{name}.svg")
-    assert isinstance(texture, Texture)
-    return texture.save(folder / f"{name}.ktx2")
+    return vexture.convert(SHAPES / f"{name}.svg").save(folder / f"{name}.ktx2")
 
 
 @pytest.mark.parametrize("name", ["drawings.ktx2", "font", "ocean", "crossings", "loop"])
 def test_the_same_points_are_inside(name: str, tmp_path: Path) -> None:
     path = _saved(name, tmp_path)
-    texture, points = load_packed(path), _points()
+    texture, points = vexture.load(path), _points()
     for place, found in enumerate(_by_node(path, points, tmp_path)):
         inside = texture.contains(points, place)
         assert 0 < inside.sum() < len(points)
@@ -65,9 +62,9 @@ def test_the_same_points_are_inside(name: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["drawings.ktx2", "font"])
 def test_the_same_cells_curves_and_counts(name: str, tmp_path: Path) -> None:
     path = _saved(name, tmp_path)
-    texture, points = load_packed(path), _points()
+    texture, points = vexture.load(path), _points()
     within = ((points >= 0.0) & (points < 1.0)).all(axis=1)
-    described = info(texture)["roots"]
+    described = texture.info()["roots"]
     for place, found in enumerate(_by_node(path, points, tmp_path)):
         for cell in (cell for cell, here in zip(found["cells"], within, strict=True) if not here):
             assert cell is None
@@ -86,7 +83,7 @@ def test_the_same_cells_curves_and_counts(name: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["drawings.ktx2", "font", "holes"])
 def test_bounds_hold_all_that_is_inside(name: str, tmp_path: Path) -> None:
     path = _saved(name, tmp_path)
-    texture, points = load_packed(path), _points()
+    texture, points = vexture.load(path), _points()
     for place, found in enumerate(_by_node(path, points, tmp_path)):
         inside = points[texture.contains(points, place)]
         x0, y0, x1, y1 = found["bounds"]
