@@ -70,7 +70,7 @@ def plot_shape(flat: NDArray[np.uint32], quad: int, picture: NDArray[np.float32]
     try:
         from matplotlib.figure import Figure
     except ModuleNotFoundError:
-        raise DeviceError("plot needs the package matplotlib: pip install matplotlib") from None
+        raise DeviceError("plot needs the package matplotlib: pip install 'vexture[plot]'") from None
     cells = cells_of(flat, quad)
     figure = Figure(figsize=(11.0, 3.6), layout="constrained")
     depths, coverages, image = figure.subplots(1, 3)
