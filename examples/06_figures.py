@@ -1,6 +1,6 @@
 """A heart of pixels is traced; figures of its texture, of its cells by depth, of its outline by several methods.
 
-python examples/06_figures.py [FOLDER]      needs vexture[report,trace]
+python examples/06_figures.py [FOLDER]      needs vexture-evidence
 """
 
 import sys

@@ -45,7 +45,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "drawing": BASE | {"bezier", "notes"},
     "svg": SOURCES,
     "geo": SOURCES,
-    "tracing": SOURCES,
+    "tracing": SOURCES | {"svg"},
     "reading": SOURCES | {"geo", "svg", "tracing"},
     "tree": BASE | {"bezier", "drawing", "layout"},
     "renderers": BASE | {"drawing", "layout"},

@@ -1,8 +1,9 @@
-"""Build a release: `dist.py --output dist . web` writes wheel, sdist and npm tarball of these project folders.
+"""Build a release: `dist.py --output dist . evidence web` writes wheels, sdists and npm tarball of these folders.
 
-A folder with a pyproject.toml becomes a wheel and an sdist, one with a package.json a tarball. They are built in a
-copy of what belongs to them, so that nothing stale gets in, and from the same files come the same bytes: times are
-SOURCE_DATE_EPOCH, else that of the last commit. Built pages must be there (`make viewer`), and node_modules of web/.
+A folder with a pyproject.toml becomes a wheel and an sdist, one with a package.json a tarball. Where kernels were
+compiled (`compile_kernels.py`), a second wheel holds them, for this platform. All are built in a copy of what belongs
+to them, so that nothing stale gets in, and from the same files come the same bytes: times are SOURCE_DATE_EPOCH, else
+that of the last commit. Built pages must be there (`make viewer`), and node_modules of web/.
 
 With `--repository URL`, which a registry's page needs, the artefacts name it, and relative links of their README lead
 to the version's files there.
@@ -24,7 +25,7 @@ import tomllib
 from pathlib import Path
 from typing import Any, Final
 
-__all__ = ["absolute_links", "build", "epoch"]
+__all__ = ["COMPILED", "absolute_links", "build", "epoch"]
 
 ROOT: Final = Path(__file__).resolve().parents[1]
 LINK: Final = re.compile(r"(?<=\]\()(?!\w+:|#)[^)\s]+")
@@ -100,6 +101,7 @@ def _build_wheel(folder: Path, copy: Path, made: Path, repository: str | None) -
         from compile_kernels import tag
 
         shutil.copytree(folder / COMPILED, copy / COMPILED)
+        _set_modes(copy)
         command = [*command[:3], "--no-isolation", "--wheel", f"-C--build-option=--plat-name={tag()}"]
         _run([*command, "--outdir", str(made), str(copy)], copy, SOURCE_DATE_EPOCH=str(epoch()))
     for sdist in made.glob("*.tar.gz"):
@@ -147,7 +149,12 @@ def _complete(folder: Path, copy: Path, version: str, repository: str | None) ->
     if repository:
         text = absolute_links(text, folder.relative_to(ROOT).as_posix(), repository.rstrip("/"), version)
     (copy / "README.md").write_text(text, encoding="utf-8")
-    for path in copy.rglob("*"):
+    _set_modes(copy)
+
+
+def _set_modes(folder: Path) -> None:
+    """Give all in a folder the same modes, whatever those of the checkout are."""
+    for path in folder.rglob("*"):
         path.chmod(0o755 if path.is_dir() else 0o644)
 
 
@@ -176,7 +183,7 @@ def _run(command: list[str], folder: Path, **environment: str) -> None:
 def main() -> None:
     """Build what the arguments name, and say what came of it."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER", help="project folder: . or web")
+    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER", help="project folder: . or evidence or web")
     parser.add_argument("--output", type=Path, required=True, metavar="DIR", help="folder for the artefacts")
     parser.add_argument("--repository", metavar="URL", help="where the sources are, for links and metadata")
     arguments = parser.parse_args()

@@ -12,7 +12,7 @@ from PIL import Image
 
 from vexture.errors import LimitError
 from vexture.flood.asked import Asked, bounds_of
-from vexture.texture.texture import packed_from
+from vexture.texture.load import texture_from
 
 pytestmark = pytest.mark.usefixtures("page_is_built")
 
@@ -40,7 +40,7 @@ def test_page_of_polygons_holds_everything(tmp_path):
     assert (facts["time"], facts["label"], facts["dry"], facts["deepest"]) == (None, "", False, None)
     head, texture = content(step["texture"])
     assert (head, len(texture)) == ("data:image/ktx2", size)
-    (root,) = packed_from(texture, "page").roots
+    (root,) = texture_from(texture, "page").roots
     np.testing.assert_allclose(root.to_source.ravel(), told["frame"]["to_source"])
     assert content(told["ground"])[0] == "data:image/webp"
     assert told["relief"]["invented"]

@@ -9,7 +9,7 @@ import pytest
 from floods import BOUNDS, CRS, TOKEN, depths, flooding, geotiff, scene_of, sea, series
 from server import COMMAND, Stream
 
-from vexture.texture.texture import packed_from
+from vexture.texture.load import texture_from
 
 pytestmark = pytest.mark.usefixtures("page_is_built")
 
@@ -32,7 +32,7 @@ def wet(server, name="flood"):
 
 def wet_in(server, manifest):
     data = server.ask("GET", "/" + manifest["texture"].replace("../", ""))[2]
-    return packed_from(data, "water").contains(PLACES).tolist()
+    return texture_from(data, "water").contains(PLACES).tolist()
 
 
 def written(path, share, **options):

@@ -10,7 +10,7 @@ from floods import BOUNDS, CRS, depths, geotiff, scene_of, sea, series, wkt
 
 import vexture
 from guides import GUIDES, Reader, blocks_of, free_port
-from vexture.texture.texture import packed_from
+from vexture.texture.load import texture_from
 
 
 def map_file(path: Path) -> Path:
@@ -73,7 +73,7 @@ def test_the_guide_for_coastal_data_does_what_it_says(tmp_path: Path) -> None:
     assert surge["title"] == "A surge"
     assert not any("drawn" in note for note in surge["notes"]), "the ground is not the picture that was given"
     assert vexture.fold_from((folder / "surge.fold.ktx2").read_bytes()).cycle == 6.0
-    texture = packed_from((folder / "surge.ktx2").read_bytes(), "surge")
+    texture = texture_from((folder / "surge.ktx2").read_bytes(), "surge")
     assert [bool(texture.contains([(0.55, 0.5)], root)[0]) for root in range(3)] == [False, False, True]
 
 

@@ -11,7 +11,7 @@ import pytest
 from typed import typed
 from vexture.errors import DeviceError
 from vexture.live.page import SCRIPT, STYLE, built, served_page
-from vexture.texture.texture import packed_from
+from vexture.texture.load import texture_from
 from vexture.thesis.png import read_png
 from viewing import SHAPES
 
@@ -49,7 +49,7 @@ def test_page_holds_textures_sources_and_comparisons(tmp_path):
     duck, hairline = scene(text)["shapes"]
     head, texture = content(duck["texture"])
     assert head == "data:image/ktx2"
-    assert packed_from(texture, "page").roots[0].name == "duck/1-#e8b100"
+    assert texture_from(texture, "page").roots[0].name == "duck/1-#e8b100"
     assert content(duck["views"]["svg"]) == ("data:image/svg+xml", (SHAPES / "duck.svg").read_bytes())
     for bits in (8, 16):
         for address, width in zip(duck["views"][f"thesis{bits}"], (4, 2), strict=True):

@@ -15,7 +15,7 @@ from vexture.live.folder import STATE, Folder
 from vexture.live.limits import Limits
 from vexture.live.names import manifest_name
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
-from vexture.texture.texture import packed_from
+from vexture.texture.load import texture_from
 
 LOST = (OSError, http.client.HTTPException, ValueError)
 
@@ -31,7 +31,7 @@ def test_kill_at_random_moments(tmp_path):
                 found = server.manifest(name)
                 drawing = server.ask("GET", found["views"]["svg"][2:])[2]
                 assert drawing in {last, *sent[name]}
-                packed_from(server.ask("GET", found["texture"][2:])[2], name)
+                texture_from(server.ask("GET", found["texture"][2:])[2], name)
                 assert found["facts"]["segments"] == 4
             assert server.put("a", square(1))[0] in (200, 201)  # it converts now
             acknowledged["a"] = square(1)

@@ -8,8 +8,8 @@ import subprocess
 import httpx
 import pytest
 
-from vexture.live import viewer as server
-from vexture.texture.texture import packed_from
+from vexture.live.page_routes import DROPPED_BYTES
+from vexture.texture.load import texture_from
 from vexture.thesis.png import read_png
 from viewing import SHAPES, VEXTURE, viewing
 
@@ -47,7 +47,7 @@ def test_files_of_one_name_are_told_apart(view):
 
 
 def packed_of(view, manifest):
-    return packed_from(view.get(manifest["texture"].removeprefix("../")).content, "answer")
+    return texture_from(view.get(manifest["texture"].removeprefix("../")).content, "answer")
 
 
 def test_manifest_says_what_people_ask(view):
@@ -148,12 +148,12 @@ def test_name_of_a_stranger_reads_nothing(view):
 
 def test_body_that_is_too_long_is_refused(view):
     def endless():
-        for _ in range(server.DROPPED_BYTES // 2**20 + 1):
+        for _ in range(DROPPED_BYTES // 2**20 + 1):
             yield bytes(2**20)
 
     answer = view.post("long.svg", endless())
     assert answer.status_code == 413
-    assert f"{server.DROPPED_BYTES:,}" in answer.json()["error"]
+    assert f"{DROPPED_BYTES:,}" in answer.json()["error"]
 
 
 def test_port_that_is_taken_is_one_line(view):

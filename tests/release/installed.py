@@ -53,9 +53,9 @@ class Installed:
         """The words of a command of vexture."""
         return [str(self.bin / "vexture"), *map(str, arguments)]
 
-    def run(self, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    def run(self, *arguments: str | Path, **environment: str) -> subprocess.CompletedProcess[str]:
         """Run a command of vexture."""
-        return self._ran(self.command(*arguments))
+        return self._ran(self.command(*arguments), **environment)
 
     def python(self, program: str) -> subprocess.CompletedProcess[str]:
         """Run Python text."""
@@ -66,8 +66,9 @@ class Installed:
         for name in {path.parts[0] for path in package.files or ()} - {"..", "__pycache__"}:
             (self.site / name).symlink_to(Path(str(package.locate_file(name))))
 
-    def _ran(self, command: list[str]) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(command, cwd=self.work, env=self.environment, capture_output=True, text=True, check=False)
+    def _ran(self, command: list[str], **environment: str) -> subprocess.CompletedProcess[str]:
+        everything = {**self.environment, **environment}
+        return subprocess.run(command, cwd=self.work, env=everything, capture_output=True, text=True, check=False)
 
 
 def required(package: Distribution) -> dict[str, Distribution]:

@@ -1,6 +1,7 @@
 """A wheel as `make dist` builds it, installed outside the checkout, without Node.js, and used as a newcomer would.
 
-`make dist-check` tries the artefacts in dist/ so, with all that pip installs for them, and kernels compiled anew.
+`make dist-check` tries the artefacts in dist/ so, with all that pip installs for them: the wheel for any platform,
+whose kernels are compiled anew, and the one for this platform, which brings them along.
 """
 
 import ast
@@ -23,13 +24,16 @@ from packaging.metadata import Metadata
 from packaging.utils import canonicalize_name
 from PIL import Image
 
-from dist import build
+from compile_kernels import tag
+from dist import COMPILED, build
 from vexture.errors import DeviceError
 from vexture.live.page import FLOOD, VIEWER, built
 
 ROOT = Path(__file__).parents[2]
 SOURCES = ROOT / "src"
 GIVEN = os.environ.get("VEXTURE_DIST")
+WHEELS = ("any", "platform") if GIVEN else ("any",)
+AHEAD = re.compile(r"^@kernel\(.*\bahead=True.*\)\ndef (\w+)", re.M)
 DRAWING = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 4 4"><path d="M0 0H4L2 4Z"/></svg>'
 LAKE = '{"type": "Polygon", "coordinates": [[[4, 52], [4.1, 52], [4.1, 52.1], [4, 52]]]}'
 
@@ -48,14 +52,29 @@ def artefacts(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.fixture(scope="module", params=WHEELS)
+def wheel(artefacts: Path, request: pytest.FixtureRequest) -> Path:
+    for_any = request.param == "any"
+    (found,) = (path for path in artefacts.glob("vexture-*.whl") if path.stem.endswith("-none-any") == for_any)
+    return found
+
+
 @pytest.fixture(scope="module")
-def wheel(artefacts: Path) -> Path:
-    (found,) = artefacts.glob("vexture-*.whl")
+def evidence(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Wheel of the second distribution."""
+    folder = Path(GIVEN).resolve() if GIVEN else tmp_path_factory.mktemp("evidence")
+    if not GIVEN:
+        build(ROOT / "evidence", folder)
+    (found,) = folder.glob("vexture_evidence-*.whl")
     return found
 
 
 @pytest.fixture(scope="module")
 def metadata(wheel: Path) -> Metadata:
+    return metadata_of(wheel)
+
+
+def metadata_of(wheel: Path) -> Metadata:
     with zipfile.ZipFile(wheel) as archive:
         (name,) = (name for name in archive.namelist() if name.endswith(".dist-info/METADATA"))
         return Metadata.from_email(archive.read(name))
@@ -69,10 +88,20 @@ def vexture(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Installed:
     return installed
 
 
-def belonging() -> set[str]:
-    """Files of the package, as paths below src/."""
-    files = (path for path in (SOURCES / "vexture").rglob("*") if path.is_file() and path.suffix != ".pyc")
-    return {path.relative_to(SOURCES).as_posix() for path in files}
+def belonging(package: Path = SOURCES / "vexture") -> set[str]:
+    """Files of a package, as paths below src/; compiled kernels belong to a platform."""
+    files = (path for path in package.rglob("*") if path.is_file() and path.suffix not in (".pyc", ".code"))
+    return {path.relative_to(package.parent).as_posix() for path in files}
+
+
+def compiled_ahead() -> set[str]:
+    """Kernels that the wheel of a platform brings along, each with its module."""
+    modules = {path: path.relative_to(SOURCES).with_suffix("") for path in (SOURCES / "vexture").rglob("*.py")}
+    return {
+        f"{'.'.join(name.parts)}.{kernel}"
+        for path, name in modules.items()
+        for kernel in AHEAD.findall(path.read_text())
+    }
 
 
 def test_the_wheel_holds_the_package_with_its_pages_and_nothing_else(wheel: Path) -> None:
@@ -80,7 +109,10 @@ def test_the_wheel_holds_the_package_with_its_pages_and_nothing_else(wheel: Path
         names = {name for name in archive.namelist() if ".dist-info/" not in name}
         information = {name.partition("/")[2] for name in archive.namelist() if ".dist-info/" in name}
         notices = archive.read("vexture/live/built/LICENSES.txt").decode()
-    assert names == belonging()
+    kernels = {name for name in names if name.startswith("vexture/compiled/")}
+    assert names - kernels == belonging()
+    for_any = wheel.stem.endswith("-none-any")
+    assert {Path(name).name.partition("-")[0] for name in kernels} == (set() if for_any else compiled_ahead())
     assert {f"vexture/live/built/{name}" for name in (*VIEWER, *FLOOD)} < names
     assert "three.js authors" in notices
     assert information == {
@@ -104,18 +136,29 @@ def test_the_sdist_holds_what_the_wheel_is_built_from_and_nothing_else(artefacts
 
 
 def test_the_same_files_become_the_same_bytes(tmp_path: Path) -> None:
-    """Of another time and other permissions."""
+    """Of another time and other permissions; compiled kernels are in the wheel of this platform, and in that alone."""
     folder = tmp_path / "project"
-    (folder / "src" / "small").mkdir(parents=True)
-    (folder / "src" / "small" / "__init__.py").write_text('"""A package."""\n')
+    (folder / COMPILED).mkdir(parents=True)
+    (folder / COMPILED / "a.code").write_bytes(b"code")
+    (folder / "src" / "vexture" / "__init__.py").write_text('"""A package."""\n')
     (folder / "README.md").write_text("[licence](LICENSE)\n")
-    project = '[project]\nname = "small"\nversion = "1"\n[tool.setuptools.packages.find]\nwhere = ["src"]\n'
-    (folder / "pyproject.toml").write_text(project)
-    first = [path.read_bytes() for path in build(folder, tmp_path / "first")]
+    (folder / "pyproject.toml").write_text(
+        '[project]\nname = "small"\nversion = "1"\n[tool.setuptools.packages.find]\nwhere = ["src"]\n'
+        '[tool.setuptools.package-data]\nvexture = ["compiled/*.code"]\n'
+    )
+    first = {path.name: path.read_bytes() for path in build(folder, tmp_path / "first")}
+    assert set(first) == {"small-1-py3-none-any.whl", f"small-1-py3-none-{tag()}.whl", "small-1.tar.gz"}
+    for name, content in first.items():
+        if name.endswith(".whl"):
+            code = "vexture/compiled/a.code" in zipfile.ZipFile(BytesIO(content)).namelist()
+            assert code == (not name.endswith("-any.whl"))
+        else:
+            with tarfile.open(fileobj=BytesIO(content)) as archive:
+                assert not [name for name in archive.getnames() if "compiled" in name]
     for path in folder.rglob("*"):
         path.chmod(0o700)
         os.utime(path, (1e9, 1e9))
-    assert [path.read_bytes() for path in build(folder, tmp_path / "second")] == first
+    assert {path.name: path.read_bytes() for path in build(folder, tmp_path / "second")} == first
 
 
 def test_its_metadata_are_complete(metadata: Metadata) -> None:
@@ -127,19 +170,49 @@ def test_its_metadata_are_complete(metadata: Metadata) -> None:
 
 
 def test_all_that_it_imports_is_required(wheel: Path, metadata: Metadata) -> None:
-    homes = packages_distributions()
-    required = {canonicalize_name(requirement.name) for requirement in metadata.requires_dist or ()}
+    others = imported_by(wheel) - {"vexture"}
+    assert {"numpy", "starlette", "rasterio"} < others
+    assert not_required(others, metadata) == set()
+
+
+def test_the_second_distribution_holds_its_package_and_adds_a_command(vexture: Installed, evidence: Path) -> None:
+    """It is laid beside the installed wheel, where other tests do not see it, without what it only measures with."""
+    with zipfile.ZipFile(evidence) as archive:
+        names = {name for name in archive.namelist() if ".dist-info/" not in name}
+    assert names == belonging(ROOT / "evidence" / "src" / "vexture_evidence")
+    assert "report" not in vexture.run("--help").stdout
+    beside = vexture.work.parent / "evidence"
+    vexture.pip("install", "--quiet", "--no-index", "--no-deps", "--target", str(beside), str(evidence))
+    outcome = vexture.run("report", "--help", PYTHONPATH=str(beside))
+    assert (outcome.returncode, outcome.stderr) == (0, "")
+    assert outcome.stdout.startswith("Usage: vexture report ")
+
+
+def test_all_that_the_second_distribution_imports_is_required(metadata: Metadata, evidence: Path) -> None:
+    own = metadata_of(evidence)
+    (vexture,) = (requirement for requirement in own.requires_dist or () if requirement.name == "vexture")
+    assert str(vexture.specifier) == f"=={metadata.version}"
+    others = imported_by(evidence) - {"vexture", "vexture_evidence"}
+    assert {"matplotlib", "numpy"} < others
+    assert not_required(others, own, metadata) == set()
+
+
+def imported_by(wheel: Path) -> set[str]:
+    """Top-level modules that a wheel's modules import, without those of Python."""
     imported = set[str]()
     with zipfile.ZipFile(wheel) as archive:
         for name in archive.namelist():
             if name.endswith(".py"):
                 for node in ast.walk(ast.parse(archive.read(name))):
                     imported |= modules_of(node)
-    others = imported - set(sys.stdlib_module_names) - {"vexture"}
-    assert {"numpy", "starlette", "rasterio"} < others
-    assert {
-        name for name in others if not required & {canonicalize_name(home) for home in homes.get(name, ())}
-    } == set()
+    return imported - set(sys.stdlib_module_names)
+
+
+def not_required(modules: set[str], *requiring: Metadata) -> set[str]:
+    """Those of the modules that no required distribution has."""
+    homes = packages_distributions()
+    required = {canonicalize_name(needed.name) for one in requiring for needed in one.requires_dist or ()}
+    return {name for name in modules if not required & {canonicalize_name(home) for home in homes.get(name, ())}}
 
 
 def modules_of(node: ast.AST) -> set[str]:
@@ -165,7 +238,7 @@ def test_all_modules_import_without_extras(vexture: Installed) -> None:
     assert Path(outcome.stdout.strip()).is_relative_to(vexture.site)
 
 
-def test_it_converts_describes_and_renders(vexture: Installed) -> None:
+def test_it_converts_describes_and_renders(vexture: Installed, wheel: Path) -> None:
     for command in (
         ["convert", "triangle.svg"],
         ["info", "triangle.ktx2", "--json"],
@@ -174,6 +247,8 @@ def test_it_converts_describes_and_renders(vexture: Installed) -> None:
     ):
         outcome = vexture.run(*command)
         assert outcome.returncode == 0, outcome.stderr
+        if not wheel.stem.endswith("-none-any") and "exact" not in command:
+            assert "compiling" not in outcome.stderr
         if command[0] == "info":
             assert json.loads(outcome.stdout)["name"] == "triangle"
     for name in ("triangle.png", "exact.png"):

@@ -345,7 +345,7 @@ def test_command_line_converts_and_draws_pictures(logo, tmp_path):
     assert [root.paint.hex for root in texture.roots] == COLOURS
     assert texture.contains([(0.5, 0.5), (0.02, 0.5)], root=texture.roots[0].name).tolist() == [False, False]
     picture = tmp_path / "drawn.png"
-    drawing, encoded = (logo, "--renderer", "exact", "--split", "paint"), (tmp_path / "logo.ktx2", "--renderer", "cpu")
+    drawing, encoded = (logo, "--renderer", "exact"), (tmp_path / "logo.ktx2", "--renderer", "cpu")
     for shown in (drawing, encoded):
         result = run("render", *shown, "-o", picture)
         assert result.exit_code == 0, result.output

@@ -80,7 +80,7 @@ def plot_shape(flat: NDArray[np.uint32], quad: int, picture: NDArray[np.float32]
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
     except ModuleNotFoundError:
-        raise DeviceError("plot needs the package matplotlib: pip install matplotlib") from None
+        raise DeviceError("plot needs the package matplotlib: pip install 'vexture[plot]'") from None
 
     class Shown(Figure):
         """A figure that notebooks show without pyplot."""
