@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from vexture import machine_code
+from vexture import Drawing, convert, machine_code
 from vexture.kernels import Kernel
+from vexture.texture.load import texture_from
 
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
@@ -106,6 +107,12 @@ def test_readonly_arrays_are_left_to_numba(written: tuple[Kernel, Path]) -> None
     values = np.zeros(2)
     values.flags.writeable = False
     assert loaded(written, arguments=(values, 3.0, 2)) is None
+
+
+def test_a_loaded_texture_is_drawn_by_the_code_of_a_converted_one() -> None:
+    made = convert(Drawing.polygon([(0.2, 0.2), (0.8, 0.2), (0.5, 0.8)]))
+    loaded = texture_from(made.to_ktx2(), "loaded")
+    assert machine_code.described(loaded.texels) == machine_code.described(made.texels) == ["<u4", 3, True]
 
 
 def test_code_of_another_text_is_not_taken(written: tuple[Kernel, Path]) -> None:

@@ -226,7 +226,8 @@ def _read_image(data: bytes, header: Header) -> NDArray[np.uint32]:
         raw = _inflate(stored, size)
     if len(raw) != size:
         raise FormatError(f"the image has {len(raw)} bytes; its size in texels makes it {size}; {REMEDY}")
-    texels = np.frombuffer(raw, "<u4").astype(np.uint32, copy=False)
+    # a copy, which can be written to: kernels are compiled for such arrays, as a conversion makes them
+    texels = np.frombuffer(raw, "<u4").astype(np.uint32)
     return texels.reshape(header.height, header.width, CHANNELS)
 
 
