@@ -341,7 +341,5 @@ def render_cpu(
     relative = matrix.copy()
     relative[:2] -= np.outer(base, matrix[2]) / 2.0**32
     image = np.empty((height, width), np.float32)
-    texels = texture.texels.view()
-    texels.flags.writeable = False  # one type for the compiled code, whether a file or a conversion made the array
-    draw(texels, code, quad, base, relative, image)
+    draw(texture.texels, code, quad, base, relative, image)
     return image
