@@ -74,7 +74,7 @@ def draw(gl: Any, triangle: Any, size: tuple[int, int]) -> NDArray[np.float32]:
     width, height = size
     limit = gl.info["GL_MAX_TEXTURE_SIZE"]
     if max(width, height) > limit:
-        raise LimitError(f"size is {width} x {height}; this device draws up to {limit}, give a smaller --size")
+        raise LimitError(f"size is {width} x {height}; this device draws up to {limit}, give a smaller `size`")
     image = gl.texture((width, height), 1, dtype="f4")
     target = gl.framebuffer([image])
     target.use()
