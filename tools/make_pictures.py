@@ -137,6 +137,7 @@ def panels() -> list[list[Panel]]:
     """From a drawing to pixels."""
     drawing = vexture.read_svg(SHAPE)
     texture = vexture.convert(drawing, encoding="thesis")
+    assert isinstance(texture, ThesisTexture)
     tree = decode(texture)
     quads, curves, size = len(texture.quads), len(texture.curves), sum(map(len, texture.to_png()))
     source = inked(vexture.coverage(drawing, (PANEL, PANEL), renderer="exact"))

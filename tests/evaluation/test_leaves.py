@@ -7,6 +7,7 @@ import decoded
 import packed_walk
 import vexture
 from vexture.drawing import Drawing
+from vexture.errors import ParameterError
 from vexture.pipeline import run
 from vexture_evidence.measures.leaves import leaves, quads, tree_of
 from vexture_evidence.measures.shape import example
@@ -64,7 +65,9 @@ def test_a_shape_of_an_atlas_is_chosen_by_its_name():
     alone = leaves(vexture.convert(example("holes")))
     chosen = leaves(both, "holes")
     assert np.array_equal(chosen.curves, alone.curves)
-    assert not np.array_equal(leaves(both).x, alone.x)
+    assert not np.array_equal(leaves(both, "duck").x, alone.x)
+    with pytest.raises(ParameterError, match=r"choose one by `root`"):
+        leaves(both)
 
 
 @pytest.mark.parametrize("encoding", ["packed", "thesis"])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vexture.drawing import Drawing
-from vexture.errors import DeviceError, LimitError
+from vexture.errors import DeviceError, ParameterError
 from vexture.renderers.exact import render_exact
 from vexture.renderers.view import fit
 from vexture_evidence.measures.raster import RasterTexture, bilinear, footprint, mip_sides, raster_from
@@ -86,7 +86,7 @@ def test_bytes_are_those_of_all_levels_and_of_the_file():
 
 
 def test_size_out_of_range_is_said():
-    with pytest.raises(LimitError, match="16384"):
+    with pytest.raises(ParameterError, match="16384"):
         raster_from(TRIANGLE, 0)
 
 

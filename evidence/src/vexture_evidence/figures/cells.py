@@ -140,7 +140,7 @@ def subdivision(
 
     Parameters
     ----------
-    shape : CellTree, PackedTree, ThesisTexture or Texture
+    shape : CellTree, Tree, ThesisTexture or Texture
     root : str or int, optional
         Name or place of the shape in a packed texture; not needed if there is only one.
     shades : str

@@ -75,7 +75,7 @@ def hierarchy(shape: Tree | ThesisTexture | Texture, *, root: str | int | None =
 
     Parameters
     ----------
-    shape : CellTree, PackedTree, ThesisTexture or Texture
+    shape : CellTree, Tree, ThesisTexture or Texture
     root : str or int, optional
         Name or place of the shape in a packed texture; not needed if there is only one.
 
@@ -113,7 +113,7 @@ def lists(shape: Tree | ThesisTexture | Texture, *, root: str | int | None = Non
 
     Parameters
     ----------
-    shape : CellTree, PackedTree, ThesisTexture or Texture
+    shape : CellTree, Tree, ThesisTexture or Texture
     root : str or int, optional
         Name or place of the shape in a packed texture; not needed if there is only one.
 

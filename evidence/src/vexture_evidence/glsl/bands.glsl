@@ -1,6 +1,6 @@
 // Coverage of a pixel by the band algorithm: along two rays, the curves of a band, each root's distance in pixels.
 // Written from the public description (E. Lengyel, "GPU-Centered Font Rendering Directly from Glyph Outlines",
-// JCGT 6(2), 2017). The package includes it nowhere: it is what the others are measured against (evidence/measures/bands.py,
+// JCGT 6(2), 2017). The package includes it nowhere: it is what the others are measured against (measures/bands.py,
 // which puts BANDS, ROW_BITS, COUNT_BITS, ELIGIBLE and STRAIGHT before it).
 // Exports: band_coverage.
 

@@ -48,7 +48,7 @@ def render_resvg(drawing: "Drawing", size: tuple[int, int]) -> NDArray[np.float3
 
     Raises
     ------
-    LimitError
+    ParameterError
         If the size is out of range.
     DeviceError
         If resvg is not installed.
@@ -94,7 +94,7 @@ def render_skia(drawing: "Drawing", size: tuple[int, int], to_unit: ArrayLike | 
 
     Raises
     ------
-    LimitError
+    ParameterError
         If the size or the view is out of range.
     DeviceError
         If Skia is not installed.

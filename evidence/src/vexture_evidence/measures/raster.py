@@ -66,7 +66,7 @@ class MipMapped:
     def sample(
         self, size: tuple[int, int], to_unit: ArrayLike | None = None, *, mip: bool = True
     ) -> NDArray[np.float32]:
-        """Draw it as `vexture.render` draws a texture: one fetch for each pixel.
+        """Draw it as `vexture.coverage` draws a texture: one fetch for each pixel.
 
         Parameters
         ----------
@@ -84,7 +84,7 @@ class MipMapped:
 
         Raises
         ------
-        LimitError
+        ParameterError
             If the size or the view is out of range.
         """
         place = footprint(size, to_unit)
@@ -147,7 +147,7 @@ def footprint(size: tuple[int, int], to_unit: ArrayLike | None = None) -> Footpr
 
     Raises
     ------
-    LimitError
+    ParameterError
         If the size or the view is out of range.
 
     Examples
@@ -253,7 +253,7 @@ def raster_from(drawing: "Drawing", side: int, *, mips: bool = True) -> RasterTe
 
     Raises
     ------
-    LimitError
+    ParameterError
         If the side is out of range.
 
     Examples

@@ -43,7 +43,7 @@ def stored_values(drawing: Drawing, tree: Tree, texture: ThesisTexture | None = 
     Parameters
     ----------
     drawing : Drawing
-    tree : CellTree or PackedTree
+    tree : CellTree or Tree
         Made from it.
     texture : ThesisTexture, optional
         The tree's: then leaves have the mean of 16 samples of their curve, as the thesis proposes (6.2.3), and quads

@@ -63,7 +63,7 @@ def draw_as_thesis(
 
     Raises
     ------
-    LimitError
+    ParameterError
         If the size or the view is out of range.
 
     Examples

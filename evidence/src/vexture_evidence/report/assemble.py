@@ -27,7 +27,7 @@ SECTIONS: Final = (
     "comparison",
     "tracing",
 )
-"""Modules of `vexture.report`, each with a function ``section(material)``, in the order of the page.
+"""Modules of `vexture_evidence.report`, each with a function ``section(material)``, in the order of the page.
 
 Those that measure times come first, while the process is small."""
 
