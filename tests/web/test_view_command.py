@@ -177,8 +177,8 @@ def test_thesis_encoding_of_the_server_can_be_compared_with(tmp_path, open_page,
     with viewing(tmp_path, SHAPES / "duck.svg") as running:
         page = ready(open_page(running.url, (900, 600)))
         with (
-            page.expect_response(re.compile(r"/thesis8\.quads\.png$")) as quads,
-            page.expect_response(re.compile(r"/thesis8\.curves\.png$")) as curves,
+            page.expect_response(re.compile(r"/thesis8\.quads\.png$"), timeout=1000 * PATIENCE) as quads,
+            page.expect_response(re.compile(r"/thesis8\.curves\.png$"), timeout=1000 * PATIENCE) as curves,
         ):
             page.get_by_label("Compare with").select_option("Thesis 8 bit")
         assert (quads.value.status, curves.value.status) == (200, 200)
