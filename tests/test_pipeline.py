@@ -155,7 +155,7 @@ def test_select_converts_a_part_where_it_is(logo: File, encoding: str) -> None:
     part = run(logo, encoding=encoding, select="#word")
     assert part.drawing.segments == 3
     np.testing.assert_array_equal(part.drawing.to_source, vexture.read_svg(logo).to_source)
-    with pytest.raises(LimitError, match=r"logo.svg: --select '#none' matches no element"):
+    with pytest.raises(LimitError, match=r"logo.svg: `select` '#none' matches no element"):
         run(logo, encoding=encoding, select="#none")
 
 

@@ -235,13 +235,13 @@ def extent_of(
     if kind_of(start_of(source), file_name) is FileKind.DEPTHS:
         from vexture.geo.depths import read_depths
 
-        _refuse({"--layer": layer}, "polygons, and this file holds depths")
+        _refuse({"`layer`": layer}, "polygons, and this file holds depths")
         return read_depths(
             source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable
         )
     from vexture.geo.polygons import read_polygons
 
-    _refuse({"--time-dim": time_dim, "--variable": variable}, "depths, and this file holds polygons")
+    _refuse({"`time_dim`": time_dim, "`variable`": variable}, "depths, and this file holds polygons")
     return read_polygons(source, file_name, frame=frame, bounds=bounds, crs=crs, layer=layer)
 
 

@@ -179,7 +179,7 @@ def test_page_must_be_html(tmp_path):
 
 
 def test_parameters_are_checked(tmp_path):
-    with pytest.raises(LimitError, match="--amplitude nan"):
+    with pytest.raises(LimitError, match="`amplitude` nan"):
         Asked(tmp_path, amplitude=float("nan"))
     assert Asked(tmp_path).amplitude_in(1000.0) == 2.0
     with pytest.raises(LimitError, match="the box is empty"):

@@ -82,4 +82,4 @@ def test_the_trouble_that_the_guide_quotes_is_what_is_said(tmp_path: Path) -> No
     with pytest.raises(vexture.SourceError, match="it names no reference system of its coordinates") as caught:
         vexture.read_extent(geotiff(tmp_path / "nowhere.tif", depths(), crs=None))
     assert "it names no reference system of its coordinates" in text
-    assert "--crs EPSG:" in str(caught.value)
+    assert "`crs` EPSG:" in str(caught.value)

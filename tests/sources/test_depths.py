@@ -310,19 +310,19 @@ def curvilinear(dataset):
 @pytest.mark.parametrize(
     ("change", "options", "error", "message"),
     [
-        (without_system, {}, SourceError, r"--crs EPSG"),
+        (without_system, {}, SourceError, r"`crs` EPSG"),
         (with_layers, {}, SourceError, r"variable 'depth' also has the dimension 'layer' \(2 long\)"),
         (shuffled, {}, SourceError, r"step 3 is before step 2 .* sortby\('time'\)"),
         (repeated, {}, SourceError, r"step 3 is the same time as step 2 .* drop_duplicates"),
         (nothing, {}, SourceError, r"variable 'depth' holds no number within the bounds at any of 3 steps"),
         (curvilinear, {}, SourceError, r"no variable is on rows and columns; it has 'depth'"),
         (lambda dataset: dataset, {"time_dim": "hour"}, LimitError, r"no dimension 'hour'; it has .*'time'"),
-        (lambda dataset: dataset, {"variable": "salt"}, LimitError, r"'salt'; --variable may be 'depth'"),
+        (lambda dataset: dataset, {"variable": "salt"}, LimitError, r"'salt'; `variable` may be 'depth'"),
         (
             lambda d: d.assign(wd=d["depth"]),
             {},
             LimitError,
-            r"depths may be in 'depth', 'wd'; choose one by --variable",
+            r"depths may be in 'depth', 'wd'; choose one by `variable`",
         ),
         (lambda dataset: dataset, {"bounds": (0.0, 0.0, 9.0, 9.0)}, SourceError, r"within the bounds 0,0,9,9 .*covers"),
         (lambda dataset: dataset, {"hmin": 0.0}, LimitError, r"hmin is 0 m; it must be above 0"),
@@ -336,7 +336,7 @@ def test_bad_files_are_refused_in_one_line(tmp_path, change, options, error, mes
 
 
 @pytest.mark.parametrize(
-    ("profile", "message"), [({"crs": None}, "--crs EPSG"), ({"transform": Affine.identity()}, "no geotransform")]
+    ("profile", "message"), [({"crs": None}, "`crs` EPSG"), ({"transform": Affine.identity()}, "no geotransform")]
 )
 @pytest.mark.filterwarnings("ignore::rasterio.errors.NotGeoreferencedWarning")
 def test_geotiff_that_does_not_say_where_it_is(tmp_path, profile, message):

@@ -51,12 +51,12 @@ def test_layers_are_chosen_by_name(tmp_path):
     written(path, [shapely.Point(1, 2)], UTM, layer="gauges", kind="Point", append=True)
     assert same(only(read_extent(path, "many.gpkg")), LAKE)  # the only one with polygons
     written(path, [POND], UTM, layer="pond", kind="Polygon", append=True)
-    with pytest.raises(LimitError, match=r"2 layers; choose one by --layer: lake, pond"):
+    with pytest.raises(LimitError, match=r"2 layers; choose one by `layer`: lake, pond"):
         read_extent(path, "many.gpkg")
     assert same(only(read_extent(path, "many.gpkg", layer="pond")), POND)
     with pytest.raises(LimitError, match=r"no layer 'sea'; its layers are: lake, gauges, pond"):
         read_extent(path, "many.gpkg", layer="sea")
-    with pytest.raises(LimitError, match="leave --layer out"):
+    with pytest.raises(LimitError, match="leave `layer` out"):
         read_extent(b'{"type": "Polygon", "coordinates": []}', "a.geojson", layer="sea")
 
 
@@ -68,7 +68,7 @@ def test_a_zip_of_several_shapefiles_has_layers(tmp_path):
         for path in sorted(tmp_path.glob("*.*")):
             if path != archive:
                 out.write(path, path.name.upper())
-    with pytest.raises(LimitError, match=r"choose one by --layer: LAKE, POND"):
+    with pytest.raises(LimitError, match=r"choose one by `layer`: LAKE, POND"):
         read_extent(archive, "both.zip")
     assert same(only(read_extent(archive, "both.zip", layer="POND")), POND)
 
@@ -76,7 +76,7 @@ def test_a_zip_of_several_shapefiles_has_layers(tmp_path):
 @pytest.mark.parametrize("name", ["lake.gpkg", "lake.fgb", "lake.shp", "lake.zip"])
 def test_without_a_reference_system_it_asks_and_convert_takes_coordinates_as_they_are(tmp_path, name):
     path = file(tmp_path, name, crs=None)
-    with pytest.raises(SourceError, match=r"lake\.\w+: it names no reference system.*--crs EPSG"):
+    with pytest.raises(SourceError, match=r"lake\.\w+: it names no reference system.*`crs` EPSG"):
         read_extent(path, name)
     assert only(read_extent(path, name, crs=UTM)).crs == UTM
     drawing = read_drawing(path)

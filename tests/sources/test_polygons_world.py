@@ -69,7 +69,7 @@ def test_bounds_cut_the_data_at_the_squares_borders_not_at_the_frames(tmp_path):
 
 def test_coordinates_in_metres_without_a_system_are_no_degrees():
     plain = json.dumps(shapely.geometry.mapping(LAKE)).encode()
-    with pytest.raises(SourceError, match=r"cannot be longitudes and latitudes; .*--crs"):
+    with pytest.raises(SourceError, match=r"cannot be longitudes and latitudes; .*`crs`"):
         read_extent(plain, "lake.geojson")
     assert same(only(read_extent(plain, "lake.geojson", crs=UTM)), LAKE)
     assert same(only(read_extent(gzip.compress(plain), "lake.geojson", crs=UTM)), LAKE)
@@ -79,7 +79,7 @@ def test_coordinates_in_metres_without_a_system_are_no_degrees():
     ("shape", "crs", "bounds", "hint"),
     [
         (LAKE, UTM, (0, 0, 10, 10), "the bounds look like degrees"),
-        (shapely.box(4, 52, 5, 53), "EPSG:28992", (80000, 440000, 90000, 450000), "look like degrees: give --crs EPSG"),
+        (shapely.box(4, 52, 5, 53), "EPSG:28992", (80000, 440000, 90000, 450000), "look like degrees: give `crs` EPSG"),
         (LAKE, UTM, (1e6, 0, 2e6, 10), "correct the bounds"),
         (shapely.box(4, 52, 5, 53), "EPSG:4326", (6, 52, 7, 53), "correct the bounds"),
     ],
@@ -107,7 +107,7 @@ def test_without_polygons_all_is_dry_within_the_bounds(tmp_path, shapes):
         drawing = only(read_extent(path, "dry.gpkg", bounds=(0, 0, 10, 10)))
     assert (drawing.paths, drawing.crs) == ((), UTM)
     np.testing.assert_allclose(drawing.to_source @ (0.5, 0.5, 1), (5, 5))
-    with pytest.raises(SourceError, match=r"no polygon.*give --bounds"):
+    with pytest.raises(SourceError, match=r"no polygon.*give `bounds`"):
         read_extent(path, "dry.gpkg")
 
 

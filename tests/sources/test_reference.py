@@ -22,7 +22,7 @@ def test_the_users_word_stands_above_that_of_the_file():
     assert reference("EPSG:28992", "EPSG:32610") == "EPSG:28992"
     assert reference(None, "epsg:32610") == "EPSG:32610"
     assert reference("28992", None) == "EPSG:28992"
-    with pytest.raises(MissingReferenceError, match="give --crs EPSG"):
+    with pytest.raises(MissingReferenceError, match="give `crs` EPSG"):
         reference(None, None)
     assert issubclass(MissingReferenceError, SourceError)
 
@@ -100,8 +100,8 @@ def test_bounds_may_cross_the_antimeridian_and_stand_at_a_pole():
         ((1, 2, 1, 5), "EPSG:4326", "west,south,east,north"),
         ((1, 2, np.nan, 5), "EPSG:4326", "not finite"),
         ((1, 2, np.inf, 5), "EPSG:28992", "not finite"),
-        ((5e5, 4e6, 6e5, 5e6), "EPSG:4326", "--crs"),
-        ((0, 80, 1, 95), "EPSG:4326", "--crs"),
+        ((5e5, 4e6, 6e5, 5e6), "EPSG:4326", "`crs`"),
+        ((0, 80, 1, 95), "EPSG:4326", "`crs`"),
         ((0, 0, 1e-9, 5), "EPSG:28992", "less narrow"),
         ((-1e308, 0, 1e308, 5), "EPSG:28992", "less narrow"),
     ],
@@ -118,5 +118,5 @@ def test_points_without_an_image_are_infinite_and_bounds_without_one_are_none():
     west, south, east, north = transformed_bounds((1e5, 6e6, 9e5, 6.5e6), "EPSG:32660", "EPSG:4326")
     assert 170 < west < 180 < east < 190
     assert 53 < south < north < 60
-    with pytest.raises(SourceError, match="--crs"):
+    with pytest.raises(SourceError, match="`crs`"):
         transformed(np.zeros((1, 2)), UNPLACED, "EPSG:4326")

@@ -108,7 +108,7 @@ def test_what_chooses_nothing_gets_one_line(file: Path, select: str) -> None:
     with pytest.raises(LimitError) as caught:
         read_svg(file, select)
     message = str(caught.value)
-    assert message.startswith(f"{file}: --select ")
+    assert message.startswith(f"{file}: `select` ")
     assert REFUSED[select] in message
     assert "\n" not in message
     assert len(message) < 300 + len(str(file))

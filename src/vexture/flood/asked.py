@@ -46,11 +46,11 @@ class Asked:
 
     def __post_init__(self) -> None:
         if not (isfinite(self.hmin) and self.hmin > 0.0):
-            raise LimitError(f"--hmin {self.hmin:g}: it is a depth in metres, above 0")
+            raise LimitError(f"`hmin` {self.hmin:g}: it is a depth in metres, above 0")
         if self.amplitude is not None and not (isfinite(self.amplitude) and self.amplitude >= 0.0):
-            raise LimitError(f"--amplitude {self.amplitude:g}: it is a length in metres, 0 or more")
+            raise LimitError(f"`amplitude` {self.amplitude:g}: it is a length in metres, 0 or more")
         if not SHORTEST_PERIOD <= self.period <= LONGEST_PERIOD:
-            raise LimitError(f"--period {self.period:g}: it must be {SHORTEST_PERIOD:g} to {LONGEST_PERIOD:g} seconds")
+            raise LimitError(f"`period` {self.period:g}: it must be {SHORTEST_PERIOD:g} to {LONGEST_PERIOD:g} seconds")
 
     @property
     def reading(self) -> dict[str, Any]:
@@ -75,7 +75,7 @@ class Asked:
             return SHARE * longest
         if self.amplitude > MOST_AMPLITUDE * longest:
             raise LimitError(
-                f"--amplitude {self.amplitude:g}: the limit is {MOST_AMPLITUDE * longest:.3g} m, a twentieth of the "
+                f"`amplitude` {self.amplitude:g}: the limit is {MOST_AMPLITUDE * longest:.3g} m, a twentieth of the "
                 f"longer side of {longest:.3g} m; choose a smaller one"
             )
         return self.amplitude
@@ -95,14 +95,14 @@ def bounds_of(text: str) -> tuple[float, float, float, float]:
     (-122.1, 36.9, -121.9, 37.0)
     >>> bounds_of("1,2,3")
     Traceback (most recent call last):
-    vexture.errors.LimitError: --bounds 1,2,3: give four numbers, west,south,east,north, without spaces
+    vexture.errors.LimitError: `bounds` 1,2,3: give four numbers, west,south,east,north, without spaces
     """
     try:
         west, south, east, north = (float(part) for part in text.split(","))
     except ValueError:
-        raise LimitError(f"--bounds {text}: give four numbers, west,south,east,north, without spaces") from None
+        raise LimitError(f"`bounds` {text}: give four numbers, west,south,east,north, without spaces") from None
     if not all(map(isfinite, (west, south, east, north))):
-        raise LimitError(f"--bounds {text}: every number must be finite")
+        raise LimitError(f"`bounds` {text}: every number must be finite")
     if west == east or south >= north:
-        raise LimitError(f"--bounds {text}: the box is empty; the order is west,south,east,north")
+        raise LimitError(f"`bounds` {text}: the box is empty; the order is west,south,east,north")
     return west, south, east, north

@@ -69,7 +69,7 @@ def ground_of(
         with path.open("rb") as file:
             start = file.read(4)
     except OSError as error:
-        raise SourceError(f"--ground {path}: cannot be read ({error.strerror}); name another picture") from None
+        raise SourceError(f"`ground` {path}: cannot be read ({error.strerror}); name another picture") from None
     if start in TIFF_STARTS:
         return _warped(path, frame, drawn)
     picture = _opened(path)
@@ -112,16 +112,16 @@ def _opened(path: Path) -> "Image.Image":
             with Image.open(path, formats=("PNG", "JPEG", "WEBP")) as picture:
                 if picture.width * picture.height > MOST_PIXELS:
                     raise LimitError(
-                        f"--ground {path}: {picture.width} x {picture.height} pixels; the limit is {MOST_PIXELS:,}; "
+                        f"`ground` {path}: {picture.width} x {picture.height} pixels; the limit is {MOST_PIXELS:,}; "
                         "scale it down"
                     )
                 picture.draft("RGB", (LONGEST, LONGEST))
                 return ImageOps.exif_transpose(picture).convert("RGBA")
     except Image.DecompressionBombError:
-        raise LimitError(f"--ground {path}: has more than {MOST_PIXELS:,} pixels; scale it down") from None
+        raise LimitError(f"`ground` {path}: has more than {MOST_PIXELS:,} pixels; scale it down") from None
     except (UnidentifiedImageError, OSError, SyntaxError, ValueError) as error:
         reason = "no picture" if isinstance(error, UnidentifiedImageError) else "a damaged picture"
-        raise SourceError(f"--ground {path}: is {reason}; give a PNG, JPEG, WebP or GeoTIFF") from None
+        raise SourceError(f"`ground` {path}: is {reason}; give a PNG, JPEG, WebP or GeoTIFF") from None
 
 
 def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Image", list[Note]]:
@@ -137,15 +137,15 @@ def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Imag
                 if raster.crs is None:
                     raise SourceError(
                         f"--ground {path}: says no reference system; write it into the file (gdal_edit.py -a_srs "
-                        "EPSG:...), or save it as a PNG of exactly --bounds"
+                        "EPSG:...), or save it as a PNG of exactly `bounds`"
                     )
                 bands, alpha = _bands_over(raster, frame)
     except RasterioIOError:
-        raise SourceError(f"--ground {path}: is a damaged GeoTIFF; save it again") from None
+        raise SourceError(f"`ground` {path}: is a damaged GeoTIFF; save it again") from None
     except (CRSError, RasterioError) as error:
-        raise SourceError(f"--ground {path}: {' '.join(str(error).split())[:200]}; save it again") from None
+        raise SourceError(f"`ground` {path}: {' '.join(str(error).split())[:200]}; save it again") from None
     if not alpha.any():
-        raise SourceError(f"--ground {path}: shows nothing of the frame; give one that covers it, or other --bounds")
+        raise SourceError(f"`ground` {path}: shows nothing of the frame; give one that covers it, or other `bounds`")
     notes: list[Note] = []
     if (alpha == 0).mean() > 0.005:
         share = 100.0 * (alpha > 0).mean()

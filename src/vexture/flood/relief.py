@@ -193,10 +193,10 @@ def _heights_of(path: Path, frame: Frame, size: tuple[int, int], crs: str | None
             with rasterio.open(path) as raster:
                 if not raster.count:
                     choices = ", ".join(one.rpartition(":")[2] for one in raster.subdatasets[:8])
-                    raise SourceError(f"--relief {path}: holds several grids ({choices}); give one that holds one")
+                    raise SourceError(f"`relief` {path}: holds several grids ({choices}); give one that holds one")
                 system = raster.crs or crs
                 if system is None:
-                    raise SourceError(f"--relief {path}: says no reference system; write it into the file as GeoTIFF")
+                    raise SourceError(f"`relief` {path}: says no reference system; write it into the file as GeoTIFF")
                 reproject(
                     rasterio.band(raster, 1),
                     heights,
@@ -209,9 +209,9 @@ def _heights_of(path: Path, frame: Frame, size: tuple[int, int], crs: str | None
                 )
     except RasterioIOError:
         reason = "is no raster that can be read" if path.is_file() else "there is no such file"
-        raise SourceError(f"--relief {path}: {reason}; give heights in metres as GeoTIFF") from None
+        raise SourceError(f"`relief` {path}: {reason}; give heights in metres as GeoTIFF") from None
     except (CRSError, RasterioError) as error:
-        raise SourceError(f"--relief {path}: {' '.join(str(error).split())[:200]}; give another file") from None
+        raise SourceError(f"`relief` {path}: {' '.join(str(error).split())[:200]}; give another file") from None
     if not np.isfinite(heights).any():
-        raise SourceError(f"--relief {path}: has no height within the frame; give one that covers it")
+        raise SourceError(f"`relief` {path}: has no height within the frame; give one that covers it")
     return heights.astype(np.float64)

@@ -105,7 +105,7 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None) -> Mes
     if extra:
         raise SourceError(
             f"variable {name!r} also has the dimension {listed(extra)} ({dataset.sizes[extra[0]]} long); "
-            "write a file with one layer, or name another --variable"
+            "write a file with one layer, or name another `variable`"
         )
     times = times_of(dataset, time) if time is not None else (None,)
 
@@ -202,7 +202,7 @@ class Sheet:
         if not (seen & inside).any():
             raise SourceError(
                 f"nothing of it is within the bounds {shown_bounds(frame.bounds, frame.crs)}: "
-                f"it covers {shown_bounds(series.box, system)}; give other --bounds"
+                f"it covers {shown_bounds(series.box, system)}; give other `bounds`"
             )
         self._found = self._located()
 

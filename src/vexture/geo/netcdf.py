@@ -130,7 +130,7 @@ def check_dimension(dataset: Any, time_dim: str | None) -> None:
     """
     if time_dim is not None and time_dim not in dataset.dims:
         raise LimitError(
-            f"there is no dimension {time_dim!r}; it has {listed(dataset.dims)}; choose another --time-dim"
+            f"there is no dimension {time_dim!r}; it has {listed(dataset.dims)}; choose another `time_dim`"
         )
 
 
@@ -153,7 +153,7 @@ def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Serie
     if extra:
         raise SourceError(
             f"variable {name!r} also has the dimension {listed(extra)} ({dataset.sizes[extra[0]]} long); "
-            "write a file with one layer, or name another --variable"
+            "write a file with one layer, or name another `variable`"
         )
 
     def read(step: int, rows: slice, columns: slice) -> tuple[Values, Values | None]:
@@ -283,7 +283,7 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tupl
     bed_reader = reader(bed) if bed is not None else None
     if variable is not None:
         if variable not in candidates:
-            raise LimitError(f"there are no depths in {variable!r}; --variable may be {listed(candidates)}")
+            raise LimitError(f"there are no depths in {variable!r}; `variable` may be {listed(candidates)}")
         chosen = variable
     else:
         named = [name for name in candidates if _is(dataset, name, DEPTHS)]
@@ -294,12 +294,12 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tupl
         if not choice:
             raise SourceError(f"no variable is on rows and columns; it has {listed(dataset.data_vars)}")
         if len(choice) > 1:
-            raise LimitError(f"depths may be in {listed(choice)}; choose one by --variable")
+            raise LimitError(f"depths may be in {listed(choice)}; choose one by `variable`")
         chosen = choice[0]
     if chosen == bed or (chosen == level and bed_reader is None):
         what = "heights of the bed" if chosen == bed else "water levels, and nothing says where the bed is"
         others = [name for name in candidates if name not in (bed, level)]
-        remedy = f"--variable may be {listed(others)}" if others else "write depths into the file"
+        remedy = f"`variable` may be {listed(others)}" if others else "write depths into the file"
         raise LimitError(f"{chosen!r} holds {what}; {remedy}")
     if chosen == level and bed_reader is not None:
         at = reader(chosen)
@@ -372,7 +372,7 @@ def crs_of(dataset: Any, name: str, coordinates: list[Any]) -> str | None:
             try:
                 return str(CRS.from_cf(dict(about)).to_wkt())
             except Exception as error:  # of a stranger's attributes pyproj raises what it likes
-                raise SourceError(f"its grid mapping is unknown ({line_of(error)}); give --crs EPSG:...") from None
+                raise SourceError(f"its grid mapping is unknown ({line_of(error)}); give `crs` EPSG:...") from None
     degrees = [
         about is not None
         and (about.attrs.get("standard_name") == kind or str(about.attrs.get("units", "")).lower() in units)

@@ -81,14 +81,14 @@ def _window(lattice: Lattice, square: Bounds | None, frame: Frame, system: str, 
     if found is None:
         raise SourceError(
             f"nothing of it is within the bounds {shown_bounds(frame.bounds, frame.crs)}: "
-            f"it covers {shown_bounds(lattice.box, system)}; give other --bounds"
+            f"it covers {shown_bounds(lattice.box, system)}; give other `bounds`"
         )
     (c0, r0), (c1, r1) = found
     stride = int(np.ceil(np.sqrt((r1 - r0) * (c1 - c0) / MOST_CELLS)))
     if stride > 1:
         notes.remark(
             f"{r1 - r0:,} x {c1 - c0:,} cells are too many: one in {stride} x {stride} was read; "
-            "give smaller --bounds for all of them"
+            "give smaller `bounds` for all of them"
         )
     # of each block of cells its middle one, as GDAL takes it
     rows, columns = (

@@ -103,7 +103,7 @@ def read_polygons(
         raise SourceError(f"it holds no polygon{_met(notes)}; give polygons of what is under water")
     if frame is None:
         if bounds is None and not len(rings.ends):
-            raise SourceError("it holds no polygon; for an empty flood, give --bounds")
+            raise SourceError("it holds no polygon; for an empty flood, give `bounds`")
         frame = frame_around(bounds or rings.box, own)
     drawing = _drawn(_placed(rings, own, frame), frame, FilePath(file_name).stem)
     return Extent(frame, (Step(replace(drawing, notes=notes.listed)),), notes=notes.listed)
@@ -145,10 +145,10 @@ def _outside(rings: Rings, own: str, frame: Frame) -> str:
     text = f"its extent {shown_bounds(extent, own)} is outside of the bounds {shown_bounds(bounds, frame.crs)}"
     degrees, wanted = _like_degrees(extent), _like_degrees(bounds)
     if degrees and not system(own).is_geographic:
-        return f"{text}; its coordinates look like degrees: give --crs EPSG:4326"
+        return f"{text}; its coordinates look like degrees: give `crs` EPSG:4326"
     if wanted and not system(frame.crs).is_geographic:
         return f"{text}; the bounds look like degrees: give them in the units of {shown_system(frame.crs)}"
-    return f"{text}; correct the bounds, or --crs"
+    return f"{text}; correct the bounds, or `crs`"
 
 
 def _like_degrees(bounds: Bounds) -> bool:

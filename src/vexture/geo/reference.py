@@ -116,7 +116,7 @@ def reference(given: str | None, found: str | None) -> str:
     if given:
         return _settled(given)
     if not found:
-        raise MissingReferenceError("it names no reference system of its coordinates; give --crs EPSG:...")
+        raise MissingReferenceError("it names no reference system of its coordinates; give `crs` EPSG:...")
     try:
         return _settled(found)
     except LimitError as error:
@@ -150,10 +150,10 @@ def _system(text: str) -> "CRS":
     try:
         crs = CRS.from_user_input(text).to_2d()
     except (CRSError, ValueError):
-        raise LimitError(f"the reference system {named!r} is unknown; name it as --crs EPSG:...") from None
+        raise LimitError(f"the reference system {named!r} is unknown; name it as `crs` EPSG:...") from None
     if not (crs.is_geographic or crs.is_projected or crs.is_engineering) or len(crs.axis_info) != 2:
         raise LimitError(
-            f"the reference system {named!r} ({crs.type_name}) has no plane; transform the data or give --crs EPSG:..."
+            f"the reference system {named!r} ({crs.type_name}) has no plane; transform the data or give `crs` EPSG:..."
         )
     return crs
 
@@ -210,7 +210,7 @@ def refuse_metres(points: NDArray[np.float64], crs: str, what: str, error: type[
         return
     far = np.abs(points).max(axis=0) * found.axis_info[0].unit_conversion_factor
     if far[0] > LONGITUDE or far[1] > LATITUDE:
-        raise error(f"{what} cannot be longitudes and latitudes; name the system that they are in by --crs EPSG:...")
+        raise error(f"{what} cannot be longitudes and latitudes; name the system that they are in by `crs` EPSG:...")
 
 
 @gis_packages()
@@ -324,8 +324,8 @@ def _transformer(start: str, end: str) -> "Transformer":
     from pyproj.exceptions import ProjError
 
     if UNPLACED in (start, end):
-        raise SourceError("coordinates without a reference system cannot be transformed; give --crs EPSG:...")
+        raise SourceError("coordinates without a reference system cannot be transformed; give `crs` EPSG:...")
     try:
         return Transformer.from_crs(system(start), system(end), always_xy=True)
     except ProjError:
-        raise LimitError(f"there is no way from {start[:60]!r} to {end[:60]!r}; choose another --crs") from None
+        raise LimitError(f"there is no way from {start[:60]!r} to {end[:60]!r}; choose another `crs`") from None

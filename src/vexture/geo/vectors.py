@@ -86,7 +86,7 @@ def read_areas(source: str | os.PathLike[str] | bytes, file_name: str, layer: st
         raise SourceError("is a texture already; give the data that it was made from")
     if kind is FileKind.GEOJSON:
         if layer is not None:
-            raise LimitError(f"GeoJSON has no layers, so none {layer!r}; leave --layer out")
+            raise LimitError(f"GeoJSON has no layers, so none {layer!r}; leave `layer` out")
         return _geojson(content, notes)
     if content.startswith(SHAPEFILE):
         if isinstance(source, bytes):
@@ -173,7 +173,7 @@ def _gdal(content: bytes, layer: str | None, notes: Notes) -> Areas:
         except (RuntimeError, ValueError, OverflowError, NameError) as error:  # the last is pyogrio's for a bad .prj
             raise SourceError(f"GDAL cannot read it ({_one_line(error)}); save it again") from None
     if shapes is None:
-        raise SourceError(f"its layer {name!r} has no geometries; choose another by --layer")
+        raise SourceError(f"its layer {name!r} has no geometries; choose another by `layer`")
     return Areas(_parsed(shapes, notes), meta["crs"])
 
 
@@ -200,7 +200,7 @@ def _layer(layers: list[tuple[str, str]], wanted: str | None) -> str:
             raise SourceError("it has no layers; save it again")
         listed = areal or names
         shown = ", ".join(listed[:MOST_NAMED]) + (", ..." if len(listed) > MOST_NAMED else "")
-        raise LimitError(f"it has {len(listed)} layers; choose one by --layer: {shown}")
+        raise LimitError(f"it has {len(listed)} layers; choose one by `layer`: {shown}")
     if wanted not in names:
         shown = ", ".join(names[:MOST_NAMED]) + (", ..." if len(names) > MOST_NAMED else "")
         raise LimitError(f"it has no layer {wanted!r}; its layers are: {shown}")

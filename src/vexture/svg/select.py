@@ -40,13 +40,13 @@ def chosen(root: etree._Element, select: str) -> set[etree._Element]:
     except (cssselect2.SelectorError, SyntaxError) as error:
         reason = str(error.args[-1] if error.args else error)[:LONGEST_NAMED]
         raise LimitError(
-            f"--select {named(select)} is no CSS selector ({reason}); write it like '#id', '.class' or 'g > path'"
+            f"`select` {named(select)} is no CSS selector ({reason}); write it like '#id', '.class' or 'g > path'"
         ) from None
     except (RecursionError, MemoryError):
-        raise LimitError(f"--select {named(select)} nests brackets too deeply; simplify it") from None
+        raise LimitError(f"`select` {named(select)} nests brackets too deeply; simplify it") from None
     if not found:
         raise LimitError(
-            f"--select {named(select)} matches no element; name one of the file's ids, classes or elements"
+            f"`select` {named(select)} matches no element; name one of the file's ids, classes or elements"
         )
     return found
 
@@ -54,7 +54,7 @@ def chosen(root: etree._Element, select: str) -> set[etree._Element]:
 def nothing_painted(select: str, count: int) -> LimitError:
     """What to say if what was chosen leaves no trace."""
     elements = "1 element that paints" if count == 1 else f"{count} elements that paint"
-    return LimitError(f"--select {named(select)} matches {elements} nothing; choose some that are filled or stroked")
+    return LimitError(f"`select` {named(select)} matches {elements} nothing; choose some that are filled or stroked")
 
 
 def named(select: str) -> str:
