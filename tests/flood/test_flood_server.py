@@ -180,7 +180,7 @@ def test_what_does_not_fit_is_refused_and_the_last_water_stays(server, tmp_path,
     assert status == 422, told
     assert said in told["error"]
     assert "\n" not in told["error"]
-    assert "crs`" not in told["error"]
+    assert "`crs`" not in told["error"]
     after = server.manifest("flood")
     assert after["version"] == before["version"]
     assert after["note"] == told["error"]

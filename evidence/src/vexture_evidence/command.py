@@ -9,8 +9,14 @@ from vexture.cli.messages import one_line, say
 
 __all__ = ["report"]
 
+EXAMPLE = """\b
+Examples:
+  vexture report -o report              the example drawings, from a clone of the repository
+  vexture report logo.svg -o report
+"""
 
-@click.command()
+
+@click.command(epilog=EXAMPLE)
 @click.argument("sources", metavar="[SOURCE]...", nargs=-1, type=click.Path(path_type=Path))
 @click.option(
     "-o",

@@ -10,8 +10,13 @@ from vexture.cli.options import conversion_options, viewer_settings
 
 __all__ = ["export"]
 
+EXAMPLE = """\b
+Example:
+  vexture export logo.svg badge.svg -o logos.html --title 'Our logos'
+"""
 
-@click.command()
+
+@click.command(epilog=EXAMPLE)
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option(
     "-o", "--output", metavar="PAGE.html", required=True, type=click.Path(path_type=Path), help="File to write."

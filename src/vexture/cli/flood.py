@@ -14,8 +14,14 @@ __all__ = ["flood"]
 
 PATH: Any = click.Path(path_type=Path)
 
+EXAMPLE = """\b
+Examples:
+  vexture flood --extent depth.nc --time-dim time --ground aerial.tif -o flood.html
+  vexture flood --extent flood.gpkg --serve --token-file token
+"""
 
-@click.command()
+
+@click.command(epilog=EXAMPLE)
 @click.option("--extent", metavar="FILE", required=True, type=PATH, help="Where water is: polygons, or depths.")
 @click.option("--crs", metavar="EPSG:N", help="Reference system of the extent, if its file does not say it.")
 @click.option("--bounds", metavar="W,S,E,N", help="Box to show, in units of the extent.  [default: all of the extent]")

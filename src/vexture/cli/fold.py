@@ -13,8 +13,13 @@ if TYPE_CHECKING:
 
 __all__ = ["fold"]
 
+EXAMPLE = """\b
+Example:
+  vexture fold island.svg -o island.fold.ktx2 --amplitude 0.01 --picture island.png
+"""
 
-@click.command()
+
+@click.command(epilog=EXAMPLE)
 @click.argument("drawing", metavar="DRAWING", type=click.Path(path_type=Path))
 @click.option(
     "-o",

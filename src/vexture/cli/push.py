@@ -11,8 +11,14 @@ __all__ = ["push"]
 
 PATH: Any = click.Path(path_type=Path)
 
+EXAMPLE = """\b
+Examples:
+  vexture push duck.svg http://127.0.0.1:8000 --token-file token
+  vexture push duck.svg http://127.0.0.1:8000/shapes/logo --token-file token
+"""
 
-@click.command()
+
+@click.command(epilog=EXAMPLE)
 @click.argument("file", metavar="FILE", type=PATH)
 @click.argument("url", metavar="URL")
 @click.option("--token-file", metavar="F", type=PATH, required=True, help="File with the token of the server.")

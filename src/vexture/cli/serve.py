@@ -13,8 +13,14 @@ __all__ = ["serve"]
 DEFAULTS = Limits()
 PATH: Any = click.Path(path_type=Path)
 
+EXAMPLE = """\b
+Examples:
+  openssl rand -hex 32 > token
+  vexture serve shapes --token-file token
+"""
 
-@click.command()
+
+@click.command(epilog=EXAMPLE)
 @click.argument("folder", metavar="DIR", type=PATH)
 @click.option("--token-file", metavar="F", type=PATH, help="File with the token of those who may publish; else nobody.")
 @click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen on.")

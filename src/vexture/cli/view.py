@@ -10,8 +10,14 @@ from vexture.cli.options import conversion_options, viewer_settings
 
 __all__ = ["view"]
 
+EXAMPLE = """\b
+Examples:
+  vexture view logo.svg --watch           shows every save of the drawing
+  vexture view logo.svg map.geojson icons.ktx2
+"""
 
-@click.command()
+
+@click.command(epilog=EXAMPLE)
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option("--watch", "watching", is_flag=True, help="Show files anew whenever they are saved.")
 @click.option("--port", metavar="P", type=int, default=0, help="Port to listen on.  [default: any that is free]")

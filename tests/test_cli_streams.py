@@ -1,0 +1,175 @@
+"""Pipes, JSON, processes and how much is said: what the command line shares with its neighbours."""
+
+import io
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+
+import vexture
+from vexture.cli.main import main
+from vexture.reading import read_drawing
+from vexture.texture.load import texture_from
+
+LOGO = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 10"><rect width="10" height="10" fill="#f00"/>
+<rect x="10" width="10" height="5" fill="#00f" fill-opacity=".5"/>{}</svg>"""
+
+
+def run(*arguments, given=None):
+    return CliRunner().invoke(main, [str(argument) for argument in arguments], input=given)
+
+
+@pytest.fixture
+def logo(tmp_path):
+    file = tmp_path / "logo.svg"
+    file.write_text(LOGO.format("<text>hi</text>"))
+    return file
+
+
+def test_a_drawing_goes_through_a_pipe(logo):
+    result = run("convert", "-", "-o", "-", given=logo.read_bytes())
+    assert result.exit_code == 0
+    made = texture_from(result.stdout_bytes, "piped")
+    np.testing.assert_array_equal(made.texels, vexture.convert(read_drawing(logo)).texels)
+    assert "segments" in result.stderr, "what is said of it does not stand in the file"
+    told = json.loads(run("info", "-", "--json", given=result.stdout_bytes).stdout)
+    assert told["texels"] == made.info()["texels"]
+
+
+def test_an_atlas_goes_through_a_pipe(logo):
+    result = run("convert", logo, "--atlas", "-", "--split", "paint", "-q")
+    assert (result.exit_code, result.stderr) == (0, "")
+    roots = texture_from(result.stdout_bytes, "piped").roots
+    assert [root.name for root in roots] == ["logo/1-#ff0000", "logo/2-#0000ff80"]
+
+
+def test_a_picture_goes_through_a_pipe(logo):
+    result = run("render", "-", "-o", "-", "--width", 40, given=logo.read_bytes())
+    assert result.exit_code == 0
+    with Image.open(io.BytesIO(result.stdout_bytes)) as image:
+        assert (image.mode, image.size) == ("RGB", (40, 40))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (("-o", "-", "--encoding", "thesis"), "standard output takes one texture of one file"),
+        (("other.svg", "-o", "-"), "use --atlas -"),
+    ],
+)
+def test_what_does_not_fit_into_a_pipe_is_refused(logo, arguments, says):
+    result = run("convert", logo, *arguments)
+    assert (result.exit_code, result.stdout, result.stderr.count("\n")) == (1, "", 1)
+    assert says in result.stderr
+
+
+def test_json_has_the_facts_of_each_source(logo, tmp_path):
+    bad = tmp_path / "bad.svg"
+    bad.write_text("no svg")
+    result = run("convert", logo, bad, "-o", tmp_path / "out", "--split", "paint", "--json")
+    assert result.exit_code == 1
+    good, failed = json.loads(result.stdout)
+    file = tmp_path / "out" / "logo.ktx2"
+    texture = vexture.load(file)
+    assert (good["source"], good["name"], good["files"]) == (str(logo), "logo", [str(file)])
+    assert good["bytes"] == file.stat().st_size
+    assert good["layers"] == len(good["shapes"]) == 2
+    assert good["quads"] == sum(root["quads"] for root in texture.info()["roots"])
+    assert good["warning"] == f"{logo}: left out: <text>"
+    assert failed.keys() == {"source", "error"}
+    assert "not well-formed" in failed["error"]
+
+
+def test_processes_make_the_same_files(logo, tmp_path):
+    sources = []
+    for number in range(3):
+        sources.append(tmp_path / f"logo{number}.svg")
+        sources[-1].write_text(LOGO.format(f'<circle cx="5" cy="5" r="{number + 1}"/>'))
+    bad = tmp_path / "bad.svg"
+    bad.write_text("no svg")
+    one = run("convert", *sources, bad, "-o", tmp_path / "one")
+    two = run("convert", *sources, bad, "-o", tmp_path / "two", "-j", 2)
+    assert (one.exit_code, two.exit_code) == (1, 1)
+    assert [line.split(":")[0] for line in two.stdout.splitlines()] == ["logo0", "logo1", "logo2"]
+    assert one.stderr == two.stderr
+    files = {file.name: file.read_bytes() for file in (tmp_path / "one").iterdir()}
+    assert len(files) == 3
+    assert files == {file.name: file.read_bytes() for file in (tmp_path / "two").iterdir()}
+
+
+def test_quiet_says_errors_only_and_verbose_each_shape(logo, tmp_path):
+    result = run("convert", logo, "-o", tmp_path, "-q")
+    assert (result.exit_code, result.output) == (0, "")
+    assert run("convert", tmp_path / "gone.svg", "-o", tmp_path, "-q").stderr.count("\n") == 1
+    plain = run("convert", logo, "-o", tmp_path, "--split", "paint")
+    told = run("convert", logo, "-o", tmp_path, "--split", "paint", "-v")
+    assert "left out: <text>" in plain.stderr
+    assert len(plain.stdout.splitlines()) == 1
+    assert told.stdout.splitlines()[1:] == [
+        "  shape 0: 1 quads, 4 curves",
+        "  shape 1: 1 quads, 2 curves",
+        f"  {tmp_path / 'logo.ktx2'}",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("options", "size"),
+    [
+        (("--width", 40), (40, 40)),
+        (("--height", 30, "--view", "0,0,1,0.5"), (60, 30)),
+        (("--width", 40, "--height", 10), (40, 10)),
+        (("--size", 24, "--view", "0,0,0.5,1"), (12, 24)),
+    ],
+)
+def test_width_and_height(logo, tmp_path, options, size):
+    assert run("render", logo, "-o", tmp_path / "x.png", *options).exit_code == 0
+    with Image.open(tmp_path / "x.png") as image:
+        assert image.size == size
+
+
+def test_size_does_not_stand_beside_width(logo, tmp_path):
+    result = run("render", logo, "-o", tmp_path / "x.png", "--size", 8, "--width", 8)
+    assert (result.exit_code, result.stderr.count("\n")) == (1, 1)
+    assert "--size 8 sets the longer side; leave it out beside --width or --height" in result.stderr
+
+
+def test_background(logo, tmp_path):
+    def drawn(background):
+        result = run("render", logo, "-o", tmp_path / "x.png", "--size", 20, "--background", background)
+        assert result.exit_code == 0
+        with Image.open(tmp_path / "x.png") as image:
+            return np.asarray(image).astype(int)
+
+    none = drawn("none")  # the drawing is the middle half of the square
+    assert none.shape == (20, 20, 4)
+    assert none[8, 5].tolist() == [255, 0, 0, 255]
+    assert np.abs(none[7, 15] - [0, 0, 255, 127.5]).max() <= 0.5
+    assert none[0, 0].tolist() == [0, 0, 0, 0]
+    assert np.abs(drawn("white")[7, 15] - [127.5, 127.5, 255]).max() <= 0.5
+    assert drawn("#ff0")[0, 0].tolist() == [255, 255, 0]
+    assert np.abs(drawn("rgb(0 0 0 / 50%)")[0, 0] - [0, 0, 0, 127.5]).max() <= 0.5
+    result = run("render", logo, "-o", tmp_path / "y.png", "--background", "reddish")
+    assert result.exit_code == 2
+    assert "neither a CSS colour" in result.stderr
+
+
+def test_info_says_that_a_file_is_no_texture(logo):
+    result = run("info", logo)
+    assert (result.exit_code, result.stderr.count("\n")) == (1, 1)
+    assert f"{logo}: not a texture, but a file of the kind SVG" in result.stderr
+
+
+@pytest.mark.parametrize("command", main.list_commands(None))
+def test_every_command_has_help_with_an_example(command):
+    result = run(command, "--help")
+    assert result.exit_code == 0
+    assert f"vexture {command} " in result.stdout.partition("Example")[2]
+
+
+def test_options_for_research_have_a_section_of_their_own():
+    usual, research = run("convert", "--help").stdout.split("Options for research")
+    for option in ("--encoding", "--bits", "--strategy"):
+        assert option in research
+        assert option not in usual
