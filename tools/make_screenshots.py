@@ -18,7 +18,7 @@ sys.path[:0] = [str(ROOT / "evidence" / "benchmarks"), str(ROOT / "examples")]
 from santa_cruz.make_flood import make_flood  # noqa: E402
 
 from chromium import chromium  # noqa: E402 - the browser of the tests
-from vexture.flood.asked import Asked  # noqa: E402
+from vexture.flood.options import FloodOptions  # noqa: E402
 from vexture.live.documents import VIEWER_SETTINGS  # noqa: E402
 from vexture.live.flood import export as export_flood  # noqa: E402
 from vexture.live.view import export  # noqa: E402
@@ -123,7 +123,7 @@ def main() -> None:
         sheet_of(looks(page)).save(PICTURES / "viewer.png", optimize=True)
         page.close()
         flood, ground = make_flood(Path(folder))
-        export_flood(Asked(flood, time_dim="time", ground=ground, title="Santa Cruz"), target, print)
+        export_flood(FloodOptions(flood, time_dim="time", ground=ground, title="Santa Cruz"), target, print)
         sheet_of(flood_looks(browser, target.as_uri())).save(PICTURES / "flood.jpg", quality=86, optimize=True)
 
 

@@ -141,13 +141,13 @@ def example() -> Any:
 
 def made(folder: Path) -> Made:
     """Export the example's page."""
-    from vexture.flood.asked import Asked
+    from vexture.flood.options import FloodOptions
     from vexture.live.flood import export
     from vexture.reading import read_extent
 
     flood, ground = example()(folder)
     page = folder / "flood.html"
-    export(Asked(flood, time_dim="time", ground=ground, title="Santa Cruz"), page, lambda line: None)
+    export(FloodOptions(flood, time_dim="time", ground=ground, title="Santa Cruz"), page, lambda line: None)
     found = re.search(r'<script type="application/json" id="vexture-scene">(.*?)</script>', page.read_text(), re.S)
     assert found is not None
     extent = read_extent(flood, flood.name, time_dim="time")

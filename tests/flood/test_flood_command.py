@@ -11,7 +11,7 @@ from floods import BOUNDS, CRS, depths, flood, geotiff, scene_of, sea, series
 from PIL import Image
 
 from vexture.errors import LimitError
-from vexture.flood.asked import Asked, bounds_of
+from vexture.flood.options import FloodOptions, bounds_of
 from vexture.texture.load import texture_from
 
 pytestmark = pytest.mark.usefixtures("page_is_built")
@@ -180,8 +180,8 @@ def test_page_must_be_html(tmp_path):
 
 def test_parameters_are_checked(tmp_path):
     with pytest.raises(LimitError, match="`amplitude` nan"):
-        Asked(tmp_path, amplitude=float("nan"))
-    assert Asked(tmp_path).amplitude_in(1000.0) == 2.0
+        FloodOptions(tmp_path, amplitude=float("nan"))
+    assert FloodOptions(tmp_path).amplitude_in(1000.0) == 2.0
     with pytest.raises(LimitError, match="the box is empty"):
         bounds_of("1,2,1,4")
     assert json.dumps(bounds_of("170,-20,-170,-10")) == "[170.0, -20.0, -170.0, -10.0]"

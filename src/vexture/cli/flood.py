@@ -7,7 +7,7 @@ import click
 
 from vexture.cli.messages import one_line, say
 from vexture.errors import LimitError
-from vexture.flood.asked import PERIOD, Asked, bounds_of
+from vexture.flood.options import PERIOD, FloodOptions, bounds_of
 from vexture.tolerance import HMIN
 
 __all__ = ["flood"]
@@ -62,7 +62,7 @@ def flood(
             raise LimitError(f"vexture flood needs to know where to show it; give {both}")
         if token_file is not None and not serving:
             raise LimitError(f"--token-file {token_file}: one page takes no uploads; use it with --serve")
-        asked = Asked(bounds=None if bounds is None else bounds_of(bounds), **parameters)
+        asked = FloodOptions(bounds=None if bounds is None else bounds_of(bounds), **parameters)
         from vexture.live.flood import Made, export, serve
 
         if output is not None:

@@ -13,8 +13,8 @@ from vexture.fold import layout
 from vexture.fold.blend import fold, progress
 from vexture.layout import ROW_BITS, TEXT_ENCODING, TEXT_VERSION, TEXT_WRITER
 from vexture.notes import Note
+from vexture.texture.arrays import texel_rows
 from vexture.texture.ktx2 import read_ktx2, write_ktx2
-from vexture.texture.texels import texel_rows
 
 __all__ = ["Fold", "Kind", "fold_from"]
 

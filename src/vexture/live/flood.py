@@ -11,8 +11,8 @@ import numpy as np
 from vexture.content import about
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
-from vexture.flood.asked import Asked
 from vexture.flood.naming import PREFIX, labels, step_names
+from vexture.flood.options import FloodOptions
 from vexture.flood.scene import Flood, Note, scene
 from vexture.geo.extent import Extent
 from vexture.live.limits import Limits
@@ -62,12 +62,12 @@ class Made(NamedTuple):
         return told + (f", {'nothing' if dry == count else f'in {dry} nothing'} under water" if dry else "")
 
 
-def make(asked: Asked, say: Say) -> Made:
+def make(asked: FloodOptions, say: Say) -> Made:
     """Read everything that a user names, and convert it.
 
     Parameters
     ----------
-    asked : Asked
+    asked : FloodOptions
     say : callable
         Is told of what people should know.
 
@@ -121,7 +121,7 @@ def make(asked: Asked, say: Say) -> Made:
     return Made(flood, waters, shapes)
 
 
-def _read(asked: Asked) -> Extent:
+def _read(asked: FloodOptions) -> Extent:
     from vexture.reading import extent_of
 
     if asked.extent.is_dir():
@@ -149,7 +149,7 @@ def _fold(drawing: Drawing, amplitude: float, period: float, metres: tuple[float
     return fold.to_ktx2(), float(np.hypot(fold.displacement[..., 0], fold.displacement[..., 1]).max()) / share
 
 
-def export(asked: Asked, output: Path, say: Say) -> tuple[Made, int]:
+def export(asked: FloodOptions, output: Path, say: Say) -> tuple[Made, int]:
     """Write one page that needs nothing else; return what it shows, and its size.
 
     Raises
@@ -178,13 +178,13 @@ def export(asked: Asked, output: Path, say: Say) -> tuple[Made, int]:
 
 
 def serve(
-    asked: Asked, token_file: Path | None, host: str, port: int, *, say: Say, show: Callable[[str, Made], None]
+    asked: FloodOptions, token_file: Path | None, host: str, port: int, *, say: Say, show: Callable[[str, Made], None]
 ) -> None:
     """Serve a flood until Ctrl-C or SIGTERM.
 
     Parameters
     ----------
-    asked : Asked
+    asked : FloodOptions
     token_file : path or None
         Holds what who publishes must know; without one nothing can be published, and only those who open the server
         by its own address are answered.

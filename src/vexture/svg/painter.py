@@ -11,8 +11,8 @@ from vexture.drawing import FillRule, Paint, Path
 from vexture.errors import SourceError
 from vexture.svg.affine import Identity
 from vexture.svg.outline import Outline
+from vexture.svg.paint_servers import Servers
 from vexture.svg.report import Report
-from vexture.svg.servers import Servers
 from vexture.svg.shapes import Shape, shape_outlines
 from vexture.svg.space import Place
 from vexture.svg.strokes import Stroke, arc_length, stroke_contours

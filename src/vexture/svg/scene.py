@@ -15,9 +15,9 @@ from vexture.drawing import Path
 from vexture.errors import SourceError
 from vexture.svg.affine import Identity, Transform
 from vexture.svg.document import local_name
+from vexture.svg.paint_servers import Servers, reference
 from vexture.svg.painter import Painter
 from vexture.svg.report import Report, described
-from vexture.svg.servers import Servers, reference
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
 from vexture.svg.space import Place, Space
 from vexture.svg.style import INITIAL, Cascade, Style

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture import layout
-from vexture.texture.texels import curve_points
+from vexture.texture.arrays import curve_points
 from vexture.texture.texture import Texture
 from vexture.texture.walk import WalkLevel, walk
 from vexture.tree.tree import Tree

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from vexture import layout
 from vexture.errors import LimitError
-from vexture.texture.texels import texel_rows
+from vexture.texture.arrays import texel_rows
 from vexture.texture.texture import Root, Texture
 from vexture.tree.tree import Tree
 

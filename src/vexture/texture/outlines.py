@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
 from vexture.layout import COVERAGE_ONE, LATTICE, MOST_DEPTH
-from vexture.texture.texels import curve_points
+from vexture.texture.arrays import curve_points
 from vexture.texture.walk import walk
 
 __all__ = ["outlines"]

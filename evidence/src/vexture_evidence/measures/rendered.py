@@ -90,7 +90,7 @@ class Fitted:
     ----------
     name : str
     tolerance : float
-        Asked for, in unit-square units; 0 is exact.
+        FloodOptions for, in unit-square units; 0 is exact.
     deviation : float
         Largest distance between the outlines that the conversion measured, in unit-square units, before quantisation.
     curves : int

@@ -8,7 +8,7 @@ from typing import Any, Final
 from vexture.errors import LimitError
 from vexture.tolerance import HMIN
 
-__all__ = ["PERIOD", "Asked", "bounds_of"]
+__all__ = ["PERIOD", "FloodOptions", "bounds_of"]
 
 PERIOD: Final = 8.0
 """Seconds between two waves on a beach, by default."""
@@ -22,7 +22,7 @@ SHARE: Final = 0.002
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class FloodOptions:
     """Parameters of one flood; see `vexture flood --help`.
 
     Raises
