@@ -100,7 +100,10 @@ def test_the_transform_is_short() -> None:
 
 
 def test_missing_files(tmp_path: Path) -> None:
-    assert "bad: not found; a texture is NAME.ktx2, or NAME.quads.png" in refusal(tmp_path / "bad")
+    with pytest.raises(
+        FormatError, match=r"bad: not found; a texture is NAME\.ktx2, or NAME\.quads\.png, NAME\.curves\.png$"
+    ):
+        load(tmp_path / "bad")
     path = write(tmp_path, small().quads, small().curves)
     path.with_name("bad.curves.png").unlink()
     assert "bad.curves.png: not found" in refusal(path)

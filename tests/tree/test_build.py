@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import degenerate
 from vexture.drawing import Drawing, FillRule, Path
-from vexture.errors import LimitError, SourceError
+from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.renderers.exact import render_exact
 from vexture.thesis.build import build
 from vexture.thesis.tree import CellKind
@@ -176,7 +176,7 @@ def test_a_path_painted_again_adds_nothing():
 def test_a_tree_too_large_is_given_up():
     rng = np.random.default_rng(3)
     drawing = Drawing(tuple(Path((degenerate.circle(0.1 + 0.8 * rng.random(2), 0.01),)) for _ in range(50)))
-    with pytest.raises(LimitError, match=r"quads at least; the limit is 20; use .* --max-depth"):
+    with pytest.raises(LimitError, match=r"quads at least; the limit is 20; use .* `max_depth`"):
         build(drawing, most_quads=20)
 
 
@@ -227,7 +227,7 @@ def test_whole_square_is_full():
     ],
 )
 def test_parameters_out_of_range(arguments):
-    with pytest.raises(LimitError, match=r"^[^\n]+$"):
+    with pytest.raises(ParameterError, match=r"^[^\n]+$"):
         build(Drawing.polygon([(0, 0), (1, 0), (0, 1)]), **arguments)
 
 

@@ -15,7 +15,7 @@ import packed_walk
 from vexture import read_svg
 from vexture.drawing import Drawing
 from vexture.drawing import Path as Outline
-from vexture.errors import LimitError, SourceError
+from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.layout import LATTICE, MOST_CURVES, MOST_DEPTH
 from vexture.renderers.exact import render_exact
 from vexture.tree.build import DEFAULT_CAPACITY, build_tree
@@ -221,23 +221,27 @@ def test_full_and_empty_cells_are_exact():
 @pytest.mark.parametrize(
     ("parameters", "words"),
     [
-        ({"max_depth": 21}, "depth limit 21"),
-        ({"max_depth": 4.5}, "depth limit 4.5"),
-        ({"capacity": 2.5}, "capacity 2.5"),
-        ({"tolerance": None}, "tolerance None"),
-        ({"precision": 0.0}, "precision 0 is outside"),
-        ({"capacity": 0}, "capacity 0"),
-        ({"capacity": 16}, "capacity 16"),
-        ({"precision": 1e-12}, "precision 1e-12"),
-        ({"precision": float("nan")}, "precision nan"),
-        ({"tolerance": -1.0}, "tolerance -1"),
-        ({"tolerance": float("nan")}, "tolerance nan"),
-        ({"most_quads": 2}, "the limit is 2"),
+        ({"max_depth": 21}, "`max_depth` 21"),
+        ({"max_depth": 4.5}, "`max_depth` 4.5"),
+        ({"capacity": 2.5}, "`capacity` 2.5"),
+        ({"tolerance": None}, "`tolerance` None"),
+        ({"precision": 0.0}, "`precision` 0 is outside"),
+        ({"capacity": 0}, "`capacity` 0"),
+        ({"capacity": 16}, "`capacity` 16"),
+        ({"precision": 1e-12}, "`precision` 1e-12"),
+        ({"precision": float("nan")}, "`precision` nan"),
+        ({"tolerance": -1.0}, "`tolerance` -1"),
+        ({"tolerance": float("nan")}, "`tolerance` nan"),
     ],
 )
 def test_limits_are_named(parameters, words):
-    with pytest.raises(LimitError, match=words):
+    with pytest.raises(ParameterError, match=words):
         build_tree(corpora.fractal_coastline(96, 1), **parameters)
+
+
+def test_a_tree_too_large_is_given_up():
+    with pytest.raises(LimitError, match="the limit is 2; use a smaller `max_depth`"):
+        build_tree(corpora.fractal_coastline(96, 1), most_quads=2)
 
 
 def test_a_curve_outside_the_square_is_refused():
