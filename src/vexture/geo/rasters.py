@@ -77,8 +77,8 @@ def _series(file: "DatasetReader", time_dim: str | None, variable: str | None, n
     elif time_dim is None:
         if len(bands) > 1:
             notes.remark(
-                f"it has {len(bands)} bands, of which the first is read; variable (`variable`) chooses another, "
-                "time_dim (`time_dim`) makes them times"
+                f"it has {len(bands)} bands, of which the first is read; variable (--variable) chooses another, "
+                "time_dim (--time-dim) makes them times"
             )
         bands = bands[:1]
     a, b, c, d, e, f = file.transform[:6]

@@ -167,15 +167,15 @@ def _when(step: Step, label: str) -> dict[str, str | None]:
 
 
 def _for_senders(line: str) -> str:
-    """Say of an error what who sends a file can do: they give no options.
+    """Return an error with a remedy for whoever sends a file: they set no parameters.
 
     Examples
     --------
-    >>> _for_senders("it is outside of the frame; correct the bounds, or --crs")
+    >>> _for_senders("it is outside of the frame; correct the bounds, or `crs`")
     'it is outside of the frame; correct the file'
     """
     what, _, remedy = line.rpartition("; ")
-    return f"{what}; correct the file" if what and "--" in remedy else line
+    return f"{what}; correct the file" if what and "`" in remedy else line
 
 
 def _small_tiff(frame: Frame) -> bytes:
