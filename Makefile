@@ -78,7 +78,7 @@ demo: .venv/for-demo
 	$(BIN)/vexture convert $(SHAPES)/*.svg --atlas demo/all.ktx2 >demo/all.log
 	$(BIN)/vexture convert $(SHAPES)/duck.svg -o demo/thesis --encoding thesis
 	$(BIN)/vexture info demo/duck.ktx2
-	$(BIN)/vexture render $(SHAPES)/duck.svg -o demo/pictures/duck-exact.png --size 500 --renderer exact
+	$(BIN)/vexture render $(SHAPES)/duck.svg -o demo/pictures/duck-exact.png --size 500 --renderer exact --silhouette
 	$(BIN)/vexture render demo/duck.ktx2 -o demo/pictures/duck-1000.png --size 1000 --renderer cpu
 	$(BIN)/vexture render demo/all.ktx2 --root duck -o demo/pictures/duck-50.png --size 50 --renderer cpu
 	$(BIN)/vexture render demo/ocean.ktx2 -o demo/pictures/ocean-detail.png --size 500 --renderer cpu --view 0.8,0.26,0.12,0.12
