@@ -35,7 +35,8 @@ from vexture.thesis.tree import CellTree
 from vexture.tolerance import CLOSED, GRAIN
 from vexture.tree.boundary import HOPELESS, crowded_area
 from vexture.tree.cubics import gather
-from vexture.tree.pool import MOST_QUADS, with_room
+from vexture.tree.divide import with_room
+from vexture.tree.tree import MOST_QUADS
 
 __all__ = ["DEFAULT_DEPTH", "DEPTH_RANGE", "build", "root_level"]
 
