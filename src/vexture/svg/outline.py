@@ -1,4 +1,4 @@
-"""What a pen draws before it is filled or stroked."""
+"""The outline of a shape, before it is filled or stroked."""
 
 from dataclasses import dataclass
 
@@ -10,23 +10,15 @@ from vexture.bezier.convert import line_cubics
 __all__ = ["Outline"]
 
 SAME = 1e-12
-"""Relative to the outline's coordinates. An end this near to the start is the start, but for rounding."""
+"""Relative to the outline's coordinates. An end this near to the start differs from it by rounding only."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Outline:
-    """Consecutive cubics, open or closed.
+    """Consecutive cubics, open or closed."""
 
-    Parameters
-    ----------
-    cubics : (n, 4, 2) float64 array, n >= 1
-        Each starts, bit for bit, where the one before it ends.
-    closed : bool
-        Whether the last is joined to the first, which matters to a stroke.
-    """
-
-    cubics: NDArray[np.float64]
-    closed: bool
+    cubics: NDArray[np.float64]  # (n, 4, 2), n >= 1: each starts, bit for bit, where the one before it ends
+    closed: bool  # whether a stroke joins the last to the first
 
     @classmethod
     def polygon(cls, points: NDArray[np.float64], closed: bool) -> "Outline":
@@ -43,7 +35,7 @@ class Outline:
 
     @property
     def loop(self) -> NDArray[np.float64]:
-        """Contour to fill, (n, 4, 2): closed by a straight line unless it ends where it starts."""
+        """Contour to fill, (n, 4, 2), closed by a straight line if necessary."""
         gap = np.abs(self.cubics[-1, 3] - self.cubics[0, 0]).max()
         if gap == 0.0:
             return self.cubics

@@ -1,4 +1,4 @@
-"""What of an SVG could not be honoured, by its elements."""
+"""Notes about an SVG: what was left out, simplified or invalid, and at which element."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -53,7 +53,7 @@ class Report(Notes):
 
     @contextmanager
     def silent(self) -> Iterator[None]:
-        """Note nothing for a while: what is looked at now will be looked at again."""
+        """Suspend notes, because the same elements will be visited again."""
         self._silent = True
         try:
             yield
