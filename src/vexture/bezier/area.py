@@ -69,11 +69,6 @@ def area_right_of(p0: NDArray[np.float64], p3: NDArray[np.float64], x_dy: float)
 
     The curve from `p0` to `p3` and the square's edge, clockwise from `p3` back to `p0`, form a loop around that part.
     On the edge x dy is not zero on the right side only.
-
-    Examples
-    --------
-    >>> area_right_of(np.array([0.0, 0.5]), np.array([1.0, 0.5]), 0.0)
-    0.5
     """
     start, stop = edge_index(p3[0], p3[1]), edge_index(p0[0], p0[1])
     if stop <= start:
@@ -88,11 +83,6 @@ def loop_area(curve: NDArray[np.float64]) -> float:
 
     With B(t) = a t^3 + b t^2 + c t + d, two parameters s and t meet where a (s^2 + s t + t^2) + b (s + t) + c = 0. The
     cross product with a leaves one linear equation in s + t, after which s t follows.
-
-    Examples
-    --------
-    >>> round(loop_area(np.array([[0.4, 0.0], [1.4, 1.0], [-0.4, 1.0], [0.6, 0.0]])), 4)
-    0.1905
     """
     bx = 3.0 * (curve[0, 0] - 2.0 * curve[1, 0] + curve[2, 0])
     by = 3.0 * (curve[0, 1] - 2.0 * curve[1, 1] + curve[2, 1])

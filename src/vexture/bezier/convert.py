@@ -42,13 +42,7 @@ def line_cubics(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray
 
 
 def straight(cubics: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which cubics are lines in the sense of `line_cubics`, (n, 4, 2) -> (n,).
-
-    Examples
-    --------
-    >>> straight(line_cubics(np.zeros((1, 2)), np.ones((1, 2))))
-    array([ True])
-    """
+    """Which cubics are lines in the sense of `line_cubics`, (n, 4, 2) -> (n,)."""
     ideal = line_cubics(cubics[..., 0, :], cubics[..., 3, :])
     scale = np.abs(cubics).max(axis=(-2, -1))
     near: NDArray[np.bool_] = np.abs(cubics - ideal).max(axis=(-2, -1)) <= STRAIGHT * scale

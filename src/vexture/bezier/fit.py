@@ -15,7 +15,7 @@ ROUNDS = 10
 SLOW, SLOW_ROUNDS = 0.9, 4
 """A fit is given up after 4 rounds that left more than this share of its distance."""
 
-HOPELESS, HOPELESS_ROUND = 30.0, 3
+FAR, FAR_ROUND = 30.0, 3
 """A fit is given up if it is still this many tolerances away after 3 rounds: the chain needs more than one cubic."""
 
 ALONG = 0.001
@@ -185,7 +185,7 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
         else:
             _keep(best_curve, best_t, curve, t)
             along *= 10.0
-        if best <= tolerance or slow == SLOW_ROUNDS or (done == HOPELESS_ROUND and best > HOPELESS * tolerance):
+        if best <= tolerance or slow == SLOW_ROUNDS or (done == FAR_ROUND and best > FAR * tolerance):
             break
         if not _least_squares(points, t, along, curve):
             break

@@ -20,13 +20,7 @@ def points_along(cubics: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray
 
 
 def points_at(cubics: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Point of each cubic at its own parameter: (n, 4, 2) and (n,) -> (n, 2).
-
-    Examples
-    --------
-    >>> points_at(np.array([[[0.0, 0.0], [0.0, 4.0], [1.0, 4.0], [1.0, 0.0]]]), np.array([0.5]))
-    array([[0.5, 3. ]])
-    """
+    """Point of each cubic at its own parameter: (n, 4, 2) and (n,) -> (n, 2)."""
     points: NDArray[np.float64] = np.einsum("kn,nkc->nc", _bernstein(t), cubics)
     return points
 

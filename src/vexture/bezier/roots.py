@@ -13,13 +13,7 @@ BISECTIONS = 60  # more than the 53 bits of a float64, so that the bracket alway
 
 @kernel(allocates=False)
 def cubic_at(p0: float, p1: float, p2: float, p3: float, t: float) -> float:
-    """Coordinate of a cubic at t.
-
-    Examples
-    --------
-    >>> cubic_at(0.0, 0.0, 1.0, 1.0, 0.5)
-    0.5
-    """
+    """Coordinate of a cubic at t."""
     s = 1.0 - t
     return s * s * (s * p0 + 3.0 * t * p1) + t * t * (3.0 * s * p2 + t * p3)
 

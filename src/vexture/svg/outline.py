@@ -22,13 +22,7 @@ class Outline:
 
     @classmethod
     def polygon(cls, points: NDArray[np.float64], closed: bool) -> "Outline":
-        """Straight sides through the points, (n, 2).
-
-        Examples
-        --------
-        >>> len(Outline.polygon(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]), closed=True).cubics)
-        3
-        """
+        """Straight sides through the points, (n, 2)."""
         if closed or len(points) == 1:
             points = np.concatenate([points, points[:1]])
         return cls(line_cubics(points[:-1], points[1:]), closed)

@@ -80,21 +80,20 @@ class Servers:
     def mean_color(self, gradient: etree._Element) -> Color | None:
         """Mean of a gradient's stops, or of those that it inherits by reference; None if there are none."""
         if gradient not in self.means:
-            lender: etree._Element | None = gradient
+            source: etree._Element | None = gradient
             seen: set[etree._Element] = set()
             colors: list[Color] = []
-            while lender is not None and lender not in seen and not colors:
-                seen.add(lender)
-                colors = [self.stop_color(stop) for stop in lender if local_name(stop) == "stop"]
-                lender = self.target(reference(lender) or "")
+            while source is not None and source not in seen and not colors:
+                seen.add(source)
+                colors = [self.stop_color(stop) for stop in source if local_name(stop) == "stop"]
+                source = self.target(reference(source) or "")
             self.means[gradient] = mean(colors)
         return self.means[gradient]
 
     def stop_color(self, stop: etree._Element) -> Color:
         """Colour of a gradient's stop."""
-        chain = [stop, *stop.iterancestors()]
         style = INITIAL
-        for element in reversed(chain):
+        for element in reversed([stop, *stop.iterancestors()]):
             style = self.cascade.style(element, style)
         color = parse_color(style["stop-color"])
         if not isinstance(color, Color):

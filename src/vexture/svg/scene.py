@@ -157,13 +157,12 @@ class Scene:
         """Place inside a nested `<svg>` or a shown `<symbol>`; None if it has no size."""
         style = place.style
         x, y = position(place)
-        width, height = (
-            whole if text.lower() == "auto" else place.viewport.length(text, whole, style.font_size) or 0.0
-            for text, whole in (
-                (use[name] if use is not None and use[name].lower() != "auto" else style[name], whole)
-                for name, whole in (("width", place.viewport.width), ("height", place.viewport.height))
-            )
-        )
+        sides = []
+        for name, whole in (("width", place.viewport.width), ("height", place.viewport.height)):
+            text = style[name] if use is None or use[name].lower() == "auto" else use[name]
+            auto = text.lower() == "auto"
+            sides.append(whole if auto else place.viewport.length(text, whole, style.font_size) or 0.0)
+        width, height = sides
         if width <= 0.0 or height <= 0.0:
             return None
         box = view_box(element.get("viewBox"))

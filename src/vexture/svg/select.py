@@ -48,12 +48,6 @@ def nothing_painted(select: str, count: int) -> LimitError:
 
 
 def named(select: str) -> str:
-    """Selector as a message names it.
-
-    Examples
-    --------
-    >>> named("#a,   #b")
-    "'#a, #b'"
-    """
+    """Selector as a message names it."""
     text = " ".join(select.split())
     return repr(text if len(text) <= LONGEST_NAMED else text[: LONGEST_NAMED - 3] + "...")

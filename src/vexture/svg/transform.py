@@ -152,11 +152,6 @@ def mapped(cubics: NDArray[np.float64], matrix: Transform) -> NDArray[np.float64
     """Apply an affine map to points (..., 2).
 
     A matrix product may round the same point differently at two places of an array, hence the explicit sums.
-
-    Examples
-    --------
-    >>> mapped(np.array([[1.0, 2.0]]), Identity.scale(2, 3))
-    array([[2., 6.]])
     """
     x, y = cubics[..., 0], cubics[..., 1]
     a, b, c, d, e, f = matrix

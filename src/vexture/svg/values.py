@@ -47,13 +47,7 @@ def number(text: str) -> float | None:
 
 
 def numbers(text: str) -> list[float] | None:
-    """Numbers between commas or spaces; None if there is anything else.
-
-    Examples
-    --------
-    >>> numbers("0 0, 24,24")
-    [0.0, 0.0, 24.0, 24.0]
-    """
+    """Numbers between commas or spaces; None if there is anything else."""
     found = [number(part) for part in SEPARATOR.split(text.strip())]
     return None if None in found else [value for value in found if value is not None]
 

@@ -32,13 +32,7 @@ ASPECT = re.compile(r"\s*(?:defer\s+)?(?:(none)|x(min|mid|max)y(min|mid|max))(?:
 
 
 def view_box(text: str | None) -> Rectangle | None:
-    """Parse `viewBox`; None without it; a `SourceError` if it is not four numbers or has no size.
-
-    Examples
-    --------
-    >>> view_box("0 0 24 12")
-    (0.0, 0.0, 24.0, 12.0)
-    """
+    """Parse `viewBox`; None without it; a `SourceError` if it is not four numbers or has no size."""
     if text is None:
         return None
     values = numbers(text)

@@ -94,12 +94,6 @@ class Texture:
         """One of the shapes, by its name or number; the only one if `root` is missing.
 
         Raises a `ParameterError` if there is no such shape, or if `root` is missing and there are several.
-
-        Examples
-        --------
-        >>> texture = Texture(np.zeros((1, 1, 4), np.uint32), (Root("anchor"), Root("apple")))
-        >>> texture.root("anchor").quad
-        0
         """
         return self.roots[place_of(self.roots, root, self.name)]
 

@@ -8,17 +8,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture import layout
 from vexture.errors import FormatError
-from vexture.layout import (
-    CELL_BITS,
-    CONTROL_OFFSET,
-    COORDINATE_BITS,
-    COUNT_SHIFT,
-    MOST_CURVES,
-    MOST_DEPTH,
-    QUAD_FLAG,
-    WINDING_OFFSET,
-)
 
 __all__ = ["HALVES", "REMEDY", "WalkLevel", "curve_points", "walk"]
 
@@ -53,8 +44,9 @@ def walk(flat: NDArray[np.uint32], roots: NDArray[np.int64]) -> list[WalkLevel]:
     tree = np.arange(len(quads))
     levels: list[WalkLevel] = []
     while len(quads):
-        if len(levels) == MOST_DEPTH:
-            raise FormatError(f"quad {quads[0]} lies at depth {MOST_DEPTH}; the limit is {MOST_DEPTH - 1}; {REMEDY}")
+        depth, deepest = len(levels), layout.MOST_DEPTH - 1
+        if depth > deepest:
+            raise FormatError(f"quad {quads[0]} lies at depth {depth}; the limit is {deepest}; {REMEDY}")
         is_quad, count, winding, coverage = _cells(flat, quads)
         below = _below(flat[:, 0], quads, is_quad.sum(axis=1), met, "quad")
         curves = _below(flat[:, 1], quads, count.sum(axis=1), met, "curve")
@@ -67,18 +59,18 @@ def _cells(
     flat: NDArray[np.uint32], quads: NDArray[np.int64]
 ) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
     """Cells of quads: whether they are quads, their number of curves, corner winding and coverage."""
-    shift = CELL_BITS * np.arange(4)
-    last = (1 << CELL_BITS) - 1
+    shift = layout.CELL_BITS * np.arange(4)
+    last = (1 << layout.CELL_BITS) - 1
     cells = (flat[quads, 2].astype(np.int64)[:, None] >> shift) & last
     coverage = (flat[quads, 3].astype(np.int64)[:, None] >> shift) & last
-    is_quad = cells >= QUAD_FLAG
-    count = np.where(is_quad, 0, cells >> COUNT_SHIFT & MOST_CURVES)
-    winding = np.where(is_quad, 0, cells & ((1 << COUNT_SHIFT) - 1))
-    wrong = np.where(is_quad, cells != QUAD_FLAG, (count > 0) != (winding > 0))
+    is_quad = cells >= layout.QUAD_FLAG
+    count = np.where(is_quad, 0, cells >> layout.COUNT_SHIFT & layout.MOST_CURVES)
+    winding = np.where(is_quad, 0, cells & ((1 << layout.COUNT_SHIFT) - 1))
+    wrong = np.where(is_quad, cells != layout.QUAD_FLAG, (count > 0) != (winding > 0))
     if wrong.any():
         place, cell = np.argwhere(wrong)[0]
-        raise FormatError(f"quad {quads[place]}, cell {cell} is {cells[place, cell]}, which says nothing; {REMEDY}")
-    return is_quad, count, np.where(count > 0, winding - WINDING_OFFSET, 0), coverage
+        raise FormatError(f"quad {quads[place]}, cell {cell} is {cells[place, cell]}, which is no valid cell; {REMEDY}")
+    return is_quad, count, np.where(count > 0, winding - layout.WINDING_OFFSET, 0), coverage
 
 
 def _below(
@@ -107,7 +99,7 @@ def _below(
 
 def curve_points(texels: NDArray[np.uint32]) -> NDArray[np.int32]:
     """Points of curves in lattice units of their leaf, (n, 4) -> (n, 4, 2)."""
-    mask = (1 << COORDINATE_BITS) - 1
-    points = np.stack([texels & mask, texels >> COORDINATE_BITS], axis=2).astype(np.int32)
-    points[:, 1:3] -= CONTROL_OFFSET
+    mask = (1 << layout.COORDINATE_BITS) - 1
+    points = np.stack([texels & mask, texels >> layout.COORDINATE_BITS], axis=2).astype(np.int32)
+    points[:, 1:3] -= layout.CONTROL_OFFSET
     return points

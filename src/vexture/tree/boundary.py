@@ -16,12 +16,12 @@ from vexture.layout import LATTICE
 from vexture.tree.crossings import crossing_heights, x_at
 from vexture.tree.winding import inside
 
-__all__ = ["HOPELESS", "Boundary", "cell_paths", "crowded_area", "quantise", "quantise_piece", "resolve"]
+__all__ = ["MOST_RESOLVED", "Boundary", "cell_paths", "crowded_area", "quantise", "quantise_piece", "resolve"]
 
 NEAR = 1.0
 """Lattice units. Curves that stay closer than this are one boundary."""
 
-HOPELESS = 160
+MOST_RESOLVED = 160
 """Pieces. A cell with more is not resolved, because resolving compares every pair."""
 
 SCANLINES = 64

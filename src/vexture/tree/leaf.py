@@ -15,7 +15,7 @@ from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
 from vexture.layout import LATTICE, MOST_CURVES
-from vexture.tree.boundary import HOPELESS, Boundary, cell_paths, crowded_area, quantise_piece, resolve
+from vexture.tree.boundary import MOST_RESOLVED, Boundary, cell_paths, crowded_area, quantise_piece, resolve
 from vexture.tree.divide import PiecePool
 from vexture.tree.left_edge import corner_winding
 from vexture.tree.merge import MOST_MERGED, merge_chains
@@ -80,7 +80,7 @@ def _keep_run(curve: NDArray[np.float64], role: int, low: float, high: float, ou
 @kernel(allocates=False)
 def _resolved_pieces(curves: NDArray[np.float64], boundary: Boundary, out: NDArray[np.float64]) -> int:
     """Write the runs of a resolved boundary as pieces; return how many."""
-    count = min(len(boundary.run_piece), len(out) - 2 * HOPELESS)
+    count = min(len(boundary.run_piece), len(out) - 2 * MOST_RESOLVED)
     for r in range(count):
         curve = curves[boundary.run_piece[r]]
         _keep_run(curve, boundary.run_role[r], boundary.run_y[r, 0], boundary.run_y[r, 1], out[r])
@@ -115,15 +115,15 @@ def new_workspace() -> Workspace:
     """Arrays for any cell that may be resolved."""
     return Workspace(
         CellPieces(
-            np.empty((HOPELESS, 4, 2)),
-            np.empty(HOPELESS, np.int64),
-            np.empty(HOPELESS, np.int64),
-            np.empty(HOPELESS, np.int64),
-            np.empty(HOPELESS, np.int64),
+            np.empty((MOST_RESOLVED, 4, 2)),
+            np.empty(MOST_RESOLVED, np.int64),
+            np.empty(MOST_RESOLVED, np.int64),
+            np.empty(MOST_RESOLVED, np.int64),
+            np.empty(MOST_RESOLVED, np.int64),
         ),
-        np.empty(HOPELESS, np.int64),
-        np.empty(HOPELESS, np.int64),
-        np.empty((MOST_RUNS + 2 * HOPELESS, 4, 2)),
+        np.empty(MOST_RESOLVED, np.int64),
+        np.empty(MOST_RESOLVED, np.int64),
+        np.empty((MOST_RUNS + 2 * MOST_RESOLVED, 4, 2)),
     )
 
 
@@ -183,7 +183,7 @@ def leaf_of(
     is in lattice units.
     """
     n, paths = last - first, len(present)
-    if n > HOPELESS and at_limit:
+    if n > MOST_RESOLVED and at_limit:
         return Leaf(0, 0, _crowded_area(pool, first, last, present, rules, x0, y0, size), 0.0, False)
     if n > (MOST_MERGED if tolerance > 0.0 else 2 * MOST_CURVES) and not at_limit:
         return Leaf(DIVIDE, 0, 0.0, 0.0, True)
