@@ -24,8 +24,6 @@ __all__ = ["Painter"]
 MOST_SEGMENTS = 5_000_000
 """Cubics in one drawing."""
 
-FILL_RULES = {"nonzero": FillRule.NONZERO, "evenodd": FillRule.EVENODD}
-
 
 class Painter:
     """Collects the paths of what is painted, in order.
@@ -66,7 +64,7 @@ class Painter:
     def fill(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | None) -> None:
         """Paint the inside of the outlines."""
         if paint is not None:
-            rule = FILL_RULES[shape.style["fill-rule"].lower()]
+            rule = FillRule[shape.style["fill-rule"].upper()]
             self.add([outline.loop for outline in outlines], place, rule, paint)
 
     def stroke(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | None, size: float) -> None:

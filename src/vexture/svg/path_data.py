@@ -41,14 +41,9 @@ def repeated(arguments: list[str]) -> re.Pattern[str]:
     return re.compile(more + SPACE)
 
 
-def once(arguments: list[str]) -> re.Pattern[str]:
-    """Pattern that finds the arguments of one segment in a valid text."""
-    return re.compile(GAP.join(f"({argument})" for argument in arguments))
-
-
 COMMANDS: Final = {letter: repeated(arguments) for letter, arguments in ARGUMENTS.items()}
 NUMBERS: Final = re.compile(NUMBER)
-ARC: Final = once(ARGUMENTS["A"])
+ARC: Final = re.compile(GAP.join(f"({argument})" for argument in ARGUMENTS["A"]))
 
 HUGE = 1e100
 """Larger numbers would overflow in the arithmetic of an arc; such a radius draws a line anyway."""

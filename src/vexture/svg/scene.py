@@ -32,7 +32,7 @@ DEEPEST = 1_000
 """Elements around an element, including those that `use` adds."""
 
 CONTAINERS = frozenset({"a", "g", "svg", "switch", "symbol"})
-UNSEEN = frozenset(
+UNPAINTED = frozenset(
     {
         *("clipPath", "color-profile", "cursor", "defs", "desc", "filter", "font", "font-face", "hatch"),
         *("linearGradient", "marker", "mask", "meshgradient", "metadata", "pattern", "radialGradient"),
@@ -47,7 +47,7 @@ MARKED = frozenset({"line", "path", "polygon", "polyline"})
 LANGUAGE = "en"
 """Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
 
-Standing = tuple[etree._Element, Place]
+Placed = tuple[etree._Element, Place]
 
 
 class Scene:
@@ -99,10 +99,10 @@ class Scene:
                 raise SourceError(f"{described(element)}: {error}") from None
         return painter.paths
 
-    def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Standing]:
+    def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Placed]:
         """Paint an element, or return the elements that it shows."""
         name = local_name(element)
-        if name is None or name in UNSEEN or (name == "symbol" and place.use is None) or not applies(element):
+        if name is None or name in UNPAINTED or (name == "symbol" and place.use is None) or not applies(element):
             return []
         chosen = place.chosen or (self.chosen is not None and element in self.chosen)
         if name in ANIMATIONS or name == "script":
@@ -140,7 +140,7 @@ class Scene:
             return [(child, inner) for child in element if local_name(child) is not None and applies(child)][:1]
         return [(child, inner) for child in element]
 
-    def used(self, element: etree._Element, place: Place) -> list[Standing]:
+    def used(self, element: etree._Element, place: Place) -> list[Placed]:
         """Return the element that a `use` shows."""
         link = reference(element) or ""
         target = self.servers.target(link)

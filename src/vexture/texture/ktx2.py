@@ -94,7 +94,7 @@ def write_ktx2(texels: NDArray[np.uint32], texts: dict[str, str]) -> bytes:
     """
     height, width, _ = texels.shape
     raw = np.ascontiguousarray(texels, "<u4").tobytes()
-    deflated = zlib.compress(raw, 4)  # level 6 saves 0.2% and takes 1.6 times as long
+    deflated = zlib.compress(raw, 4)  # level 6 saves 0.2% but takes 1.6 times as long: most of a map's conversion
     descriptor, pairs = _descriptor(), _key_values(texts)
     dfd_offset = HEADER.size + LEVEL.size
     kvd_offset = dfd_offset + len(descriptor)

@@ -262,12 +262,12 @@ class Texture:
         0.25
         """
         levels = walk(self.flat, self.quads)
-        different = levels[0].quads
-        quads, curves, depth = np.zeros((3, len(different)), np.int64)
+        distinct = levels[0].quads
+        quads, curves, depth = np.zeros((3, len(distinct)), np.int64)
         for below, level in enumerate(levels):
-            here = np.bincount(level.tree, minlength=len(different))
+            here = np.bincount(level.tree, minlength=len(distinct))
             quads += here
-            curves += np.bincount(level.tree, level.counts.sum(axis=1), len(different)).astype(np.int64)
+            curves += np.bincount(level.tree, level.counts.sum(axis=1), len(distinct)).astype(np.int64)
             depth[here > 0] = below
         coverage = levels[0].coverages.mean(axis=1) / layout.COVERAGE_ONE
         return {
@@ -293,7 +293,7 @@ class Texture:
                     "tolerance": root.tolerance,
                     "paint": root.paint and {"color": [*root.paint.color], "opacity": root.paint.opacity},
                 }
-                for root, tree in zip(self.roots, np.searchsorted(different, self.quads), strict=True)
+                for root, tree in zip(self.roots, np.searchsorted(distinct, self.quads), strict=True)
             ],
         }
 

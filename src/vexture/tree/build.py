@@ -24,7 +24,7 @@ DEFAULT_CAPACITY = 4
 """Pieces in a leaf."""
 
 DEFAULT_DEPTH = 16
-"""Depth at which cells are at most 1.5e-5 of the drawing wide."""
+"""Depth limit. Cells of this depth are 1.5e-5 of the drawing wide."""
 
 DISPLACEMENT = 2.0
 """Lattice units by which a curve may move: its points are rounded when it is cut, and again in its leaf."""
