@@ -156,7 +156,7 @@ class Pen:
         if not max(map(abs, (rx, ry, rotation, *self.at, *end))) <= HUGE:
             self.line_to(end)
             return
-        for step in arc_cubics(self.at, (abs(rx), abs(ry)), rotation, large, sweep, end, self.tolerance):
+        for step in arc_cubics(self.at, (rx, ry), rotation, large, sweep, end, self.tolerance):
             self.cubics.append((*self.at, *step))
             self.at = step[4:]
         self.at, self.bend = end, ""

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Any
 
 import cssselect2
@@ -143,13 +144,7 @@ class Cascade:
             name = str(key)
             if name in PROPERTIES and name not in CSS_ONLY:
                 self.declare(found, name, str(value), element)
-        important: list[Declaration] = []
-        for declaration in self.declared(element):
-            if declaration[2]:
-                important.append(declaration)
-            else:
-                self.declare(found, declaration[0], declaration[1], element)
-        for name, value, _ in important:
+        for name, value, _ in sorted(self.declared(element), key=itemgetter(2)):  # stable; important ones come last
             self.declare(found, name, value, element)
         return found
 
