@@ -74,7 +74,7 @@ def cut_to_side(contour: NDArray[np.float64], axis: int, bound: float, side: flo
                 piece[3, axis] = bound
             point = piece[3].copy()
             middle = cubic_at(piece[0, axis], piece[1, axis], piece[2, axis], piece[3, axis], 0.5)
-            # the piece does not cross; one of these three is off the line, however the others may touch it
+            # the piece does not cross the line, and at least one of these three points is off it
             if (piece[0, axis] + middle + piece[3, axis] - 3.0 * bound) * side >= 0.0:
                 in_shadow = False
                 count += 1

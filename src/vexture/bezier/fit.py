@@ -153,7 +153,7 @@ def _keep(
 
 @kernel
 def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.float64]) -> float:
-    """Write the cubic from the first to the last of n >= 2 points, (n, 2), that is nearest to all; return its distance.
+    """Write the cubic from the first to the last of n >= 2 points, (n, 2), nearest to all; return the largest distance.
 
     P. J. Schneider, "An algorithm for automatically fitting digitized curves" (Graphics Gems, 1990), with both inner
     control points free: the tangents at the ends are not prescribed. The fit stops when every point is within

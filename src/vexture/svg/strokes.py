@@ -137,7 +137,7 @@ def read(path: pathops.Path) -> list[NDArray[np.float64]]:
 
 
 def raised(points: list[complex]) -> list[complex]:
-    """P1, P2 and P3 of a line, quadratic or cubic, raised to a cubic."""
+    """P1, P2 and P3 of the cubic that equals a line, quadratic or cubic."""
     start, end = points[0], points[-1]
     if len(points) == 2:
         return [start + (end - start) / 3.0, start + (end - start) * (2.0 / 3.0), end]

@@ -78,7 +78,7 @@ def opacity(text: str) -> float:
 class Viewport:
     """Reference sizes of relative lengths, in user units."""
 
-    width: float  # width and height of the nearest viewport
+    width: float  # of the nearest viewport
     height: float
     root_font_size: float = 16.0  # font size of the outermost element
 

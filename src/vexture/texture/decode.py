@@ -14,10 +14,11 @@ __all__ = ["decode"]
 
 
 def decode(texture: Texture, root: str | int | None = None) -> Tree:
-    """Tree of one shape, by its name or number, with `deviation` and `unresolved` 0. Errors as in `Texture.to_svg`.
+    """Tree of one shape, by its name or number, with `deviation` and `unresolved` 0.
 
     It equals the tree given to `encode` except for the rounding of coverages, and encodes to the same texels. Other
-    writers may store quads and curves in another order; here they are numbered as in `Tree`.
+    writers may store quads and curves in another order; here they are numbered as in `Tree`. Raises a `ParameterError`
+    as `Texture.root` does, and a `FormatError` if the texels are no tree.
 
     Examples
     --------

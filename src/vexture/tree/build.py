@@ -305,7 +305,7 @@ def build_tree(
     quantisation, within which chains of pieces become one cubic; 0 keeps every piece. The unit square has depth 0. A
     leaf holds more pieces than `capacity` (up to 15) only at the depth limit, or where all of them meet at one point.
     `precision` bounds the displacement by quantisation: leaves with curves are made small enough for it; None forces no
-    depth. A tree of more than `most_quads` raises a `LimitError`.
+    depth. A tree of more than `most_quads` raises a `LimitError`, a curve outside the unit square a `SourceError`.
 
     Examples
     --------

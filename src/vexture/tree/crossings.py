@@ -22,7 +22,7 @@ STACK = 64
 
 @kernel(allocates=False)
 def x_at(curve: NDArray[np.float64], y: float) -> float:
-    """X at height y of a monotone piece that is not horizontal."""
+    """Coordinate x at height y of a monotone piece that is not horizontal."""
     if y == curve[0, 1]:
         return curve[0, 0]
     if y == curve[3, 1]:
