@@ -111,7 +111,7 @@ def drawing_of(scene: Scene, name: str) -> Drawing:
         box: Rectangle = (0.0, 0.0, *size)
     else:
         viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
-        paths = scene.paint(viewport, matrix, None)
+        paths = Scene(scene.root, Report()).paint(viewport, matrix, None)  # all of it, to measure; notes come later
         if not paths:
             return Drawing((), name=name)
         left, top, right, bottom = bounds(np.concatenate([contour for path in paths for contour in path.contours]))

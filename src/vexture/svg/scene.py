@@ -64,19 +64,9 @@ class Scene:
     def paint(self, viewport: Viewport, matrix: Transform, size: float | None) -> list[Path]:
         """Paint everything; percentages at the root refer to `viewport`, and `matrix` maps user units to the drawing.
 
-        `size` is the drawing's larger side. None determines it: everything is painted, even if not chosen, and nothing
-        is noted, because all of it is visited again when the side is known. Raises a `SourceError` if a limit is
-        exceeded or `use` shows itself.
+        `size` is the drawing's larger side, None if it is unknown. Raises a `SourceError` if a limit is exceeded or
+        `use` shows itself.
         """
-        if size is not None:
-            return self.painted(viewport, matrix, size)
-        with self.report.silent():
-            paths = self.painted(viewport, matrix, None)
-        self.servers.means.clear()  # computing a mean again notes what is invalid in a gradient
-        return paths
-
-    def painted(self, viewport: Viewport, matrix: Transform, size: float | None) -> list[Path]:
-        """Paths of one walk through the document."""
         painter = Painter(self.servers, self.report, size)
         opacity = self.style.opacity("opacity")
         if self.style["display"].lower() == "none" or opacity == 0.0:
@@ -84,7 +74,7 @@ class Scene:
         self.note_effects(self.style)
         if "transform" in self.style.own:
             self.report.left_out("transform of the outermost <svg>")
-        chosen = size is None or self.chosen is None or self.root in self.chosen
+        chosen = self.chosen is None or self.root in self.chosen
         place = Place(viewport, Space().moved(matrix), self.style, opacity, self.root, chosen=chosen)
         used = 0
         stack = [(child, place) for child in reversed(self.root)]
