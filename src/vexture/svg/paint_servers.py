@@ -11,7 +11,7 @@ from vexture.svg.document import local_name
 from vexture.svg.report import Report
 from vexture.svg.style import INITIAL, Cascade, Style
 
-__all__ = ["Servers", "reference"]
+__all__ = ["PaintServers", "reference"]
 
 HREF = ("href", "{http://www.w3.org/1999/xlink}href")
 GRADIENTS = ("linearGradient", "radialGradient")
@@ -24,7 +24,7 @@ def reference(element: etree._Element) -> str | None:
     return next((element.get(name) for name in HREF if element.get(name)), None)
 
 
-class Servers:
+class PaintServers:
     """Finds elements by their `id`, and the flat colours that replace paints."""
 
     def __init__(self, root: etree._Element, cascade: Cascade, report: Report) -> None:
@@ -54,7 +54,7 @@ class Servers:
             return None
         color = text.color
         if text.reference is not None:
-            color = self.served(text.reference, color, style)
+            color = self.server_color(text.reference, color, style)
         if isinstance(color, str):
             color = style.color
         if color is None:
@@ -64,7 +64,7 @@ class Servers:
         opacity *= color.alpha * style.opacity(f"{name}-opacity")
         return Paint(color.rgb, opacity) if opacity > 0.0 else None
 
-    def served(self, link: str, fallback: Color | str | None, style: Style) -> Color | str | None:
+    def server_color(self, link: str, fallback: Color | str | None, style: Style) -> Color | str | None:
         """Flat colour for a reference to a paint server, or its fallback."""
         server = self.target(link)
         name = local_name(server) if server is not None else None

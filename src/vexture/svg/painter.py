@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vexture.drawing import FillRule, Paint, Path
 from vexture.errors import SourceError
 from vexture.svg.outline import Outline
-from vexture.svg.paint_servers import Servers
+from vexture.svg.paint_servers import PaintServers
 from vexture.svg.report import Report
 from vexture.svg.shapes import Shape, shape_outlines
 from vexture.svg.space import Place
@@ -31,7 +31,7 @@ class Painter:
     `size` is the larger side of the drawing, which bounds the error of approximations; None while the side is unknown.
     """
 
-    def __init__(self, servers: Servers, report: Report, size: float | None) -> None:
+    def __init__(self, servers: PaintServers, report: Report, size: float | None) -> None:
         self.servers = servers
         self.report = report
         self.size = size

@@ -13,7 +13,7 @@ from vexture.bezier.bounds import bounds
 from vexture.drawing import Path
 from vexture.errors import SourceError
 from vexture.svg.document import local_name
-from vexture.svg.paint_servers import Servers, reference
+from vexture.svg.paint_servers import PaintServers, reference
 from vexture.svg.painter import Painter
 from vexture.svg.report import Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
@@ -58,7 +58,7 @@ class Scene:
         self.chosen = chosen
         self.report = report
         self.cascade: Cascade = Cascade(root, report)
-        self.servers: Servers = Servers(root, self.cascade, report)
+        self.servers: PaintServers = PaintServers(root, self.cascade, report)
         self.style: Style = self.cascade.style(root, INITIAL)
 
     def paint(self, viewport: Viewport, matrix: Transform, size: float | None) -> list[Path]:
@@ -122,7 +122,7 @@ class Scene:
             painter.paint(element, inner)
             return []
         if name == "use":
-            return self.used(element, inner)
+            return self.use_target(element, inner)
         if name in ("svg", "symbol"):
             window = self.window(element, inner, place.use)
             return [] if window is None else [(child, window) for child in element]
@@ -130,7 +130,7 @@ class Scene:
             return [(child, inner) for child in element if local_name(child) is not None and applies(child)][:1]
         return [(child, inner) for child in element]
 
-    def used(self, element: etree._Element, place: Place) -> list[Placed]:
+    def use_target(self, element: etree._Element, place: Place) -> list[Placed]:
         """Return the element that a `use` shows."""
         link = reference(element) or ""
         target = self.servers.target(link)
