@@ -8,7 +8,7 @@ import degenerate
 from vexture.bezier.monotone import monotone_pieces
 from vexture.layout import LATTICE
 from vexture.thesis.build import root_level
-from vexture.thesis.level import children
+from vexture.thesis.subdivide import children
 from vexture.tolerance import GRAIN
 from vexture.tree.boundary import crowded_area, quantise, resolve
 from vexture.tree.crossings import x_at

@@ -1,7 +1,7 @@
 """The truth for every renderer: exact area coverage of a drawing, straight from its curves.
 
 Written on purpose without the quad-tree, its boundary code or a fill library, so that it can judge them. The image is
-swept from top to bottom over the drawing's chords (`vexture.renderers.chords`). Between two neighbouring heights at
+swept from top to bottom over the drawing's chords (`vexture.renderers.flatten`). Between two neighbouring heights at
 which a chord begins, ends or crosses another lies a *slab*, in which all chords run from top to bottom in one order.
 Counting each path's winding from left to right tells which chords bound the union; each of those adds its exact
 trapezoids to the pixels of its row.
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from vexture.drawing import Drawing, FillRule
 from vexture.errors import ParameterError
 from vexture.kernels import kernel
-from vexture.renderers.chords import Chords, find_chords, snap
+from vexture.renderers.flatten import Chords, find_chords, snap
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 from vexture.tolerance import FLATNESS, SCANLINE
 

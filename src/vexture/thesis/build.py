@@ -12,7 +12,7 @@ from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.kernels import kernel
 from vexture.layout import MOST_DEPTH
 from vexture.thesis.accuracy import Accuracy, accuracy_of, cell_tolerance
-from vexture.thesis.chain import Chain
+from vexture.thesis.boundary_chain import Chain
 from vexture.thesis.leaf import (
     CORNER,
     CURVE,
@@ -28,9 +28,9 @@ from vexture.thesis.leaf import (
     no_leaf,
     own_leaf,
 )
-from vexture.thesis.level import Level, children
 from vexture.thesis.plain import plain_chain
-from vexture.thesis.sampled import build_sampled
+from vexture.thesis.sample_and_fit import build_sampled
+from vexture.thesis.subdivide import Level, children
 from vexture.thesis.tree import CellTree
 from vexture.tolerance import CLOSED, GRAIN
 from vexture.tree.boundary import HOPELESS, crowded_area

@@ -15,7 +15,7 @@ from vexture.bezier.monotone import Pieces
 from vexture.bezier.roots import cubic_at
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
-from vexture.thesis.chain import JOIN, Chain, link_chain, on_edge
+from vexture.thesis.boundary_chain import JOIN, Chain, link_chain, on_edge
 from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN
 from vexture.thesis.plain import filled_sides, to_cell, touches_edge
 from vexture.thesis.tree import CellKind

@@ -7,7 +7,7 @@ from vexture.bezier.area import area_right_of, integral_x_dy
 from vexture.bezier.monotone import Pieces
 from vexture.bezier.split import subcubic
 from vexture.kernels import kernel
-from vexture.thesis.chain import Chain
+from vexture.thesis.boundary_chain import Chain
 from vexture.tree.winding import inside, winding_area
 
 __all__ = ["filled_sides", "plain_chain", "to_cell", "touches_edge"]
