@@ -1,4 +1,4 @@
-"""The boundary in a leaf as one chain of cubics from edge to edge, if it is one."""
+"""The resolved boundary in a cell as a chain of cubics from edge to edge of the cell, if it forms a single one."""
 
 from typing import NamedTuple
 
@@ -12,34 +12,28 @@ from vexture.kernels import kernel
 from vexture.layout import LATTICE
 from vexture.tree.boundary import Boundary
 
-__all__ = [
-    "JOIN",
-    "Chain",
-    "boundary_area",
-    "link_chain",
-    "on_edge",
-]
+__all__ = ["JOIN", "Chain", "link_chain", "on_edge"]
 
 JOIN = 3.0 / LATTICE
-"""Cell-local units. Ends nearer than this are one point: runs that meet at a crossing may differ by two units."""
+"""Cell-local units. Closer ends are one point: runs that meet at a crossing may differ by two lattice units."""
 
 LEFT_EDGE, RIGHT_EDGE = -1, -2
-"""Ends of a connector that are no part's end but points of the cell's edge."""
+"""Ends of a connector that are points of the cell's edge rather than ends of parts."""
 
 
 class Chain(NamedTuple):
-    """Cubics of a leaf's boundary, each with the filled side on its right, as arrays of n.
+    """Cubics of a leaf's boundary, each with the filled side on its right.
 
     Attributes
     ----------
     curves : (n, 4, 2) float64 array
         In the cell's own unit square.
     segment : (n,) int64 array
-        Cubic of the source that each is a part of; -1 for a horizontal stretch.
+        Cubic of the source that each is a part of; -1 for a horizontal connector.
     span : (n, 2) float64 array
-        Its parameters on that cubic, in the direction of travel.
+        Its parameter interval on that cubic, in the direction of travel.
     chains : int
-        0 if nothing bounds inside in the cell, 1 if the cubics are one open chain, in order, 2 if they are more.
+        0: no boundary inside the cell. 1: the cubics form one open chain, in order. 2: they form several.
     """
 
     curves: NDArray[np.float64]
@@ -50,14 +44,9 @@ class Chain(NamedTuple):
 
 @kernel
 def boundary_area(boundary: Boundary, parts: NDArray[np.float64]) -> float:
-    """Filled part of the cell: what is inside at the left edge, corrected at each run by the part on its right.
+    """Filled part of the cell: the area inside at the left edge, corrected at each run by the part on its right.
 
-    Parameters
-    ----------
-    boundary : Boundary
-        Resolved.
-    parts : (runs, 4, 2) float64 array
-        Its runs in the cell's unit square, the filled side on their right.
+    `parts` are the runs of the boundary as cubics in the cell's unit square, their filled side on the right.
     """
     area = 0.0
     for slab in range(len(boundary.left)):
@@ -76,7 +65,7 @@ def _run_parts(
     boundary: Boundary,
     room: int,
 ) -> Chain:
-    """Runs as cubics in the cell's unit square, with room for connectors behind them."""
+    """Runs as cubics in the cell's unit square, followed by room for connectors."""
     runs = len(boundary.run_piece)
     out, out_span = np.zeros((runs + room, 4, 2)), np.zeros((runs + room, 2))
     out_segment = np.empty(runs + room, np.int64)
@@ -103,7 +92,7 @@ def _run_parts(
 
 @kernel
 def _ends_at(parts: NDArray[np.float64], runs: int, y: float, ends: NDArray[np.int64]) -> int:
-    """Write the runs' ends at a height from left to right, 2 r for the start of run r, 2 r + 1 for its end."""
+    """Write the runs' ends at a height from left to right, as 2 r (start of run r) or 2 r + 1; count them."""
     count = 0
     for r in range(runs):
         for which in range(2):
@@ -128,10 +117,10 @@ def _point(parts: NDArray[np.float64], end: int, y: float, out: NDArray[np.float
 
 @kernel
 def _connect(chain: Chain, parts: int, source: int, target: int, y: float, following: NDArray[np.int64]) -> int:
-    """Let travel go on from one end to another at the same height; return the new number of parts.
+    """Connect one end to another at the same height; return the new number of parts.
 
-    Ends that nearly meet are joined in their middle, others by a horizontal stretch: that is the boundary that
-    the sweep drops, because horizontal pieces span no slab.
+    Ends that nearly meet are joined at their midpoint. Others are joined by a horizontal part: the sweep drops that
+    boundary because horizontal pieces span no slab.
     """
     a, b = np.empty(2), np.empty(2)
     _point(chain.curves, source, y, a)
@@ -169,9 +158,9 @@ def _link_at(
 ) -> int:
     """Link all ends at one height; return the new number of parts.
 
-    Going right along that height, inside differs between just below and just above exactly between the first
-    and the second end, the third and the fourth, and so on, counting the cell's left edge as an end where
-    inside differs there, and its right edge if the number is odd then.
+    Along that height from left to right, inside differs between just below and just above exactly between the first and
+    the second end, the third and the fourth, and so on. The cell's left edge counts as an end if inside differs there,
+    and its right edge if the number is odd then.
     """
     count = _ends_at(chain.curves, runs, y, ends)
     if below != above:
@@ -185,7 +174,7 @@ def _link_at(
     k = 0
     while k + 1 < count:
         first = ends[k]
-        m = k + 1  # a start must meet an end: where crossing curves share a point, their order is arbitrary
+        m = k + 1  # a start must meet an end; the order of crossing curves at a common point is arbitrary
         while m + 1 < count and first >= 0 and ends[m] >= 0 and (first & 1) == (ends[m] & 1):
             m += 1
         second = ends[m]
@@ -210,7 +199,7 @@ def on_edge(x: float, y: float) -> bool:
 
 @kernel
 def _along_edge(curve: NDArray[np.float64]) -> bool:
-    """Whether a part of a chain runs along the cell's edge, where it bounds nothing inside the cell."""
+    """Whether a part of a chain follows the cell's edge, where it bounds nothing inside the cell."""
     for axis in range(2):
         for line in (0.0, 1.0):
             if abs(curve[0, axis] - line) <= JOIN and abs(curve[3, axis] - line) <= JOIN:
@@ -220,7 +209,7 @@ def _along_edge(curve: NDArray[np.float64]) -> bool:
 
 @kernel
 def _travel(chain: Chain, parts: int, following: NDArray[np.int64]) -> Chain:
-    """Order the parts from the one start, without those along the cell's edge at either end."""
+    """Order the parts from the single start; drop those along the cell's edge at either end."""
     preceded = np.zeros(parts, np.bool_)
     for k in range(parts):
         if following[k] >= 0:
@@ -228,7 +217,7 @@ def _travel(chain: Chain, parts: int, following: NDArray[np.int64]) -> Chain:
     heads, head, beside = 0, -1, 0
     for k in range(parts):
         if not preceded[k] and following[k] < 0 and _along_edge(chain.curves[k]):
-            beside += 1  # follows the cell's edge from corner to corner, say, and bounds nothing inside
+            beside += 1  # bounds nothing inside the cell
         elif not preceded[k]:
             heads, head = heads + 1, k
     order = np.empty(parts, np.int64)
@@ -237,7 +226,7 @@ def _travel(chain: Chain, parts: int, following: NDArray[np.int64]) -> Chain:
         order[length] = head
         length += 1
         head = following[head]
-    if heads != 1 or length + beside != parts:  # none, several, or closed ones beside it
+    if heads != 1 or length + beside != parts:  # no chain, several, or an additional closed one
         none = heads == 0 and beside == parts
         return Chain(chain.curves[:parts], chain.segment[:parts], chain.span[:parts], 0 if none else 2)
     first, last = 0, length
@@ -259,18 +248,10 @@ def _travel(chain: Chain, parts: int, following: NDArray[np.int64]) -> Chain:
 def link_chain(
     curves: NDArray[np.float64], segment: NDArray[np.int64], span: NDArray[np.float64], boundary: Boundary
 ) -> tuple[Chain, float]:
-    """Chain of a leaf's boundary, and its exact filled area.
+    """Chain of a leaf's resolved boundary, and its exact filled area.
 
-    Parameters
-    ----------
-    curves : (n, 4, 2) float64 array
-        The pieces that `boundary` refers to, on the leaf's lattice.
-    segment : (n,) int64 array
-        Cubic of the source that each is a part of.
-    span : (n, 2) float64 array
-        Its parameters on that cubic.
-    boundary : Boundary
-        Resolved.
+    `curves`, (n, 4, 2), are the pieces of `boundary` on the leaf's lattice; `segment`, (n,), and `span`, (n, 2), tell
+    which cubic of the source each is a part of, and from which parameter to which.
     """
     runs, slabs = len(boundary.run_piece), len(boundary.left)
     chain = _run_parts(curves, segment, span, boundary, 2 * runs + slabs + 2)

@@ -1,4 +1,4 @@
-"""From a drawing to a `CellTree`, level by level."""
+"""Builds the `CellTree` of a drawing, level by level."""
 
 from typing import Literal
 
@@ -37,14 +37,10 @@ from vexture.tree.boundary import HOPELESS, crowded_area
 from vexture.tree.cubics import gather
 from vexture.tree.pool import MOST_QUADS, with_room
 
-__all__ = ["DEFAULT_DEPTH", "DEPTH_RANGE", "build", "root_level"]
-
-DEPTH_RANGE = (1, MOST_DEPTH)
-"""Depth limits that a caller may ask for."""
+__all__ = ["DEFAULT_DEPTH", "build", "root_level"]
 
 DEFAULT_DEPTH = 10
-"""Cells of a thousandth of the drawing."""
-
+"""Its cells are a thousandth of the drawing wide."""
 
 CROWDED = 8
 """Pieces in a cell above which it is resolved only if its boundary meets the cell's edge exactly twice."""
@@ -52,7 +48,7 @@ CROWDED = 8
 
 @kernel
 def _ends_on_edge(pieces: Pieces, first: int, last: int, x0: float, y0: float, size: float) -> int:
-    """Number of ends of chains on the cell's edge: of ends there that the next piece does not go on from."""
+    """Number of ends of chains on the cell's edge: ends of pieces there that the next piece does not continue."""
     count = 0
     for i in range(first, last):
         for end in (0, 3):
@@ -79,7 +75,7 @@ def _leaf_or_limit(
     tolerance: float,
     at_limit: bool,
 ) -> Leaf:
-    """Leaf of a chain; at the depth limit there always is one."""
+    """Leaf of a chain; at the depth limit never `NO_LEAF`."""
     leaf = chain_leaf(chain, area, cubics, x0, y0, size, tolerance / size)
     if leaf.kind == NO_LEAF and at_limit:
         return limit_leaf(chain, area)
@@ -96,7 +92,7 @@ def _leaf_of(
     tolerance: float,
     at_limit: bool,
 ) -> Leaf:
-    """Leaf of cell c, or `NO_LEAF` to divide it."""
+    """Leaf of cell c, or `NO_LEAF` if the cell must be divided."""
     first, last = level.piece_at[c], level.piece_at[c + 1]
     present = level.present[level.path_at[c] : level.path_at[c + 1]]
     x0, y0 = level.origin[c, 0], level.origin[c, 1]
@@ -124,7 +120,7 @@ def _leaf_of(
 
 @kernel
 def _add_quads(cells: NDArray[np.float64], level: Level, split_cells: NDArray[np.bool_], quad: int) -> int:
-    """Enter the quads that cells of a level become, their cells empty; return the new number of quads."""
+    """Append a quad with empty cells for each divided cell of a level; return the new number of quads."""
     for c in range(len(split_cells)):
         if split_cells[c]:
             if level.slot[c] >= 0:
@@ -147,8 +143,9 @@ def grow(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float, int]:
     """Divide the unit square level by level until every cell is a leaf.
 
-    Returned are the cells, (quads, 4, 3): kind, reference, coverage; the curves; deviation; unresolved. If that
-    takes more than `most_quads`, nothing but the number needed so far, negative, as the last.
+    Returned are the cells, (quads, 4, 3): kind, reference, coverage; the curves; the deviation; the number of
+    unresolved cells. If the tree needs more than `most_quads`, the arrays are empty and the last value is minus the
+    number so far.
     """
     cells, quads = np.empty((16, 4, 3)), 0
     curves, curve_count = np.empty((16, 4, 2)), 0
@@ -195,7 +192,7 @@ def grow(
 
 
 def root_level(drawing: Drawing, pieces: Pieces) -> Level:
-    """The unit square as the only cell of its level; every path has corner winding 0 there."""
+    """The unit square as the only cell of its level. The corner winding of every path is 0 there."""
     ends = pieces.points[:, [0, 3]]
     worst = np.abs(ends - np.clip(ends, 0.0, 1.0)).max()
     if not worst <= CLOSED:  # not a number counts as outside
@@ -220,27 +217,14 @@ def build(
     step: float = 0.0,
     most_quads: int = MOST_QUADS,
 ) -> CellTree:
-    """Quad-tree of a drawing's silhouette, with thesis leaves.
+    """Quad-tree of a drawing in normal form; most parameters as in `vexture.thesis.convert`.
 
     Parameters
     ----------
-    drawing : Drawing
-        In normal form.
-    tolerance : float or "auto"
-        Largest distance between the drawing's outline and a leaf's, in unit-square units. "auto" follows the
-        smallest detail of the drawing and the size of the cell.
-    max_depth : int
-        Cells of this depth are not divided further; the unit square has depth 0.
-    strategy : "direct" or "sampled"
-        Leaves found from the drawing's own cubics, or the thesis's original way by sampling and fitting.
     step : float
-        Share of a cell by which an encoding's quantisation moves an outline: "auto" is no finer than that.
+        Share of a cell by which an encoding's quantisation moves an outline: tolerance "auto" is no finer.
     most_quads : int
-        A tree that needs more is given up.
-
-    Returns
-    -------
-    CellTree
+        A larger tree is not built.
 
     Raises
     ------
@@ -259,9 +243,8 @@ def build(
     """
     if strategy not in ("direct", "sampled"):
         raise ParameterError(f"`strategy` is {strategy!r}; it must be 'direct' or 'sampled'")
-    low, high = DEPTH_RANGE
-    if not (isinstance(max_depth, int | np.integer) and low <= max_depth <= high):
-        raise ParameterError(f"`max_depth` {max_depth} is outside {low}..{high}; the default is {DEFAULT_DEPTH}")
+    if not (isinstance(max_depth, int | np.integer) and 1 <= max_depth <= MOST_DEPTH):
+        raise ParameterError(f"`max_depth` {max_depth} is outside 1..{MOST_DEPTH}; the default is {DEFAULT_DEPTH}")
     cubics, owner, rules = gather(drawing)
     accuracy = accuracy_of(tolerance, cubics, step)
     pieces = monotone_pieces(cubics, owner)

@@ -1,7 +1,8 @@
 """The thesis leaf: one cubic, or one straight corner, from edge to edge of its cell, or full, or empty.
 
-In this order (thesis 6.2.1 and 6.1.2): a part of one cubic of the source, exactly; two straight runs that meet in a
-corner; one chain that a cubic fits within tolerance. The filled side is on the right going from P0 to P3.
+A cell becomes, in this order of preference (thesis 6.2.1 and 6.1.2): an exact part of one cubic of the source; two
+straight runs that meet in a corner; a cubic fitted to one chain within tolerance. The filled side is on the right of
+the direction from P0 to P3.
 """
 
 from typing import NamedTuple
@@ -42,17 +43,17 @@ CURVE, QUAD, CORNER, FULL, EMPTY = (int(kind) for kind in CellKind)  # as kernel
 NO_LEAF = -1
 
 SHORTEST_CHORD = 16.0 * JOIN
-"""Cell-local units. A curve whose ends are nearer than this has no direction to build a basis on."""
+"""Cell-local units. A curve with a shorter chord has no reliable direction for its basis."""
 
 SLIVER = 1e-9
-"""Share of the cell. A curve that cuts off less lies along the cell's edge."""
+"""Share of the cell. A curve that cuts off less follows the cell's edge."""
 
 MAX_SAMPLES, SAMPLES_PER_PART = 64, 8
-"""Points of a chain that a fit looks at: so many in all, and so many on each part of a short chain."""
+"""Samples of a chain for a fit: at most so many in all, and so many on each part of a short chain."""
 
 
 class Leaf(NamedTuple):
-    """What a cell can be said to hold.
+    """Possible content of a cell.
 
     Attributes
     ----------
@@ -61,11 +62,11 @@ class Leaf(NamedTuple):
     curve : (4, 2) float64 array
         P0 P1 P2 P3 in the cell's unit square; for a corner P1 = P2 = the corner.
     coverage : float
-        Filled part of the cell, of the drawing rather than of the curve.
+        Part of the cell that the drawing fills; the curve may differ.
     distance : float
         Largest distance of the drawing's outline from the curve, in cell-local units.
     resolved : bool
-        False if this is the best that a cell at the depth limit can say, rather than good enough.
+        False for an approximation beyond the tolerance, at the depth limit.
     """
 
     kind: int
@@ -77,19 +78,19 @@ class Leaf(NamedTuple):
 
 @kernel
 def no_leaf() -> Leaf:
-    """Answer of an attempt that failed."""
+    """Result of an attempt that failed."""
     return Leaf(NO_LEAF, np.zeros((4, 2)), 0.0, 0.0, True)
 
 
 @kernel
 def _constant_leaf(is_full: bool) -> Leaf:
-    """Full or empty, because no boundary is in the cell."""
+    """Full or empty leaf of a cell without a boundary."""
     return Leaf(FULL if is_full else EMPTY, np.zeros((4, 2)), 1.0 if is_full else 0.0, 0.0, True)
 
 
 @kernel
 def nearest_constant(area: float) -> Leaf:
-    """Full or empty for want of anything better: an outline in the cell is up to its diagonal away."""
+    """Full or empty leaf as a last resort: an outline in the cell is up to its diagonal away."""
     return Leaf(FULL if area > 0.5 else EMPTY, np.zeros((4, 2)), area, np.sqrt(2.0), False)
 
 
@@ -111,7 +112,7 @@ def snap_to_edge(point: NDArray[np.float64]) -> None:
 
 @kernel
 def _expressible(curve: NDArray[np.float64]) -> bool:
-    """Whether the format can hold a curve: its inner control points in range, its ends apart."""
+    """Whether the format can store a curve: inner control points in range, chord long enough."""
     for k in (1, 2):
         for axis in range(2):
             if not CONTROL_MIN <= curve[k, axis] <= CONTROL_MAX:
@@ -133,19 +134,9 @@ def own_leaf(
 ) -> Leaf:
     """Leaf of a cell that one cubic of the source crosses once from edge to edge: its exact part.
 
-    Nothing is quantised or resolved. A cubic that crosses itself in the cell is taken only under the even-odd rule,
-    which is what the shader's count of crossings means.
-
-    Parameters
-    ----------
-    pieces : Pieces
-        Those of the cell, all of one path, are first..last-1.
-    cubics : (m, 4, 2) float64 array
-        The source's.
-    corner_winding, rule : int
-        Of that path.
-    x0, y0, size : float
-        The cell.
+    Nothing is quantised or resolved. A cubic that crosses itself in the cell is accepted only under the even-odd rule,
+    because the shader counts crossings. The pieces first..last-1 are those of the cell at (x0, y0), all of the path
+    with this corner winding and fill rule; `cubics`, (m, 4, 2), are the source's.
     """
     for i in range(first + 1, last):
         if pieces.segment[i] != pieces.segment[first] or pieces.span[i, 0] != pieces.span[i - 1, 1]:
@@ -177,7 +168,7 @@ def own_leaf(
 
 @kernel
 def _own_chain(chain: Chain, cubics: NDArray[np.float64], x0: float, y0: float, size: float) -> Leaf:
-    """Leaf of a chain whose parts are consecutive on one cubic of the source: that cubic's part, exactly."""
+    """Leaf of a chain whose parts are consecutive on one cubic of the source: the exact part of that cubic."""
     n = len(chain.segment)
     segment = chain.segment[0]
     if segment < 0:
@@ -198,7 +189,7 @@ def _own_chain(chain: Chain, cubics: NDArray[np.float64], x0: float, y0: float, 
 
 @kernel
 def _off_line(curves: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
-    """Largest distance of the control points of a run from the straight line between two points."""
+    """Largest distance of the control points of a run from the segment between two points."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     length = np.hypot(dx, dy)
     worst = 0.0
@@ -235,7 +226,7 @@ def _corner(chain: Chain, tolerance: float) -> Leaf:
 
 @kernel
 def _sample(chain: Chain, per_part: int) -> NDArray[np.float64]:
-    """Points along a chain, its joints among them."""
+    """Points along a chain, including its joints."""
     n = len(chain.curves)
     out = np.empty((n * per_part + 1, 2))
     for k in range(n):
@@ -249,7 +240,7 @@ def _sample(chain: Chain, per_part: int) -> NDArray[np.float64]:
 
 @kernel
 def _fit(chain: Chain, tolerance: float) -> Leaf:
-    """Leaf of a chain that one cubic describes within tolerance."""
+    """Leaf of a chain that one cubic approximates within tolerance."""
     per_part = min(max(MAX_SAMPLES // len(chain.curves), 2), SAMPLES_PER_PART)
     curve = np.empty((4, 2))
     distance = fit_cubic(_sample(chain, per_part), tolerance, curve)
@@ -269,18 +260,10 @@ def cell_chain(
     y0: float,
     size: float,
 ) -> tuple[Chain, float]:
-    """Chain of a cell's boundary after its overlaps and crossings are resolved, and its filled part.
+    """Chain of a cell's boundary, with overlaps and crossings resolved, and its filled part.
 
-    Parameters
-    ----------
-    pieces : Pieces
-        Those of the cell are first..last-1.
-    present : (n, 2) int64 array
-        The paths in the cell and their corner windings.
-    rules : (paths,) int64 array
-        `FillRule` of each path of the drawing.
-    x0, y0, size : float
-        The cell.
+    The pieces first..last-1 are those of the cell at (x0, y0). `present`, (n, 2), lists the paths in the cell and their
+    corner windings; `rules` has the `FillRule` of each path of the drawing.
     """
     owner = np.empty(last - first, np.int64)
     corner, cell_rules = np.empty(len(present), np.int64), np.empty(len(present), np.int64)
@@ -294,18 +277,10 @@ def cell_chain(
 def chain_leaf(
     chain: Chain, area: float, cubics: NDArray[np.float64], x0: float, y0: float, size: float, tolerance: float
 ) -> Leaf:
-    """Leaf that describes a chain within tolerance; `NO_LEAF` if there is none.
+    """Leaf that describes a chain within tolerance, or `NO_LEAF`.
 
-    Parameters
-    ----------
-    chain, area : Chain, float
-        What `cell_chain` gives.
-    cubics : (m, 4, 2) float64 array
-        The source's.
-    x0, y0, size : float
-        The cell.
-    tolerance : float
-        Largest distance between the outline and the leaf's, in cell-local units.
+    `chain` and its filled `area` are those of `cell_chain`; `cubics`, (m, 4, 2), the source's. The tolerance is the
+    largest distance between the outline and the leaf's, in cell-local units.
     """
     if chain.chains == 0:
         return _constant_leaf(area > 0.5)
@@ -328,14 +303,9 @@ def chain_leaf(
 
 @kernel
 def limit_leaf(chain: Chain, area: float) -> Leaf:
-    """Leaf of a cell at the depth limit: a straight line from edge to edge, or full, or empty.
+    """Leaf of a cell at the depth limit: the straight line from edge to edge, or constant, of the nearest area.
 
-    The one whose area is nearest; a line joins two points at which the boundary meets the cell's edge.
-
-    Parameters
-    ----------
-    chain, area : Chain, float
-        What `cell_chain` gives.
+    A line joins two points at which the boundary meets the cell's edge. `chain` and `area` are those of `cell_chain`.
     """
     best = nearest_constant(area)
     error = min(area, 1.0 - area)

@@ -1,4 +1,4 @@
-"""A cell that one path crosses once, plainly: nothing in it needs to be quantised or resolved."""
+"""Cells that one path crosses once: their pieces need neither quantising nor resolving."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ __all__ = ["filled_sides", "plain_chain", "to_cell", "touches_edge"]
 
 @kernel
 def to_cell(points: NDArray[np.float64], x0: float, y0: float, size: float) -> NDArray[np.float64]:
-    """Cubics, (n, 4, 2), in the unit square of a cell; exactly 0 or 1 for what lies on its edge."""
+    """Cubics, (n, 4, 2), in the unit square of a cell; coordinates on its edge become exactly 0 or 1."""
     out = np.empty((len(points), 4, 2))
     for i in range(len(points)):
         for k in range(4):
@@ -26,7 +26,7 @@ def to_cell(points: NDArray[np.float64], x0: float, y0: float, size: float) -> N
 
 @kernel(allocates=False)
 def touches_edge(point: NDArray[np.float64]) -> bool:
-    """Whether a point lies exactly on a line of the unit square's edge."""
+    """Whether a coordinate of a point is exactly 0 or 1."""
     return point[0] == 0.0 or point[0] == 1.0 or point[1] == 0.0 or point[1] == 1.0
 
 
@@ -34,16 +34,9 @@ def touches_edge(point: NDArray[np.float64]) -> bool:
 def filled_sides(curves: NDArray[np.float64], corner_winding: int, rule: int, signed_area: float) -> tuple[bool, bool]:
     """Whether the right and the left side of one chain from edge to edge are filled.
 
-    The winding number is w on the right and w + 1 on the left, loops aside; its mean over the cell tells w.
-
-    Parameters
-    ----------
-    curves : (n, 4, 2) float64 array
-        The chain's monotone pieces in the cell's unit square: all that is in the cell of its path.
-    corner_winding, rule : int
-        Of that path.
-    signed_area : float
-        Area on the right of the chain, that of its loops counted by their direction.
+    The winding number is w on the right and w + 1 on the left, except in loops; its mean over the cell gives w.
+    `curves` are the chain's monotone pieces in the cell's unit square, all that the cell holds of the path.
+    `signed_area` is the area on the right of the chain, with loops counted by their direction.
     """
     w = int(np.rint(winding_area(curves, corner_winding, 1.0) - 1.0 + signed_area))
     return inside(w, rule), inside(w + 1, rule)
@@ -51,7 +44,7 @@ def filled_sides(curves: NDArray[np.float64], corner_winding: int, rule: int, si
 
 @kernel(allocates=False)
 def _apart(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
-    """Whether the boxes of two monotone pieces, which their ends span, share no more than an edge."""
+    """Whether the bounding boxes of two monotone pieces share no more than an edge."""
     for axis in range(2):
         if max(a[0, axis], a[3, axis]) <= min(b[0, axis], b[3, axis]):
             return True
@@ -62,7 +55,7 @@ def _apart(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
 
 @kernel(allocates=False)
 def _is_plain(curves: NDArray[np.float64]) -> bool:
-    """Whether monotone pieces are one open chain from edge to edge that cannot cross itself nor follows the edge."""
+    """Whether monotone pieces form one open chain between edges that cannot cross itself or follow an edge."""
     n = len(curves)
     for axis in range(2):
         for i in range(n):
@@ -85,23 +78,10 @@ def _is_plain(curves: NDArray[np.float64]) -> bool:
 def plain_chain(
     pieces: Pieces, first: int, last: int, corner_winding: int, rule: int, x0: float, y0: float, size: float
 ) -> tuple[Chain, float]:
-    """Chain of a cell in which nothing needs to be resolved, and its exact filled area.
+    """Chain of a cell in which nothing needs to be resolved, and the exact filled part of the cell.
 
-    Parameters
-    ----------
-    pieces : Pieces
-        Those of the cell, all of one path, are first..last-1.
-    corner_winding, rule : int
-        Of that path.
-    x0, y0, size : float
-        The cell.
-
-    Returns
-    -------
-    Chain
-        Of `chains` 1, or 0 if both sides are the same; 2 if the cell is not so simple.
-    float
-        Filled part of the cell.
+    Parameters as in `vexture.thesis.leaf.own_leaf`. The chain's `chains` is 0 if both sides are the same, and 2 if the
+    cell is not so simple.
     """
     n = last - first
     curves = to_cell(pieces.points[first:last], x0, y0, size)

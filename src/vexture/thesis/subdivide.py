@@ -1,4 +1,4 @@
-"""The cells of one depth, and how they are cut into the cells of the next, by the rules of `vexture.tree.pool`."""
+"""Divides the cells of one depth into those of the next, by the rules of `vexture.tree.pool`."""
 
 from typing import NamedTuple
 
@@ -16,11 +16,10 @@ __all__ = ["Level", "children"]
 
 
 class Level(NamedTuple):
-    """Cells of one depth that are neither leaves nor constant yet, as arrays.
+    """Cells of one depth that are neither leaves nor constant yet.
 
-    Each cell owns a range of `pieces` and a range of `present`: the paths that have pieces in it, with their
-    corner windings (see `vexture.tree.winding`). Both are in the order of the paths, so that the pieces of a
-    path are consecutive.
+    Each cell owns a range of `pieces` and a range of `present`: the paths that have pieces in it. Both are in the order
+    of the paths, so that the pieces of a path are consecutive.
 
     Attributes
     ----------
@@ -29,11 +28,11 @@ class Level(NamedTuple):
     slot : (n,) int64 array
         4 * (parent quad) + (cell of that quad).
     piece_at, path_at : (n + 1,) int64 arrays
-        Where each cell's range starts; the last entry is the total.
+        Start of each cell's range; the last entry is the total.
     pieces : Pieces
         In unit-square units.
     present : (m, 2) int64 array
-        Path and corner winding.
+        Path and corner winding (see `vexture.tree.winding`).
     """
 
     origin: NDArray[np.float64]
@@ -85,7 +84,7 @@ def _cut(source: Pieces, first: int, last: int, axis: int, line: float, grain: f
 def _sort_by_child(
     cut: Pieces, count: int, xm: float, ym: float, target: Pieces, end: int, child_at: NDArray[np.int64]
 ) -> int:
-    """Append cut pieces child by child, in their order; write where each child starts; drop point-like pieces."""
+    """Append cut pieces child by child, without point-like ones; write where each child starts; return the new end."""
     for child in range(4):
         child_at[child] = end
         for i in range(count):
@@ -147,20 +146,10 @@ def children(
     grain: float,
     first_quad: int,
 ) -> tuple[Level, NDArray[np.int64]]:
-    """Cut cells of a level into the cells of the next.
+    """Divide cells of a level, each `size` wide, into the cells of the next.
 
-    Parameters
-    ----------
-    level : Level
-        Of n cells, each `size` wide.
-    split_cells : (n,) bool array
-        The cells to cut, `split_count` of them; each becomes a quad, numbered from `first_quad`.
-    rules : (paths,) int64 array
-        `FillRule` of each path.
-    size : float
-        Width of this level's cells, in unit-square units.
-    grain : float
-        Spacing of the lattice that points on the middle lines are rounded to, a power of two.
+    Each of the `split_count` cells in the mask `split_cells` becomes a quad, numbered from `first_quad`. Points on the
+    middle lines are rounded to multiples of `grain`, a power of two.
 
     Returns
     -------
