@@ -1,4 +1,4 @@
-"""Layers in their colours, composited into one picture."""
+"""Composites layers in their colours into one picture."""
 
 from collections.abc import Iterable
 

@@ -1,4 +1,4 @@
-"""The numbers of the thesis's shading method, defined once: the shader and its mirror read them here.
+"""Numbers of the thesis's shading method, for the shader and for its mirror.
 
 The solution paths are those of thesis Figure 3.5; QUADRATIC stands for two of its nine, one root or both on the curve.
 """

@@ -1,4 +1,4 @@
-"""The quad-tree of the thesis, as arrays: one cubic or one corner in a leaf."""
+"""The quad-tree of the thesis, as arrays."""
 
 from dataclasses import dataclass
 from enum import IntEnum
@@ -10,7 +10,7 @@ __all__ = ["CellKind", "CellTree"]
 
 
 class CellKind(IntEnum):
-    """What a cell of a quad is."""
+    """Kind of a quad's cell."""
 
     CURVE = 0
     QUAD = 1
@@ -25,7 +25,7 @@ class CellTree:
 
     Quads are numbered breadth first, quad 0 is the unit square; cell k of a quad is its (x half) + 2 (y half),
     y up. References rise with the index of the quad and the cell that hold them. The filled side of a curve or
-    corner is on the right going from P0 to P3.
+    corner is on the right of the direction from P0 to P3.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class CellTree:
     deviation : float
         Largest distance between the drawing's outline and the leaves', in unit-square units, before quantisation.
     unresolved : int
-        Number of cells at the depth limit that hold more than a leaf can say.
+        Number of cells at the depth limit whose content a leaf cannot represent.
     """
 
     kind: NDArray[np.uint8]
@@ -53,7 +53,7 @@ class CellTree:
 
     @property
     def quad_coverage(self) -> NDArray[np.float64]:
-        """Filled part of each quad: the mean of its cells', (quads,)."""
+        """Filled part of each quad, (quads,): the mean of its cells'."""
         mean: NDArray[np.float64] = self.coverage.mean(axis=1)
         return mean
 
