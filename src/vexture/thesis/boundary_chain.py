@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.area import integral_x_dy
+from vexture.bezier.monotone import Pieces
 from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
@@ -22,7 +23,7 @@ LEFT_EDGE, RIGHT_EDGE = -1, -2
 
 
 class Chain(NamedTuple):
-    """Cubics of a leaf's boundary, each with the filled side on its right.
+    """Cubics of a cell's boundary, each with the filled side on its right.
 
     Attributes
     ----------
@@ -34,12 +35,15 @@ class Chain(NamedTuple):
         Its parameter interval on that cubic, in the direction of travel.
     chains : int
         0: no boundary inside the cell. 1: the cubics form one open chain, in order. 2: they form several.
+    area : float
+        Filled part of the cell.
     """
 
     curves: NDArray[np.float64]
     segment: NDArray[np.int64]
     span: NDArray[np.float64]
     chains: int
+    area: float
 
 
 @kernel
@@ -58,14 +62,8 @@ def boundary_area(boundary: Boundary, parts: NDArray[np.float64]) -> float:
 
 
 @kernel
-def _run_parts(
-    curves: NDArray[np.float64],
-    segment: NDArray[np.int64],
-    span: NDArray[np.float64],
-    boundary: Boundary,
-    room: int,
-) -> Chain:
-    """Runs as cubics in the cell's unit square, followed by room for connectors."""
+def _run_parts(curves: NDArray[np.float64], pieces: Pieces, boundary: Boundary, room: int) -> Chain:
+    """Runs as cubics in the cell's unit square, followed by room for connectors; the area is not set."""
     runs = len(boundary.run_piece)
     out, out_span = np.zeros((runs + room, 4, 2)), np.zeros((runs + room, 2))
     out_segment = np.empty(runs + room, np.int64)
@@ -83,11 +81,12 @@ def _run_parts(
         for k in range(4):
             out[r, k, 0] /= LATTICE
             out[r, k, 1] /= LATTICE
-        out_segment[r] = segment[i]
+        out_segment[r] = pieces.segment[i]
         for end, u in ((0, u0), (1, u1)):
-            whole = span[i, 0] if u == 0.0 else span[i, 1]  # the very number that the next piece has
-            out_span[r, end] = whole if u == 0.0 or u == 1.0 else span[i, 0] + u * (span[i, 1] - span[i, 0])
-    return Chain(out, out_segment, out_span, runs)
+            t0, t1 = pieces.span[i, 0], pieces.span[i, 1]
+            whole = t0 if u == 0.0 else t1  # bit for bit the adjacent piece's number
+            out_span[r, end] = whole if u == 0.0 or u == 1.0 else t0 + u * (t1 - t0)
+    return Chain(out, out_segment, out_span, runs, 0.0)
 
 
 @kernel
@@ -208,7 +207,7 @@ def _along_edge(curve: NDArray[np.float64]) -> bool:
 
 
 @kernel
-def _travel(chain: Chain, parts: int, following: NDArray[np.int64]) -> Chain:
+def _travel(chain: Chain, parts: int, following: NDArray[np.int64], area: float) -> Chain:
     """Order the parts from the single start; drop those along the cell's edge at either end."""
     preceded = np.zeros(parts, np.bool_)
     for k in range(parts):
@@ -228,14 +227,14 @@ def _travel(chain: Chain, parts: int, following: NDArray[np.int64]) -> Chain:
         head = following[head]
     if heads != 1 or length + beside != parts:  # no chain, several, or an additional closed one
         none = heads == 0 and beside == parts
-        return Chain(chain.curves[:parts], chain.segment[:parts], chain.span[:parts], 0 if none else 2)
+        return Chain(chain.curves[:parts], chain.segment[:parts], chain.span[:parts], 0 if none else 2, area)
     first, last = 0, length
     while first < last and _along_edge(chain.curves[order[first]]):
         first += 1
     while last > first and _along_edge(chain.curves[order[last - 1]]):
         last -= 1
     n = last - first
-    out = Chain(np.empty((n, 4, 2)), np.empty(n, np.int64), np.empty((n, 2)), min(n, 1))
+    out = Chain(np.empty((n, 4, 2)), np.empty(n, np.int64), np.empty((n, 2)), min(n, 1), area)
     for k in range(n):
         part = order[first + k]
         copy_curve(chain.curves[part], out.curves[k])
@@ -245,23 +244,17 @@ def _travel(chain: Chain, parts: int, following: NDArray[np.int64]) -> Chain:
 
 
 @kernel
-def link_chain(
-    curves: NDArray[np.float64], segment: NDArray[np.int64], span: NDArray[np.float64], boundary: Boundary
-) -> tuple[Chain, float]:
-    """Chain of a leaf's resolved boundary, and its exact filled area.
-
-    `curves`, (n, 4, 2), are the pieces of `boundary` on the leaf's lattice; `segment`, (n,), and `span`, (n, 2), tell
-    which cubic of the source each is a part of, and from which parameter to which.
-    """
+def link_chain(curves: NDArray[np.float64], pieces: Pieces, boundary: Boundary) -> Chain:
+    """Chain of a cell's resolved boundary; `curves` are its pieces on the cell's lattice."""
     runs, slabs = len(boundary.run_piece), len(boundary.left)
-    chain = _run_parts(curves, segment, span, boundary, 2 * runs + slabs + 2)
-    area = boundary_area(boundary, chain.curves[:runs])
+    chain = _run_parts(curves, pieces, boundary, 2 * runs + slabs + 2)
     following = np.empty(len(chain.curves), np.int64)
     for k in range(len(following)):
         following[k] = -1
     ends = np.empty(2 * runs + 2, np.int64)
     parts = runs
+    area = boundary_area(boundary, chain.curves[:runs])
     for k in range(1, slabs):
         y = boundary.heights[k] / LATTICE
         parts = _link_at(chain, runs, parts, y, boundary.left[k - 1], boundary.left[k], following, ends)
-    return _travel(chain, parts, following), area
+    return _travel(chain, parts, following, area)

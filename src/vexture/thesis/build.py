@@ -30,7 +30,7 @@ from vexture.thesis.leaf import (
 )
 from vexture.thesis.plain import plain_chain
 from vexture.thesis.sample_and_fit import build_sampled
-from vexture.thesis.subdivide import Level, children
+from vexture.thesis.subdivide import Cell, Level, cell_of, children
 from vexture.thesis.tree import CellTree
 from vexture.tolerance import CLOSED, GRAIN
 from vexture.tree.boundary import HOPELESS, crowded_area
@@ -47,17 +47,17 @@ CROWDED = 8
 
 
 @kernel
-def _ends_on_edge(pieces: Pieces, first: int, last: int, x0: float, y0: float, size: float) -> int:
+def _ends_on_edge(cell: Cell) -> int:
     """Number of ends of chains on the cell's edge: ends of pieces there that the next piece does not continue."""
-    count = 0
-    for i in range(first, last):
+    points, count = cell.pieces.points, 0
+    for i in range(len(points)):
         for end in (0, 3):
             neighbour = i - 1 if end == 0 else i + 1
-            x, y = pieces.points[i, end, 0], pieces.points[i, end, 1]
-            if x != x0 and x != x0 + size and y != y0 and y != y0 + size:
+            x, y = points[i, end, 0], points[i, end, 1]
+            if x != cell.x0 and x != cell.x0 + cell.size and y != cell.y0 and y != cell.y0 + cell.size:
                 continue
-            if first <= neighbour < last and (
-                pieces.points[neighbour, 3 - end, 0] == x and pieces.points[neighbour, 3 - end, 1] == y
+            if 0 <= neighbour < len(points) and (
+                points[neighbour, 3 - end, 0] == x and points[neighbour, 3 - end, 1] == y
             ):
                 continue
             count += 1
@@ -65,57 +65,36 @@ def _ends_on_edge(pieces: Pieces, first: int, last: int, x0: float, y0: float, s
 
 
 @kernel
-def _leaf_or_limit(
-    chain: Chain,
-    area: float,
-    cubics: NDArray[np.float64],
-    x0: float,
-    y0: float,
-    size: float,
-    tolerance: float,
-    at_limit: bool,
-) -> Leaf:
+def _leaf_or_limit(chain: Chain, cubics: NDArray[np.float64], cell: Cell, tolerance: float, at_limit: bool) -> Leaf:
     """Leaf of a chain; at the depth limit never `NO_LEAF`."""
-    leaf = chain_leaf(chain, area, cubics, x0, y0, size, tolerance / size)
+    leaf = chain_leaf(chain, cubics, cell, tolerance / cell.size)
     if leaf.kind == NO_LEAF and at_limit:
-        return limit_leaf(chain, area)
+        return limit_leaf(chain)
     return leaf
 
 
 @kernel
 def _leaf_of(
-    level: Level,
-    c: int,
-    cubics: NDArray[np.float64],
-    rules: NDArray[np.int64],
-    size: float,
-    tolerance: float,
-    at_limit: bool,
+    cell: Cell, cubics: NDArray[np.float64], rules: NDArray[np.int64], tolerance: float, at_limit: bool
 ) -> Leaf:
-    """Leaf of cell c, or `NO_LEAF` if the cell must be divided."""
-    first, last = level.piece_at[c], level.piece_at[c + 1]
-    present = level.present[level.path_at[c] : level.path_at[c + 1]]
-    x0, y0 = level.origin[c, 0], level.origin[c, 1]
-    if len(present) == 1:
-        leaf = own_leaf(level.pieces, first, last, cubics, present[0, 1], rules[present[0, 0]], x0, y0, size)
+    """Leaf of a cell, or `NO_LEAF` if the cell must be divided."""
+    pieces, count = cell.pieces, len(cell.pieces.path)
+    if len(cell.present) == 1:
+        leaf = own_leaf(cell, cubics, rules)
         if leaf.kind != NO_LEAF:
             return leaf
-        if last - first <= HOPELESS:
-            chain, area = plain_chain(level.pieces, first, last, present[0, 1], rules[present[0, 0]], x0, y0, size)
+        if count <= HOPELESS:
+            chain = plain_chain(cell, rules)
             if chain.chains < 2:
-                return _leaf_or_limit(chain, area, cubics, x0, y0, size, tolerance, at_limit)
-    if last - first > HOPELESS:
+                return _leaf_or_limit(chain, cubics, cell, tolerance, at_limit)
+    if count > HOPELESS:
         if at_limit:
-            return nearest_constant(
-                crowded_area(
-                    level.pieces.points[first:last], level.pieces.path[first:last], present, rules, x0, y0, size
-                )
-            )
+            area = crowded_area(pieces.points, pieces.path, cell.present, rules, cell.x0, cell.y0, cell.size)
+            return nearest_constant(area)
         return no_leaf()
-    if not at_limit and last - first > CROWDED and _ends_on_edge(level.pieces, first, last, x0, y0, size) != 2:
+    if not at_limit and count > CROWDED and _ends_on_edge(cell) != 2:
         return no_leaf()
-    chain, area = cell_chain(level.pieces, first, last, present, rules, x0, y0, size)
-    return _leaf_or_limit(chain, area, cubics, x0, y0, size, tolerance, at_limit)
+    return _leaf_or_limit(cell_chain(cell, rules), cubics, cell, tolerance, at_limit)
 
 
 @kernel
@@ -158,7 +137,7 @@ def grow(
             tolerance = cell_tolerance(accuracy, size)
             leaf = no_leaf()
             if depth > 0:  # the root is always a quad
-                leaf = _leaf_of(level, c, cubics, rules, size, tolerance, depth == max_depth)
+                leaf = _leaf_of(cell_of(level, c, size), cubics, rules, tolerance, depth == max_depth)
             if leaf.kind == NO_LEAF:
                 split_cells[c] = True
                 split_count += 1

@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from vexture.bezier.area import area_right_of, integral_x_dy, leaf_area, loop_area
 from vexture.bezier.fit import fit_cubic
-from vexture.bezier.monotone import Pieces
 from vexture.bezier.roots import cubic_at
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
 from vexture.thesis.boundary_chain import JOIN, Chain, link_chain, on_edge
 from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN
 from vexture.thesis.plain import filled_sides, to_cell, touches_edge
+from vexture.thesis.subdivide import Cell
 from vexture.thesis.tree import CellKind
 from vexture.tree.boundary import cell_paths, quantise, resolve
 
@@ -121,39 +121,37 @@ def _expressible(curve: NDArray[np.float64]) -> bool:
 
 
 @kernel
-def own_leaf(
-    pieces: Pieces,
-    first: int,
-    last: int,
-    cubics: NDArray[np.float64],
-    corner_winding: int,
-    rule: int,
-    x0: float,
-    y0: float,
-    size: float,
-) -> Leaf:
-    """Leaf of a cell that one cubic of the source crosses once from edge to edge: its exact part.
+def own_leaf(cell: Cell, cubics: NDArray[np.float64], rules: NDArray[np.int64]) -> Leaf:
+    """Leaf of a cell with one path if a single cubic of it crosses the cell once from edge to edge: its exact part.
 
     Nothing is quantised or resolved. A cubic that crosses itself in the cell is accepted only under the even-odd rule,
-    because the shader counts crossings. The pieces first..last-1 are those of the cell at (x0, y0), all of the path
-    with this corner winding and fill rule; `cubics`, (m, 4, 2), are the source's.
+    because the shader counts crossings.
+
+    Parameters
+    ----------
+    cubics : (m, 4, 2) float64 array
+        The source's.
+    rules : (paths,) int64 array
+        `FillRule` of each path of the drawing.
     """
-    for i in range(first + 1, last):
-        if pieces.segment[i] != pieces.segment[first] or pieces.span[i, 0] != pieces.span[i - 1, 1]:
+    points, _, segment, span = cell.pieces
+    last, rule = len(points) - 1, rules[cell.present[0, 0]]
+    for i in range(1, last + 1):
+        if segment[i] != segment[0] or span[i, 0] != span[i - 1, 1]:
             return no_leaf()
-    local = to_cell(pieces.points[first:last], x0, y0, size)
+    local = to_cell(cell)
     curve = np.empty((4, 2))
-    subcubic(cubics[pieces.segment[first]], pieces.span[first, 0], pieces.span[last - 1, 1], curve)
-    for axis, corner in ((0, x0), (1, y0)):
-        curve[0, axis], curve[3, axis] = local[0, 0, axis], local[last - first - 1, 3, axis]
+    subcubic(cubics[segment[0]], span[0, 0], span[last, 1], curve)
+    for axis, corner in ((0, cell.x0), (1, cell.y0)):
+        curve[0, axis], curve[3, axis] = local[0, 0, axis], local[last, 3, axis]
         for k in (1, 2):
-            curve[k, axis] = (curve[k, axis] - corner) / size
+            curve[k, axis] = (curve[k, axis] - corner) / cell.size
     if not (touches_edge(curve[0]) and touches_edge(curve[3]) and _expressible(curve)):
         return no_leaf()
-    if rule == 0 and last - first > 1 and loop_area(curve) != 0.0:
+    if rule == 0 and last > 0 and loop_area(curve) != 0.0:
         return no_leaf()
     signed_area = area_right_of(curve[0], curve[3], integral_x_dy(curve))
-    right, left = filled_sides(local, corner_winding, rule, signed_area)
+    right, left = filled_sides(cell, local, rule, signed_area)
     area = leaf_area(curve, False)
     if right == left or area >= 1.0 - SLIVER:
         return _constant_leaf(right)
@@ -167,7 +165,7 @@ def own_leaf(
 
 
 @kernel
-def _own_chain(chain: Chain, cubics: NDArray[np.float64], x0: float, y0: float, size: float) -> Leaf:
+def _own_chain(chain: Chain, cubics: NDArray[np.float64], cell: Cell) -> Leaf:
     """Leaf of a chain whose parts are consecutive on one cubic of the source: the exact part of that cubic."""
     n = len(chain.segment)
     segment = chain.segment[0]
@@ -179,7 +177,7 @@ def _own_chain(chain: Chain, cubics: NDArray[np.float64], x0: float, y0: float, 
     curve = np.empty((4, 2))
     subcubic(cubics[segment], chain.span[0, 0], chain.span[n - 1, 1], curve)
     for k in range(4):
-        curve[k, 0], curve[k, 1] = (curve[k, 0] - x0) / size, (curve[k, 1] - y0) / size
+        curve[k, 0], curve[k, 1] = (curve[k, 0] - cell.x0) / cell.size, (curve[k, 1] - cell.y0) / cell.size
     for end in (0, 3):
         snap_to_edge(curve[end])
     if not _expressible(curve) or (n > 1 and loop_area(curve) != 0.0):
@@ -250,40 +248,21 @@ def _fit(chain: Chain, tolerance: float) -> Leaf:
 
 
 @kernel
-def cell_chain(
-    pieces: Pieces,
-    first: int,
-    last: int,
-    present: NDArray[np.int64],
-    rules: NDArray[np.int64],
-    x0: float,
-    y0: float,
-    size: float,
-) -> tuple[Chain, float]:
-    """Chain of a cell's boundary, with overlaps and crossings resolved, and its filled part.
-
-    The pieces first..last-1 are those of the cell at (x0, y0). `present`, (n, 2), lists the paths in the cell and their
-    corner windings; `rules` has the `FillRule` of each path of the drawing.
-    """
-    owner = np.empty(last - first, np.int64)
+def cell_chain(cell: Cell, rules: NDArray[np.int64]) -> Chain:
+    """Chain of a cell's boundary, with overlaps and crossings resolved; `rules` as in `own_leaf`."""
+    pieces, present = cell.pieces, cell.present
+    owner = np.empty(len(pieces.path), np.int64)
     corner, cell_rules = np.empty(len(present), np.int64), np.empty(len(present), np.int64)
-    cell_paths(pieces.path[first:last], present, rules, owner, corner, cell_rules)
-    curves = quantise(pieces.points[first:last], x0, y0, size)
-    boundary = resolve(curves, owner, corner, cell_rules)
-    return link_chain(curves, pieces.segment[first:last], pieces.span[first:last], boundary)
+    cell_paths(pieces.path, present, rules, owner, corner, cell_rules)
+    curves = quantise(pieces.points, cell.x0, cell.y0, cell.size)
+    return link_chain(curves, pieces, resolve(curves, owner, corner, cell_rules))
 
 
 @kernel
-def chain_leaf(
-    chain: Chain, area: float, cubics: NDArray[np.float64], x0: float, y0: float, size: float, tolerance: float
-) -> Leaf:
-    """Leaf that describes a chain within tolerance, or `NO_LEAF`.
-
-    `chain` and its filled `area` are those of `cell_chain`; `cubics`, (m, 4, 2), the source's. The tolerance is the
-    largest distance between the outline and the leaf's, in cell-local units.
-    """
+def chain_leaf(chain: Chain, cubics: NDArray[np.float64], cell: Cell, tolerance: float) -> Leaf:
+    """Leaf that describes a cell's chain within a tolerance in cell-local units, or `NO_LEAF`."""
     if chain.chains == 0:
-        return _constant_leaf(area > 0.5)
+        return _constant_leaf(chain.area > 0.5)
     if chain.chains != 1:
         return no_leaf()
     start, stop = chain.curves[0, 0], chain.curves[len(chain.curves) - 1, 3]
@@ -293,20 +272,21 @@ def chain_leaf(
     snap_to_edge(stop)
     if np.hypot(stop[0] - start[0], stop[1] - start[1]) < SHORTEST_CHORD:
         return no_leaf()
-    leaf = _own_chain(chain, cubics, x0, y0, size)
+    leaf = _own_chain(chain, cubics, cell)
     if leaf.kind == NO_LEAF:
         leaf = _corner(chain, tolerance)
     if leaf.kind == NO_LEAF:
         leaf = _fit(chain, tolerance)
-    return Leaf(leaf.kind, leaf.curve, area, leaf.distance, True)
+    return Leaf(leaf.kind, leaf.curve, chain.area, leaf.distance, True)
 
 
 @kernel
-def limit_leaf(chain: Chain, area: float) -> Leaf:
+def limit_leaf(chain: Chain) -> Leaf:
     """Leaf of a cell at the depth limit: the straight line from edge to edge, or constant, of the nearest area.
 
-    A line joins two points at which the boundary meets the cell's edge. `chain` and `area` are those of `cell_chain`.
+    A line joins two points at which the boundary meets the cell's edge.
     """
+    area = chain.area
     best = nearest_constant(area)
     error = min(area, 1.0 - area)
     line = np.empty((4, 2))

@@ -4,23 +4,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.area import area_right_of, integral_x_dy
-from vexture.bezier.monotone import Pieces
 from vexture.bezier.split import subcubic
 from vexture.kernels import kernel
 from vexture.thesis.boundary_chain import Chain
+from vexture.thesis.subdivide import Cell
 from vexture.tree.winding import inside, winding_area
 
 __all__ = ["filled_sides", "plain_chain", "to_cell", "touches_edge"]
 
 
 @kernel
-def to_cell(points: NDArray[np.float64], x0: float, y0: float, size: float) -> NDArray[np.float64]:
-    """Cubics, (n, 4, 2), in the unit square of a cell; coordinates on its edge become exactly 0 or 1."""
+def to_cell(cell: Cell) -> NDArray[np.float64]:
+    """Pieces of a cell, (n, 4, 2), in its unit square; coordinates on its edge become exactly 0 or 1."""
+    points = cell.pieces.points
     out = np.empty((len(points), 4, 2))
     for i in range(len(points)):
         for k in range(4):
-            out[i, k, 0] = (points[i, k, 0] - x0) / size
-            out[i, k, 1] = (points[i, k, 1] - y0) / size
+            out[i, k, 0] = (points[i, k, 0] - cell.x0) / cell.size
+            out[i, k, 1] = (points[i, k, 1] - cell.y0) / cell.size
     return out
 
 
@@ -31,14 +32,14 @@ def touches_edge(point: NDArray[np.float64]) -> bool:
 
 
 @kernel
-def filled_sides(curves: NDArray[np.float64], corner_winding: int, rule: int, signed_area: float) -> tuple[bool, bool]:
+def filled_sides(cell: Cell, curves: NDArray[np.float64], rule: int, signed_area: float) -> tuple[bool, bool]:
     """Whether the right and the left side of one chain from edge to edge are filled.
 
     The winding number is w on the right and w + 1 on the left, except in loops; its mean over the cell gives w.
-    `curves` are the chain's monotone pieces in the cell's unit square, all that the cell holds of the path.
-    `signed_area` is the area on the right of the chain, with loops counted by their direction.
+    `curves` are the cell's pieces in its unit square, all of one path. `signed_area` is the area on the right of the
+    chain, with loops counted by their direction.
     """
-    w = int(np.rint(winding_area(curves, corner_winding, 1.0) - 1.0 + signed_area))
+    w = int(np.rint(winding_area(curves, cell.present[0, 1], 1.0) - 1.0 + signed_area))
     return inside(w, rule), inside(w + 1, rule)
 
 
@@ -75,31 +76,24 @@ def _is_plain(curves: NDArray[np.float64]) -> bool:
 
 
 @kernel
-def plain_chain(
-    pieces: Pieces, first: int, last: int, corner_winding: int, rule: int, x0: float, y0: float, size: float
-) -> tuple[Chain, float]:
-    """Chain of a cell in which nothing needs to be resolved, and the exact filled part of the cell.
-
-    Parameters as in `vexture.thesis.leaf.own_leaf`. The chain's `chains` is 0 if both sides are the same, and 2 if the
-    cell is not so simple.
-    """
-    n = last - first
-    curves = to_cell(pieces.points[first:last], x0, y0, size)
-    chain = Chain(curves, pieces.segment[first:last], pieces.span[first:last], 1)
+def plain_chain(cell: Cell, rules: NDArray[np.int64]) -> Chain:
+    """Chain of a cell with one path if nothing in it needs to be resolved; else one of `chains` 2 without area."""
+    curves = to_cell(cell)
+    n, segment, span = len(curves), cell.pieces.segment, cell.pieces.span
     if not _is_plain(curves):
-        return Chain(curves, chain.segment, chain.span, 2), 0.0
+        return Chain(curves, segment, span, 2, 0.0)
     x_dy = 0.0
     for curve in curves:
         x_dy += integral_x_dy(curve)
     area = area_right_of(curves[0, 0], curves[n - 1, 3], x_dy)
-    right, left = filled_sides(curves, corner_winding, rule, area)
+    right, left = filled_sides(cell, curves, rules[cell.present[0, 0]], area)
     if right == left:
-        return Chain(curves, chain.segment, chain.span, 0), 1.0 if right else 0.0
+        return Chain(curves, segment, span, 0, 1.0 if right else 0.0)
     if right:
-        return chain, area
-    turned = Chain(np.empty((n, 4, 2)), np.empty(n, np.int64), np.empty((n, 2)), 1)
+        return Chain(curves, segment, span, 1, area)
+    turned = Chain(np.empty((n, 4, 2)), np.empty(n, np.int64), np.empty((n, 2)), 1, 1.0 - area)
     for i in range(n):
         subcubic(curves[n - 1 - i], 1.0, 0.0, turned.curves[i])
-        turned.segment[i] = chain.segment[n - 1 - i]
-        turned.span[i, 0], turned.span[i, 1] = chain.span[n - 1 - i, 1], chain.span[n - 1 - i, 0]
-    return turned, 1.0 - area
+        turned.segment[i] = segment[n - 1 - i]
+        turned.span[i, 0], turned.span[i, 1] = span[n - 1 - i, 1], span[n - 1 - i, 0]
+    return turned

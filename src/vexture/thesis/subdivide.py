@@ -12,7 +12,7 @@ from vexture.kernels import kernel
 from vexture.tree.pool import child_of, snap
 from vexture.tree.winding import child_windings, inside
 
-__all__ = ["Level", "children"]
+__all__ = ["Cell", "Level", "cell_of", "children"]
 
 
 class Level(NamedTuple):
@@ -41,6 +41,36 @@ class Level(NamedTuple):
     path_at: NDArray[np.int64]
     pieces: Pieces
     present: NDArray[np.int64]
+
+
+class Cell(NamedTuple):
+    """One cell of a level.
+
+    Attributes
+    ----------
+    x0, y0, size : float
+        Bottom-left corner and width, in unit-square units.
+    pieces : Pieces
+        Those in the cell.
+    present : (n, 2) int64 array
+        Their paths and the corner windings of these.
+    """
+
+    x0: float
+    y0: float
+    size: float
+    pieces: Pieces
+    present: NDArray[np.int64]
+
+
+@kernel
+def cell_of(level: Level, c: int, size: float) -> Cell:
+    """Cell c of a level whose cells have this width."""
+    first, last = level.piece_at[c], level.piece_at[c + 1]
+    points, path, segment, span = level.pieces
+    pieces = Pieces(points[first:last], path[first:last], segment[first:last], span[first:last])
+    present = level.present[level.path_at[c] : level.path_at[c + 1]]
+    return Cell(level.origin[c, 0], level.origin[c, 1], size, pieces, present)
 
 
 @kernel(allocates=False)
