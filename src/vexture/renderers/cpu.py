@@ -302,26 +302,8 @@ def render_cpu(
 ) -> NDArray[np.float32]:
     """Render one shape of a packed texture as its shader would with exact arithmetic.
 
-    Parameters
-    ----------
-    texture : HasTexels
-        What to draw: a `vexture.Texture`.
-    size, view, quality
-        As in `vexture.coverage`.
-    root : int
-        Place of the shape in the texture, from 0.
-    base : tuple of int, optional
-        Point that positions are relative to, 1.0 = 2^32; `view_base` by default.
-
-    Returns
-    -------
-    (height, width) float32 array
-        Coverage, 0..1, top row first.
-
-    Raises
-    ------
-    ParameterError
-        If an argument is out of range.
+    `size`, `view` and `quality` are as in `vexture.coverage`; `root` is the number of the shape. Positions are relative
+    to the point `base` of the unit square, 1.0 = 2^32; `view_base` by default.
 
     Examples
     --------

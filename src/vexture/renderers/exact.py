@@ -28,20 +28,9 @@ def render_exact(
     """Exact coverage of each pixel's square by the drawing's silhouette: the one-pixel box filter in screen space.
 
     The silhouette is the union, over the paths, of the points whose winding number the path's fill rule accepts;
-    contours may cross, overlap and coincide. `size` and `view` are as in `vexture.coverage`, `flatness` is the largest
-    distance between a curve and its chords, in pixels.
-
-    Returns
-    -------
-    (height, width) float32 array
-        Coverage, 0..1, with an error of at most 0.03/255 at the default flatness.
-
-    Raises
-    ------
-    ParameterError
-        If the size, the view or the flatness is out of range.
-    LimitError
-        If the image needs more than `CHORD_LIMIT` chords.
+    contours may cross, overlap and coincide. `size`, `view` and the result are as in `vexture.coverage`. `flatness` is
+    the largest distance between a curve and its chords, in pixels; at the default, the error of coverage is at most
+    0.03/255.
 
     Examples
     --------

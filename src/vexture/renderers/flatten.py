@@ -58,23 +58,10 @@ class Frame(NamedTuple):
 
 
 def find_chords(drawing: Drawing, size: tuple[int, int], view: NDArray[np.float64], flatness: float) -> Chords:
-    """All chords that an image of a drawing needs; a first pass counts them.
+    """All chords that an image of a drawing with segments needs; a first pass counts them.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        With at least one segment.
-    size : tuple of int
-        Width and height of the image in pixels.
-    view : (3, 3) float64 array
-        From pixel coordinates to the unit square.
-    flatness : float
-        Largest distance between a curve and its chords, in pixels.
-
-    Raises
-    ------
-    LimitError
-        If there are more than `CHORD_LIMIT`.
+    The view is a (3, 3) matrix from pixel coordinates to the unit square; the flatness is in pixels. More than
+    `CHORD_LIMIT` chords raise a `LimitError`.
 
     Examples
     --------

@@ -23,16 +23,9 @@ def program(quality: str) -> Any:
 def render_gpu(
     texture: HasTexels, size: Size, view: ViewLike = None, *, root: int = 0, quality: str = "exact"
 ) -> NDArray[np.float32]:
-    """Render one shape of a packed texture; parameters and result as in `vexture.renderers.cpu.render_cpu`.
+    """Render one shape of a packed texture; parameters as in `vexture.renderers.cpu.render_cpu`.
 
-    Raises
-    ------
-    DeviceError
-        If there is no OpenGL.
-    LimitError
-        If the image is larger than the device allows.
-    ParameterError
-        If an argument is out of range.
+    A `DeviceError` tells that there is no OpenGL, a `LimitError` that the image is larger than the device allows.
     """
     uniforms = uniforms_of(texture, size, view, root, quality)
     with ONE_AT_A_TIME, context() as gl:

@@ -59,11 +59,6 @@ def included(name: str, package: str = "vexture") -> str:
 
     The file is in the folder ``glsl/`` of a package; what it includes may also be in that of vexture.
 
-    Raises
-    ------
-    FileNotFoundError
-        If a file includes one that does not exist.
-
     Examples
     --------
     >>> included("coverage.glsl").count("VexturePlace vexture_place(")

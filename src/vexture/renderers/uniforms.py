@@ -25,36 +25,18 @@ class HasTexels(Protocol):
 
 
 class Uniforms(NamedTuple):
-    """One shape of a texture in a view.
+    """One shape of a texture in a view."""
 
-    Attributes
-    ----------
-    size : tuple of int
-        Width and height of the image in pixels.
-    quad : int
-        The shape's root quad.
-    base : tuple of int
-        Point of the unit square that positions are relative to, 1.0 = 2^32.
-    to_unit : (3, 3) float64 array
-        From pixel coordinates to the unit square, relative to `base`.
-    """
-
-    size: tuple[int, int]
-    quad: int
-    base: tuple[int, int]
-    to_unit: NDArray[np.float64]
+    size: tuple[int, int]  # width and height of the image in pixels
+    quad: int  # the shape's root quad
+    base: tuple[int, int]  # point of the unit square that positions are relative to, 1.0 = 2^32
+    to_unit: NDArray[np.float64]  # (3, 3): from pixel coordinates to the unit square, relative to `base`
 
 
 def uniforms_of(
     texture: HasTexels, size: Size, view: ViewLike, root: int, quality: str, base: tuple[int, int] | None = None
 ) -> Uniforms:
-    """Check the arguments of a renderer and compute the uniforms; `base` is `view_base` by default.
-
-    Raises
-    ------
-    ParameterError
-        If an argument is out of range.
-    """
+    """Uniforms for a renderer's arguments, after a check of these; `base` is `view_base` by default."""
     size = size_of(size)
     matrix = view_matrix(view, size)
     if not 0 <= root < len(texture.quads):

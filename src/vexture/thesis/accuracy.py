@@ -13,21 +13,11 @@ __all__ = ["Accuracy", "accuracy_of", "cell_tolerance"]
 
 
 class Accuracy(NamedTuple):
-    """Largest distance between the outlines before quantisation, as a rule for cells of any size.
+    """Largest distance between the outlines before quantisation, as a rule for cells of any size."""
 
-    Attributes
-    ----------
-    distance : float
-        Upper limit in unit-square units.
-    share : float
-        Upper limit as a share of the cell.
-    step : float
-        Lower limit as a share of the cell: quantisation moves the outline by as much.
-    """
-
-    distance: float
-    share: float
-    step: float
+    distance: float  # upper limit, in unit-square units
+    share: float  # upper limit, as a share of the cell
+    step: float  # lower limit, as a share of the cell: quantisation moves the outline by as much
 
 
 @kernel
@@ -43,21 +33,11 @@ def cell_tolerance(accuracy: Accuracy, size: float) -> float:
 
 
 def accuracy_of(tolerance: float | Literal["auto"], cubics: NDArray[np.float64], step: float = 0.0) -> Accuracy:
-    """Accuracy for a tolerance in unit-square units, or "auto".
+    """Accuracy for a tolerance in unit-square units, or "auto"; a `ParameterError` if it is not between 0 and 1.
 
-    "auto" follows the smallest detail of the drawing (thesis 5.2.1) and the size of the cell (thesis 6.2.1). It is no
-    coarser than what shows at usual sizes, no finer than what a depth limit can use, and no finer than `step`, the
-    share of a cell by which quantisation moves an outline.
-
-    Parameters
-    ----------
-    cubics : (n, 4, 2) float64 array
-        The drawing's.
-
-    Raises
-    ------
-    ParameterError
-        If the tolerance is not between 0 and 1.
+    "auto" follows the smallest detail of the drawing's cubics, (n, 4, 2) (thesis 5.2.1), and the size of the cell
+    (thesis 6.2.1). It is no coarser than what shows at usual sizes, no finer than what a depth limit can use, and no
+    finer than `step`, the share of a cell by which quantisation moves an outline.
 
     Examples
     --------

@@ -23,27 +23,13 @@ LEFT_EDGE, RIGHT_EDGE = -1, -2
 
 
 class Chain(NamedTuple):
-    """Cubics of a cell's boundary, each with the filled side on its right.
+    """Cubics of a cell's boundary, each with the filled side on its right."""
 
-    Attributes
-    ----------
-    curves : (n, 4, 2) float64 array
-        In the cell's own unit square.
-    segment : (n,) int64 array
-        Cubic of the source that each is a part of; -1 for a horizontal connector.
-    span : (n, 2) float64 array
-        Its parameter interval on that cubic, in the direction of travel.
-    chains : int
-        0: no boundary inside the cell. 1: the cubics form one open chain, in order. 2: they form several.
-    area : float
-        Filled part of the cell.
-    """
-
-    curves: NDArray[np.float64]
-    segment: NDArray[np.int64]
-    span: NDArray[np.float64]
-    chains: int
-    area: float
+    curves: NDArray[np.float64]  # (n, 4, 2): in the cell's own unit square
+    segment: NDArray[np.int64]  # (n,): cubic of the source that each is a part of; -1 for a horizontal connector
+    span: NDArray[np.float64]  # (n, 2): parameter interval on that cubic, in the direction of travel
+    chains: int  # 0: no boundary inside the cell; 1: the cubics form one open chain, in order; 2: they form several
+    area: float  # filled part of the cell
 
 
 @kernel

@@ -196,21 +196,13 @@ def build(
     step: float = 0.0,
     most_quads: int = MOST_QUADS,
 ) -> CellTree:
-    """Quad-tree of a drawing in normal form; most parameters as in `vexture.thesis.convert`.
+    """Quad-tree of a drawing in normal form; parameters, but for two, and errors as in `vexture.thesis.convert`.
 
-    Parameters
-    ----------
-    step : float
-        Share of a cell by which an encoding's quantisation moves an outline: tolerance "auto" is no finer.
-    most_quads : int
-        A larger tree is not built.
+    `step` is the share of a cell by which an encoding's quantisation moves an outline: tolerance "auto" is no finer. A
+    tree of more than `most_quads` is not built.
 
     Raises
     ------
-    ParameterError
-        If a parameter is out of range.
-    LimitError
-        If the tree is too large.
     SourceError
         If the drawing leaves the unit square.
 

@@ -252,24 +252,7 @@ def draw(quads: List, curves: List, to_unit: List, image: NDArray[np.float32]) -
 
 
 def render_thesis_cpu(texture: Pair, size: Size, view: ViewLike = None) -> NDArray[np.float32]:
-    """Render a texture as the thesis's shader would with exact arithmetic.
-
-    Parameters
-    ----------
-    texture : Pair
-        What to draw: a `vexture.thesis.ThesisTexture`.
-    size, view
-        As in `vexture.coverage`.
-
-    Returns
-    -------
-    (height, width) float32 array
-        Coverage, 0..1, top row first.
-
-    Raises
-    ------
-    ParameterError
-        If the size or the view is out of range.
+    """Render a texture as the thesis's shader would with exact arithmetic; parameters as in `vexture.coverage`.
 
     Examples
     --------

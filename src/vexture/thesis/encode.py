@@ -25,12 +25,7 @@ def encode(
 ) -> ThesisTexture:
     """Pair of textures of a tree, with 8 or 16 bits per channel.
 
-    Raises
-    ------
-    ParameterError
-        If `bits` is neither 8 nor 16.
-    LimitError
-        If a list is too long for the bits, or the format cannot express a point.
+    A `LimitError` tells that a list is too long for the bits, or that the format cannot express a point.
 
     Examples
     --------

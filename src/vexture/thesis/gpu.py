@@ -41,20 +41,10 @@ def fold(rows: NDArray[Any], height: int) -> NDArray[np.float32]:
 def render_thesis_gpu(
     texture: Pair, size: Size, view: ViewLike = None, fold_height: int | None = None
 ) -> NDArray[np.float32]:
-    """Render a texture by the thesis's shader; parameters and result as in `vexture.thesis.cpu.render_thesis_cpu`.
+    """Render a texture by the thesis's shader; parameters as in `vexture.coverage`.
 
-    The lists are folded at `fold_height` rows, or at the device's own limit if it is None.
-
-    Raises
-    ------
-    DeviceError
-        If there is no OpenGL.
-    LimitError
-        If the image is larger than the device allows.
-    ParameterError
-        If the size or the view is out of range.
-    FormatError
-        If the texture's quads do not form a tree.
+    The lists are folded at `fold_height` rows, or at the device's own limit if it is None. A `FormatError` tells that
+    the texture's quads do not form a tree; `vexture.renderers.device` raises further errors.
     """
     width, height = size_of(size)
     matrix = view_matrix(view, (width, height))

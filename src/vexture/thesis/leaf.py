@@ -53,27 +53,13 @@ MAX_SAMPLES, SAMPLES_PER_PART = 64, 8
 
 
 class Leaf(NamedTuple):
-    """Possible content of a cell.
+    """Possible content of a cell."""
 
-    Attributes
-    ----------
-    kind : int
-        A `CellKind` other than QUAD, or `NO_LEAF`.
-    curve : (4, 2) float64 array
-        P0 P1 P2 P3 in the cell's unit square; for a corner P1 = P2 = the corner.
-    coverage : float
-        Part of the cell that the drawing fills; the curve may differ.
-    distance : float
-        Largest distance of the drawing's outline from the curve, in cell-local units.
-    resolved : bool
-        False for an approximation beyond the tolerance, at the depth limit.
-    """
-
-    kind: int
-    curve: NDArray[np.float64]
-    coverage: float
-    distance: float
-    resolved: bool
+    kind: int  # a `CellKind` other than QUAD, or `NO_LEAF`
+    curve: NDArray[np.float64]  # (4, 2): P0 P1 P2 P3 in the cell's unit square; for a corner P1 = P2 = the corner
+    coverage: float  # part of the cell that the drawing fills; the curve may differ
+    distance: float  # largest distance of the drawing's outline from the curve, in cell-local units
+    resolved: bool  # false for an approximation beyond the tolerance, at the depth limit
 
 
 @kernel
@@ -125,14 +111,7 @@ def own_leaf(cell: Cell, cubics: NDArray[np.float64], rules: NDArray[np.int64]) 
     """Leaf of a cell with one path if a single cubic of it crosses the cell once from edge to edge: its exact part.
 
     Nothing is quantised or resolved. A cubic that crosses itself in the cell is accepted only under the even-odd rule,
-    because the shader counts crossings.
-
-    Parameters
-    ----------
-    cubics : (m, 4, 2) float64 array
-        The source's.
-    rules : (paths,) int64 array
-        `FillRule` of each path of the drawing.
+    because the shader counts crossings. `cubics`, (m, 4, 2), are the source's; `rules` has the `FillRule` of each path.
     """
     points, _, segment, span = cell.pieces
     last, rule = len(points) - 1, rules[cell.present[0, 0]]

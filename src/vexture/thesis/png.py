@@ -21,14 +21,10 @@ COLOUR_TYPES = {1: 0, CHANNELS: RGB}
 
 
 def write_png(pixels: NDArray[Any], texts: dict[str, str]) -> bytes:
-    """Write a PNG; one filter for all rows and one deflate strategy are chosen for the smallest file.
+    """Write a PNG, RGB or grey: (height, width, 3) or (height, width, 1) uint8 or uint16.
 
-    Parameters
-    ----------
-    pixels : (height, width, 3) or (height, width, 1) uint8 or uint16 array
-        RGB, or grey.
-    texts : dict
-        Keywords, in Latin-1, and their values.
+    One filter for all rows and one deflate strategy are chosen for the smallest file. The keywords of the texts are
+    Latin-1.
 
     Examples
     --------
@@ -81,27 +77,15 @@ def _text_chunk(key: str, value: str) -> tuple[bytes, bytes]:
 
 
 def read_png(data: bytes, width: int, where: str) -> tuple[NDArray[Any], dict[str, str]]:
-    """Pixels and texts of an untrusted PNG; `where` names it in messages.
+    """Pixels, (height, width, 3) uint8 or uint16, and texts of an untrusted PNG; `where` names it in messages.
 
-    The header bounds all memory that is used, and the format's limits bound the header.
-
-    Parameters
-    ----------
-    data : bytes
-        The file.
-    width : int
-        The width that the image must have.
-
-    Returns
-    -------
-    pixels : (height, width, 3) uint8 or uint16 array
-    texts : dict
-        Values of its tEXt and uncompressed iTXt chunks by keyword.
+    The header bounds all memory that is used, and the format's limits bound the header. The texts are those of tEXt and
+    uncompressed iTXt chunks, by keyword.
 
     Raises
     ------
     FormatError
-        If it is damaged, or anything but an RGB image of 8 or 16 bits and that width, not interlaced.
+        If it is damaged, or anything but an RGB image of 8 or 16 bits and this width, not interlaced.
     """
     if len(data) > FILE_LIMIT:
         raise FormatError(f"{where}: longer than {FILE_LIMIT} bytes, so not a texture; convert the drawing again")

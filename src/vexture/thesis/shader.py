@@ -43,28 +43,14 @@ class Pair(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class TextureSizes:
-    """What must be known of a texture to compile a shader for it.
+    """What must be known of a texture to compile a shader for it."""
 
-    Parameters
-    ----------
-    levels : int
-        Number of quads on the longest path from the root to a leaf.
-    fold_height : int
-        Rows of each list in one block of columns; the next rows start again at the top, further right.
-    """
-
-    levels: int
-    fold_height: int
+    levels: int  # quads on the longest path from the root to a leaf
+    fold_height: int  # rows of a list; the next ones start again at the top, in the columns to the right
 
     @classmethod
     def of(cls, texture: Pair, fold_height: int = FOLD_HEIGHT) -> "TextureSizes":
-        """Sizes of a texture; the levels are counted along all references from the root.
-
-        Raises
-        ------
-        FormatError
-            If its quads do not form a tree.
-        """
+        """Sizes of a texture, by all references from its root; a `FormatError` if its quads do not form a tree."""
         cells = texture.quads.astype(np.float64) / np.iinfo(texture.quads.dtype).max
         last = len(cells) - 1
         below = np.rint(cells[:, :, 1] * last).astype(np.int64)

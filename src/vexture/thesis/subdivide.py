@@ -18,43 +18,21 @@ __all__ = ["Cell", "Level", "cell_of", "children"]
 class Level(NamedTuple):
     """Cells of one depth that are neither leaves nor constant yet.
 
-    Each cell owns a range of `pieces` and a range of `present`: the paths that have pieces in it. Both are in the order
-    of the paths, so that the pieces of a path are consecutive.
-
-    Attributes
-    ----------
-    origin : (n, 2) float64 array
-        Bottom-left corner.
-    slot : (n,) int64 array
-        4 * (parent quad) + (cell of that quad).
-    piece_at, path_at : (n + 1,) int64 arrays
-        Start of each cell's range; the last entry is the total.
-    pieces : Pieces
-        In unit-square units.
-    present : (m, 2) int64 array
-        Path and corner winding (see `vexture.tree.winding`).
+    Each cell owns a range of `pieces` and a range of `present`: the paths that have pieces in it, with their corner
+    windings (see `vexture.tree.winding`). Both are in the order of the paths, so that the pieces of a path are
+    consecutive.
     """
 
-    origin: NDArray[np.float64]
-    slot: NDArray[np.int64]
-    piece_at: NDArray[np.int64]
-    path_at: NDArray[np.int64]
-    pieces: Pieces
-    present: NDArray[np.int64]
+    origin: NDArray[np.float64]  # (n, 2): bottom-left corners
+    slot: NDArray[np.int64]  # (n,): 4 * (parent quad) + (cell of that quad)
+    piece_at: NDArray[np.int64]  # (n + 1,): start of each cell's range; the last entry is the total
+    path_at: NDArray[np.int64]  # (n + 1,): the same for `present`
+    pieces: Pieces  # in unit-square units
+    present: NDArray[np.int64]  # (m, 2): path and corner winding
 
 
 class Cell(NamedTuple):
-    """One cell of a level.
-
-    Attributes
-    ----------
-    x0, y0, size : float
-        Bottom-left corner and width, in unit-square units.
-    pieces : Pieces
-        Those in the cell.
-    present : (n, 2) int64 array
-        Their paths and the corner windings of these.
-    """
+    """One cell of a level: its bottom-left corner and width, in unit-square units, and what it owns."""
 
     x0: float
     y0: float
@@ -176,17 +154,11 @@ def children(
     grain: float,
     first_quad: int,
 ) -> tuple[Level, NDArray[np.int64]]:
-    """Divide cells of a level, each `size` wide, into the cells of the next.
+    """Divide cells of a level, each `size` wide; return the next level and the slots of full children.
 
-    Each of the `split_count` cells in the mask `split_cells` becomes a quad, numbered from `first_quad`. Points on the
-    middle lines are rounded to multiples of `grain`, a power of two.
-
-    Returns
-    -------
-    Level
-        Of the children that have pieces and are not covered by another path.
-    (m,) int64 array
-        Slots of the children that are full; all others are empty.
+    Each of the `split_count` cells in the mask `split_cells` becomes a quad, numbered from `first_quad`. The next level
+    holds the children that have pieces and are not covered by another path. Those in neither result are empty. Points
+    on the middle lines are rounded to multiples of `grain`, a power of two.
     """
     half = 0.5 * size
     piece_room, widest, path_room = _room_for(level, split_cells, size)
