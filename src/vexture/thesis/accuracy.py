@@ -22,13 +22,7 @@ class Accuracy(NamedTuple):
 
 @kernel
 def cell_tolerance(accuracy: Accuracy, size: float) -> float:
-    """Tolerance in a cell of a given size, both in unit-square units.
-
-    Examples
-    --------
-    >>> cell_tolerance(Accuracy(0.001, 0.125, 0.0), 0.5)
-    0.001
-    """
+    """Tolerance in a cell of a given size, both in unit-square units."""
     return max(min(accuracy.distance, accuracy.share * size), accuracy.step * size)
 
 

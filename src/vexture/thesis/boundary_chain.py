@@ -1,19 +1,25 @@
-"""The resolved boundary in a cell as a chain of cubics from edge to edge of the cell, if it forms a single one."""
+"""The boundary in a cell as a chain of cubics from edge to edge of the cell, if it forms a single one.
+
+`cell_chain` resolves overlaps and crossings first. `plain_chain` is for cells that one path crosses once: their pieces
+need neither quantising nor resolving.
+"""
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.area import integral_x_dy
+from vexture.bezier.area import area_right_of, integral_x_dy
 from vexture.bezier.monotone import Pieces
 from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
 from vexture.layout import LATTICE
-from vexture.tree.boundary import Boundary
+from vexture.thesis.subdivide import Cell
+from vexture.tree.boundary import Boundary, cell_paths, quantise, resolve
+from vexture.tree.winding import inside, winding_area
 
-__all__ = ["JOIN", "Chain", "link_chain", "on_edge"]
+__all__ = ["JOIN", "Chain", "cell_chain", "filled_sides", "on_edge", "plain_chain", "to_cell", "touches_edge"]
 
 JOIN = 3.0 / LATTICE
 """Cell-local units. Closer ends are one point: runs that meet at a crossing may differ by two lattice units."""
@@ -92,12 +98,11 @@ def _ends_at(parts: NDArray[np.float64], runs: int, y: float, ends: NDArray[np.i
 
 
 @kernel
-def _point(parts: NDArray[np.float64], end: int, y: float, out: NDArray[np.float64]) -> None:
-    """Write the point of a run's end, or of the cell's edge at height y."""
-    if end >= 0:
-        out[0], out[1] = parts[end // 2, 3 * (end & 1), 0], y
-    else:
-        out[0], out[1] = (0.0 if end == LEFT_EDGE else 1.0), y
+def _end_x(parts: NDArray[np.float64], end: int) -> float:
+    """X of a run's end, or of an edge of the cell."""
+    if end < 0:
+        return 0.0 if end == LEFT_EDGE else 1.0
+    return parts[end // 2, 3 * (end & 1), 0]
 
 
 @kernel
@@ -107,13 +112,9 @@ def _connect(chain: Chain, parts: int, source: int, target: int, y: float, follo
     Ends that nearly meet are joined at their midpoint. Others are joined by a horizontal part: the sweep drops that
     boundary because horizontal pieces span no slab.
     """
-    a, b = np.empty(2), np.empty(2)
-    _point(chain.curves, source, y, a)
-    _point(chain.curves, target, y, b)
-    if abs(a[0] - b[0]) <= JOIN:
-        x = 0.5 * (a[0] + b[0])
-        if source < 0 or target < 0:
-            x = a[0] if source < 0 else b[0]
+    a, b = _end_x(chain.curves, source), _end_x(chain.curves, target)
+    if abs(a - b) <= JOIN:
+        x = a if source < 0 else b if target < 0 else 0.5 * (a + b)
         for end in (source, target):
             if end >= 0:
                 chain.curves[end // 2, 3 * (end & 1), 0] = x
@@ -121,7 +122,7 @@ def _connect(chain: Chain, parts: int, source: int, target: int, y: float, follo
             following[source // 2] = target // 2
         return parts
     for k in range(4):
-        chain.curves[parts, k, 0] = a[0] + (b[0] - a[0]) * (k / 3.0)
+        chain.curves[parts, k, 0] = a + (b - a) * (k / 3.0)
         chain.curves[parts, k, 1] = y
     if source >= 0:
         following[source // 2] = parts
@@ -230,17 +231,109 @@ def _travel(chain: Chain, parts: int, following: NDArray[np.int64], area: float)
 
 
 @kernel
-def link_chain(curves: NDArray[np.float64], pieces: Pieces, boundary: Boundary) -> Chain:
-    """Chain of a cell's resolved boundary; `curves` are its pieces on the cell's lattice."""
+def cell_chain(cell: Cell, rules: NDArray[np.int64]) -> Chain:
+    """Chain of a cell's boundary, with overlaps and crossings resolved; `rules` has the `FillRule` of each path."""
+    pieces, present = cell.pieces, cell.present
+    owner = np.empty(len(pieces.path), np.int64)
+    corner, cell_rules = np.empty(len(present), np.int64), np.empty(len(present), np.int64)
+    cell_paths(pieces.path, present, rules, owner, corner, cell_rules)
+    curves = quantise(pieces.points, cell.x0, cell.y0, cell.size)
+    boundary = resolve(curves, owner, corner, cell_rules)
     runs, slabs = len(boundary.run_piece), len(boundary.left)
     chain = _run_parts(curves, pieces, boundary, 2 * runs + slabs + 2)
+    area = boundary_area(boundary, chain.curves[:runs])
     following = np.empty(len(chain.curves), np.int64)
     for k in range(len(following)):
         following[k] = -1
     ends = np.empty(2 * runs + 2, np.int64)
     parts = runs
-    area = boundary_area(boundary, chain.curves[:runs])
     for k in range(1, slabs):
         y = boundary.heights[k] / LATTICE
         parts = _link_at(chain, runs, parts, y, boundary.left[k - 1], boundary.left[k], following, ends)
     return _travel(chain, parts, following, area)
+
+
+@kernel
+def to_cell(cell: Cell) -> NDArray[np.float64]:
+    """Pieces of a cell, (n, 4, 2), in its unit square; coordinates on its edge become exactly 0 or 1."""
+    points = cell.pieces.points
+    out = np.empty((len(points), 4, 2))
+    for i in range(len(points)):
+        for k in range(4):
+            out[i, k, 0] = (points[i, k, 0] - cell.x0) / cell.size
+            out[i, k, 1] = (points[i, k, 1] - cell.y0) / cell.size
+    return out
+
+
+@kernel(allocates=False)
+def touches_edge(point: NDArray[np.float64]) -> bool:
+    """Whether a coordinate of a point is exactly 0 or 1."""
+    return point[0] == 0.0 or point[0] == 1.0 or point[1] == 0.0 or point[1] == 1.0
+
+
+@kernel
+def filled_sides(cell: Cell, curves: NDArray[np.float64], rule: int, signed_area: float) -> tuple[bool, bool]:
+    """Whether the right and the left side of one chain from edge to edge are filled.
+
+    The winding number is w on the right and w + 1 on the left, except in loops; its mean over the cell gives w.
+    `curves` are the cell's pieces in its unit square, all of one path. `signed_area` is the area on the right of the
+    chain, with loops counted by their direction.
+    """
+    w = int(np.rint(winding_area(curves, cell.present[0, 1], 1.0) - 1.0 + signed_area))
+    return inside(w, rule), inside(w + 1, rule)
+
+
+@kernel(allocates=False)
+def _apart(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
+    """Whether the bounding boxes of two monotone pieces share no more than an edge."""
+    for axis in range(2):
+        if max(a[0, axis], a[3, axis]) <= min(b[0, axis], b[3, axis]):
+            return True
+        if max(b[0, axis], b[3, axis]) <= min(a[0, axis], a[3, axis]):
+            return True
+    return False
+
+
+@kernel(allocates=False)
+def _is_plain(curves: NDArray[np.float64]) -> bool:
+    """Whether monotone pieces form one open chain between edges that cannot cross itself or follow an edge."""
+    n = len(curves)
+    for axis in range(2):
+        for i in range(n):
+            if curves[i, 0, axis] == curves[i, 3, axis] and (curves[i, 0, axis] == 0.0 or curves[i, 0, axis] == 1.0):
+                return False
+            if i > 0 and curves[i, 0, axis] != curves[i - 1, 3, axis]:
+                return False
+    if not (touches_edge(curves[0, 0]) and touches_edge(curves[n - 1, 3])):
+        return False
+    if curves[0, 0, 0] == curves[n - 1, 3, 0] and curves[0, 0, 1] == curves[n - 1, 3, 1]:  # closed
+        return False
+    for i in range(n):
+        for j in range(i):
+            if not _apart(curves[i], curves[j]):
+                return False
+    return True
+
+
+@kernel
+def plain_chain(cell: Cell, rules: NDArray[np.int64]) -> Chain:
+    """Chain of a cell with one path if nothing in it needs to be resolved; else one of `chains` 2 without area."""
+    curves = to_cell(cell)
+    n, segment, span = len(curves), cell.pieces.segment, cell.pieces.span
+    if not _is_plain(curves):
+        return Chain(curves, segment, span, 2, 0.0)
+    x_dy = 0.0
+    for curve in curves:
+        x_dy += integral_x_dy(curve)
+    area = area_right_of(curves[0, 0], curves[n - 1, 3], x_dy)
+    right, left = filled_sides(cell, curves, rules[cell.present[0, 0]], area)
+    if right == left:
+        return Chain(curves, segment, span, 0, 1.0 if right else 0.0)
+    if right:
+        return Chain(curves, segment, span, 1, area)
+    turned = Chain(np.empty((n, 4, 2)), np.empty(n, np.int64), np.empty((n, 2)), 1, 1.0 - area)
+    for i in range(n):
+        subcubic(curves[n - 1 - i], 1.0, 0.0, turned.curves[i])
+        turned.segment[i] = segment[n - 1 - i]
+        turned.span[i, 0], turned.span[i, 1] = span[n - 1 - i, 1], span[n - 1 - i, 0]
+    return turned

@@ -12,7 +12,7 @@ from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.kernels import kernel
 from vexture.layout import MOST_DEPTH
 from vexture.thesis.accuracy import Accuracy, accuracy_of, cell_tolerance
-from vexture.thesis.boundary_chain import Chain
+from vexture.thesis.boundary_chain import Chain, cell_chain, plain_chain
 from vexture.thesis.leaf import (
     CORNER,
     CURVE,
@@ -21,18 +21,16 @@ from vexture.thesis.leaf import (
     NO_LEAF,
     QUAD,
     Leaf,
-    cell_chain,
     chain_leaf,
     limit_leaf,
     nearest_constant,
     no_leaf,
     own_leaf,
 )
-from vexture.thesis.plain import plain_chain
 from vexture.thesis.sample_and_fit import build_sampled
 from vexture.thesis.subdivide import Cell, Level, cell_of, children
 from vexture.thesis.tree import CellTree
-from vexture.tolerance import CLOSED, GRAIN
+from vexture.tolerance import CLOSED
 from vexture.tree.boundary import HOPELESS, crowded_area
 from vexture.tree.cubics import gather
 from vexture.tree.pool import MOST_QUADS, with_room
@@ -157,7 +155,7 @@ def grow(
         cells = with_room(cells, quads, split_count)
         first_quad = quads
         quads = _add_quads(cells, level, split_cells, first_quad)
-        level, full = children(level, split_cells, split_count, rules, size, GRAIN, first_quad)
+        level, full = children(level, split_cells, rules, size, first_quad)
         for slot_index in full:
             cell = cells[slot_index // 4, slot_index % 4]
             cell[0], cell[2] = FULL, 1.0

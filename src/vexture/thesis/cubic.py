@@ -74,13 +74,7 @@ def discriminant(a: float, b: float, c: float, d: float) -> tuple[float, float]:
 
 @kernel
 def solution_path(a: float, b: float, c: float, d: float) -> int:
-    """Solution path of thesis Figure 3.5 for a t^3 + b t^2 + c t + d, as numbered in `vexture.thesis.method`.
-
-    Examples
-    --------
-    >>> solution_path(0.0, 0.0, 1.0, -0.5) == STRAIGHT
-    True
-    """
+    """Solution path of thesis Figure 3.5 for a t^3 + b t^2 + c t + d, as numbered in `vexture.thesis.method`."""
     size = max(abs(a), abs(b), abs(c))
     if max(abs(a), abs(b)) <= NEARLY_ZERO * size:
         return STRAIGHT

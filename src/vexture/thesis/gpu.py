@@ -24,11 +24,6 @@ def fold(rows: NDArray[Any], height: int) -> NDArray[np.float32]:
 
     `rows` are (rows, width, 3) uint8 or uint16; the result is (min(rows, height), blocks * width, 4) float32 in 0..1,
     unused values 0.
-
-    Examples
-    --------
-    >>> fold(np.full((5, 4, 3), 255, np.uint8), 2).shape
-    (2, 12, 4)
     """
     count, width, channels = rows.shape
     blocks = -(-count // height)

@@ -15,12 +15,10 @@ from vexture.bezier.fit import fit_cubic
 from vexture.bezier.roots import cubic_at
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
-from vexture.thesis.boundary_chain import JOIN, Chain, link_chain, on_edge
+from vexture.thesis.boundary_chain import JOIN, Chain, filled_sides, on_edge, to_cell, touches_edge
 from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN
-from vexture.thesis.plain import filled_sides, to_cell, touches_edge
 from vexture.thesis.subdivide import Cell
 from vexture.thesis.tree import CellKind
-from vexture.tree.boundary import cell_paths, quantise, resolve
 
 __all__ = [
     "CORNER",
@@ -30,7 +28,6 @@ __all__ = [
     "NO_LEAF",
     "QUAD",
     "Leaf",
-    "cell_chain",
     "chain_leaf",
     "limit_leaf",
     "nearest_constant",
@@ -84,15 +81,10 @@ def nearest_constant(area: float) -> Leaf:
 def snap_to_edge(point: NDArray[np.float64]) -> None:
     """Move a point exactly onto the nearest side of the unit square."""
     x, y = min(max(point[0], 0.0), 1.0), min(max(point[1], 0.0), 1.0)
-    nearest = min(x, 1.0 - x, y, 1.0 - y)
-    if nearest == x:
-        x = 0.0
-    elif nearest == 1.0 - x:
-        x = 1.0
-    elif nearest == y:
-        y = 0.0
+    if min(x, 1.0 - x) <= min(y, 1.0 - y):
+        x = 0.0 if x <= 1.0 - x else 1.0
     else:
-        y = 1.0
+        y = 0.0 if y <= 1.0 - y else 1.0
     point[0], point[1] = x, y
 
 
@@ -224,17 +216,6 @@ def _fit(chain: Chain, tolerance: float) -> Leaf:
     if distance > tolerance or not _expressible(curve):
         return no_leaf()
     return Leaf(CURVE, curve, 0.0, distance, True)
-
-
-@kernel
-def cell_chain(cell: Cell, rules: NDArray[np.int64]) -> Chain:
-    """Chain of a cell's boundary, with overlaps and crossings resolved; `rules` as in `own_leaf`."""
-    pieces, present = cell.pieces, cell.present
-    owner = np.empty(len(pieces.path), np.int64)
-    corner, cell_rules = np.empty(len(present), np.int64), np.empty(len(present), np.int64)
-    cell_paths(pieces.path, present, rules, owner, corner, cell_rules)
-    curves = quantise(pieces.points, cell.x0, cell.y0, cell.size)
-    return link_chain(curves, pieces, resolve(curves, owner, corner, cell_rules))
 
 
 @kernel

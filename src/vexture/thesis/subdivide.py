@@ -9,6 +9,7 @@ from vexture.bezier.monotone import Pieces, empty_pieces
 from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
+from vexture.tolerance import GRAIN
 from vexture.tree.pool import child_of, snap
 from vexture.tree.winding import child_windings, inside
 
@@ -61,25 +62,25 @@ def _copy_piece(source: Pieces, i: int, target: Pieces, k: int) -> None:
 
 
 @kernel(allocates=False)
-def _cut(source: Pieces, first: int, last: int, axis: int, line: float, grain: float, target: Pieces, end: int) -> int:
-    """Append pieces first..last-1 to target[end:], cut where they cross a line; return the new end."""
-    other = 1 - axis
-    for i in range(first, last):
+def _cut(source: Pieces, count: int, axis: int, line: float, target: Pieces) -> int:
+    """Copy pieces to `target`, cut where they cross a line; return their new number."""
+    other, end = 1 - axis, 0
+    for i in range(count):
         curve = source.points[i]
         a, d = curve[0, axis], curve[3, axis]
         _copy_piece(source, i, target, end)
         if a == line:
-            snap(target.points[end], 0, other, grain)
+            snap(target.points[end], 0, other, GRAIN)
         if d == line:
-            snap(target.points[end], 3, other, grain)
+            snap(target.points[end], 3, other, GRAIN)
         if (a < line < d) or (d < line < a):
             t = solve_monotone(a, curve[1, axis], curve[2, axis], d, line)
             _copy_piece(source, i, target, end + 1)
             before, after = target.points[end], target.points[end + 1]
             split(curve, t, before, after)
             before[3, axis], after[0, axis] = line, line
-            snap(before, 3, other, grain)
-            snap(after, 0, other, grain)
+            snap(before, 3, other, GRAIN)
+            snap(after, 0, other, GRAIN)
             t0, t1 = source.span[i, 0], source.span[i, 1]
             middle = t0 + t * (t1 - t0)
             target.span[end, 1], target.span[end + 1, 0] = middle, middle
@@ -107,17 +108,11 @@ def _sort_by_child(
 
 @kernel(allocates=False)
 def _copy_present(
-    level: Level,
-    c: int,
-    child: int,
-    windings: NDArray[np.int64],
-    rules: NDArray[np.int64],
-    present: NDArray[np.int64],
-    end: int,
+    cell: Cell, child: int, windings: NDArray[np.int64], rules: NDArray[np.int64], present: NDArray[np.int64], end: int
 ) -> int:
     """Append the paths that have pieces in a child; return the new end, or -1 if another path fills the child."""
     for k in range(len(windings)):
-        path = level.present[level.path_at[c] + k, 0]
+        path = cell.present[k, 0]
         if windings[k, 4 + child]:
             present[end, 0], present[end, 1] = path, windings[k, child]
             end += 1
@@ -127,11 +122,12 @@ def _copy_present(
 
 
 @kernel(allocates=False)
-def _room_for(level: Level, split_cells: NDArray[np.bool_], size: float) -> tuple[int, int, int]:
-    """Upper bounds: pieces of all children, pieces of one cell, paths of all children."""
-    pieces, widest, paths = 0, 0, 0
+def _room_for(level: Level, split_cells: NDArray[np.bool_], size: float) -> tuple[int, int, int, int]:
+    """Upper bounds: children, pieces of all children, pieces of one cell, paths of all children."""
+    cells, pieces, widest, paths = 0, 0, 0, 0
     for c in range(len(split_cells)):
         if split_cells[c]:
+            cells += 4
             paths += 4 * (level.path_at[c + 1] - level.path_at[c])
             widest = max(widest, level.piece_at[c + 1] - level.piece_at[c])
             for i in range(level.piece_at[c], level.piece_at[c + 1]):
@@ -141,46 +137,39 @@ def _room_for(level: Level, split_cells: NDArray[np.bool_], size: float) -> tupl
                     a, d = level.pieces.points[i, 0, axis], level.pieces.points[i, 3, axis]
                     if (a < line < d) or (d < line < a):
                         pieces += 1
-    return pieces, widest, paths
+    return cells, pieces, widest, paths
 
 
 @kernel
 def children(
-    level: Level,
-    split_cells: NDArray[np.bool_],
-    split_count: int,
-    rules: NDArray[np.int64],
-    size: float,
-    grain: float,
-    first_quad: int,
+    level: Level, split_cells: NDArray[np.bool_], rules: NDArray[np.int64], size: float, first_quad: int
 ) -> tuple[Level, NDArray[np.int64]]:
     """Divide cells of a level, each `size` wide; return the next level and the slots of full children.
 
-    Each of the `split_count` cells in the mask `split_cells` becomes a quad, numbered from `first_quad`. The next level
-    holds the children that have pieces and are not covered by another path. Those in neither result are empty. Points
-    on the middle lines are rounded to multiples of `grain`, a power of two.
+    Each cell in the mask `split_cells` becomes a quad, numbered from `first_quad`. The next level holds the children
+    that have pieces and are not covered by another path. Those in neither result are empty.
     """
     half = 0.5 * size
-    piece_room, widest, path_room = _room_for(level, split_cells, size)
+    room, piece_room, widest, path_room = _room_for(level, split_cells, size)
     out, once, twice = empty_pieces(piece_room), empty_pieces(2 * widest), empty_pieces(3 * widest)
-    origin, slot = np.empty((4 * split_count, 2)), np.empty(4 * split_count, np.int64)
-    piece_at, path_at = np.empty(4 * split_count + 1, np.int64), np.empty(4 * split_count + 1, np.int64)
-    present, full = np.empty((path_room, 2), np.int64), np.empty(4 * split_count, np.int64)
+    origin, slot = np.empty((room, 2)), np.empty(room, np.int64)
+    piece_at, path_at = np.empty(room + 1, np.int64), np.empty(room + 1, np.int64)
+    present, full = np.empty((path_room, 2), np.int64), np.empty(room, np.int64)
     child_at, places = np.empty(5, np.int64), np.arange(piece_room)
     cells, end, paths, full_count, quad = 0, 0, 0, 0, first_quad
     for c in range(len(split_cells)):
         if not split_cells[c]:
             continue
-        x0, y0 = level.origin[c, 0], level.origin[c, 1]
+        cell = cell_of(level, c, size)
+        x0, y0 = cell.x0, cell.y0
         xm, ym = x0 + half, y0 + half
-        once_end = _cut(level.pieces, level.piece_at[c], level.piece_at[c + 1], 0, xm, grain, once, 0)
-        twice_end = _cut(once, 0, once_end, 1, ym, grain, twice, 0)
+        once_end = _cut(cell.pieces, len(cell.pieces.path), 0, xm, once)
+        twice_end = _cut(once, once_end, 1, ym, twice)
         _sort_by_child(twice, twice_end, xm, ym, out, end, child_at)
-        parent_present = level.present[level.path_at[c] : level.path_at[c + 1]]
-        windings = np.empty((len(parent_present), 8), np.int64)
-        child_windings(out.points, out.path, places, child_at, parent_present, x0, y0, xm, ym, windings)
+        windings = np.empty((len(cell.present), 8), np.int64)
+        child_windings(out.points, out.path, places, child_at, cell.present, x0, y0, xm, ym, windings)
         for child in range(4):
-            here = _copy_present(level, c, child, windings, rules, present, paths)
+            here = _copy_present(cell, child, windings, rules, present, paths)
             if here < 0:
                 full[full_count] = 4 * quad + child
                 full_count += 1

@@ -93,19 +93,11 @@ class ThesisTexture:
         return (1 << self.bits) - 1
 
     def cells(self) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
-        """Read the kind and the index of each cell; check that the quads form a tree.
+        """Kind and index of each cell; checks that the quads form a tree.
 
-        Returns
-        -------
-        kind : (quads, 4) uint8 array
-            A `CellKind` for each cell, in the order of `vexture.thesis.tree.CellTree`.
-        ref : (quads, 4) int32 array
-            Index of the quad or curve (without the constants); -1 for constant cells.
-
-        Raises
-        ------
-        FormatError
-            If a row is not referred to exactly once, in order.
+        Both are (quads, 4), in the order of `vexture.thesis.tree.CellTree`: a `CellKind` as uint8, and the index of the
+        quad or curve (without the constants) as int32, -1 for constant cells. A `FormatError` tells that a row is not
+        referred to exactly once, in order.
         """
         red, green, _ = np.moveaxis(self.quads[:, np.argsort(layout.CELL_ORDER)] / self.maximum, 2, 0)
         is_quad = red > layout.THRESHOLD_QUAD
@@ -248,18 +240,13 @@ class ThesisTexture:
         return dict(zip((layout.QUADS_SUFFIX, layout.CURVES_SUFFIX), self.to_png(), strict=True))
 
     def save(self, path: str | os.PathLike[str]) -> tuple[Path, Path]:
-        """Write the pair of files, both or none.
+        """Write the pair of files, both or none; return their paths, the quads' first.
 
         Parameters
         ----------
         path : path
-            A folder (that exists or ends with a separator): the files get the texture's name. Otherwise their common
-            stem, or either of them (see `vexture.thesis.load`).
-
-        Returns
-        -------
-        tuple of Path
-            The files of the quads and of the curves.
+            A folder (that exists or ends with a separator): the files get the texture's name. Otherwise either file or
+            their common stem, with or without ``.png``.
 
         Raises
         ------
