@@ -69,19 +69,24 @@ def _halves(run: _Run, axis: int, line: float) -> tuple[list[_Run], list[_Run]]:
     """Parts of a run below and above a line, each ending in a point interpolated exactly on it."""
     side = run.points[:, axis] >= line
     cuts = np.flatnonzero(side[1:] != side[:-1])
-    a, b = run.points[cuts], run.points[cuts + 1]
-    crossings = a + (b - a) * ((line - a[:, axis]) / (b[:, axis] - a[:, axis]))[:, None]
-    crossings[:, axis] = line
-    twice = np.repeat(np.arange(len(cuts)), 2)  # each crossing ends one part and starts the next
-    points = np.insert(run.points, cuts[twice] + 1, crossings[twice], axis=0)
-    segment = np.insert(run.segment, cuts[twice] + 1, run.segment[cuts[twice]])
-    sampled = np.insert(run.sampled, cuts[twice] + 1, False)
-    starts = cuts + 2 + 2 * np.arange(len(cuts))
     parts: tuple[list[_Run], list[_Run]] = ([], [])
-    split = (np.split(values, starts) for values in (points, segment, sampled))
-    for above, part in zip(side[np.append(0, cuts + 1)], map(_Run, *split), strict=True):
-        if len(part.points) > 1 and (part.points != part.points[0]).any():
-            parts[int(above)].append(part)
+    first, entry = 0, None
+    for cut in [*cuts, None]:
+        last = len(side) if cut is None else int(cut) + 1
+        points, segment, sampled = run.points[first:last], run.segment[first:last], run.sampled[first:last]
+        where = parts[int(side[first])]
+        if entry is not None:
+            points, segment = np.vstack([entry[None], points]), np.append(run.segment[first - 1], segment)
+            sampled = np.append(False, sampled)
+        if cut is not None:
+            a, b = run.points[last - 1], run.points[last]
+            entry = a + (b - a) * ((line - a[axis]) / (b[axis] - a[axis]))
+            entry[axis] = line
+            points, segment = np.vstack([points, entry[None]]), np.append(segment, run.segment[last - 1])
+            sampled = np.append(sampled, False)
+        if len(points) > 1 and (points != points[0]).any():
+            where.append(_Run(points, segment, sampled))
+        first = last
     return parts
 
 

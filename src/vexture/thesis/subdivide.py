@@ -122,21 +122,16 @@ def _copy_present(
 
 
 @kernel(allocates=False)
-def _room_for(level: Level, split_cells: NDArray[np.bool_], size: float) -> tuple[int, int, int, int]:
+def _room_for(level: Level, split_cells: NDArray[np.bool_]) -> tuple[int, int, int, int]:
     """Upper bounds: children, pieces of all children, pieces of one cell, paths of all children."""
     cells, pieces, widest, paths = 0, 0, 0, 0
     for c in range(len(split_cells)):
         if split_cells[c]:
+            here = level.piece_at[c + 1] - level.piece_at[c]
+            pieces += 3 * here  # each middle line cuts a monotone piece at most once
+            widest = max(widest, here)
             cells += 4
             paths += 4 * (level.path_at[c + 1] - level.path_at[c])
-            widest = max(widest, level.piece_at[c + 1] - level.piece_at[c])
-            for i in range(level.piece_at[c], level.piece_at[c + 1]):
-                pieces += 1
-                for axis in range(2):  # each line cuts a monotone piece at most once
-                    line = level.origin[c, axis] + 0.5 * size
-                    a, d = level.pieces.points[i, 0, axis], level.pieces.points[i, 3, axis]
-                    if (a < line < d) or (d < line < a):
-                        pieces += 1
     return cells, pieces, widest, paths
 
 
@@ -150,7 +145,7 @@ def children(
     that have pieces and are not covered by another path. Those in neither result are empty.
     """
     half = 0.5 * size
-    room, piece_room, widest, path_room = _room_for(level, split_cells, size)
+    room, piece_room, widest, path_room = _room_for(level, split_cells)
     out, once, twice = empty_pieces(piece_room), empty_pieces(2 * widest), empty_pieces(3 * widest)
     origin, slot = np.empty((room, 2)), np.empty(room, np.int64)
     piece_at, path_at = np.empty(room + 1, np.int64), np.empty(room + 1, np.int64)
