@@ -20,7 +20,7 @@ ONE_AT_A_TIME: Final = threading.Lock()
 
 @cache
 def context() -> Any:
-    """Return the process's OpenGL context, made on first use; a `DeviceError` if moderngl or a driver is missing."""
+    """The process's OpenGL context, made on first use. Raises `DeviceError` if moderngl or a driver is missing."""
     try:
         import moderngl
     except ImportError:
@@ -43,7 +43,7 @@ def context() -> Any:
 
 
 def compiled(fragment_source: str) -> Any:
-    """Compile a fragment shader, with a triangle that covers the image; a `DeviceError` if the driver refuses it."""
+    """Compile a fragment shader with a triangle that covers the image. Raises `DeviceError` on failure."""
     gl = context()
     try:
         made = gl.program(vertex_shader=vertex_source(VERSION), fragment_shader=fragment_source)

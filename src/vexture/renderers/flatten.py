@@ -60,8 +60,8 @@ class Frame(NamedTuple):
 def find_chords(drawing: Drawing, size: tuple[int, int], view: NDArray[np.float64], flatness: float) -> Chords:
     """All chords that an image of a drawing with segments needs; a first pass counts them.
 
-    The view is a (3, 3) matrix from pixel coordinates to the unit square; the flatness is in pixels. More than
-    `CHORD_LIMIT` chords raise a `LimitError`.
+    The view is a (3, 3) matrix from pixel coordinates to the unit square; the flatness is in pixels. Raises
+    `LimitError` if there are more than `CHORD_LIMIT`.
 
     Examples
     --------

@@ -25,7 +25,7 @@ def render_gpu(
 ) -> NDArray[np.float32]:
     """Render one shape of a packed texture; parameters as in `vexture.renderers.cpu.render_cpu`.
 
-    A `DeviceError` tells that there is no OpenGL, a `LimitError` that the image is larger than the device allows.
+    Raises `DeviceError` without OpenGL, and `LimitError` if the image is larger than the device allows.
     """
     uniforms = uniforms_of(texture, size, view, root, quality)
     with ONE_AT_A_TIME, context() as gl:

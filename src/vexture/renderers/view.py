@@ -54,7 +54,7 @@ ViewLike: TypeAlias = ArrayLike | View | None
 
 
 def size_of(size: Size) -> tuple[int, int]:
-    """Width and height of an image, as integers in 1..`SIZE_LIMIT`; anything else raises a `ParameterError`.
+    """Width and height of an image, as integers in 1..`SIZE_LIMIT`. Raises `ParameterError` otherwise.
 
     Examples
     --------
@@ -149,9 +149,9 @@ def fit(size: Size) -> NDArray[np.float64]:
 def view_matrix(view: ViewLike, size: Size) -> NDArray[np.float64]:
     """Check a caller's view of an image; return its matrix, (3, 3) float64.
 
-    A view is affine, (2, 3), or projective, (3, 3); None fits the square into the image. A `ParameterError` tells that
-    the matrix is of another shape, not finite, singular, looks away from the unit square's plane, or magnifies more
-    than float64 can resolve.
+    A view is affine, (2, 3), or projective, (3, 3); None fits the square into the image. Raises `ParameterError` if the
+    matrix is of another shape, not finite, singular, looks away from the unit square's plane, or magnifies more than
+    float64 can resolve.
 
     Examples
     --------

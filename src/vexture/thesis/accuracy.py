@@ -27,7 +27,7 @@ def cell_tolerance(accuracy: Accuracy, size: float) -> float:
 
 
 def accuracy_of(tolerance: float | Literal["auto"], cubics: NDArray[np.float64], step: float = 0.0) -> Accuracy:
-    """Accuracy for a tolerance in unit-square units, or "auto"; a `ParameterError` if it is not between 0 and 1.
+    """Accuracy for a tolerance in unit-square units, or "auto". Raises `ParameterError` if it is not between 0 and 1.
 
     "auto" follows the smallest detail of the drawing's cubics, (n, 4, 2) (thesis 5.2.1), and the size of the cell
     (thesis 6.2.1). It is no coarser than what shows at usual sizes, no finer than what a depth limit can use, and no

@@ -25,7 +25,7 @@ def encode(
 ) -> ThesisTexture:
     """Pair of textures of a tree, with 8 or 16 bits per channel.
 
-    A `LimitError` tells that a list is too long for the bits, or that the format cannot express a point.
+    Raises `LimitError` if a list is too long for the bits, or if the format cannot express a point.
 
     Examples
     --------

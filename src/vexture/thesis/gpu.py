@@ -38,8 +38,9 @@ def render_thesis_gpu(
 ) -> NDArray[np.float32]:
     """Render a texture by the thesis's shader; parameters as in `vexture.coverage`.
 
-    The lists are folded at `fold_height` rows, or at the device's own limit if it is None. A `FormatError` tells that
-    the texture's quads do not form a tree; `vexture.renderers.device` raises further errors.
+    The lists are folded at `fold_height` rows, or at the device's own limit if it is None. Raises `FormatError` if the
+    texture's quads do not form a tree, `DeviceError` without OpenGL, and `LimitError` if the device cannot draw such a
+    large image.
     """
     width, height = size_of(size)
     matrix = view_matrix(view, (width, height))

@@ -50,7 +50,7 @@ class TextureSizes:
 
     @classmethod
     def of(cls, texture: Pair, fold_height: int = FOLD_HEIGHT) -> "TextureSizes":
-        """Sizes of a texture, by all references from its root; a `FormatError` if its quads do not form a tree."""
+        """Sizes of a texture, by all references from its root. Raises `FormatError` if its quads do not form a tree."""
         cells = texture.quads.astype(np.float64) / np.iinfo(texture.quads.dtype).max
         last = len(cells) - 1
         below = np.rint(cells[:, :, 1] * last).astype(np.int64)

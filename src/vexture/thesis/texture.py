@@ -96,7 +96,7 @@ class ThesisTexture:
         """Kind and index of each cell; checks that the quads form a tree.
 
         Both are (quads, 4), in the order of `vexture.thesis.tree.CellTree`: a `CellKind` as uint8, and the index of the
-        quad or curve (without the constants) as int32, -1 for constant cells. A `FormatError` tells that a row is not
+        quad or curve (without the constants) as int32, -1 for constant cells. Raises `FormatError` if a row is not
         referred to exactly once, in order.
         """
         red, green, _ = np.moveaxis(self.quads[:, np.argsort(layout.CELL_ORDER)] / self.maximum, 2, 0)
