@@ -64,7 +64,7 @@ def _run_parts(curves: NDArray[np.float64], pieces: Pieces, boundary: Boundary, 
     for r in range(runs):
         i = boundary.run_piece[r]
         curve = curves[i]
-        upwards = boundary.run_role[r] == 1  # then what is filled lies to the right of a traveller going up
+        upwards = boundary.run_role[r] == 1  # the filled side is right of the upward direction
         start, stop = boundary.run_y[r, 0 if upwards else 1], boundary.run_y[r, 1 if upwards else 0]
         u0 = solve_monotone(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], start)
         u1 = solve_monotone(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], stop)

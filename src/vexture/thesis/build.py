@@ -194,7 +194,7 @@ def build(
     step: float = 0.0,
     most_quads: int = MOST_QUADS,
 ) -> CellTree:
-    """Quad-tree of a drawing in normal form; parameters, but for two, and errors as in `vexture.thesis.convert`.
+    """Quad-tree of a drawing in normal form; other parameters and errors as in `vexture.thesis.convert`.
 
     `step` is the share of a cell by which an encoding's quantisation moves an outline: tolerance "auto" is no finer. A
     tree of more than `most_quads` is not built.
