@@ -3,9 +3,10 @@
 from vexture.texture.decode import decode as decode_packed
 from vexture.texture.encode import encode as encode_packed
 from vexture.texture.texture import Root
-from vexture.thesis import encode as thesis
+from vexture.thesis.encode import encode as encode_thesis
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellTree
+from vexture_evidence.measures.thesis_decode import decode as decode_thesis
 
 __all__ = ["decode", "encode", "info"]
 
@@ -13,13 +14,13 @@ __all__ = ["decode", "encode", "info"]
 def encode(tree, bits=16, *, to_source, name, crs=None):
     """Texture of one tree."""
     if isinstance(tree, CellTree):
-        return thesis.encode(tree, bits, to_source=to_source, name=name, crs=crs)
+        return encode_thesis(tree, bits, to_source=to_source, name=name, crs=crs)
     return encode_packed([tree], [Root(name, 0, to_source, tree.deviation, crs)], name=name)
 
 
 def decode(texture, root=None):
     """Tree of a texture."""
-    return thesis.decode(texture) if isinstance(texture, ThesisTexture) else decode_packed(texture, root)
+    return decode_thesis(texture) if isinstance(texture, ThesisTexture) else decode_packed(texture, root)
 
 
 def info(texture):

@@ -6,10 +6,10 @@ from numpy.typing import NDArray
 
 from vexture.bezier.area import leaf_area
 from vexture.layout import LATTICE, MOST_CURVES
-from vexture.thesis.edge import edge_point
 from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN
 from vexture.thesis.tree import CellKind, CellTree
 from vexture.tree.tree import Tree
+from vexture_evidence.measures.thesis_decode import edge_point
 
 LEAVES = [CellKind.CURVE, CellKind.CORNER, CellKind.FULL, CellKind.EMPTY]
 SAMPLES = np.linspace(0.0, 1.0, 65)[:, None]

@@ -14,11 +14,11 @@ from PIL import Image, ImageColor, ImageDraw, ImageFont
 
 import vexture
 from vexture.renderers.view import window
-from vexture.thesis.encode import decode
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellTree
 from vexture_evidence.figures.textures import texture_images
 from vexture_evidence.measures.leaves import leaves
+from vexture_evidence.measures.thesis_decode import decode
 
 __all__ = ["sheet"]
 

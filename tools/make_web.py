@@ -16,7 +16,7 @@ from vexture.fold import layout as fold_layout
 from vexture.renderers.shader import QUALITIES, WRAPS, included, shader_text
 from vexture.thesis import layout as thesis_layout
 from vexture.thesis import method as thesis_method
-from vexture.thesis.shader import FOLD_HEIGHT, constants, thesis_text
+from vexture.thesis.shader import FOLD_HEIGHT, PACKAGE, constants
 
 __all__ = ["main"]
 
@@ -92,7 +92,7 @@ def shaders() -> str:
 
 def thesis_module() -> str:
     """Text of the module with the thesis's shader: apart, since most pages have no use for it."""
-    coverage = thesis_text("coverage.glsl")
+    coverage = included("coverage.glsl", PACKAGE)
     text = bare(apart(used(constants(thesis_layout) + constants(thesis_method), coverage) + coverage))
     comment = (
         "coverage.glsl; its names begin with thesis_, and const int thesis_LEVELS and thesis_FOLD_HEIGHT must\n"

@@ -21,8 +21,8 @@ from hypothesis import strategies as st
 
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import LimitError, ParameterError
-from vexture.renderers.chords import CHORD_LIMIT
 from vexture.renderers.exact import render_exact
+from vexture.renderers.flatten import CHORD_LIMIT
 from vexture.renderers.view import SIZE_LIMIT, fit, window
 from vexture.tolerance import FLATNESS, SCANLINE
 from vexture_evidence.measures.peers import skia_path

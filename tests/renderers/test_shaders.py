@@ -12,7 +12,7 @@ from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, included, vertex_source
 from vexture.thesis import cpu as thesis_cpu
 from vexture.thesis import cubic, layout, method
-from vexture.thesis.shader import TextureSizes, constants, source, thesis_text
+from vexture.thesis.shader import PACKAGE, TextureSizes, constants, view_source
 
 
 def _files(package):
@@ -43,7 +43,7 @@ WITHOUT_MIRROR = {
     "water.glsl",
 }
 MIRRORED = {name: text for name, text in FILES.items() if name not in WITHOUT_MIRROR}
-ALONE = {"covering_triangle", "fetch"}  # functions of the shader for which the mirror has no use
+ALONE = {"fetch"}  # functions of the shader for which the mirror has no use
 UNIFORMS = [
     "texels",
     "quality",
@@ -67,7 +67,7 @@ PLAIN = {
 @pytest.mark.parametrize("version", VERSIONS)
 def test_the_shader_compiles_in_both_dialects(version: str) -> None:
     need_gpu()
-    fragment = source(version, texture_of(TREE))
+    fragment = view_source(version, TextureSizes.of(texture_of(TREE)))
     assert fragment.startswith(f"#version {version}\n")
     with context() as gl:
         gl.program(vertex_shader=vertex_source(version), fragment_shader=fragment).release()
@@ -85,7 +85,7 @@ def test_a_file_defines_what_it_says_and_nothing_that_its_user_must(name: str) -
 
 
 def test_every_file_is_joined_once() -> None:
-    joined = thesis_text("view.glsl")
+    joined = included("view.glsl", PACKAGE)
     names = [match[0] for match in DEFINITION.findall(joined)]
     assert len(names) == len(set(names))
     assert "#include" not in joined
@@ -136,7 +136,9 @@ def test_the_numbers_are_pythons(module: object) -> None:
 def test_the_bounds_of_the_loops_are_the_textures() -> None:
     assert TextureSizes.of(texture_of([FULL, EMPTY, FULL, EMPTY])).levels == 1
     assert TextureSizes.of(texture_of(TREE)).levels == 3
-    assert "const int LEVELS = 3;\nconst int FOLD_HEIGHT = 100;\n" in source("330", texture_of(TREE), 100)
+    assert "const int LEVELS = 3;\nconst int FOLD_HEIGHT = 100;\n" in view_source(
+        "330", TextureSizes.of(texture_of(TREE), 100)
+    )
 
 
 def test_a_quad_below_itself_is_refused() -> None:

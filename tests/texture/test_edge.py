@@ -3,7 +3,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vexture.bezier.area import edge_index
-from vexture.thesis.edge import edge_point, quantised_ends
+from vexture.thesis.encode import quantised_ends
+from vexture_evidence.measures.thesis_decode import edge_point
 
 INDEX = st.floats(0.0, 1.0, exclude_max=True)
 

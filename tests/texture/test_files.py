@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from vexture.errors import DeviceError
 from vexture.texture.files import file_name
 from vexture.texture.load import load_any as load
-from vexture.thesis.files import pair_of
-from vexture.thesis.texture import ThesisTexture
+from vexture.thesis.texture import ThesisTexture, pair_of
 
 FULL = ThesisTexture(np.zeros((1, 4, 3), np.uint8), np.zeros((2, 2, 3), np.uint8), name="full")
 PAIR = ["full.curves.png", "full.quads.png"]

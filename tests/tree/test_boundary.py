@@ -8,8 +8,7 @@ import degenerate
 from vexture.bezier.monotone import monotone_pieces
 from vexture.layout import LATTICE
 from vexture.thesis.build import root_level
-from vexture.thesis.level import children
-from vexture.tolerance import GRAIN
+from vexture.thesis.subdivide import children
 from vexture.tree.boundary import crowded_area, quantise, resolve
 from vexture.tree.crossings import x_at
 from vexture.tree.cubics import gather
@@ -25,7 +24,7 @@ def levels(drawing, depth):
     for k in range(depth + 1):
         yield level, 2.0**-k, rules
         everything = np.ones(len(level.slot), bool)
-        level, _ = children(level, everything, len(everything), rules, 2.0**-k, GRAIN, 0)
+        level, _ = children(level, everything, rules, 2.0**-k, 0)
 
 
 def in_cell(points, level, c, size):

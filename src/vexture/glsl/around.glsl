@@ -1,8 +1,8 @@
-// What a texel, which may have no more than eight bits, says of the box around it: no outline at all, 0 or 1; else how
-// much of it is the shape's.
+// A texel of at most eight bits describes the box around it: exactly 0 or 1 if no outline passes through the box; else a
+// value in between, from which follows the share of the box that the shape fills.
 // Exports: vexture_around, vexture_share.
 
-const float vexture_mixed = 8.0 / 255.0;  // so far from 0 and 1 that a blend whose nearest texel is mixed is neither
+const float vexture_mixed = 8.0 / 255.0;  // a blend whose nearest texel is mixed is neither 0 nor 1
 
 float vexture_around(float share) {
     return mix(vexture_mixed, 1.0 - vexture_mixed, share);

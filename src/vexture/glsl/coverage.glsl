@@ -3,10 +3,10 @@
 #include "tree.glsl"
 #include "piece.glsl"
 
-// Where a cell's lattice stands to the pixel.
+// Position of a cell's lattice relative to the pixel.
 struct VextureLattice {
-    ivec2 whole;  // the pixel's centre in lattice units: whole ones
-    vec2 part;    // and what is left, for floats hold no more than either
+    ivec2 whole;  // the pixel's centre in lattice units: the whole units
+    vec2 part;    // and the rest; one float cannot hold both
     vec2 low;     // the part of the footprint's box that lies in the cell, relative to the centre
     vec2 high;
     VextureFrame frame;  // from offsets in lattice units
@@ -37,11 +37,11 @@ float vexture_cell_area(VextureCell cell, VextureLattice lattice) {
     int winding = code - VEXTURE_WINDING_OFFSET;
     vec2 low = lattice.low;
     vec2 high = lattice.high;
-    int crossing = 0;  // a bit for each piece that must be looked at closely
+    int crossing = 0;  // a bit for each piece that may cross the footprint's box
     for (int i = 0; i < count; i++) {
         VexturePiece piece = vexture_piece(vexture_texel(curve + uint(i)), lattice.whole, lattice.part);
         if (piece.starts_left && piece.ends_left) {
-            continue;  // on the left edge: its ends there say the contrary of itself
+            continue;  // on the left edge: its ends there cancel it
         }
         winding += piece.starts_left && piece.p0.y <= low.y ? 1 : 0;
         winding -= piece.ends_left && piece.p3.y <= low.y ? 1 : 0;
@@ -65,10 +65,10 @@ float vexture_cell_area(VextureCell cell, VextureLattice lattice) {
 }
 
 // Parameters: the shape's root quad; the pixel's centre, as 32-bit fixed point (1.0 = 2^32) and an offset from it; the
-// steps to the next pixels (dFdx, dFdy of the position), taken where all pixels of a group still run together.
+// steps to the next pixels (dFdx, dFdy of the position), taken in uniform control flow.
 //
-// The cells that the footprint touches are visited row by row from below; for most pixels there is but one. A row is as
-// high as its lowest cell; cells that reach into it from below have been counted.
+// The cells that the footprint touches are visited row by row from below; most pixels touch one. The lowest cell of a row
+// determines its height; cells that reach into it from below have been counted.
 float vextureCoverage(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VextureFrame frame = vexture_frame(dx, dy);
     VexturePlace place = vexture_place(base, offset, frame.reach);
@@ -97,7 +97,7 @@ float vextureCoverage(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
         cells = row > place.high.y ? 0 : cells - 1;
     }
     area *= frame.turned;
-    return area > 0.0 ? min(area, 1.0) : 0.0;  // 0 too if the parameters were not numbers
+    return area > 0.0 ? min(area, 1.0) : 0.0;  // also 0 if a parameter is NaN
 }
 
 float vextureCoverage(uint root, vec2 uv, vec2 dx, vec2 dy) {

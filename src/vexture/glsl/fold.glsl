@@ -1,24 +1,24 @@
-// Texture folding: where a shape is looked up moves with time, as a small texture says (FORMAT.md, part C).
+// Texture folding: a small texture displaces the positions at which a shape is looked up, over time (FORMAT.md, part C).
 // Exports: VextureFolded, vextureFold.
 //
-// VEXTURE_WRAP tells what lies beyond the unit square: the fold's border, or with VEXTURE_WRAP_REPEAT the fold again.
+// Beyond the unit square the fold's border applies, or with VEXTURE_WRAP_REPEAT the fold again.
 
 #ifndef VEXTURE_WRAP
 #define VEXTURE_WRAP VEXTURE_WRAP_NONE
 #endif
 
-uniform highp usampler2D vextureFolding;  // a texel for each place, the top row first
+uniform highp usampler2D vextureFolding;  // top row first
 uniform float vextureTime;                // seconds, reduced to the cycle if there is one
 uniform float vextureCycle;               // seconds; 0: once
 
-// A pixel's footprint, where the shape is to be looked up.
+// A pixel's footprint at the position where the shape is looked up.
 struct VextureFolded {
     vec2 uv;
     vec2 dx;
     vec2 dy;
 };
 
-// How much of its displacement a texel has at this time: 0 to 1, of the periodic kind -1 to 1.
+// The share of a texel's displacement that applies now: 0 to 1, or -1 to 1 for the periodic kind.
 float vexture_progress(uvec4 texel) {
     float tick = 1.0 / float(VEXTURE_FOLD_TICKS);
     float since = vextureTime - float(texel.z & ((1u << VEXTURE_FOLD_KIND_SHIFT) - 1u)) * tick;
@@ -35,11 +35,11 @@ float vexture_progress(uvec4 texel) {
     return kind == uint(VEXTURE_FOLD_SMOOTH_END) ? 1.0 - y * y : eased;
 }
 
-// Parameters: a place as 32-bit fixed point (1.0 = 2^32) and an offset from it; the steps to the next pixels. The result's
-// uv is the new offset from the same base.
+// Parameters: a position as 32-bit fixed point (1.0 = 2^32) and an offset from it; the steps to the next pixels. The
+// result's uv is the new offset from the same base.
 //
-// The displacements of nine texels as they are now are the control points of a quadratic B-spline; its gradient takes the
-// footprint along. The place within the texel comes from the fixed point, whose digits a float would lose.
+// The current displacements of nine texels are the control points of a quadratic B-spline; its gradient transforms the
+// footprint. The position within the texel is computed in fixed point, because a float would lose its last digits.
 VextureFolded vextureFold(uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     ivec2 size = textureSize(vextureFolding, 0);
     uvec2 low = (base & 0xffffu) * uvec2(size);

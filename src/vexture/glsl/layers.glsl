@@ -1,9 +1,9 @@
-// Shapes in their colours, painted one over the other.
+// Shapes in their colours, composited.
 // Exports: vextureLayers, vextureStraight, vextureQuad.
 #include "wrap.glsl"
 
-// A row for each root of the texture: its quad, and red and green, blue and opacity as 16-bit parts of a word (sRGB);
-// then the box of what is not empty, 1.0 = 65536.
+// A row for each root of the texture: its quad; red and green, blue and opacity as 16-bit halves of words (sRGB); then the
+// bounding box of the shape, 1.0 = 65536.
 uniform highp usampler2D vexturePaints;
 
 // Quad of a root, given by its number in the texture.
@@ -21,11 +21,11 @@ bool vexture_meets(uvec4 box, VextureSpot spot) {
     return all(lessThan(abs(way), 0.5 * (high - low) + spot.reach + VEXTURE_BORDER));
 }
 
-// Colour of a pixel, premultiplied, sRGB, in which drawings are painted. Parameters: the number of the lowest layer and
-// how many there are, then those of vextureCoverage.
+// Colour of a pixel, premultiplied, composited in sRGB as in SVG. Parameters: the number of the lowest layer, the number of
+// layers, then those of vextureCoverage.
 //
-// From above, until nothing below would show. The inner loop looks for the next layer that the footprint meets: a branch
-// around the others would cost devices that execute both its sides as much as drawing them.
+// Layers are visited from the top until no lower one would show. The inner loop searches the next layer that the footprint
+// meets: a branch would cost as much as drawing all layers on devices that execute both of its sides.
 vec4 vextureLayers(int first, int count, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VextureSpot spot = vexture_spot(base, offset, dx, dy);
     vec4 color = vec4(0.0);
@@ -48,7 +48,7 @@ vec4 vextureLayers(int first, int count, vec2 uv, vec2 dx, vec2 dy) {
     return vextureLayers(first, count, uvec2(0u), uv, dx, dy);
 }
 
-// From premultiplied sRGB to linear components that are not premultiplied (IEC 61966-2-1).
+// From premultiplied sRGB to straight linear components (IEC 61966-2-1).
 vec4 vextureStraight(vec4 color) {
     vec3 encoded = color.rgb / max(color.a, exp2(-24.0));
     vec3 bent = pow((encoded + 0.055) / 1.055, vec3(2.4));

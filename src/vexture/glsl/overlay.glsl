@@ -1,26 +1,25 @@
-// What is inside a packed texture, drawn over a picture of it: the borders of cells, their stored coverage, their depth,
-// and where stored coverage would stand for curves if pixels were larger.
+// The structure of a packed texture, drawn over its picture: the borders of cells, their stored coverage, their depth, and
+// the cells whose stored coverage would replace curves at larger pixels.
 // Exports: vextureOverlay.
 #include "layers.glsl"
 
 uniform highp uint vextureOverlayRoot;    // the quad whose tree is shown
 uniform vec3 vextureOverlayShow;          // opacity of borders, coverage and depth; 0 hides them
-uniform float vextureOverlayCutoff;       // levels by which the cut-off is exaggerated; 0 leaves the picture alone
+uniform float vextureOverlayCutoff;       // levels by which the cut-off is exaggerated; 0: not shown
 uniform vec3 vextureOverlayCoverage[2];   // colours, sRGB, of an empty and a full cell
 uniform vec3 vextureOverlayStored[2];     // of an empty and a full quad at the cut-off
 uniform vec3 vextureOverlayDepth[VEXTURE_MOST_DEPTH + 1];
 
-// The first level whose cells are no larger than so many pixels, given as a power of two; the root's coverage is in no
-// cell.
+// The first level whose cells are no larger than 2^levels pixels; at least 1, because the root has no stored coverage.
 int vexture_cutoff_level(float area, float levels) {
     return clamp(int(ceil(-0.5 * log2(area) - levels - VEXTURE_LEVEL_BIAS)), 1, VEXTURE_MOST_DEPTH);
 }
 
-// How much of a pixel the border of a cell takes, one pixel wide. `pixels` is the size of a position in pixels, by axis.
+// Share of a pixel covered by the border of a cell, one pixel wide. `pixels` is the size of a position unit in pixels.
 float vexture_border(VexturePlace place, int level, vec2 pixels) {
     int bits = VEXTURE_POSITION_BITS - level;
     ivec2 before = place.point & ((1 << bits) - 1);
-    ivec2 after = (1 << bits) - before;  // whole numbers: next to the border they are small, so a float holds them
+    ivec2 after = (1 << bits) - before;  // integers: small near the border, so that a float is exact
     vec2 near = min(vec2(before) + place.rest, vec2(after) - place.rest) * pixels;
     vec2 size = float(1 << bits) * pixels;
     float seen = clamp(min(size.x, size.y) / VEXTURE_FADED_CELL - 1.0, 0.0, 1.0);
@@ -36,8 +35,8 @@ vec3 vexture_contrast(vec4 color) {
     return vec3(dot(color.rgb, vec3(0.299, 0.587, 0.114)) > 0.5 ? 0.0 : 1.0);
 }
 
-// The picture's colour on its paper, with what is switched on; the other parameters are those of vextureCoverage.
-// The tree is followed to the leaf, or to a quad at the cut-off, which is one pixel if it is not exaggerated.
+// The picture's colour with the overlays that are switched on; the other parameters are those of vextureCoverage.
+// The descent ends at the leaf, or at a quad of the cut-off level: one pixel, unless exaggerated.
 vec4 vextureOverlay(vec4 color, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VextureFrame frame = vexture_frame(dx, dy);
     VexturePlace place = vexture_place(base, offset, frame.reach);

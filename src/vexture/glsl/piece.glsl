@@ -1,4 +1,4 @@
-// What one piece of outline takes from a pixel: the part of it on the piece's right.
+// The contribution of one piece of outline to a pixel's area: the part on the right of the piece.
 // Exports: VexturePiece, vexture_piece, vexture_clear_side, vexture_piece_area.
 #include "pixel.glsl"
 
@@ -6,7 +6,7 @@
 struct VexturePiece {
     vec2 p0;  // relative to the pixel's centre
     vec2 p3;
-    vec2 d1;  // P1 - P0, P2 - P1, P3 - P2: whole numbers, so that nothing is lost in them
+    vec2 d1;  // P1 - P0, P2 - P1, P3 - P2: integers, so exact
     vec2 d2;
     vec2 d3;
     bool starts_left;  // on the leaf's left edge
@@ -17,7 +17,7 @@ ivec2 vexture_lattice_point(uint word) {
     return ivec2(int(word & 0xffffu), int(word >> VEXTURE_COORDINATE_BITS));
 }
 
-// Relative to a point that is given as whole lattice units and the rest.
+// A piece relative to a point, given as whole lattice units and the rest.
 VexturePiece vexture_piece(uvec4 texel, ivec2 whole, vec2 part) {
     ivec2 p0 = vexture_lattice_point(texel.x);
     ivec2 p1 = vexture_lattice_point(texel.y) - VEXTURE_CONTROL_OFFSET;
@@ -37,7 +37,7 @@ float vexture_evaluate(vec4 k, float t) {
     return ((k.x * t + k.y) * t + k.z) * t + k.w;
 }
 
-// What a whole box takes from a piece that is clear of it: -1, 0 or 1; or CROSSING.
+// Winding that a piece outside of the box adds to all of it: -1, 0 or 1; CROSSING if it may cross the box.
 int vexture_clear_side(VexturePiece piece, vec2 low, vec2 high) {
     float bottom = min(piece.p0.y, piece.p3.y);
     float top = max(piece.p0.y, piece.p3.y);
@@ -48,8 +48,8 @@ int vexture_clear_side(VexturePiece piece, vec2 low, vec2 high) {
     return apart ? 0 : !passes_left ? VEXTURE_CROSSING : piece.p3.y > piece.p0.y ? -1 : 1;
 }
 
-// Whether x, and not y, is the coordinate by which a piece is the last to have passed a corner of the box (`later`), or
-// the first. Both coordinates rise, for they were mirrored. If one has passed, which one is clear; else the speeds tell.
+// Whether x rather than y is the coordinate in which a piece passes a corner of the box last (`later`), or first. Both
+// coordinates rise, because they are mirrored. If one has passed, it decides; otherwise the slopes do.
 bool vexture_x_decides(vec2 error, vec2 slope, bool later) {
     bool x_before = error.x < 0.0;
     bool x_slower = error.y * slope.x > error.x * slope.y;
@@ -60,8 +60,8 @@ vec2 vexture_slope(vec4 kx, vec4 ky, float t) {
     return vec2((3.0 * kx.x * t + 2.0 * kx.y) * t + kx.z, (3.0 * ky.x * t + 2.0 * ky.y) * t + ky.z);
 }
 
-// One of Laguerre's steps, which near a turning point gets as far as several of Newton's, toward the t at which a piece
-// has passed a corner by both coordinates (`later`), or by one.
+// A Laguerre step, worth several Newton steps near a turning point, towards the t at which a piece has passed a corner in
+// both coordinates (`later`), or in one.
 float vexture_better_t(vec4 kx, vec4 ky, vec2 corner, bool later, float t) {
     vec2 errors = vec2(vexture_evaluate(kx, t), vexture_evaluate(ky, t)) - corner;
     vec2 slopes = vexture_slope(kx, ky, t);
@@ -73,9 +73,9 @@ float vexture_better_t(vec4 kx, vec4 ky, vec2 corner, bool later, float t) {
     return divisor > 0.0 ? clamp(t - 3.0 * error / divisor, 0.0, 1.0) : t;
 }
 
-// Point of a piece, which at t passes a corner of the box from `from` to `to`. The coordinate that decides t is the
-// corner's to the last bit, for a step of t may be a large part of a small pixel; unless t is an end of the piece, or that
-// coordinate is not near the corner's at all: where a piece turns on the side of the box, its speeds say nothing.
+// Point of a piece at the t where it passes a corner of the box from `from` to `to`. The coordinate that decides t becomes
+// exactly the corner's, because one step of t may be a large part of a small pixel. It does not if t is an end of the
+// piece, or if the coordinate is far from the corner's: the slopes decide nothing where a piece turns on the box's side.
 vec2 vexture_passing_point(vec4 kx, vec4 ky, float t, vec2 corner, bool later, bool is_end, vec2 from, vec2 to) {
     vec2 point = vec2(vexture_evaluate(kx, t), vexture_evaluate(ky, t));
     bool x_decides = vexture_x_decides(point - corner, vexture_slope(kx, ky, t), later);
@@ -85,20 +85,20 @@ vec2 vexture_passing_point(vec4 kx, vec4 ky, float t, vec2 corner, bool later, b
     return clamp(point, from, to);
 }
 
-// Area between a curve and its chord, of a cubic with these differences of control points (P1 - P0, P3 - P2, P3 - P0);
-// positive where the curve lies on the right.
+// Area between a cubic with these differences of control points (P1 - P0, P3 - P2, P3 - P0) and its chord; positive where
+// the curve lies on the right.
 float vexture_bulge(vec2 first, vec2 last, vec2 chord) {
     float turned = first.x * chord.y - first.y * chord.x + chord.x * last.y - chord.y * last.x;
     return 0.15 * (2.0 * turned - (first.x * last.y - first.y * last.x));
 }
 
-// Point of a piece whose coordinates were mirrored, moved into the box.
+// Point of a piece with mirrored coordinates, clamped to the box.
 vec2 vexture_point(vec4 kx, vec4 ky, float t, vec2 mirror, vec2 low, vec2 high) {
     return clamp(vec2(vexture_evaluate(kx, t), vexture_evaluate(ky, t)) * mirror, low, high);
 }
 
-// Area beside a part of a piece: beside its chord, and, as far as that lies in the pixel, between it and the chord.
-// Given are the part's ends in the plane, and the derivatives there times a third of the part's share of t.
+// Area beside a part of a piece: beside its chord, plus the area between the two for the share of the chord in the pixel.
+// Parameters: the part's ends in the plane, and the derivatives there times a third of the part's interval of t.
 float vexture_part_area(vec2 p, vec2 q, vec2 first, vec2 last, VextureFrame frame) {
     vec2 from = vexture_into_frame(frame, p);
     vec2 to = vexture_into_frame(frame, q);
@@ -106,7 +106,7 @@ float vexture_part_area(vec2 p, vec2 q, vec2 first, vec2 last, VextureFrame fram
     return vexture_beside(from, to) + scale * vexture_bulge(first, last, q - p) * vexture_part_inside(from, to);
 }
 
-// Area beside a piece from t0 to t1, which is at p and q. fast: as one part; exact: as many as its bend asks for.
+// Area beside a piece from p at t0 to q at t1. Quality fast: as one part; exact: as many parts as its bend requires.
 float vexture_curve_area(
     vec4 kx, vec4 ky, float t0, float t1, vec2 p, vec2 q, vec2 mirror, VextureFrame frame, vec2 low, vec2 high
 ) {
@@ -134,8 +134,8 @@ float vexture_curve_area(
 #endif
 }
 
-// Minus the area on the right of a piece that goes up, plus that of one that goes down, inside the box from low to
-// high; and, if an end of it on the leaf's left edge lies in the box, what the box's part above that end adds or takes.
+// Area on the right of a piece inside the box from low to high, negative for a piece that goes up. If an end of it lies on
+// the leaf's left edge and in the box, the area of the box above that end is included with the sign of its winding.
 float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 high) {
     vec2 way = piece.d1 + piece.d2 + piece.d3;
     vec2 mirror = vec2(way.x < 0.0 ? -1.0 : 1.0, way.y < 0.0 ? -1.0 : 1.0);
@@ -159,7 +159,7 @@ float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 
         t1 = better1;
         steps = moved > VEXTURE_CLOSE ? steps - 1 : 0;
     }
-    bool misses = t0 >= t1;  // enters and leaves at one point, on a side or a corner of the box
+    bool misses = t0 >= t1;  // touches a side or a corner of the box
     t1 = max(t0, t1);
 
     float y0 = clamp(piece.p0.y, low.y, high.y);
@@ -169,7 +169,7 @@ float vexture_piece_area(VexturePiece piece, VextureFrame frame, vec2 low, vec2 
     leave = misses ? enter : leave;
     float area = vexture_curve_area(kx, ky, t0, t1, enter, leave, mirror, frame, low, high);
 
-    // the way along the box's sides: on its left while the piece is left of it, and back on its right
+    // the path along the box's sides: its left side while the piece is left of the box, and back on its right side
     float left_start = way.x < 0.0 ? leave.y : y0;
     float left_end = way.x < 0.0 ? y3 : enter.y;
     float right_start = way.x < 0.0 ? y3 : leave.y;

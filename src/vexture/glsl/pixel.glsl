@@ -2,12 +2,12 @@
 // Exports: VextureFrame, vexture_frame, vexture_into_frame, vexture_beside, vexture_part_inside, vexture_box_area.
 
 struct VextureFrame {
-    vec2 right;   // its rows: from the drawing's plane to the frame
+    vec2 right;   // rows of the matrix from the drawing's plane to the frame
     vec2 up;
-    vec2 level;   // slopes, in the frame, of the plane's level
-    vec2 upright; // and upright lines
+    vec2 level;   // slopes, in the frame, of the plane's horizontal
+    vec2 upright; // and vertical lines
     vec2 reach;   // half the footprint's box
-    float turned; // 1 or -1: whether the frame keeps orientation
+    float turned; // 1 or -1: whether the frame preserves orientation
     float size;    // the footprint's area
 };
 
@@ -24,7 +24,7 @@ VextureFrame vexture_frame(vec2 dx, vec2 dy) {
         larger = dot(dx, dx);
     }
     float area = dx.x * dy.y - dx.y * dy.x;
-    if (abs(area) < VEXTURE_THINNEST_PIXEL * larger) {  // a line, seen from its edge
+    if (abs(area) < VEXTURE_THINNEST_PIXEL * larger) {  // the plane is seen from its edge
         dx = dot(dx, dx) == larger ? dx : dy;
         dy = vec2(-dx.y, dx.x) * VEXTURE_THINNEST_PIXEL;
         area = VEXTURE_THINNEST_PIXEL * larger;
@@ -47,8 +47,8 @@ float vexture_ramp(float u) {
     return held * (u - 0.5 * held);
 }
 
-// Area of the pixel on the right of a straight line that goes from p to a height, both in the frame, with the
-// direction's `vexture_slopes`; negative if the line goes up.
+// Area of the pixel on the right of a straight line from p to a height, both in the frame, with the `vexture_slopes` of
+// its direction; negative if the line goes up.
 float vexture_beside_sloped(vec2 p, float end, vec2 slopes) {
     float y0 = clamp(p.y, -0.5, 0.5);
     float y1 = clamp(end, -0.5, 0.5);
@@ -62,7 +62,7 @@ float vexture_beside(vec2 p, vec2 q) {
     return vexture_beside_sloped(p, q.y, vexture_slopes(q.x - p.x, q.y - p.y));
 }
 
-// Part of a straight line that lies in the pixel, by and large: what it is multiplied with is small.
+// Approximate share of a straight line in the pixel; its factor is small.
 float vexture_part_inside(vec2 p, vec2 q) {
     vec2 way = q - p;
     vec2 held = clamp(q, -0.5, 0.5) - clamp(p, -0.5, 0.5);
@@ -71,7 +71,7 @@ float vexture_part_inside(vec2 p, vec2 q) {
     return x * y;
 }
 
-// Area of the pixel in a box, positive where the frame keeps orientation.
+// Area of the pixel in a box, positive if the frame preserves orientation.
 float vexture_box_area(VextureFrame frame, vec2 low, vec2 high) {
     vec2 p = vexture_into_frame(frame, low);
     vec2 q = vexture_into_frame(frame, vec2(high.x, low.y));

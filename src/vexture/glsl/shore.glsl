@@ -1,10 +1,10 @@
-// How much of a shape lies in a box around each place: the raster that water reads beside the shape itself.
+// The share of a box around each position that a shape fills: the raster that water.glsl reads beside the shape.
 // Exports: vextureTexelOf, vextureSpread.
 #include "wrap.glsl"
 #include "around.glsl"
 
-// Whether a box holds no outline at all, however small what it encloses: then all its cells are constant and alike. A
-// cell with curves counts as one that they pass.
+// Whether no outline, however small, passes through a box: then all its cells are constant and equal. A cell with curves
+// counts as crossed.
 bool vexture_is_clear(uint root, VextureSpot spot) {
     VexturePlace place = vexture_place(spot.base, spot.offset, spot.reach);
     int shared_levels = vexture_shared_levels(place.low, place.high);
@@ -31,14 +31,14 @@ bool vexture_is_clear(uint root, VextureSpot spot) {
     return position.y > place.high.y && (highest == 0.0 || lowest == 1.0);
 }
 
-// What the texel at a place holds before it is spread: the share of itself that is the shape's.
+// Value of the texel at a position before it is spread: the share of the texel that the shape fills.
 float vextureTexelOf(uint root, vec2 uv, float texel) {
     VextureSpot spot = vexture_spot(uvec2(0u), uv, vec2(texel, 0.0), vec2(0.0, texel));
     float share = vexture_spot_coverage(root, spot);
     return vexture_is_clear(root, spot) ? round(share) : vexture_around(share);
 }
 
-// What it holds after: the mean of `reach` texels on either side, along one axis after the other.
+// Value after it is spread: the mean over `reach` texels on either side, along one axis after the other.
 float vextureSpread(sampler2D raster, ivec2 at, ivec2 way, int reach) {
     ivec2 last = textureSize(raster, 0) - 1;
     float lowest = 1.0;

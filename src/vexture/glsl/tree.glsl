@@ -1,8 +1,8 @@
 // Reading the packed texture (FORMAT.md, part B): positions, and the cells down the tree.
 // Exports: VexturePlace, VextureCell, VextureTop, vexture_place, vexture_finest_level, vexture_texel, vexture_descend.
 //
-// Positions are whole numbers of 2^-POSITION_BITS of the unit square, signed, so that a pixel around the square's edge
-// has one too; a float holds what is left.
+// Positions are signed integers in units of 2^-POSITION_BITS of the unit square, so that a pixel beyond the square's edge
+// has one too; a float holds the rest.
 
 uniform highp usampler2D vextureTexels;
 
@@ -10,8 +10,8 @@ uniform highp usampler2D vextureTexels;
 struct VexturePlace {
     ivec2 point;
     vec2 rest;   // of the point, in the same unit, 0 or a little more
-    ivec2 low;   // the box, cut to the unit square: the first and
-    ivec2 high;  // the last position in it; if last < first it lies outside
+    ivec2 low;   // first and last position of the box, clipped to the unit square;
+    ivec2 high;  // high < low if it lies outside
 };
 
 // A cell, as the byte of a texel.
@@ -22,13 +22,13 @@ struct VextureCell {
     bool is_quad;
 };
 
-// Where a way down the tree begins: a quad, and the number of levels above it.
+// Start of a descent of the tree: a quad, and the number of levels above it.
 struct VextureTop {
     uint quad;
     int level;
 };
 
-int vexture_first_row = 0;  // of the texture that is read: others may stand above it in the same image
+int vexture_first_row = 0;  // of the texture to read: an image may hold several, one below the other
 
 uvec4 vexture_texel(uint index) {
     ivec2 last = textureSize(vextureTexels, 0) - 1;
@@ -58,14 +58,13 @@ int vexture_shared_levels(ivec2 low, ivec2 high) {
     return clamp(VEXTURE_POSITION_BITS - bits, 0, VEXTURE_MOST_DEPTH);
 }
 
-// The level whose cells are no smaller than a square of an area.
+// The finest level whose cells are no smaller than a square of this area.
 int vexture_level_of(float area) {
     return -1 - (((floatBitsToInt(area * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127) >> 1);
 }
 
-// The level of the footprint's area, and some more levels; one more again in pictures of few pixels, where a map is
-// looked at as seldom as a drawing has deep cells; fewer for a long footprint, lest its box touch more cells than are
-// looked at.
+// The level of the footprint's area plus LEVELS_BELOW; one more in pictures of few pixels, where drawings have few deep
+// cells; fewer for a long footprint, so that its box touches at most MOST_CELLS cells.
 int vexture_finest_level(float area, vec2 reach) {
     float length = VEXTURE_LONG * max(reach.x, reach.y);
     int usual = vexture_level_of(max(area, length * length)) + VEXTURE_LEVELS_BELOW;
@@ -73,7 +72,7 @@ int vexture_finest_level(float area, vec2 reach) {
     return clamp(max(usual, min(small, VEXTURE_SMALL_FINEST)), VEXTURE_LEAST_FINEST, VEXTURE_MOST_DEPTH);
 }
 
-// The cell at a position: a leaf, or a quad of the level `finest`. `top` moves down to the quad of the level `shared`.
+// The cell at a position: a leaf, or a quad of the level `finest`. `top` becomes the quad of the level `shared`.
 VextureCell vexture_descend(inout VextureTop top, int shared, int finest, ivec2 position) {
     uvec4 texel = uvec4(0u);
     uint shift = 0u;

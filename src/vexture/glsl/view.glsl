@@ -6,8 +6,8 @@ uniform mat3 to_unit;  // from pixel coordinates, y down, to the unit square, re
 uniform uvec2 base;    // a point of it, 1.0 = 2^32
 uniform uint root;
 
-// The Jacobian of the map, at the pixel's centre: finite differences would lose digits in deep zoom, and be those of a
-// neighbour in tilted views.
+// The steps are the map's Jacobian at the pixel's centre: finite differences would lose digits at high magnification, and
+// be those of a neighbour in tilted views.
 float view_coverage(vec2 pixel) {
     vec3 h = to_unit * vec3(pixel, 1.0);
     if (h.z <= 0.5 * (abs(to_unit[0].z) + abs(to_unit[1].z))) {  // the pixel reaches the horizon

@@ -1,15 +1,15 @@
-// Water along a shore: where it is, how far the shore is, and what is seen there: shallows and foam.
+// Water along a shore: its coverage, the distance of the shore, and the shallows and foam near it.
 // Exports: VextureWater, vextureWater, vextureShallows, vextureFoam, vextureInshore, VextureLight, vextureSea.
 //
-// How far the shore is follows from the rasters that shore.glsl draws: beside a straight shore the share of the box around
-// a place grows evenly from 1/2 on the shore to 1 at half the box's width from it.
+// The distance follows from the rasters that shore.glsl draws: beside a straight shore, the filled share of the box around
+// a position grows linearly from 1/2 on the shore to 1 at half the box's width from it.
 #include "wrap.glsl"
 #include "around.glsl"
 
 uniform int vextureShapes;    // none, one, or two while one turns into the other
 uniform uvec2 vextureQuads;   // their roots,
-uniform ivec2 vextureRows;    // where each one's texels begin,
-uniform vec2 vextureShares;   // how much of each is seen; 0 for what is none
+uniform ivec2 vextureRows;    // the first row of each one's texels,
+uniform vec2 vextureShares;   // weight of each in the picture; 0 if there is none
 uniform sampler2D vextureAround;      // the first one's raster
 uniform sampler2D vextureAroundNext;  // and the second's
 uniform vec2 vextureBox;      // half the width of the boxes in them, in the unit square, and that without a texel
@@ -18,15 +18,15 @@ uniform float vextureLapping; // seconds from one line of foam to the next
 
 struct VextureWater {
     float coverage;  // of the pixel
-    float offshore;  // how far the shore is, in widths of the strip; 1 beyond it
+    float offshore;  // distance of the shore in widths of the strip, at most 1
     float openness;  // 1 along wide water, 0 in channels that are narrow beside the strip
     vec2 place;      // in widths of the strip
     vec2 dx;         // and its steps to the next pixels
     vec2 dy;
 };
 
-// Parameters: those of vextureCoverage. Where the boxes hold no outline, a pixel within them holds none either, and is
-// not looked up. Lookups are rounds of one loop, so that who needs none pays for none.
+// Parameters: those of vextureCoverage. Where the boxes hold no outline, a pixel within them holds none either: no
+// lookup is needed. Lookups are iterations of a loop, so that pixels without any skip their cost.
 VextureWater vextureWater(vec2 uv, vec2 dx, vec2 dy) {
     vec2 reach = abs(dx) + abs(dy);
     float pixel = max(reach.x, reach.y);
@@ -50,14 +50,14 @@ VextureWater vextureWater(vec2 uv, vec2 dx, vec2 dy) {
     return VextureWater(coverage, offshore, openness, uv * widths, dx * widths, dy * widths);
 }
 
-// How much of the shallows' colour shows.
+// Opacity of the shallows' colour.
 float vextureShallows(VextureWater water) {
     float near = 1.0 - water.offshore;
     return near * near * (3.0 - 2.0 * near);
 }
 
-// How much foam there is: a seam along the shore, and lines that run towards it, torn by the waves' normals. Where there
-// can be none nothing is looked up.
+// Opacity of the foam: a seam along the shore, and lines that move towards it, broken up by the waves' normals. No lookups
+// where there can be none.
 float vextureFoam(VextureWater water, sampler2D normals, float seconds) {
     float foam = 0.0;
     if (water.coverage > 0.0 && water.offshore < 1.0 && water.openness > 0.0) {
@@ -77,13 +77,13 @@ float vextureFoam(VextureWater water, sampler2D normals, float seconds) {
     return water.openness * foam;
 }
 
-// The water's light with what is near the shore; the colours' alpha is how much of them there is at most.
+// The water's light with shallows and foam; the colours' alpha is their greatest opacity.
 vec3 vextureInshore(vec3 light, VextureWater water, sampler2D normals, float seconds, vec4 shallow, vec4 foam) {
     light = mix(light, shallow.rgb, 0.6 * shallow.a * vextureShallows(water));
     return mix(light, foam.rgb, foam.a * vextureFoam(water, normals, seconds));
 }
 
-// What lights the sea where there is no mirror.
+// Lighting of the sea without a mirror texture.
 struct VextureLight {
     vec3 toSun;
     vec3 sun;
@@ -92,8 +92,8 @@ struct VextureLight {
     vec3 horizon; // and at its edge
 };
 
-// Light of the open sea with a sky of two colours and the sun in it; y is up. Waves that are smaller than a pixel are
-// gone from the normals' mean, but not from the sea: they spread the sun.
+// Light of the open sea under a sky of two colours with the sun; y is up. Waves smaller than a pixel vanish from the mean
+// of the normals, but still spread the sun's reflection.
 vec3 vextureSea(VextureLight light, vec3 eye, vec3 place, float size, sampler2D normals, float seconds) {
     vec2 at = place.xz * size;
     vec3 one = texture(normals, at / 103.0 + seconds * vec2(0.049, 0.031)).xzy;

@@ -1,14 +1,14 @@
-// Coverage of pixels anywhere: beyond the unit square is nothing, what its border shows, or the shape again.
+// Coverage of pixels anywhere: beyond the unit square lies nothing, the border's value, or the shape again.
 // Exports: VextureSpot, vexture_spot, vexture_spot_coverage, vextureWrapped.
 //
-// VEXTURE_WRAP tells which: VEXTURE_WRAP_NONE, VEXTURE_WRAP_CLAMP or VEXTURE_WRAP_REPEAT.
+// VEXTURE_WRAP selects one of VEXTURE_WRAP_NONE, VEXTURE_WRAP_CLAMP or VEXTURE_WRAP_REPEAT.
 #include "coverage.glsl"
 
 #ifndef VEXTURE_WRAP
 #define VEXTURE_WRAP VEXTURE_WRAP_NONE
 #endif
 
-// A pixel's footprint, brought to where the shape is looked up.
+// A pixel's footprint, moved to the position where the shape is looked up.
 struct VextureSpot {
     uvec2 base;   // its centre: 32-bit fixed point (1.0 = 2^32)
     vec2 offset;  // and an offset from it
@@ -25,7 +25,7 @@ vec2 vexture_fraction(uvec2 base) {
 VextureSpot vexture_spot(uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     vec2 reach = 0.5 * (abs(dx) + abs(dy));
 #if VEXTURE_WRAP == VEXTURE_WRAP_CLAMP
-    // a footprint that would leave the square is moved, one larger than the square is made smaller
+    // a footprint that would leave the square is moved, one larger than the square is shrunk
     vec2 shrink = min((VEXTURE_WHOLE_TILE - VEXTURE_BORDER) / max(reach, VEXTURE_SMALLEST_PIXEL), 1.0);
     dx *= shrink;
     dy *= shrink;
@@ -33,7 +33,7 @@ VextureSpot vexture_spot(uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     vec2 inset = reach + VEXTURE_BORDER;
     offset = clamp(offset, inset - vexture_fraction(base), 1.0 - inset - vexture_fraction(base));
 #elif VEXTURE_WRAP == VEXTURE_WRAP_REPEAT
-    // the sum of fixed-point numbers forgets whole tiles by itself, and loses nothing else
+    // the sum of fixed-point numbers drops whole tiles by overflow, and loses nothing else
     float unit = exp2(16.0);
     offset = clamp(offset, -0.5 * unit + 1.0, 0.5 * unit - 1.0);
     vec2 steps = floor(offset * unit);
@@ -50,8 +50,8 @@ float vexture_mean_coverage(uint root) {
     return float(sum) / float(4 * VEXTURE_COVERAGE_ONE);
 }
 
-// A repeated shape is the sum of the tiles that the footprint touches, two in each direction at most. From the next tile
-// the pixel is seen relative to the border between the two, where positions of both are exact.
+// A repeated shape is the sum over the tiles that the footprint touches, at most two in each direction. In the next tile
+// the base is on the border between the two, where positions of both are exact.
 float vexture_spot_coverage(uint root, VextureSpot spot) {
 #if VEXTURE_WRAP == VEXTURE_WRAP_REPEAT
     float whole = (max(spot.reach.x, spot.reach.y) - VEXTURE_NEARLY_TILE) / (VEXTURE_WHOLE_TILE - VEXTURE_NEARLY_TILE);
@@ -81,7 +81,7 @@ float vexture_spot_coverage(uint root, VextureSpot spot) {
 #endif
 }
 
-// Parameters: those of vextureCoverage, but that the position may lie anywhere.
+// Parameters: those of vextureCoverage; the position may lie anywhere.
 float vextureWrapped(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     return vexture_spot_coverage(root, vexture_spot(base, offset, dx, dy));
 }

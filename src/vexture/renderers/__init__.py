@@ -1,1 +1,1 @@
-"""Renderers: the exact one from a drawing, the mirror on the CPU, the shader on the GPU."""
+"""Renderers: the exact one from a drawing, the shader on the GPU, and its mirror on the CPU."""

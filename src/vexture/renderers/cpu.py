@@ -1,10 +1,10 @@
 """The shader's mirror on the CPU: the functions of ``glsl/`` again, in float64.
 
-They have the shader's names without the prefix that keeps those apart from other people's: ``vexture_place`` is
-`place`, ``vextureCoverage`` is `coverage`. The mathematics of one piece is in `vexture.renderers.piece`.
+The names are the shader's without their prefix: ``vexture_place`` is `place`, ``vextureCoverage`` is `coverage`. The
+mathematics of one piece is in `vexture.renderers.piece`.
 
-Whoever changes one side changes the other; a test compares names and arguments. What is written here in float64 the
-shader computes in float32, so their difference is what float32 costs. The reasons stand in the shader's comments.
+Change both sides together; a test compares names and arguments. The shader computes in float32, so the difference
+between the two is the error of float32. The shader's comments give the reasons.
 """
 
 import math
@@ -37,9 +37,9 @@ from vexture.renderers.method import (
     SMALL_FINEST,
 )
 from vexture.renderers.piece import Frame, Texel, Vec2, Whole2, box_area, clear_side, frame, piece, piece_area
-from vexture.renderers.texels import Texels as Readable
-from vexture.renderers.texels import asked_of
-from vexture.renderers.view import Size, ViewLike, size_of, view_base, view_matrix
+from vexture.renderers.shader import QUALITIES
+from vexture.renderers.uniforms import HasTexels, uniforms_of
+from vexture.renderers.view import Size, ViewLike
 
 __all__ = ["render_cpu"]
 
@@ -65,14 +65,14 @@ class Cell(NamedTuple):
 
 
 class Top(NamedTuple):
-    """Where a way down the tree begins."""
+    """Start of a descent of the tree."""
 
     quad: int
     level: int
 
 
 class Lattice(NamedTuple):
-    """Where a cell's lattice stands to the pixel."""
+    """Position of a cell's lattice relative to the pixel."""
 
     whole: Whole2
     part: Vec2
@@ -137,7 +137,7 @@ def finest_level(area: float, reach: Vec2) -> int:
 
 @kernel(allocates=False)
 def descend(texels: Texels, top: Top, shared: int, finest: int, position: Whole2) -> tuple[Cell, Top]:
-    """What GLSL changes in its argument `top` is returned."""
+    """Return the new `top` too, which GLSL changes in place."""
     found = (0, 0, 0, 0)
     shift = 0
     quad = top.quad
@@ -292,7 +292,7 @@ def draw(
 
 
 def render_cpu(
-    texture: Readable,
+    texture: HasTexels,
     size: Size,
     view: ViewLike = None,
     *,
@@ -302,30 +302,8 @@ def render_cpu(
 ) -> NDArray[np.float32]:
     """Render one shape of a packed texture as its shader would with exact arithmetic.
 
-    Parameters
-    ----------
-    texture : Texels
-        What to draw: a `vexture.Texture`.
-    size : int or tuple of int
-        Width and height of the image in pixels.
-    view : (2, 3) or (3, 3) array, View or None
-        From pixel coordinates (x right, y down, centres at +0.5) to the unit square; None fits the square.
-    root : int
-        Place of the shape in the texture, from 0.
-    quality : str
-        ``"exact"`` or ``"fast"`` (`vexture.renderers.shader.shader_source`).
-    base : tuple of int, optional
-        Point that positions are relative to, 1.0 = 2^32, as for `vexture.renderers.gpu.render_gpu`.
-
-    Returns
-    -------
-    (height, width) float32 array
-        Coverage, 0..1, top row first.
-
-    Raises
-    ------
-    ParameterError
-        If an argument is out of range.
+    `size`, `view` and `quality` are as in `vexture.coverage`; `root` is the number of the shape. Positions are relative
+    to the point `base` of the unit square, 1.0 = 2^32; `view_base` by default.
 
     Examples
     --------
@@ -334,12 +312,7 @@ def render_cpu(
     >>> render_cpu(Texture(full_cells, (Root("full"),)), (1, 1))
     array([[1.]], dtype=float32)
     """
-    width, height = size_of(size)
-    matrix = view_matrix(view, (width, height))
-    quad, code = asked_of(texture, root, quality)
-    base = view_base(matrix, (width, height)) if base is None else base
-    relative = matrix.copy()
-    relative[:2] -= np.outer(base, matrix[2]) / 2.0**32
-    image = np.empty((height, width), np.float32)
-    draw(texture.texels, code, quad, base, relative, image)
+    uniforms = uniforms_of(texture, size, view, root, quality, base)
+    image = np.empty(uniforms.size[::-1], np.float32)
+    draw(texture.texels, QUALITIES[quality], uniforms.quad, uniforms.base, uniforms.to_unit, image)
     return image

@@ -10,11 +10,9 @@ from numpy.typing import NDArray
 from vexture.errors import DeviceError, LimitError
 from vexture.renderers.shader import vertex_source
 
-__all__ = ["ONE_AT_A_TIME", "VERSION", "compiled", "context", "draw"]
-
+__all__ = ["ONE_AT_A_TIME", "VERSION", "compiled", "context", "draw", "upload"]
 
 VERSION: Final = "330"
-
 
 ONE_AT_A_TIME: Final = threading.Lock()
 """A context can be current in one thread only."""
@@ -22,13 +20,7 @@ ONE_AT_A_TIME: Final = threading.Lock()
 
 @cache
 def context() -> Any:
-    """Return the process's OpenGL context, made when it is first needed.
-
-    Raises
-    ------
-    DeviceError
-        If moderngl or a driver is missing.
-    """
+    """The process's OpenGL context, made on first use. Raises `DeviceError` if moderngl or a driver is missing."""
     try:
         import moderngl
     except ImportError:
@@ -51,13 +43,7 @@ def context() -> Any:
 
 
 def compiled(fragment_source: str) -> Any:
-    """Compile a fragment shader; what is returned draws it on a triangle that covers the image.
-
-    Raises
-    ------
-    DeviceError
-        If the driver refuses it.
-    """
+    """Compile a fragment shader with a triangle that covers the image. Raises `DeviceError` on failure."""
     gl = context()
     try:
         made = gl.program(vertex_shader=vertex_source(VERSION), fragment_shader=fragment_source)
@@ -69,8 +55,16 @@ def compiled(fragment_source: str) -> Any:
     return gl.vertex_array(made, [])
 
 
+def upload(gl: Any, pixels: NDArray[Any], unit: int, dtype: str) -> Any:
+    """Texture of an array, (rows, width, 4), without filtering, bound to a texture unit."""
+    made = gl.texture(pixels.shape[1::-1], 4, np.ascontiguousarray(pixels).tobytes(), dtype=dtype)
+    made.filter = (gl.NEAREST, gl.NEAREST)
+    made.use(unit)
+    return made
+
+
 def draw(gl: Any, triangle: Any, size: tuple[int, int]) -> NDArray[np.float32]:
-    """Draw a compiled shader whose uniforms are set, (height, width); its first row is the image's top."""
+    """Draw a compiled shader whose uniforms are set, (height, width), the image's top row first."""
     width, height = size
     limit = gl.info["GL_MAX_TEXTURE_SIZE"]
     if max(width, height) > limit:

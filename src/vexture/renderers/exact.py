@@ -1,12 +1,12 @@
-"""The truth for every renderer: exact area coverage of a drawing, straight from its curves.
+"""The reference renderer: exact area coverage of a drawing, directly from its curves.
 
-Written on purpose without the quad-tree, its boundary code or a fill library, so that it can judge them. The image is
-swept from top to bottom over the drawing's chords (`vexture.renderers.chords`). Between two neighbouring heights at
-which a chord begins, ends or crosses another lies a *slab*, in which all chords run from top to bottom in one order.
-Counting each path's winding from left to right tells which chords bound the union; each of those adds its exact
-trapezoids to the pixels of its row.
+It deliberately uses neither the quad-tree, its boundary code nor a fill library, because it judges them. A sweep goes
+from top to bottom over the drawing's chords (`vexture.renderers.flatten`). Between two consecutive heights at which a
+chord begins, ends or crosses another lies a *slab*, in which all chords run from top to bottom in one order. Each
+path's winding number, counted from left to right, tells which chords bound the union; the exact trapezoids of these
+are added to the pixels of the row.
 
-No slab is thinner than `SCANLINE` pixels, and a wrong order within such a one costs no more than its area.
+No slab is thinner than `SCANLINE` pixels; a wrong order within one of that height costs no more than its area.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from vexture.drawing import Drawing, FillRule
 from vexture.errors import ParameterError
 from vexture.kernels import kernel
-from vexture.renderers.chords import Chords, find_chords, snap
+from vexture.renderers.flatten import Chords, find_chords, snap
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 from vexture.tolerance import FLATNESS, SCANLINE
 
@@ -27,31 +27,10 @@ def render_exact(
 ) -> NDArray[np.float32]:
     """Exact coverage of each pixel's square by the drawing's silhouette: the one-pixel box filter in screen space.
 
-    The silhouette is the union, over the paths, of the points whose winding number the path's fill rule accepts.
-
-    Parameters
-    ----------
-    drawing : Drawing
-        What is rendered; contours may cross, overlap and coincide.
-    size : int or tuple of int
-        Width and height of the image in pixels.
-    view : (2, 3) or (3, 3) array, View or None
-        From pixel coordinates (x right, y down, centres at +0.5) to the unit square (y up), affine or projective;
-        None fits the square into the image.
-    flatness : float
-        Largest distance between a curve and its chords, in pixels.
-
-    Returns
-    -------
-    (height, width) float32 array
-        Coverage, 0..1, good to 0.03/255 at the default flatness.
-
-    Raises
-    ------
-    ParameterError
-        If the size, the view or the flatness is out of range.
-    LimitError
-        If the image needs more than `CHORD_LIMIT` chords.
+    The silhouette is the union, over the paths, of the points whose winding number the path's fill rule accepts;
+    contours may cross, overlap and coincide. `size`, `view` and the result are as in `vexture.coverage`. `flatness` is
+    the largest distance between a curve and its chords, in pixels; at the default, the error of coverage is at most
+    0.03/255.
 
     Examples
     --------
@@ -74,12 +53,12 @@ def render_exact(
 
 @kernel
 def sweep(chords: Chords, order: NDArray[np.int64], evenodd: NDArray[np.bool_], image: NDArray[np.float32]) -> None:
-    """Add up the coverage of each row, slab by slab; `order` sorts the chords by their tops."""
+    """Accumulate the coverage of each row, slab by slab; `order` sorts the chords by their tops."""
     height, width = image.shape
     lines = chords.lines
     active, highs, lows = np.empty(len(order), np.int64), np.empty(len(order)), np.empty(len(order))
     winding = np.zeros(len(evenodd), np.int64)
-    change = np.empty(width + 2)  # from one pixel's coverage to the next one's; x = width adds to the last two
+    change = np.empty(width + 2)  # of coverage from one pixel to the next; x = width adds to the last two
     count, following, y = 0, 0, 0.0
     for row in range(height):
         change[:] = 0.0
@@ -119,10 +98,10 @@ def order_slab(
     highs: NDArray[np.float64],
     lows: NDArray[np.float64],
 ) -> float:
-    """Sort the active chords from left to right and write where each meets the slab's top and bottom.
+    """Sort the active chords from left to right; write where each meets the slab's top and bottom; return its bottom.
 
-    Where neighbours change places on the way, the slab ends at the first such crossing: return its bottom. Where they
-    do so by less than `SCANLINE`, as coincident chords may, the order does not matter.
+    If neighbours change places, the slab ends at the first such crossing. Changes by less than `SCANLINE`, as of
+    coincident chords, are ignored.
     """
     while True:
         for k in range(len(active)):
@@ -157,7 +136,7 @@ def fill_slab(
     winding: NDArray[np.int64],
     change: NDArray[np.float64],
 ) -> None:
-    """Count the windings through a slab's chords from left to right; add those where the union begins or ends."""
+    """Count the windings across a slab's chords from left to right; add the chords where the union begins or ends."""
     covering = 0  # paths that are inside here
     for k in range(len(active)):
         owner = owners[active[k]]
@@ -179,8 +158,8 @@ def fill_slab(
 def add_edge(x0: float, x1: float, height: float, change: NDArray[np.float64]) -> None:
     """Add the area to the right of a straight edge, column by column.
 
-    Of the part of the edge in one column, height h and mean distance m from the column's left side, h (1 - m) lies in
-    that column and h in each one further right.
+    For the part of the edge in one column, of height h and mean distance m from the column's left side, h (1 - m) lies
+    in that column and h in each column further right.
     """
     right_side = len(change) - 2.0
     left = min(max(min(x0, x1), 0.0), right_side)

@@ -1,4 +1,4 @@
-"""The packed texture's shader on the GPU, without a window."""
+"""Renders a packed texture by its shader on the GPU, without a window."""
 
 from functools import cache
 from typing import Any
@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.renderers.device import ONE_AT_A_TIME, VERSION, compiled, context, draw
+from vexture.renderers.device import ONE_AT_A_TIME, VERSION, compiled, context, draw, upload
 from vexture.renderers.shader import view_source
-from vexture.renderers.texels import Texels, asked_of
-from vexture.renderers.view import Size, ViewLike, size_of, view_base, view_matrix
+from vexture.renderers.uniforms import HasTexels, uniforms_of
+from vexture.renderers.view import Size, ViewLike
 
 __all__ = ["render_gpu"]
 
@@ -21,61 +21,20 @@ def program(quality: str) -> Any:
 
 
 def render_gpu(
-    texture: Texels,
-    size: Size,
-    view: ViewLike = None,
-    *,
-    root: int = 0,
-    quality: str = "exact",
-    base: tuple[int, int] | None = None,
+    texture: HasTexels, size: Size, view: ViewLike = None, *, root: int = 0, quality: str = "exact"
 ) -> NDArray[np.float32]:
-    """Render one shape of a packed texture.
+    """Render one shape of a packed texture; parameters as in `vexture.renderers.cpu.render_cpu`.
 
-    Parameters
-    ----------
-    texture : Texels
-        What to draw: a `vexture.Texture`.
-    size : int or tuple of int
-        Width and height of the image in pixels.
-    view : (2, 3) or (3, 3) array, View or None
-        From pixel coordinates (x right, y down, centres at +0.5) to the unit square; None fits the square.
-    root : int
-        Place of the shape in the texture, from 0.
-    quality : str
-        ``"exact"`` or ``"fast"`` (`vexture.renderers.shader.shader_source`).
-    base : tuple of int, optional
-        Point that the shader's positions are relative to, 1.0 = 2^32; `view_base` if not given.
-
-    Returns
-    -------
-    (height, width) float32 array
-        Coverage, 0..1, top row first.
-
-    Raises
-    ------
-    DeviceError
-        If there is no OpenGL.
-    LimitError
-        If the image is larger than the device allows.
-    ParameterError
-        If an argument is out of range.
+    Raises `DeviceError` without OpenGL, and `LimitError` if the image is larger than the device allows.
     """
-    width, height = size_of(size)
-    matrix = view_matrix(view, (width, height))
-    quad, _ = asked_of(texture, root, quality)
-    base = view_base(matrix, (width, height)) if base is None else base
-    relative = matrix.copy()
-    relative[:2] -= np.outer(base, matrix[2]) / 2.0**32
+    uniforms = uniforms_of(texture, size, view, root, quality)
     with ONE_AT_A_TIME, context() as gl:
         triangle = program(quality)
-        rows, columns = texture.texels.shape[:2]
-        uploaded = gl.texture((columns, rows), 4, np.ascontiguousarray(texture.texels).tobytes(), dtype="u4")
-        uploaded.filter = (gl.NEAREST, gl.NEAREST)
-        uploaded.use(0)
+        uploaded = upload(gl, texture.texels, 0, "u4")
         triangle.program["vextureTexels"] = 0
-        triangle.program["to_unit"].write(relative.T.astype(np.float32).tobytes())
-        triangle.program["base"] = base
-        triangle.program["root"] = quad
-        pixels = draw(gl, triangle, (width, height))
+        triangle.program["to_unit"].write(uniforms.to_unit.T.astype(np.float32).tobytes())
+        triangle.program["base"] = uniforms.base
+        triangle.program["root"] = uniforms.quad
+        pixels = draw(gl, triangle, uniforms.size)
         uploaded.release()
     return pixels

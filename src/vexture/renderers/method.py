@@ -1,4 +1,4 @@
-"""The numbers of the shading method, defined once: the shader and its mirror read them here."""
+"""Numbers of the shading method, for the shader and for its mirror."""
 
 from typing import Final
 
@@ -33,80 +33,79 @@ __all__ = [
     "WRAP_REPEAT",
 ]
 
-
 FAST: Final = 0
 EXACT: Final = 1
-"""Qualities of the packed texture's shader: how finely it looks at bent pieces and at cells smaller than a pixel."""
+"""Qualities of the packed texture's shader: resolution of bent pieces and of cells smaller than a pixel."""
 
 POSITION_BITS: Final = 28
 """The packed shader's positions are whole numbers of 2^-28 of the unit square: eight squares fit 32 bits."""
 
 FARTHEST: Final = 3.0
-"""Unit squares from the base, in each direction; a pixel is looked up as if its centre were no farther away."""
+"""Unit squares. A pixel's centre is clamped to this distance from the base, in each direction."""
 
 SMALLEST_PIXEL: Final = 2.0**-40
 """Unit-square units."""
 
 THINNEST_PIXEL: Final = 2.0**-6
-"""A footprint seen from its edge is made this wide, in its lengths."""
+"""Least width of a footprint, as a share of its length: a plane seen from its edge has none."""
 
 STEPS: Final = 6
-"""Laguerre's steps, at most, to where a piece enters and leaves a footprint's box; a line needs one."""
+"""Most Laguerre steps to where a piece enters and leaves a footprint's box; a line needs one."""
 
 CLOSE: Final = 0.02
-"""Pixels. A step that moves a point on a piece by less was the last."""
+"""Pixels. The iteration ends when a step moves a point on a piece by less."""
 
 NO_SIZE: Final = 2.0**-10
-"""Lattice units: less than the least size of a piece that has one."""
+"""Lattice units: below the least nonzero size of a piece."""
 
 NEAR: Final = 0.125
-"""Part of a footprint's box: a point that is to be on its side is nearer."""
+"""Share of a footprint's box: a point nearer to its side may be moved onto it."""
 
 BEND: Final = 8.0
-"""Parts for each square pixel of the cross product of a piece's derivatives at the ends of what a box holds of it."""
+"""Parts for each square pixel of the cross product of a piece's derivatives, where it enters and leaves a box."""
 
 MOST_PARTS: Final = 4.0
-"""Parts into which such a piece is divided at most."""
+"""Most parts into which such a piece is divided."""
 
 SHORT_WAY: Final = 2.0**-10
-"""Pixels. The mean over a shorter way is taken in its middle, because the quotient would lose its digits."""
+"""Pixels. The mean over a shorter distance is evaluated at its middle, because the quotient would lose its digits."""
 
 LEVELS_BELOW: Final = 2
-"""Levels that the sum over cells goes below the footprint's own; there a divided cell counts by its stored coverage."""
+"""Levels that the sum over cells descends below the footprint's; there a divided cell counts by its stored coverage."""
 
 SMALL_FINEST: Final = 8
-"""Level down to which it goes one deeper."""
+"""Down to this level, the sum descends one more."""
 
 LEAST_FINEST: Final = 4
-"""Level that this sum reaches at least: a picture of a few pixels sees the leaves themselves of most drawings."""
+"""Least level of this sum: even a picture of a few pixels uses the leaves of most drawings."""
 
 LONG: Final = 0.64
-"""Part of the reach of a footprint's box that cells are no smaller than, before LEVELS_BELOW: 14 to a row at most."""
+"""Least size of cells as a share of the reach of a footprint's box, before LEVELS_BELOW: at most 14 in a row."""
 
 LEVEL_BIAS: Final = 2.0**-8
-"""Without it drivers would disagree on the level of a footprint whose size is a power of two."""
+"""Relative; without it drivers would disagree on the level of a footprint whose size is a power of two."""
 
 CROSSING: Final = 2
-"""Side of a piece that is not clear."""
+"""Side of a piece that may cross the box."""
 
 MOST_CELLS: Final = 256
-"""Cells that one pixel looks at."""
+"""Most cells that one pixel visits."""
 
 WRAP_NONE: Final = 0
 WRAP_CLAMP: Final = 1
 WRAP_REPEAT: Final = 2
-"""What lies beyond the unit square: nothing, what its border shows, or the shape again."""
+"""Beyond the unit square: nothing, the border's value, or the shape again."""
 
 BORDER: Final = 2.0**-22
 """Unit-square units; more than float32 loses of a position near the square's border."""
 
 NEARLY_TILE: Final = 0.375
 WHOLE_TILE: Final = 0.5
-"""Half the length of a footprint, in tiles of a repeated shape, from which its coverage fades into the tile's mean, and
-at which nothing else is left."""
+"""Half the length of a footprint, in tiles of a repeated shape, at which the fade of its coverage into the tile's mean
+begins and ends."""
 
 COVERED: Final = 1.0 - 2.0**-10
-"""Opacity of what has been painted over a pixel from which layers below do not show."""
+"""Opacity above which the layers below are not drawn."""
 
 FADED_CELL: Final = 4.0
-"""Pixels. The borders of cells of this size are not drawn, lest small views turn grey; from twice that on they are."""
+"""Pixels. Borders of cells fade in from this size to twice this size; otherwise small views would turn grey."""

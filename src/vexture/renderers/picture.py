@@ -1,4 +1,4 @@
-"""Layers in their colours, composited into one picture."""
+"""Composites layers in their colours into one picture."""
 
 from collections.abc import Iterable
 
@@ -11,19 +11,10 @@ __all__ = ["painted"]
 
 
 def painted(size: tuple[int, int], layers: Iterable[tuple[Paint, NDArray[np.float32]]]) -> NDArray[np.float32]:
-    """Composite flat colours one over the other, as SVG does: source-over in sRGB.
+    """Composite flat colours one over the other, the lowest first, as SVG does: source-over in sRGB.
 
-    Parameters
-    ----------
-    size : tuple of int
-        Width and height in pixels.
-    layers : iterable of Paint and (height, width) float32 array
-        Colours and coverages, the lowest first.
-
-    Returns
-    -------
-    (height, width, 4) float32 array
-        Premultiplied RGBA, 0..1.
+    `size` is (width, height); each coverage is a (height, width) float32 array. The picture is (height, width, 4)
+    float32, premultiplied RGBA, 0..1.
 
     Examples
     --------

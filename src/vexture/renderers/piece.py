@@ -1,6 +1,6 @@
 """The mirror of ``glsl/pixel.glsl`` and ``glsl/piece.glsl`` (see `vexture.renderers.cpu`).
 
-What the shader's text has twice, for its two qualities, is chosen here by the argument `quality`.
+The argument `quality` selects between the variants that the shader compiles conditionally.
 """
 
 import math
@@ -42,7 +42,7 @@ Texel = tuple[int, int, int, int]
 
 
 class Frame(NamedTuple):
-    """In which the pixel's footprint is the square from -1/2 to 1/2."""
+    """Coordinates in which the pixel's footprint is the square from -1/2 to 1/2."""
 
     right: Vec2
     up: Vec2
@@ -189,7 +189,7 @@ def evaluate(k: Vec4, t: float) -> float:
 
 @kernel(allocates=False)
 def clear_side(piece: Piece, low: Vec2, high: Vec2) -> int:
-    """What a whole box takes from a piece that is clear of it: -1, 0 or 1; or CROSSING."""
+    """Winding that a piece outside of the box adds to all of it: -1, 0 or 1; `CROSSING` if it may cross the box."""
     p0, p3 = piece.p0, piece.p3
     bottom, top = min(p0[1], p3[1]), max(p0[1], p3[1])
     left, right = min(p0[0], p3[0]), max(p0[0], p3[0])

@@ -1,7 +1,7 @@
-"""Shader text: the files of ``glsl/``, each after those that it includes, below the numbers they share with Python.
+"""Shader text: files of ``glsl/`` after those that they include, preceded by the numbers that they share with Python.
 
-A file names what it needs by ``#include "other.glsl"``; each is included once. The numbers are those of the texture's
-layout (`vexture.layout`) and of the method (`vexture.renderers.method`).
+``#include "other.glsl"`` includes a file once. The numbers are those of the texture's layout (`vexture.layout`) and of
+the shading method (`vexture.renderers.method`).
 """
 
 import re
@@ -14,26 +14,41 @@ from vexture import layout
 from vexture.errors import ParameterError
 from vexture.renderers import method
 
-__all__ = ["QUALITIES", "VERSIONS", "WRAPS", "included", "shader_source", "shader_text", "vertex_source", "view_source"]
+__all__ = [
+    "PICTURE_MAIN",
+    "QUALITIES",
+    "VERSIONS",
+    "WRAPS",
+    "included",
+    "shader_source",
+    "shader_text",
+    "vertex_source",
+    "view_source",
+]
 
 VERSIONS: Final = {
     "330": "#version 330\n",
     "300 es": "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n",
 }
-"""How a shader begins in each dialect that the files are written in."""
+"""First lines of a shader in each supported dialect."""
 
+PICTURE_MAIN: Final = """
+out float coverage_of_pixel;
+void main() { coverage_of_pixel = view_coverage(gl_FragCoord.xy); }
+"""
+"""Draws one shape in one colour channel, after a file ``view.glsl``."""
 
 QUALITIES: Final = {"fast": method.FAST, "exact": method.EXACT}
-"""What the packed texture's shader can be compiled for."""
+"""Values of ``VEXTURE_QUALITY``."""
 
 WRAPS: Final = {"none": method.WRAP_NONE, "clamp": method.WRAP_CLAMP, "repeat": method.WRAP_REPEAT}
-"""What ``glsl/wrap.glsl`` can be compiled for."""
+"""Values of ``VEXTURE_WRAP``."""
 
 CHOSEN: Final = {"QUALITY", "WRAP"}
-"""Names whose value is chosen for each program."""
+"""Numbers that each program sets itself."""
 
 PREFIXED: Final = re.compile(r"\bVEXTURE_(\w+)")
-"""A number as the packed texture's files name it: other people's shaders have names of their own."""
+"""A number in the packed texture's files; the prefix avoids clashes with an application's own names."""
 
 INCLUDE: Final = re.compile(r'^#include "(.*)"$', re.MULTILINE)
 
@@ -42,17 +57,7 @@ INCLUDE: Final = re.compile(r'^#include "(.*)"$', re.MULTILINE)
 def included(name: str, package: str = "vexture") -> str:
     """Text of a shader file after the files that it includes, each once.
 
-    Parameters
-    ----------
-    name : str
-        Name of the file.
-    package : str
-        Package whose folder ``glsl/`` holds it; what it includes may also be in that of vexture.
-
-    Raises
-    ------
-    FileNotFoundError
-        If a file includes one that does not exist.
+    The file is in the folder ``glsl/`` of a package; what it includes may also be in that of vexture.
 
     Examples
     --------
@@ -78,26 +83,25 @@ def included(name: str, package: str = "vexture") -> str:
 
 
 def vertex_source(version: str) -> str:
-    """Vertex shader for three vertices without attributes, whose triangle covers the image."""
-    main = "void main() { gl_Position = covering_triangle(gl_VertexID); }\n"
-    return VERSIONS[version] + included("triangle.glsl") + main
+    """Vertex shader for three vertices without attributes: a triangle that covers the image."""
+    corner = "vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0)"
+    return f"{VERSIONS[version]}void main() {{ gl_Position = {corner}; }}\n"
 
 
 def shader_source(version: str = "300 es", quality: str = "exact") -> str:
     """Text that gives a fragment shader the function ``vextureCoverage``, to stand before its own.
 
-    It holds neither ``#version`` nor a default precision, so that it can be handed to an engine that writes them; in
-    ``300 es`` the defaults of float and int must be highp.
-    The shader declares ``uniform highp usampler2D vextureTexels`` and reads a `Texture` from it. All other names
-    begin with ``vexture``, ``Vexture`` or ``VEXTURE``.
+    The text has neither ``#version`` nor a default precision, so that an engine can write them; in ``300 es`` the
+    default precisions of float and int must be highp. It declares ``uniform highp usampler2D vextureTexels``, which
+    must be a `Texture`. All other names begin with ``vexture``, ``Vexture`` or ``VEXTURE``.
 
     Parameters
     ----------
     version : str
-        ``"300 es"`` or ``"330"``; the dialect of the shader. The text is the same for both.
+        Dialect of the shader, ``"300 es"`` or ``"330"``. The text is the same for both.
     quality : str
-        Both integrate over the pixel's footprint, whatever its shape. ``"exact"`` cuts pieces that bend within it into
-        parts and goes a level deeper into a shape that is finer than the pixels.
+        Both integrate over the pixel's footprint, whatever its shape. ``"exact"`` also divides pieces that bend within
+        the footprint, and descends one level deeper into shapes that are finer than the pixels.
 
     Raises
     ------
@@ -115,12 +119,10 @@ def shader_source(version: str = "300 es", quality: str = "exact") -> str:
 
 
 def shader_text(file: str, quality: str | None, *owners: ModuleType) -> str:
-    """Text of one of the packed texture's files, below the numbers that it and its includes name.
+    """Text of one of the packed texture's files, preceded by the numbers that it and its includes name.
 
-    The numbers are those of `vexture.renderers.method`, of `vexture.layout` and of further owners.
-
-    Without a quality ``VEXTURE_QUALITY`` is left to whoever compiles it, one of the values of `QUALITIES`; and so is
-    ``VEXTURE_WRAP`` always, one of the values of `WRAPS`.
+    The numbers are those of `vexture.renderers.method`, `vexture.layout` and further owners. The caller must define
+    ``VEXTURE_WRAP``, and ``VEXTURE_QUALITY`` too if `quality` is None (values in `WRAPS` and `QUALITIES`).
     """
     if quality is not None and quality not in QUALITIES:
         raise ParameterError(f"`quality` is {quality!r}; there are {', '.join(map(repr, QUALITIES))}")
@@ -135,6 +137,5 @@ def shader_text(file: str, quality: str | None, *owners: ModuleType) -> str:
 
 
 def view_source(version: str, quality: str) -> str:
-    """Fragment shader that draws one shape of a packed texture in one colour channel (``glsl/view.glsl``)."""
-    main = "out float coverage_of_pixel;\nvoid main() { coverage_of_pixel = view_coverage(gl_FragCoord.xy); }\n"
-    return VERSIONS[version] + shader_text("view.glsl", quality) + main
+    """Fragment shader that draws one shape of a packed texture in one colour channel."""
+    return VERSIONS[version] + shader_text("view.glsl", quality) + PICTURE_MAIN

@@ -1,8 +1,8 @@
-"""Views: matrices from pixel coordinates to the unit square, shared by every renderer.
+"""Views: matrices from pixel coordinates to the unit square, for every renderer.
 
-Pixel coordinates have x to the right and y **down**, the corner of pixel (0, 0) at the origin and centres at +0.5.
-A view is the 3x3 matrix N that takes them to the unit square, y **up**: (u, v) = (N0, N1)/N2 of (x, y, 1).
-Pixels where N2 is not positive lie beyond the horizon and see nothing.
+In pixel coordinates x points right and y **down**; the corner of pixel (0, 0) is the origin, and centres are at +0.5.
+A view is the 3x3 matrix N to the unit square, y **up**: (u, v) = (N0, N1)/N2 of (x, y, 1).
+Pixels where N2 is not positive lie beyond the horizon and show nothing.
 """
 
 import math
@@ -29,22 +29,21 @@ __all__ = [
 ]
 
 SIZE_LIMIT: Final = 16384
-"""Pixels; longest side of an image, which is also what GPUs allow."""
+"""Pixels; longest side of an image, and a usual limit of GPUs."""
 
 HOMOGENEOUS_RANGE: Final = 20
-"""Powers of two; a view whose largest entry is outside is scaled."""
+"""Binary exponent; a view whose largest entry is out of this range is scaled."""
 
 CONDITION_LIMIT: Final = 1e8
-"""Largest condition number of the map from the whole image to the unit square: a singular map lies beyond, and so does
-a magnification that leaves float64 too few bits for 1e-4 pixel."""
-
+"""Largest condition number of the map from the image to the unit square. It excludes singular maps, and magnifications
+at which float64 cannot resolve 1e-4 pixel."""
 
 Size: TypeAlias = int | tuple[int, int]
 """Width and height of an image in pixels, or the side of a square one."""
 
 
 class View(Protocol):
-    """What an image shows, for images of any size."""
+    """The part of the plane that an image shows, for images of any size."""
 
     def matrix(self, size: tuple[int, int]) -> NDArray[np.float64]:
         """From pixel coordinates of an image of that size to the unit square, (3, 3)."""
@@ -55,12 +54,7 @@ ViewLike: TypeAlias = ArrayLike | View | None
 
 
 def size_of(size: Size) -> tuple[int, int]:
-    """Width and height of an image, as integers in 1..`SIZE_LIMIT`.
-
-    Raises
-    ------
-    ParameterError
-        If there are not two integers in that range.
+    """Width and height of an image, as integers in 1..`SIZE_LIMIT`. Raises `ParameterError` otherwise.
 
     Examples
     --------
@@ -100,7 +94,7 @@ class Window:
         pixel = max(self.w / width, self.h / height)
         angle = math.radians(self.rotate)
         cosine, sine = pixel * math.cos(angle), pixel * math.sin(angle)
-        # the picture turns one way, so the pixel looks up its point the other way; pixel y points down
+        # pixels map to points by the inverse of the picture's rotation; pixel y points down
         matrix = np.array(
             [[cosine, -sine, self.x + self.w / 2], [-sine, -cosine, self.y + self.h / 2], [0.0, 0.0, 1.0]]
         )
@@ -109,7 +103,7 @@ class Window:
 
 
 def window(x: float, y: float, w: float, h: float, rotate: float = 0.0) -> Window:
-    """View of a rectangle of the unit square, for images of any size: as large as fits, in the middle.
+    """View of a rectangle of the unit square, centred at the largest size that fits, for images of any size.
 
     Parameters
     ----------
@@ -123,7 +117,7 @@ def window(x: float, y: float, w: float, h: float, rotate: float = 0.0) -> Windo
     Returns
     -------
     Window
-        To be given as `view`.
+        For the parameter `view`.
 
     Raises
     ------
@@ -142,11 +136,6 @@ def window(x: float, y: float, w: float, h: float, rotate: float = 0.0) -> Windo
 def fit(size: Size) -> NDArray[np.float64]:
     """View of the whole unit square, centred in the image at the largest size that fits, (3, 3).
 
-    Raises
-    ------
-    ParameterError
-        If the size is out of range.
-
     Examples
     --------
     >>> fit((4, 4))
@@ -158,25 +147,11 @@ def fit(size: Size) -> NDArray[np.float64]:
 
 
 def view_matrix(view: ViewLike, size: Size) -> NDArray[np.float64]:
-    """Check a view that a caller gave.
+    """Check a caller's view of an image; return its matrix, (3, 3) float64.
 
-    Parameters
-    ----------
-    view : (2, 3) or (3, 3) array, View or None
-        From pixel coordinates to the unit square, affine or projective; None fits the square into the image.
-    size : int or tuple of int
-        Width and height of the image in pixels.
-
-    Returns
-    -------
-    (3, 3) float64 array
-        The same map.
-
-    Raises
-    ------
-    ParameterError
-        If the matrix is of another shape, not finite, singular, looks away from the unit square's plane, or
-        magnifies more than float64 can resolve.
+    A view is affine, (2, 3), or projective, (3, 3); None fits the square into the image. Raises `ParameterError` if the
+    matrix is of another shape, not finite, singular, looks away from the unit square's plane, or magnifies more than
+    float64 can resolve.
 
     Examples
     --------
@@ -198,7 +173,7 @@ def view_matrix(view: ViewLike, size: Size) -> NDArray[np.float64]:
     if not np.isfinite(matrix).all():
         raise ParameterError("`view` holds a number that is not finite; give finite numbers")
     scale = np.frexp(np.abs(matrix).max())[1]
-    if abs(scale) > HOMOGENEOUS_RANGE:  # a homogeneous matrix may have any scale, but a shader's floats have not
+    if abs(scale) > HOMOGENEOUS_RANGE:  # a homogeneous matrix may have any scale, but not in a shader's floats
         matrix = np.ldexp(matrix, -scale)
     corners = np.array([[0, width, 0, width], [0, 0, height, height], [1, 1, 1, 1]])
     condition = np.linalg.cond(matrix * (width, height, 1.0))
@@ -213,9 +188,9 @@ def view_matrix(view: ViewLike, size: Size) -> NDArray[np.float64]:
 
 
 def view_base(matrix: NDArray[np.float64], size: tuple[int, int]) -> tuple[int, int]:
-    """Point of the unit square that the image's centre shows, or the nearest one, as 32-bit fixed point.
+    """Point of the unit square at the image's centre, or the nearest one, as 32-bit fixed point.
 
-    Offsets from it are small in a magnified view, so that float32 resolves its pixels.
+    In a magnified view, offsets from it are small, so that float32 resolves its pixels.
 
     Examples
     --------

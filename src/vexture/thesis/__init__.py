@@ -1,25 +1,22 @@
-"""The encoding of the thesis that vexture began with: one cubic or one corner in a leaf, a pair of PNG files.
+"""The encoding of the thesis on which vexture is based: one cubic or one corner in a leaf, a pair of PNG files.
 
-It is kept to be compared with. It is registered by name (`vexture.encodings`); nothing else in vexture imports it.
-
-`convert`, `load` and `owns` are what a registered encoding offers.
+It is the baseline for comparisons. It is registered by name (`vexture.encodings`), with the functions `convert`, `load`
+and `owns` of a registered encoding; nothing else in vexture imports it.
 """
 
-import os
 from pathlib import Path
 from typing import Final, Literal
 
 from vexture.drawing import Drawing
 from vexture.encodings import Encoded
 from vexture.errors import ParameterError
-from vexture.thesis.files import pair_of
 from vexture.thesis.layout import CURVES_SUFFIX, LIST_LIMIT, QUADS_SUFFIX
-from vexture.thesis.texture import ThesisTexture, load_thesis
+from vexture.thesis.texture import ThesisTexture, load, pair_of
 
 __all__ = ["SUFFIXES", "ThesisTexture", "convert", "load", "owns"]
 
 SUFFIXES: Final = (QUADS_SUFFIX, CURVES_SUFFIX)
-"""What follows a texture's name in the names of its files."""
+"""Endings of the names of a texture's files."""
 
 
 def convert(
@@ -43,8 +40,8 @@ def convert(
     bits : int, optional
         Bits per channel, 8 or 16; 16 by default.
     strategy : str, optional
-        ``"direct"``, the default, takes leaves from the drawing's own cubics; ``"sampled"`` samples and fits as the
-        thesis does.
+        ``"direct"``, the default, takes leaves from the drawing's own cubics; ``"sampled"`` samples the outlines and
+        fits curves to the samples, as the thesis does.
 
     Raises
     ------
@@ -72,7 +69,7 @@ def convert(
 
 
 def owns(path: Path) -> bool:
-    """Whether a path is that of a file of a pair, or what the names of an existing pair have in common.
+    """Whether a path names a file of a pair, or the common stem of an existing pair.
 
     Examples
     --------
@@ -82,16 +79,3 @@ def owns(path: Path) -> bool:
     if path.name.lower().endswith((QUADS_SUFFIX, CURVES_SUFFIX)):
         return True
     return not path.is_file() and any(file.is_file() for file in pair_of(path))
-
-
-def load(path: str | os.PathLike[str]) -> ThesisTexture:
-    """Read a pair of texture files, by either of them or what their names have in common.
-
-    Raises
-    ------
-    FormatError
-        If a file is missing, damaged or not a texture, or if the two do not belong together.
-    DeviceError
-        If a file may not be read.
-    """
-    return load_thesis(path)

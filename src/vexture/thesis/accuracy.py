@@ -1,4 +1,4 @@
-"""How far a leaf's outline may be from the drawing's."""
+"""The permitted distance between a leaf's outline and the drawing's."""
 
 from typing import Literal, NamedTuple
 
@@ -13,55 +13,25 @@ __all__ = ["Accuracy", "accuracy_of", "cell_tolerance"]
 
 
 class Accuracy(NamedTuple):
-    """Largest distance between the outlines, before quantisation, as a rule for cells of any size.
+    """Largest distance between the outlines before quantisation, as a rule for cells of any size."""
 
-    Attributes
-    ----------
-    distance : float
-        Unit-square units; never more than this,
-    share : float
-        nor more than this share of the cell,
-    step : float
-        unless that is less than this share of it, by which quantisation moves the outline anyway.
-    """
-
-    distance: float
-    share: float
-    step: float
+    distance: float  # upper limit, in unit-square units
+    share: float  # upper limit, as a share of the cell
+    step: float  # lower limit, as a share of the cell: quantisation moves the outline by as much
 
 
 @kernel
 def cell_tolerance(accuracy: Accuracy, size: float) -> float:
-    """Tolerance in a cell of a size, in unit-square units.
-
-    Examples
-    --------
-    >>> cell_tolerance(Accuracy(0.001, 0.125, 0.0), 0.5)
-    0.001
-    """
+    """Tolerance in a cell of a given size, both in unit-square units."""
     return max(min(accuracy.distance, accuracy.share * size), accuracy.step * size)
 
 
 def accuracy_of(tolerance: float | Literal["auto"], cubics: NDArray[np.float64], step: float = 0.0) -> Accuracy:
-    """Accuracy that a tolerance asks for.
+    """Accuracy for a tolerance in unit-square units, or "auto". Raises `ParameterError` if it is not between 0 and 1.
 
-    A number is what it says. "auto" follows the smallest detail of the drawing (thesis 5.2.1), within limits: no
-    coarser than what shows at usual sizes, no finer than what a depth limit can use; and the size of the cell
-    (thesis 6.2.1).
-
-    Parameters
-    ----------
-    tolerance : float or "auto"
-        Unit-square units.
-    cubics : (n, 4, 2) float64 array
-        The drawing's.
-    step : float
-        Share of a cell by which quantisation moves an outline; "auto" is no finer.
-
-    Raises
-    ------
-    LimitError
-        If the tolerance is not between 0 and 1.
+    "auto" follows the smallest detail of the drawing's cubics, (n, 4, 2) (thesis 5.2.1), and the size of the cell
+    (thesis 6.2.1). It is no coarser than what shows at usual sizes, no finer than what a depth limit can use, and no
+    finer than `step`, the share of a cell by which quantisation moves an outline.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""From a drawing to a `CellTree`, level by level."""
+"""Builds the `CellTree` of a drawing, level by level."""
 
 from typing import Literal
 
@@ -12,7 +12,7 @@ from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.kernels import kernel
 from vexture.layout import MOST_DEPTH
 from vexture.thesis.accuracy import Accuracy, accuracy_of, cell_tolerance
-from vexture.thesis.chain import Chain
+from vexture.thesis.boundary_chain import Chain, cell_chain, plain_chain
 from vexture.thesis.leaf import (
     CORNER,
     CURVE,
@@ -21,48 +21,42 @@ from vexture.thesis.leaf import (
     NO_LEAF,
     QUAD,
     Leaf,
-    cell_chain,
     chain_leaf,
     limit_leaf,
     nearest_constant,
     no_leaf,
     own_leaf,
 )
-from vexture.thesis.level import Level, children
-from vexture.thesis.plain import plain_chain
-from vexture.thesis.sampled import build_sampled
+from vexture.thesis.sample_and_fit import build_sampled
+from vexture.thesis.subdivide import Cell, Level, cell_of, children
 from vexture.thesis.tree import CellTree
-from vexture.tolerance import CLOSED, GRAIN
+from vexture.tolerance import CLOSED
 from vexture.tree.boundary import MOST_RESOLVED, crowded_area
 from vexture.tree.cubics import gather
 from vexture.tree.divide import with_room
 from vexture.tree.tree import MOST_QUADS
 
-__all__ = ["DEFAULT_DEPTH", "DEPTH_RANGE", "build", "root_level"]
-
-DEPTH_RANGE = (1, MOST_DEPTH)
-"""Depth limits that a caller may ask for."""
+__all__ = ["DEFAULT_DEPTH", "build", "root_level"]
 
 DEFAULT_DEPTH = 10
-"""Cells of a thousandth of the drawing."""
-
+"""Its cells are a thousandth of the drawing wide."""
 
 CROWDED = 8
 """Pieces in a cell above which it is resolved only if its boundary meets the cell's edge exactly twice."""
 
 
 @kernel
-def _ends_on_edge(pieces: Pieces, first: int, last: int, x0: float, y0: float, size: float) -> int:
-    """Number of ends of chains on the cell's edge: of ends there that the next piece does not go on from."""
-    count = 0
-    for i in range(first, last):
+def _ends_on_edge(cell: Cell) -> int:
+    """Number of ends of chains on the cell's edge: ends of pieces there that the next piece does not continue."""
+    points, count = cell.pieces.points, 0
+    for i in range(len(points)):
         for end in (0, 3):
             neighbour = i - 1 if end == 0 else i + 1
-            x, y = pieces.points[i, end, 0], pieces.points[i, end, 1]
-            if x != x0 and x != x0 + size and y != y0 and y != y0 + size:
+            x, y = points[i, end, 0], points[i, end, 1]
+            if x != cell.x0 and x != cell.x0 + cell.size and y != cell.y0 and y != cell.y0 + cell.size:
                 continue
-            if first <= neighbour < last and (
-                pieces.points[neighbour, 3 - end, 0] == x and pieces.points[neighbour, 3 - end, 1] == y
+            if 0 <= neighbour < len(points) and (
+                points[neighbour, 3 - end, 0] == x and points[neighbour, 3 - end, 1] == y
             ):
                 continue
             count += 1
@@ -70,62 +64,41 @@ def _ends_on_edge(pieces: Pieces, first: int, last: int, x0: float, y0: float, s
 
 
 @kernel
-def _leaf_or_limit(
-    chain: Chain,
-    area: float,
-    cubics: NDArray[np.float64],
-    x0: float,
-    y0: float,
-    size: float,
-    tolerance: float,
-    at_limit: bool,
-) -> Leaf:
-    """Leaf of a chain; at the depth limit there always is one."""
-    leaf = chain_leaf(chain, area, cubics, x0, y0, size, tolerance / size)
+def _leaf_or_limit(chain: Chain, cubics: NDArray[np.float64], cell: Cell, tolerance: float, at_limit: bool) -> Leaf:
+    """Leaf of a chain; at the depth limit never `NO_LEAF`."""
+    leaf = chain_leaf(chain, cubics, cell, tolerance / cell.size)
     if leaf.kind == NO_LEAF and at_limit:
-        return limit_leaf(chain, area)
+        return limit_leaf(chain)
     return leaf
 
 
 @kernel
 def _leaf_of(
-    level: Level,
-    c: int,
-    cubics: NDArray[np.float64],
-    rules: NDArray[np.int64],
-    size: float,
-    tolerance: float,
-    at_limit: bool,
+    cell: Cell, cubics: NDArray[np.float64], rules: NDArray[np.int64], tolerance: float, at_limit: bool
 ) -> Leaf:
-    """Leaf of cell c, or `NO_LEAF` to divide it."""
-    first, last = level.piece_at[c], level.piece_at[c + 1]
-    present = level.present[level.path_at[c] : level.path_at[c + 1]]
-    x0, y0 = level.origin[c, 0], level.origin[c, 1]
-    if len(present) == 1:
-        leaf = own_leaf(level.pieces, first, last, cubics, present[0, 1], rules[present[0, 0]], x0, y0, size)
+    """Leaf of a cell, or `NO_LEAF` if the cell must be divided."""
+    pieces, count = cell.pieces, len(cell.pieces.path)
+    if len(cell.present) == 1:
+        leaf = own_leaf(cell, cubics, rules)
         if leaf.kind != NO_LEAF:
             return leaf
-        if last - first <= MOST_RESOLVED:
-            chain, area = plain_chain(level.pieces, first, last, present[0, 1], rules[present[0, 0]], x0, y0, size)
+        if count <= MOST_RESOLVED:
+            chain = plain_chain(cell, rules)
             if chain.chains < 2:
-                return _leaf_or_limit(chain, area, cubics, x0, y0, size, tolerance, at_limit)
-    if last - first > MOST_RESOLVED:
+                return _leaf_or_limit(chain, cubics, cell, tolerance, at_limit)
+    if count > MOST_RESOLVED:
         if at_limit:
-            return nearest_constant(
-                crowded_area(
-                    level.pieces.points[first:last], level.pieces.path[first:last], present, rules, x0, y0, size
-                )
-            )
+            area = crowded_area(pieces.points, pieces.path, cell.present, rules, cell.x0, cell.y0, cell.size)
+            return nearest_constant(area)
         return no_leaf()
-    if not at_limit and last - first > CROWDED and _ends_on_edge(level.pieces, first, last, x0, y0, size) != 2:
+    if not at_limit and count > CROWDED and _ends_on_edge(cell) != 2:
         return no_leaf()
-    chain, area = cell_chain(level.pieces, first, last, present, rules, x0, y0, size)
-    return _leaf_or_limit(chain, area, cubics, x0, y0, size, tolerance, at_limit)
+    return _leaf_or_limit(cell_chain(cell, rules), cubics, cell, tolerance, at_limit)
 
 
 @kernel
 def _add_quads(cells: NDArray[np.float64], level: Level, split_cells: NDArray[np.bool_], quad: int) -> int:
-    """Enter the quads that cells of a level become, their cells empty; return the new number of quads."""
+    """Append a quad with empty cells for each divided cell of a level; return the new number of quads."""
     for c in range(len(split_cells)):
         if split_cells[c]:
             if level.slot[c] >= 0:
@@ -148,8 +121,9 @@ def grow(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float, int]:
     """Divide the unit square level by level until every cell is a leaf.
 
-    Returned are the cells, (quads, 4, 3): kind, reference, coverage; the curves; deviation; unresolved. If that
-    takes more than `most_quads`, nothing but the number needed so far, negative, as the last.
+    Returned are the cells, (quads, 4, 3): kind, reference, coverage; the curves; the deviation; the number of
+    unresolved cells. If the tree needs more than `most_quads`, the arrays are empty and the last value is minus the
+    number so far.
     """
     cells, quads = np.empty((16, 4, 3)), 0
     curves, curve_count = np.empty((16, 4, 2)), 0
@@ -162,7 +136,7 @@ def grow(
             tolerance = cell_tolerance(accuracy, size)
             leaf = no_leaf()
             if depth > 0:  # the root is always a quad
-                leaf = _leaf_of(level, c, cubics, rules, size, tolerance, depth == max_depth)
+                leaf = _leaf_of(cell_of(level, c, size), cubics, rules, tolerance, depth == max_depth)
             if leaf.kind == NO_LEAF:
                 split_cells[c] = True
                 split_count += 1
@@ -182,7 +156,7 @@ def grow(
         cells = with_room(cells, quads, split_count)
         first_quad = quads
         quads = _add_quads(cells, level, split_cells, first_quad)
-        level, full = children(level, split_cells, split_count, rules, size, GRAIN, first_quad)
+        level, full = children(level, split_cells, rules, size, first_quad)
         for slot_index in full:
             cell = cells[slot_index // 4, slot_index % 4]
             cell[0], cell[2] = FULL, 1.0
@@ -196,7 +170,7 @@ def grow(
 
 
 def root_level(drawing: Drawing, pieces: Pieces) -> Level:
-    """The unit square as the only cell of its level; every path has corner winding 0 there."""
+    """The unit square as the only cell of its level. The corner winding of every path is 0 there."""
     ends = pieces.points[:, [0, 3]]
     worst = np.abs(ends - np.clip(ends, 0.0, 1.0)).max()
     if not worst <= CLOSED:  # not a number counts as outside
@@ -221,34 +195,13 @@ def build(
     step: float = 0.0,
     most_quads: int = MOST_QUADS,
 ) -> CellTree:
-    """Quad-tree of a drawing's silhouette, with thesis leaves.
+    """Quad-tree of a drawing in normal form; other parameters and errors as in `vexture.thesis.convert`.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        In normal form.
-    tolerance : float or "auto"
-        Largest distance between the drawing's outline and a leaf's, in unit-square units. "auto" follows the
-        smallest detail of the drawing and the size of the cell.
-    max_depth : int
-        Cells of this depth are not divided further; the unit square has depth 0.
-    strategy : "direct" or "sampled"
-        Leaves found from the drawing's own cubics, or the thesis's original way by sampling and fitting.
-    step : float
-        Share of a cell by which an encoding's quantisation moves an outline: "auto" is no finer than that.
-    most_quads : int
-        A tree that needs more is given up.
-
-    Returns
-    -------
-    CellTree
+    `step` is the share of a cell by which an encoding's quantisation moves an outline: tolerance "auto" is no finer. A
+    tree of more than `most_quads` is not built.
 
     Raises
     ------
-    ParameterError
-        If a parameter is out of range.
-    LimitError
-        If the tree is too large.
     SourceError
         If the drawing leaves the unit square.
 
@@ -260,9 +213,8 @@ def build(
     """
     if strategy not in ("direct", "sampled"):
         raise ParameterError(f"`strategy` is {strategy!r}; it must be 'direct' or 'sampled'")
-    low, high = DEPTH_RANGE
-    if not (isinstance(max_depth, int | np.integer) and low <= max_depth <= high):
-        raise ParameterError(f"`max_depth` {max_depth} is outside {low}..{high}; the default is {DEFAULT_DEPTH}")
+    if not (isinstance(max_depth, int | np.integer) and 1 <= max_depth <= MOST_DEPTH):
+        raise ParameterError(f"`max_depth` {max_depth} is outside 1..{MOST_DEPTH}; the default is {DEFAULT_DEPTH}")
     cubics, owner, rules = gather(drawing)
     accuracy = accuracy_of(tolerance, cubics, step)
     pieces = monotone_pieces(cubics, owner)

@@ -1,9 +1,6 @@
 """The shader's mirror on the CPU: every function of ``glsl/`` again, by the same name, in float64.
 
-The root solver's half is `vexture.thesis.cubic`.
-
-Whoever changes one side changes the other; a test compares names and arguments. What is written here in float64 the
-shader computes in float32, so their difference is what float32 costs. The reasons stand in the shader's comments.
+The root solver is in `vexture.thesis.cubic`. As for `vexture.renderers.cpu`, change both sides together.
 """
 
 import math
@@ -35,7 +32,7 @@ List = NDArray[np.float64]
 
 
 class Cell(NamedTuple):
-    """A leaf; or a quad that is smaller than a pixel, as a constant."""
+    """A leaf; or a quad smaller than a pixel, as a constant."""
 
     origin: Vec2
     size: float
@@ -149,7 +146,7 @@ def find_cell(quads: List, curves: List, point: Vec2, footprint: float) -> Cell:
     row = 0
     if outside_square(point):
         return constant_cell((x, y), 0.0, 0.0)
-    for _ in range(len(quads)):  # the thesis's bound; the shader's is the texture's depth
+    for _ in range(len(quads)):  # the thesis's bound; the shader uses the texture's depth
         right, upper = point[0] >= x + 0.5 * size, point[1] >= y + 0.5 * size
         texel = quads[row, CELL_ORDER[right + 2 * upper]]
         if footprint > size:
@@ -230,7 +227,7 @@ def view_point(to_unit: List, pixel: Vec2) -> Vec3:
 
 @kernel
 def view_step(to_unit: List, center: Vec2, pixel: Vec2, step: Vec2) -> Vec2:
-    """Like dFdx and dFdy: the difference between the two pixels of a group of 2 x 2, whichever of them asks."""
+    """As dFdx and dFdy: the difference between the two pixels of a 2 x 2 group, the same for both."""
     sign = -1.0 if int(pixel[0] * step[0] + pixel[1] * step[1]) % 2 == 1 else 1.0
     x, y, w = view_point(to_unit, (pixel[0] + sign * step[0], pixel[1] + sign * step[1]))
     return sign * (x / w - center[0]), sign * (y / w - center[1])
@@ -255,26 +252,7 @@ def draw(quads: List, curves: List, to_unit: List, image: NDArray[np.float32]) -
 
 
 def render_thesis_cpu(texture: Pair, size: Size, view: ViewLike = None) -> NDArray[np.float32]:
-    """Render a texture as the thesis's shader would with exact arithmetic.
-
-    Parameters
-    ----------
-    texture : Pair
-        What to draw.
-    size : tuple of int
-        Width and height of the image in pixels.
-    view : (2, 3) or (3, 3) array, View or None
-        From pixel coordinates (x right, y down, centres at +0.5) to the unit square; None fits the square.
-
-    Returns
-    -------
-    (height, width) float32 array
-        Coverage, 0..1, top row first.
-
-    Raises
-    ------
-    ParameterError
-        If the size or the view is out of range.
+    """Render a texture as the thesis's shader would with exact arithmetic; parameters as in `vexture.coverage`.
 
     Examples
     --------

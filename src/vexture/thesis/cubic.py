@@ -21,7 +21,7 @@ __all__ = ["Roots", "solution_path", "solve_cubic"]
 
 
 class Roots(NamedTuple):
-    """Real roots, the first `found` of `t`."""
+    """Real roots: the first `found` of `t`."""
 
     found: int
     t: tuple[float, float, float]
@@ -74,13 +74,7 @@ def discriminant(a: float, b: float, c: float, d: float) -> tuple[float, float]:
 
 @kernel
 def solution_path(a: float, b: float, c: float, d: float) -> int:
-    """Which path of thesis Figure 3.5 solves a t^3 + b t^2 + c t + d, by its number in `vexture.renderers.method`.
-
-    Examples
-    --------
-    >>> solution_path(0.0, 0.0, 1.0, -0.5) == STRAIGHT
-    True
-    """
+    """Solution path of thesis Figure 3.5 for a t^3 + b t^2 + c t + d, as numbered in `vexture.thesis.method`."""
     size = max(abs(a), abs(b), abs(c))
     if max(abs(a), abs(b)) <= NEARLY_ZERO * size:
         return STRAIGHT
@@ -139,12 +133,9 @@ def solve_three(a: float, b: float, c: float, d: float) -> Roots:
 
 @kernel
 def solve_cubic(a: float, b: float, c: float, d: float) -> Roots:
-    """Real roots of a t^3 + b t^2 + c t + d, in so far as they can lie in 0..1; a double root is left out.
+    """Real roots of a t^3 + b t^2 + c t + d that may lie in 0..1, without double roots.
 
-    Parameters
-    ----------
-    a, b, c, d : float
-        Coefficients of x(t) - C.x in the basis of a curve's chord, where a + b + c is 1.
+    The coefficients are those of x(t) - C.x in the basis of a curve's chord, where a + b + c is 1.
 
     Examples
     --------

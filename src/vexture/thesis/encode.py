@@ -1,4 +1,4 @@
-"""The thesis encoding (FORMAT.md, part A): a `CellTree` to a pair of textures and back."""
+"""The thesis encoding (FORMAT.md, part A): from a `CellTree` to a pair of textures."""
 
 import math
 from typing import Any
@@ -6,14 +6,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.area import edge_indices, leaf_area
+from vexture.bezier.area import edge_indices
 from vexture.errors import LimitError, ParameterError
 from vexture.thesis import layout
-from vexture.thesis.edge import edge_point, quantised_ends
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellKind, CellTree
 
-__all__ = ["decode", "encode", "quantisation_step"]
+__all__ = ["encode", "quantisation_step", "quantised_ends"]
 
 
 def encode(
@@ -24,25 +23,9 @@ def encode(
     name: str,
     crs: str | None = None,
 ) -> ThesisTexture:
-    """Pair of textures of a tree.
+    """Pair of textures of a tree, with 8 or 16 bits per channel.
 
-    Parameters
-    ----------
-    tree : CellTree
-        Numbered as its docstring says.
-    bits : int
-        Bits per channel, 8 or 16.
-    to_source : (2, 3) float64 array
-        Affine map from the unit square to the units of the source.
-    name : str
-        Names the shape in messages and files.
-    crs : str or None
-        Coordinate reference system of the source units.
-
-    Raises
-    ------
-    LimitError
-        If a list is too long for the bits, or a point lies where the format cannot say it.
+    Raises `LimitError` if a list is too long for the bits, or if the format cannot express a point.
 
     Examples
     --------
@@ -83,8 +66,10 @@ def _quad_pixels(tree: CellTree, dtype: np.dtype[Any]) -> NDArray[Any]:
 
 def _curve_pixels(tree: CellTree, dtype: np.dtype[Any], name: str) -> NDArray[Any]:
     maximum = int(np.iinfo(dtype).max)
-    corner = _is_corner(tree.kind, tree.ref, len(tree.curves))
-    low, span = _control_range(corner)
+    corner = np.zeros(len(tree.curves), np.bool_)
+    corner[tree.ref[tree.kind == CellKind.CORNER]] = True
+    low = np.where(corner, 0.0, layout.CONTROL_MIN)[:, None, None]
+    span = np.where(corner, 1.0, layout.CONTROL_MAX - layout.CONTROL_MIN)[:, None, None]
     ends, inner = tree.curves[:, [0, 3]], tree.curves[:, 1:3]
     rounded = np.rint((inner - low) / span * maximum)
     expressible = _on_edge(ends, 2.0 / maximum) & ((rounded >= 0.0) & (rounded <= maximum)).all(axis=(1, 2))
@@ -104,77 +89,46 @@ def _curve_pixels(tree: CellTree, dtype: np.dtype[Any], name: str) -> NDArray[An
     return pixels
 
 
+def quantised_ends(index: NDArray[np.float64], clockwise: NDArray[np.bool_], steps: int) -> NDArray[np.int64]:
+    """Edge indices of P0 and P3, (n, 2), rounded to whole steps around the cell; distinct in each row.
+
+    The order of the two around the cell tells which side is filled: the filled part is bounded by the edge from P3
+    clockwise to P0. Where both round to the same step, the end with the smaller error moves to the next step in the
+    direction that preserves this order. No end is then off by more than one step. `clockwise`, (n,), tells in which
+    direction a curve turns; it decides where P0 and P3 are the same point.
+
+    Examples
+    --------
+    >>> quantised_ends(np.array([[0.502, 0.5], [0.5, 0.502]]), np.array([True, True]), 100)
+    array([[51, 50], [50, 51]])
+    """
+    exact = index * steps
+    nearest = np.rint(exact)
+    whole = nearest.astype(np.int64) % steps
+    for i in np.flatnonzero(whole[:, 0] == whole[:, 1]):
+        walk = (exact[i, 0] - exact[i, 1]) % steps  # clockwise from P3 to P0
+        first = clockwise[i] if walk == 0.0 else walk < 0.5 * steps
+        direction = 1 if first else -1  # of P0, seen from P3
+        moved = exact[i] - nearest[i]
+        if direction * (moved[0] + moved[1]) >= 0.0:
+            whole[i, 0] += direction
+        else:
+            whole[i, 1] -= direction
+    return whole % steps
+
+
 def _on_edge(ends: NDArray[np.float64], half_step: float) -> NDArray[np.bool_]:
-    """Which curves, (n,), have both ends, (n, 2, 2), on the edge of their cell but for half a step of rounding."""
+    """Which curves, (n,), have both ends, (n, 2, 2), on the edge of their cell, within half a step."""
     off = np.minimum(abs(ends), abs(1.0 - ends)).min(axis=2)
     near = (off <= half_step) & (abs(ends - 0.5) <= 0.5 + half_step).all(axis=2)
     both: NDArray[np.bool_] = near.all(axis=1)
     return both
 
 
-def _is_corner(kind: NDArray[np.uint8], ref: NDArray[np.int32], count: int) -> NDArray[np.bool_]:
-    """Which of the curves are corners, (count,)."""
-    corner = np.zeros(count, np.bool_)
-    corner[ref[kind == CellKind.CORNER]] = True
-    return corner
-
-
-def _control_range(corner: NDArray[np.bool_]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Lowest value and span of the inner points' coordinates, (n, 1, 1) each: a corner lies in its cell."""
-    low = np.where(corner, 0.0, layout.CONTROL_MIN)[:, None, None]
-    return low, np.where(corner, 1.0, layout.CONTROL_MAX - layout.CONTROL_MIN)[:, None, None]
-
-
-def decode(texture: ThesisTexture) -> CellTree:
-    """Tree of a pair of textures, with `deviation` and `unresolved` 0.
-
-    The texture holds the coverage of quads only. Those of the cells are 1 and 0 where they are constant, what the
-    texture says where they are quads, and the exact area of the curve where they are curves; then they are scaled
-    towards 0 or 1 until their mean is what the texture says of the quad (it was measured before quantisation).
-
-    Raises
-    ------
-    FormatError
-        If the pixels contradict FORMAT.md.
-
-    Examples
-    --------
-    >>> pixels = np.zeros((1, 4, 3), np.uint8)
-    >>> decode(ThesisTexture(pixels, np.zeros((2, 2, 3), np.uint8))).kind  # 3 is CellKind.FULL
-    array([[3, 3, 3, 3]], dtype=uint8)
-    """
-    texture.check()
-    kind, ref = texture.cells()
-    stored = texture.curves[layout.CONSTANT_ROWS :] / texture.maximum
-    corner = _is_corner(kind, ref, len(stored))
-    low, span = _control_range(corner)
-    curves = np.empty((len(stored), 4, 2))
-    curves[:, [0, 3]] = edge_point(stored[:, :, 0])
-    curves[:, 1:3] = low + stored[:, :, 1:].swapaxes(1, 2) * span
-    curves[corner, 2] = curves[corner, 1]
-
-    of_quad = texture.quads[:, 0, 2] / texture.maximum
-    coverage = (kind == CellKind.FULL).astype(np.float64)
-    is_quad = kind == CellKind.QUAD
-    coverage[is_quad] = of_quad[ref[is_quad]]
-    is_curve = (kind == CellKind.CURVE) | (kind == CellKind.CORNER)
-    coverage[is_curve] = [leaf_area(curves[curve], corner[curve]) for curve in ref[is_curve]]
-    return CellTree(kind, ref, _with_mean(coverage, of_quad), curves, deviation=0.0, unresolved=0)
-
-
-def _with_mean(coverage: NDArray[np.float64], wanted: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Scale each row towards 0 or towards 1, whichever gives it the mean that is wanted; 0..1 stays 0..1."""
-    mean = coverage.mean(axis=1)
-    down, up = mean > wanted, mean < wanted
-    coverage[down] *= (wanted[down] / mean[down])[:, None]
-    coverage[up] = 1.0 - (1.0 - coverage[up]) * ((1.0 - wanted[up]) / (1.0 - mean[up]))[:, None]
-    return coverage
-
-
 def quantisation_step(bits: int) -> float:
     """Largest distance by which quantisation moves an outline, as a share of its cell.
 
-    Inner control points move by at most half a step in x and in y, ends by less, and no point of a cubic moves
+    Inner control points move by at most half a step in x and in y, and ends by less. No point of a cubic moves
     farther than its control points.
 
     Examples

@@ -1,4 +1,4 @@
-"""The thesis's shader on the GPU, without a window."""
+"""Renders a texture of the thesis's encoding by its shader on the GPU, without a window."""
 
 from functools import lru_cache
 from typing import Any
@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.renderers.device import ONE_AT_A_TIME, VERSION, compiled, context, draw
+from vexture.renderers.device import ONE_AT_A_TIME, VERSION, compiled, context, draw, upload
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 from vexture.thesis.shader import Pair, TextureSizes, view_source
 
@@ -15,67 +15,32 @@ __all__ = ["fold", "render_thesis_gpu"]
 
 @lru_cache(maxsize=64)
 def program(sizes: TextureSizes) -> Any:
-    """Compiled shader for all textures of some sizes, with its triangle."""
+    """Compiled shader for all textures of the same sizes, with its triangle."""
     return compiled(view_source(VERSION, sizes))
 
 
 def fold(rows: NDArray[Any], height: int) -> NDArray[np.float32]:
     """Lay a list out as a texture no higher than a limit; row r goes to row r % height, in block r // height.
 
-    Parameters
-    ----------
-    rows : (rows, width, 3) uint8 or uint16 array
-        One list of a texture.
-    height : int
-        Largest number of rows.
-
-    Returns
-    -------
-    (min(rows, height), blocks * width, 4) float32 array
-        Its numbers as 0..1, the unused ones 0.
-
-    Examples
-    --------
-    >>> fold(np.full((5, 4, 3), 255, np.uint8), 2).shape
-    (2, 12, 4)
+    `rows` are (rows, width, 3) uint8 or uint16; the result is (min(rows, height), blocks * width, 4) float32 in 0..1,
+    unused values 0.
     """
     count, width, channels = rows.shape
     blocks = -(-count // height)
     height = min(count, height)
     padded = np.zeros((blocks * height, width, 4), np.float32)
     padded[:count, :, :channels] = rows / np.float32(np.iinfo(rows.dtype).max)
-    return np.ascontiguousarray(padded.reshape(blocks, height, width, 4).swapaxes(0, 1).reshape(height, -1, 4))
+    return padded.reshape(blocks, height, width, 4).swapaxes(0, 1).reshape(height, -1, 4)
 
 
 def render_thesis_gpu(
     texture: Pair, size: Size, view: ViewLike = None, fold_height: int | None = None
 ) -> NDArray[np.float32]:
-    """Render a texture by the thesis's shader.
+    """Render a texture by the thesis's shader; parameters as in `vexture.coverage`.
 
-    Parameters
-    ----------
-    texture : Pair
-        What to draw.
-    size : tuple of int
-        Width and height of the image in pixels.
-    view : (2, 3) or (3, 3) array, View or None
-        From pixel coordinates (x right, y down, centres at +0.5) to the unit square; None fits the square.
-    fold_height : int, optional
-        Rows at which the lists are folded; the device's own limit if not given.
-
-    Returns
-    -------
-    (height, width) float32 array
-        Coverage, 0..1, top row first.
-
-    Raises
-    ------
-    DeviceError
-        If there is no OpenGL.
-    LimitError
-        If the image is larger than the device allows.
-    FormatError
-        If the texture's quads do not form a tree.
+    The lists are folded at `fold_height` rows, or at the device's own limit if it is None. Raises `FormatError` if the
+    texture's quads do not form a tree, `DeviceError` without OpenGL, and `LimitError` if the device cannot draw such a
+    large image.
     """
     width, height = size_of(size)
     matrix = view_matrix(view, (width, height))
@@ -84,12 +49,8 @@ def render_thesis_gpu(
         triangle = program(sizes)
         lists = []
         for unit, (name, rows) in enumerate((("quads", texture.quads), ("curves", texture.curves))):
-            pixels = fold(rows, sizes.fold_height)
-            uploaded = gl.texture(pixels.shape[1::-1], 4, pixels.tobytes(), dtype="f4")
-            uploaded.filter = (gl.NEAREST, gl.NEAREST)
-            uploaded.use(unit)
+            lists.append(upload(gl, fold(rows, sizes.fold_height), unit, "f4"))
             triangle.program[name] = unit
-            lists.append(uploaded)
         triangle.program["list_lengths"] = (len(texture.quads), len(texture.curves))
         triangle.program["to_unit"].write(matrix.T.astype(np.float32).tobytes())
         pixels = draw(gl, triangle, (width, height))

@@ -1,6 +1,6 @@
-"""The bits of the thesis's textures (FORMAT.md, part A), defined once: GLSL and JavaScript are generated from here.
+"""Layout of the thesis's textures (FORMAT.md, part A), from which the GLSL and JavaScript constants are generated.
 
-A pair of RGB images whose channels are read as numbers in [0, 1].
+A texture is a pair of RGB images whose channels are read as numbers in [0, 1].
 """
 
 from typing import Final
@@ -38,7 +38,7 @@ ENCODING_THESIS: Final = "thesis"
 
 QUADS_SUFFIX: Final = ".quads.png"
 CURVES_SUFFIX: Final = ".curves.png"
-"""What follows the name in the names of the two files."""
+"""Endings of the names of the two files."""
 
 QUAD_WIDTH: Final = 4
 """Pixels in a row of the quad texture: one for each cell."""
@@ -49,11 +49,11 @@ CELL_ORDER: Final = (2, 3, 0, 1)
 KIND_CURVE: Final = 0.0
 KIND_CORNER: Final = 0.5
 KIND_QUAD: Final = 1.0
-"""What a cell is, in its red channel (thesis 4.2.4 and 6.1.2)."""
+"""Kind of a cell, in its red channel (thesis 4.2.4 and 6.1.2)."""
 
 THRESHOLD_CORNER: Final = 0.25
 THRESHOLD_QUAD: Final = 0.75
-"""A red channel above the second is a quad, above the first a corner, else a curve."""
+"""A red channel above THRESHOLD_QUAD is a quad, else above THRESHOLD_CORNER a corner, else a curve."""
 
 CURVE_WIDTH: Final = 2
 """Pixels in a row of the curve texture: one for P0 and x, one for P3 and y."""

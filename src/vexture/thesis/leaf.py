@@ -1,7 +1,8 @@
 """The thesis leaf: one cubic, or one straight corner, from edge to edge of its cell, or full, or empty.
 
-In this order (thesis 6.2.1 and 6.1.2): a part of one cubic of the source, exactly; two straight runs that meet in a
-corner; one chain that a cubic fits within tolerance. The filled side is on the right going from P0 to P3.
+A cell becomes, in this order of preference (thesis 6.2.1 and 6.1.2): an exact part of one cubic of the source; two
+straight runs that meet in a corner; a cubic fitted to one chain within tolerance. The filled side is on the right of
+the direction from P0 to P3.
 """
 
 from typing import NamedTuple
@@ -11,15 +12,13 @@ from numpy.typing import NDArray
 
 from vexture.bezier.area import area_right_of, integral_x_dy, leaf_area, loop_area
 from vexture.bezier.fit import fit_cubic
-from vexture.bezier.monotone import Pieces
 from vexture.bezier.roots import cubic_at
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
-from vexture.thesis.chain import JOIN, Chain, link_chain, on_edge
+from vexture.thesis.boundary_chain import JOIN, Chain, filled_sides, on_edge, to_cell, touches_edge
 from vexture.thesis.layout import CONTROL_MAX, CONTROL_MIN
-from vexture.thesis.plain import filled_sides, to_cell, touches_edge
+from vexture.thesis.subdivide import Cell
 from vexture.thesis.tree import CellKind
-from vexture.tree.boundary import cell_paths, quantise, resolve
 
 __all__ = [
     "CORNER",
@@ -29,7 +28,6 @@ __all__ = [
     "NO_LEAF",
     "QUAD",
     "Leaf",
-    "cell_chain",
     "chain_leaf",
     "limit_leaf",
     "nearest_constant",
@@ -42,54 +40,40 @@ CURVE, QUAD, CORNER, FULL, EMPTY = (int(kind) for kind in CellKind)  # as kernel
 NO_LEAF = -1
 
 SHORTEST_CHORD = 16.0 * JOIN
-"""Cell-local units. A curve whose ends are nearer than this has no direction to build a basis on."""
+"""Cell-local units. A curve with a shorter chord has no reliable direction for its basis."""
 
 SLIVER = 1e-9
-"""Share of the cell. A curve that cuts off less lies along the cell's edge."""
+"""Share of the cell. A curve that cuts off less follows the cell's edge."""
 
 MAX_SAMPLES, SAMPLES_PER_PART = 64, 8
-"""Points of a chain that a fit looks at: so many in all, and so many on each part of a short chain."""
+"""Samples of a chain for a fit: at most so many in all, and so many on each part of a short chain."""
 
 
 class Leaf(NamedTuple):
-    """What a cell can be said to hold.
+    """Possible content of a cell."""
 
-    Attributes
-    ----------
-    kind : int
-        A `CellKind` other than QUAD, or `NO_LEAF`.
-    curve : (4, 2) float64 array
-        P0 P1 P2 P3 in the cell's unit square; for a corner P1 = P2 = the corner.
-    coverage : float
-        Filled part of the cell, of the drawing rather than of the curve.
-    distance : float
-        Largest distance of the drawing's outline from the curve, in cell-local units.
-    resolved : bool
-        False if this is the best that a cell at the depth limit can say, rather than good enough.
-    """
-
-    kind: int
-    curve: NDArray[np.float64]
-    coverage: float
-    distance: float
-    resolved: bool
+    kind: int  # a `CellKind` other than QUAD, or `NO_LEAF`
+    curve: NDArray[np.float64]  # (4, 2): P0 P1 P2 P3 in the cell's unit square; for a corner P1 = P2 = the corner
+    coverage: float  # part of the cell that the drawing fills; the curve may differ
+    distance: float  # largest distance of the drawing's outline from the curve, in cell-local units
+    resolved: bool  # false for an approximation beyond the tolerance, at the depth limit
 
 
 @kernel
 def no_leaf() -> Leaf:
-    """Answer of an attempt that failed."""
+    """Result of an attempt that failed."""
     return Leaf(NO_LEAF, np.zeros((4, 2)), 0.0, 0.0, True)
 
 
 @kernel
 def _constant_leaf(is_full: bool) -> Leaf:
-    """Full or empty, because no boundary is in the cell."""
+    """Full or empty leaf of a cell without a boundary."""
     return Leaf(FULL if is_full else EMPTY, np.zeros((4, 2)), 1.0 if is_full else 0.0, 0.0, True)
 
 
 @kernel
 def nearest_constant(area: float) -> Leaf:
-    """Full or empty for want of anything better: an outline in the cell is up to its diagonal away."""
+    """Full or empty leaf as a last resort: an outline in the cell is up to its diagonal away."""
     return Leaf(FULL if area > 0.5 else EMPTY, np.zeros((4, 2)), area, np.sqrt(2.0), False)
 
 
@@ -97,21 +81,16 @@ def nearest_constant(area: float) -> Leaf:
 def snap_to_edge(point: NDArray[np.float64]) -> None:
     """Move a point exactly onto the nearest side of the unit square."""
     x, y = min(max(point[0], 0.0), 1.0), min(max(point[1], 0.0), 1.0)
-    nearest = min(x, 1.0 - x, y, 1.0 - y)
-    if nearest == x:
-        x = 0.0
-    elif nearest == 1.0 - x:
-        x = 1.0
-    elif nearest == y:
-        y = 0.0
+    if min(x, 1.0 - x) <= min(y, 1.0 - y):
+        x = 0.0 if x <= 1.0 - x else 1.0
     else:
-        y = 1.0
+        y = 0.0 if y <= 1.0 - y else 1.0
     point[0], point[1] = x, y
 
 
 @kernel
 def _expressible(curve: NDArray[np.float64]) -> bool:
-    """Whether the format can hold a curve: its inner control points in range, its ends apart."""
+    """Whether the format can store a curve: inner control points in range, chord long enough."""
     for k in (1, 2):
         for axis in range(2):
             if not CONTROL_MIN <= curve[k, axis] <= CONTROL_MAX:
@@ -120,49 +99,30 @@ def _expressible(curve: NDArray[np.float64]) -> bool:
 
 
 @kernel
-def own_leaf(
-    pieces: Pieces,
-    first: int,
-    last: int,
-    cubics: NDArray[np.float64],
-    corner_winding: int,
-    rule: int,
-    x0: float,
-    y0: float,
-    size: float,
-) -> Leaf:
-    """Leaf of a cell that one cubic of the source crosses once from edge to edge: its exact part.
+def own_leaf(cell: Cell, cubics: NDArray[np.float64], rules: NDArray[np.int64]) -> Leaf:
+    """Leaf of a cell with one path if a single cubic of it crosses the cell once from edge to edge: its exact part.
 
-    Nothing is quantised or resolved. A cubic that crosses itself in the cell is taken only under the even-odd rule,
-    which is what the shader's count of crossings means.
-
-    Parameters
-    ----------
-    pieces : Pieces
-        Those of the cell, all of one path, are first..last-1.
-    cubics : (m, 4, 2) float64 array
-        The source's.
-    corner_winding, rule : int
-        Of that path.
-    x0, y0, size : float
-        The cell.
+    Nothing is quantised or resolved. A cubic that crosses itself in the cell is accepted only under the even-odd rule,
+    because the shader counts crossings. `cubics`, (m, 4, 2), are the source's; `rules` has the `FillRule` of each path.
     """
-    for i in range(first + 1, last):
-        if pieces.segment[i] != pieces.segment[first] or pieces.span[i, 0] != pieces.span[i - 1, 1]:
+    points, _, segment, span = cell.pieces
+    last, rule = len(points) - 1, rules[cell.present[0, 0]]
+    for i in range(1, last + 1):
+        if segment[i] != segment[0] or span[i, 0] != span[i - 1, 1]:
             return no_leaf()
-    local = to_cell(pieces.points[first:last], x0, y0, size)
+    local = to_cell(cell)
     curve = np.empty((4, 2))
-    subcubic(cubics[pieces.segment[first]], pieces.span[first, 0], pieces.span[last - 1, 1], curve)
-    for axis, corner in ((0, x0), (1, y0)):
-        curve[0, axis], curve[3, axis] = local[0, 0, axis], local[last - first - 1, 3, axis]
+    subcubic(cubics[segment[0]], span[0, 0], span[last, 1], curve)
+    for axis, corner in ((0, cell.x0), (1, cell.y0)):
+        curve[0, axis], curve[3, axis] = local[0, 0, axis], local[last, 3, axis]
         for k in (1, 2):
-            curve[k, axis] = (curve[k, axis] - corner) / size
+            curve[k, axis] = (curve[k, axis] - corner) / cell.size
     if not (touches_edge(curve[0]) and touches_edge(curve[3]) and _expressible(curve)):
         return no_leaf()
-    if rule == 0 and last - first > 1 and loop_area(curve) != 0.0:
+    if rule == 0 and last > 0 and loop_area(curve) != 0.0:
         return no_leaf()
     signed_area = area_right_of(curve[0], curve[3], integral_x_dy(curve))
-    right, left = filled_sides(local, corner_winding, rule, signed_area)
+    right, left = filled_sides(cell, local, rule, signed_area)
     area = leaf_area(curve, False)
     if right == left or area >= 1.0 - SLIVER:
         return _constant_leaf(right)
@@ -176,8 +136,8 @@ def own_leaf(
 
 
 @kernel
-def _own_chain(chain: Chain, cubics: NDArray[np.float64], x0: float, y0: float, size: float) -> Leaf:
-    """Leaf of a chain whose parts are consecutive on one cubic of the source: that cubic's part, exactly."""
+def _own_chain(chain: Chain, cubics: NDArray[np.float64], cell: Cell) -> Leaf:
+    """Leaf of a chain whose parts are consecutive on one cubic of the source: the exact part of that cubic."""
     n = len(chain.segment)
     segment = chain.segment[0]
     if segment < 0:
@@ -188,7 +148,7 @@ def _own_chain(chain: Chain, cubics: NDArray[np.float64], x0: float, y0: float, 
     curve = np.empty((4, 2))
     subcubic(cubics[segment], chain.span[0, 0], chain.span[n - 1, 1], curve)
     for k in range(4):
-        curve[k, 0], curve[k, 1] = (curve[k, 0] - x0) / size, (curve[k, 1] - y0) / size
+        curve[k, 0], curve[k, 1] = (curve[k, 0] - cell.x0) / cell.size, (curve[k, 1] - cell.y0) / cell.size
     for end in (0, 3):
         snap_to_edge(curve[end])
     if not _expressible(curve) or (n > 1 and loop_area(curve) != 0.0):
@@ -198,7 +158,7 @@ def _own_chain(chain: Chain, cubics: NDArray[np.float64], x0: float, y0: float, 
 
 @kernel
 def _off_line(curves: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
-    """Largest distance of the control points of a run from the straight line between two points."""
+    """Largest distance of the control points of a run from the segment between two points."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     length = np.hypot(dx, dy)
     worst = 0.0
@@ -235,7 +195,7 @@ def _corner(chain: Chain, tolerance: float) -> Leaf:
 
 @kernel
 def _sample(chain: Chain, per_part: int) -> NDArray[np.float64]:
-    """Points along a chain, its joints among them."""
+    """Points along a chain, including its joints."""
     n = len(chain.curves)
     out = np.empty((n * per_part + 1, 2))
     for k in range(n):
@@ -249,7 +209,7 @@ def _sample(chain: Chain, per_part: int) -> NDArray[np.float64]:
 
 @kernel
 def _fit(chain: Chain, tolerance: float) -> Leaf:
-    """Leaf of a chain that one cubic describes within tolerance."""
+    """Leaf of a chain that one cubic approximates within tolerance."""
     per_part = min(max(MAX_SAMPLES // len(chain.curves), 2), SAMPLES_PER_PART)
     curve = np.empty((4, 2))
     distance = fit_cubic(_sample(chain, per_part), tolerance, curve)
@@ -259,56 +219,10 @@ def _fit(chain: Chain, tolerance: float) -> Leaf:
 
 
 @kernel
-def cell_chain(
-    pieces: Pieces,
-    first: int,
-    last: int,
-    present: NDArray[np.int64],
-    rules: NDArray[np.int64],
-    x0: float,
-    y0: float,
-    size: float,
-) -> tuple[Chain, float]:
-    """Chain of a cell's boundary after its overlaps and crossings are resolved, and its filled part.
-
-    Parameters
-    ----------
-    pieces : Pieces
-        Those of the cell are first..last-1.
-    present : (n, 2) int64 array
-        The paths in the cell and their corner windings.
-    rules : (paths,) int64 array
-        `FillRule` of each path of the drawing.
-    x0, y0, size : float
-        The cell.
-    """
-    owner = np.empty(last - first, np.int64)
-    corner, cell_rules = np.empty(len(present), np.int64), np.empty(len(present), np.int64)
-    cell_paths(pieces.path[first:last], present, rules, owner, corner, cell_rules)
-    curves = quantise(pieces.points[first:last], x0, y0, size)
-    boundary = resolve(curves, owner, corner, cell_rules)
-    return link_chain(curves, pieces.segment[first:last], pieces.span[first:last], boundary)
-
-
-@kernel
-def chain_leaf(
-    chain: Chain, area: float, cubics: NDArray[np.float64], x0: float, y0: float, size: float, tolerance: float
-) -> Leaf:
-    """Leaf that describes a chain within tolerance; `NO_LEAF` if there is none.
-
-    Parameters
-    ----------
-    chain, area : Chain, float
-        What `cell_chain` gives.
-    cubics : (m, 4, 2) float64 array
-        The source's.
-    x0, y0, size : float
-        The cell.
-    tolerance : float
-        Largest distance between the outline and the leaf's, in cell-local units.
-    """
+def chain_leaf(chain: Chain, cubics: NDArray[np.float64], cell: Cell, tolerance: float) -> Leaf:
+    """Leaf that describes a cell's chain within a tolerance in cell-local units, or `NO_LEAF`."""
     if chain.chains == 0:
-        return _constant_leaf(area > 0.5)
+        return _constant_leaf(chain.area > 0.5)
     if chain.chains != 1:
         return no_leaf()
     start, stop = chain.curves[0, 0], chain.curves[len(chain.curves) - 1, 3]
@@ -318,25 +232,21 @@ def chain_leaf(
     snap_to_edge(stop)
     if np.hypot(stop[0] - start[0], stop[1] - start[1]) < SHORTEST_CHORD:
         return no_leaf()
-    leaf = _own_chain(chain, cubics, x0, y0, size)
+    leaf = _own_chain(chain, cubics, cell)
     if leaf.kind == NO_LEAF:
         leaf = _corner(chain, tolerance)
     if leaf.kind == NO_LEAF:
         leaf = _fit(chain, tolerance)
-    return Leaf(leaf.kind, leaf.curve, area, leaf.distance, True)
+    return Leaf(leaf.kind, leaf.curve, chain.area, leaf.distance, True)
 
 
 @kernel
-def limit_leaf(chain: Chain, area: float) -> Leaf:
-    """Leaf of a cell at the depth limit: a straight line from edge to edge, or full, or empty.
+def limit_leaf(chain: Chain) -> Leaf:
+    """Leaf of a cell at the depth limit: the straight line from edge to edge, or constant, of the nearest area.
 
-    The one whose area is nearest; a line joins two points at which the boundary meets the cell's edge.
-
-    Parameters
-    ----------
-    chain, area : Chain, float
-        What `cell_chain` gives.
+    A line joins two points at which the boundary meets the cell's edge.
     """
+    area = chain.area
     best = nearest_constant(area)
     error = min(area, 1.0 - area)
     line = np.empty((4, 2))

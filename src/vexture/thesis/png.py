@@ -1,4 +1,4 @@
-"""Images with texts, to PNG, and RGB images back: as small as it gets, and safe to read from strangers."""
+"""Writes compact PNG files with text chunks; reads RGB images and their texts from untrusted files."""
 
 import io
 import struct
@@ -21,14 +21,10 @@ COLOUR_TYPES = {1: 0, CHANNELS: RGB}
 
 
 def write_png(pixels: NDArray[Any], texts: dict[str, str]) -> bytes:
-    """Write a PNG, as small as one filter for all rows and a choice of deflate strategies make it.
+    """Write a PNG, RGB or grey: (height, width, 3) or (height, width, 1) uint8 or uint16.
 
-    Parameters
-    ----------
-    pixels : (height, width, 3) or (height, width, 1) uint8 or uint16 array
-        RGB, or grey.
-    texts : dict
-        Keywords, in Latin-1, and their values.
+    One filter for all rows and one deflate strategy are chosen for the smallest file. The keywords of the texts are
+    Latin-1.
 
     Examples
     --------
@@ -51,15 +47,15 @@ def _framed(*chunks: tuple[bytes, bytes]) -> bytes:
 
 
 def _deflate(image: bytes, strategy: int) -> bytes:
-    """Deflate at zlib's default level: 9 saves 0.3% at most and takes ten times as long on the longest lists."""
+    """Deflate at zlib's default level: level 9 saves 0.3% at most and takes ten times as long on the longest lists."""
     stream = zlib.compressobj(strategy=strategy)
     return stream.compress(image) + stream.flush()
 
 
 def _filtered(pixels: NDArray[Any]) -> list[bytes]:
-    """Return the image under the filters None, Sub and Up (PNG specification, 9.2), filter bytes included.
+    """Image bytes under the filters None, Sub and Up (PNG specification, 9.2), with a filter byte for each row.
 
-    Average and Paeth make no texture of our drawings smaller.
+    The filters Average and Paeth make no texture of our drawings smaller.
     """
     height, width, channels = pixels.shape
     step = channels * pixels.dtype.itemsize
@@ -67,7 +63,7 @@ def _filtered(pixels: NDArray[Any]) -> list[bytes]:
     images = np.zeros((3, height, 1 + width * step), np.uint8)
     images[:, :, 0] = np.arange(3)[:, None]
     images[:, :, 1:] = raw
-    images[1, :, 1 + step :] -= raw[:, :-step]  # modulo 256, as the specification wants
+    images[1, :, 1 + step :] -= raw[:, :-step]  # modulo 256, as specified
     images[2, 1:, 1:] -= raw[:-1]
     return [image.tobytes() for image in images]
 
@@ -81,29 +77,15 @@ def _text_chunk(key: str, value: str) -> tuple[bytes, bytes]:
 
 
 def read_png(data: bytes, width: int, where: str) -> tuple[NDArray[Any], dict[str, str]]:
-    """Pixels and texts of a PNG that a stranger may have written.
+    """Pixels, (height, width, 3) uint8 or uint16, and texts of an untrusted PNG; `where` names it in messages.
 
-    Everything that costs memory is bounded by the header, and the header by the format's limits.
-
-    Parameters
-    ----------
-    data : bytes
-        The file.
-    width : int
-        The width it must have.
-    where : str
-        Names the file in messages.
-
-    Returns
-    -------
-    pixels : (height, width, 3) uint8 or uint16 array
-    texts : dict
-        Values of its tEXt and uncompressed iTXt chunks by keyword.
+    The header bounds all memory that is used, and the format's limits bound the header. The texts are those of tEXt and
+    uncompressed iTXt chunks, by keyword.
 
     Raises
     ------
     FormatError
-        If it is damaged or anything else than RGB with 8 or 16 bits, not interlaced, of that width.
+        If it is damaged, or anything but an RGB image of 8 or 16 bits and this width, not interlaced.
     """
     if len(data) > FILE_LIMIT:
         raise FormatError(f"{where}: longer than {FILE_LIMIT} bytes, so not a texture; convert the drawing again")
@@ -112,7 +94,7 @@ def read_png(data: bytes, width: int, where: str) -> tuple[NDArray[Any], dict[st
         height, bits = _read_header(chunks, width, where)
         deflated = b"".join(body for tag, body in chunks if tag == b"IDAT")
         _check_inflated(deflated, width, height, bits)
-        rows = png.Reader(bytes=_framed(chunks[0], (b"IDAT", deflated))).read()[2]  # without what others may add
+        rows = png.Reader(bytes=_framed(chunks[0], (b"IDAT", deflated))).read()[2]  # without other programs' chunks
         image = np.frombuffer(b"".join(bytes(row) for row in rows), np.uint8 if bits == 8 else np.uint16)
         return image.reshape(height, width, CHANNELS), _read_texts(chunks)
     except (png.Error, zlib.error, EOFError, UnicodeDecodeError) as error:
@@ -139,7 +121,7 @@ def _read_header(chunks: list[tuple[bytes, bytes]], width: int, where: str) -> t
 
 
 def _check_inflated(data: bytes, width: int, height: int, bits: int) -> None:
-    """Refuse image data that inflate to anything else than the header says, without inflating more than that."""
+    """Refuse image data that inflate to a size other than the header's; inflate no more than that."""
     size = height * (1 + width * CHANNELS * bits // 8)
     stream = zlib.decompressobj()
     if len(stream.decompress(data, size + 1)) != size or not stream.eof:

@@ -1,4 +1,4 @@
-"""The thesis's textures themselves, as arrays, and their files."""
+"""The thesis's pair of textures, as arrays and as files."""
 
 import os
 from dataclasses import dataclass, field
@@ -14,13 +14,12 @@ from vexture.errors import FormatError, LimitError, ParameterError
 from vexture.layout import TEXT_ENCODING, TEXT_VERSION
 from vexture.renderers.picture import painted
 from vexture.renderers.view import Size, ViewLike, size_of
-from vexture.texture.files import read_file, write_together
+from vexture.texture.files import file_name, is_folder, read_file, write_together
 from vexture.thesis import layout
-from vexture.thesis.files import pair_of, target_of
 from vexture.thesis.png import read_png, write_png
 from vexture.thesis.tree import CellKind
 
-__all__ = ["ThesisTexture", "load_thesis"]
+__all__ = ["ThesisTexture", "load", "pair_of"]
 
 REMEDY: Final = "convert the drawing again"
 
@@ -37,7 +36,7 @@ class ThesisTexture:
     Parameters
     ----------
     quads : (quads, 4, 3) uint8 or uint16 array
-        A row for each quad, a pixel for each cell: what it is, which one, the quad's coverage.
+        A row for each quad, a pixel for each cell: its kind, its index, the quad's coverage.
     curves : (2 + curves, 2, 3) array of the same type
         A row for each curve; the first two stand for *full* and *empty*.
     to_source : (2, 3) float64 array
@@ -94,19 +93,11 @@ class ThesisTexture:
         return (1 << self.bits) - 1
 
     def cells(self) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
-        """Read what every cell is and which one; check that it is a tree.
+        """Kind and index of each cell; checks that the quads form a tree.
 
-        Returns
-        -------
-        kind : (quads, 4) uint8 array
-            A `CellKind` for each cell, in the order of `CellTree`.
-        ref : (quads, 4) int32 array
-            Index of the quad or curve (without the constants); -1 for constant cells.
-
-        Raises
-        ------
-        FormatError
-            If a row is not reached exactly once, in order.
+        Both are (quads, 4), in the order of `vexture.thesis.tree.CellTree`: a `CellKind` as uint8, and the index of the
+        quad or curve (without the constants) as int32, -1 for constant cells. Raises `FormatError` if a row is not
+        referred to exactly once, in order.
         """
         red, green, _ = np.moveaxis(self.quads[:, np.argsort(layout.CELL_ORDER)] / self.maximum, 2, 0)
         is_quad = red > layout.THRESHOLD_QUAD
@@ -249,31 +240,26 @@ class ThesisTexture:
         return dict(zip((layout.QUADS_SUFFIX, layout.CURVES_SUFFIX), self.to_png(), strict=True))
 
     def save(self, path: str | os.PathLike[str]) -> tuple[Path, Path]:
-        """Write the pair of files, both or none.
+        """Write the pair of files, both or none; return their paths, the quads' first.
 
         Parameters
         ----------
         path : path
-            A folder (that exists or ends with a separator): the files get the texture's name. Else their common
-            stem; ``.quads.png``, ``.curves.png`` or ``.png`` at its end are dropped.
-
-        Returns
-        -------
-        tuple of Path
-            The files of the quads and of the curves.
+            A folder (that exists or ends with a separator): the files get the texture's name. Otherwise either file or
+            their common stem, with or without ``.png``.
 
         Raises
         ------
         DeviceError
             If the disk refuses.
         """
-        targets = target_of(path, self.name)
+        targets = pair_of(Path(path) / (file_name(self.name) + layout.QUADS_SUFFIX) if is_folder(path) else path)
         write_together(dict(zip(targets, self.to_png(), strict=True)))
         return targets
 
 
 def _check_rising(rows: NDArray[np.int32], first: int, count: int, what: str) -> None:
-    """Every row of a list but the first few is referred to once, in order."""
+    """Check that each row of a list, from `first` on, is referred to once, in order."""
     if len(rows) != count - first:
         raise FormatError(f"{len(rows)} references to {count - first} {what} rows; each must have one; {REMEDY}")
     wrong = rows != np.arange(first, count)
@@ -284,13 +270,28 @@ def _check_rising(rows: NDArray[np.int32], first: int, count: int, what: str) ->
         )
 
 
-def load_thesis(path: str | os.PathLike[str]) -> ThesisTexture:
+def pair_of(path: str | os.PathLike[str]) -> tuple[Path, Path]:
+    """Both files of a pair, from either of them, their common stem, or that stem with ``.png``.
+
+    Examples
+    --------
+    >>> [str(file) for file in pair_of("maps/delft.curves.png")]
+    ['maps/delft.quads.png', 'maps/delft.curves.png']
+    """
+    given = Path(path)
+    suffixes = (layout.QUADS_SUFFIX, layout.CURVES_SUFFIX, ".png")
+    suffix = next((suffix for suffix in suffixes if given.name.endswith(suffix) and given.name != suffix), "")
+    stem = given.name.removesuffix(suffix)
+    return given.parent / (stem + layout.QUADS_SUFFIX), given.parent / (stem + layout.CURVES_SUFFIX)
+
+
+def load(path: str | os.PathLike[str]) -> ThesisTexture:
     """Read a pair of texture files.
 
     Parameters
     ----------
     path : path
-        Either file of the pair, or their common stem.
+        Either file of the pair, or their common stem, with or without ``.png``.
 
     Raises
     ------
@@ -300,9 +301,9 @@ def load_thesis(path: str | os.PathLike[str]) -> ThesisTexture:
         If a file may not be read.
     """
     quads_path, curves_path = pair_of(path)
-    quads, texts = read_png(read_file(quads_path, layout.FILE_LIMIT, NOT_FOUND), layout.QUAD_WIDTH, str(quads_path))
-    curves, other_texts = read_png(
-        read_file(curves_path, layout.FILE_LIMIT, NOT_FOUND), layout.CURVE_WIDTH, str(curves_path)
+    (quads, texts), (curves, other_texts) = (
+        read_png(read_file(file, layout.FILE_LIMIT, NOT_FOUND), width, str(file))
+        for file, width in ((quads_path, layout.QUAD_WIDTH), (curves_path, layout.CURVE_WIDTH))
     )
     try:
         for key in (TEXT_VERSION, TEXT_ENCODING, layout.TEXT_TRANSFORM, layout.TEXT_CRS):
@@ -322,6 +323,7 @@ def load_thesis(path: str | os.PathLike[str]) -> ThesisTexture:
 
 
 def _read_transform(texts: dict[str, str]) -> NDArray[np.float64]:
+    """Affine map to the source, (2, 3), after a check of the version and the encoding."""
     for key, known in ((TEXT_VERSION, layout.FORMAT_VERSION), (TEXT_ENCODING, layout.ENCODING_THESIS)):
         if texts.get(key) != known:
             raise FormatError(f"{key} is {texts.get(key)!r}; this program reads {known!r}; update it or {REMEDY}")

@@ -1,4 +1,4 @@
-"""The quad-tree of the thesis, as arrays: one cubic or one corner in a leaf."""
+"""The quad-tree of the thesis, as arrays."""
 
 from dataclasses import dataclass
 from enum import IntEnum
@@ -10,7 +10,7 @@ __all__ = ["CellKind", "CellTree"]
 
 
 class CellKind(IntEnum):
-    """What a cell of a quad is."""
+    """Kind of a quad's cell."""
 
     CURVE = 0
     QUAD = 1
@@ -25,35 +25,19 @@ class CellTree:
 
     Quads are numbered breadth first, quad 0 is the unit square; cell k of a quad is its (x half) + 2 (y half),
     y up. References rise with the index of the quad and the cell that hold them. The filled side of a curve or
-    corner is on the right going from P0 to P3.
-
-    Parameters
-    ----------
-    kind : (quads, 4) uint8 array
-        A `CellKind` for each cell.
-    ref : (quads, 4) int32 array
-        Index of the quad (QUAD) or of the curve (CURVE, CORNER) that a cell refers to; -1 where it is constant.
-    coverage : (quads, 4) float64 array
-        Filled part of each cell, 0..1.
-    curves : (curves, 4, 2) float64 array
-        P0 P1 P2 P3 in their cell's own unit square; P0 and P3 lie on its edge. A corner's P1 and P2 are both the
-        corner.
-    deviation : float
-        Largest distance between the drawing's outline and the leaves', in unit-square units, before quantisation.
-    unresolved : int
-        Number of cells at the depth limit that hold more than a leaf can say.
+    corner is on the right of the direction from P0 to P3.
     """
 
-    kind: NDArray[np.uint8]
-    ref: NDArray[np.int32]
-    coverage: NDArray[np.float64]
-    curves: NDArray[np.float64]
-    deviation: float
-    unresolved: int
+    kind: NDArray[np.uint8]  # (quads, 4): a `CellKind` for each cell
+    ref: NDArray[np.int32]  # (quads, 4): index of the quad or of the curve (CURVE, CORNER); -1 where constant
+    coverage: NDArray[np.float64]  # (quads, 4): filled part of each cell, 0..1
+    curves: NDArray[np.float64]  # (curves, 4, 2): P0 P1 P2 P3 in their cell's unit square; a corner is P1 and P2
+    deviation: float  # largest distance between the outlines before quantisation, in unit-square units
+    unresolved: int  # number of cells at the depth limit whose content a leaf cannot represent
 
     @property
     def quad_coverage(self) -> NDArray[np.float64]:
-        """Filled part of each quad: the mean of its cells', (quads,)."""
+        """Filled part of each quad, (quads,): the mean of its cells'."""
         mean: NDArray[np.float64] = self.coverage.mean(axis=1)
         return mean
 

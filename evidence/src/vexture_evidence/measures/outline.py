@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vexture.bezier.points import points_along, points_at
 from vexture.drawing import Drawing
-from vexture.thesis.sampled import SAMPLES_ACROSS
+from vexture.thesis.sample_and_fit import SAMPLES_ACROSS
 from vexture_evidence.measures.closeups import joined
 
 __all__ = ["first_samples", "off_outline"]

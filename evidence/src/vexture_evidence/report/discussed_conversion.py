@@ -5,7 +5,7 @@ import numpy as np
 from vexture.pipeline import run
 from vexture.texture.decode import decode
 from vexture.thesis.encode import encode
-from vexture.thesis.sampled import SAMPLES_ACROSS
+from vexture.thesis.sample_and_fit import SAMPLES_ACROSS
 from vexture.thesis.texture import ThesisTexture
 from vexture.thesis.tree import CellTree
 from vexture_evidence.figures.discussion import before_after, density, stored_value_errors, unneeded_divisions

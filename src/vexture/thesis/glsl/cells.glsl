@@ -4,24 +4,24 @@
 
 uniform ivec2 list_lengths;  // rows of quads and of curves
 
-// A leaf; or a quad that is smaller than a pixel, as a constant.
+// A leaf; or a quad smaller than a pixel, as a constant.
 struct Cell {
     vec2 origin;  // lower left corner
     float size;   // of its side
     int shape;    // CONSTANT, CURVE or CORNER
     float value;  // coverage of a constant
     vec2 start;   // P0 in the cell's own square
-    vec2 along;   // basis of the chord (change_basis), in which are
+    vec2 along;   // basis of the chord (change_basis), for p1, p2 and heights
     vec2 p1;      // P1 or the corner
     vec2 p2;      // P2
-    vec2 heights; // bounds of the outline's
+    vec2 heights; // bounds of the outline's height
 };
 
 Cell constant_cell(vec2 origin, float size, float value) {
     return Cell(origin, size, CONSTANT, value, vec2(0.0), vec2(0.0), vec2(0.0), vec2(0.0), vec2(0.0));
 }
 
-// A list longer than the device's textures are high goes on in the columns to its right.
+// A list longer than the height of the device's textures continues in the columns to its right.
 vec4 fetch(sampler2D list, int width, int row, int column) {
     return texelFetch(list, ivec2(row / FOLD_HEIGHT * width + column, row % FOLD_HEIGHT), 0);
 }
@@ -32,8 +32,8 @@ vec2 edge_point(float edge) {
     return s < 1.0 ? vec2(s, 1.0) : s < 2.0 ? vec2(1.0, 2.0 - s) : s < 3.0 ? vec2(3.0 - s, 0.0) : vec2(0.0, s - 3.0);
 }
 
-// P3. An outline that ends where it starts has no chord; it gets that of a very short one, which is a step along the edge:
-// clockwise if the outline turns counter-clockwise.
+// P3. An outline that ends where it starts has no chord; its P3 moves by a short step along the edge, clockwise if the
+// outline turns counter-clockwise.
 vec2 end_point(float edge0, float edge3, vec2 p1, vec2 p2) {
     if (edge0 != edge3) {
         return edge_point(edge3);
@@ -57,7 +57,7 @@ Cell read_leaf(sampler2D curves, vec2 origin, float size, int shape, int row) {
     vec2 along = chord / dot(chord, chord);
     p1 = change_basis(along, p1 - start);
     p2 = change_basis(along, p2 - start);
-    // together the weights of P1 and P2 are at most 3/4
+    // the sum of the weights of P1 and P2 is at most 3/4
     vec2 heights = (shape == CURVE ? 0.75 : 1.0) * vec2(min(0.0, min(p1.y, p2.y)), max(0.0, max(p1.y, p2.y)));
     return Cell(origin, size, shape, 0.0, start, along, p1, p2, heights);
 }
@@ -66,7 +66,7 @@ bool outside_square(vec2 point) {
     return any(lessThan(point, vec2(0.0))) || any(greaterThanEqual(point, vec2(1.0)));
 }
 
-// Down the tree (thesis 3.4, 4.4.2), no deeper than the quads that are at least as large as a pixel (4.4.3).
+// Descends the tree (thesis 3.4, 4.4.2) to quads that are no smaller than a pixel (4.4.3).
 Cell find_cell(sampler2D quads, sampler2D curves, vec2 point, float footprint) {
     vec2 origin = vec2(0.0);
     float size = 1.0;
@@ -93,7 +93,7 @@ Cell find_cell(sampler2D quads, sampler2D curves, vec2 point, float footprint) {
         }
         return read_leaf(curves, origin, size, texel.r > THRESHOLD_CORNER ? CORNER : CURVE, row);
     }
-    return constant_cell(origin, size, 0.0);  // deeper than the texture says it is
+    return constant_cell(origin, size, 0.0);  // deeper than the texture's stated depth
 }
 
 bool cell_contains(Cell cell, vec2 low, vec2 high) {

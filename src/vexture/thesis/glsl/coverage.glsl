@@ -4,14 +4,14 @@
 
 // Mean of SAMPLES x SAMPLES points of a pixel (thesis 4.4.3), one in each of as many equal squares.
 //
-// The thesis's grid is parallel to the pixels, and so an upright or level edge meets four points at once: it is wrong by
-// up to 32/255. This grid is turned (it is spanned by (4, -1)/16 and (1, 4)/16), so that such an edge meets one at a time.
+// The thesis's grid is parallel to the pixels, so that a vertical or horizontal edge passes four points at once, with an
+// error of up to 32/255. This grid is turned (spanned by (4, -1)/16 and (1, 4)/16): such an edge passes one at a time.
 //
-// A point that leaves the cell of the one before it is looked up again. The thesis evaluates all points with the curve of
-// the pixel's centre, beyond the cell where that curve ends, and that draws the lines along its cells (thesis 6.3).
+// A point outside the cell of the previous one is looked up again. The thesis evaluates all points with the curve of the
+// pixel's centre, even beyond its cell, and thereby draws lines along its cells (thesis 6.3).
 //
-// Parameters: the pixel's centre in the unit square, and the steps to the pixels on its right and below (dFdx, dFdy), taken
-// where all pixels of a group still run together.
+// Parameters: the pixel's centre in the unit square, and the steps to the next pixels (dFdx, dFdy), taken in uniform
+// control flow.
 float coverage(sampler2D quads, sampler2D curves, vec2 center, vec2 dx, vec2 dy) {
     float footprint = max(length(dx), length(dy));
     vec2 reach = 0.5 * (abs(dx) + abs(dy));
@@ -29,7 +29,7 @@ float coverage(sampler2D quads, sampler2D curves, vec2 center, vec2 dx, vec2 dy)
     float sum = 0.0;
     for (int i = 0; i < SAMPLES * SAMPLES; i++) {
         int row = i / SAMPLES;
-        int column = row % 2 == 0 ? i % SAMPLES : SAMPLES - 1 - i % SAMPLES;  // to and fro, so that few steps leave a cell
+        int column = row % 2 == 0 ? i % SAMPLES : SAMPLES - 1 - i % SAMPLES;  // back and forth: few steps leave a cell
         vec2 turned = (vec2(row, SAMPLES - 1 - column) + 0.5) / float(SAMPLES);
         vec2 offset = (vec2(column, row) + turned) / float(SAMPLES) - 0.5;
         vec2 point = center + offset.x * dx + offset.y * dy;

@@ -1,14 +1,14 @@
 // Roots of a t^3 + b t^2 + c t + d by the solution paths of thesis Figure 3.5, equations 3.3 to 3.12.
 // Exports: Roots, solution_path, solve_cubic.
 //
-// In float32 the equations as printed draw speckles where one path borders on another. What keeps them away:
+// In float32 the equations as printed cause speckles where one path borders on another. Countermeasures:
 // - The discriminant is evaluated in its direct form, because the thesis's (Delta_1^2 - 4 Delta_0^3) / (-27 a^2)
 //   cancels where a is small; and about the inflection, because near a triple root every form cancels elsewhere.
 //   A shift of t changes neither the discriminant nor Delta_0 and Delta_1.
-// - Of three roots only the farthest comes from the trigonometric equation; the others would drown in its size.
-// - Every root is polished with the cubic itself: GPUs need not compute cosines to better than 2^-11.
-// - No path gets the parity wrong: one or three roots of a cubic, none or two of a quadratic; a double root is left
-//   out (thesis 3.3.3). A wrong choice of path then only moves the curve by a rounding error.
+// - Of three roots only the farthest comes from the trigonometric equation, whose rounding error is of its size.
+// - Every root is polished with the cubic itself: GPUs may compute cosines with an error of 2^-11.
+// - Every path preserves parity: one or three roots of a cubic, none or two of a quadratic, no double root (thesis
+//   3.3.3). A wrong choice of path then moves the curve by a rounding error only.
 
 struct Roots {
     int found;
@@ -19,7 +19,7 @@ float evaluate_cubic(float a, float b, float c, float d, float t) {
     return ((a * t + b) * t + c) * t + d;
 }
 
-// Two of Newton's steps, each taken only if it lessens the error: at a double root the slope is worthless.
+// Two Newton steps, each taken only if it reduces the error: the slope at a double root is useless.
 float polish(float a, float b, float c, float d, float t) {
     for (int i = 0; i < 2; i++) {
         float error = evaluate_cubic(a, b, c, d, t);
@@ -30,7 +30,7 @@ float polish(float a, float b, float c, float d, float t) {
     return t;
 }
 
-// The inflection -b / (3a), or the nearest t to it that is not far from the curve's 0..1.
+// The inflection -b / (3a), clamped to the neighbourhood of the curve's 0..1.
 float inflection(float a, float b) {
     return clamp(-b / (3.0 * a), -1.0, 2.0);
 }
@@ -50,7 +50,7 @@ float delta_1(float a, float b, float c, float d) {
     return b * (2.0 * b * b - 9.0 * a * c) + 27.0 * a * a * d;
 }
 
-// The discriminant, and the sum of its terms' sizes, which its rounding error is proportional to.
+// The discriminant, and the sum of its terms' absolute values, to which its rounding error is proportional.
 vec2 discriminant(float a, float b, float c, float d) {
     float bbcc = b * b * c * c;
     float accc = 4.0 * a * c * c * c;
@@ -60,7 +60,7 @@ vec2 discriminant(float a, float b, float c, float d) {
     return vec2(bbcc - accc - bbbd - aadd + abcd, bbcc + abs(accc) + abs(bbbd) + aadd + abs(abcd));
 }
 
-// Which equation solves the cubic; zero and equal are meant relative to the coefficients.
+// The equation that solves the cubic; zero and equal are relative to the coefficients.
 int solution_path(float a, float b, float c, float d) {
     float size = max(abs(a), max(abs(b), abs(c)));
     if (max(abs(a), abs(b)) <= NEARLY_ZERO * size) {
@@ -84,7 +84,7 @@ int solution_path(float a, float b, float c, float d) {
     return delta < 0.0 ? HYPERBOLIC_SINE : HYPERBOLIC_COSINE;
 }
 
-// Equations 3.5 and 3.6 for a t^2 + b t + c, each root by the one of q / a and c / q that does not cancel.
+// Equations 3.5 and 3.6 for a t^2 + b t + c; the roots are q / a and c / q, because neither cancels.
 Roots solve_quadratic(float a, float b, float c) {
     float square = b * b - 4.0 * a * c;
     if (square < 0.0) {
@@ -94,7 +94,7 @@ Roots solve_quadratic(float a, float b, float c) {
     return Roots(2, vec3(a != 0.0 ? q / a : 0.0, q != 0.0 ? c / q : 0.0, 0.0));
 }
 
-// Equations 3.7, 3.8, 3.10 and 3.11: the root that stands alone.
+// Equations 3.7, 3.8, 3.10 and 3.11: the single root.
 float solve_single(int path, float a, float b, float c, float d) {
     float center = -b / (3.0 * a);
     float p = -delta_0(a, b, c) / (3.0 * a * a);
@@ -105,20 +105,20 @@ float solve_single(int path, float a, float b, float c, float d) {
     if (path == DOUBLE) {
         return (4.0 * a * b * c - 9.0 * a * a * d - b * b * b) / (a * delta_0(a, b, c));
     }
-    if (path == CUBE_ROOT) {  // p = 0, which the thesis leaves out
+    if (path == CUBE_ROOT) {  // p = 0, a case that the thesis omits
         return center - sign(q) * pow(abs(q), 1.0 / 3.0);
     }
     if (path == HYPERBOLIC_SINE) {
         return center - 2.0 * sqrt(p / 3.0) * sinh(asinh(1.5 * q / p * sqrt(3.0 / p)) / 3.0);
     }
-    // arcosh takes 1 and more; the thesis says -1 to 1
+    // the domain of arcosh is 1 and more; the thesis states -1 to 1
     float ratio = max(-1.5 * abs(q) / p * sqrt(-3.0 / p), 1.0);
     return center - 2.0 * sign(q) * sqrt(-p / 3.0) * cosh(acosh(ratio) / 3.0);
 }
 
-// Equation 3.12 for the root farthest from 0, and the quadratic that is left of the cubic for the other two. For these
-// the equation would subtract numbers of the size of b / a; the quotient, built from d upwards, does not.
-// The cosine of the angle is the thesis's 3q / (2p) sqrt(-3 / p), turned to the far side; its sine keeps the digits.
+// Equation 3.12 for the root farthest from 0; the other two from the quadratic quotient. For these the equation would
+// subtract numbers of the size of b / a; the quotient, built from d upwards, does not.
+// The cosine of the angle is the thesis's 3q / (2p) sqrt(-3 / p), turned to the far side; its sine preserves the digits.
 Roots solve_three(float a, float b, float c, float d) {
     float p = -delta_0(a, b, c) / (3.0 * a * a);
     float q = delta_1(a, b, c, d) / (27.0 * a * a * a);
@@ -131,7 +131,7 @@ Roots solve_three(float a, float b, float c, float d) {
     return Roots(1 + rest.found, vec3(far, rest.t.xy));
 }
 
-// All real roots that matter to parity.
+// All real roots that affect parity.
 Roots solve_cubic(float a, float b, float c, float d) {
     int path = solution_path(a, b, c, d);
     float shift = 0.0;

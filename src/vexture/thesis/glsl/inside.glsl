@@ -1,15 +1,15 @@
-// In or out of the one curve or corner of a cell.
+// Whether a point is inside the curve or corner of a cell.
 // Exports: change_basis, inside_curve, inside_corner.
 //
-// Points are in the basis of the chord: P0 = (0, 0), P3 = (1, 0) (thesis 3.2), where the filled side, right of the way
-// from P0 to P3, is below. The outline is closed by the straight rays y = 0 before P0 and beyond P3; they lie outside the
-// cell, as its chord lies inside. One rule holds for all curves, loops and swirls included: a point is inside if the
-// outline crosses the vertical line through it an odd number of times above it.
+// Points are in the basis of the chord: P0 = (0, 0), P3 = (1, 0) (thesis 3.2), where the filled side, on the right from P0
+// to P3, is below. The straight rays y = 0 before P0 and beyond P3 extend the outline; they lie outside the cell, because
+// the chord lies inside. One rule holds for all curves, including loops and swirls: a point is inside if the outline
+// crosses the vertical line through it an odd number of times above it.
 //
-// Above and below together the outline crosses that line an odd number of times, for it comes from one side and leaves
-// on the other. So where the curve itself is crossed an even number of times, the ray counts as one more, at height 0.
-// That asks nothing about C.x, and so it also heals a root that rounding lost or doubled at an end, where the curve's
-// height is 0 as well.
+// In total the outline crosses that line an odd number of times, because it comes from one side and leaves on the other.
+// So if the curve itself crosses an even number of times, a ray counts as one more crossing, at height 0. The rule does
+// not depend on C.x. It therefore also corrects a root that rounding lost or doubled at an end, where the curve's height
+// is 0 too.
 #include "cubic.glsl"
 
 // Coordinates of an offset from P0; `along` is (P3 - P0) / |P3 - P0|^2.

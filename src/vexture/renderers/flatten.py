@@ -1,11 +1,11 @@
-"""A drawing as straight chords in the image: the first half of the exact renderer, and its only approximation.
+"""Flattens a drawing to straight chords in the image: the first half of the exact renderer, its only approximation.
 
-Every cubic is cut into chords that leave it by less than a given *flatness* in pixels. Curves are homogeneous, so
-that projective views need no code of their own: a chord stays a chord. What lies above, below or to the right of the
-image is dropped; what lies to its left still counts in the windings and becomes a vertical chord on its left edge.
+Every cubic becomes chords that deviate from it by less than a given *flatness* in pixels. Control points are
+homogeneous, so that a chord remains a chord in projective views too. Chords above, below or right of the image are
+dropped. Chords left of it count in the windings and become vertical chords on its left edge.
 
-Heights are rounded to a lattice of `SCANLINE` pixels, alike for all chords that meet in a point, so that closed
-contours stay closed.
+Heights are rounded to a lattice of `SCANLINE` pixels, the same for all chords that meet in a point, so that closed
+contours remain closed.
 """
 
 from typing import Final, NamedTuple
@@ -24,13 +24,13 @@ CHORD_LIMIT: Final = 2**24
 """Most chords in one image; about 1.3 GB of memory."""
 
 CHORDS_AT_ONCE: Final = 16.0
-"""A curve that needs more chords is halved first: parts outside the image then need one, flat parts few."""
+"""A curve that needs more chords is halved first: parts outside the image then need one chord, flat parts few."""
 
 HALVINGS: Final = 64
 
 
 class Chords(NamedTuple):
-    """Chords within the image, as many as there is room for, and how many they are."""
+    """Chords within the image, as many as fit into the arrays, and their total number."""
 
     lines: NDArray[np.float64]  # (n, 4): y of the top, y of the bottom, x at the top, dx/dy
     owners: NDArray[np.int32]  # (n,): number of the path + 1, negative if the curve goes up the image
@@ -38,15 +38,15 @@ class Chords(NamedTuple):
 
     @classmethod
     def room_for(cls, count: int) -> "Chords":
-        """No chords yet."""
+        """Empty arrays."""
         return cls(np.empty((count, 4)), np.empty(count, np.int32), np.zeros(1, np.int64))
 
 
 class Frame(NamedTuple):
-    """What the image shows of homogeneous pixel coordinates (X, Y, W), and how finely.
+    """The part of homogeneous pixel coordinates (X, Y, W) that the image shows, and the flatness.
 
-    Points with W <= near are out of sight: on their way to the horizon they are moved along (lift_x, lift_y, 1)
-    onto the line W = near, which passes the image by, so that contours stay closed.
+    Points with W <= near are out of sight. They are moved along (lift_x, lift_y, 1) onto the line W = near, which does
+    not cross the image, so that contours remain closed.
     """
 
     width: float
@@ -58,23 +58,10 @@ class Frame(NamedTuple):
 
 
 def find_chords(drawing: Drawing, size: tuple[int, int], view: NDArray[np.float64], flatness: float) -> Chords:
-    """All chords that an image of a drawing needs; they are counted first, then kept.
+    """All chords that an image of a drawing with segments needs; a first pass counts them.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        With at least one segment.
-    size : tuple of int
-        Width and height of the image in pixels.
-    view : (3, 3) float64 array
-        From pixel coordinates to the unit square.
-    flatness : float
-        Largest distance between a curve and its chords, in pixels.
-
-    Raises
-    ------
-    LimitError
-        If there are more than `CHORD_LIMIT`.
+    The view is a (3, 3) matrix from pixel coordinates to the unit square; the flatness is in pixels. Raises
+    `LimitError` if there are more than `CHORD_LIMIT`.
 
     Examples
     --------
@@ -96,17 +83,17 @@ def find_chords(drawing: Drawing, size: tuple[int, int], view: NDArray[np.float6
 
 
 def homogeneous(drawing: Drawing, view: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Every cubic's control points in homogeneous pixel coordinates, (n, 4, 3), and the number of its path, (n,)."""
+    """Control points of each cubic in homogeneous pixel coordinates, (n, 4, 3), and the number of its path, (n,)."""
     points = np.concatenate([contour for path in drawing.paths for contour in path.contours])
     counts = [sum(map(len, path.contours)) for path in drawing.paths]
     u, v = points[..., 0], points[..., 1]
-    # element by element: a matrix product may round a point that two cubics share in two ways
+    # element by element: a matrix product may round a point that two cubics share differently
     cubics = np.stack([u * row[0] + v * row[1] + row[2] for row in np.linalg.inv(view)], axis=-1)
     return cubics, np.repeat(np.arange(len(counts), dtype=np.int32), counts)
 
 
 def frame_of(size: tuple[int, int], view: NDArray[np.float64], flatness: float) -> Frame:
-    """Frame of an image; a pixel's W is 1/(third row of the view), and half the least of them is near enough."""
+    """Frame of an image; `near` is half of the least W of its pixels, and W is 1/(third row of the view)."""
     width, height = size
     nearest = 1.0 / (view[2] @ ((0, width, 0, width), (0, 0, height, height), (1, 1, 1, 1))).max()
     to_pixel = np.linalg.inv(view)
@@ -137,9 +124,9 @@ def flatten(cubics: NDArray[np.float64], paths: NDArray[np.int32], frame: Frame,
 
 @kernel
 def chords_needed(curve: NDArray[np.float64], frame: Frame) -> float:
-    """Into how many chords a cubic must be cut; one if it cannot be seen.
+    """Number of chords for a cubic; 1 if it is out of sight.
 
-    A chord over 1/n of t leaves the curve by at most max|B''|/(8 n^2), and |B''| is at most six times the larger
+    A chord over 1/n of t deviates from the curve by at most max|B''|/(8 n^2), and |B''| is at most six times the larger
     second difference d of the control points. Seen at the pixel (x, y), that is |(dX, dY) - (x, y) dW|/W.
     """
     left = right = above = below = True
@@ -162,7 +149,7 @@ def chords_needed(curve: NDArray[np.float64], frame: Frame) -> float:
 
 @kernel
 def halve(curve: NDArray[np.float64], first: NDArray[np.float64]) -> None:
-    """Write the first half of a cubic and keep its second half in place (de Casteljau)."""
+    """Write the first half of a cubic to `first`; keep the second half in place (de Casteljau)."""
     for axis in range(3):
         p0, p1, p2, p3 = curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis]
         a, b, c = 0.5 * (p0 + p1), 0.5 * (p1 + p2), 0.5 * (p2 + p3)
@@ -174,7 +161,7 @@ def halve(curve: NDArray[np.float64], first: NDArray[np.float64]) -> None:
 
 @kernel
 def add_curve(curve: NDArray[np.float64], pieces: int, owner: int, frame: Frame, chords: Chords) -> None:
-    """Add a cubic as chords of equal steps in t, divided where they pass out of sight."""
+    """Add a cubic as chords of equal steps in t, split where they pass out of sight."""
     x0, y0, w0 = curve[0, 0], curve[0, 1], curve[0, 2]
     for k in range(1, pieces + 1):
         t = k / pieces
@@ -200,7 +187,7 @@ def snap(y: float) -> float:
 
 @kernel
 def to_screen(x: float, y: float, w: float, frame: Frame) -> tuple[float, float]:
-    """Pixel coordinates of a homogeneous point, or of its shadow if it is out of sight."""
+    """Pixel coordinates of a homogeneous point; a point out of sight is moved first (see `Frame`)."""
     hidden = max(frame.near - w, 0.0)
     w = max(w, frame.near)
     return (x + hidden * frame.lift_x) / w, snap((y + hidden * frame.lift_y) / w)
@@ -210,7 +197,7 @@ def to_screen(x: float, y: float, w: float, frame: Frame) -> tuple[float, float]
 def add_line(
     x0: float, y0: float, w0: float, x1: float, y1: float, w1: float, owner: int, frame: Frame, chords: Chords
 ) -> None:
-    """Add what the image needs of a line: left of it, only the heights count; right of it, nothing does."""
+    """Add the part of a line that the image needs: nothing right of the image, only the heights left of it."""
     x0, y0 = to_screen(x0, y0, w0, frame)
     x1, y1 = to_screen(x1, y1, w1, frame)
     if y0 > y1:
@@ -246,7 +233,7 @@ def add_line(
 
 @kernel
 def add_chord(x: float, y0: float, y1: float, slope: float, owner: int, chords: Chords) -> None:
-    """Add a chord from (x, y0) down to y1, if it has a height."""
+    """Add a chord from (x, y0) down to y1, unless it is level."""
     if y0 < y1:
         k = chords.used[0]
         if k < len(chords.owners):

@@ -1,10 +1,11 @@
-"""The thesis's own way to its leaves (4.2.1 to 4.2.3), kept as the baseline of the evaluation.
+"""Builds the tree as the thesis does (4.2.1 to 4.2.3): the baseline of the evaluation.
 
-The outline is sampled; a cell's samples are fitted by one cubic, or the cell is divided. Corners are approached by
-dividing, crossings and overlaps are not resolved, and coverage is that of the straight line from P0 to P3.
+The outline is sampled; a cell's samples are fitted by one cubic, or the cell is divided. Corners are approximated by
+division, crossings and overlaps are not resolved, and coverage is that of the straight line from P0 to P3.
 """
 
 from dataclasses import dataclass
+from itertools import permutations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,43 +23,37 @@ from vexture.tree.winding import inside
 __all__ = ["build_sampled"]
 
 SAMPLES_ACROSS = 256
-"""First density: so many samples on a line across the unit square."""
+"""Initial density: samples on a line across the unit square."""
 
 DENSER = 3
-"""A segment that crosses a cell without a sample in it is sampled so many times as densely (thesis 4.2.2)."""
+"""Factor of the density of a segment that crosses a cell without a sample in it (thesis 4.2.2)."""
 
 FINE = 1 / 9
-"""A cell that is crossed by a chord shorter than this share of it needs no denser samples: its corner is cut."""
+"""Share of a cell: a shorter chord across it cuts a corner, and needs no denser samples."""
 
 BESIDE = 1e-3
-"""Share of a chord's length: how far beside it inside and outside are tested."""
+"""Share of a chord's length: the distance from the chord at which inside and outside are tested."""
 
 Polyline = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
 class _Run:
-    """Samples of one stretch of the outline in a cell: points, and the segment of the source at each."""
+    """Consecutive samples of the outline in a cell: points, and the segment of the source at each."""
 
     points: Polyline
     segment: NDArray[np.int64]
-    sampled: NDArray[np.bool_]  # false where the point was interpolated on a cell's edge
-
-
-def _sample(cubics: NDArray[np.float64], density: NDArray[np.int64]) -> list[Polyline]:
-    """Points on each cubic, its start included and its end not."""
-    out = []
-    for cubic, n in zip(cubics, density, strict=True):
-        t = (np.arange(n) / n)[:, None]
-        s = 1.0 - t
-        points = s * s * (s * cubic[0] + 3 * t * cubic[1]) + t * t * (3 * s * cubic[2] + t * cubic[3])
-        out.append(np.rint(points / GRAIN) * GRAIN)
-    return out
+    sampled: NDArray[np.bool_]  # false for a point interpolated on a cell's edge
 
 
 def _outline(drawing: Drawing, cubics: NDArray[np.float64], density: NDArray[np.int64]) -> list[_Run]:
     """One closed run for each contour."""
-    samples = _sample(cubics, density)
+    samples = []
+    for cubic, n in zip(cubics, density, strict=True):
+        t = (np.arange(n) / n)[:, None]  # from the cubic's start, without its end
+        s = 1.0 - t
+        points = s * s * (s * cubic[0] + 3 * t * cubic[1]) + t * t * (3 * s * cubic[2] + t * cubic[3])
+        samples.append(np.rint(points / GRAIN) * GRAIN)
     runs, first = [], 0
     for path in drawing.paths:
         for contour in path.contours:
@@ -96,28 +91,30 @@ def _halves(run: _Run, axis: int, line: float) -> tuple[list[_Run], list[_Run]]:
 
 
 def _joined(runs: list[_Run]) -> list[_Run]:
-    """Runs of a cell, with one that starts where another ends made one again: a contour starts anywhere."""
+    """Runs of a cell, after runs that meet at a contour's start are joined."""
     out = list(runs)
-    k = 0
-    while k < len(out):
-        for m, other in enumerate(out):
-            a = out[k]
-            if m != k and a.sampled[-1] and other.sampled[0] and (a.points[-1] == other.points[0]).all():
-                joined = _Run(
-                    np.vstack([a.points, other.points[1:]]),
-                    np.append(a.segment, other.segment[1:]),
-                    np.append(a.sampled, other.sampled[1:]),
-                )
-                out = [run for n, run in enumerate(out) if n not in (k, m)]
-                out.append(joined)
-                k = -1
-                break
-        k += 1
-    return out
+    while True:
+        pair = next(((a, b) for a, b in permutations(out, 2) if _continues(a, b)), None)
+        if pair is None:
+            return out
+        first, second = pair
+        out = [run for run in out if run is not first and run is not second]
+        out.append(
+            _Run(
+                np.vstack([first.points, second.points[1:]]),
+                np.append(first.segment, second.segment[1:]),
+                np.append(first.sampled, second.sampled[1:]),
+            )
+        )
+
+
+def _continues(a: _Run, b: _Run) -> bool:
+    """Whether one run starts at the sample where another ends."""
+    return bool(a.sampled[-1] and b.sampled[0] and (a.points[-1] == b.points[0]).all())
 
 
 def _fit(points: Polyline) -> tuple[NDArray[np.float64], float]:
-    """Cubic through the ends by least squares at chord-length parameters, and the largest squared distance."""
+    """Cubic through the ends, least squares at chord-length parameters, and the largest squared distance."""
     step = np.hypot(*np.diff(points, axis=0).T)
     t = np.append(0.0, np.cumsum(step)) / step.sum()
     s = 1.0 - t
@@ -133,12 +130,9 @@ def _fit(points: Polyline) -> tuple[NDArray[np.float64], float]:
 
 @kernel
 def inside_outline(
-    points: NDArray[np.float64],
-    chords: NDArray[np.float64],
-    owner: NDArray[np.int64],
-    rules: NDArray[np.int64],
+    points: NDArray[np.float64], chords: NDArray[np.float64], owner: NDArray[np.int64], rules: NDArray[np.int64]
 ) -> NDArray[np.bool_]:
-    """Whether points, (n, 2), are inside any path, from all chords of the outline, (m, 2, 2)."""
+    """Whether points, (n, 2), are inside any path, from the chords of the outline, (m, 2, 2), and their paths."""
     out = np.zeros(len(points), np.bool_)
     windings = np.empty(len(rules), np.int64)
     for i in range(len(points)):
@@ -164,7 +158,7 @@ class _Found:
 
 
 def _longest(runs: list[_Run]) -> _Run:
-    """The run whose ends are farthest apart."""
+    """The run with the longest chord."""
     return max(runs, key=lambda run: float(np.hypot(*(run.points[-1] - run.points[0]))))
 
 
@@ -177,7 +171,7 @@ def _from_edge_to_edge(run: _Run, origin: NDArray[np.float64], size: float) -> b
 def _leaf(
     runs: list[_Run], origin: NDArray[np.float64], size: float, tolerance: float, at_limit: bool
 ) -> tuple[NDArray[np.float64] | None, float] | None:
-    """Curve of a cell, cell-local, and its distance from the samples; None to divide."""
+    """Cell-local curve of a cell, None where constant, with its distance from the samples; None to divide the cell."""
     if not runs:
         return None, 0.0
     if len(runs) == 1 and _from_edge_to_edge(runs[0], origin, size):
@@ -196,7 +190,7 @@ def _leaf(
 
 
 def _too_coarse(runs: list[_Run], size: float) -> set[int]:
-    """Segments that cross a cell without a sample in it, by a long chord."""
+    """Segments that cross a cell by a long chord without a sample in it."""
     return {
         int(segment)
         for run in runs
@@ -206,7 +200,7 @@ def _too_coarse(runs: list[_Run], size: float) -> set[int]:
 
 
 def _probe(runs: list[_Run], origin: NDArray[np.float64], size: float) -> NDArray[np.float64]:
-    """Points just on the right and on the left of the longest chord in a cell; its centre twice if there is none."""
+    """Points beside the longest chord in a cell, right and left; the cell's centre twice if there is none."""
     if not runs:
         return origin + np.full((2, 2), 0.5) * size
     points = _longest(runs).points
@@ -220,7 +214,11 @@ def _probe(runs: list[_Run], origin: NDArray[np.float64], size: float) -> NDArra
 def _divide(
     outline: list[_Run], accuracy: Accuracy, max_depth: int
 ) -> tuple[list[list[int]], list[_Found], set[int], float, int]:
-    """Divide breadth first: for each quad its four child quads or -1, the leaves, and what is too coarse."""
+    """Divide breadth first.
+
+    Results: four child quads or -1 for each quad; the leaves; the segments to be sampled more densely; the largest
+    distance; the number of unresolved cells.
+    """
     quads: list[list[int]] = [[-1] * 4]
     leaves: list[_Found] = []
     coarse: set[int] = set()
@@ -285,18 +283,10 @@ def build_sampled(
     accuracy: Accuracy,
     max_depth: int,
 ) -> CellTree:
-    """Quad-tree of a drawing by sampling and fitting, as the thesis does it.
+    """Quad-tree of a drawing in normal form by sampling and fitting, as the thesis does it.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        In normal form.
-    cubics, owner, rules : arrays
-        What `vexture.tree.cubics.gather` gives for it.
-    accuracy : Accuracy
-        A fit is good if no sample is farther from it.
-    max_depth : int
-        Cells of this depth are not divided further.
+    `cubics`, `owner` and `rules` are those of `vexture.tree.cubics.gather`. A fit is accepted if every sample is within
+    the accuracy. Cells of depth `max_depth` are not divided further.
     """
     extent = np.hypot(*np.diff(cubics, axis=1).transpose(2, 0, 1)).sum(axis=1)
     density = np.maximum(np.ceil(extent * SAMPLES_ACROSS).astype(np.int64), 3)
