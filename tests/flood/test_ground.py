@@ -17,8 +17,7 @@ from vexture.flood.grids import shore_distance
 from vexture.flood.ground import LARGEST_GROUND, encoded, ground_of
 from vexture.flood.relief import relief_of
 from vexture.flood.shore import viewpoint
-from vexture.geo.extent import Extent, Step
-from vexture.geo.frame import Frame
+from vexture.geo.extent import Extent, Frame, Step
 
 FRAME = Frame(BOUNDS, CRS, (4000.0, 2000.0))
 GREEN = Image.new("RGB", (64, 32), (0, 200, 0))

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
-from vexture.geo.frame import Frame
+from vexture.geo.extent import Frame
 
 __all__ = ["coverage_over", "filled", "noise", "pixels_to", "sampled", "shore_distance", "size_for"]
 

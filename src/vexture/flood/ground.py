@@ -10,7 +10,7 @@ import numpy as np
 from vexture.errors import LimitError, SourceError
 from vexture.flood.grids import pixels_to
 from vexture.flood.scene import Note
-from vexture.geo.frame import Frame
+from vexture.geo.extent import Frame
 
 if TYPE_CHECKING:
     from PIL import Image

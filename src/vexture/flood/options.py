@@ -5,7 +5,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any, Final
 
-from vexture.errors import LimitError
+from vexture.errors import ParameterError
 from vexture.tolerance import HMIN
 
 __all__ = ["PERIOD", "FloodOptions", "bounds_of"]
@@ -27,7 +27,7 @@ class FloodOptions:
 
     Raises
     ------
-    LimitError
+    ParameterError
         If one of them is out of range.
     """
 
@@ -46,11 +46,13 @@ class FloodOptions:
 
     def __post_init__(self) -> None:
         if not (isfinite(self.hmin) and self.hmin > 0.0):
-            raise LimitError(f"`hmin` {self.hmin:g}: it is a depth in metres, above 0")
+            raise ParameterError(f"`hmin` {self.hmin:g}: it is a depth in metres, above 0")
         if self.amplitude is not None and not (isfinite(self.amplitude) and self.amplitude >= 0.0):
-            raise LimitError(f"`amplitude` {self.amplitude:g}: it is a length in metres, 0 or more")
+            raise ParameterError(f"`amplitude` {self.amplitude:g}: it is a length in metres, 0 or more")
         if not SHORTEST_PERIOD <= self.period <= LONGEST_PERIOD:
-            raise LimitError(f"`period` {self.period:g}: it must be {SHORTEST_PERIOD:g} to {LONGEST_PERIOD:g} seconds")
+            raise ParameterError(
+                f"`period` {self.period:g}: it must be {SHORTEST_PERIOD:g} to {LONGEST_PERIOD:g} seconds"
+            )
 
     @property
     def reading(self) -> dict[str, Any]:
@@ -68,13 +70,13 @@ class FloodOptions:
 
         Raises
         ------
-        LimitError
+        ParameterError
             If it is too much for the frame.
         """
         if self.amplitude is None:
             return SHARE * longest
         if self.amplitude > MOST_AMPLITUDE * longest:
-            raise LimitError(
+            raise ParameterError(
                 f"`amplitude` {self.amplitude:g}: the limit is {MOST_AMPLITUDE * longest:.3g} m, a twentieth of the "
                 f"longer side of {longest:.3g} m; choose a smaller one"
             )
@@ -86,7 +88,7 @@ def bounds_of(text: str) -> tuple[float, float, float, float]:
 
     Raises
     ------
-    LimitError
+    ParameterError
         If it is none.
 
     Examples
@@ -95,14 +97,14 @@ def bounds_of(text: str) -> tuple[float, float, float, float]:
     (-122.1, 36.9, -121.9, 37.0)
     >>> bounds_of("1,2,3")
     Traceback (most recent call last):
-    vexture.errors.LimitError: `bounds` 1,2,3: give four numbers, west,south,east,north, without spaces
+    vexture.errors.ParameterError: `bounds` 1,2,3: give four numbers, west,south,east,north, without spaces
     """
     try:
         west, south, east, north = (float(part) for part in text.split(","))
     except ValueError:
-        raise LimitError(f"`bounds` {text}: give four numbers, west,south,east,north, without spaces") from None
+        raise ParameterError(f"`bounds` {text}: give four numbers, west,south,east,north, without spaces") from None
     if not all(map(isfinite, (west, south, east, north))):
-        raise LimitError(f"`bounds` {text}: every number must be finite")
+        raise ParameterError(f"`bounds` {text}: every number must be finite")
     if west == east or south >= north:
-        raise LimitError(f"`bounds` {text}: the box is empty; the order is west,south,east,north")
+        raise ParameterError(f"`bounds` {text}: the box is empty; the order is west,south,east,north")
     return west, south, east, north

@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from vexture.errors import SourceError
 from vexture.flood.grids import coverage_over, filled, noise, pixels_to, sampled, shore_distance, size_for
-from vexture.geo.extent import Extent, Step
-from vexture.geo.frame import Frame
+from vexture.geo.extent import Extent, Frame, Step
 
 __all__ = ["SAMPLES", "Relief", "first_wet", "relief_of", "widest"]
 

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 from vexture.flood.relief import Relief
 from vexture.flood.shore import Shore
-from vexture.geo.frame import Frame
-from vexture.geo.reference import system
+from vexture.geo.crs import system
+from vexture.geo.extent import Frame
 
 __all__ = ["Flood", "Note", "scene"]
 

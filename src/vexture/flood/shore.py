@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
 from vexture.flood.grids import coverage_over, size_for
-from vexture.geo.frame import Frame
+from vexture.geo.extent import Frame
 
 __all__ = ["Shore", "viewpoint"]
 

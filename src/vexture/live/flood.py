@@ -142,7 +142,7 @@ def _shapes(extent: Extent, waters: Waters) -> list[Shape]:
 def _fold(drawing: Drawing, amplitude: float, period: float, metres: tuple[float, float]) -> tuple[bytes, float]:
     """File that moves the shoreline up and down the beach, and by how many metres it does at most."""
     from vexture.fold.shore import fold_of_shore
-    from vexture.geo.frame import MARGIN
+    from vexture.geo.extent import MARGIN
 
     share = (1.0 - 2.0 * MARGIN) / max(metres)
     fold = fold_of_shore(drawing, amplitude=amplitude * share, period=period)
