@@ -11,12 +11,11 @@ from PIL import Image
 
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
-from vexture.flood.depth_image import deepest, depth_png
 from vexture.flood.drawn_ground import DRAWN, drawn_ground
-from vexture.flood.grids import shore_distance
+from vexture.flood.grids import deepest, depth_png, shore_distance
 from vexture.flood.ground import LARGEST_GROUND, encoded, ground_of
 from vexture.flood.relief import relief_of
-from vexture.flood.shore import viewpoint
+from vexture.flood.viewpoint import viewpoint
 from vexture.geo.extent import Extent, Frame, Step
 
 FRAME = Frame(BOUNDS, CRS, (4000.0, 2000.0))

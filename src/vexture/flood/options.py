@@ -1,4 +1,4 @@
-"""What a user asks of `vexture flood`, checked before anything is read."""
+"""Parameters of `vexture flood`, checked before any file is read."""
 
 from dataclasses import dataclass
 from math import isfinite
@@ -11,14 +11,14 @@ from vexture.tolerance import HMIN
 __all__ = ["PERIOD", "FloodOptions", "bounds_of"]
 
 PERIOD: Final = 8.0
-"""Seconds between two waves on a beach, by default."""
+"""Default seconds between two waves on a beach."""
 
 SHORTEST_PERIOD, LONGEST_PERIOD = 0.1, 600.0
 MOST_AMPLITUDE: Final = 0.05
-"""Share of the frame's longer side by which a shoreline may move."""
+"""Largest amplitude, as a share of the frame's longer side."""
 
 SHARE: Final = 0.002
-"""Of the longer side: the default amplitude."""
+"""Default amplitude, as a share of the longer side."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,22 +56,17 @@ class FloodOptions:
 
     @property
     def reading(self) -> dict[str, Any]:
-        """Parameters of the reader that also hold for files that are sent later."""
+        """Parameters of the reader that also apply to files uploaded later."""
         named = {"time_dim": self.time_dim, "variable": self.variable, "layer": self.layer}
         return {name: value for name, value in named.items() if value is not None}
 
     def amplitude_in(self, longest: float) -> float:
-        """By how much the shoreline moves in a frame, in metres.
-
-        Parameters
-        ----------
-        longest : float
-            The longer side of the frame in metres.
+        """Amplitude of the shoreline in metres, in a frame whose longer side has this many metres.
 
         Raises
         ------
         ParameterError
-            If it is too much for the frame.
+            If it is too large for the frame.
         """
         if self.amplitude is None:
             return SHARE * longest
@@ -84,12 +79,7 @@ class FloodOptions:
 
 
 def bounds_of(text: str) -> tuple[float, float, float, float]:
-    """Box that a user has written as W,S,E,N.
-
-    Raises
-    ------
-    ParameterError
-        If it is none.
+    """Bounds that a user has written as W,S,E,N.
 
     Examples
     --------

@@ -3,7 +3,7 @@
 import warnings
 from collections.abc import Callable, Iterable
 from itertools import pairwise
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,27 +77,26 @@ def shored(
     known, above = above_dry(depth, hmin)
     wet = known & (above >= 0.0)
     rows, columns = depth.shape
+    wet_padded, above_padded = np.pad(wet, 2, mode="edge"), np.pad(above, 2, mode="edge")
+    bed_padded = None if bed is None else np.pad(bed, 2, mode="edge")
+
+    def beside(grid: NDArray[Any], down: int, across: int) -> NDArray[Any]:
+        return grid[2 + down : 2 + down + rows, 2 + across : 2 + across + columns]
+
     total, count = np.zeros(depth.shape), np.zeros(depth.shape)
     for neighbours in (STRAIGHT, DIAGONAL):  # diagonal ones only where there are no others
         found, times = np.zeros(depth.shape), np.zeros(depth.shape)
         for down, across in neighbours:
-            r0, r1 = max(0, -down), min(rows, rows - down)
-            c0, c1 = max(0, -across), min(columns, columns - across)
-            here = (slice(r0, r1), slice(c0, c1))
-            there = (slice(r0 + down, r1 + down), slice(c0 + across, c1 + across))
-            shore = wet[there] & ~known[here]
-            first = above[there]
-            estimate = -first  # a wall, halfway
-            if bed is not None:
-                reached = first + bed[there] - bed[here]
-                estimate = np.where(reached < 0.0, reached, estimate)
+            first = beside(above_padded, down, across)
+            if bed is not None and bed_padded is not None:
+                reached = first + beside(bed_padded, down, across) - bed
+                estimate = np.where(reached < 0.0, reached, -first)  # -first: a wall, halfway
             else:
-                behind_rows = np.clip(np.arange(r0, r1) + 2 * down, 0, rows - 1)[:, None]
-                behind_columns = np.clip(np.arange(c0, c1) + 2 * across, 0, columns - 1)[None]
-                behind = np.where(wet[behind_rows, behind_columns], above[behind_rows, behind_columns], first)
-                estimate = _sloping(first, behind)
-            found[here] += np.where(shore, estimate, 0.0)
-            times[here] += shore
+                far = 2 * down, 2 * across
+                estimate = _sloping(first, np.where(beside(wet_padded, *far), beside(above_padded, *far), first))
+            shore = beside(wet_padded, down, across) & ~known
+            found += np.where(shore, estimate, 0.0)
+            times += shore
         fresh = count == 0.0
         total, count = np.where(fresh, found, total), np.where(fresh, times, count)
     filled = np.where(count > 0.0, total / np.maximum(count, 1.0), -1.0)
@@ -139,13 +138,6 @@ def wet_drawing(
         Cells by which the border values extend beyond the grid's left, first, right and last edge.
     tolerance : float
         Cells.
-
-    Examples
-    --------
-    >>> above = np.where(np.hypot(*np.mgrid[-8:9, -8:9]) < 5, 1.0, -1.0)
-    >>> drawing = wet_drawing(above, lambda places: places / 16)
-    >>> drawing.segments < 10
-    True
     """
     left, first, right, last = beyond
     border = (-0.5 - left, -0.5 - first, above.shape[1] - 0.5 + right, above.shape[0] - 0.5 + last)

@@ -104,8 +104,19 @@ def read_geojson(source: str | os.PathLike[str] | bytes) -> Drawing:
 def geojson_drawing(content: bytes, name: str) -> Drawing:
     """Read GeoJSON, plain or gzipped, as `read_geojson` does, but without a warning: all notes are in the drawing."""
     notes = Notes()
-    drawing = _Reader(notes).drawing(_parsed(decompressed(content)), name)
-    return replace(drawing, notes=notes.listed)
+    value = _parsed(decompressed(content))
+    areas = list(_Reader(notes).areas(value))
+    if not areas:
+        raise SourceError(f"it holds no polygon to fill{met(notes)}; give Polygon or MultiPolygon geometries")
+    points = np.concatenate([ring for area in areas for ring in area.rings])
+    low, high = points.min(axis=0), points.max(axis=0)
+    width, height = (float(side) for side in high - low)
+    paths = [Path(tuple(map(_contour, area.rings)), FillRule.EVENODD, area.paint) for area in areas]
+    drawing = Drawing.from_source(paths, (float(low[0]), -float(high[1]), width, height), name)
+    if not drawing.paths:
+        raise SourceError("its polygons enclose no area; correct their coordinates")
+    turned = drawing.to_source * [[1.0], [-1.0]] + 0.0  # from_source takes y down; no -0.0
+    return replace(drawing, to_source=turned, crs=_crs(value.get("crs")), notes=notes.listed)
 
 
 def areas_of(content: bytes, notes: Notes) -> tuple[list[Area], str]:
@@ -143,21 +154,6 @@ class _Reader:
     def __init__(self, notes: Notes) -> None:
         self._notes = notes
         self._positions = 0
-
-    def drawing(self, value: dict[str, Any], name: str) -> Drawing:
-        """Areas of a GeoJSON object as a drawing."""
-        areas = list(self.areas(value))
-        if not areas:
-            raise SourceError(f"it holds no polygon to fill{met(self._notes)}; give Polygon or MultiPolygon geometries")
-        points = np.concatenate([ring for area in areas for ring in area.rings])
-        low, high = points.min(axis=0), points.max(axis=0)
-        width, height = (float(side) for side in high - low)
-        paths = [Path(tuple(map(_contour, area.rings)), FillRule.EVENODD, area.paint) for area in areas]
-        drawing = Drawing.from_source(paths, (float(low[0]), -float(high[1]), width, height), name)
-        if not drawing.paths:
-            raise SourceError("its polygons enclose no area; correct their coordinates")
-        turned = drawing.to_source * [[1.0], [-1.0]] + 0.0  # from_source takes y down; no -0.0
-        return replace(drawing, to_source=turned, crs=_crs(value.get("crs")))
 
     def areas(self, value: dict[str, Any]) -> Iterator[Area]:
         """Areas of the outermost object."""

@@ -51,13 +51,6 @@ def read_polygons(
 
     All polygons in the file are water, where they overlap too. Straight sides stay straight; rings that cross the
     antimeridian are unwrapped; invalid polygons are repaired. Parameters and errors as in `vexture.read_extent`.
-
-    Examples
-    --------
-    >>> square = b'{"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 9]]]}'
-    >>> extent = read_polygons(square, "lake.geojson", crs="EPSG:28992", bounds=(0, 0, 18, 9))
-    >>> extent.frame.bounds, extent.steps[0].drawing.segments
-    ((0.0, 0.0, 18.0, 9.0), 4)
     """
     notes = Notes()
     rings, named = read_areas(source, file_name, layer, notes)

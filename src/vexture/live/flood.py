@@ -11,9 +11,8 @@ import numpy as np
 from vexture.content import about
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
-from vexture.flood.naming import PREFIX, labels, step_names
 from vexture.flood.options import FloodOptions
-from vexture.flood.scene import Flood, Note, scene
+from vexture.flood.scene import PREFIX, Flood, Note, labels, scene, step_names
 from vexture.geo.extent import Extent
 from vexture.live.limits import Limits
 from vexture.live.manifest import manifest
@@ -79,7 +78,7 @@ def make(asked: FloodOptions, say: Say) -> Made:
     from vexture.flood.drawn_ground import drawn_ground
     from vexture.flood.ground import encoded, ground_of
     from vexture.flood.relief import first_wet, relief_of
-    from vexture.flood.shore import viewpoint
+    from vexture.flood.viewpoint import viewpoint
 
     extent = _read(asked)
     if line := line_of(str(asked.extent), extent.notes):

@@ -11,7 +11,7 @@ import numpy as np
 
 from vexture.content import FileKind, kind_of, start_of, unpacked
 from vexture.errors import LimitError, ParameterError, SourceError, VextureError
-from vexture.flood.naming import PREFIX, labels
+from vexture.flood.scene import PREFIX, labels
 from vexture.geo.extent import Extent, Frame, Step
 from vexture.live.documents import converted, load_kernels, texture_shape, told
 from vexture.live.shelf import File, Shape
@@ -68,7 +68,7 @@ class Waters:
         label : str
             What people read of its time.
         """
-        from vexture.flood.depth_image import deepest, depth_png
+        from vexture.flood.grids import deepest, depth_png
 
         load_kernels()
         shape = converted(replace(step.drawing, name=name), name, self.settings, time.perf_counter())
