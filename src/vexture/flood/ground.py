@@ -41,22 +41,9 @@ def ground_of(
 ) -> tuple["Image.Image", list[Note]]:
     """A user's picture of the ground, fitted to the frame, and notes about it.
 
-    Parameters
-    ----------
-    path : path
-        A GeoTIFF with a reference system, which is warped to the frame; or a PNG, JPEG or WebP of exactly the frame.
-    frame : Frame
-    drawn : image
-        Shown where the picture is transparent or does not reach.
-    bounds_given : bool
-        Whether the user has chosen the frame's bounds.
-
-    Raises
-    ------
-    SourceError
-        If it is no picture, has no reference system, or lies outside the frame.
-    LimitError
-        If it is too large.
+    A GeoTIFF with a reference system is warped to the frame; a PNG, JPEG or WebP must show exactly the frame, and
+    `bounds_given` tells whether the user has chosen its bounds. `drawn` shows where the picture is transparent or does
+    not reach.
     """
     try:
         with path.open("rb") as file:

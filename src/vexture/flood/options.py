@@ -23,13 +23,7 @@ SHARE: Final = 0.002
 
 @dataclass(frozen=True, slots=True)
 class FloodOptions:
-    """Parameters of one flood; see `vexture flood --help`.
-
-    Raises
-    ------
-    ParameterError
-        If one of them is out of range.
-    """
+    """Parameters of one flood; see `vexture flood --help`. Values out of range raise `ParameterError`."""
 
     extent: Path
     crs: str | None = None
@@ -61,13 +55,7 @@ class FloodOptions:
         return {name: value for name, value in named.items() if value is not None}
 
     def amplitude_in(self, longest: float) -> float:
-        """Amplitude of the shoreline in metres, in a frame whose longer side has this many metres.
-
-        Raises
-        ------
-        ParameterError
-            If it is too large for the frame.
-        """
+        """Amplitude of the shoreline in metres, in a frame whose longer side has this many metres."""
         if self.amplitude is None:
             return SHARE * longest
         if self.amplitude > MOST_AMPLITUDE * longest:

@@ -48,14 +48,8 @@ ROUGHNESS: Final = 0.5
 class Relief:
     """Heights of the ground.
 
-    Parameters
-    ----------
-    heights : (rows, columns) float64 array
-        Metres above the still water, the northernmost row first, on a regular grid from corner to corner of the frame.
-    invented : bool
-        Whether they are invented, not measured.
-    known : float
-        Share of the heights that are measured or under water, unless all are invented.
+    `heights` are metres above the still water, the northernmost row first, on a regular grid from corner to corner of
+    the frame. `known` is the share of them that is measured or under water, unless all are invented.
     """
 
     heights: NDArray[np.float64]
@@ -83,19 +77,9 @@ def widest(extent: Extent) -> Step | None:
 
 
 def relief_of(extent: Extent, path: Path | None = None, crs: str | None = None) -> Relief:
-    """Heights of a file, else of the bed, else invented from the distance to the shore.
+    """Heights of a raster file, else of the bed, else invented from the distance to the shore.
 
-    Parameters
-    ----------
-    path : path, optional
-        Heights in metres as GeoTIFF, or another raster that rasterio reads.
-    crs : str, optional
-        Reference system of the file, if it names none.
-
-    Raises
-    ------
-    SourceError
-        If the file cannot be read, names no reference system, or has no height within the frame.
+    `crs` is the reference system of the file, if it names none.
     """
     size = size_for(extent.frame, SAMPLES)
     first = first_wet(extent)

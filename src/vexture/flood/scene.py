@@ -47,15 +47,8 @@ def scene(
 ) -> dict[str, Any]:
     """Data of the page, ready for JSON.
 
-    Parameters
-    ----------
-    flood : Flood
-    steps : sequence
-        Names of the shapes on a server, or manifests that contain them.
-    prefix : str
-        Shapes of this name, or of a name that begins with it and a slash, become further steps.
-    ground, fold : str
-        Addresses of the picture and of the fold's file.
+    `steps` are names of shapes on a server, or manifests that contain the shapes. On a server, shapes named `prefix`,
+    or with names that begin with it and a slash, become further steps. `ground` and `fold` are addresses of files.
     """
     frame, shore = flood.frame, flood.shore
     return {

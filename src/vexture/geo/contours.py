@@ -28,16 +28,10 @@ DIAGONAL: Final = ((1, 1), (1, -1), (-1, 1), (-1, -1))
 
 
 class Ring(NamedTuple):
-    """A closed ring in the unit square.
+    """A closed ring in the unit square: points, (n, 2), of which the first is not repeated at the end.
 
-    Attributes
-    ----------
-    points : (n, 2) float64 array
-        The first is not repeated at the end.
-    cell : float
-        Size of the cells that it passes; tolerances are multiples of it.
-    fixed : (n,) bool array
-        Points that fitting keeps, as corners.
+    `cell` is the size of the cells that the ring passes; tolerances are multiples of it. Fitting keeps the points that
+    are `fixed`, as corners.
     """
 
     points: NDArray[np.float64]
@@ -60,14 +54,7 @@ def shored(
     - else the depth extrapolated from the two nearest wet cells;
     - at a wall, where neither shows that the ground rises, the value that puts the shore halfway between the cells.
 
-    Parameters
-    ----------
-    depth : (rows, columns) array
-        Metres; NaN where unknown, which counts as dry.
-    hmin : float
-        Metres. Ground under less water counts as dry.
-    bed : array, optional
-        Height of the bed in metres.
+    All are in metres. NaN is unknown, which counts as dry, as does ground under less water than `hmin`.
 
     Examples
     --------
@@ -129,15 +116,8 @@ def wet_drawing(
 ) -> Drawing:
     """Area where a grid of values, as `shored` gives it, is above 0, its outline fitted by cubics.
 
-    Parameters
-    ----------
-    above : (rows, columns) float64 array
-    to_unit : function
-        From positions in the grid, (n, 2) columns and rows, to the unit square.
-    beyond : tuple of float
-        Cells by which the border values extend beyond the grid's left, first, right and last edge.
-    tolerance : float
-        Cells.
+    `to_unit` maps positions in the grid, (n, 2) columns and rows, to the unit square. `beyond` tells by how many cells
+    the border values extend beyond the grid's left, first, right and last edge. The tolerance is in cells.
     """
     left, first, right, last = beyond
     border = (-0.5 - left, -0.5 - first, above.shape[1] - 0.5 + right, above.shape[0] - 0.5 + last)

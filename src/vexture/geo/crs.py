@@ -81,17 +81,8 @@ def gis_packages() -> Iterator[None]:
 def chosen_crs(given: str | None, found: str | None) -> str:
     """Reference system of coordinates: the one that the user gives, else the one that the file names.
 
-    Returns
-    -------
-    str
-        A text that `system` understands: ``EPSG:32610``, else WKT.
-
-    Raises
-    ------
-    MissingReferenceError
-        If neither names one.
-    SourceError, ParameterError
-        If the text of the file, or that of the user, is no system of a plane.
+    The result is ``EPSG:32610`` or the like if an authority knows the system, else WKT. An invalid text of the user
+    raises `ParameterError`, one of the file `SourceError`.
     """
     if given:
         return _shortest(given)
@@ -112,13 +103,7 @@ def _of_the_file() -> Iterator[None]:
 
 @lru_cache(maxsize=64)
 def system(text: str) -> "CRS":
-    """Reference system of a plane from an authority's code, WKT or a PROJ text.
-
-    Raises
-    ------
-    ParameterError
-        If the text is not one.
-    """
+    """Reference system of a plane from an authority's code, WKT or a PROJ text; `ParameterError` if it is not one."""
     from pyproj import CRS
     from pyproj.exceptions import CRSError
 
@@ -190,12 +175,8 @@ def frame_around(bounds: Bounds, crs: str) -> Frame:
     """Frame of a rectangle of the world.
 
     In a geographic system, its size on the ground is measured in the middle of the rectangle, and west may exceed
-    east: such a rectangle crosses the antimeridian, and the frame's east is a turn further.
-
-    Raises
-    ------
-    ParameterError
-        If the rectangle is empty or not finite, or the text names no system.
+    east: such a rectangle crosses the antimeridian, and the frame's east is a turn further. Bounds that are empty or
+    not finite raise `ParameterError`.
 
     Examples
     --------

@@ -24,14 +24,7 @@ def open_geotiff(
 ) -> Iterator[Series]:
     """Open a GeoTIFF: its first band, or every band as a step if `time_dim` is given, whatever its value.
 
-    `variable` chooses a band by its number, counted from 1, or by its description.
-
-    Raises
-    ------
-    SourceError
-        If it cannot be read, or has no geotransform.
-    ParameterError
-        If there is no such band.
+    `variable` chooses a band by its number, counted from 1, or by its description; `ParameterError` if there is none.
     """
     import rasterio
     from rasterio.errors import RasterioError

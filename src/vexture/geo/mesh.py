@@ -35,17 +35,10 @@ OUTSIDE: Final = 0.25
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MeshSeries:
-    """An open file of depths on a mesh; `crs`, `variable` and `times` as in `Series`.
+    """An open file of depths on a mesh; `crs`, `variable`, `times` and `read` as in `Series`.
 
-    Parameters
-    ----------
-    nodes : (n, 2) float64 array
-    faces : (m, k) int array
-        Nodes of each face, counter-clockwise; -1 where it has fewer.
-    on_faces : bool
-        Whether depths are on faces rather than on nodes.
-    read : function
-        Depth and, if the file has it, height of the bed at a step.
+    `nodes` are places, (n, 2); `faces` are the numbers of the nodes of each face, (m, k), counter-clockwise, and -1
+    where a face has fewer. Depths are on faces or on nodes.
     """
 
     nodes: NDArray[np.float64]
@@ -140,13 +133,7 @@ def _counter_clockwise(nodes: NDArray[np.float64], faces: NDArray[np.int64]) -> 
 
 
 class MeshInFrame:
-    """A series on a mesh that is placed in the unit square of a frame: its triangles and their contours.
-
-    Raises
-    ------
-    SourceError
-        If no triangle lies in the frame.
-    """
+    """A series on a mesh that is placed in the unit square of a frame: its triangles and their contours."""
 
     def __init__(self, series: MeshSeries, system: str, frame: Frame) -> None:
         self._frame, self._on_faces, self.read = frame, series.on_faces, series.read

@@ -55,15 +55,7 @@ MOST_STEPS: Final = 1000
 
 @contextmanager
 def opened(source: bytes | str | os.PathLike[str], time_dim: str | None) -> Iterator[Any]:
-    """Dataset of a file or of its content, by xarray, with times not decoded.
-
-    Raises
-    ------
-    SourceError
-        If it cannot be read.
-    ParameterError
-        If it has no dimension `time_dim`.
-    """
+    """Dataset of a file or of its content, by xarray, with times not decoded."""
     import xarray
 
     with ExitStack() as stack:
@@ -87,15 +79,7 @@ def opened(source: bytes | str | os.PathLike[str], time_dim: str | None) -> Iter
 
 
 def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Series:
-    """Depths of an open dataset.
-
-    Raises
-    ------
-    SourceError, LimitError
-        If it holds no depths, or `variable` must say which.
-    ParameterError
-        If `variable` does not hold depths.
-    """
+    """Depths of an open dataset on rows and columns; `ParameterError` if `variable` holds none."""
     grids = {str(name): axes for name in dataset.data_vars if (axes := _axes_of(dataset, name, time_dim))}
     name, depth, bed = depths_of(dataset, list(grids), variable)
     time, north, east = grids[name]

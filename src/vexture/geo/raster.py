@@ -27,13 +27,7 @@ NEAR: Final = 1.5
 
 
 class RasterInFrame:
-    """A series of rasters that is placed in the unit square of a frame.
-
-    Raises
-    ------
-    SourceError
-        If no cell lies in the frame.
-    """
+    """A series of rasters that is placed in the unit square of a frame."""
 
     def __init__(self, series: Series, system: str, frame: Frame, notes: Notes) -> None:
         self._series, self._system, self._frame = series, system, frame

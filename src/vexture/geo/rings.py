@@ -30,16 +30,9 @@ SHORT: Final = 1e-3
 class Rings:
     """Polygons, each an outer ring and the holes in it.
 
-    Parameters
-    ----------
-    points : (n, 2) float64 array
-        All rings, one after another; the first point of a ring is not repeated at its end.
-    ends : (r,) intp array
-        Index after the last point of each ring.
-    polygon : (r,) intp array
-        Index of each ring's polygon, ascending; the first ring of a polygon is its outer one.
-    place : callable
-        Name of a polygon, by its index, for messages; empty if there is only one.
+    `points`, (n, 2), are those of all rings, one after another, none with its first point repeated; `ends` are the
+    indices after the last point of each ring. `polygon` is the index of each ring's polygon, ascending; the first ring
+    of a polygon is its outer one. `place` names a polygon for messages; the name is empty if there is only one.
     """
 
     points: NDArray[np.float64]
@@ -151,12 +144,8 @@ def unwrapped(rings: Rings, turn: float) -> Rings:
     """Rings of longitudes without jumps: they exceed half a turn where they cross the antimeridian.
 
     A side of more than half a turn is read as one that goes the other way around the world. Holes stay in their
-    polygon, and all polygons move to the side of the antimeridian where they span less.
-
-    Raises
-    ------
-    SourceError
-        If a ring goes around a pole, and not along the edge of a map.
+    polygon, and all polygons move to the side of the antimeridian where they span less. A ring around a pole is
+    refused, unless it follows the edge of a map.
     """
     if not len(rings.ends):
         return rings
@@ -284,14 +273,8 @@ def moved(
 ) -> Rings:
     """Rings with their points mapped, and with more points where a mapped side is no longer straight.
 
-    Parameters
-    ----------
-    mapping : callable
-        Maps points, (n, 2).
-    box : tuple of float
-        Where the mapped sides must be right; no side is divided elsewhere.
-    size : (2,) float64 array
-        Sides of the unit square, in units after the mapping: mapped sides are right within `ROUND` of it.
+    Sides that pass through `box` become right within `ROUND` of `size`, the sides of the unit square; both are in units
+    after the mapping.
     """
     points, ends = rings.points, rings.ends
     image = mapping(points)

@@ -46,14 +46,8 @@ class Lattice:
     """Rows and columns of samples in a reference system.
 
     Positions are (column, row), counted from the middle of the first sample; each sample stands for the half steps
-    around it.
-
-    Parameters
-    ----------
-    x, y : float64 arrays
-        Places of the columns and of the rows along their axes, rising or falling, at any spacing.
-    affine : (2, 3) float64 array
-        From places along the axes to the units of the reference system.
+    around it. Along their axes, columns are at `x` and rows at `y`, rising or falling, at any spacing. `affine`,
+    (2, 3), maps these places to the units of the reference system.
 
     Examples
     --------
@@ -125,19 +119,8 @@ def _index(axis: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[np.
 class Series:
     """An open file of depths on a lattice, at one time or at several.
 
-    Parameters
-    ----------
-    lattice : Lattice
-        Where the samples are.
-    crs : str or None
-        Reference system that the file names.
-    variable : str
-        Variable or band that holds the depths.
-    times : tuple of datetime or None
-        One for each step.
-    read : function
-        Depth and, if the file has it, height of the bed at a step, of a slice of rows and one of columns; metres, NaN
-        where unknown.
+    `read` gives depth and, if the file has it, height of the bed at a step, for a slice of rows and one of columns;
+    metres, NaN where unknown. `crs` is the reference system that the file names, if it names one.
     """
 
     lattice: Lattice

@@ -9,16 +9,9 @@ __all__ = ["Outline", "outlines_above"]
 
 
 class Outline(NamedTuple):
-    """A closed ring, with the area above 0 to its left.
+    """A closed ring, with the area above 0 to its left; the first of its points, (n, 2), is not repeated at the end.
 
-    Attributes
-    ----------
-    points : (n, 2) float64 array
-        The first is not repeated at the end.
-    border : (n,) bool array
-        Whether a point is on the border of the mesh.
-    cell : float
-        Length of the shorter edges that it crosses.
+    `border` tells which points are on the border of the mesh; `cell` is the length of the shorter edges crossed.
     """
 
     points: NDArray[np.float64]
@@ -29,15 +22,9 @@ class Outline(NamedTuple):
 def outlines_above(
     points: NDArray[np.float64], triangles: NDArray[np.int64], values: NDArray[np.float64]
 ) -> list[Outline]:
-    """Outlines of the area where values are above 0, linear between the corners of triangles.
+    """Outlines of the area where values at points are above 0, linear between the corners of triangles.
 
-    Parameters
-    ----------
-    points : (n, 2) float64 array
-    triangles : (m, 3) int array
-        Corners of each, counter-clockwise.
-    values : (n,) float64 array
-        At the points; 0 counts as below.
+    The corners of a triangle, (m, 3) numbers of points, are in counter-clockwise order.
 
     Examples
     --------

@@ -55,16 +55,9 @@ MOST_NAMED: Final = 12
 def read_areas(
     source: str | os.PathLike[str] | bytes, file_name: str, layer: str | None, notes: Notes
 ) -> tuple[Rings, str | None]:
-    """Read the polygons of a vector file, in its own coordinates, and the reference system that it names.
+    """Polygons of a vector file, in its own coordinates, and the reference system that it names.
 
-    Raises
-    ------
-    SourceError
-        If it cannot be read.
-    LimitError
-        If it has several layers and `layer` is None.
-    ParameterError
-        If it has no such layer.
+    `LimitError` if it has several layers and `layer` is None, `ParameterError` if it has no such layer.
     """
     content = decompressed(source) if isinstance(source, bytes) else read_bytes(source)
     kind = kind_of(start_of(content), file_name)
@@ -98,13 +91,7 @@ def _geojson(content: bytes, notes: Notes) -> tuple[Rings, str | None]:
 
 
 def whole_shapefile(path: Path) -> bytes:
-    """Content of a ``.shp`` and of the files beside it, in one zip; equal files give equal bytes.
-
-    Raises
-    ------
-    SourceError
-        If a required file is missing.
-    """
+    """Content of a ``.shp`` and of the files beside it, in one zip; equal files give equal bytes."""
     try:
         beside = {each.name.lower(): each for each in path.parent.iterdir()}
     except OSError as error:

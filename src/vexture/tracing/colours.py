@@ -187,7 +187,8 @@ def mixture(image: Image, colours: Colours) -> Mixture:
     beside = np.array([widened(area) for area in areas])
     place = np.flatnonzero(~pure | (beside.sum(axis=0, dtype=np.uint8) > 1))
     pairs = sorted(
-        combinations(range(len(colours)), 2), key=lambda pair: np.linalg.norm(np.subtract(*colours[[*pair]]))
+        combinations(range(len(colours)), 2),
+        key=lambda pair: float(np.linalg.norm(colours[pair[0]] - colours[pair[1]])),
     )
     if len(place) * len(pairs) > MOST_WORK:
         raise LimitError(f"has {len(place):,} pixels on edges of {len(colours)} colours; smooth it, or scale it down")

@@ -32,14 +32,7 @@ TEXTURE: Final = (
 def pixels_of(source: str | os.PathLike[str] | bytes) -> NDArray[np.uint8]:
     """Pixels of a picture, or of the first one of an animation, as (height, width, 4) of sRGB and opacity.
 
-    The picture is upright, as its EXIF orientation says.
-
-    Raises
-    ------
-    SourceError
-        If it is no picture, is damaged, or is an image of a texture.
-    LimitError
-        If it has more than `MOST_PIXELS` pixels.
+    The picture is upright, as its EXIF orientation says. An image of a texture is refused.
     """
     content = source if isinstance(source, bytes) else read_bytes(source)
     if kind_of(start_of(content)) is not FileKind.PICTURE:
