@@ -20,15 +20,15 @@ DEPTH_PIXELS: Final = 256
 """Most pixels on the longer side of a picture of depths: it serves to read a depth at the pointer, not to draw."""
 
 
-def size_for(frame: Frame, longest: int) -> tuple[int, int]:
-    """Columns and rows of a grid of square cells over a frame, at least 2 each.
+def size_for(frame: Frame, longest: int, least: int = 2) -> tuple[int, int]:
+    """Columns and rows of a grid of square cells over a frame, `longest` on its longer side.
 
     Examples
     --------
     >>> size_for(Frame((0.0, 0.0, 2000.0, 1000.0), "EPSG:28992", (2000.0, 1000.0)), 128)
     (128, 64)
     """
-    columns, rows = (max(2, round(longest * side / max(frame.metres))) for side in frame.metres)
+    columns, rows = (max(least, round(longest * side / max(frame.metres))) for side in frame.metres)
     return columns, rows
 
 

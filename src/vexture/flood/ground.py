@@ -9,7 +9,7 @@ import numpy as np
 
 from vexture.content import TIFF
 from vexture.errors import LimitError, SourceError, reason_of
-from vexture.flood.grids import pixels_to
+from vexture.flood.grids import pixels_to, size_for
 from vexture.flood.scene import Note
 from vexture.geo.extent import Frame
 
@@ -42,7 +42,7 @@ def ground_of(
     """A user's picture of the ground, fitted to the frame, and notes about it.
 
     A GeoTIFF with a reference system is warped to the frame; a PNG, JPEG or WebP must show exactly the frame, and
-    `bounds_given` tells whether the user has chosen its bounds. `drawn` shows where the picture is transparent or does
+    `bounds_given`: the user has chosen its bounds. `drawn` shows where the picture is transparent or does
     not reach.
     """
     try:
@@ -56,7 +56,7 @@ def ground_of(
     notes: list[Note] = []
     if not bounds_given:
         notes.append(
-            Note(f"{path.name} is assumed to show exactly the box of the extent.", "--bounds says which box it shows.")
+            Note(f"{path.name} is assumed to show exactly the box of the extent.", "`bounds` says which box it shows.")
         )
     shape, place = picture.width / picture.height, frame.metres[0] / frame.metres[1]
     if not 0.9 < shape / place < 1.1:
@@ -64,7 +64,7 @@ def ground_of(
             Note(
                 f"{path.name}, {picture.width} x {picture.height} pixels, is stretched to {frame.metres[0]:.0f} x "
                 f"{frame.metres[1]:.0f} m.",
-                "--bounds says which box it shows.",
+                "`bounds` says which box it shows.",
             )
         )
     return _over(drawn, _resized(picture, *_size(frame, max(picture.size)))), notes
@@ -189,9 +189,7 @@ def _over(drawn: "Image.Image", picture: "Image.Image") -> "Image.Image":
 
 def _size(frame: Frame, longest: int) -> tuple[int, int]:
     """Width and height in pixels of a picture of the frame."""
-    longest = max(16, min(longest, LONGEST))
-    width, height = (max(1, round(longest * side / max(frame.metres))) for side in frame.metres)
-    return width, height
+    return size_for(frame, max(16, min(longest, LONGEST)), least=1)
 
 
 def _resized(picture: "Image.Image", width: int, height: int) -> "Image.Image":

@@ -116,8 +116,8 @@ def wet_drawing(
 ) -> Drawing:
     """Area where a grid of values, as `shored` gives it, is above 0, its outline fitted by cubics.
 
-    `to_unit` maps positions in the grid, (n, 2) columns and rows, to the unit square. `beyond` tells by how many cells
-    the border values extend beyond the grid's left, first, right and last edge. The tolerance is in cells.
+    `to_unit` maps positions in the grid, (n, 2) columns and rows, to the unit square. The border values extend by
+    `beyond` cells over the grid's left, first, right and last edge. The tolerance is in cells.
     """
     left, first, right, last = beyond
     border = (-0.5 - left, -0.5 - first, above.shape[1] - 0.5 + right, above.shape[0] - 0.5 + last)

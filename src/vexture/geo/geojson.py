@@ -65,8 +65,8 @@ def read_geojson(source: str | os.PathLike[str] | bytes) -> Drawing:
     Returns
     -------
     Drawing
-        In the unit square, y up; `to_source` maps it to the coordinates of the file, `crs` says what they are. Its
-        `notes` say what was left out.
+        In the unit square, y up; `to_source` maps it to the coordinates of the file, whose reference system is `crs`.
+        Its `notes` list what was left out.
 
     Raises
     ------

@@ -11,7 +11,7 @@ __all__ = ["Outline", "outlines_above"]
 class Outline(NamedTuple):
     """A closed ring, with the area above 0 to its left; the first of its points, (n, 2), is not repeated at the end.
 
-    `border` tells which points are on the border of the mesh; `cell` is the length of the shorter edges crossed.
+    `border` marks points on the border of the mesh; `cell` is the length of the shorter edges crossed.
     """
 
     points: NDArray[np.float64]

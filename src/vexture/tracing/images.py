@@ -32,7 +32,7 @@ TEXTURE: Final = (
 def pixels_of(source: str | os.PathLike[str] | bytes) -> NDArray[np.uint8]:
     """Pixels of a picture, or of the first one of an animation, as (height, width, 4) of sRGB and opacity.
 
-    The picture is upright, as its EXIF orientation says. An image of a texture is refused.
+    The EXIF orientation is applied. An image of a texture is refused.
     """
     content = source if isinstance(source, bytes) else read_bytes(source)
     if kind_of(start_of(content)) is not FileKind.PICTURE:

@@ -64,7 +64,7 @@ TRACED_PATH: Final = re.compile(r'<path d="([^"]*)" fill="[^"]*" transform="tran
 def read_image(source: str | os.PathLike[str] | bytes, file_name: str | None = None) -> Drawing:
     """Read a picture of pixels: PNG, JPEG, WebP, GIF (its first image) or BMP, by its content.
 
-    It is traced as `trace` says, upright as its EXIF orientation says.
+    `vexture.trace` describes how it is traced; its EXIF orientation is applied.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
     Returns
     -------
     Drawing
-        As of `vexture.read_image`, which also tells the errors and warnings.
+        As of `vexture.read_image`, as are errors and warnings.
 
     Examples
     --------
