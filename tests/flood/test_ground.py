@@ -91,7 +91,7 @@ def test_plain_picture_covers_the_frame(tmp_path):
     assert (picture.size, notes) == ((200, 100), [])
     assert np.asarray(picture)[50, 50].tolist() == [0, 200, 0]
     _, notes = ground_of(path, FRAME, GREEN, bounds_given=False)
-    assert notes[0].remedy.startswith("--bounds")
+    assert notes[0].remedy.startswith("`bounds`")
 
 
 def test_picture_that_says_it_is_endless_is_refused(tmp_path):
