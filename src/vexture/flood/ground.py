@@ -10,7 +10,7 @@ import numpy as np
 from vexture.content import TIFF
 from vexture.errors import LimitError, SourceError, reason_of
 from vexture.flood.grids import pixels_to, size_for
-from vexture.flood.scene import Note
+from vexture.flood.scene import PageNote
 from vexture.geo.extent import Frame
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ SHOWN_PERCENTILES: Final = (2.0, 98.0)
 
 def ground_of(
     path: Path, frame: Frame, drawn: "Image.Image", *, bounds_given: bool
-) -> tuple["Image.Image", list[Note]]:
+) -> tuple["Image.Image", list[PageNote]]:
     """A user's picture of the ground, fitted to the frame, and notes about it.
 
     A GeoTIFF with a reference system is warped to the frame; a PNG, JPEG or WebP must show exactly the frame, and
@@ -53,20 +53,13 @@ def ground_of(
     if start in TIFF:
         return _warped(path, frame, drawn)
     picture = _opened(path)
-    notes: list[Note] = []
+    notes, remedy = [], "`bounds` says which box it shows."
     if not bounds_given:
-        notes.append(
-            Note(f"{path.name} is assumed to show exactly the box of the extent.", "`bounds` says which box it shows.")
-        )
-    shape, place = picture.width / picture.height, frame.metres[0] / frame.metres[1]
-    if not 0.9 < shape / place < 1.1:
-        notes.append(
-            Note(
-                f"{path.name}, {picture.width} x {picture.height} pixels, is stretched to {frame.metres[0]:.0f} x "
-                f"{frame.metres[1]:.0f} m.",
-                "`bounds` says which box it shows.",
-            )
-        )
+        notes.append(PageNote(f"{path.name} is assumed to show exactly the box of the extent.", remedy))
+    width, height = frame.metres
+    if not 0.9 < (picture.width / picture.height) / (width / height) < 1.1:
+        pixels = f"{picture.width} x {picture.height} pixels"
+        notes.append(PageNote(f"{path.name}, {pixels}, is stretched to {width:.0f} x {height:.0f} m.", remedy))
     return _over(drawn, _resized(picture, *_size(frame, max(picture.size)))), notes
 
 
@@ -103,7 +96,7 @@ def _opened(path: Path) -> "Image.Image":
         raise SourceError(f"`ground` {path}: is {reason}; give a PNG, JPEG, WebP or GeoTIFF") from None
 
 
-def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Image", list[Note]]:
+def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Image", list[PageNote]]:
     """A GeoTIFF warped to the frame, over the drawn ground."""
     import rasterio
     from PIL import Image
@@ -125,13 +118,13 @@ def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Imag
         raise SourceError(f"`ground` {path}: {reason_of(error, 200)}; save it again") from None
     if not alpha.any():
         raise SourceError(f"`ground` {path}: shows nothing of the frame; give one that covers it, or other `bounds`")
-    notes: list[Note] = []
+    notes: list[PageNote] = []
     if (alpha == 0).mean() > 0.005:
         share = 100.0 * (alpha > 0).mean()
-        notes.append(Note(f"{path.name} shows {share:.0f}% of the frame; the rest of the ground is drawn.", ""))
+        notes.append(PageNote(f"{path.name} shows {share:.0f}% of the frame; the rest of the ground is drawn.", ""))
     if bands.dtype != np.uint8:
         bands = _stretched(bands, alpha > 0)
-        notes.append(Note(f"{path.name} has more than 8 bits a channel; its brightness is stretched.", ""))
+        notes.append(PageNote(f"{path.name} has more than 8 bits a channel; its brightness is stretched.", ""))
     colours = bands[:3] if len(bands) >= 3 else np.repeat(bands[:1], 3, axis=0)
     picture = np.concatenate([colours, alpha[None]]).transpose(1, 2, 0)
     return _over(drawn, Image.fromarray(np.ascontiguousarray(picture))), notes

@@ -10,7 +10,7 @@ from vexture.flood.viewpoint import Shore
 from vexture.geo.crs import system
 from vexture.geo.extent import Frame
 
-__all__ = ["PREFIX", "Flood", "Note", "labels", "scene", "step_names"]
+__all__ = ["PREFIX", "Flood", "PageNote", "labels", "scene", "step_names"]
 
 PREFIX: Final = "flood"
 """Name of a flood's shape on a server, or with a slash the start of it."""
@@ -19,7 +19,7 @@ MONTHS: Final = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", 
 """In English, whatever the locale."""
 
 
-class Note(NamedTuple):
+class PageNote(NamedTuple):
     """A remark on the page, and what the author of the page can do about it."""
 
     text: str
@@ -39,22 +39,20 @@ class Flood:
     relief: Relief
     fold: bytes | None
     shore: Shore | None
-    notes: tuple[Note, ...]
+    notes: tuple[PageNote, ...]
 
 
-def scene(
-    flood: Flood, steps: Sequence[str | Mapping[str, Any]], prefix: str, ground: str, fold: str | None
-) -> dict[str, Any]:
+def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, fold: str | None) -> dict[str, Any]:
     """Data of the page, ready for JSON.
 
-    `steps` are names of shapes on a server, or manifests that contain the shapes. On a server, shapes named `prefix`,
+    `steps` are names of shapes on a server, or manifests that contain the shapes. On a server, shapes named `PREFIX`,
     or with names that begin with it and a slash, become further steps. `ground` and `fold` are addresses of files.
     """
     frame, shore = flood.frame, flood.shore
     return {
         "title": flood.title,
         "steps": list(steps),
-        "prefix": prefix,
+        "prefix": PREFIX,
         "frame": {
             "box": list(frame.box),
             "to_source": frame.to_source.ravel().tolist(),

@@ -208,20 +208,17 @@ def repaired(rings: Rings, notes: Notes) -> Rings:
     valid = shapely.is_valid(shapes)
     if valid.all():
         return rings
-    parts: list[Any] = []
-    owner: list[int] = []
-    for index in np.flatnonzero(~valid):
-        place = rings.place(int(index)) or "its polygon"
+    broken, made = np.flatnonzero(~valid), []
+    for index in broken:
         try:
-            made = shapely.make_valid(shapes[index], method="structure", keep_collapsed=False)
+            made.append(shapely.make_valid(shapes[index], method="structure", keep_collapsed=False))
         except shapely.errors.GEOSException as error:
+            place = rings.place(int(index)) or "its polygon"
             raise SourceError(f"{place} cannot be repaired ({reason_of(error)}); correct its rings") from None
-        pieces, _ = _polygons(np.array([made]))
-        if not len(pieces):
-            notes.left_out("polygon that encloses nothing")
-        parts += list(pieces)
-        owner += [int(index)] * len(pieces)
-    mended = rings_of(np.array(parts, dtype=object), lambda index: rings.place(owner[index]))
+    pieces, owner = _polygons(np.array(made))
+    for _ in range(len(broken) - len(np.unique(owner))):
+        notes.left_out("polygon that encloses nothing")
+    mended = rings_of(pieces, lambda index: rings.place(int(broken[owner[index]])))
     return rings.taken(np.flatnonzero(valid)).joined(mended)
 
 
