@@ -55,7 +55,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "images": BASE | {"drawing", "encodings", "pipeline", "renderers"},
     "thesis": BASE | {"bezier", "drawing", "encodings", "layout", "renderers", "texture", "tree"},
     "fold": BASE | {"drawing", "layout", "notes", "renderers", "texture"},
-    "flood": BASE | {"drawing", "geo", "notes", "renderers"},
+    "flood": BASE | {"content", "drawing", "geo", "notes", "renderers"},
     "live": SOURCES
     | {"encodings", "flood", "fold", "geo", "layout", "pipeline", "reading", "settings", "svg", "texture", "tree"},
 }

@@ -18,8 +18,7 @@ if TYPE_CHECKING:
     from vexture.fold.fold import Fold, fold_from
     from vexture.fold.picture import fold_picture
     from vexture.fold.shore import shore_fold
-    from vexture.geo.extent import Extent
-    from vexture.geo.frame import Frame
+    from vexture.geo.extent import Extent, Frame
     from vexture.geo.geojson import read_geojson
     from vexture.images import coverage, render
     from vexture.notes import Note
@@ -74,8 +73,7 @@ _HOMES = {
     "vexture.fold.fold": ("Fold", "fold_from"),
     "vexture.fold.picture": ("fold_picture",),
     "vexture.fold.shore": ("shore_fold",),
-    "vexture.geo.extent": ("Extent",),
-    "vexture.geo.frame": ("Frame",),
+    "vexture.geo.extent": ("Extent", "Frame"),
     "vexture.geo.geojson": ("read_geojson",),
     "vexture.images": ("coverage", "render"),
     "vexture.notes": ("Note",),

@@ -8,7 +8,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Final
 
-from vexture.errors import DeviceError, LimitError, SourceError
+from vexture.errors import DeviceError, LimitError, ParameterError, SourceError
 
 __all__ = [
     "BYTE_ORDER_MARK",
@@ -195,5 +195,5 @@ def about(source: str) -> Iterator[None]:
     """
     try:
         yield
-    except (SourceError, LimitError, DeviceError) as error:
+    except (SourceError, LimitError, DeviceError, ParameterError) as error:
         raise type(error)(f"{source}: {error}") from None

@@ -15,6 +15,7 @@ __all__ = [
     "SourceError",
     "SourceWarning",
     "VextureError",
+    "reason_of",
 ]
 
 
@@ -44,3 +45,12 @@ class ParameterError(ValueError):
 
 class SourceWarning(UserWarning):
     """Something in the drawing is not supported and was left out or simplified."""
+
+
+def reason_of(error: Exception, most: int = 120, hidden: str = "") -> str:
+    """Text of another library's exception in one short line, or the exception's type if it has no text.
+
+    `hidden` is the name of a temporary file, which means nothing to the user.
+    """
+    text = " ".join((str(error).replace(hidden, "the file") if hidden else str(error)).split())
+    return (text if len(text) <= most else text[: most - 3] + "...") or type(error).__name__

@@ -5,14 +5,13 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, TypeAlias
 
 from vexture.content import LARGEST_FILE, SHAPEFILE, FileKind, about, kind_of, read_bytes, start_of, unpacked
-from vexture.errors import LimitError, SourceError
+from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.notes import Note, warn_of
 from vexture.tolerance import HMIN
 
 if TYPE_CHECKING:  # at run time each reader comes when there is something for it to read
     from vexture.drawing import Drawing
-    from vexture.geo.extent import Extent
-    from vexture.geo.frame import Frame
+    from vexture.geo.extent import Extent, Frame
 
 __all__ = ["Source", "content_of", "extent_of", "name_of", "read", "read_drawing", "read_extent"]
 
@@ -131,7 +130,7 @@ def _read_first_step(source: Place | bytes, shown: str) -> "Drawing":
     """Where water is first, of a file that need not say where in the world it is."""
     from dataclasses import replace
 
-    from vexture.geo.reference import UNPLACED, MissingReferenceError
+    from vexture.geo.crs import UNPLACED, MissingReferenceError
 
     try:
         extent = extent_of(source, shown)
@@ -190,6 +189,8 @@ def read_extent(
     SourceError
         If it cannot be read; a line that says what to do.
     LimitError
+        If it exceeds a limit, or has several layers or variables and none is chosen.
+    ParameterError
         If a parameter does not fit it.
     DeviceError
         If a package is missing.
@@ -210,7 +211,7 @@ def read_extent(
     options = {"frame": frame, "bounds": bounds, "crs": crs, "time_dim": time_dim, "variable": variable, "layer": layer}
     try:
         extent = extent_of(source, shown, hmin=hmin, **options)  # type: ignore[arg-type]
-    except (SourceError, LimitError) as error:
+    except (SourceError, LimitError, ParameterError) as error:
         if isinstance(source, bytes):
             raise
         raise type(error)(f"{os.fspath(source)}: {error}") from None
@@ -249,7 +250,7 @@ def _refuse(options: dict[str, str | None], kind: str) -> None:
     """Refuse options that mean nothing."""
     for option, value in options.items():
         if value is not None:
-            raise LimitError(f"{option} {value!r} is for {kind}; leave it out")
+            raise ParameterError(f"{option} {value!r} is for {kind}; leave it out")
 
 
 def content_of(path: str | os.PathLike[str]) -> bytes:

@@ -10,7 +10,7 @@ import pytest
 from floods import BOUNDS, CRS, depths, flood, geotiff, scene_of, sea, series
 from PIL import Image
 
-from vexture.errors import LimitError
+from vexture.errors import ParameterError
 from vexture.flood.options import FloodOptions, bounds_of
 from vexture.texture.load import texture_from
 
@@ -179,10 +179,10 @@ def test_page_must_be_html(tmp_path):
 
 
 def test_parameters_are_checked(tmp_path):
-    with pytest.raises(LimitError, match="`amplitude` nan"):
+    with pytest.raises(ParameterError, match="`amplitude` nan"):
         FloodOptions(tmp_path, amplitude=float("nan"))
     assert FloodOptions(tmp_path).amplitude_in(1000.0) == 2.0
-    with pytest.raises(LimitError, match="the box is empty"):
+    with pytest.raises(ParameterError, match="the box is empty"):
         bounds_of("1,2,1,4")
     assert json.dumps(bounds_of("170,-20,-170,-10")) == "[170.0, -20.0, -170.0, -10.0]"
 

@@ -11,14 +11,12 @@ from PIL import Image
 
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
-from vexture.flood.depth_image import deepest, depth_png
 from vexture.flood.drawn_ground import DRAWN, drawn_ground
-from vexture.flood.grids import shore_distance
+from vexture.flood.grids import deepest, depth_png, shore_distance
 from vexture.flood.ground import LARGEST_GROUND, encoded, ground_of
 from vexture.flood.relief import relief_of
-from vexture.flood.shore import viewpoint
-from vexture.geo.extent import Extent, Step
-from vexture.geo.frame import Frame
+from vexture.flood.viewpoint import viewpoint
+from vexture.geo.extent import Extent, Frame, Step
 
 FRAME = Frame(BOUNDS, CRS, (4000.0, 2000.0))
 GREEN = Image.new("RGB", (64, 32), (0, 200, 0))
@@ -93,7 +91,7 @@ def test_plain_picture_covers_the_frame(tmp_path):
     assert (picture.size, notes) == ((200, 100), [])
     assert np.asarray(picture)[50, 50].tolist() == [0, 200, 0]
     _, notes = ground_of(path, FRAME, GREEN, bounds_given=False)
-    assert notes[0].remedy.startswith("--bounds")
+    assert notes[0].remedy.startswith("`bounds`")
 
 
 def test_picture_that_says_it_is_endless_is_refused(tmp_path):

@@ -10,9 +10,9 @@ import rasterio
 import xarray
 from rasterio.transform import Affine
 
-from vexture.errors import LimitError, SourceError, SourceWarning
+from vexture.errors import LimitError, ParameterError, SourceError, SourceWarning
+from vexture.geo.crs import frame_around
 from vexture.geo.depths import read_depths
-from vexture.geo.reference import frame_around
 from vexture.notes import line_of
 from vexture.reading import read as read_any
 from vexture.reading import read_extent
@@ -176,7 +176,7 @@ def test_another_system_than_the_frames(tmp_path):
     plain = read(tmp_path / "a.nc")
     frame = frame_around((-122.9999, 36.9557, -122.9911, 36.9611), "EPSG:4326")
     turned = read(tmp_path / "a.nc", frame=frame)
-    from vexture.geo.reference import transformed
+    from vexture.geo.crs import transformed
 
     back = transformed(shore(turned.steps[0].drawing), "EPSG:4326", CRS)
     away = np.abs(np.hypot(*(back - MIDDLE).T) - RADIUS + 2.5) / 10.0
@@ -237,9 +237,9 @@ def test_water_ends_where_the_raster_ends_inside_of_the_frame(tmp_path):
 
 
 def test_only_what_the_bounds_need_is_read(tmp_path, monkeypatch):
-    from vexture.geo import placing
+    from vexture.geo import raster
 
-    monkeypatch.setattr(placing, "MOST_CELLS", 3000)
+    monkeypatch.setattr(raster, "MOST_CELLS", 3000)
     path = geotiff(tmp_path / "a.tif", lake_rows(), NORTH_UP)
     whole = read(path)
     assert "one in 2 x 2 was read" in line_of("a.tif", whole.notes)
@@ -316,8 +316,8 @@ def curvilinear(dataset):
         (repeated, {}, SourceError, r"step 3 is the same time as step 2 .* drop_duplicates"),
         (nothing, {}, SourceError, r"variable 'depth' holds no number within the bounds at any of 3 steps"),
         (curvilinear, {}, SourceError, r"no variable is on rows and columns; it has 'depth'"),
-        (lambda dataset: dataset, {"time_dim": "hour"}, LimitError, r"no dimension 'hour'; it has .*'time'"),
-        (lambda dataset: dataset, {"variable": "salt"}, LimitError, r"'salt'; `variable` may be 'depth'"),
+        (lambda dataset: dataset, {"time_dim": "hour"}, ParameterError, r"no dimension 'hour'; it has .*'time'"),
+        (lambda dataset: dataset, {"variable": "salt"}, ParameterError, r"'salt'; `variable` may be 'depth'"),
         (
             lambda d: d.assign(wd=d["depth"]),
             {},
@@ -325,7 +325,7 @@ def curvilinear(dataset):
             r"depths may be in 'depth', 'wd'; choose one by `variable`",
         ),
         (lambda dataset: dataset, {"bounds": (0.0, 0.0, 9.0, 9.0)}, SourceError, r"within the bounds 0,0,9,9 .*covers"),
-        (lambda dataset: dataset, {"hmin": 0.0}, LimitError, r"hmin is 0 m; it must be above 0"),
+        (lambda dataset: dataset, {"hmin": 0.0}, ParameterError, r"`hmin` is 0 m; it must be above 0"),
     ],
 )
 def test_bad_files_are_refused_in_one_line(tmp_path, change, options, error, message):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray
 
-from vexture.errors import LimitError, SourceError
+from vexture.errors import ParameterError, SourceError
 from vexture.geo.depths import read_depths
 from vexture.renderers.exact import render_exact
 
@@ -100,7 +100,7 @@ def test_a_mesh_with_layers_or_without_faces_is_refused(tmp_path):
     dataset.to_netcdf(tmp_path / "open.nc")
     with pytest.raises(SourceError, match="its mesh 'mesh2d' cannot be read"):
         read(tmp_path / "open.nc")
-    with pytest.raises(LimitError, match="no dimension 'hour'"):
+    with pytest.raises(ParameterError, match="no dimension 'hour'"):
         read(mesh(tmp_path / "mesh.nc"), time_dim="hour")
     with pytest.raises(SourceError, match=r"within the bounds 0,0,9,9 .*covers"):
         read(tmp_path / "mesh.nc", bounds=(0.0, 0.0, 9.0, 9.0))

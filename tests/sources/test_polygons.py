@@ -13,7 +13,7 @@ import vexture
 from vexture.bezier.convert import straight
 from vexture.cli.main import main
 from vexture.content import FileKind, kind_of, start_of
-from vexture.errors import DeviceError, LimitError, SourceError, SourceWarning
+from vexture.errors import DeviceError, LimitError, ParameterError, SourceError, SourceWarning
 from vexture.reading import read_drawing, read_extent
 
 
@@ -54,9 +54,9 @@ def test_layers_are_chosen_by_name(tmp_path):
     with pytest.raises(LimitError, match=r"2 layers; choose one by `layer`: lake, pond"):
         read_extent(path, "many.gpkg")
     assert same(only(read_extent(path, "many.gpkg", layer="pond")), POND)
-    with pytest.raises(LimitError, match=r"no layer 'sea'; its layers are: lake, gauges, pond"):
+    with pytest.raises(ParameterError, match=r"no layer 'sea'; its layers are: lake, gauges, pond"):
         read_extent(path, "many.gpkg", layer="sea")
-    with pytest.raises(LimitError, match="leave `layer` out"):
+    with pytest.raises(ParameterError, match="leave `layer` out"):
         read_extent(b'{"type": "Polygon", "coordinates": []}', "a.geojson", layer="sea")
 
 
@@ -82,7 +82,7 @@ def test_without_a_reference_system_it_asks_and_convert_takes_coordinates_as_the
     drawing = read_drawing(path)
     assert (drawing.crs, drawing.name) == (None, "lake")
     assert same(drawing, shapely.union(LAKE, POND))
-    with pytest.raises(LimitError, match="'EPSG:1' is unknown"):
+    with pytest.raises(ParameterError, match="'EPSG:1' is unknown"):
         read_extent(path, name, crs="EPSG:1")
 
 
@@ -139,7 +139,7 @@ def test_curved_polygons_are_read_as_chords(tmp_path):
 def test_a_parameter_of_depths_is_refused(tmp_path):
     path = file(tmp_path, "lake.gpkg")
     for option in ({"time_dim": "time"}, {"variable": "depth"}):
-        with pytest.raises(LimitError, match=r"is for depths, and this file holds polygons"):
+        with pytest.raises(ParameterError, match=r"is for depths, and this file holds polygons"):
             read_extent(path, "lake.gpkg", **option)
 
 

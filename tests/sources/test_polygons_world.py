@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 import vexture
 from vexture.errors import SourceError, SourceWarning
-from vexture.geo.frame import Frame
-from vexture.geo.reference import frame_around, transformed
+from vexture.geo.crs import frame_around, transformed
+from vexture.geo.extent import Frame
 from vexture.reading import read_extent
 
 

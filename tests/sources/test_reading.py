@@ -12,6 +12,7 @@ from kinds import SVG, one_of_each
 
 import vexture
 from vexture.cli.main import main
+from vexture.cli.messages import as_options
 from vexture.content import SHAPEFILE
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError, SourceWarning
@@ -24,8 +25,7 @@ NOTED = {
     "raster.tif": (
         Note(
             "remark",
-            "it has 2 bands, of which the first is read; variable (--variable) chooses another, "
-            "time_dim (--time-dim) makes them times",
+            "it has 2 bands, of which the first is read; `variable` chooses another, `time_dim` makes them times",
         ),
     ),
     "rings.geojson": (Note("left out", "Point"),),
@@ -93,7 +93,7 @@ def test_commands_take_every_file_and_say_what_was_noted(files: list[Path], tmp_
     result = CliRunner().invoke(main, ["convert", *map(str, files), "--output", str(tmp_path)])
     assert result.exit_code == 0, result.output
     said = [line for line in result.output.splitlines() if "warning" in line]
-    assert said == [f"vexture: warning: {line_of(str(path), read_drawing(path).notes)}" for path in files
+    assert said == [f"vexture: warning: {as_options(line_of(str(path), read_drawing(path).notes))}" for path in files
                     if path.name in NOTED]  # fmt: skip
     for path in files:
         (root,) = vexture.load(tmp_path / f"{path.stem}.ktx2").roots

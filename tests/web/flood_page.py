@@ -20,7 +20,7 @@ from PIL import Image
 
 from vexture import convert
 from vexture.drawing import Drawing
-from vexture.geo.frame import Frame
+from vexture.geo.extent import Frame
 from vexture.live.page import EXPORTED_POLICY
 
 FRAME = Frame((600_000.0, 4_080_000.0, 608_000.0, 4_086_000.0), "EPSG:32610", (8000.0, 6000.0))

@@ -54,7 +54,7 @@ def flood(
 
     The extent is GeoJSON, GeoPackage, FlatGeobuf or a shapefile of wet places, or GeoTIFF, NetCDF or UGRID of depths.
     """
-    from vexture.geo.reference import gis_packages
+    from vexture.geo.crs import gis_packages
 
     with one_line(), gis_packages():
         if (output is None) == (not serving):

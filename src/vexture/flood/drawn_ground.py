@@ -1,4 +1,4 @@
-"""A picture of the ground where the user has none: sand along the shore, land above it, lit from the north-west."""
+"""A drawn picture of the ground for a user who has none: sand at the shore, land above it, lit from the north-west."""
 
 from typing import TYPE_CHECKING, Final
 
@@ -18,7 +18,7 @@ DRAWN: Final = 1024
 """Pixels on the longer side."""
 
 FAR: Final = 192
-"""Samples on the longer side of the grid of distances to the shore, which change slowly."""
+"""Samples on the longer side of the grid of distances to the shore, which vary slowly."""
 
 WET_SAND, SAND, GRASS, WOOD, ROCK = (
     np.array(colour, float)
@@ -27,26 +27,20 @@ WET_SAND, SAND, GRASS, WOOD, ROCK = (
 SEA_SHALLOW, SEA_DEEP = np.array([141, 141, 116], float), np.array([48, 66, 76], float)
 
 BEACH: Final = 0.008
-"""How far sand reaches from the shore, as a share of the frame's longer side."""
+"""Width of the sand, as a share of the frame's longer side."""
 
 FLOOR: Final = 9.0
-"""Over how many times that the sea floor goes from its shallow colour to its deep one."""
+"""Beach widths over which the sea floor changes from its shallow colour to its deep one."""
 
 LIGHT: Final = np.array([-0.5, 0.5, 0.7]) / np.sqrt(0.99)
 """Towards the sun: east, north, up."""
 
 STEEPEST: Final = 3.0
-"""Slopes are drawn steeper where the land is flat: as if it rose to a twentieth of the longer side, but no more."""
+"""Largest exaggeration of slopes. Flat land is lit as if it rose to a twentieth of the longer side."""
 
 
 def drawn_ground(extent: Extent, relief: Relief) -> "Image.Image":
-    """Picture of the frame, the longer side of `DRAWN` pixels.
-
-    Parameters
-    ----------
-    extent : Extent
-    relief : Relief
-    """
+    """Picture of the frame, `DRAWN` pixels on the longer side."""
     from PIL import Image
 
     frame = extent.frame
@@ -59,7 +53,10 @@ def drawn_ground(extent: Extent, relief: Relief) -> "Image.Image":
         distance, wet = np.full(size[::-1], 0.05 * longest), np.zeros(size[::-1])
     else:
         wet = coverage_over(first.drawing, frame.box, size)
-        distance = _enlarged(_distance(extent), size)
+        coarse = size_for(frame, FAR)
+        cell = (frame.metres[0] / coarse[0], frame.metres[1] / coarse[1])
+        shore = shore_distance(coverage_over(first.drawing, frame.box, coarse) >= 0.5, cell)
+        distance = _enlarged(shore, size)  # metres, positive on land
     away = np.maximum(distance, 0.0) / (BEACH * longest)
     land = _blend(WET_SAND, SAND, away, 0.02, 0.12)
     land = _blend(land, GRASS, away + 0.5 * rough, 0.8, 1.6)
@@ -72,15 +69,6 @@ def drawn_ground(extent: Extent, relief: Relief) -> "Image.Image":
     return Image.fromarray(np.clip(np.rint(shown * bright[..., None]), 0, 255).astype(np.uint8))
 
 
-def _distance(extent: Extent) -> NDArray[np.float64]:
-    """Metres to the first shore: above 0 on land."""
-    frame, first = extent.frame, first_wet(extent)
-    assert first is not None
-    size = size_for(frame, FAR)
-    cell = (frame.metres[0] / size[0], frame.metres[1] / size[1])
-    return shore_distance(coverage_over(first.drawing, frame.box, size) >= 0.5, cell)
-
-
 def _enlarged(grid: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.float64]:
     from PIL import Image
 
@@ -90,14 +78,14 @@ def _enlarged(grid: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.fl
 def _blend(
     below: NDArray[np.float64], above: NDArray[np.float64], value: NDArray[np.float64], start: float, end: float
 ) -> NDArray[np.float64]:
-    """From one colour to the other while a value goes from start to end, smoothly."""
+    """Smooth step from one colour to another while a value goes from start to end."""
     share = np.clip((value - start) / (end - start), 0.0, 1.0)
     share = share * share * (3.0 - 2.0 * share)
     return np.asarray(below + (above - below) * share[..., None])
 
 
 def _light(height: NDArray[np.float64], pixel: float, exaggeration: float) -> NDArray[np.float64]:
-    """Brightness of each pixel by its slope, 1 where it is level."""
+    """Brightness of each pixel by its slope, 1 on level ground."""
     south, east = np.gradient(height * min(exaggeration, STEEPEST), pixel)
     length = np.sqrt(east**2 + south**2 + 1.0)
     cosine = (-east * LIGHT[0] + south * LIGHT[1] + LIGHT[2]) / length

@@ -1,59 +1,49 @@
-"""Grids over the frame: how much of each cell is wet, how far it is to the shore, values between cells."""
+"""Grids over a frame: coverage by water, distance to the shore, resampled values, noise, pictures of depths."""
 
+from io import BytesIO
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
-from vexture.geo.frame import Frame
+from vexture.geo.extent import Bounds, Frame
 
-__all__ = ["coverage_over", "filled", "noise", "pixels_to", "sampled", "shore_distance", "size_for"]
+__all__ = [
+    "coverage_over", "deepest", "depth_png", "filled", "noise", "pixels_to", "sampled", "shore_distance", "size_for",
+]  # fmt: skip
 
 SEED: Final = 4626
-"""Of all that is random here: two runs make the same page."""
+"""Seed of the noise, fixed so that two runs make the same page."""
+
+DEPTH_PIXELS: Final = 256
+"""Most pixels on the longer side of a picture of depths: it serves to read a depth at the pointer, not to draw."""
 
 
-def size_for(frame: Frame, longest: int) -> tuple[int, int]:
-    """Columns and rows of a grid of square cells over a frame, at least 2 each.
+def size_for(frame: Frame, longest: int, least: int = 2) -> tuple[int, int]:
+    """Columns and rows of a grid of square cells over a frame, `longest` on its longer side.
 
     Examples
     --------
     >>> size_for(Frame((0.0, 0.0, 2000.0, 1000.0), "EPSG:28992", (2000.0, 1000.0)), 128)
     (128, 64)
     """
-    columns, rows = (max(2, round(longest * side / max(frame.metres))) for side in frame.metres)
+    columns, rows = (max(least, round(longest * side / max(frame.metres))) for side in frame.metres)
     return columns, rows
 
 
-def pixels_to(bounds: tuple[float, float, float, float], size: tuple[int, int]) -> Any:
-    """Affine map of rasterio from columns and rows to a box.
-
-    Parameters
-    ----------
-    bounds : tuple of float
-        West, south, east, north.
-    size : tuple of int
-        Columns and rows.
-    """
+def pixels_to(bounds: Bounds, size: tuple[int, int]) -> Any:
+    """Affine map of rasterio from columns and rows of a grid of `size` to bounds."""
     from rasterio import Affine
 
     west, south, east, north = bounds
     return Affine((east - west) / size[0], 0.0, west, 0.0, (south - north) / size[1], north)
 
 
-def coverage_over(
-    drawing: Drawing, box: tuple[float, float, float, float], size: tuple[int, int]
-) -> NDArray[np.float32]:
-    """Share of each cell of a grid that a drawing covers, the northernmost row first.
+def coverage_over(drawing: Drawing, box: Bounds, size: tuple[int, int]) -> NDArray[np.float32]:
+    """Share of each cell that a drawing covers, for a grid of columns and rows over a box of the unit square.
 
-    Parameters
-    ----------
-    drawing : Drawing
-    box : tuple of float
-        What the grid covers, in unit-square units: x0, y0, x1, y1.
-    size : tuple of int
-        Columns and rows.
+    The northernmost row comes first.
 
     Examples
     --------
@@ -70,13 +60,9 @@ def coverage_over(
 
 
 def shore_distance(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.float64]:
-    """Distance of each cell's middle to the nearest cell of the other kind: above 0 on land, below 0 in the water.
+    """Distance of each cell's middle to the nearest cell of the other kind, positive on land, negative in the water.
 
-    Parameters
-    ----------
-    wet : (rows, columns) bool array
-    cell : tuple of float
-        Width and height of a cell. Where all cells are of one kind, all are as far away as the grid is long.
+    `cell` is the width and height of a cell. Where all cells are of one kind, the distance is the grid's diagonal.
 
     Examples
     --------
@@ -90,7 +76,7 @@ def shore_distance(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray
 
 
 def _squared(marked: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.float64]:
-    """Squared distance to the nearest marked cell: along the columns first, then along the rows of what that gave."""
+    """Squared distance to the nearest marked cell: the minimum along the columns, then along the rows."""
     squares = np.where(marked, 0.0, np.inf)
     for step in cell[::-1]:
         places = step * np.arange(squares.shape[0])
@@ -100,14 +86,9 @@ def _squared(marked: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np
 
 
 def sampled(grid: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np.float64]:
-    """Values at the corners of a grid's frame and evenly between them, from values at the middles of its cells.
+    """Values at `size` columns and rows of points from corner to corner, interpolated between the middles of cells.
 
-    Parameters
-    ----------
-    grid : (rows, columns) array
-        NaN where nothing is known; a sample between known and unknown cells is that of the known ones.
-    size : tuple of int
-        Columns and rows of samples.
+    NaN is unknown. A point between known and unknown cells has the value of the known ones.
 
     Examples
     --------
@@ -133,7 +114,7 @@ def sampled(grid: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np.flo
 
 
 def filled(grid: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Grid whose unknown values (NaN) are those of the nearest known ones, smoothed a little."""
+    """Grid with its unknown values, NaN, filled in from the nearest known ones and slightly smoothed."""
     from rasterio.fill import fillnodata
 
     known = np.isfinite(grid)
@@ -145,13 +126,7 @@ def filled(grid: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def noise(size: tuple[int, int], octaves: int = 6) -> NDArray[np.float64]:
-    """Random ups and downs of all lengths, -1 to 1, the same at each call.
-
-    Examples
-    --------
-    >>> bool(abs(noise((40, 30))).max() <= 1.0), noise((40, 30)).shape
-    (True, (30, 40))
-    """
+    """Fractal noise from -1 to 1, the same at each call."""
     from PIL import Image
 
     random = np.random.default_rng(SEED)
@@ -163,3 +138,27 @@ def noise(size: tuple[int, int], octaves: int = 6) -> NDArray[np.float64]:
         picture = Image.fromarray(points).resize((columns, rows), Image.Resampling.BICUBIC)
         total += np.asarray(picture, np.float64) * 0.5**octave
     return np.clip(0.7 * total, -1.0, 1.0)
+
+
+def deepest(depth: NDArray[np.float32]) -> float:
+    """Greatest depth in metres, 0 if all is dry or unknown."""
+    known = depth[np.isfinite(depth)]
+    return max(0.0, float(known.max())) if known.size else 0.0
+
+
+def depth_png(depth: NDArray[np.float32], most: float) -> bytes:
+    """Depths in metres as an 8-bit gray PNG: 255 is `most`, 0 is dry or unknown, and wet pixels are at least 1."""
+    from PIL import Image
+
+    metres = np.where(np.isfinite(depth), np.maximum(depth, 0.0), 0.0).astype(np.float32)
+    share = DEPTH_PIXELS / max(metres.shape)
+    picture = Image.fromarray(metres)
+    if share < 1.0:
+        width, height = (max(1, round(share * side)) for side in picture.size)
+        picture = picture.resize((width, height), Image.Resampling.BOX)
+    metres = np.asarray(picture)
+    values = np.rint(255.0 * metres / most if most > 0.0 else metres * 0.0)
+    gray = np.where(metres > 0.0, np.clip(values, 1.0, 255.0), 0.0).astype(np.uint8)
+    out = BytesIO()
+    Image.fromarray(gray).save(out, format="PNG", optimize=True)
+    return out.getvalue()

@@ -1,4 +1,4 @@
-"""The picture of the ground that the page lays under the water: the user's, brought to the frame, or a drawn one."""
+"""The picture of the ground under the water: the user's, fitted to the frame, over the drawn one."""
 
 import warnings
 from io import BytesIO
@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from vexture.errors import LimitError, SourceError
-from vexture.flood.grids import pixels_to
-from vexture.flood.scene import Note
-from vexture.geo.frame import Frame
+from vexture.content import TIFF
+from vexture.errors import LimitError, SourceError, reason_of
+from vexture.flood.grids import pixels_to, size_for
+from vexture.flood.scene import PageNote
+from vexture.geo.extent import Frame
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -20,75 +21,46 @@ __all__ = ["GROUND_TYPE", "LARGEST_GROUND", "encoded", "ground_of"]
 GROUND_TYPE: Final = "image/webp"
 
 LONGEST: Final = 2048
-"""Pixels on the longer side, at most: every phone takes a texture of that size."""
+"""Most pixels on the longer side: every phone supports textures of that size."""
 
 LARGEST_GROUND: Final = 1_000_000
-"""Bytes of the encoded picture."""
+"""Most bytes of the encoded picture."""
 
 QUALITIES: Final = (82, 72, 60, 45)
-"""Of WebP, tried one after the other until the picture is small enough; then it is made smaller."""
+"""Qualities of WebP, tried in turn until the file is small enough; after them the picture is scaled down."""
 
 MOST_PIXELS: Final = 170_000_000
-"""Of a user's picture without a place; a file of a few kilobytes can say that it is endless."""
-
-TIFF_STARTS: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+"""Most pixels of a PNG, JPEG or WebP: a file of a few kilobytes can declare a huge size."""
 
 SHOWN_PERCENTILES: Final = (2.0, 98.0)
-"""Percentiles of a band of more than 8 bits that become black and white."""
+"""Percentiles of bands of more than 8 bits that become black and white."""
 
 
 def ground_of(
     path: Path, frame: Frame, drawn: "Image.Image", *, bounds_given: bool
-) -> tuple["Image.Image", list[Note]]:
-    """A user's picture of the ground, brought to the frame.
+) -> tuple["Image.Image", list[PageNote]]:
+    """A user's picture of the ground, fitted to the frame, and notes about it.
 
-    Parameters
-    ----------
-    path : path
-        A GeoTIFF with a reference system, which is warped to the frame; or PNG, JPEG or WebP, which covers the
-        frame exactly.
-    frame : Frame
-    drawn : image
-        What is seen where the picture is not, or shines through.
-    bounds_given : bool
-        Whether the user has said what the frame is.
-
-    Returns
-    -------
-    image, list of Note
-        In RGB; and what people should know about it.
-
-    Raises
-    ------
-    SourceError
-        If it is no picture, has no place, or lies outside the frame.
-    LimitError
-        If it is too large.
+    A GeoTIFF with a reference system is warped to the frame; a PNG, JPEG or WebP must show exactly the frame, and
+    `bounds_given`: the user has chosen its bounds. `drawn` shows where the picture is transparent or does
+    not reach.
     """
     try:
         with path.open("rb") as file:
             start = file.read(4)
     except OSError as error:
         raise SourceError(f"`ground` {path}: cannot be read ({error.strerror}); name another picture") from None
-    if start in TIFF_STARTS:
+    if start in TIFF:
         return _warped(path, frame, drawn)
     picture = _opened(path)
-    notes: list[Note] = []
+    notes, remedy = [], "`bounds` says which box it shows."
     if not bounds_given:
-        notes.append(
-            Note(f"{path.name} is assumed to show exactly the box of the extent.", "--bounds says which box it shows.")
-        )
-    shape, place = picture.width / picture.height, frame.metres[0] / frame.metres[1]
-    if not 0.9 < shape / place < 1.1:
-        notes.append(
-            Note(
-                f"{path.name}, {picture.width} x {picture.height} pixels, is stretched to {frame.metres[0]:.0f} x "
-                f"{frame.metres[1]:.0f} m.",
-                "If it shows another box, say so by --bounds.",
-            )
-        )
-    size = _size(frame, max(picture.size))
-    return _over(drawn, picture.resize(size, _lanczos())), notes
+        notes.append(PageNote(f"{path.name} is assumed to show exactly the box of the extent.", remedy))
+    width, height = frame.metres
+    if not 0.9 < (picture.width / picture.height) / (width / height) < 1.1:
+        pixels = f"{picture.width} x {picture.height} pixels"
+        notes.append(PageNote(f"{path.name}, {pixels}, is stretched to {width:.0f} x {height:.0f} m.", remedy))
+    return _over(drawn, _resized(picture, *_size(frame, max(picture.size)))), notes
 
 
 def encoded(picture: "Image.Image") -> bytes:
@@ -99,16 +71,16 @@ def encoded(picture: "Image.Image") -> bytes:
             picture.save(out, format="WEBP", quality=quality, method=4)
             if out.tell() <= LARGEST_GROUND:
                 return out.getvalue()
-        picture = picture.resize((max(1, 3 * picture.width // 4), max(1, 3 * picture.height // 4)), _lanczos())
+        picture = _resized(picture, max(1, 3 * picture.width // 4), max(1, 3 * picture.height // 4))
 
 
 def _opened(path: Path) -> "Image.Image":
-    """A picture in RGBA, refused before it is decoded if it is too large."""
+    """A picture in RGBA; one that is too large is refused before it is decoded."""
     from PIL import Image, ImageOps, UnidentifiedImageError
 
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of sizes, which are checked here
+            warnings.simplefilter("ignore")  # about sizes, which are checked here
             with Image.open(path, formats=("PNG", "JPEG", "WEBP")) as picture:
                 if picture.width * picture.height > MOST_PIXELS:
                     raise LimitError(
@@ -124,42 +96,42 @@ def _opened(path: Path) -> "Image.Image":
         raise SourceError(f"`ground` {path}: is {reason}; give a PNG, JPEG, WebP or GeoTIFF") from None
 
 
-def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Image", list[Note]]:
-    """A GeoTIFF on the frame, the drawn ground where it has nothing."""
+def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Image", list[PageNote]]:
+    """A GeoTIFF warped to the frame, over the drawn ground."""
     import rasterio
     from PIL import Image
     from rasterio.errors import CRSError, RasterioError, RasterioIOError
 
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of a file without a place, which is said below
+            warnings.simplefilter("ignore")  # about a missing reference system, which is refused below
             with rasterio.open(path) as raster:
                 if raster.crs is None:
                     raise SourceError(
-                        f"--ground {path}: says no reference system; write it into the file (gdal_edit.py -a_srs "
+                        f"`ground` {path}: says no reference system; write it into the file (gdal_edit.py -a_srs "
                         "EPSG:...), or save it as a PNG of exactly `bounds`"
                     )
                 bands, alpha = _bands_over(raster, frame)
     except RasterioIOError:
         raise SourceError(f"`ground` {path}: is a damaged GeoTIFF; save it again") from None
     except (CRSError, RasterioError) as error:
-        raise SourceError(f"`ground` {path}: {' '.join(str(error).split())[:200]}; save it again") from None
+        raise SourceError(f"`ground` {path}: {reason_of(error, 200)}; save it again") from None
     if not alpha.any():
         raise SourceError(f"`ground` {path}: shows nothing of the frame; give one that covers it, or other `bounds`")
-    notes: list[Note] = []
+    notes: list[PageNote] = []
     if (alpha == 0).mean() > 0.005:
         share = 100.0 * (alpha > 0).mean()
-        notes.append(Note(f"{path.name} shows {share:.0f}% of the frame; the rest of the ground is drawn.", ""))
+        notes.append(PageNote(f"{path.name} shows {share:.0f}% of the frame; the rest of the ground is drawn.", ""))
     if bands.dtype != np.uint8:
         bands = _stretched(bands, alpha > 0)
-        notes.append(Note(f"{path.name} has more than 8 bits a channel; its brightness is stretched.", ""))
+        notes.append(PageNote(f"{path.name} has more than 8 bits a channel; its brightness is stretched.", ""))
     colours = bands[:3] if len(bands) >= 3 else np.repeat(bands[:1], 3, axis=0)
     picture = np.concatenate([colours, alpha[None]]).transpose(1, 2, 0)
     return _over(drawn, Image.fromarray(np.ascontiguousarray(picture))), notes
 
 
 def _bands_over(raster: Any, frame: Frame) -> tuple[Any, Any]:
-    """Bands of a raster on the frame, and where it has any, 0 to 255."""
+    """Bands of a raster warped to the frame, and their opacity, 0 to 255."""
     from rasterio.enums import ColorInterp, Resampling
     from rasterio.vrt import WarpedVRT
     from rasterio.warp import transform_bounds
@@ -177,7 +149,7 @@ def _bands_over(raster: Any, frame: Frame) -> tuple[Any, Any]:
         "resampling": Resampling.nearest if raster.colorinterp[0] == ColorInterp.palette else Resampling.bilinear,
     }
     has_alpha = ColorInterp.alpha in raster.colorinterp
-    if np.issubdtype(np.dtype(raster.dtypes[0]), np.floating):  # an added alpha would be a number like any other
+    if np.issubdtype(np.dtype(raster.dtypes[0]), np.floating):  # an added alpha band would be floating-point too
         options["nodata"] = np.nan
     elif not has_alpha:
         options["add_alpha"] = True
@@ -201,7 +173,7 @@ def _stretched(bands: Any, known: Any) -> Any:
 
 
 def _over(drawn: "Image.Image", picture: "Image.Image") -> "Image.Image":
-    """Lay a picture in RGBA over the drawn ground."""
+    """A picture in RGBA over the drawn ground, in RGB."""
     from PIL import Image
 
     below = drawn.resize(picture.size, Image.Resampling.BICUBIC).convert("RGBA")
@@ -209,13 +181,11 @@ def _over(drawn: "Image.Image", picture: "Image.Image") -> "Image.Image":
 
 
 def _size(frame: Frame, longest: int) -> tuple[int, int]:
-    """Pixels of a picture of the frame."""
-    longest = max(16, min(longest, LONGEST))
-    width, height = (max(1, round(longest * side / max(frame.metres))) for side in frame.metres)
-    return width, height
+    """Width and height in pixels of a picture of the frame."""
+    return size_for(frame, max(16, min(longest, LONGEST)), least=1)
 
 
-def _lanczos() -> Any:
+def _resized(picture: "Image.Image", width: int, height: int) -> "Image.Image":
     from PIL import Image
 
-    return Image.Resampling.LANCZOS
+    return picture.resize((width, height), Image.Resampling.LANCZOS)

@@ -1,35 +1,29 @@
-"""What a user asks of `vexture flood`, checked before anything is read."""
+"""Parameters of `vexture flood`, checked before any file is read."""
 
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 from typing import Any, Final
 
-from vexture.errors import LimitError
+from vexture.errors import ParameterError
 from vexture.tolerance import HMIN
 
 __all__ = ["PERIOD", "FloodOptions", "bounds_of"]
 
 PERIOD: Final = 8.0
-"""Seconds between two waves on a beach, by default."""
+"""Default seconds between two waves on a beach."""
 
 SHORTEST_PERIOD, LONGEST_PERIOD = 0.1, 600.0
 MOST_AMPLITUDE: Final = 0.05
-"""Share of the frame's longer side by which a shoreline may move."""
+"""Largest amplitude, as a share of the frame's longer side."""
 
 SHARE: Final = 0.002
-"""Of the longer side: the default amplitude."""
+"""Default amplitude, as a share of the longer side."""
 
 
 @dataclass(frozen=True, slots=True)
 class FloodOptions:
-    """Parameters of one flood; see `vexture flood --help`.
-
-    Raises
-    ------
-    LimitError
-        If one of them is out of range.
-    """
+    """Parameters of one flood; see `vexture flood --help`. Values out of range raise `ParameterError`."""
 
     extent: Path
     crs: str | None = None
@@ -46,35 +40,26 @@ class FloodOptions:
 
     def __post_init__(self) -> None:
         if not (isfinite(self.hmin) and self.hmin > 0.0):
-            raise LimitError(f"`hmin` {self.hmin:g}: it is a depth in metres, above 0")
+            raise ParameterError(f"`hmin` {self.hmin:g}: it is a depth in metres, above 0")
         if self.amplitude is not None and not (isfinite(self.amplitude) and self.amplitude >= 0.0):
-            raise LimitError(f"`amplitude` {self.amplitude:g}: it is a length in metres, 0 or more")
+            raise ParameterError(f"`amplitude` {self.amplitude:g}: it is a length in metres, 0 or more")
         if not SHORTEST_PERIOD <= self.period <= LONGEST_PERIOD:
-            raise LimitError(f"`period` {self.period:g}: it must be {SHORTEST_PERIOD:g} to {LONGEST_PERIOD:g} seconds")
+            raise ParameterError(
+                f"`period` {self.period:g}: it must be {SHORTEST_PERIOD:g} to {LONGEST_PERIOD:g} seconds"
+            )
 
     @property
     def reading(self) -> dict[str, Any]:
-        """Parameters of the reader that also hold for files that are sent later."""
+        """Parameters of the reader that also apply to files uploaded later."""
         named = {"time_dim": self.time_dim, "variable": self.variable, "layer": self.layer}
         return {name: value for name, value in named.items() if value is not None}
 
     def amplitude_in(self, longest: float) -> float:
-        """By how much the shoreline moves in a frame, in metres.
-
-        Parameters
-        ----------
-        longest : float
-            The longer side of the frame in metres.
-
-        Raises
-        ------
-        LimitError
-            If it is too much for the frame.
-        """
+        """Amplitude of the shoreline in metres, in a frame whose longer side has this many metres."""
         if self.amplitude is None:
             return SHARE * longest
         if self.amplitude > MOST_AMPLITUDE * longest:
-            raise LimitError(
+            raise ParameterError(
                 f"`amplitude` {self.amplitude:g}: the limit is {MOST_AMPLITUDE * longest:.3g} m, a twentieth of the "
                 f"longer side of {longest:.3g} m; choose a smaller one"
             )
@@ -82,12 +67,7 @@ class FloodOptions:
 
 
 def bounds_of(text: str) -> tuple[float, float, float, float]:
-    """Box that a user has written as W,S,E,N.
-
-    Raises
-    ------
-    LimitError
-        If it is none.
+    """Bounds that a user has written as W,S,E,N.
 
     Examples
     --------
@@ -95,14 +75,14 @@ def bounds_of(text: str) -> tuple[float, float, float, float]:
     (-122.1, 36.9, -121.9, 37.0)
     >>> bounds_of("1,2,3")
     Traceback (most recent call last):
-    vexture.errors.LimitError: `bounds` 1,2,3: give four numbers, west,south,east,north, without spaces
+    vexture.errors.ParameterError: `bounds` 1,2,3: give four numbers, west,south,east,north, without spaces
     """
     try:
         west, south, east, north = (float(part) for part in text.split(","))
     except ValueError:
-        raise LimitError(f"`bounds` {text}: give four numbers, west,south,east,north, without spaces") from None
+        raise ParameterError(f"`bounds` {text}: give four numbers, west,south,east,north, without spaces") from None
     if not all(map(isfinite, (west, south, east, north))):
-        raise LimitError(f"`bounds` {text}: every number must be finite")
+        raise ParameterError(f"`bounds` {text}: every number must be finite")
     if west == east or south >= north:
-        raise LimitError(f"`bounds` {text}: the box is empty; the order is west,south,east,north")
+        raise ParameterError(f"`bounds` {text}: the box is empty; the order is west,south,east,north")
     return west, south, east, north

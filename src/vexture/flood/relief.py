@@ -1,9 +1,9 @@
-"""Heights of the ground over the frame: measured, from the bed that the source has, or invented.
+"""Heights of the ground over the frame: of the user's file, of the source's bed, or invented.
 
-Heights are metres above the *still water*: the level at which the first water lies, which is the median height of the
-ground along its shore. So a beach measured in any datum has its shore at 0, and so has the bank of a river ten metres
-above the sea. Where the water of a flood follows sloping ground, places that are wet can be above 0; there the page
-lays the water on the ground. How much heights are exaggerated is the page's matter.
+Heights are metres above the *still water*: the level of the first step's water, which is the median height of the
+ground along its shore. So the shore is at 0 whatever the datum of the heights, for a beach and for the bank of a river
+ten metres above the sea. Where the water follows sloping ground, wet places can be above 0; the page then puts the
+water onto the ground. The page also decides how much it exaggerates heights.
 """
 
 import base64
@@ -15,48 +15,41 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.errors import SourceError
+from vexture.errors import SourceError, reason_of
 from vexture.flood.grids import coverage_over, filled, noise, pixels_to, sampled, shore_distance, size_for
-from vexture.geo.extent import Extent, Step
-from vexture.geo.frame import Frame
+from vexture.geo.extent import Extent, Frame, Step
 
-__all__ = ["SAMPLES", "Relief", "first_wet", "relief_of", "widest"]
+__all__ = ["Relief", "first_wet", "relief_of", "widest"]
 
 SAMPLES: Final = 129
-"""On the longer side, at most."""
+"""Samples on the longer side."""
 
 FINEST_UNIT: Final = 1e-3
-"""Metres; the coarsest follows from the highest place."""
+"""Metres. The smallest unit of heights on the page; high ground needs a larger one."""
 
 HIGHEST: Final = 32_000
-"""Units, within 16 bits with their sign."""
+"""Units of the highest place, within signed 16 bits."""
 
 LAND_RISE, LAND_REACH = 0.03, 0.2
 SEA_FALL, SEA_REACH = 0.02, 0.25
-"""Invented ground: how far it rises and falls, and within which distance of the shore; shares of the longer side."""
+"""Invented ground: how far it rises and falls, and over which distance from the shore; shares of the longer side."""
 
 BEACH: Final = 0.03
 """Invented ground: the share of the longer side within which it is nearly level at the shore."""
 
 PLAIN_RISE: Final = 0.001
-"""Invented ground that the flood reaches later: how far it rises, as a share of the longer side."""
+"""Invented ground that later steps flood: how far it rises, as a share of the longer side."""
 
 ROUGHNESS: Final = 0.5
-"""Of invented ground: the share of its height by which it goes up and down."""
+"""Invented ground: amplitude of the noise, as a share of its height."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Relief:
     """Heights of the ground.
 
-    Parameters
-    ----------
-    heights : (rows, columns) float64 array
-        Metres above the still water, the northernmost row first, at the corners of the frame and evenly between them.
-    invented : bool
-        Whether nobody has measured them.
-    known : float
-        Share of them that somebody has measured, if anybody has.
+    `heights` are metres above the still water, the northernmost row first, on a regular grid from corner to corner of
+    the frame. `known` is the share of them that is measured or under water, unless all are invented.
     """
 
     heights: NDArray[np.float64]
@@ -64,46 +57,29 @@ class Relief:
     known: float = 1.0
 
     def as_json(self) -> dict[str, Any]:
-        """What the page is told: 16-bit numbers times a unit, as a data address."""
+        """Heights for the page: 16-bit numbers and their unit in metres, in a data URL."""
         unit = max(FINEST_UNIT, float(np.abs(self.heights).max()) / HIGHEST)
         numbers = np.rint(self.heights / unit).astype("<i2")
-        text = base64.b64encode(numbers.tobytes()).decode()
+        address = f"data:application/octet-stream;base64,{base64.b64encode(numbers.tobytes()).decode()}"
         rows, columns = numbers.shape
-        return {
-            "columns": columns,
-            "rows": rows,
-            "unit": unit,
-            "heights": f"data:application/octet-stream;base64,{text}",
-            "invented": self.invented,
-        }
+        return {"columns": columns, "rows": rows, "unit": unit, "heights": address, "invented": self.invented}
 
 
 def first_wet(extent: Extent) -> Step | None:
-    """The first step at which anything is under water."""
+    """First step with water."""
     return next((step for step in extent.steps if step.drawing.paths), None)
 
 
 def widest(extent: Extent) -> Step | None:
-    """The step at which most is under water."""
+    """Step with the largest area under water."""
     wet = [step for step in extent.steps if step.drawing.paths]
     return max(wet, key=lambda step: coverage_over(step.drawing, extent.frame.box, (32, 32)).sum()) if wet else None
 
 
 def relief_of(extent: Extent, path: Path | None = None, crs: str | None = None) -> Relief:
-    """Heights of the ground: of a file, else of the bed, else invented from the distance to the shore.
+    """Heights of a raster file, else of the bed, else invented from the distance to the shore.
 
-    Parameters
-    ----------
-    extent : Extent
-    path : path, optional
-        Heights in metres as GeoTIFF, or another raster that rasterio reads.
-    crs : str, optional
-        Reference system of the file, if it does not say one itself.
-
-    Raises
-    ------
-    SourceError
-        If the file cannot be read, says no reference system, or has no height within the frame.
+    `crs` is the reference system of the file, if it names none.
     """
     size = size_for(extent.frame, SAMPLES)
     first = first_wet(extent)
@@ -126,21 +102,18 @@ def relief_of(extent: Extent, path: Path | None = None, crs: str | None = None) 
 
 
 def _wet(step: Step, frame: Frame, size: tuple[int, int]) -> NDArray[np.bool_]:
-    """Which samples are under water; each stands for the cell around it."""
+    """Samples under water; each stands for the cell around it."""
     x0, y0, x1, y1 = frame.box
     half_x, half_y = (x1 - x0) / (size[0] - 1) / 2, (y1 - y0) / (size[1] - 1) / 2
     return coverage_over(step.drawing, (x0 - half_x, y0 - half_y, x1 + half_x, y1 + half_y), size) >= 0.5
 
 
 def _shore_level(heights: NDArray[np.float64], wet: NDArray[np.bool_], known: NDArray[np.bool_]) -> float:
-    """Median height half way between a wet place and a dry neighbour; of the lowest wet place if there is no shore."""
+    """Median height halfway between wet samples and their dry neighbours; else that of the highest wet sample."""
     middles = []
-    for axis in (0, 1):
-        count = heights.shape[axis]
-        first, second = (np.arange(count - 1), np.arange(1, count))
-        crossed = np.take(wet, first, axis) != np.take(wet, second, axis)
-        crossed &= np.take(known, first, axis) & np.take(known, second, axis)
-        middles.append(((np.take(heights, first, axis) + np.take(heights, second, axis)) / 2)[crossed])
+    for grid, water, sure in ((heights, wet, known), (heights.T, wet.T, known.T)):
+        crossed = (water[:-1] != water[1:]) & sure[:-1] & sure[1:]
+        middles.append(((grid[:-1] + grid[1:]) / 2)[crossed])
     along = np.concatenate(middles)
     if len(along):
         return float(np.median(along))
@@ -148,7 +121,7 @@ def _shore_level(heights: NDArray[np.float64], wet: NDArray[np.bool_], known: ND
 
 
 def _invented(extent: Extent, size: tuple[int, int]) -> NDArray[np.float64]:
-    """Gently rising land and a sea floor that falls, by the distance to the shore; real depths where they are known."""
+    """Land that rises and a sea floor that falls with the distance to the shore; real depths where they are known."""
     frame = extent.frame
     longest = max(frame.metres)
     cell = (frame.metres[0] / (size[0] - 1), frame.metres[1] / (size[1] - 1))
@@ -172,12 +145,12 @@ def _invented(extent: Extent, size: tuple[int, int]) -> NDArray[np.float64]:
 
 
 def _risen(distance: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
-    """From 0 to 1 with the distance: level at the shore, as a beach is."""
+    """Profile from 0 to 1 with the distance, level at the shore, as a beach is."""
     return np.asarray((1.0 - np.exp(-distance / reach)) * distance / (distance + BEACH))
 
 
 def _heights_of(path: Path, frame: Frame, size: tuple[int, int], crs: str | None) -> NDArray[np.float64]:
-    """Heights of a raster at the samples, NaN where it has none."""
+    """Heights of a raster at the samples, NaN beyond it."""
     import rasterio
     from rasterio.enums import Resampling
     from rasterio.errors import CRSError, RasterioError, RasterioIOError
@@ -189,7 +162,7 @@ def _heights_of(path: Path, frame: Frame, size: tuple[int, int], crs: str | None
     heights = np.full(size[::-1], np.nan, np.float32)
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of what has no place, which is said below
+            warnings.simplefilter("ignore")  # about a missing reference system, which is refused below
             with rasterio.open(path) as raster:
                 if not raster.count:
                     choices = ", ".join(one.rpartition(":")[2] for one in raster.subdatasets[:8])
@@ -211,7 +184,7 @@ def _heights_of(path: Path, frame: Frame, size: tuple[int, int], crs: str | None
         reason = "is no raster that can be read" if path.is_file() else "there is no such file"
         raise SourceError(f"`relief` {path}: {reason}; give heights in metres as GeoTIFF") from None
     except (CRSError, RasterioError) as error:
-        raise SourceError(f"`relief` {path}: {' '.join(str(error).split())[:200]}; give another file") from None
+        raise SourceError(f"`relief` {path}: {reason_of(error, 200)}; give another file") from None
     if not np.isfinite(heights).any():
         raise SourceError(f"`relief` {path}: has no height within the frame; give one that covers it")
     return heights.astype(np.float64)

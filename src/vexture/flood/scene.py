@@ -1,19 +1,26 @@
-"""What the page of a flood is told."""
+"""The data of a flood's page: all of it but the water, and the names and times of the steps of the water."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from datetime import datetime
+from typing import Any, Final, NamedTuple
 
 from vexture.flood.relief import Relief
-from vexture.flood.shore import Shore
-from vexture.geo.frame import Frame
-from vexture.geo.reference import system
+from vexture.flood.viewpoint import Shore
+from vexture.geo.crs import system
+from vexture.geo.extent import Frame
 
-__all__ = ["Flood", "Note", "scene"]
+__all__ = ["PREFIX", "Flood", "PageNote", "labels", "scene", "step_names"]
+
+PREFIX: Final = "flood"
+"""Name of a flood's shape on a server, or with a slash the start of it."""
+
+MONTHS: Final = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
+"""In English, whatever the locale."""
 
 
-class Note(NamedTuple):
-    """What people should know about what they see, and what who makes the page can do about it."""
+class PageNote(NamedTuple):
+    """A remark on the page, and what the author of the page can do about it."""
 
     text: str
     remedy: str
@@ -23,18 +30,7 @@ class Note(NamedTuple):
 class Flood:
     """All of a page but its water.
 
-    Parameters
-    ----------
-    title : str
-    frame : Frame
-    ground : bytes
-        Picture of the ground over the frame, encoded.
-    relief : Relief
-    fold : bytes or None
-        How the shoreline moves, as a file; None if it does not.
-    shore : Shore or None
-        Where to stand.
-    notes : tuple of Note
+    `ground` is an encoded picture of the frame; `fold` is a file that moves the shoreline; `shore` is the viewpoint.
     """
 
     title: str
@@ -43,29 +39,20 @@ class Flood:
     relief: Relief
     fold: bytes | None
     shore: Shore | None
-    notes: tuple[Note, ...]
+    notes: tuple[PageNote, ...]
 
 
-def scene(
-    flood: Flood, steps: Sequence[str | Mapping[str, Any]], prefix: str, ground: str, fold: str | None
-) -> dict[str, Any]:
-    """Everything that the page needs, ready for JSON.
+def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, fold: str | None) -> dict[str, Any]:
+    """Data of the page, ready for JSON.
 
-    Parameters
-    ----------
-    flood : Flood
-    steps : sequence
-        Names of the shapes on a server, or manifests that hold them.
-    prefix : str
-        Further shapes of this name, or whose names begin with it and a slash, are further steps.
-    ground, fold : str
-        Addresses of the picture and of the file.
+    `steps` are names of shapes on a server, or manifests that contain the shapes. On a server, shapes named `PREFIX`,
+    or with names that begin with it and a slash, become further steps. `ground` and `fold` are addresses of files.
     """
     frame, shore = flood.frame, flood.shore
     return {
         "title": flood.title,
         "steps": list(steps),
-        "prefix": prefix,
+        "prefix": PREFIX,
         "frame": {
             "box": list(frame.box),
             "to_source": frame.to_source.ravel().tolist(),
@@ -80,3 +67,34 @@ def scene(
         "shore": None if shore is None else {"place": list(shore.place), "seaward": list(shore.seaward)},
         "notes": [note.text for note in flood.notes],
     }
+
+
+def step_names(count: int) -> list[str]:
+    """Names of steps on a server, in alphabetical order.
+
+    Examples
+    --------
+    >>> step_names(1), step_names(3)
+    (['flood'], ['flood/00', 'flood/01', 'flood/02'])
+    """
+    digits = max(2, len(str(count - 1)))
+    return [PREFIX] if count == 1 else [f"{PREFIX}/{number:0{digits}}" for number in range(count)]
+
+
+def labels(times: Sequence[datetime | None]) -> list[str]:
+    """Times for people, with seconds if any time has them; empty for a step without a time.
+
+    Examples
+    --------
+    >>> from datetime import UTC
+    >>> labels([datetime(2026, 2, 14, 6, tzinfo=UTC), datetime(2026, 2, 14, 7, 30), None])
+    ['14 Feb 2026 06:00 UTC', '14 Feb 2026 07:30', '']
+    """
+    exact = any(time is not None and (time.second or time.microsecond) for time in times)
+    return ["" if time is None else _label(time, exact) for time in times]
+
+
+def _label(time: datetime, exact: bool) -> str:
+    clock = f"{time:%H:%M:%S}" if exact else f"{time:%H:%M}"
+    zone = time.tzname() or ""
+    return f"{time.day} {MONTHS[time.month - 1]} {time.year} {clock} {zone}".strip()

@@ -1,7 +1,7 @@
-"""The fold shader's mirror on the CPU: the functions of ``glsl/fold.glsl`` again, for many places at once, in float64.
+"""The functions of ``glsl/fold.glsl`` on the CPU, for many places at once, in float64.
 
-They have the shader's names without its prefix, as those of `vexture.renderers.cpu`; the reasons stand in the
-shader's comments. Its uniforms come first.
+They have the shader's names without its prefix, as in `vexture.renderers.cpu`, and take its uniforms first. The
+shader's comments explain them.
 """
 
 from typing import NamedTuple
@@ -25,7 +25,7 @@ Words = NDArray[np.uint32]
 
 
 class Folded(NamedTuple):
-    """Footprints, where the shape is to be looked up."""
+    """Places where the shape is looked up, and the footprints of pixels there."""
 
     uv: Numbers
     dx: Numbers
@@ -33,7 +33,7 @@ class Folded(NamedTuple):
 
 
 def progress(time: float, cycle: float, texel: Words) -> Numbers:
-    """How much of its displacement each texel has at a time, for (..., 4) words.
+    """Share of its displacement that each texel, (..., 4) words, has at a time.
 
     Examples
     --------
@@ -55,10 +55,10 @@ def progress(time: float, cycle: float, texel: Words) -> Numbers:
 
 
 def fold(now: Numbers, wrap: str, base: NDArray[np.uint32], offset: Numbers, dx: Numbers, dy: Numbers) -> Folded:
-    """Fold footprints, all (n, 2), by the displacements of all texels as they are now, (rows, columns, 2)."""
+    """Displace places and footprints, all (n, 2), by the current displacements of all texels, (rows, columns, 2)."""
     size = np.array([now.shape[1], now.shape[0]])
     near = offset - np.floor(offset) if wrap == "repeat" else np.clip(offset, -2.0, 2.0)
-    scaled = base * size / 2.0**32 + near * size  # a float64 holds what the shader splits
+    scaled = base * size / 2.0**32 + near * size  # in two parts in the shader, for its float32
     middle = np.floor(scaled).astype(np.int64)
     t = scaled - middle - 0.5
     weights = (0.5 * (0.5 - t) ** 2, 0.75 - t * t, 0.5 * (0.5 + t) ** 2)

@@ -1,4 +1,4 @@
-"""`Fold`: where a shape is looked up, moving with time (thesis 4.6.2), as an array, as a file and as a function."""
+"""`Fold`: displacements of a shape that change with time (thesis 4.6.2), as an array, a file and a function."""
 
 import json
 from dataclasses import dataclass
@@ -23,11 +23,11 @@ WRAPS: Final = ("none", "clamp", "repeat")
 
 
 class Kind(IntEnum):
-    """How a texel goes from its place to its end position.
+    """How a texel moves from its place to its end position.
 
-    With x = (time - begin) / duration cut to 0..1 the progress is x (linear), x^2 (smooth start), 1 - (1 - x)^2 (smooth
-    end), x^2 (3 - 2 x) (smooth both). The periodic kind has 0 before its begin and then, without an end, sin(2 pi
-    (time - begin) / duration): its duration is its period, and it swings to both sides.
+    With x = (time - begin) / duration clamped to 0..1, the progress is x (linear), x^2 (smooth start), 1 - (1 - x)^2
+    (smooth end) or x^2 (3 - 2 x) (smooth both). The periodic kind has the progress 0 before its begin, and then
+    sin(2 pi (time - begin) / duration) without end: its duration is its period.
     """
 
     LINEAR = layout.FOLD_LINEAR
@@ -41,14 +41,13 @@ class Kind(IntEnum):
 class Fold:
     """A field of displacements that change with time.
 
-    A fragment at the place p shows what the texture has at p + d(p, time). At each texel d is its end position times
-    its progress (`Kind`); between them d is the quadratic B-spline whose control points stand at the middles of the
-    texels, which has a gradient without jumps. Beyond the unit square the border texels go on; where the shape repeats
-    the fold does.
+    A fragment at the place p shows what the texture has at p + d(p, time). The displacement d is a quadratic B-spline,
+    so its gradient is continuous; its control points, at the middles of the texels, are the end positions times the
+    progress (`Kind`). Beyond the unit square the border texels continue; where the shape repeats, the fold repeats.
 
-    With a cycle, time - begin is taken modulo the cycle, so a texel begins anew whenever its own begin comes round and
-    texels need not move in lockstep. There the periodic kind goes on without a jump if the cycle is a whole number of
-    durations; the others jump back to 0. Without one (0) each texel moves once and stays.
+    With a cycle, time - begin is taken modulo the cycle, so that each texel starts again at its own begin. The periodic
+    kind then continues without a jump if the cycle is a whole number of durations; the others jump back to 0. With a
+    cycle of 0, each texel moves once and stays.
 
     Parameters
     ----------
@@ -61,7 +60,7 @@ class Fold:
     cycle : float
         Seconds, in the same steps.
     notes : tuple of Note
-        What was noticed while it was made; a file does not hold them.
+        Remarks about how it was made; a file does not hold them.
 
     Raises
     ------
@@ -126,17 +125,17 @@ class Fold:
         return words
 
     def progress(self, seconds: float) -> NDArray[np.float64]:
-        """How much of its displacement each texel has at a time, (rows, columns)."""
+        """Share of its displacement that each texel has at a time, (rows, columns)."""
         return progress(self.clock(seconds), self.cycle, self.texels)
 
     def clock(self, seconds: float) -> float:
-        """Return the time that the shader is given: within the cycle, for its floats hold few digits."""
+        """Time for the shader: within the cycle, because its float32 has few digits."""
         return seconds % self.cycle if self.cycle > 0.0 else seconds
 
     def at(
         self, points: ArrayLike, seconds: float, *, wrap: str = "none"
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Where places show the texture at a time: the shader's function in float64.
+        """Places of the texture that points show at a time: the shader's function in float64.
 
         Parameters
         ----------
@@ -145,14 +144,14 @@ class Fold:
         seconds : float
             The time.
         wrap : str
-            ``"repeat"`` where the shape repeats, else ``"none"`` or ``"clamp"``, which here are the same.
+            ``"repeat"`` where the shape repeats, else ``"none"`` or ``"clamp"``, which are equal here.
 
         Returns
         -------
         places : (n, 2) array
-            In unit-square units: what the fragments at the points show.
+            In unit-square units.
         jacobians : (n, 2, 2) array
-            Derivatives of the places; entry [k, i, j] is that of coordinate i by coordinate j.
+            Derivatives of the places; [k, i, j] is that of coordinate i by coordinate j.
 
         Raises
         ------
@@ -189,7 +188,7 @@ def _check(
     duration: NDArray[np.float64],
     cycle: float,
 ) -> None:
-    """Refuse what FORMAT.md, C.3 refuses."""
+    """Refuse values that FORMAT.md, C.3 does not allow."""
     most, tick = layout.FOLD_MOST_SECONDS, 1.0 / layout.FOLD_TICKS
     if not (np.abs(displacement) <= layout.FOLD_MOST_DISPLACEMENT).all():
         raise ParameterError(f"a displacement is not a number within {layout.FOLD_MOST_DISPLACEMENT:g} of 0")
@@ -208,7 +207,7 @@ def _check(
 
 
 def fold_from(data: bytes, source: str = "fold") -> Fold:
-    """Read the content of a fold's file, which a stranger may have written.
+    """Read the content of a fold's file, which need not be trusted.
 
     Parameters
     ----------

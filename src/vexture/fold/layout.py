@@ -1,4 +1,4 @@
-"""The one owner of the fold texture's bits (FORMAT.md, part C); shader and web get their constants from here."""
+"""Layout of the fold texture (FORMAT.md, part C); the shader and the web modules take their constants from here."""
 
 from typing import Final
 
@@ -23,7 +23,7 @@ __all__ = [
 ENCODING_FOLD: Final = "fold"
 FOLD_VERSION: Final = "1"
 TEXT_FOLD: Final = "vexture.fold"
-"""Key of the file's JSON text; version and encoding have the keys of the packed texture."""
+"""Key of the file's JSON text; the keys of version and encoding are those of the packed texture."""
 
 FOLD_SUFFIX: Final = ".fold.ktx2"
 
@@ -41,13 +41,13 @@ FOLD_TICKS: Final = 65536
 """Units of time in a second."""
 
 FOLD_MOST_SECONDS: Final = 8191
-"""Of a begin, a duration, a cycle: what fits below the kind."""
+"""Largest begin, duration or cycle in seconds: what fits below the kind."""
 
 FOLD_MOST_SIDE: Final = 256
-"""Columns or rows: a fold is smooth, so it needs few."""
+"""Most columns or rows: a fold is smooth, so few are enough."""
 
 FOLD_MOST_DISPLACEMENT: Final = 1.0
-"""Along each axis, in sides of the unit square."""
+"""Largest displacement along each axis, in sides of the unit square."""
 
 FOLD_FILE_LIMIT: Final = 1 << 22
-"""Bytes. A longer file is not read: it is four times the most texels, not deflated."""
+"""Bytes. Longer files are refused: this is four times the most texels, uncompressed."""

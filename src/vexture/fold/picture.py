@@ -1,4 +1,4 @@
-"""What a fold does, where and when, as a picture for people."""
+"""A picture that explains a fold: its end positions, kinds and begins."""
 
 from typing import TYPE_CHECKING, Any, Final
 
@@ -18,10 +18,10 @@ __all__ = ["fold_picture"]
 
 LEAST, MOST = 256, 4096
 STILL: Final = 0.02
-"""A texel that moves by less than this part of the largest displacement has no colour of its kind or begin."""
+"""Share of the largest displacement. Texels that move less are not coloured by kind and begin."""
 
 ARROWS: Final = 24
-"""Arrows along a side."""
+"""Most arrows along a side."""
 
 KIND_COLORS: Final = {
     Kind.LINEAR: (228, 135, 40),
@@ -38,14 +38,13 @@ Pixels = NDArray[np.float64]
 
 
 def fold_picture(fold: Fold, drawing: "Drawing | None" = None, size: int = 768) -> "Image":
-    """Draw a fold: end positions as colours and arrows; beside them, small, the kinds and the begins.
+    """Draw a fold: end positions as colours and arrows and, smaller, the kinds and the begins.
 
     Parameters
     ----------
     fold : Fold
-        What is drawn.
     drawing : Drawing, optional
-        What moves, drawn below the arrows.
+        The moving shape, drawn below the arrows.
     size : int
         Height in pixels, 256 to 4096; the picture is 3/2 as wide.
 
@@ -77,7 +76,7 @@ def fold_picture(fold: Fold, drawing: "Drawing | None" = None, size: int = 768) 
     _caption(draw, (0, 0), f"end positions, largest {largest:.3g} sides", size)
     moves = np.hypot(fold.displacement[..., 0], fold.displacement[..., 1]) > STILL * largest
     for place, title, colors in (
-        (0, "kinds", _kinds(fold)),
+        (0, "kinds", np.array([KIND_COLORS[kind] for kind in Kind], np.float64)[fold.kind]),
         (half, f"begin, as part of {_span(fold):.3g} s", _begins(fold)),
     ):
         small = _grown(colors, half)
@@ -101,7 +100,7 @@ def _ground(drawing: "Drawing | None", size: int) -> Pixels:
 
 
 def _grown(values: NDArray[Any], size: int) -> NDArray[Any]:
-    """Texels as squares of a picture."""
+    """Texels enlarged to squares of a picture."""
     rows, columns = values.shape[:2]
     at = np.arange(size)
     grown: NDArray[Any] = values[(at * rows // size)[:, None], at * columns // size]
@@ -109,13 +108,13 @@ def _grown(values: NDArray[Any], size: int) -> NDArray[Any]:
 
 
 def _hue(turn: Pixels) -> Pixels:
-    """Colours around a wheel, red at 0, all of one lightness or so."""
+    """Colours around a wheel, red at 0, of about equal lightness."""
     angles = 2.0 * np.pi * (turn[..., None] - np.arange(3) / 3.0)
     return 128.0 + 105.0 * np.cos(angles)
 
 
 def _wheel_over(fold: Fold, ground: Pixels, largest: float) -> Pixels:
-    """Direction as hue, length as strength."""
+    """The ground, coloured by the direction of displacements as hue and their length as strength."""
     x, y = np.moveaxis(fold.displacement.astype(np.float64), 2, 0)
     strength = np.hypot(x, y)[..., None] / max(largest, 1e-30)
     size = len(ground)
@@ -123,23 +122,18 @@ def _wheel_over(fold: Fold, ground: Pixels, largest: float) -> Pixels:
     return ground + 0.75 * strength * (hue - ground)
 
 
-def _kinds(fold: Fold) -> Pixels:
-    colors = np.array([KIND_COLORS[kind] for kind in Kind], np.float64)
-    return colors[fold.kind]
-
-
 def _span(fold: Fold) -> float:
-    """Seconds that the hues of begins stand for."""
+    """Seconds that the whole wheel of hues stands for."""
     return fold.cycle or float(fold.begin.max()) or 1.0
 
 
 def _begins(fold: Fold) -> Pixels:
     part = fold.begin / _span(fold)
-    return _hue(part if fold.cycle else 0.8 * part)  # what never begins anew must not close the wheel
+    return _hue(part if fold.cycle else 0.8 * part)  # without a cycle, the first and last hue must differ
 
 
 def _draw_arrows(draw: Any, fold: Fold, size: int, largest: float) -> None:
-    """Arrows from places to their end positions; no shorter than can be seen, all by one factor."""
+    """Arrows from places to their end positions, all enlarged by one factor if the longest would be too short."""
     if largest == 0.0:
         return
     columns, rows = fold.size
@@ -167,7 +161,7 @@ def _font(size: int) -> Any:
 
 
 def _caption(draw: Any, place: tuple[int, int], text: str, size: int) -> None:
-    """White letters' ground, so that the text can be read over anything."""
+    """Text on a white rectangle, so that it can be read over anything."""
     font = _font(size)
     at = (place[0] + size // 96, place[1] + size // 96)
     left, top, right, bottom = draw.textbbox(at, text, font=font)
@@ -176,7 +170,7 @@ def _caption(draw: Any, place: tuple[int, int], text: str, size: int) -> None:
 
 
 def _legend(draw: Any, fold: Fold, place: tuple[int, int], size: int) -> None:
-    """Which colour is which kind, and how long they take, at the bottom of the kinds."""
+    """Colours of the kinds, durations and cycle, at the bottom of the picture of kinds."""
     font, step = _font(size), max(14, size // 32)
     present = [kind for kind in Kind if (fold.kind == kind).any()]
     least, most = float(fold.duration.min()), float(fold.duration.max())

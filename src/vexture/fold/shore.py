@@ -1,4 +1,4 @@
-"""From a shoreline to a fold: the water's edge slides up and down the beach."""
+"""Folds that move a shoreline up and down the beach."""
 
 from typing import TYPE_CHECKING, Final
 
@@ -18,44 +18,44 @@ if TYPE_CHECKING:
 __all__ = ["STEEPEST", "fold_of_shore", "shore_fold"]
 
 STEEPEST: Final = 0.5
-"""Most that the displacements of two places may differ by, in distances of the two: far from a fold that turns over."""
+"""Largest gradient of the displacements; at 1 two places would be displaced to the same one."""
 
 MOST_AMPLITUDE: Final = 0.25
 LEAST_SIDE: Final = 8
 
 REACH_TEXELS: Final = 2.0
 REACH_AMPLITUDES: Final = 2.5
-"""How far the movement goes inland and offshore, if nobody says, is the larger of these."""
+"""The default reach, inland and offshore, is the larger of these."""
 
 SOFT: Final = 0.35
-"""Where the blurred slope is this part of a straight shore's, as on small islands, shores move two thirds as far."""
+"""Share of a straight shore's slope. Where the blurred slope is this small, as on islets, shores move 2/3 as far."""
 
 MARGIN: Final = 1 / 16
-"""Over this part of the square's side, from its border on, the movement grows from nothing."""
+"""Share of the square's side, along its border, over which the movement grows from 0."""
 
 PHASE_SLOPE: Final = 0.1
-"""Most that different phases add to the slope of the displacements."""
+"""Largest contribution of the phases to the gradient of the displacements."""
 
 WAVES: Final = ((0.19, 0.83, 0.37, 0.1), (0.15, -0.41, 1.13, 0.6), (0.07, 2.3, 1.7, 0.3))
-"""Phases, in periods, are a sum of these: height, waves per side to the right and up, and where they begin."""
+"""Phases, in periods, are a sum of waves: height, waves per side to the right and up, and phase."""
 
 GRAIN: Final = 2.0**20
 MOMENTS: Final = 1024
-"""Displacements are whole parts of a side, phases whole parts of a period: nobody sees it, and the file is a third."""
+"""Steps of displacements in a side, and of phases in a period: the rounding is invisible and cuts the file to 1/3."""
 
 TIMES: Final = 16
-"""Half a period is looked at at so many times."""
+"""Times in half a period at which the gradient is measured."""
 
 
 def shore_fold(
     drawing: "Drawing", *, amplitude: float, period: float, size: int = 64, reach: float | None = None
 ) -> Fold:
-    """Fold that slides the outline of a drawing to and fro along its normals, as waves on a beach.
+    """Fold that moves the outline of a drawing to and fro along its normals, as waves on a beach.
 
-    The movement is strongest at the outline, fades over `reach` to both sides of it, and is nothing at the border of
-    the unit square. Its phase differs slowly from place to place. Where outlines are nearer to one another than the
-    reach, as in a channel, they move less. No two places are brought to one: the displacements' gradient stays below
-    `STEEPEST`, if need be by a smaller amplitude, which a warning says.
+    The movement is largest at the outline, fades over `reach` on both sides of it, and is 0 at the border of the unit
+    square. Its phase varies slowly with the place. Outlines that are nearer to one another than the reach, as in a
+    channel, move less. The shape never turns over: if the gradient of the displacements would exceed 0.5, the
+    amplitude is reduced, with a warning.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def shore_fold(
     size : int
         Texels each way.
     reach : float, optional
-        In sides of the unit square; two texels or two and a half amplitudes, if not given.
+        In sides of the unit square; by default two texels or 2.5 amplitudes, whichever is more.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def shore_fold(
     Warns
     -----
     SourceWarning
-        If the amplitude had to be made smaller.
+        If the amplitude was reduced.
 
     Examples
     --------
@@ -101,7 +101,7 @@ def shore_fold(
 def fold_of_shore(
     drawing: "Drawing", *, amplitude: float, period: float, size: int = 64, reach: float | None = None
 ) -> Fold:
-    """Make a fold as `shore_fold` does, but without a warning: its notes say all."""
+    """Fold of `shore_fold`, without a warning: the notes are in the fold."""
     if not 0.0 < amplitude <= MOST_AMPLITUDE:
         raise ParameterError(f"`amplitude` is {amplitude:g}; it must be above 0 and at most {MOST_AMPLITUDE} sides")
     if not 0.01 <= period <= FOLD_MOST_SECONDS:
@@ -130,12 +130,12 @@ def fold_of_shore(
 
 
 def _middles(size: int) -> NDArray[np.float64]:
-    """Where texels stand, from the left or from the bottom."""
+    """Middles of texels, from the left or from the bottom."""
     return (np.arange(size) + 0.5) / size
 
 
 def _blur(size: int, reach: float) -> NDArray[np.float64]:
-    """Matrix that blurs a column of texels; the border goes on beyond it."""
+    """Matrix of a Gaussian blur of a column of texels, whose border values extend beyond it."""
     far = int(np.ceil(4.0 * reach * size))
     steps = np.arange(-far, far + 1)
     weights = np.exp(-0.5 * (steps / (reach * size)) ** 2)
@@ -146,7 +146,7 @@ def _blur(size: int, reach: float) -> NDArray[np.float64]:
 
 
 def _normals(drawing: "Drawing", size: int, reach: float) -> NDArray[np.float64]:
-    """Directions towards the filled side, 1 long at the outline, shorter far from it, (rows, columns, 2)."""
+    """Normals towards the filled side, of length 1 at the outline and shorter far from it, (rows, columns, 2)."""
     if not drawing.paths:
         return np.zeros((size, size, 2))
     blur = _blur(size, reach)
@@ -163,7 +163,7 @@ def _normals(drawing: "Drawing", size: int, reach: float) -> NDArray[np.float64]
 
 
 def _phases(size: int, amplitude: float) -> NDArray[np.float64]:
-    """Parts of a period by which places are late, (rows, columns)."""
+    """Delay of each texel, in periods, (rows, columns)."""
     x, y = _middles(size)[None, :], _middles(size)[::-1, None]
     slope = sum(2.0 * np.pi * height * float(np.hypot(right, up)) for height, right, up, _ in WAVES)
     phases = np.zeros((size, size))
@@ -175,7 +175,7 @@ def _phases(size: int, amplitude: float) -> NDArray[np.float64]:
 def _steepest(displacement: NDArray[np.float64], phase: NDArray[np.float64]) -> float:
     """Largest singular value of the displacements' gradient at any place and time.
 
-    Of a quadratic spline the gradient is largest near knots and middles of texels; it is looked at there.
+    The gradient of a quadratic spline is largest near knots and middles of texels, where it is measured.
     """
     rows, columns, _ = displacement.shape
     x, y = np.meshgrid(np.arange(2 * columns + 1) / (2.0 * columns), np.arange(2 * rows + 1) / (2.0 * rows))
@@ -193,4 +193,4 @@ def _steepest(displacement: NDArray[np.float64], phase: NDArray[np.float64]) -> 
         a, b, c, d = (gradient[:, i, j] for i in (0, 1) for j in (0, 1))
         largest = 0.5 * (np.hypot(a + d, c - b) + np.hypot(a - d, b + c))
         most = max(most, float(largest.max()))
-    return most * 1.02  # between the times and places that were looked at
+    return most * 1.02  # a margin for other times and places

@@ -1,9 +1,9 @@
-"""The area under water in a grid of depths, with a shoreline that is finer than the grid."""
+"""The area under water in a grid of depths, with a shoreline that is more precise than the grid."""
 
 import warnings
 from collections.abc import Callable, Iterable
 from itertools import pairwise
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,29 +12,26 @@ from vexture.bezier.points import points_along
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.tolerance import HMIN
 
-__all__ = ["THIN", "TOLERANCE", "Ring", "fitted_drawing", "shored", "wet_drawing"]
+__all__ = ["Ring", "above_dry", "fitted_drawing", "shored", "wet_drawing"]
 
 TOLERANCE: Final = 0.55
-"""Cells. Most that the fitted shoreline may leave the contour: the staircase of a raster is half a cell high."""
+"""Cells. Largest distance of the fitted shoreline from the contour: the staircase of a raster is half a cell high."""
 
 THIN: Final = 0.1
-"""Share of the least depth below which a depth is none: models leave films on what is dry."""
+"""Share of the least depth. Depths below it count as unknown: models leave thin films on dry ground."""
 
 RETRY: Final = (1.0, 0.3, 0.05)
-"""Shares of the tolerance, tried until the rings of a polygon stay apart."""
+"""Shares of the tolerance, tried in turn until the fitted rings of a polygon do not intersect."""
+
+STRAIGHT: Final = ((0, 1), (0, -1), (1, 0), (-1, 0))
+DIAGONAL: Final = ((1, 1), (1, -1), (-1, 1), (-1, -1))
 
 
 class Ring(NamedTuple):
-    """A closed ring in the unit square.
+    """A closed ring in the unit square: points, (n, 2), of which the first is not repeated at the end.
 
-    Attributes
-    ----------
-    points : (n, 2) float64 array
-        The first is not repeated at the end.
-    cell : float
-        Size of the cells that it passes: tolerances are shares of it.
-    fixed : (n,) bool array
-        Points that stay where they are, as corners.
+    `cell` is the size of the cells that the ring passes; tolerances are multiples of it. Fitting keeps the points that
+    are `fixed`, as corners.
     """
 
     points: NDArray[np.float64]
@@ -48,66 +45,62 @@ Map = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 def shored(
     depth: NDArray[np.float64], hmin: float = HMIN, bed: NDArray[np.float64] | None = None
 ) -> NDArray[np.float64]:
-    """Depths less `hmin` that go on below 0 where land begins, so that they pass 0 at the shore.
+    """Depths less `hmin`, negative on land, so that linear interpolation gives 0 at the shore.
 
-    A raster of depths says 0, or nothing, on land: straight lines between its samples put the shore too far out,
-    nearly at the middle of the first dry cell. Each dry cell beside a wet one gets a depth below 0 instead:
+    A raster of depths holds 0 or NaN on land. Interpolation between its samples would put the shore nearly at the
+    middle of the first dry cell, too far inland. Each dry cell beside a wet one gets a negative depth instead:
 
     - where the bed's height is known: the water level of its wet neighbours less its own bed;
-    - else as the depth falls from the second wet cell to the first;
-    - halfway between the two cells where neither says that the ground is higher: at a wall.
+    - else the depth extrapolated from the two nearest wet cells;
+    - at a wall, where neither shows that the ground rises, the value that puts the shore halfway between the cells.
 
-    Parameters
-    ----------
-    depth : (rows, columns) array
-        Metres; NaN where nothing is known, which counts as dry.
-    hmin : float
-        Metres; what is under less is dry.
-    bed : array, optional
-        Height of the bed.
+    All are in metres. NaN is unknown, which counts as dry, as does ground under less water than `hmin`.
 
     Examples
     --------
     >>> shored(np.array([[2.0, 1.0, 0.0], [2.0, 1.0, 0.0]]), 0.4)[0]  # a beach that falls by 1 in a cell
     array([ 1.6,  0.6, -0.4])
     """
-    with np.errstate(invalid="ignore"):
-        known = np.isfinite(depth) & ((depth > THIN * hmin) | (depth < 0.0))
-    above = np.where(known, depth, 0.0) - hmin
+    known, above = above_dry(depth, hmin)
     wet = known & (above >= 0.0)
     rows, columns = depth.shape
+    wet_padded, above_padded = np.pad(wet, 2, mode="edge"), np.pad(above, 2, mode="edge")
+    bed_padded = None if bed is None else np.pad(bed, 2, mode="edge")
+
+    def beside(grid: NDArray[Any], down: int, across: int) -> NDArray[Any]:
+        return grid[2 + down : 2 + down + rows, 2 + across : 2 + across + columns]
+
     total, count = np.zeros(depth.shape), np.zeros(depth.shape)
-    for straight in (True, False):  # diagonal neighbours only where there are no others
+    for neighbours in (STRAIGHT, DIAGONAL):  # diagonal ones only where there are no others
         found, times = np.zeros(depth.shape), np.zeros(depth.shape)
-        for down, across in ((0, 1), (0, -1), (1, 0), (-1, 0)) if straight else ((1, 1), (1, -1), (-1, 1), (-1, -1)):
-            r0, r1 = max(0, -down), min(rows, rows - down)
-            c0, c1 = max(0, -across), min(columns, columns - across)
-            here = (slice(r0, r1), slice(c0, c1))
-            there = (slice(r0 + down, r1 + down), slice(c0 + across, c1 + across))
-            shore = wet[there] & ~known[here]
-            first = above[there]
-            estimate = -first  # a wall, halfway
-            if bed is not None:
-                reached = first + bed[there] - bed[here]
-                estimate = np.where(reached < 0.0, reached, estimate)
+        for down, across in neighbours:
+            first = beside(above_padded, down, across)
+            if bed is not None and bed_padded is not None:
+                reached = first + beside(bed_padded, down, across) - bed
+                estimate = np.where(reached < 0.0, reached, -first)  # -first: a wall, halfway
             else:
-                behind_rows = np.clip(np.arange(r0, r1) + 2 * down, 0, rows - 1)[:, None]
-                behind_columns = np.clip(np.arange(c0, c1) + 2 * across, 0, columns - 1)[None]
-                behind = np.where(wet[behind_rows, behind_columns], above[behind_rows, behind_columns], first)
-                estimate = _sloping(first, behind)
-            found[here] += np.where(shore, estimate, 0.0)
-            times[here] += shore
+                far = 2 * down, 2 * across
+                estimate = _sloping(first, np.where(beside(wet_padded, *far), beside(above_padded, *far), first))
+            shore = beside(wet_padded, down, across) & ~known
+            found += np.where(shore, estimate, 0.0)
+            times += shore
         fresh = count == 0.0
         total, count = np.where(fresh, found, total), np.where(fresh, times, count)
     filled = np.where(count > 0.0, total / np.maximum(count, 1.0), -1.0)
     return np.where(known, above, np.minimum(filled, -1e-6))
 
 
-def _sloping(first: NDArray[np.float64], behind: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Depth of the dry neighbour of a cell from its own and that of the cell behind it, both less the least depth.
+def above_dry(depth: NDArray[np.float64], hmin: float) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+    """Where a depth is known and more than a film, and the depths less `hmin`."""
+    with np.errstate(invalid="ignore"):
+        known = np.isfinite(depth) & ((depth > THIN * hmin) | (depth < 0.0))
+    return known, np.where(known, depth, 0.0) - hmin
 
-    The depth goes on as it falls there. Where it would reach farther than one cell, the flatter the bottom is, the
-    more that is a wall, which is halfway.
+
+def _sloping(first: NDArray[np.float64], behind: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Depth beyond the first cell, extrapolated from the cell behind it; all of them less the least depth.
+
+    Where a flat bottom would put the shore more than one cell away, it moves towards halfway, as at a wall.
     """
     slope = behind - first
     beach = slope >= first
@@ -121,27 +114,13 @@ def wet_drawing(
     beyond: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0),
     tolerance: float = TOLERANCE,
 ) -> Drawing:
-    """Area where a grid of values is above 0, its outline fitted by cubics.
+    """Area where a grid of values, as `shored` gives it, is above 0, its outline fitted by cubics.
 
-    Parameters
-    ----------
-    above : (rows, columns) float64 array
-        As `shored` gives it.
-    to_unit : function
-        From positions in the grid, (n, 2) columns and rows, to the unit square.
-    beyond : tuple of float
-        How many cells the outermost values go on beyond the grid's left, first, right and last edge.
-    tolerance : float
-        Cells.
-
-    Examples
-    --------
-    >>> above = np.where(np.hypot(*np.mgrid[-8:9, -8:9]) < 5, 1.0, -1.0)
-    >>> drawing = wet_drawing(above, lambda places: places / 16)
-    >>> drawing.segments < 10
-    True
+    `to_unit` maps positions in the grid, (n, 2) columns and rows, to the unit square. The border values extend by
+    `beyond` cells over the grid's left, first, right and last edge. The tolerance is in cells.
     """
-    border = _border(above.shape, beyond)
+    left, first, right, last = beyond
+    border = (-0.5 - left, -0.5 - first, above.shape[1] - 0.5 + right, above.shape[0] - 0.5 + last)
     polygons = [
         [Ring(to_unit(ring), _cell(ring, to_unit), _ends(ring, border)) for ring in polygon]
         for polygon in _polygons(above, border)
@@ -150,14 +129,9 @@ def wet_drawing(
 
 
 def fitted_drawing(polygons: Iterable[list[Ring]], tolerance: float = TOLERANCE) -> Drawing:
-    """Polygons as a drawing, cut to the unit square, their rings fitted by cubics.
+    """Polygons as a drawing, clipped to the unit square, their rings fitted by cubics within `tolerance` cells.
 
-    Parameters
-    ----------
-    polygons : iterable of lists of Ring
-        Of each, rings that are apart from one another: one outside, the others are its holes and turn the other way.
-    tolerance : float
-        Cells.
+    The rings of a polygon do not intersect; its outer ring comes first, and the holes run the other way.
     """
     contours = [contour for polygon in polygons for contour in _fitted(polygon, tolerance)]
     if not contours:
@@ -166,14 +140,8 @@ def fitted_drawing(polygons: Iterable[list[Ring]], tolerance: float = TOLERANCE)
     return Drawing.from_source([Path(turned, FillRule.NONZERO)], (0.0, 0.0, 1.0, 1.0))
 
 
-def _border(shape: tuple[int, ...], beyond: tuple[float, float, float, float]) -> tuple[float, float, float, float]:
-    """Left, first, right and last position that values are at."""
-    left, first, right, last = beyond
-    return (-0.5 - left, -0.5 - first, shape[1] - 0.5 + right, shape[0] - 0.5 + last)
-
-
 def _polygons(above: NDArray[np.float64], border: tuple[float, float, float, float]) -> list[list[NDArray[np.float64]]]:
-    """Rings of each wet area, its outer one first, in positions of the grid, without the last point."""
+    """Rings of each wet area in positions of the grid, the outer ring first, none with its first point repeated."""
     import contourpy
 
     left, first, right, last = border
@@ -187,7 +155,7 @@ def _polygons(above: NDArray[np.float64], border: tuple[float, float, float, flo
 
 
 def _fitted(polygon: list[Ring], tolerance: float) -> list[NDArray[np.float64]]:
-    """Cubics of a polygon's rings, which neither cross themselves nor one another."""
+    """Cubics of a polygon's rings, which intersect neither themselves nor one another."""
     from vexture.bezier.fit_closed import fit_closed
 
     for share in RETRY:
@@ -199,9 +167,9 @@ def _fitted(polygon: list[Ring], tolerance: float) -> list[NDArray[np.float64]]:
 
 
 def _ends(ring: NDArray[np.float64], border: tuple[float, float, float, float]) -> NDArray[np.bool_]:
-    """Which points are where a ring meets the border of the grid, or a corner of it."""
+    """Points where a ring reaches the border of the grid, or a corner of it."""
     sides = np.concatenate([ring == border[:2], ring == border[2:]], axis=1)
-    passing = sides & np.roll(sides, 1, axis=0) & np.roll(sides, -1, axis=0)  # amid points on the same side
+    passing = sides & np.roll(sides, 1, axis=0) & np.roll(sides, -1, axis=0)  # between points on the same side
     found: NDArray[np.bool_] = sides.any(axis=1) & ~(passing.any(axis=1) & (sides.sum(axis=1) == 1))
     return found
 
@@ -219,12 +187,8 @@ def _apart(contours: list[NDArray[np.float64]]) -> bool:
 
     if not contours:
         return True
-    rings = [_flattened(contour) for contour in contours]
+    shares = np.arange(16) / 16.0
+    rings = [points_along(contour, shares).reshape(-1, 2) for contour in contours]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return bool(shapely.is_valid(shapely.Polygon(rings[0], rings[1:])))
-
-
-def _flattened(contour: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points along cubics, sixteen to each."""
-    return points_along(contour, np.arange(16) / 16.0).reshape(-1, 2)

@@ -1,4 +1,4 @@
-"""Reading GeoJSON: the areas of its polygons, with the colours that simplestyle gives them."""
+"""GeoJSON: the areas of its polygons, with their simplestyle colours."""
 
 import json
 import os
@@ -18,33 +18,31 @@ from vexture.drawing import Drawing, FillRule, Paint, Path
 from vexture.errors import SourceError
 from vexture.notes import Notes, line_of, warn_of
 
-__all__ = ["LARGEST", "UNLOCATED", "Area", "areas_of", "geojson_drawing", "read_geojson"]
+__all__ = ["LARGEST", "UNLOCATED", "Area", "areas_of", "geojson_drawing", "met", "read_geojson"]
 
 MOST_POSITIONS: Final = 20_000_000
 LARGEST: Final = 1e15
-"""Coordinate, in the units of the file. Beyond it, float64 cannot tell metres apart."""
+"""Largest coordinate, in the units of the file. Beyond it, float64 does not resolve a metre."""
 
 MOST_NESTED: Final = 32
-"""Geometry collections inside one another."""
+"""Levels of nested geometry collections."""
 
 WORLD: Final = "OGC:CRS84"
-"""What coordinates mean unless the file says otherwise: longitude and latitude in degrees (RFC 7946, 4)."""
+"""Default reference system: longitude and latitude in degrees (RFC 7946, 4)."""
 
 UNLOCATED: Final = "feature without geometry"
-"""Nothing is there, and nothing is missing (RFC 7946, 3.2)."""
+"""Note about a feature whose geometry is null, which RFC 7946, 3.2 allows."""
 
 URN: Final = re.compile(r"urn:ogc:def:crs:(\w+):[^:]*:(\w+)", re.IGNORECASE)
 COLOR: Final = re.compile(r"#?([0-9a-f]{3}|[0-9a-f]{6})", re.IGNORECASE)
 NUMBERS: Final = (float, int)
-
-
 WITHOUT_AREA: Final = ("Point", "MultiPoint", "LineString", "MultiLineString")
 
 Ring = NDArray[np.float64]
 
 
 class Area(NamedTuple):
-    """One polygon: its rings in the units of the file, y up, its colour, and its place as messages name it."""
+    """One polygon: its rings in the units of the file, y up, its paint, and its name in messages."""
 
     rings: list[Ring]
     paint: Paint
@@ -67,8 +65,8 @@ def read_geojson(source: str | os.PathLike[str] | bytes) -> Drawing:
     Returns
     -------
     Drawing
-        In the unit square, y up; `to_source` maps it to the coordinates of the file, `crs` says what they are. Its
-        `notes` say what was left out.
+        In the unit square, y up; `to_source` maps it to the coordinates of the file, whose reference system is `crs`.
+        Its `notes` list what was left out.
 
     Raises
     ------
@@ -104,37 +102,33 @@ def read_geojson(source: str | os.PathLike[str] | bytes) -> Drawing:
 
 
 def geojson_drawing(content: bytes, name: str) -> Drawing:
-    """Read the content of a GeoJSON file, as `read_geojson` does, but without a warning: its notes say all.
-
-    Parameters
-    ----------
-    content : bytes
-        Plain or gzipped.
-    name : str
-        Names the drawing.
-    """
+    """Read GeoJSON, plain or gzipped, as `read_geojson` does, but without a warning: all notes are in the drawing."""
     notes = Notes()
-    drawing = _Reader(notes).drawing(_parsed(decompressed(content)), name)
-    return replace(drawing, notes=notes.listed)
+    value = _parsed(decompressed(content))
+    areas = list(_Reader(notes).areas(value))
+    if not areas:
+        raise SourceError(f"it holds no polygon to fill{met(notes)}; give Polygon or MultiPolygon geometries")
+    points = np.concatenate([ring for area in areas for ring in area.rings])
+    low, high = points.min(axis=0), points.max(axis=0)
+    width, height = (float(side) for side in high - low)
+    paths = [Path(tuple(map(_contour, area.rings)), FillRule.EVENODD, area.paint) for area in areas]
+    drawing = Drawing.from_source(paths, (float(low[0]), -float(high[1]), width, height), name)
+    if not drawing.paths:
+        raise SourceError("its polygons enclose no area; correct their coordinates")
+    turned = drawing.to_source * [[1.0], [-1.0]] + 0.0  # from_source takes y down; no -0.0
+    return replace(drawing, to_source=turned, crs=_crs(value.get("crs")), notes=notes.listed)
 
 
 def areas_of(content: bytes, notes: Notes) -> tuple[list[Area], str]:
-    """Areas of the content of a file, and the reference system of their coordinates.
-
-    Parameters
-    ----------
-    content : bytes
-        Not gzipped.
-    notes : Notes
-        Of what is left out.
-
-    Raises
-    ------
-    SourceError
-        As `read_geojson`, but for a file without areas.
-    """
+    """Areas of a file's content, not gzipped, and the reference system of their coordinates."""
     value = _parsed(content)
     return list(_Reader(notes).areas(value)), _crs(value.get("crs"))
+
+
+def met(notes: Notes) -> str:
+    """What was left out, in parentheses, for the message that no polygon is left."""
+    line = line_of("met", notes.listed).removeprefix("met: ")
+    return f" ({line})" if line else ""
 
 
 def _parsed(content: bytes) -> dict[str, Any]:
@@ -155,30 +149,11 @@ def _parsed(content: bytes) -> dict[str, Any]:
 
 
 class _Reader:
-    """The walk over one file: what it met so far."""
+    """Walks over one file, collects notes and counts positions."""
 
     def __init__(self, notes: Notes) -> None:
         self._notes = notes
         self._positions = 0
-
-    def drawing(self, value: dict[str, Any], name: str) -> Drawing:
-        """Areas of a GeoJSON object as a drawing."""
-        areas = list(self.areas(value))
-        if not areas:
-            raise SourceError(f"it holds no polygon to fill{self._met()}; give Polygon or MultiPolygon geometries")
-        points = np.concatenate([ring for area in areas for ring in area.rings])
-        low, high = points.min(axis=0), points.max(axis=0)
-        width, height = (float(side) for side in high - low)
-        paths = [Path(tuple(map(_contour, area.rings)), FillRule.EVENODD, area.paint) for area in areas]
-        drawing = Drawing.from_source(paths, (float(low[0]), -float(high[1]), width, height), name)
-        if not drawing.paths:
-            raise SourceError("its polygons enclose no area; correct their coordinates")
-        turned = drawing.to_source * [[1.0], [-1.0]] + 0.0  # from_source takes y down; no -0.0
-        return replace(drawing, to_source=turned, crs=_crs(value.get("crs")))
-
-    def _met(self) -> str:
-        met = line_of("met", self._notes.listed).removeprefix("met: ")
-        return f" ({met})" if met else ""
 
     def areas(self, value: dict[str, Any]) -> Iterator[Area]:
         """Areas of the outermost object."""
@@ -234,7 +209,7 @@ class _Reader:
             yield Area(kept, paint, where)
 
     def _ring(self, ring: Any, where: str) -> Ring | None:
-        """Positions of a ring, the first not repeated at the end; None if there are fewer than three."""
+        """Positions of a ring, the first not repeated at the end; None of fewer than three."""
         if not isinstance(ring, list):
             raise SourceError(f"{where} is a {type(ring).__name__}, not a list of positions; correct it")
         self._positions += len(ring)
@@ -268,7 +243,7 @@ class _Reader:
 
 
 def _usual(ring: list[Any]) -> Ring | None:
-    """Positions of a ring without a fault, all of one length; None of others."""
+    """Positions of a valid ring whose positions have equal lengths; None of any other. The fast path."""
     lengths = set(map(len, ring)) if set(map(type, ring)) == {list} else set()
     if len(lengths) != 1 or min(lengths) < 2:
         return None
@@ -283,7 +258,7 @@ def _usual(ring: list[Any]) -> Ring | None:
 
 
 def _position_by_position(ring: list[Any], where: str) -> Ring:
-    """Positions of any ring, or an error that names the faulty one."""
+    """Positions of any ring, or an error that names the invalid one."""
     for number, position in enumerate(ring, 1):
         if not isinstance(position, list) or len(position) < 2 or any(type(c) not in NUMBERS for c in position[:2]):
             raise SourceError(f"{where}, position {number} is {_shown(position)}; it must be two numbers")
@@ -291,7 +266,7 @@ def _position_by_position(ring: list[Any], where: str) -> Ring:
         points = np.array([position[:2] for position in ring], np.float64).reshape(-1, 2)
     except OverflowError:  # an integer beyond all floats
         points = np.array([[c if abs(c) <= LARGEST else np.inf for c in position[:2]] for position in ring])
-    bad = ~(np.abs(points) <= LARGEST).all(axis=1)  # not a number is bad too
+    bad = ~(np.abs(points) <= LARGEST).all(axis=1)  # NaN is bad too
     if bad.any():
         number = int(bad.argmax()) + 1
         raise SourceError(f"{where}, position {number} is {_shown(ring[number - 1])}; the limit is {LARGEST:g}")
@@ -309,7 +284,7 @@ def _at(where: str, what: str) -> str:
 
 
 def _shown(value: Any) -> str:
-    """A value as a message names it: short, in one line."""
+    """A value for a message: short, in one line."""
     if isinstance(value, dict):
         return "an object"
     text = repr(value[:3] if isinstance(value, list) else value)
@@ -317,7 +292,7 @@ def _shown(value: Any) -> str:
 
 
 def _crs(member: Any) -> str:
-    """Name of the coordinate reference system, by the member that GeoJSON had before RFC 7946.
+    """Name of the reference system, from the member `crs` that GeoJSON had before RFC 7946.
 
     Examples
     --------

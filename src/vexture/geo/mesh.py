@@ -1,10 +1,10 @@
-"""Depths on a UGRID mesh: on its faces or on its nodes.
+"""Depths on the faces or on the nodes of a UGRID mesh, and their contours and grids in a frame.
 
-A mesh is contoured as it is, not by way of a raster: between its nodes, values are linear in each triangle. Faces
-are cut into triangles around their middle, which has the face's value; their nodes have the mean of the faces around.
+A mesh is contoured directly, not resampled to a raster first. Each face is divided into triangles around its middle,
+and values are linear in each triangle. The middle has the value of the face, and a node the mean of the faces around.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Any, Final
@@ -13,42 +13,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
-from vexture.errors import LimitError, SourceError
-from vexture.geo.contours import THIN, Ring, fitted_drawing
-from vexture.geo.frame import Frame
-from vexture.geo.netcdf import check_dimension, crs_of, depths_of, line_of, listed, time_axis, times_of
-from vexture.geo.placing import frame_places
-from vexture.geo.reference import period, shown_bounds, transformed
-from vexture.geo.series import Reading, Values, plausible
+from vexture.errors import LimitError, SourceError, reason_of
+from vexture.geo.contours import Ring, above_dry, fitted_drawing
+from vexture.geo.crs import period, transformed
+from vexture.geo.extent import Bounds, Frame
+from vexture.geo.netcdf import crs_of, depths_of, listed, refuse_layers, time_axis, times_of
+from vexture.geo.raster import grid_places, outside
+from vexture.geo.series import Values, box_around
 from vexture.geo.triangles import Outline, outlines_above
 
-__all__ = ["MeshSeries", "holds_mesh", "mesh_series", "mesh_steps"]
+__all__ = ["MeshInFrame", "MeshSeries", "holds_mesh", "mesh_series"]
 
 MOST_FACES: Final = 2_000_000
 
 NEAR: Final = 1.5
-"""Edges. What of the mesh's border is so near to the frame's, or beyond, goes on to the border of the unit square."""
+"""Edges. Parts of the mesh's border this near to the frame's border, or beyond it, move outside the square."""
 
 OUTSIDE: Final = 0.25
-"""Unit-square units. How far beyond the square it is put: farther than cubics reach in."""
+"""Unit-square units. How far outside the square they move, so that no fitted cubic reaches back in."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MeshSeries:
-    """A file of depths on a mesh that is open.
+    """An open file of depths on a mesh; `crs`, `variable`, `times` and `read` as in `Series`.
 
-    Parameters
-    ----------
-    nodes : (n, 2) float64 array
-        Where they are.
-    faces : (m, k) int array
-        Nodes of each face, turning left; -1 where it has fewer.
-    on_faces : bool
-        Whether depths are on faces rather than on nodes.
-    crs, variable, times
-        As of `Series`.
-    read : function
-        Depth and, if the file has it, height of the bed at a step.
+    `nodes` are places, (n, 2); `faces` are the numbers of the nodes of each face, (m, k), counter-clockwise, and -1
+    where a face has fewer. Depths are on faces or on nodes.
     """
 
     nodes: NDArray[np.float64]
@@ -60,31 +50,27 @@ class MeshSeries:
     read: Callable[[int], tuple[Values, Values | None]]
 
     @property
-    def box(self) -> tuple[float, float, float, float]:
+    def box(self) -> Bounds:
         """West, south, east, north."""
-        low, high = self.nodes.min(axis=0), self.nodes.max(axis=0)
-        return (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
+        return box_around(self.nodes)
 
 
 def holds_mesh(dataset: Any) -> bool:
     """Whether an open dataset has a mesh by the UGRID conventions."""
-    return any(dataset[name].attrs.get("cf_role") == "mesh_topology" for name in dataset.variables)
+    return any(_is_mesh(dataset[name]) for name in dataset.variables)
+
+
+def _is_mesh(variable: Any) -> bool:
+    return bool(variable.attrs.get("cf_role") == "mesh_topology")
 
 
 def mesh_series(dataset: Any, time_dim: str | None, variable: str | None) -> MeshSeries:
-    """Depths on the mesh of an open dataset.
-
-    Raises
-    ------
-    SourceError, LimitError
-        If there are none, or more than one.
-    """
-    check_dimension(dataset, time_dim)
+    """Depths on the mesh of an open dataset; errors as of `netcdf.series_of`."""
     grid = _grid(dataset)
     nodes = np.column_stack([grid.node_x, grid.node_y]).astype(np.float64)
     faces = np.asarray(grid.face_node_connectivity).astype(np.int64)
     if not np.isfinite(nodes).all() or faces.max(initial=-1) >= len(nodes) or not len(faces):
-        raise SourceError("its mesh has no faces, or nodes that are not there; write it again")
+        raise SourceError("its mesh has no faces, or names nodes that do not exist; write it again")
     if len(faces) > MOST_FACES:
         raise LimitError(f"its mesh has {len(faces):,} faces; the limit is {MOST_FACES:,}; cut out a part of it")
     places = (grid.face_dimension, grid.node_dimension)
@@ -101,20 +87,16 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None) -> Mes
     # the bed must be where the depths are
     _, depth, bed = depths_of(dataset, [other for other in candidates if place in dataset[other].dims], name)
     time = time_axis(dataset, dataset[name].dims, time_dim)
-    extra = [dim for dim in dataset[name].dims if dim not in (time, place) and dataset.sizes[dim] > 1]
-    if extra:
-        raise SourceError(
-            f"variable {name!r} also has the dimension {listed(extra)} ({dataset.sizes[extra[0]]} long); "
-            "write a file with one layer, or name another `variable`"
-        )
-    times = times_of(dataset, time) if time is not None else (None,)
+    refuse_layers(dataset, name, (time, place))
+    times = times_of(dataset, time)
 
     def read(step: int) -> tuple[Values, Values | None]:
         return depth({time: step}, (place,)), bed({time: step}, (place,)) if bed else None
 
-    coordinates = [dataset[key] for key in _coordinates(dataset, grid) if key in dataset.variables]
+    keys = dataset[grid.name].attrs.get("node_coordinates", "") if grid.name in dataset.variables else ""
+    coordinates = [dataset[key] for key in str(keys).split() if key in dataset.variables]
     crs = crs_of(dataset, name, coordinates if len(coordinates) == 2 else [None, None])
-    return MeshSeries(nodes, _turned_left(nodes, faces), place == places[0], crs, name, times, read)
+    return MeshSeries(nodes, _counter_clockwise(nodes, faces), place == places[0], crs, name, times, read)
 
 
 def _grid(dataset: Any) -> Any:
@@ -124,67 +106,40 @@ def _grid(dataset: Any) -> Any:
     names = [
         str(name)
         for name in dataset.variables
-        if dataset[name].attrs.get("cf_role") == "mesh_topology"
-        and dataset[name].attrs.get("topology_dimension", 2) == 2
+        if _is_mesh(dataset[name]) and dataset[name].attrs.get("topology_dimension", 2) == 2
     ]
     if len(names) != 1:
         raise SourceError(f"it has {len(names)} meshes of faces ({listed(names)}); write a file with one")
     try:
         return xugrid.Ugrid2d.from_dataset(dataset, names[0])
-    except Exception as error:  # of a stranger's mesh the library raises what it likes
-        raise SourceError(f"its mesh {names[0]!r} cannot be read ({line_of(error)}); write it again") from None
+    except Exception as error:  # xugrid raises any type of exception for an invalid mesh
+        raise SourceError(f"its mesh {names[0]!r} cannot be read ({reason_of(error)}); write it again") from None
 
 
-def _coordinates(dataset: Any, grid: Any) -> list[str]:
-    return str(dataset[grid.name].attrs.get("node_coordinates", "")).split() if grid.name in dataset.variables else []
+def _with_next(faces: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """Node after each node of a face, and which entries are nodes."""
+    count, columns = (faces >= 0).sum(axis=1)[:, None], np.arange(faces.shape[1])
+    return np.take_along_axis(faces, np.where(columns + 1 < count, columns + 1, 0), axis=1), columns < count
 
 
-def _turned_left(nodes: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Faces with their nodes in the order that turns left."""
-    count = (faces >= 0).sum(axis=1)
+def _counter_clockwise(nodes: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Faces with their nodes in counter-clockwise order."""
+    after, used = _with_next(faces)
+    here, there = nodes[faces], nodes[after]
+    twice = ((here[..., 0] * there[..., 1] - here[..., 1] * there[..., 0]) * used).sum(axis=1)
     columns = np.arange(faces.shape[1])
-    after = np.where(columns + 1 < count[:, None], columns + 1, 0)
-    here, there = nodes[faces], nodes[np.take_along_axis(faces, after, axis=1)]
-    twice = ((here[..., 0] * there[..., 1] - here[..., 1] * there[..., 0]) * (columns < count[:, None])).sum(axis=1)
-    back = np.where(columns < count[:, None], count[:, None] - 1 - columns, columns)
+    back = np.where(used, used.sum(axis=1)[:, None] - 1 - columns, columns)
     return np.where((twice < 0.0)[:, None], np.take_along_axis(faces, back, axis=1), faces)
 
 
-def mesh_steps(series: MeshSeries, system: str, frame: Frame, hmin: float) -> Iterator[Reading]:
-    """Read the steps of a series into a frame."""
-    sheet = Sheet(series, system, frame)
-    for step in range(len(series.times)):
-        read, ground = series.read(step)
-        depth, bed = plausible(read), None if ground is None else plausible(ground)
-        above = sheet.shored(depth, hmin, bed)
-        drawing = sheet.drawing(sheet.spread(above))
-        grid = sheet.grid(np.where(depth < 0.0, 0.0, depth))
-        known = bool(np.isfinite(depth).any())
-        yield Reading(drawing, grid, None if bed is None else sheet.grid(bed), known)
-
-
-class Sheet:
-    """Triangles of a mesh in the unit square of a frame.
-
-    Parameters
-    ----------
-    series : MeshSeries
-    system : str
-        Its reference system.
-    frame : Frame
-
-    Raises
-    ------
-    SourceError
-        If none of it is in the frame.
-    """
+class MeshInFrame:
+    """A series on a mesh that is placed in the unit square of a frame: its triangles and their contours."""
 
     def __init__(self, series: MeshSeries, system: str, frame: Frame) -> None:
-        self._frame, self._on_faces = frame, series.on_faces
-        count = len(series.nodes)
+        self._frame, self._on_faces, self.read = frame, series.on_faces, series.read
         self._face, column = np.nonzero(series.faces >= 0)
         self._node = series.faces[self._face, column]
-        self._sizes = (len(series.faces), count)
+        self._sizes = (len(series.faces), len(series.nodes))
         nodes = transformed(series.nodes, system, frame.crs)
         turn = period(frame.crs)
         if turn:
@@ -200,25 +155,20 @@ class Sheet:
         x0, y0, x1, y1 = frame.box
         seen = (high > (x0, y0)).all(axis=1) & (low < (x1, y1)).all(axis=1)
         if not (seen & inside).any():
-            raise SourceError(
-                f"nothing of it is within the bounds {shown_bounds(frame.bounds, frame.crs)}: "
-                f"it covers {shown_bounds(series.box, system)}; give other `bounds`"
-            )
+            raise outside(frame, series.box, system)
         self._found = self._located()
 
     def _fans(self, faces: NDArray[np.int64]) -> NDArray[np.int64]:
         """Triangles from the middle of each face to each of its sides; the middles are numbered after the nodes."""
-        count = (faces >= 0).sum(axis=1)
-        columns = np.arange(faces.shape[1])
-        after = np.take_along_axis(faces, np.where(columns + 1 < count[:, None], columns + 1, 0), axis=1)
+        after, used = _with_next(faces)
         middle = np.broadcast_to(self._sizes[1] + np.arange(len(faces))[:, None], faces.shape)
-        fans: NDArray[np.int64] = np.stack([middle, faces, after], axis=-1)[columns < count[:, None]]
+        fans: NDArray[np.int64] = np.stack([middle, faces, after], axis=-1)[used]
         return fans
 
     def _mean(
         self, values: NDArray[np.float64], source: NDArray[np.int64], target: NDArray[np.int64], count: int
     ) -> NDArray[np.float64]:
-        """Mean, at each of `count` targets, of the values at the sources beside it that have one."""
+        """Mean, at each of `count` targets, of the known values at the sources beside it."""
         flat = values.reshape(len(values), -1)
         known = np.isfinite(flat[source]).all(axis=1)
         times = np.bincount(target[known], minlength=count)
@@ -227,14 +177,18 @@ class Sheet:
             found: NDArray[np.float64] = np.stack(sums, axis=1) / times[:, None]
         return found.reshape(count, *values.shape[1:])
 
-    def shored(self, depth: Values, hmin: float, bed: Values | None) -> Values:
-        """Depths less `hmin` that go on below 0 on dry faces or nodes beside wet ones, as of `contours.shored`.
+    def drawing(self, depth: Values, bed: Values | None, hmin: float) -> Drawing:
+        """The area under water."""
+        values = self._everywhere(self._shored(depth, bed, hmin))
+        found = [one for one in outlines_above(self._points, self._triangles, values) if len(one.points) > 2]
+        return fitted_drawing(_grouped([self._ring(outline) for outline in found]))
 
-        Where the bed is known, by the mean water level around; else, and at walls, halfway.
+    def _shored(self, depth: Values, bed: Values | None, hmin: float) -> Values:
+        """Depths less `hmin`, negative on dry faces or nodes beside wet ones; see `contours.shored`.
+
+        Where the bed is known, from the mean water level around; else, and at walls, the shore is halfway.
         """
-        with np.errstate(invalid="ignore"):
-            known = np.isfinite(depth) & ((depth > THIN * hmin) | (depth < 0.0))
-        above = np.where(known, depth, 0.0) - hmin
+        known, above = above_dry(depth, hmin)
         wet = np.where(known & (above >= 0.0), above, np.nan)
         estimate = -self._around(wet)
         if bed is not None:
@@ -250,22 +204,15 @@ class Sheet:
         own, other = (faces, nodes) if self._on_faces else (nodes, faces)
         return self._mean(self._mean(values, here, there, other), there, here, own)
 
-    def spread(self, values: Values) -> Values:
+    def _everywhere(self, values: Values) -> Values:
         """Values at all nodes and, after them, at the middles of all faces."""
         faces, nodes = self._sizes
         if self._on_faces:
             return np.concatenate([np.nan_to_num(self._mean(values, self._face, self._node, nodes), nan=-1.0), values])
         return np.concatenate([values, self._mean(values, self._node, self._face, faces)])
 
-    def drawing(self, values: Values) -> Drawing:
-        """Where values, as `spread` gives them, are above 0."""
-        return fitted_drawing(_grouped([self._ring(found) for found in self._outlines(values)]))
-
-    def _outlines(self, values: Values) -> list[Outline]:
-        return [found for found in outlines_above(self._points, self._triangles, values) if len(found.points) > 2]
-
     def _ring(self, outline: Outline) -> Ring:
-        """Ring of an outline; its part on the mesh's border goes on beyond the square where the frame ends there."""
+        """Ring of an outline; where the mesh's border is that of the frame, the ring extends outside the square."""
         points, near = outline.points.copy(), NEAR * outline.cell
         for axis in range(2):
             low, high = self._frame.box[axis], self._frame.box[2 + axis]
@@ -279,25 +226,25 @@ class Sheet:
         return Ring(points, outline.cell, ends | (outline.border & bent))
 
     def _located(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Which samples of a grid over the frame are in which triangles."""
+        """Samples of the frame's grid that lie in the mesh, and the triangle of each."""
         import shapely
 
-        places, _ = frame_places(self._frame)
+        places, _ = grid_places(self._frame)
         tree = shapely.STRtree(shapely.polygons(self._points[self._triangles[:, [0, 1, 2, 0]]]))
         sample, triangle = tree.query(shapely.points(places), predicate="intersects")
         sample, first = np.unique(sample, return_index=True)
         return sample, triangle[first]
 
     def grid(self, values: Values) -> NDArray[np.float32]:
-        """Values over the frame, the northernmost row first: the face's, or linear between nodes; NaN beyond."""
-        places, shape = frame_places(self._frame)
+        """Values over the frame, the northernmost row first: of the face, or linear between nodes; NaN beyond."""
+        places, shape = grid_places(self._frame)
         sample, triangle = self._found
         corners = self._triangles[triangle]
         out = np.full(len(places), np.nan)
         if self._on_faces:
             out[sample] = values[corners[:, 0] - self._sizes[1]]
         else:
-            everywhere = self.spread(values)
+            everywhere = self._everywhere(values)
             a, b, c = (self._points[corners[:, k]] for k in range(3))
             ab, ac, ap = b - a, c - a, places[sample] - a
             size = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
@@ -310,20 +257,18 @@ class Sheet:
 
 
 def _grouped(rings: list[Ring]) -> list[list[Ring]]:
-    """Rings by polygon: each that turns left, and the holes that are in it."""
+    """Rings by polygon: each counter-clockwise ring, and the holes in it."""
     import shapely
 
     areas = [_area(ring.points) for ring in rings]
     outer = [k for k, area in enumerate(areas) if area > 0.0]
     holes = [k for k, area in enumerate(areas) if area < 0.0]
     groups = {k: [rings[k]] for k in outer}
-    if outer and holes:
-        tree = shapely.STRtree([shapely.Polygon(rings[k].points) for k in outer])
-        hole, place = tree.query(shapely.points([rings[k].points[0] for k in holes]), predicate="intersects")
-        for number, k in enumerate(holes):
-            around = [outer[p] for p in place[hole == number]]
-            if around:
-                groups[min(around, key=areas.__getitem__)].append(rings[k])
+    tree = shapely.STRtree([shapely.Polygon(rings[k].points) for k in outer])
+    for k in holes:
+        around = [outer[place] for place in tree.query(shapely.Point(rings[k].points[0]), predicate="intersects")]
+        if around:
+            groups[min(around, key=areas.__getitem__)].append(rings[k])
     return list(groups.values())
 
 

@@ -1,80 +1,48 @@
 """Depths on the rows and columns of a NetCDF file, at one time or at several."""
 
 import os
-import tempfile
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from datetime import UTC, datetime
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, Final
 
 import numpy as np
 
-from vexture.errors import LimitError, SourceError
-from vexture.geo.lattice import Lattice
-from vexture.geo.series import Series, Values
+from vexture.errors import LimitError, ParameterError, SourceError, reason_of
+from vexture.geo.series import Lattice, Series, Values
 
-__all__ = [
-    "check_dimension", "crs_of", "depths_of", "line_of", "listed", "opened", "read_variable", "series_of",
-    "time_axis", "times_of",
-]  # fmt: skip
+__all__ = ["crs_of", "depths_of", "listed", "opened", "refuse_layers", "series_of", "time_axis", "times_of"]
 
+# fmt: off
 DEPTHS: Final = (
     {"depth", "waterdepth", "wd", "h", "hs", "hh", "flooddepth", "inundationdepth", "mesh2dwaterdepth", "hmax"},
-    {
-        "water_depth",
-        "sea_floor_depth_below_sea_surface",
-        "flood_water_thickness",
-        "depth",
-        "water_depth_at_cell_center",
-    },
+    {"water_depth", "sea_floor_depth_below_sea_surface", "flood_water_thickness", "depth",
+     "water_depth_at_cell_center"},
 )
-"""Names, in small letters without ``_``, and standard names of depths of water."""
+"""Names of water depths, in lower case without ``_`` and ``-``, and their CF standard names."""
 
 LEVELS: Final = (
-    {
-        "waterlevel",
-        "wl",
-        "level",
-        "zs",
-        "s1",
-        "mesh2ds1",
-        "wse",
-        "watersurface",
-        "watersurfaceelevation",
-        "ssh",
-        "zeta",
-    },
-    {
-        "sea_surface_height",
-        "sea_surface_height_above_geoid",
-        "sea_surface_height_above_mean_sea_level",
-        "water_surface_height_above_reference_datum",
-        "sea_surface_height_above_reference_ellipsoid",
-        "water_surface_reference_datum_altitude",
-    },
+    {"waterlevel", "wl", "level", "zs", "s1", "mesh2ds1", "wse", "watersurface", "watersurfaceelevation", "ssh",
+     "zeta"},
+    {"sea_surface_height", "sea_surface_height_above_geoid", "sea_surface_height_above_mean_sea_level",
+     "sea_surface_height_above_reference_ellipsoid", "water_surface_height_above_reference_datum",
+     "water_surface_reference_datum_altitude"},
 )
-"""The same of water levels."""
+"""Those of water levels."""
 
 BEDS: Final = (
-    {
-        "bed",
-        "bedlevel",
-        "zb",
-        "bl",
-        "altitude",
-        "elevation",
-        "dem",
-        "topography",
-        "topo",
-        "ground",
-        "mesh2dflowelembl",
-        "mesh2dnodez",
-        "groundlevel",
-    },
+    {"bed", "bedlevel", "zb", "bl", "altitude", "elevation", "dem", "topography", "topo", "ground", "groundlevel",
+     "mesh2dflowelembl", "mesh2dnodez"},
     {"altitude", "surface_altitude", "ground_level_altitude", "height_above_mean_sea_level", "bed_level"},
 )
-"""The same of heights of the bed."""
+"""Those of heights of the bed."""
+# fmt: on
+
+UNITS: Final = {"cm": 0.01, "mm": 0.001, "centimetre": 0.01, "ft": 0.3048, "feet": 0.3048, "foot": 0.3048}
+"""Length in metres of units other than the metre."""
 
 TIMES: Final = {"time", "t", "times", "datetime"}
 EAST: Final = {"x", "lon", "longitude", "easting", "xc", "mx", "m", "column", "columns", "col"}
@@ -86,91 +54,59 @@ MOST_STEPS: Final = 1000
 
 
 @contextmanager
-def opened(source: bytes | str | os.PathLike[str]) -> Iterator[Any]:
-    """Dataset of a file or of its content, by xarray; times are not decoded."""
+def opened(source: bytes | str | os.PathLike[str], time_dim: str | None) -> Iterator[Any]:
+    """Dataset of a file or of its content, by xarray, with times not decoded."""
     import xarray
 
-    folder = None
-    try:
+    with ExitStack() as stack:
+        place = os.path.abspath(source) if not isinstance(source, bytes) else ""
         if isinstance(source, bytes):
-            folder = tempfile.TemporaryDirectory(prefix="vexture-")
-            place = os.path.join(folder.name, "depths.nc")
-            with open(place, "wb") as file:
-                file.write(source)
-        else:
-            place = os.path.abspath(source)
+            place = os.path.join(stack.enter_context(TemporaryDirectory(prefix="vexture-")), "depths.nc")
+            Path(place).write_bytes(source)
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 dataset = xarray.open_dataset(place, engine="netcdf4", decode_times=False, cache=False)
-        except Exception as error:  # of a stranger's file the libraries raise what they like
-            raise SourceError(f"it cannot be read as NetCDF ({line_of(error, place)}); write it again") from None
-        with dataset:
-            yield dataset
-    finally:
-        if folder:
-            folder.cleanup()
-
-
-def line_of(error: Exception, place: str = "") -> str:
-    """What a library says, in one short line that names no temporary file."""
-    text = " ".join(str(error).split())
-    if place:
-        text = text.replace(place, "the file")
-    return (text if len(text) <= 120 else text[:117] + "...") or type(error).__name__
-
-
-def check_dimension(dataset: Any, time_dim: str | None) -> None:
-    """Refuse a dimension that is not there.
-
-    Raises
-    ------
-    LimitError
-        Naming those that are.
-    """
-    if time_dim is not None and time_dim not in dataset.dims:
-        raise LimitError(
-            f"there is no dimension {time_dim!r}; it has {listed(dataset.dims)}; choose another `time_dim`"
-        )
+        except Exception as error:  # xarray and netCDF4 raise any type of exception for a damaged file
+            why = reason_of(error, hidden=place)
+            raise SourceError(f"it cannot be read as NetCDF ({why}); write it again") from None
+        stack.enter_context(dataset)
+        if time_dim is not None and time_dim not in dataset.dims:
+            raise ParameterError(
+                f"there is no dimension {time_dim!r}; it has {listed(dataset.dims)}; choose another `time_dim`"
+            )
+        yield dataset
 
 
 def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Series:
-    """Depths of an open dataset.
-
-    Raises
-    ------
-    SourceError, LimitError
-        If there are none, or more than one.
-    """
-    check_dimension(dataset, time_dim)
-    grids = {str(name): axes for name in dataset.data_vars if (axes := axes_of(dataset, name, time_dim))}
+    """Depths of an open dataset on rows and columns; `ParameterError` if `variable` holds none."""
+    grids = {str(name): axes for name in dataset.data_vars if (axes := _axes_of(dataset, name, time_dim))}
     name, depth, bed = depths_of(dataset, list(grids), variable)
     time, north, east = grids[name]
     x, y = (_axis(dataset, dim) for dim in (east, north))
-    order = tuple(dim for dim in (time, north, east) if dim is not None)
-    times = times_of(dataset, time) if time is not None else (None,)
-    extra = [dim for dim in dataset[name].dims if dim not in order and dataset.sizes[dim] > 1]
+    times = times_of(dataset, time)
+    refuse_layers(dataset, name, (time, north, east))
+
+    def read(step: int, rows: slice, columns: slice) -> tuple[Values, Values | None]:
+        places = {time: step, north: rows, east: columns}
+        return depth(places, (north, east)), bed(places, (north, east)) if bed else None
+
+    crs = crs_of(dataset, name, [_along(dataset, dim) for dim in (east, north)])
+    return Series(Lattice(x, y, np.eye(2, 3)), crs, name, times, read)
+
+
+def refuse_layers(dataset: Any, name: str, known: tuple[str | None, ...]) -> None:
+    """Refuse a variable with a further dimension, such as layers of water."""
+    extra = [dim for dim in dataset[name].dims if dim not in known and dataset.sizes[dim] > 1]
     if extra:
         raise SourceError(
             f"variable {name!r} also has the dimension {listed(extra)} ({dataset.sizes[extra[0]]} long); "
             "write a file with one layer, or name another `variable`"
         )
 
-    def read(step: int, rows: slice, columns: slice) -> tuple[Values, Values | None]:
-        places = {time: step, north: rows, east: columns}
-        return depth(places, (north, east)), bed(places, (north, east)) if bed else None
 
-    return Series(
-        Lattice(x, y, np.eye(2, 3)),
-        crs_of(dataset, name, [_along(dataset, dim) for dim in (east, north)]),
-        name,
-        times,
-        read,
-    )
-
-
-def axes_of(dataset: Any, name: Any, time_dim: str | None) -> tuple[str | None, str, str] | None:
-    """Dimensions of time, north and east of a variable; None if it is none of depths."""
+def _axes_of(dataset: Any, name: Any, time_dim: str | None) -> tuple[str | None, str, str] | None:
+    """Dimensions of time, north and east of a variable; None if it cannot hold depths."""
     variable = dataset[name]
     if variable.dtype.kind not in "iuf":
         return None
@@ -186,7 +122,7 @@ def axes_of(dataset: Any, name: Any, time_dim: str | None) -> tuple[str | None, 
 
 
 def time_axis(dataset: Any, dims: Any, time_dim: str | None) -> str | None:
-    """Dimension of time among some: the one that is asked for, else one that is called so or counts since a date."""
+    """Dimension of time among some: the one that the user names, else one with the name or the units of a time."""
     if time_dim is not None:
         return time_dim if time_dim in dims else None
     for dim in map(str, dims):
@@ -198,7 +134,7 @@ def time_axis(dataset: Any, dims: Any, time_dim: str | None) -> str | None:
 
 
 def _points(dataset: Any, dim: str, names: set[str], axis: str, units: set[str]) -> bool:
-    """Whether a dimension runs to the east, or to the north."""
+    """Whether a dimension runs along the axis "x", east, or "y", north."""
     along = _along(dataset, dim)
     about = {} if along is None else along.attrs
     standard = f"projection_{axis}_coordinate", f"grid_{'longitude' if axis == 'x' else 'latitude'}"
@@ -211,7 +147,7 @@ def _points(dataset: Any, dim: str, names: set[str], axis: str, units: set[str])
 
 
 def _along(dataset: Any, dim: str) -> Any:
-    """Coordinate of a dimension: of its own name, else the only one along it."""
+    """Coordinate of a dimension: the one with its name, else the only one along it."""
     if dim in dataset.variables:
         return dataset[dim]
     found = [
@@ -248,63 +184,55 @@ def _loaded(variable: Any) -> Any:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return np.asarray(variable.values)
-    except Exception as error:  # HDF5 and codecs raise what they like
-        raise SourceError(
-            f"variable {variable.name!r} cannot be read ({line_of(error)}); write the file again"
-        ) from None
+    except Exception as error:  # HDF5 and its codecs raise any type of exception for damaged data
+        why = reason_of(error)
+        raise SourceError(f"variable {variable.name!r} cannot be read ({why}); write the file again") from None
 
 
-def read_variable(variable: Any, places: dict[Any, Any], order: tuple[str, ...]) -> Values:
-    """Values of a variable at some places of its dimensions, in the order of dimensions asked for."""
+def _read(variable: Any, places: dict[Any, Any], order: tuple[str, ...]) -> Values:
+    """Values of a variable in metres, at the given places along its dimensions, with the dimensions in an order."""
     taken = variable.isel({dim: place for dim, place in places.items() if dim in variable.dims})
     taken = taken.squeeze([dim for dim in taken.dims if dim not in order])
     values: Values = _loaded(taken.transpose(*order)).astype(np.float64)
-    units = str(variable.attrs.get("units", "m")).strip().lower()
-    return values * UNITS.get(units, 1.0) if units in UNITS else values
-
-
-UNITS: Final = {"cm": 0.01, "mm": 0.001, "centimetre": 0.01, "ft": 0.3048, "feet": 0.3048, "foot": 0.3048}
-"""Metres to units that are not metres."""
+    return values * UNITS.get(str(variable.attrs.get("units", "m")).strip().lower(), 1.0)
 
 
 def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tuple[str, Any, Any]:
-    """What holds depths: its name, a function that reads it, one that reads the bed's height or None.
+    """Name of the variable of depths, a function that reads it, and one that reads the bed's height, or None.
 
-    A file without depths but with water levels and the bed has their difference.
+    Where the variable holds water levels, the function subtracts the bed's height from them.
     """
 
     def reader(name: str) -> Any:
         down = str(dataset[name].attrs.get("positive", "up")).lower() == "down"
         sign = -1.0 if down and name == bed else 1.0
-        return lambda places, order: sign * read_variable(dataset[name], places, order)
+        return lambda places, order: sign * _read(dataset[name], places, order)
 
-    bed = _only(dataset, candidates, BEDS)
-    level = _only(dataset, candidates, LEVELS)
-    bed_reader = reader(bed) if bed is not None else None
+    bed, level = (_only(dataset, candidates, names) for names in (BEDS, LEVELS))
+    read_bed = reader(bed) if bed is not None else None
     if variable is not None:
         if variable not in candidates:
-            raise LimitError(f"there are no depths in {variable!r}; `variable` may be {listed(candidates)}")
-        chosen = variable
+            raise ParameterError(f"there are no depths in {variable!r}; `variable` may be {listed(candidates)}")
+        choice = [variable]
     else:
-        named = [name for name in candidates if _is(dataset, name, DEPTHS)]
-        rest = [name for name in candidates if name not in (bed, level)]
-        choice = named or rest
+        others = [name for name in candidates if name not in (bed, level)]
+        choice = [name for name in candidates if _is(dataset, name, DEPTHS)] or others
         if not choice and level is not None and bed is not None:
             choice = [level]
         if not choice:
             raise SourceError(f"no variable is on rows and columns; it has {listed(dataset.data_vars)}")
         if len(choice) > 1:
             raise LimitError(f"depths may be in {listed(choice)}; choose one by `variable`")
-        chosen = choice[0]
-    if chosen == bed or (chosen == level and bed_reader is None):
-        what = "heights of the bed" if chosen == bed else "water levels, and nothing says where the bed is"
+    chosen = choice[0]
+    if chosen == bed or (chosen == level and read_bed is None):
+        what = "heights of the bed" if chosen == bed else "water levels, and no variable holds heights of the bed"
         others = [name for name in candidates if name not in (bed, level)]
         remedy = f"`variable` may be {listed(others)}" if others else "write depths into the file"
-        raise LimitError(f"{chosen!r} holds {what}; {remedy}")
-    if chosen == level and bed_reader is not None:
-        at = reader(chosen)
-        return chosen, lambda places, order: at(places, order) - bed_reader(places, order), bed_reader
-    return chosen, reader(chosen), bed_reader
+        raise (SourceError if variable is None else ParameterError)(f"{chosen!r} holds {what}; {remedy}")
+    read = reader(chosen)
+    if chosen == level and read_bed is not None:
+        return chosen, lambda places, order: read(places, order) - read_bed(places, order), read_bed
+    return chosen, read, read_bed
 
 
 def _is(dataset: Any, name: str, known: tuple[set[str], set[str]]) -> bool:
@@ -317,10 +245,12 @@ def _only(dataset: Any, candidates: list[str], known: tuple[set[str], set[str]])
     return found[0] if len(found) == 1 else None
 
 
-def times_of(dataset: Any, dim: str) -> tuple[datetime | None, ...]:
-    """Times of the steps along a dimension, None where the file has no dates."""
+def times_of(dataset: Any, dim: str | None) -> tuple[datetime | None, ...]:
+    """Times of the steps along a dimension, None where the file has no dates; one step without a dimension."""
     import xarray
 
+    if dim is None:
+        return (None,)
     count = int(dataset.sizes[dim])
     if count == 0:
         raise SourceError(f"dimension {dim!r} has no steps; write at least one")
@@ -350,14 +280,14 @@ def times_of(dataset: Any, dim: str) -> tuple[datetime | None, ...]:
 
 
 def _moment(time: Any) -> datetime:
-    """A time as datetime, in UTC, from numpy or from a model's calendar."""
+    """A time of numpy or of cftime as datetime, in UTC."""
     if isinstance(time, np.datetime64):
         return datetime.fromtimestamp(float(time.astype("datetime64[us]").astype(np.int64)) / 1e6, UTC)
     return datetime(time.year, time.month, time.day, time.hour, time.minute, time.second, time.microsecond, UTC)
 
 
 def crs_of(dataset: Any, name: str, coordinates: list[Any]) -> str | None:
-    """What a file says of its reference system, as text for pyproj."""
+    """Reference system that a file names, as text for pyproj."""
     from pyproj import CRS
 
     mappings = [dataset[name].attrs.get("grid_mapping"), dataset[name].encoding.get("grid_mapping")]
@@ -371,8 +301,8 @@ def crs_of(dataset: Any, name: str, coordinates: list[Any]) -> str | None:
         if about.get("grid_mapping_name"):
             try:
                 return str(CRS.from_cf(dict(about)).to_wkt())
-            except Exception as error:  # of a stranger's attributes pyproj raises what it likes
-                raise SourceError(f"its grid mapping is unknown ({line_of(error)}); give `crs` EPSG:...") from None
+            except Exception as error:  # pyproj raises any type of exception for invalid attributes
+                raise SourceError(f"its grid mapping is unknown ({reason_of(error)}); give `crs` EPSG:...") from None
     degrees = [
         about is not None
         and (about.attrs.get("standard_name") == kind or str(about.attrs.get("units", "")).lower() in units)
@@ -382,6 +312,6 @@ def crs_of(dataset: Any, name: str, coordinates: list[Any]) -> str | None:
 
 
 def listed(names: Any) -> str:
-    """Names in a message: the first eight."""
+    """The first eight names, for a message."""
     shown = [repr(str(name)) for name in names]
     return ", ".join(shown[:8]) + (f" and {len(shown) - 8} more" if len(shown) > 8 else "") or "none"

@@ -1,4 +1,4 @@
-"""Flood polygons of a vector file, in a frame of the world."""
+"""Polygons of water in a vector file as `Extent`."""
 
 import os
 from dataclasses import replace
@@ -10,16 +10,12 @@ from numpy.typing import NDArray
 from vexture.bezier.convert import line_cubics
 from vexture.drawing import Drawing, FillRule, Path, clipped, tidied
 from vexture.errors import SourceError
-from vexture.geo.extent import Extent, Step
-from vexture.geo.frame import Frame
-from vexture.geo.geojson import UNLOCATED
-from vexture.geo.reference import (
+from vexture.geo.crs import (
     UNPLACED,
-    Bounds,
-    frame_around,
+    chosen_crs,
+    frame_of,
     gis_packages,
     period,
-    reference,
     refuse_metres,
     same_system,
     shown_bounds,
@@ -28,15 +24,17 @@ from vexture.geo.reference import (
     transformed,
     transformed_bounds,
 )
+from vexture.geo.extent import Bounds, Extent, Frame, Step, bounds_of_square
+from vexture.geo.geojson import UNLOCATED, met
 from vexture.geo.rings import Rings, cut, moved, oriented, refuse_far, repaired, unwrapped, within
 from vexture.geo.vectors import read_areas
-from vexture.notes import Notes, line_of
+from vexture.notes import Notes
 from vexture.tolerance import CLOSED
 
 __all__ = ["read_polygons"]
 
 BEYOND = 0.5
-"""Widths of the unit square around it in which polygons are kept before they are transformed."""
+"""Sides of the unit square. Polygons farther from it are dropped before they are transformed."""
 
 
 @gis_packages()
@@ -49,49 +47,14 @@ def read_polygons(
     crs: str | None = None,
     layer: str | None = None,
 ) -> Extent:
-    """Read the area under water from polygons: GeoJSON, GeoPackage, FlatGeobuf, shapefiles.
+    """Read the area under water from GeoJSON, GeoPackage, FlatGeobuf or a shapefile.
 
-    Everything in the file counts as water, where polygons overlap too. Straight sides stay straight; rings across the
-    antimeridian are taken as such; invalid polygons are repaired.
-
-    Parameters
-    ----------
-    source : path or bytes
-        A shapefile is a ``.shp`` beside its siblings, or all of them in a ``.zip``; as bytes only the latter.
-    file_name : str
-        Names the drawing.
-    frame : Frame, optional
-        Where the polygons are put; they are transformed into its reference system.
-    bounds : tuple of float, optional
-        West, south, east, north of a new frame, in the reference system of the file or `crs`; by default the box
-        around the polygons.
-    crs : str, optional
-        Reference system of the coordinates, above what the file says.
-    layer : str, optional
-        Which layer, where there are several.
-
-    Returns
-    -------
-    Extent
-        Of one step, without time; its drawing has no paths where there is no water. Its notes say what was left out.
-
-    Raises
-    ------
-    SourceError
-        If it cannot be read, has no reference system, is outside of the bounds or cannot be repaired.
-    LimitError
-        If a parameter does not fit it.
-
-    Examples
-    --------
-    >>> square = b'{"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 9]]]}'
-    >>> extent = read_polygons(square, "lake.geojson", crs="EPSG:28992", bounds=(0, 0, 18, 9))
-    >>> extent.frame.bounds, extent.steps[0].drawing.segments
-    ((0.0, 0.0, 18.0, 9.0), 4)
+    All polygons in the file are water, where they overlap too. Straight sides stay straight; rings that cross the
+    antimeridian are unwrapped; invalid polygons are repaired. Parameters and errors as in `vexture.read_extent`.
     """
     notes = Notes()
     rings, named = read_areas(source, file_name, layer, notes)
-    own = reference(crs, named)
+    own = chosen_crs(crs, named)
     refuse_far(rings, "correct it")
     turn = period(own)
     if turn and len(rings.ends):
@@ -99,35 +62,28 @@ def read_polygons(
         rings = unwrapped(rings, turn)
     if len(rings.ends):
         rings = repaired(rings, notes)
-    if not len(rings.ends) and any(note.message != UNLOCATED for note in notes.listed):  # that is no empty flood
-        raise SourceError(f"it holds no polygon{_met(notes)}; give polygons of what is under water")
+    # features without geometry are an empty flood; anything else without polygons is a mistake
+    if not len(rings.ends) and any(note.message != UNLOCATED for note in notes.listed):
+        raise SourceError(f"it holds no polygon{met(notes)}; give polygons of what is under water")
     if frame is None:
         if bounds is None and not len(rings.ends):
             raise SourceError("it holds no polygon; for an empty flood, give `bounds`")
-        frame = frame_around(bounds or rings.box, own)
+        frame = frame_of(bounds, bounds or rings.box, own)
     drawing = _drawn(_placed(rings, own, frame), frame, FilePath(file_name).stem)
     return Extent(frame, (Step(replace(drawing, notes=notes.listed)),), notes=notes.listed)
 
 
-def _met(notes: Notes) -> str:
-    met = line_of("met", notes.listed).removeprefix("met: ")
-    return f" ({met})" if met else ""
-
-
 def _placed(rings: Rings, own: str, frame: Frame) -> Rings:
-    """Rings in the reference system of a frame: those near it."""
+    """Rings near a frame, in its reference system."""
     if not len(rings.ends):
         return rings
-    before, turn = rings, period(frame.crs)
-    (across, _, west), (_, up, south) = frame.to_source
-    square = (west, south, west + across, south + up)
+    before, turn, square = rings, period(frame.crs), bounds_of_square(frame)
     if not same_system(own, frame.crs):
-        far = (west - BEYOND * across, south - BEYOND * up, west + (1 + BEYOND) * across, south + (1 + BEYOND) * up)
-        reach = transformed_bounds(far, frame.crs, own)
+        reach = transformed_bounds(bounds_of_square(frame, BEYOND), frame.crs, own)
         if reach is not None:
-            rings = within(rings, reach, period(own))
-            rings = cut(rings, reach)
-        rings = moved(rings, lambda points: transformed(points, own, frame.crs), square, np.array([across, up]))
+            rings = cut(within(rings, reach, period(own)), reach)
+        sides = frame.to_source[:, :2].diagonal()
+        rings = moved(rings, lambda points: transformed(points, own, frame.crs), square, sides)
         refuse_far(
             rings,
             f"it has no place in the reference system of the frame, {shown_system(frame.crs)}; choose other bounds",
@@ -140,7 +96,7 @@ def _placed(rings: Rings, own: str, frame: Frame) -> Rings:
 
 
 def _outside(rings: Rings, own: str, frame: Frame) -> str:
-    """Say that no polygon is within the bounds, and why that may be."""
+    """Message that no polygon lies within the bounds, with the likely reason."""
     extent, bounds = rings.box, frame.bounds
     text = f"its extent {shown_bounds(extent, own)} is outside of the bounds {shown_bounds(bounds, frame.crs)}"
     degrees, wanted = _like_degrees(extent), _like_degrees(bounds)
@@ -165,7 +121,7 @@ def _drawn(rings: Rings, frame: Frame, name: str) -> Drawing:
     end = start[turned.following]
     sides = line_cubics(start, end)
     if start.min() >= 0.0 and start.max() <= 1.0 and (np.abs(end - start) > CLOSED).any(axis=1).all():
-        contours = np.split(sides, turned.ends[:-1])  # in the normal form as they are
+        contours = np.split(sides, turned.ends[:-1])  # already clipped and without tiny sides
     else:
         contours = list(tidied(*clipped(sides, turned.ends, np.zeros(2), np.ones(2))).values())
     paths = (Path(tuple(contours), FillRule.NONZERO),) if contours else ()

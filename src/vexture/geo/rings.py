@@ -1,4 +1,4 @@
-"""Rings of polygons, all in a few arrays: checked, unwrapped across the antimeridian, repaired, cut, moved."""
+"""Rings of many polygons in a few arrays: checked, unwrapped at the antimeridian, repaired, clipped, transformed."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -8,7 +8,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.errors import SourceError
+from vexture.errors import SourceError, reason_of
+from vexture.geo.extent import Bounds
 from vexture.geo.geojson import LARGEST
 from vexture.notes import Notes
 from vexture.tolerance import ROUND
@@ -16,31 +17,22 @@ from vexture.tolerance import ROUND
 __all__ = ["Rings", "cut", "moved", "oriented", "refuse_far", "repaired", "rings_of", "unwrapped", "within"]
 
 FULL_TURN: Final = 1.0 - 1e-9
-"""Turns. A side this long goes once around the world on purpose: along a pole or the edge of a map."""
+"""Turns. A side this long is meant to go around the world: along a pole or the edge of a map."""
 
 MOST_HALVINGS: Final = 8
-"""Of a side that is bent in another reference system."""
+"""Largest number of times that a side which a transform bends is halved."""
 
 SHORT: Final = 1e-3
-"""Unit-square units. A side shorter than this stays straight, within `ROUND`, in any reference system."""
-
-Box = tuple[float, float, float, float]
+"""Unit-square units. A shorter side stays straight, within `ROUND`, in any reference system."""
 
 
 @dataclass(frozen=True, eq=False)
 class Rings:
     """Polygons, each an outer ring and the holes in it.
 
-    Parameters
-    ----------
-    points : (n, 2) float64 array
-        All rings, one after another; the first point of a ring is not repeated at its end.
-    ends : (r,) intp array
-        Index after the last point of each ring.
-    polygon : (r,) intp array
-        The polygon that a ring belongs to, ascending; the first ring of each is its outer one.
-    place : callable
-        Names a polygon, by its index, in messages; an empty text where there is only one.
+    `points`, (n, 2), are those of all rings, one after another, none with its first point repeated; `ends` are the
+    indices after the last point of each ring. `polygon` is the index of each ring's polygon, ascending; the first ring
+    of a polygon is its outer one. `place` names a polygon for messages; the name is empty if there is only one.
     """
 
     points: NDArray[np.float64]
@@ -74,13 +66,13 @@ class Rings:
         return np.stack([np.minimum.reduceat(self.points, first), np.maximum.reduceat(self.points, first)], axis=1)
 
     @property
-    def box(self) -> Box:
-        """West, south, east, north of all of it; there must be a polygon."""
+    def box(self) -> Bounds:
+        """West, south, east, north of all polygons, of which there must be at least one."""
         (west, south), (east, north) = self.boxes[:, 0].min(axis=0), self.boxes[:, 1].max(axis=0)
         return (float(west), float(south), float(east), float(north))
 
     def where(self, point: int) -> str:
-        """Name of the ring that holds a point."""
+        """Name of the ring of a point, for messages."""
         ring = int(np.searchsorted(self.ends, point, side="right"))
         polygon = int(self.polygon[ring])
         number = f"ring {ring - int(self.outer[polygon]) + 1}"
@@ -108,7 +100,7 @@ class Rings:
 
     @property
     def shapes(self) -> NDArray[Any]:
-        """The polygons as shapely has them."""
+        """The polygons as shapely's."""
         import shapely
 
         owner = np.repeat(np.arange(len(self.ends)), self.ends - self.starts)
@@ -122,14 +114,7 @@ def _runs(starts: NDArray[np.intp], lengths: NDArray[np.intp]) -> NDArray[np.int
 
 
 def rings_of(polygons: NDArray[Any], place: Callable[[int], str]) -> Rings:
-    """Rings of shapely's polygons; empty ones have none.
-
-    Examples
-    --------
-    >>> import shapely
-    >>> rings_of(shapely.box([0, 5], 0, [1, 9], 2), str).ends
-    array([4, 8])
-    """
+    """Rings of shapely's polygons; empty polygons have none."""
     import shapely
 
     rings, owner = shapely.get_rings(polygons, return_index=True)
@@ -147,20 +132,8 @@ def rings_of(polygons: NDArray[Any], place: Callable[[int], str]) -> Rings:
 
 
 def refuse_far(rings: Rings, remedy: str) -> None:
-    """Refuse coordinates that are not finite or too large, by the name of their ring.
-
-    Parameters
-    ----------
-    rings : Rings
-    remedy : str
-        Says what to do.
-
-    Raises
-    ------
-    SourceError
-        If there is one.
-    """
-    near = (np.abs(rings.points) <= LARGEST).all(axis=1)  # not a number is not
+    """Refuse coordinates that are not finite or too large, with the name of their ring."""
+    near = (np.abs(rings.points) <= LARGEST).all(axis=1)  # False for NaN
     if not near.all():
         point = int(near.argmin())
         x, y = rings.points[point]
@@ -168,21 +141,11 @@ def refuse_far(rings: Rings, remedy: str) -> None:
 
 
 def unwrapped(rings: Rings, turn: float) -> Rings:
-    """Rings of longitudes, going on beyond half a turn where they cross the antimeridian.
+    """Rings of longitudes without jumps: they exceed half a turn where they cross the antimeridian.
 
-    A side of more than half a turn is taken for one that goes the other way around the world. Holes go with their
-    polygon, and polygons stand together: on that side of the antimeridian where all of them span less.
-
-    Parameters
-    ----------
-    rings : Rings
-    turn : float
-        Units to a turn around the world.
-
-    Raises
-    ------
-    SourceError
-        If a ring goes around a pole, and not along the edge of a map.
+    A side of more than half a turn is read as one that goes the other way around the world. Holes stay in their
+    polygon, and all polygons move to the side of the antimeridian where they span less. A ring around a pole is
+    refused, unless it follows the edge of a map.
     """
     if not len(rings.ends):
         return rings
@@ -203,7 +166,7 @@ def unwrapped(rings: Rings, turn: float) -> Rings:
 
 
 def _without_jumps(rings: Rings, turns: NDArray[np.float64], full: NDArray[np.bool_], turn: float) -> Rings:
-    """Rings with the jumps of their sides, in turns, taken out, where they are none on purpose."""
+    """Rings without the jumps of their sides, in turns, except sides that are meant to go around the world."""
     net = np.add.reduceat(turns, rings.starts)
     around = np.logical_or.reduceat(full, rings.starts)
     pole = (net != 0.0) & ~around
@@ -228,25 +191,16 @@ def _without_jumps(rings: Rings, turns: NDArray[np.float64], full: NDArray[np.bo
 
 
 def _shifted(rings: Rings, shift: NDArray[np.float64]) -> Rings:
-    """Rings moved along x, each by its own length."""
+    """Rings moved along x, each by its own distance."""
     points = rings.points.copy()
     points[:, 0] += np.repeat(shift, rings.ends - rings.starts)
     return replace(rings, points=points)
 
 
 def repaired(rings: Rings, notes: Notes) -> Rings:
-    """Polygons whose rings neither cross nor leave their outer ring, by shapely where they do.
+    """Valid polygons: shapely repairs those whose rings cross or leave their outer ring.
 
-    Parameters
-    ----------
-    rings : Rings
-    notes : Notes
-        Of polygons that enclose nothing, which are left out.
-
-    Raises
-    ------
-    SourceError
-        If one cannot be repaired.
+    Polygons that enclose no area are left out, with a note.
     """
     import shapely
 
@@ -254,26 +208,22 @@ def repaired(rings: Rings, notes: Notes) -> Rings:
     valid = shapely.is_valid(shapes)
     if valid.all():
         return rings
-    parts: list[Any] = []
-    owner: list[int] = []
-    for index in np.flatnonzero(~valid):
-        place = rings.place(int(index)) or "its polygon"
+    broken, made = np.flatnonzero(~valid), []
+    for index in broken:
         try:
-            made = shapely.make_valid(shapes[index], method="structure", keep_collapsed=False)
+            made.append(shapely.make_valid(shapes[index], method="structure", keep_collapsed=False))
         except shapely.errors.GEOSException as error:
-            why = " ".join(str(error).split())[:120]
-            raise SourceError(f"{place} cannot be repaired ({why}); correct its rings") from None
-        pieces = _polygons(np.array([made]))[0]
-        if not len(pieces):
-            notes.left_out("polygon that encloses nothing")
-        parts += list(pieces)
-        owner += [int(index)] * len(pieces)
-    mended = rings_of(np.array(parts, dtype=object), lambda index: rings.place(owner[index]))
+            place = rings.place(int(index)) or "its polygon"
+            raise SourceError(f"{place} cannot be repaired ({reason_of(error)}); correct its rings") from None
+    pieces, owner = _polygons(np.array(made))
+    for _ in range(len(broken) - len(np.unique(owner))):
+        notes.left_out("polygon that encloses nothing")
+    mended = rings_of(pieces, lambda index: rings.place(int(broken[owner[index]])))
     return rings.taken(np.flatnonzero(valid)).joined(mended)
 
 
 def _polygons(shapes: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
-    """Polygons among the parts of shapely's geometries, and whose they are."""
+    """Polygons among the parts of shapely's geometries, and the index of the geometry of each."""
     import shapely
 
     parts, owner = shapely.get_parts(shapes, return_index=True)
@@ -282,17 +232,8 @@ def _polygons(shapes: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
     return again[keep], owner[inner][keep]
 
 
-def within(rings: Rings, box: Box, turn: float | None) -> Rings:
-    """Polygons that reach into a box; in longitudes, those a turn away too.
-
-    Parameters
-    ----------
-    rings : Rings
-    box : tuple of float
-        West, south, east, north.
-    turn : float or None
-        Units to a turn around the world, where there is such a thing.
-    """
+def within(rings: Rings, box: Bounds, turn: float | None) -> Rings:
+    """Polygons that reach into a box; in longitudes, of period `turn`, also those that do so a turn away."""
     found: Rings | None = None
     for shift in (0.0, -turn, turn) if turn else (0.0,):
         low, high = rings.boxes[:, 0] + (shift, 0.0), rings.boxes[:, 1] + (shift, 0.0)
@@ -307,8 +248,8 @@ def within(rings: Rings, box: Box, turn: float | None) -> Rings:
     return found
 
 
-def cut(rings: Rings, box: Box) -> Rings:
-    """Polygons cut to a box: those that leave it."""
+def cut(rings: Rings, box: Bounds) -> Rings:
+    """Polygons clipped to a box."""
     import shapely
 
     beyond = (rings.boxes[:, 0] < box[:2]).any(axis=1) | (rings.boxes[:, 1] > box[2:]).any(axis=1)
@@ -324,20 +265,13 @@ def cut(rings: Rings, box: Box) -> Rings:
 def moved(
     rings: Rings,
     mapping: Callable[[NDArray[np.float64]], NDArray[np.float64]],
-    box: Box,
+    box: Bounds,
     size: NDArray[np.float64],
 ) -> Rings:
     """Rings with their points mapped, and with more points where a mapped side is no longer straight.
 
-    Parameters
-    ----------
-    rings : Rings
-    mapping : callable
-        Maps points, (n, 2).
-    box : tuple of float
-        Where the mapped sides must be right; elsewhere none is divided.
-    size : (2,) float64 array
-        Width and height of the unit square, in units after the mapping: sides are right within `ROUND` of it.
+    Sides that pass through `box` become right within `ROUND` of `size`, the sides of the unit square; both are in units
+    after the mapping.
     """
     points, ends = rings.points, rings.ends
     image = mapping(points)
@@ -359,7 +293,7 @@ def moved(
 
 
 def oriented(rings: Rings) -> Rings:
-    """Rings turned so that outer ones go counter-clockwise and holes clockwise: winding numbers count the polygons."""
+    """Rings with outer ones counter-clockwise and holes clockwise, so that winding numbers count the polygons."""
     if not len(rings.ends):
         return rings
     middle = rings.points[rings.starts].repeat(rings.ends - rings.starts, axis=0)

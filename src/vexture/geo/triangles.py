@@ -1,4 +1,4 @@
-"""The area where values on a mesh of triangles are above 0: its outline, straight within each triangle."""
+"""Outlines of the area where values on a triangle mesh are above 0, straight within each triangle."""
 
 from typing import NamedTuple
 
@@ -9,16 +9,9 @@ __all__ = ["Outline", "outlines_above"]
 
 
 class Outline(NamedTuple):
-    """A closed ring around what is above 0, which is to its left.
+    """A closed ring, with the area above 0 to its left; the first of its points, (n, 2), is not repeated at the end.
 
-    Attributes
-    ----------
-    points : (n, 2) float64 array
-        The first is not repeated at the end.
-    border : (n,) bool array
-        Which are on the border of the mesh.
-    cell : float
-        Length of the shorter edges that it crosses.
+    `border` marks points on the border of the mesh; `cell` is the length of the shorter edges crossed.
     """
 
     points: NDArray[np.float64]
@@ -29,15 +22,9 @@ class Outline(NamedTuple):
 def outlines_above(
     points: NDArray[np.float64], triangles: NDArray[np.int64], values: NDArray[np.float64]
 ) -> list[Outline]:
-    """Outlines of the area where values are above 0, linear between the corners of triangles.
+    """Outlines of the area where values at points are above 0, linear between the corners of triangles.
 
-    Parameters
-    ----------
-    points : (n, 2) float64 array
-    triangles : (m, 3) int array
-        Corners of each, turning left.
-    values : (n,) float64 array
-        At the points; 0 counts as below.
+    The corners of a triangle, (m, 3) numbers of points, are in counter-clockwise order.
 
     Examples
     --------
@@ -54,7 +41,7 @@ def outlines_above(
     keys = low * len(points) + high
     _, first, edge, count = np.unique(keys, return_index=True, return_inverse=True, return_counts=True)
     ends = np.column_stack([low[first], high[first]])
-    crossing = edge + len(points)  # a crossing is numbered after all points
+    crossing = edge + len(points)  # crossings are numbered after the points
     leaving = (wet[start] & ~wet[end]).reshape(-1, 3)
     entering = (~wet[start] & wet[end]).reshape(-1, 3)
     mixed = leaving.any(axis=1)
@@ -78,7 +65,7 @@ def outlines_above(
 
 
 def _rings(froms: NDArray[np.int64], tos: NDArray[np.int64]) -> list[NDArray[np.int64]]:
-    """Closed ways along directed steps, each step used once."""
+    """Closed paths along directed steps, each step used once."""
     order = np.argsort(froms, kind="stable")
     after: dict[int, list[int]] = {}
     for a, b in zip(froms[order].tolist(), tos[order].tolist(), strict=True):
@@ -95,7 +82,7 @@ def _rings(froms: NDArray[np.int64], tos: NDArray[np.int64]) -> list[NDArray[np.
 
 
 def _cell(lengths: NDArray[np.float64], points: NDArray[np.float64]) -> float:
-    """Length of the shorter edges of some, or of the ring's own sides where it crosses none."""
+    """Length of the shorter edges that a ring crosses, or of its own sides where it crosses none."""
     found = lengths[np.isfinite(lengths)]
     if not len(found):
         found = np.hypot(*(points - np.roll(points, 1, axis=0)).T)

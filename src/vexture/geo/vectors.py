@@ -1,7 +1,7 @@
-"""Vector files of geographic data: from their bytes to rings, or one line that says why not.
+"""Vector files of geographic data as rings.
 
-GDAL reads all but GeoJSON. It sees a file only after the first bytes have told that it is of a format meant here, and
-only in memory: nothing else is opened, fetched or written, whatever the file asks for.
+GDAL reads all formats but GeoJSON. It gets a file only if the first bytes are those of a supported format, and only
+in memory, so that it opens, fetches and writes nothing else, whatever the file refers to.
 """
 
 import os
@@ -11,7 +11,7 @@ import zlib
 from io import BytesIO
 from pathlib import Path
 from threading import Lock
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,57 +28,36 @@ from vexture.content import (
     read_bytes,
     start_of,
 )
-from vexture.errors import LimitError, SourceError
+from vexture.errors import LimitError, ParameterError, SourceError, reason_of
 from vexture.geo.geojson import UNLOCATED, areas_of
 from vexture.geo.rings import Rings, rings_of
 from vexture.notes import Notes
 
-__all__ = ["Areas", "read_areas", "whole_shapefile"]
+__all__ = ["read_areas", "whole_shapefile"]
 
 APPLICATION: Final = slice(68, 72)
 GEOPACKAGES: Final = (b"GPKG", b"GP10", b"GP11")
-"""Application of an SQLite file, there."""
+"""Application identifiers of a GeoPackage, at these bytes of an SQLite file."""
 
 PARTS: Final = (".shp", ".shx", ".dbf", ".prj", ".cpg")
-"""Files that are one shapefile; without the first two it cannot be read."""
+"""Files of one shapefile, of which the first two are required."""
 
 AREAL: Final = ("Polygon", "Surface", "Unknown", "GeometryCollection", "Triangle", "TIN")
-"""Words in the types of layers that may hold polygons."""
+"""Words in the geometry types of layers that may hold polygons."""
 
 QUIET: Final = Lock()
-"""Held while Python's warnings are silenced, which is so for all threads."""
+"""Held while Python's warnings are silenced: the filter is common to all threads."""
 
 MOST_NAMED: Final = 12
 """Layers that a message names."""
 
 
-class Areas(NamedTuple):
-    """Polygons of a file, in its own coordinates, and the reference system that it names."""
+def read_areas(
+    source: str | os.PathLike[str] | bytes, file_name: str, layer: str | None, notes: Notes
+) -> tuple[Rings, str | None]:
+    """Polygons of a vector file, in its own coordinates, and the reference system that it names.
 
-    rings: Rings
-    crs: str | None
-
-
-def read_areas(source: str | os.PathLike[str] | bytes, file_name: str, layer: str | None, notes: Notes) -> Areas:
-    """Read the polygons of a vector file.
-
-    Parameters
-    ----------
-    source : path or bytes
-        GeoJSON, GeoPackage, FlatGeobuf, a zipped shapefile; as a path also a ``.shp`` beside its siblings.
-    file_name : str
-        What it is called.
-    layer : str or None
-        Which layer, where there are several.
-    notes : Notes
-        Of what has no area.
-
-    Raises
-    ------
-    SourceError
-        If it cannot be read.
-    LimitError
-        If there is no such layer, or none is named where there are several.
+    `LimitError` if it has several layers and `layer` is None, `ParameterError` if it has no such layer.
     """
     content = decompressed(source) if isinstance(source, bytes) else read_bytes(source)
     kind = kind_of(start_of(content), file_name)
@@ -86,7 +65,7 @@ def read_areas(source: str | os.PathLike[str] | bytes, file_name: str, layer: st
         raise SourceError("is a texture already; give the data that it was made from")
     if kind is FileKind.GEOJSON:
         if layer is not None:
-            raise LimitError(f"GeoJSON has no layers, so none {layer!r}; leave `layer` out")
+            raise ParameterError(f"GeoJSON has no layers, so none {layer!r}; leave `layer` out")
         return _geojson(content, notes)
     if content.startswith(SHAPEFILE):
         if isinstance(source, bytes):
@@ -102,34 +81,23 @@ def read_areas(source: str | os.PathLike[str] | bytes, file_name: str, layer: st
     return _gdal(content, layer, notes)
 
 
-def _geojson(content: bytes, notes: Notes) -> Areas:
+def _geojson(content: bytes, notes: Notes) -> tuple[Rings, str | None]:
     areas, crs = areas_of(content, notes)
     rings = [ring for area in areas for ring in area.rings]
     owner = np.repeat(np.arange(len(areas)), [len(area.rings) for area in areas]).astype(np.intp)
     ends = np.cumsum([len(ring) for ring in rings]).astype(np.intp)
     points = np.concatenate(rings) if rings else np.empty((0, 2))
-    return Areas(Rings(points, ends, owner, lambda index: areas[index].where), crs)
+    return Rings(points, ends, owner, lambda index: areas[index].where), crs
 
 
 def whole_shapefile(path: Path) -> bytes:
-    """Content of a ``.shp`` and of the files beside it, in one zip; the same bytes of the same files.
-
-    Raises
-    ------
-    SourceError
-        If one of those that are needed is missing.
-    """
-    return _zipped(_siblings(path))
-
-
-def _siblings(path: Path) -> dict[str, bytes]:
-    """Files that make up a shapefile, by name."""
+    """Content of a ``.shp`` and of the files beside it, in one zip; equal files give equal bytes."""
     try:
         beside = {each.name.lower(): each for each in path.parent.iterdir()}
     except OSError as error:
         raise SourceError(f"its folder cannot be read: {error.strerror}; the files beside it are needed") from None
     found = {part: beside.get(path.stem.lower() + part) for part in PARTS} | {".shp": path}
-    return {f"{path.stem}{part}": read_bytes(each) for part, each in found.items() if each is not None}
+    return _zipped({f"{path.stem}{part}": read_bytes(each) for part, each in found.items() if each is not None})
 
 
 def _members(content: bytes) -> dict[str, bytes]:
@@ -141,12 +109,11 @@ def _members(content: bytes) -> dict[str, bytes]:
                 raise SourceError(f"its shapefiles are larger than {LARGEST_FILE:,} bytes; split them")
             return {Path(info.filename).name: archive.read(info) for info in infos}
     except (zipfile.BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError, OSError, ValueError) as error:
-        why = " ".join(str(error).split())[:80]
-        raise SourceError(f"the zip is damaged or encrypted ({why}); zip the shapefile again") from None
+        raise SourceError(f"the zip is damaged or encrypted ({reason_of(error)}); zip the shapefile again") from None
 
 
 def _zipped(files: dict[str, bytes]) -> bytes:
-    """Shapefiles and nothing else, in one zip."""
+    """Files of shapefiles in one zip."""
     named = {Path(name).stem + Path(name).suffix.lower(): content for name, content in files.items()}
     stems = [Path(name).stem for name in named if name.endswith(".shp")]
     if not stems:
@@ -157,34 +124,37 @@ def _zipped(files: dict[str, bytes]) -> bytes:
     packed = BytesIO()
     with zipfile.ZipFile(packed, "w") as archive:
         for name, content in named.items():
-            archive.writestr(zipfile.ZipInfo(name), content)  # without the time, which says nothing
+            archive.writestr(zipfile.ZipInfo(name), content)  # without a time: equal files give equal bytes
     return packed.getvalue()
 
 
-def _gdal(content: bytes, layer: str | None, notes: Notes) -> Areas:
-    """Polygons that GDAL finds."""
+def _gdal(content: bytes, layer: str | None, notes: Notes) -> tuple[Rings, str | None]:
+    """Polygons that GDAL reads."""
     from pyogrio import list_layers, raw
 
     with QUIET, warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # GDAL's remarks; what matters is found again below
+        warnings.simplefilter("ignore")  # warnings of GDAL; invalid geometries are found below
         try:
             name = _layer([(str(each), str(kind)) for each, kind in list_layers(content)], layer)
             meta, _, shapes, _ = raw.read(content, layer=name, columns=[], force_2d=True)
+        except ParameterError:  # of `layer`; it is a ValueError too
+            raise
         except (RuntimeError, ValueError, OverflowError, NameError) as error:  # the last is pyogrio's for a bad .prj
-            raise SourceError(f"GDAL cannot read it ({_one_line(error)}); save it again") from None
+            raise SourceError(f"GDAL cannot read it ({_reason(error)}); save it again") from None
     if shapes is None:
         raise SourceError(f"its layer {name!r} has no geometries; choose another by `layer`")
-    return Areas(_parsed(shapes, notes), meta["crs"])
+    return _parsed(shapes, notes), meta["crs"]
 
 
-def _one_line(error: Exception) -> str:
+def _reason(error: Exception) -> str:
+    """What GDAL says, without its internals."""
     text = " ".join(str(error).split()).rpartition("Raw error: ")[2]
     if isinstance(error, NameError):
-        return "what it says of its reference system is damaged"
-    if "sqlite3" in text:  # its query and more
+        return "its reference system is damaged"
+    if "sqlite3" in text:  # followed by the query
         return "its database is damaged"
     start = text.find("/vsi")
-    if start >= 0:  # a name in memory says nothing to anybody
+    if start >= 0:  # the name of a file in memory
         text = "the file" + text[start:].partition("'")[2] if "'" in text[start:] else "damaged"
     return text[:160]
 
@@ -198,13 +168,14 @@ def _layer(layers: list[tuple[str, str]], wanted: str | None) -> str:
             return (areal or names)[0]
         if not names:
             raise SourceError("it has no layers; save it again")
-        listed = areal or names
-        shown = ", ".join(listed[:MOST_NAMED]) + (", ..." if len(listed) > MOST_NAMED else "")
-        raise LimitError(f"it has {len(listed)} layers; choose one by `layer`: {shown}")
+        raise LimitError(f"it has {len(areal or names)} layers; choose one by `layer`: {_named(areal or names)}")
     if wanted not in names:
-        shown = ", ".join(names[:MOST_NAMED]) + (", ..." if len(names) > MOST_NAMED else "")
-        raise LimitError(f"it has no layer {wanted!r}; its layers are: {shown}")
+        raise ParameterError(f"it has no layer {wanted!r}; its layers are: {_named(names)}")
     return wanted
+
+
+def _named(layers: list[str]) -> str:
+    return ", ".join(layers[:MOST_NAMED]) + (", ..." if len(layers) > MOST_NAMED else "")
 
 
 def _parsed(shapes: NDArray[Any], notes: Notes) -> Rings:
@@ -215,7 +186,7 @@ def _parsed(shapes: NDArray[Any], notes: Notes) -> Rings:
     for _ in range(int((~given).sum())):
         notes.left_out(UNLOCATED)
     feature = np.flatnonzero(given)
-    with np.errstate(invalid="ignore"):  # what is not a number is refused later, by name
+    with np.errstate(invalid="ignore"):  # NaN is refused later, with the name of its ring
         whole = shapely.from_wkb(shapes[given], on_invalid="fix")
     broken = shapely.is_missing(whole)
     if broken.any():

@@ -11,9 +11,8 @@ import numpy as np
 from vexture.content import about
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
-from vexture.flood.naming import PREFIX, labels, step_names
 from vexture.flood.options import FloodOptions
-from vexture.flood.scene import Flood, Note, scene
+from vexture.flood.scene import PREFIX, Flood, PageNote, labels, scene, step_names
 from vexture.geo.extent import Extent
 from vexture.live.limits import Limits
 from vexture.live.manifest import manifest
@@ -27,9 +26,9 @@ __all__ = ["Made", "export", "make", "serve"]
 PAGE_SUFFIXES: Final = (".html", ".htm")
 GROUND_NAME, FOLD_NAME = "ground.webp", "shore.fold.ktx2"
 
-INVENTED: Final = Note("The relief is invented.", "--relief takes a file of heights.")
-DRAWN: Final = Note("The ground is drawn, not photographed.", "--ground takes a picture.")
-DRY: Final = Note("Nothing is under water.", "")
+INVENTED: Final = PageNote("The relief is invented.", "--relief takes a file of heights.")
+DRAWN: Final = PageNote("The ground is drawn, not photographed.", "--ground takes a picture.")
+DRY: Final = PageNote("Nothing is under water.", "")
 
 LESS: Final = 0.95
 """Share of the amplitude that was asked for: less is said."""
@@ -79,7 +78,7 @@ def make(asked: FloodOptions, say: Say) -> Made:
     from vexture.flood.drawn_ground import drawn_ground
     from vexture.flood.ground import encoded, ground_of
     from vexture.flood.relief import first_wet, relief_of
-    from vexture.flood.shore import viewpoint
+    from vexture.flood.viewpoint import viewpoint
 
     extent = _read(asked)
     if line := line_of(str(asked.extent), extent.notes):
@@ -104,9 +103,9 @@ def make(asked: FloodOptions, say: Say) -> Made:
     elif amplitude:
         fold, reached = _fold(first.drawing, amplitude, asked.period, frame.metres)
         if asked.amplitude is not None and reached < LESS * amplitude:
-            notes.append(Note(f"Waves run up {reached:.3g} m: {amplitude:.3g} m would turn the shore over.", ""))
+            notes.append(PageNote(f"Waves run up {reached:.3g} m: {amplitude:.3g} m would turn the shore over.", ""))
     if relief.known < WHOLE:
-        notes.append(Note(f"{relief.known:.0%} of the ground has a height; the rest goes on as its border.", ""))
+        notes.append(PageNote(f"{relief.known:.0%} of the ground has a height; the rest goes on as its border.", ""))
     flood = Flood(
         title=asked.title or asked.extent.name.partition(".")[0] or PREFIX,
         frame=frame,
@@ -142,7 +141,7 @@ def _shapes(extent: Extent, waters: Waters) -> list[Shape]:
 def _fold(drawing: Drawing, amplitude: float, period: float, metres: tuple[float, float]) -> tuple[bytes, float]:
     """File that moves the shoreline up and down the beach, and by how many metres it does at most."""
     from vexture.fold.shore import fold_of_shore
-    from vexture.geo.frame import MARGIN
+    from vexture.geo.extent import MARGIN
 
     share = (1.0 - 2.0 * MARGIN) / max(metres)
     fold = fold_of_shore(drawing, amplitude=amplitude * share, period=period)
@@ -168,7 +167,6 @@ def export(asked: FloodOptions, output: Path, say: Say) -> tuple[Made, int]:
     told = scene(
         flood,
         [manifest(shape, None, {}, address=data_address) for shape in made.shapes],
-        PREFIX,
         data_address(File(flood.ground, GROUND_TYPE, "")),
         None if flood.fold is None else data_address(File(flood.fold, TEXTURE_TYPE, "")),
     )
@@ -222,7 +220,7 @@ def serve(
         for shape in made.shapes:
             shelf.put(shape)
         flood, converter = made.flood, Converter(limits, waters=made.waters)
-        told = scene(flood, shelf.names, PREFIX, GROUND_NAME, FOLD_NAME if flood.fold else None)
+        told = scene(flood, shelf.names, GROUND_NAME, FOLD_NAME if flood.fold else None)
         fresh = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff"}
         inner = application(
             [

@@ -10,10 +10,9 @@ from typing import Any, Final
 import numpy as np
 
 from vexture.content import FileKind, kind_of, start_of, unpacked
-from vexture.errors import LimitError, SourceError, VextureError
-from vexture.flood.naming import PREFIX, labels
-from vexture.geo.extent import Extent, Step
-from vexture.geo.frame import Frame
+from vexture.errors import LimitError, ParameterError, SourceError, VextureError
+from vexture.flood.scene import PREFIX, labels
+from vexture.geo.extent import Extent, Frame, Step
 from vexture.live.documents import converted, load_kernels, texture_shape, told
 from vexture.live.shelf import File, Shape
 from vexture.settings import Settings
@@ -69,7 +68,7 @@ class Waters:
         label : str
             What people read of its time.
         """
-        from vexture.flood.depth_image import deepest, depth_png
+        from vexture.flood.grids import deepest, depth_png
 
         load_kernels()
         shape = converted(replace(step.drawing, name=name), name, self.settings, time.perf_counter())
@@ -110,7 +109,7 @@ class Waters:
         return self.step(step, name, labels([step.time])[0])
 
     def _read(self, data: bytes, name: str, possible: tuple[str, ...]) -> Extent:
-        from vexture.geo.reference import MissingReferenceError
+        from vexture.geo.crs import MissingReferenceError
         from vexture.reading import extent_of
 
         options = {option: value for option, value in self.options.items() if option in possible}
@@ -122,6 +121,8 @@ class Waters:
             ) from None
         except (SourceError, LimitError) as error:
             raise type(error)(f"{name}: {_for_senders(str(error).removeprefix(f'{name}: '))}") from None
+        except ParameterError as error:  # the server's options do not fit the file that was sent
+            raise SourceError(f"{name}: {_for_senders(str(error))}") from None
 
     def warm(self) -> None:
         """Load what a conversion needs: packages, kernels, the frame's reference system."""

@@ -1,7 +1,7 @@
-"""The few flat colours of a picture, and how much of each is in every pixel.
+"""The flat colours of a picture, and the share of each in every pixel.
 
 Pixels are premultiplied by their opacity, (h, w, 4) in 0..255: a pixel on an edge then lies on the straight line
-between the two colours beside it, also where one of them is nothing at all.
+between the two colours beside it, also if one of them is transparent.
 """
 
 from itertools import combinations
@@ -12,78 +12,63 @@ from numpy.typing import NDArray
 
 from vexture.errors import LimitError
 
-__all__ = ["MOST_COLOURS", "Mixture", "background_of", "flat_colours", "mixture", "widened"]
+__all__ = ["Mixture", "background_of", "flat_colours", "mixture", "widened"]
 
 MOST_COLOURS: Final = 24
-"""Besides the background."""
+"""Most colours besides the background."""
 
 LEVEL: Final = 16
-"""Levels of 255 that a border or an area of one colour may vary by: noise of JPEG and of scanners."""
+"""Levels of 255 by which a border or an area of one colour may vary: noise of JPEG and of scanners."""
 
 APART: Final = 36.0
-"""Distance of two colours, in levels, below which they are one."""
+"""Levels. Colours that are nearer to one another count as one."""
 
 OFF_THE_LINE: Final = 48.0
-"""Distance of a pixel from all mixtures of two colours, in levels, beyond which it shows a colour of its own."""
+"""Levels. A pixel that is farther from all mixtures of two colours has a colour of its own."""
 
 UNIFORM: Final = 0.75
-"""Share of the border that must be of one colour, so that this is the background."""
+"""Share of the border that must have one colour for it to be the background."""
 
 REACH: Final = 3
-"""Pixels from an edge at which the colours beside it are looked for."""
+"""Pixels from an edge within which the colours beside it are searched."""
 
 BETTER: Final = 1.0
-"""Levels. Two mixtures that describe a pixel so much alike are the same; that of the colours nearer to each other is
-taken."""
+"""Levels. Of two mixtures that describe a pixel equally well within this, the one of the nearer colours is taken."""
 
 FEWEST: Final = 4
 LEAST: Final = 2e-4
-"""Pixels that make a colour, and share of the picture that makes one which no area has."""
+"""Fewest pixels of a colour, and smallest share of the picture for a colour that no area has."""
 
 MOST_BINS: Final = 4096
 
 MOSTLY: Final = 0.5
 MOST_UNEXPLAINED: Final = 0.1
-"""Shares of pixels that have a flat colour, and that no mixture of flat colours describes: with less of the one or more
-of the other a picture is a photograph."""
+"""A picture is a photograph if less than `MOSTLY` of its pixels have a flat colour, or if no mixture of flat colours
+describes more than `MOST_UNEXPLAINED` of them."""
 
 MOST_WORK: Final = 40_000_000
-"""Mixtures that are tried, of each pixel on an edge all pairs of colours: some seconds."""
+"""Most mixtures to try, all pairs of colours for each pixel on an edge: some seconds."""
 
 Image = NDArray[np.float32]
 Colours = NDArray[np.float32]
 
 
 class Mixture(NamedTuple):
-    """What the pixels of a picture are made of.
-
-    Attributes
-    ----------
-    first, second : (h, w) uint8 arrays
-        Numbers of one colour and of another.
-    share : (h, w) float32 array
-        Of the first in the pixel; the rest is of the second.
-    """
+    """Two colours of each pixel, by number, and the share of the first; arrays of (h, w)."""
 
     first: NDArray[np.uint8]
     second: NDArray[np.uint8]
     share: NDArray[np.float32]
 
     def of(self, colour: int) -> NDArray[np.float32]:
-        """How much of each pixel is of a colour."""
+        """Share of a colour in each pixel."""
         share = np.where(self.first == colour, self.share, np.float32(0.0))
         share += np.where(self.second == colour, 1.0 - self.share, np.float32(0.0))
         return share
 
 
 def widened(mask: NDArray[np.bool_], by: int = 1) -> NDArray[np.bool_]:
-    """Pixels of a mask and their neighbours, also diagonal, so many times.
-
-    Examples
-    --------
-    >>> widened(np.array([[True, False, False]]))
-    array([[ True,  True, False]])
-    """
+    """Mask dilated by a number of pixels, also diagonally."""
     for _ in range(by):
         rows = np.copy(mask)
         rows[1:] |= mask[:-1]
@@ -95,18 +80,7 @@ def widened(mask: NDArray[np.bool_], by: int = 1) -> NDArray[np.bool_]:
 
 
 def background_of(image: Image) -> Colours | None:
-    """Colour of the background, or None where there is none.
-
-    Of a picture that shows through anywhere it is nothing; else the colour of the border, if that is uniform.
-
-    Examples
-    --------
-    >>> white = np.full((9, 9, 4), 255.0, np.float32)
-    >>> background_of(white)
-    array([255., 255., 255., 255.], dtype=float32)
-    >>> background_of(white * 0.0)
-    array([0., 0., 0., 0.], dtype=float32)
-    """
+    """Colour of the background: transparent if any pixel is, else the colour of the border if that is uniform."""
     if (image[..., 3] < 128.0).any():
         return np.zeros(4, np.float32)
     border = np.concatenate([image[0], image[-1], image[:, 0], image[:, -1]])
@@ -118,9 +92,9 @@ def background_of(image: Image) -> Colours | None:
 
 
 def flat_colours(image: Image, background: Colours | None) -> Colours | None:
-    """Colours whose mixtures are the picture, the background first; None of a photograph, which has too many.
+    """Colours whose mixtures make up the picture, the background first; None of a photograph, which has too many.
 
-    First those that areas have, most frequent first, then those that only thin lines show, farthest first.
+    The colours of areas come first, by frequency, then those that only thin lines have, by distance from the others.
     """
     colours = [] if background is None else [background]
     most = MOST_COLOURS + len(colours)
@@ -150,7 +124,7 @@ def _stacked(colours: list[Colours]) -> Colours:
 
 
 def _share_near(means: NDArray[np.float32], counts: NDArray[np.intp], colours: Colours) -> float:
-    """Share of pixels that have one of some colours, nearly."""
+    """Share of pixels that have nearly one of the colours."""
     if not len(colours):
         return 0.0
     near = np.linalg.norm(means[:, None] - colours[None], axis=2).min(axis=1) <= APART
@@ -168,7 +142,7 @@ def _is_flat(image: Image) -> NDArray[np.bool_]:
 
 
 def _binned(pixels: NDArray[np.float32], least: float = 0.0) -> tuple[NDArray[np.float32], NDArray[np.intp]]:
-    """Means of colours that are nearly the same, and how many there are of each, most frequent first."""
+    """Means of similar colours and the number of pixels of each, by frequency."""
     if not len(pixels):
         return np.empty((0, 4), np.float32), np.empty(0, np.intp)
     step = np.minimum(pixels / 8.0, 31.0).astype(np.int64)
@@ -200,11 +174,11 @@ def _along(pixels: NDArray[np.float32], a: Colours, b: Colours) -> tuple[NDArray
 
 
 def mixture(image: Image, colours: Colours) -> Mixture:
-    """Find what each pixel is made of.
+    """Colours that each pixel is a mixture of.
 
-    A pixel on an edge is a mixture of two colours that areas beside it have: a gray between black and white is no
-    area of gray, though the picture may have such a gray elsewhere. Where none describes it, areas a little farther
-    away are asked, and then any colour: that of a line too thin to show it anywhere.
+    A pixel on an edge is a mixture of the colours of two areas beside it: a gray between black and white is no area of
+    gray, even if the picture has such a gray elsewhere. If no such mixture describes it, areas a little farther away
+    are tried, and then any colour, for lines too thin to show theirs anywhere.
     """
     first, distance = _nearest(image, colours)
     pure = distance <= APART / 2.0
@@ -212,7 +186,10 @@ def mixture(image: Image, colours: Colours) -> Mixture:
     areas = [pure & (first == number) for number in range(len(colours))]
     beside = np.array([widened(area) for area in areas])
     place = np.flatnonzero(~pure | (beside.sum(axis=0, dtype=np.uint8) > 1))
-    pairs = sorted(combinations(range(len(colours)), 2), key=lambda pair: _span(colours, pair))
+    pairs = sorted(
+        combinations(range(len(colours)), 2),
+        key=lambda pair: float(np.linalg.norm(colours[pair[0]] - colours[pair[1]])),
+    )
     if len(place) * len(pairs) > MOST_WORK:
         raise LimitError(f"has {len(place):,} pixels on edges of {len(colours)} colours; smooth it, or scale it down")
     beside = beside.reshape(len(colours), -1)[:, place]
@@ -238,12 +215,8 @@ def mixture(image: Image, colours: Colours) -> Mixture:
     return Mixture(first, second, shares)
 
 
-def _span(colours: Colours, pair: tuple[int, int]) -> float:
-    return float(np.linalg.norm(colours[pair[0]] - colours[pair[1]]))
-
-
 def _nearest(image: Image, colours: Colours) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
-    """Number of the colour that is nearest to each pixel, and the distance."""
+    """Number of the nearest colour of each pixel, and the distance."""
     number = np.zeros(image.shape[:2], np.uint8)
     least = np.full(image.shape[:2], np.inf, np.float32)
     for place, colour in enumerate(colours):
@@ -255,12 +228,12 @@ def _nearest(image: Image, colours: Colours) -> tuple[NDArray[np.uint8], NDArray
 
 
 def _solid(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Pixels of a mask that lie in a square of 3 x 3 of it."""
+    """Morphological opening of a mask by a square of 3 x 3 pixels."""
     return widened(~widened(~np.pad(mask, 1, mode="edge")))[1:-1, 1:-1]
 
 
 def _passed_on_the_way(colours: Colours, first: NDArray[np.uint8], pure: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Pixels of thin areas that have a colour only because it is a mixture of two others beside them."""
+    """Pixels of thin areas whose colour is only a mixture of two others beside them."""
     passed = np.zeros_like(pure)
     between: dict[int, list[tuple[int, int]]] = {}
     for number, colour in enumerate(colours):

@@ -1,4 +1,4 @@
-"""Pictures of pixels as drawings (thesis 4.2): traced by vtracer, one flat colour after the other."""
+"""Pictures of pixels as drawings (thesis 4.2): vtracer traces one flat colour after another."""
 
 import os
 import re
@@ -21,14 +21,14 @@ from vexture.tracing.images import MOST_PIXELS, pixels_of
 __all__ = ["image_drawing", "read_image", "trace"]
 
 LONGEST: Final = 2048
-"""Pixels of the longer side that are traced; a larger picture is reduced to it first."""
+"""Most pixels on the longer side; a larger picture is reduced first."""
 
 SMALL: Final = 256
-"""Pixels of the longer side up to which a picture is traced four times as large, else twice."""
+"""Pixels on the longer side. A picture up to this size is traced four times enlarged, a larger one twice."""
 
 OUTWARD: Final = 0.4
-"""Pixels of the enlarged mask. vtracer follows its staircase that much outside of the middle of its steps, as measured
-on drawings whose outline is known."""
+"""Pixels of the enlarged mask. vtracer's outlines lie this far outside the middle of the steps, as measured on
+drawings whose outline is known."""
 
 SETTINGS: Final[dict[str, Any]] = {
     "colormode": "binary",
@@ -39,24 +39,24 @@ SETTINGS: Final[dict[str, Any]] = {
     "max_iterations": 10,
     "path_precision": 3,
 }
-"""Of vtracer. Measured on 24 circles of 128 to 800 pixels: a splice of 15 degrees brings the worst point of an outline
-from 1.05 to 0.63 pixels for a fifth more curves than vtracer's 45; sides of 10 pixels of the mask instead of 4 save a
-third of them."""
+"""Settings of vtracer, from measurements on 24 circles of 128 to 800 pixels. A splice threshold of 15 degrees instead
+of 45 reduces the largest error from 1.05 to 0.63 pixels for a fifth more curves. A length threshold of 10 pixels of the
+mask instead of 4 saves a third of the curves."""
 
 MOST_CURVES: Final = 60_000
-"""Of a drawing: a page of dense text has 40,000."""
+"""Most curves of a drawing; a page of dense text has 40,000."""
 
 MOST_PIECES: Final = 2**16 - 2
-"""Of one mask; vtracer's numbers of pieces have 16 bits."""
+"""Most pieces of one mask: vtracer numbers them with 16 bits."""
 
 PHOTO_LONGEST: Final = 512
 PHOTO_COLOURS: Final = 16
 PHOTO_SPECKLE: Final = 4
-"""A photograph is reduced to so many pixels on its longer side and to so many colours, areas of fewer pixels than the
-square of the last are left out."""
+"""A photograph is reduced to this many pixels on its longer side and to this many colours. Areas of fewer pixels than
+the square of the last number are left out."""
 
 TRANSLUCENT: Final = 250.0
-"""Levels. A colour of at least that opacity is opaque."""
+"""Levels. Colours of at least this opacity count as opaque."""
 
 TRACED_PATH: Final = re.compile(r'<path d="([^"]*)" fill="[^"]*" transform="translate\(([-\d.]+),([-\d.]+)\)"/>')
 
@@ -64,14 +64,14 @@ TRACED_PATH: Final = re.compile(r'<path d="([^"]*)" fill="[^"]*" transform="tran
 def read_image(source: str | os.PathLike[str] | bytes, file_name: str | None = None) -> Drawing:
     """Read a picture of pixels: PNG, JPEG, WebP, GIF (its first image) or BMP, by its content.
 
-    It is traced as `trace` says, upright as its EXIF orientation says.
+    `vexture.trace` describes how it is traced; its EXIF orientation is applied.
 
     Parameters
     ----------
     source : path or bytes
         The file, or its content.
     file_name : str, optional
-        What the file is called, where it is given as bytes: names the drawing and stands in messages.
+        Name of the file, if `source` is its content: names the drawing, also in messages.
 
     Returns
     -------
@@ -111,25 +111,17 @@ def read_image(source: str | os.PathLike[str] | bytes, file_name: str | None = N
 
 
 def image_drawing(source: str | os.PathLike[str] | bytes, name: str) -> Drawing:
-    """Read a picture of pixels, as `read_image` does, but without a warning: its notes say all.
-
-    Parameters
-    ----------
-    source : path or bytes
-        The file, or its content.
-    name : str
-        Names the drawing.
-    """
+    """Drawing of `read_image`, without a warning: the notes are in the drawing."""
     return _traced(pixels_of(source), name)
 
 
 def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
     """Trace a picture of pixels.
 
-    The outline lies where a pixel is half covered, to about a sixth of a pixel. Of a picture that shows through
-    anywhere, all that is not transparent is painted; else all that does not have the colour of its border, if that is
-    one; else, of two colours, the darker one; else all of it. Flat colours become paths of that paint, each
-    reaching a little under those painted after it. A picture of many colours, such as a photograph, is traced coarsely.
+    The outline lies where a pixel is half covered, to about a sixth of a pixel. If any pixel is transparent, all
+    others are painted; else all pixels but those of the border's colour, if the border is uniform; else, of two
+    colours, the darker one; else the whole picture. Flat colours become paths of that paint, each of which extends
+    slightly under those painted after it. A picture of many colours, such as a photograph, is traced coarsely.
 
     Parameters
     ----------
@@ -142,16 +134,7 @@ def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
     Returns
     -------
     Drawing
-        In the unit square at the picture's aspect ratio, y up; `to_source` maps it to pixels, y down.
-
-    Raises
-    ------
-    SourceError
-        If the array is no picture.
-    LimitError
-        If it has too many pixels, or becomes too many curves.
-    DeviceError
-        If the package vtracer is missing.
+        As of `vexture.read_image`, as are errors and warnings.
 
     Examples
     --------
@@ -168,7 +151,7 @@ def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
 
 
 def _as_pixels(image: NDArray[Any]) -> NDArray[np.uint8]:
-    """Bytes of sRGB and opacity."""
+    """Array as 8-bit sRGB and opacity."""
     if image.ndim == 2:
         image = image[..., None].repeat(3, axis=2)
     if image.ndim != 3 or image.shape[2] not in (3, 4) or not image.size:
@@ -184,13 +167,13 @@ def _as_pixels(image: NDArray[Any]) -> NDArray[np.uint8]:
 
 
 def _traced(pixels: NDArray[np.uint8], name: str) -> Drawing:
-    """Trace bytes of sRGB and opacity."""
+    """Trace 8-bit sRGB and opacity, (height, width, 4)."""
     height, width = pixels.shape[:2]
     image = _reduced(pixels, LONGEST)
     background = background_of(image)
     colours = flat_colours(image, background)
     if background is None and colours is not None and len(colours) == 2:
-        background = colours[int(colours.sum(axis=1).argmax())]  # the lighter one: a scan that reaches its border
+        background = colours[int(colours.sum(axis=1).argmax())]  # the lighter one, for ink that reaches the border
         colours = np.concatenate([background[None], colours[(colours != background).any(axis=1)]])
     first = 0 if background is None else 1
     notes = Notes()
@@ -212,7 +195,7 @@ def _traced(pixels: NDArray[np.uint8], name: str) -> Drawing:
 
 
 def _reduced(pixels: NDArray[np.uint8], longest: int) -> NDArray[np.float32]:
-    """Premultiplied levels, of a large picture fewer."""
+    """Premultiplied levels of a picture, reduced to a longest side."""
     from PIL import Image
 
     height, width = pixels.shape[:2]
@@ -227,7 +210,7 @@ def _reduced(pixels: NDArray[np.uint8], longest: int) -> NDArray[np.float32]:
 def _posterised(
     image: NDArray[np.float32], background: NDArray[np.float32] | None
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """A photograph with its noise smoothed, and a few colours for it, the background first."""
+    """A smoothed photograph, and a few colours for it, the background first."""
     from PIL import Image, ImageFilter
 
     smooth = Image.fromarray(image[..., :3].astype(np.uint8)).filter(ImageFilter.GaussianBlur(1.5))
@@ -243,7 +226,7 @@ def _posterised(
 def _document(
     image: NDArray[np.float32], colours: NDArray[np.float32], first: int, speckle: int
 ) -> tuple[bytes, tuple[int, int]]:
-    """SVG of all colours but the background, large areas below, and its size in pixels of the enlarged picture."""
+    """SVG of all colours but the background, large areas first, and its size in pixels of the enlarged picture."""
     parts = mixture(image, colours)
     height, width = parts.first.shape
     factor = 4 if max(height, width) <= SMALL else 2
@@ -257,7 +240,7 @@ def _document(
         mask = own
         if colours[number][3] >= TRANSLUCENT:
             mask = own + above * widened(own >= 0.5)
-            above += own  # what is translucent shows what reaches under it, so that nothing does
+            above += own  # nothing extends under a translucent colour, which would show it
         group, count = _group(mask, _paint(colours[number]), factor, factor * speckle)
         curves += count
         if curves > MOST_CURVES:
@@ -275,7 +258,7 @@ def _paint(colour: NDArray[np.float32]) -> Paint:
 
 
 def _group(share: NDArray[np.float32], paint: Paint, factor: int, speckle: int) -> tuple[str, int]:
-    """Outline of where a share is at least one half, as SVG, and the number of its curves."""
+    """Outline of the area where a share is at least one half, as SVG, and the number of its curves."""
     inside = np.argwhere(share > 0.0)
     if not len(inside):
         return "", 0
@@ -292,7 +275,7 @@ def _group(share: NDArray[np.float32], paint: Paint, factor: int, speckle: int) 
 
 
 def _enlarged(share: NDArray[np.float32], factor: int) -> NDArray[np.bool_]:
-    """Mask of where a share is at least one half, several pixels for each, and `OUTWARD` smaller on all sides."""
+    """Enlarged mask of where a share is at least one half, `OUTWARD` smaller on all sides."""
     from PIL import Image
 
     size = (factor * share.shape[1], factor * share.shape[0])
@@ -300,15 +283,15 @@ def _enlarged(share: NDArray[np.float32], factor: int) -> NDArray[np.bool_]:
     padded = np.pad(smooth, 1, mode="edge")
     right = padded[1:-1, 2:] - padded[1:-1, :-2]
     down = padded[2:, 1:-1] - padded[:-2, 1:-1]
-    slope = 0.5 * np.sqrt(right * right + down * down)  # of a blurred edge gentle, so that its middle stays the edge
+    slope = 0.5 * np.sqrt(right * right + down * down)  # small at a blurred edge, whose middle stays the edge
     return np.asarray(smooth - 0.5 >= OUTWARD * slope, np.bool_)
 
 
 def _outline(mask: NDArray[np.bool_], speckle: int) -> str:
     """SVG of a mask by vtracer.
 
-    It goes through the mask row by row and begins a piece at each pixel with none of it to the left or above; with
-    more than 65,535 it panics.
+    vtracer scans the mask by rows, begins a piece at each pixel without one to the left or above, and panics at more
+    than 65,535 pieces.
     """
     try:
         import vtracer

@@ -1,4 +1,4 @@
-"""A place on the shore to stand, with open water in front."""
+"""Where the page's camera first stands: on the shore, with open water in front."""
 
 from typing import Final, NamedTuple
 
@@ -7,29 +7,29 @@ from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
 from vexture.flood.grids import coverage_over, size_for
-from vexture.geo.frame import Frame
+from vexture.geo.extent import Frame
 
 __all__ = ["Shore", "viewpoint"]
 
 CELLS: Final = 96
-"""Of the grid in which the place is looked for, on the longer side."""
+"""Cells of the search grid on the frame's longer side."""
 
 REACH: Final = 10
-"""Cells within which there must be water in front and land behind."""
+"""Cells around a place in which water in front and land behind are rated."""
 
 EDGE: Final = 4
-"""Cells along the frame's borders that are left alone, unless there is no other shore."""
+"""Cells along the frame's borders that are excluded, unless there is no other shore."""
 
 ZOOMS: Final = 4
 WINDOW: Final = 32
-"""How often, and in how many pixels, a place is looked at more closely: it is right to 1e-6 of the frame."""
+"""Zoom levels, and pixels of each, by which a place is refined to 1e-6 of the frame."""
 
 LOCAL: Final = 1 / 300
-"""Share of the frame within which the direction of the shore is taken."""
+"""Radius in which the direction of the shore is measured, as a share of the frame."""
 
 
 class Shore(NamedTuple):
-    """Where to stand and where to look, in unit-square units, y up; the direction has the length 1."""
+    """A place on the shore and the unit vector towards the water, in unit-square units, y up."""
 
     place: tuple[float, float]
     seaward: tuple[float, float]
@@ -38,18 +38,7 @@ class Shore(NamedTuple):
 def viewpoint(drawing: Drawing, frame: Frame) -> Shore | None:
     """A place on the shore near the middle of the frame, with open water in front and dry land behind.
 
-    Returns
-    -------
-    Shore or None
-        None if the frame is all dry or all wet.
-
-    Examples
-    --------
-    >>> frame = Frame((0.0, 0.0, 1000.0, 1000.0), "EPSG:28992", (1000.0, 1000.0))
-    >>> sea = Drawing.polygon([(0, 0), (0.4, 0), (0.4, 1), (0, 1)])
-    >>> shore = viewpoint(sea, frame)
-    >>> [round(number, 4) + 0.0 for number in (*shore.place[:1], *shore.seaward)]
-    [0.4, -1.0, 0.0]
+    None if the frame is all dry or all wet.
     """
     x0, y0, x1, y1 = frame.box
     size = size_for(frame, CELLS)
@@ -69,7 +58,7 @@ def viewpoint(drawing: Drawing, frame: Frame) -> Shore | None:
 
 
 def _best(wet: NDArray[np.float32]) -> tuple[int, int, float, float] | None:
-    """Cell and direction of the best place: half wet, open ahead, dry behind, not far from the middle."""
+    """Row, column and direction of the best place: dry, beside water, open ahead, near the middle."""
     padded = np.pad(wet, 1, mode="edge")
     around = np.stack([padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]])
     shore = (wet < 0.5) & (around.max(axis=0) >= 0.5)
@@ -103,7 +92,7 @@ def _best(wet: NDArray[np.float32]) -> tuple[int, int, float, float] | None:
 def _on_the_line(
     drawing: Drawing, place: NDArray[np.float64], seaward: NDArray[np.float64], reach: float
 ) -> NDArray[np.float64]:
-    """Move a place along a direction onto the shoreline, as far as it is within reach."""
+    """Place moved along a direction onto the shoreline, if that is within reach."""
     for _ in range(ZOOMS):
         wet = coverage_over(drawing, _around(place, reach), (WINDOW, WINDOW))
         along = np.linspace(-reach, reach, 2 * WINDOW + 1)

@@ -1,6 +1,6 @@
-"""Coordinate reference systems: what they are called, how large their units are, and the way from one to another.
+"""Coordinate reference systems: their names and units, and transforms between them.
 
-Coordinates are always in the order x, y: longitude before latitude, whatever a system's own axes say.
+Coordinates are always in the order x, y: longitude before latitude, whatever order the system itself defines.
 """
 
 from collections.abc import Iterator
@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.errors import DeviceError, LimitError, SourceError, VextureError
-from vexture.geo.frame import Frame
+from vexture.errors import DeviceError, LimitError, ParameterError, SourceError
+from vexture.geo.extent import Bounds, Frame
 from vexture.tolerance import CLOSED
 
 if TYPE_CHECKING:
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 
 __all__ = [
     "UNPLACED",
-    "Bounds",
     "MissingReferenceError",
+    "chosen_crs",
     "frame_around",
+    "frame_of",
     "gis_packages",
     "period",
-    "reference",
     "refuse_metres",
     "same_system",
     "shown_bounds",
@@ -36,39 +36,31 @@ __all__ = [
     "transformed_bounds",
 ]
 
-Bounds = tuple[float, float, float, float]
-"""West, south, east, north."""
-
 UNPLACED: Final = (
     'ENGCRS["coordinates as they are",EDATUM[""],CS[Cartesian,2],AXIS["x",east],AXIS["y",north],UNIT["m",1]]'
 )
-"""Reference system of a plane without a place in the world."""
+"""Reference system of a plane without a known place in the world."""
 
 SAMPLES: Final = 21
-"""Points for each side of a rectangle whose image in another system is looked for."""
+"""Points on each side of a rectangle whose bounds are transformed."""
 
 LATITUDE: Final = pi / 2 * (1.0 + 1e-6)
-"""Radians. A latitude beyond it is none, rounding aside."""
+"""Radians. The largest valid latitude, with a margin for rounding."""
 
 LONGITUDE: Final = 4.0 * pi
-"""Radians. Longitudes go on beyond half a turn where a file crosses the antimeridian, but never this far."""
+"""Radians. The largest valid longitude: files that cross the antimeridian exceed half a turn, but never this."""
 
 METRE_DEGREES: Final = 1e-3
 """Degrees over which the length of a degree is measured on the ellipsoid."""
 
 
 class MissingReferenceError(SourceError):
-    """A file does not say in which reference system its coordinates are."""
+    """The file does not name the reference system of its coordinates."""
 
 
 @contextmanager
 def gis_packages() -> Iterator[None]:
-    """Say how to install what reads geographic data, where it is missing; also a decorator.
-
-    Raises
-    ------
-    DeviceError
-        In place of `ModuleNotFoundError`.
+    """Turn a `ModuleNotFoundError` into a `DeviceError` that says how to install the package; also a decorator.
 
     Examples
     --------
@@ -86,62 +78,32 @@ def gis_packages() -> Iterator[None]:
         raise DeviceError(f"geographic data needs the package {error.name}: pip install 'vexture[gis]'") from None
 
 
-def reference(given: str | None, found: str | None) -> str:
-    """Settle in which reference system coordinates are: the user's word stands above the file's.
+def chosen_crs(given: str | None, found: str | None) -> str:
+    """Reference system of coordinates: the one that the user gives, else the one that the file names.
 
-    Parameters
-    ----------
-    given : str or None
-        What the user says (``--crs``).
-    found : str or None
-        What the file says.
-
-    Returns
-    -------
-    str
-        A text that `system` understands: ``EPSG:32610``, else WKT.
-
-    Raises
-    ------
-    MissingReferenceError
-        If neither says anything.
-    SourceError, LimitError
-        If the text of the file or of the user means nothing, or a system without a plane.
-
-    Examples
-    --------
-    >>> reference(None, "epsg:28992"), reference("EPSG:32610", "EPSG:28992")
-    ('EPSG:28992', 'EPSG:32610')
+    The result is ``EPSG:32610`` or the like if an authority knows the system, else WKT. An invalid text of the user
+    raises `ParameterError`, one of the file `SourceError`.
     """
     if given:
-        return _settled(given)
+        return _shortest(given)
     if not found:
         raise MissingReferenceError("it names no reference system of its coordinates; give `crs` EPSG:...")
+    with _of_the_file():
+        return _shortest(found)
+
+
+@contextmanager
+def _of_the_file() -> Iterator[None]:
+    """Turn errors about a parameter into errors about the file, where the file gave the value."""
     try:
-        return _settled(found)
-    except LimitError as error:
+        yield
+    except ParameterError as error:
         raise SourceError(f"of the file, {error}") from None
 
 
-@gis_packages()
-def system(text: str) -> "CRS":
-    """Reference system of a text: an authority's code, WKT or PROJ.
-
-    Raises
-    ------
-    LimitError
-        If it is none, or none of a plane.
-
-    Examples
-    --------
-    >>> system("EPSG:28992").name
-    'Amersfoort / RD New'
-    """
-    return _system(text)
-
-
 @lru_cache(maxsize=64)
-def _system(text: str) -> "CRS":
+def system(text: str) -> "CRS":
+    """Reference system of a plane from an authority's code, WKT or a PROJ text; `ParameterError` if it is not one."""
     from pyproj import CRS
     from pyproj.exceptions import CRSError
 
@@ -150,17 +112,17 @@ def _system(text: str) -> "CRS":
     try:
         crs = CRS.from_user_input(text).to_2d()
     except (CRSError, ValueError):
-        raise LimitError(f"the reference system {named!r} is unknown; name it as `crs` EPSG:...") from None
+        raise ParameterError(f"the reference system {named!r} is unknown; name it as `crs` EPSG:...") from None
     if not (crs.is_geographic or crs.is_projected or crs.is_engineering) or len(crs.axis_info) != 2:
-        raise LimitError(
+        raise ParameterError(
             f"the reference system {named!r} ({crs.type_name}) has no plane; transform the data or give `crs` EPSG:..."
         )
     return crs
 
 
 @lru_cache(maxsize=64)
-def _settled(text: str) -> str:
-    """Shortest text of a system."""
+def _shortest(text: str) -> str:
+    """Shortest text that names a system."""
     if text == UNPLACED:
         return text
     crs = system(text)
@@ -169,7 +131,7 @@ def _settled(text: str) -> str:
 
 
 def period(crs: str) -> float | None:
-    """Units to a turn around the world, in a geographic system; None in others.
+    """Units in a full turn of longitude, in a geographic system; None in others.
 
     Examples
     --------
@@ -181,30 +143,18 @@ def period(crs: str) -> float | None:
 
 
 def shown_bounds(bounds: Bounds, crs: str) -> str:
-    """Bounds as a message names them.
-
-    Examples
-    --------
-    >>> shown_bounds((4.0, 52.0, 4.123456789, 53.0), "EPSG:4326")
-    '4,52,4.12346,53 (EPSG:4326)'
-    """
+    """Bounds for a message: ``4,52,4.12346,53 (EPSG:4326)``."""
     numbers = ",".join(f"{value:.6g}" if abs(value) < 1e5 else f"{value:.0f}" for value in bounds)
     return f"{numbers} ({shown_system(crs)})"
 
 
 def shown_system(crs: str) -> str:
-    """System as a message names it.
-
-    Examples
-    --------
-    >>> shown_system("EPSG:4326"), shown_system(UNPLACED)
-    ('EPSG:4326', 'coordinates as they are')
-    """
+    """Name of a system for a message."""
     return crs if len(crs) <= 40 else system(crs).name
 
 
-def refuse_metres(points: NDArray[np.float64], crs: str, what: str, error: type[VextureError] = SourceError) -> None:
-    """Refuse coordinates that cannot be degrees, where degrees are expected."""
+def refuse_metres(points: NDArray[np.float64], crs: str, what: str, error: type[Exception] = SourceError) -> None:
+    """Refuse coordinates that cannot be degrees in a geographic system."""
     found = system(crs)
     if not found.is_geographic or not len(points):
         return
@@ -213,24 +163,20 @@ def refuse_metres(points: NDArray[np.float64], crs: str, what: str, error: type[
         raise error(f"{what} cannot be longitudes and latitudes; name the system that they are in by `crs` EPSG:...")
 
 
-@gis_packages()
+def frame_of(bounds: Bounds | None, extent: Bounds, crs: str) -> Frame:
+    """Frame around the bounds that the user gives, else around the extent of the file."""
+    if bounds is not None:
+        return frame_around(bounds, crs)
+    with _of_the_file():
+        return frame_around(extent, crs)
+
+
 def frame_around(bounds: Bounds, crs: str) -> Frame:
     """Frame of a rectangle of the world.
 
-    Its size on the ground is measured in the middle of the rectangle where the system is geographic.
-
-    Parameters
-    ----------
-    bounds : tuple of float
-        West, south, east, north in the units of the system. West may be above east in a geographic system: such a
-        rectangle crosses the antimeridian, and the frame's east is a turn further.
-    crs : str
-        Text that pyproj understands.
-
-    Raises
-    ------
-    LimitError
-        If the rectangle is none, or the text is none of a system.
+    In a geographic system, its size on the ground is measured in the middle of the rectangle, and west may exceed
+    east: such a rectangle crosses the antimeridian, and the frame's east is a turn further. Bounds that are empty or
+    not finite raise `ParameterError`.
 
     Examples
     --------
@@ -241,26 +187,26 @@ def frame_around(bounds: Bounds, crs: str) -> Frame:
     >>> frame_around((179.5, 60.0, -179.5, 61.0), "EPSG:4326").bounds
     (179.5, 60.0, 180.5, 61.0)
     """
-    crs = _settled(crs)
+    crs = _shortest(crs)
     west, south, east, north = map(float, bounds)
     turn = period(crs)
     shown = shown_bounds((west, south, east, north), crs)
     if not np.isfinite([west, south, east, north]).all():
-        raise LimitError(f"the bounds {shown} hold a number that is not finite; give west,south,east,north")
-    refuse_metres(np.array([[west, south], [east, north]]), crs, f"the bounds {shown}", LimitError)
+        raise ParameterError(f"the bounds {shown} hold a number that is not finite; give west,south,east,north")
+    refuse_metres(np.array([[west, south], [east, north]]), crs, f"the bounds {shown}", ParameterError)
     if turn and west > east:
         east += turn
     if not (west < east and south < north):
-        raise LimitError(f"the bounds {shown} hold nothing; the order is west,south,east,north")
+        raise ParameterError(f"the bounds {shown} hold nothing; the order is west,south,east,north")
     across, up = _metres((west + east) / 2, (south + north) / 2, crs)
     metres = ((east - west) * across, (north - south) * up)
     if not CLOSED * max(metres) < min(metres) < np.inf:
-        raise LimitError(f"the bounds {shown} are {metres[0]:g} x {metres[1]:g} m; give some that are less narrow")
+        raise ParameterError(f"the bounds {shown} are {metres[0]:g} x {metres[1]:g} m; give some that are less narrow")
     return Frame((west, south, east, north), crs, metres)
 
 
 def _metres(x: float, y: float, crs: str) -> tuple[float, float]:
-    """Metres to a unit along x and y, at a place."""
+    """Metres in a unit along x and along y, at a place."""
     found = system(crs)
     if not found.is_geographic:
         return found.axis_info[0].unit_conversion_factor, found.axis_info[1].unit_conversion_factor
@@ -276,24 +222,12 @@ def _metres(x: float, y: float, crs: str) -> tuple[float, float]:
 
 @lru_cache(maxsize=64)
 def same_system(one: str, other: str) -> bool:
-    """Whether coordinates x, y of one system are those of another.
-
-    Examples
-    --------
-    >>> same_system("OGC:CRS84", "EPSG:4326"), same_system("EPSG:4258", "EPSG:4326")
-    (True, False)
-    """
+    """Whether two systems give a place the same coordinates x, y."""
     return one == other or system(one).equals(system(other), ignore_axis_order=True)
 
 
 def transformed(points: NDArray[np.float64], start: str, end: str) -> NDArray[np.float64]:
-    """Points, (n, 2), of one system in another; infinite where they have no image.
-
-    Examples
-    --------
-    >>> transformed(np.array([[5.387206, 52.155174]]), "EPSG:4326", "EPSG:28992").round(0)
-    array([[155000., 463000.]])
-    """
+    """Points, (n, 2), of one system in another; infinite where they have no image."""
     if not len(points) or same_system(start, end):
         return points
     x, y = _transformer(start, end).transform(points[:, 0], points[:, 1])

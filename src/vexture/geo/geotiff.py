@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from vexture.errors import LimitError, SourceError
-from vexture.geo.lattice import Lattice
-from vexture.geo.series import Series, Values
+from vexture.errors import ParameterError, SourceError, reason_of
+from vexture.geo.series import Lattice, Series, Values
 from vexture.notes import Notes
 
 if TYPE_CHECKING:
@@ -23,25 +22,9 @@ __all__ = ["open_geotiff"]
 def open_geotiff(
     source: bytes | str | os.PathLike[str], time_dim: str | None, variable: str | None, notes: Notes
 ) -> Iterator[Series]:
-    """Open a GeoTIFF: its first band, or every band as a step if `time_dim` is given, by whatever name.
+    """Open a GeoTIFF: its first band, or every band as a step if `time_dim` is given, whatever its value.
 
-    Parameters
-    ----------
-    source : bytes or path
-        Content, or where it is.
-    time_dim : str or None
-        As above.
-    variable : str or None
-        Number or description of the band to read, counted from 1.
-    notes : Notes
-        Of bands that are not read.
-
-    Raises
-    ------
-    SourceError
-        If it is none, or does not say where it is.
-    LimitError
-        If there is no such band.
+    `variable` chooses a band by its number, counted from 1, or by its description; `ParameterError` if there is none.
     """
     import rasterio
     from rasterio.errors import RasterioError
@@ -55,7 +38,7 @@ def open_geotiff(
                     warnings.simplefilter("ignore")
                     opened = memory.open(driver="GTiff") if memory else rasterio.open(source, driver="GTiff")
             except (RasterioError, OSError) as error:
-                raise SourceError(f"it cannot be read as GeoTIFF ({_line(error)}); write it again") from None
+                raise SourceError(f"it cannot be read as GeoTIFF ({reason_of(error)}); write it again") from None
             with opened as file:
                 yield _series(file, time_dim, variable, notes)
     finally:
@@ -72,13 +55,13 @@ def _series(file: "DatasetReader", time_dim: str | None, variable: str | None, n
     if variable is not None:
         chosen = [b for b, name in zip(bands, names, strict=True) if variable in (str(b), name)]
         if not chosen:
-            raise LimitError(f"there is no band {variable!r}; it has {', '.join(names[:8])}")
+            raise ParameterError(f"there is no band {variable!r}; it has {', '.join(names[:8])}")
         bands = chosen
     elif time_dim is None:
         if len(bands) > 1:
             notes.remark(
-                f"it has {len(bands)} bands, of which the first is read; variable (--variable) chooses another, "
-                "time_dim (--time-dim) makes them times"
+                f"it has {len(bands)} bands, of which the first is read; `variable` chooses another, `time_dim` makes "
+                "them times"
             )
         bands = bands[:1]
     a, b, c, d, e, f = file.transform[:6]
@@ -104,13 +87,7 @@ def _band(file: "DatasetReader", band: int, rows: slice, columns: slice) -> Valu
     try:
         read: Any = file.read(band, window=window, out_shape=shape, masked=True)
     except (RasterioError, OSError) as error:
-        raise SourceError(f"band {band} cannot be read ({_line(error)}); write the file again") from None
+        raise SourceError(f"band {band} cannot be read ({reason_of(error)}); write the file again") from None
     values: Values = read.filled(0).astype(np.float64) * file.scales[band - 1] + file.offsets[band - 1]
     values[np.ma.getmaskarray(read)] = np.nan
     return values
-
-
-def _line(error: Exception) -> str:
-    """First line of what a library says."""
-    text = " ".join(str(error).split())
-    return (text if len(text) <= 120 else text[:117] + "...") or type(error).__name__

@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vexture.errors import LimitError, SourceError
-from vexture.geo.reference import (
+from vexture.errors import ParameterError, SourceError
+from vexture.geo.crs import (
     UNPLACED,
     MissingReferenceError,
+    chosen_crs,
     frame_around,
     period,
-    reference,
     same_system,
     transformed,
     transformed_bounds,
@@ -19,18 +19,18 @@ from vexture.geo.reference import (
 
 
 def test_the_users_word_stands_above_that_of_the_file():
-    assert reference("EPSG:28992", "EPSG:32610") == "EPSG:28992"
-    assert reference(None, "epsg:32610") == "EPSG:32610"
-    assert reference("28992", None) == "EPSG:28992"
+    assert chosen_crs("EPSG:28992", "EPSG:32610") == "EPSG:28992"
+    assert chosen_crs(None, "epsg:32610") == "EPSG:32610"
+    assert chosen_crs("28992", None) == "EPSG:28992"
     with pytest.raises(MissingReferenceError, match="give `crs` EPSG"):
-        reference(None, None)
+        chosen_crs(None, None)
     assert issubclass(MissingReferenceError, SourceError)
 
 
 def test_a_system_that_no_authority_knows_is_kept_as_wkt():
-    own = reference("+proj=tmerc +lat_0=12 +lon_0=34 +x_0=1000 +ellps=bessel +units=m", None)
+    own = chosen_crs("+proj=tmerc +lat_0=12 +lon_0=34 +x_0=1000 +ellps=bessel +units=m", None)
     assert own.startswith("PROJCRS[")
-    assert reference(own, None) == own
+    assert chosen_crs(own, None) == own
     np.testing.assert_allclose(transformed(np.array([[1000.0, 0.0]]), own, own), [[1000, 0]])
 
 
@@ -46,15 +46,15 @@ def test_a_system_that_no_authority_knows_is_kept_as_wkt():
     ],
 )
 def test_a_text_that_is_no_system_of_a_plane_is_refused(text, line):
-    with pytest.raises(LimitError, match=line) as raised:
-        reference(text, None)
+    with pytest.raises(ParameterError, match=line) as raised:
+        chosen_crs(text, None)
     assert "\n" not in str(raised.value)
     with pytest.raises(SourceError, match=line):
-        reference(None, text)
+        chosen_crs(None, text)
 
 
 def test_a_compound_system_is_its_plane():
-    assert reference("EPSG:7415", None) == "EPSG:28992"
+    assert chosen_crs("EPSG:7415", None) == "EPSG:28992"
 
 
 def test_coordinates_are_x_and_y_whatever_the_systems_axes_say():
@@ -107,7 +107,7 @@ def test_bounds_may_cross_the_antimeridian_and_stand_at_a_pole():
     ],
 )
 def test_bounds_that_hold_nothing_are_refused(bounds, crs, line):
-    with pytest.raises(LimitError, match=line):
+    with pytest.raises(ParameterError, match=line):
         frame_around(bounds, crs)
 
 
