@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.live.waters import WATER_SETTINGS
+from vexture.live.flood_conversion import WATER_SETTINGS
 from vexture.pipeline import convert
 
 __all__ = ["KINDS", "VERTICES", "Taken", "island", "island_files", "reading_times"]

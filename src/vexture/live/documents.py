@@ -1,4 +1,4 @@
-"""From the content of a file, whatever kind it is, to a shape that is published."""
+"""Conversion of a file's content, of any kind, into a shape that can be published."""
 
 import time
 from dataclasses import replace
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "PUBLISHED_SETTINGS",
+    "SMALL",
     "SVG_TYPE",
     "THESIS_BITS",
     "VIEWER_SETTINGS",
@@ -37,20 +38,20 @@ VIEW_PRECISION = 1e-7
 """Unit-square units. At 10,000x a window of 1000 pixels shows 1e-4 of the square: the outline is within a pixel."""
 
 VIEWER_SETTINGS = Settings(split="paint", precision=VIEW_PRECISION)
-"""How the viewer converts: in its colours, and good for the deepest zoom."""
+"""The viewer converts in colours, precise enough for the deepest zoom."""
 
 PUBLISHED_SETTINGS = Settings(split="paint")
-"""How a server converts what is published: in its colours, and small, since pages fetch it again with each change."""
+"""A server converts in colours, and to a small size, since pages fetch a shape again with each change."""
 
 THESIS_BITS = {"thesis16": 16, "thesis8": 8}
 """Bits per channel of each view in the thesis encoding."""
 
 ANONYMOUS_WINDOW = (300.0, 150.0)
-"""Pixels: how large browsers show an SVG that says no size (CSS 2.1, 10.3.2)."""
+"""Pixels: the size at which browsers show an SVG without one (CSS 2.1, 10.3.2)."""
 
 SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
 <path fill="red" d="M2 2C9 2 2 9 7 7S1 6 2 2zM-1 4A3 3 0 0 1 5 4z"/></svg>"""
-"""Of everything a little: corners, curves, crossings, two colours, something outside."""
+"""Uses all kernels: corners, curves, crossings, two colours, parts outside of the box."""
 
 
 def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shape:
@@ -61,21 +62,21 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
     data : bytes
         Of any file that `vexture.read` reads; or a packed texture, which is checked and published as it is.
     file_name : str
-        What the file is called: messages name it so. It is nowhere opened.
+        Name of the file in messages. It is never opened.
     name : str
         Name of the shape, and of its drawing: its layers are ``NAME/...``.
     settings : Settings
-        How a drawing is converted; for a texture it means nothing.
+        Parameters of the conversion; a texture needs none.
 
     Returns
     -------
     Shape
-        With what could not be honoured as text in its facts, and for an SVG with the source to compare with.
+        Its facts hold the drawing's notes as text, its views the source of an SVG, to compare with.
 
     Raises
     ------
     VextureError
-        If it is no drawing and no texture, or exceeds a limit.
+        If it is neither a drawing nor a texture, or exceeds a limit.
 
     Examples
     --------
@@ -103,16 +104,7 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
 
 
 def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, ...]:
-    """Convert a shape's source in the thesis encoding: the contents of its files.
-
-    The source is converted again each time; who serves it keeps it.
-
-    Parameters
-    ----------
-    shape : Shape
-        One with a source: ``views["svg"]``.
-    bits : int
-        Bits per channel, 8 or 16.
+    """Convert a shape's source, ``views["svg"]``, in the thesis encoding of 8 or 16 bits; contents of its files.
 
     Raises
     ------
@@ -131,14 +123,14 @@ def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, ...]:
 
 
 def told(file_name: str, drawing: "Drawing") -> list[str]:
-    """What pages show of a drawing's notes: a line, if there are any."""
+    """A drawing's notes as pages show them: one line, if there are any."""
     line = line_of(file_name, drawing.notes)
     return [line] if line else []
 
 
 @cache
 def load_kernels() -> None:
-    """Load the kernels, which only the first conversion of a process waits for: it is no part of any file's time."""
+    """Load the kernels, for which only the first conversion of a process waits: no file's time includes it."""
     from vexture.pipeline import convert
     from vexture.svg.read import svg_drawing
 
@@ -169,7 +161,7 @@ def converted(drawing: "Drawing", file_name: str, settings: Settings, start: flo
 
 
 def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
-    """Shape of a texture that is there already: what it does not say is None."""
+    """Shape of a texture; facts that the texture does not hold are None."""
     from vexture.texture.load import texture_from
 
     texture = texture_from(data, file_name)
@@ -190,7 +182,7 @@ def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
 
 
 def _box_in_browsers(content: bytes, to_source: "NDArray[np.float64]") -> list[float]:
-    """Where in the unit square a browser's picture of an SVG stands: x0, y0, x1, y1."""
+    """Part of the unit square that a browser's picture of an SVG fills: x0, y0, x1, y1."""
     import numpy as np
 
     from vexture.svg.document import parse_svg

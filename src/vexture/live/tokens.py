@@ -1,4 +1,4 @@
-"""The token that who publishes must know."""
+"""The token that authorizes uploads."""
 
 from pathlib import Path
 from typing import Final

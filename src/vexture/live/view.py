@@ -1,14 +1,12 @@
 """`vexture view` and `vexture export`: from files to a server that shows them, or to one page that holds them."""
 
-import asyncio
 import os
 import sys
 import threading
 import webbrowser
-from collections.abc import AsyncIterator, Callable, Sequence
-from contextlib import asynccontextmanager, suppress
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 from vexture.errors import LimitError, VextureError
 from vexture.live.documents import shape_of
@@ -18,8 +16,6 @@ from vexture.reading import content_of
 from vexture.settings import Settings
 
 __all__ = ["export", "view"]
-
-PAGE_SUFFIXES = (".html", ".htm")
 
 Say = Callable[[str], None]
 """Tells the user one line."""
@@ -33,12 +29,10 @@ def export(paths: Sequence[Path], output: Path, title: str | None, settings: Set
     VextureError
         If a file is no drawing, the page is not built or cannot be written.
     """
-    from vexture.live.page import SCRIPT, built, exported_page
+    from vexture.live.page import VIEWER, check_output, exported_page
     from vexture.texture.files import write_together
 
-    if output.suffix.lower() not in PAGE_SUFFIXES:
-        raise LimitError(f"--output {output}: the page is an HTML file; name one that ends in {PAGE_SUFFIXES[0]}")
-    built(SCRIPT)  # said before anything is converted
+    check_output(output, VIEWER)
     shapes = [_converted(source, content_of(source.path), settings, say) for source in named(paths)]
     page = exported_page(shapes, title or ", ".join(shape.name for shape in shapes))
     write_together({output: page})
@@ -79,12 +73,8 @@ def view(
     VextureError
         If the page is not built, the port is taken, or none of the files can be shown.
     """
-    from starlette.applications import Starlette
-    from starlette.middleware import Middleware
-    from starlette.routing import Mount
-
-    from vexture.live.listen import address, bind, serve_until_stopped
-    from vexture.live.page_routes import KnownHosts, dropping_routes, page_routes, thesis_addresses, thesis_routes
+    from vexture.live.listen import address, background, bind, serve_until_stopped
+    from vexture.live.page_routes import dropping_routes, page_routes, thesis_addresses, thesis_routes
     from vexture.live.routes import application, routes
 
     page = page_routes()
@@ -92,29 +82,16 @@ def view(
         shelf = Shelf()
         sources = named(paths)
         seen = _published(shelf, sources, settings, say)
-        listed = [
-            *page,
-            *routes(shelf, thesis_addresses),
-            *thesis_routes(shelf),
-            *dropping_routes(shelf, settings, frozenset(source.name for source in sources)),
-        ]
-
-        @asynccontextmanager
-        async def lifespan(_app: Any) -> AsyncIterator[None]:
-            if not watching:
-                yield
-                return
-            task = asyncio.create_task(watch(shelf, sources, settings, seen))
-            try:
-                yield
-            finally:
-                task.cancel()
-                with suppress(asyncio.CancelledError):
-                    await task
-
-        inner = application(listed, open_to_all=False)
-        guard = Middleware(KnownHosts, names=(host,))
-        app = Starlette(routes=[Mount("/", inner)], middleware=[guard], lifespan=lifespan)
+        app = application(
+            [
+                *page,
+                *routes(shelf, thesis_addresses),
+                *thesis_routes(shelf),
+                *dropping_routes(shelf, settings, frozenset(source.name for source in sources)),
+            ],
+            only_at=host,
+            lifespan=background(partial(watch, shelf, sources, settings, seen)) if watching else None,
+        )
         where = address(taken)
         show(where, len(shelf.names))
         if opening and _has_display():

@@ -16,15 +16,15 @@ __all__ = ["Source", "named", "watch"]
 
 STEP_MILLISECONDS = 10
 DEBOUNCE_MILLISECONDS = 50
-"""How often is looked for changes, and how long at most they are gathered."""
+"""Interval between two looks for changes, and the longest time over which changes are gathered."""
 
 CHECK_MILLISECONDS = 1000
-"""How often files are looked at without being told: what was saved before watching began, or on a disk that tells
-nothing, is not missed."""
+"""Interval at which all files are checked. It finds what was saved before watching began, or on a disk that reports no
+changes."""
 
 SETTLING_SECONDS = (0.03, 0.15, 0.5)
-"""How long a file that cannot be read, or is no drawing, is given to become one: editors delete it or write it in
-pieces while they save."""
+"""Pauses before a file that cannot be read, or is no drawing, is read again. Editors delete a file, or write it in
+pieces, while they save."""
 
 
 _Stamp = tuple[int, int, int]
@@ -47,19 +47,19 @@ class Source:
 
     @property
     def places(self) -> set[Path]:
-        """Where a change of the file shows: its own place and, where that is a link, what it stands for."""
+        """Paths whose changes change the file: its own and, of a link, its target."""
         return {self.path.parent.resolve() / self.path.name, self.path.resolve()}
 
 
-def named(paths: Sequence[Path], taken: Sequence[str] = ()) -> list[Source]:
-    """Name files by their stems, each differently.
+def named(paths: Sequence[Path]) -> list[Source]:
+    """Give each file a name of its own, made from its stem.
 
     Examples
     --------
     >>> [source.name for source in named([Path("a/duck.svg"), Path("b/duck.svg"), Path("cake.svg")])]
     ['duck', 'duck-2', 'cake']
     """
-    names = set(taken)
+    names: set[str] = set()
     sources = []
     for path in paths:
         stem = path.stem or "drawing"
@@ -73,7 +73,7 @@ def named(paths: Sequence[Path], taken: Sequence[str] = ()) -> list[Source]:
 
 
 async def watch(shelf: Shelf, sources: Sequence[Source], settings: Settings, seen: Mapping[str, bytes | None]) -> None:
-    """Publish each file again when it changes, or the reason why not; ends only when it is cancelled.
+    """Publish each file again when it changes, or why it cannot be; ends only when it is cancelled.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ async def watch(shelf: Shelf, sources: Sequence[Source], settings: Settings, see
 
 
 def _stamp(path: Path) -> _Stamp | None:
-    """What tells one content of a file from another without reading it; None if it is not there."""
+    """Inode, size and time of a file, which differ when its content does; None if it is not there."""
     try:
         found = path.stat()
     except OSError:
@@ -123,7 +123,7 @@ def _stamp(path: Path) -> _Stamp | None:
 
 
 async def _publish(shelf: Shelf, source: Source, settings: Settings, content: dict[str, bytes | None]) -> None:
-    """Publish a file as it is now, once it is a drawing, or after a while say why it is none."""
+    """Publish a file once it is a drawing; after the last pause, tell clients why it is none."""
     line = ""
     for delay in (*SETTLING_SECONDS, None):
         try:
@@ -139,5 +139,5 @@ async def _publish(shelf: Shelf, source: Source, settings: Settings, content: di
         content[source.name] = data
         shelf.put(shape)
         return
-    content[source.name] = None  # so that the last good content, once it is back, is published and clears the note
+    content[source.name] = None  # the last good content, once it is back, is published and clears the note
     shelf.refuse(source.name, line)
