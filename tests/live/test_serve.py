@@ -206,8 +206,8 @@ def test_what_cannot_start_says_why_in_one_line(server, tmp_path):
         ((tmp_path / "new", "--port", 0, "--token-file", short), "the token has 15 characters"),
         ((tmp_path / "new", "--port", 70_000), "70000"),
         ((tmp_path / "file", "--port", 0), "choose another folder"),
-        ((tmp_path / "new", "--port", 0, "--rate", 0), "the limit rate is 0"),
-        ((tmp_path / "new", "--port", 0, "--rate", "nan"), "the limit rate is nan"),
+        ((tmp_path / "new", "--port", 0, "--rate", 0), "--rate is 0"),
+        ((tmp_path / "new", "--port", 0, "--rate", "nan"), "--rate is nan"),
     ):
         result = run("serve", *arguments)
         assert (result.returncode, result.stdout, result.stderr.count("\n")) == (1, "", 1)

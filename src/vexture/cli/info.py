@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 
 from vexture.cli.messages import one_line
-from vexture.cli.options import STANDARD, standard_input
+from vexture.cli.options import PATH, STANDARD, standard_input
 from vexture.errors import FormatError
 
 __all__ = ["info"]
@@ -19,7 +19,7 @@ Examples:
 
 
 @click.command(epilog=EXAMPLE)
-@click.argument("texture", metavar="TEXTURE|-", type=click.Path(path_type=Path))
+@click.argument("texture", metavar="TEXTURE|-", type=PATH)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 def info(texture: Path, as_json: bool) -> None:
     """Describe a texture."""

@@ -3,34 +3,37 @@
 import sys
 from collections.abc import Callable
 from dataclasses import replace
-from typing import IO, TYPE_CHECKING, Any, Final
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from vexture.settings import Settings
-
 __all__ = [
+    "PATH",
     "STANDARD",
     "Colour",
     "Rectangle",
     "Sectioned",
     "Tolerance",
-    "binary_output",
     "conversion_options",
     "standard_input",
-    "viewer_settings",
+    "viewer_parameters",
 ]
 
 if TYPE_CHECKING:
+    from vexture.pipeline import Parameters
+
     ParamType = click.ParamType[Any]
 else:  # generic since click 8.4
     ParamType = click.ParamType
+
+PATH: Final[Any] = click.Path(path_type=Path)
 
 STANDARD: Final = "-"
 """Name of standard input and output among files."""
 
 RESEARCH: Final = ("encoding", "bits", "strategy")
-"""Options that only those need who compare encodings."""
+"""Options for comparisons of encodings."""
 
 
 class Sectioned(click.Command):
@@ -91,11 +94,6 @@ def standard_input() -> bytes:
     return sys.stdin.buffer.read(LARGEST_FILE + 1)
 
 
-def binary_output() -> IO[bytes]:
-    """Standard output, for the bytes of a file."""
-    return sys.stdout.buffer
-
-
 class Tolerance(ParamType):
     """A number, or auto."""
 
@@ -112,7 +110,7 @@ class Tolerance(ParamType):
 
 
 def conversion_options(command: Callable[..., None]) -> Callable[..., None]:
-    """Options of how the viewer converts."""
+    """Add the options of the viewer's conversions to a command."""
     for option in (
         click.option("--select", metavar="SELECTOR", help="Show only the elements that a CSS selector matches."),
         click.option("--precision", metavar="P", type=float, help="Largest shift by rounding.  [default: 1e-7]"),
@@ -128,9 +126,9 @@ def conversion_options(command: Callable[..., None]) -> Callable[..., None]:
     return command
 
 
-def viewer_settings(tolerance: Any, precision: float | None, select: str | None) -> Settings:
-    """Settings of the viewer, but for what the options say."""
-    from vexture.live.documents import VIEWER_SETTINGS
+def viewer_parameters(tolerance: Any, precision: float | None, select: str | None) -> "Parameters":
+    """The viewer's parameters, with those that are given as options."""
+    from vexture.live.documents import VIEWER_PARAMETERS
 
-    most = VIEWER_SETTINGS.precision if precision is None else precision
-    return replace(VIEWER_SETTINGS, tolerance=tolerance, precision=most, select=select)
+    most = VIEWER_PARAMETERS.precision if precision is None else precision
+    return replace(VIEWER_PARAMETERS, tolerance=tolerance, precision=most, select=select)

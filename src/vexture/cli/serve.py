@@ -1,17 +1,16 @@
 """The command `serve`."""
 
 from pathlib import Path
-from typing import Any
 
 import click
 
 from vexture.cli.messages import as_options, one_line
+from vexture.cli.options import PATH
 from vexture.live.limits import Limits
 
 __all__ = ["serve"]
 
 DEFAULTS = Limits()
-PATH: Any = click.Path(path_type=Path)
 
 EXAMPLE = """\b
 Examples:

@@ -15,11 +15,11 @@ from typing import Final
 
 from vexture.content import FileKind, kind_of, start_of
 from vexture.errors import LimitError, VextureError
-from vexture.live.documents import PUBLISHED_SETTINGS, SMALL, shape_of
+from vexture.live.documents import PUBLISHED_PARAMETERS, SMALL, shape_of
 from vexture.live.flood_conversion import FloodConversion
 from vexture.live.limits import Limits
 from vexture.live.shelf import Shape
-from vexture.settings import Settings
+from vexture.pipeline import Parameters
 
 __all__ = ["BusyError", "Converter"]
 
@@ -37,7 +37,7 @@ class BusyError(VextureError):
 class Converter:
     """Converts one upload after the other, as parameters say or, on the server of a flood, into its frame."""
 
-    def __init__(self, limits: Limits, how: Settings | FloodConversion = PUBLISHED_SETTINGS) -> None:
+    def __init__(self, limits: Limits, how: Parameters | FloodConversion = PUBLISHED_PARAMETERS) -> None:
         self._limits = limits
         self._how = how
         self._waiting = 0
@@ -135,7 +135,7 @@ def _prepare() -> None:
     threading.Thread(target=end_with_the_server, daemon=True).start()
 
 
-def _warm(how: Settings | FloodConversion) -> None:
+def _warm(how: Parameters | FloodConversion) -> None:
     """Load what a conversion needs."""
     if isinstance(how, FloodConversion):
         how.warm()
@@ -143,7 +143,7 @@ def _warm(how: Settings | FloodConversion) -> None:
         shape_of(SMALL, "small.svg", "small", how)
 
 
-def _convert(data: bytes, name: str, most: int, how: Settings | FloodConversion) -> Shape:
+def _convert(data: bytes, name: str, most: int, how: Parameters | FloodConversion) -> Shape:
     """Convert an upload, in the process."""
     from vexture.texture.ktx2 import TEXEL_BYTES
     from vexture.texture.load import texture_from

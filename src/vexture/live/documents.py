@@ -10,7 +10,7 @@ from vexture.content import FileKind, about, decompressed, kind_of, start_of
 from vexture.errors import SourceError
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
 from vexture.notes import line_of
-from vexture.settings import Settings
+from vexture.pipeline import Parameters
 
 if TYPE_CHECKING:
     import numpy as np
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from vexture.drawing import Drawing
 
 __all__ = [
-    "PUBLISHED_SETTINGS",
+    "PUBLISHED_PARAMETERS",
     "SMALL",
     "SVG_TYPE",
     "THESIS_BITS",
-    "VIEWER_SETTINGS",
+    "VIEWER_PARAMETERS",
     "converted",
     "load_kernels",
     "shape_of",
@@ -37,10 +37,10 @@ SVG_TYPE = "image/svg+xml"
 VIEW_PRECISION = 1e-7
 """Unit-square units. At 10,000x a window of 1000 pixels shows 1e-4 of the square: the outline is within a pixel."""
 
-VIEWER_SETTINGS = Settings(split="paint", precision=VIEW_PRECISION)
+VIEWER_PARAMETERS = Parameters(split="paint", precision=VIEW_PRECISION)
 """The viewer converts in colours, precise enough for the deepest zoom."""
 
-PUBLISHED_SETTINGS = Settings(split="paint")
+PUBLISHED_PARAMETERS = Parameters(split="paint")
 """A server converts in colours, and to a small size, since pages fetch a shape again with each change."""
 
 THESIS_BITS = {"thesis16": 16, "thesis8": 8}
@@ -54,7 +54,7 @@ SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
 """Uses all kernels: corners, curves, crossings, two colours, parts outside of the box."""
 
 
-def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shape:
+def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters) -> Shape:
     """Convert the content of a file into a shape that can be published.
 
     Parameters
@@ -65,7 +65,7 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
         Name of the file in messages. It is never opened.
     name : str
         Name of the shape, and of its drawing: its layers are ``NAME/...``.
-    settings : Settings
+    parameters : Parameters
         Parameters of the conversion; a texture needs none.
 
     Returns
@@ -80,7 +80,7 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
 
     Examples
     --------
-    >>> shape = shape_of(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "half.svg", "half", Settings())
+    >>> shape = shape_of(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "half.svg", "half", Parameters())
     >>> shape.facts["segments"], shape.facts["box"]
     (4, [0.0, 0.0, 1.0, 1.0])
     """
@@ -93,8 +93,8 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
         return texture_shape(data, file_name, name)
     load_kernels()
     start = time.perf_counter()
-    drawing = replace(read_drawing(plain, name=file_name, select=settings.select), name=name)
-    shape = converted(drawing, file_name, replace(settings, select=None), start)
+    drawing = replace(read_drawing(plain, name=file_name, select=parameters.select), name=name)
+    shape = converted(drawing, file_name, replace(parameters, select=None), start)
     facts = {**shape.facts, "warnings": told(file_name, drawing)}
     views = {}
     if kind is FileKind.SVG:
@@ -137,12 +137,11 @@ def load_kernels() -> None:
     convert(svg_drawing(SMALL, "small.svg"), split="paint", precision=VIEW_PRECISION)
 
 
-def converted(drawing: "Drawing", file_name: str, settings: Settings, start: float) -> Shape:
+def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start: float) -> Shape:
     """Shape of a drawing, with the facts of its conversion."""
-    from vexture.pipeline import combine, shapes_of
-    from vexture.tree.build import largest_shift
+    from vexture.pipeline import combine, trees_of
 
-    part = shapes_of(drawing, settings)
+    part = trees_of(drawing, parameters)
     texture = combine([part], drawing.name, PurePath(file_name).name)
     milliseconds = 1000.0 * (time.perf_counter() - start)
     data = texture.to_ktx2()
@@ -153,7 +152,7 @@ def converted(drawing: "Drawing", file_name: str, settings: Settings, start: flo
         "curves": sum(len(tree.curves) for tree in part.trees),
         "bytes": len(data),
         "milliseconds": round(milliseconds, 2),
-        "distance": max(tree.deviation for tree in part.trees) + largest_shift(settings.precision),
+        "distance": max(tree.deviation for tree in part.trees) + part.rounding,
         "to_source": drawing.to_source.ravel().tolist(),
         "box": None,
     }

@@ -16,11 +16,11 @@ from vexture.geo.extent import Extent, Step
 from vexture.geo.frame import Frame
 from vexture.live.documents import converted, load_kernels, texture_shape, told
 from vexture.live.shelf import File, Shape
-from vexture.settings import Settings
+from vexture.pipeline import Parameters
 
-__all__ = ["WATER_SETTINGS", "FloodConversion"]
+__all__ = ["WATER_PARAMETERS", "FloodConversion"]
 
-WATER_SETTINGS: Final = Settings(precision=2e-6)
+WATER_PARAMETERS: Final = Parameters(precision=2e-6)
 """Seen from the beach, a pixel is about 1e-5 of the frame: the outline shifts by a fifth of one."""
 
 SAME_PLACE: Final = 1e-6
@@ -59,7 +59,7 @@ class FloodConversion:
         from vexture.flood.depth_image import deepest, depth_png
 
         load_kernels()
-        shape = converted(replace(step.drawing, name=name), name, WATER_SETTINGS, time.perf_counter())
+        shape = converted(replace(step.drawing, name=name), name, WATER_PARAMETERS, time.perf_counter())
         most = None if step.depth is None else deepest(step.depth)
         views = {}
         if step.depth is not None and most:

@@ -15,7 +15,7 @@ from vexture.live.documents import THESIS_BITS, shape_of, thesis_pair
 from vexture.live.page import PNG_TYPE, SERVED_POLICY, VIEWER, Bundle, built, served_page
 from vexture.live.routes import FOREVER, NO_SNIFFING, fixed, refusal
 from vexture.live.shelf import Shape, Shelf, manifest
-from vexture.settings import Settings
+from vexture.pipeline import Parameters
 
 __all__ = ["dropping_routes", "page_routes", "thesis_addresses", "thesis_routes"]
 
@@ -87,7 +87,7 @@ def thesis_routes(shelf: Shelf) -> list[BaseRoute]:
     return [Route("/views/{version}/{name}", view)]
 
 
-def dropping_routes(shelf: Shelf, settings: Settings, given: Collection[str]) -> list[BaseRoute]:
+def dropping_routes(shelf: Shelf, parameters: Parameters, given: Collection[str]) -> list[BaseRoute]:
     """Route that converts a file dropped on the page, and publishes it.
 
     The names in `given` are those of shapes that stay: a dropped file of such a name gets another one.
@@ -107,7 +107,7 @@ def dropping_routes(shelf: Shelf, settings: Settings, given: Collection[str]) ->
             data = await _body(request)
             if data is None:
                 return refusal(413, f"the file is larger than {DROPPED_BYTES:,} bytes; start `vexture view` with it")
-            shape = await asyncio.to_thread(shape_of, data, file_name, name, settings)
+            shape = await asyncio.to_thread(shape_of, data, file_name, name, parameters)
         except ClientDisconnect:
             return refusal(400, "the file did not arrive")
         except VextureError as error:

@@ -9,7 +9,7 @@ from starlette.routing import BaseRoute
 
 from vexture.errors import DeviceError
 from vexture.live.converter import BusyError, Converter
-from vexture.live.documents import PUBLISHED_SETTINGS
+from vexture.live.documents import PUBLISHED_PARAMETERS
 from vexture.live.folder import Folder
 from vexture.live.limits import Limits
 from vexture.live.listen import address, background, bind, serve_until_stopped
@@ -54,7 +54,7 @@ def serve(
     token = None if token_file is None else read_token(token_file)
     with closing(bind(host, port)) as taken:
         folder = Folder(path, limits, say)
-        converter = Converter(limits, replace(PUBLISHED_SETTINGS, precision=precision))
+        converter = Converter(limits, replace(PUBLISHED_PARAMETERS, precision=precision))
 
         async def start() -> None:
             with suppress(BusyError):

@@ -12,8 +12,8 @@ from vexture.errors import LimitError, VextureError
 from vexture.live.documents import shape_of
 from vexture.live.shelf import Shape, Shelf
 from vexture.live.watch import Source, named, watch
+from vexture.pipeline import Parameters
 from vexture.reading import content_of
-from vexture.settings import Settings
 
 __all__ = ["export", "view"]
 
@@ -21,7 +21,7 @@ Say = Callable[[str], None]
 """Tells the user one line."""
 
 
-def export(paths: Sequence[Path], output: Path, title: str | None, settings: Settings, say: Say) -> int:
+def export(paths: Sequence[Path], output: Path, title: str | None, parameters: Parameters, say: Say) -> int:
     """Write one page that shows files and needs nothing else; return its size.
 
     Raises
@@ -33,7 +33,7 @@ def export(paths: Sequence[Path], output: Path, title: str | None, settings: Set
     from vexture.texture.files import write_together
 
     check_output(output, VIEWER)
-    shapes = [_converted(source, content_of(source.path), settings, say) for source in named(paths)]
+    shapes = [_converted(source, content_of(source.path), parameters, say) for source in named(paths)]
     page = exported_page(shapes, title or ", ".join(shape.name for shape in shapes))
     write_together({output: page})
     return len(page)
@@ -41,7 +41,7 @@ def export(paths: Sequence[Path], output: Path, title: str | None, settings: Set
 
 def view(
     paths: Sequence[Path],
-    settings: Settings,
+    parameters: Parameters,
     *,
     host: str,
     port: int,
@@ -55,7 +55,7 @@ def view(
     Parameters
     ----------
     paths : sequence of Path
-    settings : Settings
+    parameters : Parameters
         How drawings are converted.
     host, port : str, int
         Where to listen; port 0 is any that is free.
@@ -81,16 +81,16 @@ def view(
     with bind(host, port) as taken:
         shelf = Shelf()
         sources = named(paths)
-        seen = _published(shelf, sources, settings, say)
+        seen = _published(shelf, sources, parameters, say)
         app = application(
             [
                 *page,
                 *routes(shelf, thesis_addresses),
                 *thesis_routes(shelf),
-                *dropping_routes(shelf, settings, frozenset(source.name for source in sources)),
+                *dropping_routes(shelf, parameters, frozenset(source.name for source in sources)),
             ],
             only_at=host,
-            lifespan=background(partial(watch, shelf, sources, settings, seen)) if watching else None,
+            lifespan=background(partial(watch, shelf, sources, parameters, seen)) if watching else None,
         )
         where = address(taken)
         show(where, len(shelf.names))
@@ -99,13 +99,13 @@ def view(
         serve_until_stopped(app, taken, shelf.close)
 
 
-def _published(shelf: Shelf, sources: Sequence[Source], settings: Settings, say: Say) -> dict[str, bytes | None]:
+def _published(shelf: Shelf, sources: Sequence[Source], parameters: Parameters, say: Say) -> dict[str, bytes | None]:
     """Publish all files that can be; return the content of each, None where it is not published."""
     seen: dict[str, bytes | None] = {}
     for source in sources:
         try:
             data = content_of(source.path)
-            shelf.put(_converted(source, data, settings, say))
+            shelf.put(_converted(source, data, parameters, say))
             seen[source.name] = data
         except VextureError as error:
             if len(sources) == 1:
@@ -118,8 +118,8 @@ def _published(shelf: Shelf, sources: Sequence[Source], settings: Settings, say:
     return seen
 
 
-def _converted(source: Source, data: bytes, settings: Settings, say: Say) -> Shape:
-    shape = shape_of(data, str(source.path), source.name, settings)
+def _converted(source: Source, data: bytes, parameters: Parameters, say: Say) -> Shape:
+    shape = shape_of(data, str(source.path), source.name, parameters)
     for warning in shape.facts["warnings"]:
         say(f"warning: {warning}")
     return shape

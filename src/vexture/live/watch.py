@@ -9,8 +9,8 @@ from typing import Any
 from vexture.errors import VextureError
 from vexture.live.documents import shape_of
 from vexture.live.shelf import Shelf
+from vexture.pipeline import Parameters
 from vexture.reading import content_of
-from vexture.settings import Settings
 
 __all__ = ["Source", "named", "watch"]
 
@@ -72,14 +72,16 @@ def named(paths: Sequence[Path]) -> list[Source]:
     return sources
 
 
-async def watch(shelf: Shelf, sources: Sequence[Source], settings: Settings, seen: Mapping[str, bytes | None]) -> None:
+async def watch(
+    shelf: Shelf, sources: Sequence[Source], parameters: Parameters, seen: Mapping[str, bytes | None]
+) -> None:
     """Publish each file again when it changes, or why it cannot be; ends only when it is cancelled.
 
     Parameters
     ----------
     shelf : Shelf
     sources : sequence of Source
-    settings : Settings
+    parameters : Parameters
         How they are converted.
     seen : mapping
         By name, the content that is published already.
@@ -110,7 +112,7 @@ async def watch(shelf: Shelf, sources: Sequence[Source], settings: Settings, see
             stamp = _stamp(source.path)
             if source in changed or read.get(source.name, ()) != stamp:
                 read[source.name] = stamp
-                await _publish(shelf, source, settings, content)
+                await _publish(shelf, source, parameters, content)
 
 
 def _stamp(path: Path) -> _Stamp | None:
@@ -122,7 +124,7 @@ def _stamp(path: Path) -> _Stamp | None:
     return found.st_ino, found.st_size, found.st_mtime_ns
 
 
-async def _publish(shelf: Shelf, source: Source, settings: Settings, content: dict[str, bytes | None]) -> None:
+async def _publish(shelf: Shelf, source: Source, parameters: Parameters, content: dict[str, bytes | None]) -> None:
     """Publish a file once it is a drawing; after the last pause, tell clients why it is none."""
     line = ""
     for delay in (*SETTLING_SECONDS, None):
@@ -130,7 +132,7 @@ async def _publish(shelf: Shelf, source: Source, settings: Settings, content: di
             data = await asyncio.to_thread(content_of, source.path)
             if data == content[source.name]:
                 return
-            shape = await asyncio.to_thread(shape_of, data, str(source.path), source.name, settings)
+            shape = await asyncio.to_thread(shape_of, data, str(source.path), source.name, parameters)
         except VextureError as error:
             line = str(error)
             if delay is not None:
