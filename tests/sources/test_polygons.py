@@ -13,7 +13,7 @@ import vexture
 from vexture.bezier.convert import straight
 from vexture.cli.main import main
 from vexture.content import FileKind, kind_of, start_of
-from vexture.errors import DeviceError, LimitError, SourceError, SourceWarning
+from vexture.errors import DeviceError, LimitError, ParameterError, SourceError, SourceWarning
 from vexture.reading import read_drawing, read_extent
 
 
@@ -139,7 +139,7 @@ def test_curved_polygons_are_read_as_chords(tmp_path):
 def test_a_parameter_of_depths_is_refused(tmp_path):
     path = file(tmp_path, "lake.gpkg")
     for option in ({"time_dim": "time"}, {"variable": "depth"}):
-        with pytest.raises(LimitError, match=r"is for depths, and this file holds polygons"):
+        with pytest.raises(ParameterError, match=r"is for depths, and this file holds polygons"):
             read_extent(path, "lake.gpkg", **option)
 
 

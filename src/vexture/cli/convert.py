@@ -16,7 +16,7 @@ import click
 from vexture.cli.messages import as_options, one_line, say
 from vexture.cli.options import PATH, STANDARD, Sectioned, Tolerance, standard_input
 from vexture.encodings import DEFAULT, REGISTERED
-from vexture.errors import DeviceError, ParameterError, VextureError
+from vexture.errors import EXPECTED, DeviceError, ParameterError, VextureError
 from vexture.layout import PACKED_SUFFIX
 
 if TYPE_CHECKING:
@@ -202,7 +202,7 @@ def _convert_one(
             done = run(given, encoding=encoding, **parameters)
             files = done.texture.files()
             size = sum(map(len, files.values()))
-    except (VextureError, ParameterError) as error:
+    except EXPECTED as error:
         return Outcome(source, {}, error=str(error))
     warning = line_of(str(source), done.drawing.notes)
     return Outcome(source, _facts(done) | {"bytes": size}, files, done if for_atlas else None, warning)

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 import click
 
-from vexture.errors import ParameterError, VextureError
+from vexture.errors import EXPECTED
 from vexture.notes import Note, line_of
 
 __all__ = ["as_options", "one_line", "say", "say_notes"]
@@ -47,7 +47,7 @@ def one_line() -> Iterator[None]:
         warnings.simplefilter("always")
         try:
             yield
-        except (VextureError, ParameterError) as error:
+        except EXPECTED as error:
             say(str(error))
             sys.exit(1)
         except OSError as error:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import IO, Final
 
 from vexture.content import SHAPEFILE
-from vexture.errors import DeviceError, LimitError, VextureError
+from vexture.errors import EXPECTED, DeviceError, LimitError
 from vexture.live.converter import Converter
 from vexture.live.limits import LimitedShelf, Limits
 from vexture.live.names import checked_name, manifest_name
@@ -101,7 +101,7 @@ class Folder(LimitedShelf):
         for path in (path for suffixes in TAKEN for path in found if path.suffix.lower() in suffixes):
             try:
                 await self._take(path, converter)
-            except VextureError as error:
+            except EXPECTED as error:
                 self._say(f"{path.name} is not served: {error}")
             except OSError as error:
                 self._say(f"{path.name} is not served: it cannot be read ({error.strerror}); check its permissions")

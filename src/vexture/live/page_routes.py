@@ -10,7 +10,7 @@ from starlette.responses import JSONResponse, Response
 from starlette.routing import BaseRoute, Route
 
 from vexture.encodings import find_encoding
-from vexture.errors import VextureError
+from vexture.errors import EXPECTED
 from vexture.live.documents import THESIS_BITS, shape_of, thesis_pair
 from vexture.live.page import PNG_TYPE, SERVED_POLICY, VIEWER, Bundle, built, served_page
 from vexture.live.routes import FOREVER, NO_SNIFFING, fixed, refusal
@@ -80,7 +80,7 @@ def thesis_routes(shelf: Shelf) -> list[BaseRoute]:
                 pairs.popitem(last=False)
         try:
             pair = await asyncio.shield(pairs[version, bits])
-        except VextureError as error:
+        except EXPECTED as error:
             return refusal(422, str(error))
         return Response(pair[place], media_type=PNG_TYPE, headers={"Cache-Control": FOREVER, **NO_SNIFFING})
 
@@ -110,7 +110,7 @@ def dropping_routes(shelf: Shelf, parameters: Parameters, given: Collection[str]
             shape = await asyncio.to_thread(shape_of, data, file_name, name, parameters)
         except ClientDisconnect:
             return refusal(400, "the file did not arrive")
-        except VextureError as error:
+        except EXPECTED as error:
             return refusal(422, str(error))
         shelf.put(shape)
         dropped[name] = None

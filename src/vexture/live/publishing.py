@@ -10,7 +10,7 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import BaseRoute, Route
 
-from vexture.errors import DeviceError, LimitError, VextureError
+from vexture.errors import EXPECTED, DeviceError, LimitError
 from vexture.live.converter import BusyError, Converter
 from vexture.live.limits import FullError, LimitedShelf, Limits, Pace
 from vexture.live.names import checked_name
@@ -70,7 +70,7 @@ def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits,
             shape = await converter.shape_of(data, name)
         except BusyError:
             raise
-        except VextureError as error:
+        except EXPECTED as error:
             if shelf.shape(name) is not None:
                 shelf.refuse(name, str(error))
             return refusal(422, str(error))

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
-from vexture.errors import LimitError, VextureError
+from vexture.errors import EXPECTED, LimitError
 from vexture.live.documents import shape_of
 from vexture.live.shelf import Shape, Shelf
 from vexture.live.watch import Source, named, watch
@@ -107,7 +107,7 @@ def _published(shelf: Shelf, sources: Sequence[Source], parameters: Parameters, 
             data = content_of(source.path)
             shelf.put(_converted(source, data, parameters, say))
             seen[source.name] = data
-        except VextureError as error:
+        except EXPECTED as error:
             if len(sources) == 1:
                 raise
             say(str(error))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from vexture.errors import VextureError
+from vexture.errors import EXPECTED
 from vexture.live.documents import shape_of
 from vexture.live.shelf import Shelf
 from vexture.pipeline import Parameters
@@ -133,7 +133,7 @@ async def _publish(shelf: Shelf, source: Source, parameters: Parameters, content
             if data == content[source.name]:
                 return
             shape = await asyncio.to_thread(shape_of, data, str(source.path), source.name, parameters)
-        except VextureError as error:
+        except EXPECTED as error:
             line = str(error)
             if delay is not None:
                 await asyncio.sleep(delay)
