@@ -74,19 +74,7 @@ SUFFIXES: Final[dict[FileKind, tuple[str, ...]]] = {
 
 
 def kind_of(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind:
-    r"""Tell what kind of file it is.
-
-    Parameters
-    ----------
-    start : bytes
-        The first bytes of its content, from `start_of`.
-    file_name : path
-        Its suffix decides if the content does not.
-
-    Returns
-    -------
-    FileKind
-        ``SVG`` if neither decides.
+    r"""Kind of a file by its first bytes (from `start_of`), or else by its suffix; ``SVG`` if neither decides.
 
     Examples
     --------

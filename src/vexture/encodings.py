@@ -87,20 +87,11 @@ class EncodedTexture(Protocol):
 
 
 class Encoded(NamedTuple):
-    """A drawing in an encoding.
+    """A drawing in an encoding."""
 
-    Attributes
-    ----------
-    tree : object
-        With `coverage`, `curves`, `deviation` and `unresolved` as those of `vexture.tree.tree.Tree`.
-    texture : EncodedTexture
-    rounding : float
-        Largest shift of the outline by rounding to the texture's bits, in unit-square units.
-    """
-
-    tree: Any
+    tree: Any  # with coverage, curves, deviation and unresolved as those of vexture.tree.tree.Tree
     texture: EncodedTexture
-    rounding: float
+    rounding: float  # largest shift of the outline by rounding, in unit-square units
 
 
 class Encoding(Protocol):

@@ -38,31 +38,15 @@ Described = Any
 
 
 class Code(NamedTuple):
-    """A code file.
+    """The head of a code file."""
 
-    Attributes
-    ----------
-    platform : str
-        LLVM's target triple.
-    features : list of str
-        Required features of the processor.
-    symbols : list of str
-        Required functions of the C library.
-    text : str
-        Digest of the kernels' text.
-    arguments, result : object
-        Types, as from `described`.
-    entry : str
-        Name of the function in the object file.
-    """
-
-    platform: str
-    features: list[str]
-    symbols: list[str]
-    text: str
+    platform: str  # LLVM's target triple
+    features: list[str]  # required of the processor
+    symbols: list[str]  # required of the C library
+    text: str  # digest of the kernels' text
     arguments: Described
     result: Described
-    entry: str
+    entry: str  # name of the function in the object file
 
     def write(self, file: Path, machine_code: bytes) -> None:
         """Write a file: a line of JSON, then the object file."""

@@ -49,32 +49,15 @@ class Parameters:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Conversion(Generic[AnyTexture]):
-    """A conversion of one source, with all steps between the source and the texture.
+    """A conversion of one source, with all steps between the source and the texture."""
 
-    Parameters
-    ----------
-    drawing : Drawing
-        The source; if it was split, `drawing.layers()` became the trees.
-    trees : tuple of Tree, or the one tree of another encoding
-    texture : EncodedTexture
-        None of trees that are not combined yet.
-    seconds : float
-        Time from the source to the texture or the trees.
-    rounding : float
-        Largest shift of an outline by rounding to the texture's bits, in unit-square units.
-    roots : tuple of Root
-        Describe the trees in a packed texture.
-    source : str
-        Names the source in messages.
-    """
-
-    drawing: "Drawing"
-    trees: tuple[Any, ...]
-    texture: AnyTexture
-    seconds: float
-    rounding: float
-    roots: "tuple[Root, ...]" = ()
-    source: str = ""
+    drawing: "Drawing"  # if it was split, its layers() became the trees
+    trees: tuple[Any, ...]  # of `Tree`, or the one tree of another encoding
+    texture: AnyTexture  # None of trees that are not combined yet
+    seconds: float  # from the source to the texture or the trees
+    rounding: float  # largest shift of an outline by rounding to the texture's bits, in unit-square units
+    roots: "tuple[Root, ...]" = ()  # of the trees in a packed texture
+    source: str = ""  # its name in messages
 
     @property
     def tree(self) -> Any:

@@ -63,15 +63,7 @@ class Converter:
             self._waiting -= 1
 
     async def shape_of(self, data: bytes, name: str) -> Shape:
-        """Shape of an upload, whose content decides what it is.
-
-        Raises
-        ------
-        BusyError
-            If the server stops.
-        VextureError
-            If it is neither a drawing nor a texture, or exceeds a limit.
-        """
+        """Shape of an upload, whose content decides what it is; raises a `BusyError` if the server stops."""
         async with self._turn:
             try:
                 return await self._converted(data, name)

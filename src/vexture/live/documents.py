@@ -55,28 +55,10 @@ SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
 
 
 def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters) -> Shape:
-    """Convert the content of a file into a shape that can be published.
+    """Convert the content of a file, or check and keep that of a packed texture, into a shape that can be published.
 
-    Parameters
-    ----------
-    data : bytes
-        Of any file that `vexture.read` reads; or a packed texture, which is checked and published as it is.
-    file_name : str
-        Name of the file in messages. It is never opened.
-    name : str
-        Name of the shape, and of its drawing: its layers are ``NAME/...``.
-    parameters : Parameters
-        Parameters of the conversion; a texture needs none.
-
-    Returns
-    -------
-    Shape
-        Its facts hold the drawing's notes as text, its views the source of an SVG, to compare with.
-
-    Raises
-    ------
-    VextureError
-        If it is neither a drawing nor a texture, or exceeds a limit.
+    The file's name, which stands in messages, is never opened. The facts of the shape hold the drawing's notes as text;
+    its views hold the source of an SVG, to compare with.
 
     Examples
     --------
@@ -104,13 +86,7 @@ def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters) -> 
 
 
 def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, ...]:
-    """Convert a shape's source, ``views["svg"]``, in the thesis encoding of 8 or 16 bits; contents of its files.
-
-    Raises
-    ------
-    VextureError
-        If there is no source, or it does not fit into so many bits.
-    """
+    """Convert a shape's source, ``views["svg"]``, in the thesis encoding of 8 or 16 bits; contents of its files."""
     from vexture.pipeline import convert
     from vexture.reading import read_drawing
 

@@ -35,7 +35,7 @@ WHOLE: Final = 0.995
 """Share of the ground whose height is known: users are told if it is less."""
 
 Say = Callable[[str], None]
-"""Tells the user one line."""
+"""Takes a line for the user."""
 
 
 class Made(NamedTuple):
@@ -131,13 +131,7 @@ def _fold(drawing: Drawing, amplitude: float, period: float, metres: tuple[float
 
 
 def export(asked: FloodOptions, output: Path, say: Say) -> tuple[Made, int]:
-    """Write one page that needs nothing else; return what it shows, and its size.
-
-    Raises
-    ------
-    VextureError
-        If a file cannot be read, the page is not built or cannot be written.
-    """
+    """Write one page that needs nothing else; return what it shows, and its size."""
     from vexture.flood.ground import GROUND_TYPE
     from vexture.texture.files import write_together
 
@@ -161,23 +155,8 @@ def serve(
 ) -> None:
     """Serve a flood until Ctrl-C or SIGTERM.
 
-    Parameters
-    ----------
-    asked : FloodOptions
-    token_file : path or None
-        File with the token of publishers. Without one nothing can be published, and only requests to the server's own
-        address are answered.
-    host, port : str, int
-        Where to listen; port 0 is any that is free.
-    say : callable
-        Takes warnings and notes for the user.
-    show : callable
-        Takes the address, and what is shown there.
-
-    Raises
-    ------
-    VextureError
-        If it cannot start.
+    Without a token nothing can be published, and only requests to the server's own address are answered. `say` takes
+    warnings and notes for the user, `show` the address and what is shown there.
     """
     from vexture.flood.ground import GROUND_TYPE
     from vexture.live.converter import BusyError, Converter

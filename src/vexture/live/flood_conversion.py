@@ -38,21 +38,11 @@ KINDS: Final = "GeoJSON, GeoPackage, FlatGeobuf, a zipped shapefile, GeoTIFF, Ne
 
 @dataclass(frozen=True, slots=True)
 class FloodConversion:
-    """Converts the steps of one flood into shapes.
+    """Converts the steps of one flood into shapes."""
 
-    Parameters
-    ----------
-    frame : Frame
-        Where all of them are put.
-    hmin : float
-        Depth in metres from which a place is wet.
-    options : mapping
-        Further parameters of `vexture.read_extent`.
-    """
-
-    frame: Frame
-    hmin: float
-    options: Mapping[str, Any]
+    frame: Frame  # of all steps
+    hmin: float  # metres: depth from which a place is wet
+    options: Mapping[str, Any]  # further parameters of vexture.read_extent
 
     def step(self, step: Step, name: str, label: str) -> Shape:
         """Shape of one step that is in this frame; `label` is its time as people read it."""
@@ -75,13 +65,7 @@ class FloodConversion:
         return replace(shape, facts=facts, views=views)
 
     def shape_of(self, data: bytes, name: str) -> Shape:
-        """Shape of an upload.
-
-        Raises
-        ------
-        VextureError
-            If it is no flood data, is not georeferenced, or lies outside the frame.
-        """
+        """Shape of an upload: a step in any format, or a texture that was made in this frame."""
         if name != PREFIX and not name.startswith(f"{PREFIX}/"):
             raise LimitError(f"{name}: this server shows {PREFIX} and {PREFIX}/NAME only; publish under such a name")
         if not data.strip():

@@ -40,20 +40,7 @@ class Folder(LimitedShelf):
 
     Drawings and textures that users put beside ``.vexture`` (whatever `vexture.read` reads, and ``.ktx2``) are
     converted at each start (`take_drawings`) and served under their names, unless a shape of that name was published.
-    These files are never changed.
-
-    Parameters
-    ----------
-    path : path
-        Created if it does not exist.
-    limits : Limits
-    say : callable
-        Takes a line for the user about each file that is damaged or not served.
-
-    Raises
-    ------
-    DeviceError
-        If it cannot be written to, or another server has it.
+    These files are never changed. `say` takes a line for the user about each file that is damaged or not served.
     """
 
     def __init__(self, path: Path, limits: Limits, say: Say) -> None:
@@ -74,15 +61,7 @@ class Folder(LimitedShelf):
         self._lock.close()
 
     async def publish(self, shape: Shape) -> None:
-        """Keep a shape and tell all clients.
-
-        Raises
-        ------
-        FullError
-            If there are too many shapes, or too many bytes.
-        DeviceError
-            If the disk refuses; the previous shape stays.
-        """
+        """Keep a shape and tell all clients; raises a `DeviceError` if the disk refuses, and keeps the previous one."""
         async with self._turn:
             self.check_room(shape)
             fresh = [file for file in shape.files if not self.owners(file.name)]

@@ -17,44 +17,17 @@ MOST_KNOWN: Final = 10_000
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Limits of a server, each of which it names when it refuses.
+    """Limits of a server, each of which it names when it refuses."""
 
-    Parameters
-    ----------
-    max_bytes : int
-        Of one upload.
-    max_total : int
-        Bytes of all files of all shapes.
-    max_shapes : int
-        How many may be published.
-    rate : float
-        Uploads a second from one address.
-    burst : int
-        Uploads from one address at once, after a pause.
-    texture_bytes : int
-        Of the texture that a drawing becomes, in memory.
-    upload_seconds : float
-        For an upload to arrive.
-    conversion_seconds : float
-        For a drawing to become a texture.
-    conversions : int
-        How many may run or wait.
-
-    Raises
-    ------
-    ParameterError
-        If one of them is not above 0.
-    """
-
-    max_bytes: int = 16 * 2**20
-    max_total: int = 2**30
+    max_bytes: int = 16 * 2**20  # of one upload
+    max_total: int = 2**30  # bytes of all files of all shapes
     max_shapes: int = 10_000
-    rate: float = 10.0
-    burst: int = 20
-    texture_bytes: int = 64 * 2**20
+    rate: float = 10.0  # uploads a second from one address
+    burst: int = 20  # uploads at once from one address, after a pause
+    texture_bytes: int = 64 * 2**20  # of one texture in memory
     upload_seconds: float = 60.0
     conversion_seconds: float = 60.0
-    conversions: int = 16
+    conversions: int = 16  # that may run or wait
 
     def __post_init__(self) -> None:
         for name in self.__slots__:
@@ -64,16 +37,7 @@ class Limits:
 
 
 class Pace:
-    """Limits the rate of each publisher: a token bucket for each address.
-
-    Parameters
-    ----------
-    rate : float
-        Tokens a second.
-    burst : int
-        Tokens in a full bucket.
-    clock : callable
-        Seconds.
+    """Limits the rate of each publisher: a bucket of `burst` tokens for each address, refilled by `rate` a second.
 
     Examples
     --------

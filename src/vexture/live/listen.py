@@ -97,16 +97,7 @@ class _Server(uvicorn.Server):
 
 
 def serve_until_stopped(app: ASGIApp, taken: socket.socket, stop: Callable[[], None]) -> None:
-    """Serve until Ctrl-C or SIGTERM.
-
-    Parameters
-    ----------
-    app : ASGI application
-    taken : socket
-        From `bind`.
-    stop : callable
-        Ends streams and conversions; called when the server is to stop, before it waits for its clients.
-    """
+    """Serve until Ctrl-C or SIGTERM; `stop` then ends streams and conversions, before the server waits for clients."""
     _, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     with suppress(ValueError, OSError):  # one file for each client: as many as the system allows
         resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))

@@ -21,26 +21,9 @@ SHAPES: Final = "/shapes"
 
 
 def push(path: Path, url: str, token: str) -> dict[str, str]:
-    """Publish a file.
+    """Publish a file at a server, or at ``server/shapes/NAME``; the name is otherwise the file's, without its suffix.
 
-    Parameters
-    ----------
-    path : path
-        SVG, GeoJSON, a picture to trace or a packed texture; for a server of `vexture flood` any geographic data that
-        it reads.
-    url : str
-        A server, or ``server/shapes/NAME``; the name is otherwise the file's, without its suffix.
-    token : str
-
-    Returns
-    -------
-    dict of str
-        ``url``, where its manifest is; ``name``, ``version`` and ``bytes``.
-
-    Raises
-    ------
-    VextureError
-        If the file cannot be read, or the server cannot be reached or refuses.
+    Returns the manifest's address as ``url``, and its ``name``, ``version`` and ``bytes``.
     """
     target = target_of(url, path.stem)
     try:
@@ -65,13 +48,6 @@ def push(path: Path, url: str, token: str) -> dict[str, str]:
 
 def target_of(url: str, stem: str) -> str:
     """Address of a shape.
-
-    Raises
-    ------
-    ParameterError
-        If it is not an address.
-    LimitError
-        If the name is not allowed.
 
     Examples
     --------

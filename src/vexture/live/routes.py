@@ -95,14 +95,8 @@ class KnownHosts:
 def application(listed: list[BaseRoute], *, only_at: str | None = None, lifespan: Lifespan | None = None) -> Starlette:
     """Make routes an application whose errors are JSON.
 
-    Parameters
-    ----------
-    listed : list of route
-    only_at : str, optional
-        Answer only requests that name this host, or the machine itself (`KnownHosts`). By default everyone is
-        answered, and pages of other origins may read.
-    lifespan : callable, optional
-        Context in which it runs.
+    With `only_at` it answers only requests that name this host or the machine itself (`KnownHosts`). Otherwise it
+    answers everyone, and lets pages of other origins read.
     """
     return Starlette(
         routes=listed,

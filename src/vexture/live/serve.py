@@ -30,26 +30,9 @@ def serve(
     precision: float | None,
     say: Callable[[str], None],
 ) -> None:
-    """Serve a folder until Ctrl-C or SIGTERM.
+    """Serve a folder until Ctrl-C or SIGTERM; without a token nothing can be published.
 
-    Parameters
-    ----------
-    path : path
-        The folder.
-    token_file : path or None
-        File with the token of publishers; without one nothing can be published.
-    host, port : str, int
-        Where to listen; port 0 is any that is free.
-    limits : Limits
-    precision : float or None
-        Of drawings that are converted; see `vexture.convert`.
-    say : callable
-        Takes a line for the user: first the address of the server.
-
-    Raises
-    ------
-    VextureError
-        If it cannot start.
+    `precision` is that of conversions; `say` takes lines for the user, first the address of the server.
     """
     token = None if token_file is None else read_token(token_file)
     with closing(bind(host, port)) as taken:

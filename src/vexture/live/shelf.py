@@ -22,19 +22,11 @@ REPLACED_BYTES: Final = 32 * 2**20
 
 @dataclass(frozen=True)
 class File:
-    """Bytes that are served under the name of their digest, and so never change.
-
-    Parameters
-    ----------
-    data : bytes
-    media_type : str
-    suffix : str
-        End of its name, such as ``.ktx2``.
-    """
+    """Bytes that are served under the name of their digest, and so never change."""
 
     data: bytes
     media_type: str
-    suffix: str
+    suffix: str  # of its name, such as .ktx2
 
     @cached_property
     def name(self) -> str:
@@ -50,23 +42,12 @@ class File:
 
 @dataclass(frozen=True)
 class Shape:
-    """One published shape or drawing.
-
-    Parameters
-    ----------
-    name : str
-    texture : File
-        Its packed texture.
-    facts : mapping
-        Counts, sizes and times for people, ready for JSON.
-    views : mapping
-        Files that are compared with the texture: ``svg``, the source.
-    """
+    """One published shape or drawing."""
 
     name: str
-    texture: File
-    facts: Mapping[str, Any] = field(default_factory=dict)
-    views: Mapping[str, File] = field(default_factory=dict)
+    texture: File  # packed
+    facts: Mapping[str, Any] = field(default_factory=dict)  # counts, sizes and times, ready for JSON
+    views: Mapping[str, File] = field(default_factory=dict)  # to compare with the texture: svg, the source
 
     @cached_property
     def version(self) -> str:
@@ -90,17 +71,9 @@ def manifest(
 ) -> dict[str, Any]:
     """Describe a shape to clients, ready for JSON.
 
-    Parameters
-    ----------
-    shape : Shape
-    note : str or None
-        Why its last update was refused, if it was.
-    views : mapping
-        Addresses of what the texture can be compared with, beside the shape's own files.
-    levels : int
-        How many levels the manifest's address is below ``shapes/``.
-    address : callable, optional
-        Gives the address of each file on a page without a server, and so without a stream of changes.
+    The note says why its last update was refused, if it was. The views are addresses of what the texture can be
+    compared with, beside the shape's own files. Addresses are relative to that of the manifest, which is some levels
+    below ``shapes/``. On a page without a server, and so without a stream of changes, `address` gives those of files.
     """
     top = "../" * (levels + 1)
     where = address or (lambda file: f"{top}files/{file.name}")

@@ -1,4 +1,4 @@
-"""`vexture view` and `vexture export`: from files to a server that shows them, or to one page that holds them."""
+"""`vexture view` and `vexture export`: files on a server that shows them, or in one page that holds them."""
 
 import os
 import sys
@@ -18,17 +18,11 @@ from vexture.reading import content_of
 __all__ = ["export", "view"]
 
 Say = Callable[[str], None]
-"""Tells the user one line."""
+"""Takes a line for the user."""
 
 
 def export(paths: Sequence[Path], output: Path, title: str | None, parameters: Parameters, say: Say) -> int:
-    """Write one page that shows files and needs nothing else; return its size.
-
-    Raises
-    ------
-    VextureError
-        If a file is no drawing, the page is not built or cannot be written.
-    """
+    """Write one page that shows files and needs nothing else; return its size."""
     from vexture.live.page import VIEWER, check_output, exported_page
     from vexture.texture.files import write_together
 
@@ -50,28 +44,9 @@ def view(
     say: Say,
     show: Callable[[str, int], None],
 ) -> None:
-    """Serve files to browsers until someone presses Ctrl-C.
+    """Serve files to browsers until Ctrl-C, and convert them again when they change if `watching`.
 
-    Parameters
-    ----------
-    paths : sequence of Path
-    parameters : Parameters
-        How drawings are converted.
-    host, port : str, int
-        Where to listen; port 0 is any that is free.
-    watching : bool
-        Whether files that change are shown anew.
-    opening : bool
-        Whether to open a browser.
-    say : callable
-        Is told of files that cannot be shown, and of warnings.
-    show : callable
-        Is told the address, and how many shapes are there.
-
-    Raises
-    ------
-    VextureError
-        If the page is not built, the port is taken, or none of the files can be shown.
+    `say` takes warnings and errors for the user, `show` the address and the number of shapes.
     """
     from vexture.live.listen import address, background, bind, serve_until_stopped
     from vexture.live.page_routes import dropping_routes, page_routes, thesis_addresses, thesis_routes
@@ -100,7 +75,7 @@ def view(
 
 
 def _published(shelf: Shelf, sources: Sequence[Source], parameters: Parameters, say: Say) -> dict[str, bytes | None]:
-    """Publish all files that can be; return the content of each, None where it is not published."""
+    """Publish files; return the content of each, or None if it cannot be published."""
     seen: dict[str, bytes | None] = {}
     for source in sources:
         try:

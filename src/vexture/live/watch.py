@@ -32,18 +32,10 @@ _Stamp = tuple[int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A file that is shown.
+    """A file that is shown."""
 
-    Parameters
-    ----------
-    path : Path
-        As the user gave it: messages name it so.
-    name : str
-        Name of its shape.
-    """
-
-    path: Path
-    name: str
+    path: Path  # as the user gave it, for messages
+    name: str  # of its shape
 
     @property
     def places(self) -> set[Path]:
@@ -75,16 +67,9 @@ def named(paths: Sequence[Path]) -> list[Source]:
 async def watch(
     shelf: Shelf, sources: Sequence[Source], parameters: Parameters, seen: Mapping[str, bytes | None]
 ) -> None:
-    """Publish each file again when it changes, or why it cannot be; ends only when it is cancelled.
+    """Publish each file again when it changes, or tell clients why not; ends only when it is cancelled.
 
-    Parameters
-    ----------
-    shelf : Shelf
-    sources : sequence of Source
-    parameters : Parameters
-        How they are converted.
-    seen : mapping
-        By name, the content that is published already.
+    `seen` is the content that is published already, by name.
     """
     from watchfiles import awatch
 
