@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from vexture.cli.messages import as_options, one_line, say
-from vexture.cli.options import PATH, STANDARD, Sectioned, Tolerance, standard_input
+from vexture.cli.options import PATH, STANDARD, Sectioned, standard_input, tolerance_option
 from vexture.encodings import DEFAULT, REGISTERED
 from vexture.errors import EXPECTED, DeviceError, ParameterError, VextureError
 from vexture.layout import PACKED_SUFFIX
@@ -69,13 +69,7 @@ class Outcome:
 @click.option("--atlas", metavar="FILE.ktx2|-", type=PATH, help="Write one texture of all files, a shape for each.")
 @click.option("--split", type=click.Choice(["paint"]), help="Make each colour a shape of its own, in painting order.")
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
-@click.option(
-    "--tolerance",
-    type=Tolerance(),
-    default="auto",
-    show_default=True,
-    help="Largest distance from the drawing's outline, in drawing sizes; auto is 0.",
-)
+@tolerance_option
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
 @click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 4]")
 @click.option("--precision", metavar="P", type=float, help="Largest shift by rounding, in drawing sizes.")

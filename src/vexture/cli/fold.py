@@ -32,7 +32,6 @@ def fold(drawing: Path, output: Path, amplitude: float, period: float, size: int
         import numpy as np
 
         from vexture.fold.layout import FOLD_SUFFIX
-        from vexture.fold.picture import fold_picture
         from vexture.fold.shore import fold_of_shore
         from vexture.layout import PACKED_SUFFIX
         from vexture.reading import read_drawing
@@ -48,6 +47,8 @@ def fold(drawing: Path, output: Path, amplitude: float, period: float, size: int
         target = output / (file_name(shape.name) + FOLD_SUFFIX) if output.is_dir() else output
         files = {target: made.to_ktx2()}
         if picture is not None:
+            from vexture.fold.picture import fold_picture
+
             data = BytesIO()
             fold_picture(made, shape).save(data, format="PNG")
             files[picture] = data.getvalue()

@@ -17,6 +17,7 @@ __all__ = [
     "Tolerance",
     "conversion_options",
     "standard_input",
+    "tolerance_option",
     "viewer_parameters",
 ]
 
@@ -109,21 +110,20 @@ class Tolerance(ParamType):
             self.fail(f"{value!r} is neither a number nor auto", param, ctx)
 
 
+tolerance_option = click.option(
+    "--tolerance",
+    type=Tolerance(),
+    default="auto",
+    show_default=True,
+    help="Largest distance from the drawing's outline, in drawing sizes; auto is 0.",
+)
+
+
 def conversion_options(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options of the viewer's conversions to a command."""
-    for option in (
-        click.option("--select", metavar="SELECTOR", help="Show only the elements that a CSS selector matches."),
-        click.option("--precision", metavar="P", type=float, help="Largest shift by rounding.  [default: 1e-7]"),
-        click.option(
-            "--tolerance",
-            type=Tolerance(),
-            default="auto",
-            show_default=True,
-            help="Largest distance from the drawing's outline, in drawing sizes; auto is 0.",
-        ),
-    ):
-        command = option(command)
-    return command
+    precision = click.option("--precision", metavar="P", type=float, help="Largest shift by rounding.  [default: 1e-7]")
+    select = click.option("--select", metavar="SELECTOR", help="Show only the elements that a CSS selector matches.")
+    return select(precision(tolerance_option(command)))
 
 
 def viewer_parameters(tolerance: Any, precision: float | None, select: str | None) -> "Parameters":

@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from vexture.drawing import Drawing
+    from vexture.svg.read import Frame
 
 __all__ = [
     "PUBLISHED_PARAMETERS",
     "SMALL",
-    "SVG_TYPE",
     "THESIS_BITS",
     "VIEWER_PARAMETERS",
     "converted",
@@ -31,8 +31,6 @@ __all__ = [
     "thesis_pair",
     "told",
 ]
-
-SVG_TYPE = "image/svg+xml"
 
 VIEW_PRECISION = 1e-7
 """Unit-square units. At 10,000x a window of 1000 pixels shows 1e-4 of the square: the outline is within a pixel."""
@@ -67,6 +65,7 @@ def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters) -> 
     (4, [0.0, 0.0, 1.0, 1.0])
     """
     from vexture.reading import read_drawing
+    from vexture.svg.read import framed_drawing
 
     with about(file_name):
         plain = decompressed(data)
@@ -75,14 +74,17 @@ def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters) -> 
         return texture_shape(data, file_name, name)
     load_kernels()
     start = time.perf_counter()
-    drawing = replace(read_drawing(plain, name=file_name, select=parameters.select), name=name)
-    shape = converted(drawing, file_name, replace(parameters, select=None), start)
-    facts = {**shape.facts, "warnings": told(file_name, drawing)}
-    views = {}
+    framed = None
     if kind is FileKind.SVG:
-        views["svg"] = File(plain, SVG_TYPE, ".svg")
-        facts["box"] = _box_in_browsers(plain, drawing.to_source)
-    return replace(shape, facts=facts, views=views)
+        drawing, framed = framed_drawing(plain, file_name, parameters.select)
+    else:
+        drawing = read_drawing(plain, name=file_name, select=parameters.select)
+    shape = converted(replace(drawing, name=name), file_name, parameters, start)
+    facts = {**shape.facts, "warnings": told(file_name, drawing)}
+    if kind is not FileKind.SVG:
+        return replace(shape, facts=facts)
+    facts["box"] = _box_in_browsers(framed, drawing.to_source)
+    return replace(shape, facts=facts, views={"svg": File(plain, "image/svg+xml", ".svg")})
 
 
 def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, ...]:
@@ -117,7 +119,7 @@ def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start:
     """Shape of a drawing, with the facts of its conversion."""
     from vexture.pipeline import combine, trees_of
 
-    part = trees_of(drawing, parameters)
+    part = trees_of(drawing, replace(parameters, select=None))  # what was selected is the drawing already
     texture = combine([part], drawing.name, PurePath(file_name).name)
     milliseconds = 1000.0 * (time.perf_counter() - start)
     data = texture.to_ktx2()
@@ -156,16 +158,10 @@ def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
     return Shape(name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
 
 
-def _box_in_browsers(content: bytes, to_source: "NDArray[np.float64]") -> list[float]:
+def _box_in_browsers(framed: "Frame | None", to_source: "NDArray[np.float64]") -> list[float]:
     """Part of the unit square that a browser's picture of an SVG fills: x0, y0, x1, y1."""
     import numpy as np
 
-    from vexture.svg.document import parse_svg
-    from vexture.svg.read import frame
-    from vexture.svg.report import Report
-    from vexture.svg.scene import Scene
-
-    framed = frame(Scene(parse_svg(content), Report()))
     size, matrix = ANONYMOUS_WINDOW, np.eye(2, 3)
     if framed is not None:
         size, _, (a, b, c, d, e, f) = framed
