@@ -93,13 +93,7 @@ class Notes:
 
 
 def line_of(source: str, notes: Sequence[Note]) -> str:
-    """All notes about a source in one line; empty if there are none.
-
-    Examples
-    --------
-    >>> line_of("a.svg", [Note("left out", "text", 2), Note("simplified", "pattern read as solid")])
-    'a.svg: left out: text (2); simplified: pattern read as solid'
-    """
+    """All notes about a source in one line; empty if there are none."""
     parts = []
     for kind, heading in HEADINGS.items():
         named = [str(note) for note in notes if note.kind == kind]

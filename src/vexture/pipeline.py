@@ -190,7 +190,7 @@ def convert(
         Convert only what a CSS selector chooses of an SVG; see `vexture.read_svg`.
     tolerance : float or "auto"
         Largest distance between the drawing's outline and the texture's before rounding, in unit-square units. Pieces
-        that one cubic describes within it become one; "auto" is 0, which loses nothing but by rounding.
+        that one cubic fits within it become one; "auto" is 0, which loses nothing but by rounding.
     max_depth : int, optional
         Cells of this depth are not divided further; 16 by default.
     capacity : int, optional
@@ -218,7 +218,7 @@ def convert(
     Warns
     -----
     SourceWarning
-        Once for a file, of all that was noticed while it was read (`Drawing.notes`).
+        Once for a file, of all notes of its reader (`Drawing.notes`).
 
     Examples
     --------
@@ -264,17 +264,8 @@ def atlas(
 
     Raises
     ------
-    SourceError
-        If a drawing cannot be read.
-    LimitError
-        As in `vexture.convert`.
     ParameterError
-        If two shapes have one name, there is no source, or as in `vexture.convert`.
-
-    Warns
-    -----
-    SourceWarning
-        As `vexture.convert` does.
+        If two shapes have one name, or there is no source. For other errors and warnings see `vexture.convert`.
 
     Examples
     --------

@@ -16,12 +16,14 @@ __all__ = [
     "Sectioned",
     "Tolerance",
     "conversion_options",
+    "drawing_kind",
     "standard_input",
     "tolerance_option",
     "viewer_parameters",
 ]
 
 if TYPE_CHECKING:
+    from vexture.content import FileKind
     from vexture.pipeline import Parameters
 
     ParamType = click.ParamType[Any]
@@ -93,6 +95,17 @@ def standard_input() -> bytes:
     from vexture.content import LARGEST_FILE
 
     return sys.stdin.buffer.read(LARGEST_FILE + 1)
+
+
+def drawing_kind(path: Path) -> "FileKind | None":
+    """Kind of a file that is not a texture, or None."""
+    from vexture.content import FileKind, kind_of, start_of
+    from vexture.encodings import owner_of
+
+    if not path.is_file() or owner_of(path) is not None:
+        return None
+    kind = kind_of(start_of(path), path)
+    return None if kind is FileKind.TEXTURE else kind
 
 
 class Tolerance(ParamType):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from vexture.cli.messages import one_line, say_notes
-from vexture.cli.options import PATH, STANDARD, Colour, Rectangle, standard_input
+from vexture.cli.options import PATH, STANDARD, Colour, Rectangle, drawing_kind, standard_input
 from vexture.errors import DeviceError, ParameterError
 
 if TYPE_CHECKING:
@@ -141,14 +141,11 @@ def _root_of(shown: "Shown", root: str | None) -> str | int | None:
 
 def _shown(path: Path, select: str | None) -> "Shown":
     """Read a drawing, or load a texture by one of its files or what their names have in common."""
-    from vexture.content import FileKind, kind_of, start_of
-    from vexture.encodings import owner_of
     from vexture.reading import read_drawing
     from vexture.texture.load import load_any
 
     is_pipe = path == Path(STANDARD)
-    is_texture = owner_of(path) is not None or kind_of(start_of(path), path) is FileKind.TEXTURE
-    if is_pipe or (path.is_file() and not is_texture):
+    if is_pipe or drawing_kind(path) is not None:
         name = "standard input" if is_pipe else str(path)
         drawing = read_drawing(standard_input() if is_pipe else path, name=name, select=select)
         say_notes(name, drawing.notes)

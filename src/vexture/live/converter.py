@@ -64,31 +64,24 @@ class Converter:
 
     async def shape_of(self, data: bytes, name: str) -> Shape:
         """Shape of an upload, whose content decides what it is; raises a `BusyError` if the server stops."""
+        seconds, most = self._limits.conversion_seconds, self._limits.texture_bytes
         async with self._turn:
+            loop = asyncio.get_running_loop()
+            work = loop.run_in_executor(self._running(), _convert, data, name, most, self._how)
             try:
-                return await self._converted(data, name)
-            except LimitError:
+                async with asyncio.timeout(seconds):
+                    return await work
+            except asyncio.CancelledError:
+                self._kill()
+                raise
+            except (TimeoutError, BrokenProcessPool, MemoryError) as error:
+                self._kill()
                 if self._ended:
                     raise BusyError("the server stops; try again later") from None
-                raise
-
-    async def _converted(self, data: bytes, name: str) -> Shape:
-        seconds = self._limits.conversion_seconds
-        loop = asyncio.get_running_loop()
-        most = self._limits.texture_bytes
-        work = loop.run_in_executor(self._running(), _convert, data, name, most, self._how)
-        try:
-            async with asyncio.timeout(seconds):
-                return await work
-        except TimeoutError:
-            self._kill()
-            raise LimitError(f"{name}: its conversion takes longer than {seconds:g} s; simplify the drawing") from None
-        except (BrokenProcessPool, MemoryError):
-            self._kill()
-            raise LimitError(f"{name}: its conversion needs too much memory; simplify the drawing") from None
-        except asyncio.CancelledError:
-            self._kill()
-            raise
+                needs = (
+                    f"takes longer than {seconds:g} s" if isinstance(error, TimeoutError) else "needs too much memory"
+                )
+                raise LimitError(f"{name}: its conversion {needs}; simplify the drawing") from None
 
     def _running(self) -> ProcessPoolExecutor:
         if self._ended:

@@ -43,14 +43,7 @@ def page_routes(bundle: Bundle = VIEWER, page: bytes | None = None) -> list[Base
 
 
 def thesis_addresses(shape: Shape) -> dict[str, list[str]]:
-    """Addresses of a shape's thesis encodings, relative to its manifest; none without its drawing.
-
-    Examples
-    --------
-    >>> from vexture.live.shelf import File
-    >>> thesis_addresses(Shape("duck", File(b"", "image/ktx2", ".ktx2")))
-    {}
-    """
+    """Addresses of a shape's thesis encodings, relative to its manifest; none without its drawing."""
     if "svg" not in shape.views:
         return {}
     return {

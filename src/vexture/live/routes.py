@@ -198,13 +198,7 @@ async def stream(shelf: Shelf) -> AsyncIterator[ServerSentEvent]:
 
 
 def entity_tag(version: str, note: str | None) -> str:
-    """Tag of a manifest: its version, and what tells one note from another.
-
-    Examples
-    --------
-    >>> entity_tag("0a", None)
-    '"0a"'
-    """
+    """Tag of a manifest: its version, and a digest of the note."""
     return f'"{version}"' if note is None else f'"{version}-{hashlib.sha256(note.encode()).hexdigest()[:8]}"'
 
 

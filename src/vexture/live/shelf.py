@@ -97,16 +97,7 @@ class Event(NamedTuple):
 
 
 class Listener:
-    """Events that one client has still to receive: the newest of each name, so that a slow client costs no more.
-
-    Examples
-    --------
-    >>> listener = Listener()
-    >>> for version in "abc":
-    ...     listener.tell(Event("shape", {"name": "duck", "version": version}))
-    >>> len(listener)
-    1
-    """
+    """Events that one client has still to receive: the newest of each name, so that a slow client costs no more."""
 
     def __init__(self) -> None:
         self._pending: OrderedDict[tuple[str, str], Event] = OrderedDict()
