@@ -94,8 +94,7 @@ def _pixels(
     ratio = w / h if w > 0.0 and h > 0.0 else 1.0
     if width is None and height is None:
         side = DEFAULT_SIZE if size is None else size
-        across, up = (side, side / ratio) if ratio >= 1.0 else (side * ratio, side)
-        return max(round(across), min(side, 1)), max(round(up), min(side, 1))
+        width, height = (side, None) if ratio >= 1.0 else (None, side)
     if width is None:
         assert height is not None
         return max(round(height * ratio), min(height, 1)), height

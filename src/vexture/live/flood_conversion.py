@@ -90,7 +90,7 @@ class FloodConversion:
             return extent_of(data, name, frame=self.frame, hmin=self.hmin, **options)
         except MissingReferenceError:
             raise SourceError(
-                f"{name}: says no reference system, so nobody knows where it is; write it into the file"
+                f"{name}: says no reference system, so its place is unknown; write it into the file"
             ) from None
         except (SourceError, LimitError) as error:
             raise type(error)(f"{name}: {_for_senders(str(error).removeprefix(f'{name}: '))}") from None

@@ -35,7 +35,7 @@ class _RefusedError(Exception):
 
 
 def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits, token: str | None) -> list[BaseRoute]:
-    """Routes to publish shapes on a shelf for whoever knows the token; without one, for nobody."""
+    """Routes to publish shapes on a shelf with the token; without one, all uploads are refused."""
     pace = Pace(limits.rate, limits.burst)
 
     def admitted(request: Request) -> str:
