@@ -146,7 +146,7 @@ kernels: .venv/for-test
 		$(BIN)/vexture render "$$scratch/duck.ktx2" -o "$$scratch/packed.png" --size 16 --renderer cpu && \
 		$(BIN)/vexture render "$$scratch/thesis/duck" -o "$$scratch/cpu.png" --size 16 --renderer cpu && \
 		$(BIN)/vexture render $(SHAPES)/duck.svg -o "$$scratch/exact.png" --size 16 --renderer exact && \
-		$(BIN)/python -m pytest --quiet src/vexture/bezier/ring.py
+		$(BIN)/python -m pytest --quiet src/vexture/bezier/fit_closed.py
 
 test-web: viewer
 	npm run --silent check --prefix web

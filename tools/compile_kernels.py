@@ -26,7 +26,7 @@ from vexture.machine_code import RELEASE, SHIPPED, Code, described, host, load
 from vexture.renderers.cpu import draw
 from vexture.tree.build import Bounds, grow
 from vexture.tree.cubics import gather
-from vexture.tree.pool import MOST_QUADS
+from vexture.tree.tree import MOST_QUADS
 
 SHAPES = Path(__file__).parent.parent / "examples" / "shapes"
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vexture.bezier.convert import arc_cubics, conic_cubics, ellipse_cubics, line_cubics, quadratic_cubics, straight
+from vexture.bezier.convert import arc_cubics, conic_cubics, ellipse_cubics, line_cubics, straight
 
 T = np.linspace(0, 1, 33)[:, None]
 
@@ -89,13 +89,6 @@ def test_conics_are_circular_arcs(degrees: float) -> None:
     points = points_on(np.stack([cubics.real, cubics.imag], axis=-1))
     assert np.abs(np.hypot(*points.T) - 1).max() < 1e-6
     assert cubics[-1, 3] == p2
-
-
-def test_quadratics_are_raised_exactly() -> None:
-    quadratic = np.array([[[0.0, 0.0], [1.0, 3.0], [4.0, 1.0]]])
-    s = 1 - T
-    expected = s * s * quadratic[0, 0] + 2 * s * T * quadratic[0, 1] + T * T * quadratic[0, 2]
-    np.testing.assert_allclose(points_on(quadratic_cubics(quadratic)), expected, atol=1e-15)
 
 
 def test_straight_knows_lines_from_curves() -> None:

@@ -153,7 +153,7 @@ FAULTS: dict[str, tuple[Callable[[Texture], None], str]] = {
     "curves beyond": (put(1, 1, 7), "quad 1 has 2 curves from texel 7"),
     "curves before": (put(1, 1, 0), "quad 1 has 2 curves from texel 0"),
     "curves shared": (put(1, 1, 3), "texel 3 is referred to twice"),
-    "a quad with a count": (put(0, 2, 0x0C_88_0C_00), "quad 0, cell 2 is 136, which says nothing"),
+    "a quad with a count": (put(0, 2, 0x0C_88_0C_00), "quad 0, cell 2 is 136, which is no valid cell"),
     "a constant with a winding": (put(1, 2, 0x04_00_00_14), "quad 1, cell 3 is 4"),
     "curves without a winding": (put(1, 2, 0x00_00_00_10), "quad 1, cell 0 is 16"),
     "an end beyond": (put(4, 0, 32769), "curve 4 has an end at 32769; the limit is 32768"),

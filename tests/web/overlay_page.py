@@ -17,7 +17,7 @@ from cells import Cells, finest_level
 from vexture.texture.texture import Texture
 
 SHAPES = ROOT / "examples" / "shapes"
-WINDOW = (1280, 720)
+WINDOW = (800, 480)
 
 FACTS = {"segments": 31, "bytes": 12345, "milliseconds": 8.25, "distance": 1e-5, "warnings": ["a gradient is flat"]}
 

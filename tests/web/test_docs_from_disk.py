@@ -5,25 +5,32 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from waiting import drawn
 
 pytest.importorskip("mkdocs", reason="MkDocs is not installed (pip install '.[docs]')")
 
 
-@pytest.mark.parametrize("width", [1280, 390])
+WIDTHS = (1280, 390)
+
+
 def test_pages_fit_and_fetch_nothing(
-    site: Path, open_page: Callable[..., Any], screenshot: Callable[..., Path], width: int
+    site: Path, open_page: Callable[..., Any], screenshot: Callable[..., Path]
 ) -> None:
-    page = open_page(f"file://{site}/index.html", (width, 800))
+    page = open_page(f"file://{site}/index.html", (WIDTHS[0], 800))
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
     for path in sorted(site.rglob("*.html")):
         if path.name == "404.html":
             continue
         page.goto(f"file://{path}")
-        assert page.evaluate("document.documentElement.scrollWidth") <= width, f"{path.name} is wider than the screen"
         broken = page.evaluate("[...document.images].filter((image) => !image.naturalWidth).map(({ src }) => src)")
         assert broken == [], path.name
-        screenshot(page, path.stem)
+        for width in WIDTHS:
+            page.set_viewport_size({"width": width, "height": 800})
+            drawn(page)
+            wide = page.evaluate("document.documentElement.scrollWidth")
+            assert wide <= width, f"{path.name} is {wide} pixels wide on a screen of {width}"
+            screenshot(page, f"{path.stem}-{width}")
     assert [address for address in asked if not address.startswith(("file:", "data:"))] == []
     assert len(asked) > 20
 

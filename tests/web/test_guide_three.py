@@ -19,6 +19,12 @@ from guides import Reader, blocks_of, free_port
 from viewing import PATIENCE
 
 BUILT = shutil.ignore_patterns("node_modules", "__pycache__", "*.egg-info", "built", "types", "*.tgz")
+SLOWLY = """{
+    const next = window.requestAnimationFrame.bind(window);
+    window.requestAnimationFrame = (draw) => setTimeout(() => next(draw), 150);
+}"""
+"""The guide's programs draw as often as the screen asks; without a GPU that takes the processor from all else."""
+
 PAPER, DUCK, BLUE, RED, SUN = (0xF4F1E8, 0xE8B100, 0x0066CC, 0xB71C1C, 0xFFD633)
 
 
@@ -128,7 +134,9 @@ def test_the_guide_to_three_js_does_what_it_says(
             if page is not None:
                 page.close()  # it would go on drawing
             _answered(reader.ports["5173"])
-            opened = open_page(address)
+            opened = open_page("about:blank")
+            opened.add_init_script(SLOWLY)
+            opened.goto(address)
             _await(opened, SEEN[section])
             shown.append(section)
             screenshot(opened, f"{re.sub('[^a-z]+', '-', section.lower())}-{shown.count(section)}")
@@ -145,4 +153,5 @@ def test_the_guide_to_three_js_does_what_it_says(
             elif "red.svg" in block.text:  # the page is still that of the program before, never loaded again
                 _await(page, _in_red)
                 screenshot(page, "pushed")
+        page.close()  # its script is not for other tests
     assert set(shown) == set(SEEN)

@@ -73,7 +73,7 @@ function checkLevel(texels, met, quads, depth) {
       if (cell === QUAD_FLAG) quadCount++;
       else if (cell > QUAD_FLAG || curves > MOST_CURVES || curves > 0 !== (cell & WINDING_MASK) > 0) {
         throw new VextureError(
-          `quad ${quad}, cell ${k} is ${cell}, which says nothing; update this package or ${REMEDY}`,
+          `quad ${quad}, cell ${k} is ${cell}, which is no valid cell; update this package or ${REMEDY}`,
           `quad ${quad}`,
         );
       } else curveCount += curves;

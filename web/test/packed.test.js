@@ -235,7 +235,7 @@ describe('the tree', () => {
       const texels = [[1, 1, byte * 2 ** 16, 0], ...Array.from({ length: 15 }, () => [0, 0, 0, 0])];
       if (count && byte === 128) texels[1] = FULL;
       if (named) expect((await readPacked(ktx2(texels))).width).toBe(16);
-      else await expectRefusal(readPacked(ktx2(texels)), 'quad 0', `cell 2 is ${byte}, which says nothing`);
+      else await expectRefusal(readPacked(ktx2(texels)), 'quad 0', `cell 2 is ${byte}, which is no valid cell`);
     }
   });
 

@@ -1,1 +1,1 @@
-"""Pure mathematics of cubic Bézier curves, one noun to a module."""
+"""Mathematics of cubic Bézier curves."""

@@ -1,4 +1,4 @@
-"""Areas beside cubics, exact."""
+"""Exact areas beside cubics."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,9 +34,9 @@ def integral_x_dy(curve: NDArray[np.float64]) -> float:
 
 @kernel(allocates=False)
 def edge_index(x: float, y: float) -> float:
-    """Place of a point on the edge of the unit square: distance clockwise from its top-left corner, over 4.
+    """Position of a point on the edge of the unit square, 0..1: clockwise from the top-left corner (thesis, Table 4.1).
 
-    Thesis, Table 4.1. A point beside the edge counts as the nearest point on it.
+    A point beside the edge counts as the nearest point on it.
 
     Examples
     --------
@@ -56,13 +56,7 @@ def edge_index(x: float, y: float) -> float:
 
 @kernel
 def edge_indices(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """`edge_index` of many points: (n,) from (n, 2).
-
-    Examples
-    --------
-    >>> edge_indices(np.array([[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]]))
-    array([0.  , 0.25, 0.5 , 0.75])
-    """
+    """`edge_index` of many points: (n,) from (n, 2)."""
     indices = np.empty(len(points))
     for i in range(len(points)):
         indices[i] = edge_index(points[i, 0], points[i, 1])
@@ -71,22 +65,10 @@ def edge_indices(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 @kernel(allocates=False)
 def area_right_of(p0: NDArray[np.float64], p3: NDArray[np.float64], x_dy: float) -> float:
-    """Area of the part of the unit square on the right of a curve from edge to edge.
+    """Area of the part of the unit square on the right of a curve from edge to edge; `x_dy` is its integral of x dy.
 
-    The loop of the curve and of the square's edge, clockwise from P3 back to P0, has that part on its right. On
-    the edge x dy is not zero on the right side only.
-
-    Parameters
-    ----------
-    p0, p3 : (2,) float64 arrays
-        Where the curve starts and ends, on the square's edge.
-    x_dy : float
-        Integral of x dy along it.
-
-    Examples
-    --------
-    >>> area_right_of(np.array([0.0, 0.5]), np.array([1.0, 0.5]), 0.0)
-    0.5
+    The curve from `p0` to `p3` and the square's edge, clockwise from `p3` back to `p0`, form a loop around that part.
+    On the edge x dy is not zero on the right side only.
     """
     start, stop = edge_index(p3[0], p3[1]), edge_index(p0[0], p0[1])
     if stop <= start:
@@ -99,13 +81,8 @@ def area_right_of(p0: NDArray[np.float64], p3: NDArray[np.float64], x_dy: float)
 def loop_area(curve: NDArray[np.float64]) -> float:
     """Area of the loop of a cubic, (4, 2), that crosses itself: positive if counter-clockwise, 0 without a loop.
 
-    With B(t) = a t^3 + b t^2 + c t + d, two parameters s and t meet where a (s^2 + s t + t^2) + b (s + t) + c = 0.
-    The cross product with a leaves one linear equation in s + t, after which s t follows.
-
-    Examples
-    --------
-    >>> round(loop_area(np.array([[0.4, 0.0], [1.4, 1.0], [-0.4, 1.0], [0.6, 0.0]])), 4)
-    0.1905
+    With B(t) = a t^3 + b t^2 + c t + d, two parameters s and t meet where a (s^2 + s t + t^2) + b (s + t) + c = 0. The
+    cross product with a leaves one linear equation in s + t, after which s t follows.
     """
     bx = 3.0 * (curve[0, 0] - 2.0 * curve[1, 0] + curve[2, 0])
     by = 3.0 * (curve[0, 1] - 2.0 * curve[1, 1] + curve[2, 1])
@@ -131,22 +108,11 @@ def loop_area(curve: NDArray[np.float64]) -> float:
 
 @kernel
 def leaf_area(curve: NDArray[np.float64], corner: bool) -> float:
-    """Area of the filled part of the unit square that holds a curve or corner from edge to edge.
+    """Area of the filled part of the unit square, 0..1, on the right of a curve or corner from edge to edge.
 
-    It is filled on the right, by the even-odd rule, as the shader counts: the loop of a curve that crosses itself
-    changes sides. Inside the loop the winding number is off by two, hence twice its area.
-
-    Parameters
-    ----------
-    curve : (4, 2) float64 array
-        P0 P1 P2 P3; P0 and P3 lie on the square's edge, and the curve stays inside.
-    corner : bool
-        Straight lines P0 P1 and P1 P3 instead of a cubic.
-
-    Returns
-    -------
-    float
-        0..1
+    `curve` (4, 2) is a cubic, or with `corner` the straight lines P0 P1 and P1 P3. The even-odd rule applies, as in the
+    shader: the loop of a curve that crosses itself changes sides. Inside the loop the winding number is off by two,
+    hence twice its area.
 
     Examples
     --------
@@ -160,5 +126,5 @@ def leaf_area(curve: NDArray[np.float64], corner: bool) -> float:
         area = area_right_of(curve[0], curve[3], 0.5 * ((x0 + x1) * (y1 - y0) + (x1 + x3) * (y3 - y1)))
     else:
         area = area_right_of(curve[0], curve[3], integral_x_dy(curve)) + 2.0 * loop_area(curve)
-    # outside 0..1 it is the whole curve that is a loop, with ends that cross or not but for rounding
+    # outside 0..1 the whole curve is a loop, whose ends cross, or miss each other only by rounding
     return max(1.0 - abs(1.0 - abs(area)), 0.0)

@@ -1,4 +1,4 @@
-"""The smallest box around cubics."""
+"""Bounding box of cubics."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,11 +7,7 @@ __all__ = ["bounds"]
 
 
 def bounds(cubics: NDArray[np.float64]) -> tuple[float, float, float, float]:
-    """Least x, least y, largest x and largest y on the curves themselves, not on their control points.
-
-    Parameters
-    ----------
-    cubics : (n, 4, 2) float64 array, n >= 1
+    """Least x, least y, largest x and largest y of the curves, not of their control points; (n, 4, 2), n >= 1.
 
     Examples
     --------

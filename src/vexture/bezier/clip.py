@@ -1,8 +1,8 @@
-"""Cutting contours to a box without changing any winding number inside it.
+"""Clipping contours to a box without changing any winding number inside it.
 
-What lies beyond a side of the box is replaced by its shadow on that side: a straight line between the projected
-ends. Seen from a point inside, the line and the curve that it replaces turn by the same angle, so every winding
-number inside stays what it was, whatever the fill rule.
+A part beyond a side of the box is replaced by its shadow on that side: the straight line between its projected ends.
+Seen from a point inside the box, the line and the curve that it replaces turn by the same angle. Every winding number
+inside stays the same, for every fill rule.
 """
 
 from collections.abc import Sequence
@@ -23,20 +23,11 @@ Corner = Sequence[float] | NDArray[np.float64]
 
 
 def clip_contour(contour: NDArray[np.float64], low: Corner, high: Corner) -> NDArray[np.float64]:
-    """Clip a closed contour to a box.
+    """Clip a closed contour (n, 4, 2) to the box between the points `low` and `high`.
 
-    Parameters
-    ----------
-    contour : (n, 4, 2) float64 array
-        Closed: each cubic starts, bit for bit, where the one before it ends.
-    low, high : (2,) sequence of float
-        Least and largest x and y of the box.
-
-    Returns
-    -------
-    (m, 4, 2) float64 array
-        Closed in the same way; no end point leaves the box, cut points lie exactly on it. m is 0 if nothing is left
-        but lines along one side. Control points may lie outside.
+    Each cubic of a closed contour starts, bit for bit, where the one before it ends; so does each cubic of the result
+    (m, 4, 2). No end point leaves the box, and cut points lie exactly on it. Control points may lie outside. m is 0 if
+    only lines along one side are left.
 
     Examples
     --------
@@ -64,7 +55,7 @@ def clip_contour(contour: NDArray[np.float64], low: Corner, high: Corner) -> NDA
 def cut_to_side(contour: NDArray[np.float64], axis: int, bound: float, side: float, pieces: NDArray[np.float64]) -> int:
     """Write the parts on the side of a line where ``(coordinate - bound) * side >= 0`` and the shadows of the others.
 
-    Shadows that follow one another become one. Returns the number of pieces.
+    Consecutive shadows become one. Returns the number of pieces.
     """
     cuts = np.empty(MOST_PIECES + 1)
     count = 0
@@ -83,7 +74,7 @@ def cut_to_side(contour: NDArray[np.float64], axis: int, bound: float, side: flo
                 piece[3, axis] = bound
             point = piece[3].copy()
             middle = cubic_at(piece[0, axis], piece[1, axis], piece[2, axis], piece[3, axis], 0.5)
-            # the piece does not cross; one of these three is off the line, however the others may touch it
+            # the piece does not cross the line, and at least one of these three points is off it
             if (piece[0, axis] + middle + piece[3, axis] - 3.0 * bound) * side >= 0.0:
                 in_shadow = False
                 count += 1
@@ -99,7 +90,7 @@ def cut_to_side(contour: NDArray[np.float64], axis: int, bound: float, side: flo
 
 @kernel
 def crossings(curve: NDArray[np.float64], axis: int, bound: float, cuts: NDArray[np.float64]) -> int:
-    """Write 0, the parameters at which a cubic crosses a line, and 1; return the number of pieces between them."""
+    """Write 0, the parameters where a cubic crosses a line, and 1; return the number of pieces between them."""
     turns = np.empty(2)
     part = np.empty((4, 2))
     turned = turning_points(curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis], turns)

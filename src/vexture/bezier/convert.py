@@ -1,8 +1,8 @@
-"""Other curves as cubics: lines and quadratics exactly, circular things within a tolerance.
+"""Other curves as cubics: lines exactly, circular arcs within a tolerance.
 
 A cubic with handles of length ``4/3 tan(angle/4) r`` touches its circle at both ends and at the middle and leaves it
-outward by at most `QUARTER_ERROR` r for a quarter turn; the error falls with the sixth power of the angle
-(Goldapp, "Approximation of circular arcs by cubic polynomials", CAGD 8, 1991).
+outward by at most `QUARTER_ERROR` r for a quarter turn; the error falls with the sixth power of the angle (Goldapp,
+"Approximation of circular arcs by cubic polynomials", CAGD 8, 1991).
 """
 
 from math import acos, atan2, ceil, cos, hypot, pi, radians, sin, sqrt, tan
@@ -10,34 +10,26 @@ from math import acos, atan2, ceil, cos, hypot, pi, radians, sin, sqrt, tan
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["arc_cubics", "conic_cubics", "ellipse_cubics", "line_cubics", "quadratic_cubics", "straight"]
+__all__ = ["arc_cubics", "conic_cubics", "ellipse_cubics", "line_cubics", "straight"]
 
 QUARTER_ERROR = 2.7253e-4
 """Largest distance of one cubic from a quarter of the unit circle."""
 
 FINEST = 1e-3
-"""Part of a quarter turn. The shortest cubic, a bound on the work for hostile radii: 4,000 cubics to a turn."""
+"""Part of a quarter turn. The shortest cubic; it bounds the work for huge radii to 4,000 cubics a turn."""
 
 FLAT = 1e-7
-"""Half the chord over the radius. A shorter way round that is flatter than this is a line, to 1e-7 of its length."""
+"""Half the chord over the radius. A flatter short arc becomes a line, exact to 1e-7 of its length."""
 
 STRAIGHT = 1e-12
-"""Relative. Inner control points this close to the thirds of the chord are those of a line, but for rounding."""
+"""Relative. A cubic whose inner control points are this close to the thirds of its chord is a rounded line."""
 
 Step = tuple[float, float, float, float, float, float]
 """P1, P2 and P3 of a cubic that starts where the one before it ends."""
 
 
 def line_cubics(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Straight lines as cubics, with inner control points at one and two thirds.
-
-    Parameters
-    ----------
-    start, end : (..., 2) float64 arrays
-
-    Returns
-    -------
-    (..., 4, 2) float64 array
+    """Straight lines as cubics, (..., 2) -> (..., 4, 2), with inner control points at one and two thirds.
 
     Examples
     --------
@@ -50,36 +42,15 @@ def line_cubics(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray
 
 
 def straight(cubics: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Tell which cubics are lines in the sense of `line_cubics`, (n, 4, 2) -> (n,).
-
-    Examples
-    --------
-    >>> straight(line_cubics(np.zeros((1, 2)), np.ones((1, 2))))
-    array([ True])
-    """
+    """Which cubics are lines in the sense of `line_cubics`, (n, 4, 2) -> (n,)."""
     ideal = line_cubics(cubics[..., 0, :], cubics[..., 3, :])
     scale = np.abs(cubics).max(axis=(-2, -1))
     near: NDArray[np.bool_] = np.abs(cubics - ideal).max(axis=(-2, -1)) <= STRAIGHT * scale
     return near
 
 
-def quadratic_cubics(quadratics: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Raise quadratics to cubics, exactly: (..., 3, 2) -> (..., 4, 2).
-
-    Examples
-    --------
-    >>> quadratic_cubics(np.array([[0.0, 0.0], [1.5, 3.0], [3.0, 0.0]]))
-    array([[0., 0.],
-           [1., 2.],
-           [2., 2.],
-           [3., 0.]])
-    """
-    start, control, end = quadratics[..., 0, :], quadratics[..., 1, :], quadratics[..., 2, :]
-    return np.stack([start, start + (control - start) * (2 / 3), end + (control - end) * (2 / 3), end], axis=-2)
-
-
 def turn_steps(angle: float, radius: float, tolerance: float) -> int:
-    """Count the equal cubics that follow a turn of `angle` (radians) around a circle within the tolerance.
+    """Number of equal cubics that follow a turn of `angle` (radians) around a circle within the tolerance.
 
     Examples
     --------
@@ -93,7 +64,7 @@ def turn_steps(angle: float, radius: float, tolerance: float) -> int:
 def turn_cubics(
     center: tuple[float, float], u: tuple[float, float], v: tuple[float, float], start: float, angle: float, steps: int
 ) -> list[Step]:
-    """Follow ``center + u cos a + v sin a`` for a = start .. start + angle (radians) in equal cubics."""
+    """Equal cubics along ``center + u cos a + v sin a`` for a = start .. start + angle, in radians."""
     step = angle / steps
     handle = 4 / 3 * tan(step / 4)
     found = []
@@ -126,18 +97,9 @@ def arc_cubics(
 ) -> list[Step]:
     """Elliptical arc between two points, as SVG describes it (SVG 2, B.2.4 and B.2.5); none from a point to itself.
 
-    Parameters
-    ----------
-    start, end : tuple of float
-        End points; radii too small to join them are enlarged, as the standard demands.
-    radii : tuple of float
-        Half axes; a zero gives the straight line.
-    rotation : float
-        Of the first axis, in degrees.
-    large, sweep : bool
-        Which of the four arcs.
-    tolerance : float
-        Largest distance from the true arc.
+    `rotation` is that of the first axis, in degrees; `large` and `sweep` choose one of the four arcs. Radii that are
+    too small to join the points are enlarged, as the standard demands; a radius of zero gives the straight line.
+    `tolerance` is the largest distance from the true arc.
 
     Examples
     --------
@@ -168,7 +130,7 @@ def arc_cubics(
     center = ((x0 + x3) / 2.0 + u[0] * qx + v[0] * qy, (y0 + y3) / 2.0 + u[1] * qx + v[1] * qy)
     first = atan2(py - qy, px - qx)
     angle = atan2(-py - qy, -px - qx) - first
-    if sweep != (angle > 0.0) or angle == 0.0:  # zero: all but a whole turn, which rounding has closed
+    if sweep != (angle > 0.0) or angle == 0.0:  # zero: almost a whole turn, closed by rounding
         angle += 2.0 * pi if sweep else -2.0 * pi
     found = turn_cubics(center, u, v, first, angle, turn_steps(angle, max(rx, ry), tolerance))
     found[-1] = (*found[-1][:4], x3, y3)
@@ -176,14 +138,7 @@ def arc_cubics(
 
 
 def ellipse_cubics(center: tuple[float, float], radii: tuple[float, float], tolerance: float) -> NDArray[np.float64]:
-    """Whole ellipse, from its rightmost point towards +y, as a closed contour (n, 4, 2).
-
-    Parameters
-    ----------
-    center, radii : tuple of float
-        Middle and half axes along x and y.
-    tolerance : float
-        Largest distance from the true ellipse, in the units of the centre.
+    """Whole ellipse within a tolerance, from its rightmost point towards +y, as a closed contour (n, 4, 2).
 
     Examples
     --------
@@ -191,7 +146,7 @@ def ellipse_cubics(center: tuple[float, float], radii: tuple[float, float], tole
     array([0., 2.])
     """
     steps = turn_steps(2.0 * pi, max(radii), tolerance)
-    steps += -steps % 4  # so that cubics end exactly where the ellipse turns
+    steps += -steps % 4  # cubics end exactly where the ellipse turns
     quarter = turn_cubics((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), 0.0, pi / 2, steps // 4)
     quarter[-1] = (*quarter[-1][:2], quarter[-1][2], 1.0, 0.0, 1.0)
     ends = np.array([(1.0, 0.0)] + [step[4:] for step in quarter])
@@ -203,10 +158,9 @@ def ellipse_cubics(center: tuple[float, float], radii: tuple[float, float], tole
 
 
 def conic_cubics(p0: complex, p1: complex, p2: complex, weight: float, tolerance: float) -> list[complex]:
-    """Circular arc given as a rational quadratic of weight cos(half its angle), as cubics.
+    """Circular arc, a rational quadratic of weight cos(half its angle), as P1, P2 and P3 of each cubic in turn.
 
-    Points are complex numbers; the result lists P1, P2 and P3 of each cubic in turn. Halving follows Farin,
-    "Curves and Surfaces for CAGD", 13.
+    Points are complex numbers. The arc is halved as in Farin, "Curves and Surfaces for CAGD", 13.
 
     Examples
     --------

@@ -10,27 +10,21 @@ from vexture.kernels import kernel
 __all__ = ["chord_parameters", "fit_cubic", "project"]
 
 ROUNDS = 10
-"""Projection and least squares alternate at most so often; more rounds gain little on chains of one cell."""
+"""Most rounds of projection and least squares; more gain little on chains of one cell."""
 
 SLOW, SLOW_ROUNDS = 0.9, 4
-"""A fit is given up after so many rounds that left more than this share of its distance."""
+"""A fit is given up after 4 rounds that left more than this share of its distance."""
 
-HOPELESS, HOPELESS_ROUND = 30.0, 3
-"""And if it is still so many tolerances away after so many rounds: a chain that is far more than one cubic."""
+FAR, FAR_ROUND = 30.0, 3
+"""A fit is given up if it is still this many tolerances away after 3 rounds: the chain needs more than one cubic."""
 
 ALONG = 0.001
-"""First weight of squared distances along the curve, tenfold after each step that made it worse."""
+"""First weight of squared distances along the curve; tenfold after each step that made the fit worse."""
 
 
 @kernel(allocates=False)
 def chord_parameters(points: NDArray[np.float64], t: NDArray[np.float64]) -> float:
-    """Write each point's share of the polyline's length, and return that.
-
-    Parameters
-    ----------
-    points : (n, 2) float64 array
-    t : (n,) float64 array
-        Written.
+    """Write each point's share of the polyline's length, (n, 2) -> (n,); return the length.
 
     Examples
     --------
@@ -49,7 +43,7 @@ def chord_parameters(points: NDArray[np.float64], t: NDArray[np.float64]) -> flo
 
 @kernel(allocates=False)
 def _solve_symmetric(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
-    """Overwrite b, (n,), by the solution of a x = b for a positive definite (n, n); False if it is not."""
+    """Overwrite b, (n,), by the solution of a x = b; False if a, (n, n), is not positive definite."""
     n = len(b)
     for k in range(n):
         if a[k, k] <= 0.0:
@@ -70,12 +64,12 @@ def _solve_symmetric(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
 def _least_squares(
     points: NDArray[np.float64], t: NDArray[np.float64], along_weight: float, curve: NDArray[np.float64]
 ) -> bool:
-    """Move P1 and P2 so that the squares of the distances across the curve are least; False if undetermined.
+    """Move P1 and P2 so that the squared distances across the curve are least; False if undetermined.
 
-    Across the curve a distance counts whole, along it `along_weight`: there the point will slide anyway. This is the
-    tangent distance minimisation of Wang, Pottmann and Liu, "Fitting B-spline curves to point clouds by
-    curvature-based squared distance minimization" (ACM TOG 25, 2006); it converges many times faster than
-    distances to fixed parameters.
+    Distances along the curve count `along_weight` only, because projection moves the point along the curve anyway. This
+    is the tangent distance minimisation of Wang, Pottmann and Liu, "Fitting B-spline curves to point clouds by
+    curvature-based squared distance minimization" (ACM TOG 25, 2006). It converges many times faster than distances to
+    fixed parameters.
     """
     a11, a12, a22 = np.zeros(3), np.zeros(3), np.zeros(3)  # xx, xy, yy of the blocks for P1 P1, P1 P2, P2 P2
     b = np.zeros(4)
@@ -117,15 +111,9 @@ def _least_squares(
 
 @kernel(allocates=False)
 def project(points: NDArray[np.float64], t: NDArray[np.float64], curve: NDArray[np.float64]) -> float:
-    """Move each t towards the nearest place on the curve by a Newton step; return the largest distance.
+    """Move each parameter t, (n,), to the nearest place on the curve by a Newton step; return the largest distance.
 
-    Parameters
-    ----------
-    points : (n, 2) float64 array
-        The first and the last are the curve's ends, and stay.
-    t : (n,) float64 array
-        Overwritten.
-    curve : (4, 2) float64 array
+    The first and the last point, of (n, 2), are the curve's ends and stay.
 
     Examples
     --------
@@ -165,24 +153,11 @@ def _keep(
 
 @kernel
 def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.float64]) -> float:
-    """Cubic from the first to the last of a chain of points, nearest to all of them.
+    """Write the cubic from the first to the last of n >= 2 points, (n, 2), nearest to all; return the largest distance.
 
     P. J. Schneider, "An algorithm for automatically fitting digitized curves" (Graphics Gems, 1990), with both inner
-    control points free: the ends' tangents are not prescribed.
-
-    Parameters
-    ----------
-    points : (n, 2) float64 array
-        In order, n >= 2.
-    tolerance : float
-        Distance at which it is good enough, in the units of the points.
-    curve : (4, 2) float64 array
-        Written.
-
-    Returns
-    -------
-    float
-        The largest distance of a point from the curve.
+    control points free: the tangents at the ends are not prescribed. The fit stops when every point is within
+    `tolerance`.
 
     Examples
     --------
@@ -210,7 +185,7 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
         else:
             _keep(best_curve, best_t, curve, t)
             along *= 10.0
-        if best <= tolerance or slow == SLOW_ROUNDS or (done == HOPELESS_ROUND and best > HOPELESS * tolerance):
+        if best <= tolerance or slow == SLOW_ROUNDS or (done == FAR_ROUND and best > FAR * tolerance):
             break
         if not _least_squares(points, t, along, curve):
             break

@@ -1,4 +1,4 @@
-"""Pieces of cubics that are monotone in x and in y."""
+"""Cutting cubics into pieces that are monotone in x and in y."""
 
 from typing import NamedTuple
 
@@ -14,27 +14,17 @@ __all__ = ["Pieces", "empty_pieces", "monotone_pieces", "turns"]
 
 
 class Pieces(NamedTuple):
-    """Monotone pieces, as arrays of n; any horizontal or vertical line meets a piece at most once.
+    """n monotone pieces; any horizontal or vertical line meets a piece at most once."""
 
-    Attributes
-    ----------
-    points : (n, 4, 2) float64 array
-        P0 P1 P2 P3.
-    path, segment : (n,) int64 arrays
-        The path that a piece belongs to, and the cubic of the source that it is a part of.
-    span : (n, 2) float64 array
-        The part: its parameters t0 < t1 on that cubic.
-    """
-
-    points: NDArray[np.float64]
-    path: NDArray[np.int64]
-    segment: NDArray[np.int64]
-    span: NDArray[np.float64]
+    points: NDArray[np.float64]  # (n, 4, 2): P0 P1 P2 P3
+    path: NDArray[np.int64]  # (n,): path that a piece belongs to
+    segment: NDArray[np.int64]  # (n,): cubic of the source that it is a part of
+    span: NDArray[np.float64]  # (n, 2): the part, as parameters t0 < t1 of that cubic
 
 
 @kernel
 def empty_pieces(count: int) -> Pieces:
-    """Room for pieces, to be filled."""
+    """Arrays for pieces, not filled."""
     return Pieces(
         np.empty((count, 4, 2), np.float64),
         np.empty(count, np.int64),
@@ -59,19 +49,9 @@ def turns(curve: NDArray[np.float64], out: NDArray[np.float64]) -> int:
 
 @kernel
 def monotone_pieces(cubics: NDArray[np.float64], path: NDArray[np.int64]) -> Pieces:
-    """Split cubics where x or y turns.
+    """Split the cubics (m, 4, 2) of contours where x or y turns; `path` (m,) is the path of each.
 
-    Parameters
-    ----------
-    cubics : (m, 4, 2) float64 array
-        In the order of their contours.
-    path : (m,) int64 array
-        The path that each belongs to.
-
-    Returns
-    -------
-    Pieces
-        In the same order; pieces whose ends coincide are dropped, and common end points are equal bit for bit.
+    The order stays. Pieces whose ends coincide are dropped, and common end points are equal bit for bit.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Points of many cubics at once: what is drawn or measured as a whole, not what kernels loop over."""
+"""Points of many cubics at once, vectorised."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,16 +7,7 @@ __all__ = ["points_along", "points_at"]
 
 
 def points_along(cubics: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points of every cubic at all of the same parameters.
-
-    Parameters
-    ----------
-    cubics : (n, 4, 2) float64 array
-    t : (m,) float64 array
-
-    Returns
-    -------
-    (n, m, 2) float64 array
+    """Points of every cubic at the same parameters: (n, 4, 2) and (m,) -> (n, m, 2).
 
     Examples
     --------
@@ -29,27 +20,12 @@ def points_along(cubics: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray
 
 
 def points_at(cubics: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Point of every cubic at a parameter of its own.
-
-    Parameters
-    ----------
-    cubics : (n, 4, 2) float64 array
-    t : (n,) float64 array
-
-    Returns
-    -------
-    (n, 2) float64 array
-
-    Examples
-    --------
-    >>> points_at(np.array([[[0.0, 0.0], [0.0, 4.0], [1.0, 4.0], [1.0, 0.0]]]), np.array([0.5]))
-    array([[0.5, 3. ]])
-    """
+    """Point of each cubic at its own parameter: (n, 4, 2) and (n,) -> (n, 2)."""
     points: NDArray[np.float64] = np.einsum("kn,nkc->nc", _bernstein(t), cubics)
     return points
 
 
 def _bernstein(t: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Weights of the four points, (4, n)."""
+    """Weights of the four control points, (4, n)."""
     s = 1.0 - t
     return np.stack([s**3, 3.0 * s * s * t, 3.0 * s * t * t, t**3])

@@ -13,43 +13,24 @@ BISECTIONS = 60  # more than the 53 bits of a float64, so that the bracket alway
 
 @kernel(allocates=False)
 def cubic_at(p0: float, p1: float, p2: float, p3: float, t: float) -> float:
-    """Coordinate of a cubic at t.
-
-    Examples
-    --------
-    >>> cubic_at(0.0, 0.0, 1.0, 1.0, 0.5)
-    0.5
-    """
+    """Coordinate of a cubic at t."""
     s = 1.0 - t
     return s * s * (s * p0 + 3.0 * t * p1) + t * t * (3.0 * s * p2 + t * p3)
 
 
 @kernel(allocates=False)
 def velocity_at(p0: float, p1: float, p2: float, p3: float, t: float) -> float:
-    """Derivative of a cubic's coordinate by t.
-
-    Examples
-    --------
-    >>> velocity_at(0.0, 0.0, 1.0, 1.0, 0.5)
-    1.5
-    """
+    """Derivative of a cubic's coordinate by t."""
     s = 1.0 - t
     return 3.0 * (s * s * (p1 - p0) + 2.0 * s * t * (p2 - p1) + t * t * (p3 - p2))
 
 
 @kernel(allocates=False)
 def solve_monotone(p0: float, p1: float, p2: float, p3: float, value: float) -> float:
-    """Parameter t in [0, 1] at which a monotone coordinate takes a value.
+    """Parameter t in [0, 1] at which a coordinate that is monotone on [0, 1] takes a value between p0 and p3.
 
-    Newton's method inside a bracket that each step tightens: a step that leaves the bracket is replaced by
-    bisection. Exact at both ends.
-
-    Parameters
-    ----------
-    p0, p1, p2, p3 : float
-        One coordinate of a cubic that is monotone on [0, 1].
-    value : float
-        Between p0 and p3.
+    Newton's method inside a bracket that each step tightens; a step that leaves the bracket is replaced by bisection.
+    Exact at both ends.
 
     Examples
     --------
@@ -85,7 +66,7 @@ def solve_monotone(p0: float, p1: float, p2: float, p3: float, value: float) -> 
 
 @kernel(allocates=False)
 def turning_points(p0: float, p1: float, p2: float, p3: float, out: NDArray[np.float64]) -> int:
-    """Write the parameters in (0, 1) at which a coordinate turns; return how many (0, 1 or 2), in rising order.
+    """Write the parameters in (0, 1) at which a coordinate turns, in rising order; return how many (0, 1 or 2).
 
     The derivative's roots by the stable form ``q = -(b + sgn(b) sqrt(b^2 - 4 a c)) / 2``, ``q / a`` and ``c / q``
     (Press et al., Numerical Recipes, 5.6). A double root does not turn.

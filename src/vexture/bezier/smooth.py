@@ -1,4 +1,4 @@
-"""A closed chain of points made smooth, each point kept within a distance of where it was."""
+"""Smoothing a closed chain of points, each of which stays within a distance of its place."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,10 +8,10 @@ from vexture.kernels import kernel
 __all__ = ["smooth_chain"]
 
 ROUNDS = 14
-"""Of weighing again the samples that smoothing has moved too far."""
+"""Most rounds; each gives more weight to the samples that smoothing moved too far."""
 
 OVERLAP = 64
-"""Samples that a ring is continued by beyond its ends: farther than bending reaches."""
+"""Samples by which the chain is continued beyond its ends: farther than bending reaches."""
 
 
 @kernel
@@ -67,15 +67,10 @@ def smooth_chain(
     bending: NDArray[np.float64],
     reach: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Closed chain of samples that bends little while each stays within a distance of where it was.
+    """Closed chain of samples (n, 2) that bends little; each sample stays within its `reach` (n,) of its place.
 
-    Parameters
-    ----------
-    points : (n, 2) float64 array
-    corner : (n,) bool array
-        Samples that stay where they are, and at which bending is free.
-    bending, reach : (n,) float64 arrays
-        Weight of bending at each sample, and how far it may go.
+    Samples where `corner` (n,) is True do not move, and the chain may bend there. `bending` (n,) weighs bending
+    elsewhere.
 
     Examples
     --------

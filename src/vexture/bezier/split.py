@@ -1,4 +1,4 @@
-"""Cutting cubics (de Casteljau)."""
+"""Cutting cubics by de Casteljau's algorithm."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,15 +10,7 @@ __all__ = ["copy_curve", "split", "subcubic"]
 
 @kernel(allocates=False)
 def copy_curve(source: NDArray[np.float64], target: NDArray[np.float64]) -> None:
-    """Copy a cubic, (4, 2), number by number: an assignment of slices takes Numba a second to compile.
-
-    Examples
-    --------
-    >>> target = np.empty((4, 2))
-    >>> copy_curve(np.ones((4, 2)), target)
-    >>> target.sum()
-    np.float64(8.0)
-    """
+    """Copy a cubic, (4, 2), number by number: an assignment of slices takes Numba a second to compile."""
     for k in range(4):
         target[k, 0] = source[k, 0]
         target[k, 1] = source[k, 1]

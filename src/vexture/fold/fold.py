@@ -13,7 +13,7 @@ from vexture.fold import layout
 from vexture.fold.blend import fold, progress
 from vexture.layout import ROW_BITS, TEXT_ENCODING, TEXT_VERSION, TEXT_WRITER
 from vexture.notes import Note
-from vexture.texture.arrays import texel_rows
+from vexture.texture.encode import texel_rows
 from vexture.texture.ktx2 import read_ktx2, write_ktx2
 
 __all__ = ["Fold", "Kind", "fold_from"]

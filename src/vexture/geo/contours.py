@@ -188,10 +188,10 @@ def _polygons(above: NDArray[np.float64], border: tuple[float, float, float, flo
 
 def _fitted(polygon: list[Ring], tolerance: float) -> list[NDArray[np.float64]]:
     """Cubics of a polygon's rings, which neither cross themselves nor one another."""
-    from vexture.bezier.ring import fit_ring
+    from vexture.bezier.fit_closed import fit_closed
 
     for share in RETRY:
-        fitted = [fit_ring(ring.points, share * tolerance * ring.cell, fixed=ring.fixed) for ring in polygon]
+        fitted = [fit_closed(ring.points, share * tolerance * ring.cell, fixed=ring.fixed) for ring in polygon]
         fitted = [contour for contour in fitted if len(contour)]
         if _apart(fitted):
             break

@@ -1,4 +1,4 @@
-"""Colours and paint: `fill` and `stroke` as text become a flat colour, or a reference to a paint server."""
+"""Colours and paints: the text of `fill` or `stroke` becomes a flat colour or a reference to a paint server."""
 
 import re
 from functools import lru_cache
@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 import tinycss2.color4
 
-__all__ = ["Color", "PaintText", "is_color", "is_paint", "parse_color", "parse_paint"]
+__all__ = ["Color", "PaintText", "parse_color", "parse_paint"]
 
 LONGEST = 200
-"""Characters. A colour is never longer; the cache must not keep a hostile file's text."""
+"""Characters. A colour is never longer, and the cache must not keep long untrusted texts."""
 
 REFERENCE = re.compile(r"url\(\s*(['\"]?)(.*?)\1\s*\)\s*(.*)", re.IGNORECASE | re.DOTALL)
 CONTEXT = ("context-fill", "context-stroke")
@@ -24,21 +24,18 @@ class Color(NamedTuple):
 
 
 class PaintText(NamedTuple):
-    """A paint as written: what to paint with, and the reference to try first, if there is one.
+    """A paint as written."""
 
-    `color` is None for no paint and "currentcolor" where the element's own colour is meant.
-    """
-
-    reference: str | None
-    color: Color | str | None
+    reference: str | None  # paint server to use if possible
+    color: Color | str | None  # None for no paint; "currentcolor" for the element's own colour
 
 
 @lru_cache(maxsize=512)
 def read_color(text: str) -> Color | str | None:
-    """Colour of a short text: a `Color`, "currentcolor", or None if it is no colour."""
+    """Colour of a short text, see `parse_color`."""
     try:
         parsed = tinycss2.color4.parse_color(text)
-    except (ValueError, TypeError, AttributeError, KeyError):  # tinycss2 trips over some malformed functions
+    except (ValueError, TypeError, AttributeError, KeyError):  # tinycss2 fails on some malformed functions
         return None
     if parsed is None:
         return None
@@ -52,12 +49,7 @@ def read_color(text: str) -> Color | str | None:
 
 
 def parse_color(text: str) -> Color | str | None:
-    """Read a CSS colour (CSS Color 4).
-
-    Returns
-    -------
-    Color, "currentcolor", or None
-        None if the text is no colour.
+    """A CSS colour (CSS Color 4), or "currentcolor"; None if the text is no colour.
 
     Examples
     --------
@@ -68,7 +60,7 @@ def parse_color(text: str) -> Color | str | None:
 
 
 def parse_paint(text: str) -> PaintText | None:
-    """Read the value of `fill` or `stroke`; None if it is no paint.
+    """Value of `fill` or `stroke`; None if the text is no paint.
 
     Examples
     --------
@@ -87,13 +79,3 @@ def parse_paint(text: str) -> PaintText | None:
         return PaintText(match[2], parse_color(fallback) if fallback and fallback.lower() != "none" else None)
     color = parse_color(text.partition(" icc-color")[0])
     return None if color is None else PaintText(None, color)
-
-
-def is_color(text: str) -> bool:
-    """Tell whether the text is a colour."""
-    return parse_color(text) is not None
-
-
-def is_paint(text: str) -> bool:
-    """Tell whether the text is a paint."""
-    return parse_paint(text) is not None

@@ -1,4 +1,4 @@
-"""From bytes to an XML tree, or one line that says why not: nothing outside the file is ever read or fetched."""
+"""From bytes to an XML tree; nothing outside the file is read or fetched."""
 
 from lxml import etree
 
@@ -12,17 +12,8 @@ SVG = "http://www.w3.org/2000/svg"
 def parse_svg(content: bytes) -> etree._Element:
     """Root element of an SVG document.
 
-    Entities that the document itself defines are expanded within libxml2's limits; external ones are errors.
-
-    Raises
-    ------
-    SourceError
-        If it is not well-formed, exceeds a limit of libxml2, or is not SVG.
-
-    Examples
-    --------
-    >>> parse_svg(b'<svg xmlns="http://www.w3.org/2000/svg"/>').tag
-    '{http://www.w3.org/2000/svg}svg'
+    Entities that the document itself defines are expanded within libxml2's limits; external ones are errors. Raises a
+    `SourceError` if the content is not well-formed, exceeds a limit of libxml2, or is not SVG.
     """
     parser = etree.XMLParser(
         resolve_entities="internal",  # type: ignore[arg-type]  # lxml-stubs knows only True and False
@@ -42,7 +33,7 @@ def parse_svg(content: bytes) -> etree._Element:
 
 
 def explained(message: str) -> str:
-    """Say what libxml2 says, with the limit and the remedy where it met one of its limits."""
+    """Message of libxml2, with the limit and the remedy if a limit was exceeded."""
     if "amplification" in message:
         return "its entities expand to too much text (an entity bomb?); write the drawing without entities"
     if "xcessive depth" in message:
@@ -55,7 +46,7 @@ def explained(message: str) -> str:
 
 
 def local_name(element: etree._Element) -> str | None:
-    """Name of an SVG element, also where the namespace was forgotten; None for comments and other namespaces.
+    """Name of an SVG element, with or without the namespace; None for comments and other namespaces.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What a pen draws before it is filled or stroked."""
+"""The outline of a shape, before it is filled or stroked."""
 
 from dataclasses import dataclass
 
@@ -10,40 +10,26 @@ from vexture.bezier.convert import line_cubics
 __all__ = ["Outline"]
 
 SAME = 1e-12
-"""Relative to the outline's coordinates. An end this near to the start is the start, but for rounding."""
+"""Relative to the outline's coordinates. An end this near to the start differs from it by rounding only."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Outline:
-    """Consecutive cubics, open or closed.
+    """Consecutive cubics, open or closed."""
 
-    Parameters
-    ----------
-    cubics : (n, 4, 2) float64 array, n >= 1
-        Each starts, bit for bit, where the one before it ends.
-    closed : bool
-        Whether the last is joined to the first, which matters to a stroke.
-    """
-
-    cubics: NDArray[np.float64]
-    closed: bool
+    cubics: NDArray[np.float64]  # (n, 4, 2), n >= 1: each starts, bit for bit, where the one before it ends
+    closed: bool  # whether a stroke joins the last to the first
 
     @classmethod
     def polygon(cls, points: NDArray[np.float64], closed: bool) -> "Outline":
-        """Straight sides through the points, (n, 2).
-
-        Examples
-        --------
-        >>> len(Outline.polygon(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]), closed=True).cubics)
-        3
-        """
+        """Straight sides through the points, (n, 2)."""
         if closed or len(points) == 1:
             points = np.concatenate([points, points[:1]])
         return cls(line_cubics(points[:-1], points[1:]), closed)
 
     @property
     def loop(self) -> NDArray[np.float64]:
-        """Contour to fill, (n, 4, 2): closed by a straight line unless it ends where it starts."""
+        """Contour to fill, (n, 4, 2), closed by a straight line if necessary."""
         gap = np.abs(self.cubics[-1, 3] - self.cubics[0, 0]).max()
         if gap == 0.0:
             return self.cubics

@@ -1,4 +1,4 @@
-"""Paint servers, simplified: a gradient is painted in the mean of its colours, a pattern in grey."""
+"""Paint servers, simplified: a gradient becomes the mean of its colours, a pattern becomes grey."""
 
 import re
 
@@ -11,7 +11,7 @@ from vexture.svg.document import local_name
 from vexture.svg.report import Report
 from vexture.svg.style import INITIAL, Cascade, Style
 
-__all__ = ["Servers", "reference"]
+__all__ = ["PaintServers", "reference"]
 
 HREF = ("href", "{http://www.w3.org/1999/xlink}href")
 GRADIENTS = ("linearGradient", "radialGradient")
@@ -20,22 +20,12 @@ FRAGMENT = re.compile(r"\s*#(.*?)\s*", re.DOTALL)
 
 
 def reference(element: etree._Element) -> str | None:
-    """Find what an element refers to; None without a reference."""
+    """Link to another element (`href`), or None."""
     return next((element.get(name) for name in HREF if element.get(name)), None)
 
 
-class Servers:
-    """Finds elements by their `id`, and the flat colour that stands for a paint.
-
-    Parameters
-    ----------
-    root : lxml element
-        The document.
-    cascade : Cascade
-        Gives the colours of gradients their style.
-    report : Report
-        Told what is simplified.
-    """
+class PaintServers:
+    """Finds elements by their `id`, and the flat colours that replace paints."""
 
     def __init__(self, root: etree._Element, cascade: Cascade, report: Report) -> None:
         self.root = root
@@ -45,7 +35,7 @@ class Servers:
         self.means: dict[etree._Element, Color | None] = {}
 
     def target(self, link: str) -> etree._Element | None:
-        """Element of this document that a link like "#name" means; None if there is none."""
+        """Element of this document that a link like "#name" refers to, or None."""
         match = FRAGMENT.fullmatch(link)
         if match is None:
             return None
@@ -55,23 +45,16 @@ class Servers:
         return self.by_id.get(match[1]) if match[1] else None
 
     def paint(self, style: Style, name: str, opacity: float) -> Paint | None:
-        """Flat paint of `fill` or `stroke`; None if nothing is painted.
+        """Flat paint of `name`, "fill" or "stroke", for an element of a style; None if nothing is painted.
 
-        Parameters
-        ----------
-        style : Style
-            Of the element that is painted.
-        name : str
-            "fill" or "stroke".
-        opacity : float
-            Of the element and everything around it.
+        `opacity` is the product of the opacities of the element and of all elements around it.
         """
         text = parse_paint(style[name])
         if text is None:
             return None
         color = text.color
         if text.reference is not None:
-            color = self.served(text.reference, color, style)
+            color = self.server_color(text.reference, color, style)
         if isinstance(color, str):
             color = style.color
         if color is None:
@@ -81,8 +64,8 @@ class Servers:
         opacity *= color.alpha * style.opacity(f"{name}-opacity")
         return Paint(color.rgb, opacity) if opacity > 0.0 else None
 
-    def served(self, link: str, fallback: Color | str | None, style: Style) -> Color | str | None:
-        """Flat colour for a reference to a paint server, or the fallback that follows it."""
+    def server_color(self, link: str, fallback: Color | str | None, style: Style) -> Color | str | None:
+        """Flat colour for a reference to a paint server, or its fallback."""
         server = self.target(link)
         name = local_name(server) if server is not None else None
         if server is not None and name in GRADIENTS:
@@ -95,23 +78,22 @@ class Servers:
         return fallback
 
     def mean_color(self, gradient: etree._Element) -> Color | None:
-        """Mean of a gradient's stops, which another gradient may lend; None if there are none."""
+        """Mean of a gradient's stops, or of those that it inherits by reference; None if there are none."""
         if gradient not in self.means:
-            lender: etree._Element | None = gradient
+            source: etree._Element | None = gradient
             seen: set[etree._Element] = set()
             colors: list[Color] = []
-            while lender is not None and lender not in seen and not colors:
-                seen.add(lender)
-                colors = [self.stop_color(stop) for stop in lender if local_name(stop) == "stop"]
-                lender = self.target(reference(lender) or "")
+            while source is not None and source not in seen and not colors:
+                seen.add(source)
+                colors = [self.stop_color(stop) for stop in source if local_name(stop) == "stop"]
+                source = self.target(reference(source) or "")
             self.means[gradient] = mean(colors)
         return self.means[gradient]
 
     def stop_color(self, stop: etree._Element) -> Color:
         """Colour of a gradient's stop."""
-        chain = [stop, *stop.iterancestors()]
         style = INITIAL
-        for element in reversed(chain):
+        for element in reversed([stop, *stop.iterancestors()]):
             style = self.cascade.style(element, style)
         color = parse_color(style["stop-color"])
         if not isinstance(color, Color):

@@ -9,14 +9,13 @@ from numpy.typing import NDArray
 
 from vexture.drawing import FillRule, Paint, Path
 from vexture.errors import SourceError
-from vexture.svg.affine import Identity
 from vexture.svg.outline import Outline
-from vexture.svg.paint_servers import Servers
+from vexture.svg.paint_servers import PaintServers
 from vexture.svg.report import Report
 from vexture.svg.shapes import Shape, shape_outlines
 from vexture.svg.space import Place
 from vexture.svg.strokes import Stroke, arc_length, stroke_contours
-from vexture.svg.transform import mapped, scale_of
+from vexture.svg.transform import Identity, mapped, scale_of
 from vexture.svg.values import number
 from vexture.tolerance import ROUND
 
@@ -25,23 +24,14 @@ __all__ = ["Painter"]
 MOST_SEGMENTS = 5_000_000
 """Cubics in one drawing."""
 
-FILL_RULES = {"nonzero": FillRule.NONZERO, "evenodd": FillRule.EVENODD}
-
 
 class Painter:
-    """Collects what is painted, in order.
+    """Collects the paths of what is painted, in order.
 
-    Parameters
-    ----------
-    servers : Servers
-        Knows what paint references mean.
-    report : Report
-        Told what is left out.
-    size : float or None
-        The larger side of the drawing, which says how exact approximations must be; None to find that side out.
+    `size` is the larger side of the drawing, which bounds the error of approximations; None while the side is unknown.
     """
 
-    def __init__(self, servers: Servers, report: Report, size: float | None) -> None:
+    def __init__(self, servers: PaintServers, report: Report, size: float | None) -> None:
         self.servers = servers
         self.report = report
         self.size = size
@@ -49,7 +39,7 @@ class Painter:
         self.segments: int = 0
 
     def paint(self, element: etree._Element, place: Place) -> None:
-        """Paint a shape that stands at a place, which has the shape's own style and transform."""
+        """Paint a shape; `place` has the shape's own style and transform."""
         style = place.style
         if style["visibility"].lower() != "visible" or place.space.flat:
             return
@@ -74,7 +64,7 @@ class Painter:
     def fill(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | None) -> None:
         """Paint the inside of the outlines."""
         if paint is not None:
-            rule = FILL_RULES[shape.style["fill-rule"].lower()]
+            rule = FillRule[shape.style["fill-rule"].upper()]
             self.add([outline.loop for outline in outlines], place, rule, paint)
 
     def stroke(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | None, size: float) -> None:
@@ -98,7 +88,7 @@ class Painter:
         self.add(contours, place, FillRule.NONZERO, paint)
 
     def add(self, contours: list[NDArray[np.float64]], place: Place, rule: FillRule, paint: Paint) -> None:
-        """Keep contours given in the units of a place."""
+        """Add contours, in the units of a place, to the paths."""
         self.segments += sum(map(len, contours))
         if self.segments > MOST_SEGMENTS:
             raise SourceError(f"here the drawing exceeds the limit of {MOST_SEGMENTS:,} segments; simplify it")
@@ -109,7 +99,7 @@ class Painter:
 
 
 def stroke_of(shape: Shape, outlines: list[Outline]) -> Stroke | None:
-    """How a shape is stroked; None if its stroke has no width."""
+    """Stroke of a shape; None if it has no width."""
     style = shape.style
     width = shape.length("stroke-width") or 0.0
     if width <= 0.0:
@@ -129,7 +119,7 @@ def stroke_of(shape: Shape, outlines: list[Outline]) -> Stroke | None:
 
 
 def dashes_of(shape: Shape) -> tuple[float, ...]:
-    """Dashes and gaps, an even number; empty for a solid line."""
+    """Lengths of dashes and gaps, an even number; empty for a solid line."""
     text = shape.style["stroke-dasharray"]
     if text.lower() == "none":
         return ()

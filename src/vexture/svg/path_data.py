@@ -1,8 +1,7 @@
-"""Path data of SVG (SVG 2, 9.3), read command by command: it is drawn as far as it is valid."""
+"""Path data of SVG (SVG 2, 9.3), read command by command up to the first error."""
 
 import re
 from cmath import isclose
-from collections.abc import Callable
 from typing import Final
 
 import numpy as np
@@ -12,7 +11,7 @@ from vexture.svg.outline import Outline
 
 __all__ = ["GAP", "NUMBER", "POINTS", "SPACE", "path_outlines"]
 
-# atomic: a number is never given up in part to make two of it
+# atomic groups: backtracking never splits a number in two
 NUMBER = r"(?>[+-]?(?:[0-9]*\.[0-9]+|[0-9]+)(?:[eE][+-]?[0-9]+)?)"
 SPACE = r"[ \t\n\r\f]*+"
 GAP = rf"(?>{SPACE},?{SPACE})"
@@ -32,45 +31,30 @@ ARGUMENTS: Final[dict[str, list[str]]] = {
     "A": [NUMBER, NUMBER, NUMBER, FLAG, FLAG, NUMBER, NUMBER],
     "Z": [],
 }
-"""What follows the letter of each command, once or more."""
+"""Arguments after the letter of each command, once or more."""
 
 
 def repeated(arguments: list[str]) -> re.Pattern[str]:
-    """Pattern of all that follows the letter of a command, and of the blanks after it."""
+    """Pattern of all arguments after the letter of a command, and of the blanks after them."""
     one = GAP.join(arguments)
     more = rf"{SPACE}({one}(?:{GAP}{one})*+)" if arguments else "()"
     return re.compile(more + SPACE)
 
 
-def once(arguments: list[str]) -> re.Pattern[str]:
-    """Pattern that finds arguments, each time those of one segment, in a text of which all is valid."""
-    return re.compile(GAP.join(f"({argument})" for argument in arguments))
-
-
 COMMANDS: Final = {letter: repeated(arguments) for letter, arguments in ARGUMENTS.items()}
 NUMBERS: Final = re.compile(NUMBER)
-ARC: Final = once(ARGUMENTS["A"])
+ARC: Final = re.compile(GAP.join(f"({argument})" for argument in ARGUMENTS["A"]))
 
 HUGE = 1e100
-"""Numbers beyond this would overflow in the arithmetic of an arc; such a radius draws a line anyway."""
+"""Larger numbers would overflow in the arithmetic of an arc; such a radius draws a line anyway."""
 
 Point = tuple[float, float]
 
 
 def path_outlines(data: str, tolerance: float) -> tuple[list[Outline], int]:
-    """Outlines of path data, drawn as far as it is valid.
+    """Outlines of path data (the attribute `d`) up to the first error, and the number of valid characters.
 
-    Parameters
-    ----------
-    data : str
-        The `d` attribute of a path.
-    tolerance : float
-        Largest distance of a cubic from the arc it stands for, in the units of the path.
-
-    Returns
-    -------
-    list of Outline, int
-        And how many characters are valid.
+    `tolerance` is the largest distance of a cubic from its arc, in the units of the path.
 
     Examples
     --------
@@ -102,7 +86,7 @@ class Pen:
         self.at: tuple[float, float] = (0.0, 0.0)
         self.start: tuple[float, float] = (0.0, 0.0)
         self.control: tuple[float, float] = (0.0, 0.0)
-        self.bend: str = ""  # what the last segment was, whose control point S or T mirrors
+        self.bend: str = ""  # kind of the last segment: S and T mirror its control point
         self.down: bool = False
 
     def draw(self, letter: str, text: str) -> None:
@@ -121,28 +105,29 @@ class Pen:
             segments = [tuple(numbers[k : k + count]) for k in range(0, len(numbers), count)]
         for values in segments:
             dx, dy = self.at if letter.islower() else (0.0, 0.0)
-            DRAWN[command](self, dx, dy, *values)
-            command = "L" if command == "M" else command
-
-    def move(self, dx: float, dy: float, x: float, y: float) -> None:
-        """Begin an outline."""
-        self.at = self.start = (dx + x, dy + y)
-        self.bend = ""
-
-    def line(self, dx: float, dy: float, x: float, y: float) -> None:
-        """Straight on."""
-        self.line_to((dx + x, dy + y))
-
-    def across(self, dx: float, dy: float, x: float) -> None:
-        """To the left or right."""
-        self.line_to((dx + x, self.at[1]))
-
-    def down_or_up(self, dx: float, dy: float, y: float) -> None:
-        """Down or up."""
-        self.line_to((self.at[0], dy + y))
+            match command, values:
+                case "L", (x, y):
+                    self.line_to((dx + x, dy + y))
+                case "C", (x1, y1, x2, y2, x, y):
+                    self.cubic_to((dx + x1, dy + y1), (dx + x2, dy + y2), (dx + x, dy + y))
+                case "H", (x,):
+                    self.line_to((dx + x, self.at[1]))
+                case "V", (y,):
+                    self.line_to((self.at[0], dy + y))
+                case "Q", (x1, y1, x, y):
+                    self.quadratic_to((dx + x1, dy + y1), (dx + x, dy + y))
+                case "S", (x2, y2, x, y):
+                    self.cubic_to(self.mirrored("cubic"), (dx + x2, dy + y2), (dx + x, dy + y))
+                case "T", (x, y):
+                    self.quadratic_to(self.mirrored("quadratic"), (dx + x, dy + y))
+                case "A", (rx, ry, rotation, large, sweep, x, y):
+                    self.arc_to(rx, ry, rotation, bool(large), bool(sweep), (dx + x, dy + y))
+                case "M", (x, y):
+                    self.at = self.start = (dx + x, dy + y)
+                    self.bend, command = "", "L"  # further pairs are lines
 
     def line_to(self, end: Point) -> None:
-        """Straight on, to a place."""
+        """Draw a straight line."""
         (x0, y0), (x3, y3) = self.at, end
         dx, dy = x3 - x0, y3 - y0
         third, rest = 1.0 / 3.0, 2.0 / 3.0
@@ -150,55 +135,34 @@ class Pen:
         self.at, self.bend = end, ""
 
     def mirrored(self, bend: str) -> Point:
-        """First control point of a curve that goes on smoothly."""
+        """First control point of a smooth curve: the last control point mirrored, if the last segment was a `bend`."""
         (x, y), (u, v) = self.at, self.control
         return (x + x - u, y + y - v) if self.bend == bend else self.at
 
-    def cubic(self, dx: float, dy: float, *values: float) -> None:
-        """Cubic curve."""
-        x1, y1, x2, y2, x, y = values
-        self.cubic_to((dx + x1, dy + y1), (dx + x2, dy + y2), (dx + x, dy + y))
-
-    def smooth_cubic(self, dx: float, dy: float, *values: float) -> None:
-        """Cubic curve without a corner before it."""
-        x2, y2, x, y = values
-        self.cubic_to(self.mirrored("cubic"), (dx + x2, dy + y2), (dx + x, dy + y))
-
     def cubic_to(self, first: Point, second: Point, end: Point) -> None:
-        """Cubic curve, by places."""
+        """Draw a cubic curve."""
         self.cubics.append((*self.at, *first, *second, *end))
         self.at, self.control, self.bend = end, second, "cubic"
 
-    def quadratic(self, dx: float, dy: float, *values: float) -> None:
-        """Quadratic curve."""
-        x1, y1, x, y = values
-        self.quadratic_to((dx + x1, dy + y1), (dx + x, dy + y))
-
-    def smooth_quadratic(self, dx: float, dy: float, x: float, y: float) -> None:
-        """Quadratic curve without a corner before it."""
-        self.quadratic_to(self.mirrored("quadratic"), (dx + x, dy + y))
-
     def quadratic_to(self, control: Point, end: Point) -> None:
-        """Quadratic curve, by places."""
+        """Draw a quadratic curve."""
         (x0, y0), (x, y), (x3, y3) = self.at, control, end
         k = 2.0 / 3.0
         self.cubics.append((x0, y0, x0 + (x - x0) * k, y0 + (y - y0) * k, x3 + (x - x3) * k, y3 + (y - y3) * k, x3, y3))
         self.at, self.control, self.bend = end, control, "quadratic"
 
-    def arc(self, dx: float, dy: float, *values: float) -> None:
-        """Arc of an ellipse."""
-        rx, ry, rotation, large, sweep, x, y = values
-        end = (dx + x, dy + y)
+    def arc_to(self, rx: float, ry: float, rotation: float, large: bool, sweep: bool, end: Point) -> None:
+        """Draw an arc of an ellipse."""
         if not max(map(abs, (rx, ry, rotation, *self.at, *end))) <= HUGE:
             self.line_to(end)
             return
-        for step in arc_cubics(self.at, (abs(rx), abs(ry)), rotation, bool(large), bool(sweep), end, self.tolerance):
+        for step in arc_cubics(self.at, (rx, ry), rotation, large, sweep, end, self.tolerance):
             self.cubics.append((*self.at, *step))
             self.at = step[4:]
         self.at, self.bend = end, ""
 
     def close(self) -> None:
-        """Go back to the start, unless that was done and nothing has been drawn since."""
+        """Close the outline, unless nothing has been drawn since the last time."""
         if not self.down:
             return
         if not isclose(complex(*self.at), complex(*self.start), rel_tol=1e-15, abs_tol=1e-15):
@@ -207,23 +171,9 @@ class Pen:
         self.at, self.bend, self.down = self.start, "", False
 
     def finish(self, closed: bool) -> None:
-        """Keep what was drawn; a closed point, which only a round or square cap shows, is a cubic without length."""
+        """Store the outline; a closed point, which only a round or square cap shows, is a cubic without length."""
         if closed and not self.cubics:
             self.cubics.append(self.at * 4)
         if self.cubics:
             self.outlines.append(Outline(np.array(self.cubics).reshape(-1, 4, 2), closed))
             self.cubics = []
-
-
-DRAWN: Final[dict[str, Callable[..., None]]] = {
-    "M": Pen.move,
-    "L": Pen.line,
-    "H": Pen.across,
-    "V": Pen.down_or_up,
-    "C": Pen.cubic,
-    "S": Pen.smooth_cubic,
-    "Q": Pen.quadratic,
-    "T": Pen.smooth_quadratic,
-    "A": Pen.arc,
-}
-"""What draws one segment of a command: given the place that its numbers are relative to, and the numbers."""

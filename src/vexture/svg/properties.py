@@ -1,20 +1,21 @@
-"""The properties that decide what an SVG paints: initial value, inheritance, and which values are valid.
+"""The CSS properties that affect what an SVG paints: initial value, inheritance, and valid values.
 
-Geometry (`x`, `r`, `d` ...) is a property like the others in SVG 2, so one table answers for both.
+To add a property, add it to `PROPERTIES` and use ``style["name"]`` where it takes effect. In SVG 2 geometry (`x`, `r`,
+`d` ...) is set by properties, too.
 """
 
 import re
 from collections.abc import Callable
 from typing import NamedTuple
 
-from vexture.svg.colors import is_color, is_paint
+from vexture.svg.colors import parse_color, parse_paint
 from vexture.svg.path_data import NUMBER
 
 __all__ = ["CSS_ONLY", "PROPERTIES", "Property"]
 
 
 class Property(NamedTuple):
-    """What the cascade must know of a property."""
+    """What the cascade needs to know of a property."""
 
     initial: str
     inherited: bool
@@ -22,7 +23,7 @@ class Property(NamedTuple):
 
 
 def anything(value: str) -> bool:
-    """Accept every value; whoever uses it finds out."""
+    """Accept every value; its user validates it."""
     return True
 
 
@@ -33,7 +34,7 @@ def one_of(*words: str) -> Callable[[str], object]:
 
 
 def matching(pattern: str) -> Callable[[str], object]:
-    """Accept what a regular expression matches."""
+    """Accept the matches of a regular expression."""
     return re.compile(rf"\s*(?:{pattern})\s*", re.IGNORECASE).fullmatch
 
 
@@ -46,8 +47,8 @@ OPACITY = f"{NUMBER}%?"
 FONT_SIZES = "(?:xx?-)?(?:small|large)|medium|smaller|larger"
 
 PROPERTIES: dict[str, Property] = {
-    "color": Property("black", True, is_color),
-    "fill": Property("black", True, is_paint),
+    "color": Property("black", True, parse_color),
+    "fill": Property("black", True, parse_paint),
     "fill-opacity": Property("1", True, matching(OPACITY)),
     "fill-rule": Property("nonzero", True, one_of("nonzero", "evenodd")),
     "font-size": Property("medium", True, matching(rf"{SIZE}|{FONT_SIZES}")),
@@ -55,7 +56,7 @@ PROPERTIES: dict[str, Property] = {
     "marker-mid": Property("none", True, anything),
     "marker-start": Property("none", True, anything),
     "paint-order": Property("normal", True, anything),
-    "stroke": Property("none", True, is_paint),
+    "stroke": Property("none", True, parse_paint),
     "stroke-dasharray": Property("none", True, matching(rf"none|{SIZE}(?:(?:\s*,\s*|\s+){SIZE})*+")),
     "stroke-dashoffset": Property("0", True, matching(LENGTH)),
     "stroke-linecap": Property("butt", True, one_of("butt", "round", "square")),
@@ -79,7 +80,7 @@ PROPERTIES: dict[str, Property] = {
     "rx": Property("auto", False, matching(f"auto|{SIZE}")),
     "ry": Property("auto", False, matching(f"auto|{SIZE}")),
     "scale": Property("none", False, anything),
-    "stop-color": Property("black", False, is_color),
+    "stop-color": Property("black", False, parse_color),
     "stop-opacity": Property("1", False, matching(OPACITY)),
     "transform": Property("none", False, anything),
     "transform-box": Property(
@@ -94,4 +95,4 @@ PROPERTIES: dict[str, Property] = {
 }
 
 CSS_ONLY = frozenset({"rotate", "scale", "translate"})
-"""Attributes of these names mean something else."""
+"""Properties whose names have another meaning as attributes."""

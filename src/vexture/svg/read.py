@@ -1,4 +1,4 @@
-"""Reading SVG: the silhouette and the flat colours of what a drawing paints."""
+"""Reading SVG: the silhouette and the flat colours of a drawing."""
 
 import os
 from dataclasses import replace
@@ -13,11 +13,11 @@ from vexture.content import about, decompressed, read_bytes
 from vexture.drawing import Drawing
 from vexture.errors import SourceError
 from vexture.notes import warn_of
-from vexture.svg.affine import Identity, Transform
 from vexture.svg.document import parse_svg
 from vexture.svg.report import Report
 from vexture.svg.scene import Scene
 from vexture.svg.select import chosen, nothing_painted
+from vexture.svg.transform import Identity, Transform
 from vexture.svg.values import Viewport
 from vexture.svg.viewport import THINNEST, Rectangle, view_box
 
@@ -33,21 +33,21 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
     Shapes, paths, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as browsers
     draw them. Gradients become the mean of their colours. What is not supported is left out and named.
 
-    The box of the drawing is the outermost viewport: `width` and `height`, or where one is missing or a percentage,
-    what `viewBox` gives; a drawing without any of them is as large as what it paints.
+    The box of the drawing is the outermost viewport: `width` and `height`, or the size in `viewBox` where one of them
+    is missing or a percentage. A drawing without any of them is as large as what it paints.
 
     Parameters
     ----------
     path : str or path-like
         The file.
     select : str, optional
-        A CSS selector: only elements that match are painted, with all that is inside them, `use` followed. The rest
-        stays as it is, the box of the whole drawing above all, so that parts of one drawing lie on one another.
+        A CSS selector. Only elements that match are painted, with all their content, including what `use` shows. The
+        box of the whole drawing stays, so that parts of one drawing lie on one another.
 
     Returns
     -------
     Drawing
-        In the unit square, y up; `to_source` maps it to the user units of the outermost `<svg>`. Without paths if
+        In the unit square, y up; `to_source` maps it to the user units of the outermost `<svg>`. It has no paths if
         nothing is painted. Its `notes` say what was left out, simplified or invalid.
 
     Raises
@@ -60,7 +60,7 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
     Warns
     -----
     SourceWarning
-        Once for a file, of all notes.
+        Once for a file, with all notes.
 
     Examples
     --------
@@ -85,16 +85,9 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
 
 
 def svg_drawing(content: bytes, source: str, select: str | None = None) -> Drawing:
-    """Read the content of an SVG file, as `read_svg` does, but without a warning: its notes say all.
+    """Read the content of an SVG file, plain or gzipped, as `read_svg` does, but without a warning.
 
-    Parameters
-    ----------
-    content : bytes
-        Plain or gzipped.
-    source : str
-        Name of the file: it is nowhere opened, but names the drawing and stands in messages.
-    select : str, optional
-        As for `read_svg`.
+    `source` is the name of the file: it names the drawing and stands in messages, and is not opened.
 
     Examples
     --------
@@ -114,7 +107,7 @@ def framed_drawing(content: bytes, source: str, select: str | None = None) -> tu
             scene = Scene(root, report, part)
             framed = frame(scene)
             drawing = drawing_of(scene, framed, Path(source).stem)
-        except RecursionError:  # tinycss2 and cssselect2 follow nested brackets by calling themselves
+        except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
             raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
         if select is not None and part is not None and not drawing.paths:
             raise nothing_painted(select, len(part))
@@ -128,7 +121,7 @@ def drawing_of(scene: Scene, framed: Frame | None, name: str) -> Drawing:
         box: Rectangle = (0.0, 0.0, *size)
     else:
         viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
-        paths = scene.paint(viewport, matrix, None)
+        paths = Scene(scene.root, Report()).paint(viewport, matrix, None)  # all of it, to measure; notes come later
         if not paths:
             return Drawing((), name=name)
         left, top, right, bottom = bounds(np.concatenate([contour for path in paths for contour in path.contours]))
@@ -167,7 +160,7 @@ def frame(scene: Scene) -> Frame | None:
 
 
 def after(first: NDArray[np.float64], second: Transform) -> NDArray[np.float64]:
-    """Affine map (2, 3) that applies one and then another."""
+    """Affine map (2, 3) that applies `first` and then `second`."""
     a, b, c, d, e, f = second
     product: NDArray[np.float64] = np.array([[a, c], [b, d]]) @ first + np.array([[0.0, 0.0, e], [0.0, 0.0, f]])
     return product

@@ -1,11 +1,8 @@
-"""What of an SVG could not be honoured, by its elements."""
-
-from collections.abc import Iterator
-from contextlib import contextmanager
+"""Notes about an SVG: what was left out, simplified or invalid, and at which element."""
 
 from lxml import etree
 
-from vexture.notes import Kind, Notes
+from vexture.notes import Notes
 
 __all__ = ["Report", "described"]
 
@@ -31,31 +28,11 @@ class Report(Notes):
     --------
     >>> report = Report()
     >>> report.invalid("r", "x", etree.fromstring("<rect/>"))
-    >>> with report.silent():
-    ...     report.left_out("text")
     >>> [str(note) for note in report.listed]
     ["r='x' of <rect> in line 1"]
     """
-
-    def __init__(self) -> None:
-        super().__init__()
-        self._silent = False
 
     def invalid(self, name: str, value: str, element: etree._Element) -> None:
         """Note a value that the standard does not allow."""
         shown = value if len(value) <= 40 else value[:37] + "..."
         self.count("invalid", f"{name}='{' '.join(shown.split())}' of {described(element)}")
-
-    def count(self, kind: Kind, what: str) -> None:
-        """Count one more of a thing, unless nothing is to be noted."""
-        if not self._silent:
-            super().count(kind, what)
-
-    @contextmanager
-    def silent(self) -> Iterator[None]:
-        """Note nothing for a while: what is looked at now will be looked at again."""
-        self._silent = True
-        try:
-            yield
-        finally:
-            self._silent = False

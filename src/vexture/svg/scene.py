@@ -1,7 +1,6 @@
 """Walking an SVG document in painting order.
 
-The walk keeps its own stack, so that no depth of nesting can exhaust Python's; `use` is expanded on the way, within
-limits.
+The walk has its own stack, so that deep nesting cannot exhaust Python's. `use` is expanded on the way, within limits.
 """
 
 from dataclasses import replace
@@ -13,93 +12,61 @@ from lxml import etree
 from vexture.bezier.bounds import bounds
 from vexture.drawing import Path
 from vexture.errors import SourceError
-from vexture.svg.affine import Identity, Transform
 from vexture.svg.document import local_name
-from vexture.svg.paint_servers import Servers, reference
+from vexture.svg.paint_servers import PaintServers, reference
 from vexture.svg.painter import Painter
 from vexture.svg.report import Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
 from vexture.svg.space import Place, Space
 from vexture.svg.style import INITIAL, Cascade, Style
-from vexture.svg.transform import parse_origin, parse_transform
+from vexture.svg.transform import Identity, Transform, parse_origin, parse_transform
 from vexture.svg.values import Viewport
 from vexture.svg.viewport import CENTRED, Rectangle, parse_fit, view_box, view_transform
 
 __all__ = ["Scene"]
 
 MOST_USED = 50_000
-"""Elements that `use` may show, each time counted."""
+"""Elements that `use` may show; each time counts."""
 
 DEEPEST = 1_000
-"""Elements around an element, those that `use` adds included."""
+"""Elements around an element, including those that `use` adds."""
 
 CONTAINERS = frozenset({"a", "g", "svg", "switch", "symbol"})
-UNSEEN = frozenset(
+UNPAINTED = frozenset(
     {
         *("clipPath", "color-profile", "cursor", "defs", "desc", "filter", "font", "font-face", "hatch"),
         *("linearGradient", "marker", "mask", "meshgradient", "metadata", "pattern", "radialGradient"),
         *("solidcolor", "style", "title", "view"),
     }
 )
-"""Elements that paint nothing where they stand."""
+"""Elements that paint nothing themselves."""
 
 ANIMATIONS = frozenset({"animate", "animateColor", "animateMotion", "animateTransform", "discard", "set"})
 EFFECTS = ("clip-path", "filter", "mask", "rotate", "scale", "translate")
 MARKED = frozenset({"line", "path", "polygon", "polyline"})
 LANGUAGE = "en"
-"""Answer to `systemLanguage`, so that a drawing looks the same on every machine."""
+"""Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
 
-Standing = tuple[etree._Element, Place]
+Placed = tuple[etree._Element, Place]
 
 
 class Scene:
-    """A document that can be painted.
-
-    Parameters
-    ----------
-    root : lxml element
-        The outermost `<svg>`.
-    report : Report
-        Told what is not supported.
-    chosen : set of lxml elements, optional
-        Those that are painted, with all that is inside them; None paints everything.
-    """
+    """A document that can be painted: all of it, or the elements in `chosen` with all their content."""
 
     def __init__(self, root: etree._Element, report: Report, chosen: set[etree._Element] | None = None) -> None:
         self.root = root
         self.chosen = chosen
         self.report = report
         self.cascade: Cascade = Cascade(root, report)
-        self.servers: Servers = Servers(root, self.cascade, report)
+        self.servers: PaintServers = PaintServers(root, self.cascade, report)
         self.style: Style = self.cascade.style(root, INITIAL)
 
     def paint(self, viewport: Viewport, matrix: Transform, size: float | None) -> list[Path]:
-        """Paint everything.
+        """Paint everything; percentages at the root refer to `viewport`, and `matrix` maps user units to the drawing.
 
-        Parameters
-        ----------
-        viewport : Viewport
-            What percentages relate to at the root.
-        matrix : Transform
-            From the root's user units to the drawing's coordinates.
-        size : float or None
-            The drawing's larger side. None to find it out: everything is painted, whatever is chosen, and nothing is
-            noted, since all of it is met again when the side is known.
-
-        Raises
-        ------
-        SourceError
-            If a limit is exceeded or `use` shows itself.
+        `size` is the drawing's larger side, None if it is unknown. Raises a `SourceError` if a limit is exceeded or
+        `use` shows itself.
         """
-        if size is not None:
-            return self.painted(viewport, matrix, size)
-        with self.report.silent():
-            paths = self.painted(viewport, matrix, None)
-        self.servers.means.clear()  # what is invalid about a gradient is noted when its mean is taken
-        return paths
-
-    def painted(self, viewport: Viewport, matrix: Transform, size: float | None) -> list[Path]:
-        """Paths of one walk through the document."""
         painter = Painter(self.servers, self.report, size)
         opacity = self.style.opacity("opacity")
         if self.style["display"].lower() == "none" or opacity == 0.0:
@@ -107,7 +74,7 @@ class Scene:
         self.note_effects(self.style)
         if "transform" in self.style.own:
             self.report.left_out("transform of the outermost <svg>")
-        chosen = size is None or self.chosen is None or self.root in self.chosen
+        chosen = self.chosen is None or self.root in self.chosen
         place = Place(viewport, Space().moved(matrix), self.style, opacity, self.root, chosen=chosen)
         used = 0
         stack = [(child, place) for child in reversed(self.root)]
@@ -122,10 +89,10 @@ class Scene:
                 raise SourceError(f"{described(element)}: {error}") from None
         return painter.paths
 
-    def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Standing]:
-        """Paint an element, or list what it shows."""
+    def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Placed]:
+        """Paint an element, or return the elements that it shows."""
         name = local_name(element)
-        if name is None or name in UNSEEN or (name == "symbol" and place.use is None) or not applies(element):
+        if name is None or name in UNPAINTED or (name == "symbol" and place.use is None) or not applies(element):
             return []
         chosen = place.chosen or (self.chosen is not None and element in self.chosen)
         if name in ANIMATIONS or name == "script":
@@ -155,7 +122,7 @@ class Scene:
             painter.paint(element, inner)
             return []
         if name == "use":
-            return self.used(element, inner)
+            return self.use_target(element, inner)
         if name in ("svg", "symbol"):
             window = self.window(element, inner, place.use)
             return [] if window is None else [(child, window) for child in element]
@@ -163,8 +130,8 @@ class Scene:
             return [(child, inner) for child in element if local_name(child) is not None and applies(child)][:1]
         return [(child, inner) for child in element]
 
-    def used(self, element: etree._Element, place: Place) -> list[Standing]:
-        """List what a `use` shows."""
+    def use_target(self, element: etree._Element, place: Place) -> list[Placed]:
+        """Return the element that a `use` shows."""
         link = reference(element) or ""
         target = self.servers.target(link)
         if target is None:
@@ -172,21 +139,20 @@ class Scene:
             return []
         if place.inside(target):
             raise SourceError(f"it shows itself (a cycle through {described(target)}); break the cycle")
-        x, y = self.lengths(place.style, place.viewport, "x", "y")
+        x, y = position(place)
         space = place.space.moved(Identity.translate(x, y))
         return [(target, replace(place, space=space, used=True, use=place.style))]
 
     def window(self, element: etree._Element, place: Place, use: Style | None) -> Place | None:
         """Place inside a nested `<svg>` or a shown `<symbol>`; None if it has no size."""
         style = place.style
-        x, y = self.lengths(style, place.viewport, "x", "y")
-        width, height = (
-            whole if text.lower() == "auto" else place.viewport.length(text, whole, style.font_size) or 0.0
-            for text, whole in (
-                (use[name] if use is not None and use[name].lower() != "auto" else style[name], whole)
-                for name, whole in (("width", place.viewport.width), ("height", place.viewport.height))
-            )
-        )
+        x, y = position(place)
+        sides = []
+        for name, whole in (("width", place.viewport.width), ("height", place.viewport.height)):
+            text = style[name] if use is None or use[name].lower() == "auto" else use[name]
+            auto = text.lower() == "auto"
+            sides.append(whole if auto else place.viewport.length(text, whole, style.font_size) or 0.0)
+        width, height = sides
         if width <= 0.0 or height <= 0.0:
             return None
         box = view_box(element.get("viewBox"))
@@ -200,7 +166,7 @@ class Scene:
         return replace(place, viewport=replace(place.viewport, width=size[0], height=size[1]), space=space)
 
     def fit(self, element: etree._Element, box: Rectangle, width: float, height: float) -> Transform:
-        """Map a view box into a viewport as the element's `preserveAspectRatio` says."""
+        """Map from a view box to a viewport, by the element's `preserveAspectRatio`."""
         fit = CENTRED
         text = element.get("preserveAspectRatio")
         if text is not None:
@@ -209,12 +175,6 @@ class Scene:
                 self.report.invalid("preserveAspectRatio", text, element)
             fit = parsed or CENTRED
         return view_transform(box, fit, width, height)
-
-    def lengths(self, style: Style, viewport: Viewport, across: str, down: str) -> tuple[float, float]:
-        """Two lengths, along x and y; those that are "auto" are 0."""
-        x = viewport.length(style[across], viewport.width, style.font_size)
-        y = viewport.length(style[down], viewport.height, style.font_size)
-        return x or 0.0, y or 0.0
 
     def transform(self, element: etree._Element, style: Style, place: Place) -> Transform:
         """Transform of an element, about its origin."""
@@ -244,22 +204,29 @@ class Scene:
         return Identity.translate(x, y).transform(matrix).translate(-x, -y) if x or y else matrix
 
     def note_effects(self, style: Style) -> None:
-        """Report effects that are not supported."""
+        """Note effects that are not supported."""
         if style.own:
             for name in EFFECTS:
                 if style.own.get(name, "none").lower() != "none":
                     self.report.left_out(name)
 
     def note_children(self, element: etree._Element, name: str, style: Style) -> None:
-        """Report what is attached to a shape and not supported."""
+        """Note what is attached to a shape and not supported."""
         if any(local_name(child) in ANIMATIONS for child in element):
             self.report.left_out("animation")
         if name in MARKED and any(style[f"marker-{end}"].lower() != "none" for end in ("start", "mid", "end")):
             self.report.left_out("marker")
 
 
+def position(place: Place) -> tuple[float, float]:
+    """Values of `x` and `y` of the element at a place."""
+    x, y = place.style["x"], place.style["y"]
+    view, font_size = place.viewport, place.style.font_size
+    return view.length(x, view.width, font_size) or 0.0, view.length(y, view.height, font_size) or 0.0
+
+
 def applies(element: etree._Element) -> bool:
-    """Tell whether the conditions on an element hold (SVG 2, 5.9)."""
+    """Whether the conditions on an element hold (SVG 2, 5.9)."""
     if element.get("requiredExtensions") is not None:
         return False
     languages = element.get("systemLanguage")

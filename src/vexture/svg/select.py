@@ -1,4 +1,4 @@
-"""A part of a document, by a CSS selector."""
+"""Choosing a part of a document by a CSS selector."""
 
 import cssselect2
 from lxml import etree
@@ -8,23 +8,13 @@ from vexture.errors import LimitError
 __all__ = ["chosen", "nothing_painted"]
 
 LONGEST_NAMED = 80
-"""Characters of a selector that a message repeats."""
+"""Most characters of a selector in a message."""
 
 
 def chosen(root: etree._Element, select: str) -> set[etree._Element]:
-    """Elements that a selector matches.
+    """Elements that a CSS selector list matches; a `LimitError` if it is no selector or matches nothing.
 
-    Parameters
-    ----------
-    root : lxml element
-        The outermost `<svg>`; prefixes of namespaces are those that it declares, as in ``[inkscape|label="Roads"]``.
-    select : str
-        A list of selectors, as CSS has them.
-
-    Raises
-    ------
-    LimitError
-        If it is no selector or matches nothing.
+    Namespace prefixes are those that the root element declares, as in ``[inkscape|label="Roads"]``.
 
     Examples
     --------
@@ -52,18 +42,12 @@ def chosen(root: etree._Element, select: str) -> set[etree._Element]:
 
 
 def nothing_painted(select: str, count: int) -> LimitError:
-    """What to say if what was chosen leaves no trace."""
+    """Error for a selector whose elements paint nothing."""
     elements = "1 element that paints" if count == 1 else f"{count} elements that paint"
     return LimitError(f"`select` {named(select)} matches {elements} nothing; choose some that are filled or stroked")
 
 
 def named(select: str) -> str:
-    """Selector as a message names it.
-
-    Examples
-    --------
-    >>> named("#a,   #b")
-    "'#a, #b'"
-    """
+    """Selector as a message names it."""
     text = " ".join(select.split())
     return repr(text if len(text) <= LONGEST_NAMED else text[: LONGEST_NAMED - 3] + "...")

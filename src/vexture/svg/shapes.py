@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from lxml import etree
@@ -25,25 +26,12 @@ VERTICAL = frozenset({"y", "cy", "ry", "height", "y1", "y2"})
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A shape element and what its geometry depends on.
-
-    Parameters
-    ----------
-    element : lxml element
-    style : Style
-        Its own.
-    viewport : Viewport
-        What its percentages relate to.
-    tolerance : float
-        Largest distance of a cubic from the arc it stands for, in user units.
-    report : Report
-        Told what is invalid.
-    """
+    """A shape element and what its geometry depends on."""
 
     element: etree._Element
     style: Style
-    viewport: Viewport
-    tolerance: float
+    viewport: Viewport  # percentages refer to it
+    tolerance: float  # largest distance of a cubic from its arc, in user units
     report: Report
 
     def length(self, name: str) -> float | None:
@@ -60,7 +48,7 @@ class Shape:
         return length
 
     def read_length(self, name: str, text: str) -> float | None:
-        """Length in user units of a text whose name says what percentages mean."""
+        """Length in user units of a text; `name` decides what percentages refer to."""
         whole = self.viewport.diagonal
         if name in HORIZONTAL:
             whole = self.viewport.width
@@ -70,13 +58,7 @@ class Shape:
 
 
 def shape_outlines(shape: Shape) -> list[Outline]:
-    """Outlines of a shape in its own user units; none if it has no size.
-
-    Raises
-    ------
-    SourceError
-        If a coordinate is not finite or larger than `LARGEST`.
-    """
+    """Outlines of a shape in its own user units; a `SourceError` if a coordinate exceeds `LARGEST`."""
     outlines = SHAPES[etree.QName(shape.element).localname](shape)
     for outline in outlines:
         check(outline.cubics)
@@ -84,7 +66,7 @@ def shape_outlines(shape: Shape) -> list[Outline]:
 
 
 def check(coordinates: NDArray[np.float64]) -> None:
-    """Refuse coordinates that are too large to compute with."""
+    """Reject coordinates that are too large to compute with."""
     largest = np.abs(coordinates).max(initial=0.0)
     if not largest <= LARGEST:
         raise SourceError(f"it has a coordinate of {largest:g}; the limit is {LARGEST:g}; correct it")
@@ -104,7 +86,7 @@ def path(shape: Shape) -> list[Outline]:
 
 
 def rect(shape: Shape) -> list[Outline]:
-    """Outline of `<rect>`, from the end of its top left corner, clockwise as seen."""
+    """Outline of `<rect>`, clockwise on the screen, from the right end of its top left corner."""
     x, y = shape.length("x") or 0.0, shape.length("y") or 0.0
     width, height = shape.length("width") or 0.0, shape.length("height") or 0.0
     if width <= 0.0 or height <= 0.0:
@@ -160,16 +142,6 @@ def line(shape: Shape) -> list[Outline]:
     return [Outline.polygon(np.array(ends), closed=False)]
 
 
-def polyline(shape: Shape) -> list[Outline]:
-    """Outline of `<polyline>`."""
-    return corners(shape, closed=False)
-
-
-def polygon(shape: Shape) -> list[Outline]:
-    """Outline of `<polygon>`."""
-    return corners(shape, closed=True)
-
-
 def corners(shape: Shape, closed: bool) -> list[Outline]:
     """Straight sides through `points`, up to the first error in them."""
     text = shape.element.get("points", "")
@@ -188,6 +160,6 @@ SHAPES: dict[str, Callable[[Shape], list[Outline]]] = {
     "circle": circle,
     "ellipse": ellipse,
     "line": line,
-    "polyline": polyline,
-    "polygon": polygon,
+    "polyline": partial(corners, closed=False),
+    "polygon": partial(corners, closed=True),
 }

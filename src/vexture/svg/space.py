@@ -1,4 +1,4 @@
-"""Where an element stands: its user units, the viewports around it that clip, and what it inherits."""
+"""Where an element stands: its user units, the viewports that clip it, and the style that it inherits."""
 
 from dataclasses import dataclass, replace
 
@@ -8,42 +8,29 @@ from numpy.typing import NDArray
 
 from vexture.bezier.clip import clip_contour
 from vexture.errors import SourceError
-from vexture.svg.affine import Identity, Transform
 from vexture.svg.style import INITIAL, Style
-from vexture.svg.transform import mapped
+from vexture.svg.transform import Identity, Transform, mapped
 from vexture.svg.values import LARGEST, Viewport
 from vexture.svg.viewport import Rectangle
 
 __all__ = ["Place", "Space"]
 
 SMALLEST = 1 / LARGEST**4
-"""Of a determinant: with anything smaller, sizes in user units would be no numbers to compute with."""
+"""Smallest determinant: below it, sizes in user units cannot be computed in floating point."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Space:
-    """A coordinate system inside nested viewports.
+    """A coordinate system inside nested viewports."""
 
-    Parameters
-    ----------
-    matrix : Transform
-        To the coordinates of `outer`, or of the drawing if there is none.
-    clip : Rectangle or None
-        What is visible, in those coordinates.
-    outer : Space or None
-        The coordinate system around the nearest viewport that clips.
-    whole : Transform
-        To the coordinates of the drawing.
-    """
-
-    matrix: Transform = Identity
-    clip: Rectangle | None = None
-    outer: "Space | None" = None
-    whole: Transform = Identity
+    matrix: Transform = Identity  # to the coordinates of `outer`, or of the drawing if there is none
+    clip: Rectangle | None = None  # visible part, in those coordinates
+    outer: "Space | None" = None  # coordinate system around the nearest viewport that clips
+    whole: Transform = Identity  # to the coordinates of the drawing
 
     @property
     def flat(self) -> bool:
-        """Whether everything in it has no area in the drawing (or so little that floats cannot hold it)."""
+        """Whether shapes in it have no area in the drawing, or too little for floating point."""
         a, b, c, d = self.whole[:4]
         return bool(abs(a * d - b * c) < SMALLEST)
 
@@ -55,11 +42,11 @@ class Space:
         return replace(self, matrix=self.matrix.transform(matrix), whole=whole)
 
     def window(self, visible: Rectangle, matrix: Transform) -> "Space":
-        """Coordinate system inside a viewport of which only `visible`, in these coordinates, is seen."""
+        """Coordinate system inside a viewport that shows only `visible`, given in these coordinates."""
         return replace(self.moved(matrix), matrix=matrix, clip=visible, outer=self)
 
     def to_drawing(self, contour: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Map a contour to the drawing's coordinates, clipped on its way; empty if nothing is left."""
+        """Map a contour to the drawing's coordinates and clip it; empty if nothing is left."""
         space: Space | None = self
         while space is not None:
             if space.matrix != Identity:
@@ -73,45 +60,21 @@ class Space:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Place:
-    """What an element finds where it stands in the drawing; `use` puts the same element in several places.
+    """The context of an element in the drawing; `use` puts the same element in several places."""
 
-    Parameters
-    ----------
-    viewport : Viewport
-        What percentages relate to.
-    space : Space
-        The user units.
-    style : Style
-        What it inherits.
-    opacity : float
-        Product of the opacities around it.
-    element : lxml element or None
-        The parent, or the `use` that shows it.
-    outer : Place or None
-        Where that stands.
-    depth : int
-        How many elements are around it.
-    used : bool
-        Whether one of them is a `use`.
-    use : Style or None
-        Style of the `use` whose very target stands here.
-    chosen : bool
-        Whether what stands here is painted: all of it, unless only a part of the document was asked for.
-    """
-
-    viewport: Viewport
-    space: Space
-    style: Style = INITIAL
-    opacity: float = 1.0
-    element: etree._Element | None = None
-    outer: "Place | None" = None
-    depth: int = 0
-    used: bool = False
-    use: Style | None = None
-    chosen: bool = True
+    viewport: Viewport  # percentages refer to it
+    space: Space  # the user units
+    style: Style = INITIAL  # style to inherit
+    opacity: float = 1.0  # product of the opacities around it
+    element: etree._Element | None = None  # the parent, or the `use` that shows it
+    outer: "Place | None" = None  # the place of `element`
+    depth: int = 0  # number of elements around it
+    used: bool = False  # whether one of them is a `use`
+    use: Style | None = None  # style of the `use` whose target stands here
+    chosen: bool = True  # whether elements here are painted
 
     def inside(self, element: etree._Element) -> bool:
-        """Tell whether an element is around this place."""
+        """Whether an element is around this place."""
         place: Place | None = self
         while place is not None:
             if place.element is element:

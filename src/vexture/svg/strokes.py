@@ -1,7 +1,8 @@
 """Strokes as outlines to fill, by Skia.
 
-Skia works in float32 and stops refining at a quarter of a unit, so it is given coordinates around the origin in which
-the drawing measures `RESOLUTION`: a quarter unit and the rounding then both lie below `ROUND` of the drawing.
+Skia works in float32 and stops refining at a quarter of a unit. Its coordinates are therefore centred on the origin and
+scaled so that the drawing measures `RESOLUTION`: a quarter unit and the rounding are then both below `ROUND` of the
+drawing.
 """
 
 from dataclasses import dataclass
@@ -23,10 +24,10 @@ RESOLUTION: Final = 0.25 / ROUND
 """Skia units across the drawing."""
 
 SHORTEST: Final = 1 / 64
-"""Skia units. A shorter step has no direction in float32 (its joins would point anywhere) and is passed over."""
+"""Skia units. A shorter step has no direction in float32, so its joins would be arbitrary; it is skipped."""
 
 MOST_DASHES: Final = 100_000
-"""In one path; Skia itself gives up at ten times as many, and says nothing."""
+"""Dashes in one path; Skia itself silently gives up at ten times as many."""
 
 CAPS = {"butt": pathops.LineCap.BUTT_CAP, "round": pathops.LineCap.ROUND_CAP, "square": pathops.LineCap.SQUARE_CAP}
 JOINS = {
@@ -40,39 +41,18 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 @dataclass(frozen=True, slots=True)
 class Stroke:
-    """How a line is drawn, in the units of its path.
-
-    Parameters
-    ----------
-    width : float
-    cap : str
-        "butt", "round" or "square".
-    join : str
-        "miter", "round" or "bevel".
-    miter_limit : float
-        Longest miter, in stroke widths.
-    dashes : tuple of float
-        Lengths of dashes and gaps in turn, an even number of them; empty for a solid line.
-    dash_offset : float
-        Where in the pattern the line starts.
-    """
+    """How a line is drawn, in the units of its path."""
 
     width: float
-    cap: str = "butt"
-    join: str = "miter"
-    miter_limit: float = 4.0
-    dashes: tuple[float, ...] = ()
-    dash_offset: float = 0.0
+    cap: str = "butt"  # "butt", "round" or "square"
+    join: str = "miter"  # "miter", "round" or "bevel"
+    miter_limit: float = 4.0  # longest miter, in stroke widths
+    dashes: tuple[float, ...] = ()  # lengths of dashes and gaps in turn, an even number; empty for a solid line
+    dash_offset: float = 0.0  # where in the pattern the line starts
 
 
 def arc_length(cubics: NDArray[np.float64]) -> float:
-    """Length of cubics (n, 4, 2), by Gauss-Legendre quadrature.
-
-    Examples
-    --------
-    >>> arc_length(Outline.polygon(np.array([[0.0, 0.0], [3.0, 4.0]]), closed=True).cubics)
-    10.0
-    """
+    """Length of cubics (n, 4, 2), by Gauss-Legendre quadrature."""
     t = (NODES + 1.0) / 2.0
     s = 1.0 - t
     blend = 3.0 * np.stack([s * s, 2.0 * s * t, t * t], axis=1)
@@ -82,19 +62,10 @@ def arc_length(cubics: NDArray[np.float64]) -> float:
 
 
 def stroke_contours(outlines: list[Outline], stroke: Stroke, size: float) -> list[NDArray[np.float64]]:
-    """Contours that, filled by the non-zero rule, are the stroke of the outlines.
+    """Contours of the stroke of the outlines, to fill by the non-zero rule.
 
-    Parameters
-    ----------
-    outlines : list of Outline
-    stroke : Stroke
-    size : float
-        The drawing's size in the units of the outlines: what the stroke must look good in.
-
-    Raises
-    ------
-    SourceError
-        If there are too many dashes.
+    `size` is the drawing's size in the units of the outlines; it sets the accuracy. Raises a `SourceError` if there are
+    too many dashes.
 
     Examples
     --------
@@ -128,7 +99,7 @@ def stroke_contours(outlines: list[Outline], stroke: Stroke, size: float) -> lis
 
 
 def feed(path: pathops.Path, cubics: NDArray[np.float64], closed: bool) -> None:
-    """Draw an outline into Skia's path, without steps too short to have a direction."""
+    """Add an outline to Skia's path, without steps that are too short to have a direction."""
     x0, y0 = cubics[0, 0].tolist()
     start = x0, y0
     path.moveTo(x0, y0)
@@ -166,7 +137,7 @@ def read(path: pathops.Path) -> list[NDArray[np.float64]]:
 
 
 def raised(points: list[complex]) -> list[complex]:
-    """P1, P2 and P3 of the cubic that a line, quadratic or cubic is."""
+    """P1, P2 and P3 of the cubic that equals a line, quadratic or cubic."""
     start, end = points[0], points[-1]
     if len(points) == 2:
         return [start + (end - start) / 3.0, start + (end - start) * (2.0 / 3.0), end]
@@ -176,7 +147,7 @@ def raised(points: list[complex]) -> list[complex]:
 
 
 def closed_contour(points: list[complex]) -> NDArray[np.float64]:
-    """Contour from its first point and P1, P2, P3 of its cubics, closed by a line if need be."""
+    """Contour from its first point and P1, P2, P3 of each cubic, closed by a line if necessary."""
     if abs(points[-1] - points[0]) < SHORTEST:
         points[-1] = points[0]
     else:

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Any
 
 import cssselect2
@@ -17,10 +18,10 @@ from vexture.svg.values import Viewport, opacity
 __all__ = ["INITIAL", "Cascade", "Style"]
 
 PLAIN = re.compile(r"[^\"'\\/(){}\[\]@!<&]*")
-"""A style attribute of this kind needs no tokeniser: splitting at ; and : is the same."""
+"""Style attributes that need no tokeniser: they can be split at ; and :."""
 
 SCREEN = re.compile(r"\s*(?:only\s+)?(?:all|screen)?\s*", re.IGNORECASE)
-"""A media query that holds for a drawing on a screen, whatever its size."""
+"""Media queries that hold on every screen."""
 
 OTHER_MEDIUM = re.compile(r"\s*(?:only\s+)?(?:print|speech)\b.*|\s*not\s+(?:all|screen)\s*", re.IGNORECASE | re.DOTALL)
 
@@ -34,10 +35,10 @@ TEXT_SIZES = {
     "x-large": 24.0,
     "xx-large": 32.0,
 }
-"""User units to a font size in words (CSS Fonts 4, 2.5)."""
+"""User units of each font-size keyword (CSS Fonts 4, 2.5)."""
 
 UNSET = ("unset", "revert", "revert-layer")
-"""Keywords for no value at all: what is inherited, or else the initial value."""
+"""Keywords for the inherited value, or else the initial one."""
 
 Declaration = tuple[str, str, bool]
 """Property, value, and whether it is important."""
@@ -45,21 +46,11 @@ Declaration = tuple[str, str, bool]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Style:
-    """Values of all properties at one element, as text.
+    """Values of all properties at one element, as text."""
 
-    Parameters
-    ----------
-    inherited : dict
-        Values of inherited properties that differ from the initial ones.
-    own : dict
-        Values of the other properties, where the element sets them.
-    font_size : float
-        In user units.
-    """
-
-    inherited: dict[str, str]
-    own: dict[str, str]
-    font_size: float
+    inherited: dict[str, str]  # inherited properties that differ from their initial values
+    own: dict[str, str]  # other properties that the element sets
+    font_size: float  # in user units
 
     def __getitem__(self, name: str) -> str:
         value = self.own.get(name) or self.inherited.get(name)
@@ -71,25 +62,17 @@ class Style:
 
     @property
     def color(self) -> Color:
-        """What `currentcolor` means here."""
+        """The meaning of `currentcolor` here."""
         color = parse_color(self["color"])
         return color if isinstance(color, Color) else Color((0.0, 0.0, 0.0), 1.0)
 
 
 INITIAL = Style({}, {}, 16.0)
-"""What the outermost element inherits."""
+"""Style that the outermost element inherits."""
 
 
 class Cascade:
-    """Finds the style of an element from that of its parent.
-
-    Parameters
-    ----------
-    root : lxml element
-        The document, with its `<style>` elements.
-    report : Report
-        Told what is not supported or invalid.
-    """
+    """Computes the style of an element from its parent's, with the document's `<style>` elements."""
 
     def __init__(self, root: etree._Element, report: Report) -> None:
         self.report = report
@@ -120,7 +103,7 @@ class Cascade:
                 self.add_at_rule(rule)
 
     def add_at_rule(self, rule: Any) -> None:
-        """Add what an at-rule holds, if it is a medium that applies."""
+        """Add the rules inside an at-rule, if it is a medium that applies."""
         name = rule.lower_at_keyword
         if name in ("charset", "font-face", "namespace"):
             return
@@ -132,7 +115,7 @@ class Cascade:
             self.report.left_out(f"@{name[:40]}")
 
     def style(self, element: etree._Element, parent: Style) -> Style:
-        """Style of an element whose parent, or the `use` that shows it, has the style `parent`."""
+        """Style of an element; `parent` is the style of its parent, or of the `use` that shows it."""
         inherited, own = parent.inherited, dict[str, str]()
         for name, value in self.specified(element).items():
             keyword = value.lower()
@@ -155,24 +138,18 @@ class Cascade:
         return Style(inherited, own, font_size)
 
     def specified(self, element: etree._Element) -> dict[str, str]:
-        """Winning declaration of each property, in rising order: attributes, rules, `style`, then the important."""
+        """Winning declaration of each property, in rising precedence: attributes, rules, `style`, `!important`."""
         found: dict[str, str] = {}
         for key, value in element.attrib.items():
             name = str(key)
             if name in PROPERTIES and name not in CSS_ONLY:
                 self.declare(found, name, str(value), element)
-        important: list[Declaration] = []
-        for declaration in self.declared(element):
-            if declaration[2]:
-                important.append(declaration)
-            else:
-                self.declare(found, declaration[0], declaration[1], element)
-        for name, value, _ in important:
+        for name, value, _ in sorted(self.declared(element), key=itemgetter(2)):  # stable; important ones come last
             self.declare(found, name, value, element)
         return found
 
     def declare(self, found: dict[str, str], name: str, value: str, element: etree._Element) -> None:
-        """Put a declaration above those before it, unless it is invalid."""
+        """Override earlier declarations, unless this one is invalid."""
         value = value.strip()
         if PROPERTIES[name].accepts(value) or value.lower() in ("inherit", "initial", *UNSET):
             found[name] = value
@@ -182,7 +159,7 @@ class Cascade:
             self.report.invalid(name, value, element)
 
     def declared(self, element: etree._Element) -> Iterator[Declaration]:
-        """Yield the declarations of the style sheets and then of the `style` attribute, in rising order."""
+        """Yield the declarations of the style sheets and then of the `style` attribute, in rising precedence."""
         if self.matcher is not None:
             for _, _, pseudo, declarations in self.matcher.match(self.wrappers[element]):
                 if pseudo is None:
@@ -193,7 +170,7 @@ class Cascade:
 
 
 def read_style(text: str) -> Iterator[Declaration]:
-    """Yield the declarations of a `style` attribute that concern us."""
+    """Yield the declarations of a `style` attribute."""
     if PLAIN.fullmatch(text):
         for part in text.split(";"):
             name, _, value = part.partition(":")
@@ -203,14 +180,14 @@ def read_style(text: str) -> Iterator[Declaration]:
 
 
 def read_declarations(content: Any) -> Iterator[Declaration]:
-    """Yield the declarations of a style sheet's rule or of a `style` attribute that concern us."""
+    """Yield the declarations of a style sheet's rule or of a `style` attribute."""
     for item in tinycss2.parse_blocks_contents(content, skip_comments=True, skip_whitespace=True):
         if item.type == "declaration":
             yield from expanded(item.lower_name, tinycss2.serialize(item.value).strip(), item.important)
 
 
 def expanded(name: str, value: str, important: bool) -> Iterator[Declaration]:
-    """Yield the declaration of a property in the table, a shorthand as what it stands for."""
+    """Yield the declaration of a known property; a shorthand becomes its longhands."""
     if name in PROPERTIES and value:
         yield name, value, important
     elif name == "marker" and value:

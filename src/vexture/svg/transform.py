@@ -1,20 +1,51 @@
-"""Transforms: the attribute's grammar and the CSS property's, read as one (CSS Transforms 1)."""
+"""Affine maps, and transforms by the attribute's grammar and by the CSS property's, read as one (CSS Transforms 1)."""
 
 import re
 from collections.abc import Callable
 from math import pi, radians, sqrt, tan
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.svg.affine import Identity, Transform
 from vexture.svg.path_data import GAP, NUMBER, SPACE
 from vexture.svg.values import number
 
-__all__ = ["mapped", "parse_origin", "parse_transform", "scale_of"]
+__all__ = ["Identity", "Transform", "mapped", "parse_origin", "parse_transform", "scale_of"]
+
+if TYPE_CHECKING:
+
+    class Transform(NamedTuple):
+        """FontTools' map (x, y) -> (xx x + yx y + dx, xy x + yy y + dy), with the types that fontTools lacks."""
+
+        xx: float = 1.0
+        xy: float = 0.0
+        yx: float = 0.0
+        yy: float = 1.0
+        dx: float = 0.0
+        dy: float = 0.0
+
+        def transform(self, other: "Transform") -> "Transform":
+            """Apply the other map first."""
+
+        def inverse(self) -> "Transform":
+            """Inverse map."""
+
+        def translate(self, x: float = 0.0, y: float = 0.0) -> "Transform":
+            """Translate first."""
+
+        def scale(self, x: float = 1.0, y: float | None = None) -> "Transform":
+            """Scale first."""
+
+        def rotate(self, angle: float) -> "Transform":
+            """Rotate first, by radians."""
+
+    Identity: Transform
+else:
+    from fontTools.misc.transform import Identity, Transform
 
 TURN = {"": pi / 180, "deg": pi / 180, "grad": pi / 200, "rad": 1.0, "turn": 2 * pi}
-"""Radians to a unit of angle; an attribute gives degrees without a unit."""
+"""Radians of each unit of angle; in attributes, degrees have no unit."""
 
 KEYWORDS = {"left": "0%", "top": "0%", "center": "50%", "right": "100%", "bottom": "100%"}
 
@@ -24,7 +55,7 @@ FUNCTION = re.compile(rf"{GAP}([a-zA-Z]++){SPACE}\({SPACE}({WITH_UNIT}(?:{GAP}{W
 ANGLE = re.compile(rf"({NUMBER})([a-zA-Z]*)")
 
 Length = Callable[[str, int], float | None]
-"""Reads a length along x (0) or y (1)."""
+"""Converts the text of a length along x (0) or y (1) into user units; None if it is no length."""
 
 
 def angle(text: str) -> float | None:
@@ -36,14 +67,7 @@ def angle(text: str) -> float | None:
 
 
 def parse_transform(text: str, length: Length) -> Transform | None:
-    """Product of a list of transforms; None if the list is not valid.
-
-    Parameters
-    ----------
-    text : str
-        Value of the attribute or of the CSS property; "none" is the identity.
-    length : callable
-        Turns the text of a length along x (0) or y (1) into user units, or None.
+    """Product of a list of transforms, an attribute's or a CSS property's value; None if the list is not valid.
 
     Examples
     --------
@@ -127,12 +151,7 @@ def parse_origin(text: str, length: Length) -> tuple[float, float] | None:
 def mapped(cubics: NDArray[np.float64], matrix: Transform) -> NDArray[np.float64]:
     """Apply an affine map to points (..., 2).
 
-    Written out, because a matrix product may round the same point differently in two places of an array.
-
-    Examples
-    --------
-    >>> mapped(np.array([[1.0, 2.0]]), Identity.scale(2, 3))
-    array([[2., 6.]])
+    A matrix product may round the same point differently at two places of an array, hence the explicit sums.
     """
     x, y = cubics[..., 0], cubics[..., 1]
     a, b, c, d, e, f = matrix

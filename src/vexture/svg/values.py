@@ -1,4 +1,4 @@
-"""Numbers and lengths of SVG: what they may look like, their units, and how large they may be."""
+"""Numbers and lengths of SVG: syntax, units, and limits."""
 
 import re
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from vexture.svg.path_data import NUMBER
 __all__ = ["LARGEST", "Viewport", "number", "numbers", "opacity"]
 
 LARGEST: Final = 1e12
-"""User units. Larger numbers are refused: products of two of them and a matrix must stay finite."""
+"""User units. Larger numbers are errors: the product of two of them and a matrix must stay finite."""
 
 PIXELS: Final = {
     "": 1.0,
@@ -23,22 +23,17 @@ PIXELS: Final = {
     "mm": 96 / 25.4,
     "q": 96 / 101.6,
 }
-"""CSS pixels to an absolute unit (CSS Values 4, 6.2)."""
+"""CSS pixels of each absolute unit (CSS Values 4, 6.2)."""
 
 FONT_UNITS: Final = {"em": 1.0, "ex": 0.5, "ch": 0.5}
-"""Font sizes to a unit that follows the font; ex and ch by the rule for fonts that do not tell."""
+"""Font sizes of each unit that depends on the font; ex and ch as for fonts without such data."""
 
 LENGTH = re.compile(rf"\s*({NUMBER})\s*([a-zA-Z]*|%)\s*")
 SEPARATOR = re.compile(r"\s*,\s*|\s+")
 
 
 def number(text: str) -> float | None:
-    """Finite number of at most `LARGEST`; None if the text is anything else.
-
-    Raises
-    ------
-    SourceError
-        If it is a number, but too large.
+    """Finite number; None if the text is anything else; a `SourceError` if it is larger than `LARGEST`.
 
     Examples
     --------
@@ -52,19 +47,13 @@ def number(text: str) -> float | None:
 
 
 def numbers(text: str) -> list[float] | None:
-    """Numbers between commas or spaces; None if there is anything else.
-
-    Examples
-    --------
-    >>> numbers("0 0, 24,24")
-    [0.0, 0.0, 24.0, 24.0]
-    """
+    """Numbers between commas or spaces; None if there is anything else."""
     found = [number(part) for part in SEPARATOR.split(text.strip())]
     return None if None in found else [value for value in found if value is not None]
 
 
 def bounded(text: str) -> float:
-    """Value of a number that is not too large."""
+    """Value of a number; a `SourceError` if it is too large."""
     value = float(text)
     if not abs(value) <= LARGEST:
         raise SourceError(f"the number {text[:40]} is too large; the limit is {LARGEST:g}")
@@ -72,7 +61,7 @@ def bounded(text: str) -> float:
 
 
 def opacity(text: str) -> float:
-    """Opacity as a number or percentage, cut to 0..1; 1 if it is neither.
+    """Opacity as a number or percentage, clipped to 0..1; 1 if it is neither.
 
     Examples
     --------
@@ -87,36 +76,19 @@ def opacity(text: str) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Viewport:
-    """What relative lengths relate to.
+    """Reference sizes of relative lengths, in user units."""
 
-    Parameters
-    ----------
-    width, height : float
-        Size of the nearest viewport, in its own user units.
-    root_font_size : float
-        Font size of the outermost element, in user units.
-    """
-
-    width: float
+    width: float  # of the nearest viewport
     height: float
-    root_font_size: float = 16.0
+    root_font_size: float = 16.0  # font size of the outermost element
 
     @property
     def diagonal(self) -> float:
-        """What a percentage of neither width nor height relates to (SVG 2, 8.9)."""
+        """Reference of percentages of neither width nor height (SVG 2, 8.9)."""
         return hypot(self.width, self.height) / 2**0.5
 
     def length(self, text: str, whole: float, font_size: float) -> float | None:
-        """Length in user units; None if the text is no length.
-
-        Parameters
-        ----------
-        text : str
-            Number with a unit or a percent sign, or without.
-        whole : float
-            What 100% is.
-        font_size : float
-            What 1em is.
+        """Length in user units; None if the text is no length. `whole` is 100%, `font_size` is 1em.
 
         Examples
         --------

@@ -1,10 +1,10 @@
-"""Where a viewport shows its content: `viewBox` and `preserveAspectRatio` (SVG 2, 8.2)."""
+"""How a viewport shows its content: `viewBox` and `preserveAspectRatio` (SVG 2, 8.2)."""
 
 import re
 from typing import Final, NamedTuple
 
 from vexture.errors import SourceError
-from vexture.svg.affine import Transform
+from vexture.svg.transform import Transform
 from vexture.svg.values import numbers
 
 __all__ = ["CENTRED", "THINNEST", "Fit", "Rectangle", "parse_fit", "view_box", "view_transform"]
@@ -14,44 +14,25 @@ Rectangle = tuple[float, float, float, float]
 
 
 class Fit(NamedTuple):
-    """How a view box is fitted into a viewport of another shape.
+    """How a view box is fitted into a viewport of another shape."""
 
-    Parameters
-    ----------
-    across, down : float
-        Which part of the spare room lies left and above, 0..1.
-    rule : str
-        "meet" shows the whole box, "slice" fills the viewport, "none" stretches.
-    """
-
-    across: float
-    down: float
-    rule: str
+    across: float  # part of the spare room on the left, 0..1
+    down: float  # part of the spare room above, 0..1
+    rule: str  # "meet" shows the whole box, "slice" fills the viewport, "none" stretches
 
 
 THINNEST: Final = 1e-9
-"""User units. A drawing less wide or high than this counts as having no size."""
+"""User units. A drawing that is less wide or high than this has no size."""
 
 CENTRED = Fit(0.5, 0.5, "meet")
-"""What the standard says where a document says nothing."""
+"""Default of the standard."""
 
 PART = {"min": 0.0, "mid": 0.5, "max": 1.0}
 ASPECT = re.compile(r"\s*(?:defer\s+)?(?:(none)|x(min|mid|max)y(min|mid|max))(?:\s+(meet|slice))?\s*", re.IGNORECASE)
 
 
 def view_box(text: str | None) -> Rectangle | None:
-    """Parse `viewBox`; None without it.
-
-    Raises
-    ------
-    SourceError
-        If it is not four numbers, or has no size.
-
-    Examples
-    --------
-    >>> view_box("0 0 24 12")
-    (0.0, 0.0, 24.0, 12.0)
-    """
+    """Parse `viewBox`; None without it; a `SourceError` if it is not four numbers or has no size."""
     if text is None:
         return None
     values = numbers(text)
@@ -81,16 +62,7 @@ def parse_fit(text: str) -> Fit | None:
 
 
 def view_transform(box: Rectangle, fit: Fit, width: float, height: float) -> Transform:
-    """Map a view box into a viewport whose least corner is the origin.
-
-    Parameters
-    ----------
-    box : Rectangle
-        What is shown.
-    fit : Fit
-        How.
-    width, height : float
-        Size of the viewport.
+    """Map of a view box into a viewport of a size whose least corner is the origin.
 
     Examples
     --------

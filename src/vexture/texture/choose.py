@@ -1,7 +1,7 @@
-"""Which shape of a texture a caller means, and which layers; one meaning of a missing `root` for all.
+"""Which shape of a texture, or which layers, a caller means; it defines the meaning of a missing `root`.
 
-A missing `root` means the whole texture where the answer can be of the whole: its outlines, its layers if they are of
-one drawing. Where one shape is needed it means the only one; of several, one must be chosen.
+A missing `root` means the whole texture where the answer can be of the whole: all outlines, or all layers of the only
+drawing. Where one shape is needed it means the only one; if there are several, an error lists them.
 """
 
 import difflib
@@ -14,24 +14,14 @@ from vexture.texture.root import Root
 __all__ = ["layers_of", "place_of"]
 
 MOST_NAMED: Final = 6
-"""Shapes that a message names."""
+"""Most shapes that a message names."""
 
 
 def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "texture") -> int:
-    """Place of the one shape that a name or a place means, or of the only one.
+    """Number of the shape that `root` means: a name, a number from 0, or None for the only shape.
 
-    Parameters
-    ----------
-    roots : sequence of Root
-    root : str, int or None
-        Name, or place from 0.
-    texture : str
-        Names the texture in messages.
-
-    Raises
-    ------
-    ParameterError
-        If there is none of that name or place, or none is given and there are several.
+    `texture` names the texture in messages. Raises a `ParameterError` if there is no such shape, or if `root` is
+    missing and there are several.
 
     Examples
     --------
@@ -63,21 +53,11 @@ def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "text
 
 
 def layers_of(roots: Sequence[Root], root: str | int | None, texture: str = "texture") -> list[int]:
-    """Places of the shapes that a picture shows, in painting order.
+    """Numbers of the shapes that a picture shows, in painting order.
 
-    Parameters
-    ----------
-    roots : sequence of Root
-    root : str, int or None
-        Name of a drawing: what stands before ``/layer`` in the names of painted shapes, or the name of a shape without
-        paint. Or name or place of one shape. None means the only drawing.
-    texture : str
-        Names the texture in messages.
-
-    Raises
-    ------
-    ParameterError
-        If there is no such drawing or shape, or none is named and there are several drawings.
+    `root` is the name of a drawing: the part before ``/layer`` in the names of painted shapes, or the name of a shape
+    without paint. Or it is the name or number of one shape. None means the only drawing. Raises a `ParameterError` if
+    there is no such drawing or shape, or if `root` is missing and there are several drawings.
 
     Examples
     --------

@@ -82,18 +82,9 @@ def _inside(flat: NDArray[np.uint32], root: int, x: float, y: float, curve: NDAr
 
 @kernel
 def points_inside(flat: NDArray[np.uint32], root: int, points: NDArray[np.float64], inside: NDArray[np.bool_]) -> None:
-    """Write which points are inside a shape.
+    """Write to `inside` (m,) which points (m, 2), in unit-square units, are inside the shape with the root quad `root`.
 
-    Parameters
-    ----------
-    flat : (n, 4) uint32 array
-        Texels; any, for no index leads out of them.
-    root : int
-        Index of the root's quad.
-    points : (m, 2) float64 array
-        In unit-square units. Nothing is inside beyond 0 <= x < 1, 0 <= y < 1.
-    inside : (m,) bool array
-        Written.
+    Points outside 0 <= x < 1, 0 <= y < 1 are not inside. The texels need no validation: no index leads out of them.
     """
     curve = np.empty((4, 2))
     for i in range(len(points)):

@@ -6,33 +6,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture import layout
-from vexture.texture.arrays import curve_points
 from vexture.texture.texture import Texture
-from vexture.texture.walk import WalkLevel, walk
+from vexture.texture.walk import WalkLevel, curve_points, walk
 from vexture.tree.tree import Tree
 
 __all__ = ["decode"]
 
 
 def decode(texture: Texture, root: str | int | None = None) -> Tree:
-    """Tree of one shape of a texture, with `deviation` and `unresolved` 0.
+    """Tree of one shape, by its name or number, with `deviation` and `unresolved` 0.
 
-    What `encode` has written comes back as it was but for the rounding of coverages, and becomes the same
-    texels again. In what others have written quads and curves may lie in another order; here they are numbered as
-    `Tree` says.
-
-    Parameters
-    ----------
-    texture : Texture
-    root : str or int, optional
-        Name or place of the shape; not needed if there is only one.
-
-    Raises
-    ------
-    ParameterError
-        If there is no such shape, or none is named where there are several.
-    FormatError
-        If its texels are no tree.
+    It equals the tree given to `encode` except for the rounding of coverages, and encodes to the same texels. Other
+    writers may store quads and curves in another order; here they are numbered as in `Tree`. Raises a `ParameterError`
+    as `Texture.root` does, and a `FormatError` if the texels are no tree.
 
     Examples
     --------

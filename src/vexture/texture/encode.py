@@ -8,29 +8,26 @@ from numpy.typing import NDArray
 
 from vexture import layout
 from vexture.errors import LimitError
-from vexture.texture.arrays import texel_rows
 from vexture.texture.texture import Root, Texture
 from vexture.tree.tree import Tree
 
-__all__ = ["encode"]
+__all__ = ["encode", "texel_rows"]
+
+
+def texel_rows(texels: NDArray[np.uint32]) -> NDArray[np.uint32]:
+    """Texels in rows of an image; the last row is filled with zeros."""
+    width = min(1 << (len(texels) - 1).bit_length(), 1 << layout.ROW_BITS)
+    rows = -(-len(texels) // width)
+    out = np.zeros((rows * width, 4), np.uint32)
+    out[: len(texels)] = texels
+    return out.reshape(rows, width, 4)
 
 
 def encode(trees: Sequence[Tree], roots: Sequence[Root], *, name: str, source: str | None = None) -> Texture:
     """Texture of some trees, one after another: the quads of each, then its curves.
 
-    Parameters
-    ----------
-    trees : sequence of Tree
-        Numbered as its docstring says.
-    roots : sequence of Root
-        What to say of each; their `quad` is filled in here.
-    name, source : str
-        Of the texture.
-
-    Raises
-    ------
-    LimitError
-        If there is no tree, or they take more texels than a texture has.
+    Each root describes one tree; its `quad` is filled in here. Raises a `LimitError` if there is no tree, or if the
+    trees need more texels than a texture has.
     """
     texels: list[NDArray[np.uint32]] = []
     placed: list[Root] = []

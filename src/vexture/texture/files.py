@@ -1,4 +1,4 @@
-"""Names of a texture's file; writing all files or none."""
+"""Names of a texture's file; writing several files, all or none."""
 
 import errno
 import os
@@ -22,13 +22,13 @@ __all__ = [
 ]
 
 TEMPORARY = ".tmp"
-"""How the names of files end that are not complete: those that a crash has left can go."""
+"""Suffix of incomplete files; those that a crash leaves can be deleted."""
 
-NAME_BYTES = 200  # file systems allow 255, and suffixes are still to come
+NAME_BYTES = 200  # file systems allow 255, and suffixes are added
 
 
 def file_name(name: str) -> str:
-    """Return a file name for a drawing's name: of letters, digits, spaces and ``._-``, in no other folder.
+    """File name for a drawing's name: letters, digits, spaces and ``._-`` only, so that it is in no other folder.
 
     Examples
     --------
@@ -40,7 +40,7 @@ def file_name(name: str) -> str:
 
 
 def target_of(path: str | os.PathLike[str], name: str) -> Path:
-    """Return the packed texture's file to write: named `name` in a folder, or the path itself.
+    """The packed texture's file to write: `name` in a folder, or the path itself.
 
     Examples
     --------
@@ -51,17 +51,14 @@ def target_of(path: str | os.PathLike[str], name: str) -> Path:
 
 
 def is_folder(path: str | os.PathLike[str]) -> bool:
-    """Whether a path to write to exists as a folder, or says by its end that it shall be one."""
+    """Whether a path to write to is an existing folder, or ends with a separator."""
     return os.fspath(path).endswith(("/", os.sep)) or os.path.isdir(path)
 
 
 def writable(folder: Path) -> Path:
-    """The folder, which is there or can be made: for those who would find out after a minute's work.
+    """The folder, if it exists or can be made.
 
-    Raises
-    ------
-    DeviceError
-        If nothing can be written there.
+    Raises a `DeviceError` otherwise. Callers check this before a long computation.
 
     Examples
     --------
@@ -81,13 +78,7 @@ def writable(folder: Path) -> Path:
 
 
 def write_together(files: Mapping[Path, bytes]) -> None:
-    """Write all the files or none, as `replace_files` does.
-
-    Raises
-    ------
-    DeviceError
-        If the disk refuses.
-    """
+    """Write all the files or none, as `replace_files` does; a `DeviceError` names the file that cannot be written."""
     try:
         replace_files(files)
     except OSError as error:
@@ -95,21 +86,11 @@ def write_together(files: Mapping[Path, bytes]) -> None:
 
 
 def replace_files(files: Mapping[Path, bytes], *, durable: bool = False) -> None:
-    """Write all the files or none, in folders that are made where they are missing.
+    """Write all the files or none; missing folders are made.
 
-    Each is written under a temporary name beside its place; when all are complete they are moved.
-
-    Parameters
-    ----------
-    files : mapping
-        Content of each; of a link, what it stands for is replaced.
-    durable : bool
-        Whether they must survive a loss of power from when this function returns.
-
-    Raises
-    ------
-    OSError
-        Naming the file that the disk refuses.
+    Each file is written under a temporary name beside its place. When all are complete they are renamed. The target of
+    a link is replaced, not the link. With `durable` they survive a loss of power after this function returns. An
+    `OSError` names the file that cannot be written.
     """
     places = {path.resolve(): data for path, data in files.items()}
     token = secrets.token_hex(4)
@@ -124,7 +105,7 @@ def replace_files(files: Mapping[Path, bytes], *, durable: bool = False) -> None
                 if durable:
                     file.flush()
                     os.fsync(file.fileno())
-        for path in places:  # seen before anything is replaced
+        for path in places:  # checked before anything is replaced
             if path.is_dir():
                 raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
             if path.exists() and not path.is_file():
@@ -142,7 +123,7 @@ def replace_files(files: Mapping[Path, bytes], *, durable: bool = False) -> None
 
 
 def _keep_renames(folder: Path) -> None:
-    """Bring a folder's entries to the disk: a rename is there after a loss of power only then."""
+    """Write a folder's entries to the disk: without it a rename may not survive a loss of power."""
     handle = os.open(folder, os.O_RDONLY)
     try:
         os.fsync(handle)
@@ -151,22 +132,9 @@ def _keep_renames(folder: Path) -> None:
 
 
 def read_file(path: Path, limit: int, remedy: str) -> bytes:
-    """Return the bytes of a file, one more than `limit` at most.
+    """The bytes of a file, at most `limit` + 1.
 
-    Parameters
-    ----------
-    path : Path
-    limit : int
-        Bytes.
-    remedy : str
-        What a message says of a file that is not there.
-
-    Raises
-    ------
-    FormatError
-        If there is no such file.
-    DeviceError
-        If the disk refuses.
+    `remedy` ends the message of the `FormatError` for a missing file. A `DeviceError` means that it cannot be read.
     """
     try:
         with path.open("rb") as file:

@@ -1,7 +1,7 @@
-"""One image of four unsigned 32-bit words to a texel, with texts, to KTX 2.0 and back; safe to read from strangers.
+"""One image of four unsigned 32-bit words per texel, with texts, to KTX 2.0 and back; untrusted files are validated.
 
-The container is that of the Khronos KTX File Format Specification, version 2.0, its description of the words that of
-the Khronos Data Format Specification, version 1.3.
+The container follows the Khronos KTX File Format Specification, version 2.0. Its description of the words follows the
+Khronos Data Format Specification, version 1.3.
 """
 
 import struct
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from vexture.errors import FormatError
 from vexture.layout import MOST_ROWS, MOST_TEXT_BYTES, ROW_BITS
 
-__all__ = ["MAGIC", "TEXEL_BYTES", "read_ktx2", "write_ktx2"]
+__all__ = ["MAGIC", "TEXEL_BYTES", "check_size", "read_ktx2", "write_ktx2"]
 
 MAGIC: Final = b"\xabKTX 20\xbb\r\n\x1a\n"
 
@@ -37,13 +37,11 @@ LEVEL: Final = struct.Struct("<3Q")
 LENGTH: Final = struct.Struct("<I")
 
 DEFLATE_RATIO: Final = 1032
-"""Bytes that one byte of a deflate stream can become at most (zlib's technical details)."""
-
-REMEDY: Final = "convert the drawing again"
+"""Most bytes that one byte of a deflate stream can inflate to (zlib's technical details)."""
 
 
 class Header(NamedTuple):
-    """The file's header, as the specification names its fields."""
+    """The file's header; fields are named as in the specification."""
 
     identifier: bytes
     vk_format: int
@@ -63,8 +61,18 @@ class Header(NamedTuple):
     sgd_length: int
 
 
+def check_size(width: int, rows: int) -> None:
+    """Raise a `FormatError` if no texture has this size in texels."""
+    widest = 1 << ROW_BITS
+    if width.bit_count() != 1 or width > widest or not 1 <= rows <= (MOST_ROWS if width == widest else 1):
+        raise FormatError(
+            f"{width} x {rows} texels; a texture is {widest} wide and 1 to {MOST_ROWS} high, "
+            "or one row of a smaller power of two"
+        )
+
+
 def _descriptor() -> bytes:
-    """Return the data format descriptor: one basic block, four unsigned integers of 32 bits."""
+    """The data format descriptor: one basic block, four unsigned integers of 32 bits."""
     samples = b"".join(
         struct.pack("<HBB4B2I", 8 * WORD_BYTES * k, 8 * WORD_BYTES - 1, channel, 0, 0, 0, 0, 0, 1)
         for k, channel in enumerate((0, 1, 2, ALPHA))
@@ -76,13 +84,7 @@ def _descriptor() -> bytes:
 
 
 def write_ktx2(texels: NDArray[np.uint32], texts: dict[str, str]) -> bytes:
-    """Write a KTX 2.0 file with supercompression ZLIB.
-
-    Parameters
-    ----------
-    texels : (rows, width, 4) uint32 array
-    texts : dict
-        Keys and their values; stored as UTF-8 that ends with a zero byte.
+    """KTX 2.0 file of texels (rows, width, 4) with supercompression ZLIB; `texts` are stored as UTF-8 with a zero byte.
 
     Examples
     --------
@@ -92,7 +94,7 @@ def write_ktx2(texels: NDArray[np.uint32], texts: dict[str, str]) -> bytes:
     """
     height, width, _ = texels.shape
     raw = np.ascontiguousarray(texels, "<u4").tobytes()
-    deflated = zlib.compress(raw, 4)  # level 6 saves 0.2% and takes 1.6 times as long: of a map, most of its conversion
+    deflated = zlib.compress(raw, 4)  # level 6 saves 0.2% but takes 1.6 times as long: most of a map's conversion
     descriptor, pairs = _descriptor(), _key_values(texts)
     dfd_offset = HEADER.size + LEVEL.size
     kvd_offset = dfd_offset + len(descriptor)
@@ -106,7 +108,7 @@ def write_ktx2(texels: NDArray[np.uint32], texts: dict[str, str]) -> bytes:
 
 
 def _key_values(texts: dict[str, str]) -> bytes:
-    """Return the key/value data: sorted by key, each padded to four bytes."""
+    """The key/value data: sorted by key, each pair padded to four bytes."""
     pairs = b""
     for key, value in sorted((key.encode(), value.encode()) for key, value in texts.items()):
         pair = key + b"\0" + value + b"\0"
@@ -115,27 +117,11 @@ def _key_values(texts: dict[str, str]) -> bytes:
 
 
 def read_ktx2(data: bytes, where: str) -> tuple[NDArray[np.uint32], dict[str, str]]:
-    """Texels and texts of a KTX 2.0 file that a stranger may have written.
+    """Texels (rows, width, 4) and texts of an untrusted KTX 2.0 file; `where` names the file in messages.
 
-    Everything that costs memory is bounded by the header, and the header by the format's limits.
-
-    Parameters
-    ----------
-    data : bytes
-        The file.
-    where : str
-        Names the file in messages.
-
-    Returns
-    -------
-    texels : (rows, width, 4) uint32 array
-    texts : dict
-        Values by key, without the zero byte at their end; those that are not UTF-8 are left out.
-
-    Raises
-    ------
-    FormatError
-        If it is damaged or anything else than one image of R32G32B32A32_UINT, deflated or plain.
+    The header bounds everything that needs memory, and the format's limits bound the header. Texts are without their
+    final zero byte; those that are not UTF-8 are left out. Raises a `FormatError` if the file is damaged or anything
+    else than one image of R32G32B32A32_UINT, deflated or plain.
     """
     try:
         header = _read_header(data)
@@ -144,23 +130,21 @@ def read_ktx2(data: bytes, where: str) -> tuple[NDArray[np.uint32], dict[str, st
         texts = _read_texts(_part(data, header.kvd_offset, header.kvd_length, "key/value data"))
         return _read_image(data, header), texts
     except FormatError as error:
-        raise FormatError(f"{where}: {error}") from None
+        raise FormatError(f"{where}: {error}; convert the drawing again") from None
 
 
 def _part(data: bytes, offset: int, length: int, what: str) -> bytes:
     """Bytes of the file, if it has so many."""
     if length and not HEADER.size <= offset <= len(data) - length:
-        raise FormatError(
-            f"{what} at bytes {offset} to {offset + length} of a file of {len(data)}; it is damaged; {REMEDY}"
-        )
+        raise FormatError(f"{what} at bytes {offset} to {offset + length} of a file of {len(data)}; it is damaged")
     return data[offset : offset + length]
 
 
 def _read_header(data: bytes) -> Header:
     if data[: len(MAGIC)] != MAGIC:
-        raise FormatError(f"begins with {data[: len(MAGIC)]!r}; a packed texture is a KTX 2.0 file; {REMEDY}")
+        raise FormatError(f"begins with {data[: len(MAGIC)]!r}; a packed texture is a KTX 2.0 file")
     if len(data) < HEADER.size + LEVEL.size:
-        raise FormatError(f"{len(data)} bytes; the header alone has {HEADER.size + LEVEL.size}; {REMEDY}")
+        raise FormatError(f"{len(data)} bytes; the header alone has {HEADER.size + LEVEL.size}")
     header = Header(*HEADER.unpack_from(data))
     for what, value, allowed in (
         ("vkFormat", header.vk_format, (R32G32B32A32_UINT,)),
@@ -173,24 +157,18 @@ def _read_header(data: bytes) -> Header:
         ("sgdByteLength", header.sgd_length, (0,)),
     ):
         if value not in allowed:
-            raise FormatError(f"{what} is {value}; it must be {' or '.join(map(str, allowed))}; {REMEDY}")
-    widest = 1 << ROW_BITS
-    narrow = header.width.bit_count() == 1 and header.width <= widest
-    if not narrow or not 1 <= header.height <= (MOST_ROWS if header.width == widest else 1):
-        raise FormatError(
-            f"{header.width} x {header.height} texels; a texture is {widest} wide and 1 to {MOST_ROWS} high, "
-            f"or one row of a smaller power of two; {REMEDY}"
-        )
+            raise FormatError(f"{what} is {value}; it must be {' or '.join(map(str, allowed))}")
+    check_size(header.width, header.height)
     if header.kvd_length > MOST_TEXT_BYTES:
-        raise FormatError(f"{header.kvd_length} bytes of key/value data; the limit is {MOST_TEXT_BYTES}; {REMEDY}")
+        raise FormatError(f"{header.kvd_length} bytes of key/value data; the limit is {MOST_TEXT_BYTES}")
     return header
 
 
 def _read_descriptor(descriptor: bytes) -> None:
-    """Refuse a description that contradicts the header; other writers may word the same one differently."""
+    """Check the length only: other writers may describe the same words differently."""
     total = LENGTH.unpack_from(descriptor)[0] if len(descriptor) >= LENGTH.size else 0
     if total != len(descriptor) or total % LENGTH.size:
-        raise FormatError(f"the data format descriptor says {total} bytes and has {len(descriptor)}; {REMEDY}")
+        raise FormatError(f"the data format descriptor says {total} bytes and has {len(descriptor)}")
 
 
 def _read_texts(pairs: bytes) -> dict[str, str]:
@@ -202,11 +180,11 @@ def _read_texts(pairs: bytes) -> dict[str, str]:
         at += LENGTH.size
         key, zero, value = pairs[at : at + length].partition(b"\0")
         if not key or not zero or at + length > len(pairs):
-            raise FormatError(f"key/value data are damaged at byte {at} of {len(pairs)}; {REMEDY}")
+            raise FormatError(f"key/value data are damaged at byte {at} of {len(pairs)}")
         if key in met:
-            raise FormatError(f"key {key[:40]!r} is there twice; each may be there once; {REMEDY}")
+            raise FormatError(f"key {key[:40]!r} is there twice; each may be there once")
         met.add(key)
-        with suppress(UnicodeDecodeError):  # other writers may store anything under their own keys
+        with suppress(UnicodeDecodeError):  # other writers may store any bytes under their own keys
             texts[key.decode()] = value.removesuffix(b"\0").decode()
         at += length + -length % LENGTH.size
     return texts
@@ -220,24 +198,24 @@ def _read_image(data: bytes, header: Header) -> NDArray[np.uint32]:
         raw = stored
     else:
         if inflated != size:
-            raise FormatError(f"uncompressedByteLength is {inflated}; the size in texels makes it {size}; {REMEDY}")
+            raise FormatError(f"uncompressedByteLength is {inflated}; the size in texels makes it {size}")
         if size > DEFLATE_RATIO * (length + 1):
-            raise FormatError(f"{length} bytes of image; they cannot inflate to {size}; {REMEDY}")
+            raise FormatError(f"{length} bytes of image; they cannot inflate to {size}")
         raw = _inflate(stored, size)
     if len(raw) != size:
-        raise FormatError(f"the image has {len(raw)} bytes; its size in texels makes it {size}; {REMEDY}")
-    # a copy, which can be written to: kernels are compiled for such arrays, as a conversion makes them
+        raise FormatError(f"the image has {len(raw)} bytes; its size in texels makes it {size}")
+    # a writable copy: kernels are compiled for such arrays, as a conversion makes them
     texels = np.frombuffer(raw, "<u4").astype(np.uint32)
     return texels.reshape(header.height, header.width, CHANNELS)
 
 
 def _inflate(stored: bytes, size: int) -> bytes:
-    """Inflate to `size` bytes, and never to more."""
+    """Inflate to exactly `size` bytes, and never to more."""
     stream = zlib.decompressobj()
     try:
         raw = stream.decompress(stored, size + 1)
     except zlib.error as error:
-        raise FormatError(f"the image cannot be inflated ({error}); {REMEDY}") from None
+        raise FormatError(f"the image cannot be inflated ({error})") from None
     if len(raw) == size and (not stream.eof or stream.unused_data):
-        raise FormatError(f"the image's {len(stored)} bytes do not end where they should; {REMEDY}")
+        raise FormatError(f"the image's {len(stored)} bytes do not end where they should")
     return raw

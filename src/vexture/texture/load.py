@@ -10,7 +10,8 @@ from vexture.errors import FormatError
 from vexture.texture.files import read_file
 from vexture.texture.ktx2 import MAGIC, read_ktx2
 from vexture.texture.root import read_roots
-from vexture.texture.texture import REMEDY, Texture
+from vexture.texture.texture import Texture
+from vexture.texture.walk import REMEDY
 
 __all__ = ["load", "load_any", "texture_from"]
 
@@ -72,12 +73,9 @@ def load(path: str | os.PathLike[str], *, encoding: str = DEFAULT) -> EncodedTex
 
 
 def load_any(path: str | os.PathLike[str]) -> EncodedTexture:
-    """Read a texture in whichever encoding the path means.
+    """Read a texture in the encoding that the path means. Errors as in `load`.
 
-    Raises
-    ------
-    FormatError
-        If the path means textures in two encodings, or as `load` says.
+    A path that means textures in two encodings is an error, too.
     """
     given = Path(path)
     other = None if _is_ktx2(given) else owner_of(given)
@@ -92,7 +90,7 @@ def load_any(path: str | os.PathLike[str]) -> EncodedTexture:
 
 
 def _is_ktx2(path: Path) -> bool:
-    """Whether there is such a file and it begins as KTX 2.0 does."""
+    """Whether the file exists and begins with the KTX 2.0 identifier."""
     try:
         with path.open("rb") as file:
             return file.read(len(MAGIC)) == MAGIC
@@ -101,18 +99,9 @@ def _is_ktx2(path: Path) -> bool:
 
 
 def texture_from(data: bytes, source: str) -> Texture:
-    """Read the content of a texture's file, and check it.
+    """Read and validate the content of a texture's file.
 
-    Parameters
-    ----------
-    data : bytes
-    source : str
-        Name of the file, for messages, and for a texture that says no name.
-
-    Raises
-    ------
-    FormatError
-        If it is damaged or not a texture.
+    `source` is the name of the file: it stands in messages, and names a texture that has no name of its own.
     """
     if len(data) > layout.PACKED_FILE_LIMIT:
         raise FormatError(f"{source}: longer than {layout.PACKED_FILE_LIMIT} bytes, so not a texture; {REMEDY}")

@@ -1,10 +1,10 @@
-"""The outlines of a shape, back from its packed leaves.
+"""The outlines of a shape, restored from its packed leaves.
 
-What is filled of a leaf has a closed boundary: its pieces, and stretches of the leaf's edges, whose multiplicity at
-each height follows from the windings. Summed over all leaves, stretches between neighbours that agree cancel, and
-what is left is the boundary of the whole: closed always, whatever the texels. All coordinates are integers on the
-lattice of the smallest leaf, so that *cancel* and *meet* are exact. Horizontal parts change no winding; at each
-height there is one way only to close the rest by them.
+The filled part of a leaf has a closed boundary: its pieces, and stretches of the leaf's edges, whose multiplicity at
+each height follows from the windings. In the sum over all leaves, stretches between neighbours that agree cancel. The
+rest is the boundary of the whole shape, which is closed for any texels. All coordinates are integers on the lattice of
+the smallest leaf, so that cancelling and meeting are exact. Horizontal parts change no winding, and there is only one
+way to close the boundary by them at each height.
 """
 
 from typing import NamedTuple
@@ -14,67 +14,33 @@ from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
 from vexture.layout import COVERAGE_ONE, LATTICE, MOST_DEPTH
-from vexture.texture.arrays import curve_points
-from vexture.texture.walk import walk
+from vexture.texture.walk import HALVES, curve_points, walk
 
 __all__ = ["outlines"]
 
 SIDE = int(LATTICE) << MOST_DEPTH
-"""Of the unit square, in units of the finest lattice."""
-
-HALVES = np.array([(0, 0), (1, 0), (0, 1), (1, 1)])
-"""Place of each cell in its quad."""
+"""Side of the unit square, in units of the finest lattice."""
 
 STRAIGHT = 1.0
-"""Lattice units of the leaf. Inner control points this close to those of a line are a line's but for rounding."""
+"""Lattice units of the leaf. A cubic whose inner control points are this close to a line's is a rounded line."""
 
 
 class Leaves(NamedTuple):
-    """The leaves that are not empty, and their pieces, in units of the finest lattice.
+    """The n leaves that are not empty, and their m pieces, in units of the finest lattice."""
 
-    Attributes
-    ----------
-    low : (n, 2) int64 array
-        Bottom-left corner.
-    side : (n,) int64 array
-    corner : (n,) int64 array
-        Corner winding; 1 for full leaves.
-    pieces : (m, 4, 2) int64 array
-    owner : (m,) int64 array
-        Leaf of each piece.
-    on_left : (m, 2) bool array
-        Whether each piece starts, and ends, on its leaf's left edge.
-    is_line : (m,) bool array
-    """
-
-    low: NDArray[np.int64]
-    side: NDArray[np.int64]
-    corner: NDArray[np.int64]
-    pieces: NDArray[np.int64]
-    owner: NDArray[np.int64]
-    on_left: NDArray[np.bool_]
-    is_line: NDArray[np.bool_]
+    low: NDArray[np.int64]  # (n, 2): bottom-left corner
+    side: NDArray[np.int64]  # (n,)
+    corner: NDArray[np.int64]  # (n,): corner winding; 1 for full leaves
+    pieces: NDArray[np.int64]  # (m, 4, 2)
+    owner: NDArray[np.int64]  # (m,): leaf of each piece
+    on_left: NDArray[np.bool_]  # (m, 2): whether each piece starts, and ends, on its leaf's left edge
+    is_line: NDArray[np.bool_]  # (m,)
 
 
 def outlines(flat: NDArray[np.uint32], root: int) -> list[NDArray[np.float64]]:
-    """Closed contours of a shape of a packed texture.
+    """Closed contours of a shape: cubics (n, 4, 2) in unit-square units, with the filled side on their left.
 
-    Parameters
-    ----------
-    flat : (n, 4) uint32 array
-        The texels.
-    root : int
-        Index of the root's quad.
-
-    Returns
-    -------
-    list of (n, 4, 2) float64 arrays
-        Cubics in unit-square units, as a `Path` has them; the filled side is on their left.
-
-    Raises
-    ------
-    FormatError
-        If the texels are no tree.
+    `root` is the index of its root quad. Raises a `FormatError` if the texels (n, 4) are no tree.
 
     Examples
     --------
@@ -129,9 +95,9 @@ def _lines(ends: NDArray[np.int64]) -> NDArray[np.float64]:
 
 
 def _edges(leaves: Leaves) -> NDArray[np.int64]:
-    """Stretches of the leaves' left and right edges that bound what is filled, (n, 2, 2).
+    """Stretches of the leaves' left and right edges that bound the filled part, (n, 2, 2).
 
-    Below, `change` is what is added to the number of times that an edge is run through upwards, at x and above y.
+    In the code, `change` is added at x, above y, to the number of times that the edge runs upwards.
     """
     left, bottom = leaves.low.T
     right, top = left + leaves.side, bottom + leaves.side
@@ -148,15 +114,15 @@ def _edges(leaves: Leaves) -> NDArray[np.int64]:
 
 
 def _closing(ends: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Horizontal lines that close a boundary of which all else is there, (n, 2, 2), from its starts and ends."""
+    """Horizontal lines (n, 2, 2) that close a boundary, given by the starts and ends of its other parts."""
     start, stop = ends[:, 0], ends[:, 1]
-    change = np.repeat([1, -1], len(ends))  # a line leaves where something ends
+    change = np.repeat([1, -1], len(ends))  # a line starts where another part ends
     x, y = np.concatenate([stop, start]).T
     return _stretches(y, x, change)[:, :, ::-1]
 
 
 def _stretches(along: NDArray[np.int64], place: NDArray[np.int64], change: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Parts of the lines at `along` that are run through, forwards or backwards, as often as it takes, (n, 2, 2).
+    """Parts (n, 2, 2) of the lines at `along`, repeated and directed as the sum of the changes at each `place` demands.
 
     On each line the changes add up to 0.
     """
@@ -171,10 +137,10 @@ def _stretches(along: NDArray[np.int64], place: NDArray[np.int64], change: NDArr
 
 
 def _cycles(ends: NDArray[np.int64]) -> list[NDArray[np.int64]]:
-    """Arcs one after another, each from where the one before it ends, until they are back: indices of the arcs."""
+    """Indices of the arcs in closed cycles: each arc starts where the one before it ends."""
     starting = np.lexsort(ends[:, 0].T)
     after = np.empty(len(ends), np.int64)
-    after[np.lexsort(ends[:, 1].T)] = starting  # in and out of a point there are equally many
+    after[np.lexsort(ends[:, 1].T)] = starting  # as many arcs end in a point as start there
     following = after.tolist()
     done = bytearray(len(ends))
     cycles = []
@@ -190,7 +156,7 @@ def _cycles(ends: NDArray[np.int64]) -> list[NDArray[np.int64]]:
 
 
 def _merged(arcs: NDArray[np.float64], is_line: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """One contour with its upright and level lines in one part each, and its other lines exactly straight."""
+    """One contour, in which each vertical or horizontal line is one part, and other lines are exactly straight."""
     step = np.sign(arcs[:, 3] - arcs[:, 0])
     aligned = is_line & (step == 0.0).any(axis=1)
     before = np.roll(step, 1, axis=0), np.roll(aligned, 1)

@@ -1,4 +1,4 @@
-"""A texture as a figure for a notebook: cells, their coverage, and the picture that they make."""
+"""A texture as a figure for a notebook: its cells, their coverage, and the picture."""
 
 from io import BytesIO
 from typing import TYPE_CHECKING, Any, Final
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from vexture import layout
 from vexture.errors import DeviceError
-from vexture.texture.walk import walk
+from vexture.texture.walk import HALVES, walk
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,19 +20,16 @@ PICTURE: Final = 256
 """Pixels of the picture's side."""
 
 RESOLUTION: Final = 160
-"""Pixels per inch where a notebook shows it."""
+"""Pixels per inch in a notebook."""
 
 FINEST: Final = 256
-"""Cells smaller than this part of the unit square are shown by the mean of their quad."""
+"""Quads below 1/256 of the unit square are shown as one cell of their mean coverage."""
 
 
 def cells_of(flat: NDArray[np.uint32], quad: int) -> NDArray[np.float64]:
-    """Cells of one shape that are not divided, or are too small to be seen.
+    """Cells of one shape that are not divided, or are too small to be visible, (n, 5).
 
-    Returns
-    -------
-    (n, 5) float64 array
-        Left, bottom, side, depth and coverage of each, in unit-square units and 0..1.
+    The columns are left, bottom and side in unit-square units, depth, and coverage in 0..1.
 
     Examples
     --------
@@ -41,7 +38,7 @@ def cells_of(flat: NDArray[np.uint32], quad: int) -> NDArray[np.float64]:
     """
     corners, side, found = np.zeros((1, 2)), 0.5, []
     for depth, level in enumerate(walk(flat, np.array([quad])), 1):
-        low = (corners[:, None] + side * np.array([(0, 0), (1, 0), (0, 1), (1, 1)])).reshape(-1, 2)
+        low = (corners[:, None] + side * HALVES).reshape(-1, 2)
         divided = level.is_quad.ravel() & (side * FINEST > 1.0)
         coverage = level.coverages.ravel() / layout.COVERAGE_ONE
         shown = np.column_stack([low, np.full(len(low), side), np.full(len(low), depth), coverage])
@@ -53,29 +50,7 @@ def cells_of(flat: NDArray[np.uint32], quad: int) -> NDArray[np.float64]:
 
 
 def plot_shape(flat: NDArray[np.uint32], quad: int, picture: NDArray[np.float32], title: str) -> "Figure":
-    """Draw the three panels.
-
-    Parameters
-    ----------
-    flat : (n, 4) uint32 array
-        The texels.
-    quad : int
-        Root quad of the shape.
-    picture : (height, width) float32 array
-        Its coverage.
-    title : str
-        Of the last panel.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Shows itself as the last value of a notebook's cell.
-
-    Raises
-    ------
-    DeviceError
-        If matplotlib is not installed.
-    """
+    """Draw the three panels; `picture` (height, width) is the coverage of the shape, `title` the last panel's title."""
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure

@@ -1,4 +1,4 @@
-"""A shape of a packed texture, and how the texture's file says what its shapes are."""
+"""A shape of a packed texture, and the description of all shapes in the texture's file."""
 
 import json
 import math
@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from vexture.drawing import IDENTITY, Paint
 from vexture.errors import FormatError, LimitError
 from vexture.layout import TEXT_ROOTS
+from vexture.texture.walk import REMEDY
 
 __all__ = ["Root", "read_roots", "roots_text"]
-
-REMEDY = "convert the drawing again"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -28,15 +27,15 @@ class Root:
     name : str
         Names the shape within its texture.
     quad : int
-        Index of its root quad's texel: all that a shader needs.
+        Index of its root quad's texel; a shader needs nothing else.
     to_source : (2, 3) float64 array
         Affine map from the unit square to the units of the source.
     tolerance : float
         Largest distance between the drawing's outline and the texture's before quantisation, in unit-square units.
     crs : str or None
-        Coordinate reference system of the source units, where there is one.
+        Coordinate reference system of the source units, if there is one.
     paint : Paint or None
-        Its colour, where it is one layer of a drawing; None for a silhouette.
+        The colour, if the shape is one layer of a drawing; None for a silhouette.
 
     Examples
     --------
@@ -54,12 +53,9 @@ class Root:
 
 
 def roots_text(roots: tuple[Root, ...]) -> str:
-    """Return the JSON text of a texture's roots (FORMAT.md, B.5): compact, always the same for the same roots.
+    """JSON text of a texture's roots (FORMAT.md, B.5): compact, and always the same for the same roots.
 
-    Raises
-    ------
-    LimitError
-        If a number is not finite.
+    Raises a `LimitError` if a number is not finite.
 
     Examples
     --------
@@ -90,19 +86,16 @@ def _as_json(root: Root) -> dict[str, Any]:
 
 
 def _short(number: float) -> float:
-    """Return a number as JSON says it shortest: integers without a point, but for -0.0, which keeps its sign."""
+    """A number as JSON writes it shortest: integers without a point, except -0.0, which keeps its sign."""
     value = float(number)
     whole = value.is_integer() and abs(value) < 2.0**53 and (value != 0.0 or math.copysign(1.0, value) > 0.0)
     return int(value) if whole else value
 
 
 def read_roots(text: str) -> tuple[Root, ...]:
-    """Roots from their JSON text; members that are not known are ignored.
+    """Roots from their JSON text; unknown members are ignored.
 
-    Raises
-    ------
-    FormatError
-        If it is not what FORMAT.md says.
+    Raises a `FormatError` if the text contradicts FORMAT.md.
 
     Examples
     --------
@@ -148,7 +141,7 @@ def _read_paint(paint: Any, place: int) -> Paint | None:
 
 
 def _numbers(values: Any, count: int, what: str) -> list[float]:
-    """So many finite numbers."""
+    """The finite numbers of a list of `count`."""
     fits = isinstance(values, list) and len(values) == count
     if fits and all(type(value) in (int, float) and abs(value) <= sys.float_info.max for value in values):
         return [float(value) for value in values]
@@ -161,6 +154,6 @@ def _refuse_constant(name: str) -> float:
 
 
 def _line(value: Any) -> str:
-    """Return something of a stranger's as one short line."""
+    """An untrusted value, or an error, as one short line."""
     text = str(value) if isinstance(value, Exception) else reprlib.repr(value)
     return " ".join(text.split())[:60].encode(errors="backslashreplace").decode()

@@ -15,22 +15,15 @@ from vexture.texture.root import Root
 __all__ = ["svg_document"]
 
 DIGITS = 9
-"""Of a coordinate, in sizes of the drawing: finer than the lattices of all but the smallest leaves."""
+"""Decimal digits of a coordinate, in drawing sizes: finer than the lattices of all but the smallest leaves."""
 
 NOT_IN_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def svg_document(shapes: Iterable[tuple[Root, list[NDArray[np.float64]]]], name: str) -> str:
-    """Return the text of an SVG document with one path for each shape.
+    """SVG document with the title `name` and a path for each shape, given by its closed contours in unit-square units.
 
-    Its view box holds the unit square of every shape. A source whose y points up is turned by a `transform`.
-
-    Parameters
-    ----------
-    shapes : iterable of Root and list of (n, 4, 2) float64 arrays
-        Closed contours in unit-square units.
-    name : str
-        The document's title.
+    The view box holds the unit square of every shape. A source whose y points up is flipped by a `transform`.
 
     Examples
     --------
@@ -61,7 +54,7 @@ def svg_document(shapes: Iterable[tuple[Root, list[NDArray[np.float64]]]], name:
 
 
 def _places(matrix: NDArray[np.float64]) -> int:
-    """Digits after the point that a coordinate needs."""
+    """Digits after the decimal point of a coordinate."""
     scale = float(abs(matrix[:, :2]).max())
     return max(DIGITS - math.floor(math.log10(scale)), 0) if scale > 0.0 else 0
 
@@ -79,7 +72,7 @@ def _contour(cubics: NDArray[np.float64], is_line: NDArray[np.bool_], places: in
         points = cubic[3:] if line else cubic[1:]
         data.append(("L" if line else "C") + " ".join(_number(value, places) for value in points.flat))
     if is_line[-1]:
-        data.pop()  # closing says it
+        data.pop()  # Z draws it
     return f"M{_number(x, places)} {_number(y, places)}{''.join(data)}Z"
 
 
@@ -96,5 +89,5 @@ def _fill(paint: Paint | None) -> str:
 
 
 def _text(text: str) -> str:
-    """Text that XML can hold."""
+    """Text with XML's special characters escaped and forbidden ones replaced."""
     return escape(NOT_IN_XML.sub("\ufffd", text))

@@ -1,4 +1,4 @@
-"""The texture itself: one array of texels, any number of shapes, one file."""
+"""A texture: one array of texels, any number of shapes, one file."""
 
 import os
 from dataclasses import dataclass
@@ -15,18 +15,16 @@ from vexture.errors import FormatError, LimitError, ParameterError
 from vexture.renderers.picture import painted
 from vexture.renderers.view import Size, ViewLike, size_of
 from vexture.texture.choose import layers_of, place_of
-from vexture.texture.facts import facts
 from vexture.texture.files import target_of, write_together
-from vexture.texture.ktx2 import write_ktx2
+from vexture.texture.ktx2 import check_size, write_ktx2
 from vexture.texture.root import Root, roots_text
-from vexture.texture.walk import walk
+from vexture.texture.walk import REMEDY, walk
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["REMEDY", "Root", "Texture"]
+__all__ = ["Root", "Texture"]
 
-REMEDY: Final = "convert the drawing again"
 WRITER: Final = "vexture"
 
 
@@ -68,13 +66,7 @@ class Texture:
             raise FormatError(
                 f"texels are {self.texels.dtype}{self.texels.shape}; they must be uint32 (rows, width, 4)"
             )
-        rows, width, _ = self.texels.shape
-        full = width == 1 << layout.ROW_BITS
-        if width.bit_count() != 1 or width > 1 << layout.ROW_BITS or not 1 <= rows <= (layout.MOST_ROWS if full else 1):
-            raise FormatError(
-                f"{width} x {rows} texels; a texture is {1 << layout.ROW_BITS} wide and 1 to {layout.MOST_ROWS} high, "
-                "or one row of a smaller power of two"
-            )
+        check_size(self.texels.shape[1], self.texels.shape[0])
         if not self.roots:
             raise FormatError("a texture has at least one root; give one for each shape")
 
@@ -99,23 +91,14 @@ class Texture:
         return self.texels.nbytes
 
     def root(self, root: str | int | None = None) -> Root:
-        """One of the shapes, by its name or its place; the only one if neither is given.
+        """One of the shapes, by its name or number; the only one if `root` is missing.
 
-        Raises
-        ------
-        ParameterError
-            If there is none of that name or place, or none is given and there are several.
-
-        Examples
-        --------
-        >>> texture = Texture(np.zeros((1, 1, 4), np.uint32), (Root("anchor"), Root("apple")))
-        >>> texture.root("anchor").quad
-        0
+        Raises a `ParameterError` if there is no such shape, or if `root` is missing and there are several.
         """
         return self.roots[place_of(self.roots, root, self.name)]
 
     def check(self) -> None:
-        """Raise a `FormatError` where the texels contradict FORMAT.md; takes time in proportion to their number."""
+        """Raise a `FormatError` where the texels contradict FORMAT.md; the time is proportional to their number."""
         flat = self.flat
         levels = walk(flat, self.quads)
         met = np.zeros(len(flat), np.bool_)
@@ -135,14 +118,14 @@ class Texture:
             )
 
     def contains(self, points: ArrayLike, root: str | int | None = None) -> NDArray[np.bool_]:
-        """Which points are inside a shape, by the outlines as they are stored.
+        """Which points are inside a shape, by the stored outlines.
 
         Parameters
         ----------
         points : (n, 2) array
-            In unit-square units, y up. Nothing is inside beyond 0 <= x < 1, 0 <= y < 1.
+            In unit-square units, y up. Points outside 0 <= x < 1, 0 <= y < 1 are not inside.
         root : str, int or None
-            Name or place of the shape; not needed if there is only one.
+            Name or number of the shape; not needed if there is only one.
 
         Returns
         -------
@@ -152,7 +135,7 @@ class Texture:
         Raises
         ------
         ParameterError
-            If the points are of another shape, there is no such shape, or none is named where there are several.
+            If the points have another shape, there is no such shape, or `root` is missing and there are several.
 
         Examples
         --------
@@ -161,7 +144,7 @@ class Texture:
         >>> texture.contains([(0.5, 0.5), (0.1, 0.5)])
         array([ True, False])
         """
-        from vexture.texture.contains import points_inside  # late: compiled code, which readers need not wait for
+        from vexture.texture.contains import points_inside  # late: compiled code, not needed for reading
 
         wanted = np.asarray(points, np.float64)
         if wanted.ndim != 2 or wanted.shape[1] != 2:
@@ -179,24 +162,7 @@ class Texture:
         root: str | int | None = None,
         quality: Quality = "exact",
     ) -> NDArray[np.float32]:
-        """Covered part of each pixel, by one shape.
-
-        Parameters
-        ----------
-        size, view, renderer, root, quality
-            As in `vexture.coverage`.
-
-        Returns
-        -------
-        (height, width) float32 array
-            Coverage, 0..1, top row first.
-
-        Raises
-        ------
-        ParameterError
-            If an argument is out of range, or `root` is missing where there are several shapes.
-        DeviceError
-            If there is no GPU.
+        """Covered part of each pixel by one shape. Parameters, result and errors as in `vexture.coverage`.
 
         Examples
         --------
@@ -206,7 +172,7 @@ class Texture:
         """
         place = place_of(self.roots, root, self.name)
         if renderer == "cpu":
-            from vexture.renderers.cpu import render_cpu  # late: compiled code, which readers need not wait for
+            from vexture.renderers.cpu import render_cpu  # late: compiled code, not needed for reading
 
             return render_cpu(self, size, view, root=place, quality=quality)
         if renderer != "gpu":
@@ -224,25 +190,7 @@ class Texture:
         root: str | int | None = None,
         quality: Quality = "exact",
     ) -> NDArray[np.float32]:
-        """Picture of a drawing in its colours: its layers, one over the other. Silhouettes are black.
-
-        Parameters
-        ----------
-        size, view, renderer, root, quality
-            As in `vexture.render`.
-
-        Returns
-        -------
-        (height, width, 4) float32 array
-            sRGB and opacity, 0..1, premultiplied, top row first.
-
-        Raises
-        ------
-        ParameterError
-            If an argument is out of range, or `root` is missing where there are several drawings.
-        DeviceError
-            If there is no GPU.
-        """
+        """Picture of a drawing in its colours, as `vexture.render` makes it. Parameters, result and errors as there."""
         layers = (
             (
                 self.roots[place].paint or Paint(),
@@ -253,24 +201,17 @@ class Texture:
         return painted(size_of(size), layers)
 
     def plot(self, root: str | int | None = None) -> "Figure":
-        """Show a shape's cells by depth, their coverage, and the picture they make, in a notebook too.
-
-        Parameters
-        ----------
-        root : str or int, optional
-            Name or place of the shape; not needed if there is only one.
+        """Figure of a shape's cells by depth, their coverage, and the picture. `root` as in `contains`.
 
         Returns
         -------
         matplotlib.figure.Figure
-            Shows itself as the last value of a notebook's cell.
+            A notebook shows it as the last value of a cell.
 
         Raises
         ------
         DeviceError
             If matplotlib is not installed.
-        ParameterError
-            If there is no such shape, or none is named where there are several.
 
         Examples
         --------
@@ -286,17 +227,12 @@ class Texture:
         return plot_shape(self.flat, shape.quad, self.coverage(PICTURE, root=root), title)
 
     def to_svg(self, root: str | int | None = None) -> str:
-        """Return the outlines as an SVG document in the units of the source.
+        """SVG document in the units of the source: the outlines of each shape are one path, in its colour, else black.
 
         Parameters
         ----------
         root : str, int or None
-            Name or place of a shape; None draws all of them, one above the other.
-
-        Returns
-        -------
-        str
-            A document, of which each shape is a path in its colour, else black.
+            Name or number of a shape; None draws all of them, one above the other.
 
         Raises
         ------
@@ -317,7 +253,7 @@ class Texture:
         return svg_document(((one, outlines(self.flat, one.quad)) for one in roots), self.name)
 
     def info(self) -> dict[str, Any]:
-        """Describe the texture and its shapes, ready for JSON.
+        """Facts about the texture and its shapes, ready for JSON.
 
         Examples
         --------
@@ -325,7 +261,15 @@ class Texture:
         >>> Texture(texels, (Root("a quarter"),)).info()["roots"][0]["coverage"]
         0.25
         """
-        found = facts(self.flat, self.roots)
+        levels = walk(self.flat, self.quads)
+        distinct = levels[0].quads
+        quads, curves, depth = np.zeros((3, len(distinct)), np.int64)
+        for below, level in enumerate(levels):
+            here = np.bincount(level.tree, minlength=len(distinct))
+            quads += here
+            curves += np.bincount(level.tree, level.counts.sum(axis=1), len(distinct)).astype(np.int64)
+            depth[here > 0] = below
+        coverage = levels[0].coverages.mean(axis=1) / layout.COVERAGE_ONE
         return {
             "encoding": layout.ENCODING_PACKED,
             "version": layout.PACKED_VERSION,
@@ -333,10 +277,24 @@ class Texture:
             "source": self.source,
             "width": self.texels.shape[1],
             "height": self.texels.shape[0],
-            "texels": found["texels"],
-            "depth": found["depth"],
+            "texels": int(quads.sum() + curves.sum()),
+            "depth": int(depth.max()),
             "bytes": self.nbytes,
-            "roots": found["roots"],
+            "roots": [
+                {
+                    "name": root.name,
+                    "quad": root.quad,
+                    "coverage": float(coverage[tree]),
+                    "quads": int(quads[tree]),
+                    "curves": int(curves[tree]),
+                    "depth": int(depth[tree]),
+                    "transform": root.to_source.tolist(),
+                    "crs": root.crs,
+                    "tolerance": root.tolerance,
+                    "paint": root.paint and {"color": [*root.paint.color], "opacity": root.paint.opacity},
+                }
+                for root, tree in zip(self.roots, np.searchsorted(distinct, self.quads), strict=True)
+            ],
         }
 
     def texts(self) -> dict[str, str]:
@@ -352,13 +310,7 @@ class Texture:
         return {key: text.encode(errors="replace").decode() for key, text in texts.items() if text is not None}
 
     def to_ktx2(self) -> bytes:
-        """Return the contents of the file.
-
-        Raises
-        ------
-        LimitError
-            If the names and transforms of the roots are too long.
-        """
+        """Contents of the file; a `LimitError` if the names and transforms of the roots are too long."""
         texts = self.texts()
         length = sum(len(key.encode()) + len(text.encode()) + 16 for key, text in texts.items())
         if length > layout.MOST_TEXT_BYTES:
@@ -369,7 +321,7 @@ class Texture:
         return write_ktx2(self.texels, texts)
 
     def files(self) -> dict[str, bytes]:
-        """Contents of the file, by what follows the texture's name in its name."""
+        """Contents of the file, keyed by its suffix."""
         return {layout.PACKED_SUFFIX: self.to_ktx2()}
 
     def save(self, path: str | os.PathLike[str]) -> Path:

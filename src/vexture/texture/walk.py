@@ -1,64 +1,40 @@
 """From the roots of a packed texture down to its leaves, all quads of a depth at a time.
 
-Nothing is believed: a walk over texels of a stranger stays within them, meets each once, and ends.
+Untrusted texels are validated: a walk stays within them, meets each of them once, and ends.
 """
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture import layout
 from vexture.errors import FormatError
-from vexture.layout import CELL_BITS, COUNT_SHIFT, MOST_CURVES, MOST_DEPTH, QUAD_FLAG, WINDING_OFFSET
 
-__all__ = ["WalkLevel", "walk"]
+__all__ = ["HALVES", "REMEDY", "WalkLevel", "curve_points", "walk"]
 
-REMEDY = "convert the drawing again"
+REMEDY: Final = "convert the drawing again"
+
+HALVES: Final = np.array([(0, 0), (1, 0), (0, 1), (1, 1)])
+"""Position of each cell in its quad."""
 
 
 class WalkLevel(NamedTuple):
-    """The quads of one depth, in the order of their parents and of the cells of those.
+    """The n quads of one depth, in the order of their parents and of the parents' cells."""
 
-    Attributes
-    ----------
-    quads : (n,) int64 array
-        Index of each quad's texel.
-    tree : (n,) int64 array
-        Which of the roots, without repetition in order of their quads, each belongs to.
-    is_quad : (n, 4) bool array
-    counts : (n, 4) int64 array
-        Number of curves of each leaf.
-    windings : (n, 4) int64 array
-        Corner winding of each leaf with curves; 0 elsewhere.
-    coverages : (n, 4) int64 array
-        Coverage byte of each cell.
-    curves : (m,) int64 array
-        Index of each curve's texel, in the order of the quads and their cells.
-    """
-
-    quads: NDArray[np.int64]
-    tree: NDArray[np.int64]
-    is_quad: NDArray[np.bool_]
-    counts: NDArray[np.int64]
-    windings: NDArray[np.int64]
-    coverages: NDArray[np.int64]
-    curves: NDArray[np.int64]
+    quads: NDArray[np.int64]  # (n,): index of each quad's texel
+    tree: NDArray[np.int64]  # (n,): which root each belongs to, among the different roots in order of their quads
+    is_quad: NDArray[np.bool_]  # (n, 4)
+    counts: NDArray[np.int64]  # (n, 4): curves of each leaf
+    windings: NDArray[np.int64]  # (n, 4): corner winding of each leaf with curves; 0 elsewhere
+    coverages: NDArray[np.int64]  # (n, 4): coverage byte of each cell
+    curves: NDArray[np.int64]  # (m,): index of each curve's texel, in the order of the quads and their cells
 
 
 def walk(flat: NDArray[np.uint32], roots: NDArray[np.int64]) -> list[WalkLevel]:
-    """Walk the trees of some roots; those that are the same quad are one.
+    """Walk the trees of some roots, given by the indices of their quads; equal roots are one tree.
 
-    Parameters
-    ----------
-    flat : (n, 4) uint32 array
-        The texels.
-    roots : (m,) int64 array
-        Index of each root's quad.
-
-    Raises
-    ------
-    FormatError
-        If this is not a forest, or a cell says what no cell may say.
+    Raises a `FormatError` if the texels (n, 4) are no forest, or a cell has a value that FORMAT.md does not allow.
     """
     quads = np.unique(roots)
     if quads[0] < 0 or quads[-1] >= len(flat):
@@ -68,8 +44,9 @@ def walk(flat: NDArray[np.uint32], roots: NDArray[np.int64]) -> list[WalkLevel]:
     tree = np.arange(len(quads))
     levels: list[WalkLevel] = []
     while len(quads):
-        if len(levels) == MOST_DEPTH:
-            raise FormatError(f"quad {quads[0]} lies at depth {MOST_DEPTH}; the limit is {MOST_DEPTH - 1}; {REMEDY}")
+        depth, deepest = len(levels), layout.MOST_DEPTH - 1
+        if depth > deepest:
+            raise FormatError(f"quad {quads[0]} lies at depth {depth}; the limit is {deepest}; {REMEDY}")
         is_quad, count, winding, coverage = _cells(flat, quads)
         below = _below(flat[:, 0], quads, is_quad.sum(axis=1), met, "quad")
         curves = _below(flat[:, 1], quads, count.sum(axis=1), met, "curve")
@@ -81,25 +58,25 @@ def walk(flat: NDArray[np.uint32], roots: NDArray[np.int64]) -> list[WalkLevel]:
 def _cells(
     flat: NDArray[np.uint32], quads: NDArray[np.int64]
 ) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
-    """Read what the cells of quads are: whether quads, curves, corner winding, coverage."""
-    shift = CELL_BITS * np.arange(4)
-    last = (1 << CELL_BITS) - 1
+    """Cells of quads: whether they are quads, their number of curves, corner winding and coverage."""
+    shift = layout.CELL_BITS * np.arange(4)
+    last = (1 << layout.CELL_BITS) - 1
     cells = (flat[quads, 2].astype(np.int64)[:, None] >> shift) & last
     coverage = (flat[quads, 3].astype(np.int64)[:, None] >> shift) & last
-    is_quad = cells >= QUAD_FLAG
-    count = np.where(is_quad, 0, cells >> COUNT_SHIFT & MOST_CURVES)
-    winding = np.where(is_quad, 0, cells & ((1 << COUNT_SHIFT) - 1))
-    wrong = np.where(is_quad, cells != QUAD_FLAG, (count > 0) != (winding > 0))
+    is_quad = cells >= layout.QUAD_FLAG
+    count = np.where(is_quad, 0, cells >> layout.COUNT_SHIFT & layout.MOST_CURVES)
+    winding = np.where(is_quad, 0, cells & ((1 << layout.COUNT_SHIFT) - 1))
+    wrong = np.where(is_quad, cells != layout.QUAD_FLAG, (count > 0) != (winding > 0))
     if wrong.any():
         place, cell = np.argwhere(wrong)[0]
-        raise FormatError(f"quad {quads[place]}, cell {cell} is {cells[place, cell]}, which says nothing; {REMEDY}")
-    return is_quad, count, np.where(count > 0, winding - WINDING_OFFSET, 0), coverage
+        raise FormatError(f"quad {quads[place]}, cell {cell} is {cells[place, cell]}, which is no valid cell; {REMEDY}")
+    return is_quad, count, np.where(count > 0, winding - layout.WINDING_OFFSET, 0), coverage
 
 
 def _below(
     first: NDArray[np.uint32], quads: NDArray[np.int64], counts: NDArray[np.int64], met: NDArray[np.bool_], what: str
 ) -> NDArray[np.int64]:
-    """Texels to which quads refer, `counts` to each from its `first`; they are now met."""
+    """Indices of the texels that quads refer to, `counts` for each from its `first`; marks them in `met`."""
     some = counts > 0
     start, counts = first[quads[some]].astype(np.int64), counts[some]
     wrong = (start <= quads[some]) | (start + counts > len(met))
@@ -118,3 +95,11 @@ def _below(
         raise FormatError(f"texel {order[again.argmax()]} is referred to twice, as a {what} now; {REMEDY}")
     met[found] = True
     return found
+
+
+def curve_points(texels: NDArray[np.uint32]) -> NDArray[np.int32]:
+    """Points of curves in lattice units of their leaf, (n, 4) -> (n, 4, 2)."""
+    mask = (1 << layout.COORDINATE_BITS) - 1
+    points = np.stack([texels & mask, texels >> layout.COORDINATE_BITS], axis=2).astype(np.int32)
+    points[:, 1:3] -= layout.CONTROL_OFFSET
+    return points

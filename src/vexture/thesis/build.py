@@ -33,9 +33,10 @@ from vexture.thesis.plain import plain_chain
 from vexture.thesis.sampled import build_sampled
 from vexture.thesis.tree import CellTree
 from vexture.tolerance import CLOSED, GRAIN
-from vexture.tree.boundary import HOPELESS, crowded_area
+from vexture.tree.boundary import MOST_RESOLVED, crowded_area
 from vexture.tree.cubics import gather
-from vexture.tree.pool import MOST_QUADS, with_room
+from vexture.tree.divide import with_room
+from vexture.tree.tree import MOST_QUADS
 
 __all__ = ["DEFAULT_DEPTH", "DEPTH_RANGE", "build", "root_level"]
 
@@ -104,11 +105,11 @@ def _leaf_of(
         leaf = own_leaf(level.pieces, first, last, cubics, present[0, 1], rules[present[0, 0]], x0, y0, size)
         if leaf.kind != NO_LEAF:
             return leaf
-        if last - first <= HOPELESS:
+        if last - first <= MOST_RESOLVED:
             chain, area = plain_chain(level.pieces, first, last, present[0, 1], rules[present[0, 0]], x0, y0, size)
             if chain.chains < 2:
                 return _leaf_or_limit(chain, area, cubics, x0, y0, size, tolerance, at_limit)
-    if last - first > HOPELESS:
+    if last - first > MOST_RESOLVED:
         if at_limit:
             return nearest_constant(
                 crowded_area(

@@ -1,4 +1,4 @@
-"""The cells of one depth, and how they are cut into the cells of the next, by the rules of `vexture.tree.pool`."""
+"""The cells of one depth, and how they are cut into the cells of the next, by the rules of `vexture.tree.divide`."""
 
 from typing import NamedTuple
 
@@ -9,7 +9,7 @@ from vexture.bezier.monotone import Pieces, empty_pieces
 from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
-from vexture.tree.pool import child_of, snap
+from vexture.tree.divide import child_of, snap
 from vexture.tree.winding import child_windings, inside
 
 __all__ = ["Level", "children"]

@@ -292,7 +292,7 @@ def build_sampled(
     drawing : Drawing
         In normal form.
     cubics, owner, rules : arrays
-        What `vexture.tree.pool.gather` gives for it.
+        What `vexture.tree.cubics.gather` gives for it.
     accuracy : Accuracy
         A fit is good if no sample is farther from it.
     max_depth : int

@@ -1,9 +1,9 @@
-"""Which boundary counts: fill rules, overlaps and crossings, resolved inside one candidate leaf.
+"""The boundary inside one candidate leaf: fill rules, overlaps and crossings are resolved here.
 
-The pieces of all paths in a cell are quantised to the leaf's integer lattice, so that every comparison of y is
-exact. Horizontal *slabs* are cut at each end point's and each crossing's y. In a slab nothing crosses: one sweep
-from the left edge, with prefix sums of the paths' windings, tells which pieces separate inside from outside. No
-winding is ever evaluated geometrically, so a wrong order of two near-coincident curves costs area, never parity.
+The pieces of all paths in a cell are rounded to the leaf's integer lattice, so that every comparison of y is exact.
+Horizontal *slabs* are cut at each end's and each crossing's y. In a slab nothing crosses: one sweep from the left edge,
+with prefix sums of the paths' windings, finds the pieces that separate inside from outside. No winding is ever
+evaluated geometrically, so a wrong order of two nearly coincident curves costs area, never parity.
 """
 
 from typing import NamedTuple
@@ -14,49 +14,36 @@ from numpy.typing import NDArray
 from vexture.kernels import kernel
 from vexture.layout import LATTICE
 from vexture.tree.crossings import crossing_heights, x_at
-from vexture.tree.order import sort_order
 from vexture.tree.winding import inside
 
-__all__ = ["HOPELESS", "Boundary", "cell_paths", "crowded_area", "quantise", "quantise_piece", "resolve"]
+__all__ = ["MOST_RESOLVED", "Boundary", "cell_paths", "crowded_area", "quantise", "quantise_piece", "resolve"]
 
 NEAR = 1.0
-"""Lattice units: curves that stay closer than this are one boundary."""
+"""Lattice units. Curves that stay closer than this are one boundary."""
 
+MOST_RESOLVED = 160
+"""Pieces. A cell with more is not resolved, because resolving compares every pair."""
 
-HOPELESS = 160
-"""Pieces in a cell above which it is not resolved at all: resolving looks at every pair."""
+SCANLINES = 64
+"""Heights at which a cell with too many pieces to resolve is measured."""
 
 
 class Boundary(NamedTuple):
-    """The resolved boundary in a leaf.
+    """The resolved boundary in a leaf: parts of pieces (*runs*) that separate inside from outside."""
 
-    Attributes
-    ----------
-    heights : (slabs + 1,) float64 array
-        Lattice y of the slabs' borders.
-    left : (slabs,) int64 array
-        1 where the leaf is inside at its left edge.
-    run_piece : (runs,) int64 array
-        The piece that each run is a part of.
-    run_role : (runs,) int64 array
-        1 where the right side of the run is inside, -1 where the left side is.
-    run_y : (runs, 2) float64 array
-        Lattice y of the run's lower and upper end.
-    """
-
-    heights: NDArray[np.float64]
-    left: NDArray[np.int64]
-    run_piece: NDArray[np.int64]
-    run_role: NDArray[np.int64]
-    run_y: NDArray[np.float64]
+    heights: NDArray[np.float64]  # (slabs + 1,): lattice y of the slabs' borders
+    left: NDArray[np.int64]  # (slabs,): 1 where the left edge of the leaf is inside
+    run_piece: NDArray[np.int64]  # (runs,): the piece that each run is a part of
+    run_role: NDArray[np.int64]  # (runs,): 1 if the right side is inside, -1 if the left side is
+    run_y: NDArray[np.float64]  # (runs, 2): lattice y of the lower and upper end
 
 
 @kernel
 def quantise(points: NDArray[np.float64], x0: float, y0: float, size: float) -> NDArray[np.float64]:
-    """Pieces of a cell, (n, 4, 2), on its lattice: ends are integers, inner control points move along with them.
+    """Pieces of a cell on its lattice: ends become integers, and inner control points move along with them.
 
-    A point on the left edge stays on it and no other point may come to lie there: the rule of windings counts
-    ends on that edge.
+    A point on the left edge stays on it, and no other point may come to lie there: the rule of windings counts the ends
+    on that edge.
     """
     out = np.empty((len(points), 4, 2))
     for i in range(len(points)):
@@ -79,9 +66,42 @@ def quantise_piece(points: NDArray[np.float64], x0: float, y0: float, size: floa
         out[end, 0], out[end, 1] = x, y
 
 
+@kernel(allocates=False)
+def _sift(keys: NDArray[np.float64], order: NDArray[np.int64], root: int, count: int) -> None:
+    """Restore the heap below a place."""
+    while 2 * root + 1 < count:
+        child = 2 * root + 1
+        if child + 1 < count and keys[order[child]] < keys[order[child + 1]]:
+            child += 1
+        if keys[order[root]] >= keys[order[child]]:
+            return
+        order[root], order[child] = order[child], order[root]
+        root = child
+
+
+@kernel
+def sort_order(keys: NDArray[np.float64], count: int) -> NDArray[np.int64]:
+    """Numbers of the first `count` keys in rising order (heap sort; NumPy's sort takes Numba seconds to compile).
+
+    Examples
+    --------
+    >>> sort_order(np.array([3.0, 1.0, 2.0]), 3)
+    array([1, 2, 0])
+    """
+    order = np.empty(count, np.int64)
+    for k in range(count):
+        order[k] = k
+    for root in range(count // 2 - 1, -1, -1):
+        _sift(keys, order, root, count)
+    for last in range(count - 1, 0, -1):
+        order[0], order[last] = order[last], order[0]
+        _sift(keys, order, 0, last)
+    return order
+
+
 @kernel
 def _slab_heights(curves: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Heights of the slabs' borders: the leaf's own, every end's, every crossing's; sorted, each once."""
+    """Heights of the slabs' borders, sorted, each once: the leaf's own, every end's, every crossing's."""
     n = len(curves)
     heights, count = crossing_heights(curves, NEAR, 2 * n + 2)
     heights[count], heights[count + 1] = 0.0, LATTICE
@@ -102,10 +122,10 @@ def _slab_heights(curves: NDArray[np.float64]) -> NDArray[np.float64]:
 def _order_slab(
     curves: NDArray[np.float64], low: float, high: float, active: NDArray[np.int64], x: NDArray[np.float64]
 ) -> int:
-    """Order the pieces that span a slab by x; return how many.
+    """Order the pieces that span a slab by x; return how many there are.
 
-    Written are their numbers to `active` and their x at the three inner heights to `x`, by number. By the middle
-    height alone where that is clear; by the sum of the three where neighbours are close.
+    Their numbers are written to `active`, and their x at the three inner heights to `x`. The middle height decides, or
+    the sum of the three where neighbours are close.
     """
     count, height = 0, high - low
     for i in range(len(curves)):
@@ -142,7 +162,7 @@ def _order_slab(
 
 @kernel(allocates=False)
 def _coincide(x: NDArray[np.float64], i: int, j: int, height: float) -> bool:
-    """Whether two pieces of a slab are one boundary: nearer than a unit, measured across them, at three heights."""
+    """Whether two pieces of a slab are one boundary: at three heights less than a unit apart, across them."""
     if x[i, 0] == np.inf:
         return False
     lean = max(abs(x[i, 2] - x[i, 0]), abs(x[j, 2] - x[j, 0])) / (0.7 * height)
@@ -165,10 +185,10 @@ def _roles_in_slab(
     previous: NDArray[np.int64],
     role: NDArray[np.int64],
 ) -> int:
-    """Sweep a slab from the left: set the role of each piece in it; return whether its left edge is inside.
+    """Sweep a slab from the left: set the role of each piece in it; return whether the left edge is inside.
 
-    Neighbours that coincide form a group of which only inside-before and inside-after count: equal, all go;
-    different, one stays, preferably one that had that role in the slab below, else the one that reaches highest.
+    Neighbours that coincide form a group. If it has the same side before and after, all its pieces are dropped.
+    Otherwise one stays: preferably one that had that role in the slab below, else the one that reaches highest.
     """
     w = np.empty(len(windings), np.int64)
     paths_inside = 0
@@ -204,18 +224,10 @@ def _roles_in_slab(
 def resolve(
     curves: NDArray[np.float64], owner: NDArray[np.int64], corner: NDArray[np.int64], rules: NDArray[np.int64]
 ) -> Boundary:
-    """Boundary of the union of all paths in a leaf.
+    """Boundary of the union of all paths in a leaf, from its pieces on the lattice (`quantise`).
 
-    Parameters
-    ----------
-    curves : (n, 4, 2) float64 array
-        Pieces on the leaf's lattice (`quantise`).
-    owner : (n,) int64 array
-        The path of each, as an index into `corner` and `rules`.
-    corner : (paths,) int64 array
-        Corner windings.
-    rules : (paths,) int64 array
-        `FillRule` of each path.
+    `owner` (n,) is the path of each piece, as an index into `corner`, the corner windings, and `rules`, both of the
+    leaf's paths only.
     """
     heights = _slab_heights(curves)
     slabs, count = len(heights) - 1, len(curves)
@@ -260,18 +272,9 @@ def cell_paths(
     corner: NDArray[np.int64],
     cell_rules: NDArray[np.int64],
 ) -> None:
-    """Write the paths of a cell, numbered from 0: the one of each piece, their corner windings, their fill rules.
+    """Number the paths of a cell from 0; write the `owner` of each piece, and their corner windings and fill rules.
 
-    Parameters
-    ----------
-    path : (n,) int64 array
-        The path of each piece, in the order of `present`.
-    present : (n, 2) int64 array
-        The paths in the cell and their corner windings.
-    rules : (paths,) int64 array
-        `FillRule` of each path of the drawing.
-    owner, corner, cell_rules : int64 arrays
-        Written.
+    `path` is in the order of `present`.
     """
     k = 0
     for i in range(len(path)):
@@ -280,10 +283,6 @@ def cell_paths(
         owner[i] = k
     for k in range(len(present)):
         corner[k], cell_rules[k] = present[k, 1], rules[present[k, 0]]
-
-
-SCANLINES = 64
-"""Heights at which a cell with too many pieces to resolve is measured."""
 
 
 @kernel
@@ -296,21 +295,7 @@ def crowded_area(
     y0: float,
     size: float,
 ) -> float:
-    """Filled part of a cell that holds too many pieces to resolve: the mean over scanlines.
-
-    Parameters
-    ----------
-    points : (n, 4, 2) float64 array
-        The cell's pieces.
-    path : (n,) int64 array
-        The path of each.
-    present : (m, 2) int64 array
-        The paths in it and their corner windings.
-    rules : (paths,) int64 array
-        `FillRule` of each path of the drawing.
-    x0, y0, size : float
-        The cell.
-    """
+    """Filled part of a cell that holds too many pieces to resolve: the mean over `SCANLINES` lines."""
     windings = np.zeros(len(rules), np.int64)
     crossing_x, crossing = np.empty(len(path)), np.empty(len(path), np.int64)
     total = 0.0

@@ -1,4 +1,4 @@
-"""From a drawing to a `Tree`, level by level."""
+"""Building a `Tree` from a drawing: cells are divided depth first until each is a leaf."""
 
 import math
 from typing import NamedTuple
@@ -13,9 +13,9 @@ from vexture.kernels import kernel
 from vexture.layout import LATTICE, MOST_CURVES, MOST_DEPTH
 from vexture.tolerance import CLOSED
 from vexture.tree.cubics import gather
+from vexture.tree.divide import PARTS, PiecePool, divide, new_pool, pool_with_room, with_room
 from vexture.tree.leaf import DIVIDE, Leaf, Workspace, leaf_of, new_workspace
-from vexture.tree.pool import MOST_QUADS, PARTS, Pool, divide, new_pool, pool_with_room, with_room
-from vexture.tree.tree import Tree
+from vexture.tree.tree import MOST_QUADS, Tree
 from vexture.tree.winding import child_windings, inside
 
 __all__ = ["DEFAULT_CAPACITY", "DEFAULT_DEPTH", "build_tree", "largest_shift"]
@@ -24,17 +24,16 @@ DEFAULT_CAPACITY = 4
 """Pieces in a leaf."""
 
 DEFAULT_DEPTH = 16
-"""Cells of a leaf's lattice at most: 1.5e-5 of the drawing."""
+"""Depth limit. Cells of this depth are 1.5e-5 of the drawing wide."""
 
 DISPLACEMENT = 2.0
-"""Lattice units by which a curve may move: its ends and control points are rounded when it is cut, and in its leaf."""
+"""Lattice units by which a curve may move: its points are rounded when it is cut, and again in its leaf."""
 
 IS_QUAD, COUNT, WINDING, COVERAGE = range(4)
 """Columns of the cells while the tree grows."""
 
 QUAD, DEPTH, FIRST, LAST, FIRST_PATH, LAST_PATH, PIECES = range(7)
-"""Columns of the stack of cells to divide: what each becomes, where its list of pieces and of paths is, and how many
-pieces the pool held when it was put there."""
+"""Columns of the stack of cells to divide: quad, depth, lists of pieces and of paths, and pieces in the pool."""
 
 
 class Arrays(NamedTuple):
@@ -50,67 +49,42 @@ class Arrays(NamedTuple):
 
 
 QUADS, CURVES, UNRESOLVED, WAITING = range(4)
-"""Counts while the tree grows: quads, curves, leaves that could not say all, cells on the stack."""
+"""Counts while the tree grows: quads, curves, unresolved leaves, cells on the stack."""
 
 
 class Growth(NamedTuple):
-    """The tree while it grows; what is behind the counts is room.
+    """The tree while it grows; rows beyond the counts are free."""
 
-    Attributes
-    ----------
-    cells : (room, 4, 4) float64 array
-        For each quad's cells: whether a quad, count, corner winding, coverage.
-    first : (room, 2) int64 array
-        Where the quads below each quad and the curves of its leaves start.
-    curves : (room, 4, 2) float64 array
-        In lattice units.
-    """
-
+    # (room, 4, 4): for each cell of each quad: whether a quad, count, corner winding, coverage
     cells: NDArray[np.float64]
-    first: NDArray[np.int64]
-    curves: NDArray[np.float64]
+    first: NDArray[np.int64]  # (room, 2): first quad below each quad, first curve of its leaves
+    curves: NDArray[np.float64]  # (room, 4, 2), in lattice units
 
 
 class Bounds(NamedTuple):
-    """Limits of a tree: pieces in a leaf, distance, depths at which leaves may be, number of quads."""
+    """Limits of a tree."""
 
-    capacity: int
-    tolerance: float
-    least_depth: int
+    capacity: int  # pieces in a leaf
+    tolerance: float  # unit-square units
+    least_depth: int  # depth of the largest leaf with pieces
     max_depth: int
     most_quads: int
 
 
 class Work(NamedTuple):
-    """Arrays that are used for one cell after another.
+    """Arrays that are reused from cell to cell."""
 
-    Attributes
-    ----------
-    stack : (room, 7) int64 array
-        The cells to divide.
-    corner : (room, 2) float64 array
-        Their bottom left corners.
-    child_at : (5,) int64 array
-        Where each child's list of pieces starts.
-    windings : (paths, 8) int64 array
-        What `child_windings` writes.
-    deviation : (1,) float64 array
-        Largest distance of a leaf's outline from the drawing's.
-    leaf : Workspace
-        Of `leaf_of`.
-    """
-
-    stack: NDArray[np.int64]
-    corner: NDArray[np.float64]
-    child_at: NDArray[np.int64]
-    windings: NDArray[np.int64]
-    deviation: NDArray[np.float64]
+    stack: NDArray[np.int64]  # (room, 7): cells to divide
+    corner: NDArray[np.float64]  # (room, 2): their bottom-left corners
+    child_at: NDArray[np.int64]  # (5,): start of each child's list of pieces
+    windings: NDArray[np.int64]  # (paths, 8): what `child_windings` writes
+    deviation: NDArray[np.float64]  # (1,): largest distance of a leaf's outline from the drawing's
     leaf: Workspace
 
 
 @kernel
 def _room_for_quad(tree: Growth, quads: int, curves: int) -> Growth:
-    """Tree with room for what one quad can hold."""
+    """The tree, with room for all that one quad can hold."""
     cells, first = with_room(tree.cells, quads, 4), tree.first
     if len(first) < len(cells):
         first = np.empty((len(cells), 2), np.int64)
@@ -142,7 +116,7 @@ def _child_paths(
 
 @kernel
 def _paths_with_room(present: NDArray[np.int64], count: int, room: int) -> NDArray[np.int64]:
-    """List of paths with room for more; itself if it has that."""
+    """The list of paths, or a longer copy if it has not enough room."""
     if count + room <= len(present):
         return present
     out = np.empty((2 * len(present) + room, 2), np.int64)
@@ -153,7 +127,7 @@ def _paths_with_room(present: NDArray[np.int64], count: int, room: int) -> NDArr
 
 @kernel(allocates=False)
 def _mean_coverages(tree: Growth, quads: int) -> None:
-    """Give each cell that is a quad the mean of that quad's cells: a quad comes after the one that holds it."""
+    """Give each divided cell the mean coverage of its quad; a quad comes after the quad that holds it."""
     for quad in range(quads - 1, -1, -1):
         below = tree.first[quad, 0]
         for k in range(4):
@@ -167,7 +141,7 @@ def _mean_coverages(tree: Growth, quads: int) -> None:
 
 @kernel(allocates=False)
 def _grow_quad(
-    pool: Pool,
+    pool: PiecePool,
     present: NDArray[np.int64],
     rules: NDArray[np.int64],
     bounds: Bounds,
@@ -175,7 +149,7 @@ def _grow_quad(
     tree: Growth,
     counts: NDArray[np.int64],
 ) -> None:
-    """Divide the cell on top of the stack: its children become leaves or come onto the stack themselves."""
+    """Divide the cell on top of the stack: each child becomes a leaf or is pushed onto the stack."""
     stack, corner, child_at, windings = work.stack, work.corner, work.child_at, work.windings
     cells, first_below = tree.cells, tree.first
     top = counts[WAITING] - 1
@@ -223,7 +197,7 @@ def _grow_quad(
 
 @kernel
 def _root(points: NDArray[np.float64], path: NDArray[np.int64]) -> tuple[NDArray[np.int64], float]:
-    """Paths of the unit square, their corner windings 0, and how far an end lay outside it before it was moved."""
+    """Paths of the unit square with corner windings 0; move ends into the square, and return by how much at most."""
     paths = 0
     for i in range(len(path)):
         paths += 1 if i == 0 or path[i] != path[i - 1] else 0
@@ -242,7 +216,7 @@ def _root(points: NDArray[np.float64], path: NDArray[np.int64]) -> tuple[NDArray
 
 @kernel
 def _typed(tree: Growth, quads: int, curves: int) -> Arrays:
-    """Arrays of a `Tree`."""
+    """The arrays of a `Tree`, in their final types."""
     out = Arrays(
         np.empty((quads, 4), np.bool_),
         np.empty((quads, 4), np.uint8),
@@ -270,8 +244,8 @@ def grow(
 ) -> tuple[Arrays, float, int, float]:
     """Divide the unit square, depth first, until every cell is a leaf.
 
-    Returned are the arrays of the tree; its deviation; the number of unresolved leaves, or the number of quads so far,
-    negative, if there are too many; and how far the outline lies outside the unit square.
+    Returns the arrays of the tree; its deviation; the number of unresolved leaves, or minus the number of quads so far
+    if there are too many; and how far the outline lies outside the unit square.
     """
     pieces = monotone_pieces(cubics, owner)
     present, outside = _root(pieces.points, pieces.path)
@@ -306,7 +280,7 @@ def grow(
 
 
 def largest_shift(precision: float | None) -> float:
-    """Largest distance by which rounding moves an outline, in unit-square units, at a `precision` of `build_tree`.
+    """Largest shift of an outline by rounding, in unit-square units, at a `precision` of `build_tree`.
 
     Examples
     --------
@@ -325,37 +299,13 @@ def build_tree(
     precision: float | None = None,
     most_quads: int = MOST_QUADS,
 ) -> Tree:
-    """Quad-tree of a drawing's silhouette, with packed leaves.
+    """Quad-tree of a drawing's silhouette. Parameters and errors as in `vexture.convert`.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        In normal form.
-    tolerance : float
-        Largest distance between the drawing's outline and a leaf's before quantisation, in unit-square units; within
-        it chains of pieces become one cubic. 0 keeps every piece.
-    max_depth : int
-        Cells of this depth are not divided further; the unit square has depth 0.
-    capacity : int
-        Pieces in a leaf, 1 to 15; more only at the depth limit, or where all of them meet at one point.
-    precision : float or None
-        Largest displacement by quantisation, in unit-square units: leaves with curves are made as small as that takes.
-        None forces no depth.
-    most_quads : int
-        A tree that needs more is given up.
-
-    Returns
-    -------
-    Tree
-
-    Raises
-    ------
-    ParameterError
-        If a parameter is out of range.
-    LimitError
-        If the tree is too large.
-    SourceError
-        If the drawing leaves the unit square.
+    Lengths are in unit-square units. `tolerance` bounds the distance between the drawing's outline and a leaf's before
+    quantisation, within which chains of pieces become one cubic; 0 keeps every piece. The unit square has depth 0. A
+    leaf holds more pieces than `capacity` (up to 15) only at the depth limit, or where all of them meet at one point.
+    `precision` bounds the displacement by quantisation: leaves with curves are made small enough for it; None forces no
+    depth. A tree of more than `most_quads` raises a `LimitError`, a curve outside the unit square a `SourceError`.
 
     Examples
     --------
@@ -378,7 +328,7 @@ def build_tree(
         raise ParameterError(f"`tolerance` {tolerance} is outside 0 to 1, in drawing sizes; 0 keeps every piece")
     bounds = Bounds(capacity, float(tolerance), least_depth, max_depth, most_quads)
     arrays, deviation, unresolved, outside = grow(*gather(drawing), bounds)
-    if not outside <= CLOSED:  # not a number counts as outside
+    if not outside <= CLOSED:  # NaN counts as outside
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {outside:.3g}; clip or scale it first")
     if unresolved < 0:
         raise LimitError(

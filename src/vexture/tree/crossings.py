@@ -11,18 +11,18 @@ from vexture.kernels import kernel
 __all__ = ["crossing_heights", "x_at"]
 
 MAX_STEPS = 200
-"""Intervals looked at for one pair; near-coincident curves could ask for many and would gain less than a unit."""
+"""Intervals examined for one pair: nearly coincident curves could need many, to gain less than a lattice unit."""
 
 PAIR_ROOM = 32
 """Places kept free for the crossings of one pair: two cubics meet at most nine times."""
 
 STACK = 64
-"""Open intervals: bisection at integers of a 16-bit range goes 17 deep and keeps one sibling for each."""
+"""Open intervals: bisection at integers of a 16-bit range goes 17 deep and keeps one sibling at each depth."""
 
 
 @kernel(allocates=False)
 def x_at(curve: NDArray[np.float64], y: float) -> float:
-    """Place where a monotone piece that is not horizontal has height y."""
+    """Coordinate x at height y of a monotone piece that is not horizontal."""
     if y == curve[0, 1]:
         return curve[0, 0]
     if y == curve[3, 1]:
@@ -33,7 +33,7 @@ def x_at(curve: NDArray[np.float64], y: float) -> float:
 
 
 class Stretch(NamedTuple):
-    """What is known of x(y) of a piece over an interval of y: its ends, and bounds around their chord."""
+    """Bounds of x(y) of a piece over an interval of y: its ends, its distance from their chord, its slope."""
 
     x_low: float
     x_high: float
@@ -47,7 +47,7 @@ class Stretch(NamedTuple):
 def _stretch(curve: NDArray[np.float64], low: float, high: float) -> Stretch:
     """Bound a piece over low <= y <= high, by the control polygon of that part.
 
-    A cubic's distance from its chord, measured along x, is at most 3/4 of its control points' (each of the two
+    A cubic's distance from its chord, measured along x, is at most 3/4 of its control points' distance (each of the two
     inner Bernstein polynomials is at most 4/9, their sum at most 3/4).
     """
     t0 = solve_monotone(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], low)
@@ -71,7 +71,7 @@ def _stretch(curve: NDArray[np.float64], low: float, high: float) -> Stretch:
 
 @kernel(allocates=False)
 def _single_crossing(a: NDArray[np.float64], b: NDArray[np.float64], low: float, high: float) -> float:
-    """Integer y nearest to the one crossing of two pieces whose order differs at low and high."""
+    """Integer y nearest to the only crossing of two pieces whose order differs at `low` and `high`."""
     sign_low = x_at(a, low) > x_at(b, low)
     while high - low > 1.0:
         middle = np.floor(0.5 * (low + high))
@@ -93,10 +93,10 @@ def _pair_crossings(
     out: NDArray[np.float64],
     count: int,
 ) -> int:
-    """Append to out[count:] the heights at which two pieces change their order on low..high; return the new count.
+    """Append to out[count:] the heights at which two pieces change their order in low..high; return the new count.
 
-    An interval is done when the curves stay on their sides there within `near`, when their slopes' ranges are
-    disjoint (then they cross at most once), or when it is one unit high; else it is bisected.
+    An interval is done when the curves stay on their sides within `near`; or when their ranges of slopes are disjoint,
+    so that they cross at most once; or when it is one unit high. Otherwise it is bisected.
     """
     lows, highs = np.empty(STACK), np.empty(STACK)
     lows[0], highs[0] = low, high
@@ -120,7 +120,7 @@ def _pair_crossings(
         middle = np.floor(0.5 * (low + high))
         gap = x_at(a, middle) - x_at(b, middle)
         if abs(gap) <= near and (abs(gap_low) > near or abs(gap_high) > near):
-            out[count] = middle  # the change of order may hide at the common border of the two halves
+            out[count] = middle  # the order may change exactly between the two halves
             count += 1
         lows[open_count], highs[open_count] = middle, high
         lows[open_count + 1], highs[open_count + 1] = low, middle
@@ -141,21 +141,9 @@ def _same_curve(a: NDArray[np.float64], b: NDArray[np.float64], near: float) -> 
 
 @kernel
 def crossing_heights(curves: NDArray[np.float64], near: float, room: int) -> tuple[NDArray[np.float64], int]:
-    """Heights, as integers, at which monotone pieces on a lattice change their order by more than `near`.
+    """Integer heights, not sorted, at which monotone pieces on a lattice change their order, and their number.
 
-    Parameters
-    ----------
-    curves : (n, 4, 2) float64 array
-        Their ends are integers.
-    near : float
-        Lattice units below which an order has no meaning.
-    room : int
-        Number of places to leave free behind them, for heights of the caller's.
-
-    Returns
-    -------
-    array, int
-        The heights, in no order, and their number.
+    Orders within `near` lattice units have no meaning. `room` places stay free behind the heights, for the caller.
 
     Examples
     --------

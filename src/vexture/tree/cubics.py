@@ -9,9 +9,9 @@ __all__ = ["gather"]
 
 
 def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
-    """Cubics of a drawing, (n, 4, 2), the path of each, (n,), and the paths' fill rules, (paths,).
+    """Cubics of a drawing (n, 4, 2), the path of each (n,), and the paths' fill rules (paths,).
 
-    A path that is painted again, bit for bit the same, adds nothing to the silhouette and is left out.
+    A path that repeats an earlier one bit for bit adds nothing to the silhouette and is left out.
     """
     different = {(path.fill_rule, *(contour.tobytes() for contour in path.contours)): path for path in drawing.paths}
     paths = list(different.values())

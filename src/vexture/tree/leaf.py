@@ -1,8 +1,9 @@
 """The packed leaf: a few monotone pieces on the leaf's lattice, between which the winding number is 0 or 1.
 
-In the cells of most drawings no two pieces touch but at their ends; then each piece's sides are found by counting, and
-it is kept, turned or dropped. All other cells go through `vexture.tree.boundary`. In both cases horizontal pieces
-vanish, for they change no winding, but for those that end on the left edge where the rule of windings needs an end.
+In the cells of most drawings pieces touch only at their ends. Then the sides of each piece follow by counting
+(`separate.py`), and the piece is kept, reversed or dropped. All other cells are resolved (`boundary.py`). In both cases
+horizontal pieces are dropped, because they change no winding, except those that end on the left edge where the rule of
+windings needs an end.
 """
 
 from typing import NamedTuple
@@ -14,51 +15,37 @@ from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
 from vexture.layout import LATTICE, MOST_CURVES
-from vexture.tree.boundary import HOPELESS, Boundary, cell_paths, crowded_area, quantise_piece, resolve
+from vexture.tree.boundary import MOST_RESOLVED, Boundary, cell_paths, crowded_area, quantise_piece, resolve
+from vexture.tree.divide import PiecePool
 from vexture.tree.left_edge import corner_winding
 from vexture.tree.merge import MOST_MERGED, merge_chains
-from vexture.tree.pool import Pool
 from vexture.tree.separate import UNSURE, CellPieces, all_separate, clean_pieces
 from vexture.tree.winding import winding_area
 
 __all__ = ["DIVIDE", "Leaf", "leaf_of", "new_workspace"]
 
 DIVIDE = -1
-"""Count of pieces of a cell that is to be divided."""
+"""`Leaf.size` of a cell that must be divided."""
 
 SPARE = 4
-"""Pieces above the capacity with which a cell is still looked at: horizontal ones and overlaps will vanish."""
+"""Pieces above the capacity that a cell may have before it is resolved: horizontal ones and overlaps vanish."""
 
 MOST_RUNS = 1000
-"""Parts of resolved pieces that are kept to measure a cell's area."""
+"""Runs of resolved pieces that are kept to measure a cell's area."""
 
 
 class Leaf(NamedTuple):
-    """What a cell can be said to hold.
+    """What a leaf stores of a cell."""
 
-    Attributes
-    ----------
-    size : int
-        Number of pieces, or `DIVIDE`.
-    winding : int
-        Corner winding, 0 if there are no pieces.
-    coverage : float
-        Filled part of the cell.
-    distance : float
-        Largest distance by which merging moved the outline, in unit-square units.
-    resolved : bool
-        False if this is the best that a cell at the depth limit can say, rather than all.
-    """
-
-    size: int
-    winding: int
-    coverage: float
-    distance: float
-    resolved: bool
+    size: int  # number of pieces, or `DIVIDE`
+    winding: int  # corner winding, 0 without pieces
+    coverage: float  # filled part of the cell
+    distance: float  # by which merging moved the outline at most, in unit-square units
+    resolved: bool  # False if the cell, at the depth limit, holds more than a leaf can store
 
 
 class Workspace(NamedTuple):
-    """Arrays that are used for one cell after another: to make them costs more than most cells."""
+    """Arrays that are reused from cell to cell: making them would cost more than most cells."""
 
     cell: CellPieces
     path: NDArray[np.int64]
@@ -68,7 +55,7 @@ class Workspace(NamedTuple):
 
 @kernel(allocates=False)
 def _round_controls(curves: NDArray[np.float64], count: int) -> None:
-    """Round inner control points to the lattice, within the range that the format can hold."""
+    """Round inner control points to the lattice, within the range of the format."""
     for i in range(count):
         for k in (1, 2):
             for axis in range(2):
@@ -77,7 +64,7 @@ def _round_controls(curves: NDArray[np.float64], count: int) -> None:
 
 @kernel(allocates=False)
 def _keep_run(curve: NDArray[np.float64], role: int, low: float, high: float, out: NDArray[np.float64]) -> None:
-    """Write the part of a piece between two heights, the filled side on its left."""
+    """Write the part of a piece between two heights, with the filled side on its left."""
     start, stop = (high, low) if role == 1 else (low, high)
     u0 = solve_monotone(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], start)
     u1 = solve_monotone(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], stop)
@@ -93,7 +80,7 @@ def _keep_run(curve: NDArray[np.float64], role: int, low: float, high: float, ou
 @kernel(allocates=False)
 def _resolved_pieces(curves: NDArray[np.float64], boundary: Boundary, out: NDArray[np.float64]) -> int:
     """Write the runs of a resolved boundary as pieces; return how many."""
-    count = min(len(boundary.run_piece), len(out) - 2 * HOPELESS)
+    count = min(len(boundary.run_piece), len(out) - 2 * MOST_RESOLVED)
     for r in range(count):
         curve = curves[boundary.run_piece[r]]
         _keep_run(curve, boundary.run_role[r], boundary.run_y[r, 0], boundary.run_y[r, 1], out[r])
@@ -102,7 +89,7 @@ def _resolved_pieces(curves: NDArray[np.float64], boundary: Boundary, out: NDArr
 
 @kernel(allocates=False)
 def _meet(out: NDArray[np.float64], count: int) -> bool:
-    """Whether all pieces have an end at one point: then dividing the cell separates none of them there."""
+    """Whether all pieces have an end at one point, so that dividing the cell does not separate them there."""
     for end in (0, 3):
         x, y = out[0, end, 0], out[0, end, 1]
         meeting = 0
@@ -116,7 +103,7 @@ def _meet(out: NDArray[np.float64], count: int) -> bool:
 
 @kernel(allocates=False)
 def _upright(curves: NDArray[np.float64]) -> int:
-    """Number of pieces that are not horizontal: no others count, but at the left edge."""
+    """Number of pieces that are not horizontal."""
     count = 0
     for i in range(len(curves)):
         count += 1 if curves[i, 0, 1] != curves[i, 3, 1] else 0
@@ -125,24 +112,24 @@ def _upright(curves: NDArray[np.float64]) -> int:
 
 @kernel
 def new_workspace() -> Workspace:
-    """Room for any cell that is looked at."""
+    """Arrays for any cell that may be resolved."""
     return Workspace(
         CellPieces(
-            np.empty((HOPELESS, 4, 2)),
-            np.empty(HOPELESS, np.int64),
-            np.empty(HOPELESS, np.int64),
-            np.empty(HOPELESS, np.int64),
-            np.empty(HOPELESS, np.int64),
+            np.empty((MOST_RESOLVED, 4, 2)),
+            np.empty(MOST_RESOLVED, np.int64),
+            np.empty(MOST_RESOLVED, np.int64),
+            np.empty(MOST_RESOLVED, np.int64),
+            np.empty(MOST_RESOLVED, np.int64),
         ),
-        np.empty(HOPELESS, np.int64),
-        np.empty(HOPELESS, np.int64),
-        np.empty((MOST_RUNS + 2 * HOPELESS, 4, 2)),
+        np.empty(MOST_RESOLVED, np.int64),
+        np.empty(MOST_RESOLVED, np.int64),
+        np.empty((MOST_RUNS + 2 * MOST_RESOLVED, 4, 2)),
     )
 
 
 @kernel
 def _crowded_area(
-    pool: Pool,
+    pool: PiecePool,
     first: int,
     last: int,
     present: NDArray[np.int64],
@@ -151,7 +138,7 @@ def _crowded_area(
     y0: float,
     size: float,
 ) -> float:
-    """Filled part of a cell at the depth limit that holds too much to be resolved."""
+    """Filled part of a cell at the depth limit that holds too many pieces to resolve."""
     n = last - first
     points, path = np.empty((n, 4, 2)), np.empty(n, np.int64)
     for k in range(n):
@@ -165,8 +152,8 @@ def _crowded_area(
 def _resolve_cell(cell: CellPieces, out: NDArray[np.float64]) -> int:
     """Write the pieces of a cell's boundary after its overlaps and crossings are resolved; return how many.
 
-    There are no more than twice as many runs as pieces and crossings; beyond the room of `out` they are left out,
-    in cells that hold far more than a leaf can take.
+    There are at most twice as many runs as pieces and crossings. Runs beyond the room of `out` are left out; such cells
+    hold far more than a leaf can store.
     """
     boundary = resolve(cell.curves, cell.owner, cell.corner, cell.rules)
     return _resolved_pieces(cell.curves, boundary, out)
@@ -174,7 +161,7 @@ def _resolve_cell(cell: CellPieces, out: NDArray[np.float64]) -> int:
 
 @kernel(allocates=False)
 def leaf_of(
-    pool: Pool,
+    pool: PiecePool,
     first: int,
     last: int,
     present: NDArray[np.int64],
@@ -188,31 +175,15 @@ def leaf_of(
     workspace: Workspace,
     target: NDArray[np.float64],
 ) -> Leaf:
-    """Leaf of a cell; its pieces are written to `target`.
+    """Leaf of a cell, whose pieces are the pool's numbers first..last-1; the leaf's pieces are written to `target`.
 
-    Parameters
-    ----------
-    pool : Pool
-        The cell's pieces are its numbers first..last-1.
-    present : (m, 2) int64 array
-        The paths in the cell and their corner windings.
-    rules : (paths,) int64 array
-        `FillRule` of each path of the drawing.
-    x0, y0, size : float
-        The cell.
-    capacity : int
-        Pieces that a leaf may hold; more only at the depth limit, or where dividing would not separate them.
-    tolerance : float
-        Largest distance by which merging may move the outline, in unit-square units; 0 merges nothing.
-    at_limit : bool
-        Whether the cell may not be divided: then there always is a leaf.
-    workspace : Workspace
-        Scratch.
-    target : (MOST_CURVES, 4, 2) float64 array
-        Written, in lattice units.
+    `capacity` is the number of pieces in a leaf; more are allowed only at the depth limit, or where dividing would not
+    separate them. `tolerance` bounds the distance by which merging moves the outline, in unit-square units; 0 merges
+    nothing. With `at_limit` the cell may not be divided, and the result is always a leaf. `target` (MOST_CURVES, 4, 2)
+    is in lattice units.
     """
     n, paths = last - first, len(present)
-    if n > HOPELESS and at_limit:
+    if n > MOST_RESOLVED and at_limit:
         return Leaf(0, 0, _crowded_area(pool, first, last, present, rules, x0, y0, size), 0.0, False)
     if n > (MOST_MERGED if tolerance > 0.0 else 2 * MOST_CURVES) and not at_limit:
         return Leaf(DIVIDE, 0, 0.0, 0.0, True)

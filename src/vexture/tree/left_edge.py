@@ -1,4 +1,4 @@
-"""A packed leaf's left edge: the ends on it must say what is inside there, for the rule of windings counts them."""
+"""A packed leaf's left edge: its corner winding and the ends on the edge must agree with what is inside there."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,7 @@ from vexture.tree.separate import CellPieces, any_inside, left_edge_windings
 __all__ = ["corner_winding"]
 
 TOUCH = 2.0
-"""Lattice units: a resolved end nearer to the left edge may be moved onto it."""
+"""Lattice units. A resolved end closer than this to the left edge may be moved onto it."""
 
 
 @kernel(allocates=False)
@@ -26,10 +26,10 @@ def _events(out: NDArray[np.float64], count: int, y: float) -> int:
 
 @kernel(allocates=False)
 def _match_left_edge(out: NDArray[np.float64], count: int, y: float, wanted: int) -> int:
-    """Make starts minus ends on the left edge at a height what inside says there; return the new count.
+    """Make starts minus ends on the left edge at a height equal to `wanted`; return the new count of pieces.
 
-    Where they disagree an end is nudged off the edge, or one beside it onto it, or, where the boundary leaves the
-    edge horizontally, a horizontal piece says so.
+    Where they differ an end is moved off the edge, or one beside it onto it, or, where the boundary leaves the edge
+    horizontally, a horizontal piece is added.
     """
     for _ in range(2 * len(out)):
         missing = wanted - _events(out, count, y)
@@ -56,7 +56,7 @@ def _match_left_edge(out: NDArray[np.float64], count: int, y: float, wanted: int
 
 @kernel(allocates=False)
 def _add_horizontal(out: NDArray[np.float64], count: int, y: float, starts: bool) -> int:
-    """Append a horizontal piece that starts or ends on the left edge, to where the next end is; return the count."""
+    """Append a horizontal piece from (or to) the left edge, as far as the next end; return the count."""
     x = LATTICE
     for k in range(count):
         for end in (0, 3):
@@ -70,7 +70,7 @@ def _add_horizontal(out: NDArray[np.float64], count: int, y: float, starts: bool
 
 @kernel(allocates=False)
 def corner_winding(cell: CellPieces, out: NDArray[np.float64], count: int) -> tuple[int, int]:
-    """Let the ends on the left edge say what is inside there; return the new count and the corner winding."""
+    """Make the ends on the left edge agree with the windings there; return the new count and the corner winding."""
     curves, windings, rules = cell.curves, cell.windings, cell.rules
     for i in range(len(curves)):
         for end in (0, 3):

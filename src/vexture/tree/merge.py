@@ -1,7 +1,7 @@
-"""Chains of pieces that one cubic describes within tolerance become that cubic (the thesis's fit).
+"""Merging: a chain of pieces that one cubic describes within tolerance becomes that cubic (the thesis's fit).
 
-It works on one cell after its pieces are on the lattice. The ends of a chain stay where they are, so neighbouring
-cells still meet; what a fitted cubic crosses is resolved afterwards like any other crossing.
+It works on one cell after its pieces are on the lattice. The ends of a chain do not move, so neighbouring cells still
+meet. What a fitted cubic crosses is resolved afterwards like any other crossing.
 """
 
 import numpy as np
@@ -17,10 +17,10 @@ from vexture.layout import LATTICE
 __all__ = ["MOST_MERGED", "merge_chains"]
 
 MOST_MERGED = 64
-"""Pieces in a cell above which nothing is merged: it will be divided."""
+"""Pieces. In a cell with more nothing is merged, because it will be divided."""
 
 MOST_SAMPLES, LEAST_PER_PIECE, MOST_PER_PIECE = 96, 2, 8
-"""Points of a chain that a fit looks at: in all, unless the pieces are many, and on each piece."""
+"""Points of a chain that a fit uses: in all, if there are few pieces, and on each piece."""
 
 MONOTONE_PARTS = 5
 """A cubic turns at most twice in x and twice in y."""
@@ -30,7 +30,7 @@ MONOTONE_PARTS = 5
 def _fit_run(
     curves: NDArray[np.float64], first: int, last: int, tolerance: float, out: NDArray[np.float64]
 ) -> tuple[int, float]:
-    """Write the monotone parts of one cubic for pieces first..last-1; return how many, or 0, and the distance."""
+    """Fit one cubic to pieces first..last-1; write its monotone parts; return how many (0: no fit) and the distance."""
     per_piece = min(max(MOST_SAMPLES // (last - first), LEAST_PER_PIECE), MOST_PER_PIECE)
     points = np.empty(((last - first) * per_piece + 1, 2))
     count = 0
@@ -76,7 +76,7 @@ def _monotone_parts(rest: NDArray[np.float64], out: NDArray[np.float64]) -> int:
 
 @kernel(allocates=False)
 def _chain_end(curves: NDArray[np.float64], path: NDArray[np.int64], first: int) -> int:
-    """Where the chain that starts with a piece ends: the number of the piece after it."""
+    """Number of the piece after the chain that starts with piece `first`."""
     last = first + 1
     while (
         last < len(path)
@@ -96,22 +96,12 @@ def merge_chains(
     merged: NDArray[np.float64],
     merged_path: NDArray[np.int64],
 ) -> tuple[int, float]:
-    """Write the pieces of a cell with as many merged as can be; return how many are left, and the largest distance.
+    """Write the pieces of a cell, as many as possible merged; return their number and the largest distance.
 
-    Each chain is gone through once: as much as one cubic describes, then as much of the rest, and so on.
-
-    Parameters
-    ----------
-    curves : (n, 4, 2) float64 array
-        Pieces on the lattice, in the order of their contours.
-    path : (n,) int64 array
-        The path of each.
-    tolerance : float
-        Largest distance of a cubic from the pieces that it stands for, in lattice units.
-    merged : (room, 4, 2) float64 array
-        Written; room for as many as there were and `MONOTONE_PARTS` more.
-    merged_path : (room,) int64 array
-        Written.
+    Each chain is read once: the longest start that one cubic describes, then the longest start of the rest, and so on.
+    `curves` are in the order of their contours. `tolerance` is the largest distance of a cubic from the pieces that it
+    replaces, in lattice units. `merged` (room, 4, 2) and `merged_path` (room,) are written and need room for
+    `MONOTONE_PARTS` pieces more than there were.
     """
     trial = np.empty((MONOTONE_PARTS, 4, 2))
     best = np.empty((MONOTONE_PARTS, 4, 2))

@@ -1,6 +1,6 @@
-"""Pieces of a cell that touch at most at their ends: what lies on their sides follows by counting.
+"""Cells whose pieces touch at most at their ends: the sides of each piece follow by counting windings.
 
-So it is in the cells of most drawings. All others go through `vexture.tree.boundary`.
+The cells of most drawings are of this kind. All others are resolved in `boundary.py`.
 """
 
 from typing import NamedTuple
@@ -15,27 +15,17 @@ from vexture.tree.winding import inside
 __all__ = ["UNSURE", "CellPieces", "all_separate", "any_inside", "clean_pieces", "left_edge_windings"]
 
 UNSURE = -2
-"""Role of a piece whose place among its neighbours is not clear."""
+"""Role of a piece whose order among its neighbours is not clear."""
 
 
 class CellPieces(NamedTuple):
-    """Pieces of a cell on its lattice.
+    """Pieces of a cell on its lattice."""
 
-    Attributes
-    ----------
-    curves : (n, 4, 2) float64 array
-        Ends and control points are integers.
-    owner : (n,) int64 array
-        The path of each, as an index into the following.
-    corner, rules, windings : (paths,) int64 arrays
-        Corner windings; `FillRule`s; scratch.
-    """
-
-    curves: NDArray[np.float64]
-    owner: NDArray[np.int64]
-    corner: NDArray[np.int64]
-    rules: NDArray[np.int64]
-    windings: NDArray[np.int64]
+    curves: NDArray[np.float64]  # (n, 4, 2): ends and control points are integers
+    owner: NDArray[np.int64]  # (n,): path of each piece, an index into the arrays below
+    corner: NDArray[np.int64]  # (paths,): corner windings
+    rules: NDArray[np.int64]  # (paths,): `FillRule`s
+    windings: NDArray[np.int64]  # (paths,): scratch
 
 
 @kernel(allocates=False)
@@ -49,7 +39,7 @@ def _shares(curves: NDArray[np.float64], i: int, end: int, j: int) -> bool:
 def _beside(curves: NDArray[np.float64], line: int, other: int) -> bool:
     """Whether the hulls of two pieces lie on different sides of a line along the first one's chord.
 
-    They may touch it in one end of the other piece, if that is an end of the first one as well.
+    They may touch the line in one end of the other piece, if that is also an end of the first piece.
     """
     x0, y0 = curves[line, 0, 0], curves[line, 0, 1]
     dx, dy = curves[line, 3, 0] - x0, curves[line, 3, 1] - y0
@@ -73,7 +63,7 @@ def _beside(curves: NDArray[np.float64], line: int, other: int) -> bool:
 
 @kernel(allocates=False)
 def _separate(curves: NDArray[np.float64], i: int, j: int) -> bool:
-    """Whether two monotone pieces surely have no point in common but an end of both: by their boxes or hulls."""
+    """Whether boxes or hulls prove that two monotone pieces have no common point except an end of both."""
     for axis in range(2):
         a, b = curves[i, 0, axis], curves[i, 3, axis]
         c, d = curves[j, 0, axis], curves[j, 3, axis]
@@ -87,7 +77,7 @@ def _separate(curves: NDArray[np.float64], i: int, j: int) -> bool:
 
 @kernel(allocates=False)
 def all_separate(curves: NDArray[np.float64]) -> bool:
-    """Whether no two pieces have a point in common but an end of both; of horizontal ones among themselves no word."""
+    """Whether no two pieces have a common point except an end of both; pairs of horizontal pieces are ignored."""
     for i in range(len(curves)):
         for j in range(i):
             both_level = curves[i, 0, 1] == curves[i, 3, 1] and curves[j, 0, 1] == curves[j, 3, 1]
@@ -144,7 +134,7 @@ def _role(cell: CellPieces, i: int) -> int:
 
 @kernel(allocates=False)
 def clean_pieces(cell: CellPieces, out: NDArray[np.float64]) -> int:
-    """Write the pieces that bound inside, of a cell in which all are separate; return how many, or `UNSURE`."""
+    """Write the pieces between inside and outside, all of the cell being separate; return how many, or `UNSURE`."""
     curves = cell.curves
     count = 0
     for i in range(len(curves)):

@@ -1,12 +1,12 @@
-"""Winding numbers, counted and never solved for.
+"""Winding numbers, which are counted and never computed from equations.
 
-The winding number of a point is the sum of -sign(dy) over the pieces that cross the ray from it to x = -infinity,
-each over its half-open range of y. A cell keeps one integer for each path in it, the *corner winding* Wc, such that
-anywhere in the cell
+The winding number of a point is the sum of -sign(dy) over the pieces that cross the ray from it to x = -infinity, each
+over its half-open range of y. A cell keeps one integer for each path in it, the *corner winding* Wc, such that anywhere
+in the cell
 
     W(p) = Wc + (starts on the left edge at or below p) - (ends there) + sum of -sign(dy) over pieces left of p.
 
-Pieces on the left edge, corners hit exactly and tangencies all telescope in this rule, and the children's corner
+The rule needs no special case for pieces on the left edge, corners hit exactly or tangencies. The children's corner
 windings follow from their parent's by comparing and counting alone.
 """
 
@@ -46,24 +46,11 @@ def child_windings(
     ym: float,
     out: NDArray[np.int64],
 ) -> None:
-    """Corner windings of a cell's four children.
+    """Write the corner windings of a cell's four children to `out` (m or more, 8).
 
-    Parameters
-    ----------
-    points : (n, 4, 2) float64 array
-        Pieces.
-    path : (n,) int64 array
-        The path of each.
-    numbers : (m,) int64 array
-        Lists of pieces, one for each child, in the order of `present`.
-    child_at : (5,) int64 array
-        Where each child's list starts; the last entry is where that of the last ends.
-    present : (n, 2) int64 array
-        The paths in the cell and their corner windings.
-    x0, y0, xm, ym : float
-        The cell's bottom-left corner and its middle.
-    out : (n or more, 8) int64 array
-        Written: for each path the four corner windings, then whether it has a piece in each child.
+    Each row is of one path in `present`: four corner windings, then whether the path has a piece in each child.
+    `numbers` holds one list of pieces for each child, in the order of `present`; `child_at` (5,) is the start of each
+    list and the end of the last. The cell's middle is (xm, ym).
     """
     for k in range(len(present)):
         for column in range(8):
@@ -98,18 +85,9 @@ def child_windings(
 
 @kernel(allocates=False)
 def winding_area(curves: NDArray[np.float64], corner_winding: int, side: float) -> float:
-    """Mean of the winding number over a cell, from its pieces in cell-local coordinates.
+    """Mean winding number over a cell of width `side`; where the winding number is 0 or 1, the exact coverage.
 
-    Where the winding number is 0 or 1 this is the exact coverage.
-
-    Parameters
-    ----------
-    curves : (n, 4, 2) float64 array
-        Pieces in the cell, its bottom left at the origin; x is exactly 0 for points on its left edge.
-    corner_winding : int
-        Wc.
-    side : float
-        Width of the cell.
+    `curves` have the cell's bottom left as origin; x is exactly 0 for points on its left edge.
 
     Examples
     --------

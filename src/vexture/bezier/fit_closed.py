@@ -1,4 +1,9 @@
-"""A closed ring of points as few cubics: smooth where the ring is smooth, with corners where it turns."""
+"""Few cubics along a closed chain of points: smooth where the chain is smooth, with corners where it turns.
+
+The chain is sampled evenly (`_sampled`), corners are found (`_cornered`), stairs of a raster are measured (`_stairs`),
+the samples are smoothed (`smooth_chain`), and each cubic replaces as many samples as the tolerance allows
+(`fit_samples`).
+"""
 
 from itertools import pairwise
 
@@ -11,57 +16,56 @@ from vexture.bezier.smooth import smooth_chain
 from vexture.bezier.split import copy_curve
 from vexture.kernels import kernel
 
-__all__ = ["CORNER", "fit_ring"]
+__all__ = ["CORNER", "fit_closed"]
 
 CORNER = 55.0
 """Degrees. Two straight stretches that meet at more than this make a corner."""
 
 BENDING = 1500.0, 15.0
-"""Weights of squared second differences of samples, on a staircase and on what is smooth already.
-
-The first evens out waves shorter than some twenty samples, the second than some six.
+"""Weights of bending (squared second differences): on stairs, which removes waves shorter than some 20 samples, and
+where the chain is smooth, which removes those shorter than some 6.
 """
 
 SMOOTH = 0.25
-"""Share of the tolerance within which what is smooth already may be moved."""
+"""Share of the tolerance by which smooth parts may be moved."""
 
 ROUGH = 30.0, 70.0
-"""Degrees of turning to and fro within `JOG` samples: less than the first is smooth, more than the second is stairs."""
+"""Degrees of turning to and fro within `JOG` samples: smooth below the first, stairs above the second."""
 
 JOG = 2
-"""Samples on either side within which the two turns of a stair are."""
+"""Samples on either side; the two turns of a stair lie within them."""
 
 SPREAD = 16
 """Samples on either side of a stair that belong to the staircase."""
 
 SHRINKING = 0.005
-"""Bending is weighed no more than what would make a circle of the ring's area smaller by this share."""
+"""Limits the weight of bending: a circle of the chain's area shrinks by at most this share."""
 
 REACH = 8
-"""Samples on either side that a corner is told by; the two nearest may be cut off."""
+"""Samples on either side by which a corner is recognised; the two nearest may be cut off."""
 
 STRAIGHTEST = 0.35
-"""Tolerances. The samples on either side of a corner are this near to a straight line."""
+"""Tolerances. On either side of a corner the samples are this near to a straight line."""
 
 FITTING = 0.2
-"""Share of the tolerance that is left to the cubics; smoothing has the rest."""
+"""Share of the tolerance for the fit of cubics; the rest is for smoothing."""
 
 FEWEST = 16
-"""Samples of the smallest ring."""
+"""Samples of the smallest chain."""
 
 MOST = 256
 """Samples that one cubic may replace."""
 
 ONE_SIDED = 4
-"""Samples that say the direction in which a ring leaves a corner: the nearest one alone may be of the corner's own."""
+"""Samples that give the direction beside a corner: the nearest one alone may belong to the corner."""
 
 STEPS = 6
-"""Projection and least squares alternate so often for one cubic."""
+"""Rounds of projection and least squares for one cubic."""
 
 
 @kernel
 def _tangent(points: NDArray[np.float64], at: int, before: int, after: int, out: NDArray[np.float64]) -> None:
-    """Write the unit direction of the chain at a sample, from the samples so many places away."""
+    """Write the unit direction of the chain at a sample, from the samples `before` and `after` it."""
     n = len(points)
     a, b = points[(at - before) % n], points[(at + after) % n]
     dx, dy = b[0] - a[0], b[1] - a[1]
@@ -114,9 +118,9 @@ def _fit_span(
 
 @kernel
 def fit_samples(points: NDArray[np.float64], corner: NDArray[np.bool_], tolerance: float) -> NDArray[np.float64]:
-    """Few cubics through samples of a closed chain, (n, 2) -> (m, 4, 2): each as long as the tolerance allows.
+    """Few cubics through the samples of a closed chain, (n, 2) -> (m, 4, 2); each is as long as the tolerance allows.
 
-    They have one direction where they meet, but for corners.
+    Consecutive cubics have the same direction where they meet, except at corners.
 
     Examples
     --------
@@ -149,7 +153,7 @@ def fit_samples(points: NDArray[np.float64], corner: NDArray[np.bool_], toleranc
             limit += 1
         _tangent(points, begin + at, 0 if sharp[at] else 1, min(ONE_SIDED, limit - at) if sharp[at] else 1, start)
         good, bad, step = at, limit + 1, 4
-        while bad - good > 1:  # longer by doubling, then halving in between
+        while bad - good > 1:  # doubling, then bisection
             trial = min(at + step, limit) if bad > limit else (good + bad) // 2
             step *= 2
             _tangent(
@@ -163,7 +167,7 @@ def fit_samples(points: NDArray[np.float64], corner: NDArray[np.bool_], toleranc
             else:
                 bad = trial
         copy_curve(best, out[count])
-        if good > at + 1:  # as near as it gets, rather than just near enough
+        if good > at + 1:  # refit as near as possible, rather than just within the tolerance
             _tangent(
                 points, begin + good, min(ONE_SIDED, good - at) if sharp[good] else 1, 0 if sharp[good] else 1, end
             )
@@ -174,40 +178,27 @@ def fit_samples(points: NDArray[np.float64], corner: NDArray[np.bool_], toleranc
     return out[:count].copy()
 
 
-def fit_ring(
+def fit_closed(
     points: NDArray[np.float64],
     tolerance: float,
     corner: float = CORNER,
     fixed: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float64]:
-    """Few cubics around a closed ring of points, within a distance of it.
+    """Few cubics, (m, 4, 2), along a closed chain of points, (n, 2), within a tolerance in the units of the points.
 
-    Stairs are evened out, so that nothing of a raster's cells is left where the tolerance is half a cell or more;
-    what is smooth already is followed to a part of the tolerance. Where two straight stretches meet at more than
-    `corner`, they are prolonged to a corner. Everywhere else the cubics have one direction where they meet. Rings
-    that are small against the tolerance become small ovals of about the same area rather than nothing.
+    Stairs are smoothed: with a tolerance of half a cell or more, no trace of a raster's cells is left. Smooth parts are
+    followed to a part of the tolerance. Where two straight stretches meet at more than `corner` degrees, they are
+    extended to a corner. `fixed` (n,) marks points to keep as corners. Everywhere else the cubics have the same
+    direction where they meet. A chain that is small against the tolerance becomes a small oval of about the same area.
 
-    Parameters
-    ----------
-    points : (n, 2) float64 array
-        In order, the first not repeated at the end.
-    tolerance : float
-        How far the cubics may be from the ring, in the units of the points.
-    corner : float
-        Degrees.
-    fixed : (n,) bool array, optional
-        Points to keep, as corners.
-
-    Returns
-    -------
-    (m, 4, 2) float64 array
-        Each cubic starts, bit for bit, where the one before it ends; none if the ring encloses nothing.
+    The first point is not repeated at the end. Each cubic starts, bit for bit, where the one before it ends. A chain
+    that encloses nothing gives no cubics.
 
     Examples
     --------
     >>> angle = np.linspace(0.0, 2.0 * np.pi, 200, endpoint=False)
     >>> disc = np.round(20.0 * np.column_stack((np.cos(angle), np.sin(angle))))  # a staircase
-    >>> cubics = fit_ring(disc, 0.5)
+    >>> cubics = fit_closed(disc, 0.5)
     >>> len(cubics) < 9, bool(np.abs(np.hypot(*cubics[:, 0].T) - 20.0).max() < 0.4)
     (True, True)
     """
@@ -236,7 +227,7 @@ def fit_ring(
 def _sampled(
     points: NDArray[np.float64], kept: NDArray[np.bool_], step: float
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Samples along a closed polyline, equally far apart between points that are kept; which are those points."""
+    """Samples at equal distances between the points that are kept, and which of the samples those are."""
     first = int(np.argmax(kept))
     closed = np.roll(points, -first, axis=0)
     stops = np.append(np.flatnonzero(np.roll(kept, -first)), len(points))
@@ -258,7 +249,7 @@ def _sampled(
 def _cornered(
     points: NDArray[np.float64], sharp: NDArray[np.bool_], tolerance: float, corner: float
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Samples with those moved to corners that are between two straight stretches; which ones are corners."""
+    """Samples after those between two straight stretches have moved to the corner, and which samples are corners."""
     n = len(points)
     points, sharp = points.copy(), sharp.copy()
     if n < 4 * REACH:
@@ -278,20 +269,20 @@ def _cornered(
         place = after[0] + along * _cross(before[-1] - after[0], back) / angle if angle != 0.0 else points[at]
         if np.hypot(*(place - points[at])) <= tolerance:
             points[at], sharp[at], taken[at] = place, True, True
-            for near in (at - 1, (at + 1) % n):  # what the corner was cut off by
+            for near in (at - 1, (at + 1) % n):  # the samples that cut the corner off
                 points[near] = place + (points[2 * near - at - (n if 2 * near - at >= n else 0)] - place) / 2.0
     return points, sharp
 
 
 def _bulge(side: NDArray[np.float64]) -> float:
-    """Largest distance of points from the line from the first to the last."""
+    """Largest distance of points from the line between the first and the last."""
     chord = side[-1] - side[0]
     length = np.hypot(*chord)
     return float(np.abs(_cross(side - side[0], chord)).max() / length) if length > 0.0 else np.inf
 
 
 def _stairs(points: NDArray[np.float64], sharp: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """How much of a staircase there is around each sample, 0 to 1: turns to and fro, other than a curve's."""
+    """Degree, 0..1, to which the surroundings of each sample are stairs: turns to and fro, unlike a curve's."""
     step = np.roll(points, -1, axis=0) - points
     before = np.roll(step, 1, axis=0)
     turn = np.degrees(np.arctan2(_cross(before, step), (before * step).sum(axis=1)))

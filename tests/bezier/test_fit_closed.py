@@ -7,7 +7,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vexture.bezier.ring import fit_ring
+from vexture.bezier.fit_closed import fit_closed
 
 SAMPLES = np.linspace(0.0, 1.0, 24, endpoint=False)[:, None]
 CELL_SHARE = 0.55
@@ -43,7 +43,7 @@ def test_a_disc_loses_its_staircase(size):
     y, x = np.mgrid[0:size, 0:size]
     middle, radius = np.array([0.5 * size + 0.3, 0.5 * size - 0.2]), 0.37 * size
     (ring,) = stairs(np.hypot(x - middle[0], y - middle[1]) < radius)
-    cubics = fit_ring(ring, CELL_SHARE)
+    cubics = fit_closed(ring, CELL_SHARE)
     off = np.abs(np.hypot(*(along(cubics) - middle).T) - radius)
     assert off.max() < 0.45
     assert np.sqrt((off**2).mean()) < 0.14 < 0.23 < np.sqrt(((np.hypot(*(ring - middle).T) - radius) ** 2).mean())
@@ -70,7 +70,7 @@ def test_both_banks_of_a_winding_river_lose_their_staircase(size):
     )
     points, _ = polygons.filled(0.0, np.inf)
     ring = points[0][:-1]
-    cubics = fit_ring(ring, CELL_SHARE)
+    cubics = fit_closed(ring, CELL_SHARE)
     fitted = along(cubics)
     fitted = fitted[(fitted[:, 0] > 0) & (fitted[:, 0] < size - 1)]
     east = np.linspace(-20, size + 20, 40 * size)
@@ -87,7 +87,7 @@ def test_what_is_smooth_already_is_followed_closely():
     angle = np.linspace(0.0, 2.0 * np.pi, 300, endpoint=False)
     radius = 30.0 + 4.0 * np.cos(5.0 * angle)
     flower = radius[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
-    fitted = along(fit_ring(flower, CELL_SHARE))
+    fitted = along(fit_closed(flower, CELL_SHARE))
     off = np.abs(np.hypot(*fitted.T) - 30.0 - 4.0 * np.cos(5.0 * np.arctan2(fitted[:, 1], fitted[:, 0])))
     assert off.max() < 0.25 * CELL_SHARE
 
@@ -95,7 +95,7 @@ def test_what_is_smooth_already_is_followed_closely():
 def test_corners_that_a_raster_cut_off_come_back():
     y, x = np.mgrid[0:40, 0:60]
     (ring,) = stairs((x >= 10) & (x < 50) & (y >= 8) & (y < 30))
-    cubics = fit_ring(ring, CELL_SHARE)
+    cubics = fit_closed(ring, CELL_SHARE)
     corners = cubics[turns(np.roll(cubics, 1, axis=0)) > 45.0, 0]
     assert np.allclose(
         sorted(map(tuple, corners.round(3))), [(9.5, 7.5), (9.5, 29.5), (49.5, 7.5), (49.5, 29.5)], atol=0.05
@@ -108,7 +108,7 @@ def test_fixed_points_are_kept_as_corners():
     circle = 10.0 * np.column_stack([np.cos(angle), np.sin(angle)])
     fixed = np.zeros(100, bool)
     fixed[[13, 57]] = True
-    starts = fit_ring(circle, CELL_SHARE, fixed=fixed)[:, 0]
+    starts = fit_closed(circle, CELL_SHARE, fixed=fixed)[:, 0]
     assert all((starts == circle[k]).all(axis=1).any() for k in (13, 57))
 
 
@@ -116,12 +116,12 @@ def test_fixed_points_are_kept_as_corners():
 def test_small_islands_survive_at_about_their_size(radius):
     diamond = radius * np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
     for ring in (diamond, diamond[::-1]):
-        assert area(along(fit_ring(ring, CELL_SHARE))) / area(ring) == pytest.approx(1.0, abs=0.35)
+        assert area(along(fit_closed(ring, CELL_SHARE))) / area(ring) == pytest.approx(1.0, abs=0.35)
 
 
 def test_rings_that_enclose_nothing_are_none():
     for ring in ([[0.0, 0.0], [1.0, 0.0]], [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]], [[3.0, 3.0]] * 5):
-        assert fit_ring(np.array(ring), 0.5).shape == (0, 4, 2)
+        assert fit_closed(np.array(ring), 0.5).shape == (0, 4, 2)
 
 
 @settings(max_examples=60, deadline=None)
@@ -137,7 +137,7 @@ def test_any_ring_is_followed_within_the_tolerance(shares, size, rounded):
         y, x = np.mgrid[-size - 2 : size + 3, -size - 2 : size + 3]
         inside = shapely.contains_xy(shapely.Polygon(ring), x.ravel(), y.ravel()).reshape(x.shape)
         ring = max(stairs(inside), key=len, default=ring)
-    cubics = fit_ring(ring, CELL_SHARE)
+    cubics = fit_closed(ring, CELL_SHARE)
     assert (cubics[:, 0] == np.roll(cubics[:, 3], 1, axis=0)).all()
     fitted = along(cubics)
     # samples are a tolerance apart, so that a corner between them may be cut by half of that again

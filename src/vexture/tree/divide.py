@@ -1,13 +1,14 @@
-"""Pieces in a pool, cells as lists of their numbers: cutting a cell moves numbers and copies only what is cut.
+"""Dividing a cell: its pieces are cut at the cell's middle lines and listed for its children.
 
-A cell is cut at its middle lines, x first. The cut coordinate is set exactly in both halves, so that neighbouring
-cells share the same floating-point point and no seam can open between them; the other coordinate is rounded to a
-lattice, so that a line through a cell's corner leaves no sliver beside it and leaves of any depth can hold the point
-exactly. So is that of an end which lies on the line already. A piece goes to the upper (right) child iff **both** its
-ends are at or beyond the line: a decision by their midpoint fails where it rounds up.
+All pieces are in one pool, and a cell is a list of numbers of pieces. So dividing moves numbers, and copies only pieces
+that are cut. A cell is cut at its middle lines, x first. The cut coordinate is set exactly in both halves, so that
+neighbouring cells share the same floating-point point and no seam can open between them. The other coordinate is
+rounded to a lattice, so that a line through a cell's corner leaves no sliver beside it, and leaves of any depth can
+hold the point exactly; so is that of an end that lies on the line already. A piece goes to the upper (right) child iff
+**both** its ends are at or beyond the line: a decision by their midpoint fails where it rounds up.
 
-Cells are divided depth first. What a cell appended to the pool and to the lists is forgotten once all below it is
-done, so both stay small and in the processor's cache.
+Cells are divided depth first. What a cell appended to the pool and to the lists is discarded when all cells below it
+are done, so both stay small and in the processor's cache.
 """
 
 from typing import NamedTuple
@@ -19,52 +20,35 @@ from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 
-__all__ = ["MOST_QUADS", "PARTS", "Pool", "child_of", "divide", "new_pool", "pool_with_room", "snap", "with_room"]
+__all__ = ["PARTS", "PiecePool", "child_of", "divide", "new_pool", "pool_with_room", "snap", "with_room"]
 
 PARTS = 4
 """Most parts of one piece: each of the two middle lines cuts it at most once."""
 
-MOST_QUADS = 2_000_000
-"""Largest tree that is built, some 200 MB."""
 
+class PiecePool(NamedTuple):
+    """The pieces of all cells that are not done, and lists of their numbers."""
 
-class Pool(NamedTuple):
-    """Growing arrays.
-
-    Attributes
-    ----------
-    points : (room, 4, 2) float64 array
-        Pieces.
-    path : (room,) int64 array
-        The path of each.
-    numbers : (room,) int64 array
-        Lists of pieces, one after another.
-    child : (room,) int64 array
-        Scratch: the child that each part belongs to.
-    part : (room,) int64 array
-        Scratch: the number of each part.
-    """
-
-    points: NDArray[np.float64]
-    path: NDArray[np.int64]
-    numbers: NDArray[np.int64]
-    child: NDArray[np.int64]
-    part: NDArray[np.int64]
+    points: NDArray[np.float64]  # (room, 4, 2): pieces
+    path: NDArray[np.int64]  # (room,): the path of each
+    numbers: NDArray[np.int64]  # (room,): lists of pieces, one after another
+    child: NDArray[np.int64]  # (room,), scratch: the child that each part belongs to
+    part: NDArray[np.int64]  # (room,), scratch: the number of each part
 
 
 @kernel
-def new_pool(points: NDArray[np.float64], path: NDArray[np.int64]) -> Pool:
-    """Pool of pieces, with one list that holds them all."""
+def new_pool(points: NDArray[np.float64], path: NDArray[np.int64]) -> PiecePool:
+    """Pool of pieces, with one list of them all."""
     n = len(path)
     numbers = np.empty(n, np.int64)
     for i in range(n):
         numbers[i] = i
-    return Pool(points, path, numbers, np.empty(0, np.int64), np.empty(0, np.int64))
+    return PiecePool(points, path, numbers, np.empty(0, np.int64), np.empty(0, np.int64))
 
 
 @kernel
 def _longer(values: NDArray[np.int64], count: int, room: int) -> NDArray[np.int64]:
-    """First values of an array, with room for more."""
+    """The first values of an array, in an array of `room`."""
     out = np.empty(room, np.int64)
     for i in range(count):
         out[i] = values[i]
@@ -72,13 +56,13 @@ def _longer(values: NDArray[np.int64], count: int, room: int) -> NDArray[np.int6
 
 
 @kernel
-def pool_with_room(pool: Pool, pieces: int, numbers: int, parts: int) -> Pool:
-    """Larger pool, with room for parts behind its first pieces and its first numbers."""
+def pool_with_room(pool: PiecePool, pieces: int, numbers: int, parts: int) -> PiecePool:
+    """Larger pool, with room for `parts` behind the first `pieces` and the first `numbers`."""
     points = np.empty((2 * pieces + parts, 4, 2))
     for i in range(pieces):
         copy_curve(pool.points[i], points[i])
     room = 2 * numbers + parts
-    return Pool(
+    return PiecePool(
         points,
         _longer(pool.path, pieces, len(points)),
         _longer(pool.numbers, numbers, room),
@@ -91,7 +75,7 @@ def pool_with_room(pool: Pool, pieces: int, numbers: int, parts: int) -> Pool:
 def _cut(
     points: NDArray[np.float64], path: NDArray[np.int64], i: int, axis: int, line: float, grain: float, count: int
 ) -> int:
-    """Cut piece i where it crosses a line, its second part to place `count`; return the new count."""
+    """Cut piece i where it crosses a line, and write its second part to place `count`; return the new count."""
     a, d = points[i, 0, axis], points[i, 3, axis]
     if a == line:
         snap(points[i], 0, 1 - axis, grain)
@@ -110,22 +94,13 @@ def _cut(
 
 @kernel(allocates=False)
 def divide(
-    pool: Pool, first: int, last: int, xm: float, ym: float, grain: float, pieces: int, child_at: NDArray[np.int64]
+    pool: PiecePool, first: int, last: int, xm: float, ym: float, grain: float, pieces: int, child_at: NDArray[np.int64]
 ) -> int:
-    """Lists of a cell's four children, behind its own list; return the new number of pieces in the pool.
+    """Append the lists of a cell's four children behind its own list, first..last-1; return the new number of pieces.
 
-    Parameters
-    ----------
-    pool : Pool
-        With room; the cell's list is numbers first..last-1.
-    xm, ym : float
-        The cell's middle.
-    grain : float
-        Spacing of the lattice that points on the middle lines are rounded to.
-    pieces : int
-        Number of pieces in the pool.
-    child_at : (5,) int64 array
-        Written: where each child's list starts.
+    `xm` and `ym` are the cell's middle, `grain` the spacing of the lattice to which points on the middle lines are
+    rounded, and `pieces` the number of pieces in the pool, which must have room. The start of each child's list is
+    written to `child_at` (5,).
     """
     points, path, numbers, owner, part = pool.points, pool.path, pool.numbers, pool.child, pool.part
     parts = 0
@@ -165,7 +140,7 @@ def divide(
 
 @kernel(allocates=False)
 def snap(curve: NDArray[np.float64], end: int, axis: int, grain: float) -> None:
-    """Round one coordinate of an end to a lattice; the control point beside it moves along."""
+    """Round one coordinate of an end to a lattice; the control point beside the end moves along."""
     snapped = np.rint(curve[end, axis] / grain) * grain
     curve[1 if end == 0 else 2, axis] += snapped - curve[end, axis]
     curve[end, axis] = snapped
@@ -173,7 +148,7 @@ def snap(curve: NDArray[np.float64], end: int, axis: int, grain: float) -> None:
 
 @kernel(allocates=False)
 def child_of(curve: NDArray[np.float64], xm: float, ym: float) -> int:
-    """Child that a piece which crosses no middle line belongs to: (x half) + 2 (y half)."""
+    """Number of the child, (x half) + 2 (y half), of a piece that crosses no middle line."""
     right = 1 if curve[0, 0] >= xm and curve[3, 0] >= xm else 0
     upper = 2 if curve[0, 1] >= ym and curve[3, 1] >= ym else 0
     return right + upper
@@ -181,7 +156,7 @@ def child_of(curve: NDArray[np.float64], xm: float, ym: float) -> int:
 
 @kernel
 def with_room(rows: NDArray[np.float64], count: int, room: int) -> NDArray[np.float64]:
-    """Array of rows with room for more behind the first `count`; itself if it has that, else twice as large."""
+    """The rows, or a copy twice as large if there is no room for `room` more behind the first `count`."""
     if count + room <= len(rows):
         return rows
     out = np.empty((2 * count + room, rows.shape[1], rows.shape[2]))
