@@ -215,11 +215,11 @@ def test_two_shapes_of_one_name_are_not_mixed_up(logo: File, tmp_path: File) -> 
     twin = tmp_path / "b" / "logo.svgz"
     twin.write_text(LOGO)
     for split in (None, "paint"):
-        with pytest.raises(LimitError, match="rename one") as caught:
+        with pytest.raises(ParameterError, match="rename one") as caught:
             vexture.atlas([logo, twin], split=split)
         assert str(caught.value).startswith(f"{twin}: ")
         assert str(logo) in str(caught.value)
-    with pytest.raises(LimitError, match="'drawing' already"):
+    with pytest.raises(ParameterError, match="'drawing' already"):
         vexture.atlas([star(5, "drawing"), star(7, "drawing")])
 
 
@@ -230,5 +230,5 @@ def test_a_bad_source_is_named(logo: File, tmp_path: File) -> None:
         vexture.atlas([logo, bad])
     with pytest.raises(SourceError, match=r"gone\.svg: cannot be read"):
         vexture.atlas([logo, tmp_path / "gone.svg"])
-    with pytest.raises(LimitError, match="no drawings"):
+    with pytest.raises(ParameterError, match="no drawings"):
         vexture.atlas([])

@@ -19,7 +19,7 @@ from santa_cruz.make_flood import make_flood  # noqa: E402
 
 from chromium import chromium  # noqa: E402 - the browser of the tests
 from vexture.flood.options import FloodOptions  # noqa: E402
-from vexture.live.documents import VIEWER_SETTINGS  # noqa: E402
+from vexture.live.documents import VIEWER_PARAMETERS  # noqa: E402
 from vexture.live.flood import export as export_flood  # noqa: E402
 from vexture.live.view import export  # noqa: E402
 
@@ -116,7 +116,7 @@ def main() -> None:
     row_of_guide().save(PICTURES / "guide.png", optimize=True)
     with tempfile.TemporaryDirectory() as folder, chromium() as browser:
         target = Path(folder) / "page.html"
-        export([SHAPES / f"{name}.svg" for name in ("duck", "cake", "ocean")], target, None, VIEWER_SETTINGS, print)
+        export([SHAPES / f"{name}.svg" for name in ("duck", "cake", "ocean")], target, None, VIEWER_PARAMETERS, print)
         page = browser.new_page(viewport={"width": SIZE[0], "height": SIZE[1]}, color_scheme="light")
         page.goto(target.as_uri())
         page.wait_for_function("() => window.vexture?.viewer?.engine?.drawing")

@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.live.waters import WATER_SETTINGS
+from vexture.live.flood_conversion import WATER_PARAMETERS
 from vexture.pipeline import convert
 
 __all__ = ["KINDS", "VERTICES", "Taken", "island", "island_files", "reading_times"]
@@ -80,7 +80,7 @@ def reading_times(path: Path, repeat: int) -> Taken:
         start = time.perf_counter()
         extent = read_extent(path, path.name)
         taken.drawing.append(1000 * (time.perf_counter() - start))
-        texture = convert(extent.steps[0].drawing, precision=WATER_SETTINGS.precision)
+        texture = convert(extent.steps[0].drawing, precision=WATER_PARAMETERS.precision)
         taken.texture.append(1000 * (time.perf_counter() - start))
         size = len(texture.to_ktx2())
         taken.file.append(1000 * (time.perf_counter() - start))

@@ -27,7 +27,7 @@ from report import cell, table, write_json
 from seams import SIDE, crossings, displacements, is_straight, step_of
 from targets import Target, judged, judgement
 from vexture.drawing import Drawing
-from vexture.live.documents import VIEWER_SETTINGS, shape_of
+from vexture.live.documents import VIEWER_PARAMETERS, shape_of
 from vexture.live.page import exported_page
 from vexture.pipeline import convert
 from vexture.renderers.exact import render_exact
@@ -98,7 +98,7 @@ def plane_to_unit(matrix: Sequence[float], size: int) -> NDArray[np.float64]:
 @contextmanager
 def page_of(browser: Any, path: Path) -> Iterator[Any]:
     """The viewer's page with one drawing, bare."""
-    shape = shape_of(path.read_bytes(), path.name, path.stem, VIEWER_SETTINGS)
+    shape = shape_of(path.read_bytes(), path.name, path.stem, VIEWER_PARAMETERS)
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "page.html"
         target.write_bytes(exported_page([shape], path.stem))
@@ -132,7 +132,7 @@ def points_of(drawing: Drawing, count: int, seed: int) -> list[tuple[float, floa
 
 def borders(page: Any, drawing: Drawing, zoom: float, count: int, seed: int) -> tuple[list[float], list[float]]:
     """Steps, and displacements, in pixels, where the outline crosses cells' borders."""
-    found = list(crossings(build_tree(drawing, precision=VIEWER_SETTINGS.precision)))
+    found = list(crossings(build_tree(drawing, precision=VIEWER_PARAMETERS.precision)))
     steps, moved = [], []
     middle = slice((PIXELS - SIDE) // 2, (PIXELS + SIDE) // 2)
     for k in np.random.default_rng(seed).permutation(len(found))[:count]:
@@ -219,7 +219,7 @@ def main() -> None:
     ]
     for zoom in zooms:
         steps, moved = (max(max(one[f"{what} {zoom}"], default=0.0) for one in facts) for what in ("steps", "moved"))
-        allowed = (VIEWER_SETTINGS.precision or math.nan) / facts[0][f"pixel {zoom}"]
+        allowed = (VIEWER_PARAMETERS.precision or math.nan) / facts[0][f"pixel {zoom}"]
         reached += [
             Target(f"largest step at {zoom}, px", steps, 0.1, 0.05),
             Target(f"largest displacement at {zoom}, px", moved, allowed + ROUNDED, allowed),

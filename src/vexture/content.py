@@ -1,4 +1,4 @@
-"""The content of a source file: its bytes, and what kind of file they say it is."""
+"""The content of a source file: its bytes, and the kind of file that they are."""
 
 import os
 import zlib
@@ -43,18 +43,18 @@ ZIP: Final = b"PK\x03\x04"
 
 TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 NETCDF: Final = (b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
-"""How TIFF and BigTIFF start, and NetCDF of all kinds."""
+"""First bytes of TIFF and BigTIFF, and of NetCDF of all kinds."""
 
 PNG: Final = b"\x89PNG"
 PICTURES: Final = (PNG, b"\xff\xd8\xff", b"GIF87a", b"GIF89a")
-"""How PNG, JPEG and GIF start; WebP and BMP have something in between."""
+"""First bytes of PNG, JPEG and GIF; `kind_of` knows WebP and BMP, whose marks have gaps."""
 
 START: Final = 4096
-"""Bytes that tell what a file is: more than a text begins with blanks."""
+"""Bytes that tell what a file is: more than the white space at the start of a text."""
 
 
 class FileKind(StrEnum):
-    """What a file holds, which says what reads it."""
+    """What a file holds, which decides how it is read."""
 
     TEXTURE = "texture"
     PICTURE = "picture"
@@ -70,23 +70,11 @@ SUFFIXES: Final[dict[FileKind, tuple[str, ...]]] = {
     FileKind.AREAS: (".gpkg", ".fgb", ".shp"),
     FileKind.DEPTHS: (".tif", ".tiff", ".nc", ".nc4", ".cdf"),
 }
-"""Names of files whose content tells nothing: what should read them says best what is wrong with them."""
+"""Suffixes for files of unknown content: the reader that they name reports best what is wrong with them."""
 
 
 def kind_of(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind:
-    r"""Tell what kind of file it is.
-
-    Parameters
-    ----------
-    start : bytes
-        How its content starts, as `start_of` gives it.
-    file_name : path
-        What it is called, which matters only where the content starts as that of no file that there is a reader for.
-
-    Returns
-    -------
-    FileKind
-        ``SVG`` of what nothing else reads.
+    r"""Kind of a file by its first bytes (from `start_of`), or else by its suffix; ``SVG`` if neither decides.
 
     Examples
     --------
@@ -115,7 +103,7 @@ def kind_of(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind:
 
 
 def start_of(source: str | os.PathLike[str] | bytes) -> bytes:
-    """Return first bytes of a file, or of its content; none if it cannot be read: the reader says why."""
+    """Return the first bytes of a file or of its content; none if it cannot be read: the reader says why."""
     if isinstance(source, bytes):
         return source[:START]
     try:
@@ -126,28 +114,22 @@ def start_of(source: str | os.PathLike[str] | bytes) -> bytes:
 
 
 def unpacked(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] | bytes:
-    """Return the source itself or, of a gzipped file, its content.
+    """Return the source itself or, of a gzipped file, its content; raises as `read_bytes` does."""
+    return read_bytes(source) if start_of(source).startswith(GZIP) else source
+
+
+def read_bytes(source: str | os.PathLike[str] | bytes) -> bytes:
+    """Content of a file, or the content that is given, decompressed if it is gzip (`.svgz`).
 
     Raises
     ------
     SourceError
-        As `decompressed` does.
+        If it cannot be read, is damaged or too large.
     """
-    if not start_of(source).startswith(GZIP):
-        return source
-    return decompressed(source) if isinstance(source, bytes) else read_bytes(source)
-
-
-def read_bytes(path: str | os.PathLike[str]) -> bytes:
-    """Content of a file, decompressed if it is gzip (`.svgz`).
-
-    Raises
-    ------
-    SourceError
-        If it cannot be read or is too large.
-    """
+    if isinstance(source, bytes):
+        return decompressed(source)
     try:
-        with Path(path).open("rb") as file:
+        with Path(source).open("rb") as file:
             content = file.read(LARGEST_FILE + 1)
     except (OSError, ValueError) as error:  # ValueError: a null character in the name
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
@@ -156,19 +138,7 @@ def read_bytes(path: str | os.PathLike[str]) -> bytes:
 
 
 def decompressed(content: bytes) -> bytes:
-    """Content of a file that may be gzip, as it is or decompressed.
-
-    Raises
-    ------
-    SourceError
-        If the data is damaged or too large.
-
-    Examples
-    --------
-    >>> import gzip
-    >>> decompressed(gzip.compress(b"<svg/>")), decompressed(b"<svg/>")
-    (b'<svg/>', b'<svg/>')
-    """
+    """Content that may be gzip, as it is or decompressed; raises as `read_bytes` does."""
     if content.startswith(GZIP):
         stream = zlib.decompressobj(wbits=zlib.MAX_WBITS | 16)
         try:
@@ -184,7 +154,7 @@ def decompressed(content: bytes) -> bytes:
 
 @contextmanager
 def about(source: str) -> Iterator[None]:
-    """Put the name of a source in front of what is wrong with it.
+    """Put the name of a source in front of the errors about it.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The normal form between every source and the quad-tree.
+"""The normal form of all sources, from which quad-trees are built.
 
 A `Drawing` is a list of painted `Path` objects in the unit square: x to the right, **y up**, origin at the bottom
 left. Every contour is closed and made of cubics only; a straight line is a cubic with its inner control points at
@@ -29,7 +29,7 @@ FARTHEST: Final = 1e9
 
 
 class FillRule(IntEnum):
-    """Which winding numbers are inside.
+    """Rule by which winding numbers are inside.
 
     Attributes
     ----------
@@ -45,13 +45,7 @@ class FillRule(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Paint:
-    """A flat colour: sRGB components and opacity, each in 0..1.
-
-    Raises
-    ------
-    SourceError
-        If one of them is not.
-    """
+    """A flat colour: sRGB components and opacity, each in 0..1."""
 
     color: tuple[float, float, float] = (0.0, 0.0, 0.0)
     opacity: float = 1.0
@@ -83,9 +77,7 @@ class Path:
         Cubics P0 P1 P2 P3 in unit-square units; each starts, bit for bit, where the one before it ends, and the
         first starts where the last ends.
     fill_rule : FillRule
-        Which winding numbers are inside.
     paint : Paint
-        The colour it is filled with.
 
     Raises
     ------
@@ -115,7 +107,7 @@ class Path:
 
     @classmethod
     def _sound(cls, contours: tuple[NDArray[np.float64], ...], fill_rule: FillRule, paint: Paint) -> "Path":
-        """Path of contours that were made to be finite and closed, and are not checked again."""
+        """Path of contours that are known to be finite and closed, without a check."""
         path = object.__new__(cls)
         for name, value in zip(cls.__slots__, (contours, fill_rule, paint), strict=True):
             object.__setattr__(path, name, value)
@@ -141,13 +133,13 @@ class Drawing:
     paths : tuple of Path
         In painting order; all coordinates lie in [0, 1].
     to_source : (2, 3) float64 array
-        Affine map from the unit square to the units of the source, so that a user can map back.
+        Affine map from the unit square to the units of the source.
     name : str
-        Names the shape in messages and files.
+        Name of the shape in messages and files.
     crs : str or None
-        Coordinate reference system of the units of the source, where there is one.
+        Coordinate reference system of the source's units, if it has one.
     notes : tuple of Note
-        What was noticed while it was read: what was left out, simplified or invalid.
+        What was left out, simplified or invalid when it was read.
 
     Examples
     --------
@@ -177,10 +169,10 @@ class Drawing:
         return sum(len(contour) for path in self.paths for contour in path.contours)
 
     def layers(self) -> "tuple[Drawing, ...]":
-        """Take the drawing apart by paint: stacked in this order, the layers are the flat-coloured drawing.
+        """Split the drawing by paint: drawn in this order, the layers give the drawing in its colours.
 
-        Consecutive paths of one opaque paint are one layer. Of a translucent paint, which shows twice where two
-        paths overlap, only paths whose boxes are apart from one another share a layer.
+        Consecutive paths of one opaque paint are one layer. A translucent paint shows twice where two paths overlap,
+        so its paths share a layer only if their boxes do not touch.
 
         Returns
         -------
@@ -211,7 +203,7 @@ class Drawing:
         )
 
     def _part(self, start: int, end: int, name: str) -> "Drawing":
-        """Some of the paths, which were checked when this drawing was made and are not checked again."""
+        """Drawing of some of the paths, which were checked already."""
         part = copy(self)
         object.__setattr__(part, "paths", self.paths[start:end])
         object.__setattr__(part, "name", name)
@@ -241,17 +233,16 @@ class Drawing:
     ) -> "Drawing":
         """Bring the paths of a source into the normal form.
 
-        The source's box is centred in the unit square at its own aspect ratio and turned y up; what is outside the
-        box is clipped away; steps without length and contours that enclose nothing are dropped.
+        The source's box keeps its aspect ratio, is centred in the unit square and flipped to y up. Parts outside of the
+        box are clipped. Cubics without length and contours that enclose nothing are dropped.
 
         Parameters
         ----------
         paths : iterable of Path
             In the units of the source, **y down**.
         box : tuple of float
-            Least x, least y, width and height of what is visible, in the units of the source.
+            Least x, least y, width and height of the visible part, in the units of the source.
         name : str
-            Names the drawing.
 
         Raises
         ------
@@ -319,7 +310,7 @@ def clipped(
 
 
 def tidied(joined: NDArray[np.float64], ends: NDArray[np.intp]) -> dict[int, NDArray[np.float64]]:
-    """Contours that enclose something, by index: no steps without length, closed bit for bit, lines exact.
+    """Contours that enclose an area, by index, without cubics of no length, closed bit for bit, with exact lines.
 
     The parameters are those that `clipped` returns.
     """

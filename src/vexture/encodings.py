@@ -1,7 +1,7 @@
-"""What every encoding offers, and those that are registered by name beside the one everyone uses.
+"""The interface of an encoding, and the encodings that are registered by name beside the default one.
 
-An encoding is a package with the functions of `Encoding`. It is imported when it is first asked for; nothing else in
-vexture imports it.
+An encoding is a package with the functions of `Encoding`. It is imported at its first use; nothing else in vexture
+imports it.
 """
 
 import os
@@ -31,16 +31,16 @@ __all__ = [
 ]
 
 TextureRenderer: TypeAlias = Literal["cpu", "gpu"]
-"""What renders a texture: the shader's mirror in Python, or the shader."""
+"""Renderer of a texture: the shader's counterpart in Python, or the shader."""
 
 Quality: TypeAlias = Literal["fast", "exact"]
-"""How closely a pixel that is turned or tilted is computed."""
+"""Accuracy in turned and tilted views."""
 
 DEFAULT: Final = "packed"
 """Encoding of `vexture.Texture`."""
 
 REGISTERED: Final = {"thesis": "vexture.thesis"}
-"""Packages of the other encodings, by name."""
+"""Packages of the other encodings by name."""
 
 
 class EncodedTexture(Protocol):
@@ -48,11 +48,11 @@ class EncodedTexture(Protocol):
 
     @property
     def name(self) -> str:
-        """Names the texture in messages and files."""
+        """Name of the texture in messages and files."""
 
     @property
     def nbytes(self) -> int:
-        """Size in memory, of a GPU too."""
+        """Size in memory, also that of a GPU."""
 
     def coverage(
         self,
@@ -80,53 +80,39 @@ class EncodedTexture(Protocol):
         """Describe the texture, ready for JSON."""
 
     def files(self) -> dict[str, bytes]:
-        """Contents of its file or files, by what follows the texture's name in their names."""
+        """Contents of its file or files by suffix, which follows the texture's name in their names."""
 
     def save(self, path: str | os.PathLike[str]) -> Path | tuple[Path, ...]:
         """Write its file or files, all or none; return their paths."""
 
 
 class Encoded(NamedTuple):
-    """What an encoding made of a drawing.
+    """A drawing in an encoding."""
 
-    Attributes
-    ----------
-    tree : object
-        With `coverage`, `curves`, `deviation` and `unresolved` as those of `vexture.tree.tree.Tree`.
-    texture : EncodedTexture
-    rounding : float
-        Largest shift of the outline by rounding to the texture's bits, in unit-square units.
-    """
-
-    tree: Any
+    tree: Any  # with coverage, curves, deviation and unresolved as those of vexture.tree.tree.Tree
     texture: EncodedTexture
-    rounding: float
+    rounding: float  # largest shift of the outline by rounding, in unit-square units
 
 
 class Encoding(Protocol):
-    """What a registered package offers."""
+    """Functions of a registered package."""
 
     @property
     def SUFFIXES(self) -> tuple[str, ...]:  # noqa: N802  # a constant of the package
-        """What follows a texture's name in the names of its files."""
+        """Suffixes of a texture's files."""
 
     def convert(self, drawing: "Drawing", **parameters: Any) -> Encoded:
         """Tree and texture of a drawing."""
 
     def owns(self, path: Path) -> bool:
-        """Whether a path, as a user names it, means a texture of this encoding."""
+        """Whether a path that a user gives means a texture of this encoding."""
 
     def load(self, path: str | os.PathLike[str]) -> EncodedTexture:
         """Read a texture's file or files."""
 
 
 def find_encoding(name: str) -> Encoding:
-    """Return a registered encoding.
-
-    Raises
-    ------
-    ParameterError
-        If there is none of that name.
+    """Return the registered encoding of a name.
 
     Examples
     --------
@@ -143,5 +129,5 @@ def find_encoding(name: str) -> Encoding:
 
 
 def owner_of(path: Path) -> str | None:
-    """Name of the registered encoding that a path means a texture of, or None."""
+    """Name of the registered encoding whose texture a path means, or None."""
     return next((name for name in REGISTERED if find_encoding(name).owns(path)), None)

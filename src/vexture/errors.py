@@ -1,4 +1,4 @@
-"""What can go wrong, one class for each decision that a user can take.
+"""Errors: one class for each decision that a user can take.
 
 Every message is one line that names the value, the limit and the remedy. Messages name parameters in backticks, as in
 `max_depth`; the command line turns them into options, prints the line and exits with code 1.
@@ -7,7 +7,10 @@ Wrong arguments are `ParameterError`, a `ValueError`; bad files, limits and devi
 exception that reaches a user is a bug.
 """
 
+from typing import Final
+
 __all__ = [
+    "EXPECTED",
     "DeviceError",
     "FormatError",
     "LimitError",
@@ -41,6 +44,10 @@ class DeviceError(VextureError):
 
 class ParameterError(ValueError):
     """An argument has a value that is not allowed."""
+
+
+EXPECTED: Final = (VextureError, ParameterError)
+"""Errors that a command or a server reports in one line."""
 
 
 class SourceWarning(UserWarning):

@@ -1,4 +1,4 @@
-"""Pixels of a drawing or a texture: how much of each is covered, and the picture in its colours."""
+"""Rendering of a drawing or a texture: the covered part of each pixel, or the picture in colours."""
 
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias, cast
 
@@ -6,7 +6,7 @@ from vexture.encodings import EncodedTexture, Quality
 from vexture.errors import ParameterError
 from vexture.pipeline import convert
 
-if TYPE_CHECKING:  # at run time they come when they are needed: compiler and driver take their time
+if TYPE_CHECKING:  # imported at run time when needed: compiler and driver take long
     import numpy as np
     from numpy.typing import NDArray
 
@@ -19,7 +19,7 @@ Shown: TypeAlias = "Drawing | EncodedTexture"
 Renderer: TypeAlias = Literal["exact", "cpu", "gpu"]
 
 RENDERERS: Final[tuple[Renderer, ...]] = ("exact", "cpu", "gpu")
-"""The truth, from a drawing; from a texture on the CPU; on the GPU."""
+"""``"exact"`` renders a drawing; the others render a texture."""
 
 
 def coverage(

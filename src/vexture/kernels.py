@@ -1,11 +1,10 @@
 """Compiled kernels: one decorator, one cache, one announcement.
 
-Numba is imported when the first kernel has to be compiled or taken from the cache: half a second that a command does
-not spend whose kernels a wheel brings along (`vexture.machine_code`).
+Numba is imported when the first kernel must be compiled or read from the cache. This takes half a second, which a
+command saves if a wheel holds its kernels (`vexture.machine_code`).
 
-Numba's own cache watches only the file of the function itself, so a kernel would go on calling the old code of a
-kernel, or with the old value of a constant, that it imports. The cache folder is therefore named after the text of all
-modules that hold either.
+Numba's own cache checks only the file of the function itself. A kernel would go on using the old code of a kernel, or
+the old value of a constant, that it imports. So the cache folder is named after the text of all modules with either.
 """
 
 import functools
@@ -25,10 +24,10 @@ __all__ = ["Kernel", "kernel", "text_digest"]
 F = TypeVar("F", bound=Callable[..., Any])
 
 ABOVE = {"cli", "flood", "fold", "geo", "live", "svg", "tracing"}
-"""Parts of the package that no kernel stands in or takes a constant from: changing them compiles nothing again."""
+"""Parts of the package without kernels or constants of kernels: a change there compiles nothing again."""
 
 ONE_AT_A_TIME = threading.Lock()
-"""Held while Numba's settings are not the caller's: the threads of a server may use a kernel for the first time."""
+"""Held while Numba's configuration is changed: several threads of a server may use a kernel for the first time."""
 
 
 @functools.cache
@@ -64,12 +63,12 @@ def kernel_cache() -> Path:
 
 @functools.cache
 def _numba() -> tuple[Any, str]:
-    """Numba, which announces from now on that it compiles, and the folder of its cache."""
+    """Numba, with an announcement of its first compilation, and the folder of its cache."""
     import numba
     from numba.core import event
 
     class Announcement(event.Listener):  # type: ignore[misc]
-        """Says once, on the first compilation of this process, why the first run takes longer."""
+        """Tells the user, at the first compilation of this process, why the first run takes longer."""
 
         def __init__(self) -> None:
             self.made = False
@@ -90,15 +89,7 @@ def _numba() -> tuple[Any, str]:
 
 
 class Kernel:
-    """A function over arrays that Numba compiles when it is first called.
-
-    Parameters
-    ----------
-    function : function
-        What is compiled.
-    allocates, ahead : bool
-        See `kernel`.
-    """
+    """A function over arrays that Numba compiles when it is first called; see `kernel`."""
 
     def __init__(self, function: Callable[..., Any], allocates: bool, ahead: bool) -> None:
         functools.update_wrapper(self, function)
@@ -109,11 +100,11 @@ class Kernel:
     @functools.cached_property
     def dispatcher(self) -> Any:
         """Numba's function."""
-        private = self.py_func.__name__.startswith("_")  # called by kernels only: Python needs no way in
+        private = self.py_func.__name__.startswith("_")  # called by kernels only: needs no wrapper for Python
         options = {"cache": True, "error_model": "numpy", "no_cfunc_wrapper": True, "no_cpython_wrapper": private}
         with ONE_AT_A_TIME:
             numba, folder = _numba()
-            # read while decorating; others may use Numba too
+            # read by the decorator; other packages may use Numba too
             caller, numba.config.CACHE_DIR = numba.config.CACHE_DIR, folder
             result = numba.njit(**options, _nrt=self._allocates)(self.py_func)
             numba.config.CACHE_DIR = caller
@@ -121,11 +112,11 @@ class Kernel:
 
     @property
     def _numba_type_(self) -> Any:
-        """What Numba takes a kernel for that another one calls."""
+        """Numba's type of a kernel that another one calls."""
         return self.dispatcher._numba_type_
 
     def __call__(self, *arguments: Any) -> Any:
-        """Run code that was compiled ahead of time, if there is some for such arguments, or what Numba compiles."""
+        """Run code that was compiled ahead of time for arguments of these types, or else what Numba compiles."""
         if self._ahead:
             types = described(arguments)
             if self._code is None or self._code.code.arguments != types:
@@ -147,17 +138,16 @@ def kernel(*, allocates: bool = True, ahead: bool = False) -> Callable[[F], F]: 
 def kernel(function: F | None = None, *, allocates: bool = True, ahead: bool = False) -> F | Callable[[F], F]:
     """Compile a scalar function over arrays with Numba, cached on disk.
 
-    A name with a leading underscore says that only kernels call it.
+    A function whose name begins with an underscore is called by kernels only.
 
     Parameters
     ----------
     function : function
-        What is decorated.
     allocates : bool
-        False for a function that makes no arrays: Numba then counts no references in it, which for short functions
-        costs more than what they do.
+        False for a function that makes no arrays. Numba then counts no references, which takes longer than the work
+        of a short function.
     ahead : bool
-        True for a function that a wheel of a platform brings along compiled: what a plain command calls.
+        True for a function of a plain command, which the wheel of a platform holds compiled.
 
     Examples
     --------

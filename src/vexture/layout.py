@@ -1,4 +1,4 @@
-"""The bits of a texture (FORMAT.md, part B), defined once: Python reads them here, GLSL and JavaScript are generated.
+"""The bits of a texture (FORMAT.md, part B), defined once for Python, and for the GLSL and JavaScript made from them.
 
 A texture is one image of four 32-bit words to a texel, in which quads and curves share one index.
 """
@@ -43,7 +43,7 @@ MOST_DEPTH: Final = 20
 
 TEXT_VERSION: Final = "vexture.version"
 TEXT_ENCODING: Final = "vexture.encoding"
-"""Keys that the files of every encoding have: what a texture is."""
+"""Keys in the files of every encoding, which identify a texture."""
 
 TEXT_WRITER: Final = "KTXwriter"
 TEXT_NAME: Final = "vexture.name"
@@ -55,7 +55,7 @@ ENCODING_PACKED: Final = "packed"
 PACKED_VERSION: Final = "1"
 
 PACKED_SUFFIX: Final = ".ktx2"
-"""What follows the name in the name of a packed texture's file."""
+"""Suffix of a packed texture's file."""
 
 ROW_BITS: Final = 11
 """Texel i lies in row i >> ROW_BITS; a texture of one row may be narrower. Every WebGL2 device takes this width."""

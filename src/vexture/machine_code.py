@@ -1,12 +1,12 @@
-"""Kernels compiled ahead of time: called without Numba, and so without the time to import it or to compile.
+"""Kernels compiled ahead of time, which run without the time to import Numba or to compile.
 
-A code file holds one kernel, specialised for the types of its arguments, as the object file of one platform. It says
-what it needs: the platform, features of the processor, functions of the C library. Where any of that is missing, or
-the file was made from another text of the kernels, there is no such code and Numba compiles as ever.
+A code file holds one kernel, specialised for the types of its arguments, as an object file of one platform. It lists
+its requirements: the platform, processor features, functions of the C library. If one is missing, or the kernels' text
+has changed since, Numba compiles the kernel instead.
 
-The code follows Numba's convention for compiled functions: ``int f(result*, exception**, arguments...)``, in which a
-tuple is passed as its elements and an array as the seven or more words of `_words`. Whoever writes a file
-(`tools/compile_kernels.py`) has seen it return what Numba returns.
+The code follows Numba's calling convention: ``int f(result*, exception**, arguments...)``. A tuple is passed as its
+elements, an array as the seven or more words of `_words`. `tools/compile_kernels.py` writes the files, and checks that
+each returns what Numba returns.
 """
 
 import ctypes
@@ -23,46 +23,30 @@ import numpy as np
 __all__ = ["SHIPPED", "Code", "Compiled", "described", "host", "load"]
 
 SHIPPED = Path(__file__).parent / "compiled"
-"""Folder of the code files that a wheel brings along."""
+"""Folder of the code files in a wheel."""
 
 LARGEST = 2**63 - 1
 
 MEMORY, OWNER, COUNT, ITEM_SIZE, DATA, SHAPE = range(6)
-"""Words of an array; after its shape come its strides. An array of NumPy's has no memory or owner to a kernel."""
+"""Words of an array; the strides follow the shape. MEMORY and OWNER are 0 for an array that NumPy made."""
 
 RELEASE = "NRT_decref"
-"""Gives up an array that a kernel made."""
+"""Function that releases an array of a kernel."""
 
 Described = Any
 """Type of a value: "int", "float", [dtype, dimensions, writable] of an array, a list with "tuple" first, or None."""
 
 
 class Code(NamedTuple):
-    """A code file.
+    """The head of a code file."""
 
-    Attributes
-    ----------
-    platform : str
-        LLVM's target triple.
-    features : list of str
-        Of the processor.
-    symbols : list of str
-        Functions of the C library.
-    text : str
-        Digest of the kernels' text.
-    arguments, result : object
-        As `described`.
-    entry : str
-        The function's name in the object file.
-    """
-
-    platform: str
-    features: list[str]
-    symbols: list[str]
-    text: str
+    platform: str  # LLVM's target triple
+    features: list[str]  # required of the processor
+    symbols: list[str]  # required of the C library
+    text: str  # digest of the kernels' text
     arguments: Described
     result: Described
-    entry: str
+    entry: str  # name of the function in the object file
 
     def write(self, file: Path, machine_code: bytes) -> None:
         """Write a file: a line of JSON, then the object file."""
@@ -70,7 +54,7 @@ class Code(NamedTuple):
 
 
 def described(value: Any) -> Described:
-    """Type of an argument or a result, as a kernel is specialised for it; "" if no code is kept for such.
+    """Type of an argument or a result for which a kernel is specialised; "" if there is never code for it.
 
     Examples
     --------
@@ -92,7 +76,7 @@ def described(value: Any) -> Described:
 
 
 def _words(value: Any) -> list[Any]:
-    """An argument as the words that are passed."""
+    """The words that pass an argument."""
     if isinstance(value, tuple):
         return [word for part in value for word in _words(part)]
     if isinstance(value, np.ndarray):
@@ -114,7 +98,7 @@ def _layout(result: Described) -> Any:
 
 
 def _value(result: Described, held: Any, release: Callable[[int], None]) -> Any:
-    """The Python value of a result; arrays are not copied, but given up when nobody needs them any more."""
+    """The Python value of a result; arrays are not copied, but released with their last reference."""
     if result is None:
         return None
     if isinstance(result, str):
@@ -129,15 +113,7 @@ def _value(result: Described, held: Any, release: Callable[[int], None]) -> Any:
 
 
 class Compiled:
-    """A kernel of a code file; what it refuses, Numba has to explain.
-
-    Parameters
-    ----------
-    code : Code
-        What the file says.
-    machine_code : bytes
-        Its object file.
-    """
+    """A kernel of a code file, whose object file is `machine_code`."""
 
     def __init__(self, code: Code, machine_code: bytes) -> None:
         import llvmlite.binding as llvm
@@ -147,14 +123,14 @@ class Compiled:
         self.engine: Any = llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
         self.engine.add_object_file(llvm.ObjectFileRef.from_data(machine_code))
         self.engine.finalize_object()
-        # the interpreter's lock is kept, as by Numba
+        # PYFUNCTYPE holds the interpreter's lock, as Numba does
         self._function = ctypes.PYFUNCTYPE(ctypes.c_int)(self.engine.get_function_address(code.entry))
         self._layout = _layout(code.result)
         address = 0 if code.result is None else self.engine.get_function_address(RELEASE)
         self._give_up = ctypes.PYFUNCTYPE(None, ctypes.c_void_p)(address)
 
     def _release(self, memory: int) -> None:
-        """Give up an array; as a method it keeps the code in memory for as long as there are arrays of it."""
+        """Release an array; the bound method keeps the code in memory as long as its arrays exist."""
         self._give_up(memory)
 
     def __call__(self, *arguments: Any) -> Any:
@@ -169,7 +145,7 @@ class Compiled:
 
 @cache
 def host() -> tuple[str, frozenset[str]]:
-    """Platform and features of this machine, after LLVM was made ready for them."""
+    """Platform and processor features of this machine; initialises LLVM for them."""
     import llvmlite.binding as llvm
 
     llvm.initialize_native_target()
@@ -179,7 +155,7 @@ def host() -> tuple[str, frozenset[str]]:
 
 
 def _found(symbols: list[str]) -> bool:
-    """Tell LLVM where functions of the C library are; False if one is missing, for which it would end the process."""
+    """Tell LLVM the addresses of C functions; False if one is missing, at which LLVM would end the process."""
     import llvmlite.binding as llvm
 
     library = ctypes.cdll.ucrtbase if sys.platform == "win32" else ctypes.CDLL(None)
@@ -192,18 +168,9 @@ def _found(symbols: list[str]) -> bool:
 
 
 def load(kernel: Any, text: str, arguments: Described, folder: Path = SHIPPED) -> Compiled | None:
-    """Code of a kernel for arguments of these types, if there is one that this machine can run.
+    """Code of a kernel for arguments of these types (from `described`), if this machine can run it.
 
-    Parameters
-    ----------
-    kernel : function
-        Its module and its name are the file's.
-    text : str
-        Digest of the kernels' text.
-    arguments : object
-        As `described`.
-    folder : Path
-        Of the code files.
+    A file is named after the kernel's module and name; `text` is the digest of the kernels' text.
     """
     for file in sorted(folder.glob(f"{kernel.__module__}.{kernel.__name__}-*.code")):
         head, _, machine_code = file.read_bytes().partition(b"\n")

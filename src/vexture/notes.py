@@ -1,10 +1,10 @@
-"""What was noticed while a source was read or a fold was made: data that travels with it, put into words at the edge.
+"""Notes of a reader: what it left out, simplified or found invalid, as data of the drawing or fold.
 
-Python's face warns of it, the command line prints it, servers and pages show it.
+Public functions turn notes into a `SourceWarning`, commands print them, servers and pages show them.
 """
 
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final, Literal
 
@@ -20,7 +20,7 @@ HEADINGS: Final[dict[Kind, str]] = {
     "invalid": "invalid and ignored: ",
     "remark": "",
 }
-"""How a line begins what it says of each kind, in this order."""
+"""What a line says before the notes of each kind, in this order."""
 
 MOST_NAMED: Final = 8
 """Notes of one kind that a line names; the others are counted."""
@@ -28,15 +28,15 @@ MOST_NAMED: Final = 8
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """One thing that was noticed.
+    """One observation about a source.
 
     Parameters
     ----------
     kind : str
-        ``"left out"``: not supported, and without a trace in the result. ``"simplified"``: there, but not as it
-        should be. ``"invalid"``: against the standard, and ignored. ``"remark"``: a sentence about the whole.
+        ``"left out"``: not supported and not in the result. ``"simplified"``: in the result, but not as it should be.
+        ``"invalid"``: against the standard and ignored. ``"remark"``: a sentence about the whole.
     message : str
-        What: ``<text>``, ``linearGradient read as a solid colour``.
+        Such as ``<text>`` or ``linearGradient read as a solid colour``.
     count : int
         How often.
 
@@ -55,7 +55,7 @@ class Note:
 
 
 class Notes:
-    """Collects what is noticed, and counts what is noticed again.
+    """Collects notes, and counts repeated ones.
 
     Examples
     --------
@@ -71,61 +71,43 @@ class Notes:
         self._counts: dict[Kind, dict[str, int]] = {kind: {} for kind in HEADINGS}
 
     def left_out(self, what: str) -> None:
-        """Note what is not supported and paints nothing or has no effect."""
+        """Note something that is not supported, and so paints nothing or has no effect."""
         self.count("left out", what)
 
     def simplified(self, what: str) -> None:
-        """Note what is there, but not as it should be."""
+        """Note something that is in the result, but not as it should be."""
         self.count("simplified", what)
 
     def remark(self, sentence: str) -> None:
-        """Note something about the whole."""
+        """Note a sentence about the whole."""
         self.count("remark", sentence)
 
     def count(self, kind: Kind, what: str) -> None:
-        """Count one more of a thing."""
+        """Note something once more."""
         self._counts[kind][what] = self._counts[kind].get(what, 0) + 1
 
     @property
     def listed(self) -> tuple[Note, ...]:
-        """All of it, kind by kind, in the order in which it was met."""
+        """All notes by kind, each kind in the order of their first occurrence."""
         return tuple(Note(kind, what, count) for kind, things in self._counts.items() for what, count in things.items())
 
 
 def line_of(source: str, notes: Sequence[Note]) -> str:
-    """All notes about a source in one line; empty if there are none.
-
-    Examples
-    --------
-    >>> line_of("a.svg", [Note("left out", "text", 2), Note("simplified", "pattern read as solid")])
-    'a.svg: left out: text (2); simplified: pattern read as solid'
-    """
+    """All notes about a source in one line; empty if there are none."""
     parts = []
     for kind, heading in HEADINGS.items():
         named = [str(note) for note in notes if note.kind == kind]
-        if named and not heading:
+        if not heading:
             parts += named
-        elif named:
-            parts.append(heading + ", ".join(_cut(named)))
+            continue
+        if len(named) > MOST_NAMED:
+            named[MOST_NAMED:] = [f"and {len(named) - MOST_NAMED} more"]
+        if named:
+            parts.append(heading + ", ".join(named))
     return f"{source}: {'; '.join(parts)}" if parts else ""
 
 
-def _cut(named: list[str]) -> Iterable[str]:
-    if len(named) <= MOST_NAMED:
-        return named
-    return [*named[:MOST_NAMED], f"and {len(named) - MOST_NAMED} more"]
-
-
 def warn_of(source: str, notes: Sequence[Note], *, stacklevel: int = 2) -> None:
-    """Warn Python's users of notes, once, as a `SourceWarning`.
-
-    Parameters
-    ----------
-    source : str
-        Names what the notes are about.
-    notes : sequence of Note
-    stacklevel : int
-        2 is the caller of the function that calls this one.
-    """
+    """Issue one `SourceWarning` of all notes about a source; `stacklevel` 2 is the caller of the calling function."""
     if line := line_of(source, notes):
         warnings.warn(line, SourceWarning, stacklevel=stacklevel + 1)

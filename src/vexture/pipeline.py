@@ -1,24 +1,22 @@
-"""From a source to a texture: the arrows of the architecture, one after the other."""
+"""Conversion: from a source to its drawing, its trees and a texture."""
 
 import inspect
 import os
 import time
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, overload
 
 from vexture.encodings import DEFAULT, EncodedTexture, find_encoding
-from vexture.errors import LimitError, ParameterError
+from vexture.errors import ParameterError
 from vexture.notes import warn_of
-from vexture.settings import Settings
 
-if TYPE_CHECKING:  # at run time they come when they are needed: compiler and parser take their time
+if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take long
     from vexture.drawing import Drawing
     from vexture.texture.texture import Root, Texture
-    from vexture.tree.tree import Tree
 
-__all__ = ["Conversion", "Shapes", "Source", "atlas", "combine", "convert", "run", "shapes_of"]
+__all__ = ["Conversion", "Parameters", "Source", "atlas", "combine", "convert", "run", "trees_of"]
 
 Source: TypeAlias = "Drawing | str | os.PathLike[str]"
 """A drawing, or the path of a file that `vexture.read` reads."""
@@ -26,56 +24,40 @@ Source: TypeAlias = "Drawing | str | os.PathLike[str]"
 AnyTexture = TypeVar("AnyTexture", bound=EncodedTexture, covariant=True)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Shapes:
-    """The trees of one source, not yet in a texture.
+@dataclass(frozen=True, slots=True)
+class Parameters:
+    """Parameters of a conversion, as `vexture.convert` describes them; None is the default.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        What was read.
-    trees : tuple of Tree
-        One tree, or one for each of its layers.
-    roots : tuple of Root
-        What a texture says of each.
-    seconds : float
-        Time from the source to the trees.
-    source : str
-        Names the source in messages.
-    rounding : float
-        Largest shift of an outline by rounding to the texture's bits, in unit-square units.
+    Examples
+    --------
+    >>> Parameters(split="colour")
+    Traceback (most recent call last):
+    vexture.errors.ParameterError: `split` is 'colour'; it must be 'paint' or None
     """
 
-    drawing: "Drawing"
-    trees: "tuple[Tree, ...]"
-    roots: "tuple[Root, ...]"
-    seconds: float
-    source: str
-    rounding: float
+    split: Literal["paint"] | None = None
+    select: str | None = None
+    tolerance: float | Literal["auto"] = "auto"
+    max_depth: int | None = None
+    capacity: int | None = None
+    precision: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.split not in (None, "paint"):
+            raise ParameterError(f"`split` is {self.split!r}; it must be 'paint' or None")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Conversion(Generic[AnyTexture]):
-    """A conversion with all that lies between the source and the texture.
+    """A conversion of one source, with all steps between the source and the texture."""
 
-    Parameters
-    ----------
-    drawing : Drawing
-        What was read; if it was split, `drawing.layers()` are what became trees.
-    trees : tuple of Tree, or the one tree of another encoding
-    texture : EncodedTexture
-        What is saved.
-    seconds : float
-        Time from the source to the texture.
-    rounding : float
-        Largest shift of an outline by rounding to the texture's bits, in unit-square units.
-    """
-
-    drawing: "Drawing"
-    trees: tuple[Any, ...]
-    texture: AnyTexture
-    seconds: float
-    rounding: float
+    drawing: "Drawing"  # if it was split, its layers() became the trees
+    trees: tuple[Any, ...]  # of `Tree`, or the one tree of another encoding
+    texture: AnyTexture  # None of trees that are not combined yet
+    seconds: float  # from the source to the texture or the trees
+    rounding: float  # largest shift of an outline by rounding to the texture's bits, in unit-square units
+    roots: "tuple[Root, ...]" = ()  # of the trees in a packed texture
+    source: str = ""  # its name in messages
 
     @property
     def tree(self) -> Any:
@@ -96,84 +78,68 @@ def run(
 
 
 def run(source: Source, *, encoding: str = DEFAULT, select: str | None = None, **parameters: Any) -> Conversion[Any]:
-    """Convert and keep what lies between; see `convert`."""
+    """Convert as `convert` does, but without a warning, and keep the steps."""
     start = time.perf_counter()
-    _check_names(encoding, parameters)
     if encoding == DEFAULT:
-        shapes = shapes_of(source, Settings(select=select, **parameters))
-        origin = None if _is_drawing(source) else Path(shapes.source).name
-        texture = combine([shapes], shapes.drawing.name, origin)
-        return Conversion(shapes.drawing, shapes.trees, texture, time.perf_counter() - start, shapes.rounding)
-    other = find_encoding(encoding)
+        known = {field.name for field in fields(Parameters)}
+    else:
+        other = find_encoding(encoding)
+        known = {*inspect.signature(other.convert).parameters}
+    for name, value in parameters.items():
+        if name not in known:
+            raise TypeError(f"`{name}` is {value!r}, but the encoding {encoding} has no such parameter; leave it out")
+    if encoding == DEFAULT:
+        part = trees_of(source, Parameters(select=select, **parameters))
+        texture = combine([part], part.drawing.name, None if _is_drawing(source) else Path(part.source).name)
+        return replace(part, texture=texture, seconds=time.perf_counter() - start)
     drawing = _drawing_of(source, select)
     tree, other_texture, rounding = other.convert(drawing, **parameters)
     return Conversion(drawing, (tree,), other_texture, time.perf_counter() - start, rounding)
 
 
-def _check_names(encoding: str, parameters: dict[str, Any]) -> None:
-    """Refuse parameters that the encoding does not have.
-
-    Raises
-    ------
-    TypeError
-        Naming the parameter.
-    """
-    if encoding == DEFAULT:
-        known = {field.name for field in fields(Settings)}
-    else:
-        known = {*inspect.signature(find_encoding(encoding).convert).parameters}
-    for name, value in parameters.items():
-        if name not in known:
-            raise TypeError(f"`{name}` is {value!r}, but the encoding {encoding} has no such parameter; leave it out")
-
-
-def shapes_of(source: Source, settings: Settings) -> Shapes:
-    """Read one source, take it apart if the settings say so, and build the trees of its shapes."""
+def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
+    """Read one source, split it if the parameters say so, and build its trees."""
     from vexture.texture.texture import Root
     from vexture.tree.build import DEFAULT_CAPACITY, DEFAULT_DEPTH, build_tree, largest_shift
 
     start = time.perf_counter()
-    drawing = _drawing_of(source, settings.select)
-    layers = drawing.layers() if settings.split else ()
+    drawing = _drawing_of(source, parameters.select)
+    layers = drawing.layers() if parameters.split else ()
+    tolerance = 0.0 if parameters.tolerance == "auto" else parameters.tolerance
     trees = tuple(
         build_tree(
             layer,
-            tolerance=settings.distance,
-            max_depth=DEFAULT_DEPTH if settings.max_depth is None else settings.max_depth,
-            capacity=DEFAULT_CAPACITY if settings.capacity is None else settings.capacity,
-            precision=settings.precision,
+            tolerance=tolerance,
+            max_depth=DEFAULT_DEPTH if parameters.max_depth is None else parameters.max_depth,
+            capacity=DEFAULT_CAPACITY if parameters.capacity is None else parameters.capacity,
+            precision=parameters.precision,
         )
         for layer in layers or (drawing,)
     )
     roots = tuple(
-        Root(layer.name, 0, layer.to_source, settings.distance, layer.crs, layer.paths[0].paint if layers else None)
+        Root(layer.name, 0, layer.to_source, tolerance, layer.crs, layer.paths[0].paint if layers else None)
         for layer in layers or (drawing,)
     )
-    named = source if isinstance(source, str) else drawing.name if _is_drawing(source) else os.fspath(source)  # type: ignore[arg-type]
-    return Shapes(drawing, trees, roots, time.perf_counter() - start, named, largest_shift(settings.precision))
+    named = drawing.name if _is_drawing(source) else os.fspath(source)  # type: ignore[arg-type]
+    seconds, rounding = time.perf_counter() - start, largest_shift(parameters.precision)
+    return Conversion(drawing, trees, None, seconds, rounding, roots, named)
 
 
-def combine(parts: Sequence[Shapes], name: str, source: str | None = None) -> "Texture":
-    """One texture of the shapes of some sources.
-
-    Raises
-    ------
-    LimitError
-        If two have one name, or there are none.
-    """
+def combine(parts: Sequence[Conversion[Any]], name: str, source: str | None = None) -> "Texture":
+    """One texture of the trees of some sources; raises a `ParameterError` as `atlas` does."""
     from vexture.texture.encode import encode
 
     owner: dict[str, str] = {}
     for part in parts:
         for root in part.roots:
             if root.name in owner:
-                raise LimitError(
+                raise ParameterError(
                     f"{part.source}: the texture has a shape {root.name!r} already, from {owner[root.name]}; "
                     "rename one of the two"
                 )
             owner[root.name] = part.source
     if not owner:
-        raise LimitError("an atlas of no drawings; give at least one")
+        raise ParameterError("an atlas of no drawings; give at least one")
     trees = [tree for part in parts for tree in part.trees]
     return encode(trees, [root for part in parts for root in part.roots], name=name, source=source)
 
@@ -224,7 +190,7 @@ def convert(
         Convert only what a CSS selector chooses of an SVG; see `vexture.read_svg`.
     tolerance : float or "auto"
         Largest distance between the drawing's outline and the texture's before rounding, in unit-square units. Pieces
-        that one cubic describes within it become one; "auto" is 0, which loses nothing but by rounding.
+        that one cubic fits within it become one; "auto" is 0, which loses nothing but by rounding.
     max_depth : int, optional
         Cells of this depth are not divided further; 16 by default.
     capacity : int, optional
@@ -252,7 +218,7 @@ def convert(
     Warns
     -----
     SourceWarning
-        Once for a file, of all that was noticed while it was read (`Drawing.notes`).
+        Once for a file, of all notes of its reader (`Drawing.notes`).
 
     Examples
     --------
@@ -261,16 +227,10 @@ def convert(
     >>> [root.name for root in convert(triangle).roots]
     ['drawing']
     """
-    given = {
-        "split": split,
-        "tolerance": tolerance,
-        "max_depth": max_depth,
-        "capacity": capacity,
-        "precision": precision,
-    }
-    set_here = {name: value for name, value in given.items() if value is not None}
-    conversion = run(source, encoding=encoding, select=select, **set_here, **others)
-    if not _is_drawing(source):  # whoever read the drawing has been told
+    named = Parameters(split, select, tolerance, max_depth, capacity, precision)
+    given = {name: value for name, value in asdict(named).items() if value is not None}
+    conversion = run(source, encoding=encoding, **given, **others)
+    if not _is_drawing(source):  # `vexture.read` has warned already
         warn_of(os.fspath(source), conversion.drawing.notes)  # type: ignore[arg-type]
     return conversion.texture
 
@@ -304,17 +264,8 @@ def atlas(
 
     Raises
     ------
-    SourceError
-        If a drawing cannot be read.
-    LimitError
-        If two shapes have one name, there is no source, or as `vexture.convert` says.
     ParameterError
-        As in `vexture.convert`.
-
-    Warns
-    -----
-    SourceWarning
-        As `vexture.convert` does.
+        If two shapes have one name, or there is no source. For other errors and warnings see `vexture.convert`.
 
     Examples
     --------
@@ -325,14 +276,12 @@ def atlas(
     >>> [root.name for root in both.roots]
     ['a', 'b']
     """
-    settings = Settings(
-        split=split, select=select, tolerance=tolerance, max_depth=max_depth, capacity=capacity, precision=precision
-    )
+    parameters = Parameters(split, select, tolerance, max_depth, capacity, precision)
     if isinstance(sources, str | os.PathLike) or _is_drawing(sources):
         sources = [sources]  # type: ignore[list-item]
     parts = []
     for source in sources:
-        parts.append(shapes_of(source, settings))
+        parts.append(trees_of(source, parameters))
         if not _is_drawing(source):
             warn_of(parts[-1].source, parts[-1].drawing.notes)
     return combine(parts, name)

@@ -1,4 +1,4 @@
-"""The one gate: whatever a file holds, its content decides what reads it, for every command and server alike."""
+"""The entry point of all sources: the content of a file decides how it is read, in every command and server."""
 
 import os
 from pathlib import Path
@@ -9,7 +9,7 @@ from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.notes import Note, warn_of
 from vexture.tolerance import HMIN
 
-if TYPE_CHECKING:  # at run time each reader comes when there is something for it to read
+if TYPE_CHECKING:  # at run time a reader is imported when it is needed
     from vexture.drawing import Drawing
     from vexture.geo.extent import Extent, Frame
 
@@ -23,19 +23,20 @@ UNNAMED = "drawing"
 
 
 def read(source: Source, *, name: str | None = None, select: str | None = None) -> "Drawing":
-    """Read a drawing from any kind of file that there is a reader for, whatever its name ends in.
+    """Read a drawing from a file of any supported kind; its content decides, not its suffix.
 
-    SVG, plain or gzipped (`vexture.read_svg`); GeoJSON (`vexture.read_geojson`); PNG, JPEG, WebP, GIF or BMP, traced,
-    with the package of ``vexture[trace]`` (`vexture.read_image`); where water is in a GeoPackage, FlatGeobuf, zipped
-    shapefile, GeoTIFF or NetCDF, of a series at its first time, with those of ``vexture[gis]``
-    (`vexture.read_extent`).
+    - SVG, plain or gzipped (`vexture.read_svg`).
+    - GeoJSON (`vexture.read_geojson`).
+    - PNG, JPEG, WebP, GIF or BMP, traced (`vexture.read_image`; needs ``vexture[trace]``).
+    - Wet areas of a GeoPackage, FlatGeobuf, zipped shapefile, GeoTIFF or NetCDF, of a series at its first time
+      (`vexture.read_extent`; needs ``vexture[gis]``).
 
     Parameters
     ----------
     source : path, bytes or binary file
-        Where it is, or its content. A shapefile by its path needs no zip.
+        The file, or its content. The path of a shapefile needs no zip.
     name : str, optional
-        What the file is called: names the drawing, without its suffix, and stands in messages; by default the path.
+        Name of the file in messages and, without its suffix, of the drawing; by default the path.
     select : str, optional
         A CSS selector, of SVG only; see `vexture.read_svg`.
 
@@ -48,8 +49,10 @@ def read(source: Source, *, name: str | None = None, select: str | None = None) 
     ------
     SourceError
         If it cannot be read, or is a texture.
+    ParameterError
+        If `select` is given for anything but an SVG.
     LimitError
-        If `select` is given where it means nothing, or a limit is exceeded.
+        If `select` matches nothing that is painted, or a limit is exceeded.
     DeviceError
         If a package is missing.
 
@@ -71,7 +74,7 @@ def read(source: Source, *, name: str | None = None, select: str | None = None) 
 
 
 def read_drawing(source: Source, *, name: str | None = None, select: str | None = None) -> "Drawing":
-    """Read a drawing as `read` does, but without a warning: its notes say all.
+    """Read a drawing as `read` does, but without a warning.
 
     Examples
     --------
@@ -81,18 +84,18 @@ def read_drawing(source: Source, *, name: str | None = None, select: str | None 
     """
     shown = name_of(source, name)
     with about(shown):
-        given = unpacked(_received(source))
+        given = unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
         kind = kind_of(start_of(given), shown)
         if kind is not FileKind.SVG:
             return _read_other(kind, given, shown, select)
-        content = given if isinstance(given, bytes) else read_bytes(given)
+        content = read_bytes(given)
     from vexture.svg.read import svg_drawing
 
     return svg_drawing(content, shown, select)
 
 
 def name_of(source: Source, name: str | None = None) -> str:
-    """Name of a source in messages: the one that is given, or its path."""
+    """Name of a source in messages: the given one, or its path."""
     if name is not None:
         return name
     if isinstance(source, bytes):
@@ -103,17 +106,12 @@ def name_of(source: Source, name: str | None = None) -> str:
     return called if isinstance(called, str) else UNNAMED
 
 
-def _received(source: Source) -> Place | bytes:
-    """Content of a file that is open; other sources as they are."""
-    return source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1)
-
-
 def _read_other(kind: FileKind, source: Place | bytes, shown: str, select: str | None) -> "Drawing":
     """Read anything but SVG; the caller puts the name in front of errors."""
     if kind is FileKind.TEXTURE:
         raise SourceError("is a texture already; give the drawing that it was made from")
     if select is not None:
-        raise LimitError(f"select={select!r} chooses elements of an SVG; leave it out")
+        raise ParameterError(f"`select` {select!r} chooses elements of an SVG; leave it out")
     name = Path(shown).stem or UNNAMED
     if kind is FileKind.PICTURE:
         from vexture.tracing.trace import image_drawing
@@ -122,12 +120,12 @@ def _read_other(kind: FileKind, source: Place | bytes, shown: str, select: str |
     if kind is FileKind.GEOJSON:
         from vexture.geo.geojson import geojson_drawing
 
-        return geojson_drawing(source if isinstance(source, bytes) else read_bytes(source), name)
+        return geojson_drawing(read_bytes(source), name)
     return _read_first_step(source, shown)
 
 
 def _read_first_step(source: Place | bytes, shown: str) -> "Drawing":
-    """Where water is first, of a file that need not say where in the world it is."""
+    """Wet areas at the first time; the file need not be georeferenced."""
     from dataclasses import replace
 
     from vexture.geo.crs import UNPLACED, MissingReferenceError
@@ -155,27 +153,27 @@ def read_extent(
     variable: str | None = None,
     layer: str | None = None,
 ) -> "Extent":
-    """Read where water is from any geographic data that there is a reader for.
+    """Read wet areas from geographic data of any supported kind.
 
     Parameters
     ----------
     source : path or bytes
         Polygons (GeoJSON, GeoPackage, FlatGeobuf, shapefile) or depths (GeoTIFF, NetCDF, UGRID).
     file_name : str, optional
-        What it is called: names the drawings; by default the path.
+        Name of the file and of the drawings; by default the path.
     frame : Frame, optional
-        Where the water is put; by default a new frame around `bounds`.
+        Frame of the drawings; by default a new one around `bounds`.
     bounds : tuple of float, optional
         West, south, east, north in the reference system of the data; by default all of it.
     crs : str, optional
-        Reference system of the data, above what the file says.
+        Reference system of the data; it overrides the one in the file.
     time_dim : str, optional
-        Dimension that is time, for depths; by default the one that looks like it. With any name the bands of a
-        GeoTIFF are steps.
+        Dimension of time, for depths; by default the one that looks like it. With any name, the bands of a GeoTIFF are
+        steps.
     hmin : float
         Depth in metres from which there is water, for depths; 0.05 by default.
     variable : str, optional
-        Variable that holds the depth, where there are several that could.
+        Variable of the depths, where there are several.
     layer : str, optional
         Layer of polygons, where there are several.
 
@@ -187,7 +185,7 @@ def read_extent(
     Raises
     ------
     SourceError
-        If it cannot be read; a line that says what to do.
+        If it cannot be read.
     LimitError
         If it exceeds a limit, or has several layers or variables and none is chosen.
     ParameterError
@@ -231,7 +229,7 @@ def extent_of(
     variable: str | None = None,
     layer: str | None = None,
 ) -> "Extent":
-    """Read where water is as `read_extent` does, but without a warning, and without a name before what is wrong."""
+    """Read wet areas as `read_extent` does, but without a warning, and without the file's name in errors."""
     source = unpacked(source)
     if kind_of(start_of(source), file_name) is FileKind.DEPTHS:
         from vexture.geo.depths import read_depths
@@ -247,14 +245,14 @@ def extent_of(
 
 
 def _refuse(options: dict[str, str | None], kind: str) -> None:
-    """Refuse options that mean nothing."""
+    """Refuse parameters for data of another kind."""
     for option, value in options.items():
         if value is not None:
             raise ParameterError(f"{option} {value!r} is for {kind}; leave it out")
 
 
 def content_of(path: str | os.PathLike[str]) -> bytes:
-    """All that a file holds, decompressed; of a shapefile with the files beside it, as a zip.
+    """Content of a file, decompressed; of a shapefile and the files beside it, as a zip.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Every tolerance in the package: its name, its unit and its reason."""
+"""All tolerances of the package, with unit and reason."""
 
 from typing import Final
 
@@ -29,22 +29,22 @@ COARSEST: Final = 1 / 2000
 """Unit-square units. The automatic tolerance is never looser: half a pixel of a picture of 1,000 pixels."""
 
 FINEST: Final = 1 / 20000
-"""Unit-square units. It is never tighter either: such detail is below the cells of a usual depth limit."""
+"""Unit-square units. The automatic tolerance is never tighter: such detail is smaller than the deepest usual cells."""
 
 DETAIL_SHARE: Final = 1 / 16
 """The automatic tolerance as a share of the extent of the drawing's smallest cubic (thesis 5.2.1)."""
 
 CELL_SHARE: Final = 1 / 8
-"""And at most this share of the size of the cell (thesis 6.2.1)."""
+"""The automatic tolerance is at most this share of the size of the cell (thesis 6.2.1)."""
 
 FLATNESS: Final = 2e-5
-"""Pixels. The exact renderer's chords leave the curve by less: 0.005/255 in a pixel that one curve crosses."""
+"""Pixels. Largest distance of the exact renderer's chords from the curve: 0.005/255 in a pixel with one curve."""
 
 SCANLINE: Final = 2.0**-30
 """Pixels. Lattice of the heights at which the exact renderer's chords begin, end and cross (about 1e-9)."""
 
 ROUND: Final = 1e-5
-"""Unit-square units. Largest distance from the true curve of what a reader must approximate: arcs and strokes."""
+"""Unit-square units. Largest distance from the true curve when a reader approximates arcs and strokes."""
 
 HMIN: Final = 0.05
-"""Metres. Less water than this is none: what flood modellers draw their extents at."""
+"""Metres. Depth from which flood modellers count a place as wet."""

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from loops import run
 
-from vexture.errors import LimitError
+from vexture.errors import LimitError, ParameterError
 from vexture.live.limits import Limits, Pace
 from vexture.live.names import checked_name, manifest_name
 from vexture.live.shelf import TEXTURE_TYPE, File, Listener, Shape, Shelf
@@ -107,5 +107,5 @@ def test_a_bucket_fills_again():
 
 @pytest.mark.parametrize("value", [0, -1, float("nan")])
 def test_limits_are_above_zero(value):
-    with pytest.raises(LimitError, match="the limit rate is"):
+    with pytest.raises(ParameterError, match="`rate` is"):
         Limits(rate=value)

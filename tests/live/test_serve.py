@@ -189,7 +189,7 @@ def test_push_publishes_and_says_so_in_one_line(server, tmp_path):
     for result, says in (
         (wrong, r"the token is wrong (401)"),
         (run("push", drawing, "http://127.0.0.1:1", "--token-file", secret), "cannot be reached"),
-        (run("push", drawing, "ftp://127.0.0.1", "--token-file", secret), "is no address of a server"),
+        (run("push", drawing, "ftp://127.0.0.1", "--token-file", secret), "is not the address of a server"),
         (run("push", tmp_path / "none.svg", server.url, "--token-file", secret), "cannot be read"),
         (run("push", drawing, server.url, "--token-file", tmp_path / "none"), "name the file that holds the token"),
     ):
@@ -202,12 +202,12 @@ def test_what_cannot_start_says_why_in_one_line(server, tmp_path):
     short.write_text("only-15-letters\n")
     (tmp_path / "file").touch()
     for arguments, says in (
-        ((tmp_path / "new", "--port", server.port), f"port {server.port} on 127.0.0.1 cannot be had"),
+        ((tmp_path / "new", "--port", server.port), f"port {server.port} on 127.0.0.1 cannot be used"),
         ((tmp_path / "new", "--port", 0, "--token-file", short), "the token has 15 characters"),
         ((tmp_path / "new", "--port", 70_000), "70000"),
         ((tmp_path / "file", "--port", 0), "choose another folder"),
-        ((tmp_path / "new", "--port", 0, "--rate", 0), "the limit rate is 0"),
-        ((tmp_path / "new", "--port", 0, "--rate", "nan"), "the limit rate is nan"),
+        ((tmp_path / "new", "--port", 0, "--rate", 0), "--rate is 0"),
+        ((tmp_path / "new", "--port", 0, "--rate", "nan"), "--rate is nan"),
     ):
         result = run("serve", *arguments)
         assert (result.returncode, result.stdout, result.stderr.count("\n")) == (1, "", 1)

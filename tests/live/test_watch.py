@@ -10,7 +10,7 @@ import pytest
 from loops import run
 
 from vexture.live import watch as watching
-from vexture.live.documents import VIEWER_SETTINGS
+from vexture.live.documents import VIEWER_PARAMETERS
 from vexture.live.shelf import Shelf
 from viewing import SHAPES, until, viewing
 
@@ -131,7 +131,7 @@ def test_change_is_noticed_when_it_happens(tmp_path, monkeypatch):
 
     async def notice():
         shelf = Shelf()
-        task = asyncio.create_task(watching.watch(shelf, watching.named([path]), VIEWER_SETTINGS, {"logo": DUCK}))
+        task = asyncio.create_task(watching.watch(shelf, watching.named([path]), VIEWER_PARAMETERS, {"logo": DUCK}))
         with shelf.events() as listener:
             for content in islice(cycle([CAKE, DUCK]), 20):  # the first may come before watching has begun
                 path.write_bytes(content)

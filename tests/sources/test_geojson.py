@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import vexture
 from vexture.cli.main import main
 from vexture.drawing import FillRule, Paint
-from vexture.errors import LimitError, SourceError, SourceWarning
+from vexture.errors import ParameterError, SourceError, SourceWarning
 from vexture.geo.geojson import MOST_NESTED, read_geojson
 
 OUTER = [[0, 0], [10, 0], [10, 5], [0, 5], [0, 0]]
@@ -207,7 +207,7 @@ def test_files_are_found_by_their_suffix_or_their_content(tmp_path):
     assert vexture.read_geojson(tmp_path / "packed.geojson").segments == 8
     result = CliRunner().invoke(main, ["convert", str(tmp_path / "delft.geojson"), "-o", str(tmp_path / "out")])
     assert (result.exit_code, result.output.split(",")[0]) == (0, "delft: 8 segments")
-    with pytest.raises(LimitError, match="chooses elements of an SVG"):
+    with pytest.raises(ParameterError, match="chooses elements of an SVG"):
         vexture.convert(tmp_path / "delft.geojson", select="path")
     (tmp_path / "bad.geojson").write_text("{")
     with pytest.raises(SourceError, match=r"bad\.geojson: not JSON"):

@@ -15,7 +15,7 @@ from vexture.cli.main import main
 from vexture.cli.messages import as_options
 from vexture.content import SHAPEFILE
 from vexture.drawing import Drawing
-from vexture.errors import LimitError, SourceError, SourceWarning
+from vexture.errors import ParameterError, SourceError, SourceWarning
 from vexture.notes import Note, line_of
 from vexture.reading import content_of, read_drawing
 
@@ -121,7 +121,7 @@ def test_a_texture_is_no_drawing(entry: str, tmp_path: Path) -> None:
 def test_a_selector_is_for_svg(files: list[Path]) -> None:
     for path in files:
         if path.suffix not in (".svg", ".svgz"):
-            with pytest.raises(LimitError, match="select='path' chooses elements of an SVG; leave it out"):
+            with pytest.raises(ParameterError, match="`select` 'path' chooses elements of an SVG; leave it out"):
                 vexture.read(path, select="path")
 
 

@@ -15,7 +15,7 @@ from PIL import Image, ImageFilter
 import vexture
 from vexture.cli.main import main
 from vexture.errors import LimitError, SourceError, SourceWarning, VextureError
-from vexture.live.documents import VIEWER_SETTINGS, shape_of
+from vexture.live.documents import VIEWER_PARAMETERS, shape_of
 from vexture.renderers.exact import render_exact
 from vexture.svg.read import svg_drawing
 from vexture.tracing.images import MOST_PIXELS
@@ -384,11 +384,11 @@ def test_selectors_choose_nothing_of_a_picture(logo, tmp_path):
 
 
 def test_pictures_are_published_and_shown(logo):
-    shape = shape_of(logo.read_bytes(), "logo.png", "logo", VIEWER_SETTINGS)
+    shape = shape_of(logo.read_bytes(), "logo.png", "logo", VIEWER_PARAMETERS)
     assert shape.facts["layers"] == len(COLOURS)
     assert shape.views == {}
     with pytest.raises(VextureError, match=r"^broken\.png: is a damaged picture"):
-        shape_of(logo.read_bytes()[:100], "broken.png", "broken", VIEWER_SETTINGS)
+        shape_of(logo.read_bytes()[:100], "broken.png", "broken", VIEWER_PARAMETERS)
 
 
 def test_missing_file_is_one_line(tmp_path):

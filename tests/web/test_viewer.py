@@ -11,7 +11,7 @@ from viewer_page import FIT, view_matrix
 from waiting import drawn, quiet
 
 import vexture
-from vexture.live.documents import VIEWER_SETTINGS, shape_of
+from vexture.live.documents import VIEWER_PARAMETERS, shape_of
 from vexture.live.page import exported_page
 
 
@@ -205,7 +205,7 @@ def test_the_browsers_picture_stands_where_ours_does(
     tmp_path: Path, open_page: Callable[..., Any], screenshot: Callable[..., Path], window: str
 ) -> None:
     text = f'<svg xmlns="http://www.w3.org/2000/svg" {WINDOWS[window]}><circle cx="40" cy="30" r="45"/></svg>'
-    shape = shape_of(text.encode(), "window.svg", "window", VIEWER_SETTINGS)
+    shape = shape_of(text.encode(), "window.svg", "window", VIEWER_PARAMETERS)
     (tmp_path / "page.html").write_bytes(exported_page([shape], "window"))
     page = ready(open_page, (tmp_path / "page.html").as_uri(), (900, 600))
     ours = pixels(page)[60:500, 30:560]

@@ -13,7 +13,7 @@ from viewer_page import data_url, manifest, thesis_view, write_page
 
 import vexture
 from vexture.images import render
-from vexture.live.documents import VIEWER_SETTINGS, shape_of
+from vexture.live.documents import VIEWER_PARAMETERS, shape_of
 
 SIZE = (512, 512)
 PRECISION = 1e-7  # for views at 10,000x
@@ -54,8 +54,8 @@ def write_pages(folder: Path, url: str) -> dict[str, Viewed]:
         "thesis16": thesis_view(thesis, folder),
         "thesis8": {"error": "the duck is too fine for 8 bits"},
     }
-    duck_facts = shape_of(duck_source, "duck.svg", "duck", VIEWER_SETTINGS).facts
-    flag_facts = shape_of(FLAG, "flag.svg", "flag", VIEWER_SETTINGS).facts
+    duck_facts = shape_of(duck_source, "duck.svg", "duck", VIEWER_PARAMETERS).facts
+    flag_facts = shape_of(FLAG, "flag.svg", "flag", VIEWER_PARAMETERS).facts
     duck_manifest = manifest(textures[0], views=views, facts={"box": duck_facts["box"]})
     flag_views = {"svg": data_url("image/svg+xml", FLAG)}
     flag_manifest = manifest(textures[1], views=flag_views, facts={"box": flag_facts["box"]})

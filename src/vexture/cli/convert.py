@@ -4,7 +4,8 @@ import json
 import sys
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
 from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
@@ -13,13 +14,14 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from vexture.cli.messages import as_options, one_line, say
-from vexture.cli.options import STANDARD, Sectioned, Tolerance, binary_output, standard_input
+from vexture.cli.options import PATH, STANDARD, Sectioned, standard_input, tolerance_option
 from vexture.encodings import DEFAULT, REGISTERED
-from vexture.errors import DeviceError, LimitError, ParameterError, VextureError
+from vexture.errors import EXPECTED, DeviceError, ParameterError, VextureError
+from vexture.layout import PACKED_SUFFIX
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
-    from vexture.pipeline import Shapes
+    from vexture.pipeline import Conversion
 
 __all__ = ["convert"]
 
@@ -30,7 +32,7 @@ BELONGS_TO: Final = {
     "bits": "thesis",
     "strategy": "thesis",
 }
-"""Encoding of each option that means nothing in the others."""
+"""Encoding that an option is for."""
 
 QUIET, NORMAL, VERBOSE = -1, 0, 1
 
@@ -45,41 +47,29 @@ Examples:
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What became of one source: files or shapes, or the line that says why there are none."""
+    """Result of one source: the contents of its files, or for an atlas its trees; or why there are none."""
 
     source: Path
     facts: dict[str, Any]
-    name: str = ""
-    files: "dict[str, bytes] | None" = None
-    shapes: "Shapes | None" = None
+    files: dict[str, bytes] | None = None
+    trees: "Conversion[Any] | None" = None
     warning: str = ""
     error: str = ""
 
 
 @click.command(cls=Sectioned, epilog=EXAMPLE)
-@click.argument("sources", metavar="SOURCE...", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.argument("sources", metavar="SOURCE...", nargs=-1, required=True, type=PATH)
 @click.option(
     "-o",
     "--output",
     metavar="DIR|FILE.ktx2|-",
-    type=click.Path(path_type=Path),
+    type=PATH,
     help="Folder to write to, or the file for one drawing; - is standard output.  [default: .]",
 )
-@click.option(
-    "--atlas",
-    metavar="FILE.ktx2|-",
-    type=click.Path(path_type=Path),
-    help="Write one texture of all drawings instead, each a shape of its file's name.",
-)
+@click.option("--atlas", metavar="FILE.ktx2|-", type=PATH, help="Write one texture of all files, a shape for each.")
 @click.option("--split", type=click.Choice(["paint"]), help="Make each colour a shape of its own, in painting order.")
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
-@click.option(
-    "--tolerance",
-    type=Tolerance(),
-    default="auto",
-    show_default=True,
-    help="Largest distance from the drawing's outline, in drawing sizes; auto is 0.",
-)
+@tolerance_option
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
 @click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 4]")
 @click.option("--precision", metavar="P", type=float, help="Largest shift by rounding, in drawing sizes.")
@@ -119,13 +109,11 @@ def convert(
         to_pipe = Path(STANDARD) in (output, atlas)
         level = QUIET if quiet else VERBOSE if verbose else NORMAL
         _check_places(sources, output, atlas, encoding, to_pipe)
-        work = partial(_convert_one, encoding=encoding, parameters=parameters, keep_shapes=atlas is not None)
+        work = partial(_convert_one, encoding=encoding, parameters=parameters, for_atlas=atlas is not None)
         outcomes: list[Outcome] = []
         owners: dict[str, Path] = {}
         for found in _outcomes(work, sources, jobs, level):
-            outcome = found
-            if atlas is None and not outcome.error:
-                outcome = _written(outcome, output or Path(), owners)
+            outcome = found if atlas or found.error else _written(found, output or Path(), owners)
             _say(outcome, level, quiet=as_json, to_pipe=to_pipe)
             outcomes.append(outcome)
         failed = sum(bool(outcome.error) for outcome in outcomes)
@@ -156,23 +144,25 @@ def _checked(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
 def _check_places(
     sources: tuple[Path, ...], output: Path | None, atlas: Path | None, encoding: str, to_pipe: bool
 ) -> None:
-    """Refuse places that cannot be written to before anything is converted."""
-    from vexture.layout import PACKED_SUFFIX
-
+    """Refuse outputs that cannot be written, before anything is converted."""
     if atlas is not None:
         if output is not None:
-            raise LimitError(f"--output {output} and --atlas {atlas}: an atlas is one file; leave --output out")
+            raise ParameterError(f"`output` {output} and `atlas` {atlas}: an atlas is one file; leave `output` out")
         if encoding != DEFAULT:
-            raise LimitError(f"--atlas {atlas}: the encoding {encoding} holds one shape; use the encoding {DEFAULT}")
+            raise ParameterError(
+                f"`atlas` {atlas}: the encoding {encoding} holds one shape; use the encoding {DEFAULT}"
+            )
         if not to_pipe and (atlas.suffix.lower() != PACKED_SUFFIX or atlas.is_dir()):
-            raise LimitError(f"--atlas {atlas}: a texture is a file whose name ends in {PACKED_SUFFIX}; name one")
+            raise ParameterError(f"`atlas` {atlas}: a texture is a file whose name ends in {PACKED_SUFFIX}; name one")
         return
     if to_pipe and (encoding != DEFAULT or len(sources) > 1):
-        raise LimitError("--output -: standard output takes one texture of one file; use --atlas - or name a folder")
+        raise ParameterError(
+            "`output` -: standard output takes one texture of one file; use `atlas` - or name a folder"
+        )
     place = output or Path()
     is_file = to_pipe or _is_texture_file(place, encoding)
     if is_file and len(sources) > 1:
-        raise LimitError(f"--output {output}: one file for {len(sources)} drawings; use --atlas, or name a folder")
+        raise ParameterError(f"`output` {output}: one file for {len(sources)} drawings; use `atlas`, or name a folder")
     folder = place.parent if is_file else place
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -181,96 +171,86 @@ def _check_places(
 
 
 def _is_texture_file(output: Path, encoding: str) -> bool:
-    from vexture.layout import PACKED_SUFFIX
-
     return encoding == DEFAULT and output.suffix.lower() == PACKED_SUFFIX and not output.is_dir()
 
 
 def _convert_one(
-    source: Path, content: bytes | None, encoding: str, parameters: dict[str, Any], keep_shapes: bool
+    source: Path, content: bytes | None, encoding: str, parameters: dict[str, Any], for_atlas: bool
 ) -> Outcome:
-    """Convert one source, in this process or another; errors are returned as their line."""
+    """Convert one source, in this process or another; an error is returned as its line."""
     from vexture.notes import line_of
-    from vexture.pipeline import run, shapes_of
+    from vexture.pipeline import Parameters, run, trees_of
     from vexture.reading import read_drawing
-    from vexture.settings import Settings
     from vexture.texture.ktx2 import TEXEL_BYTES
 
     given: Drawing | Path = source
+    files = None
     try:
         if content is not None:
             parameters = dict(parameters)
             given = read_drawing(content, name="standard input", select=parameters.pop("select", None))
-        if keep_shapes:
-            shapes = shapes_of(given, Settings(**parameters))
-            texels = sum(len(tree.count) + len(tree.curves) for tree in shapes.trees)
-            facts = _facts(shapes.drawing, shapes.trees, shapes.seconds, shapes.rounding)
-            warning = line_of(str(source), shapes.drawing.notes)
-            return Outcome(source, facts | {"bytes": TEXEL_BYTES * texels}, shapes.drawing.name, None, shapes, warning)
-        done = run(given, encoding=encoding, **parameters)
-        files = done.texture.files()
-    except (VextureError, ParameterError) as error:
+        if for_atlas:
+            done = trees_of(given, Parameters(**parameters))
+            size = TEXEL_BYTES * sum(len(tree.count) + len(tree.curves) for tree in done.trees)
+        else:
+            done = run(given, encoding=encoding, **parameters)
+            files = done.texture.files()
+            size = sum(map(len, files.values()))
+    except EXPECTED as error:
         return Outcome(source, {}, error=str(error))
-    facts = _facts(done.drawing, done.trees, done.seconds, done.rounding)
-    size = sum(map(len, files.values()))
     warning = line_of(str(source), done.drawing.notes)
-    return Outcome(source, facts | {"bytes": size}, done.texture.name, files, None, warning)
+    return Outcome(source, _facts(done) | {"bytes": size}, files, done if for_atlas else None, warning)
 
 
-def _facts(drawing: "Drawing", trees: tuple[Any, ...], seconds: float, rounding: float) -> dict[str, Any]:
+def _facts(done: "Conversion[Any]") -> dict[str, Any]:
     """Facts of a conversion, ready for JSON."""
+    shapes = [
+        {"quads": len(tree.coverage), "curves": len(tree.curves), "unresolved": int(tree.unresolved)}
+        for tree in done.trees
+    ]
     return {
-        "name": drawing.name,
-        "segments": drawing.segments,
-        "layers": len(trees),
-        "quads": sum(len(tree.coverage) for tree in trees),
-        "curves": sum(len(tree.curves) for tree in trees),
-        "milliseconds": round(1000.0 * seconds, 1),
-        "deviation": max(float(tree.deviation) for tree in trees),
-        "rounding": rounding,
-        "unresolved": sum(int(tree.unresolved) for tree in trees),
-        "shapes": [
-            {"quads": len(tree.coverage), "curves": len(tree.curves), "unresolved": int(tree.unresolved)}
-            for tree in trees
-        ],
+        "name": done.drawing.name,
+        "segments": done.drawing.segments,
+        "layers": len(shapes),
+        "quads": sum(shape["quads"] for shape in shapes),
+        "curves": sum(shape["curves"] for shape in shapes),
+        "milliseconds": round(1000.0 * done.seconds, 1),
+        "deviation": max(float(tree.deviation) for tree in done.trees),
+        "rounding": done.rounding,
+        "unresolved": sum(shape["unresolved"] for shape in shapes),
+        "shapes": shapes,
     }
 
 
 def _outcomes(work: Any, sources: tuple[Path, ...], jobs: int, level: int) -> Iterator[Outcome]:
-    """Outcomes in the order of the sources, from this process or from others, behind a progress bar if it pays."""
+    """Outcomes in the order of the sources, from this process or others; a terminal shows the progress of several."""
     tasks = [(source, standard_input() if source == Path(STANDARD) else None) for source in sources]
-    if jobs == 1 or len(sources) == 1:
-        yield from _with_progress((work(*task) for task in tasks), len(tasks), level)
-        return
-    with ProcessPoolExecutor(min(jobs, len(tasks)), get_context("spawn")) as pool:
-        yield from _with_progress(pool.map(work, *zip(*tasks, strict=True)), len(tasks), level)
+    outcomes: Iterable[Outcome] = (work(*task) for task in tasks)
+    with ExitStack() as opened:
+        if jobs > 1 and len(tasks) > 1:
+            pool = opened.enter_context(ProcessPoolExecutor(min(jobs, len(tasks)), get_context("spawn")))
+            outcomes = pool.map(work, *zip(*tasks, strict=True))
+        if len(tasks) > 1 and level > QUIET and sys.stderr.isatty():
+            from rich.console import Console
+            from rich.progress import Progress
 
-
-def _with_progress(outcomes: Iterable[Outcome], count: int, level: int) -> Iterator[Outcome]:
-    if count < 2 or level == QUIET or not sys.stderr.isatty():
+            progress = opened.enter_context(Progress(console=Console(stderr=True), transient=True))
+            outcomes = progress.track(outcomes, total=len(tasks), description="converting")
         yield from outcomes
-        return
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True), transient=True) as progress:
-        yield from progress.track(outcomes, total=count, description="converting")
 
 
 def _written(outcome: Outcome, output: Path, owners: dict[str, Path]) -> Outcome:
-    """Write the files of an outcome; what became of it."""
-    from dataclasses import replace
-
+    """Write the files of an outcome, and return it with their names, or with an error."""
     from vexture.texture.files import file_name, write_together
 
     assert outcome.files is not None
     if output == Path(STANDARD):
-        binary_output().write(next(iter(outcome.files.values())))
+        sys.stdout.buffer.write(next(iter(outcome.files.values())))
         return outcome
     if _is_texture_file(output, DEFAULT if len(outcome.files) == 1 else ""):
         places = {output: next(iter(outcome.files.values()))}
     else:
-        stem = file_name(outcome.name)
+        stem = file_name(outcome.facts["name"])
         places = {output / (stem + suffix): data for suffix, data in outcome.files.items()}
     first = str(next(iter(places)))
     if first in owners:
@@ -288,11 +268,11 @@ def _write_atlas(outcomes: list[Outcome], atlas: Path, *, silent: bool, to_pipe:
     """Write one texture of all shapes."""
     from vexture.pipeline import combine
 
-    parts = [outcome.shapes for outcome in outcomes if outcome.shapes is not None]
+    parts = [outcome.trees for outcome in outcomes if outcome.trees is not None]
     texture = combine(parts, "atlas" if to_pipe else atlas.stem)
     data = texture.to_ktx2()
     if to_pipe:
-        binary_output().write(data)
+        sys.stdout.buffer.write(data)
     else:
         texture.save(atlas)
     if not silent:
@@ -300,7 +280,7 @@ def _write_atlas(outcomes: list[Outcome], atlas: Path, *, silent: bool, to_pipe:
 
 
 def _say(outcome: Outcome, level: int, *, quiet: bool, to_pipe: bool) -> None:
-    """Print what became of one source."""
+    """Print the result of one source."""
     if outcome.error:
         say(outcome.error)
         return

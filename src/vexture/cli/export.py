@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from vexture.cli.messages import one_line, say
-from vexture.cli.options import conversion_options, viewer_settings
+from vexture.cli.options import PATH, conversion_options, viewer_parameters
 
 __all__ = ["export"]
 
@@ -17,10 +17,8 @@ Example:
 
 
 @click.command(epilog=EXAMPLE)
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(path_type=Path))
-@click.option(
-    "-o", "--output", metavar="PAGE.html", required=True, type=click.Path(path_type=Path), help="File to write."
-)
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=PATH)
+@click.option("-o", "--output", metavar="PAGE.html", required=True, type=PATH, help="File to write.")
 @click.option("--title", metavar="TEXT", help="Title of the page.  [default: the names of the files]")
 @conversion_options
 def export(files: tuple[Path, ...], output: Path, title: str | None, **conversion: Any) -> None:
@@ -28,5 +26,5 @@ def export(files: tuple[Path, ...], output: Path, title: str | None, **conversio
     with one_line():
         from vexture.live.view import export as write
 
-        size = write(files, output, title, viewer_settings(**conversion), say)
+        size = write(files, output, title, viewer_parameters(**conversion), say)
         click.echo(f"{output}: {len(files)} file{'s' * (len(files) > 1)}, {size} bytes")

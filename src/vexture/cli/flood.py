@@ -6,13 +6,12 @@ from typing import Any
 import click
 
 from vexture.cli.messages import one_line, say
-from vexture.errors import LimitError
+from vexture.cli.options import PATH
+from vexture.errors import ParameterError
 from vexture.flood.options import PERIOD, FloodOptions, bounds_of
 from vexture.tolerance import HMIN
 
 __all__ = ["flood"]
-
-PATH: Any = click.Path(path_type=Path)
 
 EXAMPLE = """\b
 Examples:
@@ -59,9 +58,9 @@ def flood(
     with one_line(), gis_packages():
         if (output is None) == (not serving):
             both = "either -o PAGE.html or --serve" if serving else "-o PAGE.html for one page, or --serve for a server"
-            raise LimitError(f"vexture flood needs to know where to show it; give {both}")
+            raise ParameterError(f"vexture flood needs to know where to show it; give {both}")
         if token_file is not None and not serving:
-            raise LimitError(f"--token-file {token_file}: one page takes no uploads; use it with --serve")
+            raise ParameterError(f"`token_file` {token_file}: one page takes no uploads; use it with `serve`")
         asked = FloodOptions(bounds=None if bounds is None else bounds_of(bounds), **parameters)
         from vexture.live.flood import Made, export, serve
 

@@ -1,15 +1,13 @@
 """The command `fold`."""
 
+from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from vexture.cli.messages import one_line, say_notes
-
-if TYPE_CHECKING:
-    from vexture.drawing import Drawing
-    from vexture.fold.fold import Fold
+from vexture.cli.options import PATH
+from vexture.errors import ParameterError
 
 __all__ = ["fold"]
 
@@ -20,27 +18,19 @@ Example:
 
 
 @click.command(epilog=EXAMPLE)
-@click.argument("drawing", metavar="DRAWING", type=click.Path(path_type=Path))
-@click.option(
-    "-o",
-    "--output",
-    metavar="NAME.fold.ktx2",
-    required=True,
-    type=click.Path(path_type=Path),
-    help="File to write, or a folder.",
-)
+@click.argument("drawing", metavar="DRAWING", type=PATH)
+@click.option("-o", "--output", metavar="NAME.fold.ktx2", required=True, type=PATH, help="File to write, or a folder.")
 @click.option(
     "--amplitude", metavar="A", type=float, default=0.005, show_default=True, help="Largest shift, in drawing sizes."
 )
 @click.option("--period", metavar="SECONDS", type=float, default=8.0, show_default=True, help="From wave to wave.")
 @click.option("--size", metavar="N", type=int, default=64, show_default=True, help="Texels each way, 8 to 256.")
-@click.option("--picture", metavar="PNG", type=click.Path(path_type=Path), help="Draw what moves where, too.")
+@click.option("--picture", metavar="PNG", type=PATH, help="Draw what moves where, too.")
 def fold(drawing: Path, output: Path, amplitude: float, period: float, size: int, picture: Path | None) -> None:
     """Make the outline of a drawing slide to and fro, as water on a beach."""
     with one_line():
         import numpy as np
 
-        from vexture.errors import LimitError
         from vexture.fold.layout import FOLD_SUFFIX
         from vexture.fold.shore import fold_of_shore
         from vexture.layout import PACKED_SUFFIX
@@ -48,16 +38,20 @@ def fold(drawing: Path, output: Path, amplitude: float, period: float, size: int
         from vexture.texture.files import file_name, write_together
 
         if picture is not None and picture.suffix.lower() != ".png":
-            raise LimitError(f"--picture {picture}: pictures are PNG files; name one that ends in .png")
+            raise ParameterError(f"`picture` {picture}: pictures are PNG files; name one that ends in .png")
         if not output.is_dir() and output.suffix.lower() != PACKED_SUFFIX:
-            raise LimitError(f"-o {output}: folds are KTX2 files; name one that ends in {FOLD_SUFFIX}")
+            raise ParameterError(f"`output` {output}: folds are KTX2 files; name one that ends in {FOLD_SUFFIX}")
         shape = read_drawing(drawing)
         made = fold_of_shore(shape, amplitude=amplitude, period=period, size=size)
         say_notes(drawing, (*shape.notes, *made.notes))
         target = output / (file_name(shape.name) + FOLD_SUFFIX) if output.is_dir() else output
         files = {target: made.to_ktx2()}
         if picture is not None:
-            files[picture] = _png(made, shape)
+            from vexture.fold.picture import fold_picture
+
+            data = BytesIO()
+            fold_picture(made, shape).save(data, format="PNG")
+            files[picture] = data.getvalue()
         write_together(files)
         largest = float(np.hypot(made.displacement[..., 0], made.displacement[..., 1]).max())
         columns, rows = made.size
@@ -65,14 +59,3 @@ def fold(drawing: Path, output: Path, amplitude: float, period: float, size: int
             f"{target}: {columns} x {rows} texels, {len(files[target])} bytes, largest shift {largest:.3g}, "
             f"{made.cycle:g} s"
         )
-
-
-def _png(made: "Fold", shape: "Drawing") -> bytes:
-    """Contents of the picture's file."""
-    from io import BytesIO
-
-    from vexture.fold.picture import fold_picture
-
-    data = BytesIO()
-    fold_picture(made, shape).save(data, format="PNG")
-    return data.getvalue()

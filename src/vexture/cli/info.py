@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 
 from vexture.cli.messages import one_line
-from vexture.cli.options import STANDARD, standard_input
+from vexture.cli.options import PATH, STANDARD, drawing_kind, standard_input
 from vexture.errors import FormatError
 
 __all__ = ["info"]
@@ -19,7 +19,7 @@ Examples:
 
 
 @click.command(epilog=EXAMPLE)
-@click.argument("texture", metavar="TEXTURE|-", type=click.Path(path_type=Path))
+@click.argument("texture", metavar="TEXTURE|-", type=PATH)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 def info(texture: Path, as_json: bool) -> None:
     """Describe a texture."""
@@ -29,7 +29,8 @@ def info(texture: Path, as_json: bool) -> None:
         if texture == Path(STANDARD):
             facts = texture_from(standard_input(), "standard input").info()
         else:
-            _refuse_drawing(texture)
+            if (kind := drawing_kind(texture)) is not None:
+                raise FormatError(f"{texture}: not a texture, but a file of the kind {kind}; use vexture convert first")
             facts = load_any(texture).info()
         if as_json:
             click.echo(json.dumps(facts, indent=2))
@@ -38,17 +39,3 @@ def info(texture: Path, as_json: bool) -> None:
             for line in value if isinstance(value, list) and key == "roots" else [value]:
                 text = ", ".join(f"{name} {count}" for name, count in line.items()) if isinstance(line, dict) else line
                 click.echo(f"{key:<12}{text}")
-
-
-def _refuse_drawing(path: Path) -> None:
-    """Say so if a file is no texture."""
-    from vexture.content import FileKind, kind_of, start_of
-    from vexture.encodings import owner_of
-
-    if not path.is_file() or owner_of(path) is not None:
-        return
-    kind = kind_of(start_of(path), path)
-    if kind is not FileKind.TEXTURE:
-        raise FormatError(
-            f"{path}: not a texture, but a file of the kind {kind}; vexture convert makes textures of drawings"
-        )

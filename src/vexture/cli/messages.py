@@ -1,4 +1,4 @@
-"""What the command line says to people: one line for each thing."""
+"""Messages of the command line, each of one line."""
 
 import re
 import sys
@@ -8,17 +8,17 @@ from contextlib import contextmanager
 
 import click
 
-from vexture.errors import ParameterError, VextureError
+from vexture.errors import EXPECTED
 from vexture.notes import Note, line_of
 
 __all__ = ["as_options", "one_line", "say", "say_notes"]
 
 PARAMETER = re.compile(r"`([a-z_]+)`")
-"""A parameter, as messages of the library name it."""
+"""A parameter in a message of the library."""
 
 
 def say(message: str) -> None:
-    """Print a line where errors go."""
+    """Print a line to standard error."""
     click.echo(f"vexture: {as_options(message)}", err=True)
 
 
@@ -34,20 +34,20 @@ def as_options(message: str) -> str:
 
 
 def say_notes(source: object, notes: Sequence[Note]) -> None:
-    """Print in a line what was noticed about a source, if anything was."""
+    """Print the notes about a source in one line, if there are any."""
     if line := line_of(str(source), notes):
         say(f"warning: {line}")
 
 
 @contextmanager
 def one_line() -> Iterator[None]:
-    """Errors that are the user's to mend, and warnings of libraries, become one line each."""
+    """Print errors that the user can correct, and warnings of libraries, as one line each."""
     with warnings.catch_warnings():
         warnings.showwarning = lambda message, *_args, **_kwargs: say(f"warning: {message}")
         warnings.simplefilter("always")
         try:
             yield
-        except (VextureError, ParameterError) as error:
+        except EXPECTED as error:
             say(str(error))
             sys.exit(1)
         except OSError as error:

@@ -3,34 +3,40 @@
 import sys
 from collections.abc import Callable
 from dataclasses import replace
-from typing import IO, TYPE_CHECKING, Any, Final
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from vexture.settings import Settings
-
 __all__ = [
+    "PATH",
     "STANDARD",
     "Colour",
     "Rectangle",
     "Sectioned",
     "Tolerance",
-    "binary_output",
     "conversion_options",
+    "drawing_kind",
     "standard_input",
-    "viewer_settings",
+    "tolerance_option",
+    "viewer_parameters",
 ]
 
 if TYPE_CHECKING:
+    from vexture.content import FileKind
+    from vexture.pipeline import Parameters
+
     ParamType = click.ParamType[Any]
 else:  # generic since click 8.4
     ParamType = click.ParamType
+
+PATH: Final[Any] = click.Path(path_type=Path)
 
 STANDARD: Final = "-"
 """Name of standard input and output among files."""
 
 RESEARCH: Final = ("encoding", "bits", "strategy")
-"""Options that only those need who compare encodings."""
+"""Options for comparisons of encodings."""
 
 
 class Sectioned(click.Command):
@@ -91,9 +97,15 @@ def standard_input() -> bytes:
     return sys.stdin.buffer.read(LARGEST_FILE + 1)
 
 
-def binary_output() -> IO[bytes]:
-    """Standard output, for the bytes of a file."""
-    return sys.stdout.buffer
+def drawing_kind(path: Path) -> "FileKind | None":
+    """Kind of a file that is not a texture, or None."""
+    from vexture.content import FileKind, kind_of, start_of
+    from vexture.encodings import owner_of
+
+    if not path.is_file() or owner_of(path) is not None:
+        return None
+    kind = kind_of(start_of(path), path)
+    return None if kind is FileKind.TEXTURE else kind
 
 
 class Tolerance(ParamType):
@@ -111,26 +123,25 @@ class Tolerance(ParamType):
             self.fail(f"{value!r} is neither a number nor auto", param, ctx)
 
 
+tolerance_option = click.option(
+    "--tolerance",
+    type=Tolerance(),
+    default="auto",
+    show_default=True,
+    help="Largest distance from the drawing's outline, in drawing sizes; auto is 0.",
+)
+
+
 def conversion_options(command: Callable[..., None]) -> Callable[..., None]:
-    """Options of how the viewer converts."""
-    for option in (
-        click.option("--select", metavar="SELECTOR", help="Show only the elements that a CSS selector matches."),
-        click.option("--precision", metavar="P", type=float, help="Largest shift by rounding.  [default: 1e-7]"),
-        click.option(
-            "--tolerance",
-            type=Tolerance(),
-            default="auto",
-            show_default=True,
-            help="Largest distance from the drawing's outline, in drawing sizes; auto is 0.",
-        ),
-    ):
-        command = option(command)
-    return command
+    """Add the options of the viewer's conversions to a command."""
+    precision = click.option("--precision", metavar="P", type=float, help="Largest shift by rounding.  [default: 1e-7]")
+    select = click.option("--select", metavar="SELECTOR", help="Show only the elements that a CSS selector matches.")
+    return select(precision(tolerance_option(command)))
 
 
-def viewer_settings(tolerance: Any, precision: float | None, select: str | None) -> Settings:
-    """Settings of the viewer, but for what the options say."""
-    from vexture.live.documents import VIEWER_SETTINGS
+def viewer_parameters(tolerance: Any, precision: float | None, select: str | None) -> "Parameters":
+    """The viewer's parameters, with those that are given as options."""
+    from vexture.live.documents import VIEWER_PARAMETERS
 
-    most = VIEWER_SETTINGS.precision if precision is None else precision
-    return replace(VIEWER_SETTINGS, tolerance=tolerance, precision=most, select=select)
+    most = VIEWER_PARAMETERS.precision if precision is None else precision
+    return replace(VIEWER_PARAMETERS, tolerance=tolerance, precision=most, select=select)

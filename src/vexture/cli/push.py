@@ -1,15 +1,13 @@
 """The command `push`."""
 
 from pathlib import Path
-from typing import Any
 
 import click
 
 from vexture.cli.messages import one_line
+from vexture.cli.options import PATH
 
 __all__ = ["push"]
-
-PATH: Any = click.Path(path_type=Path)
 
 EXAMPLE = """\b
 Examples:

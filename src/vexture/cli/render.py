@@ -1,5 +1,6 @@
 """The command `render`."""
 
+import sys
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -7,8 +8,8 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from vexture.cli.messages import one_line, say_notes
-from vexture.cli.options import STANDARD, Colour, Rectangle, binary_output, standard_input
-from vexture.errors import DeviceError, LimitError, ParameterError
+from vexture.cli.options import PATH, STANDARD, Colour, Rectangle, drawing_kind, standard_input
+from vexture.errors import DeviceError, ParameterError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -30,15 +31,8 @@ Examples:
 
 
 @click.command(epilog=EXAMPLE)
-@click.argument("source", metavar="SOURCE_OR_TEXTURE", type=click.Path(path_type=Path))
-@click.option(
-    "-o",
-    "--output",
-    metavar="PNG|-",
-    required=True,
-    type=click.Path(path_type=Path),
-    help="File to write; - is standard output.",
-)
+@click.argument("source", metavar="SOURCE_OR_TEXTURE", type=PATH)
+@click.option("-o", "--output", metavar="PNG|-", required=True, type=PATH, help="File to write; - is standard output.")
 @click.option("--size", metavar="N", type=int, help=f"Longer side in pixels.  [default: {DEFAULT_SIZE}]")
 @click.option("--width", metavar="W", type=int, help="Width in pixels; the height follows from the view.")
 @click.option("--height", metavar="H", type=int, help="Height in pixels; the width follows from the view.")
@@ -83,7 +77,7 @@ def render(
         from vexture.renderers.view import window
 
         if output != Path(STANDARD) and output.suffix.lower() != ".png":
-            raise LimitError(f"--output {output}: pictures are PNG files; name one that ends in .png")
+            raise ParameterError(f"`output` {output}: pictures are PNG files; name one that ends in .png")
         pixels = _pixels(size, width, height, view)
         shown = _shown(source, select)
         picture = _picture(shown, pixels, window(*view, rotate), root=_root_of(shown, root), **options)
@@ -93,15 +87,14 @@ def render(
 def _pixels(
     size: int | None, width: int | None, height: int | None, view: tuple[float, float, float, float]
 ) -> tuple[int, int]:
-    """Width and height of the picture: as given, and what is not given in proportion to the view."""
+    """Width and height of the picture; a side that is not given follows from the view."""
     if size is not None and (width is not None or height is not None):
         raise ParameterError(f"`size` {size} sets the longer side; leave it out beside `width` or `height`")
     _, _, w, h = view
     ratio = w / h if w > 0.0 and h > 0.0 else 1.0
     if width is None and height is None:
         side = DEFAULT_SIZE if size is None else size
-        across, up = (side, side / ratio) if ratio >= 1.0 else (side * ratio, side)
-        return max(round(across), min(side, 1)), max(round(up), min(side, 1))
+        width, height = (side, None) if ratio >= 1.0 else (None, side)
     if width is None:
         assert height is not None
         return max(round(height * ratio), min(height, 1)), height
@@ -134,34 +127,30 @@ def _over(picture: "NDArray[Any]", background: tuple[float, float, float, float]
 
 
 def _root_of(shown: "Shown", root: str | None) -> str | int | None:
-    """Shape that the option means: a name, or if none has that name a place."""
+    """The name of a shape, or if none has that name, its index."""
     from vexture.texture.texture import Texture
 
     if root is None:
         return None
     if not isinstance(shown, Texture):
-        raise LimitError(f"--root {root} chooses a shape of a texture; leave it out, or use --select for an SVG")
+        raise ParameterError(f"`root` {root} chooses a shape of a texture; leave it out, or use `select` for an SVG")
     names = {part for one in shown.roots for part in (one.name, one.name.rpartition("/")[0])}
     return int(root) if root not in names and root.isdecimal() else root
 
 
 def _shown(path: Path, select: str | None) -> "Shown":
     """Read a drawing, or load a texture by one of its files or what their names have in common."""
-    from vexture.content import FileKind, kind_of, start_of
-    from vexture.encodings import owner_of
     from vexture.reading import read_drawing
     from vexture.texture.load import load_any
 
-    if path == Path(STANDARD):
-        drawing = read_drawing(standard_input(), name="standard input", select=select)
-        say_notes("standard input", drawing.notes)
-        return drawing
-    if path.is_file() and owner_of(path) is None and kind_of(start_of(path), path) is not FileKind.TEXTURE:
-        drawing = read_drawing(path, select=select)
-        say_notes(path, drawing.notes)
+    is_pipe = path == Path(STANDARD)
+    if is_pipe or drawing_kind(path) is not None:
+        name = "standard input" if is_pipe else str(path)
+        drawing = read_drawing(standard_input() if is_pipe else path, name=name, select=select)
+        say_notes(name, drawing.notes)
         return drawing
     if select is not None:
-        raise LimitError(f"{path}: --select {select} needs the drawing; give it to vexture convert")
+        raise ParameterError(f"{path}: `select` {select} needs the drawing; give it to vexture convert")
     return load_any(path)
 
 
@@ -174,7 +163,7 @@ def _write_png(image: "NDArray[np.uint8]", output: Path) -> None:
     data = BytesIO()
     Image.fromarray(image).save(data, format="PNG")
     if output == Path(STANDARD):
-        binary_output().write(data.getvalue())
+        sys.stdout.buffer.write(data.getvalue())
         return
     if not output.resolve().parent.is_dir():
         raise DeviceError(f"{output}: cannot be written (there is no such folder); choose another file with -o")

@@ -1,17 +1,16 @@
 """The command `serve`."""
 
 from pathlib import Path
-from typing import Any
 
 import click
 
-from vexture.cli.messages import one_line
+from vexture.cli.messages import as_options, one_line
+from vexture.cli.options import PATH
 from vexture.live.limits import Limits
 
 __all__ = ["serve"]
 
 DEFAULTS = Limits()
-PATH: Any = click.Path(path_type=Path)
 
 EXAMPLE = """\b
 Examples:
@@ -25,9 +24,9 @@ Examples:
 @click.option("--token-file", metavar="F", type=PATH, help="File with the token of those who may publish; else nobody.")
 @click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen on.")
 @click.option("--port", type=int, default=8000, show_default=True, help="Port to listen on; 0 takes any.")
-@click.option("--max-bytes", type=int, default=DEFAULTS.body_bytes, show_default=True, help="Largest upload.")
-@click.option("--max-total", type=int, default=DEFAULTS.total_bytes, show_default=True, help="Bytes of all shapes.")
-@click.option("--max-shapes", type=int, default=DEFAULTS.shapes, show_default=True, help="Number of shapes.")
+@click.option("--max-bytes", type=int, default=DEFAULTS.max_bytes, show_default=True, help="Largest upload.")
+@click.option("--max-total", type=int, default=DEFAULTS.max_total, show_default=True, help="Bytes of all shapes.")
+@click.option("--max-shapes", type=int, default=DEFAULTS.max_shapes, show_default=True, help="Number of shapes.")
 @click.option("--rate", type=float, default=DEFAULTS.rate, show_default=True, help="Uploads a second from one address.")
 @click.option("--precision", metavar="P", type=float, help="Largest shift by rounding, for views from nearby.")
 def serve(
@@ -45,5 +44,5 @@ def serve(
     with one_line():
         from vexture.live.serve import serve as run
 
-        limits = Limits(body_bytes=max_bytes, total_bytes=max_total, shapes=max_shapes, rate=rate)
-        run(folder, token_file, host, port, limits, precision, click.echo)
+        limits = Limits(max_bytes=max_bytes, max_total=max_total, max_shapes=max_shapes, rate=rate)
+        run(folder, token_file, host, port, limits, precision, lambda line: click.echo(as_options(line)))

@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from vexture.cli.messages import one_line, say
-from vexture.cli.options import conversion_options, viewer_settings
+from vexture.cli.options import PATH, conversion_options, viewer_parameters
 
 __all__ = ["view"]
 
@@ -18,7 +18,7 @@ Examples:
 
 
 @click.command(epilog=EXAMPLE)
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=PATH)
 @click.option("--watch", "watching", is_flag=True, help="Show files anew whenever they are saved.")
 @click.option("--port", metavar="P", type=int, default=0, help="Port to listen on.  [default: any that is free]")
 @click.option("--host", metavar="HOST", default="127.0.0.1", show_default=True, help="Address to listen on.")
@@ -34,7 +34,7 @@ def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening:
 
         serve(
             files,
-            viewer_settings(**conversion),
+            viewer_parameters(**conversion),
             host=host,
             port=port,
             watching=watching,

@@ -1,4 +1,4 @@
-"""Conversion in a process of its own: a drawing that takes too long or too much memory cannot harm the server."""
+"""Conversion in a process of its own, so that one that takes too long or too much memory cannot harm the server."""
 
 import asyncio
 import multiprocessing
@@ -9,26 +9,25 @@ import threading
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from multiprocessing.connection import wait
 from typing import Final
 
 from vexture.content import FileKind, kind_of, start_of
 from vexture.errors import LimitError, VextureError
-from vexture.live.documents import PUBLISHED_SETTINGS, shape_of
+from vexture.live.documents import PUBLISHED_PARAMETERS, SMALL, shape_of
+from vexture.live.flood_conversion import FloodConversion
 from vexture.live.limits import Limits
 from vexture.live.shelf import Shape
-from vexture.live.waters import Waters
-from vexture.settings import Settings
+from vexture.pipeline import Parameters
 
 __all__ = ["BusyError", "Converter"]
 
 MEMORY_BYTES: Final = 4 * 2**30
 """Address space of the process."""
 
-
 SUFFIXES: Final = {FileKind.TEXTURE: ".ktx2", FileKind.GEOJSON: ".geojson", FileKind.SVG: ".svg"}
-"""What an upload is called, which has a name only: its texture says so where it comes from."""
+"""Added to the name of an upload, which its texture then names as its source."""
 
 
 class BusyError(VextureError):
@@ -36,40 +35,25 @@ class BusyError(VextureError):
 
 
 class Converter:
-    """Converts one upload after the other.
+    """Converts one upload after the other, as parameters say or, on the server of a flood, into its frame."""
 
-    Parameters
-    ----------
-    limits : Limits
-        Its ``conversion_seconds``, ``texture_bytes`` and ``conversions`` are kept to.
-    settings : Settings
-        How drawings are converted.
-    waters : Waters, optional
-        Of a server that shows a flood: into which frame uploads are converted.
-    """
-
-    def __init__(self, limits: Limits, settings: Settings = PUBLISHED_SETTINGS, waters: Waters | None = None) -> None:
+    def __init__(self, limits: Limits, how: Parameters | FloodConversion = PUBLISHED_PARAMETERS) -> None:
         self._limits = limits
-        self._how = waters or settings
+        self._how = how
         self._waiting = 0
         self._turn = asyncio.Lock()
         self._pool: ProcessPoolExecutor | None = None
         self._ended = False
 
     async def warm(self) -> None:
-        """Start the process, which only the first conversion would wait for."""
+        """Start the process, so that the first conversion need not wait for it."""
         async with self._turn:
-            await asyncio.get_running_loop().run_in_executor(self._running(), _nothing, self._how)
+            with suppress(BrokenProcessPool):  # the server stops
+                await asyncio.get_running_loop().run_in_executor(self._running(), _warm, self._how)
 
     @contextmanager
     def place(self) -> Iterator[None]:
-        """Take a place for an upload that is on its way.
-
-        Raises
-        ------
-        BusyError
-            If there is none.
-        """
+        """Reserve a place for an upload; raises a `BusyError` if there is none."""
         if self._waiting >= self._limits.conversions:
             raise BusyError(f"{self._waiting} drawings wait to be converted already; try again in a few seconds")
         self._waiting += 1
@@ -79,51 +63,36 @@ class Converter:
             self._waiting -= 1
 
     async def shape_of(self, data: bytes, name: str) -> Shape:
-        """Shape of an upload; its content says what kind it is.
-
-        Raises
-        ------
-        BusyError
-            If the server stops.
-        VextureError
-            If it is no drawing and no texture, or exceeds a limit.
-        """
+        """Shape of an upload, whose content decides what it is; raises a `BusyError` if the server stops."""
+        seconds, most = self._limits.conversion_seconds, self._limits.texture_bytes
         async with self._turn:
+            loop = asyncio.get_running_loop()
+            work = loop.run_in_executor(self._running(), _convert, data, name, most, self._how)
             try:
-                return await self._converted(data, name)
-            except LimitError:
+                async with asyncio.timeout(seconds):
+                    return await work
+            except asyncio.CancelledError:
+                self._kill()
+                raise
+            except (TimeoutError, BrokenProcessPool, MemoryError) as error:
+                self._kill()
                 if self._ended:
                     raise BusyError("the server stops; try again later") from None
-                raise
-
-    async def _converted(self, data: bytes, name: str) -> Shape:
-        seconds = self._limits.conversion_seconds
-        loop = asyncio.get_running_loop()
-        most = self._limits.texture_bytes
-        work = loop.run_in_executor(self._running(), _convert, data, name, most, self._how)
-        try:
-            async with asyncio.timeout(seconds):
-                return await work
-        except TimeoutError:
-            self._kill()
-            raise LimitError(f"{name}: its conversion takes longer than {seconds:g} s; simplify the drawing") from None
-        except (BrokenProcessPool, MemoryError):
-            self._kill()
-            raise LimitError(f"{name}: its conversion needs too much memory; simplify the drawing") from None
-        except asyncio.CancelledError:
-            self._kill()
-            raise
+                needs = (
+                    f"takes longer than {seconds:g} s" if isinstance(error, TimeoutError) else "needs too much memory"
+                )
+                raise LimitError(f"{name}: its conversion {needs}; simplify the drawing") from None
 
     def _running(self) -> ProcessPoolExecutor:
         if self._ended:
             raise BusyError("the server stops; try again later")
         if self._pool is None:
-            clean = multiprocessing.get_context("spawn")  # nothing of the server, its sockets above all, goes along
+            clean = multiprocessing.get_context("spawn")  # inherits nothing of the server, above all no sockets
             self._pool = ProcessPoolExecutor(1, clean, _prepare)
         return self._pool
 
     def close(self) -> None:
-        """End it for ever, whatever it does."""
+        """End the process and start no other one."""
         self._ended = True
         self._kill()
 
@@ -136,7 +105,7 @@ class Converter:
 
 
 def _prepare() -> None:
-    """Set up the process: it ends with the server, never by its own Ctrl-C, and takes no more than its memory."""
+    """Set up the process: it ends with the server, ignores Ctrl-C, and has limited memory."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, resource.getrlimit(resource.RLIMIT_AS)[1]))
@@ -151,20 +120,20 @@ def _prepare() -> None:
     threading.Thread(target=end_with_the_server, daemon=True).start()
 
 
-def _nothing(how: Settings | Waters) -> None:
-    """Compile or load what a conversion needs."""
-    if isinstance(how, Waters):
+def _warm(how: Parameters | FloodConversion) -> None:
+    """Load what a conversion needs."""
+    if isinstance(how, FloodConversion):
         how.warm()
     else:
-        shape_of(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "warm.svg", "warm", how)
+        shape_of(SMALL, "small.svg", "small", how)
 
 
-def _convert(data: bytes, name: str, most: int, how: Settings | Waters) -> Shape:
+def _convert(data: bytes, name: str, most: int, how: Parameters | FloodConversion) -> Shape:
     """Convert an upload, in the process."""
     from vexture.texture.ktx2 import TEXEL_BYTES
     from vexture.texture.load import texture_from
 
-    if isinstance(how, Waters):
+    if isinstance(how, FloodConversion):
         shape = how.shape_of(data, name)
     elif not data.strip():
         raise LimitError(f"{name}: the upload is empty; send an SVG, GeoJSON, a picture or a packed texture")

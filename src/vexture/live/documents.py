@@ -1,4 +1,4 @@
-"""From the content of a file, whatever kind it is, to a shape that is published."""
+"""Conversion of a file's content, of any kind, into a shape that can be published."""
 
 import time
 from dataclasses import replace
@@ -10,19 +10,20 @@ from vexture.content import FileKind, about, decompressed, kind_of, start_of
 from vexture.errors import SourceError
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
 from vexture.notes import line_of
-from vexture.settings import Settings
+from vexture.pipeline import Parameters
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     from vexture.drawing import Drawing
+    from vexture.svg.read import Frame
 
 __all__ = [
-    "PUBLISHED_SETTINGS",
-    "SVG_TYPE",
+    "PUBLISHED_PARAMETERS",
+    "SMALL",
     "THESIS_BITS",
-    "VIEWER_SETTINGS",
+    "VIEWER_PARAMETERS",
     "converted",
     "load_kernels",
     "shape_of",
@@ -31,59 +32,40 @@ __all__ = [
     "told",
 ]
 
-SVG_TYPE = "image/svg+xml"
-
 VIEW_PRECISION = 1e-7
 """Unit-square units. At 10,000x a window of 1000 pixels shows 1e-4 of the square: the outline is within a pixel."""
 
-VIEWER_SETTINGS = Settings(split="paint", precision=VIEW_PRECISION)
-"""How the viewer converts: in its colours, and good for the deepest zoom."""
+VIEWER_PARAMETERS = Parameters(split="paint", precision=VIEW_PRECISION)
+"""The viewer converts in colours, precise enough for the deepest zoom."""
 
-PUBLISHED_SETTINGS = Settings(split="paint")
-"""How a server converts what is published: in its colours, and small, since pages fetch it again with each change."""
+PUBLISHED_PARAMETERS = Parameters(split="paint")
+"""A server converts in colours, and to a small size, since pages fetch a shape again with each change."""
 
 THESIS_BITS = {"thesis16": 16, "thesis8": 8}
 """Bits per channel of each view in the thesis encoding."""
 
 ANONYMOUS_WINDOW = (300.0, 150.0)
-"""Pixels: how large browsers show an SVG that says no size (CSS 2.1, 10.3.2)."""
+"""Pixels: the size at which browsers show an SVG without one (CSS 2.1, 10.3.2)."""
 
 SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
 <path fill="red" d="M2 2C9 2 2 9 7 7S1 6 2 2zM-1 4A3 3 0 0 1 5 4z"/></svg>"""
-"""Of everything a little: corners, curves, crossings, two colours, something outside."""
+"""Uses all kernels: corners, curves, crossings, two colours, parts outside of the box."""
 
 
-def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shape:
-    """Convert the content of a file into a shape that can be published.
+def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters) -> Shape:
+    """Convert the content of a file, or check and keep that of a packed texture, into a shape that can be published.
 
-    Parameters
-    ----------
-    data : bytes
-        Of any file that `vexture.read` reads; or a packed texture, which is checked and published as it is.
-    file_name : str
-        What the file is called: messages name it so. It is nowhere opened.
-    name : str
-        Name of the shape, and of its drawing: its layers are ``NAME/...``.
-    settings : Settings
-        How a drawing is converted; for a texture it means nothing.
-
-    Returns
-    -------
-    Shape
-        With what could not be honoured as text in its facts, and for an SVG with the source to compare with.
-
-    Raises
-    ------
-    VextureError
-        If it is no drawing and no texture, or exceeds a limit.
+    The file's name, which stands in messages, is never opened. The facts of the shape hold the drawing's notes as text;
+    its views hold the source of an SVG, to compare with.
 
     Examples
     --------
-    >>> shape = shape_of(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "half.svg", "half", Settings())
+    >>> shape = shape_of(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "half.svg", "half", Parameters())
     >>> shape.facts["segments"], shape.facts["box"]
     (4, [0.0, 0.0, 1.0, 1.0])
     """
     from vexture.reading import read_drawing
+    from vexture.svg.read import framed_drawing
 
     with about(file_name):
         plain = decompressed(data)
@@ -92,33 +74,21 @@ def shape_of(data: bytes, file_name: str, name: str, settings: Settings) -> Shap
         return texture_shape(data, file_name, name)
     load_kernels()
     start = time.perf_counter()
-    drawing = replace(read_drawing(plain, name=file_name, select=settings.select), name=name)
-    shape = converted(drawing, file_name, replace(settings, select=None), start)
-    facts = {**shape.facts, "warnings": told(file_name, drawing)}
-    views = {}
+    framed = None
     if kind is FileKind.SVG:
-        views["svg"] = File(plain, SVG_TYPE, ".svg")
-        facts["box"] = _box_in_browsers(plain, drawing.to_source)
-    return replace(shape, facts=facts, views=views)
+        drawing, framed = framed_drawing(plain, file_name, parameters.select)
+    else:
+        drawing = read_drawing(plain, name=file_name, select=parameters.select)
+    shape = converted(replace(drawing, name=name), file_name, parameters, start)
+    facts = {**shape.facts, "warnings": told(file_name, drawing)}
+    if kind is not FileKind.SVG:
+        return replace(shape, facts=facts)
+    facts["box"] = _box_in_browsers(framed, drawing.to_source)
+    return replace(shape, facts=facts, views={"svg": File(plain, "image/svg+xml", ".svg")})
 
 
 def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, ...]:
-    """Convert a shape's source in the thesis encoding: the contents of its files.
-
-    The source is converted again each time; who serves it keeps it.
-
-    Parameters
-    ----------
-    shape : Shape
-        One with a source: ``views["svg"]``.
-    bits : int
-        Bits per channel, 8 or 16.
-
-    Raises
-    ------
-    VextureError
-        If there is no source, or it does not fit into so many bits.
-    """
+    """Convert a shape's source, ``views["svg"]``, in the thesis encoding of 8 or 16 bits; contents of its files."""
     from vexture.pipeline import convert
     from vexture.reading import read_drawing
 
@@ -131,26 +101,25 @@ def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, ...]:
 
 
 def told(file_name: str, drawing: "Drawing") -> list[str]:
-    """What pages show of a drawing's notes: a line, if there are any."""
+    """A drawing's notes as pages show them: one line, if there are any."""
     line = line_of(file_name, drawing.notes)
     return [line] if line else []
 
 
 @cache
 def load_kernels() -> None:
-    """Load the kernels, which only the first conversion of a process waits for: it is no part of any file's time."""
+    """Load the kernels, for which only the first conversion of a process waits: no file's time includes it."""
     from vexture.pipeline import convert
     from vexture.svg.read import svg_drawing
 
     convert(svg_drawing(SMALL, "small.svg"), split="paint", precision=VIEW_PRECISION)
 
 
-def converted(drawing: "Drawing", file_name: str, settings: Settings, start: float) -> Shape:
+def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start: float) -> Shape:
     """Shape of a drawing, with the facts of its conversion."""
-    from vexture.pipeline import combine, shapes_of
-    from vexture.tree.build import largest_shift
+    from vexture.pipeline import combine, trees_of
 
-    part = shapes_of(drawing, settings)
+    part = trees_of(drawing, replace(parameters, select=None))  # what was selected is the drawing already
     texture = combine([part], drawing.name, PurePath(file_name).name)
     milliseconds = 1000.0 * (time.perf_counter() - start)
     data = texture.to_ktx2()
@@ -161,7 +130,7 @@ def converted(drawing: "Drawing", file_name: str, settings: Settings, start: flo
         "curves": sum(len(tree.curves) for tree in part.trees),
         "bytes": len(data),
         "milliseconds": round(milliseconds, 2),
-        "distance": max(tree.deviation for tree in part.trees) + largest_shift(settings.precision),
+        "distance": max(tree.deviation for tree in part.trees) + part.rounding,
         "to_source": drawing.to_source.ravel().tolist(),
         "box": None,
     }
@@ -169,7 +138,7 @@ def converted(drawing: "Drawing", file_name: str, settings: Settings, start: flo
 
 
 def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
-    """Shape of a texture that is there already: what it does not say is None."""
+    """Shape of a texture; facts that the texture does not hold are None."""
     from vexture.texture.load import texture_from
 
     texture = texture_from(data, file_name)
@@ -189,16 +158,10 @@ def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
     return Shape(name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
 
 
-def _box_in_browsers(content: bytes, to_source: "NDArray[np.float64]") -> list[float]:
-    """Where in the unit square a browser's picture of an SVG stands: x0, y0, x1, y1."""
+def _box_in_browsers(framed: "Frame | None", to_source: "NDArray[np.float64]") -> list[float]:
+    """Part of the unit square that a browser's picture of an SVG fills: x0, y0, x1, y1."""
     import numpy as np
 
-    from vexture.svg.document import parse_svg
-    from vexture.svg.read import frame
-    from vexture.svg.report import Report
-    from vexture.svg.scene import Scene
-
-    framed = frame(Scene(parse_svg(content), Report()))
     size, matrix = ANONYMOUS_WINDOW, np.eye(2, 3)
     if framed is not None:
         size, _, (a, b, c, d, e, f) = framed

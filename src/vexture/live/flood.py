@@ -1,29 +1,26 @@
-"""`vexture flood`: from a user's files to one page, or to a server that shows them and takes newer ones."""
+"""`vexture flood`: the user's files as one page, or on a server that accepts newer ones."""
 
-import asyncio
-from collections.abc import AsyncIterator, Callable, Sequence
-from contextlib import asynccontextmanager, closing, suppress
+from collections.abc import Callable, Sequence
+from contextlib import closing, suppress
 from pathlib import Path
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from vexture.content import about
 from vexture.drawing import Drawing
-from vexture.errors import LimitError, SourceError
+from vexture.errors import SourceError
 from vexture.flood.options import FloodOptions
 from vexture.flood.scene import PREFIX, Flood, PageNote, labels, scene, step_names
 from vexture.geo.extent import Extent
-from vexture.live.limits import Limits
-from vexture.live.manifest import manifest
-from vexture.live.page import FLOOD, built, data_address, served_page, whole_page
-from vexture.live.shelf import TEXTURE_TYPE, File, Shape
-from vexture.live.waters import Waters
+from vexture.live.flood_conversion import FloodConversion
+from vexture.live.limits import LimitedShelf, Limits
+from vexture.live.page import FLOOD, built, check_output, data_address, served_page, whole_page
+from vexture.live.shelf import TEXTURE_TYPE, File, Shape, manifest
 from vexture.notes import line_of
 
 __all__ = ["Made", "export", "make", "serve"]
 
-PAGE_SUFFIXES: Final = (".html", ".htm")
 GROUND_NAME, FOLD_NAME = "ground.webp", "shore.fold.ktx2"
 
 INVENTED: Final = PageNote("The relief is invented.", "--relief takes a file of heights.")
@@ -31,20 +28,20 @@ DRAWN: Final = PageNote("The ground is drawn, not photographed.", "--ground take
 DRY: Final = PageNote("Nothing is under water.", "")
 
 LESS: Final = 0.95
-"""Share of the amplitude that was asked for: less is said."""
+"""Share of the given amplitude: users are told if waves reach less."""
 
 WHOLE: Final = 0.995
-"""Share of the ground whose height is known: less is said."""
+"""Share of the ground whose height is known: users are told if it is less."""
 
 Say = Callable[[str], None]
-"""Tells the user one line."""
+"""Takes a line for the user."""
 
 
 class Made(NamedTuple):
     """A flood that is ready to be shown."""
 
     flood: Flood
-    waters: Waters
+    conversion: FloodConversion
     shapes: Sequence[Shape]
 
     @property
@@ -62,19 +59,7 @@ class Made(NamedTuple):
 
 
 def make(asked: FloodOptions, say: Say) -> Made:
-    """Read everything that a user names, and convert it.
-
-    Parameters
-    ----------
-    asked : FloodOptions
-    say : callable
-        Is told of what people should know.
-
-    Raises
-    ------
-    VextureError
-        If a file cannot be read or does not fit.
-    """
+    """Read all files of a flood and convert them; `say` gets warnings and notes for the user."""
     from vexture.flood.drawn_ground import drawn_ground
     from vexture.flood.ground import encoded, ground_of
     from vexture.flood.relief import first_wet, relief_of
@@ -85,7 +70,7 @@ def make(asked: FloodOptions, say: Say) -> Made:
         say(f"warning: {line}")
     frame = extent.frame
     amplitude = asked.amplitude_in(max(frame.metres))
-    waters = Waters(frame, asked.hmin, asked.reading)
+    conversion = FloodConversion(frame, asked.hmin, asked.reading)
     relief = relief_of(extent, asked.relief, asked.crs)
     drawn = drawn_ground(extent, relief)
     notes = [INVENTED] if relief.invented else []
@@ -96,7 +81,9 @@ def make(asked: FloodOptions, say: Say) -> Made:
         picture, told = ground_of(asked.ground, frame, drawn, bounds_given=asked.bounds is not None)
         notes += told
     first = first_wet(extent)
-    shapes = _shapes(extent, waters)
+    steps = extent.steps
+    named = zip(steps, step_names(len(steps)), labels([step.time for step in steps]), strict=True)
+    shapes = [conversion.step(step, name, label) for step, name, label in named]
     fold = None
     if first is None:
         notes.append(DRY)
@@ -117,29 +104,23 @@ def make(asked: FloodOptions, say: Say) -> Made:
     )
     for note in notes:
         say(" ".join(("note:", *filter(None, note))))
-    return Made(flood, waters, shapes)
+    return Made(flood, conversion, shapes)
 
 
 def _read(asked: FloodOptions) -> Extent:
     from vexture.reading import extent_of
 
     if asked.extent.is_dir():
-        raise SourceError(f"--extent {asked.extent}: is a folder; name a file in it that says where water is")
+        raise SourceError(f"`extent` {asked.extent}: is a folder; name a file in it that says where water is")
     if not asked.extent.is_file():
-        raise SourceError(f"--extent {asked.extent}: there is no such file; name one that says where water is")
+        raise SourceError(f"`extent` {asked.extent}: there is no such file; name one that says where water is")
     named = str(asked.extent)
     with about(named):
         return extent_of(asked.extent, named, bounds=asked.bounds, crs=asked.crs, hmin=asked.hmin, **asked.reading)
 
 
-def _shapes(extent: Extent, waters: Waters) -> list[Shape]:
-    steps = extent.steps
-    listed = zip(steps, step_names(len(steps)), labels([step.time for step in steps]), strict=True)
-    return [waters.step(step, name, label) for step, name, label in listed]
-
-
 def _fold(drawing: Drawing, amplitude: float, period: float, metres: tuple[float, float]) -> tuple[bytes, float]:
-    """File that moves the shoreline up and down the beach, and by how many metres it does at most."""
+    """File that moves the shoreline up and down the beach, and its largest shift in metres."""
     from vexture.fold.shore import fold_of_shore
     from vexture.geo.extent import MARGIN
 
@@ -149,19 +130,11 @@ def _fold(drawing: Drawing, amplitude: float, period: float, metres: tuple[float
 
 
 def export(asked: FloodOptions, output: Path, say: Say) -> tuple[Made, int]:
-    """Write one page that needs nothing else; return what it shows, and its size.
-
-    Raises
-    ------
-    VextureError
-        If a file cannot be read, the page is not built or cannot be written.
-    """
+    """Write one page that needs nothing else; return what it shows, and its size."""
     from vexture.flood.ground import GROUND_TYPE
     from vexture.texture.files import write_together
 
-    if output.suffix.lower() not in PAGE_SUFFIXES:
-        raise LimitError(f"--output {output}: the page is an HTML file; name one that ends in {PAGE_SUFFIXES[0]}")
-    built(FLOOD.script)  # said before anything is converted
+    check_output(output, FLOOD)
     made = make(asked, say)
     flood = made.flood
     told = scene(
@@ -180,35 +153,15 @@ def serve(
 ) -> None:
     """Serve a flood until Ctrl-C or SIGTERM.
 
-    Parameters
-    ----------
-    asked : FloodOptions
-    token_file : path or None
-        Holds what who publishes must know; without one nothing can be published, and only those who open the server
-        by its own address are answered.
-    host, port : str, int
-        Where to listen; port 0 is any that is free.
-    say : callable
-        Is told of what people should know.
-    show : callable
-        Is told the address, and what is shown there.
-
-    Raises
-    ------
-    VextureError
-        If it cannot start.
+    Without a token nothing can be published, and only requests to the server's own address are answered. `say` takes
+    warnings and notes for the user, `show` the address and what is shown there.
     """
-    from starlette.applications import Starlette
-    from starlette.middleware import Middleware
-    from starlette.routing import Mount
-
     from vexture.flood.ground import GROUND_TYPE
-    from vexture.live.converter import Converter
-    from vexture.live.listen import address, bind, serve_until_stopped
-    from vexture.live.page_routes import KnownHosts, page_routes
+    from vexture.live.converter import BusyError, Converter
+    from vexture.live.listen import address, background, bind, serve_until_stopped
+    from vexture.live.page_routes import page_routes
     from vexture.live.publishing import publishing_routes
-    from vexture.live.quota import LimitedShelf
-    from vexture.live.routes import application, fixed, routes
+    from vexture.live.routes import NO_SNIFFING, application, fixed, routes
     from vexture.live.tokens import read_token
 
     built(FLOOD.script)
@@ -219,10 +172,19 @@ def serve(
         shelf = LimitedShelf(limits)
         for shape in made.shapes:
             shelf.put(shape)
-        flood, converter = made.flood, Converter(limits, waters=made.waters)
+        flood, converter = made.flood, Converter(limits, made.conversion)
         told = scene(flood, shelf.names, GROUND_NAME, FOLD_NAME if flood.fold else None)
-        fresh = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff"}
-        inner = application(
+        fresh = {"Cache-Control": "no-cache", **NO_SNIFFING}
+
+        async def warm() -> None:
+            with suppress(BusyError):
+                await converter.warm()
+
+        def stop() -> None:
+            shelf.close()
+            converter.close()
+
+        app = application(
             [
                 *page_routes(FLOOD, served_page(FLOOD, {"server": "./", "flood": told}, flood.title)),
                 fixed(f"/{GROUND_NAME}", flood.ground, GROUND_TYPE, fresh),
@@ -230,38 +192,8 @@ def serve(
                 *routes(shelf),
                 *publishing_routes(shelf, converter, limits, token),
             ],
-            open_to_all=token is not None,
+            only_at=None if token else host,
+            lifespan=background(warm) if token else None,
         )
-        guard = [] if token else [Middleware(KnownHosts, names=(host,))]
-        app = Starlette(routes=[Mount("/", inner)], middleware=guard, lifespan=_warming(converter, token))
-
-        def stop() -> None:
-            shelf.close()
-            converter.close()
-
         show(address(taken), made)
         serve_until_stopped(app, taken, stop)
-
-
-def _warming(converter: Any, token: str | None) -> Any:
-    """Context in which a server runs: its converter is started at once, so that the first push need not wait."""
-
-    @asynccontextmanager
-    async def lifespan(_app: Any) -> AsyncIterator[None]:
-        from vexture.live.converter import BusyError
-
-        async def warm() -> None:
-            with suppress(BusyError):
-                await converter.warm()
-
-        task = asyncio.create_task(warm()) if token else None
-        try:
-            yield
-        finally:
-            converter.close()
-            if task is not None:
-                task.cancel()
-                with suppress(asyncio.CancelledError):
-                    await task
-
-    return lifespan

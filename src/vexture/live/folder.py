@@ -1,4 +1,4 @@
-"""Shapes that outlive their server: every file is complete or not there, whenever the machine stops."""
+"""Shapes kept on disk: whenever the machine stops, each file is complete or absent."""
 
 import asyncio
 import fcntl
@@ -9,11 +9,10 @@ from pathlib import Path
 from typing import IO, Final
 
 from vexture.content import SHAPEFILE
-from vexture.errors import DeviceError, LimitError, VextureError
+from vexture.errors import EXPECTED, DeviceError, LimitError
 from vexture.live.converter import Converter
-from vexture.live.limits import Limits
+from vexture.live.limits import LimitedShelf, Limits
 from vexture.live.names import checked_name, manifest_name
-from vexture.live.quota import LimitedShelf
 from vexture.live.shelf import File, Shape
 from vexture.reading import content_of
 from vexture.texture.files import TEMPORARY, replace_files
@@ -25,8 +24,8 @@ DRAWINGS: Final = (".svg", ".svgz", ".geojson", ".ktx2")
 GEOGRAPHIC: Final = (".gpkg", ".fgb", ".shp", ".zip", ".tif", ".tiff", ".nc", ".nc4", ".cdf")
 PICTURES: Final = (".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp")
 TAKEN: Final = (DRAWINGS, GEOGRAPHIC, PICTURES)
-"""How the names of files end that are served; what they are, their content says. Of one name a drawing comes before
-data, and data before a picture, which is often one of the drawing beside it."""
+"""Suffixes of files that are served; their content decides how they are read. Of files with one name, a drawing comes
+before data, and data before a picture, which often shows the drawing beside it."""
 
 Say = Callable[[str], None]
 
@@ -34,28 +33,14 @@ Say = Callable[[str], None]
 class Folder(LimitedShelf):
     """The shapes of a folder.
 
-    What is published is kept in ``.vexture`` inside it: ``files/DIGEST.ext``, named after their content, and
-    ``shapes/DIGEST.json`` for each shape, named after its name. A manifest is written after the files that it names;
-    each is written under a temporary name, brought to the disk and then renamed. So at any moment the folder holds the
-    last state that was complete, and what `publish` has returned from is there after a crash.
+    Published shapes are kept in ``.vexture`` inside it: ``files/DIGEST.ext``, named after their content, and a manifest
+    ``shapes/DIGEST.json`` for each shape, named after its name. A manifest is written after the files that it names.
+    Each file is written under a temporary name, flushed to the disk and then renamed. So the folder always holds the
+    last complete state, and a shape that `publish` has returned from survives a crash.
 
-    Drawings and textures that people put beside ``.vexture`` (whatever `vexture.read` reads, and ``.ktx2``) are
-    converted at each start (`take_drawings`) and served under their names, unless a shape of that name was published;
-    they are never written to.
-
-    Parameters
-    ----------
-    path : path
-        Made if it is not there.
-    limits : Limits
-        Its ``shapes`` and ``total_bytes`` are kept to.
-    say : callable
-        Takes one line about each thing that is damaged or not served.
-
-    Raises
-    ------
-    DeviceError
-        If it cannot be written to, or another server has it.
+    Drawings and textures that users put beside ``.vexture`` (whatever `vexture.read` reads, and ``.ktx2``) are
+    converted at each start (`take_drawings`) and served under their names, unless a shape of that name was published.
+    These files are never changed. `say` takes a line for the user about each file that is damaged or not served.
     """
 
     def __init__(self, path: Path, limits: Limits, say: Say) -> None:
@@ -76,17 +61,9 @@ class Folder(LimitedShelf):
         self._lock.close()
 
     async def publish(self, shape: Shape) -> None:
-        """Keep a shape and tell everyone of it.
-
-        Raises
-        ------
-        FullError
-            If there are too many shapes, or too many bytes.
-        DeviceError
-            If the disk refuses; what was there stays.
-        """
+        """Keep a shape and tell all clients; raises a `DeviceError` if the disk refuses, and keeps the previous one."""
         async with self._turn:
-            self.make_sure_of_room(shape)
+            self.check_room(shape)
             fresh = [file for file in shape.files if not self.owners(file.name)]
             before = self.shape(shape.name)
             try:
@@ -98,12 +75,12 @@ class Folder(LimitedShelf):
             await asyncio.to_thread(self._remove, stale)
 
     async def take_drawings(self, converter: Converter) -> None:
-        """Serve the drawings and textures that people have put into the folder."""
+        """Serve the drawings and textures that users have put into the folder."""
         found = [path for path in sorted(self._path.iterdir()) if not path.name.startswith(".") and path.is_file()]
         for path in (path for suffixes in TAKEN for path in found if path.suffix.lower() in suffixes):
             try:
                 await self._take(path, converter)
-            except VextureError as error:
+            except EXPECTED as error:
                 self._say(f"{path.name} is not served: {error}")
             except OSError as error:
                 self._say(f"{path.name} is not served: it cannot be read ({error.strerror}); check its permissions")
@@ -115,9 +92,9 @@ class Folder(LimitedShelf):
             self._say(taken)
             return
         with path.open("rb") as file:
-            data = file.read(self._limits.body_bytes + 1)
-        if len(data) > self._limits.body_bytes:
-            raise LimitError(f"it is larger than {self._limits.body_bytes} bytes; raise --max-bytes")
+            data = file.read(self._limits.max_bytes + 1)
+        if len(data) > self._limits.max_bytes:
+            raise LimitError(f"it is larger than {self._limits.max_bytes} bytes; raise `max_bytes`")
         if data.startswith(SHAPEFILE):
             data = content_of(path)
         shape = await converter.shape_of(data, name)
@@ -125,11 +102,11 @@ class Folder(LimitedShelf):
             if self.shape(name) is not None:  # published while it was converted
                 self._say(taken)
                 return
-            self.make_sure_of_room(shape)
+            self.check_room(shape)
             self.put(shape)
 
     def _write(self, shape: Shape, fresh: list[File]) -> None:
-        """Bring a shape to the disk: first its files, then what names them."""
+        """Write a shape: first its files, then the manifest that names them."""
         replace_files({self._files_folder / file.name: file.data for file in fresh}, durable=True)
         record = {
             "name": shape.name,
@@ -145,7 +122,7 @@ class Folder(LimitedShelf):
                 (self._files_folder / name).unlink()
 
     def _load(self) -> None:
-        """Read all shapes, and remove what a crash has left."""
+        """Read all shapes, and remove files that a crash has left behind."""
         whole = True
         for path in sorted(self._shapes_folder.iterdir()):
             if path.name.endswith(TEMPORARY):
@@ -157,7 +134,7 @@ class Folder(LimitedShelf):
                 whole = False
                 self._say(f"{path}: damaged ({_reason(error)}); the others are served; publish its shape again")
         for path in self._files_folder.iterdir():
-            # whoever mends a damaged manifest by hand needs the files that it names
+            # a damaged manifest may be repaired by hand, and needs the files that it names
             if path.name.endswith(TEMPORARY) or (whole and not self.owners(path.name)):
                 path.unlink()
 
@@ -184,14 +161,14 @@ def _entry(file: File) -> dict[str, str]:
 
 
 def _reason(error: Exception) -> str:
-    """What is wrong with a manifest, in a few words."""
+    """Why a manifest cannot be read, in a few words."""
     if isinstance(error, OSError):
         return f"{Path(error.filename or '').name}: {error.strerror}"
     return f"it has no {error}" if isinstance(error, KeyError) else " ".join(str(error).split())[:200]
 
 
 def _locked(path: Path) -> IO[bytes]:
-    """Open a file that one process at a time may have."""
+    """Open a file that only one process at a time can lock."""
     file = path.open("ab")
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -1,4 +1,4 @@
-"""What a server takes from those who publish, and how often."""
+"""Limits of what a server accepts: sizes, times, rates, and the room for shapes."""
 
 import time
 from collections import OrderedDict
@@ -6,73 +6,38 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
-from vexture.errors import LimitError
+from vexture.errors import LimitError, ParameterError
+from vexture.live.shelf import Shape, Shelf
 
-__all__ = ["Limits", "Pace"]
+__all__ = ["FullError", "LimitedShelf", "Limits", "Pace"]
 
 MOST_KNOWN: Final = 10_000
-"""Publishers whose pace is remembered; the one that was silent for longest is forgotten first."""
+"""Addresses whose pace is remembered; the one that was silent for longest is forgotten first."""
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Limits of a server, each of which it names when it refuses.
+    """Limits of a server, each of which it names when it refuses."""
 
-    Parameters
-    ----------
-    body_bytes : int
-        Of one upload.
-    texture_bytes : int
-        Of the texture that a drawing becomes, in memory.
-    body_seconds : float
-        For an upload to arrive.
-    conversion_seconds : float
-        For a drawing to become a texture.
-    conversions : int
-        How many may run or wait.
-    rate : float
-        Uploads a second, for each address.
-    burst : int
-        Uploads at once after a pause.
-    shapes : int
-        How many may be published.
-    total_bytes : int
-        Of all files of all shapes.
-
-    Raises
-    ------
-    LimitError
-        If one of them is not above 0.
-    """
-
-    body_bytes: int = 16 * 2**20
-    texture_bytes: int = 64 * 2**20
-    body_seconds: float = 60.0
+    max_bytes: int = 16 * 2**20  # of one upload
+    max_total: int = 2**30  # bytes of all files of all shapes
+    max_shapes: int = 10_000
+    rate: float = 10.0  # uploads a second from one address
+    burst: int = 20  # uploads at once from one address, after a pause
+    texture_bytes: int = 64 * 2**20  # of one texture in memory
+    upload_seconds: float = 60.0
     conversion_seconds: float = 60.0
-    conversions: int = 16
-    rate: float = 10.0
-    burst: int = 20
-    shapes: int = 10_000
-    total_bytes: int = 2**30
+    conversions: int = 16  # that may run or wait
 
     def __post_init__(self) -> None:
         for name in self.__slots__:
             value = getattr(self, name)
             if not value > 0:
-                raise LimitError(f"the limit {name.replace('_', ' ')} is {value:g}; it must be above 0")
+                raise ParameterError(f"`{name}` is {value:g}; it must be above 0")
 
 
 class Pace:
-    """How often each publisher may do a thing: a bucket of tokens that fills at a rate.
-
-    Parameters
-    ----------
-    rate : float
-        Tokens a second.
-    burst : int
-        Tokens in a full bucket.
-    clock : callable
-        Seconds.
+    """Limits the rate of each publisher: a bucket of `burst` tokens for each address, refilled by `rate` a second.
 
     Examples
     --------
@@ -86,7 +51,7 @@ class Pace:
         self._buckets: OrderedDict[str, tuple[float, float]] = OrderedDict()
 
     def wait(self, who: str) -> float:
-        """Take a token; 0 if there was one, else the seconds until there is."""
+        """Take a token; return 0 if there was one, else the seconds until there is."""
         now = self._clock()
         tokens, before = self._buckets.pop(who, (float(self._burst), now))
         tokens = min(tokens + (now - before) * self._rate, self._burst)
@@ -95,3 +60,32 @@ class Pace:
         if len(self._buckets) > MOST_KNOWN:
             self._buckets.popitem(last=False)
         return 0.0 if taken else (1.0 - tokens) / self._rate
+
+
+class FullError(LimitError):
+    """There is no room for a shape: remove others or raise the limit."""
+
+
+class LimitedShelf(Shelf):
+    """A shelf that accepts `Limits.max_shapes` shapes and `Limits.max_total` bytes."""
+
+    def __init__(self, limits: Limits) -> None:
+        super().__init__()
+        self._limits = limits
+
+    async def publish(self, shape: Shape) -> None:
+        """Keep a shape and tell all clients; raises what `check_room` raises."""
+        self.check_room(shape)
+        self.put(shape)
+
+    def check_room(self, shape: Shape) -> None:
+        """Raise a `FullError` if there would be too many shapes, or too many bytes."""
+        before = self.shape(shape.name)
+        if before is None and len(self.names) >= self._limits.max_shapes:
+            raise FullError(f"{shape.name}: there are {len(self.names)} shapes, the limit; replace one of them")
+        new = {file.name: len(file.data) for file in shape.files}
+        old = {file.name: len(file.data) for file in (before.files if before else ()) if self.owners(file.name) == 1}
+        size = self.nbytes - sum(old[name] for name in old.keys() - new.keys())
+        size += sum(new[name] for name in new if not self.owners(name))
+        if size > self._limits.max_total:
+            raise FullError(f"{shape.name}: all shapes then have {size} bytes; the limit is {self._limits.max_total}")

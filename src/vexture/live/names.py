@@ -1,4 +1,4 @@
-"""Names of shapes: what they may be made of, and what they are on disk."""
+"""Names of shapes: the rules that they follow, and the names of their files."""
 
 import hashlib
 import unicodedata
@@ -15,13 +15,10 @@ CATEGORIES: Final = ("L", "M", "N")
 
 
 def checked_name(name: str) -> str:
-    """Name of a shape in its one form (Unicode's NFC).
+    """Name of a shape in Unicode's normal form NFC.
 
-    Raises
-    ------
-    LimitError
-        If it is longer than 100 bytes; or if one of its parts between slashes is empty, holds anything but letters,
-        digits, spaces and ``._-``, starts with a dot, or starts or ends with a space.
+    It has at most 100 bytes. Each part between slashes holds letters, digits, spaces and ``._-``, but neither starts
+    with a dot nor starts or ends with a space. Other names raise a `LimitError`.
 
     Examples
     --------
@@ -57,7 +54,7 @@ def _check_part(part: str, shown: str) -> None:
 
 
 def manifest_name(name: str) -> str:
-    """Name of the file that says what a shape is: the same on every file system, whatever the shape's name.
+    """Name of a shape's manifest on disk, which every file system accepts.
 
     Examples
     --------

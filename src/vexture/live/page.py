@@ -1,4 +1,4 @@
-"""Pages, the viewer's and the flood's: as a server gives them out, and as one file that needs none."""
+"""The pages of the viewer and of a flood: as a server sends them, and as one file that needs no server."""
 
 import base64
 import hashlib
@@ -6,12 +6,12 @@ import html
 import json
 from collections.abc import Mapping, Sequence
 from importlib.resources import files
+from pathlib import Path
 from typing import Any, Final, NamedTuple
 
-from vexture.errors import DeviceError, VextureError
+from vexture.errors import DeviceError, ParameterError, VextureError
 from vexture.live.documents import THESIS_BITS, thesis_pair
-from vexture.live.manifest import manifest
-from vexture.live.shelf import File, Shape
+from vexture.live.shelf import File, Shape, manifest
 
 __all__ = [
     "FLOOD",
@@ -21,6 +21,7 @@ __all__ = [
     "VIEWER",
     "Bundle",
     "built",
+    "check_output",
     "data_address",
     "exported_page",
     "served_page",
@@ -29,7 +30,7 @@ __all__ = [
 
 
 class Bundle(NamedTuple):
-    """What a page consists of: names of files that `make viewer` makes."""
+    """Names of a page's files, which `make viewer` builds."""
 
     script: str
     style: str
@@ -39,21 +40,22 @@ SCRIPT, STYLE = VIEWER = Bundle("viewer.js", "viewer.css")
 FLOOD: Final = Bundle("flood.js", "flood.css")
 
 SERVED_SCENE: Final[Mapping[str, Any]] = {"server": "./"}
-"""What a served page is told: where its server is."""
+"""Data of a served page: where its server is."""
 
-PNG_TYPE = "image/png"
+PNG_TYPE: Final = "image/png"
+SUFFIXES: Final = (".html", ".htm")
 
 SERVED_POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
     "connect-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-"""What the served page may fetch: nothing from anywhere else."""
+"""A served page may fetch from its own server only."""
 
 EXPORTED_POLICY = (
     "default-src 'none'; script-src {script}; style-src 'unsafe-inline'; img-src data: blob:; "
     "connect-src data: blob:; base-uri 'none'; form-action 'none'"
 )
-"""What the page in one file may fetch: nothing at all but what is in it."""
+"""A page in one file may fetch only what it holds."""
 
 PAGE = """<!doctype html>
 <html lang="en">
@@ -76,13 +78,7 @@ PAGE = """<!doctype html>
 
 
 def built(name: str) -> bytes:
-    """One of the files that `make viewer` makes.
-
-    Raises
-    ------
-    DeviceError
-        If it is not made.
-    """
+    """Content of a file that `make viewer` builds; raises a `DeviceError` if it is not built."""
     try:
         return files("vexture.live").joinpath("built", name).read_bytes()
     except OSError:
@@ -90,6 +86,13 @@ def built(name: str) -> bytes:
             "the pages are not built; run `make viewer` in the repository (needs node and npm), or install a wheel, "
             "which holds them"
         ) from None
+
+
+def check_output(output: Path, bundle: Bundle) -> None:
+    """Refuse, before anything is converted, a page that is not built or a name that is not that of a page."""
+    if output.suffix.lower() not in SUFFIXES:
+        raise ParameterError(f"`output` {output}: the page is an HTML file; name one that ends in {SUFFIXES[0]}")
+    built(bundle.script)
 
 
 def served_page(bundle: Bundle = VIEWER, scene: Mapping[str, Any] = SERVED_SCENE, title: str = "vexture") -> bytes:
@@ -104,30 +107,13 @@ def served_page(bundle: Bundle = VIEWER, scene: Mapping[str, Any] = SERVED_SCENE
 
 
 def exported_page(shapes: Sequence[Shape], title: str) -> bytes:
-    """Return the viewer's page with everything in it: textures, sources, and both thesis encodings of each.
-
-    Parameters
-    ----------
-    shapes : sequence of Shape
-    title : str
-
-    Raises
-    ------
-    DeviceError
-        If the page is not built.
-    """
+    """Return the viewer's page with textures, sources and both thesis encodings of the shapes in it."""
     manifests = [manifest(shape, None, _embedded_pairs(shape), address=data_address) for shape in shapes]
     return whole_page(VIEWER, {"shapes": manifests}, title)
 
 
 def whole_page(bundle: Bundle, scene: Mapping[str, Any], title: str) -> bytes:
-    """Return a page that holds its script, its style and its scene.
-
-    Raises
-    ------
-    DeviceError
-        If the page is not built.
-    """
+    """Return a page that holds its script, its style and its scene."""
     script = _in_html(built(bundle.script).decode())
     style = built(bundle.style).decode().replace("</", "<\\/")
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
@@ -142,7 +128,7 @@ def whole_page(bundle: Bundle, scene: Mapping[str, Any], title: str) -> bytes:
 
 
 def data_address(file: File) -> str:
-    """Address that is the file.
+    """Data URL of a file.
 
     Examples
     --------
@@ -153,7 +139,7 @@ def data_address(file: File) -> str:
 
 
 def _embedded_pairs(shape: Shape) -> dict[str, Any]:
-    """Thesis encodings of a shape, or why there is none; nothing for a texture without its drawing."""
+    """Thesis encodings of a shape, or why there are none; nothing for a texture without its drawing."""
     if "svg" not in shape.views:
         return {}
     pairs: dict[str, Any] = {}

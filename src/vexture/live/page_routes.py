@@ -1,7 +1,6 @@
-"""What the viewer's server answers beside its shapes: the page, comparisons with the thesis, files dropped on it."""
+"""Routes of the viewer's server beside its shapes: the page, thesis encodings to compare with, dropped files."""
 
 import asyncio
-import ipaddress
 from collections import OrderedDict
 from collections.abc import Collection
 from urllib.parse import quote, urlsplit
@@ -9,24 +8,22 @@ from urllib.parse import quote, urlsplit
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import BaseRoute, Route
-from starlette.types import ASGIApp, Receive, Scope, Send
 
 from vexture.encodings import find_encoding
-from vexture.errors import VextureError
+from vexture.errors import EXPECTED
 from vexture.live.documents import THESIS_BITS, shape_of, thesis_pair
-from vexture.live.manifest import manifest
 from vexture.live.page import PNG_TYPE, SERVED_POLICY, VIEWER, Bundle, built, served_page
-from vexture.live.routes import FOREVER, fixed, refusal
-from vexture.live.shelf import Shape, Shelf
-from vexture.settings import Settings
+from vexture.live.routes import FOREVER, NO_SNIFFING, fixed, refusal
+from vexture.live.shelf import Shape, Shelf, manifest
+from vexture.pipeline import Parameters
 
-__all__ = ["KnownHosts", "dropping_routes", "page_routes", "thesis_addresses", "thesis_routes"]
+__all__ = ["dropping_routes", "page_routes", "thesis_addresses", "thesis_routes"]
 
 DROPPED_BYTES = 64 * 2**20
-"""How large a file may be that is dropped on the page."""
+"""Largest file that may be dropped on the page."""
 
 MOST_DROPPED = 64
-"""Dropped files that are kept; the oldest goes."""
+"""Dropped files that are kept; the oldest is removed."""
 
 MOST_PAIRS = 32
 """Thesis encodings that are kept, each a few kilobytes."""
@@ -34,89 +31,19 @@ MOST_PAIRS = 32
 MOST_NAME_LENGTH = 200
 
 
-class KnownHosts:
-    """Answers only to those who know where they are: by an IP address, ``localhost`` or names of ours.
-
-    A page of a stranger can let a name of its own stand for this machine (DNS rebinding); then it would be of the same
-    origin as the viewer and could read drawings. It cannot be of the same origin as an address.
-
-    Parameters
-    ----------
-    app : ASGI application
-    names : collection of str
-        Further names that this server may be called by.
-    """
-
-    def __init__(self, app: ASGIApp, names: Collection[str] = ()) -> None:
-        self.app = app
-        self.names: set[str] = {"localhost", *(name.lower() for name in names)}
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass on, or refuse."""
-        if scope["type"] == "http":
-            host = dict(scope["headers"]).get(b"host", b"").decode("latin-1")
-            if not self.knows(host):
-                answer = refusal(421, f"host {host[:100]!r} is not this server; open it by the address that it printed")
-                await answer(scope, receive, send)
-                return
-        await self.app(scope, receive, send)
-
-    def knows(self, host: str) -> bool:
-        """Whether a ``Host`` header means us.
-
-        Examples
-        --------
-        >>> known = KnownHosts(None, ["studio"])
-        >>> [known.knows(host) for host in ("127.0.0.1:80", "[::1]:80", "Studio", "evil.example:80", "")]
-        [True, True, True, False, False]
-        """
-        try:
-            name = urlsplit(f"//{host}").hostname or ""
-        except ValueError:
-            return False
-        if name in self.names:
-            return True
-        try:
-            ipaddress.ip_address(name)
-        except ValueError:
-            return False
-        return True
-
-
 def page_routes(bundle: Bundle = VIEWER, page: bytes | None = None) -> list[BaseRoute]:
-    """Routes of a page, its script and style.
-
-    Parameters
-    ----------
-    bundle : Bundle
-        The viewer's, or another page's.
-    page : bytes, optional
-        From `served_page`; by default the viewer's.
-
-    Raises
-    ------
-    DeviceError
-        If it is not built.
-    """
-    common = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff", "Referrer-Policy": "no-referrer"}
-    content = served_page(bundle) if page is None else page
-    contents: tuple[tuple[str, bytes, str, dict[str, str]], ...] = (
-        ("/", content, "text/html", {"Content-Security-Policy": SERVED_POLICY}),
-        (f"/{bundle.script}", built(bundle.script), "text/javascript", {}),
-        (f"/{bundle.style}", built(bundle.style), "text/css", {}),
-    )
-    return [fixed(path, content, kind, {**common, **headers}) for path, content, kind, headers in contents]
+    """Routes of a page (from `served_page`; by default the viewer's), its script and its style."""
+    common = {"Cache-Control": "no-cache", **NO_SNIFFING, "Referrer-Policy": "no-referrer"}
+    policy = {"Content-Security-Policy": SERVED_POLICY}
+    return [
+        fixed("/", served_page(bundle) if page is None else page, "text/html", common | policy),
+        fixed(f"/{bundle.script}", built(bundle.script), "text/javascript", common),
+        fixed(f"/{bundle.style}", built(bundle.style), "text/css", common),
+    ]
 
 
 def thesis_addresses(shape: Shape) -> dict[str, list[str]]:
-    """Addresses of a shape's thesis encodings, relative to its manifest; none without its drawing.
-
-    Examples
-    --------
-    >>> from vexture.live.shelf import File
-    >>> thesis_addresses(Shape("duck", File(b"", "image/ktx2", ".ktx2")))
-    {}
-    """
+    """Addresses of a shape's thesis encodings, relative to its manifest; none without its drawing."""
     if "svg" not in shape.views:
         return {}
     return {
@@ -126,7 +53,7 @@ def thesis_addresses(shape: Shape) -> dict[str, list[str]]:
 
 
 def thesis_routes(shelf: Shelf) -> list[BaseRoute]:
-    """Routes of the thesis encodings of a shelf's shapes, which are made when someone wants to see them."""
+    """Routes of the thesis encodings of a shelf's shapes, which are converted when they are first asked for."""
     files = {
         view + suffix: (bits, place)
         for view, bits in THESIS_BITS.items()
@@ -146,24 +73,17 @@ def thesis_routes(shelf: Shelf) -> list[BaseRoute]:
                 pairs.popitem(last=False)
         try:
             pair = await asyncio.shield(pairs[version, bits])
-        except VextureError as error:
+        except EXPECTED as error:
             return refusal(422, str(error))
-        headers = {"Cache-Control": FOREVER, "X-Content-Type-Options": "nosniff"}
-        return Response(pair[place], media_type=PNG_TYPE, headers=headers)
+        return Response(pair[place], media_type=PNG_TYPE, headers={"Cache-Control": FOREVER, **NO_SNIFFING})
 
     return [Route("/views/{version}/{name}", view)]
 
 
-def dropping_routes(shelf: Shelf, settings: Settings, given: Collection[str]) -> list[BaseRoute]:
+def dropping_routes(shelf: Shelf, parameters: Parameters, given: Collection[str]) -> list[BaseRoute]:
     """Route that converts a file dropped on the page, and publishes it.
 
-    Parameters
-    ----------
-    shelf : Shelf
-    settings : Settings
-        How drawings are converted.
-    given : collection of str
-        Names of shapes that stay: a dropped file of such a name gets another one.
+    The names in `given` are those of shapes that stay: a dropped file of such a name gets another one.
     """
     dropped: OrderedDict[str, None] = OrderedDict()
 
@@ -180,10 +100,10 @@ def dropping_routes(shelf: Shelf, settings: Settings, given: Collection[str]) ->
             data = await _body(request)
             if data is None:
                 return refusal(413, f"the file is larger than {DROPPED_BYTES:,} bytes; start `vexture view` with it")
-            shape = await asyncio.to_thread(shape_of, data, file_name, name, settings)
+            shape = await asyncio.to_thread(shape_of, data, file_name, name, parameters)
         except ClientDisconnect:
             return refusal(400, "the file did not arrive")
-        except VextureError as error:
+        except EXPECTED as error:
             return refusal(422, str(error))
         shelf.put(shape)
         dropped[name] = None

@@ -1,34 +1,29 @@
-"""Publishing: who may, how much and how often, and what each refusal says."""
+"""Uploads of shapes: authorization, limits, and the answer to each upload that is refused."""
 
 import asyncio
 import hmac
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager, suppress
+from contextlib import suppress
 from math import ceil
 from typing import Final
 
-from starlette.applications import Starlette
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import BaseRoute, Route
 
-from vexture.errors import DeviceError, LimitError, VextureError
+from vexture.errors import EXPECTED, DeviceError, LimitError
 from vexture.live.converter import BusyError, Converter
-from vexture.live.folder import Folder
-from vexture.live.limits import Limits, Pace
-from vexture.live.manifest import manifest
+from vexture.live.limits import FullError, LimitedShelf, Limits, Pace
 from vexture.live.names import checked_name
-from vexture.live.quota import FullError, LimitedShelf
 from vexture.live.routes import entity_tag, levels_below, refusal
+from vexture.live.shelf import manifest
 
-__all__ = ["publishing_routes", "working"]
+__all__ = ["publishing_routes"]
 
 DRAINED: Final = 4
-"""Of a body that is refused, this many times the limit is read, so that the client gets to see why."""
+"""Times the limit. So much of a refused body is read: a client that still sends does not see the answer."""
 
 CHALLENGE: Final = {"WWW-Authenticate": 'Bearer realm="vexture"'}
 WRONG: Final = {"WWW-Authenticate": 'Bearer realm="vexture", error="invalid_token"'}
-SOON: Final = {"Retry-After": "5"}
 
 
 class _RefusedError(Exception):
@@ -40,22 +35,15 @@ class _RefusedError(Exception):
 
 
 def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits, token: str | None) -> list[BaseRoute]:
-    """Routes to publish shapes in a shelf.
-
-    Parameters
-    ----------
-    shelf : LimitedShelf
-        Where they come to.
-    converter : Converter
-    limits : Limits
-    token : str or None
-        What who publishes must know; without one nobody can.
-    """
+    """Routes to publish shapes on a shelf with the token; without one, all uploads are refused."""
     pace = Pace(limits.rate, limits.burst)
 
     def admitted(request: Request) -> str:
         _check_token(request, token)
-        name = _name_of(request)
+        try:
+            name = checked_name(request.path_params["name"])
+        except LimitError as error:
+            raise _RefusedError(400, str(error)) from None
         if wait := pace.wait(request.client.host if request.client else ""):
             line = f"more than {limits.rate:g} uploads a second; wait {wait:.1f} s"
             raise _RefusedError(429, line, {"Retry-After": str(ceil(wait))})
@@ -67,20 +55,22 @@ def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits,
         except _RefusedError as error:
             with suppress(TimeoutError, ClientDisconnect):
                 await _received(request, limits, 0)
-            return _answer(error)
+            return refusal(error.status, error.line, error.headers)
         try:
             data = await _body(request, limits)
-            with converter.place():  # not before it is here: who sends slowly keeps nobody waiting
+            with converter.place():  # not before the upload is here: a slow sender takes no place
                 return await published(name, data, levels_below(request))
-        except (_RefusedError, BusyError) as error:
-            return _answer(error)
+        except _RefusedError as error:
+            return refusal(error.status, error.line, error.headers)
+        except BusyError as error:
+            return refusal(503, str(error), {"Retry-After": "5"})
 
     async def published(name: str, data: bytes, levels: int) -> Response:
         try:
             shape = await converter.shape_of(data, name)
         except BusyError:
             raise
-        except VextureError as error:
+        except EXPECTED as error:
             if shelf.shape(name) is not None:
                 shelf.refuse(name, str(error))
             return refusal(422, str(error))
@@ -95,12 +85,6 @@ def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits,
     return [Route("/shapes/{name:path}", put, methods=["PUT"])]
 
 
-def _answer(error: _RefusedError | BusyError) -> Response:
-    if isinstance(error, BusyError):
-        return refusal(503, str(error), SOON)
-    return refusal(error.status, error.line, error.headers)
-
-
 def _check_token(request: Request, token: str | None) -> None:
     if token is None:
         raise _RefusedError(403, "this server takes no uploads; start it with --token-file")
@@ -108,27 +92,18 @@ def _check_token(request: Request, token: str | None) -> None:
     if scheme.lower() != "bearer":
         raise _RefusedError(401, "uploads need the header Authorization: Bearer TOKEN", CHALLENGE)
     if not hmac.compare_digest(given.strip().encode(), token.encode()):
-        raise _RefusedError(
-            401, "the token is wrong", {"WWW-Authenticate": CHALLENGE["WWW-Authenticate"] + ', error="invalid_token"'}
-        )
-
-
-def _name_of(request: Request) -> str:
-    try:
-        return checked_name(request.path_params["name"])
-    except LimitError as error:
-        raise _RefusedError(400, str(error)) from None
+        raise _RefusedError(401, "the token is wrong", WRONG)
 
 
 async def _body(request: Request, limits: Limits) -> bytes:
-    """Content of an upload, if it is not too large and comes in time."""
-    most = limits.body_bytes
+    """Content of an upload that is not too large and arrives in time."""
+    most = limits.max_bytes
     length = request.headers.get("content-length", "0")
     too_large = int(length[:20]) > most if length.isdecimal() else True
     try:
         body, size = await _received(request, limits, 0 if too_large else most)
     except TimeoutError:
-        raise _RefusedError(408, f"the upload took longer than {limits.body_seconds:g} s; try again") from None
+        raise _RefusedError(408, f"the upload took longer than {limits.upload_seconds:g} s; try again") from None
     except ClientDisconnect:
         raise _RefusedError(400, "the upload broke off; try again") from None
     if too_large or size > most:
@@ -137,36 +112,13 @@ async def _body(request: Request, limits: Limits) -> bytes:
 
 
 async def _received(request: Request, limits: Limits, kept: int) -> tuple[bytes, int]:
-    """Read a body: what is kept of it, and how long it is as far as it is read.
-
-    What is too large is read on up to a limit: a client that still sends does not see the answer.
-    """
+    """Read a body: its content, if it has at most `kept` bytes, and the number of bytes read."""
     body, size = bytearray(), 0
-    async with asyncio.timeout(limits.body_seconds):
+    async with asyncio.timeout(limits.upload_seconds):
         async for chunk in request.stream():
             size += len(chunk)
             if size <= kept:
                 body += chunk
-            elif size > DRAINED * limits.body_bytes:
+            elif size > DRAINED * limits.max_bytes:
                 break
     return bytes(body), size
-
-
-@asynccontextmanager
-async def working(folder: Folder, converter: Converter, app: Starlette) -> AsyncIterator[None]:
-    """Convert what lies in the folder while the server answers already; end with it."""
-
-    async def start() -> None:
-        with suppress(BusyError):
-            await converter.warm()
-            await folder.take_drawings(converter)
-
-    task = asyncio.create_task(start())
-    try:
-        yield
-    finally:
-        converter.close()
-        task.cancel()
-        with suppress(asyncio.CancelledError):
-            await task
-        folder.release()

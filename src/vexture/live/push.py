@@ -8,7 +8,7 @@ from urllib.error import HTTPError, URLError
 from urllib.parse import quote, unquote, urlsplit, urlunsplit
 from urllib.request import Request, urlopen
 
-from vexture.errors import DeviceError, LimitError, VextureError
+from vexture.errors import DeviceError, ParameterError, VextureError
 from vexture.live.names import checked_name
 
 __all__ = ["push"]
@@ -18,57 +18,20 @@ SECONDS: Final = 150.0
 
 LONGEST_ANSWER: Final = 2**20
 SHAPES: Final = "/shapes"
-TYPES: Final = {
-    ".bmp": "image/bmp",
-    ".fgb": "application/flatgeobuf",
-    ".geojson": "application/geo+json",
-    ".gif": "image/gif",
-    ".gpkg": "application/geopackage+sqlite3",
-    ".jpeg": "image/jpeg",
-    ".jpg": "image/jpeg",
-    ".json": "application/geo+json",
-    ".ktx2": "image/ktx2",
-    ".nc": "application/netcdf",
-    ".png": "image/png",
-    ".svg": "image/svg+xml",
-    ".tif": "image/tiff",
-    ".tiff": "image/tiff",
-    ".webp": "image/webp",
-    ".zip": "application/zip",
-}
 
 
 def push(path: Path, url: str, token: str) -> dict[str, str]:
-    """Publish a file.
+    """Publish a file at a server, or at ``server/shapes/NAME``; the name is otherwise the file's, without its suffix.
 
-    Parameters
-    ----------
-    path : path
-        SVG, GeoJSON, a picture to trace or a packed texture; for a server of `vexture flood` any geographic data that
-        it reads.
-    url : str
-        A server, or ``server/shapes/NAME``; the name is otherwise the file's, without its suffix.
-    token : str
-
-    Returns
-    -------
-    dict of str
-        ``url``, where its manifest is; ``name``, ``version`` and ``bytes``.
-
-    Raises
-    ------
-    VextureError
-        If the file cannot be read, or the server cannot be reached or refuses.
+    Returns the manifest's address as ``url``, and its ``name``, ``version`` and ``bytes``.
     """
     target = target_of(url, path.stem)
     try:
         data = path.read_bytes()
     except OSError as error:
         raise DeviceError(f"{path}: cannot be read ({error.strerror}); name another file") from None
-    headers = {
-        "Authorization": f"Bearer {token}",
-        "Content-Type": TYPES.get(path.suffix.lower(), "application/octet-stream"),
-    }
+    # the server decides by the content what it is
+    headers = {"Authorization": f"Bearer {token}", "Content-Type": "application/octet-stream"}
     try:
         with urlopen(Request(target, data, headers, method="PUT"), timeout=SECONDS) as answer:
             manifest = json.loads(answer.read(LONGEST_ANSWER))
@@ -86,11 +49,6 @@ def push(path: Path, url: str, token: str) -> dict[str, str]:
 def target_of(url: str, stem: str) -> str:
     """Address of a shape.
 
-    Raises
-    ------
-    LimitError
-        If it is no address, or the name is not allowed.
-
     Examples
     --------
     >>> target_of("http://127.0.0.1:8000", "kaart van Delft")
@@ -104,7 +62,7 @@ def target_of(url: str, stem: str) -> str:
     except ValueError:
         usable = False
     if not usable or not url.isprintable():
-        raise LimitError(f"{url!r} is no address of a server; give one such as http://127.0.0.1:8000")
+        raise ParameterError(f"{url!r} is not the address of a server; use one such as http://127.0.0.1:8000")
     base, found, name = parts.path.rpartition(f"{SHAPES}/")
     if not found:
         base, name = parts.path.rstrip("/").removesuffix(SHAPES), ""

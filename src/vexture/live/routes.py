@@ -1,11 +1,12 @@
 """What every server answers: the list of shapes, their manifests, their files, and the stream of changes."""
 
 import hashlib
+import ipaddress
 import json
 import unicodedata
 from collections.abc import AsyncIterator, Callable, Mapping
-from contextlib import AbstractAsyncContextManager
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
+from urllib.parse import urlsplit
 
 from sse_starlette import EventSourceResponse, ServerSentEvent
 from starlette.applications import Starlette
@@ -15,47 +16,91 @@ from starlette.middleware.cors import CORSMiddleware
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import BaseRoute, Route
+from starlette.types import ASGIApp, Receive, Scope, Send
 
-from vexture.live.manifest import manifest
-from vexture.live.shelf import Shape, Shelf
+from vexture.live.listen import Lifespan
+from vexture.live.shelf import Shape, Shelf, manifest
 
-__all__ = ["FOREVER", "application", "fixed", "levels_below", "refusal", "routes"]
+__all__ = [
+    "FOREVER",
+    "NO_SNIFFING",
+    "KnownHosts",
+    "application",
+    "entity_tag",
+    "fixed",
+    "levels_below",
+    "refusal",
+    "routes",
+]
 
 PING_SECONDS: Final = 15
 SEND_SECONDS: Final = 30
-"""A client that takes nothing for this long is let go."""
+"""A client that reads nothing for this long is disconnected."""
 
 FOREVER: Final = "public, max-age=31536000, immutable"
 SVG_POLICY: Final = "sandbox; default-src 'none'; style-src 'unsafe-inline'"
+NO_SNIFFING: Final = {"X-Content-Type-Options": "nosniff"}
 
-Lifespan = Callable[[Starlette], AbstractAsyncContextManager[None]]
-
-Views = Callable[[Shape], Mapping[str, Any]]
+Views: TypeAlias = Callable[[Shape], Mapping[str, Any]]
 """What a manifest names beside the files of a shape, relative to the manifest."""
 
+OTHER_ORIGINS: Final = Middleware(
+    CORSMiddleware,
+    allow_origins=["*"],
+    allow_methods=["GET", "HEAD"],
+    allow_headers=["If-None-Match", "Cache-Control", "Last-Event-ID"],
+    expose_headers=["ETag"],
+    max_age=86400,
+)
+"""Lets pages of other origins read."""
 
-def application(listed: list[BaseRoute], *, open_to_all: bool, lifespan: Lifespan | None = None) -> Starlette:
+
+class KnownHosts:
+    """Answers only requests to an IP address, ``localhost`` or the name of this server.
+
+    A hostile page can make its own name stand for this machine (DNS rebinding). It would then have the same origin as
+    the viewer and could read drawings. It cannot have the same origin as an IP address.
+    """
+
+    def __init__(self, app: ASGIApp, name: str) -> None:
+        self.app = app
+        self.names = {"localhost", name.lower()}
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass a request on, or refuse it."""
+        if scope["type"] == "http":
+            host = dict(scope["headers"]).get(b"host", b"").decode("latin-1")
+            if not self.knows(host):
+                answer = refusal(421, f"host {host[:100]!r} is not this server; open it by the address that it printed")
+                await answer(scope, receive, send)
+                return
+        await self.app(scope, receive, send)
+
+    def knows(self, host: str) -> bool:
+        """Whether a ``Host`` header names this server.
+
+        Examples
+        --------
+        >>> known = KnownHosts(None, "studio")
+        >>> [known.knows(host) for host in ("127.0.0.1:80", "[::1]:80", "Studio", "evil.example:80", "")]
+        [True, True, True, False, False]
+        """
+        try:
+            name = urlsplit(f"//{host}").hostname or ""
+            return name in self.names or bool(ipaddress.ip_address(name))
+        except ValueError:
+            return False
+
+
+def application(listed: list[BaseRoute], *, only_at: str | None = None, lifespan: Lifespan | None = None) -> Starlette:
     """Make routes an application whose errors are JSON.
 
-    Parameters
-    ----------
-    listed : list of route
-    open_to_all : bool
-        Whether pages of other origins may read (`GET` only).
-    lifespan : callable, optional
-        Context in which it runs.
+    With `only_at` it answers only requests that name this host or the machine itself (`KnownHosts`). Otherwise it
+    answers everyone, and lets pages of other origins read.
     """
-    reading = Middleware(
-        CORSMiddleware,
-        allow_origins=["*"],
-        allow_methods=["GET", "HEAD"],
-        allow_headers=["If-None-Match", "Cache-Control", "Last-Event-ID"],
-        expose_headers=["ETag"],
-        max_age=86400,
-    )
     return Starlette(
         routes=listed,
-        middleware=[reading] if open_to_all else [],
+        middleware=[OTHER_ORIGINS if only_at is None else Middleware(KnownHosts, name=only_at)],
         lifespan=lifespan,
         exception_handlers={HTTPException: _told, Exception: _failed},
     )
@@ -81,13 +126,11 @@ async def _failed(request: Request, error: Exception) -> Response:
 
 
 def fixed(path: str, content: bytes, media_type: str, headers: Mapping[str, str]) -> Route:
-    """Route of something that never changes while the server runs."""
-    tag = f'"{hashlib.sha256(content).hexdigest()[:32]}"'
+    """Route of content that never changes while the server runs."""
+    tagged = {"ETag": f'"{hashlib.sha256(content).hexdigest()[:32]}"', **headers}
 
     async def answer(request: Request) -> Response:
-        if is_known(tag, request.headers.get("if-none-match", "")):
-            return Response(status_code=304, headers={"ETag": tag, **headers})
-        return Response(content, media_type=media_type, headers={"ETag": tag, **headers})
+        return _unchanged(request, tagged) or Response(content, media_type=media_type, headers=tagged)
 
     return Route(path, answer)
 
@@ -102,14 +145,7 @@ def levels_below(request: Request) -> int:
 
 
 def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[BaseRoute]:
-    """Routes to read the shapes of a shelf.
-
-    Parameters
-    ----------
-    shelf : Shelf
-    views : callable
-        Gives what a shape's manifest names under ``views`` beside the shape's own files.
-    """
+    """Routes to read the shapes of a shelf, whose manifests also name what `views` gives."""
 
     async def shapes(request: Request) -> Response:
         return JSONResponse({"shapes": shelf.names}, headers={"Cache-Control": "no-cache"})
@@ -119,25 +155,20 @@ def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[BaseRoute]:
         shape = shelf.shape(name)
         if shape is None:
             return refusal(404, f"no shape {name[:100]!r}; /shapes lists the names")
-        note = shelf.note(name)
-        tag = entity_tag(shape.version, note)
-        headers = {"ETag": tag, "Cache-Control": "no-cache"}
-        if is_known(tag, request.headers.get("if-none-match", "")):
-            return Response(status_code=304, headers=headers)
-        return JSONResponse(manifest(shape, note, views(shape), levels=levels_below(request)), headers=headers)
+        note = shelf.notes.get(name)
+        headers = {"ETag": entity_tag(shape.version, note), "Cache-Control": "no-cache"}
+        told = manifest(shape, note, views(shape), levels=levels_below(request))
+        return _unchanged(request, headers) or JSONResponse(told, headers=headers)
 
     async def file(request: Request) -> Response:
         name = request.path_params["name"]
         found = shelf.file(name)
         if found is None:
             return refusal(404, f"no file {name[:100]!r}; the manifest of its shape names the newest")
-        tag = f'"{name}"'
-        headers = {"ETag": tag, "Cache-Control": FOREVER, "X-Content-Type-Options": "nosniff"}
+        headers = {"ETag": f'"{name}"', "Cache-Control": FOREVER, **NO_SNIFFING}
         if found.media_type.startswith("image/svg"):
             headers["Content-Security-Policy"] = SVG_POLICY
-        if is_known(tag, request.headers.get("if-none-match", "")):
-            return Response(status_code=304, headers=headers)
-        return Response(found.data, media_type=found.media_type, headers=headers)
+        return _unchanged(request, headers) or Response(found.data, media_type=found.media_type, headers=headers)
 
     async def events(request: Request) -> Response:
         return EventSourceResponse(
@@ -153,29 +184,28 @@ def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[BaseRoute]:
 
 
 async def stream(shelf: Shelf) -> AsyncIterator[ServerSentEvent]:
-    """All versions and notes first, so that a client that comes back catches up; then what happens."""
+    """First all versions and notes, so that a client that comes back catches up; then the changes."""
+
+    def event(kind: str, data: Mapping[str, Any]) -> ServerSentEvent:
+        return ServerSentEvent(json.dumps(dict(data), separators=(",", ":")), event=kind)
+
     with shelf.events() as listener:
-        yield said("hello", {"versions": shelf.versions})
+        yield event("hello", {"versions": shelf.versions})
         for name, message in shelf.notes.items():
-            yield said("note", {"name": name, "message": message})
-        while (event := await listener.next()) is not None:
-            yield said(event.kind, event.data)
-
-
-def said(kind: str, data: Mapping[str, Any]) -> ServerSentEvent:
-    """One event as it is sent."""
-    return ServerSentEvent(json.dumps(dict(data), separators=(",", ":")), event=kind)
+            yield event("note", {"name": name, "message": message})
+        while (change := await listener.next()) is not None:
+            yield event(change.kind, change.data)
 
 
 def entity_tag(version: str, note: str | None) -> str:
-    """Tag of a manifest: its version, and what tells one note from another.
-
-    Examples
-    --------
-    >>> entity_tag("0a", None)
-    '"0a"'
-    """
+    """Tag of a manifest: its version, and a digest of the note."""
     return f'"{version}"' if note is None else f'"{version}-{hashlib.sha256(note.encode()).hexdigest()[:8]}"'
+
+
+def _unchanged(request: Request, headers: Mapping[str, str]) -> Response | None:
+    """Answer 304 to a client that has the content of this ``ETag`` already, or None."""
+    known = is_known(headers["ETag"], request.headers.get("if-none-match", ""))
+    return Response(status_code=304, headers=headers) if known else None
 
 
 def is_known(tag: str, header: str) -> bool:

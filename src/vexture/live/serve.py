@@ -1,21 +1,20 @@
-"""`vexture serve`: the shapes of a folder, for who reads and who publishes."""
+"""`vexture serve`: the shapes of a folder, for readers and publishers."""
 
 from collections.abc import Callable
 from contextlib import closing, suppress
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 from starlette.routing import BaseRoute
 
 from vexture.errors import DeviceError
-from vexture.live.converter import Converter
-from vexture.live.documents import PUBLISHED_SETTINGS
+from vexture.live.converter import BusyError, Converter
+from vexture.live.documents import PUBLISHED_PARAMETERS
 from vexture.live.folder import Folder
 from vexture.live.limits import Limits
-from vexture.live.listen import address, bind, serve_until_stopped
+from vexture.live.listen import address, background, bind, serve_until_stopped
 from vexture.live.page_routes import page_routes
-from vexture.live.publishing import publishing_routes, working
+from vexture.live.publishing import publishing_routes
 from vexture.live.routes import application, routes
 from vexture.live.tokens import read_token
 
@@ -31,35 +30,23 @@ def serve(
     precision: float | None,
     say: Callable[[str], None],
 ) -> None:
-    """Serve a folder until Ctrl-C or SIGTERM.
+    """Serve a folder until Ctrl-C or SIGTERM; without a token nothing can be published.
 
-    Parameters
-    ----------
-    path : path
-        The folder.
-    token_file : path or None
-        Holds what who publishes must know; without one nothing can be published.
-    host, port : str, int
-        Where to listen.
-    limits : Limits
-    precision : float or None
-        Of drawings that are converted; see `vexture.convert`.
-    say : callable
-        Takes one line: first where the server is.
-
-    Raises
-    ------
-    VextureError
-        If it cannot start.
+    `precision` is that of conversions; `say` takes lines for the user, first the address of the server.
     """
     token = None if token_file is None else read_token(token_file)
     with closing(bind(host, port)) as taken:
         folder = Folder(path, limits, say)
-        converter = Converter(limits, replace(PUBLISHED_SETTINGS, precision=precision))
+        converter = Converter(limits, replace(PUBLISHED_PARAMETERS, precision=precision))
+
+        async def start() -> None:
+            with suppress(BusyError):
+                await converter.warm()
+                await folder.take_drawings(converter)
+
         app = application(
             [*routes(folder), *publishing_routes(folder, converter, limits, token), *_page()],
-            open_to_all=True,
-            lifespan=partial(working, folder, converter),
+            lifespan=background(start),
         )
 
         def stop() -> None:
@@ -67,7 +54,10 @@ def serve(
             converter.close()
 
         say(f"serving {len(folder.names)} shapes of {path} at {address(taken)}")
-        serve_until_stopped(app, taken, stop)
+        try:
+            serve_until_stopped(app, taken, stop)
+        finally:
+            folder.release()
 
 
 def _page() -> list[BaseRoute]:

@@ -1,40 +1,32 @@
-"""Shapes by name, the files that clients fetch for them, and who waits for changes."""
+"""Published shapes: their files, what clients are told of them, and the clients that listen for changes."""
 
 import asyncio
 import hashlib
 import json
 from collections import Counter, OrderedDict
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Final, NamedTuple
 
-__all__ = ["TEXTURE_TYPE", "Event", "File", "Listener", "Shape", "Shelf"]
+__all__ = ["TEXTURE_TYPE", "Event", "File", "Listener", "Shape", "Shelf", "manifest"]
 
 TEXTURE_TYPE: Final = "image/ktx2"
 
 DIGEST_LENGTH: Final = 32  # hexadecimal digits: 128 bits are enough to name a file after its content
 
 REPLACED_BYTES: Final = 32 * 2**20
-"""Of files that were replaced and are still served, for clients that have just read the manifest before."""
+"""Of replaced files that are still served, to clients that have just read the previous manifest."""
 
 
 @dataclass(frozen=True)
 class File:
-    """Bytes that are served under a name made of their digest, and so never change.
-
-    Parameters
-    ----------
-    data : bytes
-    media_type : str
-    suffix : str
-        End of its name, such as ``.ktx2``.
-    """
+    """Bytes that are served under the name of their digest, and so never change."""
 
     data: bytes
     media_type: str
-    suffix: str
+    suffix: str  # of its name, such as .ktx2
 
     @cached_property
     def name(self) -> str:
@@ -50,23 +42,12 @@ class File:
 
 @dataclass(frozen=True)
 class Shape:
-    """One published shape or drawing.
-
-    Parameters
-    ----------
-    name : str
-    texture : File
-        Its packed texture.
-    facts : mapping
-        Counts, sizes and times for people, ready for JSON.
-    views : mapping
-        Files that are compared with the texture: ``svg``, the source.
-    """
+    """One published shape or drawing."""
 
     name: str
-    texture: File
-    facts: Mapping[str, Any] = field(default_factory=dict)
-    views: Mapping[str, File] = field(default_factory=dict)
+    texture: File  # packed
+    facts: Mapping[str, Any] = field(default_factory=dict)  # counts, sizes and times, ready for JSON
+    views: Mapping[str, File] = field(default_factory=dict)  # to compare with the texture: svg, the source
 
     @cached_property
     def version(self) -> str:
@@ -80,6 +61,34 @@ class Shape:
         return (self.texture, *self.views.values())
 
 
+def manifest(
+    shape: Shape,
+    note: str | None,
+    views: Mapping[str, Any],
+    *,
+    levels: int = 0,
+    address: Callable[[File], str] | None = None,
+) -> dict[str, Any]:
+    """Describe a shape to clients, ready for JSON.
+
+    The note says why its last update was refused, if it was. The views are addresses of what the texture can be
+    compared with, beside the shape's own files. Addresses are relative to that of the manifest, which is some levels
+    below ``shapes/``. On a page without a server, and so without a stream of changes, `address` gives those of files.
+    """
+    top = "../" * (levels + 1)
+    where = address or (lambda file: f"{top}files/{file.name}")
+    return {
+        "name": shape.name,
+        "version": shape.version,
+        "texture": where(shape.texture),
+        "bytes": len(shape.texture.data),
+        "events": None if address else f"{top}events",
+        "facts": dict(shape.facts),
+        "views": {what: where(file) for what, file in shape.views.items()} | dict(views),
+        "note": note,
+    }
+
+
 class Event(NamedTuple):
     """Something that happened: ``shape`` (name, version), ``gone`` (name) or ``note`` (name, message)."""
 
@@ -88,16 +97,7 @@ class Event(NamedTuple):
 
 
 class Listener:
-    """What one client has still to be told: of each name the newest only, so that a slow client costs no more.
-
-    Examples
-    --------
-    >>> listener = Listener()
-    >>> for version in "abc":
-    ...     listener.tell(Event("shape", {"name": "duck", "version": version}))
-    >>> len(listener)
-    1
-    """
+    """Events that one client has still to receive: the newest of each name, so that a slow client costs no more."""
 
     def __init__(self) -> None:
         self._pending: OrderedDict[tuple[str, str], Event] = OrderedDict()
@@ -108,7 +108,7 @@ class Listener:
         return len(self._pending)
 
     def tell(self, event: Event) -> None:
-        """Add an event, in the place of those that it makes pointless."""
+        """Add an event, and drop those that it supersedes."""
         name = event.data["name"]
         for kind in ("note",) if event.kind == "note" else ("shape", "gone", "note"):
             self._pending.pop((kind, name), None)
@@ -116,7 +116,7 @@ class Listener:
         self._something.set()
 
     def close(self) -> None:
-        """Nothing more will come."""
+        """End the stream after the events that are pending."""
         self._closed = True
         self._something.set()
 
@@ -154,7 +154,7 @@ class Shelf:
 
     @property
     def notes(self) -> dict[str, str]:
-        """Why the last update of a name was refused, of each of which it was."""
+        """Why the last update of a shape was refused, by the names of those of which it was."""
         return dict(self._notes)
 
     @property
@@ -166,20 +166,16 @@ class Shelf:
         """The shape of a name, if there is one."""
         return self._shapes.get(name)
 
-    def note(self, name: str) -> str | None:
-        """Why the last update of a name was refused, if it was."""
-        return self._notes.get(name)
-
     def file(self, name: str) -> File | None:
-        """One of the files that the shapes consist of, or consisted of a moment ago."""
+        """File of a name that the shapes consist of, or consisted of a moment ago."""
         return self._files.get(name) or self._replaced.get(name)
 
     def owners(self, file: str) -> int:
-        """How often the shapes use a file."""
+        """How often the shapes use a file, by its name."""
         return self._owners[file]
 
     def put(self, shape: Shape) -> None:
-        """Publish a shape, in the place of the one of its name."""
+        """Publish a shape; it replaces the one of its name."""
         self._notes.pop(shape.name, None)
         for file in shape.files:
             self._files[file.name] = file
@@ -191,7 +187,7 @@ class Shelf:
         self._tell(Event("shape", {"name": shape.name, "version": shape.version}))
 
     def remove(self, name: str) -> None:
-        """Take a shape away, or what is noted of one that never came, if there is either of that name."""
+        """Remove the shape of a name, and the note about it."""
         shape, note = self._shapes.pop(name, None), self._notes.pop(name, None)
         if shape is not None:
             self._release(shape)
@@ -199,18 +195,18 @@ class Shelf:
             self._tell(Event("gone", {"name": name}))
 
     def refuse(self, name: str, message: str) -> None:
-        """Tell everyone why an update is not published; the last good shape stays."""
+        """Tell all clients why an update is not published; the last good shape stays."""
         self._notes[name] = message
         self._tell(Event("note", {"name": name, "message": message}))
 
     def close(self) -> None:
-        """End the streams of all who wait, now and from now on."""
+        """End the streams of all listeners, and of those that come later."""
         self._closed = True
         for listener in self._listeners:
             listener.close()
 
     def _release(self, shape: Shape | None) -> None:
-        """Keep files that no shape uses any more for a while."""
+        """Give up the files of a replaced shape; those that no shape uses any more are served for a while."""
         for file in () if shape is None else shape.files:
             self._owners[file.name] -= 1
             if not self._owners[file.name]:

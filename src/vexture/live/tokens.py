@@ -1,4 +1,4 @@
-"""The token that who publishes must know."""
+"""The token that authorizes uploads."""
 
 from pathlib import Path
 from typing import Final
@@ -12,15 +12,7 @@ LONGEST_TOKEN: Final = 4096
 
 
 def read_token(path: Path) -> str:
-    """Token of a file, without the white space around it.
-
-    Raises
-    ------
-    DeviceError
-        If it cannot be read.
-    LimitError
-        If it is too short, or could not be sent.
-    """
+    """Token of a file, without the white space around it."""
     try:
         with path.open("rb") as file:
             content = file.read(LONGEST_TOKEN + 1)

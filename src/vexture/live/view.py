@@ -1,45 +1,33 @@
-"""`vexture view` and `vexture export`: from files to a server that shows them, or to one page that holds them."""
+"""`vexture view` and `vexture export`: files on a server that shows them, or in one page that holds them."""
 
-import asyncio
 import os
 import sys
 import threading
 import webbrowser
-from collections.abc import AsyncIterator, Callable, Sequence
-from contextlib import asynccontextmanager, suppress
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any
 
-from vexture.errors import LimitError, VextureError
+from vexture.errors import EXPECTED, LimitError
 from vexture.live.documents import shape_of
 from vexture.live.shelf import Shape, Shelf
 from vexture.live.watch import Source, named, watch
+from vexture.pipeline import Parameters
 from vexture.reading import content_of
-from vexture.settings import Settings
 
 __all__ = ["export", "view"]
 
-PAGE_SUFFIXES = (".html", ".htm")
-
 Say = Callable[[str], None]
-"""Tells the user one line."""
+"""Takes a line for the user."""
 
 
-def export(paths: Sequence[Path], output: Path, title: str | None, settings: Settings, say: Say) -> int:
-    """Write one page that shows files and needs nothing else; return its size.
-
-    Raises
-    ------
-    VextureError
-        If a file is no drawing, the page is not built or cannot be written.
-    """
-    from vexture.live.page import SCRIPT, built, exported_page
+def export(paths: Sequence[Path], output: Path, title: str | None, parameters: Parameters, say: Say) -> int:
+    """Write one page that shows files and needs nothing else; return its size."""
+    from vexture.live.page import VIEWER, check_output, exported_page
     from vexture.texture.files import write_together
 
-    if output.suffix.lower() not in PAGE_SUFFIXES:
-        raise LimitError(f"--output {output}: the page is an HTML file; name one that ends in {PAGE_SUFFIXES[0]}")
-    built(SCRIPT)  # said before anything is converted
-    shapes = [_converted(source, content_of(source.path), settings, say) for source in named(paths)]
+    check_output(output, VIEWER)
+    shapes = [_converted(source, content_of(source.path), parameters, say) for source in named(paths)]
     page = exported_page(shapes, title or ", ".join(shape.name for shape in shapes))
     write_together({output: page})
     return len(page)
@@ -47,7 +35,7 @@ def export(paths: Sequence[Path], output: Path, title: str | None, settings: Set
 
 def view(
     paths: Sequence[Path],
-    settings: Settings,
+    parameters: Parameters,
     *,
     host: str,
     port: int,
@@ -56,65 +44,29 @@ def view(
     say: Say,
     show: Callable[[str, int], None],
 ) -> None:
-    """Serve files to browsers until someone presses Ctrl-C.
+    """Serve files to browsers until Ctrl-C, and convert them again when they change if `watching`.
 
-    Parameters
-    ----------
-    paths : sequence of Path
-    settings : Settings
-        How drawings are converted.
-    host, port : str, int
-        Where to listen; port 0 is any that is free.
-    watching : bool
-        Whether files that change are shown anew.
-    opening : bool
-        Whether to open a browser.
-    say : callable
-        Is told of files that cannot be shown, and of warnings.
-    show : callable
-        Is told the address, and how many shapes are there.
-
-    Raises
-    ------
-    VextureError
-        If the page is not built, the port is taken, or none of the files can be shown.
+    `say` takes warnings and errors for the user, `show` the address and the number of shapes.
     """
-    from starlette.applications import Starlette
-    from starlette.middleware import Middleware
-    from starlette.routing import Mount
-
-    from vexture.live.listen import address, bind, serve_until_stopped
-    from vexture.live.page_routes import KnownHosts, dropping_routes, page_routes, thesis_addresses, thesis_routes
+    from vexture.live.listen import address, background, bind, serve_until_stopped
+    from vexture.live.page_routes import dropping_routes, page_routes, thesis_addresses, thesis_routes
     from vexture.live.routes import application, routes
 
     page = page_routes()
     with bind(host, port) as taken:
         shelf = Shelf()
         sources = named(paths)
-        seen = _published(shelf, sources, settings, say)
-        listed = [
-            *page,
-            *routes(shelf, thesis_addresses),
-            *thesis_routes(shelf),
-            *dropping_routes(shelf, settings, frozenset(source.name for source in sources)),
-        ]
-
-        @asynccontextmanager
-        async def lifespan(_app: Any) -> AsyncIterator[None]:
-            if not watching:
-                yield
-                return
-            task = asyncio.create_task(watch(shelf, sources, settings, seen))
-            try:
-                yield
-            finally:
-                task.cancel()
-                with suppress(asyncio.CancelledError):
-                    await task
-
-        inner = application(listed, open_to_all=False)
-        guard = Middleware(KnownHosts, names=(host,))
-        app = Starlette(routes=[Mount("/", inner)], middleware=[guard], lifespan=lifespan)
+        seen = _published(shelf, sources, parameters, say)
+        app = application(
+            [
+                *page,
+                *routes(shelf, thesis_addresses),
+                *thesis_routes(shelf),
+                *dropping_routes(shelf, parameters, frozenset(source.name for source in sources)),
+            ],
+            only_at=host,
+            lifespan=background(partial(watch, shelf, sources, parameters, seen)) if watching else None,
+        )
         where = address(taken)
         show(where, len(shelf.names))
         if opening and _has_display():
@@ -122,15 +74,15 @@ def view(
         serve_until_stopped(app, taken, shelf.close)
 
 
-def _published(shelf: Shelf, sources: Sequence[Source], settings: Settings, say: Say) -> dict[str, bytes | None]:
-    """Publish all files that can be; return the content of each, None where it is not published."""
+def _published(shelf: Shelf, sources: Sequence[Source], parameters: Parameters, say: Say) -> dict[str, bytes | None]:
+    """Publish files; return the content of each, or None if it cannot be published."""
     seen: dict[str, bytes | None] = {}
     for source in sources:
         try:
             data = content_of(source.path)
-            shelf.put(_converted(source, data, settings, say))
+            shelf.put(_converted(source, data, parameters, say))
             seen[source.name] = data
-        except VextureError as error:
+        except EXPECTED as error:
             if len(sources) == 1:
                 raise
             say(str(error))
@@ -141,8 +93,8 @@ def _published(shelf: Shelf, sources: Sequence[Source], settings: Settings, say:
     return seen
 
 
-def _converted(source: Source, data: bytes, settings: Settings, say: Say) -> Shape:
-    shape = shape_of(data, str(source.path), source.name, settings)
+def _converted(source: Source, data: bytes, parameters: Parameters, say: Say) -> Shape:
+    shape = shape_of(data, str(source.path), source.name, parameters)
     for warning in shape.facts["warnings"]:
         say(f"warning: {warning}")
     return shape

@@ -6,25 +6,25 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from vexture.errors import VextureError
+from vexture.errors import EXPECTED
 from vexture.live.documents import shape_of
 from vexture.live.shelf import Shelf
+from vexture.pipeline import Parameters
 from vexture.reading import content_of
-from vexture.settings import Settings
 
 __all__ = ["Source", "named", "watch"]
 
 STEP_MILLISECONDS = 10
 DEBOUNCE_MILLISECONDS = 50
-"""How often is looked for changes, and how long at most they are gathered."""
+"""Interval between two looks for changes, and the longest time over which changes are gathered."""
 
 CHECK_MILLISECONDS = 1000
-"""How often files are looked at without being told: what was saved before watching began, or on a disk that tells
-nothing, is not missed."""
+"""Interval at which all files are checked. It finds what was saved before watching began, or on a disk that reports no
+changes."""
 
 SETTLING_SECONDS = (0.03, 0.15, 0.5)
-"""How long a file that cannot be read, or is no drawing, is given to become one: editors delete it or write it in
-pieces while they save."""
+"""Pauses before a file that cannot be read, or is no drawing, is read again. Editors delete a file, or write it in
+pieces, while they save."""
 
 
 _Stamp = tuple[int, int, int]
@@ -32,34 +32,26 @@ _Stamp = tuple[int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A file that is shown.
+    """A file that is shown."""
 
-    Parameters
-    ----------
-    path : Path
-        As the user gave it: messages name it so.
-    name : str
-        Name of its shape.
-    """
-
-    path: Path
-    name: str
+    path: Path  # as the user gave it, for messages
+    name: str  # of its shape
 
     @property
     def places(self) -> set[Path]:
-        """Where a change of the file shows: its own place and, where that is a link, what it stands for."""
+        """Paths whose changes change the file: its own and, of a link, its target."""
         return {self.path.parent.resolve() / self.path.name, self.path.resolve()}
 
 
-def named(paths: Sequence[Path], taken: Sequence[str] = ()) -> list[Source]:
-    """Name files by their stems, each differently.
+def named(paths: Sequence[Path]) -> list[Source]:
+    """Give each file a name of its own, made from its stem.
 
     Examples
     --------
     >>> [source.name for source in named([Path("a/duck.svg"), Path("b/duck.svg"), Path("cake.svg")])]
     ['duck', 'duck-2', 'cake']
     """
-    names = set(taken)
+    names: set[str] = set()
     sources = []
     for path in paths:
         stem = path.stem or "drawing"
@@ -72,17 +64,12 @@ def named(paths: Sequence[Path], taken: Sequence[str] = ()) -> list[Source]:
     return sources
 
 
-async def watch(shelf: Shelf, sources: Sequence[Source], settings: Settings, seen: Mapping[str, bytes | None]) -> None:
-    """Publish each file again when it changes, or the reason why not; ends only when it is cancelled.
+async def watch(
+    shelf: Shelf, sources: Sequence[Source], parameters: Parameters, seen: Mapping[str, bytes | None]
+) -> None:
+    """Publish each file again when it changes, or tell clients why not; ends only when it is cancelled.
 
-    Parameters
-    ----------
-    shelf : Shelf
-    sources : sequence of Source
-    settings : Settings
-        How they are converted.
-    seen : mapping
-        By name, the content that is published already.
+    `seen` is the content that is published already, by name.
     """
     from watchfiles import awatch
 
@@ -110,11 +97,11 @@ async def watch(shelf: Shelf, sources: Sequence[Source], settings: Settings, see
             stamp = _stamp(source.path)
             if source in changed or read.get(source.name, ()) != stamp:
                 read[source.name] = stamp
-                await _publish(shelf, source, settings, content)
+                await _publish(shelf, source, parameters, content)
 
 
 def _stamp(path: Path) -> _Stamp | None:
-    """What tells one content of a file from another without reading it; None if it is not there."""
+    """Inode, size and time of a file, which differ when its content does; None if it is not there."""
     try:
         found = path.stat()
     except OSError:
@@ -122,16 +109,16 @@ def _stamp(path: Path) -> _Stamp | None:
     return found.st_ino, found.st_size, found.st_mtime_ns
 
 
-async def _publish(shelf: Shelf, source: Source, settings: Settings, content: dict[str, bytes | None]) -> None:
-    """Publish a file as it is now, once it is a drawing, or after a while say why it is none."""
+async def _publish(shelf: Shelf, source: Source, parameters: Parameters, content: dict[str, bytes | None]) -> None:
+    """Publish a file once it is a drawing; after the last pause, tell clients why it is none."""
     line = ""
     for delay in (*SETTLING_SECONDS, None):
         try:
             data = await asyncio.to_thread(content_of, source.path)
             if data == content[source.name]:
                 return
-            shape = await asyncio.to_thread(shape_of, data, str(source.path), source.name, settings)
-        except VextureError as error:
+            shape = await asyncio.to_thread(shape_of, data, str(source.path), source.name, parameters)
+        except EXPECTED as error:
             line = str(error)
             if delay is not None:
                 await asyncio.sleep(delay)
@@ -139,5 +126,5 @@ async def _publish(shelf: Shelf, source: Source, settings: Settings, content: di
         content[source.name] = data
         shelf.put(shape)
         return
-    content[source.name] = None  # so that the last good content, once it is back, is published and clears the note
+    content[source.name] = None  # the last good content, once it is back, is published and clears the note
     shelf.refuse(source.name, line)

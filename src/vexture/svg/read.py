@@ -3,6 +3,7 @@
 import os
 from dataclasses import replace
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,10 @@ from vexture.svg.transform import Identity, Transform
 from vexture.svg.values import Viewport
 from vexture.svg.viewport import THINNEST, Rectangle, view_box
 
-__all__ = ["read_svg", "svg_drawing"]
+__all__ = ["framed_drawing", "read_svg", "svg_drawing"]
+
+Frame: TypeAlias = tuple[tuple[float, float], Viewport, Transform]
+"""Size of a drawing in pixels, the root's viewport, and the map from user units to pixels."""
 
 
 def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing:
@@ -90,22 +94,28 @@ def svg_drawing(content: bytes, source: str, select: str | None = None) -> Drawi
     >>> svg_drawing(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "half.svg").name
     'half'
     """
+    return framed_drawing(content, source, select)[0]
+
+
+def framed_drawing(content: bytes, source: str, select: str | None = None) -> tuple[Drawing, Frame | None]:
+    """Read as `svg_drawing` does, and return the frame of the whole drawing too."""
     report = Report()
     with about(source):
         try:
             root = parse_svg(decompressed(content))
             part = None if select is None else chosen(root, select)
-            drawing = drawing_of(Scene(root, report, part), Path(source).stem)
+            scene = Scene(root, report, part)
+            framed = frame(scene)
+            drawing = drawing_of(scene, framed, Path(source).stem)
         except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
             raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
         if select is not None and part is not None and not drawing.paths:
             raise nothing_painted(select, len(part))
-    return replace(drawing, notes=report.listed)
+    return replace(drawing, notes=report.listed), framed
 
 
-def drawing_of(scene: Scene, name: str) -> Drawing:
+def drawing_of(scene: Scene, framed: Frame | None, name: str) -> Drawing:
     """Paint a scene into the frame that its outermost element sets, or around what it paints."""
-    framed = frame(scene)
     if framed is not None:
         size, viewport, matrix = framed
         box: Rectangle = (0.0, 0.0, *size)
@@ -122,8 +132,8 @@ def drawing_of(scene: Scene, name: str) -> Drawing:
     return replace(drawing, to_source=after(drawing.to_source, matrix.inverse()))
 
 
-def frame(scene: Scene) -> tuple[tuple[float, float], Viewport, Transform] | None:
-    """Size of the drawing in pixels, the root's viewport, and the map from user units to pixels; None if unsized."""
+def frame(scene: Scene) -> Frame | None:
+    """Frame that the outermost element sets, or None if it sets no size."""
     root, style = scene.root, scene.style
     box = view_box(root.get("viewBox"))
     absolute = Viewport(0.0, 0.0, style.font_size)

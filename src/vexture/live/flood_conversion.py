@@ -1,4 +1,4 @@
-"""From flood data, whatever kind of file it is, to a shape of water in the frame of a page."""
+"""Conversion of flood data, of any kind, into shapes of water in the frame of a page."""
 
 import json
 import time
@@ -15,70 +15,48 @@ from vexture.flood.scene import PREFIX, labels
 from vexture.geo.extent import Extent, Frame, Step
 from vexture.live.documents import converted, load_kernels, texture_shape, told
 from vexture.live.shelf import File, Shape
-from vexture.settings import Settings
+from vexture.pipeline import Parameters
 
-__all__ = ["WATER_SETTINGS", "Waters"]
+__all__ = ["WATER_PARAMETERS", "FloodConversion"]
 
-WATER_SETTINGS: Final = Settings(precision=2e-6)
-"""How water is converted. From the beach a pixel is about 1e-5 of the frame: a shift is a fifth of one."""
+WATER_PARAMETERS: Final = Parameters(precision=2e-6)
+"""Seen from the beach, a pixel is about 1e-5 of the frame: the outline shifts by a fifth of one."""
 
 SAME_PLACE: Final = 1e-6
-"""Share of the frame by which a texture's place may differ from it: rounding of what wrote it."""
+"""Share of the frame by which a texture's place may differ from it, by rounding when it was written."""
 
 OPTIONS: Final[dict[FileKind, tuple[str, ...]]] = {
     FileKind.DEPTHS: ("time_dim", "variable"),
     FileKind.AREAS: ("layer",),
     FileKind.GEOJSON: ("layer",),
 }
-"""Which options of the reader are for which kind of data; other kinds have no place in the world."""
+"""Parameters of the reader by kind of data; data of other kinds are not georeferenced."""
 
 KINDS: Final = "GeoJSON, GeoPackage, FlatGeobuf, a zipped shapefile, GeoTIFF, NetCDF or a packed texture"
 
 
 @dataclass(frozen=True, slots=True)
-class Waters:
-    """How the steps of one flood become shapes.
+class FloodConversion:
+    """Converts the steps of one flood into shapes."""
 
-    Parameters
-    ----------
-    frame : Frame
-        Into which all of them come.
-    hmin : float
-        Depth in metres from which a place is wet.
-    options : mapping
-        Further parameters of `vexture.read_extent`.
-    settings : Settings
-        How drawings are converted.
-    """
-
-    frame: Frame
-    hmin: float
-    options: Mapping[str, Any]
-    settings: Settings = WATER_SETTINGS
+    frame: Frame  # of all steps
+    hmin: float  # metres: depth from which a place is wet
+    options: Mapping[str, Any]  # further parameters of vexture.read_extent
 
     def step(self, step: Step, name: str, label: str) -> Shape:
-        """Shape of one step.
-
-        Parameters
-        ----------
-        step : Step
-            In our frame.
-        name : str
-            Of the shape.
-        label : str
-            What people read of its time.
-        """
+        """Shape of one step that is in this frame; `label` is its time as people read it."""
         from vexture.flood.grids import deepest, depth_png
 
         load_kernels()
-        shape = converted(replace(step.drawing, name=name), name, self.settings, time.perf_counter())
+        shape = converted(replace(step.drawing, name=name), name, WATER_PARAMETERS, time.perf_counter())
         most = None if step.depth is None else deepest(step.depth)
         views = {}
         if step.depth is not None and most:
             views["depth"] = File(depth_png(step.depth, most), "image/png", ".png")
         facts = {
             **shape.facts,
-            **_when(step, label),
+            "time": None if step.time is None else step.time.isoformat(),
+            "label": label,
             "dry": self._is_dry(step),
             "deepest": None if most is None else round(most, 3),
             "warnings": told(name, step.drawing),
@@ -86,13 +64,7 @@ class Waters:
         return replace(shape, facts=facts, views=views)
 
     def shape_of(self, data: bytes, name: str) -> Shape:
-        """Shape of the content of a file that someone has sent.
-
-        Raises
-        ------
-        VextureError
-            If it is no flood data, says no place, or lies outside the frame.
-        """
+        """Shape of an upload: a step in any format, or a texture that was made in this frame."""
         if name != PREFIX and not name.startswith(f"{PREFIX}/"):
             raise LimitError(f"{name}: this server shows {PREFIX} and {PREFIX}/NAME only; publish under such a name")
         if not data.strip():
@@ -117,7 +89,7 @@ class Waters:
             return extent_of(data, name, frame=self.frame, hmin=self.hmin, **options)
         except MissingReferenceError:
             raise SourceError(
-                f"{name}: says no reference system, so nobody knows where it is; write it into the file"
+                f"{name}: says no reference system, so its place is unknown; write it into the file"
             ) from None
         except (SourceError, LimitError) as error:
             raise type(error)(f"{name}: {_for_senders(str(error).removeprefix(f'{name}: '))}") from None
@@ -125,7 +97,7 @@ class Waters:
             raise SourceError(f"{name}: {_for_senders(str(error))}") from None
 
     def warm(self) -> None:
-        """Load what a conversion needs: packages, kernels, the frame's reference system."""
+        """Load packages, kernels and the frame's reference system before the first upload."""
         west, south, east, north = self.frame.bounds
         ring = [[west, south], [east, south], [(west + east) / 2, north], [west, south]]
         crs = {"type": "name", "properties": {"name": self.frame.crs}}
@@ -137,14 +109,14 @@ class Waters:
         import xarray  # noqa: F401  # the rest of what NetCDF needs
 
     def _texture(self, data: bytes, name: str) -> Shape:
-        """Shape of a texture that was made in our frame."""
+        """Shape of a texture that was made in this frame."""
         from vexture.texture.load import texture_from
 
         roots = texture_from(data, name).roots
-        ours = self.frame.to_source
+        to_source = self.frame.to_source
         if len(roots) != 1:
             raise LimitError(f"{name}: the texture holds {len(roots)} shapes; send one with one, or the data it is of")
-        apart = np.abs(roots[0].to_source - ours) / np.abs(np.diag(ours[:, :2]))[:, None]
+        apart = np.abs(roots[0].to_source - to_source) / np.abs(np.diag(to_source[:, :2]))[:, None]
         if not apart.max() <= SAME_PLACE:
             raise LimitError(
                 f"{name}: the texture was not made in the frame of this page; send the data that it was made of"
@@ -154,21 +126,14 @@ class Waters:
         return replace(shape, facts=facts)
 
     def _is_dry(self, step: Step) -> bool:
-        """Whether nothing of a step is in the frame."""
+        """Whether no water of a step is in the frame."""
         x0, y0, x1, y1 = self.frame.box
-        for path in step.drawing.paths:
-            (left, low), (right, high) = path.box
-            if left < x1 and right > x0 and low < y1 and high > y0:
-                return False
-        return True
-
-
-def _when(step: Step, label: str) -> dict[str, str | None]:
-    return {"time": None if step.time is None else step.time.isoformat(), "label": label}
+        boxes = (path.box.ravel() for path in step.drawing.paths)
+        return not any(left < x1 and right > x0 and low < y1 and high > y0 for left, low, right, high in boxes)
 
 
 def _for_senders(line: str) -> str:
-    """Return an error with a remedy for whoever sends a file: they set no parameters.
+    """Return an error whose remedy fits the sender of a file, who sets no parameters.
 
     Examples
     --------
