@@ -14,6 +14,8 @@ from vexture.errors import (
 )
 
 if TYPE_CHECKING:
+    __version__: str
+
     from vexture.drawing import Drawing, FillRule, Paint, Path
     from vexture.fold.fold import Fold, fold_from
     from vexture.fold.picture import fold_picture
@@ -50,6 +52,7 @@ __all__ = [
     "Texture",
     "VextureError",
     "View",
+    "__version__",
     "atlas",
     "convert",
     "coverage",
@@ -90,6 +93,8 @@ _HOMES = {
 
 def __getattr__(name: str) -> Any:
     """Import a public name when it is first used: the command line answers before NumPy is loaded (PEP 562)."""
+    if name == "__version__":
+        return import_module("importlib.metadata").version("vexture")
     for home, names in _HOMES.items():
         if name in names:
             value = getattr(import_module(home), name)

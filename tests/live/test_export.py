@@ -72,13 +72,21 @@ def test_page_fetches_nothing(tmp_path):
     assert not re.search(r"<(?:script|link|img)[^>]*(?:src|href)=\"(?!data:)", text)
 
 
+def test_page_holds_the_licences_of_what_is_in_it(tmp_path):
+    assert export(SHAPES / "duck.svg", "-o", tmp_path / "duck.html").returncode == 0
+    text = (tmp_path / "duck.html").read_text(encoding="utf-8")
+    (licences,) = re.findall(r'<script type="text/plain" id="licences">(.*?)</script>', text, re.S)
+    assert "three.js authors" in licences
+    assert "Permission is hereby granted" in licences
+
+
 def test_names_and_texts_of_strangers_end_no_element(tmp_path):
     drawing = tmp_path / "a<!--<script>.svg"
     drawing.write_text('<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z" id="&lt;/script>" fill="&lt;/script>"/></svg>')
     page = tmp_path / "page.html"
     assert export(drawing, "-o", page).returncode == 0
     text = page.read_text(encoding="utf-8")
-    assert text.lower().count("<script") == text.lower().count("</script") == 2
+    assert text.lower().count("<script") == text.lower().count("</script") == 3
     assert "<!--" not in text
     assert scene(text)["shapes"][0]["name"] == "a<!--<script>"
 

@@ -42,6 +42,9 @@ FLOOD: Final = Bundle("flood.js", "flood.css")
 SERVED_SCENE: Final[Mapping[str, Any]] = {"server": "./"}
 """Data of a served page: where its server is."""
 
+LICENCES: Final = "LICENSES.txt"
+"""Of the packages in the bundles, which ask for a copy wherever their code is."""
+
 PNG_TYPE: Final = "image/png"
 SUFFIXES: Final = (".html", ".htm")
 
@@ -71,7 +74,7 @@ PAGE = """<!doctype html>
 <div id="app"></div>
 <noscript>This page draws with JavaScript and WebGL 2; allow scripts to see it.</noscript>
 <script type="application/json" id="vexture-scene">{scene}</script>
-{script}
+{licences}{script}
 </body>
 </html>
 """
@@ -102,6 +105,7 @@ def served_page(bundle: Bundle = VIEWER, scene: Mapping[str, Any] = SERVED_SCENE
         policy="",
         style=f'<link rel="stylesheet" href="{bundle.style}">',
         scene=scene,
+        licences="",
         script=f'<script type="module" src="{bundle.script}"></script>',
     )
 
@@ -113,7 +117,7 @@ def exported_page(shapes: Sequence[Shape], title: str) -> bytes:
 
 
 def whole_page(bundle: Bundle, scene: Mapping[str, Any], title: str) -> bytes:
-    """Return a page that holds its script, its style and its scene."""
+    """Return a page that holds its script, its style, its scene, and the licences of what is in it."""
     script = _in_html(built(bundle.script).decode())
     style = built(bundle.style).decode().replace("</", "<\\/")
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
@@ -123,6 +127,7 @@ def whole_page(bundle: Bundle, scene: Mapping[str, Any], title: str) -> bytes:
         policy=f'<meta http-equiv="Content-Security-Policy" content="{html.escape(policy)}">\n',
         style=f"<style>{style}</style>",
         scene=scene,
+        licences=f'<script type="text/plain" id="licences">\n{_in_html(built(LICENCES).decode())}</script>\n',
         script=f'<script type="module">{script}</script>',
     )
 
@@ -162,7 +167,9 @@ def _in_html(script: str) -> str:
     return script.replace("</script", "<\\/script").replace("<!--", "<\\x21--")
 
 
-def _page(*, title: str, policy: str, style: str, scene: Mapping[str, Any], script: str) -> bytes:
+def _page(*, title: str, policy: str, style: str, scene: Mapping[str, Any], licences: str, script: str) -> bytes:
     text = json.dumps(scene, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
-    parts = {"title": html.escape(title), "policy": policy, "style": style, "scene": text, "script": script}
-    return PAGE.format(**parts).encode()
+    page = PAGE.format(
+        title=html.escape(title), policy=policy, style=style, scene=text, licences=licences, script=script
+    )
+    return page.encode()
