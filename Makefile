@@ -6,6 +6,8 @@
 
 PYTHON ?= python3
 BIN := .venv/bin
+# --no-compile: most modules of the packages are never imported, and Python compiles the others when they are
+INSTALL := $(BIN)/python -m pip install --quiet --no-compile
 SHAPES := examples/shapes
 BENCHMARKS := packed_fidelity speed packed_conversion size fidelity conversion icons live
 WEB_BENCHMARKS := page_fidelity web_speed editing flood
@@ -37,27 +39,27 @@ help:
 
 .venv/for-demo: pyproject.toml | .venv/made
 	@echo 'installing vexture and its libraries into .venv (a minute or less) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[gis,gpu,trace]'
+	@$(INSTALL) --editable '.[gis,gpu,trace]'
 	@touch $@
 
 .venv/for-test: pyproject.toml evidence/pyproject.toml | .venv/made
 	@echo 'installing vexture, its libraries and the tools of its tests into .venv (a minute or two) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[docs,gis,gpu,trace,test]' --editable ./evidence
+	@$(INSTALL) --editable '.[docs,gis,gpu,trace,test]' --editable ./evidence
 	@touch .venv/for-demo .venv/for-docs .venv/for-report $@
 
 .venv/for-report: pyproject.toml evidence/pyproject.toml | .venv/made
 	@echo 'installing vexture and what its report draws and compares with into .venv (a minute or less) ...'
-	@$(BIN)/python -m pip install --quiet --editable . --editable ./evidence
+	@$(INSTALL) --editable . --editable ./evidence
 	@touch $@
 
 .venv/for-dist: pyproject.toml | .venv/made
 	@echo 'installing what builds a release into .venv (a minute or less) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[dist]'
+	@$(INSTALL) --editable '.[dist]'
 	@touch $@
 
 .venv/for-docs: pyproject.toml evidence/pyproject.toml | .venv/made
 	@echo 'installing vexture and MkDocs into .venv (a minute or less) ...'
-	@$(BIN)/python -m pip install --quiet --editable '.[docs]' --editable ./evidence
+	@$(INSTALL) --editable '.[docs]' --editable ./evidence
 	@touch $@
 
 web/node_modules/made: web/package.json web/package-lock.json
@@ -137,16 +139,18 @@ checks-web:
 		echo 'skipped, as said above: the tests of web/, the viewer and the tests of its page'; \
 	fi
 
+# in two processes: what both need is compiled twice, which takes less time than waiting for it
 kernels: .venv/for-test
 	@echo 'compiling the kernels once, before the tests run side by side ...'
 	@scratch=$$(mktemp -d) && trap 'rm -rf "$$scratch"' EXIT && exec >"$$scratch/log" && \
-		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch" && \
-		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/thesis" --encoding thesis && \
+		( $(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/thesis" --encoding thesis && \
 		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/sampled" --encoding thesis --strategy sampled && \
-		$(BIN)/vexture render "$$scratch/duck.ktx2" -o "$$scratch/packed.png" --size 16 --renderer cpu && \
 		$(BIN)/vexture render "$$scratch/thesis/duck" -o "$$scratch/cpu.png" --size 16 --renderer cpu && \
-		$(BIN)/vexture render $(SHAPES)/duck.svg -o "$$scratch/exact.png" --size 16 --renderer exact && \
-		$(BIN)/python -m pytest --quiet src/vexture/bezier/fit_closed.py
+		$(BIN)/python -m pytest --quiet src/vexture/bezier/fit_closed.py ) & thesis=$$!; \
+		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch" && \
+		$(BIN)/vexture render "$$scratch/duck.ktx2" -o "$$scratch/packed.png" --size 16 --renderer cpu && \
+		$(BIN)/vexture render $(SHAPES)/duck.svg -o "$$scratch/exact.png" --size 16 --renderer exact; packed=$$?; \
+		wait $$thesis && exit $$packed
 
 test-web: viewer
 	npm run --silent check --prefix web

@@ -24,6 +24,11 @@ settings.register_profile("ci", settings.get_profile("vexture"), derandomize=Tru
 settings.load_profile("ci" if os.environ.get("CI", "").lower() in ("1", "true") else "vexture")
 
 
+def pytest_collection_modifyitems(items):
+    """Start with the tests that take longest: the last one is not to keep one processor waiting for the other."""
+    items.sort(key=lambda item: item.get_closest_marker("long") is None)
+
+
 @pytest.fixture(scope="session")
 def made_once(tmp_path_factory, request):
     """Folder of a name, filled by the first of all processes of tests that asks for it; the others wait for it."""

@@ -29,6 +29,7 @@ def test_the_guide_for_python_does_what_it_says(tmp_path: Path) -> None:
         assert 1 - np.asarray(image).mean() / 255 == pytest.approx(0.24, abs=0.01)
 
 
+@pytest.mark.long
 def test_the_guide_for_the_command_line_does_what_it_says(tmp_path: Path) -> None:
     folder = tmp_path / "run"
     folder.mkdir()

@@ -20,6 +20,7 @@ from vexture.texture.load import texture_from
 LOST = (OSError, http.client.HTTPException, ValueError)
 
 
+@pytest.mark.long
 def test_kill_at_random_moments(tmp_path):
     chance = random.Random(4)
     folder = tmp_path / "shapes"

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from lxml import html
 from PIL import Image
 
@@ -52,6 +53,7 @@ def test_missing_matplotlib_is_one_line(tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.long
 def test_report_of_the_examples_is_whole(tmp_path):
     outcome = report("-o", tmp_path)
     assert outcome.returncode == 0, outcome.stderr

@@ -26,6 +26,7 @@ def sample(corpus: Corpus, count: int) -> list[Path]:
         pytest.skip(str(error))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("corpus", "count"), [(mdi, 2000), (simple_icons, 1000)])
 def test_every_icon_is_read_without_a_warning(corpus: Corpus, count: int) -> None:
     for file in sample(corpus, count):

@@ -13,6 +13,7 @@ pytest.importorskip("mkdocs", reason="MkDocs is not installed (pip install '.[do
 WIDTHS = (1280, 390)
 
 
+@pytest.mark.long
 def test_pages_fit_and_fetch_nothing(
     site: Path, open_page: Callable[..., Any], screenshot: Callable[..., Path]
 ) -> None:

@@ -103,6 +103,7 @@ def on_screen(page: Page, u: float, v: float) -> tuple[float, float]:
     return seen[0], seen[1]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("size", [(740, 420), (390, 844)])
 def test_every_preset_shows_water_and_land(
     opened: Callable[..., Page], screenshot: Callable[..., Path], size: tuple[int, int]
