@@ -4,7 +4,7 @@ import inspect
 import os
 import time
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, overload
 
@@ -228,7 +228,8 @@ def convert(
     ['drawing']
     """
     named = Parameters(split, select, tolerance, max_depth, capacity, precision)
-    given = {name: value for name, value in asdict(named).items() if value is not None}
+    values = ((field.name, getattr(named, field.name)) for field in fields(named))
+    given = {name: value for name, value in values if value is not None}
     conversion = run(source, encoding=encoding, **given, **others)
     if not _is_drawing(source):  # `vexture.read` has warned already
         warn_of(os.fspath(source), conversion.drawing.notes)  # type: ignore[arg-type]
