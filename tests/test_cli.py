@@ -136,10 +136,13 @@ def test_warnings_are_one_line(tmp_path):
     assert "text" in lines[0]
 
 
-def test_empty_drawing_is_an_empty_texture(tmp_path):
+@pytest.mark.parametrize("content", ["", '<path d="M0 0h5v5z" display="none"/>', "<text>hi</text>"])
+def test_empty_drawing_is_an_empty_texture_and_is_noted(tmp_path, content):
     file = tmp_path / "empty.svg"
-    file.write_text(SVG.format(""))
-    assert run("convert", file, "-o", tmp_path, "--encoding", "thesis").exit_code == 0
+    file.write_text(SVG.format(content))
+    result = run("convert", file, "-o", tmp_path, "--encoding", "thesis")
+    assert result.exit_code == 0
+    assert "nothing in it is painted" in result.stderr
     assert json.loads(run("info", tmp_path / "empty", "--json").output)["coverage"] == 0
     for split in ((), ("--split", "paint")):
         assert run("convert", file, "-o", tmp_path, *split).exit_code == 0
@@ -177,7 +180,7 @@ def test_bad_drawings_get_one_line(case, tmp_path):
         assert case in ("nan", "use cycle", "not finite", "huge")
     else:
         assert result.exit_code == 1
-        assert not any((tmp_path / "out").iterdir())
+        assert not (tmp_path / "out").exists(), "no empty folder is left behind"
 
 
 def test_external_entity_is_never_read(tmp_path):
@@ -200,6 +203,67 @@ def test_missing_file(command, tmp_path):
     assert result.output.count("\n") == 1
 
 
+@pytest.mark.parametrize("command", ["render", "info"])
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [
+        ("missing.svg", "missing.svg: not found; check the file's name"),
+        ("missing.png", "missing.png: not found; check the file's name"),
+        ("missing", "missing: not found; a texture is NAME.ktx2, or"),
+        ("folder", "folder: is a folder; name a file in it"),
+    ],
+)
+def test_missing_files_and_folders_are_called_what_they_are(command, tmp_path, name, says):
+    (tmp_path / "folder").mkdir()
+    result = run(command, tmp_path / name, *(("-o", tmp_path / "x.png") if command == "render" else ()))
+    assert (result.exit_code, result.output.count("\n")) == (1, 1)
+    assert says in result.output
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "converted", "described"),
+    [
+        ("a.ktx2", b"", "is empty; give an SVG,", "it is empty; convert the drawing again"),
+        ("a.svg", b"", "is empty; give an SVG,", "it is empty; give a texture"),
+        ("a.ktx2", b"\x81\xff<", "holds nothing that can be read; give an SVG,", "begins with"),
+        ("a.bin", b"\x81\xff<", "holds nothing that can be read; give an SVG,", "it is not a texture; give a texture"),
+        ("a.json", b'{"a":1}', "is not GeoJSON; give an SVG,", "it is not a texture; give a texture"),
+        ("a.html", b"<html></html>", "not <svg>", "it is not a texture; give a texture"),
+    ],
+)
+def test_content_decides_what_a_file_is_called(tmp_path, name, content, converted, described):
+    (tmp_path / name).write_bytes(content)
+    for command, says in (("convert", converted), ("info", described)):
+        result = run(command, tmp_path / name, *(("-o", tmp_path) if command == "convert" else ()))
+        assert (result.exit_code, result.output.count("\n")) == (1, 1)
+        assert says in result.output
+
+
+def test_a_fold_is_called_a_fold(square, tmp_path):
+    fold = tmp_path / "square.fold.ktx2"
+    assert run("fold", square, "-o", fold).exit_code == 0
+    for command in (("info",), ("render", "-o", tmp_path / "x.png")):
+        result = run(*command, fold)
+        assert (result.exit_code, result.output.count("\n")) == (1, 1)
+        assert "it is a fold, which three.js applies to the texture of a shape" in result.output
+
+
+@pytest.mark.parametrize("name", ["", "a\nb\x1b.svg"])
+def test_odd_names_make_one_line(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    result = run("convert", name)
+    assert (result.exit_code, result.output.count("\n")) == (1, 1)
+    assert (r"a\nb\x1b.svg: cannot be read" if name else "the name of a file is empty") in result.output
+
+
+def test_a_command_of_another_distribution_names_it(monkeypatch):
+    monkeypatch.setattr("vexture.cli.main.PLUGINS", "vexture.none")
+    result = run("report")
+    assert result.exit_code == 2
+    assert "No such command 'report'; the package vexture-evidence adds it" in result.output
+    assert "vexture-evidence" not in run("reprot").output
+
+
 def test_lists_too_long_name_the_remedy(tmp_path):
     hairline = Path(__file__).parents[1] / "examples" / "shapes" / "hairline.svg"
     result = run("convert", hairline, "-o", tmp_path, "--encoding", "thesis", "--bits", 8)
@@ -214,7 +278,7 @@ def test_folder_that_cannot_be_written(square, tmp_path):
     result = run("convert", square, "-o", tmp_path / "file" / "out")
     assert result.exit_code == 1
     assert result.output.count("\n") == 1
-    assert "choose another folder" in result.output
+    assert "choose another place" in result.output
 
 
 def test_picture_that_cannot_be_written(square, tmp_path):
@@ -246,6 +310,10 @@ def test_a_failed_pair_leaves_the_old_one(square, tmp_path):
     [
         ("render", ("--size", "0")),
         ("render", ("--size", "100000")),
+        ("render", ("--width", "0")),
+        ("render", ("--height", "-1")),
+        ("render", ("--view", "0,0,1e308,1e308")),
+        ("render", ("--view", "0,0,1e-300,1e-300")),
         ("render", ("--view", "0,0,0,1")),
         ("render", ("--view", "0,0,nan,1")),
         ("render", ("--rotate", "inf")),
@@ -256,9 +324,11 @@ def test_a_failed_pair_leaves_the_old_one(square, tmp_path):
 )
 def test_numbers_out_of_range(square, tmp_path, command, arguments):
     extra = ("--renderer", "exact") if command == "render" else ()
-    result = run(command, square, "-o", tmp_path / "out", *extra, *arguments)
+    result = run(command, square, "-o", tmp_path / ("x.png" if extra else "out"), *extra, *arguments)
     assert result.exit_code == 1
     assert result.output.count("\n") == 1
+    assert f"{arguments[-2]} ".replace("rotate", "view") in result.output
+    assert "matrix" not in result.output, "the command line has none"
 
 
 def test_exact_renderer_needs_the_drawing(square, tmp_path):

@@ -91,7 +91,7 @@ def test_an_atlas_is_whole_or_not_written(square, tmp_path):
     target = tmp_path / "all.ktx2"
     result = run("convert", bad, square, tmp_path / "gone.svg", "--atlas", target)
     assert result.exit_code == 1
-    assert f"{bad}: not well-formed" in result.output
+    assert f"{bad}: holds nothing that can be read" in result.output
     assert "gone.svg: cannot be read" in result.output
     assert f"2 of 3 files failed; {target} is not written" in result.output
     run("convert", square, "--atlas", target)
@@ -111,6 +111,9 @@ def test_an_atlas_is_whole_or_not_written(square, tmp_path):
         (("--encoding", "thesis", "--capacity", "4"), "use --encoding packed"),
         (("--encoding", "thesis", "--precision", "1e-3"), "use --encoding packed"),
         (("--encoding", "thesis", "--atlas", "all.ktx2"), "use the encoding packed"),
+        (("-o", "out.png"), "--output out.png: the encoding packed writes no such file; name FILE.ktx2 or a folder"),
+        (("--encoding", "thesis", "-o", "t.ktx2"), "writes no such file; name a folder"),
+        (("-", "-", "-o", "out"), "give - once"),
         (("--atlas", "all.png"), "ends in .ktx2"),
         (("--atlas", "out"), "ends in .ktx2"),
         (("--atlas", "folder.ktx2"), "name one"),
@@ -181,7 +184,8 @@ def test_render_of_an_atlas(square, tmp_path):
     ("shown", "arguments", "says"),
     [
         ("all.ktx2", (), "2 drawings (square, logo); choose one by --root"),
-        ("all.ktx2", ("--root", "lgo"), "lgo"),
+        ("all.ktx2", ("--root", "square/1-#00000"), "near names are 'square/1-#000000'"),
+        ("all.ktx2", ("--root", "nope"), "no shape 'nope'; there are 'square/1-#000000'"),
         ("all.ktx2", ("--root", "7"), "7"),
         ("all.ktx2", ("--select", "#word"), "needs the drawing"),
         ("all.ktx2", ("--root", "logo", "--renderer", "exact"), "renders drawings"),

@@ -2,6 +2,9 @@
 
 import io
 import json
+import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -52,10 +55,39 @@ def test_a_picture_goes_through_a_pipe(logo):
         assert (image.mode, image.size) == ("RGB", (40, 40))
 
 
+def test_a_texture_goes_through_a_pipe_into_a_picture(logo):
+    data = run("convert", "-", "-o", "-", given=logo.read_bytes()).stdout_bytes
+    result = run("render", "-", "-o", "-", "--size", 8, given=data)
+    assert result.exit_code == 0
+    with Image.open(io.BytesIO(result.stdout_bytes)) as image:
+        assert image.size == (8, 8)
+    assert "standard input: --select g needs" in run("render", "-", "-o", "x.png", "--select", "g", given=data).stderr
+
+
+@pytest.mark.long
+def test_quiet_is_quiet_while_kernels_are_compiled(logo, tmp_path):
+    program = "from vexture.cli.main import main; main()"
+    for how, said in (((), "compiling kernels"), (("-q",), "")):
+        command = [sys.executable, "-c", program, "convert", str(logo), "-o", str(tmp_path), *how]
+        environment = os.environ | {"VEXTURE_CACHE": str(tmp_path / f"cache{len(how)}")}
+        result = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=500)
+        assert result.returncode == 0
+        assert said in result.stderr if said else (result.stdout, result.stderr) == ("", "")
+
+
+def test_a_reader_that_has_enough_ends_a_command_in_silence(logo, tmp_path):
+    texture = vexture.convert(read_drawing(logo)).save(tmp_path / "logo.ktx2")
+    reading, writing = os.pipe()
+    os.close(reading)
+    command = [sys.executable, "-c", "from vexture.cli.main import main; main()", "info", str(texture)]
+    with open(writing, "wb") as closed:
+        assert subprocess.run(command, stdout=closed, stderr=subprocess.PIPE, timeout=300).stderr == b""
+
+
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (("-o", "-", "--encoding", "thesis"), "standard output takes one texture of one file"),
+        (("-o", "-", "--encoding", "thesis"), "the encoding thesis writes several files; name a folder"),
         (("other.svg", "-o", "-"), "use --atlas -"),
     ],
 )
@@ -79,7 +111,7 @@ def test_json_has_the_facts_of_each_source(logo, tmp_path):
     assert good["quads"] == sum(root["quads"] for root in texture.info()["roots"])
     assert good["warning"] == f"{logo}: left out: <text>"
     assert failed.keys() == {"source", "error"}
-    assert "not well-formed" in failed["error"]
+    assert "holds nothing that can be read" in failed["error"]
 
 
 def test_processes_make_the_same_files(logo, tmp_path):
@@ -158,7 +190,7 @@ def test_background(logo, tmp_path):
 def test_info_says_that_a_file_is_no_texture(logo):
     result = run("info", logo)
     assert (result.exit_code, result.stderr.count("\n")) == (1, 1)
-    assert f"{logo}: not a texture, but a file of the kind SVG" in result.stderr
+    assert f"{logo}: it is not a texture; give a texture, which vexture convert makes from a drawing" in result.stderr
 
 
 @pytest.mark.parametrize("command", main.list_commands(None))

@@ -16,6 +16,7 @@ __all__ = [
     "LARGEST_FILE",
     "NETCDF",
     "PNG",
+    "READABLE",
     "SHAPEFILE",
     "SQLITE",
     "TIFF",
@@ -24,6 +25,7 @@ __all__ = [
     "about",
     "decompressed",
     "kind_of",
+    "known_kind",
     "read_bytes",
     "start_of",
     "unpacked",
@@ -48,6 +50,15 @@ NETCDF: Final = (b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
 PNG: Final = b"\x89PNG"
 PICTURES: Final = (PNG, b"\xff\xd8\xff", b"GIF87a", b"GIF89a")
 """First bytes of PNG, JPEG and GIF; `kind_of` knows WebP and BMP, whose marks have gaps."""
+
+READABLE: Final = (
+    "give an SVG, GeoJSON, a picture (PNG, JPEG, WebP, GIF, BMP) or geographic data "
+    "(GeoPackage, FlatGeobuf, zipped shapefile, GeoTIFF, NetCDF)"
+)
+"""Remedy for a file of no kind that can be read."""
+
+BEFORE_MARKUP: Final = BYTE_ORDER_MARK + b"\xff\xfe\0 \t\r\n"
+"""Bytes that may stand before the first < of XML in UTF-8, UTF-16 or UTF-32."""
 
 START: Final = 4096
 """Bytes that tell what a file is: more than the white space at the start of a text."""
@@ -100,6 +111,24 @@ def kind_of(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind:
     suffix = Path(file_name).suffix.lower()
     named = next((kind for kind, suffixes in SUFFIXES.items() if suffix in suffixes), FileKind.SVG)
     return FileKind.SVG if first == b"<" else named
+
+
+def known_kind(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind:
+    """Kind of a file as `kind_of` says; raises a `SourceError` if it is empty, or if its content is of no known kind.
+
+    Examples
+    --------
+    >>> known_kind(b"")  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    vexture.errors.SourceError: is empty; give an SVG, GeoJSON, ...
+    """
+    if not start:
+        raise SourceError(f"is empty; {READABLE}")
+    kind = kind_of(start, file_name)
+    no_texture = kind is FileKind.TEXTURE and not start.startswith(KTX)
+    if no_texture or (kind is FileKind.SVG and not start.lstrip(BEFORE_MARKUP).startswith(b"<")):
+        raise SourceError(f"holds nothing that can be read; {READABLE}")
+    return kind
 
 
 def start_of(source: str | os.PathLike[str] | bytes) -> bytes:

@@ -9,8 +9,8 @@ the old value of a constant, that it imports. So the cache folder is named after
 
 import functools
 import hashlib
+import logging
 import os
-import sys
 import tempfile
 import threading
 from collections.abc import Callable
@@ -79,7 +79,7 @@ def _numba() -> tuple[Any, str]:
             if not self.made and ours is not None and ours.__module__.startswith("vexture."):
                 self.made = True
                 line = "vexture: compiling kernels for their first use on this machine (half a minute or less) ..."
-                print(line, file=sys.stderr, flush=True)
+                logging.getLogger("vexture").warning(line)  # to standard error, unless a program sets its level
 
         def on_end(self, event: Any) -> None:
             pass

@@ -4,7 +4,17 @@ import os
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, TypeAlias
 
-from vexture.content import LARGEST_FILE, SHAPEFILE, FileKind, about, kind_of, read_bytes, start_of, unpacked
+from vexture.content import (
+    LARGEST_FILE,
+    SHAPEFILE,
+    FileKind,
+    about,
+    kind_of,
+    known_kind,
+    read_bytes,
+    start_of,
+    unpacked,
+)
 from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.notes import Note, warn_of
 from vexture.tolerance import HMIN
@@ -78,14 +88,14 @@ def read_drawing(source: Source, *, name: str | None = None, select: str | None 
 
     Examples
     --------
-    >>> drawing = read_drawing(b'<svg viewBox="0 0 9 9"><text>a</text></svg>')
+    >>> drawing = read_drawing(b'<svg viewBox="0 0 9 9"><text>a</text><path d="M0 0h9v9z"/></svg>')
     >>> drawing.notes
     (Note(kind='left out', message='<text>', count=1),)
     """
     shown = name_of(source, name)
     with about(shown):
         given = unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
-        kind = kind_of(start_of(given), shown)
+        kind = known_kind(start_of(given) or read_bytes(given), shown)
         if kind is not FileKind.SVG:
             return _read_other(kind, given, shown, select)
         content = read_bytes(given)

@@ -223,6 +223,15 @@ def test_one_server_has_a_folder(tmp_path):
         assert first.ask("GET", "/shapes")[0] == 200
 
 
+def test_a_folder_that_is_created_is_mentioned(tmp_path):
+    with serving(tmp_path / "shapes") as server:
+        said = server.process.stdout.readline()
+        assert said == f"{tmp_path / 'shapes'}: there was no such folder, so it was created\n"
+    with serving(tmp_path / "shapes") as server:
+        assert server.ask("GET", "/shapes")[0] == 200
+        assert server.stop() == (0, "", ""), "the folder is there"
+
+
 def test_without_a_token_file_nothing_is_written(tmp_path):
     with serving(tmp_path / "shapes", token=False) as server:
         status, refused = server.put("square", square())

@@ -125,7 +125,7 @@ def test_layers_are_found_by_their_drawing() -> None:
     assert layers_of(texture.roots, "c") == [4, 5, 6]
     with pytest.raises(ParameterError, match=r"3 drawings \(a/b, none, c\); choose one"):
         render(texture, SIZE)
-    with pytest.raises(ParameterError, match="no shape 'a'; near names are"):
+    with pytest.raises(ParameterError, match="no shape 'a'; the first of 7 are 'a/b/1-"):
         render(texture, SIZE, root="a")
     assert layers_of(vexture.convert(flag(), split="paint").roots, None) == [0, 1, 2]
 

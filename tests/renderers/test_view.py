@@ -107,12 +107,15 @@ def test_bad_matrices_are_one_line(matrix, word):
         (0, 0, 1e-12, 1e-12),
         (0, 0, 1, 1, np.inf),
         (0, 0, 1e300, 1),
+        (0, 0, 1e308, 1e308),
+        (1e308, 0, 1.7e308, 1),
     ],
 )
-def test_bad_windows_are_one_line(numbers):
+def test_bad_windows_are_refused_when_they_are_made_in_one_line(numbers):
     with pytest.raises(ParameterError) as caught:
-        window(*numbers).matrix((16, 16))
+        window(*numbers)
     assert "\n" not in str(caught.value)
+    assert "not a matrix" not in str(caught.value)
 
 
 def test_the_magnification_limit_leaves_room():

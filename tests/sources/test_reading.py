@@ -131,7 +131,11 @@ def test_a_lonely_shapefile_says_what_it_needs(tmp_path: Path) -> None:
 
 
 def test_what_is_nothing_is_named_by_its_source(tmp_path: Path) -> None:
-    for name, why in (("a.nc", "neither GeoTIFF nor NetCDF"), ("a.geojson", "not JSON"), ("a.txt", "not well-formed")):
+    for name, why in (
+        ("a.nc", "neither GeoTIFF nor NetCDF"),
+        ("a.geojson", "not JSON"),
+        ("a.txt", "holds nothing that can be read"),
+    ):
         path = tmp_path / name
         path.write_bytes(b"hello")
         for source in (path, path.read_bytes()):

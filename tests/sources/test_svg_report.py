@@ -16,8 +16,8 @@ SAID = {
     "css-variables": "left out: CSS variables",
     "external-use": "left out: <use> of 'other.svg#a'",
     "filter": "left out: filter",
-    "foreign-object": "left out: <foreignObject>",
-    "image": "left out: <image>",
+    "foreign-object": "left out: <foreignObject>; nothing in it is painted",
+    "image": "left out: <image>; nothing in it is painted",
     "import": "left out: @import",
     "lab-color": "simplified: colour of a space other than sRGB read as black",
     "linear-gradient": "simplified: linearGradient read as a solid colour",
@@ -28,7 +28,7 @@ SAID = {
     "pattern": "simplified: pattern read as solid",
     "radial-gradient-by-reference": "simplified: radialGradient read as a solid colour",
     "script": "left out: script",
-    "text": "left out: <text>",
+    "text": "left out: <text>; nothing in it is painted",
     "unknown-element": "left out: <flowRoot>",
     "vector-effect": "left out: vector-effect 'fixed-position'",
 }
@@ -71,7 +71,7 @@ def test_a_path_is_drawn_up_to_its_error(name: str, rest: str) -> None:
 def test_a_long_list_is_cut(tmp_path: Path) -> None:
     file = tmp_path / "a.svg"
     file.write_text('<svg viewBox="0 0 9 9">' + "".join(f"<thing{k}/>" for k in range(30)) + "</svg>")
-    with pytest.warns(SourceWarning, match=r"<thing7>, and 22 more$"):
+    with pytest.warns(SourceWarning, match=r"<thing7>, and 22 more; nothing in it is painted$"):
         read_svg(file)
 
 

@@ -135,7 +135,7 @@ def test_texts_of_other_writers() -> None:
 
 GOOD = write_ktx2(SMALL, {"KTXwriter": "x"})
 BAD: dict[str, tuple[bytes, str]] = {
-    "empty": (b"", "begins with b''"),
+    "empty": (b"", "it is empty; convert"),
     "png": (b"\x89PNG\r\n\x1a\n" + bytes(200), "begins with"),
     "ktx 1": (GOOD.replace(b"KTX 20", b"KTX 11"), "begins with"),
     "header only": (GOOD[:80], "80 bytes; the header alone has 104"),

@@ -1,6 +1,7 @@
 """The command `convert`."""
 
 import json
+import logging
 import sys
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
@@ -16,7 +17,7 @@ import click
 from vexture.cli.messages import as_options, one_line, say
 from vexture.cli.options import PATH, STANDARD, Sectioned, standard_input, tolerance_option
 from vexture.encodings import DEFAULT, REGISTERED
-from vexture.errors import EXPECTED, DeviceError, ParameterError, VextureError
+from vexture.errors import EXPECTED, ParameterError, VextureError
 from vexture.layout import PACKED_SUFFIX
 
 if TYPE_CHECKING:
@@ -33,6 +34,9 @@ BELONGS_TO: Final = {
     "strategy": "thesis",
 }
 """Encoding that an option is for."""
+
+FILE_SUFFIXES: Final = (PACKED_SUFFIX, ".svg", ".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp")
+"""Endings of files: a folder of such a name would be a mistake."""
 
 QUIET, NORMAL, VERBOSE = -1, 0, 1
 
@@ -109,7 +113,7 @@ def convert(
         to_pipe = Path(STANDARD) in (output, atlas)
         level = QUIET if quiet else VERBOSE if verbose else NORMAL
         _check_places(sources, output, atlas, encoding, to_pipe)
-        work = partial(_convert_one, encoding=encoding, parameters=parameters, for_atlas=atlas is not None)
+        work = partial(_convert_one, encoding=encoding, parameters=parameters, for_atlas=atlas is not None, quiet=quiet)
         outcomes: list[Outcome] = []
         owners: dict[str, Path] = {}
         for found in _outcomes(work, sources, jobs, level):
@@ -145,6 +149,10 @@ def _check_places(
     sources: tuple[Path, ...], output: Path | None, atlas: Path | None, encoding: str, to_pipe: bool
 ) -> None:
     """Refuse outputs that cannot be written, before anything is converted."""
+    from vexture.texture.files import writable
+
+    if sources.count(Path(STANDARD)) > 1:
+        raise ParameterError(f"{STANDARD}: standard input can be read once; give {STANDARD} once")
     if atlas is not None:
         if output is not None:
             raise ParameterError(f"`output` {output} and `atlas` {atlas}: an atlas is one file; leave `output` out")
@@ -155,19 +163,18 @@ def _check_places(
         if not to_pipe and (atlas.suffix.lower() != PACKED_SUFFIX or atlas.is_dir()):
             raise ParameterError(f"`atlas` {atlas}: a texture is a file whose name ends in {PACKED_SUFFIX}; name one")
         return
-    if to_pipe and (encoding != DEFAULT or len(sources) > 1):
-        raise ParameterError(
-            "`output` -: standard output takes one texture of one file; use `atlas` - or name a folder"
-        )
+    if to_pipe and encoding != DEFAULT:
+        raise ParameterError(f"`output` -: the encoding {encoding} writes several files; name a folder")
+    if to_pipe and len(sources) > 1:
+        raise ParameterError("`output` -: standard output takes one texture; use `atlas` - or name a folder")
     place = output or Path()
     is_file = to_pipe or _is_texture_file(place, encoding)
     if is_file and len(sources) > 1:
         raise ParameterError(f"`output` {output}: one file for {len(sources)} drawings; use `atlas`, or name a folder")
-    folder = place.parent if is_file else place
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise DeviceError(f"{folder}: cannot be made ({error.strerror}); choose another folder with -o") from None
+    if not is_file and place.suffix.lower() in FILE_SUFFIXES and not place.is_dir():
+        remedy = f"FILE{PACKED_SUFFIX} or a folder" if encoding == DEFAULT else "a folder, for several files"
+        raise ParameterError(f"`output` {output}: the encoding {encoding} writes no such file; name {remedy}")
+    writable(place.parent if is_file else place)
 
 
 def _is_texture_file(output: Path, encoding: str) -> bool:
@@ -175,7 +182,7 @@ def _is_texture_file(output: Path, encoding: str) -> bool:
 
 
 def _convert_one(
-    source: Path, content: bytes | None, encoding: str, parameters: dict[str, Any], for_atlas: bool
+    source: Path, content: bytes | None, encoding: str, parameters: dict[str, Any], for_atlas: bool, quiet: bool
 ) -> Outcome:
     """Convert one source, in this process or another; an error is returned as its line."""
     from vexture.notes import line_of
@@ -183,6 +190,8 @@ def _convert_one(
     from vexture.reading import read_drawing
     from vexture.texture.ktx2 import TEXEL_BYTES
 
+    if quiet:  # kernels announce that they are compiled
+        logging.getLogger("vexture").setLevel(logging.ERROR)
     given: Drawing | Path = source
     files = None
     try:

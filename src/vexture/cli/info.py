@@ -24,13 +24,15 @@ Examples:
 def info(texture: Path, as_json: bool) -> None:
     """Describe a texture."""
     with one_line():
+        from vexture.content import start_of
         from vexture.texture.load import load_any, texture_from
 
         if texture == Path(STANDARD):
             facts = texture_from(standard_input(), "standard input").info()
         else:
-            if (kind := drawing_kind(texture)) is not None:
-                raise FormatError(f"{texture}: not a texture, but a file of the kind {kind}; use vexture convert first")
+            if drawing_kind(texture) is not None:
+                what = "it is not a texture" if start_of(texture) else "it is empty"
+                raise FormatError(f"{texture}: {what}; give a texture, which vexture convert makes from a drawing")
             facts = load_any(texture).info()
         if as_json:
             click.echo(json.dumps(facts, indent=2))

@@ -17,6 +17,9 @@ COMMANDS: Final = {
 PLUGINS: Final = "vexture.commands"
 """Entry points of other distributions that add commands."""
 
+ELSEWHERE: Final = {"report": "the package vexture-evidence adds it: in a clone, pip install ./evidence"}
+"""Commands of known distributions, and how to install these."""
+
 
 class _Commands(click.Group):
     """The commands by name, and those that other distributions add."""
@@ -29,6 +32,8 @@ class _Commands(click.Group):
             command: click.Command = getattr(import_module(COMMANDS[cmd_name]), cmd_name)
             return command
         added = [point for point in entry_points(group=PLUGINS) if point.name == cmd_name]
+        if not added and cmd_name in ELSEWHERE:
+            ctx.fail(f"No such command {cmd_name!r}; {ELSEWHERE[cmd_name]}")
         return added[0].load() if added else None
 
 

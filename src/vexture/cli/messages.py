@@ -16,10 +16,14 @@ __all__ = ["as_options", "one_line", "say", "say_notes"]
 PARAMETER = re.compile(r"`([a-z_]+)`")
 """A parameter in a message of the library."""
 
+CONTROL = re.compile(r"[\x00-\x1f\x7f]")
+"""What the name of a file may hold and would break a line."""
+
 
 def say(message: str) -> None:
     """Print a line to standard error."""
-    click.echo(f"vexture: {as_options(message)}", err=True)
+    line = CONTROL.sub(lambda found: repr(found[0])[1:-1], as_options(message))
+    click.echo(f"vexture: {line}", err=True)
 
 
 def as_options(message: str) -> str:
@@ -50,6 +54,8 @@ def one_line() -> Iterator[None]:
         except EXPECTED as error:
             say(str(error))
             sys.exit(1)
+        except BrokenPipeError:
+            raise  # click ends in silence: who reads standard output has enough, such as head
         except OSError as error:
             say(f"{error.filename or 'the output'}: {error.strerror}; choose another file")
             sys.exit(1)

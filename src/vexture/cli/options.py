@@ -12,6 +12,7 @@ __all__ = [
     "PATH",
     "STANDARD",
     "Colour",
+    "Place",
     "Rectangle",
     "Sectioned",
     "Tolerance",
@@ -30,7 +31,18 @@ if TYPE_CHECKING:
 else:  # generic since click 8.4
     ParamType = click.ParamType
 
-PATH: Final[Any] = click.Path(path_type=Path)
+
+class Place(click.Path):
+    """A path; an empty one, as of a shell's variable that is not set, would be the folder "."."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the path."""
+        if value == "":
+            raise click.ClickException("the name of a file is empty; give one")
+        return super().convert(value, param, ctx)
+
+
+PATH: Final[Any] = Place(path_type=Path)
 
 STANDARD: Final = "-"
 """Name of standard input and output among files."""

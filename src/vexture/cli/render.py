@@ -71,7 +71,7 @@ def render(
 ) -> None:
     """Draw a drawing, a picture as it is traced, or a texture as a PNG, in its colours.
 
-    SOURCE_OR_TEXTURE may be - for a drawing on standard input.
+    SOURCE_OR_TEXTURE may be - for standard input.
     """
     with one_line():
         from vexture.renderers.view import window
@@ -88,8 +88,13 @@ def _pixels(
     size: int | None, width: int | None, height: int | None, view: tuple[float, float, float, float]
 ) -> tuple[int, int]:
     """Width and height of the picture; a side that is not given follows from the view."""
+    from vexture.renderers.view import SIZE_LIMIT
+
     if size is not None and (width is not None or height is not None):
         raise ParameterError(f"`size` {size} sets the longer side; leave it out beside `width` or `height`")
+    for name, side in (("size", size), ("width", width), ("height", height)):
+        if side is not None and not 1 <= side <= SIZE_LIMIT:
+            raise ParameterError(f"`{name}` is {side}; it must be 1 to {SIZE_LIMIT}")
     _, _, w, h = view
     ratio = w / h if w > 0.0 and h > 0.0 else 1.0
     if width is None and height is None:
@@ -97,8 +102,8 @@ def _pixels(
         width, height = (side, None) if ratio >= 1.0 else (None, side)
     if width is None:
         assert height is not None
-        return max(round(height * ratio), min(height, 1)), height
-    return width, height if height is not None else max(round(width / ratio), min(width, 1))
+        return max(round(height * ratio), 1), height
+    return width, height if height is not None else max(round(width / ratio), 1)
 
 
 def _picture(shown: "Shown", pixels: tuple[int, int], view: Any, *, silhouette: bool, **options: Any) -> "NDArray[Any]":
@@ -140,18 +145,20 @@ def _root_of(shown: "Shown", root: str | None) -> str | int | None:
 
 def _shown(path: Path, select: str | None) -> "Shown":
     """Read a drawing, or load a texture by one of its files or what their names have in common."""
+    from vexture.content import FileKind, kind_of, start_of
     from vexture.reading import read_drawing
-    from vexture.texture.load import load_any
+    from vexture.texture.load import load_any, texture_from
 
-    is_pipe = path == Path(STANDARD)
-    if is_pipe or drawing_kind(path) is not None:
-        name = "standard input" if is_pipe else str(path)
-        drawing = read_drawing(standard_input() if is_pipe else path, name=name, select=select)
+    data = standard_input() if path == Path(STANDARD) else None
+    name = str(path) if data is None else "standard input"
+    kind = drawing_kind(path) if data is None else kind_of(start_of(data))
+    if kind not in (None, FileKind.TEXTURE):
+        drawing = read_drawing(path if data is None else data, name=name, select=select)
         say_notes(name, drawing.notes)
         return drawing
     if select is not None:
-        raise ParameterError(f"{path}: `select` {select} needs the drawing; give it to vexture convert")
-    return load_any(path)
+        raise ParameterError(f"{name}: `select` {select} needs the drawing; give it to vexture convert")
+    return load_any(path) if data is None else texture_from(data, name)
 
 
 def _write_png(image: "NDArray[np.uint8]", output: Path) -> None:

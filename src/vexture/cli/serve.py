@@ -40,7 +40,10 @@ def serve(
     rate: float,
     precision: float | None,
 ) -> None:
-    """Serve a folder of shapes, and take new ones by a token."""
+    """Serve a folder of shapes, and take new ones by a token.
+
+    DIR is created if it does not exist. Shapes that are pushed are kept in .vexture inside it.
+    """
     with one_line():
         from vexture.live.serve import serve as run
 

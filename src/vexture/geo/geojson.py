@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
-from vexture.content import BYTE_ORDER_MARK, about, decompressed, read_bytes
+from vexture.content import BYTE_ORDER_MARK, READABLE, about, decompressed, read_bytes
 from vexture.drawing import Drawing, FillRule, Paint, Path
 from vexture.errors import SourceError
 from vexture.notes import Notes, line_of, warn_of
@@ -145,6 +145,8 @@ def _parsed(content: bytes) -> dict[str, Any]:
         raise SourceError("it holds an integer of thousands of digits; correct it") from None
     if not isinstance(value, dict):
         raise SourceError(f"its outermost value is a {type(value).__name__}, not an object; this is not GeoJSON")
+    if "type" not in value:
+        raise SourceError(f'its outermost object has no "type", so it is not GeoJSON; {READABLE}')
     return value
 
 

@@ -36,6 +36,7 @@ def serve(
     """
     token = None if token_file is None else read_token(token_file)
     with closing(bind(host, port)) as taken:
+        is_new = not path.exists()
         folder = Folder(path, limits, say)
         converter = Converter(limits, replace(PUBLISHED_PARAMETERS, precision=precision))
 
@@ -54,6 +55,8 @@ def serve(
             converter.close()
 
         say(f"serving {len(folder.names)} shapes of {path} at {address(taken)}")
+        if is_new:
+            say(f"{path}: there was no such folder, so it was created")
         try:
             serve_until_stopped(app, taken, stop)
         finally:

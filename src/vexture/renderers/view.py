@@ -87,6 +87,7 @@ class Window:
             raise ParameterError(
                 f"`view` is {x:g},{y:g},{w:g},{h:g} turned by {rotate:g} degrees; all must be finite, w and h above 0"
             )
+        self.matrix((1, 1))  # raises for numbers that no image can resolve
 
     def matrix(self, size: tuple[int, int]) -> NDArray[np.float64]:
         """From pixel coordinates of an image of that size to the unit square, (3, 3)."""
@@ -122,7 +123,7 @@ def window(x: float, y: float, w: float, h: float, rotate: float = 0.0) -> Windo
     Raises
     ------
     ParameterError
-        If a number is not finite, or `w` or `h` is not above 0.
+        If a number is not finite, `w` or `h` is not above 0, or the view is too small, large or far from the square.
 
     Examples
     --------
@@ -161,8 +162,8 @@ def view_matrix(view: ViewLike, size: Size) -> NDArray[np.float64]:
     width, height = size_of(size)
     if view is None:
         return fit((width, height))
+    given = view.matrix((width, height)) if hasattr(view, "matrix") else view
     try:
-        given = view.matrix((width, height)) if hasattr(view, "matrix") else view
         matrix = np.array(given, dtype=np.float64)
     except (TypeError, ValueError):
         raise ParameterError("`view` is not a matrix of numbers; give 2x3 or 3x3") from None
@@ -179,8 +180,8 @@ def view_matrix(view: ViewLike, size: Size) -> NDArray[np.float64]:
     condition = np.linalg.cond(matrix * (width, height, 1.0))
     if not condition <= CONDITION_LIMIT:
         raise ParameterError(
-            f"`view` is singular or too far from the square: condition number {condition:.1e}, "
-            f"the limit is {CONDITION_LIMIT:.0e}; give a larger or nearer view"
+            f"`view` is singular, or too small, large or far from the square: condition number {condition:.1e}, "
+            f"the limit is {CONDITION_LIMIT:.0e}; give one nearer to the unit square"
         )
     if (matrix[2] @ corners).max() <= 0.0:
         raise ParameterError("the third row of `view` is negative in the whole image; change the sign of the matrix")

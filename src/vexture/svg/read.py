@@ -48,7 +48,7 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
     -------
     Drawing
         In the unit square, y up; `to_source` maps it to the user units of the outermost `<svg>`. It has no paths if
-        nothing is painted. Its `notes` say what was left out, simplified or invalid.
+        nothing is painted. Its `notes` say this, and what was left out, simplified or invalid.
 
     Raises
     ------
@@ -111,6 +111,8 @@ def framed_drawing(content: bytes, source: str, select: str | None = None) -> tu
             raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
         if select is not None and part is not None and not drawing.paths:
             raise nothing_painted(select, len(part))
+    if not drawing.paths:
+        report.remark("nothing in it is painted")
     return replace(drawing, notes=report.listed), framed
 
 

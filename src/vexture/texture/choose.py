@@ -32,7 +32,7 @@ def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "text
     vexture.errors.ParameterError: texture holds 2 shapes (anchor, apple); choose one by `root`
     >>> place_of([Root("anchor"), Root("apple")], "anker")
     Traceback (most recent call last):
-    vexture.errors.ParameterError: texture: no shape 'anker'; near names are 'anchor', 'apple'; there are 2
+    vexture.errors.ParameterError: texture: no shape 'anker'; there are 'anchor', 'apple'
     """
     if root is None:
         if len(roots) > 1:
@@ -44,9 +44,12 @@ def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "text
     if isinstance(root, str):
         if root in names:
             return names.index(root)
-        near = difflib.get_close_matches(root, names, n=5) or names[:5]
-        listed = ", ".join(map(repr, near))
-        raise ParameterError(f"{texture}: no shape {root!r}; near names are {listed}; there are {len(names)}")
+        near = difflib.get_close_matches(root, names, n=5)
+        listed = ", ".join(map(repr, near or names[:5]))
+        if near:
+            raise ParameterError(f"{texture}: no shape {root!r}; near names are {listed}; there are {len(names)}")
+        there = f"the first of {len(names)} are" if len(names) > 5 else "there are" if len(names) > 1 else "there is"
+        raise ParameterError(f"{texture}: no shape {root!r}; {there} {listed}")
     if not 0 <= root < len(roots):
         raise ParameterError(f"{texture}: no shape {root}; they are numbered 0 to {len(roots) - 1}")
     return int(root)

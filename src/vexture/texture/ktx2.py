@@ -141,6 +141,8 @@ def _part(data: bytes, offset: int, length: int, what: str) -> bytes:
 
 
 def _read_header(data: bytes) -> Header:
+    if not data:
+        raise FormatError("it is empty")
     if data[: len(MAGIC)] != MAGIC:
         raise FormatError(f"begins with {data[: len(MAGIC)]!r}; a packed texture is a KTX 2.0 file")
     if len(data) < HEADER.size + LEVEL.size:

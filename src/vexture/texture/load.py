@@ -15,6 +15,9 @@ from vexture.texture.walk import REMEDY
 
 __all__ = ["load", "load_any", "texture_from"]
 
+FOLD: Final = "fold"
+"""Encoding in a file of `vexture fold`, which is no texture of shapes."""
+
 NOT_FOUND: Final = f"a texture is a file NAME{layout.PACKED_SUFFIX}; convert a drawing to make one"
 
 
@@ -84,6 +87,10 @@ def load_any(path: str | os.PathLike[str]) -> EncodedTexture:
         first = given.with_name(given.name + find_encoding(other).SUFFIXES[0])
         raise FormatError(f"{path} means {packed} as well as {first}; name one of them")
     if other is None and not given.is_file() and not packed.is_file():
+        if given.is_dir():
+            raise FormatError(f"{path}: is a folder; name a file in it")
+        if given.suffix.lower() not in ("", layout.PACKED_SUFFIX):
+            raise FormatError(f"{path}: not found; check the file's name")
         names = (", ".join(f"NAME{suffix}" for suffix in find_encoding(name).SUFFIXES) for name in REGISTERED)
         raise FormatError(f"{path}: not found; a texture is NAME{layout.PACKED_SUFFIX}, or {'; or '.join(names)}")
     return load(given, encoding=other or DEFAULT)
@@ -107,6 +114,8 @@ def texture_from(data: bytes, source: str) -> Texture:
         raise FormatError(f"{source}: longer than {layout.PACKED_FILE_LIMIT} bytes, so not a texture; {REMEDY}")
     texels, texts = read_ktx2(data, source)
     try:
+        if texts.get(layout.TEXT_ENCODING) == FOLD:
+            raise FormatError("it is a fold, which three.js applies to the texture of a shape; give that texture here")
         for key, known in (
             (layout.TEXT_ENCODING, layout.ENCODING_PACKED),
             (layout.TEXT_VERSION, layout.PACKED_VERSION),
