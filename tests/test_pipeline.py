@@ -226,7 +226,7 @@ def test_two_shapes_of_one_name_are_not_mixed_up(logo: File, tmp_path: File) -> 
 def test_a_bad_source_is_named(logo: File, tmp_path: File) -> None:
     bad = tmp_path / "bad.svg"
     bad.write_text("no svg")
-    with pytest.raises(SourceError, match=r"bad\.svg: not well-formed"):
+    with pytest.raises(SourceError, match=r"bad\.svg: holds nothing that can be read"):
         vexture.atlas([logo, bad])
     with pytest.raises(SourceError, match=r"gone\.svg: cannot be read"):
         vexture.atlas([logo, tmp_path / "gone.svg"])

@@ -103,8 +103,8 @@ def test_dropped_drawing_is_published_and_takes_no_name_of_others(view):
 @pytest.mark.parametrize(
     ("name", "content", "error"),
     [
-        ("notes.txt", b"no drawing", "notes.txt: not well-formed XML"),
-        ("empty.svg", b"", "empty.svg: not well-formed XML"),
+        ("notes.txt", b"no drawing", "notes.txt: holds nothing that can be read"),
+        ("empty.svg", b"", "empty.svg: is empty"),
         ("broken.ktx2", b"no texture", "broken.ktx2: begins with"),
         ("photo.png", b"\x89PNG", "photo.png"),
         ("map.geojson", b"{", "map.geojson"),

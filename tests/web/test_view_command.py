@@ -153,7 +153,7 @@ def test_dropped_file_that_is_no_drawing_is_a_note(tmp_path, logo, open_page):
         page = ready(open_page(f"{running.url}?bare", SIZE, errors=True))
         until(lambda: shown(page, RED, corner=True))
         drop(page, "notes.txt", b"no drawing")
-        until(lambda: "notes.txt: not well-formed XML" in note(page))
+        until(lambda: "notes.txt: holds nothing that can be read" in note(page))
         assert shown(page, RED, corner=True)
         assert running.get("shapes").json()["shapes"] == ["logo"]
 

@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
-from vexture.content import FileKind, about, decompressed, known_kind, start_of
+from vexture.content import FileKind, about, decompressed, kind_of, known_kind, start_of
 from vexture.errors import SourceError
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
 from vexture.notes import line_of
@@ -69,9 +69,10 @@ def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters) -> 
 
     with about(file_name):
         plain = decompressed(data)
-        kind = known_kind(start_of(plain), file_name)
-    if kind is FileKind.TEXTURE:
+    if kind_of(start_of(plain), file_name) is FileKind.TEXTURE:
         return texture_shape(data, file_name, name)
+    with about(file_name):
+        kind = known_kind(start_of(plain), file_name)
     load_kernels()
     start = time.perf_counter()
     framed = None
