@@ -8,6 +8,8 @@ import difflib
 from collections.abc import Sequence
 from typing import Final
 
+import numpy as np
+
 from vexture.errors import ParameterError
 from vexture.texture.root import Root
 
@@ -21,7 +23,7 @@ def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "text
     """Number of the shape that `root` means: a name, a number from 0, or None for the only shape.
 
     `texture` names the texture in messages. Raises a `ParameterError` if there is no such shape, or if `root` is
-    missing and there are several.
+    missing and there are several; a `TypeError` if it is of another type.
 
     Examples
     --------
@@ -47,6 +49,8 @@ def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "text
         near = difflib.get_close_matches(root, names, n=5) or names[:5]
         listed = ", ".join(map(repr, near))
         raise ParameterError(f"{texture}: no shape {root!r}; near names are {listed}; there are {len(names)}")
+    if isinstance(root, bool) or not isinstance(root, int | np.integer):
+        raise TypeError(f"{texture}: `root` is {root!r}; it must be a name or a whole number")
     if not 0 <= root < len(roots):
         raise ParameterError(f"{texture}: no shape {root}; they are numbered 0 to {len(roots) - 1}")
     return int(root)
