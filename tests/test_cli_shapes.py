@@ -123,7 +123,7 @@ def test_an_atlas_is_whole_or_not_written(square, tmp_path):
         (("--capacity", "16"), "1..15"),
         (("--precision", "nan"), "--precision nan"),
         (("--max-depth", "21"), "1..20"),
-        (("--tolerance", "-1"), "--tolerance -1.0 is outside 0 to 1"),
+        (("--tolerance", "-1"), "--tolerance -1.0 is no number from 0 to below 1"),
         (("--select", "g >"), "no CSS selector"),
     ],
 )

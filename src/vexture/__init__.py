@@ -52,7 +52,6 @@ __all__ = [
     "Texture",
     "VextureError",
     "View",
-    "__version__",
     "atlas",
     "convert",
     "coverage",

@@ -78,7 +78,7 @@ def _numba() -> tuple[Any, str]:
             ours = getattr(dispatcher, "py_func", None)
             if not self.made and ours is not None and ours.__module__.startswith("vexture."):
                 self.made = True
-                line = "vexture: compiling kernels for their first use on this machine (half a minute or less) ..."
+                line = "vexture: compiling kernels for their first use here (up to a minute on a slow machine) ..."
                 logging.getLogger("vexture").warning(line)  # to standard error, unless a program sets its level
 
         def on_end(self, event: Any) -> None:

@@ -197,7 +197,7 @@ def convert(
         Pieces in a leaf, 1 to 15; 4 by default.
     precision : float, optional
         Largest shift of the outline by rounding, in unit-square units; leaves are divided until it holds. By default
-        none is divided for it.
+        rounding alone divides no leaf.
     **others
         Parameters of another encoding.
 
@@ -214,6 +214,8 @@ def convert(
         If a selector chooses nothing, or the tree is too large.
     ParameterError
         If a parameter is out of range.
+    TypeError
+        If `source` is neither a drawing nor a path, or a parameter is unknown.
 
     Warns
     -----
@@ -252,7 +254,7 @@ def atlas(
     Parameters
     ----------
     sources : iterable of Drawing or path
-        A shape is named after its drawing; that of a file after the file, up to its first dot. Layers are
+        A shape is named after its drawing; that of a file after the file, without its last suffix. Layers are
         ``name/layer``.
     name : str
         Names the texture.
@@ -278,8 +280,8 @@ def atlas(
     ['a', 'b']
     """
     parameters = Parameters(split, select, tolerance, max_depth, capacity, precision)
-    if isinstance(sources, str | os.PathLike) or _is_drawing(sources):
-        sources = [sources]  # type: ignore[list-item]
+    if isinstance(sources, str | bytes | os.PathLike) or not isinstance(sources, Iterable):
+        sources = [sources]
     parts = []
     for source in sources:
         parts.append(trees_of(source, parameters))
@@ -301,6 +303,11 @@ def _drawing_of(source: Source, select: str | None) -> "Drawing":
     if not isinstance(source, Drawing):
         from vexture.reading import read_drawing
 
+        if not isinstance(source, str | os.PathLike):
+            kind = type(source).__name__
+            raise TypeError(
+                f"`source` is of the type {kind}; give a path or a Drawing, which vexture.read makes of bytes and files"
+            )
         return read_drawing(source, select=select)
     if select is not None:
         raise ParameterError(

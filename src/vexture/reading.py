@@ -1,5 +1,6 @@
 """The entry point of all sources: the content of a file decides how it is read, in every command and server."""
 
+import io
 import os
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, TypeAlias
@@ -26,7 +27,7 @@ if TYPE_CHECKING:  # at run time a reader is imported when it is needed
 __all__ = ["Source", "content_of", "extent_of", "name_of", "read", "read_drawing", "read_extent"]
 
 Place: TypeAlias = str | os.PathLike[str]
-Source: TypeAlias = Place | bytes | IO[bytes]
+Source: TypeAlias = Place | bytes | bytearray | memoryview | IO[bytes]
 """A path, the content of a file, or a binary file that is open."""
 
 UNNAMED = "drawing"
@@ -60,7 +61,9 @@ def read(source: Source, *, name: str | None = None, select: str | None = None) 
     SourceError
         If it cannot be read, or is a texture.
     ParameterError
-        If `select` is given for anything but an SVG.
+        If `select` is given for anything but an SVG, or `source` is the text of a file.
+    TypeError
+        If `source` is something else, such as a file that is open in text mode.
     LimitError
         If `select` matches nothing that is painted, or a limit is exceeded.
     DeviceError
@@ -92,7 +95,7 @@ def read_drawing(source: Source, *, name: str | None = None, select: str | None 
     >>> drawing.notes
     (Note(kind='left out', message='<text>', count=1),)
     """
-    shown = name_of(source, name)
+    source, shown = _checked(source), name_of(source, name)
     with about(shown):
         given = unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
         kind = known_kind(start_of(given) or read_bytes(given), shown)
@@ -102,6 +105,21 @@ def read_drawing(source: Source, *, name: str | None = None, select: str | None 
     from vexture.svg.read import svg_drawing
 
     return svg_drawing(content, shown, select)
+
+
+def _checked(source: object) -> Place | bytes | IO[bytes]:
+    """Return a source as it is, or a buffer as bytes; refuse anything else."""
+    if isinstance(source, bytearray | memoryview):
+        return bytes(source)
+    if isinstance(source, io.TextIOBase):
+        raise TypeError("`source` is open in text mode; open it in binary mode: open(path, 'rb')")
+    if not (isinstance(source, bytes | str | os.PathLike) or hasattr(source, "read")):
+        kind = type(source).__name__
+        raise TypeError(f"`source` is of the type {kind}; give a path, bytes or a file that is open in binary mode")
+    if isinstance(source, str) and source.lstrip().startswith(("<", "{")) and not os.path.exists(source):
+        start = " ".join(source[:60].split())
+        raise ParameterError(f"`source` is no path, but a text: {start} ...; use vexture.read(text.encode())")
+    return source  # type: ignore[return-value]
 
 
 def name_of(source: Source, name: str | None = None) -> str:

@@ -59,6 +59,8 @@ def test_affine_and_projective_matrices_are_kept():
         2.5,
         None,
         ("a", "b"),
+        True,
+        (4, True),
     ],
 )
 def test_bad_sizes_are_one_line(size):

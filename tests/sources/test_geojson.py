@@ -131,7 +131,7 @@ RINGS = (*FEATURES, "geometry", "coordinates", 1)
         (changed(*RINGS, 0, value=[[1], [2], [3]]), "ring 1, position 1 is"),
         (
             changed(*RINGS, 0, 1, value=[float("nan"), 1]),
-            r"feature 2, polygon 2, ring 1, position 2 is \[nan, 1\]",
+            r"feature 2, polygon 2, ring 1, position 2 is \[nan, 1\]; give finite numbers up to 1e.15",
         ),
         (changed(*RINGS, 0, 1, value=[1, float("inf")]), r"ring 1, position 2 is \[1, inf\]"),
         (changed(*RINGS, 0, 1, value=[10**400, 0]), "ring 1, position 2 is .100000"),
@@ -140,7 +140,7 @@ RINGS = (*FEATURES, "geometry", "coordinates", 1)
         ({"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [2, 0]]]}, "the drawing's box is 2 x 0"),
         (
             {"type": "Polygon", "coordinates": [[[-1e308, 0], [1e308, 0], [0, 1e308]]]},
-            "position 1 is .*; the limit is 1e.15",
+            "position 1 is .*; give finite numbers up to 1e.15",
         ),
         ([], "its outermost value is a list"),
     ],

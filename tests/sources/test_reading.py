@@ -1,9 +1,10 @@
 """One gate: the content of a file says what it is, whatever way it comes and whatever it is called."""
 
 import warnings
-from collections.abc import Iterator
-from io import BytesIO
+from collections.abc import Callable, Iterator
+from io import BytesIO, StringIO
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -142,3 +143,51 @@ def test_what_is_nothing_is_named_by_its_source(tmp_path: Path) -> None:
             with pytest.raises(SourceError, match=why) as caught:
                 vexture.read(source, name=str(path))
             assert str(caught.value).startswith(f"{path}: ")
+
+
+TEXT = SVG.decode()
+
+
+@pytest.mark.parametrize("buffer", [bytearray, memoryview])
+def test_buffers_are_read_as_bytes(buffer: type) -> None:
+    assert_same(read_drawing(buffer(TEXT.encode())), read_drawing(TEXT.encode()))
+
+
+KITE = Drawing.polygon([(0.5, 0.1), (0.8, 0.6), (0.5, 0.9), (0.2, 0.6)])
+
+
+@pytest.mark.parametrize(
+    ("function", "source", "says"),
+    [
+        (vexture.read, None, "NoneType; give a path, bytes or a file that is open in binary mode"),
+        (vexture.read, 5, "`source` is of the type int; give a path"),
+        (vexture.read, np.zeros(3), "`source` is of the type ndarray; give a path"),
+        (vexture.read, KITE, "`source` is of the type Drawing; give a path"),
+        (vexture.read, StringIO(TEXT), "`source` is open in text mode; open it in binary mode"),
+        (vexture.convert, b"<svg/>", "bytes; give a path or a Drawing, which vexture.read makes of bytes and files"),
+        (vexture.convert, ["a.svg"], "`source` is of the type list; give a path or a Drawing"),
+        (vexture.convert, BytesIO(b"<svg/>"), "`source` is of the type BytesIO; give a path or a Drawing"),
+        (vexture.atlas, [1], "`source` is of the type int; give a path or a Drawing"),
+        (vexture.atlas, 1, "`source` is of the type int; give a path or a Drawing"),
+        (vexture.atlas, b"<svg/>", "`source` is of the type bytes; give a path or a Drawing"),
+        (vexture.load, None, "`path` is of the type NoneType; give the path of a texture's file"),
+        (vexture.load, b"\xabKTX", "`path` is of the type bytes; give the path of a texture's file"),
+    ],
+)
+def test_a_source_of_another_type_is_refused(function: Callable[[Any], Any], source: object, says: str) -> None:
+    with pytest.raises(TypeError, match=says) as caught:
+        function(source)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("function", [vexture.read, vexture.convert])
+@pytest.mark.parametrize(
+    "text", ['<svg width="9">\n<path d="M0 0h2v1h-2z"/>\n</svg>' + 200 * " ", '\n{"type":\n"Polygon"}']
+)
+def test_a_text_in_place_of_a_path_is_refused(function: Callable[[Any], Any], text: str) -> None:
+    with pytest.raises(
+        ParameterError, match=r"`source` is no path, but a text.*; use vexture\.read\(text\.encode\(\)\)"
+    ) as caught:
+        function(text)
+    assert "\n" not in str(caught.value)
+    assert len(str(caught.value)) < 200

@@ -93,6 +93,27 @@ def test_roots_by_name_and_place() -> None:
             texture.root(place)
 
 
+@pytest.mark.parametrize("root", [True, 1.0, 0.5, [0]])
+def test_a_root_of_another_type_is_refused(root: object) -> None:
+    texture = texture_of([chain(1)] * 2)
+    for ask in (texture.root, texture.coverage, texture.render):
+        with pytest.raises(TypeError, match=r"shapes: `root` is .*; it must be a name or a whole number"):
+            ask(root) if ask == texture.root else ask(8, root=root)
+
+
+def test_repr_is_one_short_line() -> None:
+    assert repr(texture_of([chain(3)] * 2000)) == "<Texture 'shapes': 2048 x 3 texels, shapes: 2000>"
+
+
+def test_points_that_are_none_or_no_numbers() -> None:
+    texture = texture_of([chain(1)])
+    found = texture.contains(np.zeros((0, 2)), root=0)
+    assert (found.shape, found.dtype) == ((0,), bool)
+    for points in ("x", [("a", "b")], [(1, 2), (3,)]):
+        with pytest.raises(ParameterError, match="`points` is no array of numbers"):
+            texture.contains(points)
+
+
 def test_info_is_json() -> None:
     roots = [Root("a", to_source=TRANSFORM, crs="EPSG:4326", tolerance=1e-4, paint=Paint((1.0, 0.5, 0.0), 0.25))]
     told = json.loads(json.dumps(info(encode_packed([chain(2)], roots, name="n", source="a.svg"))))

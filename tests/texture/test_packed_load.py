@@ -19,7 +19,7 @@ from test_packed import TRANSFORM, chain
 from strategies import packed_trees
 from vexture.cli.main import main
 from vexture.drawing import Paint
-from vexture.errors import DeviceError, FormatError
+from vexture.errors import DeviceError, FormatError, ParameterError
 from vexture.texture.encode import encode as encode_packed
 from vexture.texture.ktx2 import write_ktx2
 from vexture.texture.load import load_any as load
@@ -91,6 +91,13 @@ def test_where_a_texture_goes(tmp_path: Path, target: str) -> None:
 def test_any_file_name(tmp_path: Path) -> None:
     assert shape().save(tmp_path / "shape.v2").name == "shape.v2"
     assert isinstance(load(tmp_path / "shape.v2"), Texture)
+
+
+@pytest.mark.parametrize("name", ["shape.png", "shape.SVG", "shape.geojson"])
+def test_a_suffix_of_another_kind_is_refused(tmp_path: Path, name: str) -> None:
+    with pytest.raises(ParameterError, match=rf"`path` .*{name} ends in .*, but a texture is a KTX2 file; use \.ktx2"):
+        shape().save(tmp_path / name)
+    assert names(tmp_path) == []
 
 
 def test_a_name_cannot_leave_the_folder(tmp_path: Path) -> None:
@@ -261,4 +268,20 @@ def test_the_command_line_describes_it(tmp_path: Path) -> None:
     whole = {"encoding": "packed", "version": "1", "name": "shape", "source": None, "width": 2, "height": 1}
     whole |= {"texels": 2, "depth": 1, "bytes": 32, "roots": [root]}
     assert json.loads(as_json.output) == whole
-    assert "roots       name shape, quad 0, coverage 0.0, quads 2, curves 0" in as_text.output
+    lines = as_text.output.splitlines()
+    assert "memory      32 bytes on the GPU" in lines
+    assert "shape       name shape, quad 0, coverage 0, quads 2, curves 0, depth 1" in lines
+    assert "None" not in as_text.output
+
+
+def test_the_command_line_describes_it_readably(tmp_path: Path) -> None:
+    paint = Paint((0.0, 0.4, 0.8), 1 / 3)
+    path = str(
+        dataclasses.replace(shape(), roots=(Root("sea", 0, TRANSFORM / 3, 1e-4, "EPSG:28992", paint),)).save(tmp_path)
+    )
+    first, second = CliRunner().invoke(main, ["info", path]).output.splitlines()[-2:]
+    assert first == "shape       name sea, quad 0, coverage 0, quads 2, curves 0, depth 1"
+    assert " ".join(second.split()) == (
+        "transform x = 8u - 0.5, y = - 8v + 0.111111, crs EPSG:28992, tolerance 0.0001, "
+        "paint #0066cc at opacity 0.333333"
+    )

@@ -225,7 +225,7 @@ def test_full_and_empty_cells_are_exact():
         ({"max_depth": 4.5}, "`max_depth` 4.5"),
         ({"capacity": 2.5}, "`capacity` 2.5"),
         ({"tolerance": None}, "`tolerance` None"),
-        ({"precision": 0.0}, "`precision` 0 is outside"),
+        ({"precision": 0.0}, "`precision` 0.0 is no number in"),
         ({"capacity": 0}, "`capacity` 0"),
         ({"capacity": 16}, "`capacity` 16"),
         ({"precision": 1e-12}, "`precision` 1e-12"),

@@ -47,12 +47,13 @@ export function drawingOf({ name, paint }) {
  *
  * @param {Shapes} texture
  * @param {RootChoice} choice
+ * @param {string} [otherwise] another remedy for a missing choice, for the end of the message
  * @returns {number}
  * @throws {VextureError} if there is no such shape, or several and no choice
  */
-export function shapeIndex({ name, roots }, choice) {
+export function shapeIndex({ name, roots }, choice, otherwise = '') {
   if (choice === undefined || choice === null) {
-    if (roots.length > 1) throw ambiguous(name, 'shapes', roots.map((root) => root.name));
+    if (roots.length > 1) throw ambiguous(name, 'shapes', roots.map((root) => root.name), otherwise);
     return 0;
   }
   if (typeof choice === 'number') {
@@ -95,9 +96,10 @@ export function layerRange(texture, choice) {
  * @param {string} texture its name
  * @param {'shapes' | 'drawings'} what
  * @param {string[]} names
+ * @param {string} [otherwise]
  */
-function ambiguous(texture, what, names) {
+function ambiguous(texture, what, names, otherwise = '') {
   const more = names.length > MOST_LISTED ? ` and ${names.length - MOST_LISTED} more` : '';
   const listed = names.slice(0, MOST_LISTED).map(shortened).join(', ') + more;
-  return new VextureError(`${texture} holds ${names.length} ${what} (${listed}); choose one by root`, 'root');
+  return new VextureError(`${texture} holds ${names.length} ${what} (${listed}); choose one by root${otherwise}`, 'root');
 }

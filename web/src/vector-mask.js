@@ -7,6 +7,7 @@ import { lookedUp } from './mask-lookup.js';
 import { checkOptions, complete, isTranslucent } from './mask-options.js';
 import { FOOTPRINT, ROOT_ATTRIBUTE, texts } from './mask-shader.js';
 import { mapTransform, uniformValues } from './mask-uniforms.js';
+import { shapeIndex } from './select-root.js';
 
 /** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
 /** @typedef {import('./mask-shader.js').Variant} Variant */
@@ -99,7 +100,11 @@ export class VectorMask {
     const { root, mode } = this.#options;
     const inLayers = mode === 'paint' && this.#texture.encoding === 'packed';
     if (this.#isRootless) this.#range = { first: 0, count: 1 }; // the shader does not read it
-    else this.#range = inLayers ? this.#texture.layersOf(root) : { first: this.#texture.index(root), count: 1 };
+    else if (inLayers) this.#range = this.#texture.layersOf(root);
+    else {
+      const isPainted = this.#texture.roots.some(({ paint }) => paint);
+      this.#range = { first: shapeIndex(this.#texture, root, isPainted ? ", or use mode: 'paint'" : ''), count: 1 };
+    }
   }
 
   /** Update the uniforms from the texture and the options. */

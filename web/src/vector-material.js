@@ -1,11 +1,12 @@
 import { MeshBasicMaterial } from 'three';
+import { VextureError, line } from './errors.js';
 import { VectorMask } from './vector-mask.js';
 
 /** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
 
 /**
  * @typedef {object} ShapeParameters
- * @property {VectorTexture} [texture]
+ * @property {VectorTexture | null} [texture] null or omitted: none yet
  * @property {'alpha' | 'paint' | 'cut'} [mode] the shape in `color`, the drawing in its own colours, or the shape in
  *   `color` without blending
  *
@@ -23,12 +24,23 @@ export class VectorMaterial extends MeshBasicMaterial {
   /** @type {import('./mask-options.js').MaskOptions} */
   #options = {};
 
-  /** @param {VectorMaterialParameters} [parameters] */
+  /**
+   * @param {VectorMaterialParameters} [parameters]
+   * @throws {VextureError} if an option is unknown or out of range, or the texture is undefined
+   */
   constructor(parameters = {}) {
     const { texture, root, transform, mode, wrap, quality, invert, threshold, background, instanced, ...others } =
       parameters;
     const { fold, time, ...basic } = others;
-    super(basic);
+    super();
+    for (const name of Object.keys(basic)) {
+      if (/** @type {any} */ (this)[name] !== undefined) continue;
+      throw new VextureError(`VectorMaterial has no option ${line(name)}; correct its name`, name);
+    }
+    if ('texture' in parameters && texture === undefined) {
+      throw new VextureError('texture is undefined; load one by VectorTextureLoader, or give null for none', 'texture');
+    }
+    this.setValues(basic);
     this.#options = { root, transform, mode, wrap, quality, invert, threshold, instanced, fold, time };
     this.#options.background = background ?? 'none';
     if (texture) this.texture = texture;

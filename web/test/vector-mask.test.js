@@ -44,7 +44,7 @@ describe('without a root', () => {
 
   test.each(/** @type {const} */ (['alpha', 'cut', 'mix']))('mode %s refuses several shapes', (mode) => {
     const names = badge.roots.map(({ name }) => name).join(', ');
-    const message = `badge holds 3 shapes (${names}); choose one by root`;
+    const message = `badge holds 3 shapes (${names}); choose one by root, or use mode: 'paint'`;
     expect(() => applyVectorMask(new MeshBasicMaterial(), badge, { mode })).toThrow(message);
     expect(() => applyVectorMask(new MeshBasicMaterial(), badge, { mode, root: null })).toThrow(message);
     const material = new VectorMaterial({ texture: duck, root: 0 });
@@ -115,6 +115,26 @@ describe('what a mask cannot be', () => {
     expect(error).toBeInstanceOf(VextureError);
     expect(error).toMatchObject({ field });
     expect(applyVectorMask(material, duck, { transform: new Matrix3() }).mode).toBe('alpha');
+  });
+
+  /** @type {[Record<string, unknown>, string][]} */
+  const wrongMaterial = [
+    [{ colour: 1 }, 'colour'],
+    [{ texture: duck, colour: 1 }, 'colour'],
+    [{ texture: undefined }, 'texture'],
+    [{ texture: duck, mode: 'alfa' }, 'mode'],
+  ];
+  test.each(wrongMaterial)('a VectorMaterial of %j', (options, field) => {
+    const error = (() => {
+      try {
+        return new VectorMaterial(/** @type {any} */ (options));
+      } catch (refused) {
+        return refused;
+      }
+    })();
+    expect(error).toBeInstanceOf(VextureError);
+    expect(error).toMatchObject({ field });
+    expect(new VectorMaterial({ texture: null, color: 0xff0000, side: 2 }).color.getHex()).toBe(0xff0000);
   });
 
   test.each([undefined, null, new Texture(), {}])('a mask of %j', (texture) => {

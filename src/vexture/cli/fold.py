@@ -21,7 +21,7 @@ Example:
 @click.argument("drawing", metavar="DRAWING", type=PATH)
 @click.option("-o", "--output", metavar="NAME.fold.ktx2", required=True, type=PATH, help="File to write, or a folder.")
 @click.option(
-    "--amplitude", metavar="A", type=float, default=0.005, show_default=True, help="Largest shift, in drawing sizes."
+    "--amplitude", metavar="A", type=float, default=0.005, show_default=True, help="Largest shift, unit-square units."
 )
 @click.option("--period", metavar="SECONDS", type=float, default=8.0, show_default=True, help="From wave to wave.")
 @click.option("--size", metavar="N", type=int, default=64, show_default=True, help="Texels each way, 8 to 256.")

@@ -1,7 +1,9 @@
 """The command `info`."""
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -34,10 +36,33 @@ def info(texture: Path, as_json: bool) -> None:
                 what = "it is not a texture" if start_of(texture) else "it is empty"
                 raise FormatError(f"{texture}: {what}; give a texture, which vexture convert makes from a drawing")
             facts = load_any(texture).info()
-        if as_json:
-            click.echo(json.dumps(facts, indent=2))
-            return
-        for key, value in facts.items():
-            for line in value if isinstance(value, list) and key == "roots" else [value]:
-                text = ", ".join(f"{name} {count}" for name, count in line.items()) if isinstance(line, dict) else line
-                click.echo(f"{key:<12}{text}")
+        click.echo(json.dumps(facts, indent=2) if as_json else "\n".join(_lines(facts)))
+
+
+def _lines(facts: dict[str, Any]) -> Iterator[str]:
+    """Facts for people: one in a line, and two lines for each shape; values that are missing are left out."""
+    for name, value in facts.items():
+        if name == "bytes":
+            yield f"{'memory':<12}{value} bytes on the GPU"
+        elif name != "roots":
+            yield from (f"{name:<12}{_text(name, value)}" for _ in range(value is not None))
+    for root in facts.get("roots", ()):
+        known = [f"{name} {_text(name, value)}" for name, value in root.items() if value is not None]
+        place = [*root].index("transform")
+        yield f"{'shape':<12}{', '.join(known[:place])}"
+        yield f"{'':<12}{', '.join(known[place:])}"
+
+
+def _text(name: str, value: Any) -> str:
+    """A value in at most six digits; a colour as CSS writes it; a transform from the unit square as two sums."""
+    if name == "paint":
+        from vexture.drawing import Paint
+
+        return f"{Paint(tuple(value['color'])).hex} at opacity {value['opacity']:.6g}"
+    if name == "transform":
+        parts = (zip(row, ("u", "v", ""), strict=True) for row in value)
+        sums = (" ".join(f"{'-+'[k > 0]} {abs(k):.6g}{of}" for k, of in part if k) for part in parts)
+        return "x = {}, y = {}".format(*(text.removeprefix("+ ") or "0" for text in sums))
+    if isinstance(value, dict):
+        return ", ".join(f"{kind} {count}" for kind, count in value.items())
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

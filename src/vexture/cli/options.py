@@ -140,7 +140,8 @@ tolerance_option = click.option(
     type=Tolerance(),
     default="auto",
     show_default=True,
-    help="Largest distance from the drawing's outline, in drawing sizes; auto is 0.",
+    help="Largest distance from the drawing's outline, in unit-square units: the drawing's longer side is 1. "
+    "auto is 0.",
 )
 
 

@@ -52,7 +52,7 @@ class Fold:
     Parameters
     ----------
     displacement : (rows, columns, 2) array
-        End positions relative to the texels' places, x right, y up, in sides of the unit square; the top row first.
+        End positions relative to the texels' places, x right, y up, in unit-square units; the top row first.
         Kept as float32.
     kind : (rows, columns) array of `Kind`, or one
     begin, duration : (rows, columns) array, or one number

@@ -47,7 +47,7 @@ FOLD_MOST_SIDE: Final = 256
 """Most columns or rows: a fold is smooth, so few are enough."""
 
 FOLD_MOST_DISPLACEMENT: Final = 1.0
-"""Largest displacement along each axis, in sides of the unit square."""
+"""Largest displacement along each axis, in unit-square units."""
 
 FOLD_FILE_LIMIT: Final = 1 << 22
 """Bytes. Longer files are refused: this is four times the most texels, uncompressed."""

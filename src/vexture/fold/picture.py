@@ -73,7 +73,7 @@ def fold_picture(fold: Fold, drawing: "Drawing | None" = None, size: int = 768) 
     picture.paste(_image(_wheel_over(fold, ground, largest)), (0, 0))
     draw = ImageDraw.Draw(picture)
     _draw_arrows(draw, fold, size, largest)
-    _caption(draw, (0, 0), f"end positions, largest {largest:.3g} sides", size)
+    _caption(draw, (0, 0), f"end positions, largest {largest:.3g}", size)
     moves = np.hypot(fold.displacement[..., 0], fold.displacement[..., 1]) > STILL * largest
     for place, title, colors in (
         (0, "kinds", np.array([KIND_COLORS[kind] for kind in Kind], np.float64)[fold.kind]),

@@ -62,13 +62,13 @@ def shore_fold(
     drawing : Drawing
         The water; without paths nothing moves.
     amplitude : float
-        Largest displacement to either side, in sides of the unit square.
+        Largest displacement to either side, in unit-square units.
     period : float
         Seconds from one wave to the next.
     size : int
         Texels each way.
     reach : float, optional
-        In sides of the unit square; by default two texels or 2.5 amplitudes, whichever is more.
+        In unit-square units; by default two texels or 2.5 amplitudes, whichever is more.
 
     Returns
     -------
@@ -103,7 +103,9 @@ def fold_of_shore(
 ) -> Fold:
     """Fold of `shore_fold`, without a warning: the notes are in the fold."""
     if not 0.0 < amplitude <= MOST_AMPLITUDE:
-        raise ParameterError(f"`amplitude` is {amplitude:g}; it must be above 0 and at most {MOST_AMPLITUDE} sides")
+        raise ParameterError(
+            f"`amplitude` is {amplitude:g}; it must be above 0 and at most {MOST_AMPLITUDE} (unit-square units)"
+        )
     if not 0.01 <= period <= FOLD_MOST_SECONDS:
         raise ParameterError(f"`period` is {period:g}; it must be 0.01 to {FOLD_MOST_SECONDS} seconds")
     if not LEAST_SIDE <= size <= FOLD_MOST_SIDE:

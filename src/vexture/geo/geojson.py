@@ -271,7 +271,9 @@ def _position_by_position(ring: list[Any], where: str) -> Ring:
     bad = ~(np.abs(points) <= LARGEST).all(axis=1)  # NaN is bad too
     if bad.any():
         number = int(bad.argmax()) + 1
-        raise SourceError(f"{where}, position {number} is {_shown(ring[number - 1])}; the limit is {LARGEST:g}")
+        raise SourceError(
+            f"{where}, position {number} is {_shown(ring[number - 1])}; give finite numbers up to {LARGEST:g}"
+        )
     return points
 
 

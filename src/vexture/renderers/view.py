@@ -63,7 +63,7 @@ def size_of(size: Size) -> tuple[int, int]:
     """
     try:
         width, height = (size, size) if isinstance(size, int | np.integer) else size
-        whole = int(width) == width and int(height) == height
+        whole = all(int(side) == side and not isinstance(side, bool) for side in (width, height))
     except (TypeError, ValueError, OverflowError):
         raise ParameterError(f"`size` is {size!r}; give (width, height), two integers in 1..{SIZE_LIMIT}") from None
     if not whole or not (1 <= width <= SIZE_LIMIT and 1 <= height <= SIZE_LIMIT):

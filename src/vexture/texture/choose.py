@@ -8,6 +8,8 @@ import difflib
 from collections.abc import Sequence
 from typing import Final
 
+import numpy as np
+
 from vexture.errors import ParameterError
 from vexture.texture.root import Root
 
@@ -21,7 +23,7 @@ def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "text
     """Number of the shape that `root` means: a name, a number from 0, or None for the only shape.
 
     `texture` names the texture in messages. Raises a `ParameterError` if there is no such shape, or if `root` is
-    missing and there are several.
+    missing and there are several; a `TypeError` if it is of another type.
 
     Examples
     --------
@@ -50,6 +52,8 @@ def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "text
             raise ParameterError(f"{texture}: no shape {root!r}; near names are {listed}; there are {len(names)}")
         there = f"the first of {len(names)} are" if len(names) > 5 else "there are" if len(names) > 1 else "there is"
         raise ParameterError(f"{texture}: no shape {root!r}; {there} {listed}")
+    if isinstance(root, bool) or not isinstance(root, int | np.integer):
+        raise TypeError(f"{texture}: `root` is {root!r}; it must be a name or a whole number")
     if not 0 <= root < len(roots):
         raise ParameterError(f"{texture}: no shape {root}; they are numbered 0 to {len(roots) - 1}")
     return int(root)

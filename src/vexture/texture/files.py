@@ -7,7 +7,7 @@ import secrets
 from collections.abc import Mapping
 from pathlib import Path
 
-from vexture.errors import DeviceError, FormatError
+from vexture.errors import DeviceError, FormatError, ParameterError
 from vexture.layout import PACKED_SUFFIX
 
 __all__ = [
@@ -23,6 +23,9 @@ __all__ = [
 
 TEMPORARY = ".tmp"
 """Suffix of incomplete files; those that a crash leaves can be deleted."""
+
+OTHER_FILES = (".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".svg", ".svgz", ".json", ".geojson", ".html", ".glsl")
+"""Suffixes that a texture's file must not have: programs would open it as a picture or a drawing."""
 
 NAME_BYTES = 200  # file systems allow 255, and suffixes are added
 
@@ -42,12 +45,18 @@ def file_name(name: str) -> str:
 def target_of(path: str | os.PathLike[str], name: str) -> Path:
     """The packed texture's file to write: `name` in a folder, or the path itself.
 
+    Raises a `ParameterError` if the path ends in a suffix of `OTHER_FILES`.
+
     Examples
     --------
     >>> str(target_of("maps/", "delft")), str(target_of("maps/all.ktx2", "delft"))
     ('maps/delft.ktx2', 'maps/all.ktx2')
     """
-    return Path(path) / (file_name(name) + PACKED_SUFFIX) if is_folder(path) else Path(path)
+    if is_folder(path):
+        return Path(path) / (file_name(name) + PACKED_SUFFIX)
+    if (suffix := Path(path).suffix).lower() in OTHER_FILES:
+        raise ParameterError(f"`path` {path} ends in {suffix}, but a texture is a KTX2 file; use {PACKED_SUFFIX}")
+    return Path(path)
 
 
 def is_folder(path: str | os.PathLike[str]) -> bool:

@@ -52,6 +52,8 @@ def load(path: str | os.PathLike[str], *, encoding: str = DEFAULT) -> EncodedTex
         If it may not be read.
     ParameterError
         If there is no such encoding.
+    TypeError
+        If `path` is no path.
 
     Examples
     --------
@@ -63,6 +65,8 @@ def load(path: str | os.PathLike[str], *, encoding: str = DEFAULT) -> EncodedTex
     >>> bool((again.texels == kite.texels).all())
     True
     """
+    if not isinstance(path, str | os.PathLike):
+        raise TypeError(f"`path` is of the type {type(path).__name__}; give the path of a texture's file")
     if encoding != DEFAULT:
         return find_encoding(encoding).load(path)
     given = Path(path)

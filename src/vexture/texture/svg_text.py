@@ -15,7 +15,7 @@ from vexture.texture.root import Root
 __all__ = ["svg_document"]
 
 DIGITS = 9
-"""Decimal digits of a coordinate, in drawing sizes: finer than the lattices of all but the smallest leaves."""
+"""Decimal digits of a coordinate, in unit-square units: finer than the lattices of all but the smallest leaves."""
 
 NOT_IN_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 

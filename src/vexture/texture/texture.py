@@ -28,7 +28,7 @@ __all__ = ["Root", "Texture"]
 WRITER: Final = "vexture"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Texture:
     """A texture of packed quads and curves (FORMAT.md, part B).
 
@@ -69,6 +69,11 @@ class Texture:
         check_size(self.texels.shape[1], self.texels.shape[0])
         if not self.roots:
             raise FormatError("a texture has at least one root; give one for each shape")
+
+    def __repr__(self) -> str:
+        """Name, size and number of shapes."""
+        height, width, _ = self.texels.shape
+        return f"<Texture {self.name!r}: {width} x {height} texels, shapes: {len(self.roots)}>"
 
     @property
     def flat(self) -> NDArray[np.uint32]:
@@ -135,7 +140,8 @@ class Texture:
         Raises
         ------
         ParameterError
-            If the points have another shape, there is no such shape, or `root` is missing and there are several.
+            If the points are no numbers or have another shape, there is no such shape, or `root` is missing and there
+            are several.
 
         Examples
         --------
@@ -146,7 +152,10 @@ class Texture:
         """
         from vexture.texture.contains import points_inside  # late: compiled code, not needed for reading
 
-        wanted = np.asarray(points, np.float64)
+        try:
+            wanted = np.asarray(points, np.float64)
+        except (TypeError, ValueError):
+            raise ParameterError("`points` is no array of numbers; give (n, 2)") from None
         if wanted.ndim != 2 or wanted.shape[1] != 2:
             raise ParameterError(f"`points` has the shape {wanted.shape}; it must be (n, 2)")
         inside = np.empty(len(wanted), np.bool_)
@@ -331,7 +340,7 @@ class Texture:
         ----------
         path : path
             A folder (that exists or ends with a separator): the file gets the texture's name and ``.ktx2``. Else
-            the file itself.
+            the file itself, whose name does not end as that of a drawing or a picture.
 
         Returns
         -------
@@ -341,7 +350,9 @@ class Texture:
         Raises
         ------
         DeviceError
-            If the disk refuses.
+            If the file cannot be written.
+        ParameterError
+            If the path ends in the suffix of another kind of file, such as ``.png``.
         """
         target = target_of(path, self.name)
         write_together({target: self.to_ktx2()})

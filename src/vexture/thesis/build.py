@@ -32,6 +32,7 @@ from vexture.thesis.subdivide import Cell, Level, cell_of, children
 from vexture.thesis.tree import CellTree
 from vexture.tolerance import CLOSED
 from vexture.tree.boundary import MOST_RESOLVED, crowded_area
+from vexture.tree.build import check_whole
 from vexture.tree.cubics import gather
 from vexture.tree.divide import with_room
 from vexture.tree.tree import MOST_QUADS
@@ -213,8 +214,7 @@ def build(
     """
     if strategy not in ("direct", "sampled"):
         raise ParameterError(f"`strategy` is {strategy!r}; it must be 'direct' or 'sampled'")
-    if not (isinstance(max_depth, int | np.integer) and 1 <= max_depth <= MOST_DEPTH):
-        raise ParameterError(f"`max_depth` {max_depth} is outside 1..{MOST_DEPTH}; the default is {DEFAULT_DEPTH}")
+    check_whole("max_depth", max_depth, MOST_DEPTH, DEFAULT_DEPTH)
     cubics, owner, rules = gather(drawing)
     accuracy = accuracy_of(tolerance, cubics, step)
     pieces = monotone_pieces(cubics, owner)

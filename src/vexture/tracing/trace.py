@@ -118,10 +118,16 @@ def image_drawing(source: str | os.PathLike[str] | bytes, name: str) -> Drawing:
 def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
     """Trace a picture of pixels.
 
-    The outline lies where a pixel is half covered, to about a sixth of a pixel. If any pixel is transparent, all
-    others are painted; else all pixels but those of the border's colour, if the border is uniform; else, of two
-    colours, the darker one; else the whole picture. Flat colours become paths of that paint, each of which extends
-    slightly under those painted after it. A picture of many colours, such as a photograph, is traced coarsely.
+    The outline lies where a pixel is half covered, to about a sixth of a pixel. The first of these that fits the
+    picture decides what is painted:
+
+    - a picture with transparent pixels: all others;
+    - a border of one colour: all pixels but those of that colour;
+    - two colours: the darker one;
+    - any other picture: all of it.
+
+    Flat colours become paths of that paint, each of which extends slightly under those painted after it. A picture of
+    many colours, such as a photograph, is traced coarsely.
 
     Parameters
     ----------

@@ -18,7 +18,7 @@ from vexture.tree.leaf import DIVIDE, Leaf, Workspace, leaf_of, new_workspace
 from vexture.tree.tree import MOST_QUADS, Tree
 from vexture.tree.winding import child_windings, inside
 
-__all__ = ["DEFAULT_CAPACITY", "DEFAULT_DEPTH", "build_tree", "largest_shift"]
+__all__ = ["DEFAULT_CAPACITY", "DEFAULT_DEPTH", "build_tree", "check_whole", "largest_shift"]
 
 DEFAULT_CAPACITY = 4
 """Pieces in a leaf."""
@@ -290,6 +290,16 @@ def largest_shift(precision: float | None) -> float:
     return 0.5 * DISPLACEMENT / LATTICE if precision is None else precision
 
 
+def check_whole(name: str, value: object, most: int, default: int) -> None:
+    """Raise a `ParameterError` unless a parameter is a whole number in 1..`most`."""
+    if isinstance(value, bool) or not (isinstance(value, int | np.integer) and 1 <= value <= most):
+        raise ParameterError(f"`{name}` {value!r} is no whole number in 1..{most}; the default is {default}")
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, float | int | np.number) and not isinstance(value, bool)
+
+
 def build_tree(
     drawing: Drawing,
     *,
@@ -313,19 +323,19 @@ def build_tree(
     >>> len(tree.count), len(tree.curves), round(float(tree.coverage[0].mean()), 4)
     (1, 6, 0.36)
     """
-    if not (isinstance(max_depth, int | np.integer) and 1 <= max_depth <= MOST_DEPTH):
-        raise ParameterError(f"`max_depth` {max_depth} is outside 1..{MOST_DEPTH}; the default is {DEFAULT_DEPTH}")
-    if not (isinstance(capacity, int | np.integer) and 1 <= capacity <= MOST_CURVES):
-        raise ParameterError(f"`capacity` {capacity} is outside 1..{MOST_CURVES}; the default is {DEFAULT_CAPACITY}")
+    check_whole("max_depth", max_depth, MOST_DEPTH, DEFAULT_DEPTH)
+    check_whole("capacity", capacity, MOST_CURVES, DEFAULT_CAPACITY)
     finest = DISPLACEMENT * 0.5**max_depth / LATTICE
-    if precision is not None and not finest <= precision <= 1.0:
+    if not (precision is None or (_is_number(precision) and finest <= precision <= 1.0)):
         raise ParameterError(
-            f"`precision` {precision:g} is outside {finest:.1e}..1, in drawing sizes, at the depth limit {max_depth}; "
-            "leave it out for views up to 1,000 times, or give 1e-7 for 10,000"
+            f"`precision` {precision!r} is no number in {finest:.1e}..1 (unit-square units), at `max_depth` "
+            f"{max_depth}; leave it out for views up to 1,000 times, or give 1e-7 for 10,000"
         )
     least_depth = 1 if precision is None else max(math.ceil(math.log2(DISPLACEMENT / (precision * LATTICE))), 1)
-    if not (isinstance(tolerance, float | int | np.number) and 0.0 <= tolerance < 1.0):
-        raise ParameterError(f"`tolerance` {tolerance} is outside 0 to 1, in drawing sizes; 0 keeps every piece")
+    if not (_is_number(tolerance) and 0.0 <= tolerance < 1.0):
+        raise ParameterError(
+            f"`tolerance` {tolerance!r} is no number from 0 to below 1 (unit-square units); 0 keeps every piece"
+        )
     bounds = Bounds(capacity, float(tolerance), least_depth, max_depth, most_quads)
     arrays, deviation, unresolved, outside = grow(*gather(drawing), bounds)
     if not outside <= CLOSED:  # NaN counts as outside
