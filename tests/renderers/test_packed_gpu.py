@@ -1,4 +1,5 @@
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from packed_views import texture_of, turned
 
 from vexture.drawing import Drawing, Path
 from vexture.errors import ParameterError
+from vexture.renderers.cpu import render_cpu
 from vexture.renderers.device import context
 from vexture.renderers.exact import render_exact
 from vexture.renderers.gpu import render_gpu
@@ -120,6 +122,20 @@ def test_an_s_curve_has_no_speckles(quality: str, upright: bool, backwards: bool
     drawing = Drawing((Path((contour,)),), name="s")
     image = render_gpu(texture_of(drawing), (700, 700), quality=quality)
     assert np.abs(image - render_exact(drawing, (700, 700))).max() < 4 * STEP
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+@pytest.mark.parametrize("renderer", [render_cpu, render_gpu])
+@pytest.mark.parametrize("pixels", [63, 64, 128, 256])
+def test_a_pixel_whose_search_starts_where_the_piece_stands_still(pixels: int, renderer: Any, quality: str) -> None:
+    """At this flat inflection both derivatives are nothing: the search must leave it."""
+    if renderer is render_gpu:
+        need_gpu()
+    a, b = (0.0, 0.8431625601235806), (0.796875, 0.109375)
+    curve = [a, (0.1748046875, 0.5546875), (0.49668078464495724, 0.7266572749339014), b]
+    drawing = Drawing((Path((np.array([curve, [b, a, b, a]]),)),))
+    image = renderer(texture_of(drawing), pixels, quality=quality)
+    assert np.abs(image - render_exact(drawing, pixels)).max() < STEP
 
 
 @pytest.mark.parametrize("version", VERSIONS)
