@@ -1,5 +1,6 @@
 """The grammar of path data."""
 
+import numpy as np
 import pytest
 
 from vexture.svg.path_data import path_outlines
@@ -53,3 +54,23 @@ def test_closing_returns_to_the_start() -> None:
     assert first.closed
     assert not second.closed
     assert second.cubics[0, 0].tolist() == [1, 1]
+
+
+def test_flags_of_arcs_need_no_space() -> None:
+    (compact,), _ = path_outlines("M0 0A60,60 0 0 100 50z", 1e-3)
+    (spaced,), _ = path_outlines("M0 0 A 60 60 0 0 1 00 50 z", 1e-3)
+    np.testing.assert_array_equal(compact.cubics, spaced.cubics)
+
+
+@pytest.mark.parametrize("radii", ["5e-324 5", "5 5e-324", "0 5", "5e-324 0", "1e-200 1e-50"])
+def test_arcs_of_radii_next_to_nothing_are_lines(radii: str) -> None:
+    (outline,), valid = path_outlines(data := f"M1 1A{radii} 0 0 1 9 5", 1e-3)
+    assert valid == len(data)
+    np.testing.assert_allclose(outline.cubics, [np.linspace((1, 1), (9, 5), 4)])
+
+
+@pytest.mark.parametrize("radius", ["1e-9", "1e-200", "5e-324"])
+def test_arcs_too_small_to_join_their_ends_are_enlarged(radius: str) -> None:
+    (tiny,), _ = path_outlines(f"M1 1A{radius} {radius} 0 0 1 9 1", 1e-3)
+    (half,), _ = path_outlines("M1 1A4 4 0 0 1 9 1", 1e-3)
+    np.testing.assert_allclose(tiny.cubics, half.cubics, atol=1e-12)

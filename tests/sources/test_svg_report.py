@@ -1,9 +1,11 @@
 """What is not supported is named, once for a file."""
 
+import warnings
 from pathlib import Path
 
 import pytest
 
+from vexture import read
 from vexture.errors import SourceWarning
 from vexture.svg.read import read_svg
 
@@ -40,6 +42,39 @@ def test_unsupported_features_are_named_once(path: Path) -> None:
         read_svg(path)
     assert [str(warning.message) for warning in caught] == [f"{path}: {SAID[path.stem]}"]
     assert caught[0].filename == __file__
+
+
+GROUP = "opacity of a group, which each of its shapes has by itself"
+SHAPE = "opacity of a shape, which its fill and its stroke have by themselves"
+TWO = '<rect width="5" height="5"/><rect x="2" width="5" height="5"/>'
+BESIDE = '<rect width="2" height="5"/><rect x="2" width="5" height="5"/>'
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ('<rect width="5" height="5" stroke="red" opacity=".5"/>', [SHAPE]),
+        ('<rect width="5" height="5" opacity=".5"/>', []),
+        (f'<g opacity=".5">{TWO}</g>', [GROUP]),
+        (f'<g opacity=".5"><g>{TWO}</g></g>', [GROUP]),
+        (f'<g opacity=".5">{BESIDE}</g>', []),
+        (f'<g opacity="1">{TWO}</g>', []),
+        (f'<defs><g id="a">{TWO}</g></defs><use href="#a" opacity=".5"/>', [GROUP]),
+        (f'<svg opacity=".5">{TWO}</svg>', [GROUP]),
+        ('<rect width="5" height="5" style="mix-blend-mode: multiply"/>', ["mix-blend-mode"]),
+        ('<rect width="5" height="5" style="mix-blend-mode: normal"/>', []),
+    ],
+)
+def test_opacity_and_blending_that_are_not_drawn_are_named(body: str, said: list[str]) -> None:
+    with warnings.catch_warnings(action="ignore", category=SourceWarning):
+        drawing = read(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">{body}</svg>'.encode())
+    assert [note.message for note in drawing.notes] == said
+
+
+def test_opacity_of_the_outermost_svg_is_named() -> None:
+    with warnings.catch_warnings(action="ignore", category=SourceWarning):
+        drawing = read(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9" opacity=".5">{TWO}</svg>'.encode())
+    assert [note.message for note in drawing.notes] == [GROUP]
 
 
 @pytest.mark.parametrize(

@@ -96,6 +96,9 @@ class Painter:
         shown = [contour for contour in shown if len(contour)]
         if shown:
             self.paths.append(Path(tuple(shown), rule, paint))
+            if place.veil is not None:
+                ends = np.concatenate([contour.reshape(-1, 2) for contour in shown])
+                place.veil.add((*ends.min(axis=0), *ends.max(axis=0)))
 
 
 def stroke_of(shape: Shape, outlines: list[Outline]) -> Stroke | None:

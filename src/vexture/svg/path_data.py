@@ -46,7 +46,7 @@ NUMBERS: Final = re.compile(NUMBER)
 ARC: Final = re.compile(GAP.join(f"({argument})" for argument in ARGUMENTS["A"]))
 
 HUGE = 1e100
-"""Larger numbers would overflow in the arithmetic of an arc; such a radius draws a line anyway."""
+"""Larger numbers, and radii below the inverse, overflow in the arithmetic of an arc, which becomes a line."""
 
 Point = tuple[float, float]
 
@@ -153,7 +153,12 @@ class Pen:
 
     def arc_to(self, rx: float, ry: float, rotation: float, large: bool, sweep: bool, end: Point) -> None:
         """Draw an arc of an ellipse."""
-        if not max(map(abs, (rx, ry, rotation, *self.at, *end))) <= HUGE:
+        larger = max(abs(rx), abs(ry))
+        if 0.0 < larger < 1.0 / HUGE:  # too small to join the points: only their quotient counts
+            small = abs(complex(*end) - complex(*self.at)) / 8.0
+            rx, ry = rx / larger * small, ry / larger * small
+        largest = max(map(abs, (rx, ry, rotation, *self.at, *end)))
+        if not (largest <= HUGE and min(abs(rx), abs(ry)) >= 1.0 / HUGE):
             self.line_to(end)
             return
         for step in arc_cubics(self.at, (rx, ry), rotation, large, sweep, end, self.tolerance):

@@ -73,6 +73,7 @@ PROPERTIES: dict[str, Property] = {
     "filter": Property("none", False, anything),
     "height": Property("auto", False, matching(f"auto|{SIZE}")),
     "mask": Property("none", False, anything),
+    "mix-blend-mode": Property("normal", False, anything),
     "opacity": Property("1", False, matching(OPACITY)),
     "overflow": Property("hidden", False, one_of("visible", "hidden", "scroll", "auto", "clip")),
     "r": Property("0", False, matching(SIZE)),

@@ -17,7 +17,7 @@ from vexture.svg.paint_servers import PaintServers, reference
 from vexture.svg.painter import Painter
 from vexture.svg.report import Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
-from vexture.svg.space import Place, Space
+from vexture.svg.space import Place, Space, Veil
 from vexture.svg.style import INITIAL, Cascade, Style
 from vexture.svg.transform import Identity, Transform, parse_origin, parse_transform
 from vexture.svg.values import Viewport
@@ -42,7 +42,18 @@ UNPAINTED = frozenset(
 """Elements that paint nothing themselves."""
 
 ANIMATIONS = frozenset({"animate", "animateColor", "animateMotion", "animateTransform", "discard", "set"})
-EFFECTS = ("clip-path", "filter", "mask", "rotate", "scale", "translate")
+EFFECTS = {
+    "clip-path": "none",
+    "filter": "none",
+    "mask": "none",
+    "mix-blend-mode": "normal",
+    "rotate": "none",
+    "scale": "none",
+    "translate": "none",
+}
+"""Properties that are not supported, and the value of each without effect."""
+
+GROUP = "group, which each of its shapes has by itself"
 MARKED = frozenset({"line", "path", "polygon", "polyline"})
 LANGUAGE = "en"
 """Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
@@ -57,6 +68,7 @@ class Scene:
         self.root = root
         self.chosen = chosen
         self.report = report
+        self.veils: list[Veil] = []
         self.cascade: Cascade = Cascade(root, report)
         self.servers: PaintServers = PaintServers(root, self.cascade, report)
         self.style: Style = self.cascade.style(root, INITIAL)
@@ -76,6 +88,8 @@ class Scene:
             self.report.left_out("transform of the outermost <svg>")
         chosen = self.chosen is None or self.root in self.chosen
         place = Place(viewport, Space().moved(matrix), self.style, opacity, self.root, chosen=chosen)
+        if opacity < 1.0:
+            place = replace(place, veil=self.veil(None, "svg"))
         used = 0
         stack = [(child, place) for child in reversed(self.root)]
         while stack:
@@ -87,7 +101,16 @@ class Scene:
                 stack.extend(reversed(self.visit(element, place, painter)))
             except SourceError as error:
                 raise SourceError(f"{described(element)}: {error}") from None
+        for veil in self.veils:
+            if veil.overlaps:
+                self.report.simplified(veil.note)
         return painter.paths
+
+    def veil(self, outer: Veil | None, name: str) -> Veil:
+        """A new element with an opacity of its own."""
+        what = "shape, which its fill and its stroke have by themselves" if name in SHAPES else GROUP
+        self.veils.append(Veil(outer, f"opacity of a {what}"))
+        return self.veils[-1]
 
     def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Placed]:
         """Paint an element, or return the elements that it shows."""
@@ -114,9 +137,10 @@ class Scene:
         if place.depth >= DEEPEST:
             raise SourceError(f"it stands inside {DEEPEST:,} others; flatten the groups or the uses")
         space, depth = place.space.moved(matrix), place.depth + 1
-        inner = Place(place.viewport, space, style, opacity, element, place, depth, place.used, chosen=chosen)
-        if opacity < place.opacity and name not in SHAPES and len(element) > 1:
-            self.report.simplified("opacity of a group, which each of its shapes has by itself")
+        veil = self.veil(place.veil, name) if opacity < place.opacity else place.veil
+        inner = Place(
+            place.viewport, space, style, opacity, element, place, depth, place.used, chosen=chosen, veil=veil
+        )
         if name in SHAPES:
             self.note_children(element, name, style)
             painter.paint(element, inner)
@@ -206,8 +230,8 @@ class Scene:
     def note_effects(self, style: Style) -> None:
         """Note effects that are not supported."""
         if style.own:
-            for name in EFFECTS:
-                if style.own.get(name, "none").lower() != "none":
+            for name, nothing in EFFECTS.items():
+                if style.own.get(name, nothing).lower() != nothing:
                     self.report.left_out(name)
 
     def note_children(self, element: etree._Element, name: str, style: Style) -> None:

@@ -1,6 +1,6 @@
 """Where an element stands: its user units, the viewports that clip it, and the style that it inherits."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from lxml import etree
@@ -13,7 +13,7 @@ from vexture.svg.transform import Identity, Transform, mapped
 from vexture.svg.values import LARGEST, Viewport
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["Place", "Space"]
+__all__ = ["Place", "Space", "Veil"]
 
 SMALLEST = 1 / LARGEST**4
 """Smallest determinant: below it, sizes in user units cannot be computed in floating point."""
@@ -58,6 +58,36 @@ class Space:
         return contour
 
 
+MOST_BOXES = 500
+"""Paths in a group that are compared with one another."""
+
+Box = tuple[float, float, float, float]
+"""Left, bottom, right and top, in the drawing's coordinates."""
+
+
+@dataclass(slots=True, eq=False)
+class Veil:
+    """A group or shape with an opacity of its own, and what is painted in it."""
+
+    outer: "Veil | None"
+    note: str  # for the user, if anything painted in it overlaps
+    boxes: list[Box] = field(default_factory=list)
+    overlaps: bool = False
+
+    def add(self, box: Box) -> None:
+        """Add the box of a path; those of more than `MOST_BOXES` are taken to overlap."""
+        self.overlaps = self.overlaps or len(self.boxes) == MOST_BOXES or any(meet(box, other) for other in self.boxes)
+        if not self.overlaps:
+            self.boxes.append(box)
+        if self.outer is not None:
+            self.outer.add(box)
+
+
+def meet(a: Box, b: Box) -> bool:
+    """Whether the insides of two boxes have a point in common."""
+    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Place:
     """The context of an element in the drawing; `use` puts the same element in several places."""
@@ -72,6 +102,7 @@ class Place:
     used: bool = False  # whether one of them is a `use`
     use: Style | None = None  # style of the `use` whose target stands here
     chosen: bool = True  # whether elements here are painted
+    veil: Veil | None = None  # the innermost one around it
 
     def inside(self, element: etree._Element) -> bool:
         """Whether an element is around this place."""
