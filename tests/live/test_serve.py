@@ -6,6 +6,7 @@ import json
 import signal
 import subprocess
 from contextlib import ExitStack, closing
+from urllib.parse import urljoin
 
 import pytest
 from PIL import Image
@@ -230,6 +231,22 @@ def test_a_folder_that_is_created_is_mentioned(tmp_path):
     with serving(tmp_path / "shapes") as server:
         assert server.ask("GET", "/shapes")[0] == 200
         assert server.stop() == (0, "", ""), "the folder is there"
+
+
+def test_an_upload_is_kept_though_a_drawing_of_the_folder_holds_the_same_files(tmp_path):
+    folder = tmp_path / "shapes"
+    folder.mkdir()
+    (folder / "square.svg").write_bytes(square())
+    with serving(folder) as server:
+        server.wait_for("square")
+        assert server.put("logo", square())[0] == 201
+        assert server.put("logo", square(4))[0] == 200
+        assert server.put("logo", square())[0] == 200
+    (folder / "square.svg").unlink()
+    with serving(folder) as server:
+        manifest = server.manifest("logo")
+        for address in (manifest["texture"], *manifest["views"].values()):
+            assert server.ask("GET", urljoin("/shapes/logo", address))[0] == 200, address
 
 
 def test_without_a_token_file_nothing_is_written(tmp_path):

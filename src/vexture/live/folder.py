@@ -47,6 +47,7 @@ class Folder(LimitedShelf):
         super().__init__(limits)
         self._path, self._say = path, say
         self._shapes_folder, self._files_folder = path / STATE / "shapes", path / STATE / "files"
+        self._kept: set[str] = set()  # names of the files on the disk, whose content has been checked
         self._turn = asyncio.Lock()
         try:
             for folder in (self._shapes_folder, self._files_folder):
@@ -64,7 +65,7 @@ class Folder(LimitedShelf):
         """Keep a shape and tell all clients; raises a `DeviceError` if the disk refuses, and keeps the previous one."""
         async with self._turn:
             self.check_room(shape)
-            fresh = [file for file in shape.files if not self.owners(file.name)]
+            fresh = [file for file in shape.files if file.name not in self._kept]
             before = self.shape(shape.name)
             try:
                 await asyncio.to_thread(self._write, shape, fresh)
@@ -72,6 +73,8 @@ class Folder(LimitedShelf):
                 raise DeviceError(f"{shape.name}: cannot be kept ({error.strerror}); make room on the disk") from None
             self.put(shape)
             stale = [file.name for file in (before.files if before else ()) if not self.owners(file.name)]
+            self._kept.update(file.name for file in fresh)
+            self._kept.difference_update(stale)
             await asyncio.to_thread(self._remove, stale)
 
     async def take_drawings(self, converter: Converter) -> None:
@@ -133,6 +136,7 @@ class Folder(LimitedShelf):
             except (OSError, ValueError, KeyError, TypeError, AttributeError, LimitError, RecursionError) as error:
                 whole = False
                 self._say(f"{path}: damaged ({_reason(error)}); the others are served; publish its shape again")
+        self._kept.update(file.name for name in self.names for file in self._shapes[name].files)
         for path in self._files_folder.iterdir():
             # a damaged manifest may be repaired by hand, and needs the files that it names
             if path.name.endswith(TEMPORARY) or (whole and not self.owners(path.name)):
