@@ -111,7 +111,7 @@ def calls() -> Iterator[tuple[Any, tuple[Any, ...]]]:
     for file in sorted(SHAPES.glob("*.svg")):
         drawing = read_svg(file)
         for tolerance in (0.0, 0.001):
-            yield grow, (*gather(drawing), Bounds(4, tolerance, 1, 16, MOST_QUADS))
+            yield grow, (*gather(drawing), Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS))
         texture = convert(drawing)
         for quality in (0, 1):
             to_unit = np.array([[0.02, 0.0, 0.0], [0.0, -0.02, 1.0], [0.0, 0.0, 1.0]])

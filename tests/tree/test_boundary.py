@@ -101,7 +101,8 @@ def test_resolved_boundary_equals_brute_force(seed):
             present = level.present[level.path_at[c] : level.path_at[c + 1]]
             curves = quantise(level.pieces.points[first:last], *level.origin[c], size)
             owner = np.searchsorted(present[:, 0], level.pieces.path[first:last])
-            boundary = resolve(curves, owner, present[:, 1].copy(), rules[present[:, 0]])
+            once = np.ones(len(owner), np.int64)
+            boundary = resolve(curves, owner, once, present[:, 1].copy(), rules[present[:, 0]])
             clear = distance > CLEAR * size / LATTICE + SAGITTA
             for i in np.flatnonzero(in_cell(points, level, c, size) & clear):
                 state, total = inside_resolved(curves, boundary, (points[i] - level.origin[c]) / size * LATTICE)

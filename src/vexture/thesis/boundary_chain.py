@@ -238,7 +238,7 @@ def cell_chain(cell: Cell, rules: NDArray[np.int64]) -> Chain:
     corner, cell_rules = np.empty(len(present), np.int64), np.empty(len(present), np.int64)
     cell_paths(pieces.path, present, rules, owner, corner, cell_rules)
     curves = quantise(pieces.points, cell.x0, cell.y0, cell.size)
-    boundary = resolve(curves, owner, corner, cell_rules)
+    boundary = resolve(curves, owner, np.ones(len(owner), np.int64), corner, cell_rules)
     runs, slabs = len(boundary.run_piece), len(boundary.left)
     chain = _run_parts(curves, pieces, boundary, 2 * runs + slabs + 2)
     area = boundary_area(boundary, chain.curves[:runs])

@@ -176,6 +176,7 @@ def _coincide(x: NDArray[np.float64], i: int, j: int, height: float) -> bool:
 def _roles_in_slab(
     curves: NDArray[np.float64],
     owner: NDArray[np.int64],
+    multiplicity: NDArray[np.int64],
     windings: NDArray[np.int64],
     rules: NDArray[np.int64],
     active: NDArray[np.int64],
@@ -204,7 +205,7 @@ def _roles_in_slab(
             i = active[last]
             p = owner[i]
             paths_inside -= 1 if inside(w[p], rules[p]) else 0
-            w[p] += -1 if curves[i, 3, 1] > curves[i, 0, 1] else 1
+            w[p] += -multiplicity[i] if curves[i, 3, 1] > curves[i, 0, 1] else multiplicity[i]
             paths_inside += 1 if inside(w[p], rules[p]) else 0
             last += 1
         if before != (paths_inside > 0):
@@ -222,12 +223,16 @@ def _roles_in_slab(
 
 @kernel
 def resolve(
-    curves: NDArray[np.float64], owner: NDArray[np.int64], corner: NDArray[np.int64], rules: NDArray[np.int64]
+    curves: NDArray[np.float64],
+    owner: NDArray[np.int64],
+    multiplicity: NDArray[np.int64],
+    corner: NDArray[np.int64],
+    rules: NDArray[np.int64],
 ) -> Boundary:
     """Boundary of the union of all paths in a leaf, from its pieces on the lattice (`quantise`).
 
     `owner` (n,) is the path of each piece, as an index into `corner`, the corner windings, and `rules`, both of the
-    leaf's paths only.
+    leaf's paths only. `multiplicity` (n,) says how often each piece is there; negative: in the other direction.
     """
     heights = _slab_heights(curves)
     slabs, count = len(heights) - 1, len(curves)
@@ -249,10 +254,12 @@ def resolve(
             for i in range(count):
                 for end, event in ((0, 1), (3, -1)):
                     if curves[i, end, 0] == 0.0 and curves[i, end, 1] == low:
-                        windings[owner[i]] += event
+                        windings[owner[i]] += event * multiplicity[i]
             high = heights[slab + 1]
             spanning = _order_slab(curves, low, high, active, x)
-            left[slab] = _roles_in_slab(curves, owner, windings, rules, active, spanning, x, high - low, previous, role)
+            left[slab] = _roles_in_slab(
+                curves, owner, multiplicity, windings, rules, active, spanning, x, high - low, previous, role
+            )
         for i in range(count):
             if role[i] != previous[i]:
                 if previous[i] != 0:

@@ -29,6 +29,9 @@ DEFAULT_DEPTH = 16
 DISPLACEMENT = 2.0
 """Lattice units by which a curve may move: its points are rounded when it is cut, and again in its leaf."""
 
+COINCIDENT = 0.25
+"""Share of the largest shift within which the pieces of a crowded cell count as one. Rounding takes half of it."""
+
 IS_QUAD, COUNT, WINDING, COVERAGE = range(4)
 """Columns of the cells while the tree grows."""
 
@@ -66,6 +69,7 @@ class Bounds(NamedTuple):
 
     capacity: int  # pieces in a leaf
     tolerance: float  # unit-square units
+    near: float  # unit-square units within which pieces of a crowded cell are one
     least_depth: int  # depth of the largest leaf with pieces
     max_depth: int
     most_quads: int
@@ -177,8 +181,22 @@ def _grow_quad(
         if depth + 1 >= bounds.least_depth:
             paths, target = present[end_path:here], tree.curves[counts[CURVES] :]
             at_limit = depth + 1 == bounds.max_depth
-            capacity, tolerance, first = bounds.capacity, bounds.tolerance, child_at[child]
-            leaf = leaf_of(pool, first, end, paths, rules, x, y, half, capacity, tolerance, at_limit, work.leaf, target)
+            leaf = leaf_of(
+                pool,
+                child_at[child],
+                end,
+                paths,
+                rules,
+                x,
+                y,
+                half,
+                bounds.capacity,
+                bounds.tolerance,
+                bounds.near,
+                at_limit,
+                work.leaf,
+                target,
+            )
         if leaf.size == DIVIDE:
             cells[quad, child, IS_QUAD] = 1.0
             stack[top, QUAD], stack[top, DEPTH], stack[top, FIRST] = counts[QUADS], depth + 1, child_at[child]
@@ -336,7 +354,8 @@ def build_tree(
         raise ParameterError(
             f"`tolerance` {tolerance!r} is no number from 0 to below 1 (unit-square units); 0 keeps every piece"
         )
-    bounds = Bounds(capacity, float(tolerance), least_depth, max_depth, most_quads)
+    near = COINCIDENT * largest_shift(precision)
+    bounds = Bounds(capacity, float(tolerance), near, least_depth, max_depth, most_quads)
     arrays, deviation, unresolved, outside = grow(*gather(drawing), bounds)
     if not outside <= CLOSED:  # NaN counts as outside
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {outside:.3g}; clip or scale it first")

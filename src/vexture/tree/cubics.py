@@ -1,9 +1,14 @@
 """The cubics of a drawing in one array."""
 
+import math
+from collections import Counter
+from collections.abc import Iterable
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import Drawing
+from vexture.drawing import Drawing, FillRule
 
 __all__ = ["gather"]
 
@@ -11,12 +16,40 @@ __all__ = ["gather"]
 def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
     """Cubics of a drawing (n, 4, 2), the path of each (n,), and the paths' fill rules (paths,).
 
-    A path that repeats an earlier one bit for bit adds nothing to the silhouette and is left out.
+    A path that repeats an earlier one bit for bit adds nothing to the silhouette and is left out, and so are copies of
+    a contour that do not change where its path is filled.
     """
-    different = {(path.fill_rule, *(contour.tobytes() for contour in path.contours)): path for path in drawing.paths}
-    paths = list(different.values())
-    contours = [contour for path in paths for contour in path.contours]
+    different: dict[tuple[Any, ...], list[NDArray[np.float64]]] = {}
+    for path in drawing.paths:
+        bits = [contour.tobytes() for contour in path.contours]
+        if (path.fill_rule, *bits) not in different:
+            different[path.fill_rule, *bits] = [path.contours[k] for k in _needed(path.fill_rule, bits)]
+    contours = [contour for kept in different.values() for contour in kept]
+    lengths = [sum(map(len, kept)) for kept in different.values()]
     cubics = np.concatenate(contours) if contours else np.empty((0, 4, 2))
-    lengths = [sum(map(len, path.contours)) for path in paths]
     owner = np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
-    return cubics, owner, np.array([int(path.fill_rule) for path in paths], dtype=np.int64)
+    return cubics, owner, np.array([int(rule) for rule, *_ in different], dtype=np.int64)
+
+
+def _needed(rule: FillRule, contours: list[bytes]) -> Iterable[int]:
+    """Places of the contours that decide where a path is filled.
+
+    Under the even-odd rule two copies cancel. Under the nonzero rule all winding numbers may be divided by a common
+    factor.
+
+    Examples
+    --------
+    >>> list(_needed(FillRule.NONZERO, [b"a", b"a", b"b", b"b"])), list(_needed(FillRule.EVENODD, [b"a", b"a", b"b"]))
+    ([0, 2], [2])
+    """
+    copies = Counter(contours)
+    if len(copies) == len(contours):
+        return range(len(contours))
+    common = math.gcd(*copies.values())
+    left = {bits: count % 2 if rule is FillRule.EVENODD else count // common for bits, count in copies.items()}
+    needed = []
+    for place, bits in enumerate(contours):
+        if left[bits]:
+            left[bits] -= 1
+            needed.append(place)
+    return needed

@@ -16,6 +16,7 @@ from vexture.bezier.split import copy_curve, subcubic
 from vexture.kernels import kernel
 from vexture.layout import LATTICE, MOST_CURVES
 from vexture.tree.boundary import MOST_RESOLVED, Boundary, cell_paths, crowded_area, quantise_piece, resolve
+from vexture.tree.coincide import match, may_coincide
 from vexture.tree.divide import PiecePool
 from vexture.tree.left_edge import corner_winding
 from vexture.tree.merge import MOST_MERGED, merge_chains
@@ -120,6 +121,7 @@ def new_workspace() -> Workspace:
             np.empty(MOST_RESOLVED, np.int64),
             np.empty(MOST_RESOLVED, np.int64),
             np.empty(MOST_RESOLVED, np.int64),
+            np.empty(MOST_RESOLVED, np.int64),
         ),
         np.empty(MOST_RESOLVED, np.int64),
         np.empty(MOST_RESOLVED, np.int64),
@@ -155,7 +157,7 @@ def _resolve_cell(cell: CellPieces, out: NDArray[np.float64]) -> int:
     There are at most twice as many runs as pieces and crossings. Runs beyond the room of `out` are left out; such cells
     hold far more than a leaf can store.
     """
-    boundary = resolve(cell.curves, cell.owner, cell.corner, cell.rules)
+    boundary = resolve(cell.curves, cell.owner, cell.multiplicity, cell.corner, cell.rules)
     return _resolved_pieces(cell.curves, boundary, out)
 
 
@@ -171,6 +173,7 @@ def leaf_of(
     size: float,
     capacity: int,
     tolerance: float,
+    near: float,
     at_limit: bool,
     workspace: Workspace,
     target: NDArray[np.float64],
@@ -183,26 +186,44 @@ def leaf_of(
     is in lattice units.
     """
     n, paths = last - first, len(present)
-    if n > MOST_RESOLVED and at_limit:
-        return Leaf(0, 0, _crowded_area(pool, first, last, present, rules, x0, y0, size), 0.0, False)
-    if n > (MOST_MERGED if tolerance > 0.0 else 2 * MOST_CURVES) and not at_limit:
-        return Leaf(DIVIDE, 0, 0.0, 0.0, True)
-    room, out, path, distance = workspace.cell, workspace.out, workspace.path[:n], 0.0
-    points, paths_of, numbers, curves = pool.points, pool.path, pool.numbers, room.curves[:n]
-    for k in range(n):
-        i = numbers[first + k]
-        quantise_piece(points[i], x0, y0, size, curves[k])
-        path[k] = paths_of[i]
-    if tolerance > 0.0 and 1 < n <= MOST_MERGED:
-        n, distance = merge_chains(curves, path, tolerance * LATTICE / size, out, workspace.merged_path)
-        curves, path = room.curves[:n], workspace.merged_path[:n]
-        for k in range(n):
-            copy_curve(out[k], curves[k])
-    upright = _upright(curves)
+    room, out, distance = workspace.cell, workspace.out, 0.0
     most = capacity + (SPARE if paths > 1 else 0)
+    matched, upright = -1, 0
+    if n > most and may_coincide(pool, first, last, x0, y0, size):
+        matched, upright = match(pool, first, last, x0, y0, size, near, room, workspace.path)
+    if matched >= 0:
+        n = matched
+    elif n > MOST_RESOLVED and at_limit:
+        return Leaf(0, 0, _crowded_area(pool, first, last, present, rules, x0, y0, size), 0.0, False)
+    elif n > (MOST_MERGED if tolerance > 0.0 else 2 * MOST_CURVES) and not at_limit:
+        return Leaf(DIVIDE, 0, 0.0, 0.0, True)
+    else:
+        points, paths_of, numbers, curves, path = (
+            pool.points,
+            pool.path,
+            pool.numbers,
+            room.curves[:n],
+            workspace.path[:n],
+        )
+        for k in range(n):
+            i = numbers[first + k]
+            quantise_piece(points[i], x0, y0, size, curves[k])
+            path[k] = paths_of[i]
+        if tolerance > 0.0 and 1 < n <= MOST_MERGED:
+            n, distance = merge_chains(
+                room.curves[:n], workspace.path[:n], tolerance * LATTICE / size, out, workspace.merged_path
+            )
+            for k in range(n):
+                copy_curve(out[k], room.curves[k])
+                workspace.path[k] = workspace.merged_path[k]
+        upright = _upright(room.curves[:n])
+        room.multiplicity[:n] = 1
+    curves, path = room.curves[:n], workspace.path[:n]
     if not at_limit and upright > most and (upright > MOST_CURVES or not _meet(curves, n)):
         return Leaf(DIVIDE, 0, 0.0, 0.0, True)
-    cell = CellPieces(curves, room.owner[:n], room.corner[:paths], room.rules[:paths], room.windings[:paths])
+    cell = CellPieces(
+        curves, room.owner[:n], room.multiplicity[:n], room.corner[:paths], room.rules[:paths], room.windings[:paths]
+    )
     cell_paths(path, present, rules, cell.owner, cell.corner, cell.rules)
     _round_controls(curves, n)
     count = clean_pieces(cell, out) if all_separate(curves) else UNSURE

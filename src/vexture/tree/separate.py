@@ -23,6 +23,7 @@ class CellPieces(NamedTuple):
 
     curves: NDArray[np.float64]  # (n, 4, 2): ends and control points are integers
     owner: NDArray[np.int64]  # (n,): path of each piece, an index into the arrays below
+    multiplicity: NDArray[np.int64]  # (n,): how often each piece is there; negative: in the other direction
     corner: NDArray[np.int64]  # (paths,): corner windings
     rules: NDArray[np.int64]  # (paths,): `FillRule`s
     windings: NDArray[np.int64]  # (paths,): scratch
@@ -104,7 +105,7 @@ def left_edge_windings(cell: CellPieces, y: float, below: bool) -> None:
     for i in range(len(curves)):
         for end, event in ((0, 1), (3, -1)):
             if curves[i, end, 0] == 0.0 and (curves[i, end, 1] < y or (curves[i, end, 1] == y and not below)):
-                windings[owner[i]] += event
+                windings[owner[i]] += event * cell.multiplicity[i]
 
 
 @kernel(allocates=False)
@@ -125,9 +126,9 @@ def _role(cell: CellPieces, i: int) -> int:
                 return UNSURE
             left = gap > 0.0
         if left:
-            windings[owner[j]] += -1 if d > a else 1
+            windings[owner[j]] += -cell.multiplicity[j] if d > a else cell.multiplicity[j]
     before = any_inside(windings, rules)
-    windings[owner[i]] += -1 if curves[i, 3, 1] > curves[i, 0, 1] else 1
+    windings[owner[i]] += -cell.multiplicity[i] if curves[i, 3, 1] > curves[i, 0, 1] else cell.multiplicity[i]
     after = any_inside(windings, rules)
     return 0 if before == after else (1 if after else -1)
 
