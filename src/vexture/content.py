@@ -114,14 +114,7 @@ def kind_of(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind:
 
 
 def known_kind(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind:
-    """Kind of a file as `kind_of` says; raises a `SourceError` if it is empty, or if its content is of no known kind.
-
-    Examples
-    --------
-    >>> known_kind(b"")  # doctest: +ELLIPSIS
-    Traceback (most recent call last):
-    vexture.errors.SourceError: is empty; give an SVG, GeoJSON, ...
-    """
+    """Kind of a file as `kind_of` says; raises a `SourceError` if it is empty or its content is of no known kind."""
     if not start:
         raise SourceError(f"is empty; {READABLE}")
     kind = kind_of(start, file_name)
@@ -150,10 +143,7 @@ def unpacked(source: str | os.PathLike[str] | bytes) -> str | os.PathLike[str] |
 def read_bytes(source: str | os.PathLike[str] | bytes) -> bytes:
     """Content of a file, or the content that is given, decompressed if it is gzip (`.svgz`).
 
-    Raises
-    ------
-    SourceError
-        If it cannot be read, is damaged or too large.
+    Raises a `SourceError` if it cannot be read, is damaged or too large.
     """
     if isinstance(source, bytes):
         return decompressed(source)
@@ -183,15 +173,7 @@ def decompressed(content: bytes) -> bytes:
 
 @contextmanager
 def about(source: str) -> Iterator[None]:
-    """Put the name of a source in front of the errors about it.
-
-    Examples
-    --------
-    >>> with about("duck.svg"):
-    ...     raise SourceError("it is empty")
-    Traceback (most recent call last):
-    vexture.errors.SourceError: duck.svg: it is empty
-    """
+    """Put the name of a source in front of the errors about it."""
     try:
         yield
     except (SourceError, LimitError, DeviceError, ParameterError) as error:

@@ -54,13 +54,7 @@ class Code(NamedTuple):
 
 
 def described(value: Any) -> Described:
-    """Type of an argument or a result for which a kernel is specialised; "" if there is never code for it.
-
-    Examples
-    --------
-    >>> described((2, 0.5, np.zeros((3, 4), np.int64)))
-    ['tuple', 'int', 'float', ['<i8', 2, True]]
-    """
+    """Type of an argument or a result for which a kernel is specialised; "" if there is never code for it."""
     if value is None:
         return None
     if type(value) is int:

@@ -87,14 +87,7 @@ def read(source: Source, *, name: str | None = None, select: str | None = None) 
 
 
 def read_drawing(source: Source, *, name: str | None = None, select: str | None = None) -> "Drawing":
-    """Read a drawing as `read` does, but without a warning.
-
-    Examples
-    --------
-    >>> drawing = read_drawing(b'<svg viewBox="0 0 9 9"><text>a</text><path d="M0 0h9v9z"/></svg>')
-    >>> drawing.notes
-    (Note(kind='left out', message='<text>', count=1),)
-    """
+    """Read a drawing as `read` does, but without a warning."""
     source, shown = _checked(source), name_of(source, name)
     with about(shown):
         given = unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
@@ -280,13 +273,7 @@ def _refuse(options: dict[str, str | None], kind: str) -> None:
 
 
 def content_of(path: str | os.PathLike[str]) -> bytes:
-    """Content of a file, decompressed; of a shapefile and the files beside it, as a zip.
-
-    Raises
-    ------
-    SourceError
-        If it cannot be read or is too large.
-    """
+    """Content of a file, decompressed; of a shapefile and the files beside it, a zip. Raises as `read_bytes` does."""
     with about(os.fspath(path)):
         content = read_bytes(path)
         if not content.startswith(SHAPEFILE):

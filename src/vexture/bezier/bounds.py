@@ -7,13 +7,7 @@ __all__ = ["bounds"]
 
 
 def bounds(cubics: NDArray[np.float64]) -> tuple[float, float, float, float]:
-    """Least x, least y, largest x and largest y of the curves, not of their control points; (n, 4, 2), n >= 1.
-
-    Examples
-    --------
-    >>> bounds(np.array([[[0.0, 0.0], [0.0, 4.0], [1.0, 4.0], [1.0, 0.0]]]))
-    (0.0, 0.0, 1.0, 3.0)
-    """
+    """Least x, least y, largest x and largest y of the curves, not of their control points; (n, 4, 2), n >= 1."""
     p0, p1, p2, p3 = np.moveaxis(cubics, 1, 0)
     a, b, c = p3 - p0 + 3.0 * (p1 - p2), 2.0 * (p0 - 2.0 * p1 + p2), p1 - p0
     root = np.sqrt(np.maximum(b * b - 4.0 * a * c, 0.0))

@@ -28,16 +28,6 @@ def clip_contour(contour: NDArray[np.float64], low: Corner, high: Corner) -> NDA
     Each cubic of a closed contour starts, bit for bit, where the one before it ends; so does each cubic of the result
     (m, 4, 2). No end point leaves the box, and cut points lie exactly on it. Control points may lie outside. m is 0 if
     only lines along one side are left.
-
-    Examples
-    --------
-    >>> from vexture.drawing import Drawing
-    >>> square = Drawing.polygon([(0.5, 0.5), (1, 0.5), (1, 1), (0.5, 1)]).paths[0].contours[0]
-    >>> clip_contour(square, (0, 0), (0.75, 1))[:, 0]
-    array([[0.5 , 0.5 ],
-           [0.75, 0.5 ],
-           [0.75, 1.  ],
-           [0.5 , 1.  ]])
     """
     for axis in range(2):
         for bound, side in ((low[axis], 1.0), (high[axis], -1.0)):

@@ -29,14 +29,7 @@ Step = tuple[float, float, float, float, float, float]
 
 
 def line_cubics(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Straight lines as cubics, (..., 2) -> (..., 4, 2), with inner control points at one and two thirds.
-
-    Examples
-    --------
-    >>> line_cubics(np.array([0.0, 0.0]), np.array([3.0, 6.0]))[1:3]
-    array([[1., 2.],
-           [2., 4.]])
-    """
+    """Straight lines as cubics, (..., 2) -> (..., 4, 2), with inner control points at one and two thirds."""
     chord = end - start
     return np.stack([start, start + chord / 3.0, start + chord * (2.0 / 3.0), end], axis=-2)
 
@@ -50,13 +43,7 @@ def straight(cubics: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 
 def turn_steps(angle: float, radius: float, tolerance: float) -> int:
-    """Number of equal cubics that follow a turn of `angle` (radians) around a circle within the tolerance.
-
-    Examples
-    --------
-    >>> turn_steps(2 * pi, 1.0, 1e-3), turn_steps(2 * pi, 0.5, 1e-5)
-    (4, 7)
-    """
+    """Number of equal cubics that follow a turn of `angle` (radians) around a circle within the tolerance."""
     quarter = 1.0 if radius == 0.0 else min(1.0, (tolerance / (QUARTER_ERROR * radius)) ** (1 / 6))
     return max(1, ceil(abs(angle) / (pi / 2 * max(quarter, FINEST)) - 1e-9))
 
@@ -100,11 +87,6 @@ def arc_cubics(
     `rotation` is that of the first axis, in degrees; `large` and `sweep` choose one of the four arcs. Radii that are
     too small to join the points are enlarged, as the standard demands; a radius of zero gives the straight line.
     `tolerance` is the largest distance from the true arc.
-
-    Examples
-    --------
-    >>> [round(c, 4) for c in arc_cubics((1, 0), (1, 1), 0, False, True, (0, 1), 1e-3)[0]]
-    [1.0, 0.5523, 0.5523, 1.0, 0, 1]
     """
     rx, ry = abs(radii[0]), abs(radii[1])
     (x0, y0), (x3, y3) = start, end
@@ -138,13 +120,7 @@ def arc_cubics(
 
 
 def ellipse_cubics(center: tuple[float, float], radii: tuple[float, float], tolerance: float) -> NDArray[np.float64]:
-    """Whole ellipse within a tolerance, from its rightmost point towards +y, as a closed contour (n, 4, 2).
-
-    Examples
-    --------
-    >>> ellipse_cubics((0, 0), (1, 2), 1e-2)[1, 0]
-    array([0., 2.])
-    """
+    """Whole ellipse within a tolerance, from its rightmost point towards +y, as a closed contour (n, 4, 2)."""
     steps = turn_steps(2.0 * pi, max(radii), tolerance)
     steps += -steps % 4  # cubics end exactly where the ellipse turns
     quarter = turn_cubics((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), 0.0, pi / 2, steps // 4)
@@ -161,11 +137,6 @@ def conic_cubics(p0: complex, p1: complex, p2: complex, weight: float, tolerance
     """Circular arc, a rational quadratic of weight cos(half its angle), as P1, P2 and P3 of each cubic in turn.
 
     Points are complex numbers. The arc is halved as in Farin, "Curves and Surfaces for CAGD", 13.
-
-    Examples
-    --------
-    >>> [complex(round(p.real, 4), round(p.imag, 4)) for p in conic_cubics(1, 1 + 1j, 1j, 0.5**0.5, 1e-3)]
-    [(1+0.5523j), (0.5523+1j), 1j]
     """
     half = acos(min(max(weight, -1.0), 1.0))
     radius = abs(p1 - p0) / tan(half) if half > 0.0 else 0.0

@@ -24,14 +24,7 @@ ALONG = 0.001
 
 @kernel(allocates=False)
 def chord_parameters(points: NDArray[np.float64], t: NDArray[np.float64]) -> float:
-    """Write each point's share of the polyline's length, (n, 2) -> (n,); return the length.
-
-    Examples
-    --------
-    >>> t = np.empty(3)
-    >>> chord_parameters(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 3.0]]), t), t
-    (4.0, array([0.  , 0.25, 1.  ]))
-    """
+    """Write each point's share of the polyline's length, (n, 2) -> (n,); return the length."""
     t[0] = 0.0
     for i in range(1, len(points)):
         t[i] = t[i - 1] + np.hypot(points[i, 0] - points[i - 1, 0], points[i, 1] - points[i - 1, 1])
@@ -114,13 +107,6 @@ def project(points: NDArray[np.float64], t: NDArray[np.float64], curve: NDArray[
     """Move each parameter t, (n,), to the nearest place on the curve by a Newton step; return the largest distance.
 
     The first and the last point, of (n, 2), are the curve's ends and stay.
-
-    Examples
-    --------
-    >>> line = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]])
-    >>> t = np.array([0.0, 0.4, 1.0])
-    >>> project(np.array([[0.0, 0.0], [1.5, 0.5], [3.0, 0.0]]), t, line), t
-    (0.5, array([0. , 0.5, 1. ]))
     """
     worst = 0.0
     for i in range(1, len(points) - 1):
@@ -158,13 +144,6 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
     P. J. Schneider, "An algorithm for automatically fitting digitized curves" (Graphics Gems, 1990), with both inner
     control points free: the tangents at the ends are not prescribed. The fit stops when every point is within
     `tolerance`.
-
-    Examples
-    --------
-    >>> curve = np.empty((4, 2))
-    >>> t = np.linspace(0.0, 1.0, 9)
-    >>> bool(fit_cubic(np.column_stack((t, t * t)), 1e-6, curve) < 1e-2)
-    True
     """
     n = len(points)
     for k in range(4):

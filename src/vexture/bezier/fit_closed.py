@@ -23,8 +23,7 @@ CORNER = 55.0
 
 BENDING = 1500.0, 15.0
 """Weights of bending (squared second differences): on stairs, which removes waves shorter than some 20 samples, and
-where the chain is smooth, which removes those shorter than some 6.
-"""
+where the chain is smooth, which removes those shorter than some 6."""
 
 SMOOTH = 0.25
 """Share of the tolerance by which smooth parts may be moved."""
@@ -121,13 +120,6 @@ def fit_samples(points: NDArray[np.float64], corner: NDArray[np.bool_], toleranc
     """Few cubics through the samples of a closed chain, (n, 2) -> (m, 4, 2); each is as long as the tolerance allows.
 
     Consecutive cubics have the same direction where they meet, except at corners.
-
-    Examples
-    --------
-    >>> angle = np.linspace(0.0, 2.0 * np.pi, 100, endpoint=False)
-    >>> circle = np.column_stack((np.cos(angle), np.sin(angle)))
-    >>> len(fit_samples(circle, np.zeros(100, bool), 1e-3))
-    4
     """
     n = len(points)
     begin, flattest = 0, np.inf
@@ -193,14 +185,6 @@ def fit_closed(
 
     The first point is not repeated at the end. Each cubic starts, bit for bit, where the one before it ends. A chain
     that encloses nothing gives no cubics.
-
-    Examples
-    --------
-    >>> angle = np.linspace(0.0, 2.0 * np.pi, 200, endpoint=False)
-    >>> disc = np.round(20.0 * np.column_stack((np.cos(angle), np.sin(angle))))  # a staircase
-    >>> cubics = fit_closed(disc, 0.5)
-    >>> len(cubics) < 9, bool(np.abs(np.hypot(*cubics[:, 0].T) - 20.0).max() < 0.4)
-    (True, True)
     """
     new = (points != np.roll(points, 1, axis=0)).any(axis=1)
     kept = np.zeros(len(points), np.bool_) if fixed is None else fixed

@@ -52,13 +52,6 @@ def monotone_pieces(cubics: NDArray[np.float64], path: NDArray[np.int64]) -> Pie
     """Split the cubics (m, 4, 2) of contours where x or y turns; `path` (m,) is the path of each.
 
     The order stays. Pieces whose ends coincide are dropped, and common end points are equal bit for bit.
-
-    Examples
-    --------
-    >>> arch = np.array([[[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]])
-    >>> monotone_pieces(arch, np.zeros(1, np.int64)).span
-    array([[0. , 0.5],
-           [0.5, 1. ]])
     """
     out = empty_pieces(5 * len(cubics))
     at = np.empty(4)

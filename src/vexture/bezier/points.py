@@ -7,14 +7,7 @@ __all__ = ["points_along", "points_at"]
 
 
 def points_along(cubics: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points of every cubic at the same parameters: (n, 4, 2) and (m,) -> (n, m, 2).
-
-    Examples
-    --------
-    >>> line = np.array([[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]]])
-    >>> points_along(line, np.array([0.0, 0.5, 1.0]))[0, :, 0]
-    array([0. , 1.5, 3. ])
-    """
+    """Points of every cubic at the same parameters: (n, 4, 2) and (m,) -> (n, m, 2)."""
     points: NDArray[np.float64] = np.einsum("kt,mkc->mtc", _bernstein(t), cubics)
     return points
 

@@ -31,11 +31,6 @@ def solve_monotone(p0: float, p1: float, p2: float, p3: float, value: float) -> 
 
     Newton's method inside a bracket that each step tightens; a step that leaves the bracket is replaced by bisection.
     Exact at both ends.
-
-    Examples
-    --------
-    >>> round(solve_monotone(0.0, 1 / 3, 2 / 3, 1.0, 0.25), 12)
-    0.25
     """
     if value == p0:
         return 0.0
@@ -70,12 +65,6 @@ def turning_points(p0: float, p1: float, p2: float, p3: float, out: NDArray[np.f
 
     The derivative's roots by the stable form ``q = -(b + sgn(b) sqrt(b^2 - 4 a c)) / 2``, ``q / a`` and ``c / q``
     (Press et al., Numerical Recipes, 5.6). A double root does not turn.
-
-    Examples
-    --------
-    >>> out = np.empty(2)
-    >>> turning_points(0.0, 1.0, 1.0, 0.0, out), float(out[0])
-    (1, 0.5)
     """
     a = 3.0 * (p3 - p0 + 3.0 * (p1 - p2))
     b = 6.0 * (p0 - 2.0 * p1 + p2)

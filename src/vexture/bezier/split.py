@@ -21,14 +21,6 @@ def split(curve: NDArray[np.float64], t: float, left: NDArray[np.float64], right
     """Write the parts before and after t, (4, 2) each; they share their common point bit for bit.
 
     `left` or `right` may be `curve` itself.
-
-    Examples
-    --------
-    >>> curve = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]])
-    >>> left, right = np.empty((4, 2)), np.empty((4, 2))
-    >>> split(curve, 0.5, left, right)
-    >>> left[3], right[0]
-    (array([1.5, 0. ]), array([1.5, 0. ]))
     """
     for axis in range(2):
         p0, p1, p2, p3 = curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis]
@@ -44,16 +36,7 @@ def split(curve: NDArray[np.float64], t: float, left: NDArray[np.float64], right
 
 @kernel(allocates=False)
 def subcubic(curve: NDArray[np.float64], t0: float, t1: float, out: NDArray[np.float64]) -> None:
-    """Write the part of a cubic from t0 to t1, (4, 2); t0 > t1 gives it reversed (blossoming).
-
-    Examples
-    --------
-    >>> curve = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]])
-    >>> out = np.empty((4, 2))
-    >>> subcubic(curve, 1.0, 0.0, out)
-    >>> out[:, 0]
-    array([3., 2., 1., 0.])
-    """
+    """Write the part of a cubic from t0 to t1, (4, 2); t0 > t1 gives it reversed (blossoming)."""
     s0, s1 = 1.0 - t0, 1.0 - t1
     for axis in range(2):
         p0, p1, p2, p3 = curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis]

@@ -27,13 +27,7 @@ def say(message: str) -> None:
 
 
 def as_options(message: str) -> str:
-    """Return a message of the library with options in place of the parameters that it names in backticks.
-
-    Examples
-    --------
-    >>> as_options("2 quads; the limit is 1; use a smaller `max_depth`")
-    '2 quads; the limit is 1; use a smaller --max-depth'
-    """
+    """Return a message of the library with options in place of the parameters that it names in backticks."""
     return PARAMETER.sub(lambda found: "--" + found[1].replace("_", "-"), message)
 
 

@@ -33,14 +33,7 @@ class Folded(NamedTuple):
 
 
 def progress(time: float, cycle: float, texel: Words) -> Numbers:
-    """Share of its displacement that each texel, (..., 4) words, has at a time.
-
-    Examples
-    --------
-    >>> one_second = np.array([0, 0, FOLD_SMOOTH_START << FOLD_KIND_SHIFT, FOLD_TICKS], np.uint32)
-    >>> [float(progress(time, 0.0, one_second)) for time in (-1, 0.5, 3)]
-    [0.0, 0.25, 1.0]
-    """
+    """Share of its displacement that each texel, (..., 4) words, has at a time."""
     kind = texel[..., 2] >> np.uint32(FOLD_KIND_SHIFT)
     since = time - (texel[..., 2] & np.uint32((1 << FOLD_KIND_SHIFT) - 1)) / FOLD_TICKS
     if cycle > 0.0:

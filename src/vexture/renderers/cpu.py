@@ -304,13 +304,6 @@ def render_cpu(
 
     `size`, `view` and `quality` are as in `vexture.coverage`; `root` is the number of the shape. Positions are relative
     to the point `base` of the unit square, 1.0 = 2^32; `view_base` by default.
-
-    Examples
-    --------
-    >>> from vexture.texture.texture import Root, Texture
-    >>> full_cells = np.array([[[0, 0, 0, 0xFFFFFFFF]]], np.uint32)
-    >>> render_cpu(Texture(full_cells, (Root("full"),)), (1, 1))
-    array([[1.]], dtype=float32)
     """
     uniforms = uniforms_of(texture, size, view, root, quality, base)
     image = np.empty(uniforms.size[::-1], np.float32)

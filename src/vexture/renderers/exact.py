@@ -31,13 +31,6 @@ def render_exact(
     contours may cross, overlap and coincide. `size`, `view` and the result are as in `vexture.coverage`. `flatness` is
     the largest distance between a curve and its chords, in pixels; at the default, the error of coverage is at most
     0.03/255.
-
-    Examples
-    --------
-    >>> triangle = Drawing.polygon([(0, 0), (1, 0), (0, 1)])
-    >>> render_exact(triangle, (2, 2))
-    array([[0.5, 0. ],
-           [1. , 0.5]], dtype=float32)
     """
     width, height = size_of(size)
     matrix = view_matrix(view, (width, height))

@@ -62,13 +62,6 @@ def find_chords(drawing: Drawing, size: tuple[int, int], view: NDArray[np.float6
 
     The view is a (3, 3) matrix from pixel coordinates to the unit square; the flatness is in pixels. Raises
     `LimitError` if there are more than `CHORD_LIMIT`.
-
-    Examples
-    --------
-    >>> triangle = Drawing.polygon([(0, 0), (1, 0), (0, 1)])
-    >>> chords = find_chords(triangle, (2, 2), np.array([[0.5, 0, 0], [0, -0.5, 1], [0, 0, 1]]), 1e-3)
-    >>> chords.lines.tolist(), chords.owners.tolist()
-    ([[0.0, 2.0, 0.0, 1.0], [0.0, 2.0, 0.0, 0.0]], [-1, 1])
     """
     cubics, paths = homogeneous(drawing, view)
     frame = frame_of(size, view, flatness)

@@ -15,12 +15,6 @@ def painted(size: tuple[int, int], layers: Iterable[tuple[Paint, NDArray[np.floa
 
     `size` is (width, height); each coverage is a (height, width) float32 array. The picture is (height, width, 4)
     float32, premultiplied RGBA, 0..1.
-
-    Examples
-    --------
-    >>> full = np.ones((1, 1), np.float32)
-    >>> painted((1, 1), [(Paint((1.0, 0.0, 0.0)), full), (Paint(opacity=0.25), full)])
-    array([[[0.75, 0.  , 0.  , 1.  ]]], dtype=float32)
     """
     width, height = size
     picture = np.zeros((height, width, 4), np.float32)

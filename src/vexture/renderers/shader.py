@@ -58,11 +58,6 @@ def included(name: str, package: str = "vexture") -> str:
     """Text of a shader file after the files that it includes, each once.
 
     The file is in the folder ``glsl/`` of a package; what it includes may also be in that of vexture.
-
-    Examples
-    --------
-    >>> included("coverage.glsl").count("VexturePlace vexture_place(")
-    1
     """
     folders = [resources.files(home) / "glsl" for home in dict.fromkeys((package, "vexture"))]
     found: dict[str, str] = {}

@@ -54,13 +54,7 @@ ViewLike: TypeAlias = ArrayLike | View | None
 
 
 def size_of(size: Size) -> tuple[int, int]:
-    """Width and height of an image, as integers in 1..`SIZE_LIMIT`. Raises `ParameterError` otherwise.
-
-    Examples
-    --------
-    >>> size_of((640, 480)), size_of(64)
-    ((640, 480), (64, 64))
-    """
+    """Width and height of an image, as integers in 1..`SIZE_LIMIT`. Raises `ParameterError` otherwise."""
     try:
         width, height = (size, size) if isinstance(size, int | np.integer) else size
         whole = all(int(side) == side and not isinstance(side, bool) for side in (width, height))
@@ -135,15 +129,7 @@ def window(x: float, y: float, w: float, h: float, rotate: float = 0.0) -> Windo
 
 
 def fit(size: Size) -> NDArray[np.float64]:
-    """View of the whole unit square, centred in the image at the largest size that fits, (3, 3).
-
-    Examples
-    --------
-    >>> fit((4, 4))
-    array([[ 0.25,  0.  ,  0.  ],
-           [ 0.  , -0.25,  1.  ],
-           [ 0.  ,  0.  ,  1.  ]])
-    """
+    """View of the whole unit square, centred in the image at the largest size that fits, (3, 3)."""
     return view_matrix(Window(0.0, 0.0, 1.0, 1.0), size) + 0.0  # no negative zeros
 
 
@@ -153,11 +139,6 @@ def view_matrix(view: ViewLike, size: Size) -> NDArray[np.float64]:
     A view is affine, (2, 3), or projective, (3, 3); None fits the square into the image. Raises `ParameterError` if the
     matrix is of another shape, not finite, singular, looks away from the unit square's plane, or magnifies more than
     float64 can resolve.
-
-    Examples
-    --------
-    >>> view_matrix([[0.5, 0, 0], [0, -0.5, 1]], (2, 2))[2]
-    array([0., 0., 1.])
     """
     width, height = size_of(size)
     if view is None:
@@ -192,11 +173,6 @@ def view_base(matrix: NDArray[np.float64], size: tuple[int, int]) -> tuple[int, 
     """Point of the unit square at the image's centre, or the nearest one, as 32-bit fixed point.
 
     In a magnified view, offsets from it are small, so that float32 resolves its pixels.
-
-    Examples
-    --------
-    >>> view_base(np.diag([0.125, 0.125, 1.0]), (4, 4)) == (1 << 30, 1 << 30)
-    True
     """
     u, v, w = matrix @ (size[0] / 2, size[1] / 2, 1.0)
     if w <= 0.0:

@@ -24,17 +24,6 @@ def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "text
 
     `texture` names the texture in messages. Raises a `ParameterError` if there is no such shape, or if `root` is
     missing and there are several; a `TypeError` if it is of another type.
-
-    Examples
-    --------
-    >>> place_of([Root("anchor"), Root("apple")], "apple")
-    1
-    >>> place_of([Root("anchor"), Root("apple")], None)
-    Traceback (most recent call last):
-    vexture.errors.ParameterError: texture holds 2 shapes (anchor, apple); choose one by `root`
-    >>> place_of([Root("anchor"), Root("apple")], "anker")
-    Traceback (most recent call last):
-    vexture.errors.ParameterError: texture: no shape 'anker'; there are 'anchor', 'apple'
     """
     if root is None:
         if len(roots) > 1:
@@ -65,13 +54,6 @@ def layers_of(roots: Sequence[Root], root: str | int | None, texture: str = "tex
     `root` is the name of a drawing: the part before ``/layer`` in the names of painted shapes, or the name of a shape
     without paint. Or it is the name or number of one shape. None means the only drawing. Raises a `ParameterError` if
     there is no such drawing or shape, or if `root` is missing and there are several drawings.
-
-    Examples
-    --------
-    >>> from vexture.drawing import Paint
-    >>> logo = [Root("logo/1", paint=Paint()), Root("logo/2", paint=Paint((1.0, 0.0, 0.0)))]
-    >>> layers_of(logo, None), layers_of([*logo, Root("map")], "logo"), layers_of(logo, "logo/2")
-    ([0, 1], [0, 1], [1])
     """
     owners = [one.name if one.paint is None else one.name.rpartition("/")[0] or one.name for one in roots]
     if root is None:

@@ -19,13 +19,6 @@ def decode(texture: Texture, root: str | int | None = None) -> Tree:
     It equals the tree given to `encode` except for the rounding of coverages, and encodes to the same texels. Other
     writers may store quads and curves in another order; here they are numbered as in `Tree`. Raises a `ParameterError`
     as `Texture.root` does, and a `FormatError` if the texels are no tree.
-
-    Examples
-    --------
-    >>> from vexture.texture.root import Root
-    >>> texels = np.array([[[0, 0, 0, 0xFF]]], np.uint32)
-    >>> decode(Texture(texels, (Root("a quarter"),))).coverage
-    array([[1., 0., 0., 0.]])
     """
     flat = texture.flat
     levels = walk(flat, np.array([texture.root(root).quad]))

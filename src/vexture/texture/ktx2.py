@@ -84,14 +84,7 @@ def _descriptor() -> bytes:
 
 
 def write_ktx2(texels: NDArray[np.uint32], texts: dict[str, str]) -> bytes:
-    """KTX 2.0 file of texels (rows, width, 4) with supercompression ZLIB; `texts` are stored as UTF-8 with a zero byte.
-
-    Examples
-    --------
-    >>> data = write_ktx2(np.ones((1, 2, 4), np.uint32), {"KTXwriter": "an example"})
-    >>> read_ktx2(data, "ones")[1]
-    {'KTXwriter': 'an example'}
-    """
+    """KTX 2.0 file of texels (rows, width, 4), supercompression ZLIB; `texts` are stored as UTF-8 with a zero byte."""
     height, width, _ = texels.shape
     raw = np.ascontiguousarray(texels, "<u4").tobytes()
     deflated = zlib.compress(raw, 4)  # level 6 saves 0.2% but takes 1.6 times as long: most of a map's conversion

@@ -41,15 +41,6 @@ def outlines(flat: NDArray[np.uint32], root: int) -> list[NDArray[np.float64]]:
     """Closed contours of a shape: cubics (n, 4, 2) in unit-square units, with the filled side on their left.
 
     `root` is the index of its root quad. Raises a `FormatError` if the texels (n, 4) are no tree.
-
-    Examples
-    --------
-    >>> full = np.array([[0, 0, 0, 0xFFFFFFFF]], np.uint32)
-    >>> outlines(full, 0)[0][:, 0]
-    array([[0., 0.],
-           [1., 0.],
-           [1., 1.],
-           [0., 1.]])
     """
     leaves = _leaves(flat, root)
     steep = leaves.pieces[:, 0, 1] != leaves.pieces[:, 3, 1]

@@ -30,11 +30,6 @@ def cells_of(flat: NDArray[np.uint32], quad: int) -> NDArray[np.float64]:
     """Cells of one shape that are not divided, or are too small to be visible, (n, 5).
 
     The columns are left, bottom and side in unit-square units, depth, and coverage in 0..1.
-
-    Examples
-    --------
-    >>> cells_of(np.array([[0, 0, 0, 0xFF]], np.uint32), 0).tolist()[0]
-    [0.0, 0.0, 0.5, 1.0, 1.0]
     """
     corners, side, found = np.zeros((1, 2)), 0.5, []
     for depth, level in enumerate(walk(flat, np.array([quad])), 1):

@@ -56,11 +56,6 @@ def roots_text(roots: tuple[Root, ...]) -> str:
     """JSON text of a texture's roots (FORMAT.md, B.5): compact, and always the same for the same roots.
 
     Raises a `LimitError` if a number is not finite.
-
-    Examples
-    --------
-    >>> roots_text((Root("agate", 5, tolerance=1e-6),))
-    '[{"name":"agate","quad":5,"transform":[1,0,0,0,1,0],"tolerance":1e-06}]'
     """
     try:
         text = json.dumps(
@@ -96,11 +91,6 @@ def read_roots(text: str) -> tuple[Root, ...]:
     """Roots from their JSON text; unknown members are ignored.
 
     Raises a `FormatError` if the text contradicts FORMAT.md.
-
-    Examples
-    --------
-    >>> read_roots('[{"name": "agate", "quad": 5, "transform": [1, 0, 0, 0, 1, 0], "tolerance": 0}]')[0].quad
-    5
     """
     try:
         entries = json.loads(text, parse_constant=_refuse_constant)

@@ -24,15 +24,6 @@ def svg_document(shapes: Iterable[tuple[Root, list[NDArray[np.float64]]]], name:
     """SVG document with the title `name` and a path for each shape, given by its closed contours in unit-square units.
 
     The view box holds the unit square of every shape. A source whose y points up is flipped by a `transform`.
-
-    Examples
-    --------
-    >>> print(svg_document([(Root("nothing"), [])], "an example"))
-    <svg xmlns="http://www.w3.org/2000/svg" viewBox="0 -1 1 1">
-    <title>an example</title>
-    <path transform="scale(1 -1)" d=""><title>nothing</title></path>
-    </svg>
-    <BLANKLINE>
     """
     paths, corners, digits = [], [], 0
     for root, contours in shapes:
