@@ -1,0 +1,35 @@
+"""What small inputs and messages become."""
+
+import numpy as np
+import pytest
+
+from vexture.cli.messages import as_options
+from vexture.content import about, known_kind
+from vexture.errors import SourceError
+from vexture.machine_code import described
+from vexture.notes import Note
+from vexture.reading import read_drawing
+
+
+def test_an_empty_file_is_refused() -> None:
+    with pytest.raises(SourceError, match=r"^is empty; give an SVG, GeoJSON, "):
+        known_kind(b"")
+
+
+def test_errors_begin_with_the_name_of_their_source() -> None:
+    with pytest.raises(SourceError, match=r"^duck\.svg: it is empty$"), about("duck.svg"):
+        raise SourceError("it is empty")
+
+
+def test_what_is_left_out_is_noted() -> None:
+    drawing = read_drawing(b'<svg viewBox="0 0 9 9"><text>a</text><path d="M0 0h9v9z"/></svg>')
+    assert drawing.notes == (Note(kind="left out", message="<text>", count=1),)
+
+
+def test_types_of_arguments_are_described() -> None:
+    assert described((2, 0.5, np.zeros((3, 4), np.int64))) == ["tuple", "int", "float", ["<i8", 2, True]]
+
+
+def test_parameters_in_messages_become_options() -> None:
+    message = as_options("2 quads; the limit is 1; use a smaller `max_depth`")
+    assert message == "2 quads; the limit is 1; use a smaller --max-depth"
