@@ -44,6 +44,7 @@ def test_examples_in_the_docstrings(name):
     assert not found.failed
 
 
+@pytest.mark.filterwarnings("ignore:.*nothing in it is painted")
 def test_few_pixels_in_columns_of_sizes_and_rows_of_methods(shape):
     rendered = at_sizes(shape, (1, 2, 16))
     figure = resolutions(rendered)
@@ -59,6 +60,7 @@ def test_few_pixels_in_columns_of_sizes_and_rows_of_methods(shape):
         assert column[1].get_xlabel() == f"error {view.errors[MIP].mae:.3g}"
 
 
+@pytest.mark.filterwarnings("ignore:.*nothing in it is painted")
 def test_the_cut_off_tells_mip_values_from_leaves(shape):
     drawn = cut_off_at(shape, (20, 80))
     figure = exaggerated(drawn)
@@ -72,6 +74,7 @@ def test_the_cut_off_tells_mip_values_from_leaves(shape):
             np.testing.assert_array_equal(where, ~grey & (picture.image == inside))
 
 
+@pytest.mark.filterwarnings("ignore:.*nothing in it is painted")
 def test_edges_stand_over_their_errors(shape):
     rendered = at_edge(shape)
     figure = edges(rendered)
@@ -83,6 +86,7 @@ def test_edges_stand_over_their_errors(shape):
         np.testing.assert_array_equal(shown(figure.axes[columns + number]), off)
 
 
+@pytest.mark.filterwarnings("ignore:.*nothing in it is painted")
 def test_tolerances_are_seen_against_the_outline(shape):
     _, whole, close, (x, y, side) = with_tolerances(shape, 64)
     figure = tolerances(shape.drawing, whole, close, (x, y, side))

@@ -73,6 +73,7 @@ def test_what_would_take_minutes_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize("way", WAYS)
+@pytest.mark.filterwarnings("ignore:.*nothing in it is painted")
 def test_an_empty_drawing_has_one_quad(tmp_path, way):
     found = measured(drawn(tmp_path, ""), way)
     assert (found.quads, found.curves, found.depth) == (1, 0, 1)

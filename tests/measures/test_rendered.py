@@ -84,6 +84,7 @@ def test_what_the_encoding_cannot_hold_is_left_out():
         cut_off_at(shape, (4,))
 
 
+@pytest.mark.filterwarnings("ignore:.*nothing in it is painted")
 def test_an_empty_drawing_is_drawn_without_errors(nothing):
     views = [*at_sizes(nothing, (1, 4)), at_edge(nothing, 4), *with_tolerances(nothing, 16)[1:3]]
     assert [error.max for view in views for error in view.errors.values()] == [0] * 17

@@ -88,6 +88,7 @@ def test_bands_are_drawn_where_they_can_be():
     assert "ocean" not in table.caption
 
 
+@pytest.mark.filterwarnings("ignore:.*nothing in it is painted")
 def test_any_drawing_goes_through(tmp_path, monkeypatch):
     """Nothing in it; not square and in colours; the even-odd rule: without a GPU the bands alone are missing."""
     monkeypatch.setattr(comparison, "RASTER_SIDES", (16, 32))

@@ -49,6 +49,7 @@ def test_page_and_json_take_it(made):
 
 
 @pytest.mark.parametrize("content", ["", '<path d="M1 1h7v3h-4z"/>', '<path d="M1 1h7v1h-7z" fill-rule="evenodd"/>'])
+@pytest.mark.filterwarnings("ignore:.*nothing in it is painted")
 def test_any_drawing_may_be_the_subject(tmp_path, content):
     path = tmp_path / "own drawing.svg"
     path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 5">{content}</svg>')

@@ -43,6 +43,7 @@ def column(table, head):
     return [row[place] for row in table.rows]
 
 
+@pytest.mark.filterwarnings("ignore:.*nothing in it is painted")
 def test_own_drawings_make_whole_sections_with_nothing_printed(own):
     sections = [part.section(own) for part in (conversion, shapes, structure)]
     for section in sections:

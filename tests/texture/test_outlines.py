@@ -69,6 +69,7 @@ def test_svg_of_real_drawings(tmp_path: Path, drawings) -> None:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.filterwarnings("ignore:.*nothing in it is painted")
 def test_svg_of_degenerate_drawings(tmp_path: Path, seed: int) -> None:
     drawing = degenerate.drawing(seed)
     texture = converted(drawing)

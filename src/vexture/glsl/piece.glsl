@@ -71,7 +71,7 @@ float vexture_better_t(vec4 kx, vec4 ky, vec2 corner, bool later, float t) {
     float slope = x_decides ? slopes.x : slopes.y;
     float bend = x_decides ? 6.0 * kx.x * t + 2.0 * kx.y : 6.0 * ky.x * t + 2.0 * ky.y;
     float divisor = slope + sqrt(max(4.0 * slope * slope - 6.0 * error * bend, 0.0));
-    return clamp(t - 3.0 * error / max(divisor, VEXTURE_NO_SIZE), 0.0, 1.0);
+    return clamp(t - (divisor > 0.0 ? 3.0 * error / divisor : sign(error)), 0.0, 1.0);
 }
 
 // Point of a piece at the t where it passes a corner of the box from `from` to `to`. The coordinate that decides t becomes
