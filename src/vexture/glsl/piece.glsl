@@ -61,8 +61,8 @@ vec2 vexture_slope(vec4 kx, vec4 ky, float t) {
 }
 
 // A Laguerre step, worth several Newton steps near a turning point, towards the t at which a piece has passed a corner in
-// both coordinates (`later`), or in one. Where a piece stands still, at a cusp or a flat inflection, there is no slope to
-// follow: the step then goes to the end on the corner's side.
+// both coordinates (`later`), or in one. At a flat inflection there is no slope to follow: the step then goes to the end
+// on the corner's side, unless the piece is less than a lattice unit away, as at a cusp on the corner.
 float vexture_better_t(vec4 kx, vec4 ky, vec2 corner, bool later, float t) {
     vec2 errors = vec2(vexture_evaluate(kx, t), vexture_evaluate(ky, t)) - corner;
     vec2 slopes = vexture_slope(kx, ky, t);
@@ -71,7 +71,7 @@ float vexture_better_t(vec4 kx, vec4 ky, vec2 corner, bool later, float t) {
     float slope = x_decides ? slopes.x : slopes.y;
     float bend = x_decides ? 6.0 * kx.x * t + 2.0 * kx.y : 6.0 * ky.x * t + 2.0 * ky.y;
     float divisor = slope + sqrt(max(4.0 * slope * slope - 6.0 * error * bend, 0.0));
-    return clamp(t - (divisor > 0.0 ? 3.0 * error / divisor : sign(error)), 0.0, 1.0);
+    return clamp(t - (divisor > 0.0 ? 3.0 * error / divisor : trunc(error)), 0.0, 1.0);
 }
 
 // Point of a piece at the t where it passes a corner of the box from `from` to `to`. The coordinate that decides t becomes

@@ -70,11 +70,6 @@ def clamp(value: float, low: float, high: float) -> float:
     return min(max(value, low), high)
 
 
-@kernel(allocates=False)
-def sign(value: float) -> float:
-    return 1.0 if value > 0.0 else -1.0 if value < 0.0 else 0.0
-
-
 # --- pixel.glsl ------------------------------------------------------------------------------------------------
 
 
@@ -226,7 +221,7 @@ def better_t(kx: Vec4, ky: Vec4, corner: Vec2, later: bool, t: float) -> float:
     rise = rises[0] if by_x else rises[1]
     bend = 6.0 * kx[0] * t + 2.0 * kx[1] if by_x else 6.0 * ky[0] * t + 2.0 * ky[1]
     divisor = rise + math.sqrt(max(4.0 * rise * rise - 6.0 * error * bend, 0.0))
-    return clamp(t - (3.0 * error / divisor if divisor > 0.0 else sign(error)), 0.0, 1.0)
+    return clamp(t - (3.0 * error / divisor if divisor > 0.0 else float(math.trunc(error))), 0.0, 1.0)
 
 
 @kernel(allocates=False)
