@@ -146,7 +146,7 @@ kernels: .venv/for-test
 	( $(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/thesis" --encoding thesis && \
 		$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/sampled" --encoding thesis --strategy sampled && \
 		$(BIN)/vexture render "$$scratch/thesis/duck" -o "$$scratch/cpu.png" --size 16 --renderer cpu && \
-		$(BIN)/python -m pytest --quiet src/vexture/bezier/fit_closed.py ) & thesis=$$!; \
+		$(BIN)/python -m pytest --quiet tests/bezier/test_known_curves.py ) & thesis=$$!; \
 	$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/packed"; \
 	$(BIN)/vexture render "$$scratch/packed/duck.ktx2" -o "$$scratch/packed.png" --size 16 --renderer cpu; \
 	$(BIN)/vexture render $(SHAPES)/duck.svg -o "$$scratch/exact.png" --size 16 --renderer exact; \
