@@ -8,6 +8,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 # --no-compile: most modules of the packages are never imported, and Python compiles the others when they are
 INSTALL := $(BIN)/python -m pip install --quiet --no-compile
+PYTEST := $(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4 --dist worksteal
 SHAPES := examples/shapes
 BENCHMARKS := packed_fidelity speed packed_conversion size fidelity conversion icons live
 WEB_BENCHMARKS := page_fidelity web_speed editing flood
@@ -19,12 +20,13 @@ REPOSITORY ?=
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help demo docs report viewer test checks checks-web lint kernels test-web bench dist dist-check clean
+.PHONY: help demo docs report viewer test sweep checks checks-web lint kernels test-web bench dist dist-check clean
 
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
 	@echo 'make viewer  build the page of `vexture view` and `vexture export`, with node and npm'
 	@echo 'make test    lint, types and tests, with all that they need'
+	@echo 'make sweep   the tests that take long and find little that those do not'
 	@echo 'make docs    build the documentation into site/, to be read from the disk'
 	@echo 'make report  measure the tables and figures of the thesis again; the page is demo/report/index.html'
 	@echo 'make bench   measure fidelity, speed and size; the figures come into evidence/benchmarks/results/'
@@ -118,7 +120,12 @@ test: .venv/made
 	@$(MAKE) --no-print-directory checks-web & web=$$!; \
 		$(MAKE) --no-print-directory checks; checked=$$?; \
 		wait $$web && exit $$checked
-	$(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4 --dist worksteal
+	$(PYTEST) -m 'not slow'
+
+# what `test` leaves out
+sweep: .venv/for-test $(VIEWER)
+	@$(BIN)/python tools/prepare.py system
+	$(PYTEST) -m slow
 
 checks: .venv/for-test
 	@$(BIN)/python tools/prepare.py system

@@ -270,7 +270,7 @@ def real_shape(source, bits):
 
 
 @every_invariant
-@pytest.mark.parametrize("bits", [8, 16])
+@pytest.mark.parametrize("bits", [pytest.param(8, marks=pytest.mark.slow), 16])
 @pytest.mark.parametrize("source", SOURCES)
 def test_real_drawings(source, bits, invariant):
     shape = real_shape(source, bits)

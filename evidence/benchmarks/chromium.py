@@ -32,12 +32,12 @@ FLAGS: Final = [
 
 
 @contextmanager
-def chromium() -> Iterator[Any]:
-    """The browser, while it runs."""
+def chromium(*flags: str) -> Iterator[Any]:
+    """The browser, while it runs, with more flags."""
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as started:
-        browser = started.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        browser = started.chromium.launch(executable_path=CHROMIUM, args=[*FLAGS, *flags])
         try:
             yield browser
         finally:

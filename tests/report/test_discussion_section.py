@@ -48,7 +48,14 @@ def test_page_and_json_take_it(made):
     assert not re.search(r"\bnan\b|\binf\b", " ".join(picture.caption for picture in pictures_of([made])))
 
 
-@pytest.mark.parametrize("content", ["", '<path d="M1 1h7v3h-4z"/>', '<path d="M1 1h7v1h-7z" fill-rule="evenodd"/>'])
+@pytest.mark.parametrize(
+    "content",
+    [
+        "",
+        pytest.param('<path d="M1 1h7v3h-4z"/>', marks=pytest.mark.slow),
+        '<path d="M1 1h7v1h-7z" fill-rule="evenodd"/>',
+    ],
+)
 @pytest.mark.filterwarnings("ignore:.*nothing in it is painted")
 def test_any_drawing_may_be_the_subject(tmp_path, content):
     path = tmp_path / "own drawing.svg"

@@ -54,8 +54,8 @@ def test_missing_matplotlib_is_one_line(tmp_path):
 
 
 @pytest.mark.long
-def test_report_of_the_examples_is_whole(tmp_path):
-    outcome = report("-o", tmp_path)
+def test_report_is_whole(tmp_path):
+    outcome = report(SHAPES / "duck.svg", SHAPES / "ocean.svg", "-o", tmp_path)
     assert outcome.returncode == 0, outcome.stderr
     page = html.parse(tmp_path / "index.html")
     pictures = [tmp_path / source for source in page.xpath("//img/@src")]
@@ -63,7 +63,8 @@ def test_report_of_the_examples_is_whole(tmp_path):
     assert sorted(pictures) == sorted((tmp_path / "figures").iterdir())
     for image, picture in zip(page.xpath("//img"), pictures, strict=True):
         with Image.open(picture) as opened:
-            assert abs(opened.width / opened.height - int(image.get("width")) / int(image.get("height"))) < 0.01
+            shown = int(image.get("width")) * opened.height / opened.width
+            assert shown == pytest.approx(int(image.get("height")), rel=0.01)
             assert all(low < high for low, high in opened.convert("RGB").getextrema())
     facts = json.loads((tmp_path / "report.json").read_text())
     assert {"machine", "conversion", "shapes", "structure", "rendering", "discussion", "comparison"} <= set(facts)

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+import pytest
 from browser import ROOT, bundle
 from numpy.typing import ArrayLike, NDArray
 
@@ -20,6 +21,9 @@ ATLAS: Final = ("holes", "flame", "cake", "thumb")
 PAGE: Final = Path(__file__).parent / "pages" / "mask.js"
 
 THREES: Final = ("three-floor", "three")
+
+NEWEST: Final = (pytest.param("three-floor", marks=pytest.mark.slow), "three")
+"""For what the tests of masks try with both: the code that differs between versions is theirs."""
 
 Picture = NDArray[np.float64]
 

@@ -12,36 +12,41 @@ PATIENCE = 30_000
 class PagePool:
     """Pages of a browser that nobody uses now, by the options of their contexts.
 
-    Who takes a page finds it as new: blank, light, with an empty cache, without cookies and without errors.
+    Who takes a page finds it as new: blank, light, with an empty cache, without cookies and without errors. Only a
+    page that is kept shows what it showed: one that draws what it is told, whatever it drew before.
     """
 
     def __init__(self, browser: Any) -> None:
         self._browser = browser
         self._idle: dict[str, list[Any]] = defaultdict(list)
 
-    def take(self, size: tuple[int, int], options: dict[str, Any]) -> Any:
-        """Page of a size; ``page.errors`` is the list of the errors of its scripts."""
-        key = repr(sorted(options.items()))
-        page = self._idle[key].pop() if self._idle[key] else self._new(key, options)
+    def take(self, size: tuple[int, int], options: dict[str, Any], kept: str = "") -> Any:
+        """Page of a size; ``page.errors`` is the list of the errors of its scripts. `kept` is the address of a page."""
+        key = repr((kept, sorted(options.items())))
+        page = self._idle[key].pop() if self._idle[key] else self._new(key, kept, options)
         page.set_viewport_size({"width": size[0], "height": size[1]})
         page.set_default_timeout(PATIENCE)
         page.emulate_media(color_scheme="light")
         page.context.clear_cookies()
-        page.session.send("Network.clearBrowserCache")
-        page.errors = []
+        if not kept:
+            page.session.send("Network.clearBrowserCache")
         return page
 
     def give_back(self, page: Any) -> None:
         """End what runs in a page, and keep it for another test."""
         if not page.is_closed():
-            page.goto("about:blank")
+            if not page.kept:
+                page.goto("about:blank")
+            page.errors = []
             self._idle[page.key].append(page)
 
-    def _new(self, key: str, options: dict[str, Any]) -> Any:
+    def _new(self, key: str, kept: str, options: dict[str, Any]) -> Any:
         context = self._browser.new_context(device_scale_factor=1, **options)
         page = context.new_page()
-        page.key = key
+        page.key, page.kept, page.errors = key, bool(kept), []
         page.session = context.new_cdp_session(page)
         page.on("pageerror", lambda error: page.errors.append(str(error)))
         page.on("console", lambda message: page.errors.append(message.text) if message.type == "error" else None)
+        if kept:
+            page.goto(kept)
         return page

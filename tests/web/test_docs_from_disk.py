@@ -14,9 +14,7 @@ WIDTHS = (1280, 390)
 
 
 @pytest.mark.long
-def test_pages_fit_and_fetch_nothing(
-    site: Path, open_page: Callable[..., Any], screenshot: Callable[..., Path]
-) -> None:
+def test_pages_fit_and_fetch_nothing(site: Path, open_page: Callable[..., Any]) -> None:
     page = open_page(f"file://{site}/index.html", (WIDTHS[0], 800))
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
@@ -31,7 +29,6 @@ def test_pages_fit_and_fetch_nothing(
             drawn(page)
             wide = page.evaluate("document.documentElement.scrollWidth")
             assert wide <= width, f"{path.name} is {wide} pixels wide on a screen of {width}"
-            screenshot(page, f"{path.stem}-{width}")
     assert [address for address in asked if not address.startswith(("file:", "data:"))] == []
     assert len(asked) > 20
 

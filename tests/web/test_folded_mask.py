@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from browser import served
-from mask_page import THREES, decode, drawing
+from mask_page import NEWEST, decode, drawing
 
 import vexture
 from folded import Numbers, errors
@@ -43,8 +43,14 @@ def address(chromium: Any, mask_folder: Path, tmp_path_factory: pytest.TempPathF
         yield url
 
 
-@pytest.fixture(params=THREES)
+@pytest.fixture(params=NEWEST)
 def page(request: pytest.FixtureRequest, address: str, open_page: Callable[..., Any]) -> Any:
+    return open_page(f"{address}/{request.param}.html", (SIZE, SIZE), keep=True)
+
+
+@pytest.fixture(params=NEWEST)
+def fresh_page(request: pytest.FixtureRequest, address: str, open_page: Callable[..., Any]) -> Any:
+    """For tests that change the page's textures or count its programs."""
     return open_page(f"{address}/{request.param}.html", (SIZE, SIZE))
 
 
@@ -71,12 +77,12 @@ def check(pictures: list[Numbers], fold: Fold, to_unit: Numbers, texture: Textur
     assert np.percentile(np.concatenate(found), 99) <= 8.0
 
 
-def test_a_mask_follows_its_fold(page: Any, screenshot: Callable[..., Path]) -> None:
+def test_a_mask_follows_its_fold(fresh_page: Any, screenshot: Callable[..., Path]) -> None:
     duck = vexture.convert(drawing("duck"))
     for name, quality in (("shore", "exact"), ("wild", "fast")):
         mask = {"fold": name, "quality": quality}
-        pictures, found = frames(page, mask=mask)
-        screenshot(page.locator("canvas"), f"{name}-{quality}")
+        pictures, found = frames(fresh_page, mask=mask)
+        screenshot(fresh_page.locator("canvas"), f"{name}-{quality}")
         check(pictures, folds()[name], FIT, duck)
         assert max(np.abs(pictures[0] - one).max() for one in pictures) > 0.5
         assert found["programs"] <= 3

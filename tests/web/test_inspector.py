@@ -55,7 +55,9 @@ def read_inspector(page: Any) -> tuple[dict[str, str], list[list[str]], str]:
     return terms, rows, region.locator(".verdict").inner_text()
 
 
-@pytest.mark.parametrize(("name", "zoom"), [("duck", 1.0), ("ocean", 100.0), ("duck", 10_000.0)])
+@pytest.mark.parametrize(
+    ("name", "zoom"), [("duck", 1.0), pytest.param("ocean", 100.0, marks=pytest.mark.slow), ("duck", 10_000.0)]
+)
 def test_the_inspector_says_what_numpy_solves(
     show: Callable[..., Shown], screenshot: Callable[..., Path], name: str, zoom: float
 ) -> None:

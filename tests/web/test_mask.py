@@ -35,7 +35,7 @@ def address(chromium: Any, mask_folder: Path) -> Iterator[str]:
 
 @pytest.fixture(params=THREES)
 def page(request: pytest.FixtureRequest, address: str, open_page: Callable[..., Any]) -> Any:
-    return open_page(f"{address}/{request.param}.html")
+    return open_page(f"{address}/{request.param}.html", keep=True)
 
 
 def over_white(coverage: np.ndarray, color: int) -> np.ndarray:

@@ -123,6 +123,7 @@ def test_off_the_flat_view_overlays_say_why_they_are_not_there(show: Callable[..
     assert shown.page.get_by_role("button", name="Cells", exact=True).is_enabled()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "scheme"), [("duck", "light"), ("ocean", "dark"), ("font", "light"), ("boat", "light"), ("boat", "dark")]
 )

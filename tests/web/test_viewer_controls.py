@@ -110,7 +110,8 @@ def test_a_link_opens_the_same_view(viewer_pages: dict[str, Viewed], open_page: 
     other = ready(open_page, link, (900, 600))
     assert value(other) == value(page)
     for one in (page, other):
-        one.evaluate("document.querySelector('.notes').textContent = ''")
+        # the corners of what lies on the picture are rounded by the browser, not alike on two pages
+        one.add_style_tag(content=".notes, .tools, .fold { visibility: hidden }")
         drawn(one)
     assert np.abs(pixels(other)[:, :560] - pixels(page)[:, :560]).max() <= 1
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from browser import bundle, served
-from mask_page import THREES, decode, distance
+from mask_page import NEWEST, THREES, decode, distance
 
 import vexture
 from folded import errors
@@ -70,8 +70,14 @@ def address(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator
         yield url
 
 
-@pytest.fixture(params=THREES)
+@pytest.fixture(params=NEWEST)
 def page(request: pytest.FixtureRequest, address: str, open_page: Callable[..., Any]) -> Any:
+    return open_page(f"{address}/{request.param}.html", keep=True)
+
+
+@pytest.fixture(params=NEWEST)
+def fresh_page(request: pytest.FixtureRequest, address: str, open_page: Callable[..., Any]) -> Any:
+    """For tests that change the page's textures or count its programs."""
     return open_page(f"{address}/{request.param}.html")
 
 
@@ -185,24 +191,24 @@ def test_it_moves_with_its_fold(page: Any, kind: str, screenshot: Callable[..., 
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_foam_follows_its_width_and_the_texture(page: Any, kind: str) -> None:
+def test_foam_follows_its_width_and_the_texture(fresh_page: Any, kind: str) -> None:
     def looks(name: str, width: float) -> dict[str, Any]:
         return {"water": kind, "texture": name, "ground": GROUND, "options": {"foam": {"width": width}}}
 
-    fresh = [draw(page, **looks(name, width)) for name, width in (("bay", 0.1), ("bay", 0.04), ("high", 0.04))]
+    fresh = [draw(fresh_page, **looks(name, width)) for name, width in (("bay", 0.1), ("bay", 0.04), ("high", 0.04))]
     assert min(np.abs(one - other).max() for one, other in pairwise(fresh)) > 0.1
     steps: list[dict[str, Any]] = [{}, {"foam": {"width": 0.04}}, {"replace": "high"}, {"replace": "bay"}]
     steps += [{"texture": "high"}, {"fadeTo": "bay"}, {"fade": 0.999}]
-    found = page.evaluate("([config, steps]) => page.changes(config, steps)", [looks("bay", 0.1), steps])
+    found = fresh_page.evaluate("([config, steps]) => page.changes(config, steps)", [looks("bay", 0.1), steps])
     for text, expected in zip(found["pictures"], [*fresh, *fresh[1:], fresh[2], fresh[1]], strict=True):
         assert (np.abs(decode(text) - expected) > 4 / 255).mean() <= 1e-3  # a line's front moves a pixel at 0.999
 
 
-def test_the_renderer_is_left_as_it_was(page: Any) -> None:
+def test_the_renderer_is_left_as_it_was(fresh_page: Any) -> None:
     """Rasters are drawn in the middle of a picture, into a part of the canvas that is not cleared."""
     config = {"options": {"flat": FLAT, "foam": {"width": 0.05}}, "part": [64, 32, 256, 256]}
     steps: list[dict[str, Any]] = [{}, {}, {"foam": {"width": 0.02}}, {"replace": "bay"}]
-    found = page.evaluate("([config, steps]) => page.changes(config, steps)", [config, steps])
+    found = fresh_page.evaluate("([config, steps]) => page.changes(config, steps)", [config, steps])
     first, *others = map(decode, found["pictures"])
     assert np.ptp(first[512 - 288 : 512 - 32, 64:320]) > 0.5
     assert np.ptp(first[:200]) == 0.0
@@ -211,12 +217,12 @@ def test_the_renderer_is_left_as_it_was(page: Any) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_one_water_turns_into_another_without_a_blank_picture(page: Any, kind: str) -> None:
+def test_one_water_turns_into_another_without_a_blank_picture(fresh_page: Any, kind: str) -> None:
     config = {"water": kind, "options": {"flat": FLAT, "foam": {"width": 0.03}}, "ground": GROUND}
     steps: list[dict[str, Any]] = [{}, {"fadeTo": "high"}, {"fade": 0.5}, {"fade": 1}, {"texture": "high"}]
     steps += [{"fadeTo": "bay"}, {"fade": 0.25}, {"texture": "high"}]
     steps += [{"replace": "bay"}, {"texture": None}, {"fadeTo": "bay"}, {"fade": 0.25}, {"texture": "bay"}]
-    found = page.evaluate("([config, steps]) => page.changes(config, steps)", [config, steps])
+    found = fresh_page.evaluate("([config, steps]) => page.changes(config, steps)", [config, steps])
     bay_there, high_there = exact("bay"), exact("high")
     mean = 0.5 * (bay_there + high_there)
     expected = [bay_there, bay_there, mean, high_there, high_there]
