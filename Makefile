@@ -9,7 +9,7 @@ BIN := .venv/bin
 # --no-compile: most modules of the packages are never imported, and Python compiles the others when they are
 INSTALL := $(BIN)/python -m pip install --quiet --no-compile
 SHAPES := examples/shapes
-BENCHMARKS := packed_fidelity speed packed_conversion size fidelity conversion icons live
+BENCHMARKS := packed_fidelity speed packed_conversion size fidelity conversion icons live load
 WEB_BENCHMARKS := page_fidelity web_speed editing flood
 VIEWER := src/vexture/live/built/viewer.js
 WEB_SOURCES := $(shell find web/src web/viewer web/flood web/generated -name '*.js' -o -name '*.css')

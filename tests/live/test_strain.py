@@ -1,5 +1,6 @@
 """Servers under clients that are hostile, broken or too many: real processes, real sockets."""
 
+import asyncio
 import json
 import socket
 import sys
@@ -9,9 +10,12 @@ from functools import partial
 from pathlib import Path
 
 import pytest
+from loops import run
 from server import SECONDS, TOKEN, Server, Stream, serving, square
 
 from vexture.errors import DeviceError
+from vexture.live.converter import Converter
+from vexture.live.limits import Limits
 from vexture.live.listen import bind, listen
 
 PROGRAM = """
@@ -292,3 +296,17 @@ def test_of_uploads_of_one_name_the_last_stays(tmp_path):
             last = server.put("a", square())[1]
             assert first.getresponse().status == 201
         assert server.manifest("a")["version"] == last["version"]
+
+
+def test_a_conversion_that_is_ended_harms_no_other():
+    async def both():
+        converter = Converter(Limits())
+        try:
+            ended, other = (asyncio.create_task(converter.shape_of(fan(100), name)) for name in "ab")
+            await asyncio.sleep(0)  # both are under way
+            ended.cancel()
+            return (await other).name
+        finally:
+            converter.close()
+
+    assert run(both()) == "b"
