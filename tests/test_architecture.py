@@ -95,7 +95,6 @@ HEAVY = {
     "resvg",
     "shapely",
     "skia",
-    "sse_starlette",
     "starlette",
     "uvicorn",
     "vtracer",

@@ -27,7 +27,10 @@ class Server:
         secret = folder.parent / "token"
         secret.write_text(f"{TOKEN}\n")
         given = ["--token-file", str(secret)] if token else []
-        arguments = [*COMMAND, "serve", str(folder), "--port", "0", *given, *map(str, options)]
+        self.start([*COMMAND, "serve", str(folder), "--port", "0", *given, *map(str, options)])
+
+    def start(self, arguments):
+        """Run a program whose first line ends in ``at URL``."""
         self.process = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.said = self.process.stdout.readline()
         if not self.said:

@@ -57,14 +57,15 @@ def test_a_slow_client_is_told_the_newest_of_each_name_and_no_more(steps):
             assert len(listener) <= 4
             known, notes = {}, {}
             while len(listener):
-                kind, data = await listener.next()
+                event = await listener.next()
+                kind, data = event.kind, event.data
                 if kind == "note":
                     notes[data["name"]] = data["message"]
                 else:
                     notes.pop(data["name"], None)
                     known.pop(data["name"], None)
                     known |= {data["name"]: data["version"]} if kind == "shape" else {}
-            assert known == shelf.versions
+            assert known == shelf.versions(shelf.names)
             assert notes == shelf.notes
             shelf.close()
             assert await listener.next() is None

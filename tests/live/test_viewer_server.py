@@ -8,7 +8,7 @@ import subprocess
 import httpx
 import pytest
 
-from vexture.live.page_routes import DROPPED_BYTES
+from vexture.live.page_routes import DROPPED
 from vexture.texture.load import texture_from
 from vexture.thesis.png import read_png
 from viewing import SHAPES, VEXTURE, viewing
@@ -148,12 +148,12 @@ def test_name_of_a_stranger_reads_nothing(view):
 
 def test_body_that_is_too_long_is_refused(view):
     def endless():
-        for _ in range(DROPPED_BYTES // 2**20 + 1):
+        for _ in range(DROPPED.max_bytes // 2**20 + 1):
             yield bytes(2**20)
 
     answer = view.post("long.svg", endless())
     assert answer.status_code == 413
-    assert f"{DROPPED_BYTES:,}" in answer.json()["error"]
+    assert f"{DROPPED.max_bytes:,}" in answer.json()["error"]
 
 
 def test_port_that_is_taken_is_one_line(view):

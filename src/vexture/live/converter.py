@@ -1,4 +1,4 @@
-"""Conversion in a process of its own, so that one that takes too long or too much memory cannot harm the server."""
+"""Conversion in processes of their own, so that one that takes too long or too much memory cannot harm the server."""
 
 import asyncio
 import multiprocessing
@@ -6,12 +6,12 @@ import os
 import resource
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import AsyncIterator, Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager, suppress
+from contextlib import AsyncExitStack, asynccontextmanager, contextmanager, suppress
 from multiprocessing.connection import wait
-from typing import Final
+from typing import Any, Final, TypeVar
 
 from vexture.content import FileKind, kind_of, start_of
 from vexture.errors import LimitError, VextureError
@@ -23,8 +23,13 @@ from vexture.pipeline import Parameters
 
 __all__ = ["BusyError", "Converter"]
 
+T = TypeVar("T")
+
+SIDE_BY_SIDE: Final = 2
+"""Conversions at one time: a slow one does not keep all others waiting."""
+
 MEMORY_BYTES: Final = 4 * 2**30
-"""Address space of the process."""
+"""Address space of a process."""
 
 SUFFIXES: Final = {FileKind.TEXTURE: ".ktx2", FileKind.GEOJSON: ".geojson", FileKind.SVG: ".svg"}
 """Added to the name of an upload, which its texture then names as its source."""
@@ -35,21 +40,35 @@ class BusyError(VextureError):
 
 
 class Converter:
-    """Converts one upload after the other, as parameters say or, on the server of a flood, into its frame."""
+    """Converts uploads side by side, as parameters say or, on the server of a flood, into its frame."""
 
     def __init__(self, limits: Limits, how: Parameters | FloodConversion = PUBLISHED_PARAMETERS) -> None:
         self._limits = limits
         self._how = how
         self._waiting = 0
-        self._turn = asyncio.Lock()
-        self._pool: ProcessPoolExecutor | None = None
+        self._workers = [_Worker() for _ in range(SIDE_BY_SIDE)]
+        self._idle: asyncio.LifoQueue[_Worker] = asyncio.LifoQueue()  # the last used is warm; others start when needed
+        for worker in self._workers:
+            self._idle.put_nowait(worker)
         self._ended = False
 
+    @asynccontextmanager
+    async def _worker(self) -> AsyncIterator["_Worker"]:
+        """Wait for a worker that is idle."""
+        worker = await self._idle.get()
+        try:
+            if self._ended:
+                raise BusyError("the server stops; try again later")
+            yield worker
+        finally:
+            self._idle.put_nowait(worker)
+
     async def warm(self) -> None:
-        """Start the process, so that the first conversion need not wait for it."""
-        async with self._turn:
+        """Start a process, so that the first conversion need not wait for it."""
+        async with AsyncExitStack() as held:  # all of them: a second one would compile the same kernels meanwhile
+            first, *_ = [await held.enter_async_context(self._worker()) for _ in self._workers]
             with suppress(BrokenProcessPool):  # the server stops
-                await asyncio.get_running_loop().run_in_executor(self._running(), _warm, self._how)
+                await first.run(_warm, self._how)
 
     @contextmanager
     def place(self) -> Iterator[None]:
@@ -65,17 +84,15 @@ class Converter:
     async def shape_of(self, data: bytes, name: str) -> Shape:
         """Shape of an upload, whose content decides what it is; raises a `BusyError` if the server stops."""
         seconds, most = self._limits.conversion_seconds, self._limits.texture_bytes
-        async with self._turn:
-            loop = asyncio.get_running_loop()
-            work = loop.run_in_executor(self._running(), _convert, data, name, most, self._how)
+        async with self._worker() as worker:
             try:
                 async with asyncio.timeout(seconds):
-                    return await work
+                    return await worker.run(_convert, data, name, most, self._how)
             except asyncio.CancelledError:
-                self._kill()
+                worker.kill()
                 raise
             except (TimeoutError, BrokenProcessPool, MemoryError) as error:
-                self._kill()
+                worker.kill()
                 if self._ended:
                     raise BusyError("the server stops; try again later") from None
                 needs = (
@@ -83,20 +100,28 @@ class Converter:
                 )
                 raise LimitError(f"{name}: its conversion {needs}; simplify the drawing") from None
 
-    def _running(self) -> ProcessPoolExecutor:
-        if self._ended:
-            raise BusyError("the server stops; try again later")
+    def close(self) -> None:
+        """End the processes and start no other one."""
+        self._ended = True
+        for worker in self._workers:
+            worker.kill()
+
+
+class _Worker:
+    """A process, which is started when it is needed and can be killed alone."""
+
+    def __init__(self) -> None:
+        self._pool: ProcessPoolExecutor | None = None
+
+    def run(self, work: Callable[..., T], *given: Any) -> asyncio.Future[T]:
+        """Do one piece of work."""
         if self._pool is None:
             clean = multiprocessing.get_context("spawn")  # inherits nothing of the server, above all no sockets
             self._pool = ProcessPoolExecutor(1, clean, _prepare)
-        return self._pool
+        return asyncio.get_running_loop().run_in_executor(self._pool, work, *given)
 
-    def close(self) -> None:
-        """End the process and start no other one."""
-        self._ended = True
-        self._kill()
-
-    def _kill(self) -> None:
+    def kill(self) -> None:
+        """End the process, whatever it does."""
         pool, self._pool = self._pool, None
         if pool is not None:
             for process in list(pool._processes.values()):  # before Python 3.14 there is no kill_workers

@@ -158,7 +158,7 @@ def serve(
     """
     from vexture.flood.ground import GROUND_TYPE
     from vexture.live.converter import BusyError, Converter
-    from vexture.live.listen import address, background, bind, serve_until_stopped
+    from vexture.live.listen import background, bind, listen, serve_until_stopped
     from vexture.live.page_routes import page_routes
     from vexture.live.publishing import publishing_routes
     from vexture.live.routes import NO_SNIFFING, application, fixed, routes
@@ -195,5 +195,5 @@ def serve(
             only_at=None if token else host,
             lifespan=background(warm) if token else None,
         )
-        show(address(taken), made)
-        serve_until_stopped(app, taken, stop)
+        show(listen(taken), made)
+        serve_until_stopped(app, taken, stop, limits)

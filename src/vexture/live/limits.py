@@ -28,6 +28,9 @@ class Limits:
     upload_seconds: float = 60.0
     conversion_seconds: float = 60.0
     conversions: int = 16  # that may run or wait
+    connections: int = 2000  # less where the system allows fewer open files
+    head_seconds: float = 15.0  # from a connection, or the answer before, to the whole head of a request
+    stall_seconds: float = 60.0  # for a client to take what is buffered of its answer, about 128 kB
 
     def __post_init__(self) -> None:
         for name in self.__slots__:

@@ -10,12 +10,13 @@ from contextlib import AbstractAsyncContextManager, asynccontextmanager, suppres
 from typing import Any, Final, TypeAlias
 
 import uvicorn
-from sse_starlette.sse import AppStatus
 from starlette.types import ASGIApp
 
 from vexture.errors import DeviceError, ParameterError
+from vexture.live.connections import ACCEPTED, InPieces, connections
+from vexture.live.limits import Limits, Pace
 
-__all__ = ["Lifespan", "address", "background", "bind", "serve_until_stopped"]
+__all__ = ["Lifespan", "background", "bind", "listen", "serve_until_stopped"]
 
 WAITING: Final = 2048
 """Connections that may wait to be accepted."""
@@ -26,7 +27,7 @@ Lifespan: TypeAlias = Callable[[Any], AbstractAsyncContextManager[None]]
 
 
 def bind(host: str, port: int) -> socket.socket:
-    """Take a port, before anything else is done.
+    """Take a port, before anything else is done; clients are refused until `listen`.
 
     Raises
     ------
@@ -38,7 +39,7 @@ def bind(host: str, port: int) -> socket.socket:
     Examples
     --------
     >>> with bind("127.0.0.1", 0) as first:
-    ...     address(first).startswith("http://127.0.0.1:")
+    ...     listen(first).startswith("http://127.0.0.1:")
     True
     """
     try:  # without the port: getaddrinfo would take it modulo 2^16
@@ -49,22 +50,34 @@ def bind(host: str, port: int) -> socket.socket:
     try:
         taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         taken.bind((where[0], port, *where[2:]))
-        taken.listen(WAITING)
     except OverflowError:
         taken.close()
         raise ParameterError(f"`port` is {port}; it must be 0 to 65535") from None
     except OSError as error:
         taken.close()
-        raise DeviceError(
-            f"port {port} on {host} cannot be used ({error.strerror}); stop the other server or choose another `port`"
-        ) from None
+        raise _unusable(host, port, error) from None
     return taken
 
 
-def address(taken: socket.socket) -> str:
-    """URL of the server of a socket."""
+def listen(taken: socket.socket) -> str:
+    """Let clients connect, since all is ready to be served; URL of the server.
+
+    Raises
+    ------
+    DeviceError
+        If another server has taken the port at the same time.
+    """
     host, port = taken.getsockname()[:2]
+    try:
+        taken.listen(WAITING)
+    except OSError as error:
+        raise _unusable(host, port, error) from None
     return f"http://[{host}]:{port}/" if ":" in host else f"http://{host}:{port}/"
+
+
+def _unusable(host: str, port: int, error: OSError) -> DeviceError:
+    line = f"port {port} on {host} cannot be used ({error.strerror}); stop the other server or choose another `port`"
+    return DeviceError(line)
 
 
 def background(work: Callable[[], Coroutine[Any, Any, None]]) -> Lifespan:
@@ -90,13 +103,30 @@ class _Server(uvicorn.Server):
         super().__init__(config)
         self._stop = stop
 
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        for taken in sockets or ():
+            taken.listen(WAITING)  # the event loop has made the queue as short as the number that it accepts at once
+
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         self._stop()
         logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)  # uploads that are cut off are no errors
         await super().shutdown(sockets)
 
 
-def serve_until_stopped(app: ASGIApp, taken: socket.socket, stop: Callable[[], None]) -> None:
+class _Few(logging.Filter):
+    """Drops what was logged a moment ago: no client can fill the disk with a line."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._pace = Pace(rate=1 / 60, burst=3)
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        kind = record.exc_info[0] if record.exc_info else None
+        return not self._pace.wait(f"{record.name} {kind} {record.getMessage()[:100]}")
+
+
+def serve_until_stopped(app: ASGIApp, taken: socket.socket, stop: Callable[[], None], limits: Limits) -> None:
     """Serve until Ctrl-C or SIGTERM; `stop` then ends streams and conversions, before the server waits for clients."""
     _, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     with suppress(ValueError, OSError):  # one file for each client: as many as the system allows
@@ -107,10 +137,15 @@ def serve_until_stopped(app: ASGIApp, taken: socket.socket, stop: Callable[[], N
 
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, ignore)
-    AppStatus.enable_automatic_graceful_drain = False  # it would cut streams off in the middle; `stop` ends them
+    errors = logging.StreamHandler()
+    errors.addFilter(_Few())
+    logging.basicConfig(handlers=[errors], format="%(message)s")
     config = uvicorn.Config(
-        app,
-        log_level="warning",
+        InPieces(app),
+        http=connections(limits),
+        backlog=ACCEPTED,
+        log_config=None,
+        log_level="error",  # below it are only complaints about clients, which they are told
         access_log=False,
         server_header=False,
         ws="none",

@@ -12,15 +12,17 @@ from starlette.routing import BaseRoute, Route
 from vexture.encodings import find_encoding
 from vexture.errors import EXPECTED
 from vexture.live.documents import THESIS_BITS, shape_of, thesis_pair
+from vexture.live.limits import Limits
 from vexture.live.page import PNG_TYPE, SERVED_POLICY, VIEWER, Bundle, built, served_page
+from vexture.live.publishing import received
 from vexture.live.routes import FOREVER, NO_SNIFFING, fixed, refusal
 from vexture.live.shelf import Shape, Shelf, manifest
 from vexture.pipeline import Parameters
 
 __all__ = ["dropping_routes", "page_routes", "thesis_addresses", "thesis_routes"]
 
-DROPPED_BYTES = 64 * 2**20
-"""Largest file that may be dropped on the page."""
+DROPPED = Limits(max_bytes=64 * 2**20)
+"""Limits of a file that is dropped on the page."""
 
 MOST_DROPPED = 64
 """Dropped files that are kept; the oldest is removed."""
@@ -97,10 +99,12 @@ def dropping_routes(shelf: Shelf, parameters: Parameters, given: Collection[str]
         while name in given:
             name += " (dropped)"
         try:
-            data = await _body(request)
-            if data is None:
-                return refusal(413, f"the file is larger than {DROPPED_BYTES:,} bytes; start `vexture view` with it")
+            data, size = await received(request, DROPPED, DROPPED.max_bytes)
+            if size > len(data):
+                return refusal(413, f"the file is larger than {DROPPED.max_bytes:,} bytes; name it to `vexture view`")
             shape = await asyncio.to_thread(shape_of, data, file_name, name, parameters)
+        except TimeoutError:
+            return refusal(408, f"the file took longer than {DROPPED.upload_seconds:g} s; try again")
         except ClientDisconnect:
             return refusal(400, "the file did not arrive")
         except EXPECTED as error:
@@ -114,17 +118,6 @@ def dropping_routes(shelf: Shelf, parameters: Parameters, given: Collection[str]
         return JSONResponse(manifest(shape, None, thesis_addresses(shape)), 201, {"Location": place})
 
     return [Route("/convert", convert, methods=["POST"])]
-
-
-async def _body(request: Request) -> bytes | None:
-    """Read the body of a request; None if it is too long."""
-    parts, length = [], 0
-    async for part in request.stream():
-        length += len(part)
-        if length > DROPPED_BYTES:
-            return None
-        parts.append(part)
-    return b"".join(parts)
 
 
 def _is_ours(request: Request) -> bool:

@@ -5,6 +5,7 @@ import hmac
 from contextlib import suppress
 from math import ceil
 from typing import Final
+from weakref import WeakValueDictionary
 
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, Response
@@ -17,7 +18,7 @@ from vexture.live.names import checked_name
 from vexture.live.routes import entity_tag, levels_below, refusal
 from vexture.live.shelf import manifest
 
-__all__ = ["publishing_routes"]
+__all__ = ["publishing_routes", "received"]
 
 DRAINED: Final = 4
 """Times the limit. So much of a refused body is read: a client that still sends does not see the answer."""
@@ -37,6 +38,7 @@ class _RefusedError(Exception):
 def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits, token: str | None) -> list[BaseRoute]:
     """Routes to publish shapes on a shelf with the token; without one, all uploads are refused."""
     pace = Pace(limits.rate, limits.burst)
+    turns: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
 
     def admitted(request: Request) -> str:
         _check_token(request, token)
@@ -54,12 +56,13 @@ def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits,
             name = admitted(request)
         except _RefusedError as error:
             with suppress(TimeoutError, ClientDisconnect):
-                await _received(request, limits, 0)
+                await received(request, limits, 0)
             return refusal(error.status, error.line, error.headers)
         try:
             data = await _body(request, limits)
             with converter.place():  # not before the upload is here: a slow sender takes no place
-                return await published(name, data, levels_below(request))
+                async with turns.setdefault(name, asyncio.Lock()):  # of one name the last one that came stays
+                    return await published(name, data, levels_below(request))
         except _RefusedError as error:
             return refusal(error.status, error.line, error.headers)
         except BusyError as error:
@@ -101,7 +104,7 @@ async def _body(request: Request, limits: Limits) -> bytes:
     length = request.headers.get("content-length", "0")
     too_large = int(length[:20]) > most if length.isdecimal() else True
     try:
-        body, size = await _received(request, limits, 0 if too_large else most)
+        body, size = await received(request, limits, 0 if too_large else most)
     except TimeoutError:
         raise _RefusedError(408, f"the upload took longer than {limits.upload_seconds:g} s; try again") from None
     except ClientDisconnect:
@@ -111,8 +114,11 @@ async def _body(request: Request, limits: Limits) -> bytes:
     return body
 
 
-async def _received(request: Request, limits: Limits, kept: int) -> tuple[bytes, int]:
-    """Read a body: its content, if it has at most `kept` bytes, and the number of bytes read."""
+async def received(request: Request, limits: Limits, kept: int) -> tuple[bytes, int]:
+    """Read a body: its content, if it has at most `kept` bytes, and the number of bytes read.
+
+    Raises a `TimeoutError` if that takes too long, and a `ClientDisconnect` if it breaks off.
+    """
     body, size = bytearray(), 0
     async with asyncio.timeout(limits.upload_seconds):
         async for chunk in request.stream():

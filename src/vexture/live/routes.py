@@ -1,25 +1,26 @@
 """What every server answers: the list of shapes, their manifests, their files, and the stream of changes."""
 
+import asyncio
 import hashlib
 import ipaddress
 import json
 import unicodedata
 from collections.abc import AsyncIterator, Callable, Mapping
+from functools import lru_cache
 from typing import Any, Final, TypeAlias
 from urllib.parse import urlsplit
 
-from sse_starlette import EventSourceResponse, ServerSentEvent
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
 from starlette.middleware.cors import CORSMiddleware
 from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
+from starlette.responses import JSONResponse, Response, StreamingResponse
 from starlette.routing import BaseRoute, Route
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from vexture.live.listen import Lifespan
-from vexture.live.shelf import Shape, Shelf, manifest
+from vexture.live.shelf import Event, Shape, Shelf, manifest
 
 __all__ = [
     "FOREVER",
@@ -34,8 +35,10 @@ __all__ = [
 ]
 
 PING_SECONDS: Final = 15
-SEND_SECONDS: Final = 30
-"""A client that reads nothing for this long is disconnected."""
+"""A proxy takes a stream for dead that is silent for long."""
+
+TOLD: Final = 256
+"""Shapes of which a new client is told at once: a slow one takes its time without a copy of all."""
 
 FOREVER: Final = "public, max-age=31536000, immutable"
 SVG_POLICY: Final = "sandbox; default-src 'none'; style-src 'unsafe-inline'"
@@ -148,7 +151,8 @@ def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[BaseRoute]:
     """Routes to read the shapes of a shelf, whose manifests also name what `views` gives."""
 
     async def shapes(request: Request) -> Response:
-        return JSONResponse({"shapes": shelf.names}, headers={"Cache-Control": "no-cache"})
+        listed = _listed(tuple(shelf.names))
+        return Response(listed, media_type="application/json", headers={"Cache-Control": "no-cache"})
 
     async def one(request: Request) -> Response:
         name = unicodedata.normalize("NFC", request.path_params["name"])
@@ -171,9 +175,12 @@ def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[BaseRoute]:
         return _unchanged(request, headers) or Response(found.data, media_type=found.media_type, headers=headers)
 
     async def events(request: Request) -> Response:
-        return EventSourceResponse(
-            stream(shelf), ping=PING_SECONDS, send_timeout=SEND_SECONDS, headers={"Cache-Control": "no-cache"}
-        )
+        headers = {"Cache-Control": "no-cache", "X-Accel-Buffering": "no", "Content-Type": "text/event-stream"}
+        if request.method != "HEAD":
+            return StreamingResponse(stream(shelf), headers=headers)
+        answer = Response(headers=headers)
+        del answer.headers["Content-Length"]  # of a stream nobody knows it
+        return answer
 
     return [
         Route("/shapes", shapes),
@@ -183,18 +190,37 @@ def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[BaseRoute]:
     ]
 
 
-async def stream(shelf: Shelf) -> AsyncIterator[ServerSentEvent]:
-    """First all versions and notes, so that a client that comes back catches up; then the changes."""
+@lru_cache(1)
+def _listed(names: tuple[str, ...]) -> bytes:
+    """Answer that many clients share."""
+    return json.dumps({"shapes": names}, ensure_ascii=False, separators=(",", ":")).encode()
 
-    def event(kind: str, data: Mapping[str, Any]) -> ServerSentEvent:
-        return ServerSentEvent(json.dumps(dict(data), separators=(",", ":")), event=kind)
 
+async def stream(shelf: Shelf) -> AsyncIterator[bytes]:
+    """First all versions and notes, so that a client that comes back catches up; then the changes.
+
+    The versions are one event, in parts. What changes between two parts is a change that comes after the event.
+    """
     with shelf.events() as listener:
-        yield event("hello", {"versions": shelf.versions})
+        yield b'event: hello\r\ndata: {"versions":{'
+        names, separator = shelf.names, ""
+        for start in range(0, len(names), TOLD):
+            if versions := shelf.versions(names[start : start + TOLD]):
+                yield f"{separator}{json.dumps(versions, separators=(',', ':'))[1:-1]}".encode()
+                separator = ","
+        yield b"}}\r\n\r\n"
         for name, message in shelf.notes.items():
-            yield event("note", {"name": name, "message": message})
-        while (change := await listener.next()) is not None:
-            yield event(change.kind, change.data)
+            yield Event("note", {"name": name, "message": message}).sent
+        while True:
+            try:
+                async with asyncio.timeout(PING_SECONDS):
+                    change = await listener.next()
+            except TimeoutError:
+                yield b": still here\r\n\r\n"
+                continue
+            if change is None:
+                return
+            yield change.sent
 
 
 def entity_tag(version: str, note: str | None) -> str:

@@ -12,7 +12,7 @@ from vexture.live.converter import BusyError, Converter
 from vexture.live.documents import PUBLISHED_PARAMETERS
 from vexture.live.folder import Folder
 from vexture.live.limits import Limits
-from vexture.live.listen import address, background, bind, serve_until_stopped
+from vexture.live.listen import background, bind, listen, serve_until_stopped
 from vexture.live.page_routes import page_routes
 from vexture.live.publishing import publishing_routes
 from vexture.live.routes import application, routes
@@ -54,11 +54,11 @@ def serve(
             folder.close()
             converter.close()
 
-        say(f"serving {len(folder.names)} shapes of {path} at {address(taken)}")
+        say(f"serving {len(folder.names)} shapes of {path} at {listen(taken)}")
         if is_new:
             say(f"{path}: there was no such folder, so it was created")
         try:
-            serve_until_stopped(app, taken, stop)
+            serve_until_stopped(app, taken, stop, limits)
         finally:
             folder.release()
 

@@ -4,11 +4,11 @@ import asyncio
 import hashlib
 import json
 from collections import Counter, OrderedDict
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 __all__ = ["TEXTURE_TYPE", "Event", "File", "Listener", "Shape", "Shelf", "manifest"]
 
@@ -89,11 +89,17 @@ def manifest(
     }
 
 
-class Event(NamedTuple):
+@dataclass(frozen=True)
+class Event:
     """Something that happened: ``shape`` (name, version), ``gone`` (name) or ``note`` (name, message)."""
 
     kind: str
     data: Mapping[str, Any]
+
+    @cached_property
+    def sent(self) -> bytes:
+        """The event as all clients receive it (HTML, 9.2)."""
+        return f"event: {self.kind}\r\ndata: {json.dumps(self.data, separators=(',', ':'))}\r\n\r\n".encode()
 
 
 class Listener:
@@ -147,10 +153,9 @@ class Shelf:
         """Names of the shapes, in the order in which they came."""
         return list(self._shapes)
 
-    @property
-    def versions(self) -> dict[str, str]:
-        """Version of each shape."""
-        return {name: shape.version for name, shape in self._shapes.items()}
+    def versions(self, names: Iterable[str]) -> dict[str, str]:
+        """Version of each shape of these names that there is."""
+        return {name: self._shapes[name].version for name in names if name in self._shapes}
 
     @property
     def notes(self) -> dict[str, str]:

@@ -48,7 +48,8 @@ def view(
 
     `say` takes warnings and errors for the user, `show` the address and the number of shapes.
     """
-    from vexture.live.listen import address, background, bind, serve_until_stopped
+    from vexture.live.limits import Limits
+    from vexture.live.listen import background, bind, listen, serve_until_stopped
     from vexture.live.page_routes import dropping_routes, page_routes, thesis_addresses, thesis_routes
     from vexture.live.routes import application, routes
 
@@ -67,11 +68,11 @@ def view(
             only_at=host,
             lifespan=background(partial(watch, shelf, sources, parameters, seen)) if watching else None,
         )
-        where = address(taken)
+        where = listen(taken)
         show(where, len(shelf.names))
         if opening and _has_display():
             threading.Thread(target=webbrowser.open, args=(where,), daemon=True).start()
-        serve_until_stopped(app, taken, shelf.close)
+        serve_until_stopped(app, taken, shelf.close, Limits())
 
 
 def _published(shelf: Shelf, sources: Sequence[Source], parameters: Parameters, say: Say) -> dict[str, bytes | None]:
