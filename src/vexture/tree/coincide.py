@@ -27,10 +27,8 @@ __all__ = ["match", "may_coincide"]
 NEARNESS = 1.0 / 128.0
 """Cell sides. Ends farther apart do not match, however large a shift is allowed."""
 
-
 MOST_KINDS = 20
 """Pieces of different kinds in a cell; with more it would be divided in any case."""
-
 
 INSIDE, LEFT, OTHER = range(3)
 """Where an end lies: inside the cell, on its left edge, or on another."""
