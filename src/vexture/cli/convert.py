@@ -77,6 +77,7 @@ class Outcome:
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
 @click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 4]")
 @click.option("--precision", metavar="P", type=float, help="Largest shift by rounding, in unit-square units.")
+@click.option("--max-seconds", metavar="S", type=float, help="Most seconds for one source.  [default: 300]")
 @click.option(
     "-j", "--jobs", metavar="N", type=click.IntRange(1), default=1, show_default=True, help="Processes to use."
 )
