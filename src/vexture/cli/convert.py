@@ -2,13 +2,14 @@
 
 import json
 import logging
+import signal
 import sys
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import partial
-from multiprocessing import get_context
+from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -239,7 +240,10 @@ def _outcomes(work: Any, sources: tuple[Path, ...], jobs: int, level: int) -> It
     with ExitStack() as opened:
         if jobs > 1 and len(tasks) > 1:
             pool = opened.enter_context(ProcessPoolExecutor(min(jobs, len(tasks)), get_context("spawn")))
+            opened.push(_end_workers)
+            heard = signal.signal(signal.SIGINT, signal.SIG_IGN)  # inherited: Ctrl-C is for this process alone
             outcomes = pool.map(work, *zip(*tasks, strict=True))
+            signal.signal(signal.SIGINT, heard)
         if len(tasks) > 1 and level > QUIET and sys.stderr.isatty():
             from rich.console import Console
             from rich.progress import Progress
@@ -247,6 +251,12 @@ def _outcomes(work: Any, sources: tuple[Path, ...], jobs: int, level: int) -> It
             progress = opened.enter_context(Progress(console=Console(stderr=True), transient=True))
             outcomes = progress.track(outcomes, total=len(tasks), description="converting")
         yield from outcomes
+
+
+def _end_workers(kind: type[BaseException] | None, *_: object) -> None:
+    """End the other processes at once if this one does not wait for their outcomes."""
+    for worker in active_children() if kind is not None else ():
+        worker.terminate()
 
 
 def _written(outcome: Outcome, output: Path, owners: dict[str, Path]) -> Outcome:

@@ -1,10 +1,15 @@
 """The command line: its commands, each in a module of its own."""
 
+import signal
+import sys
 from importlib import import_module
 from importlib.metadata import entry_points
-from typing import Final
+from threading import Timer
+from typing import Any, Final
 
 import click
+
+from vexture.cli.messages import say
 
 __all__ = ["COMMANDS", "main"]
 
@@ -19,6 +24,9 @@ PLUGINS: Final = "vexture.commands"
 
 ELSEWHERE: Final = {"report": "the package vexture-evidence adds it: in a clone, pip install ./evidence"}
 """Commands of known distributions, and how to install these."""
+
+INTERRUPTED: Final = 130
+"""Exit code after Ctrl-C: 128 and the signal's number, as shells have it."""
 
 
 class _Commands(click.Group):
@@ -35,6 +43,30 @@ class _Commands(click.Group):
         if not added and cmd_name in ELSEWHERE:
             ctx.fail(f"No such command {cmd_name!r}; {ELSEWHERE[cmd_name]}")
         return added[0].load() if added else None
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run a command; Ctrl-C ends it in a line, also while modules are imported and kernels compiled."""
+        again: list[Timer] = []
+
+        def unraisable(error: "sys.UnraisableHookArgs") -> None:
+            if error.exc_type is not KeyboardInterrupt:
+                before(error)
+                return  # else a callback of LLVM lost it, at which Numba may fail or go on
+            again.append(Timer(0.1, signal.raise_signal, (signal.SIGINT,)))
+            again[-1].start()
+
+        before, sys.unraisablehook = sys.unraisablehook, unraisable
+        try:
+            return super().invoke(ctx)
+        except (Exception, KeyboardInterrupt) as error:
+            for timer in again:
+                timer.cancel()
+            if not again and not isinstance(error, KeyboardInterrupt):
+                raise
+            say("interrupted")
+            sys.exit(INTERRUPTED)
+        finally:
+            sys.unraisablehook = before
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})

@@ -1,0 +1,78 @@
+"""Ctrl-C ends a command in one line, whatever it is doing, and leaves nothing half-written."""
+
+import ctypes
+import os
+import signal
+import subprocess
+import sys
+import time
+import types
+from pathlib import Path
+from threading import Timer
+
+import click
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+from vexture.cli.main import COMMANDS, main
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="sends signals as POSIX has them")
+
+LINE = "vexture: interrupted\n"
+
+
+@pytest.fixture
+def scribble(tmp_path: Path) -> Path:
+    """A drawing that takes much longer than these tests wait."""
+    corners = " ".join(map(str, np.random.default_rng(1).integers(0, 1000, 8000)))
+    file = tmp_path / "scribble.svg"
+    file.write_text(
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 999 999"><polygon points="{corners}"/></svg>'
+    )
+    return file
+
+
+def interrupted(*arguments: object) -> Result:
+    """Result of a command that Ctrl-C reaches soon."""
+    timer = Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))  # for the main thread, as Ctrl-C
+    timer.start()
+    return CliRunner().invoke(main, list(map(str, arguments)))
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_conversion_ends_in_a_line(scribble: Path, tmp_path: Path, jobs: int) -> None:
+    other = scribble.with_name("other.svg")
+    other.write_bytes(scribble.read_bytes())
+    result = interrupted("convert", scribble, other, "-j", jobs, "-o", tmp_path / "out")
+    assert (result.exit_code, result.stderr) == (130, LINE)
+    assert not (tmp_path / "out").exists()
+
+
+def test_it_ends_while_kernels_are_compiled(scribble: Path, tmp_path: Path) -> None:
+    command = [sys.executable, "-c", "from vexture.cli.main import main; main()", "convert", str(scribble)]
+    environment = os.environ | {"VEXTURE_CACHE": str(tmp_path / "cache")}
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=environment, cwd=tmp_path) as process:
+        assert process.stderr is not None
+        assert "compiling kernels" in process.stderr.readline()
+        process.send_signal(signal.SIGINT)
+        assert process.stderr.read() == LINE
+    assert process.returncode == 130
+    assert not list(tmp_path.glob("*.ktx2"))
+
+
+def test_a_callback_that_loses_it_delays_it_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    def lose() -> None:
+        raise KeyboardInterrupt
+
+    def work() -> None:
+        ctypes.CFUNCTYPE(None)(lose)()
+        for _ in range(6000):
+            time.sleep(0.01)
+
+    module = types.ModuleType("loser")
+    module.loser = click.command("loser")(work)  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, "loser", module)
+    monkeypatch.setitem(COMMANDS, "loser", "loser")
+    result = CliRunner().invoke(main, ["loser"])
+    assert (result.exit_code, result.stderr) == (130, LINE)
