@@ -167,7 +167,7 @@ def test_selectors_make_an_element_once():
 
 
 def test_a_selector_that_asks_without_end_meets_the_limit():
-    selector = ".none" + " ~ rect" * 9  # any nine of hundreds of siblings, in order
-    body = '<rect width="1" height="1"/>' * 500
+    selector = ".none" + " ~ rect" * 9 + " ~ circle"  # any nine of hundreds of siblings, in order
+    body = '<rect width="1" height="1"/>' * 500 + '<circle r="1"/>'
     with pytest.raises(LimitError, match=r"^x\.svg: converting takes longer than 0\.1 s"), within(0.1):
         svg_drawing(RECTS.format(selector + "{fill:red}", body).encode(), "x.svg")
