@@ -57,16 +57,17 @@ class _Commands(click.Group):
 
         before, sys.unraisablehook = sys.unraisablehook, unraisable
         try:
-            return super().invoke(ctx)
+            try:
+                return super().invoke(ctx)
+            finally:
+                sys.unraisablehook = before
+                for timer in again:
+                    timer.cancel()
         except (Exception, KeyboardInterrupt) as error:
-            for timer in again:
-                timer.cancel()
             if not again and not isinstance(error, KeyboardInterrupt):
                 raise
             say("interrupted")
             sys.exit(INTERRUPTED)
-        finally:
-            sys.unraisablehook = before
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
