@@ -251,7 +251,7 @@ def grow(
         np.zeros((cells, 2)),
         np.empty((n + 16, 4, 4)),
         np.empty((n + 16, 2), np.int64),
-        np.empty((4 * n + 4 * MOST_CURVES, 4, 2)),
+        np.empty((4 * n + 8 * MOST_CURVES, 4, 2)),
         np.array([1, 0, 0, 1]),
         np.zeros(1),
         np.empty(5, np.int64),
