@@ -8,12 +8,11 @@ import sys
 import time
 import types
 from pathlib import Path
-from threading import Timer
 
 import click
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import CliRunner
 
 from vexture.cli.main import COMMANDS, main
 
@@ -33,19 +32,29 @@ def scribble(tmp_path: Path) -> Path:
     return file
 
 
-def interrupted(*arguments: object) -> Result:
-    """Result of a command that Ctrl-C reaches soon."""
-    timer = Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))  # for the main thread, as Ctrl-C
-    timer.start()
-    return CliRunner().invoke(main, list(map(str, arguments)))
+PRESSED = """
+import multiprocessing, os, signal, sys, threading, time
+from vexture.cli.main import main
+
+def press():
+    while "vexture.tree.build" not in sys.modules and not multiprocessing.active_children():
+        time.sleep(0.02)
+    time.sleep(0.3)
+    os.kill(os.getpid(), signal.SIGINT)
+
+threading.Thread(target=press).start()
+main(sys.argv[1:])
+"""
+"""Ctrl-C soon after a tree, or another process, has begun."""
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_a_conversion_ends_in_a_line(scribble: Path, tmp_path: Path, jobs: int) -> None:
     other = scribble.with_name("other.svg")
     other.write_bytes(scribble.read_bytes())
-    result = interrupted("convert", scribble, other, "-j", jobs, "-o", tmp_path / "out")
-    assert (result.exit_code, result.stderr) == (130, LINE)
+    arguments = ["convert", scribble, other, "-q", "-j", str(jobs), "-o", tmp_path / "out"]
+    ended = subprocess.run([sys.executable, "-c", PRESSED, *arguments], capture_output=True, text=True, timeout=60)
+    assert (ended.returncode, ended.stderr) == (130, LINE)
     assert not (tmp_path / "out").exists()
 
 
