@@ -4,7 +4,8 @@ import signal
 import sys
 from importlib import import_module
 from importlib.metadata import entry_points
-from threading import Timer
+from threading import Timer, current_thread, main_thread
+from types import FrameType
 from typing import Any, Final
 
 import click
@@ -46,28 +47,31 @@ class _Commands(click.Group):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run a command; Ctrl-C ends it in a line, also while modules are imported and kernels compiled."""
-        again: list[Timer] = []
-
-        def unraisable(error: "sys.UnraisableHookArgs") -> None:
-            if error.exc_type is not KeyboardInterrupt:
-                before(error)
-                return  # else a callback of LLVM lost it, at which Numba may fail or go on
-            again.append(Timer(0.1, signal.raise_signal, (signal.SIGINT,)))
-            again[-1].start()
-
-        before, sys.unraisablehook = sys.unraisablehook, unraisable
+        ours = current_thread() is main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        if ours:
+            signal.signal(signal.SIGINT, _on_ctrl_c)
         try:
-            try:
-                return super().invoke(ctx)
-            finally:
-                sys.unraisablehook = before
-                for timer in again:
-                    timer.cancel()
-        except (Exception, KeyboardInterrupt) as error:
-            if not again and not isinstance(error, KeyboardInterrupt):
-                raise
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
             say("interrupted")
             sys.exit(INTERRUPTED)
+        finally:
+            if ours:
+                signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def _on_ctrl_c(number: int, frame: FrameType | None) -> None:
+    """Raise a `KeyboardInterrupt`; later within calls that lose it or crash: LLVM's, Numba's that do not compile."""
+    places = set()
+    while frame is not None:
+        places |= {frame.f_globals.get("__name__", "").partition(".")[0], frame.f_code.co_name}
+        frame = frame.f_back
+    if "llvmlite" in places or ("numba" in places and "_compile_for_args" not in places):
+        again = Timer(0.05, signal.raise_signal, (number,))
+        again.daemon = True
+        again.start()
+        return
+    raise KeyboardInterrupt
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
