@@ -30,9 +30,10 @@ LONGEST_FUNCTION = 60  # without its docstring
 LONGEST_EXAMPLE = 40
 DUMPING_GROUNDS = {"common", "helper", "helpers", "misc", "tools", "util", "utils"}
 
-BASE = {"errors", "kernels", "machine_code", "tolerance"}
+BASE = {"deadline", "errors", "kernels", "machine_code", "tolerance"}
 SOURCES = BASE | {"bezier", "content", "drawing", "notes"}
 MAY_IMPORT: dict[str, set[str]] = {
+    "deadline": {"errors"},
     "errors": set(),
     "kernels": {"machine_code"},
     "machine_code": set(),

@@ -14,6 +14,8 @@ import sys
 import sysconfig
 import tempfile
 from collections.abc import Iterator
+from copy import deepcopy
+from dataclasses import astuple
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -24,8 +26,9 @@ from vexture import convert, read_svg
 from vexture.kernels import Kernel, text_digest
 from vexture.machine_code import RELEASE, SHIPPED, Code, described, host, load
 from vexture.renderers.cpu import draw
-from vexture.tree.build import Bounds, grow
+from vexture.tree.build import SLICE, Bounds, grow, grow_on
 from vexture.tree.cubics import gather
+from vexture.tree.growth import WAITING, Growth, tree_of, with_needed_room
 from vexture.tree.tree import MOST_QUADS
 
 SHAPES = Path(__file__).parent.parent / "examples" / "shapes"
@@ -48,6 +51,9 @@ PROCESSORS = {
     "aarch64": Processor("generic", ()),
 }
 MACHINE = {"AMD64": "x86_64", "arm64": "aarch64"}.get(platform.machine(), platform.machine())
+
+ROOM = 2**14
+"""Rows of each array of a tree that grows: enough for the example drawings."""
 
 RUN_TIME = """
 declare ptr @malloc(i64)
@@ -111,7 +117,11 @@ def calls() -> Iterator[tuple[Any, tuple[Any, ...]]]:
     for file in sorted(SHAPES.glob("*.svg")):
         drawing = read_svg(file)
         for tolerance in (0.0, 0.001):
-            yield grow, (*gather(drawing), Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS))
+            outlines, bounds = gather(drawing), Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS)
+            yield grow, (*outlines, bounds, SLICE)
+            tree = Growth(*grow.dispatcher(*outlines, bounds, 0)[0])
+            tree.needed[:] = ROOM
+            yield grow_on, (with_needed_room(tree), outlines[2], bounds, SLICE)
         texture = convert(drawing)
         for quality in (0, 1):
             to_unit = np.array([[0.02, 0.0, 0.0], [0.0, -0.02, 1.0], [0.0, 0.0, 1.0]])
@@ -172,7 +182,10 @@ def write(
 
 
 def bits(values: Any) -> Any:
-    """What is compared of arguments and results."""
+    """What is compared of arguments and results; of a tree that grows, only what it has grown."""
+    if isinstance(values, tuple) and len(values) == len(Growth._fields):
+        tree = Growth(*values)
+        values = (tree.counts,) if tree.counts[WAITING] else astuple(tree_of(tree))
     return tuple(map(bits, values)) if isinstance(values, tuple) else (np.shape(values), np.asarray(values).tobytes())
 
 
@@ -185,7 +198,7 @@ def main() -> None:
         os.environ |= {"NUMBA_CPU_NAME": processor.name, "NUMBA_CPU_FEATURES": processor.listed, "VEXTURE_CACHE": cache}
         made: dict[Any, Any] = {}
         for kernel, arguments in calls():
-            again = tuple(value.copy() if isinstance(value, np.ndarray) else value for value in arguments)
+            again = deepcopy(arguments)
             result = kernel.dispatcher(*arguments)
             if kernel not in made:
                 write(kernel, arguments, result, processor, SHIPPED, text_digest())

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics, straight
+from vexture.deadline import check_time
 from vexture.errors import SourceError
 from vexture.notes import Note
 from vexture.tolerance import CLOSED
@@ -191,6 +192,7 @@ class Drawing:
         boxes = np.array([path.box for path in self.paths]).reshape(-1, 2, 2)
         starts: list[int] = []
         for place, path in enumerate(self.paths):
+            check_time(self.name)
             if starts and path.paint == self.paths[starts[-1]].paint:
                 above, below = boxes[place], boxes[starts[-1] : place]
                 apart = (above[0] > below[:, 1]) | (above[1] < below[:, 0])

@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, overload
 
+from vexture.deadline import DEFAULT_SECONDS, within
 from vexture.encodings import DEFAULT, EncodedTexture, find_encoding
 from vexture.errors import ParameterError
 from vexture.notes import warn_of
@@ -41,6 +42,7 @@ class Parameters:
     max_depth: int | None = None
     capacity: int | None = None
     precision: float | None = None
+    max_seconds: float = DEFAULT_SECONDS
 
     def __post_init__(self) -> None:
         if self.split not in (None, "paint"):
@@ -77,7 +79,14 @@ def run(
 ) -> Conversion[EncodedTexture]: ...
 
 
-def run(source: Source, *, encoding: str = DEFAULT, select: str | None = None, **parameters: Any) -> Conversion[Any]:
+def run(
+    source: Source,
+    *,
+    encoding: str = DEFAULT,
+    select: str | None = None,
+    max_seconds: float = DEFAULT_SECONDS,
+    **parameters: Any,
+) -> Conversion[Any]:
     """Convert as `convert` does, but without a warning, and keep the steps."""
     start = time.perf_counter()
     if encoding == DEFAULT:
@@ -89,11 +98,12 @@ def run(source: Source, *, encoding: str = DEFAULT, select: str | None = None, *
         if name not in known:
             raise TypeError(f"`{name}` is {value!r}, but the encoding {encoding} has no such parameter; leave it out")
     if encoding == DEFAULT:
-        part = trees_of(source, Parameters(select=select, **parameters))
+        part = trees_of(source, Parameters(select=select, max_seconds=max_seconds, **parameters))
         texture = combine([part], part.drawing.name, None if _is_drawing(source) else Path(part.source).name)
         return replace(part, texture=texture, seconds=time.perf_counter() - start)
-    drawing = _drawing_of(source, select)
-    tree, other_texture, rounding = other.convert(drawing, **parameters)
+    with within(max_seconds):
+        drawing = _drawing_of(source, select)
+        tree, other_texture, rounding = other.convert(drawing, **parameters)
     return Conversion(drawing, (tree,), other_texture, time.perf_counter() - start, rounding)
 
 
@@ -103,19 +113,20 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     from vexture.tree.build import DEFAULT_CAPACITY, DEFAULT_DEPTH, build_tree, largest_shift
 
     start = time.perf_counter()
-    drawing = _drawing_of(source, parameters.select)
-    layers = drawing.layers() if parameters.split else ()
     tolerance = 0.0 if parameters.tolerance == "auto" else parameters.tolerance
-    trees = tuple(
-        build_tree(
-            layer,
-            tolerance=tolerance,
-            max_depth=DEFAULT_DEPTH if parameters.max_depth is None else parameters.max_depth,
-            capacity=DEFAULT_CAPACITY if parameters.capacity is None else parameters.capacity,
-            precision=parameters.precision,
+    with within(parameters.max_seconds):
+        drawing = _drawing_of(source, parameters.select)
+        layers = drawing.layers() if parameters.split else ()
+        trees = tuple(
+            build_tree(
+                layer,
+                tolerance=tolerance,
+                max_depth=DEFAULT_DEPTH if parameters.max_depth is None else parameters.max_depth,
+                capacity=DEFAULT_CAPACITY if parameters.capacity is None else parameters.capacity,
+                precision=parameters.precision,
+            )
+            for layer in layers or (drawing,)
         )
-        for layer in layers or (drawing,)
-    )
     roots = tuple(
         Root(layer.name, 0, layer.to_source, tolerance, layer.crs, layer.paths[0].paint if layers else None)
         for layer in layers or (drawing,)
@@ -155,6 +166,7 @@ def convert(
     max_depth: int | None = ...,
     capacity: int | None = ...,
     precision: float | None = ...,
+    max_seconds: float = ...,
 ) -> "Texture": ...
 
 
@@ -172,6 +184,7 @@ def convert(
     max_depth: int | None = None,
     capacity: int | None = None,
     precision: float | None = None,
+    max_seconds: float = DEFAULT_SECONDS,
     **others: Any,
 ) -> EncodedTexture:
     """Convert a drawing into a texture.
@@ -198,6 +211,8 @@ def convert(
     precision : float, optional
         Largest shift of the outline by rounding, in unit-square units; leaves are divided until it holds. By default
         rounding alone divides no leaf.
+    max_seconds : float, optional
+        Most seconds that reading the source and building its trees may take; 300 by default.
     **others
         Parameters of another encoding.
 
@@ -211,7 +226,7 @@ def convert(
     SourceError
         If the drawing cannot be read.
     LimitError
-        If a selector chooses nothing, or the tree is too large.
+        If a selector chooses nothing, the tree is too large, or the conversion takes longer than `max_seconds`.
     ParameterError
         If a parameter is out of range.
     TypeError
@@ -229,7 +244,7 @@ def convert(
     >>> [root.name for root in convert(triangle).roots]
     ['drawing']
     """
-    named = Parameters(split, select, tolerance, max_depth, capacity, precision)
+    named = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds)
     values = ((field.name, getattr(named, field.name)) for field in fields(named))
     given = {name: value for name, value in values if value is not None}
     conversion = run(source, encoding=encoding, **given, **others)
@@ -248,6 +263,7 @@ def atlas(
     max_depth: int | None = None,
     capacity: int | None = None,
     precision: float | None = None,
+    max_seconds: float = DEFAULT_SECONDS,
 ) -> "Texture":
     """Convert many drawings into one texture: a shape for each, or with `split` for each layer of each.
 
@@ -258,7 +274,7 @@ def atlas(
         ``name/layer``.
     name : str
         Names the texture.
-    split, select, tolerance, max_depth, capacity, precision
+    split, select, tolerance, max_depth, capacity, precision, max_seconds
         As in `vexture.convert`, for each source.
 
     Returns
@@ -279,7 +295,7 @@ def atlas(
     >>> [root.name for root in both.roots]
     ['a', 'b']
     """
-    parameters = Parameters(split, select, tolerance, max_depth, capacity, precision)
+    parameters = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds)
     if isinstance(sources, str | bytes | os.PathLike) or not isinstance(sources, Iterable):
         sources = [sources]
     parts = []

@@ -11,7 +11,8 @@ from geographic import FORMATS, LAKE, POND, UTM, file, geopackage_of, only, same
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vexture.errors import SourceError, SourceWarning, VextureError
+from vexture.deadline import within
+from vexture.errors import LimitError, SourceError, SourceWarning, VextureError
 from vexture.reading import read_extent
 
 
@@ -39,6 +40,15 @@ def test_a_polygon_that_encloses_nothing_is_left_out(tmp_path):
     with pytest.warns(SourceWarning, match="left out: polygon that encloses nothing"):
         drawing = only(read_extent(file(tmp_path, "flat.gpkg", [flat, POND]), "flat.gpkg"))
     assert same(drawing, POND)
+
+
+def test_a_tangle_whose_repair_would_not_end_is_refused(tmp_path):
+    tangle = shapely.Polygon(np.random.default_rng(1).uniform(0, 1e4, (2500, 2)))
+    path = file(tmp_path, "tangle.gpkg", [POND, tangle])
+    with pytest.raises(LimitError, match="takes longer than"), within(1e-9):
+        read_extent(path, "tangle.gpkg")
+    with pytest.raises(SourceError, match=r"feature 2.*: its sides cross more than 250,000 times; correct"):
+        read_extent(path, "tangle.gpkg")
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -1e300])

@@ -8,9 +8,12 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from lxml import etree
 
-from vexture.errors import SourceError, SourceWarning
-from vexture.svg.read import read_svg
+from vexture.deadline import within
+from vexture.errors import LimitError, SourceError, SourceWarning
+from vexture.svg.read import read_svg, svg_drawing
+from vexture.svg.select import Node
 
 FIXTURES = Path(__file__).parent / "fixtures"
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">'
@@ -139,3 +142,32 @@ def test_a_damaged_file_is_read_or_refused(tmp_path: Path, content: bytes) -> No
             paths, message = (), str(error)
     assert "\n" not in message
     assert all(contour[:, 0].min() >= 0 and contour[:, 0].max() <= 1 for path in paths for contour in path.contours)
+
+
+RECTS = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><style>{}</style>{}</svg>'
+
+
+@pytest.mark.parametrize(
+    "selector",
+    [".c0 ~ .c1999", ".c1998 + .c1999", ".c1998:has(~ .c1999) ~ .c1999", "svg:has(.c1999) .c1999", ".c1999"],
+)
+def test_a_selector_may_ask_for_any_of_many_siblings(selector):
+    body = "".join(f'<rect class="c{k}" width="1" height="1"/>' for k in range(2000))
+    drawing = svg_drawing(RECTS.format(selector + "{fill:red}", body).encode(), "siblings.svg")
+    assert [path.paint.hex for path in drawing.paths if path.paint.hex != "#000000"] == ["#ff0000"]
+
+
+def test_selectors_make_an_element_once():
+    root = Node.from_xml_root(etree.fromstring(RECTS.format("", "<g><a/><b/><c/></g>")))
+    *_, a, b, c = root.iter_subtree()
+    assert a.parent is root._children[1]
+    assert [*a.iter_next_siblings()][1] is c
+    assert next(c.previous_siblings) is b
+    assert [*c.ancestors][1] is root
+
+
+def test_a_selector_that_asks_without_end_meets_the_limit():
+    selector = ".none" + " ~ rect" * 9 + " ~ circle"  # any nine of hundreds of siblings, in order
+    body = '<rect width="1" height="1"/>' * 500 + '<circle r="1"/>'
+    with pytest.raises(LimitError, match=r"^x\.svg: converting takes longer than 0\.1 s"), within(0.1):
+        svg_drawing(RECTS.format(selector + "{fill:red}", body).encode(), "x.svg")

@@ -2,13 +2,14 @@
 
 import json
 import logging
+import signal
 import sys
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import partial
-from multiprocessing import get_context
+from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -77,6 +78,7 @@ class Outcome:
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
 @click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 4]")
 @click.option("--precision", metavar="P", type=float, help="Largest shift by rounding, in unit-square units.")
+@click.option("--max-seconds", metavar="S", type=float, help="Most seconds for one source.  [default: 300]")
 @click.option(
     "-j", "--jobs", metavar="N", type=click.IntRange(1), default=1, show_default=True, help="Processes to use."
 )
@@ -238,7 +240,10 @@ def _outcomes(work: Any, sources: tuple[Path, ...], jobs: int, level: int) -> It
     with ExitStack() as opened:
         if jobs > 1 and len(tasks) > 1:
             pool = opened.enter_context(ProcessPoolExecutor(min(jobs, len(tasks)), get_context("spawn")))
+            opened.push(_end_workers)
+            heard = signal.signal(signal.SIGINT, signal.SIG_IGN)  # inherited: Ctrl-C is for this process alone
             outcomes = pool.map(work, *zip(*tasks, strict=True))
+            signal.signal(signal.SIGINT, heard)
         if len(tasks) > 1 and level > QUIET and sys.stderr.isatty():
             from rich.console import Console
             from rich.progress import Progress
@@ -246,6 +251,12 @@ def _outcomes(work: Any, sources: tuple[Path, ...], jobs: int, level: int) -> It
             progress = opened.enter_context(Progress(console=Console(stderr=True), transient=True))
             outcomes = progress.track(outcomes, total=len(tasks), description="converting")
         yield from outcomes
+
+
+def _end_workers(kind: type[BaseException] | None, *_: object) -> None:
+    """End the other processes at once if this one does not wait for their outcomes."""
+    for worker in active_children() if kind is not None else ():
+        worker.terminate()
 
 
 def _written(outcome: Outcome, output: Path, owners: dict[str, Path]) -> Outcome:

@@ -1,10 +1,16 @@
 """The command line: its commands, each in a module of its own."""
 
+import signal
+import sys
 from importlib import import_module
 from importlib.metadata import entry_points
-from typing import Final
+from threading import Timer, current_thread, main_thread
+from types import FrameType
+from typing import Any, Final
 
 import click
+
+from vexture.cli.messages import say
 
 __all__ = ["COMMANDS", "main"]
 
@@ -19,6 +25,9 @@ PLUGINS: Final = "vexture.commands"
 
 ELSEWHERE: Final = {"report": "the package vexture-evidence adds it: in a clone, pip install ./evidence"}
 """Commands of known distributions, and how to install these."""
+
+INTERRUPTED: Final = 130
+"""Exit code after Ctrl-C: 128 and the signal's number, as shells have it."""
 
 
 class _Commands(click.Group):
@@ -35,6 +44,34 @@ class _Commands(click.Group):
         if not added and cmd_name in ELSEWHERE:
             ctx.fail(f"No such command {cmd_name!r}; {ELSEWHERE[cmd_name]}")
         return added[0].load() if added else None
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run a command; Ctrl-C ends it in a line, also while modules are imported and kernels compiled."""
+        ours = current_thread() is main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        if ours:
+            signal.signal(signal.SIGINT, _on_ctrl_c)
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            say("interrupted")
+            sys.exit(INTERRUPTED)
+        finally:
+            if ours:
+                signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def _on_ctrl_c(number: int, frame: FrameType | None) -> None:
+    """Raise a `KeyboardInterrupt`; later within calls that lose it or crash: LLVM's, Numba's that do not compile."""
+    places = set()
+    while frame is not None:
+        places |= {frame.f_globals.get("__name__", "").partition(".")[0], frame.f_code.co_name}
+        frame = frame.f_back
+    if "llvmlite" in places or ("numba" in places and "_compile_for_args" not in places):
+        again = Timer(0.05, signal.raise_signal, (number,))
+        again.daemon = True
+        again.start()
+        return
+    raise KeyboardInterrupt
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})

@@ -43,6 +43,7 @@ def one_line() -> Iterator[None]:
     with warnings.catch_warnings():
         warnings.showwarning = lambda message, *_args, **_kwargs: say(f"warning: {message}")
         warnings.simplefilter("always")
+        warnings.simplefilter("ignore", ResourceWarning)  # what Ctrl-C interrupts is left open
         try:
             yield
         except EXPECTED as error:

@@ -8,6 +8,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.deadline import check_time
 from vexture.errors import SourceError, reason_of
 from vexture.geo.extent import Bounds
 from vexture.geo.geojson import LARGEST
@@ -24,6 +25,12 @@ MOST_HALVINGS: Final = 8
 
 SHORT: Final = 1e-3
 """Unit-square units. A shorter side stays straight, within `ROUND`, in any reference system."""
+
+MOST_CROSSINGS: Final = 250_000
+"""Crossings of the sides of one polygon that is repaired, which takes some 10 s."""
+
+SIDES: Final = 64
+"""Sides whose crossings are counted between two looks at the clock."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,6 +217,7 @@ def repaired(rings: Rings, notes: Notes) -> Rings:
         return rings
     broken, made = np.flatnonzero(~valid), []
     for index in broken:
+        _refuse_tangle(shapes[index], rings.place(int(index)))
         try:
             made.append(shapely.make_valid(shapes[index], method="structure", keep_collapsed=False))
         except shapely.errors.GEOSException as error:
@@ -220,6 +228,25 @@ def repaired(rings: Rings, notes: Notes) -> Rings:
         notes.left_out("polygon that encloses nothing")
     mended = rings_of(pieces, lambda index: rings.place(int(broken[owner[index]])))
     return rings.taken(np.flatnonzero(valid)).joined(mended)
+
+
+def _refuse_tangle(shape: Any, place: str) -> None:
+    """Refuse a polygon whose sides cross so often that its repair, in one call, would seem to have no end."""
+    import shapely
+
+    check_time()
+    points, ring = shapely.get_coordinates(shapely.get_rings(shape), return_index=True)
+    if len(points) ** 2 <= 2 * MOST_CROSSINGS:
+        return
+    sides = shapely.linestrings(np.stack([points[:-1], points[1:]], axis=1)[ring[:-1] == ring[1:]])
+    tree, crossings = shapely.STRtree(sides), 0
+    for start in range(0, len(sides), SIDES):
+        check_time()
+        crossings += tree.query(sides[start : start + SIDES], predicate="crosses").shape[1] / 2
+        if crossings > MOST_CROSSINGS:
+            raise SourceError(
+                f"{place or 'its polygon'}: its sides cross more than {MOST_CROSSINGS:,} times; correct its rings"
+            )
 
 
 def _polygons(shapes: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:

@@ -10,6 +10,7 @@ import numpy as np
 from lxml import etree
 
 from vexture.bezier.bounds import bounds
+from vexture.deadline import check_time
 from vexture.drawing import Path
 from vexture.errors import SourceError
 from vexture.svg.document import local_name
@@ -93,6 +94,7 @@ class Scene:
         used = 0
         stack = [(child, place) for child in reversed(self.root)]
         while stack:
+            check_time()
             element, place = stack.pop()
             used += place.used
             if used > MOST_USED:

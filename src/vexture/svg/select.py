@@ -1,14 +1,57 @@
-"""Choosing a part of a document by a CSS selector."""
+"""CSS selectors: the relatives of an element, and choosing a part of a document."""
+
+from collections.abc import Iterator
+from functools import cached_property
+from itertools import islice
 
 import cssselect2
 from lxml import etree
 
+from vexture.deadline import check_time
 from vexture.errors import LimitError
 
-__all__ = ["chosen", "nothing_painted"]
+__all__ = ["Node", "chosen", "nothing_painted"]
 
 LONGEST_NAMED = 80
 """Most characters of a selector in a message."""
+
+
+class Node(cssselect2.ElementWrapper):  # type: ignore[misc]
+    """An element for selectors. It finds relatives one after another, and looks at the clock.
+
+    Its base keeps a tuple of them for each element, by recursion: too much memory, and too deep, where many siblings
+    stand side by side.
+    """
+
+    @property
+    def ancestors(self) -> Iterator["Node"]:
+        """Elements around this one, from the inner ones to the root."""
+        return self._line("parent")
+
+    @property
+    def previous_siblings(self) -> Iterator["Node"]:
+        """Siblings before this one, the nearest first."""
+        return self._line("previous")
+
+    def _line(self, step: str) -> Iterator["Node"]:
+        check_time()
+        node = getattr(self, step)
+        while node is not None:
+            yield node
+            node = getattr(node, step)
+
+    def iter_children(self) -> Iterator["Node"]:
+        """The elements in this one, made once."""
+        check_time()
+        return iter(self._children)
+
+    @cached_property
+    def _children(self) -> list["Node"]:
+        return list(super().iter_children())
+
+    def iter_next_siblings(self) -> Iterator["Node"]:
+        """Siblings after this one, in order."""
+        return islice(self.iter_siblings(), self.index + 1, None)
 
 
 def chosen(root: etree._Element, select: str) -> set[etree._Element]:
@@ -25,7 +68,7 @@ def chosen(root: etree._Element, select: str) -> set[etree._Element]:
     prefixes = {prefix: name for prefix, name in root.nsmap.items() if prefix is not None}
     try:
         selectors = cssselect2.compile_selector_list(select, prefixes)
-        wrappers = cssselect2.ElementWrapper.from_xml_root(root).iter_subtree()
+        wrappers = Node.from_xml_root(root).iter_subtree()
         found = {wrapper.etree_element for wrapper in wrappers if wrapper.matches(*selectors)}
     except (cssselect2.SelectorError, SyntaxError) as error:
         reason = str(error.args[-1] if error.args else error)[:LONGEST_NAMED]

@@ -13,6 +13,7 @@ from lxml import etree
 from vexture.svg.colors import Color, parse_color
 from vexture.svg.properties import CSS_ONLY, PROPERTIES
 from vexture.svg.report import Report
+from vexture.svg.select import Node
 from vexture.svg.values import Viewport, opacity
 
 __all__ = ["INITIAL", "Cascade", "Style"]
@@ -84,7 +85,7 @@ class Cascade:
             for sheet in sheets:
                 if sheet.get("type", "text/css").strip().lower() in ("", "text/css"):
                     self.add_rules(tinycss2.parse_stylesheet(sheet.text, skip_comments=True, skip_whitespace=True))
-            for wrapper in cssselect2.ElementWrapper.from_xml_root(root).iter_subtree():
+            for wrapper in Node.from_xml_root(root).iter_subtree():
                 self.wrappers[wrapper.etree_element] = wrapper
 
     def add_rules(self, rules: list[Any]) -> None:

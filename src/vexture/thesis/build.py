@@ -34,7 +34,6 @@ from vexture.tolerance import CLOSED
 from vexture.tree.boundary import MOST_RESOLVED, crowded_area
 from vexture.tree.build import check_whole
 from vexture.tree.cubics import gather
-from vexture.tree.divide import with_room
 from vexture.tree.tree import MOST_QUADS
 
 __all__ = ["DEFAULT_DEPTH", "build", "root_level"]
@@ -112,6 +111,19 @@ def _add_quads(cells: NDArray[np.float64], level: Level, split_cells: NDArray[np
 
 
 @kernel
+def _with_room(rows: NDArray[np.float64], count: int, room: int) -> NDArray[np.float64]:
+    """The rows, or a copy twice as large if there is no room for `room` more behind the first `count`."""
+    if count + room <= len(rows):
+        return rows
+    out = np.empty((2 * count + room, rows.shape[1], rows.shape[2]))
+    for i in range(count):
+        for j in range(rows.shape[1]):
+            for k in range(rows.shape[2]):
+                out[i, j, k] = rows[i, j, k]
+    return out
+
+
+@kernel
 def grow(
     level: Level,
     cubics: NDArray[np.float64],
@@ -132,7 +144,7 @@ def grow(
     for depth in range(max_depth + 1):
         count = len(level.slot)
         split_cells, split_count = np.zeros(count, np.bool_), 0
-        curves = with_room(curves, curve_count, count)
+        curves = _with_room(curves, curve_count, count)
         for c in range(count):
             tolerance = cell_tolerance(accuracy, size)
             leaf = no_leaf()
@@ -154,7 +166,7 @@ def grow(
             break
         if quads + split_count > most_quads:
             return cells[:0], curves[:0], 0.0, -(quads + split_count)
-        cells = with_room(cells, quads, split_count)
+        cells = _with_room(cells, quads, split_count)
         first_quad = quads
         quads = _add_quads(cells, level, split_cells, first_quad)
         level, full = children(level, split_cells, rules, size, first_quad)

@@ -7,18 +7,51 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.monotone import monotone_pieces
+from vexture.bezier.split import copy_curve
+from vexture.deadline import check_time
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.kernels import kernel
 from vexture.layout import LATTICE, MOST_CURVES, MOST_DEPTH
 from vexture.tolerance import CLOSED
 from vexture.tree.cubics import gather
-from vexture.tree.divide import PARTS, PiecePool, divide, new_pool, pool_with_room, with_room
+from vexture.tree.divide import PARTS, PiecePool, divide
+from vexture.tree.growth import (
+    COUNT,
+    COVERAGE,
+    CURVES,
+    DEPTH,
+    FIRST,
+    FIRST_PATH,
+    IS_QUAD,
+    LAST,
+    LAST_PATH,
+    PIECES,
+    QUAD,
+    QUADS,
+    UNRESOLVED,
+    WAITING,
+    WINDING,
+    Growth,
+    has_room,
+    tree_of,
+    with_needed_room,
+)
 from vexture.tree.leaf import DIVIDE, Leaf, Workspace, leaf_of, new_workspace
 from vexture.tree.tree import MOST_QUADS, Tree
 from vexture.tree.winding import child_windings, inside
 
-__all__ = ["DEFAULT_CAPACITY", "DEFAULT_DEPTH", "build_tree", "check_whole", "largest_shift"]
+__all__ = [
+    "DEFAULT_CAPACITY",
+    "DEFAULT_DEPTH",
+    "SLICE",
+    "Bounds",
+    "build_tree",
+    "check_whole",
+    "grow",
+    "grow_on",
+    "largest_shift",
+]
 
 DEFAULT_CAPACITY = 4
 """Pieces in a leaf."""
@@ -32,36 +65,11 @@ DISPLACEMENT = 2.0
 COINCIDENT = 0.25
 """Share of the largest shift within which the pieces of a crowded cell count as one. Rounding takes half of it."""
 
-IS_QUAD, COUNT, WINDING, COVERAGE = range(4)
-"""Columns of the cells while the tree grows."""
+SLICE = 300_000
+"""Work between two looks at the clock, some 0.1 s: pieces in the cells that are divided, and `CELL` for each cell."""
 
-QUAD, DEPTH, FIRST, LAST, FIRST_PATH, LAST_PATH, PIECES = range(7)
-"""Columns of the stack of cells to divide: quad, depth, lists of pieces and of paths, and pieces in the pool."""
-
-
-class Arrays(NamedTuple):
-    """The arrays of a `Tree`."""
-
-    is_quad: NDArray[np.bool_]
-    counts: NDArray[np.uint8]
-    winding: NDArray[np.int8]
-    first_quad: NDArray[np.int32]
-    first_curve: NDArray[np.int32]
-    coverage: NDArray[np.float64]
-    curves: NDArray[np.int32]
-
-
-QUADS, CURVES, UNRESOLVED, WAITING = range(4)
-"""Counts while the tree grows: quads, curves, unresolved leaves, cells on the stack."""
-
-
-class Growth(NamedTuple):
-    """The tree while it grows; rows beyond the counts are free."""
-
-    # (room, 4, 4): for each cell of each quad: whether a quad, count, corner winding, coverage
-    cells: NDArray[np.float64]
-    first: NDArray[np.int64]  # (room, 2): first quad below each quad, first curve of its leaves
-    curves: NDArray[np.float64]  # (room, 4, 2), in lattice units
+CELL = 20
+"""Work of dividing a cell without pieces, and of its leaves."""
 
 
 class Bounds(NamedTuple):
@@ -78,23 +86,9 @@ class Bounds(NamedTuple):
 class Work(NamedTuple):
     """Arrays that are reused from cell to cell."""
 
-    stack: NDArray[np.int64]  # (room, 7): cells to divide
-    corner: NDArray[np.float64]  # (room, 2): their bottom-left corners
     child_at: NDArray[np.int64]  # (5,): start of each child's list of pieces
     windings: NDArray[np.int64]  # (paths, 8): what `child_windings` writes
-    deviation: NDArray[np.float64]  # (1,): largest distance of a leaf's outline from the drawing's
     leaf: Workspace
-
-
-@kernel
-def _room_for_quad(tree: Growth, quads: int, curves: int) -> Growth:
-    """The tree, with room for all that one quad can hold."""
-    cells, first = with_room(tree.cells, quads, 4), tree.first
-    if len(first) < len(cells):
-        first = np.empty((len(cells), 2), np.int64)
-        for quad in range(quads):
-            first[quad, 0], first[quad, 1] = tree.first[quad, 0], tree.first[quad, 1]
-    return Growth(cells, first, with_room(tree.curves, curves, 4 * MOST_CURVES))
 
 
 @kernel(allocates=False)
@@ -118,17 +112,6 @@ def _child_paths(
     return end
 
 
-@kernel
-def _paths_with_room(present: NDArray[np.int64], count: int, room: int) -> NDArray[np.int64]:
-    """The list of paths, or a longer copy if it has not enough room."""
-    if count + room <= len(present):
-        return present
-    out = np.empty((2 * len(present) + room, 2), np.int64)
-    for k in range(count):
-        out[k, 0], out[k, 1] = present[k, 0], present[k, 1]
-    return out
-
-
 @kernel(allocates=False)
 def _mean_coverages(tree: Growth, quads: int) -> None:
     """Give each divided cell the mean coverage of its quad; a quad comes after the quad that holds it."""
@@ -144,18 +127,10 @@ def _mean_coverages(tree: Growth, quads: int) -> None:
 
 
 @kernel(allocates=False)
-def _grow_quad(
-    pool: PiecePool,
-    present: NDArray[np.int64],
-    rules: NDArray[np.int64],
-    bounds: Bounds,
-    work: Work,
-    tree: Growth,
-    counts: NDArray[np.int64],
-) -> None:
+def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Work) -> None:
     """Divide the cell on top of the stack: each child becomes a leaf or is pushed onto the stack."""
-    stack, corner, child_at, windings = work.stack, work.corner, work.child_at, work.windings
-    cells, first_below = tree.cells, tree.first
+    pool, present, stack, corner, counts = tree.pool, tree.present, tree.stack, tree.corner, tree.counts
+    child_at, windings, cells, first_below = work.child_at, work.windings, tree.cells, tree.first
     top = counts[WAITING] - 1
     quad, depth, first, last = stack[top, QUAD], stack[top, DEPTH], stack[top, FIRST], stack[top, LAST]
     first_path, last_path = stack[top, FIRST_PATH], stack[top, LAST_PATH]
@@ -209,17 +184,20 @@ def _grow_quad(
             cells[quad, child, COVERAGE] = leaf.coverage
             counts[CURVES] += leaf.size
             counts[UNRESOLVED] += 0 if leaf.resolved else 1
-            work.deviation[0] = max(work.deviation[0], leaf.distance)
+            tree.deviation[0] = max(tree.deviation[0], leaf.distance)
     counts[WAITING] = top
 
 
 @kernel
-def _root(points: NDArray[np.float64], path: NDArray[np.int64]) -> tuple[NDArray[np.int64], float]:
-    """Paths of the unit square with corner windings 0; move ends into the square, and return by how much at most."""
+def _root(points: NDArray[np.float64], path: NDArray[np.int64]) -> tuple[NDArray[np.int64], int, float]:
+    """Paths of the unit square with corner windings 0; move ends into the square, and return by how much at most.
+
+    The number of paths is returned behind their list, which has room for more.
+    """
     paths = 0
     for i in range(len(path)):
         paths += 1 if i == 0 or path[i] != path[i - 1] else 0
-    present, outside, k = np.zeros((paths, 2), np.int64), 0.0, -1
+    present, outside, k = np.zeros((5 * paths + 64, 2), np.int64), 0.0, -1
     for i in range(len(path)):
         if i == 0 or path[i] != path[i - 1]:
             k += 1
@@ -229,72 +207,57 @@ def _root(points: NDArray[np.float64], path: NDArray[np.int64]) -> tuple[NDArray
                 inner = min(max(points[i, end, axis], 0.0), 1.0)
                 outside = max(outside, abs(points[i, end, axis] - inner))
                 points[i, end, axis] = inner
-    return present, outside
+    return present, paths, outside
 
 
-@kernel
-def _typed(tree: Growth, quads: int, curves: int) -> Arrays:
-    """The arrays of a `Tree`, in their final types."""
-    out = Arrays(
-        np.empty((quads, 4), np.bool_),
-        np.empty((quads, 4), np.uint8),
-        np.empty((quads, 4), np.int8),
-        np.empty(quads, np.int32),
-        np.empty(quads, np.int32),
-        np.empty((quads, 4)),
-        np.empty((curves, 4, 2), np.int32),
-    )
-    for quad in range(quads):
-        out.first_quad[quad], out.first_curve[quad] = tree.first[quad, 0], tree.first[quad, 1]
-        for k in range(4):
-            out.is_quad[quad, k] = tree.cells[quad, k, IS_QUAD] == 1.0
-            out.counts[quad, k], out.winding[quad, k] = tree.cells[quad, k, COUNT], tree.cells[quad, k, WINDING]
-            out.coverage[quad, k] = tree.cells[quad, k, COVERAGE]
-    for i in range(curves):
-        for k in range(4):
-            out.curves[i, k, 0], out.curves[i, k, 1] = tree.curves[i, k, 0], tree.curves[i, k, 1]
-    return out
+@kernel(ahead=True)
+def grow_on(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, most_work: int) -> None:
+    """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done."""
+    work = Work(np.empty(5, np.int64), np.empty((len(rules), 8), np.int64), new_workspace())
+    stack, counts = tree.stack, tree.counts
+    while counts[WAITING] > 0 and counts[QUADS] <= bounds.most_quads and most_work > 0 and has_room(tree):
+        top = counts[WAITING] - 1
+        most_work -= CELL + stack[top, LAST] - stack[top, FIRST]
+        _grow_quad(tree, rules, bounds, work)
+    if counts[WAITING] == 0:
+        _mean_coverages(tree, counts[QUADS])
 
 
 @kernel(ahead=True)
 def grow(
-    cubics: NDArray[np.float64], owner: NDArray[np.int64], rules: NDArray[np.int64], bounds: Bounds
-) -> tuple[Arrays, float, int, float]:
-    """Divide the unit square, depth first, until every cell is a leaf.
-
-    Returns the arrays of the tree; its deviation; the number of unresolved leaves, or minus the number of quads so far
-    if there are too many; and how far the outline lies outside the unit square.
-    """
+    cubics: NDArray[np.float64], owner: NDArray[np.int64], rules: NDArray[np.int64], bounds: Bounds, most_work: int
+) -> tuple[Growth, float]:
+    """Divide the unit square as `grow_on` does; also returns how far the outline lies outside the unit square."""
     pieces = monotone_pieces(cubics, owner)
-    present, outside = _root(pieces.points, pieces.path)
-    pool = new_pool(pieces.points, pieces.path)
-    tree = Growth(np.empty((16, 4, 4)), np.empty((16, 2), np.int64), np.empty((4 * MOST_CURVES, 4, 2)))
-    work = Work(
-        np.empty((4 * bounds.max_depth + 4, 7), np.int64),
-        np.zeros((4 * bounds.max_depth + 4, 2)),
-        np.empty(5, np.int64),
-        np.empty((len(present), 8), np.int64),
-        np.zeros(1),
-        new_workspace(),
+    present, paths, outside = _root(pieces.points, pieces.path)
+    n, cells = len(pieces.path), 4 * bounds.max_depth + 4
+    room = (PARTS + 4) * n
+    pool = PiecePool(
+        np.empty((room, 4, 2)),
+        np.empty(room, np.int64),
+        np.empty(room, np.int64),
+        np.empty(room, np.int64),
+        np.empty(room, np.int64),
     )
-    counts = np.array([1, 0, 0, 1])
-    for column, value in enumerate((0, 0, 0, len(pool.path), 0, len(present), len(pool.path))):
-        work.stack[0, column] = value
-    while counts[WAITING] > 0:
-        top = counts[WAITING] - 1
-        last, last_path = work.stack[top, LAST], work.stack[top, LAST_PATH]
-        parts, paths = PARTS * (last - work.stack[top, FIRST]), 4 * (last_path - work.stack[top, FIRST_PATH])
-        if work.stack[top, PIECES] + parts > len(pool.path) or last + parts > len(pool.numbers):
-            pool = pool_with_room(pool, work.stack[top, PIECES], last, parts)
-        if last_path + paths > len(present):
-            present = _paths_with_room(present, last_path, paths)
-        if counts[QUADS] + 4 > len(tree.first) or counts[CURVES] + 4 * MOST_CURVES > len(tree.curves):
-            tree = _room_for_quad(tree, counts[QUADS], counts[CURVES])
-        _grow_quad(pool, present, rules, bounds, work, tree, counts)
-        if counts[QUADS] > bounds.most_quads:
-            return _typed(tree, 0, 0), 0.0, -counts[QUADS], outside
-    _mean_coverages(tree, counts[QUADS])
-    return _typed(tree, counts[QUADS], counts[CURVES]), work.deviation[0], counts[UNRESOLVED], outside
+    for i in range(n):
+        copy_curve(pieces.points[i], pool.points[i])
+        pool.path[i], pool.numbers[i] = pieces.path[i], i
+    stack = np.zeros((cells, 7), np.int64)
+    stack[0, LAST], stack[0, LAST_PATH], stack[0, PIECES] = n, paths, n
+    tree = Growth(
+        pool,
+        present,
+        stack,
+        np.zeros((cells, 2)),
+        np.empty((n + 16, 4, 4)),
+        np.empty((n + 16, 2), np.int64),
+        np.empty((4 * n + 8 * MOST_CURVES, 4, 2)),
+        np.array([1, 0, 0, 1]),
+        np.zeros(1),
+        np.empty(5, np.int64),
+    )
+    grow_on(tree, rules, bounds, most_work)
+    return tree, outside
 
 
 def largest_shift(precision: float | None) -> float:
@@ -356,12 +319,19 @@ def build_tree(
         )
     near = COINCIDENT * largest_shift(precision)
     bounds = Bounds(capacity, float(tolerance), near, least_depth, max_depth, most_quads)
-    arrays, deviation, unresolved, outside = grow(*gather(drawing), bounds)
+    cubics, owner, rules = gather(drawing)
+    check_time(drawing.name)
+    arrays, outside = grow(cubics, owner, rules, bounds, SLICE)
     if not outside <= CLOSED:  # NaN counts as outside
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {outside:.3g}; clip or scale it first")
-    if unresolved < 0:
-        raise LimitError(
-            f"{drawing.name}: {-unresolved} quads at least; the limit is {most_quads}; "
-            "use a smaller `max_depth`, a larger `tolerance` or a larger `precision`"
-        )
-    return Tree(*arrays, deviation=deviation, unresolved=unresolved)
+    tree = Growth(*arrays)
+    while tree.counts[WAITING] > 0:
+        if tree.counts[QUADS] > most_quads:
+            raise LimitError(
+                f"{drawing.name}: {tree.counts[QUADS]} quads at least; the limit is {most_quads}; "
+                "use a smaller `max_depth`, a larger `tolerance` or a larger `precision`"
+            )
+        check_time(drawing.name)
+        tree = with_needed_room(tree)
+        grow_on(tree, rules, bounds, SLICE)
+    return tree_of(tree)

@@ -20,7 +20,7 @@ from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 
-__all__ = ["PARTS", "PiecePool", "child_of", "divide", "new_pool", "pool_with_room", "snap", "with_room"]
+__all__ = ["PARTS", "PiecePool", "child_of", "divide", "snap"]
 
 PARTS = 4
 """Most parts of one piece: each of the two middle lines cuts it at most once."""
@@ -34,41 +34,6 @@ class PiecePool(NamedTuple):
     numbers: NDArray[np.int64]  # (room,): lists of pieces, one after another
     child: NDArray[np.int64]  # (room,), scratch: the child that each part belongs to
     part: NDArray[np.int64]  # (room,), scratch: the number of each part
-
-
-@kernel
-def new_pool(points: NDArray[np.float64], path: NDArray[np.int64]) -> PiecePool:
-    """Pool of pieces, with one list of them all."""
-    n = len(path)
-    numbers = np.empty(n, np.int64)
-    for i in range(n):
-        numbers[i] = i
-    return PiecePool(points, path, numbers, np.empty(0, np.int64), np.empty(0, np.int64))
-
-
-@kernel
-def _longer(values: NDArray[np.int64], count: int, room: int) -> NDArray[np.int64]:
-    """The first values of an array, in an array of `room`."""
-    out = np.empty(room, np.int64)
-    for i in range(count):
-        out[i] = values[i]
-    return out
-
-
-@kernel
-def pool_with_room(pool: PiecePool, pieces: int, numbers: int, parts: int) -> PiecePool:
-    """Larger pool, with room for `parts` behind the first `pieces` and the first `numbers`."""
-    points = np.empty((2 * pieces + parts, 4, 2))
-    for i in range(pieces):
-        copy_curve(pool.points[i], points[i])
-    room = 2 * numbers + parts
-    return PiecePool(
-        points,
-        _longer(pool.path, pieces, len(points)),
-        _longer(pool.numbers, numbers, room),
-        np.empty(room, np.int64),
-        np.empty(room, np.int64),
-    )
 
 
 @kernel(allocates=False)
@@ -152,16 +117,3 @@ def child_of(curve: NDArray[np.float64], xm: float, ym: float) -> int:
     right = 1 if curve[0, 0] >= xm and curve[3, 0] >= xm else 0
     upper = 2 if curve[0, 1] >= ym and curve[3, 1] >= ym else 0
     return right + upper
-
-
-@kernel
-def with_room(rows: NDArray[np.float64], count: int, room: int) -> NDArray[np.float64]:
-    """The rows, or a copy twice as large if there is no room for `room` more behind the first `count`."""
-    if count + room <= len(rows):
-        return rows
-    out = np.empty((2 * count + room, rows.shape[1], rows.shape[2]))
-    for i in range(count):
-        for j in range(rows.shape[1]):
-            for k in range(rows.shape[2]):
-                out[i, j, k] = rows[i, j, k]
-    return out

@@ -1,0 +1,122 @@
+"""The tree while it grows: arrays with room, of which kernels fill the rows one after another."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.kernels import kernel
+from vexture.layout import MOST_CURVES
+from vexture.tree.divide import PARTS, PiecePool
+from vexture.tree.tree import Tree
+
+__all__ = [
+    "COUNT",
+    "COVERAGE",
+    "CURVES",
+    "DEPTH",
+    "FIRST",
+    "FIRST_PATH",
+    "IS_QUAD",
+    "LAST",
+    "LAST_PATH",
+    "PIECES",
+    "QUAD",
+    "QUADS",
+    "UNRESOLVED",
+    "WAITING",
+    "WINDING",
+    "Growth",
+    "has_room",
+    "tree_of",
+    "with_needed_room",
+]
+
+IS_QUAD, COUNT, WINDING, COVERAGE = range(4)
+"""Columns of the cells."""
+
+QUADS, CURVES, UNRESOLVED, WAITING = range(4)
+"""Counts: quads, curves, unresolved leaves, cells on the stack."""
+
+
+QUAD, DEPTH, FIRST, LAST, FIRST_PATH, LAST_PATH, PIECES = range(7)
+"""Columns of the stack of cells to divide: quad, depth, lists of pieces and of paths, and pieces in the pool."""
+
+
+class Growth(NamedTuple):
+    """The tree while it grows, with the cells to divide; rows beyond the counts are free."""
+
+    pool: PiecePool
+    present: NDArray[np.int64]  # (room, 2): lists of paths with corner windings
+    stack: NDArray[np.int64]  # (room, 7): cells to divide
+    corner: NDArray[np.float64]  # (room, 2): their bottom-left corners
+    # (room, 4, 4): for each cell of each quad: whether a quad, count, corner winding, coverage
+    cells: NDArray[np.float64]
+    first: NDArray[np.int64]  # (room, 2): first quad below each quad, first curve of its leaves
+    curves: NDArray[np.float64]  # (room, 4, 2), in lattice units
+    counts: NDArray[np.int64]  # (4,)
+    deviation: NDArray[np.float64]  # (1,): largest distance of a leaf's outline from the drawing's
+    # (5,): rows that the next cell needs of pieces, lists of them, lists of paths, quads and curves
+    needed: NDArray[np.int64]
+
+
+@kernel(allocates=False)
+def has_room(tree: Growth) -> bool:
+    """Write the rows that the next cell needs; whether the arrays have them."""
+    top, needed = tree.counts[WAITING] - 1, tree.needed
+    last, last_path = tree.stack[top, LAST], tree.stack[top, LAST_PATH]
+    parts = PARTS * (last - tree.stack[top, FIRST])
+    needed[0], needed[1] = tree.stack[top, PIECES] + parts, last + parts
+    needed[2] = last_path + 4 * (last_path - tree.stack[top, FIRST_PATH])
+    needed[3], needed[4] = tree.counts[QUADS] + 4, tree.counts[CURVES] + 4 * MOST_CURVES
+    return (
+        needed[0] <= len(tree.pool.path)
+        and needed[1] <= len(tree.pool.numbers)
+        and needed[2] <= len(tree.present)
+        and needed[3] <= len(tree.first)
+        and needed[4] <= len(tree.curves)
+    )
+
+
+def tree_of(tree: Growth) -> Tree:
+    """The tree that has grown, in its final types."""
+    quads, curves, unresolved, _ = tree.counts.tolist()
+    cells, first = tree.cells[:quads], tree.first[:quads].astype(np.int32)
+    return Tree(
+        cells[:, :, IS_QUAD] == 1.0,
+        cells[:, :, COUNT].astype(np.uint8),
+        cells[:, :, WINDING].astype(np.int8),
+        first[:, 0].copy(),
+        first[:, 1].copy(),
+        cells[:, :, COVERAGE].copy(),
+        tree.curves[:curves].astype(np.int32),
+        deviation=float(tree.deviation[0]),
+        unresolved=unresolved,
+    )
+
+
+def with_needed_room(tree: Growth) -> Growth:
+    """The tree, with at least twice the room where the next cell has none."""
+    pieces, numbers, paths, quads, curves = tree.needed.tolist()
+    points, path, *lists = tree.pool
+    return Growth(
+        PiecePool(_roomy(points, pieces), _roomy(path, pieces), *(_roomy(rows, numbers) for rows in lists)),
+        _roomy(tree.present, paths),
+        tree.stack,
+        tree.corner,
+        _roomy(tree.cells, quads),
+        _roomy(tree.first, quads),
+        _roomy(tree.curves, curves),
+        tree.counts,
+        tree.deviation,
+        tree.needed,
+    )
+
+
+def _roomy(rows: NDArray[Any], needed: int) -> NDArray[Any]:
+    """The rows, or a longer copy if fewer than are needed."""
+    if needed <= len(rows):
+        return rows
+    out = np.empty((len(rows) + needed, *rows.shape[1:]), rows.dtype)
+    out[: len(rows)] = rows
+    return out

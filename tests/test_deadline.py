@@ -1,0 +1,82 @@
+"""No conversion runs without end: what takes too long ends in an error that names the limit."""
+
+import math
+from dataclasses import astuple, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import vexture
+from vexture import Drawing, LimitError, ParameterError
+from vexture.cli.main import main
+from vexture.tree.build import SLICE, Bounds, grow, grow_on
+from vexture.tree.cubics import gather
+from vexture.tree.growth import QUADS, WAITING, Growth, tree_of, with_needed_room
+from vexture.tree.tree import MOST_QUADS
+
+SQUARE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><path d="M1 1h7v7h-7z"/></svg>'
+TOO_LONG = "takes longer than 1e-09 s; simplify the drawing or raise "
+
+
+def scribble(sides: int) -> Drawing:
+    """A polygon whose sides cross one another all over the unit square."""
+    return Drawing.polygon(map(tuple, np.random.default_rng(1).random((sides, 2)).tolist()))
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    path = tmp_path / "square.svg"
+    path.write_text(SQUARE)
+    return path
+
+
+def test_a_tree_that_grows_in_small_steps_is_the_same() -> None:
+    drawing = scribble(60)
+    outlines, bounds = gather(drawing), Bounds(4, 0.0, 1e-5, 1, 16, MOST_QUADS)
+    tree, calls = Growth(*grow(*outlines, bounds, 1)[0]), 1
+    while tree.counts[WAITING]:
+        tree = with_needed_room(tree)
+        grow_on(tree, outlines[2], bounds, 1)
+        calls += 1
+    assert calls >= tree.counts[QUADS] > 100  # one cell in each: Python can look at the clock after any
+    whole = Growth(*grow(*outlines, bounds, 10**9)[0])
+    while whole.counts[WAITING]:
+        whole = with_needed_room(whole)
+        grow_on(whole, outlines[2], bounds, 10**9)
+    for one, other in zip(astuple(tree_of(tree)), astuple(tree_of(whole)), strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+def test_a_tree_that_takes_too_long_is_stopped_while_it_grows() -> None:
+    drawing = replace(scribble(500), name="scribble")
+    started, _ = grow(*gather(drawing), Bounds(4, 0.0, 1e-5, 1, 16, MOST_QUADS), SLICE)
+    assert Growth(*started).counts[WAITING]  # or it would be done before the second look at the clock
+    with pytest.raises(LimitError, match=r"^scribble: converting takes longer than 0\.02 s; simplify .*`max_seconds`$"):
+        vexture.convert(drawing, max_seconds=0.02)
+
+
+def test_every_entry_has_the_limit(file: Path) -> None:
+    with pytest.raises(LimitError, match=f"^{file}: converting {TOO_LONG}`max_seconds`$"):
+        vexture.convert(file, max_seconds=1e-9)
+    with pytest.raises(LimitError, match=f"^{file}: converting {TOO_LONG}`max_seconds`$"):
+        vexture.convert(file, max_seconds=1e-9, encoding="thesis")
+    with pytest.raises(LimitError, match=TOO_LONG):
+        vexture.atlas([scribble(5)], max_seconds=1e-9)
+    outcome = CliRunner().invoke(main, ["convert", str(file), "-o", str(file.parent), "--max-seconds", "1e-9"])
+    assert outcome.exit_code == 1
+    assert outcome.stderr == f"vexture: {file}: converting {TOO_LONG}--max-seconds\n"
+    assert list(file.parent.iterdir()) == [file]
+
+
+def test_the_limit_holds_for_its_own_conversion_only(file: Path) -> None:
+    with pytest.raises(LimitError):
+        vexture.convert(file, max_seconds=1e-9)
+    assert len(vexture.convert(file, max_seconds=math.inf).roots) == 1
+
+
+@pytest.mark.parametrize("seconds", [0, -1.0, math.nan, True, "5"])
+def test_a_limit_is_a_number_of_seconds(file: Path, seconds: object) -> None:
+    with pytest.raises(ParameterError, match=r"`max_seconds` .* is no number above 0; the default is 300"):
+        vexture.convert(file, max_seconds=seconds)  # type: ignore[arg-type]
