@@ -275,7 +275,7 @@ def grow(
         np.empty(5, np.int64),
         np.empty((len(present), 8), np.int64),
         np.zeros(1),
-        new_workspace(),
+        new_workspace(len(present)),
     )
     counts = np.array([1, 0, 0, 1])
     for column, value in enumerate((0, 0, 0, len(pool.path), 0, len(present), len(pool.path))):
