@@ -28,7 +28,7 @@ class Loader:
         script = Path(__file__).with_name("reader.mjs")
         command = [str(NODE), MEMORY, str(script), kind]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-        atexit.register(self.process.kill)
+        atexit.register(self.end)
 
     def answer(self, data: bytes) -> dict[str, Any]:
         """What the loader says about a file; a dead or silent process is its fault, and is ended."""
@@ -42,11 +42,20 @@ class Loader:
             ready, line = [stdout], b""
         if line:
             return json.loads(line)
-        if not ready:
-            self.process.kill()
         loader.cache_clear()
-        code = self.process.wait()
-        return {"fault": f"Node.js ended with the code {code}" if ready else f"no answer in {LONGEST:g} s"}
+        if ready:  # its output is closed, so it ends by itself
+            self.process.wait()
+        self.end()
+        return {
+            "fault": f"Node.js ended with the code {self.process.returncode}"
+            if ready
+            else f"no answer in {LONGEST:g} s"
+        }
+
+    def end(self) -> None:
+        """End the process, if it has not ended."""
+        with self.process:
+            self.process.kill()
 
 
 @cache

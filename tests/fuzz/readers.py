@@ -13,17 +13,19 @@ from random import Random
 
 import numpy as np
 from javascript import loader
+from lxml import etree
 from mutate import png_repaired, zip_repaired
 
 from degenerate import OUTLINES, heap
 from vexture.drawing import Drawing, FillRule
-from vexture.errors import EXPECTED, SourceError
+from vexture.errors import EXPECTED
 from vexture.fold.fold import fold_from
 from vexture.pipeline import convert
 from vexture.reading import read_drawing
 from vexture.renderers.exact import render_exact
 from vexture.svg.colors import parse_color, parse_paint
 from vexture.svg.path_data import path_outlines
+from vexture.svg.select import chosen
 from vexture.svg.transform import parse_origin, parse_transform
 from vexture.svg.values import Viewport, number, opacity
 from vexture.svg.viewport import parse_fit, view_box
@@ -48,6 +50,7 @@ NO_XML = bytes(byte for byte in range(32) if byte not in b"\t\n\r")
 """Characters that XML cannot contain, so that no attribute has them."""
 
 VIEWPORT = Viewport(200.0, 100.0)
+ELEMENT = etree.fromstring('<svg><g id="a"><path class="b"/></g></svg>')
 PARSERS = (
     parse_color,
     parse_paint,
@@ -55,6 +58,7 @@ PARSERS = (
     lambda text: parse_origin(text, lambda part, axis: VIEWPORT.length(part, 100.0, 16.0)),
     view_box,
     parse_fit,
+    lambda text: chosen(ELEMENT, text),
     number,
     lambda text: VIEWPORT.length(text, 100.0, 16.0),
 )
@@ -137,7 +141,7 @@ def read_values(data: bytes) -> str:
 def parsed(parse: Callable[[str], object], text: str) -> str:
     try:
         return str(parse(text) is not None)
-    except SourceError as error:
+    except EXPECTED as error:
         check_line(str(error))
         return str(error)
 
