@@ -40,20 +40,26 @@ def limit_memory() -> None:
     resource.setrlimit(resource.RLIMIT_AS, (int(pages) * resource.getpagesize() + MEMORY,) * 2)
 
 
+def announce(shared: mmap.mmap, count: int, data: bytes) -> None:
+    """Tell the campaign what is read now."""
+    shared[: LIVE.size + len(data)] = LIVE.pack(count, len(data)) + data
+
+
 def run(name: str, seed: str, until: float, most: int, shared: mmap.mmap) -> dict[str, object]:
     """Fuzz one target until a time or for a number of runs."""
     target, rng = TARGETS[name], Random(f"{name} {seed}")
     seeds, met, found = target.seeds(name), set[str](), dict[str, str]()
     slowest, slow_input, count, began = 0.0, b"", 0, time.process_time()
     for data in seeds:  # what is new is judged by what whole files say
+        announce(shared, 0, data)
         met.add(attempt(target, data))
     while count < most and time.time() < until:
         data = target.make(rng) if target.make else mutated(rng, seeds, target.tokens, target.text)
         if target.repair and rng.random() < 0.7:
             data = target.repair(data)
         data, count = data[:MOST_BYTES], count + 1
-        shared[: LIVE.size + len(data)] = LIVE.pack(count, len(data)) + data
-        signal.setitimer(signal.ITIMER_PROF, SECONDS)
+        announce(shared, count, data)
+        signal.setitimer(signal.ITIMER_PROF, SECONDS)  # after the seeds, for which kernels may be compiled
         start = time.process_time()
         try:
             answer = attempt(target, data)
