@@ -3,6 +3,7 @@
 # built where there are Node.js and npm; what they install goes into web/node_modules.
 # Another Python: make PYTHON=python3.13 demo
 # Less of the benchmarks: make bench QUICK=--quick
+# Longer fuzzing, from other random numbers: make fuzz MINUTES=60 SEED=monday
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -15,12 +16,14 @@ WEB_BENCHMARKS := page_fidelity web_speed editing flood
 VIEWER := src/vexture/live/built/viewer.js
 WEB_SOURCES := $(shell find web/src web/viewer web/flood web/generated -name '*.js' -o -name '*.css')
 QUICK ?=
+MINUTES ?= 5
+SEED ?= 1
 RELEASED := . evidence web
 REPOSITORY ?=
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help demo docs report viewer test sweep checks checks-web lint kernels test-web bench dist dist-check clean
+.PHONY: help demo docs report viewer test sweep checks checks-web lint kernels test-web bench fuzz dist dist-check clean
 
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
@@ -29,6 +32,7 @@ help:
 	@echo 'make sweep   the tests that take long and find little that those do not'
 	@echo 'make docs    build the documentation into site/, to be read from the disk'
 	@echo 'make report  measure the tables and figures of the thesis again; the page is demo/report/index.html'
+	@echo 'make fuzz    read damaged files for some minutes; what breaks a reader comes into fuzz-findings/'
 	@echo 'make bench   measure fidelity, speed and size; the figures come into evidence/benchmarks/results/'
 	@echo 'make dist    build the wheels, the sdist and the npm tarball into dist/; make dist-check tries them'
 	@echo 'make clean   remove all of that again'
@@ -170,6 +174,9 @@ bench: .venv/for-test
 	else echo 'so the web is not measured: $(WEB_BENCHMARKS)'; fi; \
 	for name in $$names; do echo && $(BIN)/python "evidence/benchmarks/$$name.py" $(QUICK) || exit 1; done
 
+fuzz: .venv/for-test
+	@PYTHONPATH=tests $(BIN)/python tests/fuzz/campaign.py $(MINUTES) $(SEED)
+
 # of RELEASED, the folders of projects; with REPOSITORY=https://..., a registry's pages can link to the sources.
 # pip takes the wheel of the platform where it can: its kernels are compiled, for Linux with any C library of the last
 # ten years; the wheel for any platform compiles them when they are first used
@@ -187,5 +194,5 @@ dist-check: dist .venv/for-test
 
 clean:
 	rm -rf .venv demo build dist src/vexture/compiled src/*.egg-info evidence/src/*.egg-info evidence/benchmarks/results \
-		.hypothesis .mypy_cache .pytest_cache .ruff_cache \
+		.hypothesis .mypy_cache .pytest_cache .ruff_cache fuzz-findings \
 		web/node_modules web/types src/vexture/live/built tests/web/screenshots site

@@ -120,6 +120,87 @@ def drawing(seed: int) -> Drawing:
     return Drawing(tuple(Path((contour,), FillRule(int(rng.integers(0, 2)))) for contour in found))
 
 
+def _free(rng):
+    points = rng.uniform(0.05, 0.95, (rng.integers(2, 6), 2))
+    return closed(points, rng.uniform(0.02, 0.98, (len(points), 2, 2)))
+
+
+def _cusps(rng):
+    """Cubics that turn back in a point, or in a loop or a bend as small as rounding."""
+    points = rng.uniform(0.2, 0.8, (rng.integers(2, 5), 2))
+    chord = np.roll(points, -1, axis=0) - points
+    tips = points + chord * 0.5 + chord[:, ::-1] * rng.uniform(-0.2, 0.2, 2)
+    controls = np.stack([tips + chord / 2, tips - chord / 2], axis=1)
+    return np.clip(closed(points, controls + _nearly(rng, controls.shape)), 0.0, 1.0)
+
+
+def _flat(rng):
+    """A sliver: all points nearly on one line, which may be level, upright or a diagonal."""
+    along = rng.uniform(0.05, 0.95, (rng.integers(2, 6), 3, 1))
+    line = np.array([(0.0, rng.random()), (1.0, rng.random())])
+    if rng.random() < 0.7:
+        line[1, 1] = rng.choice([line[0, 1], 1.0])
+        line[0, 1] = line[1, 1] if line[1, 1] < 1.0 else 0.0
+    line = line[:, ::-1] if rng.random() < 0.5 else line
+    points = line[0] + along * (line[1] - line[0]) + _nearly(rng, (len(along), 3, 2))
+    return np.clip(closed(points[:, 0], points[:, 1:]), 0.0, 1.0)
+
+
+def _on_cells(rng):
+    """Ends and controls on the lines and corners of cells, or nearly."""
+    steps = 2 ** rng.integers(1, 9)
+    contour = _on_grid(rng, rng.integers(2, 6), steps)
+    if rng.random() < 0.5:  # straight edges, many of them along lines
+        contour = polygon(contour[:, 0])
+    moved = np.clip(contour + _nearly(rng, contour.shape), 0.0, 1.0)
+    moved[:, 3] = np.roll(moved[:, 0], -1, axis=0)
+    return moved
+
+
+def _through_a_corner(rng):
+    """A fan of edges through one corner of cells, or nearly through it."""
+    corner = rng.integers(1, 8, 2) / 8
+    points = np.clip(corner + rng.uniform(-0.5, 0.5, (rng.integers(2, 5), 2)), 0.02, 0.98)
+    fan = np.insert(points, range(1, len(points) + 1), corner, axis=0)
+    return polygon(np.clip(fan + _nearly(rng, fan.shape), 0.0, 1.0))
+
+
+def _nearly(rng, shape):
+    """Shifts of 1e-12 to 1e-6, or none."""
+    return rng.uniform(-1.0, 1.0, shape) * rng.choice([0.0, 0.0, 1e-12, 1e-10, 1e-8, 1e-7, 1e-6])
+
+
+OUTLINES = {"free": _free, "cusps": _cusps, "flat": _flat, "cells": _on_cells, "corner": _through_a_corner}
+
+
+def rolled(contour, copy):
+    """The contour from another start; every other time the other way round."""
+    turned = np.roll(contour, copy, axis=0)
+    return turned if copy % 2 == 0 else backwards(turned)
+
+
+def moved(contour, distance, rng):
+    """The contour with each vertex and control point moved."""
+    contour = contour.copy()
+    contour[:, 0] += rng.uniform(-distance, distance, (len(contour), 2))
+    contour[:, 3] = np.roll(contour[:, 0], -1, axis=0)
+    contour[:, 1:3] += rng.uniform(-distance, distance, (len(contour), 2, 2))
+    return np.clip(contour, 0.0, 1.0)
+
+
+def heap(seed, counts, distance, rule, kind="free"):
+    """Copies of outlines of one kind, so many of each, at most so far apart, from any start and either way round."""
+    rng = np.random.default_rng(seed)
+    contours = []
+    for copies in counts:
+        contour = OUTLINES[kind](rng)
+        for copy in range(copies):
+            start = rng.integers(len(contour))
+            turned = np.roll(contour if rng.random() < 0.6 else backwards(contour), start, axis=0)
+            contours.append(moved(turned, distance, rng) if copy else contour)
+    return Drawing((Path(tuple(contours), rule),) if seed % 2 else tuple(Path((each,), rule) for each in contours))
+
+
 def polyline(cubic: NDArray[np.float64], chords: int) -> NDArray[np.float64]:
     t = np.linspace(0, 1, chords + 1)[:, None]
     s = 1 - t

@@ -18,12 +18,16 @@ __all__ = [
     "SourceError",
     "SourceWarning",
     "VextureError",
+    "printable",
     "reason_of",
 ]
 
 
 class VextureError(Exception):
     """Base of all errors that a file, a limit or a device causes."""
+
+    def __init__(self, message: str = "") -> None:
+        super().__init__(printable(message))
 
 
 class SourceError(VextureError):
@@ -52,6 +56,17 @@ EXPECTED: Final = (VextureError, ParameterError)
 
 class SourceWarning(UserWarning):
     """Something in the drawing is not supported and was left out or simplified."""
+
+
+def printable(text: str) -> str:
+    r"""Text with a replacement for each character that ends a line or controls a terminal.
+
+    Examples
+    --------
+    >>> print(printable("a\x9b2J\nb"))
+    a�2J�b
+    """
+    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
 def reason_of(error: Exception, most: int = 120, hidden: str = "") -> str:

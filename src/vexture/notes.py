@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final, Literal
 
-from vexture.errors import SourceWarning
+from vexture.errors import SourceWarning, printable
 
 __all__ = ["Kind", "Note", "Notes", "line_of", "warn_of"]
 
@@ -84,6 +84,7 @@ class Notes:
 
     def count(self, kind: Kind, what: str) -> None:
         """Note something once more."""
+        what = printable(what)
         self._counts[kind][what] = self._counts[kind].get(what, 0) + 1
 
     @property

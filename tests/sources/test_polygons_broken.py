@@ -1,6 +1,5 @@
 """Flood polygons that are invalid, broken or hostile: repaired, or one line that says what to do."""
 
-import warnings
 import zipfile
 from io import BytesIO
 
@@ -8,11 +7,9 @@ import numpy as np
 import pytest
 import shapely
 from geographic import FORMATS, LAKE, POND, UTM, file, geopackage_of, only, same
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from vexture.deadline import within
-from vexture.errors import LimitError, SourceError, SourceWarning, VextureError
+from vexture.errors import LimitError, SourceError, SourceWarning
 from vexture.reading import read_extent
 
 
@@ -76,23 +73,6 @@ def test_a_file_that_breaks_off_is_one_line_and_nothing_on_stderr(tmp_path, name
     assert str(raised.value).count("\n") == 0
     assert "/vsi" not in str(raised.value)
     assert capfd.readouterr() == ("", "")
-
-
-@given(data=st.data())
-@settings(max_examples=150)
-def test_random_damage_is_one_line_or_a_drawing(tmp_path_factory, data):
-    name = data.draw(st.sampled_from(["lake.gpkg", "lake.fgb", "lake.zip"]))
-    content = bytearray(file(tmp_path_factory.mktemp("damage"), name).read_bytes())
-    for _ in range(data.draw(st.integers(1, 8))):
-        content[data.draw(st.integers(0, len(content) - 1))] = data.draw(st.integers(0, 255))
-    line = ""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", SourceWarning)
-        try:
-            read_extent(bytes(content), name, crs=UTM)
-        except VextureError as error:
-            line = str(error)
-    assert "\n" not in line
 
 
 def inside_zip(**files):

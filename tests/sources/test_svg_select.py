@@ -89,6 +89,7 @@ REFUSED = {
     "g,,path": "is no CSS selector",
     "[": "is no CSS selector",
     "}": "is no CSS selector",
+    ":nth-child(2n+)": "it breaks off",
     "nothere|g": "is no CSS selector",
     "path\0": "matches no element",
     "\ud800": "matches no element",

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import degenerate
 import vexture
+from degenerate import OUTLINES, heap, moved, rolled
 from vexture.drawing import Drawing, FillRule
 from vexture.drawing import Path as Outline
 from vexture.renderers.exact import render_exact
@@ -21,21 +22,6 @@ SIZE = 32
 the drawing, is a thousandth of one."""
 
 TRIANGLE = degenerate.polygon([(0.1, 0.13), (0.9, 0.21), (0.4, 0.83)])
-
-
-def rolled(contour, copy):
-    """The contour from another start; every other time the other way round."""
-    turned = np.roll(contour, copy, axis=0)
-    return turned if copy % 2 == 0 else degenerate.backwards(turned)
-
-
-def moved(contour, distance, rng):
-    """The contour with each vertex and control point moved."""
-    contour = contour.copy()
-    contour[:, 0] += rng.uniform(-distance, distance, (len(contour), 2))
-    contour[:, 3] = np.roll(contour[:, 0], -1, axis=0)
-    contour[:, 1:3] += rng.uniform(-distance, distance, (len(contour), 2, 2))
-    return np.clip(contour, 0.0, 1.0)
 
 
 def drawing_of(name, copies, how, rule):
@@ -97,31 +83,19 @@ def test_copies_nearly_in_one_place_cost_little_more(contour, copies, distance):
     assert tree.deviation == 0.0
 
 
-@st.composite
-def heaps(draw):
-    """A seed, copies of each of one to four contours, and how far apart they are."""
-    seed = draw(st.integers(0, 10**9))
-    counts = draw(st.lists(st.sampled_from([1, 2, 3, 16, 40]), min_size=1, max_size=4))
-    return seed, counts, draw(st.sampled_from([0.0, 1e-12, 1e-9, 1e-7, 1e-6])), draw(st.sampled_from(FillRule))
-
-
 @settings(max_examples=40)
-@given(heaps())
-@example((5, [40, 16], 1e-6, FillRule.NONZERO))
-@example((60739469, [2, 2, 2, 2], 1e-6, FillRule.NONZERO))  # in one cell everything cancels
-@example((642, [40, 40, 1], 0.0, FillRule.NONZERO))  # a piece cuts a cell's corner off, next to it
-def test_heaps_of_copies_are_drawn_exactly(heap):
-    seed, counts, distance, rule = heap
-    rng = np.random.default_rng(seed)
-    contours = []
-    for copies in counts:
-        points = rng.uniform(0.05, 0.95, (rng.integers(2, 6), 2))
-        contour = degenerate.closed(points, rng.uniform(0.02, 0.98, (len(points), 2, 2)))
-        for copy in range(copies):
-            start = rng.integers(len(contour))
-            turned = np.roll(contour if rng.random() < 0.6 else degenerate.backwards(contour), start, axis=0)
-            contours.append(moved(turned, distance, rng) if copy else contour)
-    paths = [Outline(tuple(contours), rule)] if seed % 2 else [Outline((contour,), rule) for contour in contours]
-    drawing = Drawing(tuple(paths))
+@given(
+    st.integers(0, 10**9),
+    st.lists(st.sampled_from([1, 2, 3, 16]), min_size=1, max_size=3),  # `make fuzz` makes up to 200
+    st.sampled_from([0.0, 1e-12, 1e-9, 1e-7, 1e-6]),
+    st.sampled_from(FillRule),
+    st.sampled_from([*OUTLINES]),
+)
+@example(5, [40, 16], 1e-6, FillRule.NONZERO, "free")
+@example(60739469, [2, 2, 2, 2], 1e-6, FillRule.NONZERO, "free")  # in one cell everything cancels
+@example(642, [40, 40, 1], 0.0, FillRule.NONZERO, "free")  # a piece cuts a cell's corner off, next to it
+@example(827424738, [200], 1e-9, FillRule.NONZERO, "corner")  # more paths in a cell than pieces that are left
+def test_heaps_of_copies_are_drawn_exactly(seed, counts, distance, rule, kind):
+    drawing = heap(seed, counts, distance, rule, kind)
     drawn = vexture.convert(drawing).coverage(SIZE)
     np.testing.assert_allclose(drawn, render_exact(drawing, SIZE), rtol=0, atol=1 / 255)

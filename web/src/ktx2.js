@@ -195,7 +195,8 @@ async function readImage(bytes, view, size) {
         'byteLength',
       );
     }
-    return stored.slice().buffer; // a Uint32Array needs an offset that is a multiple of four
+    // a copy, of a Buffer of Node.js too: a Uint32Array needs an offset that is a multiple of four
+    return new Uint8Array(stored).buffer;
   }
   if (inflated !== size) {
     throw new VextureError(

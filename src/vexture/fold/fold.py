@@ -82,7 +82,7 @@ class Fold:
     notes: tuple[Note, ...] = ()
 
     def __post_init__(self) -> None:
-        with np.errstate(over="ignore"):
+        with np.errstate(over="ignore", invalid="ignore"):
             displacement = np.array(self.displacement, np.float64).astype(np.float32)
         if displacement.ndim != 3 or displacement.shape[2] != 2:
             raise ParameterError(f"`displacement` has the shape {displacement.shape}; it must be (rows, columns, 2)")

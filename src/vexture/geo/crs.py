@@ -144,7 +144,7 @@ def period(crs: str) -> float | None:
 
 def shown_bounds(bounds: Bounds, crs: str) -> str:
     """Bounds for a message: ``4,52,4.12346,53 (EPSG:4326)``."""
-    numbers = ",".join(f"{value:.6g}" if abs(value) < 1e5 else f"{value:.0f}" for value in bounds)
+    numbers = ",".join(f"{value:.0f}" if 1e5 <= abs(value) < 1e12 else f"{value:.6g}" for value in bounds)
     return f"{numbers} ({shown_system(crs)})"
 
 

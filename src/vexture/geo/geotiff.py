@@ -88,6 +88,7 @@ def _band(file: "DatasetReader", band: int, rows: slice, columns: slice) -> Valu
         read: Any = file.read(band, window=window, out_shape=shape, masked=True)
     except (RasterioError, OSError) as error:
         raise SourceError(f"band {band} cannot be read ({reason_of(error)}); write the file again") from None
-    values: Values = read.filled(0).astype(np.float64) * file.scales[band - 1] + file.offsets[band - 1]
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is no depth
+        values: Values = read.filled(0).astype(np.float64) * file.scales[band - 1] + file.offsets[band - 1]
     values[np.ma.getmaskarray(read)] = np.nan
     return values

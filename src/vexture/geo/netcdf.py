@@ -193,8 +193,9 @@ def _read(variable: Any, places: dict[Any, Any], order: tuple[str, ...]) -> Valu
     """Values of a variable in metres, at the given places along its dimensions, with the dimensions in an order."""
     taken = variable.isel({dim: place for dim, place in places.items() if dim in variable.dims})
     taken = taken.squeeze([dim for dim in taken.dims if dim not in order])
-    values: Values = _loaded(taken.transpose(*order)).astype(np.float64)
-    return values * UNITS.get(str(variable.attrs.get("units", "m")).strip().lower(), 1.0)
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is no depth
+        values: Values = _loaded(taken.transpose(*order)).astype(np.float64)
+        return values * UNITS.get(str(variable.attrs.get("units", "m")).strip().lower(), 1.0)
 
 
 def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tuple[str, Any, Any]:

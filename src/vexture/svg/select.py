@@ -70,8 +70,9 @@ def chosen(root: etree._Element, select: str) -> set[etree._Element]:
         selectors = cssselect2.compile_selector_list(select, prefixes)
         wrappers = Node.from_xml_root(root).iter_subtree()
         found = {wrapper.etree_element for wrapper in wrappers if wrapper.matches(*selectors)}
-    except (cssselect2.SelectorError, SyntaxError) as error:
-        reason = str(error.args[-1] if error.args else error)[:LONGEST_NAMED]
+    except (cssselect2.SelectorError, SyntaxError, AttributeError) as error:
+        cut = isinstance(error, AttributeError)  # what cssselect2 raises for :nth-child(2n+)
+        reason = "it breaks off" if cut else str(error.args[-1] if error.args else error)[:LONGEST_NAMED]
         raise LimitError(
             f"`select` {named(select)} is no CSS selector ({reason}); write it like '#id', '.class' or 'g > path'"
         ) from None

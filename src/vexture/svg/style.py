@@ -4,12 +4,13 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from operator import itemgetter
-from typing import Any
+from typing import Any, cast
 
 import cssselect2
 import tinycss2
 from lxml import etree
 
+from vexture.errors import SourceError
 from vexture.svg.colors import Color, parse_color
 from vexture.svg.properties import CSS_ONLY, PROPERTIES
 from vexture.svg.report import Report
@@ -84,7 +85,9 @@ class Cascade:
             self.matcher = cssselect2.Matcher()
             for sheet in sheets:
                 if sheet.get("type", "text/css").strip().lower() in ("", "text/css"):
-                    self.add_rules(tinycss2.parse_stylesheet(sheet.text, skip_comments=True, skip_whitespace=True))
+                    self.add_rules(
+                        tinycss2.parse_stylesheet(tokens(sheet.text or ""), skip_comments=True, skip_whitespace=True)
+                    )
             for wrapper in Node.from_xml_root(root).iter_subtree():
                 self.wrappers[wrapper.etree_element] = wrapper
 
@@ -95,7 +98,7 @@ class Cascade:
                 declarations = list(read_declarations(rule.content))
                 try:
                     selectors = cssselect2.compile_selector_list(rule.prelude)
-                except (cssselect2.SelectorError, SyntaxError, RecursionError, MemoryError):
+                except (cssselect2.SelectorError, SyntaxError, AttributeError, RecursionError, MemoryError):
                     self.report.left_out("a CSS selector that cannot be read")
                     continue
                 for selector in selectors:
@@ -177,7 +180,15 @@ def read_style(text: str) -> Iterator[Declaration]:
             name, _, value = part.partition(":")
             yield from expanded(name.strip().lower(), value.strip(), False)
     else:
-        yield from read_declarations(text)
+        yield from read_declarations(tokens(text))
+
+
+def tokens(text: str) -> list[Any]:
+    """Tokens of a style sheet or of a `style` attribute."""
+    try:
+        return cast(list[Any], tinycss2.parse_component_value_list(text, skip_comments=True))
+    except ValueError:  # of int()
+        raise SourceError("an integer in its styles has more than 4,300 digits; round it") from None
 
 
 def read_declarations(content: Any) -> Iterator[Declaration]:

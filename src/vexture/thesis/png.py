@@ -92,6 +92,8 @@ def read_png(data: bytes, width: int, where: str) -> tuple[NDArray[Any], dict[st
     try:
         chunks = list(png.Reader(bytes=data).chunks())
         height, bits = _read_header(chunks, width, where)
+        if chunks[-1] != (b"IEND", b""):
+            raise png.FormatError("its last chunk is no end")
         deflated = b"".join(body for tag, body in chunks if tag == b"IDAT")
         _check_inflated(deflated, width, height, bits)
         rows = png.Reader(bytes=_framed(chunks[0], (b"IDAT", deflated))).read()[2]  # without other programs' chunks

@@ -213,7 +213,7 @@ def _root(points: NDArray[np.float64], path: NDArray[np.int64]) -> tuple[NDArray
 @kernel(ahead=True)
 def grow_on(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, most_work: int) -> None:
     """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done."""
-    work = Work(np.empty(5, np.int64), np.empty((len(rules), 8), np.int64), new_workspace())
+    work = Work(np.empty(5, np.int64), np.empty((len(rules), 8), np.int64), new_workspace(len(rules)))
     stack, counts = tree.stack, tree.counts
     while counts[WAITING] > 0 and counts[QUADS] <= bounds.most_quads and most_work > 0 and has_room(tree):
         top = counts[WAITING] - 1

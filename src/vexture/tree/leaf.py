@@ -112,16 +112,16 @@ def _upright(curves: NDArray[np.float64]) -> int:
 
 
 @kernel
-def new_workspace() -> Workspace:
-    """Arrays for any cell that may be resolved."""
+def new_workspace(paths: int) -> Workspace:
+    """Arrays for any cell that may be resolved, of a drawing of so many paths: copies that cancel leave no pieces."""
     return Workspace(
         CellPieces(
             np.empty((MOST_RESOLVED, 4, 2)),
             np.empty(MOST_RESOLVED, np.int64),
             np.empty(MOST_RESOLVED, np.int64),
-            np.empty(MOST_RESOLVED, np.int64),
-            np.empty(MOST_RESOLVED, np.int64),
-            np.empty(MOST_RESOLVED, np.int64),
+            np.empty(paths, np.int64),
+            np.empty(paths, np.int64),
+            np.empty(paths, np.int64),
         ),
         np.empty(MOST_RESOLVED, np.int64),
         np.empty(MOST_RESOLVED, np.int64),
