@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 import click
 
-from vexture.errors import EXPECTED
+from vexture.errors import EXPECTED, printable
 from vexture.notes import Note, line_of
 
 __all__ = ["as_options", "one_line", "say", "say_notes"]
@@ -16,14 +16,10 @@ __all__ = ["as_options", "one_line", "say", "say_notes"]
 PARAMETER = re.compile(r"`([a-z_]+)`")
 """A parameter in a message of the library."""
 
-CONTROL = re.compile(r"[\x00-\x1f\x7f]")
-"""What the name of a file may hold and would break a line."""
-
 
 def say(message: str) -> None:
     """Print a line to standard error."""
-    line = CONTROL.sub(lambda found: repr(found[0])[1:-1], as_options(message))
-    click.echo(f"vexture: {line}", err=True)
+    click.echo(f"vexture: {printable(as_options(message))}", err=True)
 
 
 def as_options(message: str) -> str:
