@@ -59,14 +59,14 @@ class SourceWarning(UserWarning):
 
 
 def printable(text: str) -> str:
-    r"""Text with an escape for each character that ends a line or controls a terminal.
+    r"""Text with a replacement for each character that ends a line or controls a terminal.
 
     Examples
     --------
     >>> print(printable("a\x9b2J\nb"))
-    a\x9b2J\nb
+    a�2J�b
     """
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
 def reason_of(error: Exception, most: int = 120, hidden: str = "") -> str:
