@@ -76,11 +76,30 @@ def test_a_multiplicity_is_counted():
 def test_copies_nearly_in_one_place_cost_little_more(contour, copies, distance):
     rng = np.random.default_rng(copies)
     drawing = Drawing((Outline(tuple(moved(contour, distance, rng) for _ in range(copies)), FillRule.NONZERO),))
-    one, tree = build_tree(Drawing((Outline((contour,)),))), build_tree(drawing)
-    assert len(tree.count) <= 3 * len(one.count)
-    assert len(tree.curves) <= 3 * len(one.curves)
-    assert tree.unresolved == 0
-    assert tree.deviation == 0.0
+    one = build_tree(Drawing((Outline((contour,)),)))
+    paths = [Outline((copy,)) for copy in drawing.paths[0].contours]
+    for many in (drawing, Drawing(tuple(paths))):
+        tree = build_tree(many)
+        assert len(tree.count) <= 3 * len(one.count)
+        assert len(tree.curves) <= 3 * len(one.curves)
+        assert tree.unresolved == 0
+        assert tree.deviation == 0.0
+
+
+def test_what_two_paths_fill_differently_is_not_taken_for_one():
+    """Rings, and outlines that are theirs in some cells but have another rule, direction or winding around them."""
+    around, outer, inner = (degenerate.circle((0.5, 0.5), radius) for radius in (0.45, 0.4, 0.2))
+    others = [
+        Outline((outer, inner), FillRule.NONZERO),
+        Outline((around, outer, inner), FillRule.EVENODD),
+        Outline((outer, degenerate.backwards(inner)), FillRule.NONZERO),
+    ]
+    copies = [[moved(one, 1e-9, np.random.default_rng(k)) for one in (outer, inner)] for k in range(20)]
+    rings = [Outline(tuple(contours), FillRule.EVENODD) for contours in copies]
+    for other in others:
+        drawing = Drawing((*rings, other, *rings))
+        drawn = vexture.convert(drawing).coverage(SIZE)
+        np.testing.assert_allclose(drawn, render_exact(drawing, SIZE), rtol=0, atol=1 / 255)
 
 
 @settings(max_examples=40)

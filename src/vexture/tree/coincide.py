@@ -1,7 +1,8 @@
 """Coincident pieces of a cell become one piece with a multiplicity, before the cell is found to hold too many.
 
 Dividing a cell does not separate coincident pieces: a hundred copies of an outline would be divided down to the depth
-limit along their whole length. So the pieces of a crowded cell are compared with a few representatives.
+limit along their whole length. So the pieces of a crowded cell are compared with a few representatives. Of the paths
+that then fill the same, one is kept.
 
 Ends are matched first, and pieces between the same two ends afterwards, so pieces that meet still meet. Starts and ends
 on the cell's left edge change windings. Inside the cell there are as many starts as ends at each place, so places there
@@ -144,14 +145,16 @@ def match(
     y0: float,
     size: float,
     near: float,
+    present: NDArray[np.int64],
+    rules: NDArray[np.int64],
     cell: CellPieces,
-    path: NDArray[np.int64],
+    kind_at: NDArray[np.int64],
 ) -> tuple[int, int]:
     """Write the pieces of a cell, each kind once for each path that has it.
 
     The pieces are the pool's numbers first..last-1; `near` is the largest distance of ends that match, in unit-square
-    units. `cell.curves` and `cell.multiplicity`, on the cell's lattice, and `path` are written. Returns how many were
-    written, or -1 if no two pieces coincide or there is no room, and how many of their kinds are not horizontal.
+    units. All of `cell` is written but its scratch; `kind_at` is scratch, too. Returns how many pieces were written, or
+    -1 if no two of them coincide or there is no room, and how many of their kinds are not horizontal.
     """
     near, kinds = min(near, NEARNESS * size), _no_kinds()
     kind, turn = pool.child, pool.part  # scratch there as well, with room for the pieces of any cell
@@ -180,7 +183,7 @@ def match(
         return -1, 0
     for k in range(count):
         _quantise_kind(kinds, k, x0, y0, size)
-    written = _count_by_path(pool, first, last, kinds, count, cell, path)
+    written = _count_by_path(pool, first, last, kinds, count, present, rules, cell, kind_at)
     upright = 0
     for k in range(count):
         upright += 1 if kinds.written[k] == 1 and kinds.curves[k, 0, 1] != kinds.curves[k, 3, 1] else 0
@@ -189,23 +192,61 @@ def match(
 
 @kernel(allocates=False)
 def _count_by_path(
-    pool: PiecePool, first: int, last: int, kinds: Kinds, count: int, cell: CellPieces, path: NDArray[np.int64]
+    pool: PiecePool,
+    first: int,
+    last: int,
+    kinds: Kinds,
+    count: int,
+    present: NDArray[np.int64],
+    rules: NDArray[np.int64],
+    cell: CellPieces,
+    kind_at: NDArray[np.int64],
 ) -> int:
-    """Write the kinds of each path with their multiplicities, if not 0; return how many, or -1 without room."""
-    written = 0
+    """Write the kinds of each path with their multiplicities, if not 0; return how many, or -1 without room.
+
+    A path that fills what another one fills is left out, as if it were outside everywhere.
+    """
+    for k in range(len(present)):
+        cell.corner[k], cell.rules[k] = present[k, 1], rules[present[k, 0]]
+    written, owner = 0, 0
     for place in range(first, last):
-        owner = pool.path[pool.numbers[place]]
+        path = pool.path[pool.numbers[place]]
         if pool.child[place - first] >= 0:
             kinds.multiplicity[pool.child[place - first]] += pool.part[place - first]
-        if place + 1 < last and pool.path[pool.numbers[place + 1]] == owner:
+        if place + 1 < last and pool.path[pool.numbers[place + 1]] == path:
             continue
+        while present[owner, 0] != path:
+            owner += 1
+        begin = written
         for k in range(count):
             if kinds.multiplicity[k] == 0:
                 continue
             if written == len(cell.multiplicity):
                 return -1
             copy_curve(kinds.curves[k], cell.curves[written])
-            cell.multiplicity[written], path[written] = kinds.multiplicity[k], owner
+            cell.multiplicity[written], cell.owner[written], kind_at[written] = kinds.multiplicity[k], owner, k
             kinds.multiplicity[k], kinds.written[k] = 0, 1
             written += 1
+        if _is_repeated(cell, kind_at, begin, written):
+            cell.corner[owner], written = 0, begin
     return written
+
+
+@kernel(allocates=False)
+def _is_repeated(cell: CellPieces, kind_at: NDArray[np.int64], begin: int, end: int) -> bool:
+    """Whether the last path, of the pieces begin..end-1, has the pieces, corner winding and rule of one before it."""
+    start = 0
+    while start < begin:
+        one, other = cell.owner[start], cell.owner[begin]
+        alike = begin < end and cell.corner[one] == cell.corner[other] and cell.rules[one] == cell.rules[other]
+        stop = start
+        while stop < begin and cell.owner[stop] == one:
+            k = begin + stop - start
+            alike = (
+                alike and k < end and kind_at[stop] == kind_at[k] and cell.multiplicity[stop] == cell.multiplicity[k]
+            )
+            stop += 1
+        if alike and stop - start == end - begin:
+            return True
+        start = stop
+    return False

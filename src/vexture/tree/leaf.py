@@ -190,7 +190,7 @@ def leaf_of(
     most = capacity + (SPARE if paths > 1 else 0)
     matched, upright = -1, 0
     if n > most and may_coincide(pool, first, last, x0, y0, size):
-        matched, upright = match(pool, first, last, x0, y0, size, near, room, workspace.path)
+        matched, upright = match(pool, first, last, x0, y0, size, near, present, rules, room, workspace.path)
     if matched >= 0:
         n = matched
     elif n > MOST_RESOLVED and at_limit:
@@ -218,13 +218,14 @@ def leaf_of(
                 workspace.path[k] = workspace.merged_path[k]
         upright = _upright(room.curves[:n])
         room.multiplicity[:n] = 1
-    curves, path = room.curves[:n], workspace.path[:n]
+    curves = room.curves[:n]
     if not at_limit and upright > most and (upright > MOST_CURVES or not _meet(curves, n)):
         return Leaf(DIVIDE, 0, 0.0, 0.0, True)
     cell = CellPieces(
         curves, room.owner[:n], room.multiplicity[:n], room.corner[:paths], room.rules[:paths], room.windings[:paths]
     )
-    cell_paths(path, present, rules, cell.owner, cell.corner, cell.rules)
+    if matched < 0:
+        cell_paths(workspace.path[:n], present, rules, cell.owner, cell.corner, cell.rules)
     _round_controls(curves, n)
     count = clean_pieces(cell, out) if all_separate(curves) else UNSURE
     if count == UNSURE:
