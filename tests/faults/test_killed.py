@@ -123,7 +123,9 @@ def test_a_server_that_is_killed_while_it_starts_has_all_it_had(tmp_path, scratc
     bodies = {name: square(2 + number) for number, name in enumerate(("a", "b", "c"))}
     with serving(folder) as server:
         assert [server.put(name, body)[0] for name, body in bodies.items()] == [201] * 3
+        assert any(scratch.iterdir())
         server.stop()
+    assert not any(scratch.iterdir()), "a server that stops ends its conversions"
     (folder / "beside.svg").write_bytes(square(9))
     kept = {path.name: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
     for _ in range(rounds):

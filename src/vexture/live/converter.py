@@ -130,7 +130,6 @@ class _Worker:
         if pool is not None:
             for process in list(pool._processes.values()):  # before Python 3.14 there is no kill_workers
                 process.kill()
-                process.join()
             pool.shutdown(wait=False, cancel_futures=True)
             shutil.rmtree(self._folder, ignore_errors=True)
 
