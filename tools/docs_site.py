@@ -26,6 +26,7 @@ HOMES: Final = {
     "CHANGELOG.md": "project/changelog.md",
     "CONTRIBUTING.md": "project/contributing.md",
     "FORMAT.md": "reference/format.md",
+    "SECURITY.md": "project/security.md",
     "evidence/benchmarks/README.md": "project/benchmarks.md",
     "examples/shapes/README.md": "project/example-drawings.md",
     "web/README.md": "reference/javascript.md",

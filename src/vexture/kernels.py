@@ -14,6 +14,7 @@ import os
 import tempfile
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeVar, cast, overload
 
@@ -44,13 +45,18 @@ def text_digest() -> str:
     return digest.hexdigest()[:12]
 
 
-def kernel_cache() -> Path:
-    """Folder of the compiled kernels: below ``VEXTURE_CACHE``, or the user's cache folder, or a temporary one."""
+def kernel_cache() -> Path | None:
+    """Folder of the compiled kernels: below ``VEXTURE_CACHE``, or the user's cache folder, or a temporary one.
+
+    None if no such folder can be written: kernels are not kept then.
+    """
     default = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "vexture"
     root = Path(os.environ.get("VEXTURE_CACHE") or default)
-    for base in (root, Path(tempfile.gettempdir()) / f"vexture-{os.getuid() if hasattr(os, 'getuid') else 0}"):
-        folder = base / f"kernels-{text_digest()}"
+    own = f"vexture-{os.getuid() if hasattr(os, 'getuid') else 0}"
+    bases: tuple[Callable[[], Path], ...] = (lambda: root, lambda: Path(tempfile.gettempdir()) / own)
+    for base in bases:
         try:
+            folder = base() / f"kernels-{text_digest()}"
             folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         except OSError:
             continue
@@ -58,11 +64,11 @@ def kernel_cache() -> Path:
         mine = not hasattr(os, "getuid") or folder.stat().st_uid == os.getuid()
         if mine and os.access(folder, os.W_OK):
             return folder
-    return root
+    return None
 
 
 @functools.cache
-def _numba() -> tuple[Any, str]:
+def _numba() -> tuple[Any, Path | None]:
     """Numba, with an announcement of its first compilation, and the folder of its cache."""
     import numba
     from numba.core import event
@@ -85,7 +91,17 @@ def _numba() -> tuple[Any, str]:
             pass
 
     event.register("numba:compile", Announcement())
-    return numba, str(kernel_cache())
+    return numba, kernel_cache()
+
+
+def _kept_if_possible(save: Callable[..., None]) -> Callable[..., None]:
+    """Numba's method that stores compiled code; on a full disk the next run compiles again, and this one goes on."""
+
+    def kept(*given: Any) -> None:
+        with suppress(OSError):
+            save(*given)
+
+    return kept
 
 
 class Kernel:
@@ -101,12 +117,14 @@ class Kernel:
     def dispatcher(self) -> Any:
         """Numba's function."""
         private = self.py_func.__name__.startswith("_")  # called by kernels only: needs no wrapper for Python
-        options = {"cache": True, "error_model": "numpy", "no_cfunc_wrapper": True, "no_cpython_wrapper": private}
+        options = {"error_model": "numpy", "no_cfunc_wrapper": True, "no_cpython_wrapper": private}
         with ONE_AT_A_TIME:
             numba, folder = _numba()
             # read by the decorator; other packages may use Numba too
-            caller, numba.config.CACHE_DIR = numba.config.CACHE_DIR, folder
-            result = numba.njit(**options, _nrt=self._allocates)(self.py_func)
+            caller, numba.config.CACHE_DIR = numba.config.CACHE_DIR, str(folder)
+            result = numba.njit(**options, cache=folder is not None, _nrt=self._allocates)(self.py_func)
+            if not numba.config.DISABLE_JIT:
+                result._cache.save_overload = _kept_if_possible(result._cache.save_overload)
             numba.config.CACHE_DIR = caller
         return result
 

@@ -20,13 +20,16 @@ from vexture.texture.load import texture_from
 LOST = (OSError, http.client.HTTPException, ValueError)
 
 
-@pytest.mark.long
-def test_kill_at_random_moments(tmp_path):
+@pytest.mark.parametrize("rounds", [
+    pytest.param(4, marks=pytest.mark.long),
+    pytest.param(200, marks=[pytest.mark.slow, pytest.mark.timeout(3600)]),
+])  # fmt: skip
+def test_kill_at_random_moments(tmp_path, rounds):
     chance = random.Random(4)
     folder = tmp_path / "shapes"
     acknowledged, sent = {}, {"a": set(), "b": set()}
     height = 0
-    for _ in range(4):
+    for _ in range(rounds):
         with serving(folder, "--rate", 1000) as server:
             for name, last in acknowledged.items():
                 found = server.manifest(name)

@@ -204,6 +204,16 @@ def test_foam_follows_its_width_and_the_texture(fresh_page: Any, kind: str) -> N
         assert (np.abs(decode(text) - expected) > 4 / 255).mean() <= 1e-3  # a line's front moves a pixel at 0.999
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_lost_driver_comes_back_with_its_foam(fresh_page: Any, kind: str) -> None:
+    """What is drawn once and kept, along the shore, is lost with the driver."""
+    config = {"water": kind, "ground": GROUND, "options": {"foam": {"width": 0.1}}}
+    found = fresh_page.evaluate("([config, steps]) => page.changes(config, steps)", [config, [{}, {"lost": True}]])
+    before, after = map(decode, found["pictures"])
+    assert np.ptp(before) > 0.3
+    assert np.abs(after - before).max() <= 1 / 255
+
+
 def test_the_renderer_is_left_as_it_was(fresh_page: Any) -> None:
     """Rasters are drawn in the middle of a picture, into a part of the canvas that is not cleared."""
     config = {"options": {"flat": FLAT, "foam": {"width": 0.05}}, "part": [64, 32, 256, 256]}

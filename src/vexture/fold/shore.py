@@ -152,7 +152,8 @@ def _normals(drawing: "Drawing", size: int, reach: float) -> NDArray[np.float64]
     if not drawing.paths:
         return np.zeros((size, size, 2))
     blur = _blur(size, reach)
-    smooth = blur @ render_exact(drawing, (size, size)).astype(np.float64) @ blur.T
+    image = render_exact(drawing, (size, size)).astype(np.float64)
+    smooth = np.einsum("ij,kj->ik", np.einsum("ij,jk->ik", blur, image), blur)
     down, right = np.gradient(smooth, 1.0 / size)
     normals = np.stack([right, -down], axis=2) * (reach * np.sqrt(2.0 * np.pi))  # 1 on a straight shore
     length = np.hypot(normals[..., 0], normals[..., 1])[..., None]

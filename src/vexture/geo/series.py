@@ -86,7 +86,8 @@ class Lattice:
     def place(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
         """Positions, (n, 2), in the units of the reference system; extrapolated beyond the outermost samples."""
         along = np.column_stack([_at(axis, positions[:, k]) for k, axis in enumerate((self.x, self.y))])
-        return along @ self.affine[:, :2].T + self.affine[:, 2]
+        placed: NDArray[np.float64] = np.einsum("nk,ik->ni", along, self.affine[:, :2]) + self.affine[:, 2]
+        return placed
 
     def find(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Positions of points of the reference system, (n, 2): the inverse of `place`."""

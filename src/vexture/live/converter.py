@@ -4,7 +4,10 @@ import asyncio
 import multiprocessing
 import os
 import resource
+import secrets
+import shutil
 import signal
+import tempfile
 import threading
 from collections.abc import AsyncIterator, Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
@@ -112,12 +115,13 @@ class _Worker:
 
     def __init__(self) -> None:
         self._pool: ProcessPoolExecutor | None = None
+        self._folder = os.path.join(tempfile.gettempdir(), f"vexture-{secrets.token_hex(8)}")
 
     def run(self, work: Callable[..., T], *given: Any) -> asyncio.Future[T]:
         """Do one piece of work."""
         if self._pool is None:
             clean = multiprocessing.get_context("spawn")  # inherits nothing of the server, above all no sockets
-            self._pool = ProcessPoolExecutor(1, clean, _prepare)
+            self._pool = ProcessPoolExecutor(1, clean, _prepare, (self._folder,))
         return asyncio.get_running_loop().run_in_executor(self._pool, work, *given)
 
     def kill(self) -> None:
@@ -127,19 +131,26 @@ class _Worker:
             for process in list(pool._processes.values()):  # before Python 3.14 there is no kill_workers
                 process.kill()
             pool.shutdown(wait=False, cancel_futures=True)
+            shutil.rmtree(self._folder, ignore_errors=True)
 
 
-def _prepare() -> None:
-    """Set up the process: it ends with the server, ignores Ctrl-C, and has limited memory."""
+def _prepare(folder: str) -> None:
+    """Set up the process: it ends with the server, ignores Ctrl-C, and has limited memory.
+
+    Its temporary files are in a folder of its own, which is removed whichever of the two is killed.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, resource.getrlimit(resource.RLIMIT_AS)[1]))
     parent = multiprocessing.parent_process()
     assert parent is not None
     sentinel = parent.sentinel
+    os.makedirs(folder, mode=0o700, exist_ok=True)
+    tempfile.tempdir = folder
 
     def end_with_the_server() -> None:
         wait([sentinel])
+        shutil.rmtree(folder, ignore_errors=True)
         os._exit(1)
 
     threading.Thread(target=end_with_the_server, daemon=True).start()

@@ -15,7 +15,7 @@ from vexture.live.limits import LimitedShelf, Limits
 from vexture.live.names import checked_name, manifest_name
 from vexture.live.shelf import File, Shape
 from vexture.reading import content_of
-from vexture.texture.files import TEMPORARY, replace_files
+from vexture.texture.files import TEMPORARY, make_folder, replace_files
 
 __all__ = ["Folder"]
 
@@ -51,7 +51,7 @@ class Folder(LimitedShelf):
         self._turn = asyncio.Lock()
         try:
             for folder in (self._shapes_folder, self._files_folder):
-                folder.mkdir(parents=True, exist_ok=True)
+                make_folder(folder, durable=True)
             self._lock = _locked(path / STATE / "lock")
             self._load()
         except OSError as error:
@@ -110,14 +110,15 @@ class Folder(LimitedShelf):
 
     def _write(self, shape: Shape, fresh: list[File]) -> None:
         """Write a shape: first its files, then the manifest that names them."""
-        replace_files({self._files_folder / file.name: file.data for file in fresh}, durable=True)
         record = {
             "name": shape.name,
             "texture": _entry(shape.texture),
             "views": {what: _entry(file) for what, file in shape.views.items()},
             "facts": dict(shape.facts),
         }
-        replace_files({self._shapes_folder / manifest_name(shape.name): json.dumps(record).encode()}, durable=True)
+        files = {self._files_folder / file.name: file.data for file in fresh}
+        manifest = self._shapes_folder / manifest_name(shape.name)
+        replace_files({**files, manifest: json.dumps(record).encode()}, durable=True)
 
     def _remove(self, names: list[str]) -> None:
         for name in names:

@@ -56,8 +56,14 @@ def compiled(fragment_source: str) -> Any:
 
 
 def upload(gl: Any, pixels: NDArray[Any], unit: int, dtype: str) -> Any:
-    """Texture of an array, (rows, width, 4), without filtering, bound to a texture unit."""
+    """Texture of an array, (rows, width, 4), without filtering, bound to a texture unit.
+
+    Raises `DeviceError` if the driver has no such textures: what it would draw is wrong.
+    """
+    _ = gl.error  # which forgets those of before
     made = gl.texture(pixels.shape[1::-1], 4, np.ascontiguousarray(pixels).tobytes(), dtype=dtype)
+    if (error := gl.error) != "GL_NO_ERROR":
+        raise DeviceError(f"the OpenGL driver takes no such texture ({error}); update it, or use `renderer` cpu")
     made.filter = (gl.NEAREST, gl.NEAREST)
     made.use(unit)
     return made

@@ -164,5 +164,6 @@ def frame(scene: Scene) -> Frame | None:
 def after(first: NDArray[np.float64], second: Transform) -> NDArray[np.float64]:
     """Affine map (2, 3) that applies `first` and then `second`."""
     a, b, c, d, e, f = second
-    product: NDArray[np.float64] = np.array([[a, c], [b, d]]) @ first + np.array([[0.0, 0.0, e], [0.0, 0.0, f]])
+    linear = np.einsum("ij,jk->ik", [[a, c], [b, d]], first)
+    product: NDArray[np.float64] = linear + np.array([[0.0, 0.0, e], [0.0, 0.0, f]])
     return product

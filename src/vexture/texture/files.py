@@ -3,9 +3,11 @@
 import errno
 import os
 import re
-import secrets
+import time
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
+from typing import BinaryIO
 
 from vexture.errors import DeviceError, FormatError, ParameterError
 from vexture.layout import PACKED_SUFFIX
@@ -14,6 +16,7 @@ __all__ = [
     "TEMPORARY",
     "file_name",
     "is_folder",
+    "make_folder",
     "read_file",
     "replace_files",
     "target_of",
@@ -22,7 +25,10 @@ __all__ = [
 ]
 
 TEMPORARY = ".tmp"
-"""Suffix of incomplete files; those that a crash leaves can be deleted."""
+"""Suffix of incomplete files."""
+
+LEFT_SECONDS = 3600.0
+"""An incomplete file that is older was left by a process that was killed, and is removed when its place is written."""
 
 OTHER_FILES = (".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".svg", ".svgz", ".json", ".geojson", ".html", ".glsl")
 """Suffixes that a texture's file must not have: programs would open it as a picture or a drawing."""
@@ -79,41 +85,71 @@ def write_together(files: Mapping[Path, bytes]) -> None:
 def replace_files(files: Mapping[Path, bytes], *, durable: bool = False) -> None:
     """Write all the files or none; missing folders are made.
 
-    Each file is written under a temporary name beside its place. When all are complete they are renamed. The target of
-    a link is replaced, not the link. With `durable` they survive a loss of power after this function returns. An
-    `OSError` names the file that cannot be written.
+    Each file is written under a temporary name beside its place. When all are complete they are renamed, in their
+    order. The target of a link is replaced, not the link. With `durable` they survive a loss of power after this
+    function returns, and none is kept without those before it. An `OSError` names the file that cannot be written.
     """
     places = {path.resolve(): data for path, data in files.items()}
-    token = secrets.token_hex(4)
     made: dict[Path, Path] = {}
     try:
         for path, data in places.items():
-            path.parent.mkdir(parents=True, exist_ok=True)
-            partial = path.with_name(f".{path.name}.{token}{TEMPORARY}")
-            with partial.open("xb") as file:
-                made[path] = partial
+            make_folder(path.parent, durable=durable)
+            with _temporary(path) as file:
+                made[path] = Path(file.name)
                 file.write(data)
                 if durable:
                     file.flush()
                     os.fsync(file.fileno())
-        for path in places:  # checked before anything is replaced
+        replaced = [path for path in places if path.exists()]
+        for path in replaced:  # checked before anything is replaced
             if path.is_dir():
                 raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-            if path.exists() and not path.is_file():
+            if not path.is_file():
                 raise OSError(errno.EINVAL, "not a regular file")
+        before = path.parent
         for path in places:
-            made[path] = made[path].replace(path)
+            if durable and path.parent != before:
+                _keep_entries(before)
+            before = path.parent
+            moved = made[path].replace(path)
+            if path in replaced:  # what was there is gone: it is not to be removed as well
+                del made[path]
+            else:
+                made[path] = moved
     except BaseException as error:
         for file_made in made.values():
             file_made.unlink(missing_ok=True)
         if isinstance(error, OSError):
             raise OSError(error.errno, error.strerror, str(path)) from None
         raise
-    for folder in {path.parent for path in places} if durable else ():
-        _keep_renames(folder)
+    if durable:
+        _keep_entries(path.parent)
 
 
-def _keep_renames(folder: Path) -> None:
+def make_folder(folder: Path, *, durable: bool) -> None:
+    """Make a folder and those around it, if they are missing."""
+    if not folder.is_dir():
+        make_folder(folder.parent, durable=durable)
+        folder.mkdir(exist_ok=True)
+        if durable:
+            _keep_entries(folder.parent)
+
+
+def _temporary(path: Path) -> BinaryIO:
+    """Open a new file beside a path, and remove those that killed processes left there."""
+    number = 0
+    while True:
+        partial = path.with_name(f".{path.name}.{number}{TEMPORARY}")
+        try:
+            return partial.open("xb")
+        except FileExistsError:  # of a process that writes the same file now, unless it is old
+            number += 1
+            with suppress(OSError):
+                if time.time() - partial.lstat().st_mtime > LEFT_SECONDS:
+                    partial.unlink()
+
+
+def _keep_entries(folder: Path) -> None:
     """Write a folder's entries to the disk: without it a rename may not survive a loss of power."""
     handle = os.open(folder, os.O_RDONLY)
     try:

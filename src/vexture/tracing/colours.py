@@ -168,7 +168,8 @@ def _along(pixels: NDArray[np.float32], a: Colours, b: Colours) -> tuple[NDArray
     """Share of `a` in the mixture with `b` that is nearest to each pixel, and the distance to it."""
     way = a - b
     away = pixels - b
-    share = np.clip(away @ way / max(float(way @ way), 1e-9), 0.0, 1.0).astype(np.float32)
+    along, length = np.einsum("ij,j", away, way), float(np.einsum("i,i", way, way))
+    share = np.clip(along / max(length, 1e-9), 0.0, 1.0).astype(np.float32)
     away -= share[:, None] * way
     return share, np.sqrt(np.einsum("ij,ij->i", away, away), dtype=np.float32)
 

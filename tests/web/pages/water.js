@@ -198,7 +198,19 @@ async function draw(config) {
   return { picture, matrix: matrix.elements };
 }
 
-// Pictures of one water after each of some changes: to properties, a texture's name, a fade, other data of a texture.
+// The driver loses all that is on it, and comes back.
+async function lose() {
+  const extension = renderer.getContext().getExtension('WEBGL_lose_context');
+  for (const [change, event] of [['loseContext', 'webglcontextlost'], ['restoreContext', 'webglcontextrestored']]) {
+    const changed = new Promise((done) => renderer.domElement.addEventListener(event, done, { once: true }));
+    extension[change]();
+    await changed;
+    await new Promise((done) => setTimeout(done));
+  }
+}
+
+// Pictures of one water after each of some changes: to properties, a texture's name, a fade, other data of a texture, a
+// driver that is lost.
 async function changes(config, steps) {
   const { scene, camera, water } = await build(config);
   const pictures = [];
@@ -213,6 +225,7 @@ async function changes(config, steps) {
     for (const [key, value] of Object.entries(step)) {
       if (key === 'texture') water.texture = value && (await textureOf(value));
       else if (key === 'fadeTo') water.fadeTo(value && (await textureOf(value)));
+      else if (key === 'lost') await lose();
       else if (key === 'replace') water.texture.replace((await loader.loadAsync(`${value}.ktx2`)).data);
       else water[key] = value;
     }
