@@ -24,7 +24,8 @@ RESOLUTION: Final = 0.25 / ROUND
 """Skia units across the drawing."""
 
 SHORTEST: Final = 1 / 64
-"""Skia units. A shorter step has no direction in float32, so its joins would be arbitrary; it is skipped."""
+"""Skia units. What is shorter has no direction in float32, so its joins would be arbitrary: such a step is skipped, and
+such an arm of a control point set to zero, which gives the direction to the other control point."""
 
 MOST_DASHES: Final = 100_000
 """Dashes in one path; Skia itself silently gives up at ten times as many."""
@@ -99,7 +100,9 @@ def stroke_contours(outlines: list[Outline], stroke: Stroke, size: float) -> lis
 
 
 def feed(path: pathops.Path, cubics: NDArray[np.float64], closed: bool) -> None:
-    """Add an outline to Skia's path, without steps that are too short to have a direction."""
+    """Add an outline to Skia's path, without steps and arms that are too short to have a direction."""
+    ends = cubics[:, [0, 0, 3, 3]]
+    cubics = np.where(np.abs(cubics - ends).max(axis=2, keepdims=True) < SHORTEST, ends, cubics)
     x0, y0 = cubics[0, 0].tolist()
     start = x0, y0
     path.moveTo(x0, y0)
