@@ -45,8 +45,8 @@ FINER: Final = (4, 16)
 TEXTURE_LIMIT: Final = 0.125
 """Largest difference of a pixel's coverage between texture and exact: 0.12 where many outlines cross in a pixel."""
 
-READING_LIMIT: Final = 0.1
-"""Largest difference of a pixel's opacity between drawing and reference."""
+READING_LIMIT: Final = 0.2
+"""Largest difference of a pixel's opacity or colour between drawing and reference."""
 
 MEMORY: Final = 6 << 30
 """Bytes of address space for a child; compilers and libraries take one or two of these GiB."""
@@ -159,7 +159,7 @@ def texture_gap(drawing: Drawing, texture: Any) -> float:
 
 
 def reading_gaps(case: Case, drawing: Drawing) -> Facts:
-    """Largest differences of opacity between a drawing and the references' pictures of its file."""
+    """Largest differences between the pictures of a drawing and the references' of its file."""
     gaps: Facts = {}
     for finer in FINER:
         text, size = enlarged(case.same or case.content, drawing, SIZE * finer)
@@ -215,9 +215,15 @@ def skia_reading(text: bytes, shape: tuple[int, int], size: tuple[float, float])
 
 
 def difference(ours: NDArray[np.uint8], theirs: NDArray[np.uint8], finer: int) -> float:
-    """Largest difference of opacity, of pixels that are so many times as large."""
-    gap = (ours[..., 3].astype(float) - theirs[..., 3]) / 255
-    rows, columns = (-length % finer for length in gap.shape)
-    gap = np.pad(gap, ((0, rows), (0, columns)))
-    coarse = gap.reshape(gap.shape[0] // finer, finer, -1, finer).mean(axis=(1, 3))
+    """Largest difference of opacity or of a premultiplied colour, of pixels that are so many times as large."""
+    gap = premultiplied(ours) - premultiplied(theirs)
+    rows, columns = (-length % finer for length in gap.shape[:2])
+    gap = np.pad(gap, ((0, rows), (0, columns), (0, 0)))
+    coarse = gap.reshape(gap.shape[0] // finer, finer, -1, finer, 4).mean(axis=(1, 3))
     return float(np.abs(coarse).max())
+
+
+def premultiplied(pixels: NDArray[np.uint8]) -> NDArray[np.float32]:
+    scaled = (pixels / 255.0).astype(np.float32)
+    scaled[..., :3] *= scaled[..., 3:]
+    return scaled
