@@ -26,7 +26,7 @@ help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
 	@echo 'make viewer  build the page of `vexture view` and `vexture export`, with node and npm'
 	@echo 'make test    lint, types and tests, with all that they need'
-	@echo 'make sweep   the tests that take long and find little that those do not, and 23,000 drawings of others'
+	@echo 'make sweep   the tests that take long and find little that those do not, and 24,000 drawings of others'
 	@echo 'make docs    build the documentation into site/, to be read from the disk'
 	@echo 'make report  measure the tables and figures of the thesis again; the page is demo/report/index.html'
 	@echo 'make bench   measure fidelity, speed and size; the figures come into evidence/benchmarks/results/'
