@@ -29,7 +29,7 @@ help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
 	@echo 'make viewer  build the page of `vexture view` and `vexture export`, with node and npm'
 	@echo 'make test    lint, types and tests, with all that they need'
-	@echo 'make sweep   the tests that take long and find little that those do not'
+	@echo 'make sweep   the tests that take long and find little that those do not, and 24,000 drawings of others'
 	@echo 'make docs    build the documentation into site/, to be read from the disk'
 	@echo 'make report  measure the tables and figures of the thesis again; the page is demo/report/index.html'
 	@echo 'make fuzz    read damaged files for some minutes; what breaks a reader comes into fuzz-findings/'
@@ -126,10 +126,11 @@ test: .venv/made
 		wait $$web && exit $$checked
 	$(PYTEST) -m 'not slow'
 
-# what `test` leaves out
+# what `test` leaves out; the drawings come from npm and, on Debian, from apt
 sweep: .venv/for-test $(VIEWER)
 	@$(BIN)/python tools/prepare.py system
 	$(PYTEST) -m slow
+	$(BIN)/python evidence/benchmarks/sweep.py $(QUICK)
 
 checks: .venv/for-test
 	@$(BIN)/python tools/prepare.py system

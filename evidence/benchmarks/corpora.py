@@ -1,8 +1,8 @@
 """What the benchmarks and tests work on: real SVG files, glyphs of real fonts, a coastline of any size, a KTX2 reader.
 
-SVG files and the reader come from npm packages of pinned versions, installed on first use into the folder named by
-the environment variable VEXTURE_CORPORA, by default `~/.cache/vexture/corpora`. Everything drawn at random is drawn
-from a seed.
+SVG files and the reader come from npm packages of pinned versions, and from Debian packages of any version, unpacked on
+first use into the folder named by the environment variable VEXTURE_CORPORA, by default `~/.cache/vexture/corpora`.
+Everything drawn at random is drawn from a seed.
 """
 
 import os
@@ -11,6 +11,7 @@ import shutil
 import string
 import subprocess
 import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -59,22 +60,14 @@ class Package:
 
     def installed(self) -> Path:
         """Return the package's folder, installed first if it is missing."""
-        corpora = Path(os.environ.get("VEXTURE_CORPORA", "~/.cache/vexture/corpora")).expanduser()
-        home = corpora / f"{self.name.replace('/', '-')}-{self.version}"
+        home = cache() / f"{self.name.replace('/', '-')}-{self.version}"
         if not home.exists():
             npm = shutil.which("npm")
             if npm is None:
                 raise VextureError(
                     f"npm is missing, which fetches {self.name} {self.version}; install Node.js with npm"
                 )
-            corpora.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryDirectory(dir=corpora) as scratch:
-                self.install(npm, Path(scratch) / "prefix")
-                try:
-                    os.rename(Path(scratch) / "prefix", home)  # complete or not there at all
-                except OSError:
-                    if not home.exists():  # else another process was faster
-                        raise
+            fill(home, lambda prefix: self.install(npm, prefix))
         return home / "node_modules" / self.name
 
     def install(self, npm: str, prefix: Path) -> None:
@@ -88,10 +81,70 @@ class Package:
             raise VextureError(f"npm cannot install {wanted} ({reason}); check the network or the registry")
 
 
+@dataclass(frozen=True, slots=True)
+class DebianPackage:
+    """A package of Debian and the folder in it; nothing of it is installed on the system."""
+
+    name: str
+    folder: str
+
+    @property
+    def home(self) -> Path:
+        """Return the folder, with the package fetched first if it is missing."""
+        return self.unpacked() / self.folder
+
+    def files(self, pattern: str) -> list[Path]:
+        """Return its files that match, sorted."""
+        return sorted(self.home.rglob(pattern))
+
+    def unpacked(self) -> Path:
+        """Return the package's root, fetched and unpacked first if it is missing."""
+        home = cache() / f"debian-{self.name}"
+        if not home.exists():
+            fill(home, self.unpack)
+        return home
+
+    def unpack(self, root: Path) -> None:
+        """Let apt fetch the package."""
+        apt = shutil.which("apt-get")
+        if apt is None:
+            raise VextureError(f"apt-get is missing, which fetches {self.name}; run this on Debian or Ubuntu")
+        root.mkdir()
+        command = [apt, "-o", "APT::Sandbox::User=root", "download", self.name]
+        outcome = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
+        found = next(root.glob("*.deb"), None)
+        if outcome.returncode or found is None:
+            reason = next((line for line in outcome.stderr.splitlines() if line.startswith("E:")), "apt says nothing")
+            raise VextureError(f"apt-get cannot download {self.name} ({reason}); run apt-get update, check the network")
+        subprocess.run(["dpkg-deb", "-x", found, root], check=True)
+        found.unlink()
+
+
+def cache() -> Path:
+    """Return the folder of everything fetched."""
+    return Path(os.environ.get("VEXTURE_CORPORA", "~/.cache/vexture/corpora")).expanduser()
+
+
+def fill(home: Path, make: Callable[[Path], None]) -> None:
+    """Make a folder of the cache, complete or not at all."""
+    home.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=home.parent) as scratch:
+        make(Path(scratch) / "prefix")
+        try:
+            os.rename(Path(scratch) / "prefix", home)
+        except OSError:
+            if not home.exists():  # else another process was faster
+                raise
+
+
 MDI = Package("@mdi/svg", "7.4.47", "svg")
 SIMPLE_ICONS = Package("simple-icons", "16.37.0", "icons")
 FLAG_ICONS = Package("flag-icons", "7.5.0", "flags/4x3")
 KTX_PARSE = Package("ktx-parse", "1.1.0", "dist")
+LIBRSVG_TESTS = DebianPackage("librsvg2-tests", "usr/libexec/installed-tests/RSVG/fixtures/reftests")
+OPENCLIPART = DebianPackage("openclipart-svg", "usr/share/openclipart/svg")
+NOTO = DebianPackage("fonts-noto-core", "usr/share/fonts/truetype/noto")
+GSHHG = DebianPackage("gmt-gshhg-low", "usr/share/gmt-gshhg")
 
 
 def mdi(count: int, seed: int) -> list[Path]:

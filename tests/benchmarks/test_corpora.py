@@ -69,6 +69,20 @@ def test_failing_npm_leaves_nothing_behind(tmp_path, monkeypatch):
     assert list((tmp_path / "corpora").iterdir()) == []
 
 
+def test_debian_packages_say_why_they_are_missing_and_leave_nothing_behind(tmp_path, monkeypatch):
+    monkeypatch.setenv("VEXTURE_CORPORA", str(tmp_path / "corpora"))
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(VextureError, match=r"^apt-get is missing, which fetches openclipart-svg; run this on Debian"):
+        corpora.OPENCLIPART.files("*.svg")
+    apt = tmp_path / "apt-get"
+    apt.write_text("#!/bin/sh\necho 'W: old lists' >&2\necho 'E: Unable to locate package' >&2\nexit 100\n")
+    apt.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:/bin:/usr/bin")
+    with pytest.raises(VextureError, match=r"cannot download openclipart-svg \(E: Unable to locate package\); run apt"):
+        corpora.OPENCLIPART.files("*.svg")
+    assert list((tmp_path / "corpora").iterdir()) == []
+
+
 def test_glyphs_are_the_outlines_of_the_example(dejavu):
     """examples/shapes/font.svg sets TI above DE in units of the bold font, y down, from these points to the right."""
     (path,) = etree.parse(ROOT / "examples" / "shapes" / "font.svg").getroot().iter("{*}path")

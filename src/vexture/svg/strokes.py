@@ -24,7 +24,11 @@ RESOLUTION: Final = 0.25 / ROUND
 """Skia units across the drawing."""
 
 SHORTEST: Final = 1 / 64
-"""Skia units. A shorter step has no direction in float32, so its joins would be arbitrary; it is skipped."""
+"""Skia units. What is shorter has no direction in float32, so its joins would be arbitrary: such a step is skipped, and
+such an arm of a control point set to zero, which gives the direction to the other control point."""
+
+SLOWING: Final = 1 - 1 / 32
+"""Parameter of a cubic with P2 = P3 from which a quadratic is within a millionth of its size."""
 
 MOST_DASHES: Final = 100_000
 """Dashes in one path; Skia itself silently gives up at ten times as many."""
@@ -99,7 +103,9 @@ def stroke_contours(outlines: list[Outline], stroke: Stroke, size: float) -> lis
 
 
 def feed(path: pathops.Path, cubics: NDArray[np.float64], closed: bool) -> None:
-    """Add an outline to Skia's path, without steps that are too short to have a direction."""
+    """Add an outline to Skia's path, without steps and arms that are too short to have a direction."""
+    ends = cubics[:, [0, 0, 3, 3]]
+    cubics = np.where(np.abs(cubics - ends).max(axis=2, keepdims=True) < SHORTEST, ends, cubics)
     x0, y0 = cubics[0, 0].tolist()
     start = x0, y0
     path.moveTo(x0, y0)
@@ -111,6 +117,8 @@ def feed(path: pathops.Path, cubics: NDArray[np.float64], closed: bool) -> None:
             continue
         if is_line:
             path.lineTo(x3, y3)
+        elif (x2, y2) == (x3, y3):
+            feed_slowing(path, complex(x0, y0), complex(x1, y1), complex(x3, y3))
         else:
             path.cubicTo(x1, y1, x2, y2, x3, y3)
         x0, y0 = x3, y3
@@ -119,6 +127,17 @@ def feed(path: pathops.Path, cubics: NDArray[np.float64], closed: bool) -> None:
         path.lineTo(*start)  # a point: Skia gives it its cap
     elif closed:
         path.close()
+
+
+def feed_slowing(path: pathops.Path, p0: complex, p1: complex, p3: complex) -> None:
+    """Add a cubic whose P2 is P3: near such an end float32 loses its direction, so the last part is a quadratic."""
+    b = p1 + (p3 - p1) * SLOWING
+    d = p0 + (p1 - p0) * SLOWING
+    d += (b - d) * SLOWING
+    e = b + (p3 - b) * SLOWING
+    a, f = p0 + (p1 - p0) * SLOWING, d + (e - d) * SLOWING
+    path.cubicTo(a.real, a.imag, d.real, d.imag, f.real, f.imag)
+    path.quadTo(e.real, e.imag, p3.real, p3.imag)
 
 
 def read(path: pathops.Path) -> list[NDArray[np.float64]]:
