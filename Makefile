@@ -9,7 +9,9 @@ PYTHON ?= python3
 BIN := .venv/bin
 # --no-compile: most modules of the packages are never imported, and Python compiles the others when they are
 INSTALL := $(BIN)/python -m pip install --quiet --no-compile
-PYTEST := $(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4 --dist worksteal
+# one process of tests more than cores: some wait for a browser or a server
+TESTERS := $(shell $(PYTHON) -c 'import os; print(min(4, 1 + (os.cpu_count() or 1)))')
+PYTEST := $(BIN)/python -m pytest --quiet --numprocesses $(TESTERS) --dist worksteal
 SHAPES := examples/shapes
 BENCHMARKS := packed_fidelity speed packed_conversion size fidelity conversion icons live load
 WEB_BENCHMARKS := page_fidelity web_speed editing flood

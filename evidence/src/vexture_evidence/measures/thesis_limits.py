@@ -293,7 +293,7 @@ def list_lengths(drawing: Drawing, way: dict[str, str], across: Sequence[int]) -
         try:
             texture = run(repeated(drawing, number), **way).texture
         except LimitError as error:
-            found.append(Lengths(number * number, None, refused=str(error).splitlines()[0]))
+            found.append(Lengths(number * number, None, refused=str(error)))
             break
         if isinstance(texture, Texture):
             entries = len(texture.flat)

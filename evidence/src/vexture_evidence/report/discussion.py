@@ -78,5 +78,5 @@ def _subject(material: Material) -> tuple[Shape, str]:
     try:
         drawn = all(len(tree_of(own, way).curves) for way in ("sampled", "direct"))
     except LimitError as error:
-        return duck, str(error).splitlines()[0]
+        return duck, str(error)
     return (own, "") if drawn else (duck, f"{own.name} has no outline.")

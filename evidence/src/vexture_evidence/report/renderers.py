@@ -110,8 +110,8 @@ def bands_part(shapes: Sequence["Shape"], device: str) -> Section:
 
 
 def dashes(reasons: Iterable[str]) -> str:
-    """Why something is missing from a table: the first line of each error, once."""
-    why = dict.fromkeys(reason.splitlines()[0] for reason in reasons)
+    """Why something is missing from a table: each error once."""
+    why = dict.fromkeys(reasons)
     return f" Dashes: {'; '.join(why)}." if why else ""
 
 

@@ -64,7 +64,7 @@ def _refusal(material: Material) -> str:
     try:
         material.main.way("sampled")
     except LimitError as error:
-        return f" The thesis's encoding cannot hold this drawing: {str(error).splitlines()[0]}."
+        return f" The thesis's encoding cannot hold this drawing: {error}."
     return ""
 
 
