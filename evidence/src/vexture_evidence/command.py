@@ -24,7 +24,7 @@ Examples:
     metavar="FOLDER",
     required=True,
     type=click.Path(path_type=Path, file_okay=False),
-    help="Folder for the page, its pictures and its JSON.",
+    help="Folder for the page, its pictures and its JSON file.",
 )
 def report(sources: tuple[Path, ...], output: Path) -> None:
     """Measure drawings, or the examples, and write one page of tables and figures.

@@ -1,1 +1,1 @@
-"""What a method is worth: errors against the truth, times, bytes, and the methods that it is compared with."""
+"""Measures of rendering methods: errors against the truth, times and bytes; and the methods that are compared."""

@@ -1,12 +1,13 @@
-"""The competitor: text on the GPU by bands of quadratics, built here as its public description says.
+"""A competitor: text on the GPU by bands of quadratic curves, implemented here from its publication.
 
 E. Lengyel, "GPU-Centered Font Rendering Directly from Glyph Outlines", Journal of Computer Graphics Techniques 6(2),
-2017. An outline of quadratics is listed by horizontal and by upright bands; a pixel looks at the curves of its two
-bands along two rays. The shader is `glsl/bands.glsl`.
+2017. The curves of an outline are listed for each horizontal and each vertical band. A pixel casts two rays, and
+intersects each with the curves of one of its two bands. The shader is `glsl/bands.glsl`.
 
-What is ours: lines are quadratics with their middle as the second point; cubics become quadratics within
-`CUBIC_TOLERANCE`; equal lists are stored once. A curve without height is in no horizontal band, nor one without width
-in an upright one. Lists are sorted by descending largest x (y), so that a pixel stops at the first curve behind it.
+Choices of this implementation: a line is a quadratic whose second point is its middle; cubics become quadratics within
+`CUBIC_TOLERANCE`; equal lists are stored once. A curve of no height is in no horizontal band, and a curve of no width
+is in no vertical band. Lists are sorted by descending largest x (or y), so that a pixel stops at the first curve behind
+it.
 """
 
 from collections.abc import Sequence
@@ -24,44 +25,45 @@ from vexture.renderers.shader import included
 __all__ = ["BandTexture", "band_shader", "band_texture", "eligible_roots", "quadratic_contours"]
 
 BANDS: Final = 16
-"""In each direction, as published for glyphs."""
+"""Bands in each direction, as published for glyphs."""
 
 COASTLINE_BANDS: Final = 255
-"""The most that its one byte can count."""
+"""The most bands in each direction that one byte can count."""
 
 CUBIC_TOLERANCE: Final = 1e-4
-"""Unit-square units: a tenth of a pixel at 1000 pixels, the larger of what font tools take for TrueType outlines."""
+"""Unit-square units: a tenth of a pixel at 1000 pixels, the larger of the tolerances in use for TrueType outlines."""
 
 QUADRATIC: Final = 1e-12
-"""Unit-square units; the third difference of a cubic that is a raised quadratic."""
+"""Unit-square units; a cubic whose third difference is at most this is a quadratic of raised degree."""
 
 OVERLAP: Final = 1e-6
-"""Unit-square units by which bands overlap: float32 may round a pixel into the neighbouring band."""
+"""Unit-square units by which bands overlap, because float32 may round a pixel into the neighbouring band."""
 
 ROW_BITS: Final = 12
 COUNT_BITS: Final = 12
 STRAIGHT: Final = 2.0**-16
-"""Second differences below this are taken for 0."""
+"""Second differences below this count as 0."""
 
 TEXEL_BYTES: Final = 8
 ENTRY_BYTES: Final = 4
-"""Published: four 16-bit coordinates in a texel of the outlines; two 16-bit numbers in a head or entry of a list."""
+"""As published: four 16-bit coordinates in a texel of the outlines; two 16-bit numbers in a head or entry of a list."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BandTexture:
-    """What the shader reads.
+    """The arrays that the shader reads.
 
     Parameters
     ----------
     bands : int
-        Of each direction.
+        Number of bands in each direction.
     outlines : (n, 4) float32 array
-        First and second point of each curve; a contour's last curve is followed by its end.
+        First and second point of each curve; a contour's last curve is followed by the contour's end point.
     lists : (m,) uint32 array
-        A head for each horizontal, then for each upright band (start << COUNT_BITS | count), then texel indices.
+        A head (start << COUNT_BITS | count) for each horizontal band, then for each vertical band, then the lists:
+        texel indices in `outlines`.
     box : (4,) float64 array
-        Lower left corner of the outline's box, and bands per unit in x and in y.
+        Lower left corner of the outline's bounding box, and bands per unit in x and in y.
     """
 
     bands: int
@@ -71,23 +73,24 @@ class BandTexture:
 
     @property
     def published_bytes(self) -> int:
-        """Its size by the published definition, whatever the arrays here take."""
+        """Size in the published format, not that of the arrays here."""
         return TEXEL_BYTES * len(self.outlines) + ENTRY_BYTES * len(self.lists)
 
     @property
     def unshared_bytes(self) -> int:
-        """The same, every list written for itself even where another is equal."""
+        """Size in the published format if equal lists are not shared."""
         heads = self.lists[: 2 * self.bands]
         entries = int((heads & (1 << COUNT_BITS) - 1).sum())
         return TEXEL_BYTES * len(self.outlines) + ENTRY_BYTES * (len(heads) + entries)
 
 
 def eligible_roots() -> int:
-    """Two bits for each of the eight sign patterns of a quadratic's three heights: which of its roots count.
+    """Table of the roots that count: two bits for each of the eight sign patterns of a quadratic's three heights.
 
-    Bit 0 stands for the root at which the curve falls from above 0 to 0 or below, bit 1 for the one at which it rises.
-    With ends on different sides exactly the one between them counts. With ends on one side and the middle point on the
-    other, both do, or neither is real, and then they cancel. Bit k of the pattern: point k is above 0.
+    Bit k of the pattern says that point k is above 0. Bit 0 of an entry stands for the root at which the curve falls
+    from above 0 to 0 or below, bit 1 for the root at which it rises. If the ends are on different sides, exactly the
+    root between them counts. If the ends are on one side and the middle point on the other, both roots count; where
+    neither is real, their contributions cancel.
 
     Examples
     --------
@@ -104,20 +107,20 @@ def eligible_roots() -> int:
 
 
 def quadratic_contours(drawing: Drawing, tolerance: float = CUBIC_TOLERANCE) -> list[NDArray[np.float64]]:
-    """Each contour as quadratics, (n, 3, 2); cubics that are none are approximated.
+    """Each contour as quadratics, (n, 3, 2); cubics that are not quadratics of raised degree are approximated.
 
     Raises
     ------
     LimitError
-        If a path is filled by the even-odd rule, which two rays with windings do not know.
+        If a path is filled by the even-odd rule, which a method that counts windings does not draw.
     """
     if any(path.fill_rule == FillRule.EVENODD for path in drawing.paths):
-        raise LimitError(f"{drawing.name} is filled by the even-odd rule; our bands know the non-zero rule only")
+        raise LimitError(f"{drawing.name} is filled by the even-odd rule; our bands draw the non-zero rule only")
     return [as_quadratics(contour, tolerance) for path in drawing.paths for contour in path.contours]
 
 
 def as_quadratics(cubics: NDArray[np.float64], tolerance: float) -> NDArray[np.float64]:
-    """A chain of cubics as a chain of quadratics."""
+    """Convert a chain of cubics to a chain of quadratics."""
     p0, p1, p2, p3 = np.moveaxis(cubics, 1, 0)
     direct = np.stack([p0, (3.0 * (p1 + p2) - p0 - p3) / 4.0, p3], axis=1)
     bent = np.abs(p3 - 3.0 * p2 + 3.0 * p1 - p0).max(axis=1) > QUADRATIC
@@ -130,7 +133,7 @@ def as_quadratics(cubics: NDArray[np.float64], tolerance: float) -> NDArray[np.f
 
 
 def spline(cubic: NDArray[np.float64], tolerance: float) -> NDArray[np.float64]:
-    """One cubic as quadratics."""
+    """Approximate one cubic by quadratics."""
     points = np.array(curve_to_quadratic([tuple(point) for point in cubic], tolerance))
     middles = points[1:-1]
     joints = np.concatenate([points[:1], 0.5 * (middles[:-1] + middles[1:]), points[-1:]])
@@ -138,7 +141,7 @@ def spline(cubic: NDArray[np.float64], tolerance: float) -> NDArray[np.float64]:
 
 
 def band_texture(drawing: Drawing, bands: int = BANDS) -> BandTexture:
-    """Lists of a drawing's curves by bands.
+    """Sort a drawing's curves into bands.
 
     Raises
     ------
@@ -166,7 +169,7 @@ def band_texture(drawing: Drawing, bands: int = BANDS) -> BandTexture:
 def members_of_bands(
     curves: NDArray[np.float64], across: int, along: int, place: tuple[float, float], bands: int
 ) -> list[NDArray[np.int64]]:
-    """Numbers of the curves in each band, those that reach farthest first."""
+    """Indices of the curves in each band, those that reach farthest along the ray first."""
     low, high = curves[:, :, across].min(axis=1), curves[:, :, across].max(axis=1)
     first, last = (
         np.clip(np.floor((edge - place[0]) * place[1]), 0, bands - 1).astype(np.int64)
@@ -210,7 +213,7 @@ def band_constants(bands: int) -> dict[str, int | float]:
 
 
 def band_shader(bands: int) -> str:
-    """Text of `bands.glsl` after its constants."""
+    """Declarations of the constants, followed by the text of `bands.glsl`."""
     constants = band_constants(bands)
     head = "".join(f"const {type(value).__name__} {name} = {value!r};\n" for name, value in constants.items())
     return head + included("bands.glsl", "vexture_evidence")

@@ -15,16 +15,16 @@ if TYPE_CHECKING:
 __all__ = ["closeup", "outline_places", "sharpest_corner"]
 
 CANDIDATES: Final = 4
-"""Points that are looked at for each that is asked for: where paths overlap, parts of their outlines are inside."""
+"""Candidates for each requested point: where paths overlap, parts of their outlines lie inside the silhouette."""
 
 CORNERS: Final = 32
-"""Corners that are looked at, the sharpest first."""
+"""Corners that are tried, the sharpest first."""
 
 NEAR: Final = 1e-3
-"""Unit-square units; side of the square around a point that tells whether it is on the silhouette's border."""
+"""Unit-square units; side of the square around a point whose coverage tells if the silhouette's border passes there."""
 
 STEP: Final = 1e-9
-"""Unit-square units; a control point nearer than this to an end says nothing about the direction there."""
+"""Unit-square units; a control point nearer than this to an end does not define the direction there."""
 
 
 def closeup(size: tuple[int, int], place: NDArray[np.float64], magnification: float) -> NDArray[np.float64]:
@@ -37,7 +37,7 @@ def closeup(size: tuple[int, int], place: NDArray[np.float64], magnification: fl
     place : (2,) array
         The middle, in the unit square.
     magnification : float
-        How many times larger than in a picture of the whole unit square of that size.
+        How many times larger than in a picture of the same size that shows the whole unit square.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def outline_places(drawing: "Drawing", count: int) -> NDArray[np.float64]:
 
 
 def sharpest_corner(drawing: "Drawing") -> NDArray[np.float64]:
-    """Where the silhouette's border turns most between two curves, (2,); the middle of an empty drawing.
+    """Point where the silhouette's border turns most between two curves, (2,); the middle if the drawing is empty.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What Table 5.1 of the thesis says of a drawing, measured: time, size of the tree, bytes, frames per second."""
+"""The columns of Table 5.1 of the thesis, measured: time, size of the tree, bytes, frames per second."""
 
 from dataclasses import dataclass, field
 from typing import Final
@@ -16,12 +16,13 @@ LONG: Final = 0.05
 """Seconds; a conversion that takes longer is timed once."""
 
 REPEAT: Final = 5
-"""Conversions, of which the median counts, of those that are shorter."""
+"""Number of times that a shorter conversion is timed; the median counts."""
 
 SLOW_SIDE: Final = 256
-"""Pixels of the side of pictures on devices that draw less than `FAST` frames of a second of them."""
+"""Side in pixels of the pictures on slow devices, which draw at most `FAST` of these a second."""
 
 FAST: Final = 1000.0
+"""Frames per second."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,15 +32,15 @@ class Measured:
     Parameters
     ----------
     curves, quads : int
-        Lengths of the two lists, the constants left out.
+        Lengths of the two lists, without the constant rows.
     depth : int
-        Of the smallest leaf.
+        Depth of the smallest leaf.
     ms : float
-        From the drawing, read already, to the texture.
+        Milliseconds from the drawing, without reading its file, to the texture.
     bytes_8, bytes_16 : int or None
-        Files of the thesis's pair; None where 8 bits cannot hold the drawing, and for packed textures.
+        Size of the thesis's pair of files; None where 8 bits cannot hold the drawing, and for packed textures.
     bytes_packed : int or None
-        File of a packed texture.
+        Size of a packed texture's file.
     fps : float or None
         Frames per second; None without a GPU.
     """
@@ -55,7 +56,7 @@ class Measured:
 
 
 def frame_side(shape: Shape) -> int:
-    """Side of the pictures to measure rates with: what devices are fast enough to draw, 1024 or less.
+    """Side in pixels of the pictures that frame rates are measured with: smaller on a slow device.
 
     Raises
     ------
@@ -74,7 +75,7 @@ def measured(shape: Shape, way: str, side: int | None = None) -> Measured:
     way : str
         One of `WAYS`.
     side : int, optional
-        Of the pictures to measure the rate of frames with; None leaves it out.
+        Side in pixels of the pictures that the frame rate is measured with; None leaves the rate out.
 
     Raises
     ------
@@ -102,7 +103,7 @@ def measured(shape: Shape, way: str, side: int | None = None) -> Measured:
 
 
 def _bytes_8(shape: Shape, way: str) -> int | None:
-    """Size of the files of 8 bits, which are not tried where the tree of 16 bits is far beyond them."""
+    """Size of the 8-bit files; they are not tried if the tree for 16 bits is far too large for them."""
     if len(shape.way(way).tree.coverage) > 2 * LIST_LIMIT[8]:
         return None
     try:

@@ -1,7 +1,8 @@
 """Distance fields: single-channel textures of distances from the outline, drawn with a soft step.
 
-C. Green, "Improved Alpha-Tested Magnification for Vector Textures and Special Effects", SIGGRAPH 2007. Theirs come
-from a large picture; here each texel is the distance from its centre to the outline itself, so that none is better.
+C. Green, "Improved Alpha-Tested Magnification for Vector Textures and Special Effects", SIGGRAPH 2007. There the
+distances are measured in a large picture. Here each texel holds the distance from its centre to the outline itself, so
+that a distance field is compared at its best.
 """
 
 from dataclasses import dataclass
@@ -20,31 +21,31 @@ if TYPE_CHECKING:
 __all__ = ["LARGEST", "SPREAD", "DistanceField", "distance_from"]
 
 SPREAD: Final = 4.0
-"""Texels, as widely used: distances beyond are all the same."""
+"""Texels, a common choice: greater distances are stored as this one."""
 
 FINEST: Final = 9
-"""Parts of a texel's side, odd: which side of the outline a point is on is taken from a picture so much larger."""
+"""Pixels per texel along a side, odd, in the larger picture that tells if a point is inside or outside."""
 
 LARGEST: Final = 1365
-"""Texels; such a picture of the largest field has 4,096 pixels along a side."""
+"""Texels along a side; at three pixels per texel, the larger picture then has 4,095 pixels along a side."""
 
 CHORD: Final = 0.25
-"""Texels; longest step along a curve that is taken for straight."""
+"""Texels; longest piece of a curve that is treated as straight."""
 
 BATCH: Final = 1 << 21
-"""Pairs of a chord and a texel that are looked at together."""
+"""Pairs of a chord and a texel that are computed at a time."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DistanceField(MipMapped):
     """A square picture of distances from the outline, with its mip-map.
 
-    Its texels are distances at their centres: 0 is `spread` outside or farther, 255 so much inside.
+    A texel holds the distance at its centre: 0 is `spread` or more outside the outline, 255 is `spread` or more inside.
 
     Parameters
     ----------
     spread : float
-        Texels of the largest level.
+        Largest distance that is stored, in texels of the largest level.
 
     Examples
     --------
@@ -58,10 +59,10 @@ class DistanceField(MipMapped):
     def coverage(self, place: Footprint, *, mip: bool) -> NDArray[np.float64]:
         """A soft step across the outline, one pixel wide, 0..1."""
         stored = self.fetch(place, mip=mip, frame=False)
-        # nothing is farther inside than the unit square's own border is away, nor is anything inside beyond it
+        # a point inside is no farther from the outline than from the unit square's border; nothing beyond it is inside
         border = self.side * np.minimum(np.minimum(place.u, 1.0 - place.u), np.minimum(place.v, 1.0 - place.v))
         distance = np.minimum((stored / FULL - 0.5) * 2.0 * self.spread, border)
-        # no wider than the distances that there are, so that what is far inside is full and what is far outside empty
+        # no wider than the range of stored distances, so that points far inside are full and points far outside empty
         width = np.clip(place.reach * self.side, np.finfo(np.float64).tiny, 2.0 * self.spread)
         coverage: NDArray[np.float64] = np.clip(distance / width + 0.5, 0.0, 1.0)
         return coverage
@@ -76,7 +77,7 @@ def distance_from(drawing: "Drawing", side: int, spread: float = SPREAD, *, mips
     side : int
         Texels along a side, at most `LARGEST`.
     spread : float
-        Texels.
+        Largest distance that is stored, in texels.
     mips : bool
         Make the mip-map too; its texels are distances in the same units.
 
@@ -105,7 +106,7 @@ def distance_from(drawing: "Drawing", side: int, spread: float = SPREAD, *, mips
 def signed_distances(drawing: "Drawing", side: int, reach: float) -> NDArray[np.float64]:
     """Distance of each texel's centre from the outline, above 0 inside, (side, side), top row first.
 
-    Unit-square units; distances beyond `reach` are that.
+    In unit-square units; greater distances than `reach` are replaced by it.
     """
     from vexture.renderers.exact import render_exact
 
@@ -129,7 +130,7 @@ def border_chords(drawing: "Drawing", side: int, fine: NDArray[np.float32]) -> N
     number = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
     ends = [points_at(cubics[owner], (number + step) / counts[owner]) for step in (0, 1)]
     chords = np.stack(ends, axis=1)
-    # a piece is inside the silhouette if all around its middle is full
+    # a piece is inside the silhouette if all pixels around its middle are full
     framed = np.pad(fine, 1)
     pixel = np.clip((chords.mean(axis=1) * len(fine)).astype(np.intp), 0, len(fine) - 1)
     around = np.stack([framed[pixel[:, 1] + down, pixel[:, 0] + right] for down in range(3) for right in range(3)])

@@ -1,4 +1,4 @@
-"""From a texture to a file that drawing programs open, and from what they save to a texture again."""
+"""From a texture to an SVG file that drawing programs open, and from the file that they save to a texture again."""
 
 import tempfile
 from dataclasses import dataclass
@@ -14,25 +14,25 @@ from vexture_evidence.measures.timing import median_seconds
 __all__ = ["Edited", "edited"]
 
 SIDE = 256
-"""Pixels of the picture that tells whether the way there and back changed anything."""
+"""Pixels along a side of the pictures that show whether the round trip changed the drawing."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Edited:
-    """A texture that went through a file of drawing programs.
+    """A texture that was exported for a drawing program, changed and converted again.
 
     Parameters
     ----------
     exported : Drawing
-        What a drawing program reads of the texture.
+        The texture's exported SVG, read again.
     unchanged : Errors
-        Of a picture of it against one of the drawing that the texture was made from.
+        Errors of a picture of `exported` against the drawing that the texture was made from.
     drawing : Drawing
-        What was saved after the change.
+        The drawing saved after the change.
     texture : Texture
-        Made from that.
+        The texture of `drawing`.
     seconds : float
-        From the saved file to the texture's file, median.
+        Median time from the saved file to the texture's file.
     """
 
     exported: Drawing
@@ -43,16 +43,16 @@ class Edited:
 
 
 def edited(drawing: Drawing, texture: Texture, change: str, repeat: int = 5) -> Edited:
-    """Export a texture, change the file, convert it.
+    """Export a texture, change the exported file, and convert it.
 
     Parameters
     ----------
     drawing : Drawing
-        That `texture` was made from.
+        The drawing that `texture` was made from.
     texture : Texture
-        Of one shape.
+        A texture of one shape.
     change : str
-        SVG elements that are put on top, as a drawing program would save them.
+        SVG elements that are added on top, as a drawing program would save them.
     repeat : int
         Conversions that are timed.
 

@@ -1,4 +1,4 @@
-"""Quads and leaves of a tree of either kind as arrays: where they are, how deep, how full, and their curves."""
+"""Quads and leaves of a tree, packed or the thesis's, as arrays: positions, depths, coverage and curves."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -25,7 +25,7 @@ HALVES = np.array([(0, 0), (1, 0), (0, 1), (1, 1)])
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Quads:
-    """The divided squares of a tree, quad 0 being the unit square.
+    """The divided squares of a tree; quad 0 is the unit square.
 
     Parameters
     ----------
@@ -34,9 +34,9 @@ class Quads:
     depth : (n,) int64 array
         0 for the unit square.
     coverage : (n,) float64 array
-        Filled part: the mean of the cells', which the thesis calls MIP value.
+        Filled part: the mean over the four cells, which the thesis calls the MIP value.
     child : (n, 4) int64 array
-        Quad that each cell is; -1 where it is a leaf.
+        Index of the quad that each cell is; -1 where the cell is a leaf.
     """
 
     x: NDArray[np.float64]
@@ -49,7 +49,7 @@ class Quads:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Leaves:
-    """The cells of a tree that are not divided, in the order of their quads and of the cells of these.
+    """The cells of a tree that are not divided, in the order of their quads and of the cells in each quad.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class Leaves:
     depth : (n,) int64 array
         1 for a quarter of the unit square; `side` is 0.5 ** `depth`.
     quad, cell : (n,) int64 arrays
-        Where the tree's arrays hold each.
+        Index of each leaf in the tree's arrays.
     curves : (m, 4, 2) float64 array
         P0 P1 P2 P3 of all curves in the unit square.
     owner : (m,) int64 array
@@ -81,14 +81,14 @@ class Leaves:
     is_corner: NDArray[np.bool_]
 
     def lines(self, chords: int = 16, which: NDArray[Any] | slice = slice(None)) -> NDArray[np.float64]:
-        """Points along curves, the ends included; half of them lie on either line of a corner.
+        """Points along curves, ends included; on a corner, half of the points lie on each of its two lines.
 
         Parameters
         ----------
         chords : int
             An even number.
         which : index or mask
-            Of the curves; all by default.
+            Curves to use; all by default.
 
         Returns
         -------
@@ -103,7 +103,7 @@ class Leaves:
 
 
 def tree_of(shape: Tree | ThesisTexture | Texture, root: str | int | None = None) -> Tree:
-    """The tree itself, or that of a texture's shape; `root` chooses one of a packed texture."""
+    """The given tree, or the tree of a texture's shape; `root` chooses the shape of a packed texture."""
     if isinstance(shape, Texture):
         return decode_packed(shape, root)
     return decode_thesis(shape) if isinstance(shape, ThesisTexture) else shape
@@ -116,7 +116,7 @@ def leaves(shape: Tree | ThesisTexture | Texture, root: str | int | None = None)
     ----------
     shape : CellTree, Tree, ThesisTexture or Texture
     root : str or int, optional
-        Name or place of the shape in a packed texture; not needed if there is only one.
+        Name or index of the shape in a packed texture; not needed if there is only one.
 
     Examples
     --------
@@ -148,7 +148,7 @@ def leaves(shape: Tree | ThesisTexture | Texture, root: str | int | None = None)
 
 
 def quads(shape: Tree | ThesisTexture | Texture, root: str | int | None = None) -> Quads:
-    """All quads of a tree, or of a texture's shape; parameters as of `leaves`.
+    """All quads of a tree, or of a texture's shape; parameters as in `leaves`.
 
     Examples
     --------

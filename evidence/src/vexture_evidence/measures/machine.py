@@ -1,4 +1,4 @@
-"""What a benchmark ran on."""
+"""The machine and the versions that a benchmark ran on."""
 
 import os
 import platform
@@ -14,7 +14,7 @@ CPUINFO = Path("/proc/cpuinfo")
 
 
 def processor() -> str:
-    """Model of the processor, where the system tells it."""
+    """Model of the processor, or its architecture if the system does not name the model."""
     if CPUINFO.exists():
         for line in CPUINFO.read_text().splitlines():
             if line.startswith("model name"):
@@ -35,6 +35,6 @@ def machine_facts() -> dict[str, Any]:
 
 
 def machine_line(facts: dict[str, Any]) -> str:
-    """The same in one line, to stand below a table."""
+    """The facts of `machine_facts` in one line, for the foot of a table."""
     versions = ", ".join(f"{name} {facts[name]}" for name in ("python", *LIBRARIES))
     return f"{facts['date'][:10]}, {facts['processor']}, {facts['cores']} cores, {facts['system']}; {versions}"

@@ -1,4 +1,4 @@
-"""How good a picture is: the figures that every benchmark reports, always against the exact coverage."""
+"""Quality of a picture: the numbers that every benchmark reports, always against the exact coverage."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
@@ -12,13 +12,13 @@ if TYPE_CHECKING:
 __all__ = ["LEVELS", "Errors", "border_ratio", "cell_border_pixels", "errors", "ink_sd", "outline_distance"]
 
 LEVELS = 255.0
-"""Errors are given in steps of an 8-bit picture."""
+"""Largest value of an 8-bit picture; errors are given in its steps."""
 
 TRUTH = 0.03 / LEVELS
-"""Coverage. Truth is good to this much; below it a pixel is empty, and full as near to 1."""
+"""Accuracy of the exact coverage. A pixel within this of 0 counts as empty, and within this of 1 as full."""
 
 TOUCH = 1e-6
-"""Pixels. A cell border that enters a pixel by less only touches it."""
+"""Pixels. A cell border that enters a pixel by less than this does not count as passing through it."""
 
 
 class Errors(NamedTuple):
@@ -30,7 +30,7 @@ class Errors(NamedTuple):
 
 
 def errors(image: ArrayLike, truth: ArrayLike) -> Errors:
-    """Errors of a picture over the pixels that the shape touches in it or in truth; 0 if there are none.
+    """Errors over the pixels that the shape touches in the picture or in the truth; 0 if there are none.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def errors(image: ArrayLike, truth: ArrayLike) -> Errors:
 
 
 def ink_sd(images: Sequence[ArrayLike], truths: Sequence[ArrayLike]) -> float:
-    """Flicker: standard deviation, over pictures of shifted views, of the ink laid per ink due, in percent.
+    """Flicker: standard deviation, over shifted views, of a picture's total coverage relative to the exact, in percent.
 
     Parameters
     ----------
@@ -70,13 +70,13 @@ def ink_sd(images: Sequence[ArrayLike], truths: Sequence[ArrayLike]) -> float:
 
 
 def outline_distance(drawing: "Drawing", truth: "Drawing", side: int = 1024) -> float:
-    """Mean distance of a drawing's outline from the true one: the area between them over the length of the true one.
+    """Mean distance of a drawing's outline from the true one: the area between them divided by the true length.
 
     Parameters
     ----------
     drawing, truth : Drawing
     side : int
-        Pixels of the exact pictures from which area and length are taken.
+        Pixels along a side of the exact pictures from which area and length are measured.
 
     Returns
     -------
@@ -93,7 +93,7 @@ def outline_distance(drawing: "Drawing", truth: "Drawing", side: int = 1024) -> 
     from vexture.renderers.exact import render_exact
 
     found, true = (np.float64(render_exact(shape, (side, side))) for shape in (drawing, truth))
-    length = np.hypot(*np.gradient(true)).sum() / side  # coverage falls by 1 across an outline, however it runs
+    length = np.hypot(*np.gradient(true)).sum() / side  # coverage falls by 1 across an outline in any direction
     return float(np.abs(found - true).sum() / side**2 / length) if length else float("nan")
 
 
@@ -104,14 +104,14 @@ def cell_border_pixels(
     view: NDArray[np.float64],
     size: tuple[int, int],
 ) -> NDArray[np.bool_]:
-    """Pixels through which a border of the quad-tree's leaf cells passes.
+    """Pixels through which a border of the quad-tree's leaves passes.
 
-    A pixel is a convex quadrilateral in the unit square, so it lies inside one cell if its four corners do.
+    A pixel is a convex quadrilateral in the unit square, so it lies inside one leaf if its four corners do.
 
     Parameters
     ----------
     x, y, side : (n,) float64 arrays
-        Lower left corner and side of every leaf cell; together the cells tile the unit square.
+        Lower left corner and side of every leaf; together the leaves tile the unit square.
     view : (3, 3) float64 array
         From pixel coordinates to the unit square.
     size : tuple of int
@@ -120,7 +120,7 @@ def cell_border_pixels(
     Returns
     -------
     (height, width) bool array
-        True where the pixel's corners lie in different cells, or some, but not all, outside the unit square.
+        True where the pixel's corners lie in different leaves, or some, but not all, outside the unit square.
 
     Examples
     --------
@@ -148,10 +148,10 @@ def cell_at(
     u: NDArray[np.float64],
     v: NDArray[np.float64],
 ) -> NDArray[np.int64]:
-    """Rank, in Morton order, of the leaf cell that holds each point (u, v), -1 outside the unit square.
+    """Rank, in Morton order, of the leaf that holds each point (u, v); -1 outside the unit square.
 
-    In this order the cells come one after another, and a point's cell is the last that does not
-    come after the point (Morton 1966; Gargantini, "An effective way to represent quadtrees", 1982).
+    In Morton order each leaf is one interval, and a point's leaf is the last that does not begin after the point
+    (Morton 1966; Gargantini, "An effective way to represent quadtrees", 1982).
     """
     depth = int(np.rint(-np.log2(side.min())))
     inside = (u >= 0.0) & (u < 1.0) & (v >= 0.0) & (v < 1.0)
@@ -160,7 +160,7 @@ def cell_at(
 
 
 def morton(x: NDArray[np.float64], y: NDArray[np.float64], depth: int) -> NDArray[np.int64]:
-    """Interleaved bits of the lattice cell of depth `depth` (at most 31) that holds a point of the unit square."""
+    """Morton code of the cell of depth `depth` (at most 31) that holds a point: the interleaved bits of its place."""
     column, row = (np.floor(np.ldexp(axis, depth)).astype(np.int64) for axis in (x, y))
     code = np.zeros(column.shape, np.int64)
     for bit in range(depth):
@@ -169,19 +169,19 @@ def morton(x: NDArray[np.float64], y: NDArray[np.float64], depth: int) -> NDArra
 
 
 def border_ratio(image: ArrayLike, truth: ArrayLike, border: NDArray[np.bool_]) -> float:
-    """Mean error of the edge pixels (0 < truth < 1) on cell borders over that of the other edge pixels.
+    """Ratio of the mean error of edge pixels (0 < truth < 1) on cell borders to that of the other edge pixels.
 
     Parameters
     ----------
     image, truth : array
         Coverage, 0..1, of the same shape.
     border : bool array
-        What `cell_border_pixels` says, of the same shape.
+        Result of `cell_border_pixels`, of the same shape.
 
     Returns
     -------
     float
-        1 where borders do not show; NaN if there are no edge pixels of one kind, or no errors to compare with.
+        1 where borders do not show; NaN if no edge pixel is on a border, or the others are absent or without error.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""How far points are from the outline of a drawing, and which points of it the thesis's way looks at first."""
+"""Distances of points from a drawing's outline, and the points at which the thesis's method first samples it."""
 
 from typing import Final
 
@@ -13,23 +13,23 @@ from vexture_evidence.measures.closeups import joined
 __all__ = ["first_samples", "off_outline"]
 
 CHORDS: Final = 256
-"""Of each cubic, from which the search for its nearest point starts."""
+"""Chords of each cubic, from which the search for the nearest point starts."""
 
 BATCH: Final = 1 << 20
 """Pairs of points and chords that are compared at a time."""
 
 BUCKETS: Final = 64
-"""Squares across the unit square; the points in one are compared with the chords near it."""
+"""Squares along a side of the unit square; the points in a square are compared with the chords near it."""
 
 MARGIN: Final = 1 / 64
-"""Unit-square units: how near."""
+"""Unit-square units; chords whose middle is within this of a square are near it."""
 
 STEPS: Final = 4
-"""Of Newton's method, after which the nearest point is found to rounding."""
+"""Steps of Newton's method, after which the nearest point is exact up to rounding."""
 
 
 def first_samples(drawing: Drawing) -> NDArray[np.float64]:
-    """Points of the outline that the thesis's way looks at first, (n, 2)."""
+    """Points at which the thesis's method first samples the outline, (n, 2)."""
     cubics = joined(drawing)
     extent = np.hypot(*np.diff(cubics, axis=1).transpose(2, 0, 1)).sum(axis=1)
     density = np.maximum(np.ceil(extent * SAMPLES_ACROSS).astype(np.int64), 3)
@@ -39,7 +39,7 @@ def first_samples(drawing: Drawing) -> NDArray[np.float64]:
 
 
 def off_outline(points: NDArray[np.float64], drawing: Drawing) -> NDArray[np.float64]:
-    """Distance of points from the outline of a drawing that is not empty, (n,) from (n, 2).
+    """Distances, (n,), of points, (n, 2), from the outline of a drawing that is not empty.
 
     Examples
     --------
@@ -57,7 +57,10 @@ def off_outline(points: NDArray[np.float64], drawing: Drawing) -> NDArray[np.flo
 def _nearest_chords(
     points: NDArray[np.float64], chords: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Number of the chord next to each point, and where on it. Most points are so near that few chords matter."""
+    """Index of the nearest chord of each point, and the place on it, 0..1.
+
+    Most points are so near to the outline that only few chords need to be compared.
+    """
     near, share = np.zeros(len(points), np.int64), np.zeros(len(points))
     middle, half = chords.mean(axis=1), 0.5 * float(np.linalg.norm(np.diff(chords, axis=1), axis=2).max())
     row = np.floor(points * BUCKETS).astype(np.int64)
@@ -80,7 +83,7 @@ def _nearest_chords(
 def _nearest_of(
     points: NDArray[np.float64], chords: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
-    """The same by looking at all chords, and the distances."""
+    """Index of the nearest chord, the place on it and the distance, by comparison with all chords."""
     start, step = chords[:, 0], chords[:, 1] - chords[:, 0]
     square = np.maximum((step**2).sum(axis=1), np.finfo(np.float64).tiny)
     near, share, off = np.empty(len(points), np.int64), np.empty(len(points)), np.empty(len(points))
@@ -96,7 +99,7 @@ def _nearest_of(
 
 
 def _polished(points: NDArray[np.float64], cubics: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Distances of points from their cubics, by Newton's method from parameters nearby."""
+    """Distances of points from their cubics, by Newton's method from approximate parameters."""
     hodograph = 3.0 * np.diff(cubics, axis=1)
     for _ in range(STEPS):
         s = 1.0 - t

@@ -1,8 +1,7 @@
 """Other renderers of vector graphics, on the CPU: resvg and Skia.
 
-Both crash on hostile input, so they get nothing but the curves of a drawing that was read and checked already, written
-by this module. Neither knows a silhouette: overlapping paths are laid over one another, so that an edge which two of
-them share may show.
+Both crash on hostile input, so they only get curves that this module writes, of a drawing that was already read and
+checked. Neither draws a silhouette: paths are painted over one another, so an edge that two of them share may show.
 """
 
 from collections.abc import Callable
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
 __all__ = ["check_peers", "render_resvg", "render_skia", "resvg_renderer", "skia_path", "skia_renderer", "svg_text"]
 
 DIGITS: Final = 8
-"""Of a coordinate; both libraries compute in float32."""
+"""Decimals of a coordinate; both libraries compute in float32."""
 
 RULES: Final = {FillRule.NONZERO: "nonzero", FillRule.EVENODD: "evenodd"}
 
@@ -63,7 +62,10 @@ def render_resvg(drawing: "Drawing", size: tuple[int, int]) -> NDArray[np.float3
 
 
 def resvg_renderer(drawing: "Drawing", size: tuple[int, int]) -> Renderer:
-    """Everything but the drawing itself: its SVG document read. Its package gives PNG files only, which costs time."""
+    """Prepare a drawing for resvg: its SVG document is parsed here, and the result only renders it.
+
+    The package returns only PNG files, so decoding is part of the rendering time.
+    """
     resvg = _package("resvg", "resvg")
     from PIL import Image
 
@@ -110,7 +112,7 @@ def render_skia(drawing: "Drawing", size: tuple[int, int], to_unit: ArrayLike | 
 
 
 def skia_renderer(drawing: "Drawing", size: tuple[int, int], to_unit: ArrayLike | None = None) -> Renderer:
-    """Everything but the drawing itself: its paths made."""
+    """Prepare a drawing for Skia: its paths are made here, and the result only renders them."""
     skia = _skia()
     from_unit = np.linalg.inv(view_matrix(to_unit, size)).astype(np.float64)
     outlines = [skia_path(path, from_unit) for path in drawing.paths]
@@ -127,7 +129,7 @@ def skia_renderer(drawing: "Drawing", size: tuple[int, int], to_unit: ArrayLike 
 
 
 def skia_path(path: "Path", matrix: NDArray[np.float64]) -> Any:
-    """A path as Skia's, moved by a (3, 3) matrix.
+    """Convert a path to a path of Skia, transformed by a (3, 3) matrix.
 
     Raises
     ------
@@ -148,7 +150,7 @@ def skia_path(path: "Path", matrix: NDArray[np.float64]) -> Any:
 
 
 def check_peers() -> None:
-    """See that both renderers are there, before anything is measured.
+    """Check that both renderers are installed, before anything is measured.
 
     Raises
     ------
@@ -164,7 +166,7 @@ def check_peers() -> None:
 
 
 def svg_text(drawing: "Drawing", size: tuple[int, int]) -> str:
-    """The silhouette's paths as an SVG document, y down, the unit square fitted into it.
+    """SVG document of a drawing's paths, y down, with the unit square fitted into it.
 
     Examples
     --------
@@ -198,5 +200,5 @@ def _package(module: str, name: str) -> Any:
         return import_module(module)
     except ModuleNotFoundError:
         raise DeviceError(f"this comparison needs the package {name}: pip install vexture-evidence") from None
-    except ImportError as error:  # of a library of the system, such as libEGL
+    except ImportError as error:  # a library of the system is missing, such as libEGL
         raise DeviceError(f"the package {name} cannot be loaded: {error}; install what it names") from None

@@ -1,4 +1,4 @@
-"""A fine pattern on a plane that recedes (thesis 2.7): what every method does where a pixel sees many of its tiles."""
+"""A fine pattern on a receding plane (thesis 2.7), where a pixel's footprint covers many tiles, by every method."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -17,31 +17,31 @@ from vexture_evidence.measures.shape import WAYS
 __all__ = ["Receding", "dots", "receding", "view_of_plane"]
 
 QUARTER: Final = 0.5522847498
-"""Handle of the cubic that is nearly a quarter of a circle, in radii."""
+"""Length, in radii, of the handles of a cubic that approximates a quarter of a circle."""
 
 CIRCLE: Final = ((1, 0), (1, QUARTER), (QUARTER, 1), (0, 1), (-QUARTER, 1), (-1, QUARTER), (-1, 0), (-1, -QUARTER),
                  (-QUARTER, -1), (0, -1), (QUARTER, -1), (1, -QUARTER), (1, 0))  # fmt: skip
 
 RADIUS: Final = 0.36
-"""Of a dot, in tiles."""
+"""Radius of a dot, in tiles."""
 
 NEAREST: Final = 0.1
-"""Depth of the plane in distances from the eye to its near side: what is far is that much smaller."""
+"""Distance from the eye to the near side of the plane, in depths of the plane."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Receding:
-    """The plane as all methods draw it.
+    """The plane, drawn by all methods.
 
     Parameters
     ----------
     rendered : Rendered
     tiles : int
-        Of the pattern, along a side.
+        Tiles of the pattern along a side.
     nbytes : mapping
-        Memory of each method's texture.
+        Bytes in memory of each method's texture.
     raster_side : int
-        Texels of the raster's side.
+        Texels along a side of the raster.
     """
 
     rendered: Rendered
@@ -65,7 +65,7 @@ def dots(tiles: int) -> Drawing:
 
 
 def view_of_plane(size: tuple[int, int]) -> NDArray[np.float64]:
-    """View over the unit square to its far side, which fills the picture's top row; the horizon is above it, (3, 3).
+    """View, (3, 3), over the unit square to its far side, at the top edge of the picture; the horizon is above.
 
     Examples
     --------
@@ -74,21 +74,21 @@ def view_of_plane(size: tuple[int, int]) -> NDArray[np.float64]:
     [array([0., 1.]), array([1., 1.]), array([0.5, 0. ])]
     """
     width, height = size
-    far = NEAREST / (1.0 + NEAREST)  # distance of the top row below the horizon, where the bottom row has 1
-    down = np.array([0.0, (1.0 - far) / height, far])  # the same of any pixel
+    far = NEAREST / (1.0 + NEAREST)  # distance of the top edge below the horizon; that of the bottom edge is 1
+    down = np.array([0.0, (1.0 - far) / height, far])  # the same distance, for any pixel
     across = far * np.array([1.0 / width, 0.0, -0.5])
     return np.stack([across + 0.5 * down, NEAREST * (np.array([0.0, 0.0, 1.0]) - down), down])
 
 
 def receding(size: tuple[int, int] = (420, 170), tiles: int = 32) -> Receding:
-    """Draw the plane by a raster texture without and with its mip-map, as large in memory as ours, and by our textures.
+    """Draw the plane by our textures, and by a raster as large in memory as the packed one, with and without mip-map.
 
     Parameters
     ----------
     size : tuple of int
-        Of the pictures in pixels.
+        Width and height of the pictures in pixels.
     tiles : int
-        Of the pattern along a side.
+        Tiles of the pattern along a side.
     """
     drawing, view = dots(tiles), view_of_plane(size)
     thesis, packed = (run(drawing, **way).texture for way in (WAYS["sampled"], WAYS["packed"]))

@@ -1,7 +1,7 @@
-"""What the thesis printed: the figures of its tables and of its text, to stand beside what is measured.
+"""Numbers from the tables and the text of the thesis, for comparison with what is measured.
 
 "Texture-based Rendering of Vector-based Shapes using Graphics Hardware and the Web", Delft University of Technology,
-2018. Nothing here is ours.
+2018. None of these numbers was measured here.
 """
 
 from typing import Final, NamedTuple
@@ -10,7 +10,7 @@ __all__ = ["STRUCTURE", "TABLE_5_1", "Row", "Structure"]
 
 
 class Row(NamedTuple):
-    """A row of Table 5.1: bytes of files, milliseconds, frames per second of a display that draws 120."""
+    """A row of Table 5.1: bytes of files, milliseconds, and frames per second on a display limited to 120."""
 
     title: str
     segments: int
@@ -36,11 +36,11 @@ TABLE_5_1: Final = {
     "font": Row("Font", 42, 1426, 645.4, 121, 64, 1447, 2495, 113),
     "ocean": Row("Ocean", 31, 1817, 3632.2, 90, 59, 1205, 2115, 114),
 }
-"""By the name of the example drawing of the same subject, in the table's order. The drawings are not the thesis's."""
+"""Rows by the example drawing of the same subject, in the table's order; the drawings themselves are not the thesis's."""
 
 
 class Structure(NamedTuple):
-    """What section 3.4 counts in the duck of Figure 3.10, cells of the uniform grid included."""
+    """Counts of section 3.4 for the duck of Figure 3.10; `grid` is the cells of a uniform grid."""
 
     quads: int
     curves: int
@@ -49,4 +49,4 @@ class Structure(NamedTuple):
 
 
 STRUCTURE: Final = Structure(29, 56, 172, 256 * 256)
-"""172 cells, 0.26% of the grid's 65,536."""
+"""The duck has 172 cells, 0.26% of the grid's 65,536."""

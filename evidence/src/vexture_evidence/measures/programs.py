@@ -1,6 +1,6 @@
-"""The shaders that are compared, each compiled once and used for pictures and for times alike.
+"""The shaders that are compared, each compiled once and used both for pictures and for timing.
 
-All have one and the same `main`: the pixel's place in the unit square and its derivatives come from a matrix, never
+All have the same `main`: the pixel's place in the unit square and its derivatives come from a matrix, never
 from neighbouring pixels, and the picture may repeat in tiles, so that small views can be drawn many times at once.
 """
 
@@ -43,10 +43,10 @@ __all__ = [
 
 VERSION: Final = "330"
 IMAGE_SIDE: Final = 1024
-"""Pixels of the mip-mapped picture's side."""
+"""Pixels along a side of the mip-mapped picture."""
 
 ROUND_SIDE: Final = 256
-"""Pixels; pictures are drawn into targets whose sides are multiples of it, so that few are needed."""
+"""Pixels; the sides of targets are multiples of this, so that few targets are needed."""
 
 MAIN: Final = """
 uniform mat3 to_unit;  // from pixel coordinates, y down, to the unit square
@@ -64,7 +64,7 @@ void main() {
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Target:
-    """A picture to draw into."""
+    """A framebuffer to draw into."""
 
     size: tuple[int, ...]
     frame: Any
@@ -77,17 +77,17 @@ class Program:
     Parameters
     ----------
     name : str
-        For the tables.
+        Name in the tables.
     constants : mapping
-        What was compiled in, for the tables.
+        Constants that were compiled in, for the tables.
     triangle : moderngl.VertexArray
-        The program with the triangle that covers the picture.
+        The compiled program with a triangle that covers the picture.
     textures : mapping
-        By the names of the shader's samplers.
+        Textures by the names of the shader's samplers.
     uniforms : mapping
         Further values to set.
     based : bool
-        Whether positions are relative to a point of the unit square in view (uniform base, 1.0 = 2^32).
+        Whether the shader takes positions relative to the uniform `base`, a point in view (1.0 is 2^32).
     """
 
     name: str
@@ -98,7 +98,7 @@ class Program:
     based: bool = False
 
     def prepare(self, to_unit: NDArray[np.float64], tile: tuple[int, int]) -> None:
-        """Set everything but the picture."""
+        """Bind the textures and set the uniforms; the target is set by the caller."""
         shader = self.triangle.program
         for unit, (name, texture) in enumerate(self.textures.items()):
             texture.use(unit)
@@ -114,7 +114,7 @@ class Program:
         shader["to_unit"].write(to_unit.T.astype(np.float32).tobytes())
 
     def image(self, size: tuple[int, int], to_unit: NDArray[np.float64]) -> NDArray[np.float32]:
-        """Picture by the same program, (height, width)."""
+        """Draw one picture, (height, width)."""
         current()
         frame = target(tuple(-(-side // ROUND_SIDE) * ROUND_SIDE for side in size)).frame
         frame.viewport = (0, 0, *size)
@@ -126,13 +126,13 @@ class Program:
 
 
 def current() -> Any:
-    """The OpenGL context, made current and left so: these programs are for one thread."""
+    """The OpenGL context, which is made current and stays current: these programs are for one thread."""
     return context().__enter__()
 
 
 @cache
 def target(size: tuple[int, ...]) -> Target:
-    """Picture of one float32 channel, kept for the next caller."""
+    """Target with one float32 channel, cached for the next caller."""
     gl = current()
     return Target(size, gl.framebuffer([gl.texture(size, 1, dtype="f4")]))
 
@@ -144,7 +144,7 @@ def driver() -> str:
 
 
 def seconds(program: Program, drawn: Target, to_unit: NDArray[np.float64], tile: tuple[int, int], draws: int) -> float:
-    """Time of some draws, from the first call until the device has finished the last."""
+    """Time of `draws` draws, from the first call until the device has finished the last."""
     gl = current()
     drawn.frame.viewport = (0, 0, *drawn.size)
     drawn.frame.use()
@@ -158,38 +158,38 @@ def seconds(program: Program, drawn: Target, to_unit: NDArray[np.float64], tile:
 
 
 def main_calling(call: str) -> str:
-    """Text of `main` with an expression of uv, dx and dy."""
+    """Text of `main` that evaluates an expression of uv, dx and dy."""
     return MAIN.replace("CALL", call)
 
 
 def fragment(text: str, call: str) -> str:
-    """Whole fragment shader of some text of our own and the common `main`."""
+    """Complete fragment shader: the given text and the common `main`."""
     return f"#version {VERSION}\n" + text + main_calling(call)
 
 
 @cache
 def compiled(source: str) -> Any:
-    """Triangle with a program, compiled once for each text."""
+    """Triangle with the program of a fragment shader, compiled once for each text."""
     gl = current()
     return gl.vertex_array(gl.program(vertex_shader=vertex_source(VERSION), fragment_shader=source), [])
 
 
 def nearest(pixels: NDArray[Any], kind: str) -> Any:
-    """Array of (rows, width, channels) as a texture that is read texel by texel."""
+    """Texture of an array (rows, width, channels), without filtering."""
     made = current().texture(pixels.shape[1::-1], pixels.shape[2], np.ascontiguousarray(pixels).tobytes(), dtype=kind)
     made.filter = (0x2600, 0x2600)  # GL_NEAREST
     return made
 
 
 def rows_of(values: NDArray[Any], width: int) -> NDArray[Any]:
-    """List of texels in rows of a texture, the last row filled up with zeros."""
+    """Arrange a list of texels in the rows of a texture; the last row is padded with zeros."""
     padded = np.zeros((-(-len(values) // width) * width, values.shape[1]), values.dtype)
     padded[: len(values)] = values
     return padded.reshape(-1, width, values.shape[1])
 
 
 def band_program(texture: BandTexture) -> Program:
-    """The band algorithm on its texture."""
+    """Program of the band method for a texture."""
     constants = band_constants(texture.bands)
     width = 1 << int(constants["ROW_BITS"])
     lists = nearest(rows_of(texture.lists[:, None], width), "u4")
@@ -200,12 +200,12 @@ def band_program(texture: BandTexture) -> Program:
 
 
 def packed_texture(drawing: Drawing, **parameters: Any) -> Texture:
-    """Packed texture of one drawing; parameters of `build_tree`."""
+    """Packed texture of one drawing; `parameters` are those of `build_tree`."""
     return encode([build_tree(drawing, **parameters)], [Root(drawing.name)], name=drawing.name)
 
 
 def packed_program(texture: Texture, quality: str, root: int = 0) -> Program:
-    """The packed texture's shader, of one quality, on its texture."""
+    """Program of the packed encoding, in one quality, for a texture."""
     text = shader_source(VERSION, quality)
     constants = {name: float(value) for name, value in re.findall(r"#define VEXTURE_(\w+) ([-.e\d]+)\n", text)}
     main = "uniform uint root;\nuniform uvec2 base;\n" + main_calling("vextureCoverage(root, base, uv, dx, dy)")
@@ -215,7 +215,7 @@ def packed_program(texture: Texture, quality: str, root: int = 0) -> Program:
 
 
 def thesis_program(texture: ThesisTexture) -> Program:
-    """The thesis's shader on its texture."""
+    """Program of the thesis's encoding for a texture."""
     sizes = TextureSizes.of(texture, current().info["GL_MAX_TEXTURE_SIZE"])
     textures = {
         name: nearest(fold(rows, sizes.fold_height), "f4")
@@ -229,7 +229,7 @@ def thesis_program(texture: ThesisTexture) -> Program:
 
 
 def fetch_program(drawing: Drawing) -> Program:
-    """One trilinear fetch from a mip-mapped picture of the drawing: the limit."""
+    """Program of one trilinear fetch from a mip-mapped picture of the drawing: the upper limit of speed."""
     size = (IMAGE_SIDE, IMAGE_SIDE)
     pixels = np.rint(255.0 * render_exact(drawing, size)).astype(np.uint8)[::-1]
     made = current().texture(size, 1, np.ascontiguousarray(pixels).tobytes())

@@ -1,7 +1,7 @@
-"""Raster textures: what people use today, as OpenGL defines its filters, in float64.
+"""Raster textures, the usual method today, filtered in float64 as OpenGL defines it.
 
-Texels are coverage at 8 bits, each the exact mean over its square. Every level of the mip-map is made from the drawing
-itself, so that no filter of ours makes them worse than they can be. Beyond the unit square there is nothing.
+A texel is the exact coverage of its square, in 8 bits. Every level of the mip-map is made from the drawing itself, not
+from the level above, so that rasters are compared at their best. Coverage beyond the unit square is 0.
 """
 
 from collections.abc import Sequence
@@ -30,19 +30,19 @@ __all__ = [
 ]
 
 FULL: Final = 255
-"""A texel that is covered."""
+"""Value of a texel that is fully covered."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MipMapped:
-    """A square picture of 8 bits with its mip-map, whatever its texels mean.
+    """A square picture of 8 bits with its mip-map; subclasses define what its texels mean.
 
     Parameters
     ----------
     texels : (n, n) uint8 array
         Top row first.
     mips : tuple of (m, m) uint8 arrays
-        Its smaller levels, of the sides n // 2, n // 4, ... 1; empty: none.
+        The smaller levels, of the sides n // 2, n // 4, ... 1; empty for no mip-map.
     """
 
     texels: NDArray[np.uint8]
@@ -60,13 +60,13 @@ class MipMapped:
 
     @property
     def png_bytes(self) -> int:
-        """Length of its PNG file, grey with 8 bits; the mip-map is made when it is loaded."""
+        """Size of its PNG file, grey with 8 bits, without the mip-map, which is made when the file is loaded."""
         return len(write_png(self.texels[..., None], {}))
 
     def sample(
         self, size: tuple[int, int], to_unit: ArrayLike | None = None, *, mip: bool = True
     ) -> NDArray[np.float32]:
-        """Draw it as `vexture.coverage` draws a texture: one fetch for each pixel.
+        """Draw the picture as `vexture.coverage` draws a texture, with one fetch for each pixel.
 
         Parameters
         ----------
@@ -75,7 +75,7 @@ class MipMapped:
         to_unit : (2, 3) or (3, 3) array, optional
             From pixel coordinates to the unit square; None fits the square.
         mip : bool
-            Filter by ``LINEAR_MIPMAP_LINEAR``, else by ``LINEAR`` at every size.
+            Filter by ``LINEAR_MIPMAP_LINEAR`` if true, else by ``LINEAR`` at every size.
 
         Returns
         -------
@@ -91,18 +91,18 @@ class MipMapped:
         return place.shown(self.coverage(place, mip=mip))
 
     def coverage(self, place: "Footprint", *, mip: bool) -> NDArray[np.float64]:
-        """Coverage of each pixel by what is fetched there."""
+        """Coverage of each pixel, from the fetched values."""
         raise NotImplementedError
 
     def fetch(self, place: "Footprint", *, mip: bool, frame: bool) -> NDArray[np.float64]:
-        """Filtered texels, 0..255; `frame`: those beyond the picture are 0, else they are those at its border."""
+        """Filtered texels, 0..255; with `frame`, texels beyond the picture are 0, else they repeat its border."""
         if mip and self.mips:
             return trilinear((self.texels, *self.mips), place, frame=frame)
         return bilinear(self.texels, place.u, place.v, frame=frame)
 
 
 class RasterTexture(MipMapped):
-    """A square picture of coverage, of which 255 is full, with its mip-map.
+    """A square picture of coverage, 0 (empty) to 255 (full), with its mip-map.
 
     Examples
     --------
@@ -120,14 +120,14 @@ class RasterTexture(MipMapped):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Footprint:
-    """Where the pixels of a view are on the texture.
+    """Positions of a view's pixels on the texture, and the extent of their footprints.
 
     Parameters
     ----------
     u, v : (height, width) float64 arrays
         Unit-square position of each pixel's centre.
     reach : (height, width) float64 array
-        Unit-square length of the longer of the steps to the next pixel to the right and below.
+        Length, in the unit square, of the longer of the two steps to the next pixel, right or down.
     seen : (height, width) bool array
         False beyond the horizon.
     """
@@ -138,12 +138,12 @@ class Footprint:
     seen: NDArray[np.bool_]
 
     def shown(self, coverage: NDArray[np.float64]) -> NDArray[np.float32]:
-        """Coverage of what is seen, as an image."""
+        """Coverage as an image, 0 beyond the horizon."""
         return np.where(self.seen, coverage, 0.0).astype(np.float32)
 
 
 def footprint(size: tuple[int, int], to_unit: ArrayLike | None = None) -> Footprint:
-    """Positions and steps of a view's pixels, by the derivatives of the map itself.
+    """Positions and steps of a view's pixels; the steps are the exact derivatives of the view.
 
     Raises
     ------
@@ -170,7 +170,7 @@ def footprint(size: tuple[int, int], to_unit: ArrayLike | None = None) -> Footpr
 def bilinear(
     texels: NDArray[np.uint8], u: NDArray[np.float64], v: NDArray[np.float64], *, frame: bool = True
 ) -> NDArray[np.float64]:
-    """Values of a picture between its texels' centres (filter ``LINEAR``).
+    """Values of a picture, interpolated between the centres of its texels (filter ``LINEAR``).
 
     Parameters
     ----------
@@ -179,12 +179,12 @@ def bilinear(
     u, v : arrays of one shape
         Positions in the unit square, v up.
     frame : bool
-        Wrap by ``CLAMP_TO_BORDER``, so that all beyond is 0; else by ``CLAMP_TO_EDGE``.
+        Wrap by ``CLAMP_TO_BORDER``, so that everything beyond the picture is 0; else by ``CLAMP_TO_EDGE``.
 
     Returns
     -------
     array
-        Of that shape, in the units of the texels.
+        Values of the shape of `u`, in the units of the texels.
 
     Examples
     --------
@@ -204,7 +204,7 @@ def bilinear(
 
 
 def trilinear(levels: Sequence[NDArray[np.uint8]], place: Footprint, *, frame: bool = True) -> NDArray[np.float64]:
-    """Values of a mip-map where the pixels are (OpenGL 4.6, sections 8.14 and 8.15: ``LINEAR_MIPMAP_LINEAR``).
+    """Values of a mip-map at a view's pixels (OpenGL 4.6, sections 8.14 and 8.15: ``LINEAR_MIPMAP_LINEAR``).
 
     Parameters
     ----------
@@ -241,7 +241,7 @@ def mip_sides(side: int) -> list[int]:
 
 
 def raster_from(drawing: "Drawing", side: int, *, mips: bool = True) -> RasterTexture:
-    """Raster texture of a drawing, by its exact coverage.
+    """Make the raster texture of a drawing, from its exact coverage.
 
     Parameters
     ----------

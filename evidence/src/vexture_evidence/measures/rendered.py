@@ -1,4 +1,4 @@
-"""One view of a drawing by several methods beside the exact coverage: what figures of renderings are made from."""
+"""One view of a drawing, drawn by several methods, with the exact coverage: the data of figures of renderings."""
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
@@ -46,13 +46,13 @@ GRID: Final = "16 samples"
 PACKED: Final = "packed"
 
 EXAGGERATED: Final = 30.0
-"""Pixels at which thesis Figure 4.15 ends the descent."""
+"""Pixels; the side of the quads at which thesis Figure 4.15 stops the descent, far larger than in use."""
 
 TURNED: Final = 10.0
-"""Degrees by which edges are turned."""
+"""Degrees by which the view is rotated."""
 
 LOOSE: Final = 10.0
-"""By how much the tolerance of thesis Figure 5.12 is too large."""
+"""Factor by which the tolerance of thesis Figure 5.12 is too large."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,7 +68,7 @@ class Rendered:
     to_unit : (3, 3) float64 array or None
         The view; None fits the unit square.
     from_mip : (height, width) bool array or None
-        Where the thesis's way took a MIP value, if it was asked.
+        True where the thesis's method used a MIP value; None if that was not recorded.
     """
 
     images: Mapping[str, NDArray[np.float32]]
@@ -78,25 +78,26 @@ class Rendered:
 
     @property
     def errors(self) -> dict[str, Errors]:
-        """Of each method."""
+        """Errors of each method."""
         return {name: errors(image, self.truth) for name, image in self.images.items()}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fitted:
-    """What became of a drawing by one way.
+    """Result of converting a drawing in one way.
 
     Parameters
     ----------
     name : str
     tolerance : float
-        FloodOptions for, in unit-square units; 0 is exact.
+        Requested tolerance, in unit-square units; 0 is exact.
     deviation : float
-        Largest distance between the outlines that the conversion measured, in unit-square units, before quantisation.
+        Largest distance between the outlines, as the conversion measured it, in unit-square units, before
+        quantisation.
     curves : int
         Curves or pieces in the tree.
     nbytes : int
-        Memory of the texture.
+        Bytes in memory of the texture.
     """
 
     name: str
@@ -107,7 +108,7 @@ class Fitted:
 
 
 def at_sizes(shape: Shape, sizes: Sequence[int] = (1, 2, 4, 8, 16)) -> tuple[Rendered, ...]:
-    """Draw the whole shape in few pixels, by the thesis's steps and by ours (thesis 3.13).
+    """Draw the whole shape in few pixels, by each step of the thesis's method and by the packed one (thesis 3.13).
 
     Parameters
     ----------
@@ -128,16 +129,16 @@ def at_sizes(shape: Shape, sizes: Sequence[int] = (1, 2, 4, 8, 16)) -> tuple[Ren
 
 
 def at_edge(shape: Shape, side: int = 40, part: float = 1 / 16) -> Rendered:
-    """Draw a part of the outline large (thesis 4.14), turned so that all edges meet the pixels in many ways.
+    """Draw a magnified part of the outline (thesis 4.14), rotated so that edges cross the pixel grid at an angle.
 
     Parameters
     ----------
     shape : Shape
         If the thesis's encoding cannot hold it, its pictures are left out.
     side : int
-        Pixels.
+        Pixels along a side.
     part : float
-        Side of what is drawn, in unit-square units.
+        Side of the part that is drawn, in unit-square units.
     """
     x, y = next(iter(outline_places(shape.drawing, 1).tolist()), (0.5, 0.5))
     view = window(x - part / 2, y - part / 2, part, part, rotate=TURNED).matrix((side, side))
@@ -147,7 +148,7 @@ def at_edge(shape: Shape, side: int = 40, part: float = 1 / 16) -> Rendered:
 def cut_off_at(
     shape: Shape, sizes: Sequence[int] = (20, 40, 80, 160, 320), *, cut_off: float = EXAGGERATED
 ) -> tuple[AsThesis, ...]:
-    """Draw the whole shape with MIP values for far larger quads than the method uses them for (thesis 4.15).
+    """Draw the whole shape with MIP values for far larger quads than usual (thesis 4.15).
 
     Raises
     ------
@@ -161,16 +162,16 @@ def cut_off_at(
 def with_tolerances(
     shape: Shape, side: int = 240, part: float = 1 / 8
 ) -> tuple[tuple[Fitted, ...], Rendered, Rendered, tuple[float, float, float]]:
-    """Convert with the right tolerance, with one ten times too large, and as we do (thesis 5.12).
+    """Convert with the right tolerance, with one ten times too large, and to a packed texture (thesis 5.12).
 
     Returns
     -------
     fitted : tuple of Fitted
-        What became of the drawing; those that the encoding cannot hold are left out.
+        The conversions; those whose encoding cannot hold the drawing are left out.
     whole, close : Rendered
-        The same ways, by their names; `close` shows the square where they differ most from the truth.
+        Pictures of the conversions, by their names; `close` shows the square where they differ most from the truth.
     square : tuple of float
-        x, y and side of what `close` shows, unit-square units.
+        x, y and side of the square that `close` shows, in unit-square units.
     """
     drawing = shape.drawing
     right = accuracy_of("auto", gather(drawing)[0]).distance
@@ -218,9 +219,9 @@ def _in_view(
     ways: Mapping[str, tuple[int, float]],
     origin: str | None = None,
 ) -> Rendered:
-    """Pictures by the thesis's ways, each with its samples and cut-off, and by ours.
+    """Pictures by variants of the thesis's method, each with its samples and cut-off, and by the packed one.
 
-    The way that `origin` names tells where its values are from.
+    `from_mip` of the result is that of the variant which `origin` names.
     """
     images, from_mip = {}, None
     with suppress(LimitError):
@@ -244,7 +245,7 @@ def _all_of(
 
 
 def _worst(off: NDArray[np.floating[Any]], side: int) -> tuple[float, float]:
-    """Lower left corner, in unit-square units, of the square of `side` pixels of a picture that holds most error."""
+    """Lower left corner, in unit-square units, of the square of `side` pixels with the largest total error."""
     total = np.pad(off, ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
     held = total[side:, side:] - total[:-side, side:] - total[side:, :-side] + total[:-side, :-side]
     row, column = np.unravel_index(held.argmax(), held.shape)

@@ -1,4 +1,4 @@
-"""Ways to put one drawing on a GPU, side by side: bytes of the file, bytes of memory, errors of pictures."""
+"""Methods to store and draw one drawing, compared: bytes of the file, bytes in memory, errors of pictures."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -44,31 +44,31 @@ __all__ = [
 
 WHOLE: Final = 256
 SMALL: Final = 16
-"""Pixels along a side of pictures of the whole drawing."""
+"""Pixels along a side of the two pictures of the whole drawing."""
 
 SHIFTS: Final = ((0.3, 0.4), (0.8, 0.1), (0.15, 0.65), (0.6, 0.9))
-"""Pixels by which such pictures are moved: texels on a surface are never in line with pixels, as they may be here."""
+"""Pixels by which these pictures are shifted; without a shift, texels could align with pixels, unlike on a surface."""
 
 MAGNIFICATION: Final = 8
 CLOSEUPS: Final = 4
 CLOSEUP: Final = 128
-"""Of the closer looks at the outline: times larger, how many, and pixels along a side."""
+"""Close-ups of the outline: their magnification, their number, and their pixels along a side."""
 
 NARROW: Final = 1.0
-"""Texels; spread of distance fields that are made for magnification."""
+"""Texels; spread of distance fields for magnified views."""
 
 MANY: Final = 500
-"""Curves; drawings of more get as many bands as there can be."""
+"""Curves; a drawing with more of them gets `COASTLINE_BANDS` bands."""
 
 MOST_TEXELS: Final = 1024
-"""Along a side of a texture that is compared."""
+"""Most texels along a side of a texture that is compared."""
 
 Draw = Callable[[tuple[int, int], NDArray[np.float64] | None], NDArray[np.float32]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rival:
-    """One way to store and draw a drawing.
+    """One method to store and draw a drawing.
 
     Parameters
     ----------
@@ -76,11 +76,11 @@ class Rival:
         Key of `vexture_evidence.figures.style.COLOURS`.
     label : str
     file_bytes, gpu_bytes : int
-        Of the file, or None where nobody defined one, and of the texture in memory.
+        Size of the file, or None where no file format is defined, and of the texture in memory.
     draw : function
-        Of size and view: coverage.
+        Returns coverage, given a size and a view.
     side : int, optional
-        Texels along a side, of square pictures.
+        Texels along a side, if the texture is a square picture.
     """
 
     method: str
@@ -92,7 +92,7 @@ class Rival:
 
 
 class Shot(NamedTuple):
-    """A picture to take, and what it should show."""
+    """A view to draw, and its exact coverage."""
 
     size: tuple[int, int]
     to_unit: NDArray[np.float64]
@@ -100,7 +100,7 @@ class Shot(NamedTuple):
 
 
 class Scene(NamedTuple):
-    """Pictures of one drawing: the whole of it, its outline magnified, the whole of it small."""
+    """Views of one drawing: all of it, its outline magnified, and all of it in few pixels."""
 
     whole: Sequence[Shot]
     outline: Sequence[Shot]
@@ -108,7 +108,7 @@ class Scene(NamedTuple):
 
 
 class Measured(NamedTuple):
-    """A way with the errors of its pictures."""
+    """A method with the errors of its pictures."""
 
     rival: Rival
     whole: Errors
@@ -117,12 +117,12 @@ class Measured(NamedTuple):
 
 
 def shot(drawing: "Drawing", size: tuple[int, int], to_unit: NDArray[np.float64]) -> Shot:
-    """A view with the truth."""
+    """A view with its exact coverage."""
     return Shot(size, to_unit, coverage(drawing, size, to_unit, "exact"))
 
 
 def scene_of(drawing: "Drawing") -> Scene:
-    """Pictures in which ways are compared.
+    """Views in which methods are compared.
 
     Examples
     --------
@@ -140,14 +140,14 @@ def scene_of(drawing: "Drawing") -> Scene:
 
 
 def moved(drawing: "Drawing", side: int, shift: tuple[float, float]) -> Shot:
-    """The whole drawing, moved to the left and up by so many pixels."""
+    """The whole drawing, shifted to the left and up by some pixels."""
     by = np.eye(3)
     by[:2, 2] = shift
     return shot(drawing, (side, side), fit((side, side)) @ by)
 
 
 def judge(rival: Rival, scene: Scene) -> Measured:
-    """Errors of a way, over all pixels of each kind of picture together.
+    """Errors of a method, over all pixels of each kind of view together.
 
     Examples
     --------
@@ -167,7 +167,7 @@ def _errors(draw: Draw, shots: Sequence[Shot]) -> Errors:
 
 
 def raster_rival(drawing: "Drawing", side: int) -> Rival:
-    """Coverage at 8 bits, mip-mapped."""
+    """A raster of coverage at 8 bits, mip-mapped."""
     texture = raster_from(drawing, side)
     return Rival("raster", "raster", texture.png_bytes, texture.nbytes, texture.sample, side)
 
@@ -180,7 +180,7 @@ def distance_rival(drawing: "Drawing", side: int, spread: float = SPREAD) -> Riv
 
 
 def texture_rival(texture: "Texture | ThesisTexture", method: str) -> Rival:
-    """A texture of ours or of the thesis's, by the CPU's mirror of its shader."""
+    """A packed texture or one of the thesis's, drawn by the CPU mirror of its shader."""
     from vexture.texture.texture import Texture
 
     def draw(size: tuple[int, int], to_unit: NDArray[np.float64] | None) -> NDArray[np.float32]:
@@ -192,22 +192,22 @@ def texture_rival(texture: "Texture | ThesisTexture", method: str) -> Rival:
 
 
 def bands_of(drawing: "Drawing") -> BandTexture:
-    """Bands of a drawing that they can draw.
+    """Band texture of a drawing, if the band method can draw it.
 
     Raises
     ------
     LimitError
-        If they cannot hold the drawing, or would draw something else.
+        If the bands cannot hold the drawing, or would draw it wrongly.
     """
     if len(drawing.paths) > 1:
         raise LimitError(
-            f"{drawing.name} has {len(drawing.paths)} paths; our bands take one, whose windings they count"
+            f"{drawing.name} has {len(drawing.paths)} paths; our bands count the windings of a single path"
         )
     return band_texture(drawing, COASTLINE_BANDS if drawing.segments > MANY else BANDS)
 
 
 def side_in_memory(limit: int) -> int:
-    """Texels along a side of the largest 8-bit picture that takes no more memory, its mip-map included.
+    """Texels along a side of the largest 8-bit picture that, with its mip-map, takes at most `limit` bytes of memory.
 
     Examples
     --------
@@ -218,12 +218,12 @@ def side_in_memory(limit: int) -> int:
 
 
 def side_in_file(make: Callable[[int], RasterTexture | DistanceField], limit: int) -> int:
-    """Texels along a side of the largest picture whose PNG file takes no more bytes.
+    """Texels along a side of the largest picture whose PNG file has at most `limit` bytes.
 
     Parameters
     ----------
     make : function
-        Of the side.
+        Makes the picture of a given side.
     limit : int
         Bytes.
 
@@ -239,7 +239,7 @@ def side_in_file(make: Callable[[int], RasterTexture | DistanceField], limit: in
 
 
 def largest(size_of: Callable[[int], int], limit: int) -> int:
-    """The largest side, up to `MOST_TEXELS`, within a limit, of what grows with it; 1 if none is."""
+    """The largest side, up to `MOST_TEXELS`, whose size is within a limit; 1 if none is. `size_of` must be ascending."""
     low, high = 1, 2
     while high < MOST_TEXELS and size_of(high) <= limit:
         low, high = high, 2 * high

@@ -1,4 +1,4 @@
-"""A drawing with all that is made of it, each made once: what tables and figures are about."""
+"""A drawing and its conversions, each made once, for tables and figures."""
 
 from dataclasses import replace
 from functools import cached_property
@@ -24,10 +24,10 @@ WAYS: Final[dict[str, dict[str, Any]]] = {
     "direct": {"encoding": "thesis", "strategy": "direct"},
     "packed": {"encoding": "packed"},
 }
-"""The thesis's own way, ours to its leaves, and ours: parameters of `vexture.convert`."""
+"""Parameters of `vexture.convert`: the thesis's own conversion, ours to its encoding, and the packed encoding."""
 
 MOST_FOR_SAMPLED: Final = 3000
-"""Quads of ``direct``; where there are more, ``sampled`` takes minutes."""
+"""Quads; if ``direct`` has more of them, ``sampled`` would take minutes."""
 
 EXAMPLES: Final = Path(__file__).resolve().parents[4] / "examples" / "shapes"
 """The example drawings of the repository; they are not installed."""
@@ -70,9 +70,9 @@ class Shape:
     Parameters
     ----------
     path : path
-        What `vexture.convert` reads.
+        File that `vexture.convert` reads.
     name : str, optional
-        What it is called, where that of the file is not enough.
+        Name to show instead of the drawing's own.
 
     Examples
     --------
@@ -88,18 +88,18 @@ class Shape:
 
     @property
     def name(self) -> str:
-        """Of the drawing, if it has no other."""
+        """The given name, or the name of the drawing."""
         return self._name or self.drawing.name
 
     @cached_property
     def drawing(self) -> "Drawing":
-        """The normal form."""
+        """The drawing in normal form."""
         from vexture.reading import read
 
         return read(self.path)
 
     def way(self, way: str, bits: int | None = None) -> Made:
-        """Tree and texture by one of `WAYS`; `bits` of those with the encoding ``thesis``, 16 if None.
+        """Convert by one of `WAYS`; `bits` applies to the encoding ``thesis`` and is 16 if None.
 
         Raises
         ------
@@ -123,7 +123,7 @@ class Shape:
         return made
 
     def _as_saved(self, made: Made) -> Made:
-        """The same with the source's name in a packed texture, which takes bytes of the file that `convert` writes."""
+        """Add the source's name to a packed texture, so that its file is as large as that of `vexture convert`."""
         from vexture.texture.texture import Texture
 
         if not isinstance(made.texture, Texture):
@@ -131,7 +131,7 @@ class Shape:
         return replace(made, texture=replace(made.texture, source=self.path.name))
 
     def _check_sampled(self) -> None:
-        """Raise a `LimitError` where a conversion in the thesis's way would take minutes."""
+        """Raise a `LimitError` if a conversion by the thesis's own method would take minutes."""
         quads = len(self.way("direct").tree.coverage)
         if quads > MOST_FOR_SAMPLED:
             raise LimitError(

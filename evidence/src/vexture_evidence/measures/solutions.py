@@ -1,4 +1,4 @@
-"""The nine solution paths of thesis Figure 3.5: a curve for each, solved in float64 and by the shader in float32.
+"""The nine solution paths of thesis Figure 3.5: a curve for each, solved in float64 and, by the shader, in float32.
 
 A curve has P0 = (0, 0) and P3 = (1, 0), as in a leaf after its change of basis (thesis 3.2).
 """
@@ -32,10 +32,10 @@ __all__ = ["BOX", "SOLUTIONS", "Solution", "SolutionPath", "by_cpu", "by_gpu", "
 VERSION: Final = "330"
 
 BOX: Final = (-0.4, -0.6, 1.55, 1.55)
-"""x, y, width and height of what pictures show, in chord lengths."""
+"""x, y, width and height of the part that pictures show, in chord lengths."""
 
 NONE: Final = -9.0
-"""What the shader writes where there is no further root."""
+"""Value that the shader writes where there is no further root."""
 
 MAIN: Final = """
 uniform vec2 p1;
@@ -58,7 +58,7 @@ void main() {
 
 @dataclass(frozen=True, slots=True)
 class SolutionPath:
-    """A path of Figure 3.5 with a curve and a place that take it.
+    """A path of Figure 3.5, with a curve and a position for which the solver takes it.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ class SolutionPath:
     p1, p2 : tuple of float
         Inner control points.
     x : float
-        Where the curve is solved.
+        Position at which the curve is solved.
     """
 
     name: str
@@ -79,20 +79,20 @@ class SolutionPath:
 
     @property
     def coefficients(self) -> tuple[float, float, float, float]:
-        """Of equation 3.3, a t^3 + b t^2 + c t + d = 0."""
+        """Coefficients of equation 3.3, a t^3 + b t^2 + c t + d = 0."""
         return _coefficients(self.p1, self.p2, self.x)
 
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """Where a curve meets the vertical line through a place.
+    """Points at which a curve meets the vertical line at `SolutionPath.x`.
 
     Parameters
     ----------
     t : tuple of float
-        Parameters on the curve, 0..1, rising.
+        Parameters on the curve, 0..1, ascending.
     heights : tuple of float
-        The curve's y at each.
+        The curve's y at each parameter.
     """
 
     t: tuple[float, ...]
@@ -104,7 +104,7 @@ def _coefficients(p1: tuple[float, float], p2: tuple[float, float], x: float) ->
 
 
 def _turning_point(x1: float, x2: float) -> float:
-    """Where, in x, a curve of these control points first turns back: there two roots are one."""
+    """The x at which a curve with these control points first turns back: there two roots coincide."""
     a, b, c, _ = _coefficients((x1, 0.0), (x2, 0.0), 0.0)
     t = float(np.roots([3.0 * a, 2.0 * b, c]).real.min())
     return ((a * t + b) * t + c) * t
@@ -136,7 +136,7 @@ def solve(case: SolutionPath) -> Solution:
 
 
 def by_cpu(case: SolutionPath, side: int) -> NDArray[np.bool_]:
-    """Inside or not at the centre of each pixel of the picture of `BOX`, (side, side), in float64."""
+    """Whether the centre of each pixel of the picture of `BOX` is inside, (side, side), in float64."""
     view = window(*BOX).matrix((side, side))
     x = view[0, 0] * (np.arange(side) + 0.5) + view[0, 2]
     y = view[1, 1] * (np.arange(side) + 0.5) + view[1, 2]
@@ -144,7 +144,7 @@ def by_cpu(case: SolutionPath, side: int) -> NDArray[np.bool_]:
 
 
 def by_gpu(case: SolutionPath, side: int) -> NDArray[np.bool_]:
-    """The same picture by the shader's text, in float32.
+    """The same picture, computed by the shader, in float32.
 
     Raises
     ------
@@ -156,7 +156,7 @@ def by_gpu(case: SolutionPath, side: int) -> NDArray[np.bool_]:
 
 
 def roots_by_gpu(case: SolutionPath) -> Solution:
-    """What `solve` returns, by the shader's text.
+    """The result of `solve`, computed by the shader, in float32.
 
     Raises
     ------
@@ -180,7 +180,7 @@ def _program() -> Any:
 
 
 def _draw(case: SolutionPath, to_chord: NDArray[np.float64], side: int) -> NDArray[np.float32]:
-    """(side, side, 4): inside, then the roots as they came, `NONE` where there is none."""
+    """Draw (side, side, 4): inside or not, then the roots in the solver's order, `NONE` where there is none."""
     gl = current()
     triangle = _program()
     frame = gl.framebuffer([gl.texture((side, side), 4, dtype="f4")])
@@ -193,5 +193,5 @@ def _draw(case: SolutionPath, to_chord: NDArray[np.float64], side: int) -> NDArr
 
 
 def takes(case: SolutionPath) -> int:
-    """Path that the solver takes."""
+    """Number of the path that the solver takes."""
     return solution_path(*case.coefficients)

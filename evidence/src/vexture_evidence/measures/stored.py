@@ -1,4 +1,4 @@
-"""The coverage that textures store for their cells, against the exact coverage (thesis 6.2.3)."""
+"""The coverage that textures store for their cells, compared with the exact coverage (thesis 6.2.3)."""
 
 from dataclasses import replace
 from typing import NamedTuple
@@ -19,16 +19,17 @@ __all__ = ["StoredValues", "stored_values"]
 
 
 class StoredValues(NamedTuple):
-    """Coverage of every leaf and quad as a texture stores it, and how far that is from the truth.
+    """Coverage of every leaf and quad as a texture stores it, and its error.
 
     Attributes
     ----------
     found : Leaves
+        The leaves, with their stored coverage.
     off : (n,) float64 array
         Absolute error of each leaf.
     quad_depth : (m,) int64 array
     quad_off : (m,) float64 array
-        Absolute error of each quad: of its MIP value.
+        Absolute error of each quad's stored coverage, its MIP value.
     """
 
     found: Leaves
@@ -38,16 +39,16 @@ class StoredValues(NamedTuple):
 
 
 def stored_values(drawing: Drawing, tree: Tree, texture: ThesisTexture | None = None) -> StoredValues:
-    """Compare what a tree says of its cells' coverage with the exact coverage of the drawing.
+    """Compare the coverage that a tree stores for its cells with the exact coverage of the drawing.
 
     Parameters
     ----------
     drawing : Drawing
     tree : CellTree or Tree
-        Made from it.
+        A tree of the drawing.
     texture : ThesisTexture, optional
-        The tree's: then leaves have the mean of 16 samples of their curve, as the thesis proposes (6.2.3), and quads
-        the mean of their cells.
+        Texture of the tree. If it is given, the coverage of a leaf is the mean of 16 samples of its curve, as the
+        thesis proposes (6.2.3), and that of a quad the mean of its cells.
 
     Examples
     --------
@@ -75,7 +76,7 @@ def stored_values(drawing: Drawing, tree: Tree, texture: ThesisTexture | None = 
 def _looked_up(
     truths: dict[int, NDArray[np.float32]], x: NDArray[np.float64], y: NDArray[np.float64], depth: NDArray[np.int64]
 ) -> NDArray[np.float64]:
-    """Exact coverage of squares whose sides are 0.5 ** depth, each a pixel of a picture."""
+    """Exact coverage of squares of side 0.5 ** depth; each is a pixel of the exact picture of its depth."""
     out = np.empty(len(x))
     for level, truth in truths.items():
         at = depth == level

@@ -1,4 +1,4 @@
-"""The tree in a pair of the thesis's textures (FORMAT.md, part A)."""
+"""Decoder of a pair of the thesis's textures to a tree (FORMAT.md, part A)."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,9 @@ __all__ = ["decode", "edge_point"]
 
 
 def edge_point(index: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points, (..., 2), at edge indices, (...), of the thesis's Table 4.1; index 1 is 0 again.
+    """Points, (..., 2), at the edge indices, (...), of the thesis's Table 4.1; index 1 is the same point as 0.
 
-    One coordinate is exactly 0 or 1. The inverse of `vexture.bezier.area.edge_indices`.
+    One coordinate of each point is exactly 0 or 1. This is the inverse of `vexture.bezier.area.edge_indices`.
 
     Examples
     --------
@@ -30,11 +30,11 @@ def edge_point(index: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def decode(texture: ThesisTexture) -> CellTree:
-    """Tree of a pair of textures, with `deviation` and `unresolved` 0.
+    """Decode a pair of textures to a tree, with `deviation` and `unresolved` 0.
 
-    The texture holds the coverage of quads only. Constant cells get 0 or 1, divided cells the stored coverage of
-    their quad, and cells with a curve its exact area. The four cells of a quad are then scaled towards 0 or 1 until
-    their mean is the quad's stored coverage, which was measured before quantisation.
+    The texture stores the coverage of quads only. Constant cells get 0 or 1, divided cells the stored coverage of
+    their quad, and cells with a curve the exact area of their filled part. The four values of a quad are then scaled
+    towards 0 or 1 until their mean is the quad's stored coverage, which was measured before quantisation.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def decode(texture: ThesisTexture) -> CellTree:
 
 
 def _with_mean(coverage: NDArray[np.float64], wanted: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Scale each row towards 0 or 1, whichever gives it the wanted mean; values in 0..1 stay there."""
+    """Scale each row towards 0 or 1 until it has the wanted mean; values in 0..1 stay in that range."""
     mean = coverage.mean(axis=1)
     down, up = mean > wanted, mean < wanted
     coverage[down] *= (wanted[down] / mean[down])[:, None]

@@ -1,4 +1,4 @@
-"""What the thesis's chapter 6 says is missing, restored where we no longer have it, and measured."""
+"""The limits that chapter 6 of the thesis names, measured; those that vexture removed are restored here."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -38,32 +38,32 @@ __all__ = [
 ]
 
 TURN: Final = 30.0
-"""Degrees. A joint at which the outline turns by more is a sharp corner."""
+"""Degrees. A joint at which the outline turns by more than this is a sharp corner."""
 
 BESIDE: Final = 1 / 64
-"""Unit-square units. Cells that are nearer to a corner than this are counted as its own."""
+"""Unit-square units. Cells nearer to a corner than this are counted as its cells."""
 
 DENSE: Final = 1024
-"""Points on each cubic that tell which squares it passes."""
+"""Points on each cubic that determine which squares it passes through."""
 
 MOST_TEXELS: Final = MOST_ROWS << ROW_BITS
-"""That a packed texture can hold, quads and curves together."""
+"""Most texels of a packed texture, quads and curves together."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Close:
-    """A part of a drawing, by two textures.
+    """A part of a drawing, drawn from two textures.
 
     Parameters
     ----------
     drawing : Drawing
     before, after : ThesisTexture or Texture
     images : tuple of two (height, width) float32 arrays
-        Their pictures.
+        Pictures from `before` and `after`.
     truth : (height, width) float32 array
         Exact coverage.
     bounds : tuple of float
-        What is seen: x0, y0, x1, y1, in unit-square units.
+        The part that is drawn: x0, y0, x1, y1, in unit-square units.
     """
 
     drawing: Drawing
@@ -75,12 +75,12 @@ class Close:
 
     @property
     def errors(self) -> tuple[Errors, Errors]:
-        """Before and after."""
+        """Errors of the pictures from `before` and `after`."""
         return errors(self.images[0], self.truth), errors(self.images[1], self.truth)
 
     @property
     def stray(self) -> tuple[int, int]:
-        """Pixels, before and after, through which no outline passes and that are wrong by more than 1/255."""
+        """Number of pixels, before and after, that no outline crosses and that are wrong by more than 1/255."""
         untouched = (self.truth <= TRUTH) | (self.truth >= 1.0 - TRUTH)
         before, after = (int((untouched & (abs(image - self.truth) > 1.0 / LEVELS)).sum()) for image in self.images)
         return before, after
@@ -95,19 +95,19 @@ def close_up(
     *,
     as_thesis: bool = False,
 ) -> Close:
-    """Draw a square part of a drawing by two textures.
+    """Draw a square part of a drawing from two textures.
 
     Parameters
     ----------
     drawing : Drawing
     before, after : ThesisTexture or Texture
-        Made from it.
+        Two textures of the drawing.
     bounds : sequence of float
         x0, y0, x1, y1 in unit-square units.
     side : int
-        Of the pictures, in pixels.
+        Side of the pictures in pixels.
     as_thesis : bool
-        Draw `before` as the thesis's shader did, not as ours does.
+        Draw `before` as the thesis's shader did, not as vexture's does.
 
     Examples
     --------
@@ -161,9 +161,9 @@ def clamped(tree: CellTree, low: float = 0.0, high: float = 1.0) -> tuple[CellTr
     Returns
     -------
     tree : CellTree
-        With the same cells.
+        The tree with the same cells and clamped curves.
     changed : int
-        Number of its curves that were not in the range.
+        Number of curves that were not in the range.
     """
     curves = tree.curves.copy()
     chord = curves[:, 3] - curves[:, 0]
@@ -181,7 +181,7 @@ def clamped(tree: CellTree, low: float = 0.0, high: float = 1.0) -> tuple[CellTr
 
 
 def sharp_corners(drawing: Drawing, least: float = TURN) -> NDArray[np.float64]:
-    """Points at which the outline turns by more than some degrees, (n, 2).
+    """Points at which the outline turns by more than `least` degrees, (n, 2).
 
     Examples
     --------
@@ -196,7 +196,7 @@ def sharp_corners(drawing: Drawing, least: float = TURN) -> NDArray[np.float64]:
 
 
 def corner_cells(found: Leaves, corners: NDArray[np.float64], beside: float = BESIDE) -> NDArray[np.int64]:
-    """Number of cells with curves within a distance of each corner, (n,)."""
+    """Number of leaves with curves within a distance of each corner, (n,)."""
     drawn = np.unique(found.owner)
     low = np.stack([found.x, found.y], axis=1)[drawn]
     high = low + found.side[drawn, None]
@@ -205,13 +205,13 @@ def corner_cells(found: Leaves, corners: NDArray[np.float64], beside: float = BE
     return near
 
 
-# --- 6.2.2: what need not have been divided ---------------------------------------------------------------------------
+# --- 6.2.2: quads that need not have been divided ---------------------------------------------------------------------
 
 
 def unnecessary_quads(drawing: Drawing, shape: Tree | ThesisTexture | Texture) -> NDArray[np.bool_]:
-    """Which quads, (n,), divide a square through which one cubic of the drawing passes once and nothing else.
+    """Mask, (n,), of the quads through which only one cubic of the drawing passes, and only once.
 
-    The unit square, which is always divided, is not counted. What passes is told by 1,024 points on each cubic.
+    The unit square, which is always divided, is not counted. Passes are detected by 1,024 points on each cubic.
 
     Examples
     --------
@@ -231,7 +231,7 @@ def unnecessary_quads(drawing: Drawing, shape: Tree | ThesisTexture | Texture) -
             inside &= (y > found.y[k]) & (y < found.y[k] + found.side[k])
             entered = inside & ~np.roll(inside, 1)
             changed = inside & np.roll(inside, 1) & (owner != np.roll(owner, 1))
-            whole = inside.any() and not entered.any()  # a contour that never leaves it
+            whole = inside.any() and not entered.any()  # a contour that never leaves the square
             counted[k] += int((entered | changed).sum()) + int(whole)
     counted[0] = 0
     single: NDArray[np.bool_] = counted == 1
@@ -242,7 +242,7 @@ def unnecessary_quads(drawing: Drawing, shape: Tree | ThesisTexture | Texture) -
 
 
 class Lengths(NamedTuple):
-    """What a drawing of some copies takes by one way.
+    """Size of a texture that holds several copies of a drawing.
 
     Attributes
     ----------
@@ -251,7 +251,7 @@ class Lengths(NamedTuple):
         The longer of the thesis's two lists, or all texels of a packed texture; None if the encoding cannot hold it.
     texture : ThesisTexture or Texture, optional
     refused : str
-        Why there is none.
+        Why there is no texture; empty if there is one.
     """
 
     copies: int
@@ -261,7 +261,7 @@ class Lengths(NamedTuple):
 
 
 def repeated(drawing: Drawing, across: int) -> Drawing:
-    """Return a drawing many times in one, on a grid of so many by so many.
+    """Return a drawing that repeats another on a grid of `across` by `across` copies.
 
     Examples
     --------
@@ -278,7 +278,7 @@ def repeated(drawing: Drawing, across: int) -> Drawing:
 
 
 def list_lengths(drawing: Drawing, way: dict[str, str], across: Sequence[int]) -> list[Lengths]:
-    """Convert a drawing many times over, until the encoding cannot hold it.
+    """Convert more and more copies of a drawing, until the encoding cannot hold them.
 
     Parameters
     ----------
@@ -286,7 +286,7 @@ def list_lengths(drawing: Drawing, way: dict[str, str], across: Sequence[int]) -
     way : dict
         One of `vexture_evidence.measures.shape.WAYS`.
     across : sequence of int
-        Copies in a row.
+        Numbers of copies along a side of the grid, ascending.
     """
     found: list[Lengths] = []
     for number in across:

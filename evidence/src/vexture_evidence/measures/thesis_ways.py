@@ -1,7 +1,7 @@
-"""What the thesis's shader did for a pixel, each of its steps by itself (3.6, 4.4.3).
+"""The method of the thesis's own shader, with each of its steps available separately (3.6, 4.4.3).
 
-The renderers of this package no longer do so (``glsl/coverage.glsl``): a point outside the cell of the centre is looked
-up again, and the grid of points is turned. Here a pixel has the cell of its centre, and nothing else.
+The renderers of `vexture.thesis` differ (``glsl/coverage.glsl``): they look up a sample outside the cell of the pixel's
+centre again, and rotate the grid of samples. Here a pixel uses only the cell that contains its centre.
 """
 
 import math
@@ -19,19 +19,19 @@ from vexture.thesis.texture import ThesisTexture
 __all__ = ["CUT_OFF", "AsThesis", "draw_as_thesis"]
 
 CUT_OFF: Final = 1.0
-"""Pixels: a quad whose side is smaller is drawn by its MIP value (thesis 4.4.3, *timesBigger*)."""
+"""Pixels; a quad whose side is smaller is drawn by its MIP value (thesis 4.4.3, *timesBigger*)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AsThesis:
-    """A picture, and where its values are from.
+    """A picture, and which of its pixels have MIP values.
 
     Parameters
     ----------
     image : (height, width) float32 array
         Coverage, 0..1, top row first.
     from_mip : (height, width) bool array
-        True where the value is the stored one of a quad, false where it comes from the leaf of the pixel's centre.
+        True where the value is the stored coverage of a quad, false where it comes from the leaf of the pixel's centre.
     """
 
     image: NDArray[np.float32]
@@ -56,10 +56,10 @@ def draw_as_thesis(
     to_unit : (2, 3) or (3, 3) array, optional
         From pixel coordinates to the unit square; None fits the square.
     samples : int
-        A pixel that is drawn by a curve is the mean of samples x samples points on a grid parallel to the pixels, all
-        of them of the leaf of its centre, also where they lie beyond that leaf; 1: of its centre.
+        A pixel whose centre is in a leaf with a curve is the mean of samples x samples points, on a grid parallel to
+        the pixels. That leaf's curve is used for all of them, even beyond the leaf. 1 takes only the pixel's centre.
     cut_off : float
-        Pixels. Quads whose side is smaller are drawn by their MIP value; 0: none.
+        Pixels. Quads whose side is smaller are drawn by their MIP value; 0 draws none of them so.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def draw_as_thesis(
     largest = np.iinfo(texture.quads.dtype).max
     lists = texture.quads / largest, texture.curves / largest
     drawn = AsThesis(np.zeros((height, width), np.float32), np.zeros((height, width), np.bool_))
-    horizon = abs(matrix[2, 0]) + abs(matrix[2, 1])  # as the renderers have it
+    horizon = abs(matrix[2, 0]) + abs(matrix[2, 1])  # as in the renderers
     offsets = [(n + 0.5) / samples - 0.5 for n in range(samples)]
     for row in range(height):
         for column in range(width):

@@ -1,4 +1,4 @@
-"""How long something takes: medians, because other work on the machine only ever makes a time longer."""
+"""Timing, by medians, so that other work on the machine, which makes some runs slower, has little influence."""
 
 import time
 from collections.abc import Callable
@@ -11,13 +11,13 @@ if TYPE_CHECKING:
 __all__ = ["frames_per_second", "median_seconds"]
 
 FRAME: Final = (1024, 1024)
-"""Pixels of the picture that a rate is measured with, unless another is asked for."""
+"""Width and height in pixels of the picture that a frame rate is measured with, by default."""
 
 LONG_ENOUGH: Final = 0.02
-"""Seconds that one measurement takes at least: a fast device draws several frames for it."""
+"""Least seconds of one measurement; on a fast device it contains several frames."""
 
 MOST_DRAWS: Final = 1000
-"""Frames in one measurement, whatever the first took."""
+"""Most frames in one measurement."""
 
 
 def median_seconds(action: Callable[[], object], repeat: int) -> float:
@@ -26,9 +26,9 @@ def median_seconds(action: Callable[[], object], repeat: int) -> float:
     Parameters
     ----------
     action : function
-        Called once more than that, first, so that nothing is compiled, loaded or cold when it counts.
+        Called once before the timed calls, so that nothing is compiled or loaded while it is timed.
     repeat : int
-        Times that count, at least 1.
+        Number of timed calls, at least 1.
 
     Returns
     -------
@@ -50,21 +50,21 @@ def median_seconds(action: Callable[[], object], repeat: int) -> float:
 
 
 def frames_per_second(program: "Program", size: tuple[int, int] = FRAME, repeat: int = 3) -> float:
-    """Rate at which the device draws the whole unit square, median of some measurements.
+    """Rate at which the device draws the whole unit square, the median of `repeat` measurements.
 
     Parameters
     ----------
     program : Program
-        Of `vexture_evidence.measures.programs`.
+        One of the programs of `vexture_evidence.measures.programs`.
     size : tuple of int
         Width and height of the picture in pixels.
     repeat : int
-        Measurements.
+        Number of measurements.
 
     Returns
     -------
     float
-        Frames per second, whatever a display could show.
+        Frames per second, not limited by a display.
 
     Raises
     ------
