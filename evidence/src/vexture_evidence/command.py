@@ -29,7 +29,7 @@ Examples:
 def report(sources: tuple[Path, ...], output: Path) -> None:
     """Measure drawings, or the examples, and write one page of tables and figures.
 
-    The page reproduces the evaluation of the thesis that vexture began with, and compares its textures with others.
+    The page reproduces the evaluation of the thesis that vexture began with, and compares vexture with other methods.
     """
     with one_line():
         from vexture_evidence.report.assemble import assemble

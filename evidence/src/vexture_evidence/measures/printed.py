@@ -36,7 +36,7 @@ TABLE_5_1: Final = {
     "font": Row("Font", 42, 1426, 645.4, 121, 64, 1447, 2495, 113),
     "ocean": Row("Ocean", 31, 1817, 3632.2, 90, 59, 1205, 2115, 114),
 }
-"""Rows by the example drawing of the same subject, in the table's order; the drawings themselves are not the thesis's."""
+"""Rows by the example drawing of the same subject, in the table's order; the drawings are not the thesis's."""
 
 
 class Structure(NamedTuple):

@@ -239,7 +239,10 @@ def side_in_file(make: Callable[[int], RasterTexture | DistanceField], limit: in
 
 
 def largest(size_of: Callable[[int], int], limit: int) -> int:
-    """The largest side, up to `MOST_TEXELS`, whose size is within a limit; 1 if none is. `size_of` must be ascending."""
+    """The largest side, up to `MOST_TEXELS`, whose size is within a limit; 1 if none is.
+
+    `size_of` must grow with the side.
+    """
     low, high = 1, 2
     while high < MOST_TEXELS and size_of(high) <= limit:
         low, high = high, 2 * high
