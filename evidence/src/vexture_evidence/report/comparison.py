@@ -93,7 +93,7 @@ def section(material: Material) -> Section:
         text.append("This machine has no GPU, so the bands, which need one, are left out.")
     else:
         parts.append(bands_part(material.shapes, material.device))
-    return Section("comparison", "Against others", text, parts)
+    return Section("comparison", "Comparison with alternatives", text, parts)
 
 
 def compare(shape: "Shape") -> Compared:

@@ -215,5 +215,6 @@ def _picture(
         "limited them to 120." if any(printed) else ".")
     )  # fmt: skip
     figure = conversions([shape.name for shape in shapes], quantities)
-    alt = "Marks for each drawing and method: time, curves, bytes, frames per second"
-    return Picture("conversions", figure, caption, alt)
+    return Picture(
+        "conversions", figure, caption, "Marks for each drawing and method: time, curves, bytes, frames per second"
+    )

@@ -65,7 +65,7 @@ def lines_point(material: Material, subject: Shape) -> Point:
         "discussion-lines",
         lines_at_borders(close, ("as the thesis draws it", "packed")),
         caption,
-        "Errors of two pictures, with the cells' borders above them.",
+        "Cells of a texture, and the errors of two pictures with the cells' borders drawn over them.",
     )
     part = Section("lines", "Lines along cells (6.3)", text, [picture])
     return Point(part, f"pixels of {subject.name} that are wrong away from its outline", before, after)

@@ -100,7 +100,7 @@ def _edges(material: Material) -> Section:
     rendered = at_edge(material.main)
     errors = rendered.errors
     ours = errors[PACKED]
-    said = f"packed {ours.mae:.3g} on average and {ours.max:.2g} at most"
+    said = f"packed is off by {ours.mae:.3g} on average and {ours.max:.2g} at most"
     if GRID in errors:
         said = f"16 samples are off by {errors[GRID].mae:.3g} on average and {errors[GRID].max:.0f} at most, {said}"
     assert rendered.to_unit is not None
