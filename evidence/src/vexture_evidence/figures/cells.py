@@ -1,4 +1,4 @@
-"""The subdivision that a drawing became: cells shaded by how full or how deep they are, and the curves within."""
+"""The subdivision of a drawing: cells shaded by their coverage or depth, and the curves in them."""
 
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final, Literal
@@ -22,20 +22,20 @@ UNIT: Final = (0.0, 0.0, 1.0, 1.0)
 """The unit square: x0, y0, x1, y1."""
 
 FINEST: Final = 256
-"""Cells smaller than this part of what is seen are shown by their mean, as a picture of so many pixels."""
+"""Cells smaller than the visible part divided by this number are shown by their mean, in a picture of that side."""
 
 BORDERED: Final = 128
-"""Cells smaller than this part of what is seen have no border."""
+"""Cells have no border if they are smaller than the visible part divided by this number."""
 
 MANY: Final = 2000
-"""So many curves are drawn by thinner lines."""
+"""This many curves or more are drawn with thinner lines."""
 
 PAPER: Final = "#ffffff"
 SHADE: Final = "#8fa9c4"
-"""Of a full cell: curves must be seen above it."""
+"""Colour of a full cell, light enough for curves to show on it."""
 
 DEPTHS: Final = ("#fff7e0", "#fdd67e", "#ef8f3f", "#c2451e", "#6e0f1a")
-"""From the least depth to the largest: darker is deeper."""
+"""Colours from the smallest depth to the largest; darker is deeper."""
 
 
 def draw_cells(
@@ -54,22 +54,22 @@ def draw_cells(
     ----------
     axes : matplotlib.axes.Axes
     found : Leaves
-        Of `vexture_evidence.measures.leaves.leaves`.
+        Returned by `vexture_evidence.measures.leaves.leaves`.
     shades : str
-        ``"coverage"`` shades every cell by how much of it is filled, ``"depth"`` by how deep in the tree it is.
+        ``"coverage"`` shades every cell by how much of it is filled, ``"depth"`` by its depth in the tree.
     curves : bool
         Whether to draw the curves.
     colour : str
-        Of the curves.
+        Colour of the curves.
     bounds : sequence of float
-        What is seen: x0, y0, x1, y1. Cells smaller than 1/128 of it have no border.
+        The visible part: x0, y0, x1, y1. Cells smaller than 1/128 of it have no border.
     deepest : int, optional
-        Depth that the darkest shade stands for, so that several trees have one scale; the leaves' own by default.
+        Depth that has the darkest shade, so that several trees share one scale; by default the leaves' largest depth.
 
     Returns
     -------
     matplotlib.collections.PolyCollection
-        Made of the cells; what a colour bar is for.
+        The cells, from which `add_scale` makes a colour bar.
     """
     from matplotlib.collections import PolyCollection
 
@@ -102,7 +102,7 @@ def draw_cells(
 
 
 def draw_level_lines(axes: "Axes", texture: Texture, root: str | int | None = None, *, colour: str = INK) -> None:
-    """Dot the horizontal lines of a packed shape: leaves hold few of them, for they follow from the other curves."""
+    """Draw the horizontal lines of a packed shape dotted: its leaves omit most, as they follow from other curves."""
     contours = outlines(texture.flat, texture.root(root).quad)
     arcs = np.concatenate([np.empty((0, 4, 2)), *contours])
     ends = arcs[arcs[:, 0, 1] == arcs[:, 3, 1]][:, [0, 3]]
@@ -111,9 +111,9 @@ def draw_level_lines(axes: "Axes", texture: Texture, root: str | int | None = No
 
 
 def curve_lines(found: Leaves, bounds: Sequence[float] = UNIT) -> NDArray[np.float64]:
-    """Points along the curves of the leaves that are seen, each ended by a point that is not a number, (n, 2).
+    """Points along the curves of the visible leaves, with NaN after each curve, (n, 2).
 
-    Small ones have fewer points, as many as can be told apart in a picture.
+    Curves in small leaves have fewer points, because a picture does not show more.
     """
     x0, y0, x1, y1 = bounds
     ends = found.owner
@@ -134,9 +134,9 @@ def subdivision(
     shades: Literal["coverage", "depth"] = "coverage",
     bounds: Sequence[float] = UNIT,
 ) -> "Figure":
-    """Show the cells that a shape was divided into, with the curve or the curves of each.
+    """Show the cells that a shape was divided into, with the curves in each.
 
-    Of a packed texture the horizontal lines that no leaf holds are dotted.
+    For a packed texture, the horizontal lines of the shape are dotted, because its leaves hold few of them.
 
     Parameters
     ----------
@@ -144,9 +144,9 @@ def subdivision(
     root : str or int, optional
         Name or place of the shape in a packed texture; not needed if there is only one.
     shades : str
-        ``"coverage"`` shades every cell by how much of it is filled, ``"depth"`` by how deep in the tree it is.
+        ``"coverage"`` shades every cell by how much of it is filled, ``"depth"`` by its depth in the tree.
     bounds : sequence of float
-        What is seen of the unit square: x0, y0, x1, y1.
+        The visible part of the unit square: x0, y0, x1, y1.
 
     Returns
     -------
@@ -179,9 +179,9 @@ def subdivisions(
     Parameters
     ----------
     shapes : mapping
-        Titles and what has leaves. Of packed textures the first shape is shown.
+        From titles to trees or textures. A packed texture must hold exactly one shape.
     shades : str
-        As of `subdivision`.
+        As in `subdivision`.
 
     Returns
     -------
@@ -209,7 +209,7 @@ def subdivisions(
 
 
 def add_scale(figure: "Figure", axes: Any, cells: Any, shades: Literal["coverage", "depth"]) -> None:
-    """Say beside axes what the shades of cells mean."""
+    """Add a colour bar beside axes that explains the shades of the cells."""
     if shades == "coverage":
         bar = figure.colorbar(cells, ax=axes, shrink=0.7, ticks=[0.0, 0.5, 1.0])
         label = "filled part of the cell"
@@ -223,7 +223,7 @@ def add_scale(figure: "Figure", axes: Any, cells: Any, shades: Literal["coverage
 
 
 def _scale(shades: str, most: int) -> dict[str, Any]:
-    """Colours and range of cells' shades."""
+    """Colour map and range of the cells' shades."""
     from matplotlib.colors import LinearSegmentedColormap, Normalize
 
     if shades == "coverage":
@@ -235,7 +235,7 @@ def _scale(shades: str, most: int) -> dict[str, Any]:
 def _means(
     found: Leaves, values: NDArray[np.float64], small: NDArray[np.bool_], bounds: Sequence[float]
 ) -> NDArray[np.float64]:
-    """Mean of some leaves' values, by their areas, in each pixel of what is seen; NaN where there are none."""
+    """Mean of the small leaves' values, weighted by area, in each pixel of the visible part; NaN if there are none."""
     x0, y0, x1, y1 = bounds
     half = found.side[small] / 2
     column = np.floor((found.x[small] + half - x0) / (x1 - x0) * FINEST).astype(np.int64)

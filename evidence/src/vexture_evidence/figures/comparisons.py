@@ -1,4 +1,4 @@
-"""Pictures of ours beside others: errors over bytes, and what they look like at equal bytes."""
+"""Our textures beside rivals: errors over bytes, and pictures at equal bytes."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 __all__ = ["CORNER", "SHOWN", "equal_bytes", "error_over_bytes"]
 
 FLOOR: Final = 1e-3
-"""1/255; smaller errors are shown as this one, since logarithms of 0 have no place."""
+"""Smallest error shown, in 1/255; smaller errors are drawn here, because a logarithmic scale has no 0."""
 
 SHOWN: Final = 144
 """Pixels along a side of the pictures in the strip."""
 
 CORNER: Final = 16
-"""How many times larger the corner is."""
+"""How many times the corner is enlarged."""
 
 MARKERS: Final = {"packed": "D", "direct": "s", "sampled": "^", "bands": "v"}
 
@@ -36,18 +36,18 @@ SCENES: Final = {
     "outline": f"outline, {MAGNIFICATION}× closer",
     "small": f"whole drawing, {SMALL} px",
 }
-"""Fields of `Measured`, and what they are about."""
+"""Titles of the fields of `Measured`."""
 
 FRAME: Final = COLOURS["sampled"]
 
 
 def error_over_bytes(measured: Sequence[Measured]) -> "Figure":
-    """Mean error over bytes, both logarithmic: of files above, of memory on the GPU below.
+    """Show mean errors over bytes, both logarithmic: bytes of files above, bytes on the GPU below.
 
     Parameters
     ----------
     measured : sequence of Measured
-        Those with one label and several sizes make a line; one alone is a mark.
+        Several measurements with the same label make a line; a single one makes a mark.
 
     Examples
     --------
@@ -86,20 +86,20 @@ def _curves(axes: "Axes", measured: Sequence[Measured], what: str, scene: str) -
         else:
             drawn.set(marker=MARKERS.get(method, "o"), markersize=7.5, linestyle="none", zorder=3)
     axes.set(xscale="log", yscale="log", ylim=(0.4 * FLOOR, 120.0))
-    axes.minorticks_off()  # a third of the time that the figure takes
+    axes.minorticks_off()  # drawing them takes a third of the figure's time
     axes.grid(color=GRID, linewidth=0.4)
 
 
 def equal_bytes(drawing: "Drawing", rivals: Sequence[Rival], *, magnification: float = CORNER) -> "Figure":
-    """Each way's picture of the whole drawing, and of its sharpest corner, beside the truth.
+    """Show each rival's picture of the whole drawing and of its sharpest corner, beside the exact coverage.
 
     Parameters
     ----------
     drawing : Drawing
     rivals : sequence of Rival
-        From left to right; the truth comes last.
+        From left to right; the exact coverage comes last.
     magnification : float
-        Of the corner, which is framed in the picture of the whole.
+        How many times the corner is enlarged, which is framed in the picture of the whole drawing.
 
     Examples
     --------
@@ -137,7 +137,7 @@ def _title(rival: Rival) -> str:
 
 
 def _frame(axes: "Axes", place: "NDArray[np.float64]", side: float) -> None:
-    """Frame the part that is shown closer, in a picture of the whole."""
+    """Frame the enlarged part in a picture of the whole drawing."""
     from matplotlib.patches import Rectangle
 
     x, y = place[0] * SHOWN - 0.5 - side / 2, (1.0 - place[1]) * SHOWN - 0.5 - side / 2

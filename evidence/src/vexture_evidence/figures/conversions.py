@@ -12,10 +12,10 @@ if TYPE_CHECKING:
 __all__ = ["conversions"]
 
 MARKERS: Final = {"printed": "x", "sampled": "^", "direct": "s", "packed": "o"}
-"""One for each method, so that they can be told apart without colours."""
+"""One marker for each method, so that methods can be distinguished without colours."""
 
 NAME: Final = 20
-"""Characters of a drawing's name; longer ones would leave no room for the panels."""
+"""Largest number of characters of a drawing's name; longer names would leave no room for the panels."""
 
 
 def conversions(names: Sequence[str], quantities: Mapping[str, Mapping[str, Sequence[float | None]]]) -> "Figure":
@@ -24,10 +24,10 @@ def conversions(names: Sequence[str], quantities: Mapping[str, Mapping[str, Sequ
     Parameters
     ----------
     names : sequence of str
-        Of the drawings.
+        Names of the drawings.
     quantities : mapping
-        From the title of each panel to a mapping from methods, ``"printed"`` for the thesis's own values, to a value
-        for each drawing; None where there is none.
+        From the title of each panel to a mapping from methods to one value for each drawing, or None if there is no
+        value. The method ``"printed"`` stands for the thesis's own values.
 
     Returns
     -------
@@ -66,7 +66,7 @@ def conversions(names: Sequence[str], quantities: Mapping[str, Mapping[str, Sequ
 
 
 def shortened(name: str) -> str:
-    """A drawing's name as it stands beside its row.
+    """A drawing's name as shown beside its row.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What the thesis's chapter 6 says is missing, before and after, each point in one picture."""
+"""The limits that chapter 6 of the thesis names, before and after, one figure for each point."""
 
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final
@@ -38,24 +38,24 @@ __all__ = [
 ]
 
 SIDE: Final = 2.75
-"""Inches; four panels fill the page's column."""
+"""Side of a panel in inches; four panels fill the page's column."""
 
 MARK: Final = "#d55e00"
-"""Of what a figure points at."""
+"""Colour of what a figure marks."""
 
 SMALLEST: Final = 1e-9
-"""Unit-square units: distances below this are drawn as this."""
+"""Smallest distance shown, in unit-square units; smaller distances are drawn here."""
 
 
 def before_after(rows: Sequence[Close], labels: Sequence[tuple[str, str]]) -> "Figure":
-    """Cells and picture before, cells and picture after, in rows.
+    """Show rows of four panels: cells and picture before, cells and picture after.
 
     Parameters
     ----------
     rows : sequence of Close
-        Of `vexture_evidence.measures.thesis_limits.close_up`.
+        Returned by `vexture_evidence.measures.thesis_limits.close_up`.
     labels : sequence of two str
-        What to call the ways of each row.
+        Names of the two ways in each row, before and after.
 
     Examples
     --------
@@ -81,7 +81,7 @@ def before_after(rows: Sequence[Close], labels: Sequence[tuple[str, str]]) -> "F
 
 
 def lines_at_borders(close: Close, labels: tuple[str, str]) -> "Figure":
-    """Cells of a texture, and errors of two pictures with the borders of the cells above them.
+    """Show the cells of a texture, and the errors of two pictures with the borders of these cells drawn over them.
 
     Examples
     --------
@@ -107,14 +107,14 @@ def lines_at_borders(close: Close, labels: tuple[str, str]) -> "Figure":
 
 
 def density(drawing: Drawing, textures: Mapping[str, ThesisTexture | Texture]) -> "Figure":
-    """How far the outlines that textures hold are from the drawing's.
+    """Show how far the outlines in textures are from the drawing's own outline.
 
     Parameters
     ----------
     drawing : Drawing
         Not empty.
     textures : mapping
-        By their ways' names; the first is looked at where it is farthest off, beside the last.
+        From names of ways to textures. The first and the last are shown enlarged where the first is farthest off.
 
     Examples
     --------
@@ -159,12 +159,12 @@ def density(drawing: Drawing, textures: Mapping[str, ThesisTexture | Texture]) -
 def unneeded_divisions(
     shown: Sequence[tuple[str, Drawing, Tree | ThesisTexture | Texture]],
 ) -> "Figure":
-    """Cells of some shapes; quads that divide what one cubic crosses once are marked.
+    """Show the cells of shapes, and mark the quads that divide a square through which only one cubic passes, once.
 
     Parameters
     ----------
     shown : sequence of str, Drawing and tree or texture
-        What to call each.
+        The name of each shape, its drawing, and what it was converted to.
 
     Examples
     --------
@@ -189,12 +189,12 @@ def unneeded_divisions(
 
 
 def stored_value_errors(stored: Mapping[str, StoredValues]) -> "Figure":
-    """Errors of the coverage that is stored for cells, and those of quads by depth.
+    """Show the errors of the coverage that is stored for cells, and the mean errors of quads by depth.
 
     Parameters
     ----------
     stored : mapping
-        By what to call them.
+        From titles to stored values.
 
     Examples
     --------
@@ -226,14 +226,14 @@ def stored_value_errors(stored: Mapping[str, StoredValues]) -> "Figure":
 
 
 def list_growth(lengths: Mapping[str, Sequence[Lengths]], parts: Mapping[str, NDArray[Any]]) -> "Figure":
-    """Length of the lists over the number of copies of a drawing, and parts of the largest of these drawings.
+    """Show the length of the lists over the number of copies of a drawing, and parts of the largest such drawing.
 
     Parameters
     ----------
     lengths : mapping
-        By the names of the ways; what was refused is marked by a cross on its limit.
+        From names of ways to lengths; a refused conversion is marked by a cross at the limit.
     parts : mapping
-        Pictures, (height, width), by what to call them.
+        From titles to pictures, (height, width).
 
     Examples
     --------
@@ -267,15 +267,15 @@ def list_growth(lengths: Mapping[str, Sequence[Lengths]], parts: Mapping[str, ND
 
 
 def edited_drawing(before: ThesisTexture, after: Edited, image: NDArray[Any]) -> "Figure":
-    """What drawing programs see of a thesis texture and of ours, and what becomes of a change.
+    """Show what drawing programs see of a thesis texture and of ours, and the result of an edit.
 
     Parameters
     ----------
     before : ThesisTexture
     after : Edited
-        Of `vexture_evidence.measures.editing.edited`.
+        Returned by `vexture_evidence.measures.editing.edited`.
     image : (height, width) array
-        Picture of the texture that the changed file became.
+        Picture of the texture that the edited file was converted to.
 
     Examples
     --------
@@ -288,7 +288,7 @@ def edited_drawing(before: ThesisTexture, after: Edited, image: NDArray[Any]) ->
     'as SVG: 4 cubics'
     """
     old, new = len(joined(after.exported)), len(joined(after.drawing))
-    again = f"a texture again, {1000.0 * after.seconds:.1f} ms"
+    again = f"converted again, {1000.0 * after.seconds:.1f} ms"
     titles = ("the thesis's textures", f"as SVG: {old:,} cubics", f"changed: {new:,} cubics", again)
     figure, axes = panels(1, 4, side=SIDE, titles=titles)
     draw_texture(axes[0, 0], before)
@@ -299,7 +299,7 @@ def edited_drawing(before: ThesisTexture, after: Edited, image: NDArray[Any]) ->
 
 
 def _editable(axes: "Axes", drawing: Drawing, old: int) -> None:
-    """Outline with its nodes and handles, as drawing programs show it; cubics after the first `old` are marked."""
+    """Draw an outline with its nodes and handles, as drawing programs do; mark the cubics after the first `old`."""
     cubics = joined(drawing)
     lines = points_along(cubics, np.linspace(0.0, 1.0, 33))
     for number, (cubic, line) in enumerate(zip(cubics, lines, strict=True)):
@@ -312,7 +312,7 @@ def _editable(axes: "Axes", drawing: Drawing, old: int) -> None:
 
 
 def _cells(axes: "Axes", found: Leaves, drawing: Drawing, bounds: Sequence[float] = UNIT) -> None:
-    """Cells and curves, above the drawing's outline: packed leaves need not hold its horizontal parts."""
+    """Draw cells and curves over the drawing's outline, because packed leaves may omit its horizontal parts."""
     draw_outline(axes, drawing, bounds, color=MUTED, linewidth=0.7, linestyle=":", zorder=1.5)
     draw_cells(axes, found, bounds=bounds)
     if tuple(bounds) != UNIT:
@@ -322,7 +322,7 @@ def _cells(axes: "Axes", found: Leaves, drawing: Drawing, bounds: Sequence[float
 
 
 def _seen(found: Leaves, bounds: Sequence[float]) -> int:
-    """Number of curves in leaves that are seen."""
+    """Number of curves in the visible leaves."""
     x0, y0, x1, y1 = bounds
     inside = (found.x < x1) & (found.x + found.side > x0) & (found.y < y1) & (found.y + found.side > y0)
     return int(inside[found.owner].sum())
@@ -338,7 +338,7 @@ def _scale(figure: "Figure", axes: Any, shown: Any, label: str) -> None:
     bar = figure.colorbar(shown, ax=list(axes), shrink=0.8, label=label)
     engine = figure.get_layout_engine()
     assert isinstance(engine, ConstrainedLayoutEngine)
-    engine.set(rect=(0.006, 0.0, 0.988, 1.0))  # square panels beside a scale end at the figure's edge
+    engine.set(rect=(0.006, 0.0, 0.988, 1.0))  # margins: square panels beside a colour bar reach the figure's edge
     bar.outline.set_visible(False)
     bar.ax.tick_params(length=2)
 
@@ -355,7 +355,7 @@ def _borders(axes: "Axes", found: Leaves) -> None:
 
 
 def _shaded(axes: "Axes", found: Leaves, values: NDArray[np.float64], top: float) -> Any:
-    """Cells in the colours of errors."""
+    """Draw cells in the colours of their errors."""
     from matplotlib.collections import PolyCollection
     from matplotlib.colors import Normalize
 
@@ -367,7 +367,7 @@ def _shaded(axes: "Axes", found: Leaves, values: NDArray[np.float64], top: float
 
 
 def _ruler(axes: "Axes", bounds: Sequence[float], half: float) -> None:
-    """A stretch of known length in the lower left corner."""
+    """Draw a scale bar in the lower left corner."""
     length = 10.0 ** np.floor(np.log10(half))
     x, y = bounds[0] + 0.12 * half, bounds[1] + 0.12 * half
     axes.plot([x, x + length], [y, y], color=INK, linewidth=2.0, solid_capstyle="butt")

@@ -1,4 +1,4 @@
-"""A piece of outline drawn large, by several methods, with their errors (thesis 4.14)."""
+"""An enlarged piece of an outline, drawn by several methods, with their errors (thesis 4.14)."""
 
 from typing import TYPE_CHECKING, Final
 
@@ -18,7 +18,7 @@ SHOWN: Final = 32.0
 
 
 def edges(rendered: Rendered) -> "Figure":
-    """Show the pixels of an outline by each method and by the truth; below, how far each pixel is off.
+    """Show the pixels of an outline by each method and their exact coverage; below, the error of each pixel.
 
     Parameters
     ----------

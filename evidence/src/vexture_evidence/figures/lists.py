@@ -1,4 +1,4 @@
-"""The quad-tree as the lists that a texture holds: quads and curves by their depth, and what each is worth."""
+"""The quad-tree as the lists that a texture holds: quads and curves by depth, and the coverage of each."""
 
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
@@ -21,31 +21,31 @@ HALVES: Final = np.array([(0, 0), (1, 0), (0, 1), (1, 1)]) / 2.0
 SQUARE: Final = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
 
 WIDER: Final = 1.75
-"""Width of a tree's axes to that of the subdivision's, and to their height."""
+"""Ratio of the width of the tree's axes to their height, and to the width of the subdivision's axes."""
 
 LEVEL: Final = 1.9
-"""From one depth of a tree to the next, in quads."""
+"""Distance from one depth of a tree to the next, in sides of a quad."""
 
 MARGIN: Final = 4.1
-"""What stands beside a tree, in quads."""
+"""Width of the text beside a tree, in sides of a quad."""
 
 REFERENCE: Final = "#c3cad4"
-"""Of a cell that refers to a quad."""
+"""Colour of a cell that refers to a quad."""
 
 CELL: Final = "#f4f6f9"
 
 IN_ROW: Final = 8
-"""Quads or curves beside one another in a list."""
+"""Quads or curves in one row of a list."""
 
 MOST_ROWS: Final = 4
-"""Rows of one depth in a list; of what is beyond the number is said."""
+"""Largest number of rows for one depth in a list; a number tells how many entries are not shown."""
 
 MOST_ACROSS: Final = 28
-"""Quads of one depth in a tree; of what is beyond the number is said."""
+"""Largest number of quads for one depth in a tree; a number tells how many quads are not shown."""
 
 
 class Counts(NamedTuple):
-    """What section 3.4 of the thesis counts: quads, curves, cells of both lists, cells of the uniform grid."""
+    """The counts of section 3.4 of the thesis: quads, curves, cells of both lists, cells of the uniform grid."""
 
     quads: int
     curves: int
@@ -54,7 +54,9 @@ class Counts(NamedTuple):
 
 
 def counts(shape: Tree | ThesisTexture | Texture, root: str | int | None = None) -> Counts:
-    """Cells of a tree's two lists, four for each quad and one for each curve, and of the grid of its smallest cells.
+    """Count the cells of a tree's lists, four for each quad and one for each curve, and of the grid they replace.
+
+    The uniform grid has the size of the smallest cells.
 
     Examples
     --------
@@ -69,9 +71,9 @@ def counts(shape: Tree | ThesisTexture | Texture, root: str | int | None = None)
 
 
 def hierarchy(shape: Tree | ThesisTexture | Texture, *, root: str | int | None = None) -> "Figure":
-    """Show the subdivision above the grid that it replaces, and beside it the tree of its quads.
+    """Show the subdivision, with the size of the grid that it replaces, and beside it the tree of its quads.
 
-    Gray cells refer to the quad that hangs below; white cells are leaves, with their curves.
+    Grey cells in the tree refer to the quad below them; light cells are leaves, with their curves.
 
     Parameters
     ----------
@@ -109,7 +111,7 @@ def hierarchy(shape: Tree | ThesisTexture | Texture, *, root: str | int | None =
 
 
 def lists(shape: Tree | ThesisTexture | Texture, *, root: str | int | None = None) -> "Figure":
-    """Show the list of quads and the list of curves, level with their depth in the tree, and the coverage of each.
+    """Show the list of quads and the list of curves, by their depth in the tree, and the coverage of each entry.
 
     Parameters
     ----------
@@ -164,7 +166,7 @@ def lists(shape: Tree | ThesisTexture | Texture, *, root: str | int | None = Non
 
 
 def _places_in_list(room: int, top: float) -> NDArray[np.float64]:
-    """Upper left corners of the squares of one depth, y down."""
+    """Upper left corners of the squares for the entries of one depth, y down."""
     place = np.arange(room)
     return np.stack([1.2 * (place % IN_ROW), top + 0.25 + 1.25 * (place // IN_ROW)], axis=1)
 
@@ -180,7 +182,7 @@ def _squares(axes: "Axes", corners: NDArray[np.float64], side: float, **options:
 def _draw_quads(
     axes: "Axes", above: Quads, found: Leaves, members: NDArray[np.int64], at: NDArray[np.float64], side: float
 ) -> None:
-    """Draw quads as squares of four cells, y down: those that are quads gray, the others with their curves."""
+    """Draw quads as squares of four cells, y down: cells that refer to quads in grey, leaves with their curves."""
     at = at[: len(members)]
     cells = (at[:, None] + side * (HALVES * (1, -1) + (0, 0.5))).reshape(-1, 2)
     refers = (above.child[members] >= 0).ravel()
@@ -213,7 +215,7 @@ def _plot(axes: "Axes", lines: NDArray[np.float64]) -> None:
 
 
 def _draw_values(axes: "Axes", values: NDArray[np.float64], at: NDArray[np.float64]) -> None:
-    """Draw squares shaded by their values, with these in percent."""
+    """Draw squares shaded by their values, with the values in percent as text."""
     shades = 1.0 - 0.5 * np.repeat(values[:, None], 3, axis=1)
     _squares(axes, at[: len(values)], 1.0, facecolors=shades)
     for value, (x, y) in zip(values, at, strict=False):
@@ -229,7 +231,7 @@ def _draw_tree(axes: "Axes", above: Quads, found: Leaves) -> None:
     members = np.zeros(1, np.int64)
     step = max(LEVEL, (width + MARGIN) / WIDER / depths)
     for depth in range(depths):
-        if depth:  # in the order of their parents and of the cells of those, so that no two lines cross
+        if depth:  # in the order of the cells that refer to them, so that no two lines cross
             below = above.child[members].ravel()
             members = below[below >= 0]
         drawn = members[:MOST_ACROSS]

@@ -1,4 +1,4 @@
-"""A drawing's own outline, over whatever is shown."""
+"""A drawing's own outline, drawn over any figure of the unit square."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -15,21 +15,21 @@ if TYPE_CHECKING:
 __all__ = ["draw_outline"]
 
 CHORDS = 256
-"""Straight lines for each cubic: no corner is seen in a thousandfold enlargement."""
+"""Straight lines for each cubic, enough for curves to look smooth when enlarged a thousand times."""
 
 
 def draw_outline(axes: "Axes", drawing: Drawing, bounds: Sequence[float] = (0.0, 0.0, 1.0, 1.0), **style: Any) -> None:
-    """Draw the curves of a drawing that are seen.
+    """Draw the curves of a drawing in the visible part.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
-        Of the unit square.
+        Axes of the unit square.
     drawing : Drawing
     bounds : sequence of float
-        x0, y0, x1, y1 of what is seen.
+        The visible part: x0, y0, x1, y1.
     style
-        Of ``Axes.plot``.
+        Passed to ``Axes.plot``.
 
     Examples
     --------
@@ -44,5 +44,5 @@ def draw_outline(axes: "Axes", drawing: Drawing, bounds: Sequence[float] = (0.0,
     cubics = joined(drawing)
     seen = (cubics.min(axis=1) <= (x1, y1)).all(axis=1) & (cubics.max(axis=1) >= (x0, y0)).all(axis=1)
     curves = points_along(cubics[seen], t)
-    curves = np.pad(curves, ((0, 0), (0, 1), (0, 0)), constant_values=np.nan)  # a gap between any two
+    curves = np.pad(curves, ((0, 0), (0, 1), (0, 0)), constant_values=np.nan)  # a gap between curves
     axes.plot(*curves.reshape(-1, 2).T, **style)

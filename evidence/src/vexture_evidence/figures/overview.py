@@ -1,4 +1,4 @@
-"""A drawing with all that becomes of it, and a texture with what it holds."""
+"""A drawing with the cells, texels and picture of each of its textures, and a summary of one texture."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Final
@@ -25,13 +25,13 @@ if TYPE_CHECKING:
 __all__ = ["overview", "picture_error", "summary"]
 
 SIDE: Final = 256
-"""Pixels of the pictures."""
+"""Side of the pictures in pixels."""
 
 
 def picture_error(
     drawing: Drawing, texture: ThesisTexture | Texture, size: int = SIDE
 ) -> tuple[NDArray[np.float32], float]:
-    """Picture of the whole unit square from a texture, and its mean error in 1/255 against the exact coverage.
+    """Render the whole unit square from a texture; return the picture and its mean error in 1/255.
 
     Examples
     --------
@@ -45,18 +45,18 @@ def picture_error(
 
 
 def overview(drawing: Drawing, textures: Mapping[str, ThesisTexture | Texture], *, size: int = SIDE) -> "Figure":
-    """Show a drawing, and for each of its textures the cells, the texels, and what the last draws.
+    """Show a drawing, the cells and texels of each of its textures, and a picture from the last texture.
 
-    The bottom left is the picture from the last texture, made by the renderer on the CPU. Errors are the mean over
-    the pixels that the shape touches, of such pictures against the exact coverage.
+    This picture is at the bottom left, made by the renderer on the CPU. The errors compare such pictures with the
+    exact coverage: the mean over the pixels that the shape touches.
 
     Parameters
     ----------
     drawing : Drawing
     textures : mapping
-        Titles and textures; at least one. Curves have the colour of the title if it is that of a method.
+        From titles to textures; at least one. If a title is the name of a method, its curves have the method's colour.
     size : int
-        Pixels of the pictures' sides.
+        Side of the pictures in pixels.
 
     Returns
     -------
@@ -98,7 +98,7 @@ def overview(drawing: Drawing, textures: Mapping[str, ThesisTexture | Texture], 
 
 
 def summary(texture: ThesisTexture | Texture, *, root: str | int | None = None, size: int = SIDE) -> "Figure":
-    """Show a texture: its cells by their depth with their curves, its cells' coverage, and the picture it makes.
+    """Show a texture: the depth of its cells with their curves, the coverage of its cells, and its picture.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def summary(texture: ThesisTexture | Texture, *, root: str | int | None = None, 
     root : str or int, optional
         Name or place of the shape in a packed texture; not needed if there is only one.
     size : int
-        Pixels of the picture's sides.
+        Side of the picture in pixels.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""A fine pattern that recedes on a plane, by raster textures and by ours (thesis 2.7)."""
+"""A fine pattern on a receding plane, drawn from raster textures and from ours (thesis 2.7)."""
 
 from typing import TYPE_CHECKING, Final
 
@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 __all__ = ["plane"]
 
 ENLARGED: Final = 4
-"""How much larger than the whole its far part is shown."""
+"""How many times the far part is enlarged."""
 
 SHOWN: Final = 64.0
 """Error, in 1/255, that has the darkest colour."""
 
 
 def plane(receding: Receding) -> "Figure":
-    """Show the plane by each method and the truth: the whole, its far part enlarged, and how far each pixel is off.
+    """Show the plane by each method and its exact coverage: whole, with the far part enlarged, and the pixels' errors.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""One shape in few pixels, by the thesis's steps and by ours (thesis 3.13); and its cut-off exaggerated (4.15)."""
+"""One shape in few pixels, by the thesis's methods and by ours (thesis 3.13), and an exaggerated cut-off (4.15)."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final
@@ -17,15 +17,15 @@ __all__ = ["exaggerated", "resolutions"]
 
 STORED: Final = "#8b94a3"
 FROM_LEAF: Final = COLOURS["bands"]
-"""Where a pixel's value is from."""
+"""Colours of pixels by the origin of their value: a stored MIP value, or a leaf."""
 
 INSIDE: Final = COLOURS["packed"]
 OUTSIDE: Final = COLOURS["sampled"]
-"""Pixels that are drawn by a leaf; the thesis's are green and red, which few colour-blind readers tell apart."""
+"""Colours of pixels drawn from a leaf; the thesis uses green and red, which colour-blind readers confuse."""
 
 
 def resolutions(rendered: Sequence[Rendered]) -> "Figure":
-    """Show a shape at several sizes, a column for each, a row for each method, the truth below.
+    """Show a shape at several sizes: a column for each size, a row for each method, the exact coverage in the last row.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def resolutions(rendered: Sequence[Rendered]) -> "Figure":
 
 
 def _rows(view: Rendered) -> dict[str, str]:
-    """Keys and labels of the rows; the origin stands below the method that it is about."""
+    """Keys and labels of the rows; the row of the values' origin is below the row of its method."""
     labels: dict[str, str] = {}
     for name in view.images:
         labels[name] = name.replace(", ", ",\n").replace(" of the ", "\nof the ")
@@ -94,7 +94,7 @@ def exaggerated(drawn: Sequence[AsThesis]) -> "Figure":
     titles = [f"{len(picture.image)} × {len(picture.image)} px" for picture in drawn]
     figure, axes = panels(1, len(drawn), side=11.2 / len(drawn), height=11.2 / len(drawn) + 0.5, titles=titles)
     for panel, picture in zip(axes[0], drawn, strict=True):
-        stored = np.repeat(picture.image[..., None], 3, axis=2)  # lighter is fuller, as in the thesis
+        stored = np.repeat(picture.image[..., None], 3, axis=2)  # lighter means fuller, as in the thesis
         leaf = np.where(picture.image[..., None] > 0.5, to_rgb(INSIDE), to_rgb(OUTSIDE))
         show(panel, np.where(picture.from_mip[..., None], 0.15 + 0.8 * stored, leaf), pixels=False)
         panel.set_xlabel(f"{100.0 * picture.from_mip.mean():.0f}% by MIP values", fontsize=9.0)

@@ -1,4 +1,4 @@
-"""The nine solution paths: a curve for each, solved and drawn on the CPU and on the GPU (thesis 3.5, 4.9, 4.10)."""
+"""The nine solution paths: one cubic for each, solved and drawn on the CPU and on the GPU (thesis 3.5, 4.9, 4.10)."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -20,20 +20,20 @@ ACROSS = 3
 
 
 def solutions(cases: Sequence[SolutionPath] = SOLUTIONS, *, side: int = 96, gpu: bool = True) -> "Figure":
-    r"""Show curves with their roots at one place, in front of the CPU's picture, and beside it the GPU's.
+    r"""Show cubics with their roots at one x, in front of the picture from the CPU, beside the picture from the GPU.
 
     Parameters
     ----------
     cases : sequence of SolutionPath
     side : int
-        Of the pictures in pixels.
+        Side of the pictures in pixels.
     gpu : bool
-        Show the GPU's pictures.
+        Whether to show the pictures from the GPU.
 
     Raises
     ------
     DeviceError
-        If there is no GPU and one is asked for.
+        If `gpu` is true and there is no GPU.
 
     Examples
     --------
@@ -68,7 +68,7 @@ def solutions(cases: Sequence[SolutionPath] = SOLUTIONS, *, side: int = 96, gpu:
 
 
 def _curve(axes: "Axes", case: SolutionPath) -> None:
-    """The curve, its chord, the line on which it is solved, and what is found there."""
+    """Draw the curve, its chord, the vertical line that it is solved for, and the roots."""
     (line,) = points_along(np.array([[(0.0, 0.0), case.p1, case.p2, (1.0, 0.0)]]), np.linspace(0.0, 1.0, 200))
     axes.plot([0.0, 1.0], [0.0, 0.0], color=MUTED, linewidth=0.8)
     axes.axvline(case.x, color=COLOURS["distance"], linewidth=0.8, linestyle="--")

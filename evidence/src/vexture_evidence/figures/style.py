@@ -1,4 +1,4 @@
-"""How all figures look, and what they have in common: colours, panels, axes of the unit square."""
+"""The common style of all figures: colours, panels, axes of the unit square."""
 
 from collections.abc import Sequence
 from io import BytesIO
@@ -44,13 +44,13 @@ COLOURS: Final = {
 """One colour for each method, in every figure (M. Okabe and K. Ito, "Color Universal Design", 2008)."""
 
 RESOLUTION: Final = 160
-"""Pixels per inch of the figures' files."""
+"""Pixels per inch in the files of the figures."""
 
 SMALL: Final = 8.0
-"""Points of the smallest text."""
+"""Size of the smallest text, in points."""
 
 FONT: Final = {
-    "font.family": "DejaVu Sans",  # matplotlib brings it along
+    "font.family": "DejaVu Sans",  # comes with matplotlib
     "font.size": 9.0,
     "axes.titlesize": 10.0,
     "axes.titleweight": "bold",
@@ -70,12 +70,12 @@ FONT: Final = {
 
 
 def plotting() -> Any:
-    """The package matplotlib.
+    """Import and return the package matplotlib.
 
     Raises
     ------
     DeviceError
-        If it is not installed.
+        If matplotlib is not installed.
 
     Examples
     --------
@@ -90,7 +90,7 @@ def plotting() -> Any:
 
 
 def coverage_map() -> Any:
-    """Colour map of coverage: white is empty, dark is full."""
+    """Colour map of coverage: white means empty, dark means full."""
     plotting()
     from matplotlib.colors import LinearSegmentedColormap
 
@@ -98,27 +98,27 @@ def coverage_map() -> Any:
 
 
 def error_map() -> Any:
-    """Colour map of absolute errors: white is none; legible to colour-blind readers and in print."""
+    """Colour map of absolute errors: light means no error; legible to colour-blind readers and in print."""
     return plotting().colormaps["magma_r"]
 
 
 def panels(
     rows: int, columns: int, *, side: float = 2.6, height: float | None = None, titles: Sequence[str] = ()
 ) -> "tuple[Figure, NDArray[Any]]":
-    """Figure with a grid of axes, in the one style; no window and no global state.
+    """Make a figure with a grid of axes, in the common style, without a window or global state.
 
     Parameters
     ----------
     rows, columns : int
     side, height : float
-        Of each panel in inches; height None: square.
+        Width and height of each panel in inches; without `height`, panels are square.
     titles : sequence of str
-        Of the panels, row by row.
+        Titles of the panels, row by row.
 
     Returns
     -------
     figure : matplotlib.figure.Figure
-        Shows itself as the last value of a notebook's cell.
+        A notebook shows it if it is the last value of a cell.
     axes : (rows, columns) array of matplotlib.axes.Axes
 
     Raises
@@ -137,7 +137,7 @@ def panels(
     from matplotlib.figure import Figure
 
     class Picture(Figure):
-        """A figure that notebooks show without being told to."""
+        """A figure that notebooks display by themselves."""
 
         def _repr_png_(self) -> bytes:
             data = BytesIO()
@@ -154,7 +154,7 @@ def panels(
 
 
 def unit_axes(axes: "Axes", *, ticks: bool = True, bounds: Sequence[float] = (0.0, 0.0, 1.0, 1.0)) -> None:
-    """Make axes those of the unit square, y up, or of a part of it: x0, y0, x1, y1; its ticks are its scale."""
+    """Set axes to the unit square, y up, or to the part of it in `bounds`: x0, y0, x1, y1."""
     x0, y0, x1, y1 = bounds
     axes.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal")
     axes.set_xticks([x0, (x0 + x1) / 2, x1] if ticks else [])
@@ -163,15 +163,17 @@ def unit_axes(axes: "Axes", *, ticks: bool = True, bounds: Sequence[float] = (0.
 
 
 def show(axes: "Axes", image: "NDArray[Any]", *, pixels: bool = True, **options: Any) -> Any:
-    """Show coverage or a colour picture, top row first; `pixels` marks the scale: its sides in pixels.
+    """Show coverage or a colour picture, top row first.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
     image : (height, width) or (height, width, 3) array
-        Coverage 0..1, dark is full; or sRGB 0..1.
+        Coverage 0..1, where dark means full; or sRGB 0..1.
+    pixels : bool
+        Whether to label the picture's width in pixels.
     options
-        Of ``Axes.imshow``; ``cmap``, ``vmin`` and ``vmax`` are those of coverage unless given.
+        Passed to ``Axes.imshow``; ``cmap``, ``vmin`` and ``vmax`` are those of coverage by default.
     """
     options = {"cmap": coverage_map(), "vmin": 0.0, "vmax": 1.0, "interpolation": "nearest"} | options
     shown = axes.imshow(image, **options)

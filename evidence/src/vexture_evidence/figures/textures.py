@@ -1,4 +1,4 @@
-"""The textures themselves: what their texels look like as images."""
+"""The texels of textures, shown as images."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 __all__ = ["Strip", "draw_texture", "number", "texture_images", "textures"]
 
 BETWEEN: Final = 1.6
-"""Room for the text above an image, in texels."""
+"""Height of the text above an image, in texels."""
 
 KIND_OF_QUAD: Final = 0.5
-"""Blue of a quad's words; that of a curve's is 0."""
+"""Blue value of a quad's words; the blue value of a curve's words is 0."""
 
 
 class Strip(NamedTuple):
-    """An image of texels that lies on its side, as the thesis prints them: one column for each quad or curve."""
+    """An image of texels, turned on its side as the thesis prints them: one column for each quad or curve."""
 
     title: str
     pixels: NDArray[np.float64]
@@ -36,9 +36,9 @@ class Strip(NamedTuple):
 def texture_images(texture: ThesisTexture | Texture) -> list[Strip]:
     """Images of a texture's texels, sRGB 0..1.
 
-    A thesis pair is two images whose pixels are shown as they are, turned by 90 degrees counter-clockwise. A texel of
-    a packed texture is a column of four words, the first on top: a word's low half is its red, its high half its
-    green, and the blue tells quads (half) from curves (none).
+    A thesis pair is two images whose pixels are shown in their own colours, turned by 90 degrees counter-clockwise. A
+    texel of a packed texture is a column of four words, the first on top. The low half of a word is shown as red, the
+    high half as green; blue is half for quads and 0 for curves.
 
     Parameters
     ----------
@@ -76,14 +76,14 @@ def texture_images(texture: ThesisTexture | Texture) -> list[Strip]:
 
 
 def draw_texture(axes: "Axes", texture: ThesisTexture | Texture, *, columns: int | None = None) -> None:
-    """Draw a texture's images into axes, one above the other, each with what it is.
+    """Draw a texture's images into axes, one above the other, each with a title.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
     texture : ThesisTexture or Texture
     columns : int, optional
-        Texels that the axes are wide, so that several textures have one scale; those of the widest image by default.
+        Width of the axes in texels, so that several textures share one scale; by default that of the widest image.
     """
     strips = texture_images(texture)
     width = columns or max(strip.pixels.shape[1] for strip in strips)
@@ -105,7 +105,7 @@ def textures(shown: Mapping[str, ThesisTexture | Texture]) -> "Figure":
     Parameters
     ----------
     shown : mapping
-        Titles and textures.
+        From titles to textures.
 
     Returns
     -------
@@ -131,12 +131,12 @@ def textures(shown: Mapping[str, ThesisTexture | Texture]) -> "Figure":
 
 
 def _turned(rows: NDArray[Any]) -> NDArray[np.float64]:
-    """Pixels as numbers in 0..1, turned by 90 degrees counter-clockwise."""
+    """Pixels as numbers in 0..1, turned by 90 degrees counter-clockwise, so that each row becomes a column."""
     return np.rot90(rows / np.iinfo(rows.dtype).max)
 
 
 def number(count: int, what: str) -> str:
-    """Write how many there are of something.
+    """Write a count with its noun, in the plural unless the count is 1.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What a tolerance that is too large does to a shape, and what ours does (thesis 5.12)."""
+"""The effect of a tolerance that is too large, beside a packed texture, which needs none (thesis 5.12)."""
 
 from typing import TYPE_CHECKING
 
@@ -16,16 +16,16 @@ __all__ = ["tolerances"]
 
 
 def tolerances(drawing: Drawing, whole: Rendered, close: Rendered, square: tuple[float, float, float]) -> "Figure":
-    """Show a shape by several conversions, and a part of it large, with the drawing's own outline over it.
+    """Show a shape by several conversions, and an enlarged part of it with the drawing's own outline over it.
 
     Parameters
     ----------
     drawing : Drawing
     whole, close : Rendered
-        The pictures.
+        Pictures of the whole shape and of the enlarged part.
     square : tuple of float
-        x, y and side of the part, in unit-square units. All three are what
-        `vexture_evidence.measures.rendered.with_tolerances` returns.
+        x, y and side of the enlarged part, in unit-square units. `vexture_evidence.measures.rendered.with_tolerances`
+        returns these three arguments.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""A picture of pixels, the outline that is traced in it, and what is drawn from that (thesis 4.2)."""
+"""A picture of pixels, the outline traced in it, and pictures drawn from this outline (thesis 4.2)."""
 
 from typing import TYPE_CHECKING
 
@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 __all__ = ["tracing"]
 
 SIDE = 320
-"""Pixels of the pictures from the texture."""
+"""Side of the pictures from the texture, in pixels."""
 
 PIXELS = 14
-"""Of the traced picture, across the part that is enlarged."""
+"""Width of the enlarged part, in pixels of the traced picture."""
 
 
 def tracing(image: "NDArray[np.float32]", traced: Drawing, true: Drawing | None = None) -> "Figure":
@@ -30,11 +30,11 @@ def tracing(image: "NDArray[np.float32]", traced: Drawing, true: Drawing | None 
     Parameters
     ----------
     image : (n, n) array
-        Coverage, 0..1, top row first, of the unit square.
+        Coverage of the unit square, 0..1, top row first.
     traced : Drawing
-        What was found in it.
+        The drawing that was traced in the picture.
     true : Drawing, optional
-        What the pixels were made from: its outline is drawn below the traced one.
+        The drawing that the pixels were made from; its outline is drawn below the traced one.
 
     Examples
     --------

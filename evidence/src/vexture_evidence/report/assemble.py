@@ -1,4 +1,4 @@
-"""Making a report: every section in turn, then the page, its pictures and its JSON, all together or none."""
+"""Making a report: runs every section in turn, then writes the page, its pictures and its JSON, all or none."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -32,15 +32,15 @@ SECTIONS: Final = (
 Those that measure times come first, while the process is small."""
 
 NAMED: Final = 4
-"""Drawings in the title, at most."""
+"""The largest number of drawings that the title names."""
 
 LEAD: Final = (
-    "Every table and figure of the thesis that vexture began with, made again from the library's own data: a drawing "
-    "goes through the thesis's way to a texture, which is kept under the name `sampled`; through ours to the thesis's "
-    "own format, `direct`; and through ours to ours, `packed`. Drawings are taken as silhouettes: what is painted "
-    "counts, whatever its colour.",
+    "Every table and figure of the thesis that vexture began with, made again from the library's own data. Each "
+    "drawing is converted in three ways: `sampled` is the thesis's conversion to the thesis's format; `direct` is our "
+    "conversion to the thesis's format; `packed` is our conversion to our own format. Drawings are treated as "
+    "silhouettes: everything painted counts as filled, whatever its colour.",
 )
-"""What stands before everything."""
+"""Paragraphs before all sections."""
 
 
 def assemble(
@@ -55,13 +55,13 @@ def assemble(
     Parameters
     ----------
     sources : sequence of path
-        Drawings; empty: the examples.
+        Drawings; if empty, the example drawings are used.
     folder : path
-        Gets ``index.html``, ``report.json`` and ``figures/``.
+        Where ``index.html``, ``report.json`` and ``figures/`` are written.
     only : sequence of str
         Sections to make.
     say : function
-        Told what is being made.
+        Called with a line of progress before each section.
 
     Returns
     -------
@@ -78,7 +78,7 @@ def assemble(
     writable(writable(folder) / "figures")
     material = Material(sources)
     for shape in material.shapes:
-        shape.drawing  # noqa: B018  # what cannot be read is found before anything is measured
+        shape.drawing  # noqa: B018  # reads the drawing, so that an unreadable one fails before anything is measured
     sections: list[Section] = []
     seconds = {}
     for name in only:
@@ -89,7 +89,7 @@ def assemble(
     start = time.perf_counter()
     files = {folder / "figures" / f"{picture.name}.png": png_of(picture) for picture in pictures_of(sections)}
     seconds["pictures"] = time.perf_counter() - start
-    machine = machine_facts() | {"driver": material.device or "no OpenGL, so nothing of a GPU is measured"}
+    machine = machine_facts() | {"driver": material.device or "no OpenGL, so nothing is measured on a GPU"}
     names = [shape.name for shape in material.shapes]
     title = "What vexture measures" if not material.own else ", ".join(names[:NAMED]) + " ..." * (len(names) > NAMED)
     files[folder / "index.html"] = page(title, machine, LEAD, sections).encode()

@@ -1,4 +1,4 @@
-"""Against others: raster textures, distance fields, renderers on the CPU and bands, all measured in the same run."""
+"""Comparison with raster textures, distance fields, CPU renderers and bands, all measured in the same run."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
@@ -36,7 +36,7 @@ __all__ = ["section"]
 
 RASTER_SIDES: Final = (16, 32, 64, 128, 256, 512, 1024)
 DISTANCE_SIDES: Final = (16, 32, 64, 128, 256)
-"""Texels."""
+"""Sides of the textures that are measured, in texels."""
 
 HEAD: Final = (
     "texture",
@@ -53,7 +53,7 @@ EQUAL_HEAD: Final = ("texels", "memory ×", f"error {MAGNIFICATION}×")
 
 
 class Equal(NamedTuple):
-    """Pictures of as many bytes as a packed texture."""
+    """Raster textures and distance fields that take as many bytes as a packed texture."""
 
     raster_in_memory: Rival
     raster_in_file: Rival
@@ -63,7 +63,7 @@ class Equal(NamedTuple):
 
 
 class Compared(NamedTuple):
-    """A drawing's packed texture with others of equal bytes; why not, where there is none."""
+    """A drawing's packed texture and rivals of equal bytes, or the reason why there is no packed texture."""
 
     shape: "Shape"
     scene: "Scene"
@@ -73,30 +73,31 @@ class Compared(NamedTuple):
 
 
 def section(material: Material) -> Section:
-    """What the thesis did not measure: how ours compares with what people use instead."""
+    """Compare our textures with the usual alternatives, which the thesis did not measure."""
     compared = [compare(shape) for shape in material.shapes]
     main = next(one for one in compared if one.shape is material.main)
     parts = [pictures_part(main), shapes_part(compared), renderers_part(material.shapes)]
     text = [
-        "The thesis compares its textures with no others. Here are the obvious ones, each made as well as it can be: "
-        "raster textures from exact coverage and distance fields from true distances, both filtered as OpenGL defines "
-        "it, in float64; two renderers of vector graphics; and the bands that fast glyph renderers use. Distance "
-        "fields have one channel here: those of several, which keep corners, are not measured, nor is anisotropic "
-        "filtering.",
-        "Errors are mean absolute differences from exact coverage in steps of 1/255, over the pixels that the shape "
-        "touches, in the picture or in truth. Pictures of the whole drawing are moved by parts of a pixel "
-        f"({SHIFTS[0][0]:g} and {SHIFTS[0][1]:g} at {WHOLE} pixels, {len(SHIFTS)} ways at {SMALL} pixels), because a "
-        "texture on a surface is never in line with the screen.",
+        "The thesis compares its textures with no alternatives. This section compares them with the obvious ones, each "
+        "made as well as it can be: raster textures from exact coverage and distance fields from true distances, both "
+        "filtered as OpenGL defines it, in float64; two renderers of vector graphics; and the bands that fast glyph "
+        "renderers use. Distance fields have one channel here. Multi-channel distance fields, which keep corners, are "
+        "not measured, and neither is anisotropic filtering.",
+        "Errors are mean absolute differences from exact coverage, in steps of 1/255, over the pixels that the shape "
+        "touches in the picture or in the truth (the exact coverage). Pictures of the whole drawing are shifted by a "
+        f"fraction of a pixel (by {SHIFTS[0][0]:g} and {SHIFTS[0][1]:g} at {WHOLE} pixels; by {len(SHIFTS)} different "
+        f"shifts at {SMALL} pixels), because the texels of a texture on a surface never line up with the screen's "
+        "pixels.",
     ]
     if material.device is None:
-        text.append("There is no GPU here, so the bands, which are drawn on one, are left out.")
+        text.append("This machine has no GPU, so the bands, which need one, are left out.")
     else:
         parts.append(bands_part(material.shapes, material.device))
-    return Section("comparison", "Against others", text, parts)
+    return Section("comparison", "Comparison with alternatives", text, parts)
 
 
 def compare(shape: "Shape") -> Compared:
-    """A drawing's packed texture beside pictures of equal bytes."""
+    """Measure a drawing's packed texture, and the rivals of equal bytes."""
     drawing, scene = shape.drawing, scene_of(shape.drawing)
     try:
         packed = judge(texture_rival(shape.way("packed").texture, "packed"), scene)
@@ -106,7 +107,7 @@ def compare(shape: "Shape") -> Compared:
 
 
 def equals(drawing: "Drawing", packed: Rival) -> Equal:
-    """Pictures of as many bytes as a packed texture has, in its file or on the GPU."""
+    """Rivals that take as many bytes as a packed texture, in its file or on the GPU."""
     in_memory, file = side_in_memory(packed.gpu_bytes), packed.file_bytes or 0
 
     def field_in_file(spread: float) -> Rival:
@@ -123,7 +124,7 @@ def equals(drawing: "Drawing", packed: Rival) -> Equal:
 
 
 def pictures_part(main: Compared) -> Section:
-    """Raster textures and distance fields of one drawing, of many sizes and at equal bytes."""
+    """Raster textures and distance fields of one drawing, at many sizes and at equal bytes."""
     drawing, scene = main.shape.drawing, main.scene
     rasters = [judge(raster_rival(drawing, side), scene) for side in RASTER_SIDES]
     fields = [
@@ -152,7 +153,7 @@ def pictures_part(main: Compared) -> Section:
 
 
 def others_of_ours(main: Compared) -> tuple[list[Measured], dict[str, str]]:
-    """The drawing by all ways of ours, and why it is missing by some."""
+    """The drawing measured in each of our encodings, and the reasons why some cannot hold it."""
     found, missing = [], {}
     if main.packed:
         found.append(main.packed)
@@ -167,14 +168,14 @@ def others_of_ours(main: Compared) -> tuple[list[Measured], dict[str, str]]:
 
 
 def row_of(label: str, found: Measured) -> Sequence[Any]:
-    """Row of the first table."""
+    """One row of the table of textures."""
     rival = found.rival
     errors = (found.whole.mae, found.outline.mae, found.small.mae, found.outline.max)
     return (label, rival.side, rival.file_bytes, rival.gpu_bytes, *errors)
 
 
 def shapes_part(compared: Sequence[Compared]) -> Section:
-    """All drawings at equal bytes of files."""
+    """All drawings, each with rivals whose files have as many bytes."""
     kinds = ("raster", f"distance, spread {SPREAD:g}", f"distance, spread {NARROW:g}")
     first = ("drawing", "packed: file bytes", "packed: GPU bytes", f"packed: {EQUAL_HEAD[-1]}")
     head = (*first, *(f"{kind}: {column}" for kind in kinds for column in EQUAL_HEAD))
@@ -194,89 +195,92 @@ def shapes_part(compared: Sequence[Compared]) -> Section:
 
 
 def textures_caption(main: Compared, missing: dict[str, str]) -> str:
-    """What the first table says."""
+    """Caption of the table of textures."""
     caption = (
         f"`{main.shape.name}` as a raster texture (8-bit alpha, mip-mapped), as a distance field (8 bits, distances up "
         f"to {SPREAD:g} texels, as usual, or {NARROW:g}, which suits magnification) and in our encodings. A file is a "
-        "grey PNG, a KTX2 file, or the thesis's pair of PNG files. Equal memory and equal file: the largest that takes "
-        f"no more bytes than `packed`, up to {MOST_TEXELS:,} texels along a side, found by halving (a few files are "
-        f"smaller than those of fewer texels). The picture of {WHOLE} pixels, the "
-        f"outline at evenly spaced places {MAGNIFICATION} times larger, and the picture of {SMALL} pixels."
+        "grey PNG, a KTX2 file, or the thesis's pair of PNG files. “Equal memory” and “equal file” are the largest "
+        f"textures that take no more bytes than `packed`, up to {MOST_TEXELS:,} texels along a side, found by "
+        "bisection (a few files are smaller than files of fewer texels). Errors are those of the whole drawing at "
+        f"{WHOLE} pixels, of the outline at evenly spaced places enlarged {MAGNIFICATION} times, and of the whole "
+        f"drawing at {SMALL} pixels."
     )
     return caption + dashes(missing.values())
 
 
 def bytes_caption(main: Compared, rasters: Sequence[Measured]) -> str:
-    """What the figure of errors over bytes says."""
+    """Caption of the figure of errors over bytes."""
     caption = (
         "Mean error over bytes, both on logarithmic scales, for the same textures and for distance fields of "
-        f"{DISTANCE_SIDES[0]} to {DISTANCE_SIDES[-1]} texels along a side; errors below 0.001/255 are drawn there."
+        f"{DISTANCE_SIDES[0]} to {DISTANCE_SIDES[-1]} texels along a side. Errors below 0.001/255 are drawn at "
+        "0.001/255."
     )
     if main.packed is None:
         return caption
     largest = rasters[-1]
     return (
-        f"{caption} At {MAGNIFICATION} times, the raster of {largest.rival.side:,} texels a side takes "
-        f"{times(largest.rival.gpu_bytes, main.packed.rival.gpu_bytes)} the memory of `packed` and is off by "
-        f"{largest.outline.mae:.3g}; `packed` by {main.packed.outline.mae:.2g}. Distances tell where a straight edge "
-        f"is, and lose corners. At {SMALL} pixels a mip-map blurs over neighbouring texels as large as a pixel, and "
-        "the average of distances does not tell how much is covered."
+        f"{caption} At {MAGNIFICATION} times, the raster texture of {largest.rival.side:,} texels a side takes "
+        f"{times(largest.rival.gpu_bytes, main.packed.rival.gpu_bytes)} the memory of `packed` and has an error of "
+        f"{largest.outline.mae:.3g}; `packed` has {main.packed.outline.mae:.2g}. A distance field reproduces straight "
+        f"edges but loses corners. At {SMALL} pixels a mip-map blends neighbouring texels that are as large as a "
+        "pixel, and an average of distances does not give the coverage."
     )
 
 
 def strip_caption(main: Compared) -> str:
-    """What the strip shows."""
+    """Caption of the strip of pictures at equal bytes."""
     if main.packed is None:
         return ""
     equal = Equal(*(found.rival for found in main.equal))
     return (
-        f"`{main.shape.name}` at equal bytes: the whole and, {CORNER} times larger, the framed corner, where the "
-        "outline turns most; mean errors in 1/255. In as much memory as `packed` takes, "
-        f"{main.packed.rival.gpu_bytes:,} bytes, fits a raster of {at_least(equal.raster_in_memory)}² texels; in as "
-        f"large a file, one of {at_least(equal.raster_in_file)}², "
-        "which takes "
-        f"{times(equal.raster_in_file.gpu_bytes, main.packed.rival.gpu_bytes)} the memory. Magnified, rasters blur and "
-        "distance fields round the corner off; `packed` holds the drawing's own curves."
+        f"`{main.shape.name}` at equal bytes: the whole drawing and, {CORNER} times larger, the framed corner, where "
+        "the outline turns most. Mean errors are in 1/255. The memory that `packed` takes, "
+        f"{main.packed.rival.gpu_bytes:,} bytes, holds a raster texture of {at_least(equal.raster_in_memory)}² texels. "
+        f"A PNG file as large as the file of `packed` holds one of {at_least(equal.raster_in_file)}² texels, which "
+        f"takes {times(equal.raster_in_file.gpu_bytes, main.packed.rival.gpu_bytes)} the memory on the GPU. Magnified, "
+        "raster textures blur and distance fields round the corner off; `packed` holds the drawing's own curves."
     )
 
 
 def shapes_caption(compared: Sequence[Compared]) -> str:
-    """What the table of all drawings says."""
+    """Caption of the table of all drawings."""
     caption = (
-        "Textures in files no larger than those of `packed`, whose bytes stand first: texels along a side, memory as a "
-        f"multiple of that of `packed`, mean error of the outline {MAGNIFICATION} times larger."
+        "The largest textures whose files are no larger than the file of `packed`: their texels along a side, their "
+        "memory on the GPU as a multiple of that of `packed`, and the mean error of the outline enlarged "
+        f"{MAGNIFICATION} times. The first columns give the bytes and the error of `packed`."
     )
     held = [one for one in compared if one.packed]
-    # as many bytes as packed, or nearly: where the largest size that is tried has fewer, nothing is won
+    # only drawings whose rivals take (nearly) as many bytes: a rival at the largest size that is tried takes fewer
     whole = [one for one in held if all(found.rival.side != MOST_TEXELS for found in one.equal)]
     best = [min(found.outline.mae for found in one.equal) for one in whole]
     ours = [one.packed.outline.mae for one in whole if one.packed]
     better = sum(mine <= other for mine, other in zip(ours, best, strict=True))
     if whole:
         caption += (
-            f" At {MAGNIFICATION} times `packed` errs no more than the best of the others on {better} of {len(whole)}."
+            f" At {MAGNIFICATION} times, the error of `packed` is at most that of the best of the others "
+            f"on {better} of {len(whole)} drawings."
         )
     if len(held) > len(whole):
         caption += (
-            f" {len(held) - len(whole)} of the drawings cannot be compared so: some of the others have fewer bytes "
-            f"there, for {MOST_TEXELS:,} texels are the most tried."
+            f" {len(held) - len(whole)} of the drawings cannot be compared in this way: some of the others take fewer "
+            f"bytes than `packed` even at {MOST_TEXELS:,} texels along a side, the largest size that is tried."
         )
     return caption + dashes(one.why for one in compared if one.why)
 
 
 def at_least(rival: Rival) -> str:
-    """Texels along a side, and whether more would fit but are not tried."""
+    """Texels along a side, as text; "at least" if it is the largest size that is tried."""
     return f"{'at least ' if rival.side == MOST_TEXELS else ''}{rival.side}"
 
 
 def times(many: int, few: int) -> str:
-    """How many times as much, as text."""
+    """The ratio of two numbers of bytes, as text."""
     ratio = many / max(1, few)
     return f"{ratio:,.0f} times" if ratio >= 100.0 else f"{ratio:.3g} times"
 
 
 BYTES_ALT: Final = (
-    "Six plots of mean error against bytes, of files and on the GPU, one mark or line for each kind of texture."
+    "Six plots of mean error against bytes, in the file and on the GPU, one mark or line for each kind of texture."
 )
 
-STRIP_ALT: Final = "Pictures of the drawing and of its corner: by rasters, by distance fields, by packed and in truth."
+STRIP_ALT: Final = "The drawing and its corner, by raster textures, distance fields and packed, and the exact coverage."

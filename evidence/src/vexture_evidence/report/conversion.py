@@ -1,4 +1,4 @@
-"""Table 5.1: what conversions take and make."""
+"""Table 5.1 of the thesis: how long conversions take, and how large their results are."""
 
 from collections.abc import Mapping
 from functools import partial
@@ -19,10 +19,10 @@ from vexture_evidence.report.section import Material, Picture, Printed, Section,
 __all__ = ["section"]
 
 READ_REPEAT: Final = 3
-"""Times that a file is read; the median counts."""
+"""How often a file is read; the median time is reported."""
 
 Found = Mapping[str, Measured]
-"""What was measured of a drawing, by way; ways that cannot hold it are not there."""
+"""Measurements of a drawing by way of conversion; ways that cannot hold the drawing are absent."""
 
 
 def section(material: Material) -> Section:
@@ -37,7 +37,7 @@ def section(material: Material) -> Section:
     shapes = material.shapes
     example = material.example("simple-small")
     for given in WAYS.values():
-        run(example.drawing, **given)  # what is loaded at the first conversion counts for none
+        run(example.drawing, **given)  # loads and compiles everything, so that no measured time includes it
     side = None if material.device is None else frame_side(example)
     found: list[dict[str, Measured]] = []
     refused: list[str] = []
@@ -62,36 +62,36 @@ def section(material: Material) -> Section:
 
 def _text(material: Material, found: list[dict[str, Measured]]) -> list[str]:
     first = (
-        "A drawing is read, divided into a tree, and written as a texture. `sampled` samples its outline and fits "
-        "curves to the samples, as the thesis does; `direct` takes the same kind of leaves from the drawing's own "
-        "curves; both make a pair of images with one curve in each leaf. `packed` keeps several exact pieces in each "
-        "leaf, in one file."
+        "A drawing is read, divided into a quad-tree, and written as a texture. `sampled` samples the outline and fits "
+        "curves to the samples, as the thesis does. `direct` makes leaves of the same kind from the drawing's own "
+        "curves. Both make a pair of images with one curve in each leaf. `packed` keeps several exact pieces of the "
+        "outline in each leaf, in one file."
     )
     if not material.own:
         first += (
-            " The drawings have the subjects and the numbers of segments of the thesis's, which are lost: they are "
-            "not the same drawings, so compare the sizes of figures, not their digits."
+            " The thesis's own drawings are lost. Those used here show the same subjects with the same numbers of "
+            "segments, but they are not the same drawings: compare orders of magnitude, not digits."
         )
     ratios = _medians(found)
     if not ratios:
         return [first]
-    many = f"In the median of {len(found)} drawings" if len(found) > 1 else "Of this drawing"
+    many = f"In the median of {len(found)} drawings" if len(found) > 1 else "For this drawing"
     return [
         first,
-        f"{many}, `direct` has {ratios['curves_direct']:.0%} of the curves of `sampled` and is made "
-        f"about {_about(ratios['times_direct'])} times as fast; `packed` is made about "
-        f"{_about(ratios['times_packed'])} times as fast, "
+        f"{many}, `direct` has {ratios['curves_direct']:.0%} of the curves of `sampled`, and its conversion is "
+        f"about {_about(ratios['times_direct'])} times as fast as that of `sampled`. The conversion to `packed` is "
+        f"about {_about(ratios['times_packed'])} times as fast, "
         f"and its file has {ratios['bytes_packed']:.0%} of the bytes of the 16-bit pair of `sampled`.",
     ]
 
 
 def _about(ratio: float) -> str:
-    """A ratio of times, to the one digit that two runs agree on."""
+    """A ratio of times, rounded to one digit, as more digits differ between runs."""
     return f"{float(f'{ratio:.1g}'):,.0f}"
 
 
 def _medians(found: list[dict[str, Measured]]) -> dict[str, float]:
-    """Middle ratios of our ways to the thesis's, over the drawings that all can hold."""
+    """Median ratios of our ways to the thesis's, over the drawings that all ways can hold."""
     whole = [each for each in found if len(each) == len(WAYS) and each["sampled"].curves]
     if not whole:
         return {}
@@ -110,19 +110,20 @@ def _bytes(found: Found, way: str) -> float:
 
 def _speed(side: int | None) -> str:
     if side is None:
-        return "Without a GPU no frames were drawn."
+        return "This machine has no GPU, so no frame rates were measured."
     return (
-        f"The rate is that of the whole drawing at {side} x {side} pixels, as fast as the driver that the page names "
-        "draws it, whatever a display shows; the thesis's display showed ⟦120⟧ at most, of a size that it does not say."
+        f"Frames show the whole drawing at {side} x {side} pixels, on the driver that the page names, and are not "
+        "limited by the rate of a display. The thesis's rates are limited to ⟦120⟧ by its display, and it does not "
+        "state their size in pixels."
     )
 
 
 def _without_8_bits(found: list[dict[str, Measured]]) -> str:
-    """Why there are dashes below 8 bits, if there are any."""
+    """Why some columns of 8 bits contain dashes; empty if none does."""
     pairs = [one for each in found for way, one in each.items() if way != "packed"]
     if all(one.bytes_8 is not None for one in pairs):
         return ""
-    return f" No bytes at 8 bits: a list would be longer than the {LIST_LIMIT[8]} entries that they hold."
+    return f" No bytes at 8 bits: a list would be longer than {LIST_LIMIT[8]} entries, the most that 8 bits can index."
 
 
 def _conversion_table(
@@ -144,9 +145,9 @@ def _conversion_table(
             cells += [None] * 3 if one is None else [one.ms, one.curves, one.quads]
         rows.append(cells)
     caption = (
-        "Thesis Table 5.1, its first part: what a conversion starts from, how long it takes, and how long the two "
-        "lists become. Milliseconds are from the drawing in memory to the texture in memory: medians, but for those "
-        f"above 50, which were taken once.{missing}"
+        "Thesis Table 5.1, first part: the segments of each drawing, the time of its conversion, and the lengths of "
+        "the two lists. Conversions are timed from the drawing in memory to the texture in memory. Times are medians, "
+        f"except those above 50 ms, which were measured once.{missing}"
     )
     return Table("conversion", caption, head, rows)
 
@@ -174,9 +175,8 @@ def _size_table(
                 cells += [None] * 3 if one is None else [one.bytes_8, one.bytes_16, one.fps]
         rows.append(cells)
     caption = (
-        "Thesis Table 5.1, its second part: bytes of the source's file and of the textures' files, a pair of PNG "
-        "images with 8 or with 16 bits for each "
-        f"number, or one KTX2 file, and frames per second (fps). {notes}"
+        "Thesis Table 5.1, second part: bytes of the source file and of the texture's files (a pair of PNG images with "
+        f"8 or 16 bits for each number, or one KTX2 file), and frames per second (fps). {notes}"
     )
     return Table("size-and-speed", caption, head, rows)
 
@@ -210,9 +210,11 @@ def _picture(
     if side is None:
         del quantities["frames per second"]
     caption = (
-        "Thesis Table 5.1 as a picture: each mark is a drawing by one method, on logarithmic scales. Less is better "
-        "but for frames per second" + (", of which the thesis's are left out: a display held them at 120." if
-        any(printed) else ".")
+        "Thesis Table 5.1 as a picture: each mark is one drawing converted by one method, on logarithmic scales. Less "
+        "is better, except for frames per second" + (". The thesis's frame rates are left out, because its display "
+        "limited them to 120." if any(printed) else ".")
     )  # fmt: skip
     figure = conversions([shape.name for shape in shapes], quantities)
-    return Picture("conversions", figure, caption, "Dots by drawing and method: time, curves, bytes, frames per second")
+    return Picture(
+        "conversions", figure, caption, "Marks for each drawing and method: time, curves, bytes, frames per second"
+    )

@@ -1,4 +1,4 @@
-"""One point of the thesis's chapter 6 as the report answers it, and the conversions that it compares."""
+"""One point of the thesis's chapter 6, with the report's answer, and the textures that the points compare."""
 
 from dataclasses import dataclass
 from typing import Any, Final
@@ -12,10 +12,10 @@ from vexture_evidence.report.section import Section
 __all__ = ["LEFT_OUT", "Point", "packed_of", "pair_of", "tree_of"]
 
 LEFT_OUT: Final = (
-    "Dotted: the drawing's own outline where no curve lies on it; packed leaves leave out horizontal parts, which "
-    "change no winding number."
+    "Dotted lines show the drawing's own outline where no curve covers it: packed leaves leave out horizontal parts, "
+    "which change no winding number."
 )
-"""What captions say of figures that draw cells above the drawing's outline."""
+"""Sentence for the captions of figures that draw cells over the drawing's outline."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -25,10 +25,11 @@ class Point:
     Parameters
     ----------
     section : Section
-        The thesis's words, before, after, a picture.
+        What the thesis says, how it was before, how it is after, and a picture.
     what : str
-        What is measured, with its unit.
+        The quantity that is measured, with its unit.
     before, after : float or int
+        Its values by the thesis's way and by ours.
     """
 
     section: Section
@@ -38,14 +39,14 @@ class Point:
 
 
 def tree_of(shape: Shape, way: str) -> CellTree:
-    """Tree of a drawing by one of the ways to the thesis's leaves."""
+    """Tree of a drawing by `way`, one of the two that make the thesis's leaves."""
     tree = shape.way(way).tree
     assert isinstance(tree, CellTree)
     return tree
 
 
 def pair_of(shape: Shape, way: str) -> ThesisTexture:
-    """Textures of a drawing by one of the ways to the thesis's leaves."""
+    """Pair of textures of a drawing by `way`, one of the two that make the thesis's leaves."""
     texture = shape.way(way).texture
     assert isinstance(texture, ThesisTexture)
     return texture

@@ -1,4 +1,4 @@
-"""The thesis's chapter 6, answered point by point: what it says is missing, before and after."""
+"""The thesis's chapter 6, answered point by point: each limit of its method, before and after."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -22,7 +22,7 @@ __all__ = ["section"]
 DUCK = "duck"
 
 MOST_SEGMENTS: Final = 500
-"""A larger drawing of the user's is not sampled again and again: the points are shown on the duck."""
+"""Limit on the user's drawing: with more segments repeated sampling takes too long, and the duck is shown instead."""
 
 POINTS: Final[tuple[Callable[[Material, Shape], Point], ...]] = (
     loops_point,
@@ -48,8 +48,8 @@ def section(material: Material) -> Section:
     points = [make(material, subject) for make in POINTS]
     table = Table(
         "points",
-        "Every point of the thesis's chapter 6, and two of chapter 4: one measured figure before, by the thesis's own "
-        "way (`sampled`) or with its rule restored, and after.",
+        "Every point of the thesis's chapter 6, and two of chapter 4, each with one measured quantity: before, by the "
+        "thesis's own way (`sampled`) or with the thesis's rule restored, and after, by ours.",
         ("point", "measured", "before", "after"),
         [(point.section.title, point.what, point.before, point.after) for point in points],
     )
@@ -59,22 +59,23 @@ def section(material: Material) -> Section:
         for point in points
     ]  # fmt: skip
     text = (
-        "The thesis's last chapter but one says what its method could not do yet. Here is each point in its words, "
-        "what the thesis's way makes of it, and what became of it.",
-        f"Where any drawing shows the point it is shown on {subject.name}, else on the example drawing that shows it "
-        "best. Errors of pictures are mean absolute differences from the exact coverage over the pixels that the shape "
-        "touches, in the picture or in truth, in 1/255. Pictures are rendered on the CPU.",
-        *([f"Why not on the drawing that this page is about: {why}"] if why else []),
+        "Chapter 6 of the thesis, the last but one, says what its method could not do yet. This section quotes each "
+        "point in the thesis's words and shows the result of the thesis's way and of ours.",
+        f"A point that any drawing shows is shown on {subject.name}; other points are shown on the example drawing "
+        "that shows them best. Errors of pictures are mean absolute differences from the exact coverage, in 1/255, "
+        "over the pixels that the shape touches in the picture or in the truth (the exact coverage). Pictures are "
+        "rendered on the CPU.",
+        *([f"The drawing that this page is about is not used for these points: {why}"] if why else []),
     )
     return Section("discussion", "Chapter 6, answered", text, [table, *parts])
 
 
 def _subject(material: Material) -> tuple[Shape, str]:
-    """The drawing that points are shown on which any drawing shows: the report's own, or why not."""
+    """The drawing for the points that any drawing shows: the report's main one, or the duck and the reason."""
     own, duck = material.main, material.example(DUCK)
     segments = own.drawing.segments
     if segments > MOST_SEGMENTS:
-        return duck, f"{own.name} has {segments:,} segments; up to {MOST_SEGMENTS} are sampled again and again."
+        return duck, f"{own.name} has {segments:,} segments, and sampling more than {MOST_SEGMENTS} takes long."
     try:
         drawn = all(len(tree_of(own, way).curves) for way in ("sampled", "direct"))
     except LimitError as error:

@@ -15,16 +15,16 @@ from vexture_evidence.report.section import Picture, Printed, Section, Table
 __all__ = ["json_text", "known", "page", "pictures_of", "png_of"]
 
 POLICY = "default-src 'none'; img-src 'self' data:; style-src 'unsafe-inline'"
-"""A report fetches nothing but its own pictures, and runs nothing."""
+"""The page loads only its own pictures and runs no scripts."""
 
 MARKED = (
-    "<p>Every number was measured in the run that made this page, but for those that "
-    '<span class="printed">the thesis printed</span>, which look like that.</p>'
+    "<p>Every number was measured in the run that made this page, except those that "
+    '<span class="printed">the thesis printed</span>, which are marked like these words.</p>'
 )
-"""What the colours of numbers mean."""
+"""Explains the colours of numbers."""
 
 TEXT_CLASS = ' class="text"'
-"""Columns of words begin at the left."""
+"""Attribute that aligns columns of text at the left."""
 
 PAGE = """<!doctype html>
 <html lang="en">
@@ -60,11 +60,11 @@ def page(title: str, machine: Mapping[str, Any], lead: Sequence[str], sections: 
     ----------
     title : str
     machine : mapping
-        Name and value of what it was measured on.
+        Facts about the machine that the report was measured on: name and value of each.
     lead : sequence of str
-        Paragraphs before everything.
+        Paragraphs before all sections.
     sections : sequence of Section
-        Their pictures stand in ``figures/NAME.png`` beside the page.
+        Their pictures are expected in ``figures/NAME.png`` beside the page.
 
     Examples
     --------
@@ -102,7 +102,7 @@ def png_of(picture: Picture) -> bytes:
 
 
 def known(facts: Any) -> Any:
-    """The same facts for a JSON file: what is not finite is null, what was printed says so.
+    """Convert facts for a JSON file: numbers that are not finite become null, and `Printed` values are marked.
 
     Examples
     --------
@@ -126,7 +126,7 @@ def known(facts: Any) -> Any:
 
 
 def _plain(value: Any) -> Any:
-    """A NumPy scalar as a number of Python, anything else as it is."""
+    """Convert a NumPy scalar to a Python number; return anything else unchanged."""
     return value.item() if hasattr(value, "item") else value
 
 
@@ -157,7 +157,7 @@ def _inline(text: str) -> str:
 
 def _picture(picture: Picture) -> str:
     width, height = (round(side * RESOLUTION) for side in picture.figure.get_size_inches())
-    # shown at 96 pixels per inch, so that a screen of twice the density gets nearly all of the file's
+    # shown at 96 pixels per inch, so that a screen of twice that density shows nearly all pixels of the file
     shown = round(width * 96 / RESOLUTION), round(height * 96 / RESOLUTION)
     return (
         f'<figure id="figure-{picture.name}"><a href="figures/{picture.name}.png">'
@@ -180,7 +180,7 @@ def _table(table: Table) -> str:
 
 
 def _groups(groups: Sequence[str]) -> str:
-    """Row of headings that stand over several columns, if there are any."""
+    """Row of the headings that span several columns, if there are any."""
     if not any(groups):
         return ""
     spans: list[list[Any]] = []
@@ -202,7 +202,7 @@ def _cell(value: Any) -> str:
 
 
 def _shown(value: Any) -> str:
-    """A value as people read it: three significant digits, thousands apart, a dash for nothing."""
+    """Format a value for readers: three significant digits, thousands separated, a dash if there is no value."""
     value = _plain(value)
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
         return "–"

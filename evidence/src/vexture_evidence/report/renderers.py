@@ -1,4 +1,4 @@
-"""Renderers that draw the vectors themselves: resvg and Skia on the CPU, the bands on the GPU."""
+"""Comparison with renderers that draw the vectors themselves: resvg and Skia on the CPU, bands on the GPU."""
 
 from collections.abc import Callable, Iterable, Sequence
 from importlib.metadata import version
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 __all__ = ["bands_part", "dashes", "renderers_part"]
 
 SIZE: Final = (256, 256)
-"""Pixels of all pictures here."""
+"""Width and height of all pictures in this module, in pixels."""
 
 REPEAT: Final = 5
-"""Measurements, of which the median counts."""
+"""How often each time is measured; the median is reported."""
 
 Draw = Callable[[], NDArray[np.float32]]
 
@@ -52,19 +52,20 @@ def renderers_part(shapes: Sequence["Shape"]) -> Section:
         rows.append([*row, *map(ms.get, names), *map(off.get, names[:-1])])
     empty = 1e3 * median_seconds(resvg_renderer(Drawing(()), SIZE), REPEAT)
     caption = (
-        f"Pictures of {SIZE[0]}×{SIZE[1]} pixels on the CPU, median of {REPEAT}, everything prepared: the SVG document "
-        "parsed, the path made, the texture converted. `packed` is the mirror of our shader, written to be equal to it "
-        "and not to be fast; `exact` computes the truth that errors are measured against, so its own error is not "
-        "shown. resvg and Skia estimate coverage at the edges; they draw many pixels in a row where a shader draws "
-        "each for itself. resvg's Python package gives PNG files only, which an empty picture already takes "
-        f"{empty:.2g} ms for. Packages: resvg {version('resvg')}, skia-python {version('skia-python')}."
+        f"Pictures of {SIZE[0]}×{SIZE[1]} pixels on the CPU, median of {REPEAT} runs. Preparation is not timed: "
+        "parsing the SVG document, making the path, converting the texture. `packed` is the mirror of our shader, "
+        "written to match it and not to be fast. `exact` computes the truth that errors are measured against, so its "
+        "own error is not shown. resvg and Skia estimate coverage at the edges. They fill whole rows of pixels at "
+        "once, whereas a shader computes each pixel on its own. resvg's Python package returns PNG files only; an "
+        f"empty picture alone takes it {empty:.2g} ms. Packages: resvg {version('resvg')}, "
+        f"skia-python {version('skia-python')}."
     )
     table = Table("cpu-times", caption + dashes(missing), head, rows)
     return Section("cpu-renderers", "Renderers of vector graphics on the CPU", (), [table])
 
 
 def cpu_renderers(shape: "Shape") -> dict[str, Draw]:
-    """Each ready to draw the whole drawing."""
+    """Functions that draw the whole drawing, by renderer, with everything prepared."""
     from vexture_evidence.measures.peers import resvg_renderer, skia_renderer
 
     texture = shape.way("packed").texture
@@ -77,7 +78,7 @@ def cpu_renderers(shape: "Shape") -> dict[str, Draw]:
 
 
 def bands_part(shapes: Sequence["Shape"], device: str) -> Section:
-    """Bands beside our textures on the GPU."""
+    """Memory, error and time of the bands and of our textures on the GPU."""
     from vexture.renderers.view import fit
     from vexture_evidence.measures.programs import fetch_program
 
@@ -98,25 +99,25 @@ def bands_part(shapes: Sequence["Shape"], device: str) -> Section:
         rows.append([shape.name, *map(sizes.get, WAYS), *map(off.get, WAYS), *map(ms.get, WAYS)])
     fetch = 1e3 / frames_per_second(fetch_program(shapes[0].drawing), SIZE, REPEAT)
     caption = (
-        f"Pictures of {SIZE[0]}×{SIZE[1]} pixels by {device}, median of {REPEAT}: the bands (E. Lengyel 2017; {BANDS} "
-        f"each way, as published for glyphs, {COASTLINE_BANDS} for more than {MANY} curves; bytes by the published "
-        "layout) beside our textures. The bands blend two rays a pixel instead of integrating over it. As built "
-        "here they count the windings of one path by the non-zero rule, which is no limit of the method. One "
-        "trilinear fetch from a raster texture, the least that any of them could take, "
-        f"needs {fetch:.2g} ms a frame."
+        f"Pictures of {SIZE[0]}×{SIZE[1]} pixels on {device}, median of {REPEAT} runs: the bands (E. Lengyel 2017) "
+        f"beside our textures. There are {BANDS} bands in each direction, as published for glyphs, and "
+        f"{COASTLINE_BANDS} for more than {MANY} curves; their bytes are those of the published layout. The bands "
+        "blend two rays for each pixel instead of integrating over it. As implemented here they draw one path by the "
+        "non-zero rule; this is a limit of our implementation, not of the method. One trilinear fetch from a raster "
+        f"texture, the least work that any method could do, takes {fetch:.2g} ms a frame."
     )
     table = Table("band-times", caption + dashes(missing), head, rows)
     return Section("bands-on-the-gpu", "Bands, on the GPU", (), [table])
 
 
 def dashes(reasons: Iterable[str]) -> str:
-    """Why something is missing from a table: each error once."""
+    """Sentence that explains the dashes in a table, with each reason once; empty if there are none."""
     why = dict.fromkeys(reasons)
     return f" Dashes: {'; '.join(why)}." if why else ""
 
 
 def with_bands(shape: "Shape") -> "tuple[Program, int]":
-    """Program that draws the bands, and their bytes."""
+    """Program that draws the bands, and the bytes that they take."""
     from vexture_evidence.measures.programs import band_program
 
     texture = bands_of(shape.drawing)
@@ -124,7 +125,7 @@ def with_bands(shape: "Shape") -> "tuple[Program, int]":
 
 
 def with_packed(shape: "Shape") -> "tuple[Program, int]":
-    """The same for the packed texture."""
+    """Program that draws the packed texture, and the bytes that it takes."""
     from vexture.texture.texture import Texture
     from vexture_evidence.measures.programs import packed_program
 
@@ -134,7 +135,7 @@ def with_packed(shape: "Shape") -> "tuple[Program, int]":
 
 
 def with_direct(shape: "Shape") -> "tuple[Program, int]":
-    """The same for the thesis's textures, converted by our way."""
+    """Program that draws the thesis's pair of textures from our conversion, and the bytes that they take."""
     from vexture.thesis.texture import ThesisTexture
     from vexture_evidence.measures.programs import thesis_program
 

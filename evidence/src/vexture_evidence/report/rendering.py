@@ -1,4 +1,4 @@
-"""How the pixels come about: few of them, edges, the cut-off, the cubic's solutions, tolerances, a receding plane."""
+"""Rendering: few pixels, edges, the cut-off, the solutions of a cubic, tolerances, and a receding plane."""
 
 from collections.abc import Sequence
 from typing import Any, Final
@@ -29,24 +29,24 @@ from vexture_evidence.report.section import Material, Picture, Section, Table
 __all__ = ["section"]
 
 SIDE: Final = 128
-"""Pixels of the pictures of solved curves."""
+"""Side of the pictures of solved curves, in pixels."""
 
 TEXT: Final = (
-    "The thesis draws a pixel by what it finds at the pixel's centre: the stored coverage of a quad that is smaller "
-    "than the pixel (a MIP value), or 4 x 4 points against the one curve of the leaf there. Both are measured here "
-    "against the exact area of the shape in the pixel's square, and so is the packed texture's shader, which computes "
-    "that area. Errors are means over the pixels that the shape touches, in the picture or "
-    "in truth, in steps of 1/255.",
+    "The thesis's shader looks up the pixel's centre in the quad-tree. If it reaches a quad that is smaller than the "
+    "pixel, it uses the coverage that is stored for this quad (the MIP value); otherwise it tests 4 x 4 points of the "
+    "pixel against the one curve of the leaf. Both are measured here against the exact area of the shape in the "
+    "pixel's square, and so is the shader of the packed texture, which computes that area. Errors are means over the "
+    "pixels that the shape touches in the picture or in the truth (the exact coverage), in steps of 1/255.",
 )
 
 
 def section(material: Material) -> Section:
-    """Make the part of the report that is about renderings.
+    """Make the section on rendering.
 
     Parameters
     ----------
     material : Material
-        Its main drawing is the one shown; the curves and the plane are the same in all reports.
+        Its main drawing is shown; the solved curves and the plane are the same in all reports.
     """
     parts = (
         _sizes(material),
@@ -73,15 +73,16 @@ def _sizes(material: Material) -> Section:
     last = rendered[-1]
     errors = {name: error.mae for name, error in last.errors.items()}
     stored = "" if last.from_mip is None else (
-        " Columns: one pixel to 16 x 16. The centre alone hits or misses; a MIP value helps only pixels that a whole "
-        "quad fits into; the blue pixels of the third row come from leaves and keep their stairs; 16 samples smooth "
-        "those, but each of them sees no other curve than the centre's, and in few pixels that is not the shape. (At 1 "
-        "x 1 a quad is exactly as large as the pixel. The rule as printed stops at quads that are smaller, so it "
-        "takes the quarter in which the centre lies.)"
+        " The columns show 1 x 1 to 16 x 16 pixels. A single test at the centre gives full or empty pixels only. A MIP "
+        "value helps only pixels that are larger than a quad. The blue pixels of the third row come from leaves and "
+        "keep their stair-steps. 16 samples smooth these, but all of them are tested against the one curve at the "
+        "pixel's centre, which in a picture of few pixels does not represent the shape. (At 1 x 1 the root quad is "
+        "exactly as large as the pixel. The rule as printed stops at quads that are smaller, so it takes the quarter "
+        "in which the centre lies.)"
     )  # fmt: skip
     caption = (
-        f"Thesis 3.13. The drawing `{material.main.name}` in few pixels.{stored} Mean errors at {len(last.truth)} x "
-        f"{len(last.truth)} pixels: {_listed(errors)}.{_refusal(material)}"
+        f"Thesis 3.13. The drawing `{material.main.name}` in pictures of few pixels.{stored} Mean errors at "
+        f"{len(last.truth)} x {len(last.truth)} pixels: {_listed(errors)}.{_refusal(material)}"
     )
     table = Table(
         "errors-at-sizes",
@@ -99,16 +100,15 @@ def _edges(material: Material) -> Section:
     rendered = at_edge(material.main)
     errors = rendered.errors
     ours = errors[PACKED]
-    said = f"packed {ours.mae:.3g} on average and {ours.max:.2g} at most"
+    said = f"packed is off by {ours.mae:.3g} on average and {ours.max:.2g} at most"
     if GRID in errors:
         said = f"16 samples are off by {errors[GRID].mae:.3g} on average and {errors[GRID].max:.0f} at most, {said}"
     assert rendered.to_unit is not None
     across = len(rendered.truth) * float(np.hypot(*rendered.to_unit[:2, 0]))
     caption = (
         f"Thesis 4.14. A piece of the outline of `{material.main.name}`, {across:.3g} of the drawing wide and turned "
-        f"by {TURNED:.0f} degrees, without and with "
-        f"supersampling as the thesis has it, by the packed texture, and by the truth; below, the error of each pixel. "
-        f"In 1/255 {said}.{_refusal(material)}"
+        f"by {TURNED:.0f} degrees: by the thesis's way without and with supersampling, by the packed texture, and the "
+        f"exact coverage. Below: the error of each pixel. Errors in 1/255: {said}.{_refusal(material)}"
     )
     picture = Picture("edges", edges(rendered), caption, "Pixels of an outline by several methods, and their errors")
     return Section("edges", "Edges", (), (picture,), {"errors": {name: e._asdict() for name, e in errors.items()}})
@@ -121,11 +121,11 @@ def _cut_off(material: Material) -> Section:
         return Section("cut-off", "Where the descent ends", (f"Thesis 4.15 is not shown.{_refusal(material)}",))
     shares = {f"{len(picture.image)} px": float(picture.from_mip.mean()) for picture in drawn}
     caption = (
-        f"Thesis 4.15. Quads smaller than {EXAGGERATED:.0f} pixels drawn by their MIP values (grey: lighter is "
-        f"fuller), so that one sees where the descent ends; blue and orange pixels are in and out by a leaf. As the "
-        f"picture grows from {len(drawn[0].image)} to {len(drawn[-1].image)} pixels, MIP values retreat from "
-        f"{100 * drawn[0].from_mip.mean():.0f}% of the pixels to {100 * drawn[-1].from_mip.mean():.0f}%, into the "
-        f"places with the finest detail."
+        f"Thesis 4.15. To show where the descent ends, quads smaller than {EXAGGERATED:.0f} pixels are drawn by their "
+        "MIP values here (grey: lighter means fuller). Blue and orange pixels are inside and outside the shape "
+        f"according to a leaf. As the picture grows from {len(drawn[0].image)} to {len(drawn[-1].image)} pixels a "
+        f"side, the share of pixels with MIP values falls from {100 * drawn[0].from_mip.mean():.0f}% to "
+        f"{100 * drawn[-1].from_mip.mean():.0f}%; they remain at the places with the finest detail."
     )
     picture = Picture("cut-off", exaggerated(drawn), caption, "MIP values of large quads at five sizes of the picture")
     return Section("cut-off", "Where the descent ends", (), (picture,), {"share of MIP values": shares})
@@ -145,22 +145,23 @@ def _solutions(material: Material) -> Section:
         rows.append(row)
         facts[case.name] = {"p1": case.p1, "p2": case.p2, "x": case.x, "t": cpu.t, "heights": cpu.heights}
     compared = (
-        f"Left of each pair float64 on the CPU, right the shader itself in float32 on {material.device}. The largest "
-        f"difference of a root is {max(row[5] for row in rows):.1g}; of {len(SOLUTIONS) * SIDE**2:,} pixels "
-        f"{sum(row[7] for row in rows)} differ."
+        "The left picture of each pair is computed in float64 on the CPU, the right one by the shader itself, in "
+        f"float32 on {material.device}. The largest difference between roots is {max(row[5] for row in rows):.1g}; "
+        f"{sum(row[7] for row in rows)} of {len(SOLUTIONS) * SIDE**2:,} pixels differ."
         if gpu
-        else "There is no OpenGL on this machine, so the GPU's pictures are left out."
+        else "There is no OpenGL on this machine, so the pictures from the GPU are left out."
     )
     caption = (
-        "Thesis 4.9, 4.10. A curve for each of the nine solution paths of Figure 3.5, in the basis of its chord (P0 at "
-        "0, P3 at 1, filled below), solved where the dashed line is: dots are what the solver finds on the curve, with "
-        "their t and heights. The two parts of a double root touch the line without crossing it; they are left out, "
-        f"because they change nothing between in and out (thesis 3.3.3). {compared}"
+        "Thesis 4.9, 4.10. One cubic for each of the nine solution paths of Figure 3.5, in the coordinates of its "
+        "chord (P0 at 0, P3 at 1, filled below), solved for the x of the dashed line. Dots mark the roots that the "
+        "solver finds, given by their t and heights. At a double root the curve touches the line without crossing it; "
+        "double roots are left out, because they do not change whether a point is inside or outside (thesis 3.3.3). "
+        f"{compared}"
     )
     picture = Picture("solution-paths", solutions(side=SIDE, gpu=gpu), caption, "Nine cubic curves with their roots")
     table = Table(
         "solutions",
-        "Roots of the nine curves, and the curves' heights there" + ("" if gpu else "; dashes: no OpenGL here"),
+        "Roots of the nine curves, and the curves' heights there" + ("" if gpu else ". Dashes: no OpenGL here"),
         (
             "path",
             "t: CPU",
@@ -186,13 +187,14 @@ def _tolerance(material: Material) -> Section:
     errors, near = whole.errors, close.errors
     caption = (
         f"Thesis 5.12. `{material.main.name}` by the thesis's way with a tolerance that suits its smallest detail, "
-        "with one ten times as large, and packed, which fits nothing and so needs none. Below, the marked square, "
-        f"where they are worst; the orange line is the drawing's own outline. Mean errors in that square: "
-        f"{_listed({name: error.mae for name, error in near.items()})}.{_refusal(material)}"
+        "by the same way with a tolerance ten times as large, and by `packed`, which fits no curves and so needs no "
+        "tolerance. Below: the marked square, where the errors are largest; the orange line is the drawing's own "
+        f"outline. Mean errors in that square: {_listed({name: error.mae for name, error in near.items()})}."
+        f"{_refusal(material)}"
     )
     table = Table(
         "tolerances",
-        "Tolerance and what follows from it; distances in thousandths of the drawing's side, before quantisation",
+        "Effects of the tolerance; distances in thousandths of the drawing's side, before quantisation",
         ("way", "tolerance", "largest distance", "curves", "bytes on the GPU", "error: whole", "error: marked square"),
         [
             (fit.name, 1e3 * fit.tolerance, 1e3 * fit.deviation, fit.curves, fit.nbytes, errors[fit.name].mae,
@@ -209,12 +211,12 @@ def _plane() -> Section:
     found = receding()
     errors, far = found.rendered.errors, _far(found)
     caption = (
-        f"Thesis 2.7. A plane of {found.tiles} x {found.tiles} dots that recedes. One fetch from a raster texture "
-        "aliases where a pixel holds many texels. Its mip-map, filtered alike in all directions, turns that to grey "
-        "long before the dots are gone. Near the eye both blur: they have "
+        f"Thesis 2.7. A receding plane of {found.tiles} x {found.tiles} dots. A single fetch from a raster texture "
+        "aliases where a pixel covers many texels. Its mip-map, filtered alike in all directions, turns the pattern "
+        "grey long before the dots become too small to see. Near the eye both blur: they have "
         f"{found.raster_side} x {found.raster_side} texels, which with the mip-map take as much memory as the packed "
-        "texture. The thesis's shader, as it is kept here (`sampled`), takes MIP values where a pixel is longer than a "
-        "quad is wide. The packed texture's integrates over the pixel's own footprint. Mean errors: "
+        "texture. The thesis's shader, as kept here (`sampled`), takes MIP values where a pixel's footprint is longer "
+        "than a quad is wide. The shader of the packed texture integrates over the pixel's own footprint. Mean errors: "
         f"{_listed({name: error.mae for name, error in errors.items()})}. In the far quarter of the picture: "
         f"{_listed(far)}."
     )

@@ -1,4 +1,4 @@
-"""What a report consists of: sections of text, tables and pictures, with the figures behind them."""
+"""Parts of a report: sections of text, tables and pictures, with the numbers behind them."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -16,25 +16,25 @@ __all__ = ["Material", "Picture", "Printed", "Section", "Table"]
 
 @dataclass(frozen=True, slots=True)
 class Printed:
-    """A value that the thesis printed, which the page marks as such: all others are measured."""
+    """A value that the thesis printed, which the page marks as such; all other values are measured."""
 
     value: Any
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Picture:
-    """A figure with what it shows.
+    """A figure with its caption.
 
     Parameters
     ----------
     name : str
-        Of its file, without suffix: lower case, digits, hyphens; once in a report.
+        Name of its file, without suffix: lower case, digits, hyphens; unique in a report.
     figure : matplotlib.figure.Figure
     caption : str
-        What to see in it. Thesis figures are named: "Thesis 3.13. ..." What the thesis printed stands between ⟦ and ⟧,
-        in the text of sections too.
+        What the figure shows. A caption begins with the number of the thesis's figure, if it has one: "Thesis 3.13."
+        Values that the thesis printed are written between ⟦ and ⟧, in the text of sections too.
     alt : str
-        What it shows, for those who do not see it.
+        Alternative text, for readers who cannot see the figure.
     """
 
     name: str
@@ -45,7 +45,7 @@ class Picture:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Table:
-    """Rows of values: the first column names the row.
+    """Rows of values; the first column names the row.
 
     Parameters
     ----------
@@ -53,10 +53,10 @@ class Table:
         Its key in the JSON.
     caption : str
     head : sequence of str
-        Units included. A head "group: column" makes columns with one group stand below it.
+        Headings of the columns, with units. Adjacent headings "group: column" of one group share a heading above them.
     rows : sequence of sequences
-        Text, numbers, `Printed` values, or None where there is nothing (shown as a dash; say why in the caption).
-        Floats are shown with three significant digits, and whole in the JSON.
+        Text, numbers, `Printed` values, or None if there is no value (shown as a dash; say why in the caption).
+        Floats are shown with three significant digits on the page, and with all digits in the JSON.
     """
 
     name: str
@@ -72,14 +72,14 @@ class Section:
     Parameters
     ----------
     anchor : str
-        Its address within the page and its key in the JSON: lower case, digits, hyphens.
+        Its id in the page and its key in the JSON: lower case, digits, hyphens.
     title : str
     text : sequence of str
-        Paragraphs, plain text; `code` between backquotes.
+        Paragraphs of plain text, with `code` between backquotes.
     items : sequence of Table, Picture or Section
-        In order; sections within make a heading of the next level.
+        In order; nested sections get headings of the next level.
     facts : mapping
-        Further measured figures for the JSON.
+        Further measurements for the JSON.
     """
 
     anchor: str
@@ -90,12 +90,12 @@ class Section:
 
 
 class Material:
-    """What all sections are about.
+    """The drawings that all sections are about, and the device that they are measured on.
 
     Parameters
     ----------
     sources : sequence of path
-        Drawings of the user's; empty: the example drawings of Table 5.1.
+        The user's drawings; if empty, the example drawings of Table 5.1 are used.
 
     Examples
     --------
@@ -114,7 +114,7 @@ class Material:
 
     @property
     def main(self) -> Shape:
-        """The drawing of figures that show one: the duck, as in the thesis, or the user's first."""
+        """The drawing for figures that show only one: the user's first drawing, or the duck, as in the thesis."""
         return self.shapes[0] if self.own else self.example("duck")
 
     def example(self, name: str) -> Shape:
@@ -123,7 +123,7 @@ class Material:
 
     @cached_property
     def device(self) -> str | None:
-        """Name of the OpenGL driver; None where there is no GPU, and figures that need one are left out."""
+        """Name of the OpenGL driver; None if there is no GPU, in which case figures that need one are left out."""
         from vexture.errors import DeviceError
 
         try:

@@ -1,4 +1,4 @@
-"""Figures 5.1 to 5.11: every drawing with what becomes of it."""
+"""Figures 5.1 to 5.11 of the thesis: every drawing with its cells, its textures and a picture drawn from them."""
 
 from vexture.errors import LimitError
 from vexture.texture.texture import Texture
@@ -22,20 +22,20 @@ def section(material: Material) -> Section:
     'duck.'
     """
     text = (
-        "Each picture shows a drawing, and for each way of conversion the cells that the unit square was divided "
-        "into, with the curves in them, and the texels that a shader reads; at the lower left the picture that the "
-        "last texture makes. A cell is the darker the more of it is filled: that value stands for the whole cell "
-        f"where it is smaller than a pixel. The error is that of a picture of {SIDE} x {SIDE} pixels: the mean, in "
-        "1/255, over the pixels that the shape touches, in it or in truth, against the exact coverage.",
-        "Packed leaves hold few horizontal lines, for these follow from the other curves: those that no leaf holds are "
-        "dotted. An outline along the border of a cell needs no curve in it, so there it may not be drawn.",
+        "Each figure shows a drawing and, for each way of conversion, the cells that the unit square was divided into, "
+        "with the curves in them, and the texels that a shader reads. At the lower left is a picture drawn from the "
+        "last texture. The fuller a cell is, the darker it is shown; this coverage represents the whole cell "
+        f"where the cell is smaller than a pixel. The error is that of a picture of {SIDE} x {SIDE} pixels, compared "
+        "with the exact coverage: the mean, in 1/255, over the pixels that the shape touches in either.",
+        "Packed leaves hold few horizontal lines, because these follow from the other curves. Lines that no leaf holds "
+        "are dotted. An outline along the border of a cell needs no curve in the cell, so it may not be drawn there.",
     )
     items = [_picture(shape, place, material.own) for place, shape in enumerate(material.shapes, 1)]
     return Section("shapes", "Every drawing", text, items)
 
 
 def textures_of(shape: Shape) -> tuple[dict[str, ThesisTexture | Texture], list[str]]:
-    """Textures of a drawing by way, and for each way that cannot hold it the reason.
+    """Textures of a drawing by way of conversion, and the reason for each way that cannot hold it.
 
     Examples
     --------
@@ -49,7 +49,7 @@ def textures_of(shape: Shape) -> tuple[dict[str, ThesisTexture | Texture], list[
         try:
             made[way] = shape.way(way).texture
         except LimitError as error:
-            refused.append(f"`{way}` is not there: {error}.")
+            refused.append(f"`{way}` is missing: {error}.")
     return made, refused
 
 

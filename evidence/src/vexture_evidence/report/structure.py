@@ -1,4 +1,4 @@
-"""Figures 3.10 to 3.12, 4.13 and 4.16: the tree, its lists, its depths, its files."""
+"""Figures 3.10 to 3.12, 4.13 and 4.16 of the thesis: the tree, its lists, its depths, its files."""
 
 from typing import Any
 
@@ -21,7 +21,7 @@ from vexture_evidence.report.shapes import textures_of
 __all__ = ["section"]
 
 AREA_SIDE = 500
-"""Pixels of the exact picture whose mean is a drawing's area, whatever its size."""
+"""Side of the exact picture whose mean is the drawing's area, in pixels; the mean is the same for any side."""
 
 
 def section(material: Material) -> Section:
@@ -35,9 +35,10 @@ def section(material: Material) -> Section:
     shape = material.main
     made, refused = textures_of(shape)
     text = (
-        f"How the drawing `{shape.name}` is stored. The unit square is divided into four cells, and each of these "
-        "again where it holds more than a leaf can say. A texture holds the quads, four cells each, and the curves "
-        "of the leaves, as two lists. An outline along the border of a cell needs no curve in it.",
+        f"This section shows how the drawing `{shape.name}` is stored. The unit square is divided into four cells, and "
+        "each cell is divided again if it contains more than a leaf can hold. A texture holds two lists: the quads, of "
+        "four cells each, and the curves of the leaves. An outline along the border of a cell needs no curve in the "
+        "cell.",
     )
     table = _table(made, material.own, refused)
     trees = [_hierarchy(way, made, material.own) for way in ("sampled", "packed") if way in made]
@@ -58,9 +59,9 @@ def _table(made: dict[str, ThesisTexture | Texture], own: bool, refused: list[st
         else:
             rows.append([way, *[None] * 5])
     caption = (
-        "Thesis 3.4. Cells of both lists, four for each quad and one for each curve, against the regular grid of the "
-        "smallest cells that they replace. A tree that needs no small cells replaces a coarser grid, so compare the "
-        f"numbers of cells: the share says more of deep trees. {' '.join(refused)}"
+        "Thesis 3.4. Cells of both lists, four for each quad and one for each curve, compared with the uniform grid of "
+        "the smallest cells, which they replace. A tree without small cells replaces a coarser grid, and its share is "
+        f"larger; compare the numbers of cells rather than the shares. {' '.join(refused)}"
     ).strip()
     head = ["way", "quads", "curves", "cells of both lists", "cells of the grid", "share, %"]
     return Table("cells", caption, head, rows)
@@ -75,13 +76,13 @@ def _hierarchy(way: str, made: dict[str, ThesisTexture | Texture], own: bool) ->
             f"{STRUCTURE.cells / STRUCTURE.grid:.2%} of {STRUCTURE.grid:,}⟧."
         )
     caption = (
-        f"Thesis 3.10, `{way}`. Left: the cells, with their curves. Right: the quads by depth; a gray cell refers to "
-        f"the quad below, the others are leaves. {number(found.quads, 'quad')} and {number(found.curves, 'curve')} "
-        f"are {found.cells:,} cells"
+        f"Thesis 3.10, `{way}`. Left: the cells, with their curves. Right: the quads by depth; a grey cell refers to "
+        f"the quad below it, and the other cells are leaves. {number(found.quads, 'quad')} and "
+        f"{number(found.curves, 'curve')} make {found.cells:,} cells"
     )
     if way == "packed":
         caption += (
-            ": a leaf holds several pieces here, so sharp corners and thin parts need no small cells. Horizontal "
+            ". A leaf holds several pieces here, so sharp corners and thin parts need no small cells. Horizontal "
             "lines that no leaf holds are dotted."
         )
     else:
@@ -95,10 +96,11 @@ def _lists(shape: Shape, way: str, texture: ThesisTexture | Texture) -> Picture:
     area = float(render_exact(shape.drawing, (AREA_SIDE, AREA_SIDE)).mean(dtype=np.float64))
     root = float(quads(shape.way(way).tree).coverage[0])
     caption = (
-        f"Thesis 3.11 and 3.12, `{way}`. The two lists, level with the depth that each entry comes from, and the "
-        "percentage of each that is filled, which stands for all below it where that is smaller than a pixel (the "
-        f"thesis calls it MIP value). A quad's is the mean of its cells': the first says {100 * root:.3f}%, and the "
-        f"drawing's exact area is {100 * area:.3f}%, {LEVELS * abs(root - area):.2g}/255 from it."
+        f"Thesis 3.11 and 3.12, `{way}`. The two lists, by the depth of each entry, and the coverage of each entry in "
+        "percent. A quad's coverage represents everything below the quad where it is smaller than a pixel (the thesis "
+        "calls it the MIP value), and is the mean of its cells' coverage. The coverage of the first quad is "
+        f"{100 * root:.3f}%. The drawing's exact area is {100 * area:.3f}%, which differs by "
+        f"{LEVELS * abs(root - area):.2g}/255."
     )
     return Picture("lists", lists(texture), caption, "Quads and curves by depth, and how much of each is filled")
 
@@ -107,8 +109,8 @@ def _depths(made: dict[str, ThesisTexture | Texture]) -> Picture:
     deepest = {way: int(leaves(texture).depth.max()) for way, texture in made.items()}
     said = ", ".join(f"{depth} for `{way}`" for way, depth in deepest.items())
     caption = (
-        f"Thesis 4.13. How deep the tree is, the darker the deeper: {said}. A shader takes so many steps at most to "
-        "find a pixel's curves. Depth gathers at corners where a leaf holds one curve only."
+        f"Thesis 4.13. The depth of the cells; darker is deeper. The largest depths are {said}: the most steps that a "
+        "shader takes to find a pixel's curves. If a leaf holds only one curve, the deepest cells are at corners."
     )
     return Picture("depths", subdivisions(made, shades="depth"), caption, "Cells of a drawing, coloured by depth")
 
@@ -125,8 +127,8 @@ def _files(shape: Shape, made: dict[str, ThesisTexture | Texture]) -> Picture:
         shown[f"direct, 16 bits: {file_bytes(made['direct']):,} bytes"] = made["direct"]
     shown[f"packed: {file_bytes(made['packed']):,} bytes"] = made["packed"]
     caption = (
-        "Thesis 4.16. The textures as images, turned by 90 degrees: one column for each quad or curve, and at one "
-        "scale. The pixels of a pair are shown in their own colours. A texel of a packed texture is four words: red "
-        "is a word's low half, green its high half, and quads have some blue." + note
+        "Thesis 4.16. The textures as images at one scale, turned by 90 degrees, so that each quad or curve is one "
+        "column. The pixels of a pair are shown in their own colours. A texel of a packed texture is a column of four "
+        "words: red is a word's low half, green its high half, and the words of quads have some blue." + note
     )
     return Picture("textures", textures(shown), caption, "Texels of the textures as coloured squares")

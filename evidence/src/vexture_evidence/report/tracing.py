@@ -1,4 +1,4 @@
-"""Pictures of pixels as a source (thesis 4.2)."""
+"""Pictures of pixels as input: how well they are traced (thesis 4.2)."""
 
 from io import BytesIO
 from typing import TYPE_CHECKING, Any, Final
@@ -21,25 +21,25 @@ if TYPE_CHECKING:
 __all__ = ["section"]
 
 SIDES: Final = (64, 128, 256, 512)
-"""Pixels of the pictures that are traced."""
+"""Sides of the pictures that are traced, in pixels."""
 
 SHOWN: Final = 128
-"""Pixels of the one that is shown."""
+"""Side of the picture that is shown."""
 
 TEXT: Final = (
-    "The thesis takes SVG files and names another program for pictures of pixels. Here `vexture convert logo.png` "
-    "traces them itself. To know how well, the exact picture of a known drawing is saved as a PNG file of 8 bits, that "
-    "is traced, and the outline found is compared with the true one.",
+    "The thesis reads only SVG files and leaves tracing to another program. `vexture convert logo.png` traces pictures "
+    "of pixels itself. To measure how well, the exact picture of a known drawing is saved as an 8-bit PNG file, this "
+    "file is traced, and the traced outline is compared with the true one.",
 )
 
 
 def section(material: Material) -> Section:
-    """Make the part of the report that is about tracing.
+    """Make the section on tracing.
 
     Parameters
     ----------
     material : Material
-        Its main drawing is drawn, and traced.
+        Its main drawing is rendered, and the picture is traced.
     """
     drawing = material.main.drawing
     pictures = {side: coverage(drawing, (side, side), renderer="exact") for side in SIDES}
@@ -52,18 +52,18 @@ def section(material: Material) -> Section:
         return Section("tracing", "Pictures of pixels", (*TEXT, f"Not measured here: {error}."))
     table = Table(
         "traced",
-        f"{drawing.name}, drawn, traced and converted. The distance is the area between both outlines over the length "
-        "of the true one, in pixels of the traced picture and in 1/1000 of its side.",
+        f"{drawing.name}, rendered, traced and converted. The distance is the area between the two outlines divided by "
+        "the length of the true one, in pixels of the traced picture and in 1/1000 of its side.",
         ["side: px", "PNG: bytes", "tracing: ms", "traced: cubics", "packed: bytes", "distance: px", "distance: ‰"],
         rows,
     )
     picture = Picture(
         "tracing",
         tracing(pictures[SHOWN], traced, drawing),
-        f"Thesis 4.2. The picture of {SHOWN} pixels, the outline traced in it and the true one where the drawing turns "
-        "most, and two pictures from the packed texture of what was traced. The frame marks the part that is "
-        "enlarged. Corners between pixels are rounded: the pixels no longer say where they were.",
-        f"Pixels of {drawing.name}, a traced outline that follows the true one, and large pictures without pixels",
+        f"Thesis 4.2. From the left: the picture of {SHOWN} pixels; the traced outline and the true one where the "
+        "drawing turns most; two pictures from the packed texture of the traced outline. The frame marks the part that "
+        "is enlarged. Corners that lie between pixels are rounded, because the pixels do not tell where they were.",
+        f"Pixels of {drawing.name}, a traced outline that follows the true one, and large pictures without pixel steps",
     )
     return Section("tracing", "Pictures of pixels", TEXT, (table, picture))
 
@@ -79,7 +79,7 @@ def _row(drawing: "Drawing", picture: "NDArray[np.float32]") -> list[Any]:
 
 
 def _png(picture: "NDArray[np.float32]") -> bytes:
-    """The drawing black on white, as a file."""
+    """A PNG file of the picture, black on white."""
     from PIL import Image
 
     data = BytesIO()
