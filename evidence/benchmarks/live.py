@@ -16,8 +16,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
-from report import table, write_json
-from vexture_evidence.measures.machine import machine_facts, machine_line
+from report import write_figures
 
 __all__ = ["main"]
 
@@ -158,14 +157,7 @@ def main() -> None:
     if arguments.quick:
         arguments.uploads = 5
     found = measure(arguments)
-    facts = machine_facts()
-    rows = [
-        (key, f"{value:.1f}" if isinstance(value, float) else str(value), f"{GOALS[key]:.0f}" if key in GOALS else "")
-        for key, value in found.items()
-    ]
-    print(table(("figure", "measured", "at most"), rows))
-    print(machine_line(facts))
-    print(write_json("live", {"machine": facts, "goals": GOALS, **found}))
+    write_figures("live", found, GOALS)
 
 
 if __name__ == "__main__":

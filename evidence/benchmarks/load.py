@@ -19,9 +19,8 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from live import DRAWING, SERVE, TOKEN, Client, memory, percentile, put
-from report import table, write_json
+from report import write_figures
 from vexture.live.limits import Limits
-from vexture_evidence.measures.machine import machine_facts, machine_line
 
 __all__ = ["main"]
 
@@ -138,14 +137,7 @@ def main() -> None:
     if arguments.quick:
         loads = {name: max(value // 10, 1) for name, value in loads.items()}
     found = {**loads, **measure(argparse.Namespace(**loads))}
-    facts = machine_facts()
-    rows = [
-        (key, f"{value:.1f}" if isinstance(value, float) else str(value), f"{GOALS[key]:.0f}" if key in GOALS else "")
-        for key, value in found.items()
-    ]
-    print(table(("figure", "measured", "at most"), rows))
-    print(machine_line(facts))
-    print(write_json("load", {"machine": facts, "goals": GOALS, **found}))
+    write_figures("load", found, GOALS)
 
 
 if __name__ == "__main__":

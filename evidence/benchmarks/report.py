@@ -2,13 +2,14 @@
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from vexture_evidence.measures.machine import machine_facts, machine_line
 from vexture_evidence.report.page import known
 
-__all__ = ["RESULTS", "cell", "table", "write_json"]
+__all__ = ["RESULTS", "cell", "table", "write_figures", "write_json"]
 
 RESULTS = Path(__file__).parent / "results"
 
@@ -45,3 +46,15 @@ def write_json(name: str, facts: Any) -> Path:
     path = RESULTS / f"{name}.json"
     path.write_text(json.dumps(known(facts), indent=1, allow_nan=False) + "\n")
     return path
+
+
+def write_figures(name: str, figures: Mapping[str, float], goals: Mapping[str, float]) -> None:
+    """Print figures beside the most that each may be, and the machine; write them as JSON."""
+    facts = machine_facts()
+    rows = [
+        (key, f"{value:.1f}" if isinstance(value, float) else str(value), f"{goals[key]:.0f}" if key in goals else "")
+        for key, value in figures.items()
+    ]
+    print(table(("figure", "measured", "at most"), rows))
+    print(machine_line(facts))
+    print(write_json(name, {"machine": facts, "goals": goals, **figures}))

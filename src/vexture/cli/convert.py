@@ -17,6 +17,7 @@ import click
 
 from vexture.cli.messages import as_options, one_line, say
 from vexture.cli.options import PATH, STANDARD, Sectioned, standard_input, tolerance_option
+from vexture.deadline import DEFAULT_SECONDS
 from vexture.encodings import DEFAULT, REGISTERED
 from vexture.errors import EXPECTED, ParameterError, VextureError
 from vexture.layout import PACKED_SUFFIX
@@ -78,7 +79,9 @@ class Outcome:
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
 @click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 4]")
 @click.option("--precision", metavar="P", type=float, help="Largest shift by rounding, in unit-square units.")
-@click.option("--max-seconds", metavar="S", type=float, help="Most seconds for one source.  [default: 300]")
+@click.option(
+    "--max-seconds", metavar="S", type=float, help=f"Most seconds for one source.  [default: {DEFAULT_SECONDS:g}]"
+)
 @click.option(
     "-j", "--jobs", metavar="N", type=click.IntRange(1), default=1, show_default=True, help="Processes to use."
 )
