@@ -6,18 +6,14 @@ import random
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
 from examples_of import DRAWINGS
+from floods import BOUNDS, flooding, sea, series
 from server import COMMAND, TOKEN, serving, square
 
 import vexture
 from vexture.texture.files import LEFT_SECONDS, TEMPORARY, replace_files
-
-sys.path.append(str(Path(__file__).parents[1] / "flood"))
-
-from floods import BOUNDS, flooding, sea, series  # of the folder above
 
 MANY = pytest.param(200, marks=[pytest.mark.slow, pytest.mark.timeout(3600)])
 

@@ -6,9 +6,11 @@ import zipfile
 
 import numpy as np
 import pytest
+from described import check_description
 from floods import BOUNDS, CRS, TOKEN, depths, flooding, geotiff, scene_of, sea, series
 from server import COMMAND, Stream
 
+from vexture.live.limits import Limits
 from vexture.texture.load import texture_from
 
 pytestmark = pytest.mark.usefixtures("page_is_built")
@@ -64,6 +66,10 @@ def test_page_tells_where_everything_is(server):
         again = server.ask("GET", f"/{address}", headers={"If-None-Match": headers["ETag"]})
         assert (again[0], again[2]) == (304, b"")
         assert content
+
+
+def test_it_describes_itself(server):
+    check_description(server.url, "flood", Limits())
 
 
 def test_a_push_changes_what_everyone_sees(server, tmp_path):

@@ -38,8 +38,10 @@ for number in range(shapes):
     shelf.put(Shape(f"{number:0100}", File(bytes(size), TEXTURE_TYPE, ".ktx2")))
 taken = bind("127.0.0.1", 0)
 print("serving at", listen(taken), flush=True)
-fault = Route("/fault", lambda request: 1 / 0)
-serve_until_stopped(application([fault, *routes(shelf)]), taken, shelf.close, Limits(**given))
+limits = Limits(**given)
+app = application(routes(shelf), limits)
+app.routes.append(Route("/fault", lambda request: 1 / 0))
+serve_until_stopped(app, taken, shelf.close, limits)
 """
 
 PATIENT = 600.0
@@ -293,7 +295,7 @@ def test_clients_are_refused_until_all_is_ready():
 
 def test_a_dropped_file_that_does_not_arrive_is_refused(monkeypatch):
     monkeypatch.setattr(page_routes, "DROPPED", Limits(upload_seconds=0.01))
-    app = application(page_routes.dropping_routes(shelves.Shelf(), Parameters(), ()))
+    app = application(page_routes.dropping_routes(shelves.Shelf(), Parameters(), ()), page_routes.DROPPED)
     scope = {"type": "http", "method": "POST", "path": "/convert", "query_string": b"name=a.svg", "headers": []}
     answer = []
 
