@@ -9,8 +9,10 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-# the benchmarks are scripts beside the package; they find each other in their own folder; so do the helpers of live/
-sys.path[:0] = [str(Path(__file__).parents[1] / "evidence" / "benchmarks"), str(Path(__file__).parent / "live")]
+TESTS = Path(__file__).parent
+
+# the benchmarks are scripts beside the package; they find each other in their own folder; so do helpers of tests
+sys.path[:0] = [str(TESTS.parent / "evidence" / "benchmarks"), str(TESTS / "live"), str(TESTS / "flood")]
 
 # compiling a kernel and drawing a whole tree take long; a temporary folder may be shared by examples
 settings.register_profile(

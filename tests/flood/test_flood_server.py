@@ -3,12 +3,16 @@
 import io
 import json
 import zipfile
+from contextlib import closing
 
 import numpy as np
 import pytest
+from attacks import NO_REQUESTS, refused, rest
+from described import check_description
 from floods import BOUNDS, CRS, TOKEN, depths, flooding, geotiff, scene_of, sea, series
 from server import COMMAND, Stream
 
+from vexture.live.limits import Limits
 from vexture.texture.load import texture_from
 
 pytestmark = pytest.mark.usefixtures("page_is_built")
@@ -46,6 +50,13 @@ def written(path, share, **options):
     return path.read_bytes()
 
 
+def test_what_is_no_request_is_told_so_and_newer_water_is_shown(server, tmp_path):
+    for sent, status in NO_REQUESTS:
+        with closing(server.peer(sent)) as peer:
+            assert refused(rest(peer)) == status
+    assert server.put("flood", sea(tmp_path / "a.json").read_bytes())[0] == 200
+
+
 def test_page_tells_where_everything_is(server):
     status, headers, page = server.ask("GET", "/")
     assert status == 200
@@ -64,6 +75,10 @@ def test_page_tells_where_everything_is(server):
         again = server.ask("GET", f"/{address}", headers={"If-None-Match": headers["ETag"]})
         assert (again[0], again[2]) == (304, b"")
         assert content
+
+
+def test_it_describes_itself(server):
+    check_description(server.url, "flood", Limits())
 
 
 def test_a_push_changes_what_everyone_sees(server, tmp_path):
@@ -153,7 +168,7 @@ def test_dry_push_is_shown_as_dry(server, tmp_path):
     assert wet(server) == [False] * 4
 
 
-def refused(folder):
+def unfit(folder):
     """Content that is not shown, and what the one line says."""
     far = (600000.0, 5000000.0, 604000.0, 5002000.0)
     from vexture import convert
@@ -175,7 +190,7 @@ def refused(folder):
 def test_what_does_not_fit_is_refused_and_the_last_water_stays(server, tmp_path, case):
     server.put("flood", sea(tmp_path / "good.json", 0.7).read_bytes())
     before = server.manifest("flood")
-    content, said = refused(tmp_path)[case]
+    content, said = unfit(tmp_path)[case]
     status, told = server.put("flood", content)
     assert status == 422, told
     assert said in told["error"]

@@ -2,10 +2,12 @@
 
 import http.client
 import json
+import socket
 import subprocess
 import sys
 import time
 from contextlib import contextmanager
+from pathlib import Path
 from urllib.parse import urlsplit
 
 COMMAND = [sys.executable, "-c", "from vexture.cli.main import main; main()"]
@@ -50,6 +52,25 @@ class Server:
             return answer.status, answer.headers, answer.read()
         finally:
             connection.close()
+
+    def peer(self, sent=b"", receives=None):
+        """A connection that sends some bytes, and perhaps takes few."""
+        peer = socket.socket()
+        if receives:
+            peer.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receives)
+        peer.settimeout(SECONDS)
+        peer.connect(("127.0.0.1", self.port))
+        peer.sendall(sent)
+        return peer
+
+    @property
+    def megabytes(self):
+        status = Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(status.partition("VmRSS:")[2].split()[0]) / 1000
+
+    @property
+    def descriptors(self):
+        return len(list(Path(f"/proc/{self.process.pid}/fd").iterdir()))
 
     def put(self, name, body, token=TOKEN):
         """Status and JSON of an upload."""

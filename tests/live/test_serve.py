@@ -9,6 +9,7 @@ from contextlib import ExitStack, closing
 from urllib.parse import urljoin
 
 import pytest
+from described import check_description
 from PIL import Image
 from server import COMMAND, TOKEN, Server, Stream, serving, square
 
@@ -78,7 +79,6 @@ def test_what_is_not_there_is_json(server):
         status, headers, content = server.ask("GET", path)
         assert (status, headers["Content-Type"]) == (404, "application/json")
         assert error(content)
-    assert server.ask("DELETE", "/shapes/square")[0] == 405
 
 
 def test_every_origin_may_read_and_none_may_write(server):
@@ -87,6 +87,24 @@ def test_every_origin_may_read_and_none_may_write(server):
     for method, status in (("GET", 200), ("PUT", 400)):
         asked = {**origin, "Access-Control-Request-Method": method, "Access-Control-Request-Headers": "if-none-match"}
         assert server.ask("OPTIONS", "/shapes/square", headers=asked)[0] == status
+
+
+@pytest.mark.usefixtures("page_is_built")
+def test_it_describes_itself(server):
+    check_description(server.url, "serve", Limits(max_bytes=100_000, rate=1000))
+
+
+@pytest.mark.parametrize(("path", "methods"), [("/shapes/a", "GET, HEAD, PUT"), ("/events", "GET, HEAD")])
+def test_other_methods_are_told_all_that_are_possible(server, path, methods):
+    status, headers, content = server.ask("DELETE", path)
+    assert (status, headers["Allow"], error(content)) == (405, methods, "DELETE is not possible here")
+
+
+def test_no_address_stands_for_another(server):
+    assert server.ask("GET", "/events/")[0] == 404  # and not elsewhere, as the client's Host says
+    status, refused = server.put("line%0A", square())
+    assert (status, refused["error"].split(":")[0]) == (400, "name 'line\\n'")
+    assert server.ask("GET", "/shapes/line%0A")[0] == 404
 
 
 def test_files_put_there_by_hand_are_served(server):

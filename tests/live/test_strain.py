@@ -4,12 +4,16 @@ import asyncio
 import json
 import socket
 import sys
+import tempfile
 import time
-from contextlib import ExitStack, closing, suppress
+from contextlib import ExitStack, closing, contextmanager, suppress
 from functools import partial
 from pathlib import Path
 
+import numpy as np
 import pytest
+from attacks import NO_REQUESTS, refused, rest
+from floods import BOUNDS, FloodServer, geotiff, sea
 from loops import run
 from server import SECONDS, TOKEN, Server, Stream, serving, square
 
@@ -38,66 +42,82 @@ for number in range(shapes):
     shelf.put(Shape(f"{number:0100}", File(bytes(size), TEXTURE_TYPE, ".ktx2")))
 taken = bind("127.0.0.1", 0)
 print("serving at", listen(taken), flush=True)
-fault = Route("/fault", lambda request: 1 / 0)
-serve_until_stopped(application([fault, *routes(shelf)]), taken, shelf.close, Limits(**given))
+limits = Limits(**given)
+app = application(routes(shelf), limits)
+app.routes.append(Route("/fault", lambda request: 1 / 0))
+serve_until_stopped(app, taken, shelf.close, limits)
 """
 
-PATIENT = 600.0
+FLOOD_PROGRAM = """
+import json, resource, sys
+from vexture.cli.main import main
+from vexture.live import flood
+from vexture.live.limits import Limits
+
+limits = json.loads(sys.argv.pop(1))
+files = limits.pop("files")
+resource.setrlimit(resource.RLIMIT_NOFILE, (files, files))
+flood.Limits = lambda: Limits(**limits)
+main()
+"""
+
 SHORT = 1.0
-"""Limits in seconds: one that no test reaches, and one for which a test waits."""
+PATIENT_LIMITS = {"head_seconds": 600.0, "stall_seconds": 600.0}
+"""Limits in seconds: one for which a test waits, and those that no test reaches."""
 
 
 class Shelf(Server):
     """A server of shapes that takes no uploads."""
 
     def __init__(self, _folder, token=False, files=2000, shapes=1, size=1, **limits):
-        patient = {"head_seconds": PATIENT, "stall_seconds": PATIENT}
-        told = {"files": files, "shapes": shapes, "size": size, **patient, **limits}
+        told = {"files": files, "shapes": shapes, "size": size, **PATIENT_LIMITS, **limits}
         self.start([sys.executable, "-c", PROGRAM, json.dumps(told)])
 
     @property
-    def megabytes(self):
-        status = Path(f"/proc/{self.process.pid}/status").read_text()
-        return int(status.partition("VmRSS:")[2].split()[0]) / 1000
-
-    @property
-    def descriptors(self):
-        return len(list(Path(f"/proc/{self.process.pid}/fd").iterdir()))
-
-    def peer(self, sent=b"", receives=None):
-        """A connection that sends some bytes, and perhaps takes few."""
-        peer = socket.socket()
-        if receives:
-            peer.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receives)
-        peer.settimeout(SECONDS)
-        peer.connect(("127.0.0.1", self.port))
-        peer.sendall(sent)
-        return peer
+    def large(self):
+        """Path of a file."""
+        return self.manifest(f"{0:0100}")["texture"][2:]
 
 
 def shelf(**given):
     return serving(None, kind=partial(Shelf, **given))
 
 
-def rest(peer):
-    """All that comes until the server closes."""
-    parts = []
-    while part := peer.recv(2**16):
-        parts.append(part)
-    return b"".join(parts)
+class Flood(FloodServer):
+    """The whole server of a flood, with other limits."""
+
+    large = "/flood.js"
+
+    def __init__(self, folder, token=True, files=2000, size=None, **limits):
+        told = {"files": files, **PATIENT_LIMITS, **limits}
+        self.water = sea(folder / "sea.geojson").read_bytes()
+        options = ["--extent", folder / "sea.geojson", "--bounds", ",".join(map(str, BOUNDS))]
+        super().__init__(folder, *options, token=token, program=[sys.executable, "-c", FLOOD_PROGRAM, json.dumps(told)])
+
+    def stop(self):
+        """Show newer water and end; the notes about the flood are no complaints."""
+        assert self.put("flood", self.water)[0] == 200
+        code, said, errors = super().stop()
+        return code, said, "".join(line for line in errors.splitlines(True) if not line.startswith("vexture: "))
 
 
-def refused(answer):
-    """Status of an answer that says in JSON and in one line why not."""
-    head, _, body = answer.partition(b"\r\n\r\n")
-    line = json.loads(body)["error"]
-    assert "\n" not in line
-    assert b"connection: close" in head.lower()
-    return int(head.split()[1])
+@contextmanager
+def flood(**given):
+    with tempfile.TemporaryDirectory() as folder, serving(Path(folder), kind=partial(Flood, **given)) as server:
+        yield server
 
 
-def test_connections_never_use_up_the_descriptors():
-    with shelf(files=200) as server, ExitStack() as opened:
+@pytest.fixture(params=["shelf", pytest.param("flood", marks=pytest.mark.slow)])
+def served(request):
+    """Context of a server under limits that are given; that of a flood takes seconds to start."""
+    if request.param == "shelf":
+        return shelf
+    request.getfixturevalue("page_is_built")
+    return flood
+
+
+def test_connections_never_use_up_the_descriptors(served):
+    with served(files=200) as server, ExitStack() as opened:
         peers = [opened.enter_context(closing(server.peer())) for _ in range(260)]
         answers = []
         for peer in reversed(peers[130:]):
@@ -126,9 +146,9 @@ def test_a_free_place_is_taken_again():
             pytest.fail("the place of a client that left stays taken")
 
 
-def test_peers_that_do_not_ask_are_closed():
+def test_peers_that_do_not_ask_are_closed(served):
     whole = b"GET /shapes HTTP/1.1\r\nHost: a\r\n\r\n"
-    with shelf(head_seconds=SHORT) as server, closing(Stream(server)) as stream:
+    with served(head_seconds=SHORT) as server, closing(Stream(server)) as stream:
         assert stream.next()[0] == "hello"
         with closing(server.peer()) as silent:
             assert rest(silent) == b""
@@ -141,11 +161,12 @@ def test_peers_that_do_not_ask_are_closed():
         stream.connection.sock.setblocking(False)
         with pytest.raises(BlockingIOError):  # nothing new, and no end
             stream.connection.sock.recv(1)
+        assert server.stop()[2] == ""
 
 
 @pytest.mark.parametrize("head", [b"", b"GET /shapes HTTP/1.1\r\nHost: a\r\nContent-Length: 10000\r\n\r\n"])
-def test_bytes_that_trickle_keep_no_connection_open(head):
-    with shelf(head_seconds=SHORT) as server, closing(server.peer(head)) as peer:
+def test_bytes_that_trickle_keep_no_connection_open(served, head):
+    with served(head_seconds=SHORT) as server, closing(server.peer(head)) as peer:
         try:
             for _ in range(20 * SECONDS):
                 peer.sendall(b"a")
@@ -158,7 +179,7 @@ def test_bytes_that_trickle_keep_no_connection_open(head):
 def test_readers_that_never_read_cost_little_and_are_cut_off():
     size, readers = 9_000_000, 30
     with shelf(size=size, stall_seconds=SHORT) as server, ExitStack() as opened:
-        path = server.manifest(f"{0:0100}")["texture"][2:]
+        path = server.large
         before, free = server.megabytes, server.descriptors
         ask = f"GET {path} HTTP/1.1\r\nHost: a\r\n\r\n".encode()
         peers = [opened.enter_context(closing(server.peer(ask, receives=4096))) for _ in range(readers)]
@@ -182,8 +203,7 @@ def test_readers_that_never_read_cost_little_and_are_cut_off():
 
 def pipelined(server, count):
     """A peer with a small buffer that asks for a file many times, and then for no more."""
-    path = server.manifest(f"{0:0100}")["texture"][2:]
-    ask = f"GET {path} HTTP/1.1\r\nHost: a\r\n".encode()
+    ask = f"GET {server.large} HTTP/1.1\r\nHost: a\r\n".encode()
     return server.peer((ask + b"\r\n") * (count - 1) + ask + b"Connection: close\r\n\r\n", receives=4096)
 
 
@@ -196,17 +216,18 @@ def test_answers_that_wait_to_be_read_count_as_no_silence():
         assert [rest(peer).count(bytes(60_000)) for peer in peers] == list(counts)
 
 
-def test_requests_that_wait_for_a_reader_keep_no_connection_open():
-    with shelf(size=60_000, stall_seconds=SHORT) as server, closing(pipelined(server, 100)) as peer:
+def test_requests_that_wait_for_a_reader_keep_no_connection_open(served):
+    with served(size=60_000, stall_seconds=SHORT) as server, closing(pipelined(server, 100)) as peer:
         time.sleep(3 * SHORT)
         with suppress(ConnectionResetError):
             assert rest(peer).count(b"HTTP/1.1 200") < 100
+        assert server.stop()[2] == ""
 
 
 def test_a_slow_reader_is_served():
     with shelf(size=1_000_000, stall_seconds=2.0) as server:
-        path = server.manifest(f"{0:0100}")["texture"][2:]
-        with closing(server.peer(f"GET {path} HTTP/1.1\r\nHost: a\r\n\r\n".encode(), receives=4096)) as peer:
+        ask = f"GET {server.large} HTTP/1.1\r\nHost: a\r\n\r\n".encode()
+        with closing(server.peer(ask, receives=4096)) as peer:
             received = 0
             while received < 1_000_000:
                 part = peer.recv(2**14)
@@ -228,26 +249,7 @@ def test_clients_that_do_not_read_the_first_event_hold_no_copy_of_it():
         assert server.megabytes - before < clients * len(json.dumps(told)) / 2e6
 
 
-def test_a_length_that_is_said_twice_is_refused():
-    request = (
-        b"PUT /shapes/a HTTP/1.1\r\nHost: a\r\nContent-Length: 4\r\nTransfer-Encoding: chunked\r\n\r\n"
-        b"0\r\n\r\nGET /shapes HTTP/1.1\r\nHost: a\r\n\r\n"
-    )
-    with shelf() as server, closing(server.peer(request)) as peer:
-        assert refused(rest(peer)) == 400
-        assert server.stop()[2] == ""
-
-
-@pytest.mark.parametrize(
-    ("sent", "status"),
-    [
-        (b"GET /shapes HTTP/1.1\r\nHost: a\r\n" + b"X: %s\r\n" % (b"y" * 1000) * 200 + b"\r\n", 431),
-        (b"GET /shapes HTTP/1.1\r\nHost: a\r\nX: " + b"y" * 30_000 + b"\r\n\r\n", 431),
-        (b"GET /" + b"y" * 200_000, 431),
-        (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(500_000), 400),
-        (b"GET /shapes HTTP/1.1\r\n\r\n" + b"y" * 500_000, 400),
-    ],
-)
+@pytest.mark.parametrize(("sent", "status"), NO_REQUESTS)
 def test_what_is_no_request_is_told_so_though_more_is_sent(sent, status):
     with shelf() as server:
         for _ in range(5):
@@ -256,9 +258,9 @@ def test_what_is_no_request_is_told_so_though_more_is_sent(sent, status):
         assert server.stop()[2] == ""
 
 
-def test_a_broken_body_breaks_only_its_own_request():
+def test_a_broken_body_breaks_only_its_own_request(served):
     head = b"PUT /shapes/a HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n"
-    with serving(None, kind=Shelf) as server:
+    with served() as server:
         with closing(server.peer(head + b"\r\nxyz\r\n")) as peer:
             assert refused(rest(peer)) in (400, 405)
         with closing(server.peer(head.replace(b"PUT /shapes/a", b"GET /events") + b"\r\n")) as peer:
@@ -293,7 +295,7 @@ def test_clients_are_refused_until_all_is_ready():
 
 def test_a_dropped_file_that_does_not_arrive_is_refused(monkeypatch):
     monkeypatch.setattr(page_routes, "DROPPED", Limits(upload_seconds=0.01))
-    app = application(page_routes.dropping_routes(shelves.Shelf(), Parameters(), ()))
+    app = application(page_routes.dropping_routes(shelves.Shelf(), Parameters(), ()), page_routes.DROPPED)
     scope = {"type": "http", "method": "POST", "path": "/convert", "query_string": b"name=a.svg", "headers": []}
     answer = []
 
@@ -321,15 +323,29 @@ def uploading(server, name, body):
     return connection
 
 
+def check_others_are_converted(server, name, body, slow):
+    """A slow upload is on its way while another shape is published again."""
+    assert server.put(name, body)[0] in (200, 201)  # it converts now
+    with closing(uploading(server, f"{name}/slow", slow)) as connection:
+        assert [server.put(name, body)[0] for _ in range(2)] == [200, 200]
+        connection.sock.setblocking(False)
+        with pytest.raises(BlockingIOError):  # no answer yet
+            connection.sock.recv(1)
+    assert server.stop()[0] == 0  # and with it the conversion
+
+
 def test_a_slow_conversion_keeps_no_other_waiting(tmp_path):
     with serving(tmp_path / "shapes") as server:
-        assert server.put("quick", square(1))[0] == 201  # it converts now
-        with closing(uploading(server, "slow", fan(1500))) as slow:
-            assert [server.put("quick", square(height))[0] for height in (2, 3)] == [200, 200]
-            slow.sock.setblocking(False)
-            with pytest.raises(BlockingIOError):  # no answer yet
-                slow.sock.recv(1)
-        assert server.stop()[0] == 0  # and with it the conversion
+        check_others_are_converted(server, "quick", square(), fan(1500))
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("page_is_built")
+def test_a_slow_conversion_of_a_flood_keeps_no_other_waiting(tmp_path):
+    noise = np.random.default_rng(1).normal(size=(1900, 1900)).astype(np.float32)
+    with flood() as server:
+        slow = geotiff(tmp_path / "noise.tif", noise).read_bytes()  # takes more than a minute
+        check_others_are_converted(server, "flood", server.water, slow)
 
 
 def test_of_uploads_of_one_name_the_last_stays(tmp_path):

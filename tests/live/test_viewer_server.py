@@ -4,9 +4,11 @@ import base64
 import json
 import re
 import subprocess
+import unicodedata
 
 import httpx
 import pytest
+from described import check_description
 
 from vexture.live.page_routes import DROPPED
 from vexture.texture.load import texture_from
@@ -37,6 +39,10 @@ def test_page_is_made_of_files_of_the_server_alone(view):
         assert len(file.content) > 1000
         again = view.get(name, headers={"If-None-Match": file.headers["etag"]})
         assert (again.status_code, again.content) == (304, b"")
+
+
+def test_it_describes_itself(view):
+    check_description(view.url, "view", DROPPED)
 
 
 def test_files_of_one_name_are_told_apart(view):
@@ -98,6 +104,13 @@ def test_dropped_drawing_is_published_and_takes_no_name_of_others(view):
     assert httpx.get(httpx.URL(view.url).join(answer.headers["location"])).json() == manifest
     assert packed_of(view, manifest).roots[0].name.startswith(manifest["name"] + "/")
     assert view.manifest("duck") == before
+
+
+def test_names_of_files_in_any_normal_form_are_found(view):
+    """macOS writes the letters of names apart from their accents."""
+    answer = view.post(unicodedata.normalize("NFD", "café.svg"), DUCK)
+    assert answer.json()["name"] == "café"
+    assert view.get(answer.headers["location"]).json() == answer.json()
 
 
 @pytest.mark.parametrize(

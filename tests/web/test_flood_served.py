@@ -1,31 +1,18 @@
 """`vexture flood` in a browser: the page in one file, and a server whose water changes under everyone's eyes."""
 
 import io
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from floods import BOUNDS, flood, flooding, sea
 from PIL import Image
 
-sys.path[:0] = [str(Path(__file__).parents[1] / folder) for folder in ("flood", "live")]
-
-from floods import BOUNDS, flood, flooding, sea  # noqa: E402  # of the folders above
-
-from viewing import until  # noqa: E402
+from viewing import until
 
 PLACE = ["--bounds", ",".join(map(str, BOUNDS)), "--amplitude", "0"]
 
 
-@pytest.fixture(autouse=True)
-def page_is_built():
-    from vexture.errors import DeviceError
-    from vexture.live.page import FLOOD, built
-
-    try:
-        built(FLOOD.script)
-    except DeviceError as error:
-        pytest.skip(str(error))
+pytestmark = pytest.mark.usefixtures("page_is_built")
 
 
 def settle(page):

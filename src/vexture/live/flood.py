@@ -192,6 +192,7 @@ def serve(
                 *routes(shelf),
                 *publishing_routes(shelf, converter, limits, token),
             ],
+            limits,
             only_at=None if token else host,
             lifespan=background(warm) if token else None,
         )

@@ -1,13 +1,14 @@
 """Routes of the viewer's server beside its shapes: the page, thesis encodings to compare with, dropped files."""
 
 import asyncio
+import unicodedata
 from collections import OrderedDict
 from collections.abc import Collection
 from urllib.parse import quote, urlsplit
 
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, Response
-from starlette.routing import BaseRoute, Route
+from starlette.routing import Route
 
 from vexture.encodings import find_encoding
 from vexture.errors import EXPECTED
@@ -19,10 +20,10 @@ from vexture.live.routes import FOREVER, NO_SNIFFING, fixed, refusal
 from vexture.live.shelf import Shape, Shelf, manifest
 from vexture.pipeline import Parameters
 
-__all__ = ["dropping_routes", "page_routes", "thesis_addresses", "thesis_routes"]
+__all__ = ["DROPPED", "dropping_routes", "page_routes", "thesis_addresses", "thesis_routes"]
 
 DROPPED = Limits(max_bytes=64 * 2**20)
-"""Limits of a file that is dropped on the page."""
+"""Limits of the server of the page: a file that is dropped on it is the user's own, and may be larger."""
 
 MOST_DROPPED = 64
 """Dropped files that are kept; the oldest is removed."""
@@ -33,7 +34,7 @@ MOST_PAIRS = 32
 MOST_NAME_LENGTH = 200
 
 
-def page_routes(bundle: Bundle = VIEWER, page: bytes | None = None) -> list[BaseRoute]:
+def page_routes(bundle: Bundle = VIEWER, page: bytes | None = None) -> list[Route]:
     """Routes of a page (from `served_page`; by default the viewer's), its script and its style."""
     common = {"Cache-Control": "no-cache", **NO_SNIFFING, "Referrer-Policy": "no-referrer"}
     policy = {"Content-Security-Policy": SERVED_POLICY}
@@ -54,7 +55,7 @@ def thesis_addresses(shape: Shape) -> dict[str, list[str]]:
     }
 
 
-def thesis_routes(shelf: Shelf) -> list[BaseRoute]:
+def thesis_routes(shelf: Shelf) -> list[Route]:
     """Routes of the thesis encodings of a shelf's shapes, which are converted when they are first asked for."""
     files = {
         view + suffix: (bits, place)
@@ -82,7 +83,7 @@ def thesis_routes(shelf: Shelf) -> list[BaseRoute]:
     return [Route("/views/{version}/{name}", view)]
 
 
-def dropping_routes(shelf: Shelf, parameters: Parameters, given: Collection[str]) -> list[BaseRoute]:
+def dropping_routes(shelf: Shelf, parameters: Parameters, given: Collection[str]) -> list[Route]:
     """Route that converts a file dropped on the page, and publishes it.
 
     The names in `given` are those of shapes that stay: a dropped file of such a name gets another one.
@@ -95,7 +96,7 @@ def dropping_routes(shelf: Shelf, parameters: Parameters, given: Collection[str]
         file_name = request.query_params.get("name", "").replace("\\", "/").rpartition("/")[2]
         if not file_name or len(file_name) > MOST_NAME_LENGTH or not file_name.isprintable():
             return refusal(422, f"the name of the file must have 1 to {MOST_NAME_LENGTH} characters; rename it")
-        name = file_name.partition(".")[0] or "drawing"
+        name = unicodedata.normalize("NFC", file_name.partition(".")[0]) or "drawing"
         while name in given:
             name += " (dropped)"
         try:

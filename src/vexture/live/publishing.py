@@ -9,7 +9,7 @@ from weakref import WeakValueDictionary
 
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, Response
-from starlette.routing import BaseRoute, Route
+from starlette.routing import Route
 
 from vexture.errors import EXPECTED, DeviceError, LimitError
 from vexture.live.converter import BusyError, Converter
@@ -35,7 +35,7 @@ class _RefusedError(Exception):
         self.status, self.line, self.headers = status, line, headers
 
 
-def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits, token: str | None) -> list[BaseRoute]:
+def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits, token: str | None) -> list[Route]:
     """Routes to publish shapes on a shelf with the token; without one, all uploads are refused."""
     pace = Pace(limits.rate, limits.burst)
     turns: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
@@ -85,7 +85,7 @@ def publishing_routes(shelf: LimitedShelf, converter: Converter, limits: Limits,
         headers = {"ETag": entity_tag(shape.version, None), "Cache-Control": "no-store"}
         return JSONResponse(manifest(shape, None, {}, levels=levels), 201 if is_new else 200, headers)
 
-    return [Route("/shapes/{name:path}", put, methods=["PUT"])]
+    return [Route("/shapes/{name:any}", put, methods=["PUT"])]
 
 
 def _check_token(request: Request, token: str | None) -> None:

@@ -11,14 +11,17 @@ from typing import Any, Final, TypeAlias
 from urllib.parse import urlsplit
 
 from starlette.applications import Starlette
+from starlette.convertors import PathConvertor, register_url_convertor
 from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
 from starlette.middleware.cors import CORSMiddleware
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response, StreamingResponse
-from starlette.routing import BaseRoute, Route
+from starlette.routing import Match, Route
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from vexture.live.description import DESCRIPTION, description
+from vexture.live.limits import Limits
 from vexture.live.listen import Lifespan
 from vexture.live.shelf import Event, Shape, Shelf, manifest
 
@@ -58,6 +61,15 @@ OTHER_ORIGINS: Final = Middleware(
 """Lets pages of other origins read."""
 
 
+class _Any(PathConvertor):
+    """Any rest of a path: Starlette's own has no ends of lines in it, and leaves out one at the end."""
+
+    regex = "(?s:.*)"
+
+
+register_url_convertor("any", _Any())
+
+
 class KnownHosts:
     """Answers only requests to an IP address, ``localhost`` or the name of this server.
 
@@ -95,18 +107,23 @@ class KnownHosts:
             return False
 
 
-def application(listed: list[BaseRoute], *, only_at: str | None = None, lifespan: Lifespan | None = None) -> Starlette:
-    """Make routes an application whose errors are JSON.
+def application(
+    listed: list[Route], limits: Limits, *, only_at: str | None = None, lifespan: Lifespan | None = None
+) -> Starlette:
+    """Make routes an application that describes itself, and whose errors are JSON.
 
     With `only_at` it answers only requests that name this host or the machine itself (`KnownHosts`). Otherwise it
     answers everyone, and lets pages of other origins read.
     """
-    return Starlette(
-        routes=listed,
+    described = fixed(DESCRIPTION, description(listed, limits), "application/json", {"Cache-Control": "no-cache"})
+    app = Starlette(
+        routes=[*listed, described],
         middleware=[OTHER_ORIGINS if only_at is None else Middleware(KnownHosts, name=only_at)],
         lifespan=lifespan,
         exception_handlers={HTTPException: _told, Exception: _failed},
     )
+    app.router.redirect_slashes = False  # to a host that the client names
+    return app
 
 
 def refusal(status: int, line: str, headers: Mapping[str, str] | None = None) -> JSONResponse:
@@ -117,9 +134,11 @@ def refusal(status: int, line: str, headers: Mapping[str, str] | None = None) ->
 async def _told(request: Request, error: Exception) -> Response:
     """Say in JSON what the framework refuses."""
     assert isinstance(error, HTTPException)
-    line = f"{request.url.path}: there is nothing here" if error.status_code == 404 else error.detail
     if error.status_code == 405:
-        line = f"{request.method} is not possible here"
+        found = [route for route in request.app.routes if route.matches(request.scope)[0] is not Match.NONE]
+        allowed = sorted(set().union(*(route.methods for route in found)))  # the framework names those of one route
+        return refusal(405, f"{request.method} is not possible here", {"Allow": ", ".join(allowed)})
+    line = f"{request.url.path}: there is nothing here" if error.status_code == 404 else error.detail
     return refusal(error.status_code, line, error.headers)
 
 
@@ -147,7 +166,7 @@ def levels_below(request: Request) -> int:
     return int(name.count("/")) - bytes(request.scope.get("raw_path") or b"").lower().count(b"%2f")
 
 
-def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[BaseRoute]:
+def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[Route]:
     """Routes to read the shapes of a shelf, whose manifests also name what `views` gives."""
 
     async def shapes(request: Request) -> Response:
@@ -184,7 +203,7 @@ def routes(shelf: Shelf, views: Views = lambda shape: {}) -> list[BaseRoute]:
 
     return [
         Route("/shapes", shapes),
-        Route("/shapes/{name:path}", one),
+        Route("/shapes/{name:any}", one),
         Route("/files/{name}", file),
         Route("/events", events),
     ]

@@ -5,7 +5,7 @@ from contextlib import closing, suppress
 from dataclasses import replace
 from pathlib import Path
 
-from starlette.routing import BaseRoute
+from starlette.routing import Route
 
 from vexture.errors import DeviceError
 from vexture.live.converter import BusyError, Converter
@@ -47,6 +47,7 @@ def serve(
 
         app = application(
             [*routes(folder), *publishing_routes(folder, converter, limits, token), *_page()],
+            limits,
             lifespan=background(start),
         )
 
@@ -63,7 +64,7 @@ def serve(
             folder.release()
 
 
-def _page() -> list[BaseRoute]:
+def _page() -> list[Route]:
     """Routes of the viewer's page, if it is built."""
     with suppress(DeviceError):
         return page_routes()

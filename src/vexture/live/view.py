@@ -48,9 +48,8 @@ def view(
 
     `say` takes warnings and errors for the user, `show` the address and the number of shapes.
     """
-    from vexture.live.limits import Limits
     from vexture.live.listen import background, bind, listen, serve_until_stopped
-    from vexture.live.page_routes import dropping_routes, page_routes, thesis_addresses, thesis_routes
+    from vexture.live.page_routes import DROPPED, dropping_routes, page_routes, thesis_addresses, thesis_routes
     from vexture.live.routes import application, routes
 
     page = page_routes()
@@ -65,6 +64,7 @@ def view(
                 *thesis_routes(shelf),
                 *dropping_routes(shelf, parameters, frozenset(source.name for source in sources)),
             ],
+            DROPPED,
             only_at=host,
             lifespan=background(partial(watch, shelf, sources, parameters, seen)) if watching else None,
         )
@@ -72,7 +72,7 @@ def view(
         show(where, len(shelf.names))
         if opening and _has_display():
             threading.Thread(target=webbrowser.open, args=(where,), daemon=True).start()
-        serve_until_stopped(app, taken, shelf.close, Limits())
+        serve_until_stopped(app, taken, shelf.close, DROPPED)
 
 
 def _published(shelf: Shelf, sources: Sequence[Source], parameters: Parameters, say: Say) -> dict[str, bytes | None]:

@@ -1,6 +1,7 @@
 """Files that are converted again whenever someone saves them."""
 
 import asyncio
+import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -44,17 +45,19 @@ class Source:
 
 
 def named(paths: Sequence[Path]) -> list[Source]:
-    """Give each file a name of its own, made from its stem.
+    r"""Give each file a name of its own, made from its stem, in Unicode's normal form NFC.
 
     Examples
     --------
     >>> [source.name for source in named([Path("a/duck.svg"), Path("b/duck.svg"), Path("cake.svg")])]
     ['duck', 'duck-2', 'cake']
+    >>> [source.name for source in named([Path("cafe\u0301.svg")])] == ["caf\u00e9"]
+    True
     """
     names: set[str] = set()
     sources = []
     for path in paths:
-        stem = path.stem or "drawing"
+        stem = unicodedata.normalize("NFC", path.stem) or "drawing"
         name, number = stem, 1
         while name in names:
             number += 1
