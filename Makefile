@@ -23,6 +23,9 @@ SEED ?= 1
 RELEASED := . evidence web
 REPOSITORY ?=
 
+# hundreds of processes would compile what they import, each for itself
+unexport PYTHONDONTWRITEBYTECODE
+
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .PHONY: help demo docs report viewer test sweep checks checks-web lint kernels test-web bench fuzz dist dist-check clean
