@@ -12,6 +12,8 @@ from hypothesis import HealthCheck, settings
 # the benchmarks are scripts beside the package; they find each other in their own folder; so do the helpers of live/
 sys.path[:0] = [str(Path(__file__).parents[1] / "evidence" / "benchmarks"), str(Path(__file__).parent / "live")]
 
+WEB = Path(__file__).parent / "web"
+
 # compiling a kernel and drawing a whole tree take long; a temporary folder may be shared by examples
 settings.register_profile(
     "vexture",
@@ -25,8 +27,11 @@ settings.load_profile("ci" if os.environ.get("CI", "").lower() in ("1", "true") 
 
 
 def pytest_collection_modifyitems(items):
-    """Start with the tests that take longest: the last one is not to keep one processor waiting for the other."""
-    items.sort(key=lambda item: item.get_closest_marker("long") is None)
+    """Pages first, in one process with one browser while the others do the rest; of these the longest tests first.
+
+    The last test is not to keep one processor waiting for the other.
+    """
+    items.sort(key=lambda item: (WEB not in item.path.parents, item.get_closest_marker("long") is None))
 
 
 @pytest.fixture(scope="session")
