@@ -14,6 +14,8 @@ TESTS = Path(__file__).parent
 # the benchmarks are scripts beside the package; they find each other in their own folder; so do helpers of tests
 sys.path[:0] = [str(TESTS.parent / "evidence" / "benchmarks"), str(TESTS / "live"), str(TESTS / "flood")]
 
+WEB = Path(__file__).parent / "web"
+
 # compiling a kernel and drawing a whole tree take long; a temporary folder may be shared by examples
 settings.register_profile(
     "vexture",
@@ -27,8 +29,11 @@ settings.load_profile("ci" if os.environ.get("CI", "").lower() in ("1", "true") 
 
 
 def pytest_collection_modifyitems(items):
-    """Start with the tests that take longest: the last one is not to keep one processor waiting for the other."""
-    items.sort(key=lambda item: item.get_closest_marker("long") is None)
+    """Pages first, in one process with one browser while the others do the rest; of these the longest tests first.
+
+    The last test is not to keep one processor waiting for the other.
+    """
+    items.sort(key=lambda item: (WEB not in item.path.parents, item.get_closest_marker("long") is None))
 
 
 @pytest.fixture(scope="session")

@@ -153,6 +153,7 @@ def built_broken(folder: Path, *cases: str) -> list[str]:
     return re.findall(r"^(?:WARNING|ERROR|Aborted) .*", outcome.stderr + outcome.stdout, re.M)
 
 
+@pytest.mark.slow
 def test_each_warning_fails_the_build(tmp_path: Path) -> None:
     cases = [case for case in BREAKS if case not in FATAL]
     *complaints, last = built_broken(tmp_path, *cases)

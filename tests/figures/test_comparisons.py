@@ -19,6 +19,8 @@ from vexture_evidence.measures.rivals import (
 )
 from vexture_evidence.measures.shape import Shape, example
 
+pytestmark = pytest.mark.slow  # test_report_is_whole draws these figures too
+
 EMPTY = Drawing((), name="empty")
 
 

@@ -20,6 +20,8 @@ from vexture_evidence.measures.shape import WAYS, Shape, example
 from vexture_evidence.measures.stored import stored_values
 from vexture_evidence.measures.thesis_limits import Lengths, close_up, unnecessary_quads
 
+pytestmark = pytest.mark.slow  # test_report_is_whole draws these figures too
+
 RINGS = Drawing.polygon(
     [(0.02, 0.4), (0.98, 0.4), (0.98, 0.6), (0.02, 0.6)],
     [(0.1, 0.45), (0.9, 0.45), (0.9, 0.55), (0.1, 0.55)],

@@ -11,6 +11,8 @@ from vexture_evidence.figures.lists import counts, hierarchy, lists
 from vexture_evidence.measures.leaves import leaves, quads
 from vexture_evidence.measures.shape import example
 
+pytestmark = pytest.mark.slow  # test_report_is_whole draws these figures too
+
 ENCODINGS = ("packed", "thesis")
 
 

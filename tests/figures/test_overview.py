@@ -27,6 +27,7 @@ DRAWINGS = {
 WAYS = {"sampled": {"encoding": "thesis", "strategy": "sampled"}, "direct": {"encoding": "thesis"}, "packed": {}}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DRAWINGS)
 def test_overview_of_any_drawing_is_legible(name):
     drawing = DRAWINGS[name]

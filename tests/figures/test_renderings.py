@@ -1,8 +1,5 @@
 """Pictures of renderings show the pixels that were rendered, and can be read."""
 
-import doctest
-import importlib
-
 import numpy as np
 import pytest
 from fitting import assert_legible
@@ -20,6 +17,8 @@ from vexture_evidence.measures.rendered import MIP, at_edge, at_sizes, cut_off_a
 from vexture_evidence.measures.shape import Shape, example
 from vexture_evidence.measures.solutions import SOLUTIONS, by_cpu, solve
 
+pytestmark = pytest.mark.slow  # test_report_is_whole draws these figures too
+
 NOTHING = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 4 2"/>'
 
 
@@ -35,13 +34,6 @@ def shape(request, tmp_path_factory):
 def shown(axes):
     """The picture that a panel shows."""
     return np.asarray(axes.images[0].get_array())
-
-
-@pytest.mark.parametrize("name", ["edges", "plane", "resolutions", "solutions", "tolerances"])
-def test_examples_in_the_docstrings(name):
-    found = doctest.testmod(importlib.import_module(f"vexture_evidence.figures.{name}"))
-    assert found.attempted
-    assert not found.failed
 
 
 @pytest.mark.filterwarnings("ignore:.*nothing in it is painted")

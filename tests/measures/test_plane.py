@@ -1,18 +1,10 @@
-import doctest
 import math
 
 import numpy as np
 import pytest
 
 from vexture.renderers.exact import render_exact
-from vexture_evidence.measures import plane
 from vexture_evidence.measures.plane import RADIUS, dots, receding, view_of_plane
-
-
-def test_examples_in_the_docstrings():
-    found = doctest.testmod(plane)
-    assert found.attempted
-    assert not found.failed
 
 
 @pytest.mark.parametrize("tiles", [1, 5])

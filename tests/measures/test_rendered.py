@@ -1,13 +1,12 @@
-import doctest
-
 import numpy as np
 import pytest
 
 from vexture.errors import LimitError
 from vexture.renderers.exact import render_exact
-from vexture_evidence.measures import rendered
 from vexture_evidence.measures.rendered import LOOSE, PACKED, at_edge, at_sizes, cut_off_at, with_tolerances
 from vexture_evidence.measures.shape import Shape, example
+
+pytestmark = pytest.mark.slow  # test_report_is_whole shows these measures too
 
 
 class Refused(Shape):
@@ -29,12 +28,6 @@ def nothing(tmp_path_factory):
     path = tmp_path_factory.mktemp("drawings") / "nothing.svg"
     path.write_text('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 4 4"/>')
     return Shape(path)
-
-
-def test_examples_in_the_docstrings():
-    found = doctest.testmod(rendered)
-    assert found.attempted
-    assert not found.failed
 
 
 def test_few_pixels_are_right_only_where_coverage_is_computed(duck):

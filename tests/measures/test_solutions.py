@@ -1,5 +1,3 @@
-import doctest
-
 import numpy as np
 import pytest
 
@@ -7,7 +5,6 @@ from vexture.errors import DeviceError
 from vexture.renderers.device import context
 from vexture.thesis.cubic import solution_path
 from vexture.thesis.method import QUADRATIC
-from vexture_evidence.measures import solutions
 from vexture_evidence.measures.solutions import BOX, SOLUTIONS, by_cpu, by_gpu, roots_by_gpu, solve
 
 NAMES = [case.name for case in SOLUTIONS]
@@ -18,12 +15,6 @@ def points(case, t):
     for _ in range(3):
         control = (1 - t[..., None]) * control[..., :-1, :] + t[..., None] * control[..., 1:, :]
     return control[:, 0]
-
-
-def test_examples_in_the_docstrings():
-    found = doctest.testmod(solutions)
-    assert found.attempted
-    assert not found.failed
 
 
 @pytest.mark.parametrize("case", SOLUTIONS, ids=NAMES)

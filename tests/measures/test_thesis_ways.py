@@ -1,4 +1,3 @@
-import doctest
 from itertools import pairwise
 
 import numpy as np
@@ -8,7 +7,6 @@ from vexture.drawing import Drawing
 from vexture.pipeline import convert
 from vexture.renderers.view import window
 from vexture.thesis.cpu import render_thesis_cpu
-from vexture_evidence.measures import thesis_ways
 from vexture_evidence.measures.shape import Shape, example
 from vexture_evidence.measures.thesis_ways import draw_as_thesis
 
@@ -21,12 +19,6 @@ def upright(*stripes):
 
 def duck():
     return Shape(example("duck")).way("sampled").texture
-
-
-def test_examples_in_the_docstrings():
-    found = doctest.testmod(thesis_ways)
-    assert found.attempted
-    assert not found.failed
 
 
 def test_a_level_grid_meets_an_upright_edge_four_points_at_once():

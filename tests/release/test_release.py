@@ -92,9 +92,10 @@ def test_a_workflow_asks_for_targets_scripts_and_jobs_that_exist(path: Path) -> 
     assert asked <= targets
 
 
-def test_both_workflows_are_there_and_try_what_they_build() -> None:
-    continuous, release = (yaml.safe_load(path.read_text(encoding="utf-8"))["jobs"] for path in WORKFLOWS)
+def test_the_workflows_are_there_and_try_what_they_build() -> None:
+    continuous, release, sweep = (yaml.safe_load(path.read_text(encoding="utf-8"))["jobs"] for path in WORKFLOWS)
     assert {"run": "make test"} in continuous["test"]["steps"]
+    assert {"run": "make sweep QUICK=--quick"} in sweep["sweep"]["steps"]
     oldest = re.search(r'requires-python = ">=([\d.]+)"', (ROOT / "pyproject.toml").read_text())
     assert oldest
     assert continuous["test"]["strategy"]["matrix"]["python"][0] == oldest[1]

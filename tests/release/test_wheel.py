@@ -135,6 +135,7 @@ def test_the_sdist_holds_what_the_wheel_is_built_from_and_nothing_else(artefacts
     }
 
 
+@pytest.mark.slow
 def test_the_same_files_become_the_same_bytes(tmp_path: Path) -> None:
     """Of another time and other permissions; compiled kernels are in the wheel of this platform, and in that alone."""
     folder = tmp_path / "project"
@@ -175,6 +176,7 @@ def test_all_that_it_imports_is_required(wheel: Path, metadata: Metadata) -> Non
     assert not_required(others, metadata) == set()
 
 
+@pytest.mark.slow
 def test_the_second_distribution_holds_its_package_and_adds_a_command(vexture: Installed, evidence: Path) -> None:
     """It is laid beside the installed wheel, where other tests do not see it, without what it only measures with."""
     with zipfile.ZipFile(evidence) as archive:
@@ -255,6 +257,7 @@ def test_it_converts_describes_and_renders(vexture: Installed, wheel: Path) -> N
         assert (vexture.work / name).read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_it_exports_a_page(vexture: Installed) -> None:
     outcome = vexture.run("export", "triangle.svg", "-o", "triangle.html")
     assert outcome.returncode == 0, outcome.stderr
@@ -262,6 +265,7 @@ def test_it_exports_a_page(vexture: Installed) -> None:
     assert built(VIEWER.script).decode()[:1000] in page
 
 
+@pytest.mark.slow
 def test_it_shows_a_drawing(vexture: Installed) -> None:
     command = vexture.command("view", "triangle.svg", "--no-open")
     with subprocess.Popen(

@@ -67,7 +67,7 @@ def test_each_path_finds_its_roots(name: str) -> None:
     np.testing.assert_allclose(sorted(roots.t[: roots.found]), real, rtol=1e-9, atol=1e-5 if path == "TRIPLE" else 1e-9)
 
 
-@pytest.mark.parametrize("size", [61, 250])
+@pytest.mark.parametrize("size", [61, pytest.param(250, marks=pytest.mark.slow)])
 def test_the_tree_of_everything_is_drawn_as_counted(size: int) -> None:
     texture, view = texture_of(TREE), view_of((SHIFT, SHIFT), 0.99, size)
     image = render_thesis_cpu(texture, (size, size), view)

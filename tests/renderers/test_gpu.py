@@ -21,7 +21,7 @@ SHIFT = 0.00123  # so that no point falls on the edge of a cell
 
 
 @pytest.mark.parametrize("bits", [8, 16])
-@pytest.mark.parametrize("size", [3, 61, 250])
+@pytest.mark.parametrize("size", [3, 61, pytest.param(250, marks=pytest.mark.slow)])
 def test_the_tree_of_everything_is_drawn_as_counted(size: int, bits: int) -> None:
     need_gpu()
     texture, view = texture_of(TREE, bits), view_of((SHIFT, SHIFT), 0.99, size)

@@ -113,6 +113,7 @@ SWEEPS = {f.__name__: lambda f=f: moving(f) for f in (free, quadratic, even, sym
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SWEEPS)
 def test_cpu_gpu_and_truth_agree_at_every_step(name: str) -> None:
     need_gpu()
@@ -155,6 +156,7 @@ def count_paths(quads, curves, points, counts):
         counts[path, valid] += 1
 
 
+@pytest.mark.slow
 def test_the_sweep_takes_all_nine_paths() -> None:
     counts = np.zeros((len(PATHS), 3), np.int64)
     for sweep in SWEEPS.values():

@@ -10,6 +10,8 @@ from vexture_evidence.report.page import json_text, page, pictures_of
 from vexture_evidence.report.renderers import bands_part, renderers_part
 from vexture_evidence.report.section import Material, Section
 
+pytestmark = pytest.mark.slow  # test_report_is_whole makes this section too
+
 
 class Refused(Shape):
     """A drawing that an encoding cannot hold, without the minutes that making one takes."""

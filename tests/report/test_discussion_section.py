@@ -9,6 +9,8 @@ from vexture_evidence.report.discussion import section
 from vexture_evidence.report.page import json_text, page, pictures_of
 from vexture_evidence.report.section import Material, Picture, Section
 
+pytestmark = pytest.mark.slow  # test_report_is_whole makes this section too
+
 POINTS = ("6.1.1", "6.1.2", "6.2.1", "6.2.2", "6.2.3", "6.3", "6.4", "4.3.1", "4.2")
 
 

@@ -10,6 +10,8 @@ from vexture_evidence.report import conversion, shapes, structure
 from vexture_evidence.report.page import json_text, page, pictures_of
 from vexture_evidence.report.section import Material, Printed, Section, Table
 
+pytestmark = pytest.mark.slow  # test_report_is_whole makes these sections too
+
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 100">{paths}</svg>'
 TEETH = "".join(f"L{x / 8} {60 if x % 2 else 40}" for x in range(1601))
 PATHS = {

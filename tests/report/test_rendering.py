@@ -12,6 +12,8 @@ from vexture_evidence.report.page import json_text, pictures_of
 from vexture_evidence.report.rendering import section
 from vexture_evidence.report.section import Material, Table
 
+pytestmark = pytest.mark.slow  # test_report_is_whole makes this section too
+
 FIGURES = ["3.13", "4.14", "4.15", "4.9, 4.10", "5.12", "2.7"]
 
 

@@ -63,9 +63,10 @@ def test_layers_of_a_fixture_look_like_the_file(path: Path) -> None:
     assert gap(stacked(read_quietly(path).layers(), *theirs.shape[:2]), theirs) < 0.02
 
 
-def test_layers_of_flags_look_like_their_flat_colours() -> None:
+@pytest.mark.parametrize("count", [8, pytest.param(20, marks=pytest.mark.slow)])
+def test_layers_of_flags_look_like_their_flat_colours(count: int) -> None:
     try:
-        files = flags(20, 4)
+        files = flags(count, 4)
     except VextureError as error:
         pytest.skip(str(error))
     for file in files:

@@ -75,6 +75,7 @@ def filled(
         return inside(outline(curves[index], r > 0.25), x, y)
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(cell_trees(max_depth=2, max_quads=4), st.sampled_from([8, 16]))
 def test_a_stranger_sees_the_same_picture(tmp_path: Path, tree: CellTree, bits: int) -> None:

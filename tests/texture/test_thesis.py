@@ -35,6 +35,7 @@ def leaf_tree(*curves: list[list[float]], kind: CellKind = CellKind.CURVE) -> Ce
 ACROSS = [[0.0, 0.5], [0.3, 0.5], [0.6, 0.5], [1.0, 0.5]]
 
 
+@pytest.mark.slow
 @given(cell_trees(), BITS)
 def test_every_quad_and_curve_is_reached_once_in_order(tree: CellTree, bits: int) -> None:
     decoded = decode(texture_of(tree, bits))
@@ -50,6 +51,7 @@ def test_every_quad_and_curve_is_reached_once_in_order(tree: CellTree, bits: int
     assert curves == list(range(len(tree.curves)))
 
 
+@pytest.mark.slow
 @given(cell_trees(), BITS)
 def test_coverage_of_a_quad_is_the_mean_of_its_cells(tree: CellTree, bits: int) -> None:
     texture = texture_of(tree, bits)
@@ -61,6 +63,7 @@ def test_coverage_of_a_quad_is_the_mean_of_its_cells(tree: CellTree, bits: int) 
     assert decoded.coverage.max() <= 1.0
 
 
+@pytest.mark.slow
 @given(cell_trees())
 def test_coverage_of_a_cell_comes_back(tree: CellTree) -> None:
     """Within the rounding of a leaf's curve, which moves it by up to a quantum along all of its length."""
@@ -68,6 +71,7 @@ def test_coverage_of_a_cell_comes_back(tree: CellTree) -> None:
     np.testing.assert_allclose(decoded.coverage, tree.coverage, rtol=0, atol=4e-3)
 
 
+@pytest.mark.slow
 @given(cell_trees(), BITS)
 def test_a_tree_comes_back_within_half_a_quantum(tree: CellTree, bits: int) -> None:
     texture = texture_of(tree, bits)
@@ -89,6 +93,7 @@ def test_a_tree_comes_back_within_half_a_quantum(tree: CellTree, bits: int) -> N
     assert decoded.unresolved == 0
 
 
+@pytest.mark.slow
 @given(cell_trees(), BITS, st.booleans())
 def test_a_texture_comes_back_bit_for_bit(tree: CellTree, bits: int, unresolved: bool) -> None:
     if unresolved:  # coverage that the leaves do not add up to, as a depth limit leaves behind
@@ -99,6 +104,7 @@ def test_a_texture_comes_back_bit_for_bit(tree: CellTree, bits: int, unresolved:
     np.testing.assert_array_equal(again.curves, texture.curves)
 
 
+@pytest.mark.slow
 @given(cell_trees())
 def test_depth_is_that_of_the_deepest_quad(tree: CellTree) -> None:
     assert texture_of(tree, 16).depth == tree.quad_depth.max()

@@ -23,7 +23,7 @@ PAGE: Final = Path(__file__).parent / "pages" / "mask.js"
 THREES: Final = ("three-floor", "three")
 
 NEWEST: Final = (pytest.param("three-floor", marks=pytest.mark.slow), "three")
-"""For what the tests of masks try with both: the code that differs between versions is theirs."""
+"""For most tests: the code that differs between versions shows its materials with both in any case."""
 
 Picture = NDArray[np.float64]
 

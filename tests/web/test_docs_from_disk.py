@@ -10,12 +10,10 @@ from waiting import drawn
 pytest.importorskip("mkdocs", reason="MkDocs is not installed (pip install '.[docs]')")
 
 
-WIDTHS = (1280, 390)
-
-
 @pytest.mark.long
-def test_pages_fit_and_fetch_nothing(site: Path, open_page: Callable[..., Any]) -> None:
-    page = open_page(f"file://{site}/index.html", (WIDTHS[0], 800))
+@pytest.mark.parametrize("width", [pytest.param(1280, marks=pytest.mark.slow), 390])
+def test_pages_fit_and_fetch_nothing(site: Path, open_page: Callable[..., Any], width: int) -> None:
+    page = open_page(f"file://{site}/index.html", (width, 800))
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
     for path in sorted(site.rglob("*.html")):
@@ -24,11 +22,9 @@ def test_pages_fit_and_fetch_nothing(site: Path, open_page: Callable[..., Any]) 
         page.goto(f"file://{path}")
         broken = page.evaluate("[...document.images].filter((image) => !image.naturalWidth).map(({ src }) => src)")
         assert broken == [], path.name
-        for width in WIDTHS:
-            page.set_viewport_size({"width": width, "height": 800})
-            drawn(page)
-            wide = page.evaluate("document.documentElement.scrollWidth")
-            assert wide <= width, f"{path.name} is {wide} pixels wide on a screen of {width}"
+        drawn(page)
+        wide = page.evaluate("document.documentElement.scrollWidth")
+        assert wide <= width, f"{path.name} is {wide} pixels wide on a screen of {width}"
     assert [address for address in asked if not address.startswith(("file:", "data:"))] == []
     assert len(asked) > 20
 

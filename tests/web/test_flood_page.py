@@ -104,7 +104,7 @@ def on_screen(page: Page, u: float, v: float) -> tuple[float, float]:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("size", [(740, 420), (390, 844)])
+@pytest.mark.parametrize("size", [(740, 420), pytest.param((390, 844), marks=pytest.mark.slow)])
 def test_every_preset_shows_water_and_land(
     opened: Callable[..., Page], screenshot: Callable[..., Path], size: tuple[int, int]
 ) -> None:

@@ -117,7 +117,7 @@ SEEN = {
 """What the page shows once a program of a section runs."""
 
 
-@pytest.mark.long
+@pytest.mark.slow  # masks, instances, live textures and the package have tests of their own
 @pytest.mark.usefixtures("page_is_built")
 def test_the_guide_to_three_js_does_what_it_says(
     tmp_path: Path, open_page: Callable[..., Any], screenshot: Callable[..., Path]

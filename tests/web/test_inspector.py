@@ -56,7 +56,12 @@ def read_inspector(page: Any) -> tuple[dict[str, str], list[list[str]], str]:
 
 
 @pytest.mark.parametrize(
-    ("name", "zoom"), [("duck", 1.0), pytest.param("ocean", 100.0, marks=pytest.mark.slow), ("duck", 10_000.0)]
+    ("name", "zoom"),
+    [
+        pytest.param("duck", 1.0, marks=pytest.mark.slow),
+        pytest.param("ocean", 100.0, marks=pytest.mark.slow),
+        ("duck", 10_000.0),
+    ],
 )
 def test_the_inspector_says_what_numpy_solves(
     show: Callable[..., Shown], screenshot: Callable[..., Path], name: str, zoom: float

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from browser import served
-from mask_page import ATLAS, THREES, decode, distance, draw, drawing, encoded, exact, linear, tiled
+from mask_page import ATLAS, NEWEST, THREES, decode, distance, draw, drawing, encoded, exact, linear, tiled
 
 import vexture
 
@@ -33,7 +33,7 @@ def address(chromium: Any, mask_folder: Path) -> Iterator[str]:
         yield url
 
 
-@pytest.fixture(params=THREES)
+@pytest.fixture(params=NEWEST)
 def page(request: pytest.FixtureRequest, address: str, open_page: Callable[..., Any]) -> Any:
     return open_page(f"{address}/{request.param}.html", keep=True)
 
@@ -61,7 +61,16 @@ def test_a_shape_in_a_colour_is_what_the_exact_renderer_draws(page: Any, screens
     assert distance(draw(page, parameters=ink, mask=turned), over_white(exact("duck", 512, magnified), 0xC03020)) <= 0.6
 
 
-@pytest.mark.parametrize("scene", ["plain", "everything"])
+@pytest.mark.parametrize(
+    ("page", "scene"),
+    [
+        ("three-floor", "everything"),
+        ("three", "plain"),
+        pytest.param("three-floor", "plain", marks=pytest.mark.slow),
+        pytest.param("three", "everything", marks=pytest.mark.slow),
+    ],
+    indirect=["page"],
+)
 def test_every_material_shows_where_the_shape_is(page: Any, scene: str, screenshot: Callable[..., Path]) -> None:
     settings: dict[str, Any] = {"size": 256}
     if scene == "everything":

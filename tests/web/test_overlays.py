@@ -19,7 +19,7 @@ def differs(shown: NDArray[np.float64], expected: NDArray[np.float64], where: ND
 VIEWS = [((0.5, 0.5), 1.0), ((0.4999, 0.6251), 120.0), ((0.50001, 0.49999), 10_000.0)]
 
 
-@pytest.mark.parametrize("name", ["duck", "ocean"])
+@pytest.mark.parametrize("name", [pytest.param("duck", marks=pytest.mark.slow), "ocean"])
 def test_coverage_and_depth_of_the_cell_at_each_pixel(show: Callable[..., Shown], name: str) -> None:
     shown = show(name)
     for center, zoom in VIEWS:
@@ -40,7 +40,7 @@ def test_coverage_and_depth_of_the_cell_at_each_pixel(show: Callable[..., Shown]
         assert (shown.picture() == plain).all()
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.slow)])
 def test_borders_stay_one_pixel_wide_and_contrast_with_the_picture(show: Callable[..., Shown], scheme: str) -> None:
     shown = show("ocean")
     shown.page.emulate_media(color_scheme=scheme)

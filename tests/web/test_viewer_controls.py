@@ -265,8 +265,17 @@ def test_without_webgl_the_page_says_so(viewer_pages: dict[str, Viewed], chromiu
     context.close()
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("size", [(1280, 800), (390, 844), (360, 640)])
+@pytest.mark.parametrize(
+    ("size", "scheme"),
+    [
+        ((1280, 800), "dark"),
+        ((360, 640), "light"),
+        pytest.param((1280, 800), "light", marks=pytest.mark.slow),
+        pytest.param((360, 640), "dark", marks=pytest.mark.slow),
+        pytest.param((390, 844), "light", marks=pytest.mark.slow),
+        pytest.param((390, 844), "dark", marks=pytest.mark.slow),
+    ],
+)
 def test_layout(
     viewer_pages: dict[str, Viewed],
     chromium: Any,
