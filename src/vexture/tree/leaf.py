@@ -28,7 +28,7 @@ __all__ = ["DIVIDE", "Leaf", "leaf_of", "new_workspace"]
 DIVIDE = -1
 """`Leaf.size` of a cell that must be divided."""
 
-SPARE = 4
+SPARE = 12
 """Pieces above the capacity that a cell may have before it is resolved: horizontal ones and overlaps vanish."""
 
 MOST_RUNS = 1000
