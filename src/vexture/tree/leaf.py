@@ -210,7 +210,7 @@ def leaf_of(
     """
     n, paths = last - first, len(present)
     room, out, distance = workspace.cell, workspace.out, 0.0
-    most = capacity + (SPARE if paths > 1 else 0)
+    most = capacity + SPARE
     matched, upright = -1, 0
     if n > most and may_coincide(pool, first, last, x0, y0, size):
         matched, upright = match(pool, first, last, x0, y0, size, near, present, rules, room, workspace.path)
