@@ -63,6 +63,19 @@ def test_output_may_name_the_file_of_one_drawing(square, tmp_path):
     assert "one file for 2 drawings; use --atlas" in result.stderr
 
 
+def test_files_for_servers_that_compress(square, tmp_path):
+    for place in (("-o", tmp_path / "square.ktx2"), ("--atlas", tmp_path / "all.ktx2")):
+        assert run("convert", square, *place).exit_code == 0
+        deflated = place[1].read_bytes()
+        assert run("convert", square, *place, "--no-deflate").exit_code == 0
+        texture = vexture.load(place[1])
+        assert texture.texels.tobytes() == place[1].read_bytes()[-texture.nbytes :]
+        assert texture.to_ktx2() == deflated
+        assert texture.to_ktx2(deflate=False) == place[1].read_bytes()
+    result = run("convert", square, "-o", tmp_path, "--encoding", "thesis", "--no-deflate")
+    assert (result.exit_code, result.stderr.count("\n")) == (1, 1)
+
+
 def test_atlas(square, tmp_path):
     logo = tmp_path / "logo.svg"
     logo.write_text(LOGO)

@@ -13,6 +13,7 @@ from vexture.pipeline import run
 from vexture.texture.encode import encode
 from vexture.texture.texture import Root, Texture
 from vexture.thesis.texture import ThesisTexture
+from vexture.tolerance import UNSEEN
 from vexture.tree.build import build_tree
 
 RED, GLASS = Paint((1.0, 0.0, 0.0)), Paint((0.0, 0.0, 1.0), 0.5)
@@ -48,11 +49,11 @@ def test_packed_is_the_default(logo: File) -> None:
     texture = vexture.convert(logo)
     drawing = vexture.read_svg(logo)
     assert isinstance(texture, Texture)
-    np.testing.assert_array_equal(texture.texels, texels_of(drawing))
+    np.testing.assert_array_equal(texture.texels, texels_of(drawing, tolerance=UNSEEN))
     (root,) = texture.roots
     assert (root.name, root.tolerance, root.paint, texture.name, texture.source) == (
         "logo",
-        0,
+        UNSEEN,
         None,
         "logo",
         "logo.svg",
@@ -65,15 +66,15 @@ def test_packed_is_the_default(logo: File) -> None:
     "parameters",
     [
         {"capacity": 2},
-        {"capacity": 12},
+        {"capacity": 5},
         {"max_depth": 2},
         {"precision": 1e-7},
         {"precision": 1e-6, "capacity": 1, "max_depth": 9},
     ],
 )
 def test_parameters_reach_the_tree(parameters: dict[str, float]) -> None:
-    drawing = star(9, "star")
-    texels = vexture.convert(drawing, **parameters).texels
+    drawing = star(25, "star")
+    texels = vexture.convert(drawing, tolerance=0, **parameters).texels
     np.testing.assert_array_equal(texels, texels_of(drawing, **parameters))
     assert texels.shape != texels_of(drawing).shape or (texels != texels_of(drawing)).any()
 
@@ -83,7 +84,16 @@ def test_tolerance_reaches_the_tree_and_the_root() -> None:
     texture = vexture.convert(drawing, tolerance=0.01)
     np.testing.assert_array_equal(texture.texels, texels_of(drawing, tolerance=0.01))
     assert texture.roots[0].tolerance == 0.01
-    np.testing.assert_array_equal(vexture.convert(drawing, tolerance="auto").texels, texels_of(drawing, tolerance=0.0))
+
+
+@pytest.mark.parametrize(("given", "tolerance"), [({}, UNSEEN), ({"precision": 1e-6}, 0.0)])
+def test_the_automatic_tolerance_is_unseen_and_none_for_deep_zoom(given, tolerance) -> None:
+    angles = np.linspace(0.0, 2.0 * np.pi, 400, endpoint=False)
+    drawing = Drawing.polygon(list(zip(0.5 + 0.4 * np.cos(angles), 0.5 + 0.4 * np.sin(angles), strict=True)))
+    assert texels_of(drawing, tolerance=UNSEEN).size < texels_of(drawing).size
+    for texture in (vexture.convert(drawing, **given), vexture.convert(drawing, tolerance="auto", **given)):
+        assert texture.roots[0].tolerance == tolerance
+        np.testing.assert_array_equal(texture.texels, texels_of(drawing, tolerance=tolerance, **given))
 
 
 @pytest.mark.parametrize(
@@ -140,7 +150,7 @@ def test_split_makes_a_root_of_each_layer(logo: File) -> None:
     assert [root.name for root in texture.roots] == ["logo/1-#0000ff", "logo/2-#ffffff", "logo/3-#ff0000"]
     assert [root.paint for root in texture.roots] == [layer.paths[0].paint for layer in layers]
     assert all((root.to_source == layers[0].to_source).all() for root in texture.roots)
-    trees = [build_tree(layer) for layer in layers]
+    trees = [build_tree(layer, tolerance=UNSEEN) for layer in layers]
     np.testing.assert_array_equal(texture.texels, encode(trees, texture.roots, name="").texels)
     assert texture.name == "logo"
 

@@ -23,9 +23,11 @@ import llvmlite.binding as llvm
 import numpy as np
 
 from vexture import convert, read_svg
+from vexture.bezier.reduce import reduced
 from vexture.kernels import Kernel, text_digest
 from vexture.machine_code import RELEASE, SHIPPED, Code, described, host, load
 from vexture.renderers.cpu import draw
+from vexture.tolerance import ROUND
 from vexture.tree.build import SLICE, Bounds, grow, grow_on
 from vexture.tree.cubics import gather
 from vexture.tree.growth import WAITING, Growth, tree_of, with_needed_room
@@ -116,6 +118,8 @@ def calls() -> Iterator[tuple[Any, tuple[Any, ...]]]:
     """The kernels to compile, with arguments on which they are compared."""
     for file in sorted(SHAPES.glob("*.svg")):
         drawing = read_svg(file)
+        for path in drawing.paths[:1]:
+            yield from ((reduced, (contour, ROUND)) for contour in path.contours)
         for tolerance in (0.0, 0.001):
             outlines, bounds = gather(drawing), Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS)
             yield grow, (*outlines, bounds, SLICE)

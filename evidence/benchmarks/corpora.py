@@ -31,6 +31,7 @@ __all__ = [
     "fractal_coastline",
     "glyphs",
     "ktx_parse",
+    "lucide",
     "mdi",
     "round_shapes",
     "simple_icons",
@@ -51,9 +52,13 @@ class Package:
     version: str
     folder: str
 
+    def all(self) -> list[Path]:
+        """Return its SVG files, sorted."""
+        return sorted((self.installed() / self.folder).glob("*.svg"))
+
     def files(self, count: int, seed: int) -> list[Path]:
         """Return `count` of its SVG files, drawn at random without repetition."""
-        available = sorted((self.installed() / self.folder).glob("*.svg"))
+        available = self.all()
         if count > len(available):
             raise LimitError(f"{count} files asked of {self.name}, which has {len(available)}; ask for fewer")
         return random.Random(seed).sample(available, count)
@@ -138,6 +143,7 @@ def fill(home: Path, make: Callable[[Path], None]) -> None:
 
 
 MDI = Package("@mdi/svg", "7.4.47", "svg")
+LUCIDE = Package("lucide-static", "1.62.0", "icons")
 SIMPLE_ICONS = Package("simple-icons", "16.37.0", "icons")
 FLAG_ICONS = Package("flag-icons", "7.5.0", "flags/4x3")
 KTX_PARSE = Package("ktx-parse", "1.1.0", "dist")
@@ -150,6 +156,11 @@ GSHHG = DebianPackage("gmt-gshhg-low", "usr/share/gmt-gshhg")
 def mdi(count: int, seed: int) -> list[Path]:
     """Return icons of Material Design Icons (Apache-2.0): one path each, many arcs."""
     return MDI.files(count, seed)
+
+
+def lucide() -> list[Path]:
+    """Return all icons of Lucide (ISC): strokes with round caps and joins."""
+    return LUCIDE.all()
 
 
 def simple_icons(count: int, seed: int) -> list[Path]:

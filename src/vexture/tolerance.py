@@ -14,6 +14,7 @@ __all__ = [
     "PARAMETER",
     "ROUND",
     "SCANLINE",
+    "UNSEEN",
 ]
 
 CLOSED: Final = 1e-9
@@ -45,6 +46,9 @@ SCANLINE: Final = 2.0**-30
 
 ROUND: Final = 1e-5
 """Unit-square units. Largest distance from the true curve when a reader approximates arcs and strokes."""
+
+UNSEEN: Final = 2e-5
+"""Unit-square units. The tolerance of a packed texture unless another is given: 0.04 pixels of a picture of 2,000."""
 
 HMIN: Final = 0.05
 """Metres. Depth from which flood modellers count a place as wet."""

@@ -45,7 +45,7 @@ def test_a_corner_and_a_curve_are_drawn_where_they_are():
 def test_small_cells_are_shown_by_their_mean_and_without_borders():
     comb = [(k / 1500, 0.4 if k % 2 else 0.6) for k in range(1501)]
     drawing = Drawing.polygon([*comb, (1.0, 0.0), (0.0, 0.0)])
-    texture = vexture.convert(drawing)
+    texture = vexture.convert(drawing, capacity=4, tolerance=0)
     found = leaves(texture)
     assert found.side.min() < 1 / 256, "the drawing has no small cells"
     figure = subdivision(texture)

@@ -7,7 +7,7 @@ from vexture.bezier.roots import cubic_at, velocity_at
 from vexture.bezier.split import copy_curve
 from vexture.kernels import kernel
 
-__all__ = ["chord_parameters", "fit_cubic", "project"]
+__all__ = ["chord_parameters", "fit_cubic", "fit_run", "project"]
 
 ROUNDS = 10
 """Most rounds of projection and least squares; more gain little on chains of one cell."""
@@ -18,6 +18,12 @@ SLOW, SLOW_ROUNDS = 0.9, 4
 FAR, FAR_ROUND = 30.0, 3
 """A fit is given up if it is still this many tolerances away after 3 rounds: the chain needs more than one cubic."""
 
+MOST_SAMPLES, LEAST_PER_PIECE, MOST_PER_PIECE = 96, 2, 8
+"""Points of a run that a fit uses: in all, if there are few pieces, and on each piece."""
+
+MEASURED = 4
+"""Rounds of projection that measure a cubic whose control points were moved into the box of its ends."""
+
 ALONG = 0.001
 """First weight of squared distances along the curve; tenfold after each step that made the fit worse."""
 
@@ -27,7 +33,8 @@ def chord_parameters(points: NDArray[np.float64], t: NDArray[np.float64]) -> flo
     """Write each point's share of the polyline's length, (n, 2) -> (n,); return the length."""
     t[0] = 0.0
     for i in range(1, len(points)):
-        t[i] = t[i - 1] + np.hypot(points[i, 0] - points[i - 1, 0], points[i, 1] - points[i - 1, 1])
+        dx, dy = points[i, 0] - points[i - 1, 0], points[i, 1] - points[i - 1, 1]
+        t[i] = t[i - 1] + np.sqrt(dx * dx + dy * dy)  # hypot differs between C libraries
     total = t[-1]
     for i in range(len(points)):
         t[i] = t[i] / total if total > 0.0 else 0.0
@@ -148,7 +155,7 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
     n = len(points)
     for k in range(4):
         for axis in range(2):
-            curve[k, axis] = points[0, axis] + (points[n - 1, axis] - points[0, axis]) * (k / 3.0)
+            curve[k, axis] = (1.0 - k / 3.0) * points[0, axis] + (k / 3.0) * points[n - 1, axis]
     t = np.empty(n)
     chord_parameters(points, t)
     best = np.inf
@@ -170,3 +177,36 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
             break
     copy_curve(best_curve, curve)
     return best
+
+
+@kernel
+def fit_run(
+    curves: NDArray[np.float64], first: int, last: int, tolerance: float, monotone: bool, curve: NDArray[np.float64]
+) -> float:
+    """Write one cubic for the consecutive pieces first..last-1; return its distance from them, infinite if they close.
+
+    A cubic is `monotone` if its control points lie in the box of its ends.
+    """
+    per_piece = min(max(MOST_SAMPLES // (last - first), LEAST_PER_PIECE), MOST_PER_PIECE)
+    points = np.empty(((last - first) * per_piece + 1, 2))
+    count = 0
+    for i in range(first, last):
+        for m in range(per_piece):
+            for axis in range(2):
+                p0, p1, p2, p3 = curves[i, 0, axis], curves[i, 1, axis], curves[i, 2, axis], curves[i, 3, axis]
+                points[count, axis] = cubic_at(p0, p1, p2, p3, m / per_piece)
+            count += 1
+    points[count, 0], points[count, 1] = curves[last - 1, 3, 0], curves[last - 1, 3, 1]
+    if points[0, 0] == points[count, 0] and points[0, 1] == points[count, 1]:
+        return np.inf
+    distance = fit_cubic(points, tolerance / 2.0 if monotone else tolerance, curve)
+    if monotone and distance <= tolerance:
+        for axis in range(2):
+            low, high = min(curve[0, axis], curve[3, axis]), max(curve[0, axis], curve[3, axis])
+            for k in (1, 2):
+                curve[k, axis] = min(max(curve[k, axis], low), high)
+        t = np.empty(count + 1)
+        chord_parameters(points, t)
+        for _ in range(MEASURED):
+            distance = project(points, t, curve)
+    return distance

@@ -32,6 +32,7 @@ BELONGS_TO: Final = {
     "split": DEFAULT,
     "capacity": DEFAULT,
     "precision": DEFAULT,
+    "deflate": DEFAULT,
     "bits": "thesis",
     "strategy": "thesis",
 }
@@ -77,8 +78,15 @@ class Outcome:
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
 @tolerance_option
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
-@click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 4]")
+@click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 8]")
 @click.option("--precision", metavar="P", type=float, help="Largest shift by rounding, in unit-square units.")
+@click.option(
+    "--no-deflate",
+    "deflate",
+    flag_value=False,
+    default=None,
+    help="Do not compress the file, for a server that compresses its answers.",
+)
 @click.option(
     "--max-seconds", metavar="S", type=float, help=f"Most seconds for one source.  [default: {DEFAULT_SECONDS:g}]"
 )
@@ -118,7 +126,9 @@ def convert(
         to_pipe = Path(STANDARD) in (output, atlas)
         level = QUIET if quiet else VERBOSE if verbose else NORMAL
         _check_places(sources, output, atlas, encoding, to_pipe)
-        work = partial(_convert_one, encoding=encoding, parameters=parameters, for_atlas=atlas is not None, quiet=quiet)
+        stored = {name: parameters.pop(name) for name in ("deflate",) if name in parameters}
+        work = partial(_convert_one, encoding=encoding, parameters=parameters, stored=stored)
+        work = partial(work, for_atlas=atlas is not None, quiet=quiet)
         outcomes: list[Outcome] = []
         owners: dict[str, Path] = {}
         for found in _outcomes(work, sources, jobs, level):
@@ -127,7 +137,7 @@ def convert(
             outcomes.append(outcome)
         failed = sum(bool(outcome.error) for outcome in outcomes)
         if atlas is not None and not failed:
-            _write_atlas(outcomes, atlas, silent=as_json or level == QUIET, to_pipe=to_pipe)
+            _write_atlas(outcomes, atlas, stored, silent=as_json or level == QUIET, to_pipe=to_pipe)
         if as_json:
             click.echo(json.dumps([_facts_of(outcome) for outcome in outcomes], indent=2), err=to_pipe)
     if failed:
@@ -187,9 +197,18 @@ def _is_texture_file(output: Path, encoding: str) -> bool:
 
 
 def _convert_one(
-    source: Path, content: bytes | None, encoding: str, parameters: dict[str, Any], for_atlas: bool, quiet: bool
+    source: Path,
+    content: bytes | None,
+    encoding: str,
+    parameters: dict[str, Any],
+    stored: dict[str, Any],
+    for_atlas: bool,
+    quiet: bool,
 ) -> Outcome:
-    """Convert one source, in this process or another; an error is returned as its line."""
+    """Convert one source, in this process or another; an error is returned as its line.
+
+    `stored` are the parameters of the texture's `files`.
+    """
     from vexture.notes import line_of
     from vexture.pipeline import Parameters, run, trees_of
     from vexture.reading import read_drawing
@@ -208,7 +227,7 @@ def _convert_one(
             size = TEXEL_BYTES * sum(len(tree.count) + len(tree.curves) for tree in done.trees)
         else:
             done = run(given, encoding=encoding, **parameters)
-            files = done.texture.files()
+            files = done.texture.files(**stored)
             size = sum(map(len, files.values()))
     except EXPECTED as error:
         return Outcome(source, {}, error=str(error))
@@ -287,17 +306,17 @@ def _written(outcome: Outcome, output: Path, owners: dict[str, Path]) -> Outcome
     return replace(outcome, facts=outcome.facts | {"files": [str(place) for place in places]})
 
 
-def _write_atlas(outcomes: list[Outcome], atlas: Path, *, silent: bool, to_pipe: bool) -> None:
+def _write_atlas(outcomes: list[Outcome], atlas: Path, stored: dict[str, Any], *, silent: bool, to_pipe: bool) -> None:
     """Write one texture of all shapes."""
     from vexture.pipeline import combine
 
     parts = [outcome.trees for outcome in outcomes if outcome.trees is not None]
     texture = combine(parts, "atlas" if to_pipe else atlas.stem)
-    data = texture.to_ktx2()
+    data = texture.to_ktx2(**stored)
     if to_pipe:
         sys.stdout.buffer.write(data)
     else:
-        texture.save(atlas)
+        texture.save(atlas, **stored)
     if not silent:
         click.echo(f"{atlas}: {len(texture.roots)} shapes, {len(data)} bytes", err=to_pipe)
 

@@ -1,8 +1,8 @@
 """Strokes as outlines to fill, by Skia.
 
 Skia works in float32 and stops refining at a quarter of a unit. Its coordinates are therefore centred on the origin and
-scaled so that the drawing measures `RESOLUTION`: a quarter unit and the rounding are then both below `ROUND` of the
-drawing.
+scaled so that a unit is `ROUND` of the drawing: a quarter for Skia, with its rounding, and the rest for the cubics that
+replace its many pieces.
 """
 
 from dataclasses import dataclass
@@ -14,14 +14,18 @@ from numpy.typing import NDArray
 
 from vexture.bezier.bounds import bounds
 from vexture.bezier.convert import conic_cubics, straight
+from vexture.bezier.reduce import reduced
 from vexture.errors import SourceError
 from vexture.svg.outline import Outline
 from vexture.tolerance import ROUND
 
 __all__ = ["Stroke", "arc_length", "stroke_contours"]
 
-RESOLUTION: Final = 0.25 / ROUND
+RESOLUTION: Final = 1 / ROUND
 """Skia units across the drawing."""
+
+REFINED: Final = 0.25
+"""Skia units within which Skia follows the stroke, and we Skia's arcs."""
 
 SHORTEST: Final = 1 / 64
 """Skia units. What is shorter has no direction in float32, so its joins would be arbitrary: such a step is skipped, and
@@ -99,7 +103,7 @@ def stroke_contours(outlines: list[Outline], stroke: Stroke, size: float) -> lis
         [dash * scale for dash in stroke.dashes] or None,
         stroke.dash_offset * scale,
     )
-    return [contour / scale + middle for contour in read(path)]
+    return [reduced(contour, 1.0 - REFINED) / scale + middle for contour in read(path)]
 
 
 def feed(path: pathops.Path, cubics: NDArray[np.float64], closed: bool) -> None:
@@ -143,13 +147,12 @@ def feed_slowing(path: pathops.Path, p0: complex, p1: complex, p3: complex) -> N
 def read(path: pathops.Path) -> list[NDArray[np.float64]]:
     """Contours of Skia's path, closed bit for bit; Skia leaves the contours of some dashes open."""
     contours: list[list[complex]] = []
-    tolerance = RESOLUTION * ROUND
     for verb, arguments in path:
         if verb == pathops.PathVerb.MOVE:
             contours.append([complex(*arguments[0])])
         elif verb == pathops.PathVerb.CONIC:
             p1, p2, weight = complex(*arguments[0]), complex(*arguments[1]), arguments[2]
-            contours[-1] += conic_cubics(contours[-1][-1], p1, p2, weight, tolerance)
+            contours[-1] += conic_cubics(contours[-1][-1], p1, p2, weight, REFINED)
         elif verb != pathops.PathVerb.CLOSE:
             contours[-1] += raised([contours[-1][-1], *(complex(*point) for point in arguments)])
     return [closed_contour(points) for points in contours if len(points) > 1]

@@ -83,21 +83,22 @@ def _descriptor() -> bytes:
     return LENGTH.pack(LENGTH.size + size) + head + samples
 
 
-def write_ktx2(texels: NDArray[np.uint32], texts: dict[str, str]) -> bytes:
-    """KTX 2.0 file of texels (rows, width, 4), supercompression ZLIB; `texts` are stored as UTF-8 with a zero byte."""
+def write_ktx2(texels: NDArray[np.uint32], texts: dict[str, str], deflate: bool = True) -> bytes:
+    """KTX 2.0 file of texels (rows, width, 4), plain or deflated; `texts` are stored as UTF-8 with a zero byte."""
     height, width, _ = texels.shape
     raw = np.ascontiguousarray(texels, "<u4").tobytes()
-    deflated = zlib.compress(raw, 4)  # level 6 saves 0.2% but takes 1.6 times as long: most of a map's conversion
+    # level 6 saves 0.2% but takes 1.6 times as long: most of a map's conversion
+    stored = zlib.compress(raw, 4) if deflate else raw
     descriptor, pairs = _descriptor(), _key_values(texts)
     dfd_offset = HEADER.size + LEVEL.size
     kvd_offset = dfd_offset + len(descriptor)
     image_offset = kvd_offset + len(pairs)
     header = Header(
-        MAGIC, R32G32B32A32_UINT, WORD_BYTES, width, height, 0, 0, 1, 1, ZLIB,
+        MAGIC, R32G32B32A32_UINT, WORD_BYTES, width, height, 0, 0, 1, 1, ZLIB if deflate else NONE,
         dfd_offset, len(descriptor), kvd_offset if pairs else 0, len(pairs), 0, 0,
     )  # fmt: skip
-    level = LEVEL.pack(image_offset, len(deflated), len(raw))
-    return HEADER.pack(*header) + level + descriptor + pairs + deflated
+    level = LEVEL.pack(image_offset, len(stored), len(raw))
+    return HEADER.pack(*header) + level + descriptor + pairs + stored
 
 
 def _key_values(texts: dict[str, str]) -> bytes:

@@ -53,7 +53,7 @@ __all__ = [
     "largest_shift",
 ]
 
-DEFAULT_CAPACITY = 4
+DEFAULT_CAPACITY = 8
 """Pieces in a leaf."""
 
 DEFAULT_DEPTH = 16

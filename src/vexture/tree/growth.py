@@ -82,6 +82,8 @@ def tree_of(tree: Growth) -> Tree:
     """The tree that has grown, in its final types."""
     quads, curves, unresolved, _ = tree.counts.tolist()
     cells, first = tree.cells[:quads], tree.first[:quads].astype(np.int32)
+    # what nobody reads is 0: it compresses better
+    first *= np.stack([cells[:, :, IS_QUAD].any(axis=1), cells[:, :, COUNT].any(axis=1)], axis=1)
     return Tree(
         cells[:, :, IS_QUAD] == 1.0,
         cells[:, :, COUNT].astype(np.uint8),

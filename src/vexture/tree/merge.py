@@ -7,9 +7,8 @@ meet. What a fitted cubic crosses is resolved afterwards like any other crossing
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.fit import fit_cubic
+from vexture.bezier.fit import fit_run
 from vexture.bezier.monotone import turns
-from vexture.bezier.roots import cubic_at
 from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 from vexture.layout import LATTICE
@@ -18,9 +17,6 @@ __all__ = ["MOST_MERGED", "merge_chains"]
 
 MOST_MERGED = 64
 """Pieces. In a cell with more nothing is merged, because it will be divided."""
-
-MOST_SAMPLES, LEAST_PER_PIECE, MOST_PER_PIECE = 96, 2, 8
-"""Points of a chain that a fit uses: in all, if there are few pieces, and on each piece."""
 
 MONOTONE_PARTS = 5
 """A cubic turns at most twice in x and twice in y."""
@@ -31,20 +27,8 @@ def _fit_run(
     curves: NDArray[np.float64], first: int, last: int, tolerance: float, out: NDArray[np.float64]
 ) -> tuple[int, float]:
     """Fit one cubic to pieces first..last-1; write its monotone parts; return how many (0: no fit) and the distance."""
-    per_piece = min(max(MOST_SAMPLES // (last - first), LEAST_PER_PIECE), MOST_PER_PIECE)
-    points = np.empty(((last - first) * per_piece + 1, 2))
-    count = 0
-    for i in range(first, last):
-        for m in range(per_piece):
-            for axis in range(2):
-                p0, p1, p2, p3 = curves[i, 0, axis], curves[i, 1, axis], curves[i, 2, axis], curves[i, 3, axis]
-                points[count, axis] = cubic_at(p0, p1, p2, p3, m / per_piece)
-            count += 1
-    points[count, 0], points[count, 1] = curves[last - 1, 3, 0], curves[last - 1, 3, 1]
-    if points[0, 0] == points[count, 0] and points[0, 1] == points[count, 1]:
-        return 0, 0.0
     rest = np.empty((4, 2))
-    distance = fit_cubic(points, tolerance, rest)
+    distance = fit_run(curves, first, last, tolerance, False, rest)
     if not distance <= tolerance:
         return 0, 0.0
     return _monotone_parts(rest, out), distance

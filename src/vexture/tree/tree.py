@@ -27,8 +27,8 @@ class Tree:
     is_quad: NDArray[np.bool_]  # (quads, 4): whether a cell is divided
     count: NDArray[np.uint8]  # (quads, 4): pieces in each leaf; 0 in quads and constant leaves
     winding: NDArray[np.int8]  # (quads, 4): corner winding of each leaf with pieces; 0 elsewhere
-    first_quad: NDArray[np.int32]  # (quads,): first of the quads below each quad
-    first_curve: NDArray[np.int32]  # (quads,): first curve of its leaves
+    first_quad: NDArray[np.int32]  # (quads,): first of the quads below each quad; 0 without any
+    first_curve: NDArray[np.int32]  # (quads,): first curve of its leaves; 0 without any
     coverage: NDArray[np.float64]  # (quads, 4): filled part of each cell, 0..1
     # (curves, 4, 2): P0 P1 P2 P3, monotone in x and in y, in lattice units of their leaf (32768 to its side). An end
     # with x = 0 lies on the leaf's left edge.
