@@ -178,8 +178,7 @@ def test_render_of_an_atlas(square, tmp_path):
     logo.write_text(LOGO)
     run("convert", square, logo, "--atlas", atlas, "--split", "paint")
     colours = drawn(tmp_path, logo, "--renderer", "exact")
-    for quality in ("fast", "exact"):
-        assert np.abs(drawn(tmp_path, atlas, *CPU, "--root", "logo", "--quality", quality) - colours).max() <= 3
+    assert np.abs(drawn(tmp_path, atlas, *CPU, "--root", "logo") - colours).max() <= 3
     word = drawn(tmp_path, logo, "--select", "#word", "--renderer", "exact", "--silhouette")
     for root in ("logo/2-#ffffff", "2"):
         assert np.abs(drawn(tmp_path, atlas, *CPU, "--root", root, "--silhouette") - word).max() <= 3
@@ -204,7 +203,6 @@ def test_render_of_an_atlas(square, tmp_path):
         ("all.ktx2", ("--root", "logo", "--renderer", "exact"), "renders drawings"),
         ("logo.svg", ("--root", "logo"), "leave it out"),
         ("logo.svg", ("--select", "#wrod"), "matches no element"),
-        ("logo.svg", ("--quality", "fast", "--renderer", "exact"), "the renderer exact does not have"),
     ],
 )
 def test_what_cannot_be_drawn_gets_one_line(square, tmp_path, shown, arguments, says):

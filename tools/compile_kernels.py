@@ -127,10 +127,10 @@ def calls() -> Iterator[tuple[Any, tuple[Any, ...]]]:
             tree.needed[:] = ROOM
             yield grow_on, (with_needed_room(tree), outlines[2], bounds, SLICE)
         texture = convert(drawing)
-        for quality in (0, 1):
+        for flat_view in (0, 1):
             to_unit = np.array([[0.02, 0.0, 0.0], [0.0, -0.02, 1.0], [0.0, 0.0, 1.0]])
             image = np.full((50, 50), np.nan, np.float32)
-            yield draw, (texture.texels, quality, texture.roots[0].quad, (0, 0), to_unit, image)
+            yield draw, (texture.texels, flat_view, texture.roots[0].quad, (0, 0), to_unit, image)
 
 
 def object_file(text: str, entry: str, processor: Processor) -> tuple[bytes, list[str]]:

@@ -13,7 +13,7 @@ from typing import Final
 
 from vexture import layout
 from vexture.fold import layout as fold_layout
-from vexture.renderers.shader import QUALITIES, WRAPS, included, shader_text
+from vexture.renderers.shader import WRAPS, included, shader_text
 from vexture.thesis import layout as thesis_layout
 from vexture.thesis import method as thesis_method
 from vexture.thesis.shader import FOLD_HEIGHT, PACKAGE, constants
@@ -35,8 +35,8 @@ GLOBAL: Final = re.compile(
 
 THESIS_PREFIX: Final = "thesis_"
 
-NUMBER: Final = re.compile(r"^#define (VEXTURE_\w+) ([0-9.e-]+)$", re.MULTILINE)
-"""A number that has a name."""
+NUMBERS: Final = re.compile(r"(?:#define .*\n)*")
+"""Named numbers, at the top of a text."""
 
 SPACES: Final = re.compile(r"(?<![+-]) +(?=[^\w\s])|(?<=[^\w\s]) +(?![+-])")
 """Those between two words, and between two signs, stay."""
@@ -60,8 +60,10 @@ def bare(text: str) -> str:
 
 def inlined(text: str) -> str:
     """Shader text with the values of its defined numbers in place of their names."""
-    values = dict(NUMBER.findall(text))
-    return re.sub(r"\bVEXTURE_\w+", lambda name: values.get(name[0], name[0]), NUMBER.sub("", text))
+    numbers = NUMBERS.match(text)
+    assert numbers
+    values = dict(line.split()[1:] for line in numbers[0].splitlines())
+    return re.sub(r"\bVEXTURE_\w+", lambda name: values.get(name[0], name[0]), text[numbers.end() :])
 
 
 def used(declarations: str, text: str) -> str:
@@ -79,12 +81,10 @@ def shaders() -> str:
     """Text of the module with the shaders."""
     parts = [HEADER.format(owner="src/vexture/glsl/")]
     for name, file in PACKED_FILES.items():
-        comment = f"{file}; VEXTURE_QUALITY must be defined before it, and VEXTURE_WRAP may be."
-        parts.append(module_text(name, bare(inlined(shader_text(file, None))), comment))
+        comment = f"{file}; VEXTURE_WRAP and VEXTURE_FLAT may be defined before it."
+        parts.append(module_text(name, bare(inlined(shader_text(file))), comment))
     comment = "steps.glsl: what the derivatives of a position are, for pixels."
     parts.append(module_text("steps", bare(included("steps.glsl")), comment))
-    parts.append("/** Values of VEXTURE_QUALITY. */\n")
-    parts.append(f"export const QUALITIES = Object.freeze({json.dumps(QUALITIES)});\n")
     parts.append("/** Values of VEXTURE_WRAP. */\n")
     parts.append(f"export const WRAPS = Object.freeze({json.dumps(WRAPS)});\n")
     return "".join(parts)
@@ -112,14 +112,14 @@ def water_module() -> str:
     """Text of the module with the water's shaders: apart, since most pages have no use for them."""
     parts = [HEADER.format(owner="src/vexture/glsl/")]
     for name in ("water", "shore"):
-        comment = f"{name}.glsl; VEXTURE_QUALITY and VEXTURE_WRAP must be defined before it."
-        parts.append(module_text(name, bare(inlined(shader_text(f"{name}.glsl", None))), comment))
+        comment = f"{name}.glsl; VEXTURE_WRAP and VEXTURE_FLAT may be defined before it."
+        parts.append(module_text(name, bare(inlined(shader_text(f"{name}.glsl"))), comment))
     return "".join(parts)
 
 
 def fold_module() -> str:
     """Text of the module with the shader of folds: apart, since a page without one has no use for it."""
-    text = bare(inlined(shader_text("fold.glsl", None, fold_layout)))
+    text = bare(inlined(shader_text("fold.glsl", fold_layout)))
     comment = "fold.glsl; VEXTURE_WRAP may be defined before it."
     return HEADER.format(owner="src/vexture/glsl/fold.glsl") + module_text("fold", text, comment)
 

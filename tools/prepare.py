@@ -106,6 +106,12 @@ SYSTEM = (
         "the benchmarks on a font of cubics",
     ),
     Need(
+        "a compiler for GPUs that need not be there",
+        "from vexture_evidence.measures.gpu_compiler import toolchain\nwith toolchain(): pass",
+        ("gcc", "glslang-tools", "libc6-dev", "libvulkan-dev", "mesa-vulkan-drivers"),
+        "the modelled costs of the shaders",
+    ),
+    Need(
         "the icon sets of npm",
         "import corpora; corpora.mdi(1, 0); corpora.simple_icons(1, 0)",
         (),

@@ -55,8 +55,8 @@ CROSSINGS: Final = 40
 STRAIGHT: Final = 1.0
 """Pixels; where the outline bends or branches in a window by more, it has a corner there and is left out."""
 
-LIMITS: Final = (0.05, 0.005)
-"""Pixels. The aim is none: a tenth of the limit is what the measure itself is good to."""
+LIMITS: Final = (0.05, 0.01)
+"""Pixels. The aim is none: a fifth of the limit is what the measure itself is good to."""
 
 
 class Crossing(NamedTuple):
@@ -152,10 +152,10 @@ def is_straight(truth: NDArray[np.float32], crossing: Crossing) -> bool:
 def drawing_steps(
     drawing: Drawing, magnification: float, precision: float | None, count: int, seed: int
 ) -> list[float]:
-    """Steps at some crossings of one drawing, for each quality the larger."""
+    """Steps at some crossings of one drawing, of both programs the larger."""
     tree = build_tree(drawing, precision=precision)
     texture = packed_texture(drawing, precision=precision)
-    programs = [packed_program(texture, quality) for quality in ("fast", "exact")]
+    programs = [packed_program(texture, is_flat) for is_flat in (True, False)]
     found = list(crossings(tree))
     chosen = np.random.default_rng(seed).permutation(len(found))[:count]
     steps = []

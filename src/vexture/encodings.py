@@ -24,7 +24,6 @@ __all__ = [
     "Encoded",
     "EncodedTexture",
     "Encoding",
-    "Quality",
     "TextureRenderer",
     "find_encoding",
     "owner_of",
@@ -33,8 +32,6 @@ __all__ = [
 TextureRenderer: TypeAlias = Literal["cpu", "gpu"]
 """Renderer of a texture: the shader's counterpart in Python, or the shader."""
 
-Quality: TypeAlias = Literal["fast", "exact"]
-"""Accuracy in turned and tilted views."""
 
 DEFAULT: Final = "packed"
 """Encoding of `vexture.Texture`."""
@@ -61,7 +58,6 @@ class EncodedTexture(Protocol):
         *,
         renderer: "TextureRenderer" = "cpu",
         root: str | int | None = None,
-        quality: "Quality" = "exact",
     ) -> "NDArray[np.float32]":
         """Covered part of each pixel, (height, width), 0..1; see `vexture.coverage`."""
 
@@ -72,7 +68,6 @@ class EncodedTexture(Protocol):
         *,
         renderer: "TextureRenderer" = "cpu",
         root: str | int | None = None,
-        quality: "Quality" = "exact",
     ) -> "NDArray[np.float32]":
         """Picture, (height, width, 4), premultiplied RGBA; see `vexture.render`."""
 

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias, cast
 
-from vexture.encodings import EncodedTexture, Quality
+from vexture.encodings import EncodedTexture
 from vexture.errors import ParameterError
 from vexture.pipeline import convert
 
@@ -29,7 +29,6 @@ def coverage(
     renderer: Renderer = "cpu",
     *,
     root: str | int | None = None,
-    quality: Quality = "exact",
 ) -> "NDArray[np.float32]":
     """Covered part of each pixel, by a drawing's silhouette or by a shape of a texture.
 
@@ -47,8 +46,6 @@ def coverage(
         ``"exact"``, ``"cpu"`` or ``"gpu"``.
     root : str or int, optional
         Which shape of a texture, by its name or its place in `Texture.roots`; not needed if there is only one.
-    quality : str
-        ``"exact"``, or ``"fast"`` on the CPU and the GPU: a little cheaper, less exact in turned and tilted views.
 
     Returns
     -------
@@ -75,13 +72,13 @@ def coverage(
     """
     from vexture.drawing import Drawing
 
-    _check(thing, renderer, root, quality)
+    _check(thing, renderer, root)
     if renderer == "exact":
         from vexture.renderers.exact import render_exact
 
         return render_exact(cast("Drawing", thing), size, view)
     texture = convert(thing) if isinstance(thing, Drawing) else thing
-    return texture.coverage(size, view, renderer=renderer, root=root, quality=quality)
+    return texture.coverage(size, view, renderer=renderer, root=root)
 
 
 def render(
@@ -91,13 +88,12 @@ def render(
     renderer: Renderer = "cpu",
     *,
     root: str | int | None = None,
-    quality: Quality = "exact",
 ) -> "NDArray[np.float32]":
     """Picture of a drawing or a texture in its colours: its layers, one over the other. Silhouettes are black.
 
     Parameters
     ----------
-    thing, size, view, renderer, quality
+    thing, size, view, renderer
         As in `vexture.coverage`. A drawing is split by paint before it is converted.
     root : str or int, optional
         Which drawing of an atlas, by its name, or which shape, by its name or place; not needed if a texture holds
@@ -125,11 +121,11 @@ def render(
     """
     from vexture.drawing import Drawing
 
-    _check(thing, renderer, root, quality)
+    _check(thing, renderer, root)
     empty = isinstance(thing, Drawing) and not thing.paths
     if renderer != "exact" and not empty:
         texture = convert(thing, split="paint") if isinstance(thing, Drawing) else thing
-        return texture.render(size, view, renderer=renderer, root=root, quality=quality)
+        return texture.render(size, view, renderer=renderer, root=root)
     from vexture.renderers.exact import render_exact
     from vexture.renderers.picture import painted
     from vexture.renderers.view import size_of
@@ -138,14 +134,12 @@ def render(
     return painted(size_of(size), ((layer.paths[0].paint, render_exact(layer, size, view)) for layer in layers))
 
 
-def _check(thing: Shown, renderer: Renderer, root: str | int | None, quality: Quality) -> None:
+def _check(thing: Shown, renderer: Renderer, root: str | int | None) -> None:
     """Raise an error unless the arguments fit each other: the renderer ``"exact"`` is for drawings alone."""
     from vexture.drawing import Drawing
 
     if renderer not in RENDERERS:
         raise ParameterError(f"`renderer` is {renderer!r}; it must be one of {', '.join(map(repr, RENDERERS))}")
-    if renderer == "exact" and quality != "exact":
-        raise ParameterError(f"`quality` is {quality!r}, which the renderer exact does not have; use cpu or gpu")
     if not isinstance(thing, Drawing):
         if not hasattr(thing, "coverage"):
             raise TypeError(

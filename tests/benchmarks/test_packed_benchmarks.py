@@ -145,10 +145,10 @@ def test_a_case_tells_a_right_picture_from_a_wrong_one():
     shaders = packed_fidelity.programs_for(circle, packed, 16)
     case = packed_fidelity.Case(32, 30.0)
     facts = packed_fidelity.case_facts(circle, packed, shaders, case, 2, seed=1)
-    assert facts["exact"]["mae"] < 0.3 < facts["bands"]["mae"]
-    assert facts["exact"]["apart"] < 1.0
+    assert facts["any"]["mae"] < 0.3 < facts["bands"]["mae"]
+    assert facts["any"]["apart"] < 1.0
     other = packed_fidelity.case_facts(circle, programs.packed_texture(ribbon), shaders, case, 2, seed=1)
-    assert other["exact"]["apart"] > 100.0
+    assert other["any"]["apart"] > 100.0
     swapped = packed_fidelity.programs_for(ribbon, packed, 16)
     assert (
         packed_fidelity.case_facts(circle, packed, {"bands": swapped["bands"]}, case, 2, seed=1)["bands"]["mae"] > 30.0

@@ -16,7 +16,6 @@ from vexture.fold.blend import fold as folded
 from vexture.fold.fold import Fold
 from vexture.fold.shore import shore_fold
 from vexture.renderers.cpu import coverage
-from vexture.renderers.shader import QUALITIES
 from vexture.texture.texture import Texture
 
 SHAPES = Path(__file__).parents[2] / "examples" / "shapes"
@@ -33,13 +32,13 @@ def shape() -> tuple[Texture, Fold, Numbers]:
 
 
 @numba.njit
-def shade(texels, quality, uv, dx, dy, out):  # type: ignore[no-untyped-def]
+def shade(texels, uv, dx, dy, out):  # type: ignore[no-untyped-def]
     for k in range(len(uv)):
         right, up = (dx[k, 0], dx[k, 1]), (dy[k, 0], dy[k, 1])
-        out[k] = coverage(texels, quality, 0, (0, 0), (uv[k, 0], uv[k, 1]), right, up)
+        out[k] = coverage(texels, 0, (0, 0), (uv[k, 0], uv[k, 1]), right, up)
 
 
-def drawn(texture: Texture, fold: Fold, to_unit: Numbers, seconds: float, quality: str) -> Numbers:
+def drawn(texture: Texture, fold: Fold, to_unit: Numbers, seconds: float) -> Numbers:
     """Picture by the mirrors of both shaders."""
     y, x = np.mgrid[0:SIDE, 0:SIDE] + 0.5
     pixels = np.stack([x.ravel(), y.ravel()], axis=1)
@@ -49,7 +48,7 @@ def drawn(texture: Texture, fold: Fold, to_unit: Numbers, seconds: float, qualit
     now = fold.displacement * fold.progress(seconds)[..., None]
     found = folded(now, "none", np.zeros(place.shape, np.uint32), place, *steps)
     picture = np.empty(len(place))
-    shade(texture.texels, QUALITIES[quality], *found, picture)
+    shade(texture.texels, *found, picture)
     return picture.reshape(SIDE, SIDE)
 
 
@@ -67,15 +66,14 @@ def view(pixel: float, seconds: float, *, tilted: bool) -> Numbers:
     return there @ scale @ bend @ turned @ middle
 
 
-@pytest.mark.parametrize("quality", QUALITIES)
 @pytest.mark.parametrize("tilted", [False, True])
 @pytest.mark.parametrize("texels", [4.0, 0.25, 1 / 16, 1 / 1024])
-def test_nothing_sparkles(texels: float, tilted: bool, quality: str) -> None:
+def test_nothing_sparkles(texels: float, tilted: bool) -> None:
     texture, fold, _ = shape()
     found = []
     for seconds in np.linspace(0.3, SECONDS, 5):
         to_unit = view(texels / SIZE / (8.0 if tilted else 1.0), seconds, tilted=tilted)
-        picture = drawn(texture, fold, to_unit, seconds, quality)
+        picture = drawn(texture, fold, to_unit, seconds)
         found.append(errors(picture, texture, fold, to_unit, seconds))
     assert sum(map(len, found)) > 100
     assert np.percentile(np.concatenate(found), 99) <= 8.0

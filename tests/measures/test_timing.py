@@ -26,7 +26,7 @@ def test_a_rate_is_finite():
     from vexture_evidence.measures.programs import packed_program
 
     try:
-        program = packed_program(Shape(example("duck")).way("packed").texture, "exact")
+        program = packed_program(Shape(example("duck")).way("packed").texture)
     except DeviceError as error:
         pytest.skip(str(error))
     assert 0.0 < frames_per_second(program, (64, 64), 1) < float("inf")

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +31,17 @@ def turned(pixels: float, degrees: float, narrow: float = 1.0) -> View:
     size = np.ceil(np.ptp(corners, axis=1)).astype(int) + 3
     ahead[:2, 2] = 1.37 - corners.min(axis=1)
     return (int(size[0]), int(size[1])), np.linalg.inv(ahead)
+
+
+def nudged(view: View) -> View:
+    """The view, turned by so little that nothing moves, but that the shader for any view must draw it."""
+    size, matrix = view
+    turn = np.array([[1.0, 1e-9, 0.0], [-1e-9, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    return size, matrix @ turn
+
+
+ENTRIES: Final = {"flat": lambda view: view, "any": nudged}
+"""Ways to draw an upright view: by `vextureFlatCoverage`, and by `vextureCoverage`."""
 
 
 def zoomed(drawing: Drawing, width: float, pixels: int) -> View:

@@ -41,9 +41,7 @@ def on_gpu(fold: Fold, wrap: str, base: tuple[int, int], view: tuple[float, ...]
     """Displacements (n, 2) and Jacobians (n, 2, 2), row by row from below."""
     need_gpu()
     with context() as gl:
-        fragment = (
-            f"{VERSIONS[WEB]}#define VEXTURE_WRAP {WRAPS[wrap]}\n" + shader_text("fold.glsl", None, layout) + MAIN
-        )
+        fragment = f"{VERSIONS[WEB]}#define VEXTURE_WRAP {WRAPS[wrap]}\n" + shader_text("fold.glsl", layout) + MAIN
         triangle = gl.vertex_array(gl.program(vertex_shader=vertex_source(WEB), fragment_shader=fragment), [])
         uploaded = gl.texture(fold.size, 4, np.ascontiguousarray(fold.texels).tobytes(), dtype="u4")
         uploaded.filter = (gl.NEAREST, gl.NEAREST)

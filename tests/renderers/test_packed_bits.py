@@ -10,12 +10,13 @@ from hypothesis import strategies as st
 from packed_views import TILTED, View, turned
 
 from vexture.layout import MOST_CURVES, MOST_DEPTH
-from vexture.renderers import cpu, gpu
-from vexture.renderers.cpu import render_cpu, texel
+from vexture.renderers import cells, gpu
+from vexture.renderers.cells import texel
+from vexture.renderers.cpu import render_cpu
 from vexture.renderers.device import VERSION, compiled, context
 from vexture.renderers.gpu import render_gpu
-from vexture.renderers.method import MOST_CELLS, MOST_PARTS, STEPS
-from vexture.renderers.shader import QUALITIES, view_source
+from vexture.renderers.method import LONG, MOST_PARTS, STEPS
+from vexture.renderers.shader import view_source
 from vexture.renderers.view import fit, window
 from vexture.texture.texture import Root, Texture
 
@@ -30,6 +31,7 @@ VIEWS: dict[str, View] = {
 }
 
 LOOP = re.compile(r"^( *(?:for|while) \(.*\) \{)$", re.MULTILINE)
+MOST_CELLS = 4 * (2 + 4 / LONG**0.5) ** 2  # of half the least size for a long footprint, in the box around it
 MOST_TRIPS = MOST_CELLS * (1 + MOST_DEPTH + MOST_CURVES * (2 + STEPS + int(MOST_PARTS)))
 
 
@@ -52,14 +54,14 @@ def textures(draw: st.DrawFn) -> Texture:
 
 
 @settings(max_examples=60)
-@given(textures(), st.sampled_from(sorted(VIEWS)), st.sampled_from(sorted(QUALITIES)))
-@example(Texture(np.full((1, 1, 4), ALL_ONES, np.uint32), (Root("ones"),)), "all", "exact")
-@example(Texture(np.zeros((1, 1, 4), np.uint32), (Root("zeros"),)), "all", "fast")
-def test_any_bits_are_drawn_as_numbers(texture: Texture, view: str, quality: str) -> None:
+@given(textures(), st.sampled_from(sorted(VIEWS)))
+@example(Texture(np.full((1, 1, 4), ALL_ONES, np.uint32), (Root("ones"),)), "all")
+@example(Texture(np.zeros((1, 1, 4), np.uint32), (Root("zeros"),)), "all")
+def test_any_bits_are_drawn_as_numbers(texture: Texture, view: str) -> None:
     need_gpu()
     size, matrix = VIEWS[view]
     for render in (render_cpu, render_gpu):
-        image = render(texture, size, matrix, quality=quality)
+        image = render(texture, size, matrix)
         assert np.isfinite(image).all()
         assert image.min() >= 0.0
         assert image.max() <= 1.0
@@ -77,13 +79,13 @@ def test_no_index_leaves_the_texture(shape: tuple[int, int]) -> None:
 
 
 def test_nothing_else_reads_the_texture() -> None:
-    with open(cpu.__file__, encoding="utf-8") as module:
+    with open(cells.__file__, encoding="utf-8") as module:
         assert module.read().count("texels[") == 1
 
 
-def counting(quality: str) -> str:
+def counting(is_flat: bool) -> str:
     """The shader, drawing how often its loops go round instead of what they find."""
-    text, loops = LOOP.subn(r"\1 trips++;", view_source(VERSION, quality))
+    text, loops = LOOP.subn(r"\1 trips++;", view_source(VERSION, is_flat))
     assert loops == len(re.findall(r"\b(?:for|while|do)\b *[({]", text)), "a loop that this test does not count"
     drawn = re.sub(
         r"coverage_of_pixel = (.*); \}", r"float found = \1; coverage_of_pixel = float(trips) + 0.0 * found; }", text
@@ -91,13 +93,12 @@ def counting(quality: str) -> str:
     return drawn.replace("\n", "\nint trips = 0;\n", 1)
 
 
-@pytest.mark.parametrize("quality", QUALITIES)
 @pytest.mark.parametrize("view", VIEWS)
-def test_the_work_for_a_pixel_is_bounded(view: str, quality: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_work_for_a_pixel_is_bounded(view: str, monkeypatch: pytest.MonkeyPatch) -> None:
     need_gpu()
     with context():
-        program = compiled(counting(quality))
-    monkeypatch.setattr(gpu, "program", lambda quality: program)
+        programs = {is_flat: compiled(counting(is_flat)) for is_flat in (False, True)}
+    monkeypatch.setattr(gpu, "program", programs.get)
     size, matrix = VIEWS[view]
     rng = np.random.default_rng(3)
     for mask in (0, QUADS, 0x78787878, ALL_ONES):

@@ -60,9 +60,8 @@ def test_layers_of_a_texture_are_those_of_the_drawing(renderer: str) -> None:
     if renderer == "gpu":
         need_gpu()
     texture = vexture.atlas([flag(), flag("other"), replace(flag(), paths=flag().paths[:1], name="red")], split="paint")
-    for quality in ("fast", "exact"):
-        image = on_white(texture, SIZE, None, renderer, root="other", quality=quality)
-        np.testing.assert_allclose(image, stacked(flag()), atol=0.01)
+    image = on_white(texture, SIZE, None, renderer, root="other")
+    np.testing.assert_allclose(image, stacked(flag()), atol=0.01)
     np.testing.assert_allclose(
         render(flag(), SIZE, None, renderer),
         render(texture, SIZE, None, renderer, root="flag"),
@@ -134,12 +133,9 @@ def test_layers_are_found_by_their_drawing() -> None:
     ("encoding", "options", "says"),
     [
         (None, {"renderer": "raytracer"}, "must be one of 'exact', 'cpu', 'gpu'"),
-        (None, {"quality": "best"}, "must be one of 'fast', 'exact'"),
-        (None, {"renderer": "exact", "quality": "fast"}, "the renderer exact does not have"),
         (None, {"root": "flag"}, "leave it out for a drawing"),
         ("packed", {"renderer": "exact"}, "which renders drawings"),
         ("thesis", {"renderer": "exact"}, "which renders drawings"),
-        ("thesis", {"quality": "fast"}, "the encoding thesis does not have"),
         ("thesis", {"root": 1}, "is a texture of one shape"),
         ("thesis", {"root": "other"}, "is a texture of one shape"),
         ("packed", {"renderer": "vulkan"}, "must be one of 'exact', 'cpu', 'gpu'"),

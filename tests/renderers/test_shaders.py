@@ -7,7 +7,7 @@ from hand import EMPTY, FULL, TREE, need_gpu, texture_of
 
 from vexture.errors import FormatError
 from vexture.fold import blend
-from vexture.renderers import cpu, piece
+from vexture.renderers import cells, cpu, piece
 from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, included, vertex_source
 from vexture.thesis import cpu as thesis_cpu
@@ -28,6 +28,7 @@ STRUCT = re.compile(r"^struct (\w+) \{(.*?)^\};", re.MULTILINE | re.DOTALL)
 MIRROR = dict.fromkeys(FILES, cpu) | {
     **{name: thesis_cpu for name in FILES if name.startswith("thesis/")},
     "thesis/cubic.glsl": cubic,
+    "tree.glsl": cells,
     "pixel.glsl": piece,
     "piece.glsl": piece,
     "fold.glsl": blend,
@@ -46,7 +47,7 @@ MIRRORED = {name: text for name, text in FILES.items() if name not in WITHOUT_MI
 ALONE = {"fetch"}  # functions of the shader for which the mirror has no use
 UNIFORMS = [
     "texels",
-    "quality",
+    "flat_view",
     "root",
     "base",
     "quads",
@@ -59,6 +60,8 @@ UNIFORMS = [
 ]  # which the mirror passes on
 PLAIN = {
     "vextureCoverage": "coverage",
+    "vextureFlat": "flat",
+    "vextureFlatCoverage": "flat_coverage",
     "vextureFold": "fold",
     "from": "start",
 }  # which Python would name otherwise, or not at all

@@ -79,10 +79,9 @@ def check(pictures: list[Numbers], fold: Fold, to_unit: Numbers, texture: Textur
 
 def test_a_mask_follows_its_fold(fresh_page: Any, screenshot: Callable[..., Path]) -> None:
     duck = vexture.convert(drawing("duck"))
-    for name, quality in (("shore", "exact"), ("wild", "fast")):
-        mask = {"fold": name, "quality": quality}
-        pictures, found = frames(fresh_page, mask=mask)
-        screenshot(fresh_page.locator("canvas"), f"{name}-{quality}")
+    for name, flat in (("shore", False), ("wild", True)):
+        pictures, found = frames(fresh_page, mask={"fold": name, "flat": flat})
+        screenshot(fresh_page.locator("canvas"), name)
         check(pictures, folds()[name], FIT, duck)
         assert max(np.abs(pictures[0] - one).max() for one in pictures) > 0.5
         assert found["programs"] <= 3

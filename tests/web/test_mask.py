@@ -46,8 +46,8 @@ def over_white(coverage: np.ndarray, color: int) -> np.ndarray:
 
 def test_a_shape_in_a_colour_is_what_the_exact_renderer_draws(page: Any, screenshot: Callable[..., Path]) -> None:
     ink = {"color": 0xC03020}
-    for quality in ("exact", "fast"):
-        picture = draw(page, material="VectorMaterial", parameters={**ink, "quality": quality})
+    for flat in (False, True):
+        picture = draw(page, material="VectorMaterial", parameters={**ink, "flat": flat})
         assert distance(picture, over_white(exact("duck"), 0xC03020)) <= HALF_STEP
     screenshot(page.locator("canvas"))
     inverted = draw(page, parameters=ink, mask={"invert": True})

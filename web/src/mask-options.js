@@ -1,6 +1,6 @@
 // The options of a mask, their defaults and their validation.
 import { Matrix3 } from 'three';
-import { QUALITIES, WRAPS } from '../generated/shaders.js';
+import { WRAPS } from '../generated/shaders.js';
 import { VextureError, line } from './errors.js';
 
 /**
@@ -13,7 +13,8 @@ import { VextureError, line } from './errors.js';
  *   map inside the shape. `cut`: nothing is drawn outside the shape, not even depth. `paint`: the drawing's own colours.
  * @property {'none' | 'clamp' | 'repeat'} [wrap] beyond the unit square: nothing, the value at its border, or the shape
  *   again
- * @property {'exact' | 'fast'} [quality]
+ * @property {boolean} [flat] for views straight at a plane, as of an orthographic camera, in which pixels are upright in
+ *   the drawing and all alike: they cost less. In any other view the picture is wrong. Without effect on a fold
  * @property {boolean} [invert] exchange inside and outside; not in mode `paint`
  * @property {import('three').ColorRepresentation} [color] mode `mix`: colour inside; a `Color` may be changed at any time
  * @property {import('three').Texture | null} [map] mode `mix`: map inside, with the mesh's uv and its own transform
@@ -26,7 +27,7 @@ import { VextureError, line } from './errors.js';
  */
 
 const NAMES = Object.freeze([
-  'root', 'transform', 'mode', 'wrap', 'quality', 'invert', 'color', 'map', 'threshold', 'background', 'instanced',
+  'root', 'transform', 'mode', 'wrap', 'flat', 'invert', 'color', 'map', 'threshold', 'background', 'instanced',
   'fold', 'time',
 ]);
 
@@ -60,7 +61,7 @@ export function complete(options) {
     transform: new Matrix3(),
     mode: /** @type {const} */ ('alpha'),
     wrap: /** @type {const} */ ('none'),
-    quality: /** @type {const} */ ('exact'),
+    flat: false,
     invert: false,
     color: 0xffffff,
     map: null,
@@ -91,10 +92,9 @@ export function isTranslucent({ mode, background }) {
  * @throws {VextureError} if an option is out of range, or options exclude each other
  */
 export function checkOptions(options, type, texture) {
-  const { mode, wrap, quality, background, invert, instanced, threshold, transform, fold, time } = options;
+  const { mode, wrap, background, invert, instanced, threshold, transform, fold, time } = options;
   choose('mode', mode, MODES);
   choose('wrap', wrap, Object.keys(WRAPS));
-  choose('quality', quality, Object.keys(QUALITIES));
   choose('background', background, ['own', 'none']);
   if (!texture?.isVectorTexture) {
     throw new VextureError(`the texture is ${line(texture?.constructor?.name)}; load one by VectorTextureLoader`, 'texture');

@@ -1,5 +1,5 @@
 // Text that a mask inserts into a material's shader: declarations, and calls of the functions of src/vexture/glsl.
-import { QUALITIES, WRAPS, packed, steps } from '../generated/shaders.js';
+import { WRAPS, packed, steps } from '../generated/shaders.js';
 
 /**
  * @typedef {object} Variant All that makes one program differ from another.
@@ -8,7 +8,7 @@ import { QUALITIES, WRAPS, packed, steps } from '../generated/shaders.js';
  * @property {'alpha' | 'mix' | 'cut' | 'paint'} mode
  * @property {boolean} inLayers whether the shape is the union of a drawing's layers
  * @property {'none' | 'clamp' | 'repeat'} wrap
- * @property {'exact' | 'fast'} quality
+ * @property {boolean} flat
  * @property {boolean} invert
  * @property {'own' | 'none'} background
  * @property {boolean} instanced
@@ -55,10 +55,11 @@ function layers(variant) {
 }
 
 /** @param {Variant} variant */
-function reader({ other, wrap, quality, fold }) {
+function reader({ other, wrap, flat, fold }) {
   if (other) return other.declared;
   const declared = 'uniform uint vextureRootQuad;\nuniform int vextureFirst;\nuniform int vextureCount;\n';
-  return `#define VEXTURE_QUALITY ${QUALITIES[quality]}\n#define VEXTURE_WRAP ${WRAPS[wrap]}\n${packed}${fold}${declared}`;
+  const chosen = `#define VEXTURE_FLAT ${Number(flat && !fold)}\n#define VEXTURE_WRAP ${WRAPS[wrap]}\n`;
+  return `${chosen}${packed}${fold}${declared}`;
 }
 
 /** Fully transparent pixels write no depth, so that they hide nothing. */

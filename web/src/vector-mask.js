@@ -74,14 +74,14 @@ export class VectorMask {
 
   /** @returns {Variant} */
   #variant() {
-    const { mode, wrap, quality, invert, background, instanced, map, fold } = this.#options;
+    const { mode, wrap, flat, invert, background, instanced, map, fold } = this.#options;
     const reader = this.#texture.maskReader();
     return {
       other: reader && { declared: reader.declared, coverage: reader.coverage(FOOTPRINT) },
       mode,
       inLayers: mode === 'paint',
       wrap,
-      quality,
+      flat,
       invert,
       background,
       instanced,
@@ -222,12 +222,12 @@ export class VectorMask {
     this.set({ wrap });
   }
 
-  get quality() {
-    return this.#options.quality;
+  get flat() {
+    return this.#options.flat;
   }
 
-  set quality(quality) {
-    this.set({ quality });
+  set flat(flat) {
+    this.set({ flat });
   }
 
   get invert() {

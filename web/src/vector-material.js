@@ -29,7 +29,7 @@ export class VectorMaterial extends MeshBasicMaterial {
    * @throws {VextureError} if an option is unknown or out of range, or the texture is undefined
    */
   constructor(parameters = {}) {
-    const { texture, root, transform, mode, wrap, quality, invert, threshold, background, instanced, ...others } =
+    const { texture, root, transform, mode, wrap, flat, invert, threshold, background, instanced, ...others } =
       parameters;
     const { fold, time, ...basic } = others;
     super();
@@ -41,7 +41,7 @@ export class VectorMaterial extends MeshBasicMaterial {
       throw new VextureError('texture is undefined; load one by VectorTextureLoader, or give null for none', 'texture');
     }
     this.setValues(basic);
-    this.#options = { root, transform, mode, wrap, quality, invert, threshold, instanced, fold, time };
+    this.#options = { root, transform, mode, wrap, flat, invert, threshold, instanced, fold, time };
     this.#options.background = background ?? 'none';
     if (texture) this.texture = texture;
   }

@@ -2,6 +2,7 @@ import { Color, Matrix3, Mesh, MeshBasicMaterial, MeshDepthMaterial, ShaderLib, 
 import { describe, expect, test } from 'vitest';
 import { VextureError } from '../src/errors.js';
 import { readPacked } from '../src/packed.js';
+import { texts } from '../src/mask-shader.js';
 import { applyVectorMask, rootAttribute } from '../src/vector-mask.js';
 import { VectorMaterial } from '../src/vector-material.js';
 import { VectorTexture } from '../src/vector-texture.js';
@@ -76,6 +77,17 @@ describe('a material without its texture', () => {
     material.texture = drawings;
     expect([material.root, material.mask?.wrap]).toEqual([1, 'repeat']);
   });
+});
+
+test('flat views have a program of their own, but for a fold', () => {
+  const variant = (/** @type {string} */ fold, flat = true) => /** @type {any} */ ({ wrap: 'none', flat, fold });
+  expect(texts(variant('')).fragmentDeclare).toContain('#define VEXTURE_FLAT 1\n');
+  expect(texts(variant('', false)).fragmentDeclare).not.toContain('#define VEXTURE_FLAT 1\n');
+  expect(texts(variant('fold')).fragmentDeclare).not.toContain('#define VEXTURE_FLAT 1\n');
+  const material = new VectorMaterial({ texture: duck, flat: true });
+  const before = material.customProgramCacheKey();
+  if (material.mask) material.mask.flat = false;
+  expect(material.customProgramCacheKey()).not.toBe(before);
 });
 
 test('colour and map inside are as they are when a picture is drawn', () => {

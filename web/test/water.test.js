@@ -6,7 +6,7 @@ import { insert } from '../src/hooks.js';
 import { readPacked } from '../src/packed.js';
 import { VectorTexture } from '../src/vector-texture.js';
 import { SimpleWater, VectorWater, waterNormals } from '../src/water/index.js';
-import { waterTexts } from '../src/water/shader.js';
+import { WATER_TEXTS } from '../src/water/shader.js';
 import { fixture } from './files.js';
 
 const read = async (/** @type {string} */ name) => new VectorTexture(await readPacked(fixture(`${name}.ktx2`), name));
@@ -18,8 +18,8 @@ describe("three.js' Water", () => {
   test('has every place that is needed, each once', () => {
     const { vertexShader, fragmentShader } = /** @type {ShaderMaterial} */ (new Water(plane, {}).material);
     const shader = { vertexShader, fragmentShader };
-    insert(shader, 'Water', waterTexts('exact'));
-    for (const text of Object.values(waterTexts('exact'))) {
+    insert(shader, 'Water', WATER_TEXTS);
+    for (const text of Object.values(WATER_TEXTS)) {
       expect(shader.vertexShader.split(text).length + shader.fragmentShader.split(text).length).toBe(3);
     }
     expect(fragmentShader.indexOf('gl_FragColor =')).toBeLessThan(fragmentShader.indexOf('#include <tonemapping_fragment>'));
@@ -31,8 +31,8 @@ describe("three.js' Water", () => {
     const shader = { vertexShader, fragmentShader };
     const stage = name.endsWith('vertex') ? 'vertexShader' : 'fragmentShader';
     shader[stage] = shader[stage].replace(`#include <${name}>`, '');
-    expect(() => insert(shader, 'Water', waterTexts('exact'))).toThrow(`lacks '#include <${name}>'`);
-    expect(() => insert(shader, 'Water', waterTexts('exact'))).toThrow(VextureError);
+    expect(() => insert(shader, 'Water', WATER_TEXTS)).toThrow(`lacks '#include <${name}>'`);
+    expect(() => insert(shader, 'Water', WATER_TEXTS)).toThrow(VextureError);
   });
 });
 
@@ -92,7 +92,6 @@ describe.each([VectorWater, SimpleWater])('%o', (Kind) => {
   const wrong = [
     [new BufferGeometry(), duck, {}, 'geometry'],
     [plane, {}, {}, 'texture'],
-    [plane, duck, { quality: 'best' }, 'quality'],
     [plane, duck, { transform: [1] }, 'transform'],
     [plane, duck, { foam: { width: -1 } }, 'foam.width'],
     [plane, duck, { root: 'nobody' }, 'root'],

@@ -1,6 +1,6 @@
 /** The flat view of a texture: its layers on the theme's paper. */
 import { Vector2, Vector3, Vector4 } from 'three';
-import { QUALITIES, packed, packedOverlay } from '../generated/shaders.js';
+import { packed, packedOverlay } from '../generated/shaders.js';
 import { Pass } from './pass.js';
 import { shaderView } from './view.js';
 
@@ -10,7 +10,7 @@ import { shaderView } from './view.js';
  * @typedef {import('three').WebGLRenderer} WebGLRenderer
  */
 
-const EXACT = `#define VEXTURE_QUALITY ${QUALITIES.exact}\n`;
+const FLAT = '#define VEXTURE_FLAT 1\n';
 
 const OUTPUT = `
 uniform uvec2 base;
@@ -50,8 +50,8 @@ export class Flat {
       ink: { value: new Vector3() },
       paper: { value: new Vector4(1, 1, 1, 1) },
     });
-    this.plain = new Pass(EXACT + packed + OUTPUT, this.uniforms);
-    this.overlaid = new Pass(EXACT + packedOverlay + OUTPUT, this.uniforms, { OVERLAY: 1 });
+    this.plain = new Pass(FLAT + packed + OUTPUT, this.uniforms);
+    this.overlaid = new Pass(FLAT + packedOverlay + OUTPUT, this.uniforms, { OVERLAY: 1 });
   }
 
   /**

@@ -1,4 +1,4 @@
-// Frame times of one scene drawn by VectorMaterial, in both qualities, and by the band algorithm: in turns, in one page.
+// Frame times of one scene drawn by VectorMaterial, for flat views and for any, and by the band algorithm: in turns, in one page.
 
 import * as THREE from 'three';
 import { VectorMaterial, VectorTexture, readPacked } from 'vexture';
@@ -44,12 +44,11 @@ function bandMaterial({ lists, outlines, width, box, shader }) {
 
 /** Materials of each shape by the name of the method. */
 async function materials(shapes) {
-    const found = { fast: [], exact: [], bands: [] };
+    const found = { packed: [], any: [], bands: [] };
     for (const { packed, bands } of shapes) {
         const texture = new VectorTexture(await readPacked(bytes(packed).buffer));
-        for (const quality of ['fast', 'exact']) {
-            found[quality].push(new VectorMaterial({ texture, quality, color: 0x000000 }));
-        }
+        found.packed.push(new VectorMaterial({ texture, flat: true, color: 0x000000 }));
+        found.any.push(new VectorMaterial({ texture, color: 0x000000 }));
         found.bands.push(bandMaterial(bands));
     }
     return found;
@@ -106,7 +105,8 @@ async function measure({ shapes, views, side, rounds, least }) {
     const made = await materials(shapes);
     const times = {};
     for (const [name, view] of Object.entries(views)) {
-        const drawn = Object.entries(made).map(([method, list]) => {
+        const shown = view.tilt ? { ...made, packed: made.any } : made;
+        const drawn = Object.entries(shown).map(([method, list]) => {
             const { scene, columns } = sheet(shapes, list, view.repeat ?? shapes.length);
             return { method, scene, camera: camera(view, columns) };
         });

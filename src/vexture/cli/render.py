@@ -49,13 +49,6 @@ Examples:
     show_default=True,
     help="The texture in Python; the texture by the shader; the drawing itself, exactly.",
 )
-@click.option(
-    "--quality",
-    type=click.Choice(["fast", "exact"]),
-    default="exact",
-    show_default=True,
-    help="How closely pixels that are turned or tilted are computed.",
-)
 def render(
     source: Path,
     output: Path,

@@ -1,102 +1,194 @@
 // Coverage of a pixel by a shape in a packed texture: the exact area of the shape in the pixel's footprint.
 // Exports: vextureCoverage.
-#include "tree.glsl"
-#include "piece.glsl"
+#include "flat.glsl"
+#include "pixel.glsl"
 
-// Position of a cell's lattice relative to the pixel.
-struct VextureLattice {
-    ivec2 whole;  // the pixel's centre in lattice units: the whole units
-    vec2 part;    // and the rest; one float cannot hold both
-    vec2 low;     // the part of the footprint's box that lies in the cell, relative to the centre
-    vec2 high;
-    VextureFrame frame;  // from offsets in lattice units
+// The box as a parallelogram in the footprint's frame.
+struct VextureCorner {
+    vec2 origin;
+    vec2 x;  // its sides
+    vec2 y;
 };
 
-VextureLattice vexture_lattice(ivec2 origin, int level, VexturePlace place, VextureFrame frame) {
-    int finer = VEXTURE_POSITION_BITS - level - VEXTURE_LATTICE_BITS;  // bits of a position below a lattice unit
-    int coarser = max(-finer, 0);
-    finer = max(finer, 0);
-    ivec2 way = place.point - origin;
-    ivec2 whole = (way >> finer) << coarser;
-    vec2 part = (vec2(way & ((1 << finer) - 1)) + place.rest) * (float(1 << coarser) / float(1 << finer));
-    float unit = VEXTURE_LATTICE * float(1 << level);  // lattice units in the unit square
-    vec2 reach = frame.reach * unit;
-    frame.right /= unit;
-    frame.up /= unit;
-    frame.size *= unit * unit;
-    vec2 low = max(vec2(-whole) - part, -reach);
-    vec2 high = min(vec2((1 << VEXTURE_LATTICE_BITS) - whole) - part, reach);
-    return VextureLattice(whole, part, low, high, frame);
+// The corner of the box where a piece's coordinates, which may be mirrored, begin.
+VextureCorner vexture_corner(bvec2 falls, VextureBox box, VextureFrame frame) {
+    vec2 low = vec2(falls.x ? box.low.x + box.size.x : box.low.x, falls.y ? box.low.y + box.size.y : box.low.y);
+    float x = falls.x ? -box.size.x : box.size.x;
+    float y = falls.y ? -box.size.y : box.size.y;
+    vec2 origin = vexture_into_frame(frame, low);
+    return VextureCorner(origin, vec2(frame.right.x, frame.up.x) * x, vec2(frame.right.y, frame.up.y) * y);
 }
 
-// Filled area of the pixel within one cell.
-float vexture_cell_area(VextureCell cell, VextureLattice lattice) {
-    int code = cell.is_quad ? 0 : vexture_winding_code(cell);
-    uint curve = vexture_first_curve(cell);
-    int count = code == 0 ? 0 : vexture_count(cell);
-    int winding = code - VEXTURE_WINDING_OFFSET;
-    vec2 low = lattice.low;
-    vec2 high = lattice.high;
-    int crossing = 0;  // a bit for each piece that may cross the footprint's box
-    for (int i = 0; i < count; i++) {
-        VexturePiece piece = vexture_piece(vexture_texel(curve + uint(i)), lattice.whole, lattice.part);
-        if (piece.starts_left && piece.ends_left) {
-            continue;  // on the left edge: its ends there cancel it
-        }
-        winding += piece.starts_left && piece.p0.y <= low.y ? 1 : 0;
-        winding -= piece.ends_left && piece.p3.y <= low.y ? 1 : 0;
-        bool turns = (piece.starts_left && piece.p0.y > low.y && piece.p0.y < high.y)
-            || (piece.ends_left && piece.p3.y > low.y && piece.p3.y < high.y);
-        int side = vexture_clear_side(piece, low, high);
-        bool crosses = turns || side == VEXTURE_CROSSING;
-        winding += crosses ? 0 : side;
-        crossing |= crosses ? 1 << i : 0;
-    }
-    float filled = code == 0 ? vexture_stored_coverage(cell) : float(winding);
-    float area = filled * vexture_box_area(lattice.frame, low, high);
-    while (crossing != 0) {
-        int lowest = crossing & -crossing;
-        int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
-        crossing ^= lowest;
-        VexturePiece piece = vexture_piece(vexture_texel(curve + uint(i)), lattice.whole, lattice.part);
-        area += vexture_piece_area(piece, lattice.frame, low, high);
+vec2 vexture_from_corner(VextureCorner corner, float x, float y) {
+    return corner.origin + corner.x * x + corner.y * y;
+}
+
+// Area of the pixel beside a piece between its ends, in as many parts as its bend requires: beside the chord of each, plus
+// the area between the two for the share of the chord in the pixel.
+float vexture_curve_area(VexturePiece piece, VextureEnds ends, VextureCorner corner) {
+    vec2 p = vexture_from_corner(corner, ends.enter.x, ends.enter.y);
+    vec2 slope = vexture_slope(piece, ends.start);
+    vec2 first = corner.x * slope.x + corner.y * slope.y;
+    slope = vexture_slope(piece, ends.end);
+    vec2 last = corner.x * slope.x + corner.y * slope.y;
+    vec2 chord = vexture_from_corner(corner, ends.leave.x, ends.leave.y) - p;
+    float step_t = ends.end - ends.start;
+    float bend = step_t * (abs(vexture_cross(first, chord)) + abs(vexture_cross(last, chord)));
+    int parts = 1 + int(min(VEXTURE_BEND * bend, VEXTURE_MOST_PARTS - 1.0));
+    step_t /= float(parts);
+    float area = 0.0;
+    float t = ends.start;
+    while (parts > 0) {
+        parts--;
+        t = parts == 0 ? ends.end : t + step_t;
+        vec2 next = parts == 0 ? ends.leave : vexture_at(piece, t);
+        slope = vexture_slope(piece, t);
+        vec2 q = vexture_from_corner(corner, next.x, next.y);
+        last = corner.x * slope.x + corner.y * slope.y;
+        area += vexture_beside(p, q) + vexture_bulge(step_t / 3.0, first, last, q - p) * vexture_part_inside(p, q);
+        p = q;
+        first = last;
     }
     return area;
 }
 
+// Area on the right of a piece inside the box, negative for a piece that goes up. If it `turns`, an end of it lies on the
+// leaf's left edge and in the box, and the area of the box above that end is included with the sign of its winding.
+float vexture_piece_area(uvec4 texel, bool turns, VextureBox box, VextureFrame frame) {
+    VexturePiece piece = vexture_piece(texel, box);
+    VextureEnds ends = vexture_ends(piece);
+    VextureCorner corner = vexture_corner(piece.falls, box, frame);
+
+    // the path along the box's sides: its left side while the piece is left of the box, and back on its right side
+    bool falls = piece.falls.x;
+    float top = piece.falls.y ? 0.0 : 1.0;
+    float y0 = clamp(piece.d.y, 0.0, 1.0);
+    float y3 = clamp(piece.d.y + piece.way.y, 0.0, 1.0);
+    y0 = turns && (texel.x & 0xffffu) == 0u ? top : y0;
+    y3 = turns && (texel.w & 0xffffu) == 0u ? top : y3;
+    float left = falls ? 1.0 : 0.0;
+    float right = 1.0 - left;
+    float left_end = falls ? y3 : ends.enter.y;
+    float right_end = falls ? ends.enter.y : y0;
+    float left_start = falls ? ends.leave.y : y0;
+    float right_start = falls ? y3 : ends.leave.y;
+    vec2 level = vexture_slopes(frame.right.x, frame.up.x);
+    vec2 upright = vexture_slopes(frame.right.y, frame.up.y);
+    vec2 l0 = vexture_from_corner(corner, left, left_start);
+    vec2 l1 = vexture_from_corner(corner, left, left_end);
+    vec2 r0 = vexture_from_corner(corner, right, right_start);
+    vec2 r1 = vexture_from_corner(corner, right, right_end);
+    vec2 e0 = vexture_from_corner(corner, ends.enter.x, right_end);
+    vec2 e1 = vexture_from_corner(corner, ends.leave.x, right_start);
+    float area = vexture_beside_sloped(l0, l1.y, upright) + vexture_beside_sloped(r0, r1.y, upright);
+    area += vexture_beside_sloped(e1, r0.y, level) + vexture_beside_sloped(r1, e0.y, level);
+    return area + vexture_curve_area(piece, ends, corner);
+}
+
+// Mean of a quad over the part of it in the footprint: the mean about the middle of that part, nearly.
+float vexture_cut_mean(VextureCell cell, VextureBox box, VextureFrame frame) {
+    vec2 middle = box.low + 0.5 * box.size;
+    vec2 at = vexture_into_frame(frame, middle);
+    vec2 x = abs(vec2(frame.right.x, frame.up.x)) * box.size.x;
+    vec2 y = abs(vec2(frame.right.y, frame.up.y)) * box.size.y;
+    vec2 reach = 0.5 * (x + y);
+    vec2 low = max(at - reach, -0.5);
+    vec2 high = min(at + reach, 0.5);
+    vec2 moved = VEXTURE_DRAWN * (0.5 * (low + high) - at);
+    // back from the frame
+    vec2 dx = vec2(frame.up.y, -frame.up.x) * frame.size;
+    vec2 dy = vec2(-frame.right.y, frame.right.x) * frame.size;
+    middle += dx * moved.x + dy * moved.y;
+    float side = uintBitsToFloat(uint(127 - cell.bit) << 23);
+    vec2 place = (box.way + box.part * box.size + (middle - box.low)) * side;
+    return vexture_mean(cell.texel.w, clamp(place, 0.0, 1.0));
+}
+
+// Share of the box above the ends of a piece that lie on the leaf's left edge, with the sign of their windings.
+float vexture_above_ends(vec2 p0, vec2 p3, float y0, float y3) {
+    return (p0.x == 0.0 ? 1.0 - y0 : 0.0) - (p3.x == 0.0 ? 1.0 - y3 : 0.0);
+}
+
+// Filled area of the pixel within one cell.
+float vexture_cell_area(VextureCell cell, VextureBox box, VextureFrame frame) {
+    bool is_cut = any(greaterThan(box.low, -frame.extent)) || any(lessThan(box.low + box.size, frame.extent));
+    float whole = 1.0;
+    if (is_cut) {
+        whole = vexture_box_area(frame, box.low, box.size);
+    }
+    if (cell.is_quad) {
+        return whole * vexture_cut_mean(cell, box, frame);
+    }
+    int code = vexture_winding_code(cell);
+    uint curve = vexture_first_curve(cell);
+    int count = whole > 0.0 ? vexture_count(cell) : 0;
+    float filled = code == 0 ? vexture_stored_coverage(cell) : float(code - VEXTURE_WINDING_OFFSET);
+    int crossing = 0;  // a bit for each piece that may cross the footprint's box,
+    int turning = 0;   // and for each with an end on the leaf's left edge and in the box
+    for (int i = 0; i < count; i++) {
+        uvec4 texel = vexture_texel(curve + uint(i));
+        vec2 p0 = vexture_word(texel.x);
+        vec2 p3 = vexture_word(texel.w);
+        vec2 r0 = vexture_in_box(p0, box);
+        vec2 r3 = vexture_in_box(p3, box);
+        float y0 = clamp(r0.y, 0.0, 1.0);
+        float y3 = clamp(r3.y, 0.0, 1.0);
+        bool is_left = max(r0.x, r3.x) <= 0.0;
+        bool is_right = min(r0.x, r3.x) >= 1.0;
+        float passed = is_left ? y0 - y3 : 0.0;
+        bool crosses = fract(passed) != 0.0 || (!is_left && !is_right && y0 != y3);
+        if (p0.x * p3.x == 0.0) {
+            float above = vexture_above_ends(p0, p3, y0, y3);
+            bool turns = fract(above) != 0.0;
+            bool cancels = p0.x == p3.x;  // a piece on the left edge, with its ends there
+            filled += turns && !cancels ? 0.0 : above;
+            crosses = (turns || crosses) && !cancels;
+            turning |= turns ? 1 << i : 0;
+        }
+        filled += crosses ? 0.0 : passed;
+        crossing |= crosses ? 1 << i : 0;
+    }
+    float area = filled * whole;
+    while (crossing != 0) {
+        int lowest = crossing & -crossing;
+        int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
+        crossing ^= lowest;
+        area += vexture_piece_area(vexture_texel(curve + uint(i)), (turning & lowest) != 0, box, frame);
+    }
+    return area;
+}
+
+// Whether a square of cells lies beside the footprint, though not beside its box.
+bool vexture_is_beside(VextureSquare square, VexturePlace place, VextureFrame frame) {
+    int side = 1 << square.bit;
+    vec2 way = vec2((square.position & -side) - place.point) - place.rest;
+    vec2 at = vexture_into_frame(frame, way + 0.5 * float(side));
+    vec2 reach = 0.5 + 0.5 * float(side) * (abs(vec2(frame.right.x, frame.up.x)) + abs(vec2(frame.right.y, frame.up.y)));
+    return any(greaterThan(abs(at), reach));
+}
+
 // Parameters: the shape's root quad; the pixel's centre, as 32-bit fixed point (1.0 = 2^32) and an offset from it; the
 // steps to the next pixels (dFdx, dFdy of the position), taken in uniform control flow.
-//
-// The cells that the footprint touches are visited row by row from below; most pixels touch one. The lowest cell of a row
-// determines its height; cells that reach into it from below have been counted.
 float vextureCoverage(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VextureFrame frame = vexture_frame(dx, dy);
-    VexturePlace place = vexture_place(base, offset, frame.reach);
-    int shared_levels = vexture_shared_levels(place.low, place.high);
-    int finest = vexture_finest_level(frame.size, frame.reach);
-    VextureTop top = VextureTop(root, 0);
-    ivec2 position = place.low;
-    int row = place.low.y;
-    int next_row = place.high.y + 1;
-    int cells = place.low.x <= place.high.x && place.low.y <= place.high.y ? VEXTURE_MOST_CELLS : 0;
+    VexturePlace place = vexture_place(base, offset, frame.extent);
+    VextureSquare square = vexture_first_square(place);
+    int shared_bit = square.bit;
+    int finest = vexture_finest_bit(frame.size, frame.longer);
+    VextureTop top = VextureTop(root, VEXTURE_POSITION_BITS);
     float area = 0.0;
-    while (cells > 0) {
-        VextureCell cell = vexture_descend(top, shared_levels, finest, position);
-        int bits = VEXTURE_POSITION_BITS - cell.level;
-        ivec2 origin = (position >> bits) << bits;
-        ivec2 beyond = origin + (1 << bits);
-        VextureLattice lattice = vexture_lattice(origin, cell.level, place, frame);
-        bool counted = (origin.y < row && row != place.low.y) || any(greaterThanEqual(lattice.low, lattice.high));
-        float more = vexture_cell_area(cell, lattice);
-        area += counted ? 0.0 : more;
-        next_row = min(next_row, beyond.y);
-        bool row_ends = beyond.x > place.high.x;
-        row = row_ends ? next_row : row;
-        position = row_ends ? ivec2(place.low.x, row) : ivec2(beyond.x, row);
-        next_row = row_ends ? place.high.y + 1 : next_row;
-        cells = row > place.high.y ? 0 : cells - 1;
+    bool beside = false;
+    while (square.position.x < VEXTURE_NO_CELL) {
+        VextureCell cell = vexture_descend(top, shared_bit, beside ? VEXTURE_POSITION_BITS : finest, square.position);
+        cell.bit = beside ? square.bit : cell.bit;
+        ivec2 origin = square.position & -(1 << cell.bit);
+        float more = vexture_cell_area(cell, vexture_box(origin, cell.bit, place, frame.extent), frame);
+        area += beside ? 0.0 : more;
+        square = vexture_next_square(square.position, origin + (1 << cell.bit), place);
+        if (square.position.x < VEXTURE_NO_CELL) {
+            beside = vexture_is_beside(square, place, frame);
+        }
     }
-    area *= frame.turned;
     return area > 0.0 ? min(area, 1.0) : 0.0;  // also 0 if a parameter is NaN
 }
 

@@ -21,25 +21,31 @@ bool vexture_meets(uvec4 box, VextureSpot spot) {
     return all(lessThan(abs(way), 0.5 * (high - low) + spot.reach + VEXTURE_BORDER));
 }
 
+// The highest layer below another one that the footprint meets, or the one below the first.
+int vexture_layer_below(int layer, int first, VextureSpot spot) {
+    bool meets = false;
+    while (!meets && layer >= first) {
+        layer--;
+        meets = layer >= first && vexture_meets(texelFetch(vexturePaints, ivec2(1, layer), 0), spot);
+    }
+    return layer;
+}
+
 // Colour of a pixel, premultiplied, composited in sRGB as in SVG. Parameters: the number of the lowest layer, the number of
 // layers, then those of vextureCoverage.
 //
-// Layers are visited from the top until no lower one would show. The inner loop searches the next layer that the footprint
-// meets: a branch would cost as much as drawing all layers on devices that execute both of its sides.
+// Layers are visited from the top until no lower one would show. Those that the footprint does not meet are no iterations:
+// a branch would cost as much as drawing them on devices that execute both of its sides.
 vec4 vextureLayers(int first, int count, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VextureSpot spot = vexture_spot(base, offset, dx, dy);
     vec4 color = vec4(0.0);
-    int layer = first + count;
-    while (layer > first && color.a < VEXTURE_COVERED) {
-        bool meets = false;
-        while (!meets && layer > first) {
-            layer--;
-            meets = vexture_meets(texelFetch(vexturePaints, ivec2(1, layer), 0), spot);
-        }
+    int layer = vexture_layer_below(first + count, first, spot);
+    while (layer >= first && color.a < VEXTURE_COVERED) {
         uvec4 head = texelFetch(vexturePaints, ivec2(0, layer), 0);
         vec4 paint = vec4(unpackUnorm2x16(head.y), unpackUnorm2x16(head.z));
-        float cover = meets ? paint.a * vexture_spot_coverage(head.x, spot) : 0.0;
+        float cover = paint.a * vexture_spot_coverage(head.x, spot);
         color += (1.0 - color.a) * cover * vec4(paint.rgb, 1.0);
+        layer = vexture_layer_below(layer, first, spot);
     }
     return color;
 }

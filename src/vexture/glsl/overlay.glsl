@@ -10,18 +10,12 @@ uniform vec3 vextureOverlayCoverage[2];   // colours, sRGB, of an empty and a fu
 uniform vec3 vextureOverlayStored[2];     // of an empty and a full quad at the cut-off
 uniform vec3 vextureOverlayDepth[VEXTURE_MOST_DEPTH + 1];
 
-// The first level whose cells are no larger than 2^levels pixels; at least 1, because the root has no stored coverage.
-int vexture_cutoff_level(float area, float levels) {
-    return clamp(int(ceil(-0.5 * log2(area) - levels - VEXTURE_LEVEL_BIAS)), 1, VEXTURE_MOST_DEPTH);
-}
-
 // Share of a pixel covered by the border of a cell, one pixel wide. `pixels` is the size of a position unit in pixels.
-float vexture_border(VexturePlace place, int level, vec2 pixels) {
-    int bits = VEXTURE_POSITION_BITS - level;
-    ivec2 before = place.point & ((1 << bits) - 1);
-    ivec2 after = (1 << bits) - before;  // integers: small near the border, so that a float is exact
+float vexture_border(VexturePlace place, int bit, vec2 pixels) {
+    ivec2 before = place.point & ((1 << bit) - 1);
+    ivec2 after = (1 << bit) - before;  // integers: small near the border, so that a float is exact
     vec2 near = min(vec2(before) + place.rest, vec2(after) - place.rest) * pixels;
-    vec2 size = float(1 << bits) * pixels;
+    vec2 size = float(1 << bit) * pixels;
     float seen = clamp(min(size.x, size.y) / VEXTURE_FADED_CELL - 1.0, 0.0, 1.0);
     return seen * clamp(1.0 - min(near.x, near.y), 0.0, 1.0);
 }
@@ -36,30 +30,30 @@ vec3 vexture_contrast(vec4 color) {
 }
 
 // The picture's colour with the overlays that are switched on; the other parameters are those of vextureCoverage.
-// The descent ends at the leaf, or at a quad of the cut-off level: one pixel, unless exaggerated.
+// The descent ends at the leaf, or at a quad no larger than the cut-off: a pixel, unless exaggerated. The root is no cell.
 vec4 vextureOverlay(vec4 color, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VextureFrame frame = vexture_frame(dx, dy);
-    VexturePlace place = vexture_place(base, offset, frame.reach);
+    VexturePlace place = vexture_place(base, offset, frame.extent);
     ivec2 outside = place.point >> VEXTURE_POSITION_BITS;
-    int finest = vexture_cutoff_level(frame.size, vextureOverlayCutoff);
-    vec2 lengths = vec2(length(vec2(dx.x, dy.x)), length(vec2(dx.y, dy.y))) * float(1 << VEXTURE_POSITION_BITS);
-    vec2 pixels = 1.0 / max(lengths, VEXTURE_SMALLEST_PIXEL);
-    VextureTop top = VextureTop(vextureOverlayRoot, 0);
-    VextureCell cell = VextureCell(uvec4(0u), 0u, 0, outside == ivec2(0));
-    float border = cell.is_quad ? vexture_border(place, 0, pixels) : 0.0;
-    while (cell.is_quad && cell.level < finest) {
-        int level = cell.level + 1;
-        cell = vexture_descend(top, level, level, place.point);
-        border = max(border, vexture_border(place, level, pixels));
+    int finest = min(vexture_bit_of(frame.size * exp2(2.0 * vextureOverlayCutoff)), VEXTURE_POSITION_BITS - 1);
+    vec2 lengths = vec2(length(vec2(dx.x, dy.x)), length(vec2(dx.y, dy.y)));
+    vec2 pixels = 1.0 / (max(lengths, VEXTURE_SMALLEST_PIXEL) * float(1 << VEXTURE_POSITION_BITS));
+    VextureTop top = VextureTop(vextureOverlayRoot, VEXTURE_POSITION_BITS);
+    VextureCell cell = VextureCell(uvec4(0u), 0u, VEXTURE_POSITION_BITS, outside == ivec2(0));
+    float border = cell.is_quad ? vexture_border(place, cell.bit, pixels) : 0.0;
+    while (cell.is_quad && cell.bit > finest) {
+        int bit = cell.bit - 1;
+        cell = vexture_descend(top, bit, bit, place.point);
+        border = max(border, vexture_border(place, bit, pixels));
     }
     if (outside != ivec2(0)) {
         return color;
     }
-    float stored = vexture_stored_coverage(cell);
+    float stored = cell.is_quad ? vexture_mean(cell.texel.w, vec2(0.5)) : vexture_stored_coverage(cell);
     bool is_cut = cell.is_quad && vextureOverlayCutoff > 0.0;
     color = vexture_over(color, mix(vextureOverlayStored[0], vextureOverlayStored[1], stored), is_cut ? 1.0 : 0.0);
     vec3 shade = mix(vextureOverlayCoverage[0], vextureOverlayCoverage[1], stored);
     color = vexture_over(color, shade, is_cut ? 0.0 : vextureOverlayShow.y);
-    color = vexture_over(color, vextureOverlayDepth[cell.level], vextureOverlayShow.z);
+    color = vexture_over(color, vextureOverlayDepth[VEXTURE_POSITION_BITS - cell.bit], vextureOverlayShow.z);
     return vexture_over(color, vexture_contrast(color), border * vextureOverlayShow.x);
 }

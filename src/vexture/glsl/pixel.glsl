@@ -1,44 +1,42 @@
 // The pixel's footprint: a parallelogram, and the frame in which it is the square from -1/2 to 1/2.
-// Exports: VextureFrame, vexture_frame, vexture_into_frame, vexture_beside, vexture_part_inside, vexture_box_area.
+// Exports: VextureFrame, vexture_frame, vexture_into_frame, vexture_slopes, vexture_beside, vexture_box_area.
 
+// Lengths are in positions.
 struct VextureFrame {
     vec2 right;   // rows of the matrix from the drawing's plane to the frame
     vec2 up;
-    vec2 level;   // slopes, in the frame, of the plane's horizontal
-    vec2 upright; // and vertical lines
-    vec2 reach;   // half the footprint's box
-    float turned; // 1 or -1: whether the frame preserves orientation
-    float size;    // the footprint's area
+    vec2 extent;  // half the footprint's box
+    float size;   // the footprint's area,
+    float longer; // and the square of its longer side
 };
 
-// dx / dy and dy / dx of a direction; 0 for what is infinite.
-vec2 vexture_slopes(float dx, float dy) {
-    return vec2(dy != 0.0 ? dx / dy : 0.0, dx != 0.0 ? dy / dx : 0.0);
-}
-
 VextureFrame vexture_frame(vec2 dx, vec2 dy) {
-    float larger = max(dot(dx, dx), dot(dy, dy));
-    if (!(larger > VEXTURE_SMALLEST_PIXEL * VEXTURE_SMALLEST_PIXEL)) {
-        dx = vec2(VEXTURE_SMALLEST_PIXEL, 0.0);
-        dy = vec2(0.0, VEXTURE_SMALLEST_PIXEL);
-        larger = dot(dx, dx);
-    }
+    dx *= float(1 << VEXTURE_POSITION_BITS);
+    dy *= float(1 << VEXTURE_POSITION_BITS);
+    float smallest = VEXTURE_SMALLEST_PIXEL * float(1 << VEXTURE_POSITION_BITS);
+    float longer = max(dot(dx, dx), dot(dy, dy));
     float area = dx.x * dy.y - dx.y * dy.x;
-    if (abs(area) < VEXTURE_THINNEST_PIXEL * larger) {  // the plane is seen from its edge
-        dx = dot(dx, dx) == larger ? dx : dy;
-        dy = vec2(-dx.y, dx.x) * VEXTURE_THINNEST_PIXEL;
-        area = VEXTURE_THINNEST_PIXEL * larger;
+    bool exists = longer > smallest * smallest;  // not so if a parameter is NaN
+    if (!exists || abs(area) < VEXTURE_THINNEST_PIXEL * longer) {  // the plane is seen from its edge
+        float width = exists ? VEXTURE_THINNEST_PIXEL : 1.0;
+        dx = dot(dx, dx) == longer ? dx : dy;
+        dx = exists ? dx : vec2(smallest, 0.0);
+        dy = vec2(-dx.y, dx.x) * width;
+        longer = dot(dx, dx);
+        area = width * longer;
     }
-    float shrink = 1.0 / area;
-    vec2 right = vec2(dy.y, -dy.x) * shrink;
-    vec2 up = vec2(-dx.y, dx.x) * shrink;
-    vec2 level = vexture_slopes(right.x, up.x);
-    vec2 upright = vexture_slopes(right.y, up.y);
-    return VextureFrame(right, up, level, upright, 0.5 * (abs(dx) + abs(dy)), sign(area), abs(area));
+    vec2 right = vec2(dy.y, -dy.x) / area;
+    vec2 up = vec2(-dx.y, dx.x) / abs(area);  // the frame never mirrors the plane
+    return VextureFrame(right, up, 0.5 * (abs(dx) + abs(dy)), abs(area), longer);
 }
 
 vec2 vexture_into_frame(VextureFrame frame, vec2 point) {
     return vec2(dot(frame.right, point), dot(frame.up, point));
+}
+
+// dx / dy and dy / dx of a direction; 0 for what is infinite.
+vec2 vexture_slopes(float dx, float dy) {
+    return vec2(dy != 0.0 ? dx / dy : 0.0, dx != 0.0 ? dy / dx : 0.0);
 }
 
 // Integral of clamp(u, 0, 1).
@@ -71,12 +69,14 @@ float vexture_part_inside(vec2 p, vec2 q) {
     return x * y;
 }
 
-// Area of the pixel in a box, positive if the frame preserves orientation.
-float vexture_box_area(VextureFrame frame, vec2 low, vec2 high) {
+// Area of the pixel in a box.
+float vexture_box_area(VextureFrame frame, vec2 low, vec2 size) {
+    vec2 level = vexture_slopes(frame.right.x, frame.up.x);
+    vec2 upright = vexture_slopes(frame.right.y, frame.up.y);
     vec2 p = vexture_into_frame(frame, low);
-    vec2 q = vexture_into_frame(frame, vec2(high.x, low.y));
-    vec2 r = vexture_into_frame(frame, high);
-    vec2 s = vexture_into_frame(frame, vec2(low.x, high.y));
-    return vexture_beside_sloped(p, q.y, frame.level) + vexture_beside_sloped(q, r.y, frame.upright)
-        + vexture_beside_sloped(r, s.y, frame.level) + vexture_beside_sloped(s, p.y, frame.upright);
+    vec2 q = p + vec2(frame.right.x, frame.up.x) * size.x;
+    vec2 r = q + vec2(frame.right.y, frame.up.y) * size.y;
+    vec2 s = p + vec2(frame.right.y, frame.up.y) * size.y;
+    return vexture_beside_sloped(p, q.y, level) + vexture_beside_sloped(q, r.y, upright)
+        + vexture_beside_sloped(r, s.y, level) + vexture_beside_sloped(s, p.y, upright);
 }

@@ -3,32 +3,28 @@
 #include "wrap.glsl"
 #include "around.glsl"
 
+const int vexture_most_cells = 256;  // a box that needs more counts as crossed
+
 // Whether no outline, however small, passes through a box: then all its cells are constant and equal. A cell with curves
 // counts as crossed.
 bool vexture_is_clear(uint root, VextureSpot spot) {
-    VexturePlace place = vexture_place(spot.base, spot.offset, spot.reach);
-    int shared_levels = vexture_shared_levels(place.low, place.high);
-    VextureTop top = VextureTop(root, 0);
-    ivec2 position = place.low;
-    int next_row = place.high.y + 1;
-    int cells = VEXTURE_MOST_CELLS;
+    VexturePlace place = vexture_place(spot.base, spot.offset, spot.reach * float(1 << VEXTURE_POSITION_BITS));
+    VextureSquare square = vexture_first_square(place);
+    int shared_bit = square.bit;
+    VextureTop top = VextureTop(root, VEXTURE_POSITION_BITS);
+    int cells = vexture_most_cells;
     float lowest = 1.0;
     float highest = 0.0;
-    while (cells > 0) {
-        VextureCell cell = vexture_descend(top, shared_levels, VEXTURE_MOST_DEPTH, position);
+    while (cells > 0 && square.position.x < VEXTURE_NO_CELL && (highest == 0.0 || lowest == 1.0)) {
+        cells--;
+        VextureCell cell = vexture_descend(top, shared_bit, 0, square.position);
         float filled = cell.is_quad || vexture_winding_code(cell) != 0 ? 0.5 : vexture_stored_coverage(cell);
         lowest = min(lowest, filled);
         highest = max(highest, filled);
-        int bits = VEXTURE_POSITION_BITS - cell.level;
-        ivec2 beyond = ((position >> bits) + 1) << bits;
-        next_row = min(next_row, beyond.y);
-        bool row_ends = beyond.x > place.high.x;
-        position = row_ends ? ivec2(place.low.x, next_row) : ivec2(beyond.x, position.y);
-        next_row = row_ends ? place.high.y + 1 : next_row;
-        bool is_mixed = highest > 0.0 && lowest < 1.0;
-        cells = is_mixed || position.y > place.high.y ? 0 : cells - 1;
+        int side = 1 << cell.bit;
+        square = vexture_next_square(square.position, (square.position & -side) + side, place);
     }
-    return position.y > place.high.y && (highest == 0.0 || lowest == 1.0);
+    return square.position.x == VEXTURE_NO_CELL && (highest == 0.0 || lowest == 1.0);
 }
 
 // Value of the texel at a position before it is spread: the share of the texel that the shape fills.

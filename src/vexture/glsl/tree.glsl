@@ -1,97 +1,120 @@
 // Reading the packed texture (FORMAT.md, part B): positions, and the cells down the tree.
-// Exports: VexturePlace, VextureCell, VextureTop, vexture_place, vexture_finest_level, vexture_texel, vexture_descend.
+// Exports: VexturePlace, VextureCell, VextureTop, VextureSquare, vexture_place, vexture_texel, vexture_descend.
 //
 // Positions are signed integers in units of 2^-POSITION_BITS of the unit square, so that a pixel beyond the square's edge
-// has one too; a float holds the rest.
+// has one too; a float holds the rest. A cell's side is a power of two, 2^bit positions.
 
 uniform highp usampler2D vextureTexels;
 
 // A point and the box of a pixel around it.
 struct VexturePlace {
-    ivec2 point;
-    vec2 rest;   // of the point, in the same unit, 0 or a little more
-    ivec2 low;   // first and last position of the box, clipped to the unit square;
-    ivec2 high;  // high < low if it lies outside
+    ivec2 point;  // a multiple of 2^REST_BITS, so that a float holds its way to any cell
+    vec2 rest;    // of the point, in the same unit, 0 or more
+    ivec2 low;    // first and last position of the box, clipped to the unit square;
+    ivec2 high;   // high < low if it lies outside
 };
 
-// A cell, as the byte of a texel.
+// A leaf, as the byte of a texel; or a quad.
 struct VextureCell {
-    uvec4 texel;  // of the quad that holds it
-    uint shift;   // of its byte
-    int level;    // 1 is a quarter of the unit square
+    uvec4 texel;  // of the quad that holds the leaf, or of the quad itself
+    uint shift;   // of the cell's byte in the words of the quad that holds it
+    int bit;
     bool is_quad;
 };
 
-// Start of a descent of the tree: a quad, and the number of levels above it.
+// A square of cells: its lowest position in a pixel's box.
+struct VextureSquare {
+    ivec2 position;
+    int bit;
+};
+
+// Start of a descent of the tree: a quad.
 struct VextureTop {
     uint quad;
-    int level;
+    int bit;
 };
 
 int vexture_first_row = 0;  // of the texture to read: an image may hold several, one below the other
 
 uvec4 vexture_texel(uint index) {
-    ivec2 last = textureSize(vextureTexels, 0) - 1;
     int row = int(index >> VEXTURE_ROW_BITS) + vexture_first_row;
-    ivec2 at = ivec2(int(index & uint((1 << VEXTURE_ROW_BITS) - 1)), row);
-    return texelFetch(vextureTexels, min(at, last), 0);
+    return texelFetch(vextureTexels, ivec2(int(index & uint((1 << VEXTURE_ROW_BITS) - 1)), row), 0);
 }
 
-VexturePlace vexture_place(uvec2 base, vec2 offset, vec2 reach) {
-    int spare = 32 - VEXTURE_POSITION_BITS;
-    float one = float(1 << VEXTURE_POSITION_BITS);
-    vec2 scaled = clamp(offset, -VEXTURE_FARTHEST, VEXTURE_FARTHEST) * one;
+// Parameters: the pixel's centre, as 32-bit fixed point and an offset from it; half the footprint's box, in positions.
+VexturePlace vexture_place(uvec2 base, vec2 offset, vec2 extent) {
+    int spare = 32 - VEXTURE_POSITION_BITS + VEXTURE_REST_BITS;
+    float one = float(1 << VEXTURE_REST_BITS);
+    vec2 scaled = clamp(offset, -VEXTURE_FARTHEST, VEXTURE_FARTHEST) * (float(1 << VEXTURE_POSITION_BITS) / one);
     vec2 whole = floor(scaled);
-    ivec2 point = ivec2(base >> spare) + ivec2(whole);
-    vec2 rest = scaled - whole + vec2(ivec2(base & uvec2((1 << spare) - 1))) / float(1 << spare);
-    vec2 extent = min(reach, VEXTURE_FARTHEST) * one;
+    ivec2 point = (ivec2(base >> spare) + ivec2(whole)) << VEXTURE_REST_BITS;
+    vec2 below = vec2(ivec2(base & uvec2((1 << spare) - 1)));
+    vec2 rest = (scaled - whole) * one + below * (one / float(1 << spare));
     int last = (1 << VEXTURE_POSITION_BITS) - 1;
     ivec2 low = max(point + ivec2(floor(rest - extent)), 0);
     ivec2 high = min(point + ivec2(ceil(rest + extent)) - 1, last);
     return VexturePlace(point, rest, low, high);
 }
 
-// Number of levels on which one cell holds both positions.
-int vexture_shared_levels(ivec2 low, ivec2 high) {
-    int differ = (low.x ^ high.x) | (low.y ^ high.y);
+// The smallest cell that holds the whole box of a place, or the smallest of all cells. If the box lies outside of the unit
+// square, there is none: x is NO_CELL.
+VextureSquare vexture_first_square(VexturePlace place) {
+    int differ = (place.low.x ^ place.high.x) | (place.low.y ^ place.high.y);
     int bits = (floatBitsToInt(float(differ)) >> 23) - 126;  // of the largest one in it
-    return clamp(VEXTURE_POSITION_BITS - bits, 0, VEXTURE_MOST_DEPTH);
+    bool is_inside = all(lessThanEqual(place.low, place.high));
+    ivec2 position = ivec2(is_inside ? place.low.x : VEXTURE_NO_CELL, place.low.y);
+    return VextureSquare(position, max(bits, VEXTURE_POSITION_BITS - VEXTURE_MOST_DEPTH));
 }
 
-// The finest level whose cells are no smaller than a square of this area.
-int vexture_level_of(float area) {
-    return -1 - (((floatBitsToInt(area * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127) >> 1);
+// The next square of cells that meets the box, after a cell with the upper right corner `beyond`; x is NO_CELL if there is
+// none. The order is Morton's: of the two sides across which the next square may lie, the one that ends the smaller square.
+VextureSquare vexture_next_square(ivec2 position, ivec2 beyond, VexturePlace place) {
+    ivec2 step = beyond & -beyond;
+    step.x = beyond.x <= place.high.x ? step.x : VEXTURE_NO_CELL;
+    step.y = beyond.y <= place.high.y ? step.y : VEXTURE_NO_CELL;
+    int least = min(step.x, step.y);
+    int left = max(position.x & -(step.y + step.y), place.low.x);
+    int bottom = max(position.y & -step.x, place.low.y);
+    ivec2 next = step.x <= step.y ? ivec2(beyond.x, bottom) : ivec2(left, beyond.y);
+    next.x = least < VEXTURE_NO_CELL ? next.x : VEXTURE_NO_CELL;
+    return VextureSquare(next, (floatBitsToInt(float(least)) >> 23) - 127);
 }
 
-// The level of the footprint's area plus LEVELS_BELOW; one more in pictures of few pixels, where drawings have few deep
-// cells; fewer for a long footprint, so that its box touches at most MOST_CELLS cells.
-int vexture_finest_level(float area, vec2 reach) {
-    float length = VEXTURE_LONG * max(reach.x, reach.y);
-    int usual = vexture_level_of(max(area, length * length)) + VEXTURE_LEVELS_BELOW;
-    int small = vexture_level_of(max(area, 4.0 * length * length)) + VEXTURE_LEVELS_BELOW + 1;
-    return clamp(max(usual, min(small, VEXTURE_SMALL_FINEST)), VEXTURE_LEAST_FINEST, VEXTURE_MOST_DEPTH);
+// Of the largest cells that are no larger than a square of this area, in positions.
+int vexture_bit_of(float area) {
+    return ((floatBitsToInt(area * (1.0 - VEXTURE_LEVEL_BIAS)) >> 23) - 127) >> 1;
 }
 
-// The cell at a position: a leaf, or a quad of the level `finest`. `top` becomes the quad of the level `shared`.
+// Of the smallest cells that the sum over cells visits, if the tree has them: a quarter to half as wide as the footprint;
+// half of that in pictures of few pixels, where drawings have few deep cells; wider for a long footprint. Parameters: the
+// footprint's area, and the square of its length.
+int vexture_finest_bit(float area, float longer) {
+    int finest = vexture_bit_of(max(area * (area / longer), longer * VEXTURE_LONG)) - 1;
+    finest -= finest > VEXTURE_POSITION_BITS - VEXTURE_SMALL_FINEST ? 1 : 0;
+    return clamp(finest, VEXTURE_POSITION_BITS - VEXTURE_MOST_DEPTH, VEXTURE_POSITION_BITS - VEXTURE_LEAST_FINEST);
+}
+
+// The cell at a position: a leaf, or a quad of the side `finest`. `top` becomes the quad of the side `shared`.
 VextureCell vexture_descend(inout VextureTop top, int shared, int finest, ivec2 position) {
-    uvec4 texel = uvec4(0u);
-    uint shift = 0u;
     uint quad = top.quad;
+    int bit = top.bit;
+    uvec4 texel = vexture_texel(quad);
+    uint shift = 0u;
     bool is_quad = true;
-    int bit = VEXTURE_POSITION_BITS - 1 - top.level;
-    int last = VEXTURE_POSITION_BITS - finest;
-    while (is_quad && bit >= last) {
-        texel = vexture_texel(quad);
-        shift = ((uint(position.x) >> bit) & 1u) * 8u + ((uint(position.y) >> bit) & 1u) * 16u;
-        is_quad = ((texel.z >> shift) & uint(VEXTURE_QUAD_FLAG)) != 0u;
-        uint flags = (texel.z >> 7) & 0x01010101u;  // a byte for each cell: whether it is a quad
-        quad = texel.x + (((flags * 0x01010100u) >> shift) & 3u);
+    while (is_quad && bit > finest) {
         bit--;
-        bool above = VEXTURE_POSITION_BITS - 1 - bit == shared && is_quad;
-        top.quad = above ? quad : top.quad;
-        top.level = above ? shared : top.level;
+        shift = ((uint(position.x << 3) >> bit) & 8u) | ((uint(position.y << 4) >> bit) & 16u);
+        is_quad = ((texel.z >> shift) & uint(VEXTURE_QUAD_FLAG)) != 0u;
+        if (is_quad) {
+            uint before = (texel.z >> 7) & 0x010101u & ((1u << shift) - 1u);  // a byte for each quad before this one
+            quad = texel.x + ((before * 0x010101u >> 16) & 3u);
+            texel = vexture_texel(quad);
+            bool above = bit == shared;
+            top.quad = above ? quad : top.quad;
+            top.bit = above ? bit : top.bit;
+        }
     }
-    return VextureCell(texel, shift, VEXTURE_POSITION_BITS - 1 - bit, is_quad);
+    return VextureCell(texel, shift, bit, is_quad);
 }
 
 float vexture_stored_coverage(VextureCell cell) {
@@ -108,6 +131,6 @@ int vexture_winding_code(VextureCell cell) {
 }
 
 uint vexture_first_curve(VextureCell cell) {
-    uint counts = (cell.texel.z >> VEXTURE_COUNT_SHIFT) & 0x0f0f0f0fu;
-    return cell.texel.y + (((counts * 0x01010100u) >> cell.shift) & 255u);
+    uint before = (cell.texel.z >> VEXTURE_COUNT_SHIFT) & 0x0f0f0fu & ((1u << cell.shift) - 1u);
+    return cell.texel.y + ((before * 0x010101u >> 16) & 255u);
 }

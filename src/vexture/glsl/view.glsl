@@ -1,4 +1,4 @@
-// A flat or tilted picture of one shape in a packed texture.
+// A picture of one shape in a packed texture; with VEXTURE_FLAT, of upright pixels that are all alike.
 // Exports: view_coverage.
 #include "coverage.glsl"
 
@@ -16,5 +16,9 @@ float view_coverage(vec2 pixel) {
     vec2 offset = h.xy / h.z;
     vec2 dx = (to_unit[0].xy - offset * to_unit[0].z) / h.z;
     vec2 dy = (to_unit[1].xy - offset * to_unit[1].z) / h.z;
+#if VEXTURE_FLAT
+    return vextureFlatCoverage(root, base, offset, vextureFlat(dx, dy));
+#else
     return vextureCoverage(root, base, offset, dx, dy);
+#endif
 }

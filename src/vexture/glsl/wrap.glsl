@@ -1,11 +1,15 @@
 // Coverage of pixels anywhere: beyond the unit square lies nothing, the border's value, or the shape again.
 // Exports: VextureSpot, vexture_spot, vexture_spot_coverage, vextureWrapped.
 //
-// VEXTURE_WRAP selects one of VEXTURE_WRAP_NONE, VEXTURE_WRAP_CLAMP or VEXTURE_WRAP_REPEAT.
+// VEXTURE_WRAP selects one of VEXTURE_WRAP_NONE, VEXTURE_WRAP_CLAMP or VEXTURE_WRAP_REPEAT. VEXTURE_FLAT is 1 for views
+// whose pixels are upright in the drawing and all alike, which cost less, or 0 for any view.
 #include "coverage.glsl"
 
 #ifndef VEXTURE_WRAP
 #define VEXTURE_WRAP VEXTURE_WRAP_NONE
+#endif
+#ifndef VEXTURE_FLAT
+#define VEXTURE_FLAT 0
 #endif
 
 // A pixel's footprint, moved to the position where the shape is looked up.
@@ -45,9 +49,15 @@ VextureSpot vexture_spot(uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
 
 // Stored coverage of the whole square.
 float vexture_mean_coverage(uint root) {
-    uint cells = vexture_texel(root).w;
-    uint sum = (cells & 255u) + ((cells >> 8) & 255u) + ((cells >> 16) & 255u) + (cells >> 24);
-    return float(sum) / float(4 * VEXTURE_COVERAGE_ONE);
+    return vexture_mean(vexture_texel(root).w, vec2(0.5));
+}
+
+float vexture_coverage_at(uint root, uvec2 base, vec2 offset, VextureSpot spot) {
+#if VEXTURE_FLAT
+    return vextureFlatCoverage(root, base, offset, vextureFlat(spot.dx, spot.dy));
+#else
+    return vextureCoverage(root, base, offset, spot.dx, spot.dy);
+#endif
 }
 
 // A repeated shape is the sum over the tiles that the footprint touches, at most two in each direction. In the next tile
@@ -73,11 +83,11 @@ float vexture_spot_coverage(uint root, VextureSpot spot) {
         bool next_row = tile >= columns;
         uvec2 base = uvec2(next_column ? next_base.x : spot.base.x, next_row ? next_base.y : spot.base.y);
         vec2 offset = vec2(next_column ? next_offset.x : spot.offset.x, next_row ? next_offset.y : spot.offset.y);
-        sum += vextureCoverage(root, base, offset, spot.dx, spot.dy);
+        sum += vexture_coverage_at(root, base, offset, spot);
     }
     return mix(min(sum, 1.0), vexture_mean_coverage(root), whole);
 #else
-    return vextureCoverage(root, spot.base, spot.offset, spot.dx, spot.dy);
+    return vexture_coverage_at(root, spot.base, spot.offset, spot);
 #endif
 }
 

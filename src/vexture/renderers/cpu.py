@@ -1,7 +1,7 @@
 """The shader's mirror on the CPU: the functions of ``glsl/`` again, in float64.
 
 The names are the shader's without their prefix: ``vexture_place`` is `place`, ``vextureCoverage`` is `coverage`. The
-mathematics of one piece is in `vexture.renderers.piece`.
+cells of the tree are in `vexture.renderers.cells`, the mathematics of one piece is in `vexture.renderers.piece`.
 
 Change both sides together; a test compares names and arguments. The shader computes in float32, so the difference
 between the two is the error of float32. The shader's comments give the reasons.
@@ -14,252 +14,323 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.kernels import kernel
-from vexture.layout import (
-    COUNT_SHIFT,
-    COVERAGE_ONE,
-    LATTICE,
-    LATTICE_BITS,
-    MOST_CURVES,
-    MOST_DEPTH,
-    QUAD_FLAG,
-    ROW_BITS,
-    WINDING_OFFSET,
+from vexture.layout import WINDING_OFFSET
+from vexture.renderers.cells import (
+    Cell,
+    Place,
+    Square,
+    Texel,
+    Texels,
+    Top,
+    Vec2,
+    Whole2,
+    clamp,
+    count,
+    descend,
+    finest_bit,
+    first_curve,
+    first_square,
+    next_square,
+    place,
+    stored_coverage,
+    texel,
+    winding_code,
 )
 from vexture.renderers.method import (
-    CROSSING,
-    FARTHEST,
-    LEAST_FINEST,
-    LEVEL_BIAS,
-    LEVELS_BELOW,
-    LONG,
-    MOST_CELLS,
+    BEND,
+    DRAWN,
+    MOST_PARTS,
+    NO_CELL,
     POSITION_BITS,
-    SMALL_FINEST,
+    SMALLEST_PIXEL,
 )
-from vexture.renderers.piece import Frame, Texel, Vec2, Whole2, box_area, clear_side, frame, piece, piece_area
-from vexture.renderers.shader import QUALITIES
+from vexture.renderers.piece import (
+    Box,
+    Ends,
+    Frame,
+    Piece,
+    at,
+    beside,
+    beside_sloped,
+    box,
+    box_area,
+    bulge,
+    cross,
+    ends,
+    frame,
+    in_box,
+    into_frame,
+    mean,
+    part_inside,
+    piece,
+    slope,
+    slopes,
+    word,
+)
 from vexture.renderers.uniforms import HasTexels, uniforms_of
 from vexture.renderers.view import Size, ViewLike
 
 __all__ = ["render_cpu"]
 
-Texels = NDArray[np.uint32]
+
+class Flat(NamedTuple):
+    """What the pixels of a flat view have in common."""
+
+    extent: Vec2
+    inverse: float
+    finest: int
 
 
-class Place(NamedTuple):
-    """A point and the box of a pixel around it."""
+class Corner(NamedTuple):
+    """A box as a parallelogram in the footprint's frame."""
 
-    point: Whole2
-    rest: Vec2
-    low: Whole2
-    high: Whole2
-
-
-class Cell(NamedTuple):
-    """A cell, as the byte of a texel."""
-
-    texel: Texel
-    shift: int
-    level: int
-    is_quad: bool
+    origin: Vec2
+    x: Vec2
+    y: Vec2
 
 
-class Top(NamedTuple):
-    """Start of a descent of the tree."""
-
-    quad: int
-    level: int
-
-
-class Lattice(NamedTuple):
-    """Position of a cell's lattice relative to the pixel."""
-
-    whole: Whole2
-    part: Vec2
-    low: Vec2
-    high: Vec2
-    frame: Frame
-
-
-# --- tree.glsl -------------------------------------------------------------------------------------------------
+# --- flat.glsl -------------------------------------------------------------------------------------------------
 
 
 @kernel(allocates=False)
-def texel(texels: Texels, index: int) -> Texel:
-    index &= 0xFFFFFFFF
-    row = min(index >> ROW_BITS, texels.shape[0] - 1)
-    column = min(index & ((1 << ROW_BITS) - 1), texels.shape[1] - 1)
-    found = texels[row, column]
-    return int(found[0]), int(found[1]), int(found[2]), int(found[3])
-
-
-@kernel(allocates=False)
-def place(base: Whole2, offset: Vec2, reach: Vec2) -> Place:
-    x, rest_x, low_x, high_x = place_coordinate(base[0], offset[0], reach[0])
-    y, rest_y, low_y, high_y = place_coordinate(base[1], offset[1], reach[1])
-    return Place((x, y), (rest_x, rest_y), (low_x, low_y), (high_x, high_y))
-
-
-@kernel(allocates=False)
-def place_coordinate(base: int, offset: float, reach: float) -> tuple[int, float, int, int]:
-    """One coordinate of what GLSL computes as vectors."""
-    spare = 32 - POSITION_BITS
+def flat(dx: Vec2, dy: Vec2) -> Flat:
     one = float(1 << POSITION_BITS)
-    scaled = min(max(offset, -FARTHEST), FARTHEST) * one
-    whole = math.floor(scaled)
-    point = (base >> spare) + int(whole)
-    rest = scaled - whole + (base & ((1 << spare) - 1)) / float(1 << spare)
-    extent = min(reach, FARTHEST) * one
-    low = max(point + math.floor(rest - extent), 0)
-    high = min(point + math.ceil(rest + extent) - 1, (1 << POSITION_BITS) - 1)
-    return point, rest, low, high
+    extent_x = max(0.5 * (abs(dx[0]) + abs(dy[0])), 0.5 * SMALLEST_PIXEL) * one
+    extent_y = max(0.5 * (abs(dx[1]) + abs(dy[1])), 0.5 * SMALLEST_PIXEL) * one
+    area = 4.0 * extent_x * extent_y
+    longer = 2.0 * max(extent_x, extent_y)
+    return Flat((extent_x, extent_y), 1.0 / area, finest_bit(area, longer * longer))
 
 
 @kernel(allocates=False)
-def shared_levels(low: Whole2, high: Whole2) -> int:
-    differ = (low[0] ^ high[0]) | (low[1] ^ high[1])
-    bits = math.frexp(float(differ))[1]
-    return min(max(POSITION_BITS - bits, 0), MOST_DEPTH)
+def flat_piece_area(texel: Texel, box: Box) -> float:
+    one = piece(texel, box)
+    found = ends(one)
+    enter, leave = found.enter, found.leave
+    chord = (leave[0] - enter[0], leave[1] - enter[1])
+    first, last = slope(one, found.start), slope(one, found.end)
+    left = 0.5 * (enter[0] + leave[0]) * chord[1] + bulge((found.end - found.start) / 3.0, first, last, chord)
+    y0 = clamp(one.d[1], 0.0, 1.0)
+    y3 = clamp(one.d[1] + one.way[1], 0.0, 1.0)
+    area = y3 - leave[1] + left if one.falls[0] else leave[1] - y0 - left
+    return area if one.falls[1] else -area
 
 
 @kernel(allocates=False)
-def level_of(area: float) -> int:
-    return -1 - ((math.frexp(area * (1.0 - LEVEL_BIAS))[1] - 1) >> 1)
+def flat_cell_area(texels: Texels, cell: Cell, box: Box) -> float:
+    if cell.is_quad:
+        side = 2.0**-cell.bit
+        x = (box.way[0] + (box.part[0] + 0.5) * box.size[0]) * side
+        y = (box.way[1] + (box.part[1] + 0.5) * box.size[1]) * side
+        return mean(cell.texel[3], (x, y))
+    code = winding_code(cell)
+    curve = first_curve(cell)
+    filled = stored_coverage(cell) if code == 0 else float(code - WINDING_OFFSET)
+    for i in range(count(cell)):
+        found = texel(texels, curve + i)
+        p0, p3 = word(found[0]), word(found[3])
+        r0, r3 = in_box(p0, box), in_box(p3, box)
+        y0, y3 = clamp(r0[1], 0.0, 1.0), clamp(r3[1], 0.0, 1.0)
+        filled += 1.0 - y0 if p0[0] == 0.0 else 0.0
+        filled -= 1.0 - y3 if p3[0] == 0.0 else 0.0
+        right = max(r0[0], r3[0])
+        filled += y0 - y3 if right <= 0.0 else 0.0
+        left = min(r0[0], r3[0]) if right > 0.0 else 1.0
+        if left < 1.0 and y0 != y3:
+            filled += flat_piece_area(found, box)
+    return filled
 
 
 @kernel(allocates=False)
-def finest_level(area: float, reach: Vec2) -> int:
-    length = LONG * max(reach[0], reach[1])
-    usual = level_of(max(area, length * length)) + LEVELS_BELOW
-    small = level_of(max(area, 4.0 * length * length)) + LEVELS_BELOW + 1
-    return min(max(max(usual, min(small, SMALL_FINEST)), LEAST_FINEST), MOST_DEPTH)
-
-
-@kernel(allocates=False)
-def descend(texels: Texels, top: Top, shared: int, finest: int, position: Whole2) -> tuple[Cell, Top]:
-    """Return the new `top` too, which GLSL changes in place."""
-    found = (0, 0, 0, 0)
-    shift = 0
-    quad = top.quad
-    is_quad = True
-    bit = POSITION_BITS - 1 - top.level
-    last = POSITION_BITS - finest
-    while is_quad and bit >= last:
-        found = texel(texels, quad)
-        shift = ((position[0] >> bit) & 1) * 8 + ((position[1] >> bit) & 1) * 16
-        is_quad = ((found[2] >> shift) & QUAD_FLAG) != 0
-        flags = (found[2] >> 7) & 0x01010101
-        quad = found[0] + ((((flags * 0x01010100) & 0xFFFFFFFF) >> shift) & 3)
-        bit -= 1
-        if POSITION_BITS - 1 - bit == shared and is_quad:
-            top = Top(quad, shared)
-    return Cell(found, shift, POSITION_BITS - 1 - bit, is_quad), top
-
-
-@kernel(allocates=False)
-def stored_coverage(cell: Cell) -> float:
-    return ((cell.texel[3] >> cell.shift) & 255) / COVERAGE_ONE
-
-
-@kernel(allocates=False)
-def count(cell: Cell) -> int:
-    return (cell.texel[2] >> (cell.shift + COUNT_SHIFT)) & MOST_CURVES
-
-
-@kernel(allocates=False)
-def winding_code(cell: Cell) -> int:
-    return (cell.texel[2] >> cell.shift) & 7
-
-
-@kernel(allocates=False)
-def first_curve(cell: Cell) -> int:
-    counts = (cell.texel[2] >> COUNT_SHIFT) & 0x0F0F0F0F
-    return cell.texel[1] + ((((counts * 0x01010100) & 0xFFFFFFFF) >> cell.shift) & 255)
+def flat_coverage(texels: Texels, root: int, base: Whole2, offset: Vec2, view: Flat) -> float:
+    there = place(base, offset, view.extent)
+    square = first_square(there)
+    shared = square.bit
+    top = Top(root, POSITION_BITS)
+    area = 0.0
+    while square.position[0] < NO_CELL:
+        position = square.position
+        cell, top = descend(texels, top, shared, view.finest, position)
+        side = 1 << cell.bit
+        origin = (position[0] & -side, position[1] & -side)
+        local = box(origin, cell.bit, there, view.extent)
+        area += flat_cell_area(texels, cell, local) * (local.size[0] * local.size[1])
+        square = next_square(position, (origin[0] + side, origin[1] + side), there)
+    area *= view.inverse
+    return min(area, 1.0) if area > 0.0 else 0.0
 
 
 # --- coverage.glsl ---------------------------------------------------------------------------------------------
 
 
 @kernel(allocates=False)
-def lattice(origin: Whole2, level: int, place: Place, frame: Frame) -> Lattice:
-    finer = POSITION_BITS - level - LATTICE_BITS
-    coarser = max(-finer, 0)
-    finer = max(finer, 0)
-    unit = LATTICE * float(1 << level)
-    scale = float(1 << coarser) / float(1 << finer)
-    below = (1 << finer) - 1
-    way_x, way_y = place.point[0] - origin[0], place.point[1] - origin[1]
-    whole = ((way_x >> finer) << coarser, (way_y >> finer) << coarser)
-    part = (((way_x & below) + place.rest[0]) * scale, ((way_y & below) + place.rest[1]) * scale)
-    reach_x, reach_y = frame.reach[0] * unit, frame.reach[1] * unit
-    right, up = frame.right, frame.up
-    return Lattice(
-        whole,
-        part,
-        (max(-whole[0] - part[0], -reach_x), max(-whole[1] - part[1], -reach_y)),
-        (min(LATTICE - whole[0] - part[0], reach_x), min(LATTICE - whole[1] - part[1], reach_y)),
-        Frame(
-            (right[0] / unit, right[1] / unit),
-            (up[0] / unit, up[1] / unit),
-            frame.level,
-            frame.upright,
-            frame.reach,
-            frame.turned,
-            frame.size * unit * unit,
-        ),
-    )
+def corner(falls: tuple[bool, bool], box: Box, frame: Frame) -> Corner:
+    low, size, right, up = box.low, box.size, frame.right, frame.up
+    x = -size[0] if falls[0] else size[0]
+    y = -size[1] if falls[1] else size[1]
+    start = (low[0] + size[0] if falls[0] else low[0], low[1] + size[1] if falls[1] else low[1])
+    return Corner(into_frame(frame, start), (right[0] * x, up[0] * x), (right[1] * y, up[1] * y))
 
 
 @kernel(allocates=False)
-def cell_area(texels: Texels, quality: int, cell: Cell, lattice: Lattice) -> float:
-    code = 0 if cell.is_quad else winding_code(cell)
+def from_corner(corner: Corner, x: float, y: float) -> Vec2:
+    origin, along, above = corner.origin, corner.x, corner.y
+    return origin[0] + along[0] * x + above[0] * y, origin[1] + along[1] * x + above[1] * y
+
+
+@kernel(allocates=False)
+def curve_area(piece: Piece, ends: Ends, corner: Corner) -> float:
+    along, above = corner.x, corner.y
+    p = from_corner(corner, ends.enter[0], ends.enter[1])
+    way = slope(piece, ends.start)
+    first = (along[0] * way[0] + above[0] * way[1], along[1] * way[0] + above[1] * way[1])
+    way = slope(piece, ends.end)
+    last = (along[0] * way[0] + above[0] * way[1], along[1] * way[0] + above[1] * way[1])
+    q = from_corner(corner, ends.leave[0], ends.leave[1])
+    chord = (q[0] - p[0], q[1] - p[1])
+    step_t = ends.end - ends.start
+    bend = step_t * (abs(cross(first, chord)) + abs(cross(last, chord)))
+    parts = 1 + int(min(BEND * bend, MOST_PARTS - 1.0))
+    step_t /= parts
+    area = 0.0
+    t = ends.start
+    while parts > 0:
+        parts -= 1
+        t = ends.end if parts == 0 else t + step_t
+        there = ends.leave if parts == 0 else at(piece, t)
+        way = slope(piece, t)
+        q = from_corner(corner, there[0], there[1])
+        last = (along[0] * way[0] + above[0] * way[1], along[1] * way[0] + above[1] * way[1])
+        more = bulge(step_t / 3.0, first, last, (q[0] - p[0], q[1] - p[1]))
+        area += beside(p, q) + more * part_inside(p, q)
+        p = q
+        first = last
+    return area
+
+
+@kernel(allocates=False)
+def piece_area(texel: Texel, turns: bool, box: Box, frame: Frame) -> float:
+    one = piece(texel, box)
+    found = ends(one)
+    there = corner(one.falls, box, frame)
+    falls = one.falls[0]
+    top = 0.0 if one.falls[1] else 1.0
+    y0 = clamp(one.d[1], 0.0, 1.0)
+    y3 = clamp(one.d[1] + one.way[1], 0.0, 1.0)
+    y0 = top if turns and texel[0] & 0xFFFF == 0 else y0
+    y3 = top if turns and texel[3] & 0xFFFF == 0 else y3
+    left = 1.0 if falls else 0.0
+    right = 1.0 - left
+    left_end = y3 if falls else found.enter[1]
+    right_end = found.enter[1] if falls else y0
+    left_start = found.leave[1] if falls else y0
+    right_start = y3 if falls else found.leave[1]
+    level = slopes(frame.right[0], frame.up[0])
+    upright = slopes(frame.right[1], frame.up[1])
+    l0, l1 = from_corner(there, left, left_start), from_corner(there, left, left_end)
+    r0, r1 = from_corner(there, right, right_start), from_corner(there, right, right_end)
+    e0, e1 = from_corner(there, found.enter[0], right_end), from_corner(there, found.leave[0], right_start)
+    area = beside_sloped(l0, l1[1], upright) + beside_sloped(r0, r1[1], upright)
+    area += beside_sloped(e1, r0[1], level) + beside_sloped(r1, e0[1], level)
+    return area + curve_area(one, found, there)
+
+
+@kernel(allocates=False)
+def cut_mean(cell: Cell, box: Box, frame: Frame) -> float:
+    right, up, low, size = frame.right, frame.up, box.low, box.size
+    middle = (low[0] + 0.5 * size[0], low[1] + 0.5 * size[1])
+    along, above = into_frame(frame, middle)
+    moved_x = cut_way(along, abs(right[0]) * size[0], abs(right[1]) * size[1])
+    moved_y = cut_way(above, abs(up[0]) * size[0], abs(up[1]) * size[1])
+    x = 0.5 * size[0] + (up[1] * moved_x - right[1] * moved_y) * frame.size
+    y = 0.5 * size[1] + (right[0] * moved_y - up[0] * moved_x) * frame.size
+    side = 2.0**-cell.bit
+    x = (box.way[0] + box.part[0] * size[0] + x) * side
+    y = (box.way[1] + box.part[1] * size[1] + y) * side
+    return mean(cell.texel[3], (clamp(x, 0.0, 1.0), clamp(y, 0.0, 1.0)))
+
+
+@kernel(allocates=False)
+def cut_way(at: float, x: float, y: float) -> float:
+    """One coordinate of what GLSL computes as vectors."""
+    reach = 0.5 * (x + y)
+    low, high = max(at - reach, -0.5), min(at + reach, 0.5)
+    return DRAWN * (0.5 * (low + high) - at)
+
+
+@kernel(allocates=False)
+def above_ends(p0: Vec2, p3: Vec2, y0: float, y3: float) -> float:
+    return (1.0 - y0 if p0[0] == 0.0 else 0.0) - (1.0 - y3 if p3[0] == 0.0 else 0.0)
+
+
+@kernel(allocates=False)
+def cell_area(texels: Texels, cell: Cell, box: Box, frame: Frame) -> float:
+    low, size, extent = box.low, box.size, frame.extent
+    whole = 1.0
+    if low[0] > -extent[0] or low[1] > -extent[1] or low[0] + size[0] < extent[0] or low[1] + size[1] < extent[1]:
+        whole = box_area(frame, low, size)
+    if cell.is_quad:
+        return whole * cut_mean(cell, box, frame)
+    code = winding_code(cell)
     curve = first_curve(cell)
-    winding = code - WINDING_OFFSET
-    low, high = lattice.low, lattice.high
+    filled = stored_coverage(cell) if code == 0 else float(code - WINDING_OFFSET)
     area = 0.0
-    for i in range(0 if code == 0 else count(cell)):
-        one = piece(texel(texels, curve + i), lattice.whole, lattice.part)
-        if one.starts_left and one.ends_left:
-            continue
-        winding += 1 if one.starts_left and one.p0[1] <= low[1] else 0
-        winding -= 1 if one.ends_left and one.p3[1] <= low[1] else 0
-        starts = one.starts_left and low[1] < one.p0[1] < high[1]
-        ends = one.ends_left and low[1] < one.p3[1] < high[1]
-        side = CROSSING if starts or ends else clear_side(one, low, high)
-        if side == CROSSING:
-            area += piece_area(quality, one, lattice.frame, low, high)
+    for i in range(count(cell) if whole > 0.0 else 0):
+        found = texel(texels, curve + i)
+        p0, p3 = word(found[0]), word(found[3])
+        r0, r3 = in_box(p0, box), in_box(p3, box)
+        y0, y3 = clamp(r0[1], 0.0, 1.0), clamp(r3[1], 0.0, 1.0)
+        is_left = max(r0[0], r3[0]) <= 0.0
+        is_right = min(r0[0], r3[0]) >= 1.0
+        passed = y0 - y3 if is_left else 0.0
+        crosses = passed != math.floor(passed) or (not is_left and not is_right and y0 != y3)
+        turns = False
+        if p0[0] * p3[0] == 0.0:
+            above = above_ends(p0, p3, y0, y3)
+            turns = above != math.floor(above)
+            cancels = p0[0] == p3[0]
+            filled += 0.0 if turns and not cancels else above
+            crosses = (turns or crosses) and not cancels
+        if crosses:
+            area += piece_area(found, turns, box, frame)
         else:
-            winding += side
-    whole = stored_coverage(cell) if code == 0 else float(winding)
-    return area + whole * box_area(lattice.frame, low, high)
+            filled += passed
+    return area + filled * whole
 
 
 @kernel(allocates=False)
-def coverage(texels: Texels, quality: int, root: int, base: Whole2, offset: Vec2, dx: Vec2, dy: Vec2) -> float:
+def is_beside(square: Square, place: Place, frame: Frame) -> bool:
+    side = 1 << square.bit
+    right, up = frame.right, frame.up
+    x = float((square.position[0] & -side) - place.point[0]) - place.rest[0] + 0.5 * side
+    y = float((square.position[1] & -side) - place.point[1]) - place.rest[1] + 0.5 * side
+    along, above = into_frame(frame, (x, y))
+    reach_x = 0.5 + 0.5 * side * (abs(right[0]) + abs(right[1]))
+    reach_y = 0.5 + 0.5 * side * (abs(up[0]) + abs(up[1]))
+    return abs(along) > reach_x or abs(above) > reach_y
+
+
+@kernel(allocates=False)
+def coverage(texels: Texels, root: int, base: Whole2, offset: Vec2, dx: Vec2, dy: Vec2) -> float:
     pixel = frame(dx, dy)
-    there = place(base, offset, pixel.reach)
-    low, high = there.low, there.high
-    shared = shared_levels(low, high)
-    finest = finest_level(pixel.size, pixel.reach)
-    top = Top(root, 0)
-    x, row, next_row = low[0], low[1], high[1] + 1
-    cells = MOST_CELLS if low[0] <= high[0] and low[1] <= high[1] else 0
+    there = place(base, offset, pixel.extent)
+    square = first_square(there)
+    shared = square.bit
+    finest = finest_bit(pixel.size, pixel.longer)
+    top = Top(root, POSITION_BITS)
     area = 0.0
-    while cells > 0:
-        cell, top = descend(texels, top, shared, finest, (x, row))
-        bits = POSITION_BITS - cell.level
-        origin = ((x >> bits) << bits, (row >> bits) << bits)
-        beyond_x, beyond_y = origin[0] + (1 << bits), origin[1] + (1 << bits)
-        local = lattice(origin, cell.level, there, pixel)
-        counted = origin[1] < row != low[1]
-        if not counted and local.low[0] < local.high[0] and local.low[1] < local.high[1]:
-            area += cell_area(texels, quality, cell, local)
-        next_row = min(next_row, beyond_y)
-        x = beyond_x
-        if x > high[0]:
-            x, row, next_row = low[0], next_row, high[1] + 1
-        cells = 0 if row > high[1] else cells - 1
-    area *= pixel.turned
+    beside = False
+    while square.position[0] < NO_CELL:
+        position, bit = square.position, square.bit
+        if not beside:
+            cell, top = descend(texels, top, shared, finest, position)
+            bit = cell.bit
+        side = 1 << bit
+        origin = (position[0] & -side, position[1] & -side)
+        if not beside:
+            area += cell_area(texels, cell, box(origin, bit, there, pixel.extent), pixel)
+        square = next_square(position, (origin[0] + side, origin[1] + side), there)
+        beside = square.position[0] < NO_CELL and is_beside(square, there, pixel)
     return min(area, 1.0) if area > 0.0 else 0.0
 
 
@@ -268,7 +339,7 @@ def coverage(texels: Texels, quality: int, root: int, base: Whole2, offset: Vec2
 
 @kernel(allocates=False)
 def view_coverage(
-    texels: Texels, quality: int, root: int, base: Whole2, to_unit: NDArray[np.float64], pixel: Vec2
+    texels: Texels, flat_view: int, root: int, base: Whole2, to_unit: NDArray[np.float64], pixel: Vec2
 ) -> float:
     x, y = pixel
     w = to_unit[2, 0] * x + to_unit[2, 1] * y + to_unit[2, 2]
@@ -278,17 +349,19 @@ def view_coverage(
     v = (to_unit[1, 0] * x + to_unit[1, 1] * y + to_unit[1, 2]) / w
     dx = ((to_unit[0, 0] - u * to_unit[2, 0]) / w, (to_unit[1, 0] - v * to_unit[2, 0]) / w)
     dy = ((to_unit[0, 1] - u * to_unit[2, 1]) / w, (to_unit[1, 1] - v * to_unit[2, 1]) / w)
-    return coverage(texels, quality, root, base, (u, v), dx, dy)
+    if flat_view:
+        return flat_coverage(texels, root, base, (u, v), flat(dx, dy))
+    return coverage(texels, root, base, (u, v), dx, dy)
 
 
 @kernel(allocates=False, ahead=True)
 def draw(
-    texels: Texels, quality: int, root: int, base: Whole2, to_unit: NDArray[np.float64], image: NDArray[np.float32]
+    texels: Texels, flat_view: int, root: int, base: Whole2, to_unit: NDArray[np.float64], image: NDArray[np.float32]
 ) -> None:
     for row in range(image.shape[0]):
         for column in range(image.shape[1]):
             pixel = (column + 0.5, row + 0.5)
-            image[row, column] = view_coverage(texels, quality, root, base, to_unit, pixel)
+            image[row, column] = view_coverage(texels, flat_view, root, base, to_unit, pixel)
 
 
 def render_cpu(
@@ -297,15 +370,14 @@ def render_cpu(
     view: ViewLike = None,
     *,
     root: int = 0,
-    quality: str = "exact",
     base: tuple[int, int] | None = None,
 ) -> NDArray[np.float32]:
     """Render one shape of a packed texture as its shader would with exact arithmetic.
 
-    `size`, `view` and `quality` are as in `vexture.coverage`; `root` is the number of the shape. Positions are relative
-    to the point `base` of the unit square, 1.0 = 2^32; `view_base` by default.
+    `size` and `view` are as in `vexture.coverage`; `root` is the number of the shape. Positions are relative to the
+    point `base` of the unit square, 1.0 = 2^32; `view_base` by default.
     """
-    uniforms = uniforms_of(texture, size, view, root, quality, base)
+    uniforms = uniforms_of(texture, size, view, root, base)
     image = np.empty(uniforms.size[::-1], np.float32)
-    draw(texture.texels, QUALITIES[quality], uniforms.quad, uniforms.base, uniforms.to_unit, image)
+    draw(texture.texels, int(uniforms.is_flat), uniforms.quad, uniforms.base, uniforms.to_unit, image)
     return image

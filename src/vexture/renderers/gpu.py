@@ -15,21 +15,19 @@ __all__ = ["render_gpu"]
 
 
 @cache
-def program(quality: str) -> Any:
-    """Compiled shader of one quality, for all packed textures, with its triangle."""
-    return compiled(view_source(VERSION, quality))
+def program(is_flat: bool) -> Any:
+    """Compiled shader for all packed textures, in flat or any views, with its triangle."""
+    return compiled(view_source(VERSION, is_flat))
 
 
-def render_gpu(
-    texture: HasTexels, size: Size, view: ViewLike = None, *, root: int = 0, quality: str = "exact"
-) -> NDArray[np.float32]:
+def render_gpu(texture: HasTexels, size: Size, view: ViewLike = None, *, root: int = 0) -> NDArray[np.float32]:
     """Render one shape of a packed texture; parameters as in `vexture.renderers.cpu.render_cpu`.
 
     Raises `DeviceError` without OpenGL, and `LimitError` if the image is larger than the device allows.
     """
-    uniforms = uniforms_of(texture, size, view, root, quality)
+    uniforms = uniforms_of(texture, size, view, root)
     with ONE_AT_A_TIME, context() as gl:
-        triangle = program(quality)
+        triangle = program(uniforms.is_flat)
         uploaded = upload(gl, texture.texels, 0, "u4")
         triangle.program["vextureTexels"] = 0
         triangle.program["to_unit"].write(uniforms.to_unit.T.astype(np.float32).tobytes())

@@ -7,22 +7,20 @@ __all__ = [
     "BORDER",
     "CLOSE",
     "COVERED",
-    "CROSSING",
-    "EXACT",
+    "DRAWN",
     "FADED_CELL",
     "FARTHEST",
-    "FAST",
     "LEAST_FINEST",
-    "LEVELS_BELOW",
     "LEVEL_BIAS",
     "LONG",
-    "MOST_CELLS",
     "MOST_PARTS",
-    "NEAR",
     "NEARLY_TILE",
+    "NO_CELL",
     "NO_SIZE",
     "POSITION_BITS",
+    "REST_BITS",
     "SHORT_WAY",
+    "SMALLEST_BOX",
     "SMALLEST_PIXEL",
     "SMALL_FINEST",
     "STEPS",
@@ -33,12 +31,17 @@ __all__ = [
     "WRAP_REPEAT",
 ]
 
-FAST: Final = 0
-EXACT: Final = 1
-"""Qualities of the packed texture's shader: resolution of bent pieces and of cells smaller than a pixel."""
-
 POSITION_BITS: Final = 28
 """The packed shader's positions are whole numbers of 2^-28 of the unit square: eight squares fit 32 bits."""
+
+REST_BITS: Final = 4
+"""Low bits of a position that a float beside it holds, so that float32 holds the others from any cell on."""
+
+NO_CELL: Final = 1 << 30
+"""Beyond all positions."""
+
+SMALLEST_BOX: Final = 2.0**-20
+"""Positions: below a 128th of the smallest pixel."""
 
 FARTHEST: Final = 3.0
 """Unit squares. A pixel's centre is clamped to this distance from the base, in each direction."""
@@ -55,23 +58,20 @@ STEPS: Final = 6
 CLOSE: Final = 0.02
 """Pixels. The iteration ends when a step moves a point on a piece by less."""
 
-NO_SIZE: Final = 2.0**-10
-"""Lattice units: below the least nonzero size of a piece."""
+NO_SIZE: Final = 2.0**-16
+"""Sides of a box: below the least nonzero size of a piece, a lattice unit of its cell."""
 
-NEAR: Final = 0.125
-"""Share of a footprint's box: a point nearer to its side may be moved onto it."""
+BEND: Final = 16.0
+"""Parts of a piece for each square pixel that its end directions span with its chord."""
 
-BEND: Final = 8.0
-"""Parts for each square pixel of the cross product of a piece's derivatives, where it enters and leaves a box."""
-
-MOST_PARTS: Final = 4.0
+MOST_PARTS: Final = 8.0
 """Most parts into which such a piece is divided."""
 
 SHORT_WAY: Final = 2.0**-10
 """Pixels. The mean over a shorter distance is evaluated at its middle, because the quotient would lose its digits."""
 
-LEVELS_BELOW: Final = 2
-"""Levels that the sum over cells descends below the footprint's; there a divided cell counts by its stored coverage."""
+DRAWN: Final = 0.7
+"""Way to the middle of the part of a cell in the footprint, as a share of that for an upright cell."""
 
 SMALL_FINEST: Final = 8
 """Down to this level, the sum descends one more."""
@@ -79,17 +79,11 @@ SMALL_FINEST: Final = 8
 LEAST_FINEST: Final = 4
 """Least level of this sum: even a picture of a few pixels uses the leaves of most drawings."""
 
-LONG: Final = 0.64
-"""Least size of cells as a share of the reach of a footprint's box, before LEVELS_BELOW: at most 14 in a row."""
+LONG: Final = 2.0**-8
+"""Least area of a square as wide as a footprint, relative to one as long, of which the finest cells are parts."""
 
 LEVEL_BIAS: Final = 2.0**-8
 """Relative; without it drivers would disagree on the level of a footprint whose size is a power of two."""
-
-CROSSING: Final = 2
-"""Side of a piece that may cross the box."""
-
-MOST_CELLS: Final = 256
-"""Most cells that one pixel visits."""
 
 WRAP_NONE: Final = 0
 WRAP_CLAMP: Final = 1

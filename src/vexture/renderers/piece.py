@@ -1,44 +1,45 @@
-"""The mirror of ``glsl/pixel.glsl`` and ``glsl/piece.glsl`` (see `vexture.renderers.cpu`).
-
-The argument `quality` selects between the variants that the shader compiles conditionally.
-"""
+"""The mirror of ``glsl/pixel.glsl`` and ``glsl/piece.glsl`` (see `vexture.renderers.cpu`)."""
 
 import math
 from typing import NamedTuple
 
 from vexture.kernels import kernel
-from vexture.layout import CONTROL_OFFSET, COORDINATE_BITS
+from vexture.layout import CONTROL_OFFSET, COORDINATE_BITS, COVERAGE_ONE, LATTICE_BITS
+from vexture.renderers.cells import Place, Texel, Vec2, Whole2, clamp
 from vexture.renderers.method import (
-    BEND,
     CLOSE,
-    CROSSING,
-    EXACT,
-    MOST_PARTS,
-    NEAR,
     NO_SIZE,
+    POSITION_BITS,
     SHORT_WAY,
+    SMALLEST_BOX,
     SMALLEST_PIXEL,
     STEPS,
     THINNEST_PIXEL,
 )
 
 __all__ = [
+    "Box",
+    "Ends",
     "Frame",
     "Piece",
-    "Texel",
-    "Vec2",
-    "Whole2",
+    "at",
+    "beside",
+    "beside_sloped",
+    "box",
     "box_area",
-    "clear_side",
+    "bulge",
+    "cross",
+    "ends",
     "frame",
+    "in_box",
+    "into_frame",
+    "mean",
+    "part_inside",
     "piece",
-    "piece_area",
+    "slope",
+    "slopes",
+    "word",
 ]
-
-Vec2 = tuple[float, float]
-Vec4 = tuple[float, float, float, float]
-Whole2 = tuple[int, int]
-Texel = tuple[int, int, int, int]
 
 
 class Frame(NamedTuple):
@@ -46,64 +47,78 @@ class Frame(NamedTuple):
 
     right: Vec2
     up: Vec2
-    level: Vec2
-    upright: Vec2
-    reach: Vec2
-    turned: float
+    extent: Vec2
     size: float
+    longer: float
+
+
+class Box(NamedTuple):
+    """The part of a cell in the box around a pixel's footprint."""
+
+    unit: float
+    way: Vec2
+    part: Vec2
+    low: Vec2
+    size: Vec2
 
 
 class Piece(NamedTuple):
-    """Monotone in x and y, in lattice units of the leaf."""
+    """Monotone in x and y; coordinates that fall are mirrored in the box."""
 
-    p0: Vec2
-    p3: Vec2
-    d1: Vec2
-    d2: Vec2
-    d3: Vec2
-    starts_left: bool
-    ends_left: bool
+    a: Vec2
+    b: Vec2
+    c: Vec2
+    d: Vec2
+    way: Vec2
+    falls: tuple[bool, bool]
 
 
-@kernel(allocates=False)
-def clamp(value: float, low: float, high: float) -> float:
-    return min(max(value, low), high)
+class Ends(NamedTuple):
+    """Where a piece enters and leaves the box."""
+
+    start: float
+    end: float
+    enter: Vec2
+    leave: Vec2
 
 
 # --- pixel.glsl ------------------------------------------------------------------------------------------------
 
 
 @kernel(allocates=False)
-def slopes(dx: float, dy: float) -> Vec2:
-    return dx / dy if dy != 0.0 else 0.0, dy / dx if dx != 0.0 else 0.0
-
-
-@kernel(allocates=False)
 def frame(dx: Vec2, dy: Vec2) -> Frame:
     """The frame of the footprint that two steps span."""
-    larger = max(dx[0] * dx[0] + dx[1] * dx[1], dy[0] * dy[0] + dy[1] * dy[1])
-    if not larger > SMALLEST_PIXEL * SMALLEST_PIXEL:
-        dx = (SMALLEST_PIXEL, 0.0)
-        dy = (0.0, SMALLEST_PIXEL)
-        larger = SMALLEST_PIXEL * SMALLEST_PIXEL
+    one = float(1 << POSITION_BITS)
+    dx = (dx[0] * one, dx[1] * one)
+    dy = (dy[0] * one, dy[1] * one)
+    smallest = SMALLEST_PIXEL * one
+    longer = max(dx[0] * dx[0] + dx[1] * dx[1], dy[0] * dy[0] + dy[1] * dy[1])
     area = dx[0] * dy[1] - dx[1] * dy[0]
-    if abs(area) < THINNEST_PIXEL * larger:
-        dx = dx if dx[0] * dx[0] + dx[1] * dx[1] == larger else dy
-        dy = (-dx[1] * THINNEST_PIXEL, dx[0] * THINNEST_PIXEL)
-        area = THINNEST_PIXEL * larger
-    shrink = 1.0 / area
-    right = (dy[1] * shrink, -dy[0] * shrink)
-    up = (-dx[1] * shrink, dx[0] * shrink)
-    level = slopes(right[0], up[0])
-    upright = slopes(right[1], up[1])
-    reach = (0.5 * (abs(dx[0]) + abs(dy[0])), 0.5 * (abs(dx[1]) + abs(dy[1])))
-    return Frame(right, up, level, upright, reach, 1.0 if area > 0.0 else -1.0, abs(area))
+    exists = longer > smallest * smallest
+    if not exists or abs(area) < THINNEST_PIXEL * longer:
+        width = THINNEST_PIXEL if exists else 1.0
+        dx = dx if dx[0] * dx[0] + dx[1] * dx[1] == longer else dy
+        dx = dx if exists else (smallest, 0.0)
+        dy = (-dx[1] * width, dx[0] * width)
+        longer = dx[0] * dx[0] + dx[1] * dx[1]
+        area = width * longer
+    right = (dy[1] / area, -dy[0] / area)
+    up = (-dx[1] / abs(area), dx[0] / abs(area))
+    extent = (0.5 * (abs(dx[0]) + abs(dy[0])), 0.5 * (abs(dx[1]) + abs(dy[1])))
+    return Frame(right, up, extent, abs(area), longer)
 
 
 @kernel(allocates=False)
 def into_frame(frame: Frame, point: Vec2) -> Vec2:
+    """A point or way of the plane in the frame."""
     right, up = frame.right, frame.up
     return right[0] * point[0] + right[1] * point[1], up[0] * point[0] + up[1] * point[1]
+
+
+@kernel(allocates=False)
+def slopes(dx: float, dy: float) -> Vec2:
+    """Slopes dx / dy and dy / dx of a direction; 0 for what is infinite."""
+    return dx / dy if dy != 0.0 else 0.0, dy / dx if dx != 0.0 else 0.0
 
 
 @kernel(allocates=False)
@@ -114,6 +129,7 @@ def ramp(u: float) -> float:
 
 @kernel(allocates=False)
 def beside_sloped(p: Vec2, end: float, slopes: Vec2) -> float:
+    """Area of the pixel on the right of a straight line to a height, with the slopes of its direction."""
     y0 = clamp(p[1], -0.5, 0.5)
     y1 = clamp(end, -0.5, 0.5)
     u0 = 0.5 - p[0] - (y0 - p[1]) * slopes[0]
@@ -131,6 +147,7 @@ def beside(p: Vec2, q: Vec2) -> float:
 
 @kernel(allocates=False)
 def part_inside(p: Vec2, q: Vec2) -> float:
+    """Approximate share of a straight line in the pixel."""
     held_x = clamp(q[0], -0.5, 0.5) - clamp(p[0], -0.5, 0.5)
     held_y = clamp(q[1], -0.5, 0.5) - clamp(p[1], -0.5, 0.5)
     way_x, way_y = q[0] - p[0], q[1] - p[1]
@@ -140,200 +157,142 @@ def part_inside(p: Vec2, q: Vec2) -> float:
 
 
 @kernel(allocates=False)
-def box_area(frame: Frame, low: Vec2, high: Vec2) -> float:
-    """Area of the pixel in a box, positive where the frame keeps orientation."""
+def box_area(frame: Frame, low: Vec2, size: Vec2) -> float:
+    """Area of the pixel in a box."""
+    right, up = frame.right, frame.up
+    level = slopes(right[0], up[0])
+    upright = slopes(right[1], up[1])
     p = into_frame(frame, low)
-    q = into_frame(frame, (high[0], low[1]))
-    r = into_frame(frame, high)
-    s = into_frame(frame, (low[0], high[1]))
-    level = beside_sloped(p, q[1], frame.level) + beside_sloped(r, s[1], frame.level)
-    return level + beside_sloped(q, r[1], frame.upright) + beside_sloped(s, p[1], frame.upright)
+    q = (p[0] + right[0] * size[0], p[1] + up[0] * size[0])
+    r = (q[0] + right[1] * size[1], q[1] + up[1] * size[1])
+    s = (p[0] + right[1] * size[1], p[1] + up[1] * size[1])
+    first = beside_sloped(p, q[1], level) + beside_sloped(q, r[1], upright)
+    return first + beside_sloped(r, s[1], level) + beside_sloped(s, p[1], upright)
 
 
 # --- piece.glsl ------------------------------------------------------------------------------------------------
 
 
 @kernel(allocates=False)
-def lattice_point(word: int) -> Whole2:
-    return word & ((1 << COORDINATE_BITS) - 1), word >> COORDINATE_BITS
+def box(origin: Whole2, bit: int, place: Place, extent: Vec2) -> Box:
+    """The part of a cell in the box of a footprint."""
+    way = (float(place.point[0] - origin[0]), float(place.point[1] - origin[1]))
+    rest, side = place.rest, float(1 << bit)
+    low = (max(-way[0] - rest[0], -extent[0]), max(-way[1] - rest[1], -extent[1]))
+    high = (min(side - way[0] - rest[0], extent[0]), min(side - way[1] - rest[1], extent[1]))
+    size = (max(high[0] - low[0], SMALLEST_BOX), max(high[1] - low[1], SMALLEST_BOX))
+    part = ((rest[0] + low[0]) / size[0], (rest[1] + low[1]) / size[1])
+    return Box(2.0 ** (bit - LATTICE_BITS), way, part, low, size)
 
 
 @kernel(allocates=False)
-def piece(texel: Texel, whole: Whole2, part: Vec2) -> Piece:
-    """The piece in a texel, relative to a point of the lattice."""
-    x0, y0 = lattice_point(texel[0])
-    x1, y1 = lattice_point(texel[1])
-    x2, y2 = lattice_point(texel[2])
-    x3, y3 = lattice_point(texel[3])
-    x1, y1, x2, y2 = x1 - CONTROL_OFFSET, y1 - CONTROL_OFFSET, x2 - CONTROL_OFFSET, y2 - CONTROL_OFFSET
-    return Piece(
-        (x0 - whole[0] - part[0], y0 - whole[1] - part[1]),
-        (x3 - whole[0] - part[0], y3 - whole[1] - part[1]),
-        (float(x1 - x0), float(y1 - y0)),
-        (float(x2 - x1), float(y2 - y1)),
-        (float(x3 - x2), float(y3 - y2)),
-        x0 == 0,
-        x3 == 0,
+def word(word: int) -> Vec2:
+    """The two coordinates in a word."""
+    return float(word & 0xFFFF), float(word >> COORDINATE_BITS)
+
+
+@kernel(allocates=False)
+def in_box(point: Vec2, box: Box) -> Vec2:
+    """A point of the cell's lattice in the box's own coordinates."""
+    unit, way, part, size = box.unit, box.way, box.part, box.size
+    return (point[0] * unit - way[0]) / size[0] - part[0], (point[1] * unit - way[1]) / size[1] - part[1]
+
+
+@kernel(allocates=False)
+def piece(texel: Texel, box: Box) -> Piece:
+    """The polynomials of a piece in the box's own coordinates."""
+    p0, p1, p2, p3 = word(texel[0]), word(texel[1]), word(texel[2]), word(texel[3])
+    way = (p3[0] - p0[0], p3[1] - p0[1])
+    falls = (way[0] < 0.0, way[1] < 0.0)
+    sides = (box.unit / box.size[0], box.unit / box.size[1])
+    rising = (3.0 * (-sides[0] if falls[0] else sides[0]), 3.0 * (-sides[1] if falls[1] else sides[1]))
+    d = in_box(p0, box)
+    d = (1.0 - d[0] if falls[0] else d[0], 1.0 - d[1] if falls[1] else d[1])
+    c = ((p1[0] - p0[0] - CONTROL_OFFSET) * rising[0], (p1[1] - p0[1] - CONTROL_OFFSET) * rising[1])
+    b = ((p2[0] - p1[0]) * rising[0] - c[0], (p2[1] - p1[1]) * rising[1] - c[1])
+    way = (abs(way[0]) * sides[0], abs(way[1]) * sides[1])
+    return Piece((way[0] - c[0] - b[0], way[1] - c[1] - b[1]), b, c, d, way, falls)
+
+
+@kernel(allocates=False)
+def at(piece: Piece, t: float) -> Vec2:
+    """Point at t, held in the box."""
+    a, b, c, d = piece.a, piece.b, piece.c, piece.d
+    x = ((a[0] * t + b[0]) * t + c[0]) * t + d[0]
+    y = ((a[1] * t + b[1]) * t + c[1]) * t + d[1]
+    return clamp(x, 0.0, 1.0), clamp(y, 0.0, 1.0)
+
+
+@kernel(allocates=False)
+def slope(piece: Piece, t: float) -> Vec2:
+    """Derivative at t."""
+    a, b, c = piece.a, piece.b, piece.c
+    return (3.0 * a[0] * t + 2.0 * b[0]) * t + c[0], (3.0 * a[1] * t + 2.0 * b[1]) * t + c[1]
+
+
+@kernel(allocates=False)
+def better_t(piece: Piece, side: float, t: Vec2) -> Vec2:
+    """One Laguerre step for each coordinate."""
+    a, b, c, d = piece.a, piece.b, piece.c, piece.d
+    return better_coordinate(a[0], b[0], c[0], d[0] - side, t[0]), better_coordinate(
+        a[1], b[1], c[1], d[1] - side, t[1]
     )
 
 
 @kernel(allocates=False)
-def polynomial(p0: float, d1: float, d2: float, d3: float) -> Vec4:
-    return (d3 - d2) - (d2 - d1), 3.0 * (d2 - d1), 3.0 * d1, p0
+def better_coordinate(a: float, b: float, c: float, d: float, t: float) -> float:
+    """One coordinate of what GLSL computes as vectors."""
+    q = a * t
+    bend = 3.0 * q + b
+    error = 3.0 * (((q + b) * t + c) * t + d)
+    slope = (bend + b) * t + c
+    divisor = slope + 2.0 * math.sqrt(abs(slope * slope - error * bend))
+    return clamp(t - error / max(divisor, max(abs(error), NO_SIZE)), 0.0, 1.0)
 
 
 @kernel(allocates=False)
-def evaluate(k: Vec4, t: float) -> float:
-    return ((k[0] * t + k[1]) * t + k[2]) * t + k[3]
+def ends(piece: Piece) -> Ends:
+    """Where a piece enters and leaves the box."""
+    d = piece.d
+    inverse = (1.0 / max(piece.way[0], NO_SIZE), 1.0 / max(piece.way[1], NO_SIZE))
+    t0 = (clamp(-d[0] * inverse[0], 0.0, 1.0), clamp(-d[1] * inverse[1], 0.0, 1.0))
+    t1 = (clamp(inverse[0] - d[0] * inverse[0], 0.0, 1.0), clamp(inverse[1] - d[1] * inverse[1], 0.0, 1.0))
+    close = CLOSE * min(inverse[0], inverse[1])
+    steps = STEPS
+    while steps > 0:
+        better0 = better_t(piece, 0.0, t0)
+        better1 = better_t(piece, 1.0, t1)
+        moved_x = max(abs(better0[0] - t0[0]), abs(better1[0] - t1[0]))
+        moved_y = max(abs(better0[1] - t0[1]), abs(better1[1] - t1[1]))
+        t0 = better0
+        t1 = better1
+        steps = steps - 1 if max(moved_x, moved_y) > close else 0
+    start = max(t0[0], t0[1])
+    end = max(min(t1[0], t1[1]), start)
+    enter = at(piece, start)
+    leave = at(piece, end)
+    enter = (0.0 if t0[0] > t0[1] else enter[0], 0.0 if t0[1] > t0[0] else enter[1])
+    leave = (1.0 if t1[0] < t1[1] else leave[0], 1.0 if t1[1] < t1[0] else leave[1])
+    return Ends(start, end, enter, leave)
 
 
 @kernel(allocates=False)
-def clear_side(piece: Piece, low: Vec2, high: Vec2) -> int:
-    """Winding that a piece outside of the box adds to all of it: -1, 0 or 1; `CROSSING` if it may cross the box."""
-    p0, p3 = piece.p0, piece.p3
-    bottom, top = min(p0[1], p3[1]), max(p0[1], p3[1])
-    left, right = min(p0[0], p3[0]), max(p0[0], p3[0])
-    if top <= low[1] or bottom >= high[1] or left >= high[0]:
-        return 0
-    if not (bottom <= low[1] and top >= high[1] and right <= low[0]):
-        return CROSSING
-    return -1 if p3[1] > p0[1] else 1
+def cross(p: Vec2, q: Vec2) -> float:
+    """Twice the area of the triangle that two ways span."""
+    return p[0] * q[1] - p[1] * q[0]
 
 
 @kernel(allocates=False)
-def x_decides(error: Vec2, slope: Vec2, later: bool) -> bool:
-    x_before = error[0] < 0.0
-    x_slower = error[1] * slope[0] > error[0] * slope[1]
-    return (x_before if x_before != (error[1] < 0.0) else x_slower) == later
+def bulge(third: float, first: Vec2, last: Vec2, chord: Vec2) -> float:
+    """Area between a part of a piece and its chord, positive on the right of a chord upwards."""
+    turned = cross((first[0] - last[0], first[1] - last[1]), chord)
+    return 0.15 * third * (2.0 * turned - third * cross(first, last))
 
 
 @kernel(allocates=False)
-def slope(kx: Vec4, ky: Vec4, t: float) -> Vec2:
-    return (3.0 * kx[0] * t + 2.0 * kx[1]) * t + kx[2], (3.0 * ky[0] * t + 2.0 * ky[1]) * t + ky[2]
-
-
-@kernel(allocates=False)
-def better_t(kx: Vec4, ky: Vec4, corner: Vec2, later: bool, t: float) -> float:
-    errors = (evaluate(kx, t) - corner[0], evaluate(ky, t) - corner[1])
-    rises = slope(kx, ky, t)
-    by_x = x_decides(errors, rises, later)
-    error = errors[0] if by_x else errors[1]
-    rise = rises[0] if by_x else rises[1]
-    bend = 6.0 * kx[0] * t + 2.0 * kx[1] if by_x else 6.0 * ky[0] * t + 2.0 * ky[1]
-    divisor = rise + math.sqrt(max(4.0 * rise * rise - 6.0 * error * bend, 0.0))
-    return clamp(t - (3.0 * error / divisor if divisor > 0.0 else float(math.trunc(error))), 0.0, 1.0)
-
-
-@kernel(allocates=False)
-def passing_point(kx: Vec4, ky: Vec4, t: float, corner: Vec2, later: bool, is_end: bool, start: Vec2, to: Vec2) -> Vec2:
-    x, y = evaluate(kx, t), evaluate(ky, t)
-    if not is_end:
-        by_x = x_decides((x - corner[0], y - corner[1]), slope(kx, ky, t), later)
-        x_near, y_near = abs(x - corner[0]) < NEAR * (to[0] - start[0]), abs(y - corner[1]) < NEAR * (to[1] - start[1])
-        x, y = (corner[0] if by_x and x_near else x), (corner[1] if not by_x and y_near else y)
-    return clamp(x, start[0], to[0]), clamp(y, start[1], to[1])
-
-
-@kernel(allocates=False)
-def bulge(first: Vec2, last: Vec2, chord: Vec2) -> float:
-    turned = first[0] * chord[1] - first[1] * chord[0] + chord[0] * last[1] - chord[1] * last[0]
-    return 0.15 * (2.0 * turned - (first[0] * last[1] - first[1] * last[0]))
-
-
-@kernel(allocates=False)
-def point(kx: Vec4, ky: Vec4, t: float, mirror: Vec2, low: Vec2, high: Vec2) -> Vec2:
-    x = clamp(evaluate(kx, t) * mirror[0], low[0], high[0])
-    return x, clamp(evaluate(ky, t) * mirror[1], low[1], high[1])
-
-
-@kernel(allocates=False)
-def part_area(p: Vec2, q: Vec2, first: Vec2, last: Vec2, frame: Frame) -> float:
-    start = into_frame(frame, p)
-    to = into_frame(frame, q)
-    scale = frame.turned / frame.size
-    return beside(start, to) + scale * bulge(first, last, (q[0] - p[0], q[1] - p[1])) * part_inside(start, to)
-
-
-@kernel(allocates=False)
-def curve_area(
-    quality: int,
-    kx: Vec4,
-    ky: Vec4,
-    t0: float,
-    t1: float,
-    p: Vec2,
-    q: Vec2,
-    mirror: Vec2,
-    frame: Frame,
-    low: Vec2,
-    high: Vec2,
-) -> float:
-    rise = slope(kx, ky, t0)
-    first = (rise[0] * mirror[0], rise[1] * mirror[1])
-    rise = slope(kx, ky, t1)
-    last = (rise[0] * mirror[0], rise[1] * mirror[1])
-    parts = 1
-    if quality == EXACT:
-        bend = abs(first[0] * last[1] - first[1] * last[0]) * (t1 - t0) * (t1 - t0) / frame.size
-        parts = 1 + int(min(BEND * bend, MOST_PARTS - 1.0))
-    step_t = (t1 - t0) / parts
-    third = step_t / 3.0
-    area = 0.0
-    t = t0
-    for k in range(parts):
-        t += step_t
-        following = point(kx, ky, t, mirror, low, high) if k < parts - 1 else q
-        rise = slope(kx, ky, t)
-        last = (rise[0] * mirror[0], rise[1] * mirror[1])
-        area += part_area(p, following, (first[0] * third, first[1] * third), (last[0] * third, last[1] * third), frame)
-        p = following
-        first = last
-    return area
-
-
-@kernel(allocates=False)
-def piece_area(quality: int, piece: Piece, frame: Frame, low: Vec2, high: Vec2) -> float:
-    """Minus the area on the right of a piece that goes up, plus that of one that goes down, inside a box."""
-    p0, p3 = piece.p0, piece.p3
-    d1, d2, d3 = piece.d1, piece.d2, piece.d3
-    way = (d1[0] + d2[0] + d3[0], d1[1] + d2[1] + d3[1])
-    mirror = (-1.0 if way[0] < 0.0 else 1.0, -1.0 if way[1] < 0.0 else 1.0)
-    mx, my = mirror
-    kx = polynomial(mx * p0[0], mx * d1[0], mx * d2[0], mx * d3[0])
-    ky = polynomial(my * p0[1], my * d1[1], my * d2[1], my * d3[1])
-    start = (-high[0] if mx < 0.0 else low[0], -high[1] if my < 0.0 else low[1])
-    to = (-low[0] if mx < 0.0 else high[0], -low[1] if my < 0.0 else high[1])
-    size_x, size_y = max(abs(way[0]), NO_SIZE), max(abs(way[1]), NO_SIZE)
-    t0 = clamp(max((start[0] - kx[3]) / size_x, (start[1] - ky[3]) / size_y), 0.0, 1.0)
-    t1 = clamp(min((to[0] - kx[3]) / size_x, (to[1] - ky[3]) / size_y), 0.0, 1.0)
-    pixels_x = size_x * abs(frame.right[0]) + size_y * abs(frame.right[1])
-    pixels_y = size_x * abs(frame.up[0]) + size_y * abs(frame.up[1])
-    for _ in range(STEPS):
-        better0 = better_t(kx, ky, start, True, t0)
-        better1 = better_t(kx, ky, to, False, t1)
-        moved = max(abs(better0 - t0), abs(better1 - t1)) * max(pixels_x, pixels_y)
-        t0, t1 = better0, better1
-        if not moved > CLOSE:
-            break
-    misses = t0 >= t1
-    t1 = max(t0, t1)
-
-    y0 = clamp(p0[1], low[1], high[1])
-    y3 = clamp(p3[1], low[1], high[1])
-    passed = passing_point(kx, ky, t0, start, True, t0 == 0.0, start, to)
-    enter = (mx * passed[0], my * passed[1])
-    passed = passing_point(kx, ky, t1, to, False, t1 == 1.0, start, to)
-    leave = enter if misses else (mx * passed[0], my * passed[1])
-    area = curve_area(quality, kx, ky, t0, t1, enter, leave, mirror, frame, low, high)
-
-    left_start, left_end = (leave[1], y3) if mx < 0.0 else (y0, enter[1])
-    right_start, right_end = (y3, enter[1]) if mx < 0.0 else (leave[1], y0)
-    if piece.starts_left and low[1] < p0[1] < high[1] and mx > 0.0:
-        left_start = right_end = high[1]
-    if piece.ends_left and low[1] < p3[1] < high[1]:
-        left_end = right_start = high[1]
-    l0, l1 = into_frame(frame, (low[0], left_start)), into_frame(frame, (low[0], left_end))
-    r0, r1 = into_frame(frame, (high[0], right_start)), into_frame(frame, (high[0], right_end))
-    e0, e1 = into_frame(frame, (enter[0], right_end)), into_frame(frame, (leave[0], right_start))
-    area += beside_sloped(l0, l1[1], frame.upright) + beside_sloped(r0, r1[1], frame.upright)
-    return area + beside_sloped(e1, r0[1], frame.level) + beside_sloped(r1, e0[1], frame.level)
+def mean(stored: int, place: Vec2) -> float:
+    """Mean of a quad about a place in its own unit square."""
+    x, y = 2.0 * place[0] - 0.5, 2.0 * place[1] - 0.5
+    low = (stored & 255) * (1.0 - x) + ((stored >> 8) & 255) * x
+    high = ((stored >> 16) & 255) * (1.0 - x) + (stored >> 24) * x
+    return clamp((low * (1.0 - y) + high * y) / COVERAGE_ONE, 0.0, 1.0)

@@ -16,7 +16,6 @@ from vexture.renderers import method
 
 __all__ = [
     "PICTURE_MAIN",
-    "QUALITIES",
     "VERSIONS",
     "WRAPS",
     "included",
@@ -38,13 +37,10 @@ void main() { coverage_of_pixel = view_coverage(gl_FragCoord.xy); }
 """
 """Draws one shape in one colour channel, after a file ``view.glsl``."""
 
-QUALITIES: Final = {"fast": method.FAST, "exact": method.EXACT}
-"""Values of ``VEXTURE_QUALITY``."""
-
 WRAPS: Final = {"none": method.WRAP_NONE, "clamp": method.WRAP_CLAMP, "repeat": method.WRAP_REPEAT}
 """Values of ``VEXTURE_WRAP``."""
 
-CHOSEN: Final = {"QUALITY", "WRAP"}
+CHOSEN: Final = {"FLAT", "WRAP"}
 """Numbers that each program sets itself."""
 
 PREFIXED: Final = re.compile(r"\bVEXTURE_(\w+)")
@@ -83,25 +79,24 @@ def vertex_source(version: str) -> str:
     return f"{VERSIONS[version]}void main() {{ gl_Position = {corner}; }}\n"
 
 
-def shader_source(version: str = "300 es", quality: str = "exact") -> str:
-    """Text that gives a fragment shader the function ``vextureCoverage``, to stand before its own.
+def shader_source(version: str = "300 es") -> str:
+    """Text that gives a fragment shader the functions ``vextureCoverage`` and ``vextureFlatCoverage``.
 
-    The text has neither ``#version`` nor a default precision, so that an engine can write them; in ``300 es`` the
-    default precisions of float and int must be highp. It declares ``uniform highp usampler2D vextureTexels``, which
-    must be a `Texture`. All other names begin with ``vexture``, ``Vexture`` or ``VEXTURE``.
+    It stands before the shader's own text. It has neither ``#version`` nor a default precision, so that an engine can
+    write them; in ``300 es`` the default precisions of float and int must be highp. It declares ``uniform highp
+    usampler2D vextureTexels``, which must be a `Texture`. All other names begin with ``vexture``, ``Vexture`` or
+    ``VEXTURE``. Both functions integrate over the pixel's footprint: the first one whatever its shape, the second one,
+    which costs less, over upright rectangles that are alike in the whole view.
 
     Parameters
     ----------
     version : str
         Dialect of the shader, ``"300 es"`` or ``"330"``. The text is the same for both.
-    quality : str
-        Both integrate over the pixel's footprint, whatever its shape. ``"exact"`` also divides pieces that bend within
-        the footprint, and descends one level deeper into shapes that are finer than the pixels.
 
     Raises
     ------
     ParameterError
-        If there is no such version or quality.
+        If there is no such version.
 
     Examples
     --------
@@ -110,19 +105,17 @@ def shader_source(version: str = "300 es", quality: str = "exact") -> str:
     """
     if version not in VERSIONS:
         raise ParameterError(f"`version` is {version!r}; there are {', '.join(map(repr, VERSIONS))}")
-    return shader_text("coverage.glsl", quality)
+    return shader_text("coverage.glsl")
 
 
-def shader_text(file: str, quality: str | None, *owners: ModuleType) -> str:
+def shader_text(file: str, *owners: ModuleType) -> str:
     """Text of one of the packed texture's files, preceded by the numbers that it and its includes name.
 
     The numbers are those of `vexture.renderers.method`, `vexture.layout` and further owners. The caller must define
-    ``VEXTURE_WRAP``, and ``VEXTURE_QUALITY`` too if `quality` is None (values in `WRAPS` and `QUALITIES`).
+    ``VEXTURE_WRAP`` (values in `WRAPS`) and ``VEXTURE_FLAT`` (0 or 1) where the file asks for them.
     """
-    if quality is not None and quality not in QUALITIES:
-        raise ParameterError(f"`quality` is {quality!r}; there are {', '.join(map(repr, QUALITIES))}")
     text = included(file)
-    lines = [] if quality is None else [f"#define VEXTURE_QUALITY {QUALITIES[quality]!r}\n"]
+    lines = []
     for name in sorted(set(PREFIXED.findall(text)) - CHOSEN):
         value = next((getattr(owner, name) for owner in (method, layout, *owners) if hasattr(owner, name)), None)
         if value is None:
@@ -131,6 +124,6 @@ def shader_text(file: str, quality: str | None, *owners: ModuleType) -> str:
     return "".join(lines) + text
 
 
-def view_source(version: str, quality: str) -> str:
+def view_source(version: str, is_flat: bool) -> str:
     """Fragment shader that draws one shape of a packed texture in one colour channel."""
-    return VERSIONS[version] + shader_text("view.glsl", quality) + PICTURE_MAIN
+    return f"{VERSIONS[version]}#define VEXTURE_FLAT {int(is_flat)}\n" + shader_text("view.glsl") + PICTURE_MAIN

@@ -1,13 +1,15 @@
 """The values of the packed shader's uniforms, for the GPU and for the mirror on the CPU."""
 
-from typing import NamedTuple, Protocol
+from typing import Final, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.errors import ParameterError
-from vexture.renderers.shader import QUALITIES
 from vexture.renderers.view import Size, ViewLike, size_of, view_base, view_matrix
+
+FLAT: Final = 2.0**-40
+"""Share of a pixel's side by which its ends may differ in height: far less than a pixel over the widest picture."""
 
 __all__ = ["HasTexels", "Uniforms", "uniforms_of"]
 
@@ -32,17 +34,23 @@ class Uniforms(NamedTuple):
     base: tuple[int, int]  # point of the unit square that positions are relative to, 1.0 = 2^32
     to_unit: NDArray[np.float64]  # (3, 3): from pixel coordinates to the unit square, relative to `base`
 
+    @property
+    def is_flat(self) -> bool:
+        """Whether all pixels are alike, and their sides level and upright but for rounding."""
+        steps = np.abs(self.to_unit[:2, :2])
+        small = FLAT * steps.max()
+        level = max(steps[0, 1], steps[1, 0]) <= small or max(steps[0, 0], steps[1, 1]) <= small
+        return bool(level and not self.to_unit[2, :2].any())
+
 
 def uniforms_of(
-    texture: HasTexels, size: Size, view: ViewLike, root: int, quality: str, base: tuple[int, int] | None = None
+    texture: HasTexels, size: Size, view: ViewLike, root: int, base: tuple[int, int] | None = None
 ) -> Uniforms:
     """Uniforms for a renderer's arguments, after a check of these; `base` is `view_base` by default."""
     size = size_of(size)
     matrix = view_matrix(view, size)
     if not 0 <= root < len(texture.quads):
         raise ParameterError(f"`root` is {root}; the texture has {len(texture.quads)} shapes, numbered from 0")
-    if quality not in QUALITIES:
-        raise ParameterError(f"`quality` is {quality!r}; it must be one of {', '.join(map(repr, QUALITIES))}")
     base = view_base(matrix, size) if base is None else base
     relative = matrix.copy()
     relative[:2] -= np.outer(base, matrix[2]) / 2.0**32

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vexture import layout
 from vexture.drawing import Paint
-from vexture.encodings import Quality, TextureRenderer
+from vexture.encodings import TextureRenderer
 from vexture.errors import FormatError, LimitError, ParameterError
 from vexture.renderers.picture import painted
 from vexture.renderers.view import Size, ViewLike, size_of
@@ -169,7 +169,6 @@ class Texture:
         *,
         renderer: TextureRenderer = "cpu",
         root: str | int | None = None,
-        quality: Quality = "exact",
     ) -> NDArray[np.float32]:
         """Covered part of each pixel by one shape. Parameters, result and errors as in `vexture.coverage`.
 
@@ -183,12 +182,12 @@ class Texture:
         if renderer == "cpu":
             from vexture.renderers.cpu import render_cpu  # late: compiled code, not needed for reading
 
-            return render_cpu(self, size, view, root=place, quality=quality)
+            return render_cpu(self, size, view, root=place)
         if renderer != "gpu":
             raise ParameterError(f"`renderer` is {renderer!r}; a texture is rendered by 'cpu' or 'gpu'")
         from vexture.renderers.gpu import render_gpu
 
-        return render_gpu(self, size, view, root=place, quality=quality)
+        return render_gpu(self, size, view, root=place)
 
     def render(
         self,
@@ -197,13 +196,12 @@ class Texture:
         *,
         renderer: TextureRenderer = "cpu",
         root: str | int | None = None,
-        quality: Quality = "exact",
     ) -> NDArray[np.float32]:
         """Picture of a drawing in its colours, as `vexture.render` makes it. Parameters, result and errors as there."""
         layers = (
             (
                 self.roots[place].paint or Paint(),
-                self.coverage(size, view, renderer=renderer, root=place, quality=quality),
+                self.coverage(size, view, renderer=renderer, root=place),
             )
             for place in layers_of(self.roots, root, self.name)
         )

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import IDENTITY, Paint
-from vexture.encodings import Quality, TextureRenderer
+from vexture.encodings import TextureRenderer
 from vexture.errors import FormatError, LimitError, ParameterError
 from vexture.layout import TEXT_ENCODING, TEXT_VERSION
 from vexture.renderers.picture import painted
@@ -161,13 +161,10 @@ class ThesisTexture:
         *,
         renderer: TextureRenderer = "cpu",
         root: str | int | None = None,
-        quality: Quality = "exact",
     ) -> NDArray[np.float32]:
         """Covered part of each pixel; the parameters are those of `vexture.coverage`."""
         if root not in (None, 0, self.name):
             raise ParameterError(f"`root` is {root!r}; {self.name} is a texture of one shape, leave it out")
-        if quality != "exact":
-            raise ParameterError(f"`quality` is {quality!r}, which the encoding thesis does not have; leave it out")
         if renderer == "cpu":
             from vexture.thesis.cpu import render_thesis_cpu  # late: compiled code
 
@@ -185,10 +182,9 @@ class ThesisTexture:
         *,
         renderer: TextureRenderer = "cpu",
         root: str | int | None = None,
-        quality: Quality = "exact",
     ) -> NDArray[np.float32]:
         """Picture of the shape in black; the parameters are those of `vexture.render`."""
-        covered = self.coverage(size, view, renderer=renderer, root=root, quality=quality)
+        covered = self.coverage(size, view, renderer=renderer, root=root)
         return painted(size_of(size), [(Paint(), covered)])
 
     def info(self) -> dict[str, Any]:

@@ -1,35 +1,32 @@
 // Text that water inserts into a shader: declarations, and calls of the functions of src/vexture/glsl/water.glsl.
 import { fold } from '../../generated/fold-shader.js';
-import { QUALITIES, WRAPS, steps } from '../../generated/shaders.js';
+import { WRAPS, steps } from '../../generated/shaders.js';
 import { shore, water } from '../../generated/water-shader.js';
 import { foldLines, footprint } from '../mask-shader.js';
-
-/** @typedef {keyof typeof QUALITIES} Quality */
 
 /** Macro of programs with a fold. */
 export const FOLD = 'VEXTURE_FOLD';
 
 const VARYINGS = 'varying vec2 vextureUv;\n';
 
-/**
- * The fragment shader's declarations and functions. Beyond the unit square, water continues as on its border.
- *
- * @param {Quality} quality
- */
-export function declarations(quality) {
-  const chosen = `#define VEXTURE_QUALITY ${QUALITIES[quality]}\n#define VEXTURE_WRAP ${WRAPS.clamp}\n`;
-  const colors = 'uniform vec4 vextureShallow;\nuniform vec4 vextureFoamColor;\nuniform vec4 vextureFlat;\n';
-  return `${VARYINGS}${colors}${steps}${chosen}${water}#ifdef ${FOLD}\n${fold}#endif\n`;
-}
+/** Beyond the unit square, water continues as on its border. */
+const CLAMPED = `#define VEXTURE_WRAP ${WRAPS.clamp}\n`;
+
+/** The fragment shader's declarations and functions. */
+const DECLARATIONS = `${VARYINGS}uniform vec4 vextureShallow;
+uniform vec4 vextureFoamColor;
+uniform vec4 vextureFlatColor;
+${steps}${CLAMPED}${water}#ifdef ${FOLD}
+${fold}#endif
+`;
 
 const COVER = 'void main() { gl_Position = vec4(position.xy, 1.0, 1.0); }';
 
 /** The shader that draws the coverage of each texel of the shore raster. */
 export const SHORE_SHADER = Object.freeze({
   vertexShader: COVER,
-  fragmentShader: `#define VEXTURE_QUALITY ${QUALITIES.fast}
-#define VEXTURE_WRAP ${WRAPS.clamp}
-${shore}uniform uint vextureRoot;
+  fragmentShader: `#define VEXTURE_FLAT 1
+${CLAMPED}${shore}uniform uint vextureRoot;
 uniform float vextureTexel;
 void main() { gl_FragColor = vec4(vextureTexelOf(vextureRoot, gl_FragCoord.xy * vextureTexel, vextureTexel)); }`,
 });
@@ -37,9 +34,7 @@ void main() { gl_FragColor = vec4(vextureTexelOf(vextureRoot, gl_FragCoord.xy * 
 /** The shader that blurs it with a box filter along one axis. */
 export const SPREAD_SHADER = Object.freeze({
   vertexShader: COVER,
-  fragmentShader: `#define VEXTURE_QUALITY ${QUALITIES.fast}
-#define VEXTURE_WRAP ${WRAPS.clamp}
-${shore}uniform sampler2D vextureRaster;
+  fragmentShader: `${shore}uniform sampler2D vextureRaster;
 uniform ivec2 vextureWay;
 uniform int vextureReach;
 void main() { gl_FragColor = vec4(vextureSpread(vextureRaster, ivec2(gl_FragCoord.xy), vextureWay, vextureReach)); }`,
@@ -63,26 +58,23 @@ gl_FragColor.rgb = vextureInshore(gl_FragColor.rgb, vextureHere, normalSampler, 
  * Text at fragmentLast, where gl_FragColor is in the colour space of the canvas: the flat colour, and the coverage,
  * which changes only alpha. Blending is colour * alpha + ground * (1 - alpha) of encoded (sRGB) values.
  */
-export const LAST = `vec4 vexturePlain = linearToOutputTexel(vec4(vextureFlat.rgb, 1.0));
-gl_FragColor = mix(gl_FragColor, vexturePlain, vextureFlat.a);
+export const LAST = `vec4 vexturePlain = linearToOutputTexel(vec4(vextureFlatColor.rgb, 1.0));
+gl_FragColor = mix(gl_FragColor, vexturePlain, vextureFlatColor.a);
 gl_FragColor.a *= vextureHere.coverage;
 if (vextureHere.coverage == 0.0) discard;`;
 
 /**
  * Text for each hook of the shader of three.js's Water.
  *
- * @param {Quality} quality
- * @returns {Partial<Record<import('../hooks.js').HookName, string>>}
+ * @type {Partial<Record<import('../hooks.js').HookName, string>>}
  */
-export function waterTexts(quality) {
-  return {
-    vertexDeclare: VERTEX_DECLARE,
-    vertexUv: VERTEX_UV,
-    fragmentDeclare: declarations(quality),
-    fragmentLight: LIGHT,
-    fragmentLast: LAST,
-  };
-}
+export const WATER_TEXTS = Object.freeze({
+  vertexDeclare: VERTEX_DECLARE,
+  vertexUv: VERTEX_UV,
+  fragmentDeclare: DECLARATIONS,
+  fragmentLight: LIGHT,
+  fragmentLast: LAST,
+});
 
 /** Uniforms of the simple water's functions, with the names of three.js's Water. */
 const SIMPLE_UNIFORMS = `uniform sampler2D normalSampler;
@@ -91,13 +83,9 @@ uniform float time, size, alpha;
 varying vec3 vextureWorld;
 `;
 
-/**
- * The simple water's own shader, around the same lines.
- *
- * @param {Quality} quality
- */
-export function simpleShader(quality) {
-  const vertexShader = `#include <common>
+/** The simple water's own shader, around the same lines. */
+export const SIMPLE_SHADER = Object.freeze({
+  vertexShader: `#include <common>
 #include <fog_pars_vertex>
 #include <logdepthbuf_pars_vertex>
 ${VERTEX_DECLARE}varying vec3 vextureWorld;
@@ -108,11 +96,11 @@ void main() {
   ${VERTEX_UV}
   #include <logdepthbuf_vertex>
   #include <fog_vertex>
-}`;
-  const fragmentShader = `#include <common>
+}`,
+  fragmentShader: `#include <common>
 #include <fog_pars_fragment>
 #include <logdepthbuf_pars_fragment>
-${SIMPLE_UNIFORMS}${declarations(quality)}
+${SIMPLE_UNIFORMS}${DECLARATIONS}
 void main() {
   #include <logdepthbuf_fragment>
   VextureLight vextureSun = VextureLight(sunDirection, sunColor, waterColor, vextureZenith, vextureHorizon);
@@ -122,6 +110,5 @@ void main() {
   #include <colorspace_fragment>
   #include <fog_fragment>
   ${LAST}
-}`;
-  return { vertexShader, fragmentShader };
-}
+}`,
+});

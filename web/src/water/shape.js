@@ -1,6 +1,5 @@
 // The shape of water: the textures it is read from, and their uniforms.
 import { Color, Matrix3, Vector2, Vector4 } from 'three';
-import { QUALITIES } from '../../generated/shaders.js';
 import { VextureError, line } from '../errors.js';
 import { wordTexture } from '../upload.js';
 import { Shores } from './shore.js';
@@ -18,7 +17,6 @@ import { Shores } from './shore.js';
  * @property {string | number | null} [root] name or place of the shape in each texture; needed if a texture holds
  *   several shapes
  * @property {Matrix3} [transform] from the mesh's uv to the unit square; its elements may be changed at any time
- * @property {'exact' | 'fast'} [quality]
  * @property {Foam} [foam]
  * @property {import('three').ColorRepresentation | null} [shallow] colour of the water at the shore; null: as elsewhere
  * @property {import('three').ColorRepresentation | null} [flat] uniform colour of the water, without lighting and tone
@@ -75,14 +73,10 @@ export class WaterShape {
    * @param {(shown: boolean) => void} shown called with whether there is any water
    */
   constructor(texture, options, shown) {
-    const { root, transform = new Matrix3(), quality = 'exact', foam = {}, shallow = null, flat = null } = options;
-    if (!(quality in QUALITIES)) {
-      throw new VextureError(`quality is ${line(quality)}; it must be one of ${Object.keys(QUALITIES).join(', ')}`, 'quality');
-    }
+    const { root, transform = new Matrix3(), foam = {}, shallow = null, flat = null } = options;
     if (transform?.elements?.length !== 9) {
       throw new VextureError(`transform is ${line(transform)}; it must be a Matrix3`, 'transform');
     }
-    this.quality = quality;
     this.#root = root;
     this.#shown = shown;
     /** @type {Record<string, { value: any }>} */
@@ -103,7 +97,7 @@ export class WaterShape {
       vextureLapping: { value: FOAM.period },
       vextureShallow: { value: new Vector4() },
       vextureFoamColor: { value: new Vector4() },
-      vextureFlat: { value: new Vector4() },
+      vextureFlatColor: { value: new Vector4() },
     };
     this.foam = foam;
     this.shallow = shallow;
@@ -164,11 +158,11 @@ export class WaterShape {
   }
 
   get flat() {
-    return colorOf(this.uniforms.vextureFlat);
+    return colorOf(this.uniforms.vextureFlatColor);
   }
 
   set flat(/** @type {import('three').ColorRepresentation | null} */ color) {
-    setColor(this.uniforms.vextureFlat, color ?? 0, color == null ? 0 : 1);
+    setColor(this.uniforms.vextureFlatColor, color ?? 0, color == null ? 0 : 1);
   }
 
   /**

@@ -1,7 +1,7 @@
 import { Color, FrontSide, Mesh, ShaderMaterial, UniformsLib, UniformsUtils, Vector3 } from 'three';
 import { SEA, checkGeometry, watered } from './mesh.js';
 import { waterNormals } from './normals.js';
-import { simpleShader } from './shader.js';
+import { SIMPLE_SHADER } from './shader.js';
 import { WaterShape } from './shape.js';
 
 /** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
@@ -50,7 +50,7 @@ export class SimpleWater extends watered(
     super(geometry, material);
     this.ownNormals = options.waterNormals ? null : normals;
     this.shape = new WaterShape(texture, options, (shown) => (material.visible = shown));
-    Object.assign(material, simpleShader(this.shape.quality));
+    Object.assign(material, SIMPLE_SHADER);
     Object.assign(material.uniforms, this.shape.uniforms, {
       normalSampler: { value: normals },
       sunDirection: { value: sunDirection },

@@ -2,7 +2,7 @@ import { Water } from 'three/addons/objects/Water.js';
 import { insert } from '../hooks.js';
 import { SEA, checkGeometry, watered } from './mesh.js';
 import { waterNormals } from './normals.js';
-import { waterTexts } from './shader.js';
+import { WATER_TEXTS } from './shader.js';
 import { WaterShape } from './shape.js';
 
 /** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
@@ -29,7 +29,7 @@ export class VectorWater extends watered(Water) {
     this.ownNormals = given ? null : normals;
     const { material } = this;
     this.shape = new WaterShape(texture, options, (shown) => (material.visible = shown));
-    insert(material, 'Water', waterTexts(this.shape.quality));
+    insert(material, 'Water', WATER_TEXTS);
     Object.assign(material.uniforms, this.shape.uniforms);
     material.uniforms.size.value = size;
     material.transparent = true;

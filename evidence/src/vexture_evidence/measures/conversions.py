@@ -116,5 +116,5 @@ def _rate(made: Made, side: int) -> float:
     from vexture_evidence.measures.programs import packed_program, thesis_program
 
     texture = made.texture
-    program = packed_program(texture, "exact") if isinstance(texture, Texture) else thesis_program(texture)
+    program = packed_program(texture, is_flat=True) if isinstance(texture, Texture) else thesis_program(texture)
     return frames_per_second(program, (side, side))

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
+from vexture.renderers.cpu import flat
 from vexture.renderers.device import context
 from vexture.renderers.exact import render_exact
 from vexture.renderers.shader import shader_source, vertex_source
@@ -32,13 +33,17 @@ __all__ = [
     "Program",
     "Target",
     "band_program",
+    "band_source",
     "driver",
     "fetch_program",
+    "fetch_source",
     "packed_program",
+    "packed_source",
     "packed_texture",
     "seconds",
     "target",
     "thesis_program",
+    "thesis_source",
 ]
 
 VERSION: Final = "330"
@@ -47,6 +52,9 @@ IMAGE_SIDE: Final = 1024
 
 ROUND_SIDE: Final = 256
 """Pixels; the sides of targets are multiples of this, so that few targets are needed."""
+
+FLAT_INPUTS: Final = "uniform vec2 extent;\nuniform float inverse_area;\nuniform int finest;\n"
+FLAT_VIEW: Final = "VextureFlat(extent, inverse_area, finest)"
 
 MAIN: Final = """
 uniform mat3 to_unit;  // from pixel coordinates, y down, to the unit square
@@ -88,6 +96,8 @@ class Program:
         Further values to set.
     based : bool
         Whether the shader takes positions relative to the uniform `base`, a point in view (1.0 is 2^32).
+    is_flat : bool
+        Whether it takes what all pixels of a view have in common.
     """
 
     name: str
@@ -96,6 +106,7 @@ class Program:
     textures: Mapping[str, Any]
     uniforms: Mapping[str, Any] = field(default_factory=dict)
     based: bool = False
+    is_flat: bool = False
 
     def prepare(self, to_unit: NDArray[np.float64], tile: tuple[int, int]) -> None:
         """Bind the textures and set the uniforms; the target is set by the caller."""
@@ -106,6 +117,9 @@ class Program:
         for name, value in self.uniforms.items():
             shader[name] = value
         shader["tile"] = tile
+        if self.is_flat:
+            common = flat((to_unit[0, 0], to_unit[1, 0]), (to_unit[0, 1], to_unit[1, 1]))
+            shader["extent"], shader["inverse_area"], shader["finest"] = common
         if self.based:
             base = view_base(to_unit, tile)
             shader["base"] = base
@@ -188,14 +202,19 @@ def rows_of(values: NDArray[Any], width: int) -> NDArray[Any]:
     return padded.reshape(-1, width, values.shape[1])
 
 
+def band_source(bands: int) -> str:
+    """Fragment shader of the band method."""
+    return fragment(band_shader(bands), "band_coverage(uv, dx, dy)")
+
+
 def band_program(texture: BandTexture) -> Program:
     """Program of the band method for a texture."""
     constants = band_constants(texture.bands)
     width = 1 << int(constants["ROW_BITS"])
     lists = nearest(rows_of(texture.lists[:, None], width), "u4")
     outlines = nearest(rows_of(texture.outlines, width), "f4")
-    source = fragment(band_shader(texture.bands), "band_coverage(uv, dx, dy)")
     textures = {"band_lists": lists, "outlines": outlines}
+    source = band_source(texture.bands)
     return Program("bands", constants, compiled(source), textures, {"band_box": tuple(texture.box)})
 
 
@@ -204,14 +223,27 @@ def packed_texture(drawing: Drawing, **parameters: Any) -> Texture:
     return encode([build_tree(drawing, **parameters)], [Root(drawing.name)], name=drawing.name)
 
 
-def packed_program(texture: Texture, quality: str, root: int = 0) -> Program:
-    """Program of the packed encoding, in one quality, for a texture."""
-    text = shader_source(VERSION, quality)
-    constants = {name: float(value) for name, value in re.findall(r"#define VEXTURE_(\w+) ([-.e\d]+)\n", text)}
-    main = "uniform uint root;\nuniform uvec2 base;\n" + main_calling("vextureCoverage(root, base, uv, dx, dy)")
+def packed_source(is_flat: bool = False) -> str:
+    """Fragment shader of the packed encoding: for any view, or for those whose pixels are upright and alike."""
+    inputs = shader_source(VERSION) + "uniform uint root;\nuniform uvec2 base;\n"
+    if is_flat:
+        return fragment(inputs + FLAT_INPUTS, f"vextureFlatCoverage(root, base, uv, {FLAT_VIEW})")
+    return fragment(inputs, "vextureCoverage(root, base, uv, dx, dy)")
+
+
+def packed_program(texture: Texture, is_flat: bool = False, root: int = 0) -> Program:
+    """Program of `packed_source` for a texture."""
+    source = packed_source(is_flat)
+    constants = {name: float(value) for name, value in re.findall(r"#define VEXTURE_(\w+) ([-.e\d]+)\n", source)}
     textures = {"vextureTexels": nearest(texture.texels, "u4")}
     uniforms = {"root": texture.roots[root].quad}
-    return Program(quality, constants, compiled(f"#version {VERSION}\n" + text + main), textures, uniforms, True)
+    return Program("flat" if is_flat else "any", constants, compiled(source), textures, uniforms, True, is_flat)
+
+
+def thesis_source(sizes: TextureSizes) -> str:
+    """Fragment shader of the thesis's encoding."""
+    inputs = "uniform sampler2D quads;\nuniform sampler2D curves;\n"
+    return compose(VERSION, "coverage.glsl", inputs + main_calling("coverage(quads, curves, uv, dx, dy)"), sizes)
 
 
 def thesis_program(texture: ThesisTexture) -> Program:
@@ -221,11 +253,14 @@ def thesis_program(texture: ThesisTexture) -> Program:
         name: nearest(fold(rows, sizes.fold_height), "f4")
         for name, rows in (("quads", texture.quads), ("curves", texture.curves))
     }
-    inputs = "uniform sampler2D quads;\nuniform sampler2D curves;\n"
-    source = compose(VERSION, "coverage.glsl", inputs + main_calling("coverage(quads, curves, uv, dx, dy)"), sizes)
     lengths = {"list_lengths": (len(texture.quads), len(texture.curves))}
     constants = {"SAMPLES": method.SAMPLES, "bits": 8 * texture.quads.dtype.itemsize}
-    return Program("thesis", constants, compiled(source), textures, lengths)
+    return Program("thesis", constants, compiled(thesis_source(sizes)), textures, lengths)
+
+
+def fetch_source() -> str:
+    """Fragment shader of one fetch from a picture."""
+    return fragment("uniform sampler2D image;\n", "texture(image, uv).x")
 
 
 def fetch_program(drawing: Drawing) -> Program:
@@ -235,5 +270,4 @@ def fetch_program(drawing: Drawing) -> Program:
     made = current().texture(size, 1, np.ascontiguousarray(pixels).tobytes())
     made.build_mipmaps()
     made.filter = (0x2703, 0x2601)  # GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR
-    source = fragment("uniform sampler2D image;\n", "texture(image, uv).x")
-    return Program("fetch", {"side": IMAGE_SIDE}, compiled(source), {"image": made})
+    return Program("fetch", {"side": IMAGE_SIDE}, compiled(fetch_source()), {"image": made})

@@ -131,7 +131,7 @@ def with_packed(shape: "Shape") -> "tuple[Program, int]":
 
     texture = shape.way("packed").texture
     assert isinstance(texture, Texture)
-    return packed_program(texture, "exact"), texture.nbytes
+    return packed_program(texture, is_flat=True), texture.nbytes
 
 
 def with_direct(shape: "Shape") -> "tuple[Program, int]":
