@@ -82,7 +82,9 @@ def write_pages(folder: Path) -> dict[str, Texture]:
     """Write NAME.html for some textures; they are returned."""
     (folder / "boat.svg").write_text(BOAT)
     (folder / "favicon.ico").write_bytes(b"")  # which browsers ask servers for
-    textures = {name: vexture.convert(SHAPES / f"{name}.svg", capacity=4) for name in ("duck", "ocean", "font")}
+    textures = {
+        name: vexture.convert(SHAPES / f"{name}.svg", capacity=4, tolerance=0) for name in ("duck", "ocean", "font")
+    }
     textures["boat"] = vexture.convert(folder / "boat.svg", split="paint")
     thesis = vexture.convert(SHAPES / "duck.svg", encoding="thesis")
     for name, texture in textures.items():
