@@ -72,7 +72,7 @@ def test_the_inspector_says_what_numpy_solves(
     generator = np.random.default_rng(5)
     outline = np.concatenate([leaf_at(texture, *generator.random(2))[5] for _ in range(40)])
     seen = 0
-    for curve in outline[:: max(1, len(outline) // 4)]:
+    for curve in outline[:: max(1, len(outline) // 6)]:
         u, v = np.array([1, 3, 3, 1]) / 8 @ curve
         if zoom > 1.0:
             shown.look((float(u), float(v)), zoom)
