@@ -144,6 +144,30 @@ def test_nothing_lies_outside_the_square_and_its_edge_is_smoothed() -> None:
     np.testing.assert_allclose(image[:, 2], [0.75, 1, 1, 1], atol=1e-6)
 
 
+@pytest.mark.parametrize("renderer", [render_cpu, render_gpu])
+@pytest.mark.parametrize(("wide", "pixels"), [(16, 3), (20, 3), (30, 3), (64, 9)])
+def test_pixels_wider_than_the_square(wide: float, pixels: int, renderer: Any) -> None:
+    """Their boxes do not fit the shader's integers, and their centres lie far from the square."""
+    if renderer is render_gpu:
+        need_gpu()
+    everything = Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
+    view = np.array([[wide / pixels, 0.0, 0.5 - wide / 2], [0.0, -1 / pixels, 1.0], [0.0, 0.0, 1.0]])
+    image = renderer(texture_of(everything), (pixels, pixels), view)
+    assert np.abs(image - render_exact(everything, (pixels, pixels), view)).max() < 0.01 * STEP
+
+
+@pytest.mark.parametrize("renderer", [render_cpu, render_gpu])
+def test_nothing_shows_above_a_plane_near_its_horizon(renderer: Any) -> None:
+    if renderer is render_gpu:
+        need_gpu()
+    everything = Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
+    view = np.array([[0.012, 0.0, -0.15], [0.0, -0.008, 0.8], [0.0, 0.022, -0.1]])
+    image = renderer(texture_of(everything), (100, 100), view)
+    truth = render_exact(everything, (100, 100), view)
+    assert not image[:20].any()
+    assert np.abs(image - truth).max() < 4 * STEP
+
+
 def test_one_texture_holds_many_shapes() -> None:
     need_gpu()
     shapes = [Drawing.polygon([(0.1, 0.1), (0.8, 0.2), (0.4, 0.9)]), blob()]

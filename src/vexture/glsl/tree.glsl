@@ -50,7 +50,10 @@ VexturePlace vexture_place(uvec2 base, vec2 offset, vec2 extent) {
     ivec2 point = (ivec2(base >> spare) + ivec2(whole)) << VEXTURE_REST_BITS;
     vec2 below = vec2(ivec2(base & uvec2((1 << spare) - 1)));
     vec2 rest = (scaled - whole) * one + below * (one / float(1 << spare));
-    int last = (1 << VEXTURE_POSITION_BITS) - 1;
+    float square = float(1 << VEXTURE_POSITION_BITS);
+    bool is_far = any(greaterThan(abs(offset) * square - square, extent));  // the box ends before the unit square
+    extent = min(extent, VEXTURE_FARTHEST * square);
+    int last = is_far ? -1 : (1 << VEXTURE_POSITION_BITS) - 1;
     ivec2 low = max(point + ivec2(floor(rest - extent)), 0);
     ivec2 high = min(point + ivec2(ceil(rest + extent)) - 1, last);
     return VexturePlace(point, rest, low, high);

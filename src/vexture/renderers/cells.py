@@ -119,8 +119,12 @@ def place_coordinate(base: int, offset: float, extent: float) -> tuple[int, floa
     whole = math.floor(scaled)
     point = ((base >> spare) + int(whole)) << REST_BITS
     rest = (scaled - whole) * one + (base & ((1 << spare) - 1)) * (one / float(1 << spare))
+    square = float(1 << POSITION_BITS)
+    is_far = abs(offset) * square - square > extent
+    extent = min(extent, FARTHEST * square)
+    last = -1 if is_far else (1 << POSITION_BITS) - 1
     low = max(point + math.floor(rest - extent), 0)
-    high = min(point + math.ceil(rest + extent) - 1, (1 << POSITION_BITS) - 1)
+    high = min(point + math.ceil(rest + extent) - 1, last)
     return point, rest, low, high
 
 
