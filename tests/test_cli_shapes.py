@@ -74,6 +74,7 @@ def test_files_for_servers_that_compress(square, tmp_path):
         assert texture.to_ktx2(deflate=False) == place[1].read_bytes()
     result = run("convert", square, "-o", tmp_path, "--encoding", "thesis", "--no-deflate")
     assert (result.exit_code, result.stderr.count("\n")) == (1, 1)
+    assert "--no-deflate means nothing" in result.stderr
 
 
 def test_atlas(square, tmp_path):

@@ -151,9 +151,10 @@ def _checked(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
     parameters = {name: value for name, value in options.items() if value is not None}
     for name, owner in BELONGS_TO.items():
         if name in parameters and owner != encoding:
+            value = parameters[name]
+            given = f"`no_{name}`" if value is False else f"`{name}` {value}"
             raise ParameterError(
-                f"`{name}` {parameters[name]} means nothing to the encoding {encoding}; "
-                f"leave it out or use `encoding` {owner}"
+                f"{given} means nothing to the encoding {encoding}; leave it out or use `encoding` {owner}"
             )
     if "bits" in parameters:
         parameters["bits"] = int(parameters["bits"])
