@@ -62,8 +62,8 @@ MAY_IMPORT: dict[str, set[str]] = {
 
 ABOVE_ALL = {"__init__", "cli"}
 
-THE_TRUTH = {"renderers/exact.py", "renderers/flatten.py", "renderers/view.py"}
-TRUTH_MAY_IMPORT = BASE | {"drawing", "renderers.flatten", "renderers.view"}
+THE_TRUTH = {f"renderers/{name}.py" for name in ("blend", "exact", "faces", "flatten", "slabs", "view")}
+TRUTH_MAY_IMPORT = BASE | {"drawing"} | {module.removesuffix(".py").replace("/", ".") for module in THE_TRUTH}
 """The exact renderer judges the tree, so it shares nothing with it."""
 
 LAYOUT_NUMBERS = {thesis_layout.CONTROL_MIN, thesis_layout.CONTROL_MAX, thesis_layout.LIST_LIMIT[16], layout.LATTICE}

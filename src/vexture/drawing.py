@@ -7,9 +7,10 @@ one and two thirds.
 
 from collections.abc import Iterable
 from copy import copy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from itertools import pairwise
+from math import prod
 from typing import Final
 
 import numpy as np
@@ -21,7 +22,7 @@ from vexture.errors import SourceError
 from vexture.notes import Note
 from vexture.tolerance import CLOSED
 
-__all__ = ["FARTHEST", "Drawing", "FillRule", "Paint", "Path"]
+__all__ = ["FARTHEST", "Blend", "Drawing", "FillRule", "Group", "Paint", "Path"]
 
 IDENTITY = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 
@@ -68,6 +69,50 @@ class Paint:
         return "#" + "".join(f"{round(255.0 * channel):02x}" for channel in channels)
 
 
+class Blend(IntEnum):
+    """How a group's colours mix with what is below, as in *Compositing and Blending Level 1* of the W3C."""
+
+    NORMAL = 0
+    MULTIPLY = 1
+    SCREEN = 2
+    OVERLAY = 3
+    DARKEN = 4
+    LIGHTEN = 5
+    COLOR_DODGE = 6
+    COLOR_BURN = 7
+    HARD_LIGHT = 8
+    SOFT_LIGHT = 9
+    DIFFERENCE = 10
+    EXCLUSION = 11
+    HUE = 12
+    SATURATION = 13
+    COLOR = 14
+    LUMINOSITY = 15
+    PLUS_LIGHTER = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Paths that are composited by themselves, on nothing, before the result goes on what is below.
+
+    Parameters
+    ----------
+    outer : int
+        The group around it, as a place in `Drawing.groups` before its own; -1 if there is none.
+    opacity : float
+        Of the whole, 0..1.
+    blend : Blend
+    """
+
+    outer: int = -1
+    opacity: float = 1.0
+    blend: Blend = Blend.NORMAL
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.opacity <= 1.0:
+            raise SourceError(f"a group has opacity {self.opacity}; it must be in 0..1")
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Path:
     """Closed contours that are filled together by one rule.
@@ -79,6 +124,8 @@ class Path:
         first starts where the last ends.
     fill_rule : FillRule
     paint : Paint
+    group : int
+        The innermost group around it, as a place in `Drawing.groups`; -1 if there is none.
 
     Raises
     ------
@@ -89,6 +136,7 @@ class Path:
     contours: tuple[NDArray[np.float64], ...]
     fill_rule: FillRule = FillRule.NONZERO
     paint: Paint = Paint()
+    group: int = -1
 
     def __post_init__(self) -> None:
         for contour in self.contours:
@@ -107,10 +155,10 @@ class Path:
             raise SourceError("a contour is open; every cubic must start exactly where the one before it ends")
 
     @classmethod
-    def _sound(cls, contours: tuple[NDArray[np.float64], ...], fill_rule: FillRule, paint: Paint) -> "Path":
-        """Path of contours that are known to be finite and closed, without a check."""
+    def _sound(cls, contours: tuple[NDArray[np.float64], ...], like: "Path") -> "Path":
+        """Path of contours that are known to be finite and closed, without a check; the rest is another's."""
         path = object.__new__(cls)
-        for name, value in zip(cls.__slots__, (contours, fill_rule, paint), strict=True):
+        for name, value in zip(cls.__slots__, (contours, like.fill_rule, like.paint, like.group), strict=True):
             object.__setattr__(path, name, value)
         return path
 
@@ -141,6 +189,8 @@ class Drawing:
         Coordinate reference system of the source's units, if it has one.
     notes : tuple of Note
         What was left out, simplified or invalid when it was read.
+    groups : tuple of Group
+        Each after the group around it. The paths of a group, with those of the groups in it, follow one another.
 
     Examples
     --------
@@ -154,8 +204,10 @@ class Drawing:
     name: str = "drawing"
     crs: str | None = None
     notes: tuple[Note, ...] = ()
+    groups: tuple[Group, ...] = ()
 
     def __post_init__(self) -> None:
+        self._check_groups()
         if np.shape(self.to_source) != (2, 3) or not np.isfinite(self.to_source).all():
             raise SourceError(f"{self.name}: to_source must be a finite (2, 3) array")
         ends = [contour[:, 0] for path in self.paths for contour in path.contours]
@@ -163,6 +215,32 @@ class Drawing:
             joined = np.concatenate(ends)
             if joined.min() < 0.0 or joined.max() > 1.0:
                 raise SourceError(f"{self.name}: a contour leaves the unit square; clip or scale it first")
+
+    def _check_groups(self) -> None:
+        """Raise a `SourceError` unless groups are nested, and each path names one of them that is still open."""
+        if not self.groups and all(path.group == -1 for path in self.paths):
+            return
+        for place, group in enumerate(self.groups):
+            if not -1 <= group.outer < place:
+                raise SourceError(f"{self.name}: group {place} lies in group {group.outer}, which is not before it")
+        ended: set[int] = set()
+        open_groups: list[int] = []
+        for path in self.paths:
+            if not -1 <= path.group < len(self.groups):
+                raise SourceError(f"{self.name}: a path is in group {path.group}, of {len(self.groups)}")
+            around = self.around(path.group)
+            ended.update(set(open_groups) - set(around))
+            open_groups = around
+            if not ended.isdisjoint(around):
+                raise SourceError(f"{self.name}: paths of group {path.group} do not follow one another")
+
+    def around(self, group: int) -> list[int]:
+        """The groups from the outermost to a given one, which may be -1."""
+        found = []
+        while group >= 0:
+            found.append(group)
+            group = self.groups[group].outer
+        return found[::-1]
 
     @property
     def segments(self) -> int:
@@ -173,7 +251,8 @@ class Drawing:
         """Split the drawing by paint: drawn in this order, the layers give the drawing in its colours.
 
         Consecutive paths of one opaque paint are one layer. A translucent paint shows twice where two paths overlap,
-        so its paths share a layer only if their boxes do not touch.
+        so its paths share a layer only if their boxes do not touch. Layers know no groups: each path has the opacities
+        of all groups around it by itself, and blends normally.
 
         Returns
         -------
@@ -189,6 +268,8 @@ class Drawing:
         >>> [(layer.name, len(layer.paths)) for layer in logo.layers()]
         [('logo/1-#ff0000', 2), ('logo/2-#0000ff80', 1), ('logo/3-#0000ff80', 1)]
         """
+        if self.groups:
+            return self._ungrouped().layers()
         boxes = np.array([path.box for path in self.paths]).reshape(-1, 2, 2)
         starts: list[int] = []
         for place, path in enumerate(self.paths):
@@ -203,6 +284,14 @@ class Drawing:
             self._part(start, end, f"{self.name}/{number}-{self.paths[start].paint.hex}")
             for number, (start, end) in enumerate(pairwise([*starts, len(self.paths)]), 1)
         )
+
+    def _ungrouped(self) -> "Drawing":
+        """The drawing without groups: each path has their opacities by itself."""
+        paths = []
+        for path in self.paths:
+            opacity = path.paint.opacity * prod(self.groups[group].opacity for group in self.around(path.group))
+            paths.append(replace(path, paint=Paint(path.paint.color, opacity), group=-1))
+        return replace(self, paths=tuple(paths), groups=())
 
     def _part(self, start: int, end: int, name: str) -> "Drawing":
         """Drawing of some of the paths, which were checked already."""
@@ -231,7 +320,11 @@ class Drawing:
 
     @classmethod
     def from_source(
-        cls, paths: Iterable[Path], box: tuple[float, float, float, float], name: str = "drawing"
+        cls,
+        paths: Iterable[Path],
+        box: tuple[float, float, float, float],
+        name: str = "drawing",
+        groups: tuple[Group, ...] = (),
     ) -> "Drawing":
         """Bring the paths of a source into the normal form.
 
@@ -245,6 +338,7 @@ class Drawing:
         box : tuple of float
             Least x, least y, width and height of the visible part, in the units of the source.
         name : str
+        groups : tuple of Group
 
         Raises
         ------
@@ -271,7 +365,7 @@ class Drawing:
         listed = list(paths)
         contours = [contour for path in listed for contour in path.contours]
         if not contours:
-            return cls((), to_source, name)
+            return cls((), to_source, name, groups=groups)
         joined = (np.concatenate(contours) - (x, y)) / size + low
         joined[..., 1] = 1.0 - joined[..., 1]
         ends = np.cumsum([len(contour) for contour in contours])
@@ -283,8 +377,8 @@ class Drawing:
             inside = tuple(kept[k] for k in range(at, after) if k in kept)
             at = after
             if inside:
-                normal.append(Path._sound(inside, path.fill_rule, path.paint))
-        return cls(tuple(normal), to_source, name)
+                normal.append(Path._sound(inside, path))
+        return cls(tuple(normal), to_source, name, groups=groups)
 
 
 def clipped(

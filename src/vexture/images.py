@@ -89,7 +89,10 @@ def render(
     *,
     root: str | int | None = None,
 ) -> "NDArray[np.float32]":
-    """Picture of a drawing or a texture in its colours: its layers, one over the other. Silhouettes are black.
+    """Picture of a drawing or a texture in its colours. Silhouettes are black.
+
+    ``"exact"`` draws each pixel's exact colour, with the drawing's groups; the others draw a texture's layers one over
+    the other, so that what is below shines through a little where two of them touch.
 
     Parameters
     ----------
@@ -126,12 +129,9 @@ def render(
     if renderer != "exact" and not empty:
         texture = convert(thing, split="paint") if isinstance(thing, Drawing) else thing
         return texture.render(size, view, renderer=renderer, root=root)
-    from vexture.renderers.exact import render_exact
-    from vexture.renderers.picture import painted
-    from vexture.renderers.view import size_of
+    from vexture.renderers.exact import render_exact_colours
 
-    layers = cast("Drawing", thing).layers()
-    return painted(size_of(size), ((layer.paths[0].paint, render_exact(layer, size, view)) for layer in layers))
+    return render_exact_colours(cast("Drawing", thing), size, view)
 
 
 def _check(thing: Shown, renderer: Renderer, root: str | int | None) -> None:

@@ -12,8 +12,9 @@ from PIL import Image
 from viewer_page import data_url, manifest, thesis_view, write_page
 
 import vexture
-from vexture.images import render
 from vexture.live.documents import VIEWER_PARAMETERS, shape_of
+from vexture.renderers.exact import render_exact
+from vexture.renderers.picture import painted
 
 SIZE = (512, 512)
 PRECISION = 1e-7  # for views at 10,000x
@@ -38,8 +39,9 @@ class Viewed:
         if self.texture.roots[0].paint is None:
             grey = 255.0 * (1.0 - vexture.coverage(self.drawing, size, matrix, renderer="exact").astype(np.float64))
             return np.repeat(grey[..., None], 3, axis=2)
-        layers = render(self.drawing, size, matrix, renderer="exact").astype(np.float64)
-        return 255.0 * (layers[..., :3] + 1.0 - layers[..., 3:])
+        layers = [(layer.paths[0].paint, render_exact(layer, size, matrix)) for layer in self.drawing.layers()]
+        picture = painted(size, layers).astype(np.float64)  # as the page draws them: one over the other
+        return 255.0 * (picture[..., :3] + 1.0 - picture[..., 3:])
 
 
 def write_pages(folder: Path, url: str) -> dict[str, Viewed]:

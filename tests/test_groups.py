@@ -1,0 +1,45 @@
+"""Groups of a drawing: how they nest, and the layers without them."""
+
+import pytest
+
+from vexture.drawing import Blend, Drawing, Group, Paint, Path
+from vexture.errors import SourceError
+
+SQUARE = Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]).paths[0].contours
+
+
+def drawing(groups: tuple[Group, ...], *places: int) -> Drawing:
+    """A drawing with a translucent square in each of some groups."""
+    return Drawing(tuple(Path(SQUARE, paint=Paint(opacity=0.5), group=place) for place in places), groups=groups)
+
+
+def test_layers_have_the_opacities_of_the_groups_around_them() -> None:
+    nested = drawing((Group(opacity=0.5, blend=Blend.MULTIPLY), Group(0, 0.25)), -1, 0, 1, 0)
+    layers = nested.layers()
+    assert [layer.paths[0].paint.opacity for layer in layers] == [0.5, 0.25, 0.0625, 0.25]
+    assert all(layer.groups == () and layer.paths[0].group == -1 for layer in layers)
+
+
+@pytest.mark.parametrize(
+    ("groups", "places", "message"),
+    [
+        ((Group(0),), (), "group 0 lies in group 0"),
+        ((Group(-2),), (), "group 0 lies in group -2"),
+        ((), (0,), "in group 0, of 0"),
+        ((Group(),), (-2,), "in group -2, of 1"),
+        ((Group(),), (0, -1, 0), "paths of group 0 do not follow"),
+        ((Group(), Group(0)), (1, 0, 1), "paths of group 1 do not follow"),
+        ((Group(), Group(0), Group()), (1, 2, 0), "paths of group 0 do not follow"),
+    ],
+)
+def test_a_group_that_is_not_nested_is_refused(
+    groups: tuple[Group, ...], places: tuple[int, ...], message: str
+) -> None:
+    with pytest.raises(SourceError, match=message):
+        drawing(groups, *places)
+
+
+@pytest.mark.parametrize("opacity", [-0.1, 1.1, float("nan")])
+def test_an_opacity_beyond_its_range_is_refused(opacity: float) -> None:
+    with pytest.raises(SourceError, match="opacity"):
+        Group(opacity=opacity)
