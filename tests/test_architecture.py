@@ -31,7 +31,7 @@ LONGEST_EXAMPLE = 40
 DUMPING_GROUNDS = {"common", "helper", "helpers", "misc", "tools", "util", "utils"}
 
 BASE = {"deadline", "errors", "kernels", "machine_code", "tolerance"}
-SOURCES = BASE | {"bezier", "content", "drawing", "notes"}
+SOURCES = BASE | {"bezier", "content", "drawing", "notes", "unit_square"}
 MAY_IMPORT: dict[str, set[str]] = {
     "deadline": {"errors"},
     "errors": set(),
@@ -42,7 +42,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     "content": {"errors"},
     "notes": {"errors"},
     "bezier": {"kernels", "tolerance"},
-    "drawing": BASE | {"bezier", "notes"},
+    "unit_square": {"bezier", "errors", "tolerance"},
+    "drawing": BASE | {"bezier", "notes", "unit_square"},
     "svg": SOURCES,
     "geo": SOURCES,
     "tracing": SOURCES | {"svg"},

@@ -120,6 +120,30 @@ def test_json_has_the_facts_of_each_source(logo, tmp_path):
     assert "holds nothing that can be read" in failed["error"]
 
 
+SHARED = '<g opacity="0.5"><path d="M1 1h5v5z"/><path d="M1 1h5v5z"/></g>'
+LOST = "simplified: opacity of a group, which each of its shapes has by itself"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("convert", "-o", "."), []),
+        (("convert", "-o", ".", "--split", "paint"), ["{file}: " + LOST]),
+        (("convert", "--atlas", "a.ktx2", "--split", "paint"), ["{file}: " + LOST]),
+        (("render", "-o", "a.png", "--size", "8"), ["a: " + LOST]),
+        (("render", "-o", "a.png", "--size", "8", "--renderer", "exact"), ["a: " + LOST]),
+        (("render", "-o", "a.png", "--size", "8", "--silhouette"), []),
+    ],
+)
+def test_what_layers_lose_is_said_where_they_are_made(tmp_path, monkeypatch, arguments, said):
+    monkeypatch.chdir(tmp_path)
+    file = tmp_path / "a.svg"
+    file.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">{SHARED}</svg>')
+    result = run(arguments[0], file, *arguments[1:])
+    assert result.exit_code == 0
+    assert result.stderr.splitlines() == [f"vexture: warning: {line.format(file=file)}" for line in said]
+
+
 def test_processes_make_the_same_files(logo, tmp_path):
     sources = []
     for number in range(3):

@@ -32,7 +32,7 @@ from vexture.errors import SourceWarning, VextureError
 from vexture.notes import line_of
 from vexture.svg.document import parse_svg
 from vexture.svg.read import framed_drawing
-from vexture_evidence.measures.peers import skia_path
+from vexture_evidence.measures.peers import paint_with_skia
 
 __all__ = ["READING_LIMIT", "TEXTURE_LIMIT", "Case", "Child", "Facts"]
 
@@ -193,14 +193,12 @@ def enlarged(content: bytes, drawing: Drawing, side: int) -> tuple[bytes, tuple[
 
 
 def drawn(drawing: Drawing, shape: tuple[int, int], size: tuple[float, float]) -> NDArray[np.uint8]:
-    """What Skia draws from the paths of a drawing, the top left corner of its box in the corner of the picture."""
+    """What Skia draws of a drawing, the top left corner of its box in the corner of the picture."""
     pixels = np.zeros((*shape, 4), np.uint8)
     side = max(size)
     matrix = np.array([[side, 0.0, (size[0] - side) / 2], [0.0, -side, (size[1] + side) / 2], [0.0, 0.0, 1.0]])
     with skia.Surface(pixels) as canvas:
-        for path in drawing.paths:
-            color = skia.Color4f(*path.paint.color, path.paint.opacity)
-            canvas.drawPath(skia_path(path, matrix), skia.Paint(Color4f=color, AntiAlias=True))
+        paint_with_skia(canvas, drawing, matrix)
     return pixels
 
 

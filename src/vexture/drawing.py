@@ -5,29 +5,30 @@ left. Every contour is closed and made of cubics only; a straight line is a cubi
 one and two thirds.
 """
 
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from copy import copy
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from itertools import pairwise
-from math import prod
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.convert import line_cubics, straight
+from vexture.bezier.convert import line_cubics
 from vexture.deadline import check_time
 from vexture.errors import SourceError
 from vexture.notes import Note
-from vexture.tolerance import CLOSED
+from vexture.unit_square import clipped, tidied
 
-__all__ = ["FARTHEST", "Blend", "Drawing", "FillRule", "Group", "Paint", "Path"]
+__all__ = ["Blend", "Drawing", "FillRule", "Group", "Paint", "Path"]
+
+SHARED_OPACITY: Final = "opacity of a group, which each of its shapes has by itself"
+BLENDING: Final = "mix-blend-mode"
+"""Messages about layers, which know no groups."""
 
 IDENTITY = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-
-FARTHEST: Final = 1e9
-"""Unit-square units. Beyond it, float64 cannot tell points within the drawing apart by 1e-6."""
 
 
 class FillRule(IntEnum):
@@ -258,7 +259,7 @@ class Drawing:
         -------
         tuple of Drawing
             In painting order, each of one paint and named ``name/number-colour``, counted from 1, with the notes of
-            the whole; an empty tuple if nothing is painted.
+            the whole, and of what the groups would change; an empty tuple if nothing is painted.
 
         Examples
         --------
@@ -286,12 +287,26 @@ class Drawing:
         )
 
     def _ungrouped(self) -> "Drawing":
-        """The drawing without groups: each path has their opacities by itself."""
-        paths = []
-        for path in self.paths:
-            opacity = path.paint.opacity * prod(self.groups[group].opacity for group in self.around(path.group))
-            paths.append(replace(path, paint=Paint(path.paint.color, opacity), group=-1))
-        return replace(self, paths=tuple(paths), groups=())
+        """The drawing without groups: each path has their opacities by itself; notes say where a picture differs."""
+        opacities = {-1: 1.0}
+        for place, group in enumerate(self.groups):
+            opacities[place] = opacities[group.outer] * group.opacity
+        paths = tuple(
+            replace(path, paint=Paint(path.paint.color, opacities[path.group] * path.paint.opacity), group=-1)
+            for path in self.paths
+        )
+        return replace(self, paths=paths, groups=(), notes=(*self.notes, *self._lost()))
+
+    def _lost(self) -> Iterator[Note]:
+        """Notes of what layers lose of the groups; a path by itself loses no opacity."""
+        held = Counter(path.group for path in self.paths)
+        for place in reversed(range(len(self.groups))):
+            held[self.groups[place].outer] += held[place]
+        shared = sum(group.opacity < 1.0 and held[place] > 1 for place, group in enumerate(self.groups))
+        blended = sum(group.blend is not Blend.NORMAL and held[place] > 0 for place, group in enumerate(self.groups))
+        for message, count in ((SHARED_OPACITY, shared), (BLENDING, blended)):
+            if count:
+                yield Note("simplified", message, count)
 
     def _part(self, start: int, end: int, name: str) -> "Drawing":
         """Drawing of some of the paths, which were checked already."""
@@ -379,46 +394,3 @@ class Drawing:
             if inside:
                 normal.append(Path._sound(inside, path))
         return cls(tuple(normal), to_source, name, groups=groups)
-
-
-def clipped(
-    joined: NDArray[np.float64], ends: NDArray[np.intp], low: NDArray[np.float64], high: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-    """Clip contours to a box: all their cubics one after another, and the indices at which the contours end."""
-    reach = np.abs(joined).max()
-    if not reach <= FARTHEST:
-        raise SourceError(
-            f"a coordinate is {reach:.3g} times the size of the drawing away; the limit is {FARTHEST:g}; "
-            "correct the coordinate or the view box"
-        )
-    beyond = np.maximum(low - joined, joined - high).max(axis=(1, 2))
-    if beyond.max() > CLOSED:
-        from vexture.bezier.clip import clip_contour  # compiled code, which most drawings never need
-
-        starts = np.concatenate([[0], ends[:-1]])
-        outside = np.maximum.reduceat(beyond, starts) > CLOSED
-        contours = np.split(joined, ends[:-1])
-        for k in np.flatnonzero(outside):
-            contours[k] = clip_contour(contours[k], low, high)
-        joined, ends = np.concatenate(contours), np.cumsum([len(contour) for contour in contours])
-    joined[:, ::3] = np.clip(joined[:, ::3], low, high)
-    return joined, ends
-
-
-def tidied(joined: NDArray[np.float64], ends: NDArray[np.intp]) -> dict[int, NDArray[np.float64]]:
-    """Contours that enclose an area, by index, without cubics of no length, closed bit for bit, with exact lines.
-
-    The parameters are those that `clipped` returns.
-    """
-    keep = np.abs(joined - joined[:, :1]).max(axis=(1, 2)) > CLOSED
-    joined, owner = joined[keep], np.searchsorted(ends, np.flatnonzero(keep), side="right")
-    start = np.flatnonzero(np.diff(owner, prepend=-1))
-    end = np.append(start[1:], len(joined))[: len(start)]
-    previous = np.arange(-1, len(joined) - 1)
-    previous[start] = end - 1
-    joined[:, 0] = joined[previous, 3]
-    lines = straight(joined)
-    joined[lines] = line_cubics(joined[lines, 0], joined[lines, 3])
-    bent = np.append(0, np.cumsum(~lines))
-    encloses = (end - start > 2) | (bent[end] > bent[start])  # two straight sides enclose nothing
-    return {int(owner[s]): joined[s:e] for s, e in zip(start[encloses], end[encloses], strict=True)}

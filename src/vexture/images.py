@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias, cast
 
 from vexture.encodings import EncodedTexture
 from vexture.errors import ParameterError
-from vexture.pipeline import convert
+from vexture.pipeline import convert, run, warn_of_loss
 
 if TYPE_CHECKING:  # imported at run time when needed: compiler and driver take long
     import numpy as np
@@ -113,6 +113,11 @@ def render(
     ParameterError, TypeError, DeviceError
         As in `vexture.coverage`.
 
+    Warns
+    -----
+    SourceWarning
+        Of what the layers of a drawing lose: shared opacity and blending.
+
     Examples
     --------
     >>> from vexture.drawing import Drawing, Paint, Path
@@ -127,11 +132,21 @@ def render(
     _check(thing, renderer, root)
     empty = isinstance(thing, Drawing) and not thing.paths
     if renderer != "exact" and not empty:
-        texture = convert(thing, split="paint") if isinstance(thing, Drawing) else thing
-        return texture.render(size, view, renderer=renderer, root=root)
+        return _stacked(thing).render(size, view, renderer=renderer, root=root)
     from vexture.renderers.exact import render_exact_colours
 
     return render_exact_colours(cast("Drawing", thing), size, view)
+
+
+def _stacked(thing: Shown) -> EncodedTexture:
+    """A texture as it is, or one of a drawing's layers; warns of what they lose."""
+    from vexture.drawing import Drawing
+
+    if not isinstance(thing, Drawing):
+        return thing
+    conversion = run(thing, split="paint")
+    warn_of_loss(thing, conversion.notes, stacklevel=3)
+    return conversion.texture
 
 
 def _check(thing: Shown, renderer: Renderer, root: str | int | None) -> None:

@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, ove
 from vexture.deadline import DEFAULT_SECONDS, within
 from vexture.encodings import DEFAULT, EncodedTexture, find_encoding
 from vexture.errors import ParameterError
-from vexture.notes import warn_of
+from vexture.notes import Note, warn_of
 from vexture.tolerance import UNSEEN
 
 if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take long
     from vexture.drawing import Drawing
     from vexture.texture.texture import Root, Texture
 
-__all__ = ["Conversion", "Parameters", "Source", "atlas", "combine", "convert", "run", "trees_of"]
+__all__ = ["Conversion", "Parameters", "Source", "atlas", "combine", "convert", "run", "trees_of", "warn_of_loss"]
 
 Source: TypeAlias = "Drawing | str | os.PathLike[str]"
 """A drawing, or the path of a file that `vexture.read` reads."""
@@ -61,6 +61,7 @@ class Conversion(Generic[AnyTexture]):
     rounding: float  # largest shift of an outline by rounding to the texture's bits, in unit-square units
     roots: "tuple[Root, ...]" = ()  # of the trees in a packed texture
     source: str = ""  # its name in messages
+    notes: tuple[Note, ...] = ()  # of the drawing, or if it was split, of its layers
 
     @property
     def tree(self) -> Any:
@@ -105,7 +106,7 @@ def run(
     with within(max_seconds):
         drawing = _drawing_of(source, select)
         tree, other_texture, rounding = other.convert(drawing, **parameters)
-    return Conversion(drawing, (tree,), other_texture, time.perf_counter() - start, rounding)
+    return Conversion(drawing, (tree,), other_texture, time.perf_counter() - start, rounding, notes=drawing.notes)
 
 
 def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
@@ -136,7 +137,8 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     )
     named = drawing.name if _is_drawing(source) else os.fspath(source)  # type: ignore[arg-type]
     seconds, rounding = time.perf_counter() - start, largest_shift(parameters.precision)
-    return Conversion(drawing, trees, None, seconds, rounding, roots, named)
+    notes = layers[0].notes if layers else drawing.notes
+    return Conversion(drawing, trees, None, seconds, rounding, roots, named, notes)
 
 
 def combine(parts: Sequence[Conversion[Any]], name: str, source: str | None = None) -> "Texture":
@@ -239,7 +241,7 @@ def convert(
     Warns
     -----
     SourceWarning
-        Once for a file, of all notes of its reader (`Drawing.notes`).
+        Once for a source: of all notes of a file's reader (`Drawing.notes`), and of what the layers of a drawing lose.
 
     Examples
     --------
@@ -252,9 +254,17 @@ def convert(
     values = ((field.name, getattr(named, field.name)) for field in fields(named))
     given = {name: value for name, value in values if value is not None}
     conversion = run(source, encoding=encoding, **given, **others)
-    if not _is_drawing(source):  # `vexture.read` has warned already
-        warn_of(os.fspath(source), conversion.drawing.notes)  # type: ignore[arg-type]
+    if isinstance(source, str | os.PathLike):
+        warn_of(os.fspath(source), conversion.notes)
+    else:
+        warn_of_loss(conversion.drawing, conversion.notes)
     return conversion.texture
+
+
+def warn_of_loss(drawing: "Drawing", notes: Iterable[Note], *, stacklevel: int = 2) -> None:
+    """Warn of notes that a drawing does not have itself: `vexture.read` has warned of those."""
+    lost = [note for note in notes if note not in drawing.notes]
+    warn_of(drawing.name, lost, stacklevel=stacklevel + 1)
 
 
 def atlas(
@@ -304,9 +314,12 @@ def atlas(
         sources = [sources]
     parts = []
     for source in sources:
-        parts.append(trees_of(source, parameters))
-        if not _is_drawing(source):
-            warn_of(parts[-1].source, parts[-1].drawing.notes)
+        part = trees_of(source, parameters)
+        parts.append(part)
+        if _is_drawing(source):
+            warn_of_loss(part.drawing, part.notes)
+        else:
+            warn_of(part.source, part.notes)
     return combine(parts, name)
 
 

@@ -14,6 +14,10 @@ pytestmark = pytest.mark.filterwarnings("ignore::vexture.errors.SourceWarning")
 ROOT = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10">{}</svg>'
 SQUARE = ROOT.format('<path d="M2 2h6v6h-6z"/>').encode()
 OTHER = ROOT.format('<path d="M2 2h6v7h-6z"/>').encode()
+GROUPED = ROOT.format(
+    '<path fill="red" d="M0 0h10v4h-10z"/><g opacity="0.5" style="mix-blend-mode: multiply">'
+    '<path d="M2 2h6v6h-6z"/><path fill="#8f8" d="M1 1h4v8h-4z"/></g>'
+).encode()
 MASKED = ROOT.format('<path d="M2 2h6v6h-6z" mask="url(#a)"/>').encode()
 LETTERED = ROOT.format('<path d="M2 2h6v6h-6z"/><text>a</text>').encode()
 
@@ -29,6 +33,9 @@ def judged(content: bytes, same: bytes | None = None) -> str:
     ("content", "same", "outcome"),
     [
         (SQUARE, None, "right"),
+        (GROUPED, None, "right"),
+        (GROUPED, GROUPED.replace(b'opacity="0.5"', b'fill-opacity="0.5"'), "silent"),
+        (GROUPED, GROUPED.replace(b"multiply", b"screen"), "silent"),
         (SQUARE, OTHER, "silent"),
         (MASKED, OTHER, "warned"),
         (LETTERED, OTHER, "silent"),  # no reference draws text

@@ -198,11 +198,12 @@ def test_file_that_is_no_drawing_does_not_hide_the_others(tmp_path):
 def test_warnings_are_facts(tmp_path):
     drawing = tmp_path / "label.svg"
     drawing.write_text(
-        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><path d="M1 1h5v5z"/><text>a</text></svg>'
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><g opacity="0.5"><path d="M1 1h5v5z"/>'
+        '<path d="M1 1h5v5z"/></g><text>a</text></svg>'
     )
     with viewing(tmp_path, drawing) as running:
         (warning,) = running.manifest("label")["facts"]["warnings"]
-        assert "left out: <text>" in warning
+        assert "left out: <text>; simplified: opacity of a group" in warning
         assert warning in running.complaints.read_text()
 
 

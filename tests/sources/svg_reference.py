@@ -12,7 +12,7 @@ import skia
 from PIL import Image
 
 from vexture.drawing import Drawing
-from vexture_evidence.measures.peers import skia_path
+from vexture_evidence.measures.peers import paint_with_skia
 
 __all__ = ["difference", "render_drawing", "render_file"]
 
@@ -25,14 +25,11 @@ def render_file(text: str) -> np.ndarray:
 
 
 def render_drawing(drawing: Drawing, height: int, width: int) -> np.ndarray:
-    """What Skia draws from the contours of a drawing that fills a rectangle, (height, width, 4)."""
+    """What Skia draws from the contours and groups of a drawing that fills a rectangle, (height, width, 4)."""
     size = max(height, width)
     pixels = np.zeros((size, size, 4), np.uint8)
     with skia.Surface(pixels) as canvas:
-        for path in drawing.paths:
-            outline = skia_path(path, np.array([[size, 0, 0], [0, -size, size], [0, 0, 1]]))
-            color = skia.Color4f(*path.paint.color, path.paint.opacity)
-            canvas.drawPath(outline, skia.Paint(Color4f=color, AntiAlias=True))
+        paint_with_skia(canvas, drawing, np.array([[size, 0, 0], [0, -size, size], [0, 0, 1]]))
     top, left = (size - height) // 2, (size - width) // 2
     return premultiplied(pixels)[top : top + height, left : left + width]
 

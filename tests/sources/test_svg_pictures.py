@@ -13,10 +13,14 @@ from vexture.errors import SourceWarning
 from vexture.svg.read import read_svg
 
 FIXTURES = Path(__file__).parent / "fixtures"
-TOPICS = ("paths", "shapes", "strokes", "structure", "style", "transform", "viewport")
+TOPICS = ("groups", "paths", "shapes", "strokes", "structure", "style", "transform", "viewport")
 
 # what PyPI's resvg does not know, in words that it and we understand alike
 PLAINER = {
+    "groups/blend-upper-case": '<path fill="#c08040" d="M0 20h100v40h-100z"/>'
+    '<path style="mix-blend-mode: multiply" fill="#8f8" d="M30 0h20v100h-20z"/>',
+    "groups/opacity-of-nested-svg": '<g opacity="0.5"><path fill="red" d="M10 10h50v50h-50z"/>'
+    '<circle fill="blue" cx="60" cy="60" r="25"/></g>',
     "paths/data-in-css": '<path d="M10 10H90V90z"/>',
     "strokes/dashes-path-length": '<path d="M10 44h8v12h-8zm16 0h8v12h-8zm16 0h8v12h-8zm16 0h8v12h-8zm16 0h8v12h-8z"/>',
     "strokes/not-scaling": '<path fill="none" stroke="black" stroke-width="10" d="M20 15L50 75L80 15"/>',
@@ -64,7 +68,7 @@ def box_of(path: Path) -> str:
 
 
 def test_fixtures_are_all_there() -> None:
-    assert len(fixture_names()) > 140
+    assert len(fixture_names()) > 185
     assert set(PLAINER) <= set(fixture_names())
 
 

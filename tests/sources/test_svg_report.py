@@ -1,11 +1,13 @@
 """What is not supported is named, once for a file."""
 
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from vexture import read
+from vexture import atlas, convert, coverage, read, render
+from vexture.drawing import Drawing
 from vexture.errors import SourceWarning
 from vexture.svg.read import read_svg
 
@@ -45,7 +47,7 @@ def test_unsupported_features_are_named_once(path: Path) -> None:
 
 
 GROUP = "opacity of a group, which each of its shapes has by itself"
-SHAPE = "opacity of a shape, which its fill and its stroke have by themselves"
+BLEND = "mix-blend-mode"
 TWO = '<rect width="5" height="5"/><rect x="2" width="5" height="5"/>'
 BESIDE = '<rect width="2" height="5"/><rect x="2" width="5" height="5"/>'
 
@@ -53,7 +55,7 @@ BESIDE = '<rect width="2" height="5"/><rect x="2" width="5" height="5"/>'
 @pytest.mark.parametrize(
     ("body", "said"),
     [
-        ('<rect width="5" height="5" stroke="red" opacity=".5"/>', [SHAPE]),
+        ('<rect width="5" height="5" stroke="red" opacity=".5"/>', [GROUP]),
         ('<rect width="5" height="5" opacity=".5"/>', []),
         (f'<g opacity=".5">{TWO}</g>', [GROUP]),
         (f'<g opacity=".5"><g>{TWO}</g></g>', [GROUP]),
@@ -61,20 +63,55 @@ BESIDE = '<rect width="2" height="5"/><rect x="2" width="5" height="5"/>'
         (f'<g opacity="1">{TWO}</g>', []),
         (f'<defs><g id="a">{TWO}</g></defs><use href="#a" opacity=".5"/>', [GROUP]),
         (f'<svg opacity=".5">{TWO}</svg>', [GROUP]),
-        ('<rect width="5" height="5" style="mix-blend-mode: multiply"/>', ["mix-blend-mode"]),
+        ('<rect width="5" height="5" style="mix-blend-mode: multiply"/>', [BLEND]),
+        ('<rect width="5" height="5" style="mix-blend-mode: multiply; opacity: .5"/>', [BLEND]),
+        (f'<g opacity=".5"><g opacity=".5">{TWO}</g></g>', [f"{GROUP} (2)"]),
+        (f'<g opacity=".5" style="mix-blend-mode: screen">{TWO}</g>', [GROUP, BLEND]),
         ('<rect width="5" height="5" style="mix-blend-mode: normal"/>', []),
     ],
 )
-def test_opacity_and_blending_that_are_not_drawn_are_named(body: str, said: list[str]) -> None:
-    with warnings.catch_warnings(action="ignore", category=SourceWarning):
-        drawing = read(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">{body}</svg>'.encode())
-    assert [note.message for note in drawing.notes] == said
+def test_layers_name_what_they_lose_and_readings_lose_nothing(body: str, said: list[str]) -> None:
+    drawing = read(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">{body}</svg>'.encode())
+    assert drawing.notes == ()
+    assert all([str(note) for note in layer.notes] == said for layer in drawing.layers())
 
 
-def test_opacity_of_the_outermost_svg_is_named() -> None:
+def test_layers_name_the_opacity_of_the_outermost_svg() -> None:
+    drawing = read(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9" opacity=".5">{TWO}</svg>'.encode())
+    assert [str(note) for note in drawing.layers()[0].notes] == [GROUP]
+
+
+SHARED = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><g opacity=".5">{TWO}</g><text>a</text></svg>'
+
+
+def warned(work: Callable[[], object]) -> list[str]:
+    with warnings.catch_warnings(record=True, action="always") as caught:
+        work()
+    assert {warning.filename for warning in caught} <= {__file__}
+    return [str(warning.message) for warning in caught]
+
+
+def test_what_layers_lose_is_warned_of_where_a_drawing_is_stacked(tmp_path: Path) -> None:
+    file = tmp_path / "a.svg"
+    file.write_text(SHARED)
+    unread, lost = f"{file}: left out: <text>", f"simplified: {GROUP}"
+    assert warned(lambda: convert(file)) == [unread]
+    assert warned(lambda: convert(file, split="paint")) == [f"{unread}; {lost}"]
+    assert warned(lambda: atlas([file], split="paint")) == [f"{unread}; {lost}"]
+    drawing = file_drawing(file)
+    assert warned(lambda: coverage(drawing, 4)) == []
+    for stacked in (
+        lambda: convert(drawing, split="paint"),
+        lambda: atlas([drawing], split="paint"),
+        lambda: render(drawing, 4),
+        lambda: render(drawing, 4, renderer="exact"),
+    ):
+        assert warned(stacked) == [f"a: {lost}"]
+
+
+def file_drawing(file: Path) -> Drawing:
     with warnings.catch_warnings(action="ignore", category=SourceWarning):
-        drawing = read(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9" opacity=".5">{TWO}</svg>'.encode())
-    assert [note.message for note in drawing.notes] == [GROUP]
+        return read(file)
 
 
 @pytest.mark.parametrize(

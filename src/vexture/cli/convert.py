@@ -232,7 +232,7 @@ def _convert_one(
             size = sum(map(len, files.values()))
     except EXPECTED as error:
         return Outcome(source, {}, error=str(error))
-    warning = line_of(str(source), done.drawing.notes)
+    warning = line_of(str(source), done.notes)
     return Outcome(source, _facts(done) | {"bytes": size}, files, done if for_atlas else None, warning)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
-from vexture.drawing import Drawing, FillRule, Path, clipped, tidied
+from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import SourceError
 from vexture.geo.crs import (
     UNPLACED,
@@ -30,6 +30,7 @@ from vexture.geo.rings import Rings, cut, moved, oriented, refuse_far, repaired,
 from vexture.geo.vectors import read_areas
 from vexture.notes import Notes
 from vexture.tolerance import CLOSED
+from vexture.unit_square import clipped, tidied
 
 __all__ = ["read_polygons"]
 

@@ -29,7 +29,6 @@ __all__ = [
     "shape_of",
     "texture_shape",
     "thesis_pair",
-    "told",
 ]
 
 VIEW_PRECISION = 1e-7
@@ -55,8 +54,8 @@ SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
 def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters) -> Shape:
     """Convert the content of a file, or check and keep that of a packed texture, into a shape that can be published.
 
-    The file's name, which stands in messages, is never opened. The facts of the shape hold the drawing's notes as text;
-    its views hold the source of an SVG, to compare with.
+    The file's name, which stands in messages, is never opened. The facts of the shape hold the notes as text; its
+    views hold the source of an SVG, to compare with.
 
     Examples
     --------
@@ -81,10 +80,9 @@ def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters) -> 
     else:
         drawing = read_drawing(plain, name=file_name, select=parameters.select)
     shape = converted(replace(drawing, name=name), file_name, parameters, start)
-    facts = {**shape.facts, "warnings": told(file_name, drawing)}
     if kind is not FileKind.SVG:
-        return replace(shape, facts=facts)
-    facts["box"] = _box_in_browsers(framed, drawing.to_source)
+        return shape
+    facts = {**shape.facts, "box": _box_in_browsers(framed, drawing.to_source)}
     return replace(shape, facts=facts, views={"svg": File(plain, "image/svg+xml", ".svg")})
 
 
@@ -101,12 +99,6 @@ def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, ...]:
     return tuple(texture.files().values())
 
 
-def told(file_name: str, drawing: "Drawing") -> list[str]:
-    """A drawing's notes as pages show them: one line, if there are any."""
-    line = line_of(file_name, drawing.notes)
-    return [line] if line else []
-
-
 @cache
 def load_kernels() -> None:
     """Load the kernels, for which only the first conversion of a process waits: no file's time includes it."""
@@ -117,13 +109,14 @@ def load_kernels() -> None:
 
 
 def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start: float) -> Shape:
-    """Shape of a drawing, with the facts of its conversion."""
+    """Shape of a drawing, with the facts of its conversion; its notes are one line, if there are any."""
     from vexture.pipeline import combine, trees_of
 
     part = trees_of(drawing, replace(parameters, select=None))  # what was selected is the drawing already
     texture = combine([part], drawing.name, PurePath(file_name).name)
     milliseconds = 1000.0 * (time.perf_counter() - start)
     data = texture.to_ktx2()
+    line = line_of(file_name, part.notes)
     facts = {
         "segments": drawing.segments,
         "layers": len(part.trees),
@@ -134,6 +127,7 @@ def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start:
         "distance": max(tree.deviation for tree in part.trees) + part.rounding,
         "to_source": drawing.to_source.ravel().tolist(),
         "box": None,
+        "warnings": [line] if line else [],
     }
     return Shape(drawing.name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
 

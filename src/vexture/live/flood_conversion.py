@@ -13,7 +13,7 @@ from vexture.content import FileKind, kind_of, start_of, unpacked
 from vexture.errors import LimitError, ParameterError, SourceError, VextureError
 from vexture.flood.scene import PREFIX, labels
 from vexture.geo.extent import Extent, Frame, Step
-from vexture.live.documents import converted, load_kernels, texture_shape, told
+from vexture.live.documents import converted, load_kernels, texture_shape
 from vexture.live.shelf import File, Shape
 from vexture.pipeline import Parameters
 
@@ -59,7 +59,6 @@ class FloodConversion:
             "label": label,
             "dry": self._is_dry(step),
             "deepest": None if most is None else round(most, 3),
-            "warnings": told(name, step.drawing),
         }
         return replace(shape, facts=facts, views=views)
 

@@ -44,11 +44,8 @@ class PaintServers:
                 self.by_id.setdefault(element.get("id", ""), element)
         return self.by_id.get(match[1]) if match[1] else None
 
-    def paint(self, style: Style, name: str, opacity: float) -> Paint | None:
-        """Flat paint of `name`, "fill" or "stroke", for an element of a style; None if nothing is painted.
-
-        `opacity` is the product of the opacities of the element and of all elements around it.
-        """
+    def paint(self, style: Style, name: str) -> Paint | None:
+        """Flat paint of `name`, "fill" or "stroke", for an element of a style; None if nothing is painted."""
         text = parse_paint(style[name])
         if text is None:
             return None
@@ -61,7 +58,7 @@ class PaintServers:
             return None
         if not color.exact:
             self.report.simplified("colour of a space other than sRGB read as black")
-        opacity *= color.alpha * style.opacity(f"{name}-opacity")
+        opacity = color.alpha * style.opacity(f"{name}-opacity")
         return Paint(color.rgb, opacity) if opacity > 0.0 else None
 
     def server_color(self, link: str, fallback: Color | str | None, style: Style) -> Color | str | None:

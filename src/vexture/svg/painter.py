@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vexture.drawing import FillRule, Paint, Path
 from vexture.errors import SourceError
+from vexture.svg.compositing import Veil
 from vexture.svg.outline import Outline
 from vexture.svg.paint_servers import PaintServers
 from vexture.svg.report import Report
@@ -26,7 +27,7 @@ MOST_SEGMENTS = 5_000_000
 
 
 class Painter:
-    """Collects the paths of what is painted, in order.
+    """Collects the paths of what is painted, in order, and the innermost veil around each.
 
     `size` is the larger side of the drawing, which bounds the error of approximations; None while the side is unknown.
     """
@@ -36,6 +37,7 @@ class Painter:
         self.report = report
         self.size = size
         self.paths: list[Path] = []
+        self.veils: list[Veil | None] = []
         self.segments: int = 0
 
     def paint(self, element: etree._Element, place: Place) -> None:
@@ -43,8 +45,8 @@ class Painter:
         style = place.style
         if style["visibility"].lower() != "visible" or place.space.flat:
             return
-        fill = self.servers.paint(style, "fill", place.opacity)
-        line = self.servers.paint(style, "stroke", place.opacity)
+        fill = self.servers.paint(style, "fill")
+        line = self.servers.paint(style, "stroke")
         if fill is None and line is None:
             return
         scale = scale_of(place.space.whole)
@@ -96,6 +98,7 @@ class Painter:
         shown = [contour for contour in shown if len(contour)]
         if shown:
             self.paths.append(Path(tuple(shown), rule, paint))
+            self.veils.append(place.veil)
             if place.veil is not None:
                 ends = np.concatenate([contour.reshape(-1, 2) for contour in shown])
                 place.veil.add((*ends.min(axis=0), *ends.max(axis=0)))

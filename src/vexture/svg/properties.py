@@ -8,10 +8,14 @@ import re
 from collections.abc import Callable
 from typing import NamedTuple
 
+from vexture.drawing import Blend
 from vexture.svg.colors import parse_color, parse_paint
 from vexture.svg.path_data import NUMBER
 
-__all__ = ["CSS_ONLY", "PROPERTIES", "Property"]
+__all__ = ["BLENDS", "CSS_ONLY", "PROPERTIES", "Property"]
+
+BLENDS = {blend.name.lower().replace("_", "-"): blend for blend in Blend}
+"""Blend modes by their names in CSS."""
 
 
 class Property(NamedTuple):
@@ -72,8 +76,9 @@ PROPERTIES: dict[str, Property] = {
     "display": Property("inline", False, anything),
     "filter": Property("none", False, anything),
     "height": Property("auto", False, matching(f"auto|{SIZE}")),
+    "isolation": Property("auto", False, one_of("auto", "isolate")),
     "mask": Property("none", False, anything),
-    "mix-blend-mode": Property("normal", False, anything),
+    "mix-blend-mode": Property("normal", False, one_of(*BLENDS)),
     "opacity": Property("1", False, matching(OPACITY)),
     "overflow": Property("hidden", False, one_of("visible", "hidden", "scroll", "auto", "clip")),
     "r": Property("0", False, matching(SIZE)),
@@ -95,5 +100,5 @@ PROPERTIES: dict[str, Property] = {
     "y": Property("0", False, matching(LENGTH)),
 }
 
-CSS_ONLY = frozenset({"rotate", "scale", "translate"})
-"""Properties whose names have another meaning as attributes."""
+CSS_ONLY = frozenset({"isolation", "mix-blend-mode", "rotate", "scale", "translate"})
+"""Properties that are no presentation attributes (SVG 2, 6.6); some names have another meaning as attributes."""

@@ -13,6 +13,7 @@ from vexture.content import about, decompressed, read_bytes
 from vexture.drawing import Drawing
 from vexture.errors import SourceError
 from vexture.notes import warn_of
+from vexture.svg.compositing import occupied
 from vexture.svg.document import parse_svg
 from vexture.svg.report import Report
 from vexture.svg.scene import Scene
@@ -31,7 +32,8 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
     """Read an SVG file, plain or gzipped.
 
     Shapes, paths, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as browsers
-    draw them. Gradients become the mean of their colours. What is not supported is left out and named.
+    draw them. Opacity and blend modes that need several paths together become `Drawing.groups`. Gradients become the
+    mean of their colours. What is not supported is left out and named.
 
     The box of the drawing is the outermost viewport: `width` and `height`, or the size in `viewBox` where one of them
     is missing or a percentage. A drawing without any of them is as large as what it paints.
@@ -123,15 +125,17 @@ def drawing_of(scene: Scene, framed: Frame | None, name: str) -> Drawing:
         box: Rectangle = (0.0, 0.0, *size)
     else:
         viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
-        paths = Scene(scene.root, Report()).paint(viewport, matrix, None)  # all of it, to measure; notes come later
+        paths, _ = Scene(scene.root, Report()).paint(viewport, matrix, None)  # all of it, to measure; notes come later
         if not paths:
             return Drawing((), name=name)
         left, top, right, bottom = bounds(np.concatenate([contour for path in paths for contour in path.contours]))
         box = (left, top, right - left, bottom - top)
         if box[2] == 0.0 or box[3] == 0.0:
             return Drawing((), name=name)
-    drawing = Drawing.from_source(scene.paint(viewport, matrix, max(box[2:])), box, name)
-    return replace(drawing, to_source=after(drawing.to_source, matrix.inverse()))
+    paths, groups = scene.paint(viewport, matrix, max(box[2:]))
+    drawing = Drawing.from_source(paths, box, name, groups)
+    shown, groups = occupied(drawing.paths, groups)
+    return replace(drawing, paths=shown, groups=groups, to_source=after(drawing.to_source, matrix.inverse()))
 
 
 def frame(scene: Scene) -> Frame | None:

@@ -11,14 +11,15 @@ from lxml import etree
 
 from vexture.bezier.bounds import bounds
 from vexture.deadline import check_time
-from vexture.drawing import Path
+from vexture.drawing import Group, Path
 from vexture.errors import SourceError
+from vexture.svg.compositing import Veil, grouped, veil_of
 from vexture.svg.document import local_name
 from vexture.svg.paint_servers import PaintServers, reference
 from vexture.svg.painter import Painter
 from vexture.svg.report import Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
-from vexture.svg.space import Place, Space, Veil
+from vexture.svg.space import Place, Space
 from vexture.svg.style import INITIAL, Cascade, Style
 from vexture.svg.transform import Identity, Transform, parse_origin, parse_transform
 from vexture.svg.values import Viewport
@@ -47,14 +48,12 @@ EFFECTS = {
     "clip-path": "none",
     "filter": "none",
     "mask": "none",
-    "mix-blend-mode": "normal",
     "rotate": "none",
     "scale": "none",
     "translate": "none",
 }
 """Properties that are not supported, and the value of each without effect."""
 
-GROUP = "group, which each of its shapes has by itself"
 MARKED = frozenset({"line", "path", "polygon", "polyline"})
 LANGUAGE = "en"
 """Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
@@ -69,28 +68,28 @@ class Scene:
         self.root = root
         self.chosen = chosen
         self.report = report
-        self.veils: list[Veil] = []
         self.cascade: Cascade = Cascade(root, report)
         self.servers: PaintServers = PaintServers(root, self.cascade, report)
         self.style: Style = self.cascade.style(root, INITIAL)
 
-    def paint(self, viewport: Viewport, matrix: Transform, size: float | None) -> list[Path]:
-        """Paint everything; percentages at the root refer to `viewport`, and `matrix` maps user units to the drawing.
+    def paint(self, viewport: Viewport, matrix: Transform, size: float | None) -> tuple[list[Path], tuple[Group, ...]]:
+        """Paint everything, and find the groups.
 
-        `size` is the drawing's larger side, None if it is unknown. Raises a `SourceError` if a limit is exceeded or
+        Percentages at the root refer to `viewport`, and `matrix` maps user units to the drawing. `size` is the
+        drawing's larger side, None if it is unknown. Raises a `SourceError` if a limit is exceeded or
         `use` shows itself.
         """
         painter = Painter(self.servers, self.report, size)
         opacity = self.style.opacity("opacity")
         if self.style["display"].lower() == "none" or opacity == 0.0:
-            return []
+            return [], ()
         self.note_effects(self.style)
         if "transform" in self.style.own:
             self.report.left_out("transform of the outermost <svg>")
         chosen = self.chosen is None or self.root in self.chosen
-        place = Place(viewport, Space().moved(matrix), self.style, opacity, self.root, chosen=chosen)
-        if opacity < 1.0:
-            place = replace(place, veil=self.veil(None, "svg"))
+        place = Place(viewport, Space().moved(matrix), self.style, self.root, chosen=chosen)
+        if opacity < 1.0:  # a blend mode of the outermost element has nothing below it to mix with
+            place = replace(place, veil=Veil(None, opacity))
         used = 0
         stack = [(child, place) for child in reversed(self.root)]
         while stack:
@@ -103,16 +102,7 @@ class Scene:
                 stack.extend(reversed(self.visit(element, place, painter)))
             except SourceError as error:
                 raise SourceError(f"{described(element)}: {error}") from None
-        for veil in self.veils:
-            if veil.overlaps:
-                self.report.simplified(veil.note)
-        return painter.paths
-
-    def veil(self, outer: Veil | None, name: str) -> Veil:
-        """A new element with an opacity of its own."""
-        what = "shape, which its fill and its stroke have by themselves" if name in SHAPES else GROUP
-        self.veils.append(Veil(outer, f"opacity of a {what}"))
-        return self.veils[-1]
+        return grouped(painter.paths, painter.veils)
 
     def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Placed]:
         """Paint an element, or return the elements that it shows."""
@@ -125,8 +115,7 @@ class Scene:
                 self.report.left_out("script" if name == "script" else "animation")
             return []
         style = self.cascade.style(element, place.style)
-        opacity = place.opacity * style.opacity("opacity")
-        if style["display"].lower() == "none" or opacity == 0.0:
+        if style["display"].lower() == "none" or style.opacity("opacity") == 0.0:
             return []
         if name not in SHAPES and name not in CONTAINERS and name != "use":
             if chosen:
@@ -139,10 +128,8 @@ class Scene:
         if place.depth >= DEEPEST:
             raise SourceError(f"it stands inside {DEEPEST:,} others; flatten the groups or the uses")
         space, depth = place.space.moved(matrix), place.depth + 1
-        veil = self.veil(place.veil, name) if opacity < place.opacity else place.veil
-        inner = Place(
-            place.viewport, space, style, opacity, element, place, depth, place.used, chosen=chosen, veil=veil
-        )
+        veil = veil_of(style, place.veil)
+        inner = Place(place.viewport, space, style, element, place, depth, place.used, chosen=chosen, veil=veil)
         if name in SHAPES:
             self.note_children(element, name, style)
             painter.paint(element, inner)

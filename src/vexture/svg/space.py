@@ -1,6 +1,6 @@
 """Where an element stands: its user units, the viewports that clip it, and the style that it inherits."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from lxml import etree
@@ -8,12 +8,13 @@ from numpy.typing import NDArray
 
 from vexture.bezier.clip import clip_contour
 from vexture.errors import SourceError
+from vexture.svg.compositing import Veil
 from vexture.svg.style import INITIAL, Style
 from vexture.svg.transform import Identity, Transform, mapped
 from vexture.svg.values import LARGEST, Viewport
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["Place", "Space", "Veil"]
+__all__ = ["Place", "Space"]
 
 SMALLEST = 1 / LARGEST**4
 """Smallest determinant: below it, sizes in user units cannot be computed in floating point."""
@@ -58,36 +59,6 @@ class Space:
         return contour
 
 
-MOST_BOXES = 500
-"""Paths in a group that are compared with one another."""
-
-Box = tuple[float, float, float, float]
-"""Left, bottom, right and top, in the drawing's coordinates."""
-
-
-@dataclass(slots=True, eq=False)
-class Veil:
-    """A group or shape with an opacity of its own, and what is painted in it."""
-
-    outer: "Veil | None"
-    note: str  # for the user, if anything painted in it overlaps
-    boxes: list[Box] = field(default_factory=list)
-    overlaps: bool = False
-
-    def add(self, box: Box) -> None:
-        """Add the box of a path; those of more than `MOST_BOXES` are taken to overlap."""
-        self.overlaps = self.overlaps or len(self.boxes) == MOST_BOXES or any(meet(box, other) for other in self.boxes)
-        if not self.overlaps:
-            self.boxes.append(box)
-        if self.outer is not None:
-            self.outer.add(box)
-
-
-def meet(a: Box, b: Box) -> bool:
-    """Whether the insides of two boxes have a point in common."""
-    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Place:
     """The context of an element in the drawing; `use` puts the same element in several places."""
@@ -95,7 +66,6 @@ class Place:
     viewport: Viewport  # percentages refer to it
     space: Space  # the user units
     style: Style = INITIAL  # style to inherit
-    opacity: float = 1.0  # product of the opacities around it
     element: etree._Element | None = None  # the parent, or the `use` that shows it
     outer: "Place | None" = None  # the place of `element`
     depth: int = 0  # number of elements around it

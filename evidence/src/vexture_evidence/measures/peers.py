@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vexture.drawing import FillRule
+from vexture.drawing import Blend, FillRule
 from vexture.errors import DeviceError
 from vexture.renderers.view import size_of, view_matrix
 from vexture_evidence.measures.raster import FULL
@@ -20,7 +20,16 @@ from vexture_evidence.measures.raster import FULL
 if TYPE_CHECKING:
     from vexture.drawing import Drawing, Path
 
-__all__ = ["check_peers", "render_resvg", "render_skia", "resvg_renderer", "skia_path", "skia_renderer", "svg_text"]
+__all__ = [
+    "check_peers",
+    "paint_with_skia",
+    "render_resvg",
+    "render_skia",
+    "resvg_renderer",
+    "skia_path",
+    "skia_renderer",
+    "svg_text",
+]
 
 DIGITS: Final = 8
 """Decimals of a coordinate; both libraries compute in float32."""
@@ -147,6 +156,38 @@ def skia_path(path: "Path", matrix: NDArray[np.float64]) -> Any:
         outline.close()
     outline.transform(skia.Matrix(matrix.tolist()))
     return outline
+
+
+def paint_with_skia(canvas: Any, drawing: "Drawing", matrix: NDArray[np.float64]) -> None:
+    """Paint a drawing in its colours and groups on a canvas of Skia; the (3, 3) matrix maps to its pixels.
+
+    Raises
+    ------
+    DeviceError
+        If Skia is not installed.
+    """
+    skia = _skia()
+    inside: list[int] = []
+    for path in drawing.paths:
+        around = drawing.around(path.group)
+        while inside != around[: len(inside)]:
+            canvas.restore()
+            inside.pop()
+        for place in around[len(inside) :]:
+            group = drawing.groups[place]
+            canvas.saveLayer(None, skia.Paint(Alphaf=group.opacity, BlendMode=_skia_mode(group.blend)))
+        inside = around
+        color = skia.Color4f(*path.paint.color, path.paint.opacity)
+        canvas.drawPath(skia_path(path, matrix), skia.Paint(Color4f=color, AntiAlias=True))
+    for _ in inside:
+        canvas.restore()
+
+
+def _skia_mode(blend: Blend) -> Any:
+    """Skia's name of a blend mode, such as kColorDodge; without blending it is kSrcOver."""
+    other = {Blend.NORMAL: "kSrcOver", Blend.PLUS_LIGHTER: "kPlus"}
+    named = "k" + blend.name.title().replace("_", "")
+    return getattr(_skia().BlendMode, other.get(blend, named))
 
 
 def check_peers() -> None:

@@ -1,0 +1,104 @@
+"""Which elements are groups of the drawing: opacity, blend modes and isolation, where a picture shows them."""
+
+from dataclasses import dataclass, field, replace
+
+from vexture.drawing import Blend, Group, Paint, Path
+from vexture.svg.properties import BLENDS
+from vexture.svg.style import Style
+
+__all__ = ["Veil", "grouped", "occupied", "veil_of"]
+
+MOST_BOXES = 500
+"""Paths in a veil that are compared with one another."""
+
+ISOLATING = ("clip-path", "filter", "mask")
+"""Properties that isolate an element, whatever they are beside "none"; 2D transforms do not."""
+
+Box = tuple[float, float, float, float]
+"""Left, bottom, right and top, in the drawing's coordinates."""
+
+
+@dataclass(slots=True, eq=False)
+class Veil:
+    """An element that the standard composites by itself (Compositing and Blending 1, 3.2), and what it paints.
+
+    It becomes a group only where the picture would differ without.
+    """
+
+    outer: "Veil | None"
+    opacity: float
+    blend: Blend = Blend.NORMAL
+    boxes: list[Box] = field(default_factory=list)
+    overlaps: bool = False
+    mixes: bool = False  # whether something that is painted in it has a blend mode, which must not see beyond
+
+    def add(self, box: Box) -> None:
+        """Add the box of a path; those of more than `MOST_BOXES` are taken to overlap."""
+        veil: Veil | None = self
+        while veil is not None and not veil.overlaps:  # around a veil that overlaps, all do
+            veil.overlaps = len(veil.boxes) == MOST_BOXES or any(meet(box, other) for other in veil.boxes)
+            veil.boxes.append(box)
+            if veil.outer is not None and veil.blend is not Blend.NORMAL:
+                veil.outer.mixes = True
+            veil = veil.outer
+
+    @property
+    def is_group(self) -> bool:
+        """Whether its paths cannot have its opacity by themselves, or a blend mode shows that they are together."""
+        blends = self.blend is not Blend.NORMAL and (self.outer is None or self.outer.overlaps)
+        return blends or (self.overlaps and (self.opacity < 1.0 or self.mixes))
+
+
+def meet(a: Box, b: Box) -> bool:
+    """Whether the insides of two boxes have a point in common."""
+    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+
+
+def veil_of(style: Style, outer: Veil | None) -> Veil | None:
+    """The veil of an element inside the outermost one; the one around it if it is not composited by itself."""
+    if not style.own:
+        return outer
+    opacity, blend = style.opacity("opacity"), BLENDS[style["mix-blend-mode"].lower()]
+    isolated = style["isolation"].lower() == "isolate" or any(style[name].lower() != "none" for name in ISOLATING)
+    if opacity == 1.0 and blend is Blend.NORMAL and not isolated:
+        return outer
+    return Veil(outer, opacity, blend)
+
+
+def grouped(paths: list[Path], veils: list[Veil | None]) -> tuple[list[Path], tuple[Group, ...]]:
+    """Put paths, each with the innermost veil around it, into groups; they get the opacities of the other veils."""
+    groups: list[Group] = []
+    places: dict[Veil | None, tuple[int, float]] = {None: (-1, 1.0)}  # the group, and the opacity of paths in it
+    done = []
+    for path, innermost in zip(paths, veils, strict=True):
+        unknown = []
+        veil = innermost
+        while veil not in places:
+            assert veil is not None
+            unknown.append(veil)
+            veil = veil.outer
+        for veil in reversed(unknown):
+            place, opacity = places[veil.outer]
+            if veil.is_group:
+                groups.append(Group(place, veil.opacity if veil.overlaps else 1.0, veil.blend))
+                place = len(groups) - 1
+            places[veil] = place, opacity if veil.overlaps else opacity * veil.opacity
+        place, opacity = places[innermost]
+        if innermost is not None:
+            path = replace(path, paint=Paint(path.paint.color, opacity * path.paint.opacity), group=place)
+        done.append(path)
+    return done, tuple(groups)
+
+
+def occupied(paths: tuple[Path, ...], groups: tuple[Group, ...]) -> tuple[tuple[Path, ...], tuple[Group, ...]]:
+    """Paths and their groups, without the groups that hold none of them."""
+    held = {path.group for path in paths}
+    for place in reversed(range(len(groups))):
+        if place in held:
+            held.add(groups[place].outer)
+    kept = [place for place in range(len(groups)) if place in held]
+    if len(kept) == len(groups):
+        return paths, groups
+    places = {-1: -1} | {place: new for new, place in enumerate(kept)}
+    moved = tuple(replace(path, group=places[path.group]) for path in paths)
+    return moved, tuple(replace(groups[place], outer=places[groups[place].outer]) for place in kept)
