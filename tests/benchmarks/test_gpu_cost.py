@@ -154,7 +154,7 @@ def test_turns_in_the_middle_of_a_square(name):
 def test_turns_of_a_deep_tree_are_those_that_its_fetches_tell(is_flat):
     """The mirror fetches the root for each cell, each quad on the way to it, and each of its pieces; squares beside the
     footprint cost the shader a cell, and the mirror nothing."""
-    texture = programs.packed_texture(corpora.fractal_coastline(768, 1))
+    texture = programs.packed_texture(corpora.fractal_coastline(12_288, 1))
     pixel = 1.0 / gpu_turns.SIDE
     view = np.array([[pixel, 0.0, 0.0], [0.0 if is_flat else pixel, pixel, 0.0], [0.0, 0.0, 1.0]])
     turns, fetched, beside = Turns(gpu_cost.SHAPES["flat" if is_flat else "any"]), [], []

@@ -38,9 +38,8 @@ __all__ = ["CORPUS", "TARGETS", "FindingError", "Target"]
 CORPUS = Path(__file__).parent / "corpus"
 ROOT = Path(__file__).parents[2]
 LONGEST_MESSAGE = 500
-WHOLE_CELLS, CUT_CELLS = 1 / 255, 9 / 255
-"""Largest errors of coverage of degenerate drawings: where cells are whole pixels or parts, and where pixels cut cells,
-which then count by their mean."""
+LARGEST_ERROR = 1 / 255
+"""Of the coverage of degenerate drawings, in pixels that are whole cells and in those that cut cells."""
 
 PNG = b"\x89PNG\r\n\x1a\n"
 PLACES = np.array([((i % 4) / 4 + 0.103, i // 4 / 4 + 0.157) for i in range(16)])
@@ -189,7 +188,7 @@ def read_geometry(data: bytes) -> str:
     width = int(size)
     texture = convert(drawing)
     error = np.abs(texture.coverage(width) - render_exact(drawing, width)).max()
-    if not error <= (WHOLE_CELLS if width.bit_count() == 1 else CUT_CELLS):
+    if not error <= LARGEST_ERROR:
         raise FindingError(f"{kind}: an error of {255 * error:.1f}/255 at {width} pixels")
     return f"{kind} {texture.depth} {texture.texels.shape[0]}"
 

@@ -44,6 +44,7 @@ def check(drawing, seed, tolerance=0.0, **parameters):
     assert ends.min(initial=0) >= 0
     assert ends.max(initial=0) <= LATTICE
     mean_of_cells_is_coverage(tree)
+    numbered_breadth_first(tree)
     truth = render_exact(drawing, (64, 64)).mean(dtype=np.float64)
     assert abs(tree.coverage[0].mean() - truth) <= AREA_ROUNDING + 10.0 * tolerance
     if drawing.segments:
@@ -55,6 +56,13 @@ def mean_of_cells_is_coverage(tree):
     for quad, cell in zip(*np.nonzero(tree.is_quad), strict=True):
         below = tree.first_quad[quad] + np.count_nonzero(tree.is_quad[quad, :cell])
         assert tree.coverage[quad, cell] == pytest.approx(tree.coverage[below].mean(), abs=1e-12)
+
+
+def numbered_breadth_first(tree):
+    """First quads and curves follow from the order alone; a shader tells by it how many quads come before one."""
+    below, pieces = tree.is_quad.sum(axis=1), tree.count.sum(axis=1, dtype=int)
+    np.testing.assert_array_equal(tree.first_quad, np.where(below, 1 + np.cumsum(below) - below, 0))
+    np.testing.assert_array_equal(tree.first_curve, np.where(pieces, np.cumsum(pieces) - pieces, 0))
 
 
 def points_are_inside_where_the_drawing_says(drawing, found, seed, tolerance):

@@ -175,11 +175,11 @@ float vextureCoverage(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     VextureSquare square = vexture_first_square(place);
     int shared_bit = square.bit;
     int finest = vexture_finest_bit(frame.size, frame.longer);
-    VextureTop top = VextureTop(root, VEXTURE_POSITION_BITS);
+    VextureTop top = vexture_top(root);
     float area = 0.0;
     bool beside = false;
     while (square.position.x < VEXTURE_NO_CELL) {
-        VextureCell cell = vexture_descend(top, shared_bit, beside ? VEXTURE_POSITION_BITS : finest, square.position);
+        VextureCell cell = vexture_descend(top, shared_bit, beside ? VEXTURE_NO_CELL : finest, square.position);
         cell.bit = beside ? square.bit : cell.bit;
         ivec2 origin = square.position & -(1 << cell.bit);
         float more = vexture_cell_area(cell, vexture_box(origin, cell.bit, place, frame.extent), frame);

@@ -73,7 +73,7 @@ float vextureFlatCoverage(uint root, uvec2 base, vec2 offset, VextureFlat view) 
     VexturePlace place = vexture_place(base, offset, view.extent);
     VextureSquare square = vexture_first_square(place);
     int shared_bit = square.bit;
-    VextureTop top = VextureTop(root, VEXTURE_POSITION_BITS);
+    VextureTop top = vexture_top(root);
     float area = 0.0;
     while (square.position.x < VEXTURE_NO_CELL) {
         VextureCell cell = vexture_descend(top, shared_bit, view.finest, square.position);

@@ -11,7 +11,7 @@ bool vexture_is_clear(uint root, VextureSpot spot) {
     VexturePlace place = vexture_place(spot.base, spot.offset, spot.reach * float(1 << VEXTURE_POSITION_BITS));
     VextureSquare square = vexture_first_square(place);
     int shared_bit = square.bit;
-    VextureTop top = VextureTop(root, VEXTURE_POSITION_BITS);
+    VextureTop top = vexture_top(root);
     int cells = vexture_most_cells;
     float lowest = 1.0;
     float highest = 0.0;

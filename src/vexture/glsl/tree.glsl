@@ -1,5 +1,5 @@
 // Reading the packed texture (FORMAT.md, part B): positions, and the cells down the tree.
-// Exports: VexturePlace, VextureCell, VextureTop, VextureSquare, vexture_place, vexture_texel, vexture_descend.
+// Exports: VexturePlace, VextureCell, VextureSquare, vexture_place, vexture_texel, vexture_top, vexture_descend.
 //
 // Positions are signed integers in units of 2^-POSITION_BITS of the unit square, so that a pixel beyond the square's edge
 // has one too; a float holds the rest. A cell's side is a power of two, 2^bit positions.
@@ -32,6 +32,7 @@ struct VextureSquare {
 struct VextureTop {
     uint quad;
     int bit;
+    uint followed;  // quads before this one are followed below the finest cells: the first of the shape, if any
 };
 
 int vexture_first_row = 0;  // of the texture to read: an image may hold several, one below the other
@@ -97,14 +98,21 @@ int vexture_finest_bit(float area, float longer) {
     return clamp(finest, VEXTURE_POSITION_BITS - VEXTURE_MOST_DEPTH, VEXTURE_POSITION_BITS - VEXTURE_LEAST_FINEST);
 }
 
-// The cell at a position: a leaf, or a quad of the side `finest`. `top` becomes the quad of the side `shared`.
+// The descents of a shape begin at its root.
+VextureTop vexture_top(uint root) {
+    return VextureTop(root, VEXTURE_POSITION_BITS, root + uint(VEXTURE_FOLLOWED_QUADS));
+}
+
+// The cell at a position: a leaf, or a quad of the side `finest`, or a smaller one below the shape's first quads. `top`
+// becomes the quad of the side `shared`. Quads are numbered breadth first, so that a shape of few quads is followed
+// everywhere, and one of many nowhere that is fine.
 VextureCell vexture_descend(inout VextureTop top, int shared, int finest, ivec2 position) {
     uint quad = top.quad;
     int bit = top.bit;
     uvec4 texel = vexture_texel(quad);
     uint shift = 0u;
     bool is_quad = true;
-    while (is_quad && bit > finest) {
+    while (is_quad && bit > (quad < top.followed ? finest - VEXTURE_FURTHER : finest)) {
         bit--;
         shift = ((uint(position.x << 3) >> bit) & 8u) | ((uint(position.y << 4) >> bit) & 16u);
         is_quad = ((texel.z >> shift) & uint(VEXTURE_QUAD_FLAG)) != 0u;

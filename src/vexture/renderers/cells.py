@@ -17,6 +17,8 @@ from vexture.layout import (
 )
 from vexture.renderers.method import (
     FARTHEST,
+    FOLLOWED_QUADS,
+    FURTHER,
     LEAST_FINEST,
     LEVEL_BIAS,
     LONG,
@@ -45,6 +47,7 @@ __all__ = [
     "place",
     "stored_coverage",
     "texel",
+    "top",
     "winding_code",
 ]
 
@@ -84,6 +87,7 @@ class Top(NamedTuple):
 
     quad: int
     bit: int
+    followed: int
 
 
 @kernel(allocates=False)
@@ -165,13 +169,19 @@ def finest_bit(area: float, longer: float) -> int:
 
 
 @kernel(allocates=False)
+def top(root: int) -> Top:
+    """Start of the descents of a shape."""
+    return Top(root, POSITION_BITS, root + FOLLOWED_QUADS)
+
+
+@kernel(allocates=False)
 def descend(texels: Texels, top: Top, shared: int, finest: int, position: Whole2) -> tuple[Cell, Top]:
     """Return the new `top` too, which GLSL changes in place."""
     quad, bit = top.quad, top.bit
     found = texel(texels, quad)
     shift = 0
     is_quad = True
-    while is_quad and bit > finest:
+    while is_quad and bit > (finest - FURTHER if quad < top.followed else finest):
         bit -= 1
         shift = ((position[0] >> bit) & 1) * 8 + ((position[1] >> bit) & 1) * 16
         is_quad = ((found[2] >> shift) & QUAD_FLAG) != 0
@@ -180,7 +190,7 @@ def descend(texels: Texels, top: Top, shared: int, finest: int, position: Whole2
             quad = found[0] + ((before * 0x010101 >> 16) & 3)
             found = texel(texels, quad)
             if bit == shared:
-                top = Top(quad, bit)
+                top = Top(quad, bit, top.followed)
     return Cell(found, shift, bit, is_quad), top
 
 

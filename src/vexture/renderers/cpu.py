@@ -21,7 +21,6 @@ from vexture.renderers.cells import (
     Square,
     Texel,
     Texels,
-    Top,
     Vec2,
     Whole2,
     clamp,
@@ -34,6 +33,7 @@ from vexture.renderers.cells import (
     place,
     stored_coverage,
     texel,
+    top,
     winding_code,
 )
 from vexture.renderers.method import (
@@ -146,11 +146,11 @@ def flat_coverage(texels: Texels, root: int, base: Whole2, offset: Vec2, view: F
     there = place(base, offset, view.extent)
     square = first_square(there)
     shared = square.bit
-    top = Top(root, POSITION_BITS)
+    start = top(root)
     area = 0.0
     while square.position[0] < NO_CELL:
         position = square.position
-        cell, top = descend(texels, top, shared, view.finest, position)
+        cell, start = descend(texels, start, shared, view.finest, position)
         side = 1 << cell.bit
         origin = (position[0] & -side, position[1] & -side)
         local = box(origin, cell.bit, there, view.extent)
@@ -317,13 +317,13 @@ def coverage(texels: Texels, root: int, base: Whole2, offset: Vec2, dx: Vec2, dy
     square = first_square(there)
     shared = square.bit
     finest = finest_bit(pixel.size, pixel.longer)
-    top = Top(root, POSITION_BITS)
+    start = top(root)
     area = 0.0
     beside = False
     while square.position[0] < NO_CELL:
         position, bit = square.position, square.bit
         if not beside:
-            cell, top = descend(texels, top, shared, finest, position)
+            cell, start = descend(texels, start, shared, finest, position)
             bit = cell.bit
         side = 1 << bit
         origin = (position[0] & -side, position[1] & -side)

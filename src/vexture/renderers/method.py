@@ -10,6 +10,8 @@ __all__ = [
     "DRAWN",
     "FADED_CELL",
     "FARTHEST",
+    "FOLLOWED_QUADS",
+    "FURTHER",
     "LEAST_FINEST",
     "LEVEL_BIAS",
     "LONG",
@@ -61,7 +63,7 @@ CLOSE: Final = 0.02
 NO_SIZE: Final = 2.0**-16
 """Sides of a box: below the least nonzero size of a piece, a lattice unit of its cell."""
 
-BEND: Final = 16.0
+BEND: Final = 20.0
 """Parts of a piece for each square pixel that its end directions span with its chord."""
 
 MOST_PARTS: Final = 8.0
@@ -75,6 +77,13 @@ DRAWN: Final = 0.7
 
 SMALL_FINEST: Final = 8
 """Down to this level, the sum descends one more."""
+
+FOLLOWED_QUADS: Final = 256
+"""The first quads of a shape, breadth first, are followed below the finest cells: all of most drawings, and only the
+coarse ones of a coast of thousands of edges, most of whose pixels would pay for it."""
+
+FURTHER: Final = 2
+"""Levels by which they are followed."""
 
 LEAST_FINEST: Final = 4
 """Least level of this sum: even a picture of a few pixels uses the leaves of most drawings."""

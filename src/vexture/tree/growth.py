@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vexture.kernels import kernel
 from vexture.layout import MOST_CURVES
 from vexture.tree.divide import PARTS, PiecePool
-from vexture.tree.tree import Tree
+from vexture.tree.tree import Tree, levels, runs
 
 __all__ = [
     "COUNT",
@@ -79,22 +79,29 @@ def has_room(tree: Growth) -> bool:
 
 
 def tree_of(tree: Growth) -> Tree:
-    """The tree that has grown, in its final types."""
-    quads, curves, unresolved, _ = tree.counts.tolist()
-    cells, first = tree.cells[:quads], tree.first[:quads].astype(np.int32)
-    # what nobody reads is 0: it compresses better
-    first *= np.stack([cells[:, :, IS_QUAD].any(axis=1), cells[:, :, COUNT].any(axis=1)], axis=1)
+    """The tree that has grown, its quads numbered level by level, in its final types."""
+    quads, _, unresolved, _ = tree.counts.tolist()
+    order = np.concatenate([*levels(tree.cells[:quads, :, IS_QUAD] == 1.0, tree.first[:, 0])])
+    cells = tree.cells[order]
+    is_quad = cells[:, :, IS_QUAD] == 1.0
+    below, pieces = is_quad.sum(axis=1), cells[:, :, COUNT].sum(axis=1).astype(np.int64)
     return Tree(
-        cells[:, :, IS_QUAD] == 1.0,
+        is_quad,
         cells[:, :, COUNT].astype(np.uint8),
         cells[:, :, WINDING].astype(np.int8),
-        first[:, 0].copy(),
-        first[:, 1].copy(),
+        _first(below, 1),
+        _first(pieces, 0),
         cells[:, :, COVERAGE].copy(),
-        tree.curves[:curves].astype(np.int32),
+        tree.curves[runs(tree.first[order, 1], pieces)].astype(np.int32),
         deviation=float(tree.deviation[0]),
         unresolved=unresolved,
     )
+
+
+def _first(lengths: NDArray[np.int64], start: int) -> NDArray[np.int32]:
+    """Numbers of the first of so many, one run after another; 0 where there are none: it compresses better."""
+    firsts = start + np.cumsum(lengths) - lengths
+    return np.where(lengths > 0, firsts, 0).astype(np.int32)
 
 
 def with_needed_room(tree: Growth) -> Growth:

@@ -1,11 +1,13 @@
 """The quad-tree, as arrays."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["MOST_QUADS", "Tree"]
+__all__ = ["MOST_QUADS", "Tree", "levels", "runs"]
 
 MOST_QUADS = 2_000_000
 """Quads of the largest tree that is built, some 200 MB."""
@@ -16,7 +18,7 @@ class Tree:
     """A quad-tree with packed leaves: each holds a few monotone pieces on the leaf's own lattice.
 
     Quad 0 is the unit square. Cell k of a quad is its (x half) + 2 (y half), y up. The quads below a quad have
-    consecutive numbers, after its own, in the order of its cells without the leaves; so have the curves of its leaves,
+    consecutive numbers, in the order of its cells without the leaves: level by level. So have the curves of its leaves,
     in the order of its cells without the quads.
 
     In every leaf the winding number is 0 or 1, and 1 means filled: the filled side is on the left of a piece. At a
@@ -40,11 +42,28 @@ class Tree:
     @property
     def widest_leaf(self) -> float:
         """Width of the largest leaf with pieces, in unit-square units; 0 without any."""
-        level, width = np.zeros(1, np.int64), 0.5
-        while len(level):
+        width = 0.5
+        for level in levels(self.is_quad, self.first_quad):
             if self.count[level].any():
                 return width
-            below = self.is_quad[level].sum(axis=1)
-            within = np.arange(below.sum()) - np.repeat(np.cumsum(below) - below, below)
-            level, width = np.repeat(self.first_quad[level], below) + within, width / 2
+            width /= 2
         return 0.0
+
+
+def runs(first: NDArray[np.integer[Any]], length: NDArray[np.integer[Any]]) -> NDArray[np.int64]:
+    """Consecutive numbers from each first one on, so many of each, one run after another.
+
+    Examples
+    --------
+    >>> runs(np.array([7, 0, 3]), np.array([2, 0, 1])).tolist()
+    [7, 8, 3]
+    """
+    return np.repeat(first - np.cumsum(length) + length, length) + np.arange(length.sum())
+
+
+def levels(is_quad: NDArray[np.bool_], first_quad: NDArray[np.integer[Any]]) -> Iterator[NDArray[np.int64]]:
+    """Quads of each level of a tree, in the order of their parents and of the cells of these."""
+    level = np.zeros(1, np.int64)
+    while len(level):
+        yield level
+        level = runs(first_quad[level], is_quad[level].sum(axis=1))
