@@ -22,15 +22,20 @@ from typing import Any, NamedTuple
 import llvmlite.binding as llvm
 import numpy as np
 
-from vexture import convert, read_svg
+from vexture import Drawing, convert, read_svg
 from vexture.bezier.reduce import reduced
 from vexture.kernels import Kernel, text_digest
 from vexture.machine_code import RELEASE, SHIPPED, Code, described, host, load
+from vexture.renderers.colour import draw_colours
 from vexture.renderers.cpu import draw
+from vexture.texture.encode import texel_rows
+from vexture.texture.planar import map_texels
 from vexture.tolerance import ROUND
 from vexture.tree.build import SLICE, Bounds, grow, grow_on
 from vexture.tree.cubics import gather
 from vexture.tree.growth import WAITING, Growth, tree_of, with_needed_room
+from vexture.tree.planar.build import build_map, drawing_cubics, grow_map, plant_map, planted, with_room
+from vexture.tree.planar.faces import layers_of, new_faces, refill
 from vexture.tree.tree import MOST_QUADS
 
 SHAPES = Path(__file__).parent.parent / "examples" / "shapes"
@@ -131,6 +136,28 @@ def calls() -> Iterator[tuple[Any, tuple[Any, ...]]]:
             to_unit = np.array([[0.02, 0.0, 0.0], [0.0, -0.02, 1.0], [0.0, 0.0, 1.0]])
             image = np.full((50, 50), np.nan, np.float32)
             yield draw, (texture.texels, flat_view, texture.roots[0].quad, (0, 0), to_unit, image)
+        yield from map_calls(drawing)
+
+
+def map_calls(drawing: Drawing) -> Iterator[tuple[Any, tuple[Any, ...]]]:
+    """The kernels of planar maps."""
+    outlines = drawing_cubics(drawing)
+    yield plant_map, (*outlines, 16)
+    for tolerance in (0.0, 0.001):
+        growth, faces = planted(*plant_map.dispatcher(*outlines, 16)[0]), new_faces()
+        growth.tree.needed[:] = ROOM
+        yield (
+            grow_map,
+            (with_room(growth), layers_of(drawing), faces, Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS), SLICE),
+        )
+    yield refill, (new_faces(),)
+    planar = build_map(drawing)
+    assert planar is not None
+    texels = texel_rows(map_texels(planar, 0))
+    for flat_view in (0, 1):
+        to_unit = np.array([[0.02, 0.0, 0.0], [0.0, -0.02, 1.0], [0.0, 0.0, 1.0]])
+        image = np.full((50, 50, 4), np.nan, np.float32)
+        yield draw_colours, (texels, 0, flat_view, 1, (0, 0), to_unit, image)
 
 
 def object_file(text: str, entry: str, processor: Processor) -> tuple[bytes, list[str]]:

@@ -23,7 +23,7 @@ __all__ = ["main"]
 FOLDER: Final = Path(__file__).resolve().parents[1] / "web" / "generated"
 HEADER: Final = "// Made by tools/make_web.py; change {owner} and run it again.\n"
 
-PACKED_FILES: Final = {"packed": "layers.glsl", "packedOverlay": "overlay.glsl"}
+PACKED_FILES: Final = {"packed": "layers.glsl", "packedOverlay": "overlay.glsl", "planar": "colour.glsl"}
 """Exports that read a packed texture, and the file whose functions each offers."""
 
 COMMENT: Final = re.compile(r"[ \t]*//.*$", re.MULTILINE)
@@ -81,7 +81,7 @@ def shaders() -> str:
     """Text of the module with the shaders."""
     parts = [HEADER.format(owner="src/vexture/glsl/")]
     for name, file in PACKED_FILES.items():
-        comment = f"{file}; VEXTURE_WRAP and VEXTURE_FLAT may be defined before it."
+        comment = f"{file}; the numbers that it asks for by #ifndef may be defined before it."
         parts.append(module_text(name, bare(inlined(shader_text(file))), comment))
     comment = "steps.glsl: what the derivatives of a position are, for pixels."
     parts.append(module_text("steps", bare(included("steps.glsl")), comment))

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias, cast
 
 from vexture.encodings import EncodedTexture
 from vexture.errors import ParameterError
-from vexture.pipeline import convert, run, warn_of_loss
+from vexture.pipeline import convert
 
 if TYPE_CHECKING:  # imported at run time when needed: compiler and driver take long
     import numpy as np
@@ -91,13 +91,13 @@ def render(
 ) -> "NDArray[np.float32]":
     """Picture of a drawing or a texture in its colours. Silhouettes are black.
 
-    ``"exact"`` draws each pixel's exact colour, with the drawing's groups; the others draw a texture's layers one over
-    the other, so that what is below shines through a little where two of them touch.
+    A drawing is one picture, with its groups: no background shines through where two shapes touch. The layers of a
+    texture that was split by paint are drawn one over the other.
 
     Parameters
     ----------
     thing, size, view, renderer
-        As in `vexture.coverage`. A drawing is split by paint before it is converted.
+        As in `vexture.coverage`. A drawing is split into faces before it is converted.
     root : str or int, optional
         Which drawing of an atlas, by its name, or which shape, by its name or place; not needed if a texture holds
         only one drawing.
@@ -113,11 +113,6 @@ def render(
     ParameterError, TypeError, DeviceError
         As in `vexture.coverage`.
 
-    Warns
-    -----
-    SourceWarning
-        Of what the layers of a drawing lose: shared opacity and blending.
-
     Examples
     --------
     >>> from vexture.drawing import Drawing, Paint, Path
@@ -132,21 +127,11 @@ def render(
     _check(thing, renderer, root)
     empty = isinstance(thing, Drawing) and not thing.paths
     if renderer != "exact" and not empty:
-        return _stacked(thing).render(size, view, renderer=renderer, root=root)
+        texture = convert(thing, split="faces") if isinstance(thing, Drawing) else thing
+        return texture.render(size, view, renderer=renderer, root=root)
     from vexture.renderers.exact import render_exact_colours
 
     return render_exact_colours(cast("Drawing", thing), size, view)
-
-
-def _stacked(thing: Shown) -> EncodedTexture:
-    """A texture as it is, or one of a drawing's layers; warns of what they lose."""
-    from vexture.drawing import Drawing
-
-    if not isinstance(thing, Drawing):
-        return thing
-    conversion = run(thing, split="paint")
-    warn_of_loss(thing, conversion.notes, stacklevel=3)
-    return conversion.texture
 
 
 def _check(thing: Shown, renderer: Renderer, root: str | int | None) -> None:

@@ -12,15 +12,19 @@ __all__ = [
     "COUNT_SHIFT",
     "COVERAGE_ONE",
     "ENCODING_PACKED",
+    "IS_MEAN",
     "LATTICE",
     "LATTICE_BITS",
+    "MAP_VERSION",
     "MOST_CURVES",
     "MOST_DEPTH",
+    "MOST_PAINTS",
     "MOST_ROWS",
     "MOST_TEXT_BYTES",
     "PACKED_FILE_LIMIT",
     "PACKED_SUFFIX",
     "PACKED_VERSION",
+    "PAINT_ONE",
     "QUAD_FLAG",
     "ROW_BITS",
     "TEXT_ENCODING",
@@ -54,6 +58,9 @@ TEXT_ROOTS: Final = "vexture.roots"
 ENCODING_PACKED: Final = "packed"
 PACKED_VERSION: Final = "1"
 
+MAP_VERSION: Final = "2"
+"""Version of a texture with planar maps."""
+
 PACKED_SUFFIX: Final = ".ktx2"
 """Suffix of a packed texture's file."""
 
@@ -80,6 +87,9 @@ QUAD_FLAG: Final = 1 << 7
 
 COUNT_SHIFT: Final = 3
 
+IS_MEAN: Final = 2
+"""Cell byte of a planar map's leaf of which only the mean is known."""
+
 WINDING_OFFSET: Final = 4
 """Added to the corner winding of a leaf with curves, -3 to 3; a constant leaf has 0 there."""
 
@@ -88,6 +98,12 @@ COVERAGE_ONE: Final = 255
 
 COORDINATE_BITS: Final = 16
 """A point is one word: x in its low bits, y above."""
+
+MOST_PAINTS: Final = 1 << COORDINATE_BITS
+"""Paints of a planar map: a piece names those beside it by 16 bits each."""
+
+PAINT_ONE: Final = 65535
+"""A channel of a paint that is full; a mean has `COVERAGE_ONE`."""
 
 CONTROL_OFFSET: Final = 16384
 """Lattice units added to the coordinates of P1 and P2, which so span -1/2 to 3/2 of the leaf."""

@@ -34,10 +34,10 @@ class Parameters:
     --------
     >>> Parameters(split="colour")
     Traceback (most recent call last):
-    vexture.errors.ParameterError: `split` is 'colour'; it must be 'paint' or None
+    vexture.errors.ParameterError: `split` is 'colour'; it must be 'paint', 'faces' or None
     """
 
-    split: Literal["paint"] | None = None
+    split: Literal["paint", "faces"] | None = None
     select: str | None = None
     tolerance: float | Literal["auto"] = "auto"
     max_depth: int | None = None
@@ -46,8 +46,8 @@ class Parameters:
     max_seconds: float = DEFAULT_SECONDS
 
     def __post_init__(self) -> None:
-        if self.split not in (None, "paint"):
-            raise ParameterError(f"`split` is {self.split!r}; it must be 'paint' or None")
+        if self.split not in (None, "paint", "faces"):
+            raise ParameterError(f"`split` is {self.split!r}; it must be 'paint', 'faces' or None")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -112,7 +112,8 @@ def run(
 def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     """Read one source, split it if the parameters say so, and build its trees."""
     from vexture.texture.texture import Root
-    from vexture.tree.build import DEFAULT_CAPACITY, DEFAULT_DEPTH, build_tree, largest_shift
+    from vexture.tree.build import build_tree, largest_shift
+    from vexture.tree.planar.sheets import Sheet, sheets_of
 
     start = time.perf_counter()
     tolerance = parameters.tolerance
@@ -120,24 +121,25 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
         tolerance = UNSEEN if parameters.precision is None else 0.0
     with within(parameters.max_seconds):
         drawing = _drawing_of(source, parameters.select)
-        layers = drawing.layers() if parameters.split else ()
-        trees = tuple(
-            build_tree(
-                layer,
-                tolerance=tolerance,
-                max_depth=DEFAULT_DEPTH if parameters.max_depth is None else parameters.max_depth,
-                capacity=DEFAULT_CAPACITY if parameters.capacity is None else parameters.capacity,
-                precision=parameters.precision,
-            )
-            for layer in layers or (drawing,)
-        )
+        given = {"max_depth": parameters.max_depth, "capacity": parameters.capacity, "precision": parameters.precision}
+        bounds: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+        bounds["tolerance"] = tolerance
+        layers = drawing.layers() if parameters.split == "paint" else ()
+        if parameters.split == "faces" and drawing.paths:
+            sheets = sheets_of(drawing, **bounds)
+        else:
+            sheets = [Sheet(layer, build_tree(layer, **bounds)) for layer in layers or (drawing,)]
     roots = tuple(
-        Root(layer.name, 0, layer.to_source, tolerance, layer.crs, layer.paths[0].paint if layers else None)
-        for layer in layers or (drawing,)
+        Root(
+            part.name, 0, part.to_source, tolerance, part.crs, sheet.paint if parameters.split and part.paths else None
+        )
+        for sheet in sheets
+        for part in (sheet.drawing,)
     )
     named = drawing.name if _is_drawing(source) else os.fspath(source)  # type: ignore[arg-type]
     seconds, rounding = time.perf_counter() - start, largest_shift(parameters.precision)
     notes = layers[0].notes if layers else drawing.notes
+    trees = tuple(sheet.tree for sheet in sheets)
     return Conversion(drawing, trees, None, seconds, rounding, roots, named, notes)
 
 
@@ -165,7 +167,7 @@ def convert(
     source: Source,
     *,
     encoding: Literal["packed"] = ...,
-    split: Literal["paint"] | None = ...,
+    split: Literal["paint", "faces"] | None = ...,
     select: str | None = ...,
     tolerance: float | Literal["auto"] = ...,
     max_depth: int | None = ...,
@@ -183,7 +185,7 @@ def convert(
     source: Source,
     *,
     encoding: str = DEFAULT,
-    split: Literal["paint"] | None = None,
+    split: Literal["paint", "faces"] | None = None,
     select: str | None = None,
     tolerance: float | Literal["auto"] = "auto",
     max_depth: int | None = None,
@@ -202,8 +204,8 @@ def convert(
         ``"packed"``, the encoding of `Texture`, or a registered one, whose parameters its package documents:
         ``"thesis"`` (`vexture.thesis.convert`).
     split : str, optional
-        ``"paint"`` makes each layer of the drawing (`Drawing.layers`) a shape of its own, with its colour. None
-        converts the silhouette.
+        ``"faces"`` makes the whole drawing, in its colours, one planar map. ``"paint"`` makes each layer of the
+        drawing (`Drawing.layers`) a shape of its own, with its colour. None converts the silhouette.
     select : str, optional
         Convert only what a CSS selector chooses of an SVG; see `vexture.read_svg`.
     tolerance : float or "auto"
@@ -213,7 +215,7 @@ def convert(
     max_depth : int, optional
         Cells of this depth are not divided further; 16 by default.
     capacity : int, optional
-        Pieces in a leaf, 1 to 15; 8 by default. Fewer draw faster and make the texture larger.
+        Pieces in a leaf, 1 to 15; 8 by default, 12 of a planar map. Fewer draw faster and make the texture larger.
     precision : float, optional
         Largest shift of the outline by rounding, in unit-square units; leaves are divided until it holds. By default
         rounding alone divides no leaf.
@@ -271,7 +273,7 @@ def atlas(
     sources: Iterable[Source],
     *,
     name: str = "atlas",
-    split: Literal["paint"] | None = None,
+    split: Literal["paint", "faces"] | None = None,
     select: str | None = None,
     tolerance: float | Literal["auto"] = "auto",
     max_depth: int | None = None,

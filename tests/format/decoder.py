@@ -76,9 +76,8 @@ def read_thesis(quads: bytes, curves: bytes) -> Texture:
     return Texture(*arrays, side == 3, True, [{"name": "", "quad": 0, "transform": transform}])
 
 
-@refusing()
-def read_packed(data: bytes) -> Texture:
-    """Read a KTX2 file (B)."""
+def read_ktx2(data: bytes) -> tuple[str, list[dict], np.ndarray]:
+    """Return the version, the roots and the texels' words of a KTX2 file (B.1, B.2, B.5)."""
     *kind, width, height, depth, layers, faces, levels, scheme = struct.unpack_from("<12s9I", data)
     need([*kind, depth, layers, faces] == [bytes.fromhex("ab4b5458203230bb0d0a1a0a"), 107, 4, 0, 0, 1], "fields")
     *spans, length = struct.unpack_from("<4I5Q", data, 48)
@@ -93,40 +92,85 @@ def read_packed(data: bytes) -> Texture:
         key, _, text = values[4:end].partition(b"\0")
         need(end <= len(values) and key > max(texts, default=b""), "key/value data")
         texts[key], values = text.removesuffix(b"\0").decode(), values[end + -end % 4 :]
-    need((texts[b"vexture.version"], texts[b"vexture.encoding"]) == ("1", "packed"), "version or encoding")
+    need(texts[b"vexture.encoding"] == "packed", "encoding")
     roots = json.loads(texts[b"vexture.roots"])
     need(all(isinstance(r["name"], str) and np.isfinite([*r["transform"]]).sum() == 6 for r in roots), "roots")
-    words = np.frombuffer(image, "<u4").reshape(-1, 4).astype(int)
-    cells, coverage = (words[:, [2, 3], None] >> np.array([0, 8, 16, 24]) & 255).swapaxes(0, 1)
+    return texts[b"vexture.version"], roots, np.frombuffer(image, "<u4").reshape(-1, 4).astype(int)
+
+
+def read_cells(words: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Read every texel as a quad: what its cells are, the quad and the first curve of each, its curves (B.3)."""
+    cells = words[:, 2, None] >> np.array([0, 8, 16, 24]) & 255
     is_quad, count = cells == 128, np.where(cells == 128, 0, cells >> 3)
     child, first = (words[:, [i]] + np.cumsum(n, axis=1) - n for i, n in enumerate((is_quad, count)))
-    points = np.stack([words & 65535, words >> 16], axis=-1) - np.array([0, 16384, 16384, 0])[:, None]
-    level, reached = np.unique([root["quad"] for root in roots]), []
-    while len(level) and len(reached) < 40:
-        quads, n = is_quad[level], count[level]
-        need((quads | (cells[level] == 0) | (n > 0) & (n < 16) & (cells[level] % 8 > 0)).all(), "a kind of cell")
-        below = np.where(quads, child[level], np.where(n > 0, first[level], len(words)))
+    return cells, np.where(is_quad, child, -1), first, count
+
+
+def read_points(words: np.ndarray) -> np.ndarray:
+    """Read every texel as a curve: its points [curve, point, axis] in units of the lattice (B.4)."""
+    return np.stack([words & 65535, words >> 16], axis=-1) - np.array([0, 16384, 16384, 0])[:, None]
+
+
+def trace(words: np.ndarray, roots: list[int], kinds: list[int]) -> tuple[np.ndarray, np.ndarray]:
+    """Return the indices of the quads and curves below the roots, whose cells are of these kinds (B.3)."""
+    (cells, child, first, count), level = read_cells(words), np.unique(np.array(roots, int))
+    quads, curves = [level[:0]], [level[:0]]
+    while len(level) and len(quads) <= 20:
+        need(np.isin(cells[level], kinds).all(), "a kind of cell")
+        is_quad, n = child[level] >= 0, count[level]
+        below = np.where(is_quad, child[level], np.where(n > 0, first[level], len(words)))
         need((below > level[:, None]).all() and len(level) <= len(words), "a cell above its quad")
-        curves = np.concatenate([np.arange(i, i + m) for i, m in zip(first[level].flat, n.flat, strict=True)])
-        need((points[curves][:, [0, 3]] <= 32768).all(), "an end of a curve")
-        reached, level = [*reached, level, curves], child[level][quads]
-    used = np.bincount(np.concatenate(reached), minlength=len(words))
-    need(not len(level) and (used < 2).all() and not words[used == 0].any(), "no tree, or texels beside it")
-    arrays = np.where(is_quad, child, -1), coverage / 255, first, count, cells % 8 - 4, BERNSTEIN @ (points / 32768)
-    return Texture(*arrays, points[:, [0, 3], 0] == 0, False, roots)
+        curves += [np.arange(i, i + m) for i, m in zip(first[level].flat, n.flat, strict=True)]
+        quads, level = [*quads, level], child[level][is_quad]
+    need(not len(level), "too deep")
+    met = np.concatenate(curves)
+    need((read_points(words[met])[:, [0, 3]] <= 32768).all(), "an end of a curve")
+    return np.concatenate(quads), met
+
+
+def read_shapes(words: np.ndarray, roots: list[dict]) -> tuple[Texture, np.ndarray]:
+    """Return the shapes, and the indices of their texels, each as often as it is reached."""
+    cells, child, first, count = read_cells(words)
+    kinds = [0, 128, *(8 * n + w for n in range(1, 16) for w in range(1, 8))]
+    used = np.concatenate(trace(words, [root["quad"] for root in roots], kinds))
+    coverage, points = (words[:, 3, None] >> np.array([0, 8, 16, 24]) & 255) / 255, read_points(words)
+    arrays = child, coverage, first, count, cells % 8 - 4, BERNSTEIN @ (points / 32768)
+    return Texture(*arrays, points[:, [0, 3], 0] == 0, False, roots), used
+
+
+def check_used(words: np.ndarray, used: np.ndarray) -> None:
+    """Refuse texels that belong to two things, and such as belong to nothing and are not 0 (B.2, B.3)."""
+    times = np.bincount(used, minlength=len(words))
+    need((times < 2).all() and not words[times == 0].any(), "no tree, or texels beside it")
+
+
+@refusing()
+def read_packed(data: bytes) -> Texture:
+    """Read a KTX2 file (B)."""
+    version, roots, words = read_ktx2(data)
+    need(version == "1" and roots and not any(root.get("map") for root in roots), "version")
+    texture, used = read_shapes(words, roots)
+    check_used(words, used)
+    return texture
+
+
+def locate(child: np.ndarray, root: int, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Return which points are in the unit square; the quads and cells of their leaves; x and y there (A.6, B.6)."""
+    x, y = 1.0 * np.atleast_1d(x), 1.0 * np.atleast_1d(y)
+    square = (x >= 0) & (x < 1) & (y >= 0) & (y < 1)
+    quad, k, todo = np.full(len(x), root), np.zeros(len(x), int), np.flatnonzero(square)
+    while len(todo):
+        right, up = x[todo] >= 0.5, y[todo] >= 0.5
+        x[todo], y[todo], k[todo] = 2 * x[todo] - right, 2 * y[todo] - up, right + 2 * up
+        todo = todo[child[quad[todo], k[todo]] >= 0]
+        quad[todo] = child[quad[todo], k[todo]]
+    return square, quad, k, x, y
 
 
 def inside(texture: Texture, x: np.ndarray, y: np.ndarray, root: int | str = 0) -> np.ndarray:
     """Say which points of the unit square are filled (A.6, B.6)."""
     place = root if isinstance(root, int) else [shape["name"] for shape in texture.roots].index(root)
-    x, y = 1.0 * np.atleast_1d(x), 1.0 * np.atleast_1d(y)
-    square = (x >= 0) & (x < 1) & (y >= 0) & (y < 1)
-    quad, k, todo = np.full(len(x), texture.roots[place]["quad"]), np.zeros(len(x), int), np.flatnonzero(square)
-    while len(todo):
-        right, up = x[todo] >= 0.5, y[todo] >= 0.5
-        x[todo], y[todo], k[todo] = 2 * x[todo] - right, 2 * y[todo] - up, right + 2 * up
-        todo = todo[texture.child[quad[todo], k[todo]] >= 0]
-        quad[todo] = texture.child[quad[todo], k[todo]]
+    square, quad, k, x, y = locate(texture.child, texture.roots[place]["quad"], x, y)
     winding, count = texture.corner[quad, k], np.where(square, texture.count[quad, k], 0)
     for i in range(count.max(initial=0)):
         at = np.flatnonzero(count > i)
@@ -141,9 +185,15 @@ def inside(texture: Texture, x: np.ndarray, y: np.ndarray, root: int | str = 0) 
     return square & np.where(count > 0, filled, texture.coverage[quad, k] > 0.5)
 
 
-def picture(texture: Texture, size: int, root: int | str = 0, samples: int = 4) -> np.ndarray:
-    """Return the coverage of size x size pixels, the top row first, by samples x samples points in each."""
+def sample_points(size: int, samples: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return points of size x size pixels, the top row first, samples x samples in each."""
     row, column = np.mgrid[: size * samples, : size * samples].reshape(2, -1)
     x, y = (a + (b % samples + 0.5) / samples for a, b in ((column, row), (row, column)))  # no two in line in a pixel
-    filled = inside(texture, x / (size * samples), 1 - y / (size * samples), root)
+    return x / (size * samples), 1 - y / (size * samples)
+
+
+def picture(texture: Texture, size: int, root: int | str = 0, samples: int = 4) -> np.ndarray:
+    """Return the coverage of size x size pixels, the top row first, by samples x samples points in each."""
+    x, y = sample_points(size, samples)
+    filled = inside(texture, x, y, root)
     return filled.reshape(size, samples, size, samples).mean(axis=(1, 3))

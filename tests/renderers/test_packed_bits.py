@@ -1,6 +1,8 @@
 """Packed textures that no encoder would write: whatever the bits, drawing ends, with numbers from 0 to 1."""
 
 import re
+from functools import partial
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,11 +14,12 @@ from packed_views import TILTED, View, turned
 from vexture.layout import MOST_CURVES, MOST_DEPTH
 from vexture.renderers import cells, gpu
 from vexture.renderers.cells import texel
+from vexture.renderers.colour import render_cpu_colours
 from vexture.renderers.cpu import render_cpu
 from vexture.renderers.device import VERSION, compiled, context
-from vexture.renderers.gpu import render_gpu
+from vexture.renderers.gpu import render_gpu, render_gpu_colours
 from vexture.renderers.method import LONG, MOST_PARTS, STEPS
-from vexture.renderers.shader import view_source
+from vexture.renderers.shader import color_source, view_source
 from vexture.renderers.view import fit, window
 from vexture.texture.texture import Root, Texture
 
@@ -29,6 +32,12 @@ VIEWS: dict[str, View] = {
     "tilted": ((12, 8), TILTED * (8, 8, 1)),
     "deep": ((6, 6), window(0.5 - 2.0**-22, 0.25, 2.0**-21, 2.0**-21).matrix((6, 6))),
 }
+
+COLOURS: list[Any] = [
+    partial(render, is_linear=is_linear)
+    for render in (render_cpu_colours, render_gpu_colours)
+    for is_linear in (False, True)
+]
 
 LOOP = re.compile(r"^( *(?:for|while) \(.*\) \{)$", re.MULTILINE)
 MOST_CELLS = 4 * (2 + 4 / LONG**0.5) ** 2  # of half the least size for a long footprint, in the box around it
@@ -60,11 +69,13 @@ def textures(draw: st.DrawFn) -> Texture:
 def test_any_bits_are_drawn_as_numbers(texture: Texture, view: str) -> None:
     need_gpu()
     size, matrix = VIEWS[view]
-    for render in (render_cpu, render_gpu):
+    for render in (render_cpu, render_gpu, *COLOURS):
         image = render(texture, size, matrix)
         assert np.isfinite(image).all()
         assert image.min() >= 0.0
         assert image.max() <= 1.0
+        if image.ndim == 3:
+            assert (image[..., :3] <= image[..., 3:]).all()
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (1, 8), (3, 2048)])
@@ -83,26 +94,29 @@ def test_nothing_else_reads_the_texture() -> None:
         assert module.read().count("texels[") == 1
 
 
-def counting(is_flat: bool) -> str:
+def counting(source: str) -> Any:
     """The shader, drawing how often its loops go round instead of what they find."""
-    text, loops = LOOP.subn(r"\1 trips++;", view_source(VERSION, is_flat))
+    text, loops = LOOP.subn(r"\1 trips++;", source)
     assert loops == len(re.findall(r"\b(?:for|while|do)\b *[({]", text)), "a loop that this test does not count"
-    drawn = re.sub(
-        r"coverage_of_pixel = (.*); \}", r"float found = \1; coverage_of_pixel = float(trips) + 0.0 * found; }", text
-    )
-    return drawn.replace("\n", "\nint trips = 0;\n", 1)
+    kept = r"\1 found = \3; \2 = \1(trips) + 0.0 * found; }"
+    drawn = re.sub(r"out (\w+) (\w+);\nvoid main\(\) \{ \w+ = (.*); \}", r"out \1 \2;\nvoid main() { " + kept, text)
+    return compiled(drawn.replace("\n", "\nint trips = 0;\n", 1))
 
 
 @pytest.mark.parametrize("view", VIEWS)
 def test_the_work_for_a_pixel_is_bounded(view: str, monkeypatch: pytest.MonkeyPatch) -> None:
     need_gpu()
     with context():
-        programs = {is_flat: compiled(counting(is_flat)) for is_flat in (False, True)}
+        kinds = (False, True)
+        programs = {is_flat: counting(view_source(VERSION, is_flat)) for is_flat in kinds}
+        colours = {is_flat: counting(color_source(VERSION, is_flat, is_linear=False)) for is_flat in kinds}
     monkeypatch.setattr(gpu, "program", programs.get)
+    monkeypatch.setattr(gpu, "color_program", lambda is_flat, _: colours[is_flat])
     size, matrix = VIEWS[view]
     rng = np.random.default_rng(3)
     for mask in (0, QUADS, 0x78787878, ALL_ONES):
         words = rng.integers(0, 1 << 32, (3, 2048, 4), dtype=np.uint32)
         words[..., 2] |= np.uint32(mask)
-        trips = render_gpu(Texture(words, (Root("noise"),)), size, matrix)
-        assert 0 < trips.max() <= MOST_TRIPS
+        for render in (render_gpu, render_gpu_colours):
+            trips = render(Texture(words, (Root("noise"),)), size, matrix)
+            assert 0 < trips.max() <= MOST_TRIPS

@@ -7,7 +7,7 @@ from hand import EMPTY, FULL, TREE, need_gpu, texture_of
 
 from vexture.errors import FormatError
 from vexture.fold import blend
-from vexture.renderers import cells, cpu, piece
+from vexture.renderers import cells, colour, cpu, piece
 from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, included, vertex_source
 from vexture.thesis import cpu as thesis_cpu
@@ -31,6 +31,10 @@ MIRROR = dict.fromkeys(FILES, cpu) | {
     "tree.glsl": cells,
     "pixel.glsl": piece,
     "piece.glsl": piece,
+    "view.glsl": piece,
+    "colour.glsl": colour,
+    "srgb.glsl": colour,
+    "view_color.glsl": colour,
     "fold.glsl": blend,
 }
 # only the web's, judged by its pixels (tests/web) and by decoded trees (test_packed_overlay.py)
@@ -48,6 +52,7 @@ ALONE = {"fetch"}  # functions of the shader for which the mirror has no use
 UNIFORMS = [
     "texels",
     "flat_view",
+    "is_linear",
     "root",
     "base",
     "quads",
@@ -60,8 +65,10 @@ UNIFORMS = [
 ]  # which the mirror passes on
 PLAIN = {
     "vextureCoverage": "coverage",
+    "vextureColor": "color",
     "vextureFlat": "flat",
     "vextureFlatCoverage": "flat_coverage",
+    "vextureFlatColor": "flat_color",
     "vextureFold": "fold",
     "from": "start",
 }  # which Python would name otherwise, or not at all

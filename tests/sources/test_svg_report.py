@@ -100,11 +100,11 @@ def test_what_layers_lose_is_warned_of_where_a_drawing_is_stacked(tmp_path: Path
     assert warned(lambda: atlas([file], split="paint")) == [f"{unread}; {lost}"]
     drawing = file_drawing(file)
     assert warned(lambda: coverage(drawing, 4)) == []
+    assert warned(lambda: render(drawing, 4)) == []
     assert warned(lambda: render(drawing, 4, renderer="exact")) == []
     for stacked in (
         lambda: convert(drawing, split="paint"),
         lambda: atlas([drawing], split="paint"),
-        lambda: render(drawing, 4),
     ):
         assert warned(stacked) == [f"a: {lost}"]
 

@@ -74,7 +74,12 @@ class Outcome:
     help="Folder to write to, or the file for one drawing; - is standard output.  [default: .]",
 )
 @click.option("--atlas", metavar="FILE.ktx2|-", type=PATH, help="Write one texture of all files, a shape for each.")
-@click.option("--split", type=click.Choice(["paint"]), help="Make each colour a shape of its own, in painting order.")
+@click.option(
+    "--split",
+    type=click.Choice(["paint", "faces"]),
+    help="paint: make each colour a shape of its own, in painting order. faces: make the drawing, in its colours, "
+    "one planar map, which Python draws, and pages do not yet.",
+)
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
 @tolerance_option
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
@@ -225,7 +230,7 @@ def _convert_one(
             given = read_drawing(content, name="standard input", select=parameters.pop("select", None))
         if for_atlas:
             done = trees_of(given, Parameters(**parameters))
-            size = TEXEL_BYTES * sum(len(tree.count) + len(tree.curves) for tree in done.trees)
+            size = TEXEL_BYTES * sum(tree.texels for tree in done.trees)
         else:
             done = run(given, encoding=encoding, **parameters)
             files = done.texture.files(**stored)

@@ -85,8 +85,9 @@ float vexture_piece_area(uvec4 texel, bool turns, VextureBox box, VextureFrame f
     return area + vexture_curve_area(piece, ends, corner);
 }
 
-// Mean of a quad over the part of it in the footprint: the mean about the middle of that part, nearly.
-float vexture_cut_mean(VextureCell cell, VextureBox box, VextureFrame frame) {
+// Place in a quad, in its own unit square, about which its mean is nearly that over the part of it in the footprint: the
+// middle of that part.
+vec2 vexture_cut_place(VextureCell cell, VextureBox box, VextureFrame frame) {
     vec2 middle = box.low + 0.5 * box.size;
     vec2 at = vexture_into_frame(frame, middle);
     vec2 x = abs(vec2(frame.right.x, frame.up.x)) * box.size.x;
@@ -101,12 +102,41 @@ float vexture_cut_mean(VextureCell cell, VextureBox box, VextureFrame frame) {
     middle += dx * moved.x + dy * moved.y;
     float side = uintBitsToFloat(uint(127 - cell.bit) << 23);
     vec2 place = (box.way + box.part * box.size + (middle - box.low)) * side;
-    return vexture_mean(cell.texel.w, clamp(place, 0.0, 1.0));
+    return clamp(place, 0.0, 1.0);
 }
 
 // Share of the box above the ends of a piece that lie on the leaf's left edge, with the sign of their windings.
 float vexture_above_ends(vec2 p0, vec2 p3, float y0, float y3) {
     return (p0.x == 0.0 ? 1.0 - y0 : 0.0) - (p3.x == 0.0 ? 1.0 - y3 : 0.0);
+}
+
+// What the ends of a piece say of the box.
+struct VextureLook {
+    float filled;  // share of it that the piece fills, but for what the close look finds
+    bool turns;    // an end lies on the leaf's left edge and in the box
+    bool crosses;  // the piece may cross the box, and needs a close look
+};
+
+VextureLook vexture_first_look(uvec4 texel, VextureBox box) {
+    vec2 p0 = vexture_word(texel.x);
+    vec2 p3 = vexture_word(texel.w);
+    vec2 r0 = vexture_in_box(p0, box);
+    vec2 r3 = vexture_in_box(p3, box);
+    float y0 = clamp(r0.y, 0.0, 1.0);
+    float y3 = clamp(r3.y, 0.0, 1.0);
+    bool is_left = max(r0.x, r3.x) <= 0.0;
+    bool is_right = min(r0.x, r3.x) >= 1.0;
+    float passed = is_left ? y0 - y3 : 0.0;
+    bool crosses = fract(passed) != 0.0 || (!is_left && !is_right && y0 != y3);
+    VextureLook look = VextureLook(crosses ? 0.0 : passed, false, crosses);
+    if (p0.x * p3.x == 0.0) {
+        float above = vexture_above_ends(p0, p3, y0, y3);
+        bool cancels = p0.x == p3.x;  // a piece on the left edge, with its ends there
+        look.turns = fract(above) != 0.0;
+        look.crosses = (look.turns || crosses) && !cancels;
+        look.filled = (look.turns && !cancels ? 0.0 : above) + (look.crosses ? 0.0 : passed);
+    }
+    return look;
 }
 
 // Filled area of the pixel within one cell.
@@ -117,7 +147,7 @@ float vexture_cell_area(VextureCell cell, VextureBox box, VextureFrame frame) {
         whole = vexture_box_area(frame, box.low, box.size);
     }
     if (cell.is_quad) {
-        return whole * vexture_cut_mean(cell, box, frame);
+        return whole * vexture_mean(cell.texel.w, vexture_cut_place(cell, box, frame));
     }
     int code = vexture_winding_code(cell);
     uint curve = vexture_first_curve(cell);
@@ -126,27 +156,10 @@ float vexture_cell_area(VextureCell cell, VextureBox box, VextureFrame frame) {
     int crossing = 0;  // a bit for each piece that may cross the footprint's box,
     int turning = 0;   // and for each with an end on the leaf's left edge and in the box
     for (int i = 0; i < count; i++) {
-        uvec4 texel = vexture_texel(curve + uint(i));
-        vec2 p0 = vexture_word(texel.x);
-        vec2 p3 = vexture_word(texel.w);
-        vec2 r0 = vexture_in_box(p0, box);
-        vec2 r3 = vexture_in_box(p3, box);
-        float y0 = clamp(r0.y, 0.0, 1.0);
-        float y3 = clamp(r3.y, 0.0, 1.0);
-        bool is_left = max(r0.x, r3.x) <= 0.0;
-        bool is_right = min(r0.x, r3.x) >= 1.0;
-        float passed = is_left ? y0 - y3 : 0.0;
-        bool crosses = fract(passed) != 0.0 || (!is_left && !is_right && y0 != y3);
-        if (p0.x * p3.x == 0.0) {
-            float above = vexture_above_ends(p0, p3, y0, y3);
-            bool turns = fract(above) != 0.0;
-            bool cancels = p0.x == p3.x;  // a piece on the left edge, with its ends there
-            filled += turns && !cancels ? 0.0 : above;
-            crosses = (turns || crosses) && !cancels;
-            turning |= turns ? 1 << i : 0;
-        }
-        filled += crosses ? 0.0 : passed;
-        crossing |= crosses ? 1 << i : 0;
+        VextureLook look = vexture_first_look(vexture_texel(curve + uint(i)), box);
+        filled += look.filled;
+        turning |= look.turns ? 1 << i : 0;
+        crossing |= look.crosses ? 1 << i : 0;
     }
     float area = filled * whole;
     while (crossing != 0) {

@@ -1,5 +1,6 @@
 // Shapes in their colours, composited.
 // Exports: vextureLayers, vextureStraight, vextureQuad.
+#include "srgb.glsl"
 #include "wrap.glsl"
 
 // A row for each root of the texture: its quad; red and green, blue and opacity as 16-bit halves of words (sRGB); then the
@@ -54,9 +55,7 @@ vec4 vextureLayers(int first, int count, vec2 uv, vec2 dx, vec2 dy) {
     return vextureLayers(first, count, uvec2(0u), uv, dx, dy);
 }
 
-// From premultiplied sRGB to straight linear components (IEC 61966-2-1).
+// From premultiplied sRGB to straight linear components.
 vec4 vextureStraight(vec4 color) {
-    vec3 encoded = color.rgb / max(color.a, exp2(-24.0));
-    vec3 bent = pow((encoded + 0.055) / 1.055, vec3(2.4));
-    return vec4(mix(bent, encoded / 12.92, lessThanEqual(encoded, vec3(0.04045))), color.a);
+    return vec4(vexture_linear(color.rgb / max(color.a, exp2(-24.0))), color.a);
 }

@@ -39,7 +39,7 @@ vec4 vextureOverlay(vec4 color, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     vec2 lengths = vec2(length(vec2(dx.x, dy.x)), length(vec2(dx.y, dy.y)));
     vec2 pixels = 1.0 / (max(lengths, VEXTURE_SMALLEST_PIXEL) * float(1 << VEXTURE_POSITION_BITS));
     VextureTop top = VextureTop(vextureOverlayRoot, VEXTURE_POSITION_BITS, 0u);
-    VextureCell cell = VextureCell(uvec4(0u), 0u, VEXTURE_POSITION_BITS, outside == ivec2(0));
+    VextureCell cell = VextureCell(0u, uvec4(0u), 0u, VEXTURE_POSITION_BITS, outside == ivec2(0));
     float border = cell.is_quad ? vexture_border(place, cell.bit, pixels) : 0.0;
     while (cell.is_quad && cell.bit > finest) {
         int bit = cell.bit - 1;

@@ -16,7 +16,8 @@ struct VexturePlace {
 
 // A leaf, as the byte of a texel; or a quad.
 struct VextureCell {
-    uvec4 texel;  // of the quad that holds the leaf, or of the quad itself
+    uint quad;    // that holds the leaf, or the quad itself
+    uvec4 texel;  // of it
     uint shift;   // of the cell's byte in the words of the quad that holds it
     int bit;
     bool is_quad;
@@ -125,7 +126,7 @@ VextureCell vexture_descend(inout VextureTop top, int shared, int finest, ivec2 
             top.bit = above ? bit : top.bit;
         }
     }
-    return VextureCell(texel, shift, bit, is_quad);
+    return VextureCell(quad, texel, shift, bit, is_quad);
 }
 
 float vexture_stored_coverage(VextureCell cell) {

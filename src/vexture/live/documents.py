@@ -7,7 +7,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 from vexture.content import FileKind, about, decompressed, kind_of, known_kind, start_of
-from vexture.errors import SourceError
+from vexture.errors import FormatError, SourceError
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
 from vexture.notes import line_of
 from vexture.pipeline import Parameters
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from vexture.drawing import Drawing
     from vexture.svg.read import Frame
+    from vexture.texture.texture import Texture
 
 __all__ = [
     "PUBLISHED_PARAMETERS",
@@ -26,6 +27,7 @@ __all__ = [
     "VIEWER_PARAMETERS",
     "converted",
     "load_kernels",
+    "page_texture",
     "shape_of",
     "texture_shape",
     "thesis_pair",
@@ -132,11 +134,19 @@ def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start:
     return Shape(drawing.name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
 
 
-def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
-    """Shape of a texture; facts that the texture does not hold are None."""
+def page_texture(data: bytes, file_name: str) -> "Texture":
+    """A texture that pages draw: one without planar maps."""
     from vexture.texture.load import texture_from
 
     texture = texture_from(data, file_name)
+    if any(root.is_map for root in texture.roots):
+        raise FormatError(f"{file_name}: holds planar maps, which pages do not draw yet; convert with `split` paint")
+    return texture
+
+
+def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
+    """Shape of a texture; facts that the texture does not hold are None."""
+    texture = page_texture(data, file_name)
     roots: list[dict[str, Any]] = texture.info()["roots"]
     facts = {
         "segments": None,

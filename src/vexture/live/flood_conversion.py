@@ -13,7 +13,7 @@ from vexture.content import FileKind, kind_of, start_of, unpacked
 from vexture.errors import LimitError, ParameterError, SourceError, VextureError
 from vexture.flood.scene import PREFIX, labels
 from vexture.geo.extent import Extent, Frame, Step
-from vexture.live.documents import converted, load_kernels, texture_shape
+from vexture.live.documents import converted, load_kernels, page_texture, texture_shape
 from vexture.live.shelf import File, Shape
 from vexture.pipeline import Parameters
 
@@ -109,9 +109,7 @@ class FloodConversion:
 
     def _texture(self, data: bytes, name: str) -> Shape:
         """Shape of a texture that was made in this frame."""
-        from vexture.texture.load import texture_from
-
-        roots = texture_from(data, name).roots
+        roots = page_texture(data, name).roots
         to_source = self.frame.to_source
         if len(roots) != 1:
             raise LimitError(f"{name}: the texture holds {len(roots)} shapes; send one with one, or the data it is of")

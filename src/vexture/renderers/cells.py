@@ -67,8 +67,9 @@ class Place(NamedTuple):
 
 
 class Cell(NamedTuple):
-    """A leaf, as the byte of a texel; or a quad."""
+    """A leaf, as the byte of a quad's texel; or a quad."""
 
+    quad: int
     texel: Texel
     shift: int
     bit: int
@@ -191,7 +192,7 @@ def descend(texels: Texels, top: Top, shared: int, finest: int, position: Whole2
             found = texel(texels, quad)
             if bit == shared:
                 top = Top(quad, bit, top.followed)
-    return Cell(found, shift, bit, is_quad), top
+    return Cell(quad, found, shift, bit, is_quad), top
 
 
 @kernel(allocates=False)

@@ -65,6 +65,7 @@ from vexture.renderers.piece import (
     piece,
     slope,
     slopes,
+    view_pixel,
     word,
 )
 from vexture.renderers.uniforms import HasTexels, uniforms_of
@@ -87,6 +88,14 @@ class Corner(NamedTuple):
     origin: Vec2
     x: Vec2
     y: Vec2
+
+
+class Look(NamedTuple):
+    """What the ends of a piece say of the box."""
+
+    filled: float
+    turns: bool
+    crosses: bool
 
 
 # --- flat.glsl -------------------------------------------------------------------------------------------------
@@ -236,7 +245,7 @@ def piece_area(texel: Texel, turns: bool, box: Box, frame: Frame) -> float:
 
 
 @kernel(allocates=False)
-def cut_mean(cell: Cell, box: Box, frame: Frame) -> float:
+def cut_place(cell: Cell, box: Box, frame: Frame) -> Vec2:
     right, up, low, size = frame.right, frame.up, box.low, box.size
     middle = (low[0] + 0.5 * size[0], low[1] + 0.5 * size[1])
     along, above = into_frame(frame, middle)
@@ -247,7 +256,7 @@ def cut_mean(cell: Cell, box: Box, frame: Frame) -> float:
     side = 2.0**-cell.bit
     x = (box.way[0] + box.part[0] * size[0] + x) * side
     y = (box.way[1] + box.part[1] * size[1] + y) * side
-    return mean(cell.texel[3], (clamp(x, 0.0, 1.0), clamp(y, 0.0, 1.0)))
+    return clamp(x, 0.0, 1.0), clamp(y, 0.0, 1.0)
 
 
 @kernel(allocates=False)
@@ -264,37 +273,43 @@ def above_ends(p0: Vec2, p3: Vec2, y0: float, y3: float) -> float:
 
 
 @kernel(allocates=False)
+def first_look(texel: Texel, box: Box) -> Look:
+    p0, p3 = word(texel[0]), word(texel[3])
+    r0, r3 = in_box(p0, box), in_box(p3, box)
+    y0, y3 = clamp(r0[1], 0.0, 1.0), clamp(r3[1], 0.0, 1.0)
+    is_left = max(r0[0], r3[0]) <= 0.0
+    is_right = min(r0[0], r3[0]) >= 1.0
+    passed = y0 - y3 if is_left else 0.0
+    crosses = passed != math.floor(passed) or (not is_left and not is_right and y0 != y3)
+    turns = False
+    filled = 0.0
+    if p0[0] * p3[0] == 0.0:
+        above = above_ends(p0, p3, y0, y3)
+        turns = above != math.floor(above)
+        cancels = p0[0] == p3[0]
+        filled = 0.0 if turns and not cancels else above
+        crosses = (turns or crosses) and not cancels
+    return Look(filled if crosses else filled + passed, turns, crosses)
+
+
+@kernel(allocates=False)
 def cell_area(texels: Texels, cell: Cell, box: Box, frame: Frame) -> float:
     low, size, extent = box.low, box.size, frame.extent
     whole = 1.0
     if low[0] > -extent[0] or low[1] > -extent[1] or low[0] + size[0] < extent[0] or low[1] + size[1] < extent[1]:
         whole = box_area(frame, low, size)
     if cell.is_quad:
-        return whole * cut_mean(cell, box, frame)
+        return whole * mean(cell.texel[3], cut_place(cell, box, frame))
     code = winding_code(cell)
     curve = first_curve(cell)
     filled = stored_coverage(cell) if code == 0 else float(code - WINDING_OFFSET)
     area = 0.0
     for i in range(count(cell) if whole > 0.0 else 0):
         found = texel(texels, curve + i)
-        p0, p3 = word(found[0]), word(found[3])
-        r0, r3 = in_box(p0, box), in_box(p3, box)
-        y0, y3 = clamp(r0[1], 0.0, 1.0), clamp(r3[1], 0.0, 1.0)
-        is_left = max(r0[0], r3[0]) <= 0.0
-        is_right = min(r0[0], r3[0]) >= 1.0
-        passed = y0 - y3 if is_left else 0.0
-        crosses = passed != math.floor(passed) or (not is_left and not is_right and y0 != y3)
-        turns = False
-        if p0[0] * p3[0] == 0.0:
-            above = above_ends(p0, p3, y0, y3)
-            turns = above != math.floor(above)
-            cancels = p0[0] == p3[0]
-            filled += 0.0 if turns and not cancels else above
-            crosses = (turns or crosses) and not cancels
-        if crosses:
-            area += piece_area(found, turns, box, frame)
-        else:
-            filled += passed
+        look = first_look(found, box)
+        filled += look.filled
+        if look.crosses:
+            area += piece_area(found, look.turns, box, frame)
     return area + filled * whole
 
 
@@ -334,24 +349,19 @@ def coverage(texels: Texels, root: int, base: Whole2, offset: Vec2, dx: Vec2, dy
     return min(area, 1.0) if area > 0.0 else 0.0
 
 
-# --- view.glsl -------------------------------------------------------------------------------------------------
+# --- view_coverage.glsl ----------------------------------------------------------------------------------------
 
 
 @kernel(allocates=False)
 def view_coverage(
     texels: Texels, flat_view: int, root: int, base: Whole2, to_unit: NDArray[np.float64], pixel: Vec2
 ) -> float:
-    x, y = pixel
-    w = to_unit[2, 0] * x + to_unit[2, 1] * y + to_unit[2, 2]
-    if w <= 0.5 * (abs(to_unit[2, 0]) + abs(to_unit[2, 1])):
+    found = view_pixel(to_unit, pixel)
+    if not found.seen:
         return 0.0
-    u = (to_unit[0, 0] * x + to_unit[0, 1] * y + to_unit[0, 2]) / w
-    v = (to_unit[1, 0] * x + to_unit[1, 1] * y + to_unit[1, 2]) / w
-    dx = ((to_unit[0, 0] - u * to_unit[2, 0]) / w, (to_unit[1, 0] - v * to_unit[2, 0]) / w)
-    dy = ((to_unit[0, 1] - u * to_unit[2, 1]) / w, (to_unit[1, 1] - v * to_unit[2, 1]) / w)
     if flat_view:
-        return flat_coverage(texels, root, base, (u, v), flat(dx, dy))
-    return coverage(texels, root, base, (u, v), dx, dy)
+        return flat_coverage(texels, root, base, found.offset, flat(found.dx, found.dy))
+    return coverage(texels, root, base, found.offset, found.dx, found.dy)
 
 
 @kernel(allocates=False, ahead=True)

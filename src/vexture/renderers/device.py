@@ -69,17 +69,18 @@ def upload(gl: Any, pixels: NDArray[Any], unit: int, dtype: str) -> Any:
     return made
 
 
-def draw(gl: Any, triangle: Any, size: tuple[int, int]) -> NDArray[np.float32]:
-    """Draw a compiled shader whose uniforms are set, (height, width), the image's top row first."""
+def draw(gl: Any, triangle: Any, size: tuple[int, int], channels: int = 1) -> NDArray[np.float32]:
+    """Draw a compiled shader whose uniforms are set, (height, width, channels), the image's top row first."""
     width, height = size
     limit = gl.info["GL_MAX_TEXTURE_SIZE"]
     if max(width, height) > limit:
         raise LimitError(f"size is {width} x {height}; this device draws up to {limit}, give a smaller `size`")
-    image = gl.texture((width, height), 1, dtype="f4")
+    image = gl.texture((width, height), channels, dtype="f4")
     target = gl.framebuffer([image])
     target.use()
     triangle.render(vertices=3)
-    pixels = np.frombuffer(target.read(components=1, dtype="f4"), np.float32).reshape(height, width).copy()
+    read = np.frombuffer(target.read(components=channels, dtype="f4"), np.float32)
+    pixels = read.reshape(height, width, channels).copy()
     for made in (target, image):
         made.release()
     return pixels

@@ -1,4 +1,4 @@
-"""Composites layers in their colours into one picture."""
+"""Composites the layers of a drawing into one picture."""
 
 from collections.abc import Iterable
 
@@ -7,19 +7,23 @@ from numpy.typing import NDArray
 
 from vexture.drawing import Paint
 
-__all__ = ["painted"]
+__all__ = ["painted", "stacked"]
 
 
-def painted(size: tuple[int, int], layers: Iterable[tuple[Paint, NDArray[np.float32]]]) -> NDArray[np.float32]:
-    """Composite flat colours one over the other, the lowest first, as SVG does: source-over in sRGB.
+def painted(paint: Paint, covered: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Picture of a layer: premultiplied RGBA, (height, width, 4), of its colour and coverage, (height, width)."""
+    alpha = covered[..., None] * np.float32(paint.opacity)
+    return alpha * np.array((*paint.color, 1.0), np.float32)
 
-    `size` is (width, height); each coverage is a (height, width) float32 array. The picture is (height, width, 4)
-    float32, premultiplied RGBA, 0..1.
+
+def stacked(size: tuple[int, int], pictures: Iterable[NDArray[np.float32]]) -> NDArray[np.float32]:
+    """Composite pictures one over the other, the lowest first, as SVG does: source-over in sRGB.
+
+    `size` is (width, height); the pictures are premultiplied RGBA, (height, width, 4), 0..1, and so is the result.
     """
     width, height = size
     picture = np.zeros((height, width, 4), np.float32)
-    for paint, covered in layers:
-        alpha = covered[..., None] * np.float32(paint.opacity)
-        picture *= 1.0 - alpha
-        picture += alpha * np.array((*paint.color, 1.0), np.float32)
+    for above in pictures:
+        picture *= 1.0 - above[..., 3:]
+        picture += above
     return picture

@@ -1,7 +1,10 @@
-"""The mirror of ``glsl/pixel.glsl`` and ``glsl/piece.glsl`` (see `vexture.renderers.cpu`)."""
+"""The mirror of ``glsl/pixel.glsl``, ``glsl/piece.glsl`` and ``glsl/view.glsl`` (see `vexture.renderers.cpu`)."""
 
 import math
 from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from vexture.kernels import kernel
 from vexture.layout import CONTROL_OFFSET, COORDINATE_BITS, COVERAGE_ONE, LATTICE_BITS
@@ -22,6 +25,7 @@ __all__ = [
     "Ends",
     "Frame",
     "Piece",
+    "ViewPixel",
     "at",
     "beside",
     "beside_sloped",
@@ -38,6 +42,7 @@ __all__ = [
     "piece",
     "slope",
     "slopes",
+    "view_pixel",
     "word",
 ]
 
@@ -60,6 +65,15 @@ class Box(NamedTuple):
     part: Vec2
     low: Vec2
     size: Vec2
+
+
+class ViewPixel(NamedTuple):
+    """Where a picture's pixel lies in the drawing, if the plane is there."""
+
+    seen: bool
+    offset: Vec2
+    dx: Vec2
+    dy: Vec2
 
 
 class Piece(NamedTuple):
@@ -296,3 +310,20 @@ def mean(stored: int, place: Vec2) -> float:
     low = (stored & 255) * (1.0 - x) + ((stored >> 8) & 255) * x
     high = ((stored >> 16) & 255) * (1.0 - x) + (stored >> 24) * x
     return clamp((low * (1.0 - y) + high * y) / COVERAGE_ONE, 0.0, 1.0)
+
+
+# --- view.glsl -------------------------------------------------------------------------------------------------
+
+
+@kernel(allocates=False)
+def view_pixel(to_unit: NDArray[np.float64], pixel: Vec2) -> ViewPixel:
+    """The parameters of `vexture.renderers.cpu.coverage` for a pixel."""
+    x, y = pixel
+    w = to_unit[2, 0] * x + to_unit[2, 1] * y + to_unit[2, 2]
+    if w <= 0.5 * (abs(to_unit[2, 0]) + abs(to_unit[2, 1])):
+        return ViewPixel(False, (0.0, 0.0), (0.0, 0.0), (0.0, 0.0))
+    u = (to_unit[0, 0] * x + to_unit[0, 1] * y + to_unit[0, 2]) / w
+    v = (to_unit[1, 0] * x + to_unit[1, 1] * y + to_unit[1, 2]) / w
+    dx = ((to_unit[0, 0] - u * to_unit[2, 0]) / w, (to_unit[1, 0] - v * to_unit[2, 0]) / w)
+    dy = ((to_unit[0, 1] - u * to_unit[2, 1]) / w, (to_unit[1, 1] - v * to_unit[2, 1]) / w)
+    return ViewPixel(True, (u, v), dx, dy)

@@ -18,6 +18,7 @@ __all__ = [
     "PICTURE_MAIN",
     "VERSIONS",
     "WRAPS",
+    "color_source",
     "included",
     "shader_source",
     "shader_text",
@@ -35,12 +36,18 @@ PICTURE_MAIN: Final = """
 out float coverage_of_pixel;
 void main() { coverage_of_pixel = view_coverage(gl_FragCoord.xy); }
 """
-"""Draws one shape in one colour channel, after a file ``view.glsl``."""
+"""Draws one shape in one colour channel, after a file with ``view_coverage``."""
+
+COLOR_MAIN: Final = """
+out vec4 color_of_pixel;
+void main() { color_of_pixel = view_color(gl_FragCoord.xy); }
+"""
+"""Draws a planar map, after the file ``view_color.glsl``."""
 
 WRAPS: Final = {"none": method.WRAP_NONE, "clamp": method.WRAP_CLAMP, "repeat": method.WRAP_REPEAT}
 """Values of ``VEXTURE_WRAP``."""
 
-CHOSEN: Final = {"FLAT", "WRAP"}
+CHOSEN: Final = {"FLAT", "LINEAR", "WRAP"}
 """Numbers that each program sets itself."""
 
 PREFIXED: Final = re.compile(r"\bVEXTURE_(\w+)")
@@ -126,4 +133,12 @@ def shader_text(file: str, *owners: ModuleType) -> str:
 
 def view_source(version: str, is_flat: bool) -> str:
     """Fragment shader that draws one shape of a packed texture in one colour channel."""
-    return f"{VERSIONS[version]}#define VEXTURE_FLAT {int(is_flat)}\n" + shader_text("view.glsl") + PICTURE_MAIN
+    return (
+        f"{VERSIONS[version]}#define VEXTURE_FLAT {int(is_flat)}\n" + shader_text("view_coverage.glsl") + PICTURE_MAIN
+    )
+
+
+def color_source(version: str, is_flat: bool, is_linear: bool) -> str:
+    """Fragment shader that draws a planar map, averaged in linear light or in sRGB."""
+    chosen = f"#define VEXTURE_FLAT {int(is_flat)}\n#define VEXTURE_LINEAR {int(is_linear)}\n"
+    return VERSIONS[version] + chosen + shader_text("view_color.glsl") + COLOR_MAIN

@@ -51,11 +51,13 @@ def place_of(roots: Sequence[Root], root: str | int | None, texture: str = "text
 def layers_of(roots: Sequence[Root], root: str | int | None, texture: str = "texture") -> list[int]:
     """Numbers of the shapes that a picture shows, in painting order.
 
-    `root` is the name of a drawing: the part before ``/layer`` in the names of painted shapes, or the name of a shape
-    without paint. Or it is the name or number of one shape. None means the only drawing. Raises a `ParameterError` if
+    `root` is the name of a drawing: the part before ``/layer`` in the names of painted shapes and of maps, or the name
+    of a silhouette. Or it is the name or number of one shape. None means the only drawing. Raises a `ParameterError` if
     there is no such drawing or shape, or if `root` is missing and there are several drawings.
     """
-    owners = [one.name if one.paint is None else one.name.rpartition("/")[0] or one.name for one in roots]
+    owners = [
+        one.name.rpartition("/")[0] or one.name if one.is_map or one.paint is not None else one.name for one in roots
+    ]
     if root is None:
         different = list(dict.fromkeys(owners))
         if len(different) > 1:

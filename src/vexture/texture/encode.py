@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 
 from vexture import layout
 from vexture.errors import LimitError
+from vexture.texture.planar import curve_texels, map_texels
 from vexture.texture.texture import Root, Texture
+from vexture.tree.planar.map import PlanarMap
 from vexture.tree.tree import Tree
 
 __all__ = ["encode", "texel_rows"]
@@ -23,19 +25,25 @@ def texel_rows(texels: NDArray[np.uint32]) -> NDArray[np.uint32]:
     return out.reshape(rows, width, 4)
 
 
-def encode(trees: Sequence[Tree], roots: Sequence[Root], *, name: str, source: str | None = None) -> Texture:
-    """Texture of some trees, one after another: the quads of each, then its curves.
+def encode(
+    trees: Sequence[Tree | PlanarMap], roots: Sequence[Root], *, name: str, source: str | None = None
+) -> Texture:
+    """Texture of some trees and planar maps, one after another: of a tree its quads, then its curves.
 
-    Each root describes one tree; its `quad` is filled in here. Raises a `LimitError` if there is no tree, or if the
-    trees need more texels than a texture has.
+    Each root describes one of them; its `quad` is filled in here, and whether it is a map. Raises a `LimitError` if
+    there is no tree, or if the trees need more texels than a texture has.
     """
     texels: list[NDArray[np.uint32]] = []
     placed: list[Root] = []
     at = 0
     for tree, root in zip(trees, roots, strict=True):
-        placed.append(replace(root, quad=at))
-        texels += [_quad_texels(tree, at), _curve_texels(tree.curves)]
-        at += len(tree.count) + len(tree.curves)
+        if isinstance(tree, PlanarMap):
+            texels.append(map_texels(tree, at))
+            placed.append(replace(root, quad=at + 1, is_map=True))
+        else:
+            texels.append(np.concatenate([_quad_texels(tree, at), curve_texels(tree.curves)]))
+            placed.append(replace(root, quad=at))
+        at += len(texels[-1])
     most = layout.MOST_ROWS << layout.ROW_BITS
     if at > most:
         raise LimitError(f"{name}: {at} texels; the limit is {most}; use several textures, or a larger `tolerance`")
@@ -54,11 +62,4 @@ def _quad_texels(tree: Tree, at: int) -> NDArray[np.uint32]:
     texels[:, 1] = at + len(tree.count) + tree.first_curve
     texels[:, 2] = (cells << shift).sum(axis=1)
     texels[:, 3] = (coverage << shift).sum(axis=1)
-    return texels
-
-
-def _curve_texels(curves: NDArray[np.int32]) -> NDArray[np.uint32]:
-    offset = np.array([0, layout.CONTROL_OFFSET, layout.CONTROL_OFFSET, 0])[:, None]
-    stored = curves + offset
-    texels: NDArray[np.uint32] = (stored[:, :, 0] | (stored[:, :, 1] << layout.COORDINATE_BITS)).astype(np.uint32)
     return texels

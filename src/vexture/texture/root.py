@@ -27,7 +27,7 @@ class Root:
     name : str
         Names the shape within its texture.
     quad : int
-        Index of its root quad's texel; a shader needs nothing else.
+        Index of its root quad's texel; a shader needs nothing else of a silhouette.
     to_source : (2, 3) float64 array
         Affine map from the unit square to the units of the source.
     tolerance : float
@@ -36,6 +36,8 @@ class Root:
         Coordinate reference system of the source units, if there is one.
     paint : Paint or None
         The colour, if the shape is one layer of a drawing; None for a silhouette.
+    is_map : bool
+        Whether the shape is a planar map: a whole drawing in its colours.
 
     Examples
     --------
@@ -50,6 +52,7 @@ class Root:
     tolerance: float = 0.0
     crs: str | None = None
     paint: Paint | None = None
+    is_map: bool = False
 
 
 def roots_text(roots: tuple[Root, ...]) -> str:
@@ -73,6 +76,8 @@ def _as_json(root: Root) -> dict[str, Any]:
         "transform": [_short(number) for number in root.to_source.flat],
         "tolerance": _short(root.tolerance),
     }
+    if root.is_map:
+        entry["map"] = True
     if root.crs is not None:
         entry["crs"] = root.crs
     if root.paint is not None:
@@ -104,18 +109,21 @@ def read_roots(text: str) -> tuple[Root, ...]:
 def _read_root(entry: Any, place: int) -> Root:
     if not isinstance(entry, dict):
         raise FormatError(f"root {place} is {_line(entry)}; it must be an object; {REMEDY}")
-    name, quad, crs = entry.get("name"), entry.get("quad"), entry.get("crs")
+    name, quad, crs, is_map = entry.get("name"), entry.get("quad"), entry.get("crs"), entry.get("map", False)
     if not isinstance(name, str):
         raise FormatError(f"root {place} has the name {_line(name)}; it must be a text; {REMEDY}")
     if type(quad) is not int or not 0 <= quad < 1 << 32:
         raise FormatError(f"root {place} has the quad {_line(quad)}; it must be an index of a texel; {REMEDY}")
+    if type(is_map) is not bool:
+        raise FormatError(f"root {place}: map is {_line(is_map)}; it must be true or false; {REMEDY}")
     if crs is not None and not isinstance(crs, str):
         raise FormatError(f"root {place} has the crs {_line(crs)}; it must be a text; {REMEDY}")
     transform = _numbers(entry.get("transform"), 6, f"root {place}: transform")
     (tolerance,) = _numbers([entry.get("tolerance", 0)], 1, f"root {place}: tolerance")
     if tolerance < 0.0:
         raise FormatError(f"root {place}: tolerance is {tolerance:g}; it must be at least 0; {REMEDY}")
-    return Root(name, quad, np.array(transform).reshape(2, 3), tolerance, crs, _read_paint(entry.get("paint"), place))
+    paint = _read_paint(entry.get("paint"), place)
+    return Root(name, quad, np.array(transform).reshape(2, 3), tolerance, crs, paint, is_map)
 
 
 def _read_paint(paint: Any, place: int) -> Paint | None:

@@ -12,11 +12,13 @@ from vexture import layout
 from vexture.drawing import Paint
 from vexture.encodings import TextureRenderer
 from vexture.errors import FormatError, LimitError, ParameterError
-from vexture.renderers.picture import painted
+from vexture.renderers.picture import painted, stacked
 from vexture.renderers.view import Size, ViewLike, size_of
 from vexture.texture.choose import layers_of, place_of
+from vexture.texture.facts import facts_of
 from vexture.texture.files import target_of, write_together
 from vexture.texture.ktx2 import check_size, write_ktx2
+from vexture.texture.planar import read_map
 from vexture.texture.root import Root, roots_text
 from vexture.texture.walk import REMEDY, walk
 
@@ -30,7 +32,7 @@ WRITER: Final = "vexture"
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Texture:
-    """A texture of packed quads and curves (FORMAT.md, part B).
+    """A texture of packed quads and curves (FORMAT.md, parts B and D).
 
     Parameters
     ----------
@@ -86,14 +88,26 @@ class Texture:
         return np.array([root.quad for root in self.roots], np.int64)
 
     @property
+    def version(self) -> str:
+        """Version of the format: the least that has all kinds of its shapes."""
+        return layout.PACKED_VERSION if not any(root.is_map for root in self.roots) else layout.MAP_VERSION
+
+    @property
     def depth(self) -> int:
         """Depth of the deepest quad; a root has depth 0. A shader descends at most this often."""
-        return len(walk(self.flat, self.quads)) - 1
+        plain, maps = self._trees()
+        depths = [len(walk(self.flat, plain)), *(len(read_map(self.flat, quad).levels) for quad in maps)]
+        return max(depths) - 1
 
     @property
     def nbytes(self) -> int:
         """Size in memory, of a GPU too."""
         return self.texels.nbytes
+
+    def _trees(self) -> tuple[NDArray[np.int64], list[int]]:
+        """Root quads of the silhouettes and layers, and those of the planar maps, each of these once."""
+        plain = np.array([root.quad for root in self.roots if not root.is_map], np.int64)
+        return plain, sorted({root.quad for root in self.roots if root.is_map})
 
     def root(self, root: str | int | None = None) -> Root:
         """One of the shapes, by its name or number; the only one if `root` is missing.
@@ -105,11 +119,20 @@ class Texture:
     def check(self) -> None:
         """Raise a `FormatError` where the texels contradict FORMAT.md; the time is proportional to their number."""
         flat = self.flat
-        levels = walk(flat, self.quads)
-        met = np.zeros(len(flat), np.bool_)
+        plain, maps = self._trees()
+        levels = walk(flat, plain)
+        times = np.zeros(len(flat), np.int64)
         for level in levels:
-            met[level.quads], met[level.curves] = True, True
-        unmet = flat.any(axis=1) & ~met
+            times[level.quads] += 1
+            times[level.curves] += 1
+        for quad in maps:
+            found = read_map(flat, quad)
+            levels += found.levels
+            for start, stop in found.ranges:
+                times[start:stop] += 1
+        if times.max() > 1:
+            raise FormatError(f"texel {times.argmax()} is a part of two things; {REMEDY}")
+        unmet = flat.any(axis=1) & (times == 0)
         if unmet.any():
             raise FormatError(f"texel {unmet.argmax()} belongs to no root and is not 0; {REMEDY}")
         curves = np.concatenate([level.curves for level in levels])
@@ -159,8 +182,15 @@ class Texture:
         if wanted.ndim != 2 or wanted.shape[1] != 2:
             raise ParameterError(f"`points` has the shape {wanted.shape}; it must be (n, 2)")
         inside = np.empty(len(wanted), np.bool_)
-        points_inside(self.flat, self.root(root).quad, wanted, inside)
+        points_inside(self.flat, self._silhouette(root).quad, wanted, inside)
         return inside
+
+    def _silhouette(self, root: str | int | None) -> Root:
+        """A shape that is no planar map."""
+        found = self.root(root)
+        if found.is_map:
+            raise ParameterError(f"`root` {found.name!r} is a planar map, which has no outlines; convert a silhouette")
+        return found
 
     def coverage(
         self,
@@ -179,6 +209,8 @@ class Texture:
         array([[0.5, 0.5]], dtype=float32)
         """
         place = place_of(self.roots, root, self.name)
+        if self.roots[place].is_map:
+            return self._colours(size, view, renderer, place)[..., 3]
         if renderer == "cpu":
             from vexture.renderers.cpu import render_cpu  # late: compiled code, not needed for reading
 
@@ -189,6 +221,18 @@ class Texture:
 
         return render_gpu(self, size, view, root=place)
 
+    def _colours(self, size: Size, view: ViewLike, renderer: TextureRenderer, place: int) -> NDArray[np.float32]:
+        """Picture of a planar map, (height, width, 4), premultiplied."""
+        if renderer == "cpu":
+            from vexture.renderers.colour import render_cpu_colours  # late: compiled code, not needed for reading
+
+            return render_cpu_colours(self, size, view, root=place)
+        if renderer != "gpu":
+            raise ParameterError(f"`renderer` is {renderer!r}; a texture is rendered by 'cpu' or 'gpu'")
+        from vexture.renderers.gpu import render_gpu_colours
+
+        return render_gpu_colours(self, size, view, root=place)
+
     def render(
         self,
         size: Size,
@@ -198,14 +242,13 @@ class Texture:
         root: str | int | None = None,
     ) -> NDArray[np.float32]:
         """Picture of a drawing in its colours, as `vexture.render` makes it. Parameters, result and errors as there."""
-        layers = (
-            (
-                self.roots[place].paint or Paint(),
-                self.coverage(size, view, renderer=renderer, root=place),
-            )
+        pictures = (
+            self._colours(size, view, renderer, place)
+            if self.roots[place].is_map
+            else painted(self.roots[place].paint or Paint(), self.coverage(size, view, renderer=renderer, root=place))
             for place in layers_of(self.roots, root, self.name)
         )
-        return painted(size_of(size), layers)
+        return stacked(size_of(size), pictures)
 
     def plot(self, root: str | int | None = None) -> "Figure":
         """Figure of a shape's cells by depth, their coverage, and the picture. `root` as in `contains`.
@@ -229,7 +272,7 @@ class Texture:
         """
         from vexture.texture.plot import PICTURE, plot_shape
 
-        shape = self.root(root)
+        shape = self._silhouette(root)
         title = "picture" if len(self.roots) == 1 else f"picture of {shape.name}"
         return plot_shape(self.flat, shape.quad, self.coverage(PICTURE, root=root), title)
 
@@ -256,7 +299,7 @@ class Texture:
         from vexture.texture.outlines import outlines
         from vexture.texture.svg_text import svg_document
 
-        roots = self.roots if root is None else (self.root(root),)
+        roots = [self._silhouette(place) for place in (range(len(self.roots)) if root is None else [root])]
         return svg_document(((one, outlines(self.flat, one.quad)) for one in roots), self.name)
 
     def info(self) -> dict[str, Any]:
@@ -268,47 +311,22 @@ class Texture:
         >>> Texture(texels, (Root("a quarter"),)).info()["roots"][0]["coverage"]
         0.25
         """
-        levels = walk(self.flat, self.quads)
-        distinct = levels[0].quads
-        quads, curves, depth = np.zeros((3, len(distinct)), np.int64)
-        for below, level in enumerate(levels):
-            here = np.bincount(level.tree, minlength=len(distinct))
-            quads += here
-            curves += np.bincount(level.tree, level.counts.sum(axis=1), len(distinct)).astype(np.int64)
-            depth[here > 0] = below
-        coverage = levels[0].coverages.mean(axis=1) / layout.COVERAGE_ONE
         return {
             "encoding": layout.ENCODING_PACKED,
-            "version": layout.PACKED_VERSION,
+            "version": self.version,
             "name": self.name,
             "source": self.source,
             "width": self.texels.shape[1],
             "height": self.texels.shape[0],
-            "texels": int(quads.sum() + curves.sum()),
-            "depth": int(depth.max()),
+            **facts_of(self.flat, self.roots),
             "bytes": self.nbytes,
-            "roots": [
-                {
-                    "name": root.name,
-                    "quad": root.quad,
-                    "coverage": float(coverage[tree]),
-                    "quads": int(quads[tree]),
-                    "curves": int(curves[tree]),
-                    "depth": int(depth[tree]),
-                    "transform": root.to_source.tolist(),
-                    "crs": root.crs,
-                    "tolerance": root.tolerance,
-                    "paint": root.paint and {"color": [*root.paint.color], "opacity": root.paint.opacity},
-                }
-                for root, tree in zip(self.roots, np.searchsorted(distinct, self.quads), strict=True)
-            ],
         }
 
     def texts(self) -> dict[str, str]:
         """Key/value data of the file (FORMAT.md, B.5), by their keys."""
         texts = {
             layout.TEXT_WRITER: WRITER,
-            layout.TEXT_VERSION: layout.PACKED_VERSION,
+            layout.TEXT_VERSION: self.version,
             layout.TEXT_ENCODING: layout.ENCODING_PACKED,
             layout.TEXT_NAME: self.name,
             layout.TEXT_SOURCE: self.source,

@@ -26,17 +26,20 @@ class WalkLevel(NamedTuple):
     tree: NDArray[np.int64]  # (n,): which root each belongs to, among the different roots in order of their quads
     is_quad: NDArray[np.bool_]  # (n, 4)
     counts: NDArray[np.int64]  # (n, 4): curves of each leaf
-    windings: NDArray[np.int64]  # (n, 4): corner winding of each leaf with curves; 0 elsewhere
+    windings: NDArray[np.int64]  # (n, 4): corner winding of each leaf with curves; 0 elsewhere; in maps, `IS_MEAN` or 0
     coverages: NDArray[np.int64]  # (n, 4): coverage byte of each cell
     curves: NDArray[np.int64]  # (m,): index of each curve's texel, in the order of the quads and their cells
 
 
-def walk(flat: NDArray[np.uint32], roots: NDArray[np.int64]) -> list[WalkLevel]:
+def walk(flat: NDArray[np.uint32], roots: NDArray[np.int64], of_maps: bool = False) -> list[WalkLevel]:
     """Walk the trees of some roots, given by the indices of their quads; equal roots are one tree.
 
+    The roots are silhouettes, or, if `of_maps`, planar maps, whose cells have neither windings nor coverages.
     Raises a `FormatError` if the texels (n, 4) are no forest, or a cell has a value that FORMAT.md does not allow.
     """
     quads = np.unique(roots)
+    if not len(quads):
+        return []
     if quads[0] < 0 or quads[-1] >= len(flat):
         raise FormatError(f"a root is quad {quads[-1]} of {len(flat)} texels; {REMEDY}")
     met = np.zeros(len(flat), np.bool_)
@@ -47,7 +50,7 @@ def walk(flat: NDArray[np.uint32], roots: NDArray[np.int64]) -> list[WalkLevel]:
         depth, deepest = len(levels), layout.MOST_DEPTH - 1
         if depth > deepest:
             raise FormatError(f"quad {quads[0]} lies at depth {depth}; the limit is {deepest}; {REMEDY}")
-        is_quad, count, winding, coverage = _cells(flat, quads)
+        is_quad, count, winding, coverage = _cells(flat, quads, of_maps)
         below = _below(flat[:, 0], quads, is_quad.sum(axis=1), met, "quad")
         curves = _below(flat[:, 1], quads, count.sum(axis=1), met, "curve")
         levels.append(WalkLevel(quads, tree, is_quad, count, winding, coverage, curves))
@@ -56,7 +59,7 @@ def walk(flat: NDArray[np.uint32], roots: NDArray[np.int64]) -> list[WalkLevel]:
 
 
 def _cells(
-    flat: NDArray[np.uint32], quads: NDArray[np.int64]
+    flat: NDArray[np.uint32], quads: NDArray[np.int64], of_maps: bool
 ) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
     """Cells of quads: whether they are quads, their number of curves, corner winding and coverage."""
     shift = layout.CELL_BITS * np.arange(4)
@@ -66,11 +69,12 @@ def _cells(
     is_quad = cells >= layout.QUAD_FLAG
     count = np.where(is_quad, 0, cells >> layout.COUNT_SHIFT & layout.MOST_CURVES)
     winding = np.where(is_quad, 0, cells & ((1 << layout.COUNT_SHIFT) - 1))
-    wrong = np.where(is_quad, cells != layout.QUAD_FLAG, (count > 0) != (winding > 0))
+    leaf_is_wrong = (winding > 0) & (cells != layout.IS_MEAN) if of_maps else (count > 0) != (winding > 0)
+    wrong = np.where(is_quad, cells != layout.QUAD_FLAG, leaf_is_wrong)
     if wrong.any():
         place, cell = np.argwhere(wrong)[0]
         raise FormatError(f"quad {quads[place]}, cell {cell} is {cells[place, cell]}, which is no valid cell; {REMEDY}")
-    return is_quad, count, np.where(count > 0, winding - layout.WINDING_OFFSET, 0), coverage
+    return is_quad, count, winding if of_maps else np.where(count > 0, winding - layout.WINDING_OFFSET, 0), coverage
 
 
 def _below(

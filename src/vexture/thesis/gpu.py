@@ -53,7 +53,7 @@ def render_thesis_gpu(
             triangle.program[name] = unit
         triangle.program["list_lengths"] = (len(texture.quads), len(texture.curves))
         triangle.program["to_unit"].write(matrix.T.astype(np.float32).tobytes())
-        pixels = draw(gl, triangle, (width, height))
+        pixels = draw(gl, triangle, (width, height))[..., 0]
         for uploaded in lists:
             uploaded.release()
     return pixels

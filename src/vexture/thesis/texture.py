@@ -12,7 +12,7 @@ from vexture.drawing import IDENTITY, Paint
 from vexture.encodings import TextureRenderer
 from vexture.errors import FormatError, LimitError, ParameterError
 from vexture.layout import TEXT_ENCODING, TEXT_VERSION
-from vexture.renderers.picture import painted
+from vexture.renderers.picture import painted, stacked
 from vexture.renderers.view import Size, ViewLike, size_of
 from vexture.texture.files import file_name, is_folder, read_file, write_together
 from vexture.thesis import layout
@@ -185,7 +185,7 @@ class ThesisTexture:
     ) -> NDArray[np.float32]:
         """Picture of the shape in black; the parameters are those of `vexture.render`."""
         covered = self.coverage(size, view, renderer=renderer, root=root)
-        return painted(size_of(size), [(Paint(), covered)])
+        return stacked(size_of(size), [painted(Paint(), covered)])
 
     def info(self) -> dict[str, Any]:
         """Describe the texture, ready for JSON.

@@ -16,7 +16,19 @@ from vexture.layout import LATTICE
 from vexture.tree.crossings import crossing_heights, x_at
 from vexture.tree.winding import inside
 
-__all__ = ["MOST_RESOLVED", "Boundary", "cell_paths", "crowded_area", "quantise", "quantise_piece", "resolve"]
+__all__ = [
+    "MOST_RESOLVED",
+    "Boundary",
+    "cell_paths",
+    "coincide",
+    "crowded_area",
+    "order_slab",
+    "quantise",
+    "quantise_piece",
+    "resolve",
+    "slab_heights",
+    "sort_order",
+]
 
 NEAR = 1.0
 """Lattice units. Curves that stay closer than this are one boundary."""
@@ -100,7 +112,7 @@ def sort_order(keys: NDArray[np.float64], count: int) -> NDArray[np.int64]:
 
 
 @kernel
-def _slab_heights(curves: NDArray[np.float64]) -> NDArray[np.float64]:
+def slab_heights(curves: NDArray[np.float64]) -> NDArray[np.float64]:
     """Heights of the slabs' borders, sorted, each once: the leaf's own, every end's, every crossing's."""
     n = len(curves)
     heights, count = crossing_heights(curves, NEAR, 2 * n + 2)
@@ -119,7 +131,7 @@ def _slab_heights(curves: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 @kernel(allocates=False)
-def _order_slab(
+def order_slab(
     curves: NDArray[np.float64], low: float, high: float, active: NDArray[np.int64], x: NDArray[np.float64]
 ) -> int:
     """Order the pieces that span a slab by x; return how many there are.
@@ -161,7 +173,7 @@ def _order_slab(
 
 
 @kernel(allocates=False)
-def _coincide(x: NDArray[np.float64], i: int, j: int, height: float) -> bool:
+def coincide(x: NDArray[np.float64], i: int, j: int, height: float) -> bool:
     """Whether two pieces of a slab are one boundary: at three heights less than a unit apart, across them."""
     if x[i, 0] == np.inf:
         return False
@@ -201,7 +213,7 @@ def _roles_in_slab(
     while first < count:
         before = paths_inside > 0
         last = first
-        while last < count and (last == first or _coincide(x, active[first], active[last], height)):
+        while last < count and (last == first or coincide(x, active[first], active[last], height)):
             i = active[last]
             p = owner[i]
             paths_inside -= 1 if inside(w[p], rules[p]) else 0
@@ -234,7 +246,7 @@ def resolve(
     `owner` (n,) is the path of each piece, as an index into `corner`, the corner windings, and `rules`, both of the
     leaf's paths only. `multiplicity` (n,) says how often each piece is there; negative: in the other direction.
     """
-    heights = _slab_heights(curves)
+    heights = slab_heights(curves)
     slabs, count = len(heights) - 1, len(curves)
     left = np.zeros(slabs, np.int64)
     run_piece, run_role = np.empty(count * slabs, np.int64), np.empty(count * slabs, np.int64)
@@ -256,7 +268,7 @@ def resolve(
                     if curves[i, end, 0] == 0.0 and curves[i, end, 1] == low:
                         windings[owner[i]] += event * multiplicity[i]
             high = heights[slab + 1]
-            spanning = _order_slab(curves, low, high, active, x)
+            spanning = order_slab(curves, low, high, active, x)
             left[slab] = _roles_in_slab(
                 curves, owner, multiplicity, windings, rules, active, spanning, x, high - low, previous, role
             )

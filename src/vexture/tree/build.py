@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.monotone import monotone_pieces
+from vexture.bezier.monotone import Pieces, monotone_pieces
 from vexture.bezier.split import copy_curve
 from vexture.deadline import check_time
 from vexture.drawing import Drawing
@@ -42,15 +42,20 @@ from vexture.tree.tree import MOST_QUADS, Tree
 from vexture.tree.winding import child_windings, inside
 
 __all__ = [
+    "CELL",
     "DEFAULT_CAPACITY",
     "DEFAULT_DEPTH",
     "SLICE",
     "Bounds",
+    "bounds_of",
     "build_tree",
+    "check_growth",
     "check_whole",
     "grow",
     "grow_on",
     "largest_shift",
+    "new_growth",
+    "root_paths",
 ]
 
 DEFAULT_CAPACITY = 8
@@ -189,7 +194,7 @@ def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Wor
 
 
 @kernel
-def _root(points: NDArray[np.float64], path: NDArray[np.int64]) -> tuple[NDArray[np.int64], int, float]:
+def root_paths(points: NDArray[np.float64], path: NDArray[np.int64]) -> tuple[NDArray[np.int64], int, float]:
     """Paths of the unit square with corner windings 0; move ends into the square, and return by how much at most.
 
     The number of paths is returned behind their list, which has room for more.
@@ -229,8 +234,16 @@ def grow(
 ) -> tuple[Growth, float]:
     """Divide the unit square as `grow_on` does; also returns how far the outline lies outside the unit square."""
     pieces = monotone_pieces(cubics, owner)
-    present, paths, outside = _root(pieces.points, pieces.path)
-    n, cells = len(pieces.path), 4 * bounds.max_depth + 4
+    present, paths, outside = root_paths(pieces.points, pieces.path)
+    tree = new_growth(pieces, present, paths, bounds.max_depth)
+    grow_on(tree, rules, bounds, most_work)
+    return tree, outside
+
+
+@kernel
+def new_growth(pieces: Pieces, present: NDArray[np.int64], paths: int, max_depth: int) -> Growth:
+    """The unit square, to be divided."""
+    n, cells = len(pieces.path), 4 * max_depth + 4
     room = (PARTS + 4) * n
     pool = PiecePool(
         np.empty((room, 4, 2)),
@@ -244,7 +257,7 @@ def grow(
         pool.path[i], pool.numbers[i] = pieces.path[i], i
     stack = np.zeros((cells, 7), np.int64)
     stack[0, LAST], stack[0, LAST_PATH], stack[0, PIECES] = n, paths, n
-    tree = Growth(
+    return Growth(
         pool,
         present,
         stack,
@@ -256,8 +269,6 @@ def grow(
         np.zeros(1),
         np.empty(5, np.int64),
     )
-    grow_on(tree, rules, bounds, most_work)
-    return tree, outside
 
 
 def largest_shift(precision: float | None) -> float:
@@ -279,6 +290,42 @@ def check_whole(name: str, value: object, most: int, default: int) -> None:
 
 def _is_number(value: object) -> bool:
     return isinstance(value, float | int | np.number) and not isinstance(value, bool)
+
+
+def bounds_of(
+    tolerance: float,
+    max_depth: int,
+    capacity: int,
+    precision: float | None,
+    most_quads: int,
+    default_capacity: int = DEFAULT_CAPACITY,
+) -> Bounds:
+    """Bounds of a tree from the parameters of `build_tree`; raises a `ParameterError` if one is out of range."""
+    check_whole("max_depth", max_depth, MOST_DEPTH, DEFAULT_DEPTH)
+    check_whole("capacity", capacity, MOST_CURVES, default_capacity)
+    finest = DISPLACEMENT * 0.5**max_depth / LATTICE
+    if not (precision is None or (_is_number(precision) and finest <= precision <= 1.0)):
+        raise ParameterError(
+            f"`precision` {precision!r} is no number in {finest:.1e}..1 (unit-square units), at `max_depth` "
+            f"{max_depth}; leave it out for views up to 1,000 times, or give 1e-7 for 10,000"
+        )
+    least_depth = 1 if precision is None else max(math.ceil(math.log2(DISPLACEMENT / (precision * LATTICE))), 1)
+    if not (_is_number(tolerance) and 0.0 <= tolerance < 1.0):
+        raise ParameterError(
+            f"`tolerance` {tolerance!r} is no number from 0 to below 1 (unit-square units); 0 keeps every piece"
+        )
+    near = COINCIDENT * largest_shift(precision)
+    return Bounds(capacity, float(tolerance), near, least_depth, max_depth, most_quads)
+
+
+def check_growth(tree: Growth, most_quads: int, name: str) -> None:
+    """Raise a `LimitError` if a tree has too many quads or has taken too long."""
+    if tree.counts[QUADS] > most_quads:
+        raise LimitError(
+            f"{name}: {tree.counts[QUADS]} quads at least; the limit is {most_quads}; "
+            "use a smaller `max_depth`, a larger `tolerance` or a larger `precision`"
+        )
+    check_time(name)
 
 
 def build_tree(
@@ -304,21 +351,7 @@ def build_tree(
     >>> len(tree.count), len(tree.curves), round(float(tree.coverage[0].mean()), 4)
     (1, 6, 0.36)
     """
-    check_whole("max_depth", max_depth, MOST_DEPTH, DEFAULT_DEPTH)
-    check_whole("capacity", capacity, MOST_CURVES, DEFAULT_CAPACITY)
-    finest = DISPLACEMENT * 0.5**max_depth / LATTICE
-    if not (precision is None or (_is_number(precision) and finest <= precision <= 1.0)):
-        raise ParameterError(
-            f"`precision` {precision!r} is no number in {finest:.1e}..1 (unit-square units), at `max_depth` "
-            f"{max_depth}; leave it out for views up to 1,000 times, or give 1e-7 for 10,000"
-        )
-    least_depth = 1 if precision is None else max(math.ceil(math.log2(DISPLACEMENT / (precision * LATTICE))), 1)
-    if not (_is_number(tolerance) and 0.0 <= tolerance < 1.0):
-        raise ParameterError(
-            f"`tolerance` {tolerance!r} is no number from 0 to below 1 (unit-square units); 0 keeps every piece"
-        )
-    near = COINCIDENT * largest_shift(precision)
-    bounds = Bounds(capacity, float(tolerance), near, least_depth, max_depth, most_quads)
+    bounds = bounds_of(tolerance, max_depth, capacity, precision, most_quads)
     cubics, owner, rules = gather(drawing)
     check_time(drawing.name)
     arrays, outside = grow(cubics, owner, rules, bounds, SLICE)
@@ -326,12 +359,7 @@ def build_tree(
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {outside:.3g}; clip or scale it first")
     tree = Growth(*arrays)
     while tree.counts[WAITING] > 0:
-        if tree.counts[QUADS] > most_quads:
-            raise LimitError(
-                f"{drawing.name}: {tree.counts[QUADS]} quads at least; the limit is {most_quads}; "
-                "use a smaller `max_depth`, a larger `tolerance` or a larger `precision`"
-            )
-        check_time(drawing.name)
+        check_growth(tree, most_quads, drawing.name)
         tree = with_needed_room(tree)
         grow_on(tree, rules, bounds, SLICE)
     return tree_of(tree)

@@ -27,7 +27,9 @@ __all__ = [
     "WAITING",
     "WINDING",
     "Growth",
+    "first_of",
     "has_room",
+    "roomy",
     "tree_of",
     "with_needed_room",
 ]
@@ -89,8 +91,8 @@ def tree_of(tree: Growth) -> Tree:
         is_quad,
         cells[:, :, COUNT].astype(np.uint8),
         cells[:, :, WINDING].astype(np.int8),
-        _first(below, 1),
-        _first(pieces, 0),
+        first_of(below, 1),
+        first_of(pieces, 0),
         cells[:, :, COVERAGE].copy(),
         tree.curves[runs(tree.first[order, 1], pieces)].astype(np.int32),
         deviation=float(tree.deviation[0]),
@@ -98,7 +100,7 @@ def tree_of(tree: Growth) -> Tree:
     )
 
 
-def _first(lengths: NDArray[np.int64], start: int) -> NDArray[np.int32]:
+def first_of(lengths: NDArray[np.int64], start: int) -> NDArray[np.int32]:
     """Numbers of the first of so many, one run after another; 0 where there are none: it compresses better."""
     firsts = start + np.cumsum(lengths) - lengths
     return np.where(lengths > 0, firsts, 0).astype(np.int32)
@@ -109,20 +111,20 @@ def with_needed_room(tree: Growth) -> Growth:
     pieces, numbers, paths, quads, curves = tree.needed.tolist()
     points, path, *lists = tree.pool
     return Growth(
-        PiecePool(_roomy(points, pieces), _roomy(path, pieces), *(_roomy(rows, numbers) for rows in lists)),
-        _roomy(tree.present, paths),
+        PiecePool(roomy(points, pieces), roomy(path, pieces), *(roomy(rows, numbers) for rows in lists)),
+        roomy(tree.present, paths),
         tree.stack,
         tree.corner,
-        _roomy(tree.cells, quads),
-        _roomy(tree.first, quads),
-        _roomy(tree.curves, curves),
+        roomy(tree.cells, quads),
+        roomy(tree.first, quads),
+        roomy(tree.curves, curves),
         tree.counts,
         tree.deviation,
         tree.needed,
     )
 
 
-def _roomy(rows: NDArray[Any], needed: int) -> NDArray[Any]:
+def roomy(rows: NDArray[Any], needed: int) -> NDArray[Any]:
     """The rows, or a longer copy if fewer than are needed."""
     if needed <= len(rows):
         return rows

@@ -23,7 +23,7 @@ from vexture.tree.merge import MOST_MERGED, merge_chains
 from vexture.tree.separate import UNSURE, CellPieces, all_separate, clean_pieces
 from vexture.tree.winding import winding_area
 
-__all__ = ["DIVIDE", "Leaf", "leaf_of", "new_workspace"]
+__all__ = ["DIVIDE", "SPARE", "Leaf", "keep_run", "leaf_of", "new_workspace", "round_controls"]
 
 DIVIDE = -1
 """`Leaf.size` of a cell that must be divided."""
@@ -55,7 +55,7 @@ class Workspace(NamedTuple):
 
 
 @kernel(allocates=False)
-def _round_controls(curves: NDArray[np.float64], count: int) -> None:
+def round_controls(curves: NDArray[np.float64], count: int) -> None:
     """Round inner control points to the lattice, within the range of the format."""
     for i in range(count):
         for k in (1, 2):
@@ -64,7 +64,7 @@ def _round_controls(curves: NDArray[np.float64], count: int) -> None:
 
 
 @kernel(allocates=False)
-def _keep_run(curve: NDArray[np.float64], role: int, low: float, high: float, out: NDArray[np.float64]) -> None:
+def keep_run(curve: NDArray[np.float64], role: int, low: float, high: float, out: NDArray[np.float64]) -> None:
     """Write the part of a piece between two heights, with the filled side on its left."""
     start, stop = (high, low) if role == 1 else (low, high)
     u0 = solve_monotone(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], start)
@@ -84,7 +84,7 @@ def _resolved_pieces(curves: NDArray[np.float64], boundary: Boundary, out: NDArr
     count = min(len(boundary.run_piece), len(out) - 2 * MOST_RESOLVED)
     for r in range(count):
         curve = curves[boundary.run_piece[r]]
-        _keep_run(curve, boundary.run_role[r], boundary.run_y[r, 0], boundary.run_y[r, 1], out[r])
+        keep_run(curve, boundary.run_role[r], boundary.run_y[r, 0], boundary.run_y[r, 1], out[r])
     return count
 
 
@@ -249,12 +249,12 @@ def leaf_of(
     )
     if matched < 0:
         cell_paths(workspace.path[:n], present, rules, cell.owner, cell.corner, cell.rules)
-    _round_controls(curves, n)
+    round_controls(curves, n)
     count = clean_pieces(cell, out) if all_separate(curves) else UNSURE
     if count == UNSURE:
         count = _resolve_cell(cell, out)
     count, winding = corner_winding(cell, out, count)
-    _round_controls(out, count)
+    round_controls(out, count)
     area = min(max(winding_area(out[:count], winding, LATTICE), 0.0), 1.0)
     distance *= size / LATTICE
     if count == 0:

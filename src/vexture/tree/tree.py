@@ -40,6 +40,11 @@ class Tree:
     unresolved: int  # number of leaves at the depth limit that hold more than a leaf can store; they are constant
 
     @property
+    def texels(self) -> int:
+        """Texels of a texture that it takes."""
+        return len(self.count) + len(self.curves)
+
+    @property
     def widest_leaf(self) -> float:
         """Width of the largest leaf with pieces, in unit-square units; 0 without any."""
         width = 0.5

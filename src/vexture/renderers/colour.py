@@ -1,0 +1,305 @@
+"""The mirror of ``glsl/colour.glsl`` and ``glsl/srgb.glsl``: the colour of a pixel from a planar map.
+
+See `vexture.renderers.cpu`. `is_linear` is what ``VEXTURE_LINEAR`` is in the shader.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.kernels import kernel
+from vexture.layout import COORDINATE_BITS, COVERAGE_ONE, IS_MEAN, PAINT_ONE
+from vexture.renderers.cells import (
+    Cell,
+    Texel,
+    Texels,
+    Vec2,
+    Whole2,
+    clamp,
+    count,
+    descend,
+    finest_bit,
+    first_curve,
+    first_square,
+    next_square,
+    place,
+    texel,
+    top,
+)
+from vexture.renderers.cpu import (
+    Flat,
+    Look,
+    above_ends,
+    cut_place,
+    first_look,
+    flat,
+    flat_piece_area,
+    is_beside,
+    piece_area,
+)
+from vexture.renderers.method import NO_CELL
+from vexture.renderers.piece import Box, Frame, box, box_area, frame, in_box, view_pixel, word
+from vexture.renderers.uniforms import HasTexels, uniforms_of
+from vexture.renderers.view import Size, ViewLike
+
+__all__ = ["render_cpu_colours"]
+
+Vec3 = tuple[float, float, float]
+Vec4 = tuple[float, float, float, float]
+
+
+class Planar(NamedTuple):
+    """Where the parts of a planar map begin."""
+
+    cells: int
+    sides: int
+    paints: int
+
+
+@kernel(allocates=False)
+def linear(encoded: Vec3) -> Vec3:
+    """Linear components of sRGB (IEC 61966-2-1)."""
+    return linear_component(encoded[0]), linear_component(encoded[1]), linear_component(encoded[2])
+
+
+@kernel(allocates=False)
+def linear_component(encoded: float) -> float:
+    """One component of what GLSL computes as vectors."""
+    return encoded / 12.92 if encoded <= 0.04045 else ((encoded + 0.055) / 1.055) ** 2.4
+
+
+@kernel(allocates=False)
+def planar(texels: Texels, root: int) -> Planar:
+    head = texel(texels, root - 1)
+    return Planar(head[1] - 2 * root, 0 + head[2], 0 + head[3])  # of 64 bits
+
+
+@kernel(allocates=False)
+def averaged(is_linear: int, stored: Vec4) -> Vec4:
+    if not is_linear:
+        return stored
+    alpha = max(stored[3], 1.0)
+    red, green, blue = min(stored[0] / alpha, 1.0), min(stored[1] / alpha, 1.0), min(stored[2] / alpha, 1.0)
+    red, green, blue = linear((red, green, blue))
+    return red * stored[3], green * stored[3], blue * stored[3], stored[3]
+
+
+@kernel(allocates=False)
+def paint(texels: Texels, is_linear: int, planar: Planar, number: int) -> Vec4:
+    both = texel(texels, planar.paints + (number >> 1))
+    low, high = (both[0], both[1]) if number & 1 == 0 else (both[2], both[3])
+    mask = (1 << COORDINATE_BITS) - 1
+    red, green = float(low & mask), float(low >> COORDINATE_BITS)
+    return averaged(is_linear, (red, green, float(high & mask), float(high >> COORDINATE_BITS)))
+
+
+@kernel(allocates=False)
+def jump(texels: Texels, is_linear: int, planar: Planar, curve: int) -> Vec4:
+    sides = texel(texels, planar.sides + (curve >> 2))[curve & 3]
+    left = paint(texels, is_linear, planar, sides & ((1 << COORDINATE_BITS) - 1))
+    right = paint(texels, is_linear, planar, sides >> COORDINATE_BITS)
+    return left[0] - right[0], left[1] - right[1], left[2] - right[2], left[3] - right[3]
+
+
+@kernel(allocates=False)
+def plus(a: Vec4, b: Vec4, share: float) -> Vec4:
+    """What GLSL writes as ``a + share * b``."""
+    return a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2], a[3] + share * b[3]
+
+
+@kernel(allocates=False)
+def times(a: Vec4, share: float) -> Vec4:
+    """What GLSL writes as ``share * a``."""
+    return a[0] * share, a[1] * share, a[2] * share, a[3] * share
+
+
+@kernel(allocates=False)
+def unpacked(is_linear: int, word: int) -> Vec4:
+    red, green, blue = float(word & 255), float((word >> 8) & 255), float((word >> 16) & 255)
+    return averaged(is_linear, (red, green, blue, float(word >> 24)))
+
+
+@kernel(allocates=False)
+def mean_color(is_linear: int, stored: Texel, place: Vec2) -> Vec4:
+    x, y = 2.0 * place[0] - 0.5, 2.0 * place[1] - 0.5
+    low = plus(times(unpacked(is_linear, stored[0]), 1.0 - x), unpacked(is_linear, stored[1]), x)
+    high = plus(times(unpacked(is_linear, stored[2]), 1.0 - x), unpacked(is_linear, stored[3]), x)
+    found = plus(times(low, 1.0 - y), high, y)
+    most = float(COVERAGE_ONE)
+    red, green, blue = clamp(found[0], 0.0, most), clamp(found[1], 0.0, most), clamp(found[2], 0.0, most)
+    return red, green, blue, clamp(found[3], 0.0, most)
+
+
+@kernel(allocates=False)
+def cell_color(texels: Texels, is_linear: int, planar: Planar, cell: Cell, place: Vec2) -> Vec4:
+    is_mean = (cell.texel[2] >> cell.shift) & 255 == IS_MEAN
+    at = planar.cells + 2 * cell.quad
+    stored = texel(texels, at if cell.is_quad or is_mean else at + 1)
+    word = stored[cell.shift >> 3]
+    step = PAINT_ONE / COVERAGE_ONE
+    if cell.is_quad:
+        return times(mean_color(is_linear, stored, place), step)
+    return times(unpacked(is_linear, word), step) if is_mean else paint(texels, is_linear, planar, word)
+
+
+@kernel(allocates=False)
+def flat_look(texel: Texel, box: Box) -> Look:
+    p0, p3 = word(texel[0]), word(texel[3])
+    r0, r3 = in_box(p0, box), in_box(p3, box)
+    y0, y3 = clamp(r0[1], 0.0, 1.0), clamp(r3[1], 0.0, 1.0)
+    filled = above_ends(p0, p3, y0, y3)
+    right = max(r0[0], r3[0])
+    filled += y0 - y3 if right <= 0.0 else 0.0
+    left = min(r0[0], r3[0]) if right > 0.0 else 1.0
+    return Look(filled, False, left < 1.0 and y0 != y3)
+
+
+@kernel(allocates=False)
+def add_flat_cell(texels: Texels, is_linear: int, color: Vec4, planar: Planar, cell: Cell, box: Box) -> Vec4:
+    """Return the new `color`, which GLSL changes in place."""
+    whole = box.size[0] * box.size[1]
+    side = 2.0**-cell.bit
+    x = (box.way[0] + (box.part[0] + 0.5) * box.size[0]) * side
+    y = (box.way[1] + (box.part[1] + 0.5) * box.size[1]) * side
+    color = plus(color, cell_color(texels, is_linear, planar, cell, (x, y)), whole)
+    curve = first_curve(cell)
+    for i in range(0 if cell.is_quad else count(cell)):
+        found = texel(texels, curve + i)
+        look = flat_look(found, box)
+        area = look.filled
+        if look.crosses:
+            area += flat_piece_area(found, box)
+        if area != 0.0:
+            color = plus(color, jump(texels, is_linear, planar, curve + i), whole * area)
+    return color
+
+
+@kernel(allocates=False)
+def flat_color(texels: Texels, is_linear: int, root: int, base: Whole2, offset: Vec2, view: Flat) -> Vec4:
+    parts = planar(texels, root)
+    there = place(base, offset, view.extent)
+    square = first_square(there)
+    shared = square.bit
+    start = top(root)
+    color = (0.0, 0.0, 0.0, 0.0)
+    while square.position[0] < NO_CELL:
+        position = square.position
+        cell, start = descend(texels, start, shared, view.finest, position)
+        side = 1 << cell.bit
+        origin = (position[0] & -side, position[1] & -side)
+        color = add_flat_cell(texels, is_linear, color, parts, cell, box(origin, cell.bit, there, view.extent))
+        square = next_square(position, (origin[0] + side, origin[1] + side), there)
+    return held(times(color, view.inverse / PAINT_ONE))
+
+
+@kernel(allocates=False)
+def held(color: Vec4) -> Vec4:
+    alpha = held_channel(color[3], 1.0)
+    return held_channel(color[0], alpha), held_channel(color[1], alpha), held_channel(color[2], alpha), alpha
+
+
+@kernel(allocates=False)
+def held_channel(value: float, most: float) -> float:
+    """One channel of what GLSL computes as vectors."""
+    return min(value, most) if value > 0.0 else 0.0
+
+
+@kernel(allocates=False)
+def add_cell(texels: Texels, is_linear: int, color: Vec4, planar: Planar, cell: Cell, box: Box, frame: Frame) -> Vec4:
+    """Return the new `color`, which GLSL changes in place."""
+    low, size, extent = box.low, box.size, frame.extent
+    whole = 1.0
+    if low[0] > -extent[0] or low[1] > -extent[1] or low[0] + size[0] < extent[0] or low[1] + size[1] < extent[1]:
+        whole = box_area(frame, low, size)
+    place = cut_place(cell, box, frame) if cell.is_quad else (0.5, 0.5)
+    color = plus(color, cell_color(texels, is_linear, planar, cell, place), whole)
+    curve = first_curve(cell)
+    for i in range(count(cell) if whole > 0.0 and not cell.is_quad else 0):
+        found = texel(texels, curve + i)
+        look = first_look(found, box)
+        area = whole * look.filled
+        if look.crosses:
+            area += piece_area(found, look.turns, box, frame)
+        if area != 0.0:
+            color = plus(color, jump(texels, is_linear, planar, curve + i), area)
+    return color
+
+
+@kernel(allocates=False)
+def color(texels: Texels, is_linear: int, root: int, base: Whole2, offset: Vec2, dx: Vec2, dy: Vec2) -> Vec4:
+    parts = planar(texels, root)
+    pixel = frame(dx, dy)
+    there = place(base, offset, pixel.extent)
+    square = first_square(there)
+    shared = square.bit
+    finest = finest_bit(pixel.size, pixel.longer)
+    start = top(root)
+    total = (0.0, 0.0, 0.0, 0.0)
+    beside = False
+    while square.position[0] < NO_CELL:
+        position, bit = square.position, square.bit
+        if not beside:
+            cell, start = descend(texels, start, shared, finest, position)
+            bit = cell.bit
+            origin = (position[0] & -(1 << bit), position[1] & -(1 << bit))
+            total = add_cell(texels, is_linear, total, parts, cell, box(origin, bit, there, pixel.extent), pixel)
+        side = 1 << bit
+        square = next_square(position, ((position[0] & -side) + side, (position[1] & -side) + side), there)
+        beside = square.position[0] < NO_CELL and is_beside(square, there, pixel)
+    return held(times(total, 1.0 / PAINT_ONE))
+
+
+# --- view_color.glsl -------------------------------------------------------------------------------------------
+
+
+@kernel(allocates=False)
+def view_color(
+    texels: Texels,
+    is_linear: int,
+    flat_view: int,
+    root: int,
+    base: Whole2,
+    to_unit: NDArray[np.float64],
+    pixel: Vec2,
+) -> Vec4:
+    found = view_pixel(to_unit, pixel)
+    if not found.seen:
+        return 0.0, 0.0, 0.0, 0.0
+    if flat_view:
+        return flat_color(texels, is_linear, root, base, found.offset, flat(found.dx, found.dy))
+    return color(texels, is_linear, root, base, found.offset, found.dx, found.dy)
+
+
+@kernel(allocates=False, ahead=True)
+def draw_colours(
+    texels: Texels,
+    is_linear: int,
+    flat_view: int,
+    root: int,
+    base: Whole2,
+    to_unit: NDArray[np.float64],
+    image: NDArray[np.float32],
+) -> None:
+    for row in range(image.shape[0]):
+        for column in range(image.shape[1]):
+            pixel = (column + 0.5, row + 0.5)
+            found = view_color(texels, is_linear, flat_view, root, base, to_unit, pixel)
+            for c in range(4):
+                image[row, column, c] = found[c]
+
+
+def render_cpu_colours(
+    texture: HasTexels, size: Size, view: ViewLike = None, *, root: int = 0, is_linear: bool = False
+) -> NDArray[np.float32]:
+    """Render one planar map of a texture as its shader would with exact arithmetic.
+
+    `size` and `view` are as in `vexture.coverage`; `root` is the number of the map. The picture is (height, width, 4)
+    float32, premultiplied, 0..1: averaged over pixels in sRGB, or, with `is_linear`, in linear light; then its
+    components are linear.
+    """
+    uniforms = uniforms_of(texture, size, view, root)
+    image = np.empty((*uniforms.size[::-1], 4), np.float32)
+    is_flat, root = int(uniforms.is_flat), uniforms.quad
+    draw_colours(texture.texels, int(is_linear), is_flat, root, uniforms.base, uniforms.to_unit, image)
+    return image

@@ -1,0 +1,197 @@
+"""From a planar map to texels, and back (FORMAT.md, part D)."""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture import layout
+from vexture.errors import FormatError
+from vexture.texture.walk import REMEDY, WalkLevel, curve_points, walk
+from vexture.tree.planar.map import PlanarMap
+
+__all__ = ["MapTexels", "curve_texels", "decode_map", "map_texels", "read_map"]
+
+
+def map_texels(planar: PlanarMap, at: int) -> NDArray[np.uint32]:
+    """The texels of a map, (n, 4), of which the first has index `at`: head, quads, curves, cells, sides, paints."""
+    quads, curves = len(planar.count), len(planar.curves)
+    first_quad = at + 1
+    first_curve = first_quad + quads
+    first_cells = first_curve + curves
+    sides = _side_texels(planar.sides, first_curve & 3)
+    first_sides = first_cells + 2 * quads
+    head = np.array(
+        [[len(planar.paints), first_cells, first_sides - (first_curve >> 2), first_sides + len(sides)]], np.uint32
+    )
+    texels = [
+        head,
+        _quad_texels(planar, first_quad, first_curve),
+        curve_texels(planar.curves),
+        _cell_texels(planar),
+        sides,
+        _paint_texels(planar.paints),
+    ]
+    return np.concatenate(texels)
+
+
+def _quad_texels(planar: PlanarMap, first_quad: int, first_curve: int) -> NDArray[np.uint32]:
+    cells = planar.count.astype(np.int64) << layout.COUNT_SHIFT
+    cells = np.where(planar.is_quad, layout.QUAD_FLAG, np.where(planar.is_mean, layout.IS_MEAN, cells))
+    texels = np.zeros((len(cells), 4), np.uint32)
+    texels[:, 0] = first_quad + planar.first_quad
+    texels[:, 1] = first_curve + planar.first_curve
+    texels[:, 2] = (cells << layout.CELL_BITS * np.arange(4)).sum(axis=1)
+    return texels
+
+
+def curve_texels(curves: NDArray[np.int32]) -> NDArray[np.uint32]:
+    """A texel for each curve (n, 4, 2), in lattice units."""
+    offset = np.array([0, layout.CONTROL_OFFSET, layout.CONTROL_OFFSET, 0])[:, None]
+    stored = curves + offset
+    texels: NDArray[np.uint32] = (stored[:, :, 0] | (stored[:, :, 1] << layout.COORDINATE_BITS)).astype(np.uint32)
+    return texels
+
+
+def _cell_texels(planar: PlanarMap) -> NDArray[np.uint32]:
+    """Two texels for each quad: the mean colours of its cells, and their base paints."""
+    shift = np.arange(4, dtype=np.int64) * layout.CELL_BITS
+    means = np.rint(planar.mean.clip(0.0, 1.0) * layout.COVERAGE_ONE).astype(np.int64)
+    texels = np.empty((2 * len(means), 4), np.uint32)
+    texels[0::2] = (means << shift).sum(axis=2)
+    texels[1::2] = planar.base
+    return texels
+
+
+def _side_texels(sides: NDArray[np.int32], skipped: int) -> NDArray[np.uint32]:
+    """Four curves to a texel, the paints on their left in the low bits; as many places as `skipped` come before."""
+    words = np.zeros(-(-(skipped + len(sides)) // 4) * 4, np.uint32)
+    words[skipped : skipped + len(sides)] = sides[:, 0] | (sides[:, 1] << layout.COORDINATE_BITS)
+    return words.reshape(-1, 4)
+
+
+def _paint_texels(paints: NDArray[np.uint16]) -> NDArray[np.uint32]:
+    """Two paints to a texel: red and green, blue and opacity."""
+    halves = np.zeros((-(-len(paints) // 2) * 2, 4), np.int64)
+    halves[: len(paints)] = paints
+    words = halves[:, 0::2] | (halves[:, 1::2] << layout.COORDINATE_BITS)
+    return words.astype(np.uint32).reshape(-1, 4)
+
+
+PARTS: Final = ("head", "quads", "curves", "cells", "sides", "paints")
+
+
+class MapTexels(NamedTuple):
+    """Where the texels of a planar map lie, and what they say; all of it checked."""
+
+    levels: list[WalkLevel]
+    quad: int
+    first_curve: int
+    curves: int
+    cells: int
+    sides: int  # texel of the first curve's paints
+    paints: int
+    used: int  # number of paints
+
+    @property
+    def ranges(self) -> list[tuple[int, int]]:
+        """First and last + 1 of the texels of each part."""
+        quads = sum(len(level.quads) for level in self.levels)
+        after = (self.first_curve + self.curves + 3) // 4 - self.first_curve // 4 if self.curves else 0
+        return [
+            (self.quad - 1, self.quad),
+            (self.quad, self.quad + quads),
+            (self.first_curve, self.first_curve + self.curves),
+            (self.cells, self.cells + 2 * quads),
+            (self.sides, self.sides + after),
+            (self.paints, self.paints + (self.used + 1) // 2),
+        ]
+
+
+def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
+    """The parts of the planar map with a root quad; raises a `FormatError` where they contradict FORMAT.md."""
+    levels = walk(flat, np.array([quad]), of_maps=True)
+    if quad == 0:
+        raise FormatError(f"the root of a map is quad 0, which has no head before it; {REMEDY}")
+    used, cells, sides, paints = flat[quad - 1].tolist()
+    if not 1 <= used <= layout.MOST_PAINTS:
+        raise FormatError(f"the map with root {quad} has {used} paints; the limit is {layout.MOST_PAINTS}; {REMEDY}")
+    quads = np.concatenate([level.quads for level in levels])
+    curves = np.concatenate([level.curves for level in levels])
+    for what, listed in (("quads", quads), ("curves", curves)):
+        if len(listed) and np.ptp(listed) + 1 != len(listed):
+            raise FormatError(f"the {what} of the map with root {quad} are not consecutive; {REMEDY}")
+    first_curve = int(curves.min()) if len(curves) else 0
+    found = MapTexels(levels, quad, first_curve, len(curves), cells, sides + first_curve // 4, paints, used)
+    ends = curve_points(flat[curves])[:, [0, 3], 1]
+    if flat[quads, 3].any() or (ends[:, 0] > ends[:, 1]).any():
+        raise FormatError(f"the map with root {quad} has a quad with a coverage or a curve that goes down; {REMEDY}")
+    for what, (_, stop) in zip(PARTS, found.ranges, strict=True):
+        if stop > len(flat):
+            raise FormatError(f"the {what} of the map with root {quad} end at texel {stop} of {len(flat)}; {REMEDY}")
+    last = max(int(_bases(flat, found).max()), int(_sides(flat, found).max(initial=0)))
+    if last >= used:
+        raise FormatError(f"the map with root {quad} has paint {last} of {used}; {REMEDY}")
+    table, means = _paints(flat, found), _means(flat, found)
+    if (table[:, :3] > table[:, 3:]).any() or (means[..., :3] > means[..., 3:]).any():
+        raise FormatError(f"the map with root {quad} has a colour above its opacity; {REMEDY}")
+    return found
+
+
+def _parts(flat: NDArray[np.uint32], found: MapTexels, part: int) -> NDArray[np.uint32]:
+    start, stop = found.ranges[part]
+    return flat[start:stop]
+
+
+def _bases(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
+    """Base paint of each cell, (quads, 4); 0 of those that have none."""
+    bases = _parts(flat, found, 3)[1::2].astype(np.int64)
+    quads = np.concatenate([level.quads for level in found.levels]) - found.quad
+    none = np.concatenate([level.is_quad | (level.windings == layout.IS_MEAN) for level in found.levels])
+    if (bases[quads][none] != 0).any():
+        raise FormatError(f"a cell without a base paint has one; {REMEDY}")
+    return bases
+
+
+def _means(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
+    """Mean colour of each cell, (quads, 4, 4), 0..255."""
+    shift = np.arange(4) * layout.CELL_BITS
+    means: NDArray[np.int64] = _parts(flat, found, 3)[0::2].astype(np.int64)[:, :, None] >> shift & layout.COVERAGE_ONE
+    return means
+
+
+def _sides(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
+    """Paints on the left and right of each curve, (curves, 2)."""
+    words = _parts(flat, found, 4).ravel()[found.first_curve % 4 :][: found.curves].astype(np.int64)
+    return np.stack([words & (layout.MOST_PAINTS - 1), words >> layout.COORDINATE_BITS], axis=1)
+
+
+def _paints(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.uint16]:
+    """Paints, (paints, 4)."""
+    words = _parts(flat, found, 5).reshape(-1, 2)
+    halves = np.stack([words & layout.PAINT_ONE, words >> layout.COORDINATE_BITS], axis=2)
+    return halves.reshape(-1, 4)[: found.used].astype(np.uint16)
+
+
+def decode_map(flat: NDArray[np.uint32], quad: int) -> PlanarMap:
+    """The planar map with a root quad, its means rounded to 8 bits; quads and curves are numbered as in `PlanarMap`."""
+    found = read_map(flat, quad)
+    levels = found.levels
+    quads = np.concatenate([level.quads for level in levels])
+    curves = np.concatenate([level.curves for level in levels])
+    is_quad = np.concatenate([level.is_quad for level in levels])
+    count = np.concatenate([level.counts for level in levels])
+    quads_in, curves_in = is_quad.sum(axis=1), count.sum(axis=1)
+    return PlanarMap(
+        is_quad,
+        np.concatenate([level.windings == layout.IS_MEAN for level in levels]),
+        count.astype(np.uint8),
+        _bases(flat, found)[quads - found.quad].astype(np.int32),
+        np.where(quads_in > 0, 1 + np.cumsum(quads_in) - quads_in, 0).astype(np.int32),
+        np.where(curves_in > 0, np.cumsum(curves_in) - curves_in, 0).astype(np.int32),
+        _means(flat, found)[quads - found.quad] / layout.COVERAGE_ONE,
+        curve_points(flat[curves]),
+        _sides(flat, found)[curves - found.first_curve].astype(np.int32),
+        _paints(flat, found),
+        0.0,
+    )

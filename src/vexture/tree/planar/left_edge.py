@@ -1,0 +1,127 @@
+"""A leaf's left edge: its base paint and the ends on the edge must agree with the faces there.
+
+An end on the left edge says that the paint changes at its height by what its piece has on its two sides. Going up, the
+changes must telescope, paint by paint, from each face on the edge to the next: sums of colours alone could agree by
+chance, and would no longer if a paint is changed.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.kernels import kernel
+from vexture.layout import LATTICE
+from vexture.tree.boundary import sort_order
+from vexture.tree.planar.borders import Borders, set_left_edge
+from vexture.tree.planar.faces import Faces, Layers, face_of
+from vexture.tree.planar.slabs import Pieces
+
+__all__ = ["settle_left_edge"]
+
+
+@kernel(allocates=False)
+def _tally(ids: NDArray[np.int64], sums: NDArray[np.int64], n: int, paint: int, by: int) -> int:
+    """Add to the sum of a paint; return how many paints there are."""
+    for k in range(n):
+        if ids[k] == paint:
+            sums[k] += by
+            return n
+    ids[n], sums[n] = paint, by
+    return n + 1
+
+
+@kernel(allocates=False)
+def _changes(pieces: Pieces, count: int, y: float, ids: NDArray[np.int64], sums: NDArray[np.int64]) -> int:
+    """Tally the paints that ends on the left edge at a height add and take away; return how many there are."""
+    n = 0
+    for k in range(count):
+        for end, event in ((0, 1), (3, -1)):
+            if pieces.curves[k, end, 0] == 0.0 and pieces.curves[k, end, 1] == y:
+                n = _tally(ids, sums, n, pieces.sides[k, 0], event)
+                n = _tally(ids, sums, n, pieces.sides[k, 1], -event)
+    return n
+
+
+@kernel(allocates=False)
+def _move_off(pieces: Pieces, count: int, y: float) -> None:
+    """Move the ends on the left edge at a height off it, by one unit."""
+    for k in range(count):
+        for end, control in ((0, 1), (3, 2)):
+            if pieces.curves[k, end, 0] == 0.0 and pieces.curves[k, end, 1] == y:
+                pieces.curves[k, end, 0] += 1.0
+                pieces.curves[k, control, 0] += 1.0
+
+
+@kernel(allocates=False)
+def _all_zero(sums: NDArray[np.int64], n: int) -> bool:
+    for k in range(n):
+        if sums[k] != 0:
+            return False
+    return True
+
+
+@kernel
+def _heights(borders: Borders, count: int) -> NDArray[np.float64]:
+    """Heights of all ends on the left edge, from the lowest, each once; the first is 0."""
+    found = np.zeros(2 * count + 1)
+    n = 1
+    for i in range(count):
+        for end in (0, 3):
+            if borders.curves[i, end, 0] == 0.0 and borders.curves[i, end, 1] < LATTICE:
+                found[n] = borders.curves[i, end, 1]
+                n += 1
+    out = np.zeros(n)
+    kept = 0
+    for k in sort_order(found, n):
+        if found[k] != out[kept]:
+            kept += 1
+            out[kept] = found[k]
+    return out[: kept + 1]
+
+
+@kernel
+def settle_left_edge(
+    borders: Borders,
+    count: int,
+    ground: int,
+    present: NDArray[np.int64],
+    layers: Layers,
+    faces: Faces,
+    windings: NDArray[np.int64],
+    pieces: Pieces,
+    made: int,
+) -> tuple[int, int]:
+    """Make the ends on the left edge agree with the faces there; return the number of pieces and the base paint.
+
+    Where they do not telescope, they move off the edge, and one horizontal piece says it instead. The base is the paint
+    at the bottom left corner, before what starts or ends there.
+    """
+    heights = _heights(borders, count)
+    ids, sums = np.empty(4 * made + 8, np.int64), np.empty(4 * made + 8, np.int64)
+    key = set_left_edge(borders, count, layers, present, 0.0, windings)
+    below = faces.paint[face_of(faces, layers, ground, present, windings, key)]
+    n = _tally(ids, sums, _changes(pieces, made, 0.0, ids, sums), below, -1)
+    base, single = below, True
+    for k in range(n):
+        if sums[k] == -1 and base == below and single:
+            base, single = ids[k], False
+        elif sums[k] != 0:
+            single = True
+            break
+    if single:
+        _move_off(pieces, made, 0.0)
+        base = below
+    for s in range(1, len(heights)):
+        y = heights[s]
+        key = set_left_edge(borders, count, layers, present, y, windings)
+        above = faces.paint[face_of(faces, layers, ground, present, windings, key)]
+        n = _tally(ids, sums, _changes(pieces, made, y, ids, sums), above, -1)
+        n = _tally(ids, sums, n, below, 1)
+        if not _all_zero(sums, n):
+            _move_off(pieces, made, y)
+            if above != below and made < len(pieces.sides):
+                for k in range(4):
+                    pieces.curves[made, k, 0], pieces.curves[made, k, 1] = k / 3.0, y
+                pieces.sides[made, 0], pieces.sides[made, 1] = above, below
+                made += 1
+        below = above
+    return made, base

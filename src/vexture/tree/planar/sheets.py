@@ -1,0 +1,115 @@
+"""Cutting a drawing of many layers into sheets, each a planar map, that are drawn one over the other.
+
+The texels of a planar map grow with the square of the number of outlines that cross or run beside one another: 800
+concentric translucent discs need a million, where their layers need ten thousand. So a map has a budget. A drawing that
+exceeds it is cut into sheets of consecutive layers, as many to a sheet as their share of the budget allows.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any, Final, NamedTuple
+
+from vexture.drawing import Blend, Drawing, Paint, Path
+from vexture.tree.build import build_tree
+from vexture.tree.planar.build import build_map
+from vexture.tree.planar.map import PlanarMap
+from vexture.tree.tree import Tree
+
+__all__ = ["Sheet", "sheets_of"]
+
+LEAST_BUDGET: Final = 1 << 16
+"""Texels that any map may have: a megabyte."""
+
+BUDGET: Final = 2
+"""Texels of all sheets, relative to those of the drawing's layers."""
+
+
+class Sheet(NamedTuple):
+    """Consecutive paths of a drawing, and their map; or one layer of it, and its tree."""
+
+    drawing: Drawing
+    tree: PlanarMap | Tree
+
+    @property
+    def paint(self) -> Paint | None:
+        """Paint of a layer."""
+        return self.drawing.paths[0].paint if isinstance(self.tree, Tree) else None
+
+    def named(self, name: str, number: int) -> "Sheet":
+        """The sheet, named as the layers of a drawing are."""
+        what = "faces" if self.paint is None else self.paint.hex
+        return Sheet(replace(self.drawing, name=f"{name}/{number}-{what}"), self.tree)
+
+
+def sheets_of(drawing: Drawing, **parameters: Any) -> list[Sheet]:
+    """The sheets of a drawing, the lowest first: one, unless its map needs too many texels.
+
+    A drawing that is one layer needs no map. `parameters` and errors are those of `build_map`.
+    """
+    one_paint = not drawing.groups and len({path.paint for path in drawing.paths}) == 1
+    layers = drawing.layers() if one_paint else ()
+    if len(layers) == 1:
+        return [Sheet(layers[0], build_tree(layers[0], **parameters))]
+    whole = build_map(drawing, most_texels=LEAST_BUDGET, **parameters)
+    if whole is None:
+        in_layers = (build_tree(layer, **parameters) for layer in drawing.layers())
+        budget = max(BUDGET * sum(tree.texels for tree in in_layers), LEAST_BUDGET)
+        whole = build_map(drawing, most_texels=budget, **parameters) if budget > LEAST_BUDGET else None
+    if whole is not None:
+        return [Sheet(drawing, whole)]
+    items = _items(drawing)
+
+    def tried(first: int, last: int) -> Sheet | None:
+        part = _part(drawing, items[first:last], len(items))
+        if last == first + 1 and len(items[first]) == 1 and part.paths[0].group < 0:
+            return Sheet(part, build_tree(part, **parameters))
+        share = budget * (last - first) // len(items) if last > first + 1 else None
+        planar = build_map(part, most_texels=share, **parameters)
+        return None if planar is None else Sheet(part, planar)
+
+    found = _greedy(len(items), tried)
+    return [sheet.named(drawing.name, number) for number, sheet in enumerate(found, 1)]
+
+
+def _greedy(count: int, tried: Callable[[int, int], Sheet | None]) -> list[Sheet]:
+    """Sheets of so many items: each of as many as are found to fit, by doubling their number and then halving the step.
+
+    `tried` makes a sheet of the items first..last-1, or none if they need too many texels; of one it always does.
+    """
+    sheets: list[Sheet] = []
+    first = 0
+    while first < count:
+        best, fitting, step, grows = tried(first, first + 1), 1, 1, True
+        while step > 0 and first + fitting < count:
+            last = min(first + fitting + step, count)
+            more = tried(first, last)
+            grows = grows and more is not None
+            if more is not None:
+                best, fitting = more, last - first
+            step = 2 * step if grows else step // 2
+        assert best is not None
+        sheets.append(best)
+        first += fitting
+    return sheets
+
+
+def _items(drawing: Drawing) -> list[list[Path]]:
+    """The paths of a drawing in runs that cannot be cut: those of an outermost group, with all that it blends with."""
+    items: list[list[Path]] = []
+    before = -1
+    for path in drawing.paths:
+        around = drawing.around(path.group)
+        outermost = around[0] if around else -1
+        if outermost >= 0 and outermost == before:
+            items[-1].append(path)
+        elif outermost >= 0 and drawing.groups[outermost].blend is not Blend.NORMAL:
+            items = [[*(below for item in items for below in item), path]]
+        else:
+            items.append([path])
+        before = outermost
+    return items
+
+
+def _part(drawing: Drawing, items: Sequence[list[Path]], count: int) -> Drawing:
+    """A drawing of some of the items."""
+    return replace(drawing, paths=tuple(path for item in items for path in item)) if len(items) < count else drawing

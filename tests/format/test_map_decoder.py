@@ -1,0 +1,56 @@
+"""Part D of FORMAT.md says all that a decoder needs: one that was written from it alone draws every map."""
+
+import re
+from pathlib import Path
+
+import map_decoder
+import numpy as np
+import pytest
+
+import vexture
+from degenerate import drawing, points_near
+from planar import coloured
+from vexture.drawing import Drawing
+from vexture.pipeline import atlas, run
+from vexture.renderers.exact import render_exact_colours
+
+REPOSITORY = Path(__file__).parents[2]
+SIZE = 32
+
+
+def sample(seed: int) -> Drawing:
+    return coloured(Drawing(drawing(seed).paths + drawing(seed + 100).paths), np.random.default_rng(seed))
+
+
+@pytest.mark.parametrize("seed", [3, 7, 8, 12])
+def test_it_draws_random_drawings(seed: int) -> None:
+    of = sample(seed)
+    _, _, (planar,) = map_decoder.read_maps(run(of, split="faces").texture.to_ktx2())
+    error = abs(map_decoder.map_picture(planar, SIZE, 8) - render_exact_colours(of, SIZE))
+    assert error.mean() < 0.004  # 64 points of a pixel through which an outline goes are off by 0.02 at random
+    assert error.max() < 0.15
+
+
+@pytest.mark.parametrize("seed", [3, 7])
+def test_every_point_has_one_paint(seed: int) -> None:
+    of = sample(seed)
+    _, _, (planar,) = map_decoder.read_maps(run(of, split="faces").texture.to_ktx2())
+    x, y = points_near(of, np.random.default_rng(1), 2000).T
+    assert (map_decoder.paint_at(planar, x, y) >= 0).mean() > 0.995  # the others lie in slivers
+
+
+def test_it_reads_maps_beside_shapes() -> None:
+    plain = vexture.Drawing.polygon([(0.1, 0.1), (0.9, 0.1), (0.5, 0.9)])
+    roots, shapes, maps = map_decoder.read_maps(atlas([sample(3), plain], split="faces", name="both").to_ktx2())
+    assert [one is None for one in maps] == [False, True]
+    assert [root["name"] for root in roots] == ["drawing", "drawing/1-#000000"]
+    assert len(shapes.roots) == 1
+
+
+def test_the_example_is_what_it_says() -> None:
+    part = (REPOSITORY / "FORMAT.md").read_text(encoding="utf-8").split("### D.8 Example")[1]
+    rows = re.findall(r"^\| \d+ \|((?: [0-9a-f]{8} \|){4})", part, re.M)
+    words = np.array([[int(word, 16) for word in row.split("|")[:4]] for row in rows])
+    planar, used = map_decoder.read_map(words, 1)
+    assert sorted(used.tolist()) == list(range(17))
+    assert map_decoder.paint_at(planar, np.array([0.7, 0.3, 0.05]), np.array([0.7, 0.3, 0.5])).tolist() == [2, 1, 0]

@@ -1,0 +1,164 @@
+"""Planar maps in their colours: the shader against its mirror, and both against closed formulas."""
+
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from hand import need_gpu
+from numpy.typing import NDArray
+from packed_views import ENTRIES, TILTED, View, nudged, turned, zoomed
+
+import degenerate
+import planar
+from vexture.drawing import Drawing, Paint, Path
+from vexture.renderers.colour import render_cpu_colours
+from vexture.renderers.device import context
+from vexture.renderers.gpu import render_gpu_colours
+from vexture.renderers.shader import VERSIONS, color_source, vertex_source
+from vexture.renderers.view import fit, window
+from vexture.texture.encode import texel_rows
+from vexture.texture.planar import map_texels
+from vexture.tree.planar.build import build_map
+
+NEAR = 0.05 / 255
+NEAR_IN_DEEP_ZOOM = (
+    0.5 / 255
+)  # leaves that are this large on the screen are float32's: coverage is off by three times that
+BEFORE = 5  # texels before a map, so that its parts are not where its words are
+
+
+@dataclass(frozen=True, slots=True)
+class MapTexture:
+    """A planar map in an image."""
+
+    texels: NDArray[np.uint32]
+    quads: NDArray[np.int64]
+
+
+def map_of(drawing: Drawing, **options: int) -> MapTexture:
+    before = np.full((BEFORE, 4), 0xFFFFFFFF, np.uint32)
+    texels = np.concatenate([before, map_texels(build_map(drawing, tolerance=2e-5, **options), BEFORE)])
+    return MapTexture(texel_rows(texels), np.array([BEFORE + 1]))
+
+
+def painted(*shapes: tuple[Any, tuple[float, float, float], float]) -> Drawing:
+    return Drawing(tuple(Path((contour,), paint=Paint(color, opacity)) for contour, color, opacity in shapes))
+
+
+def flag() -> Drawing:
+    """Stripes that touch, with a canton, stars, and a translucent disc across borders."""
+    stripes = [
+        (degenerate.polygon([(0, k / 7), (1, k / 7), (1, (k + 1) / 7), (0, (k + 1) / 7)]), (0.7, k % 2, 0.2), 1.0)
+        for k in range(7)
+    ]
+    canton = (degenerate.polygon([(0, 3 / 7), (0.4, 3 / 7), (0.4, 1), (0, 1)]), (0.1, 0.2, 0.6), 1.0)
+    stars = [
+        (degenerate.star(5, 2, (0.08 + 0.12 * i, 0.53 + 0.13 * j), 0.05), (1.0, 1.0, 0.9), 1.0)
+        for i in range(3)
+        for j in range(4)
+    ]
+    return painted(*stripes, canton, *stars, (degenerate.circle((0.6, 0.5), 0.3), (0.0, 0.6, 0.3), 0.4))
+
+
+DRAWINGS = {"flag": flag} | {
+    f"degenerate {seed}": lambda seed=seed: planar.coloured(degenerate.drawing(seed), np.random.default_rng(seed))
+    for seed in (6, 7, 9, 13, 21, 28)
+}
+
+
+@cache
+def made(name: str) -> tuple[Drawing, MapTexture]:
+    drawing = DRAWINGS[name]()
+    return drawing, map_of(drawing)
+
+
+def views(drawing: Drawing) -> dict[str, View]:
+    upright = {f"{side} pixels": ((side, side), fit((side, side))) for side in (16, 20, 64, 100)}
+    deep = zoomed(drawing, 1e-5, 24)
+    return {
+        **upright,
+        **{f"{name}, any": nudged(view) for name, view in upright.items()},
+        "turned by 30 degrees": turned(50, 30),
+        "sheared 6:1": turned(90, 40, 6),
+        "a tilted plane": ((97, 64), TILTED),
+        "deep": deep,
+        "deep, any": nudged(deep),
+        "beyond the square": ((20, 20), window(-0.4, -0.3, 2, 2).matrix((20, 20))),
+    }
+
+
+@pytest.mark.parametrize("is_linear", [False, True])
+@pytest.mark.parametrize("name", DRAWINGS)
+def test_the_shader_draws_what_its_mirror_draws(name: str, is_linear: bool) -> None:
+    need_gpu()
+    drawing, texture = made(name)
+    for view, (size, matrix) in views(drawing).items():
+        on_cpu = render_cpu_colours(texture, size, matrix, is_linear=is_linear)
+        on_gpu = render_gpu_colours(texture, size, matrix, is_linear=is_linear)
+        assert on_cpu.shape == on_gpu.shape == (*size[::-1], 4)
+        assert on_cpu.any() or "deep" in view, view
+        assert np.abs(on_cpu - on_gpu).max() < (NEAR_IN_DEEP_ZOOM if "deep" in view else NEAR), view
+
+
+@pytest.mark.parametrize("name", DRAWINGS)
+def test_a_flat_view_is_any_view(name: str) -> None:
+    _drawing, texture = made(name)
+    for side in (20, 64):
+        view = (side, side), fit((side, side))
+        flat, any_view = (render_cpu_colours(texture, *entry(view)) for entry in ENTRIES.values())
+        assert np.abs(flat - any_view).max() < NEAR
+
+
+@pytest.mark.parametrize("entry", ENTRIES)
+@pytest.mark.parametrize("render", [render_cpu_colours, render_gpu_colours])
+def test_light_is_averaged_and_straight_colours_are_decoded(render: Any, entry: str) -> None:
+    """Half of the pixel is opaque, half translucent: the means of both kinds by hand."""
+    if render is render_gpu_colours:
+        need_gpu()
+    halves = painted(
+        (degenerate.polygon([(0, 0), (0.5, 0), (0.5, 1), (0, 1)]), (1.0, 0.5, 0.0), 1.0),
+        (degenerate.polygon([(0.5, 0), (1, 0), (1, 1), (0.5, 1)]), (0.5, 0.0, 0.02), 0.4),
+    )
+    view = ENTRIES[entry](((1, 1), window(0.3, 0.3, 0.4, 0.4).matrix((1, 1))))
+    half = ((0.5 + 0.055) / 1.055) ** 2.4
+    expected = {
+        False: (0.5 * 1.0 + 0.2 * 0.5, 0.5 * 0.5, 0.2 * 0.02, 0.7),
+        True: (0.5 * 1.0 + 0.2 * half, 0.5 * half, 0.2 * 0.02 / 12.92, 0.7),
+    }
+    for is_linear, color in expected.items():
+        image = render(map_of(halves), *view, is_linear=is_linear)
+        np.testing.assert_allclose(image[0, 0], color, atol=2e-5)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_shader_compiles_in_both_dialects(version: str) -> None:
+    need_gpu()
+    with context() as gl:
+        for is_flat, is_linear in ((False, False), (True, True)):
+            fragment = color_source(version, is_flat, is_linear)
+            gl.program(vertex_shader=vertex_source(version), fragment_shader=fragment).release()
+
+
+def test_a_view_in_a_face_is_its_paint_to_the_last_step() -> None:
+    need_gpu()
+    drawing, texture = made("flag")
+    inside = window(0.55, 0.52, 0.01, 0.01).matrix((9, 9))
+    point = np.array([[0.555, 0.525]])
+    truth = planar.colours_at(drawing, point)[0][0]
+    for render in (render_cpu_colours, render_gpu_colours):
+        for entry in ENTRIES.values():
+            np.testing.assert_allclose(render(texture, *entry(((9, 9), inside))) - truth, 0.0, atol=1.5 / 65535)
+
+
+@pytest.mark.parametrize("entry", ENTRIES)
+@pytest.mark.parametrize("render", [render_cpu_colours, render_gpu_colours])
+def test_a_leaf_of_which_only_the_mean_is_known_has_it(render: Any, entry: str) -> None:
+    if render is render_gpu_colours:
+        need_gpu()
+    crowd = painted((degenerate.star(61, 30), (1.0, 0.5, 0.25), 0.8))
+    assert build_map(crowd, max_depth=2).unresolved > 0
+    view = ENTRIES[entry](((4, 4), fit((4, 4))))
+    coarse, fine = (render(map_of(crowd, max_depth=depth), *view) for depth in (2, 14))
+    np.testing.assert_allclose(coarse, fine, atol=1 / 255)  # the mean has eight bits

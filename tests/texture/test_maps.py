@@ -1,0 +1,176 @@
+"""Planar maps in textures: files, validation, pictures."""
+
+import numpy as np
+import pytest
+
+import vexture
+from degenerate import circle, drawing, polygon
+from planar import coloured
+from vexture import layout
+from vexture.drawing import Blend, Drawing, Group, Paint, Path
+from vexture.errors import FormatError, ParameterError
+from vexture.pipeline import atlas, run
+from vexture.renderers.exact import render_exact_colours
+from vexture.texture.load import texture_from
+from vexture.texture.planar import decode_map, map_texels
+from vexture.texture.texture import Texture
+
+RED, BLUE = Paint((1.0, 0.0, 0.0)), Paint((0.0, 0.0, 1.0), 0.5)
+
+
+def sample(seed: int) -> Drawing:
+    return coloured(Drawing(drawing(seed).paths + drawing(seed + 100).paths), np.random.default_rng(seed))
+
+
+def faces(of: Drawing) -> Texture:
+    return run(of, split="faces").texture
+
+
+def turned(size: int) -> list[list[float]]:
+    """Pixels that are six times as long as wide, turned by 45 degrees."""
+    long, short = 2.5 / size / 2**0.5, 0.4 / size / 2**0.5
+    return [[long, -short, 0.5 - size * (long - short) / 2], [long, short, 0.5 - size * (long + short) / 2]]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_pixels_are_exact(seed: int) -> None:
+    of = sample(seed)
+    texture = faces(of)
+    for size, view in (
+        (16, None),
+        (20, None),
+        (61, None),
+        (100, None),
+        (24, vexture.window(0, 0, 1, 1, 30)),
+        (24, turned(24)),
+    ):
+        error = 255 * abs(texture.render(size, view) - render_exact_colours(of, size, view))
+        assert error.max() < 1.5, (size, view)
+        assert error.mean() < 0.03
+
+
+def test_a_file_reads_back() -> None:
+    texture = faces(sample(3))
+    again = texture_from(texture.to_ktx2(), "again")
+    assert (again.texels == texture.texels).all()
+    assert again.version == layout.MAP_VERSION
+    assert again.roots[0].is_map
+    planar = decode_map(again.flat, again.roots[0].quad)
+    np.testing.assert_array_equal(map_texels(planar, 0), again.flat[: len(map_texels(planar, 0))])
+
+
+def test_silhouettes_and_maps_share_an_atlas() -> None:
+    both = Drawing(
+        (Path((circle((0.5, 0.5), 0.4),), paint=RED), Path((circle((0.6, 0.5), 0.2),), paint=BLUE)), name="both"
+    )
+    plain = Drawing((Path((circle((0.5, 0.5), 0.3),), paint=RED),), name="plain")
+    texture = texture_from(atlas([both, plain, both.layers()[0]], split="faces").to_ktx2(), "atlas")
+    assert [(root.name, root.is_map) for root in texture.roots] == [
+        ("both", True),
+        ("plain/1-#ff0000", False),
+        ("both/1-#ff0000/1-#ff0000", False),
+    ]
+    for of in (both, plain):
+        np.testing.assert_allclose(texture.render(20, root=of.name), render_exact_colours(of, 20), atol=0.003)
+    assert texture.info()["roots"][0]["map"]
+    np.testing.assert_array_equal(texture.coverage(9, root=0), texture.render(9, root=0)[..., 3])
+
+
+def test_a_silhouette_keeps_version_1() -> None:
+    texture = vexture.convert(sample(3))
+    assert texture.version == layout.PACKED_VERSION
+    assert "map" not in texture.texts()[layout.TEXT_ROOTS]
+
+
+@pytest.mark.parametrize("ask", [lambda t: t.contains([(0.5, 0.5)]), lambda t: t.to_svg(), lambda t: t.plot()])
+def test_a_map_has_no_outlines(ask) -> None:
+    with pytest.raises(ParameterError, match="is a planar map, which has no outlines"):
+        ask(faces(sample(3)))
+
+
+def test_a_drawing_without_paths_is_empty() -> None:
+    texture = faces(Drawing(()))
+    assert not texture.render(4).any()
+
+
+@pytest.mark.parametrize(
+    ("part", "word", "value", "message"),
+    [
+        ("head", 0, 0, "has 0 paints; the limit is 65536"),
+        ("head", 0, 1 << 17, "has 131072 paints; the limit is 65536"),
+        ("head", 0, 1 << 16, "end at texel"),
+        ("head", 0, 2, "has paint . of 2"),
+        ("head", 1, 1 << 31, "end at texel"),
+        ("head", 1, 1, "two things|opacity|base paint"),
+        ("head", 2, 1 << 31, "end at texel"),
+        ("head", 2, 1, "two things|paint"),
+        ("head", 3, 1 << 31, "end at texel"),
+        ("head", 3, 1, "two things|opacity"),
+        ("quad", 2, 0x01, "no valid cell"),
+        ("quad", 3, 1, "a coverage"),
+        ("quad", 2, 0x03, "no valid cell"),
+        ("cells", 0, 0x00FF0000, "above its opacity"),
+        ("bases", 0, 1 << 20, "has paint|base paint"),
+        ("sides", 0, 0xFFFF0000, "has paint"),
+        ("paints", 0, 0x0000FFFF, "above its opacity"),
+    ],
+)
+def test_damaged_maps_are_refused(part: str, word: int, value: int, message: str) -> None:
+    texture = faces(sample(3))
+    flat = texture.flat.copy()
+    head = flat[0].tolist()
+    first_curve = int(flat[1, 1])
+    at = {
+        "head": 0,
+        "quad": 1,
+        "cells": head[1],
+        "bases": head[1] + 1,
+        "sides": head[2] + (first_curve >> 2),
+        "paints": head[3],
+    }[part]
+    word = first_curve & 3 if part == "sides" else word
+    flat[at, word] = value
+    damaged = Texture(flat.reshape(texture.texels.shape), texture.roots)
+    with pytest.raises(FormatError, match=message):
+        damaged.check()
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_random_damage_is_refused_or_drawn(seed: int) -> None:
+    """No picture of a texture that passes the check, or of one that was never checked, leaves 0..1 or hangs."""
+    rng = np.random.default_rng(seed)
+    texture = faces(sample(seed % 5))
+    flat = texture.flat.copy()
+    for _ in range(rng.integers(1, 4)):
+        flat[rng.integers(len(flat)), rng.integers(4)] ^= np.uint32(1 << rng.integers(32))
+    damaged = Texture(flat.reshape(texture.texels.shape), texture.roots)
+    picture = damaged.render(8)
+    assert ((picture >= 0.0) & (picture <= 1.0)).all()
+    assert (picture[..., :3] <= picture[..., 3:]).all()
+
+
+def test_many_layers_are_cut_into_sheets() -> None:
+    rng = np.random.default_rng(0)
+    bars = []
+    for k in range(110):
+        x, y = 0.02 + 0.0085 * k, 0.96 * rng.random()
+        bars += [polygon([(x, 0), (x + 0.004, 0), (x + 0.02, 1), (x + 0.016, 1)])]
+        bars += [polygon([(0, y), (1, 0.98 - y), (1, 0.985 - y), (0, y + 0.005)])]
+    of = Drawing(tuple(Path((bar,), paint=Paint(tuple(rng.random(3).tolist()), 0.6)) for bar in bars))
+    conversion = run(of, split="faces")
+    roots = conversion.texture.roots
+    assert 1 < len(roots) < 8
+    assert [root.name for root in roots] == [f"drawing/{k}-faces" for k in range(1, len(roots) + 1)]
+    wanted = render_exact_colours(of, 40)
+    in_layers = run(of, split="paint").texture.render(40)
+    assert abs(conversion.texture.render(40) - wanted).mean() < 0.8 * abs(in_layers - wanted).mean()
+
+
+def test_what_blends_is_not_cut_from_what_is_below() -> None:
+    from vexture.tree.planar.sheets import _items
+
+    square = polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
+    paths = [Path((square,), group=group) for group in (-1, -1, 0, 0, -1, 1, 2, -1)]
+    groups = (Group(-1, 0.5), Group(-1, 1.0, Blend.MULTIPLY), Group(1))
+    assert [len(item) for item in _items(Drawing(tuple(paths), groups=groups))] == [7, 1]
+    assert [len(item) for item in _items(Drawing(tuple(paths[:5]), groups=groups))] == [1, 1, 2, 1]
