@@ -13,6 +13,7 @@ INSTALL := $(BIN)/python -m pip install --quiet --no-compile
 TESTERS := $(shell $(PYTHON) -c 'import os; print(min(4, 1 + (os.cpu_count() or 1)))')
 PYTEST := $(BIN)/python -m pytest --quiet --numprocesses $(TESTERS) --dist worksteal
 SHAPES := examples/shapes
+COLOURS := tests/sources/fixtures/groups/nested.svg
 BENCHMARKS := packed_fidelity speed gpu_cost packed_conversion size fidelity conversion icons live load
 WEB_BENCHMARKS := page_fidelity web_speed editing flood
 VIEWER := src/vexture/live/built/viewer.js
@@ -167,6 +168,8 @@ kernels: .venv/for-test
 		$(BIN)/vexture render "$$scratch/thesis/duck" -o "$$scratch/cpu.png" --size 16 --renderer cpu ) & thesis=$$!; \
 	$(BIN)/vexture convert $(SHAPES)/duck.svg -o "$$scratch/packed"; \
 	$(BIN)/vexture render "$$scratch/packed/duck.ktx2" -o "$$scratch/packed.png" --size 16 --renderer cpu; \
+	$(BIN)/vexture render $(COLOURS) -o "$$scratch/colours.png" --size 16; \
+	$(BIN)/vexture render $(COLOURS) -o "$$scratch/colours.png" --size 16 --renderer exact; \
 	wait $$thesis
 
 test-web: viewer
