@@ -82,7 +82,7 @@ def test_chord_parameters_are_shares_of_the_length() -> None:
 
 def test_parameters_move_to_the_nearest_place() -> None:
     t = np.array([0.0, 0.4, 1.0])
-    distance = project(np.array([[0.0, 0.0], [1.5, 0.5], [3.0, 0.0]]), t, LINE)
+    distance = project(np.array([0.0, 1.5, 3.0]), np.array([0.0, 0.5, 0.0]), t, LINE, np.empty(3))
     assert distance == pytest.approx(0.5, abs=1e-12)
     np.testing.assert_allclose(t, (0.0, 0.5, 1.0))
 

@@ -60,9 +60,48 @@ def _solve_symmetric(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
     return True
 
 
-@kernel
+@kernel(allocates=False)
+def _residuals(
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    t: NDArray[np.float64],
+    along_weight: float,
+    curve: NDArray[np.float64],
+    rows: NDArray[np.float64],
+) -> None:
+    """Write the entries xx, xy and yy of each point's metric and its weighted distance from the curve, (5, n).
+
+    The metric is n n^T + along_weight d d^T, with the unit tangent d and the unit normal n. The loop has no sums, so
+    that the compiler handles several points at once.
+    """
+    x0, x1, x2, x3 = curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0]
+    y0, y1, y2, y3 = curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1]
+    for i in range(1, len(t) - 1):
+        s, u = 1.0 - t[i], t[i]
+        w0, w1, w2, w3 = s * s * s, 3.0 * s * s * u, 3.0 * s * u * u, u * u * u
+        off_x = x[i] - w0 * x0 - w1 * x1 - w2 * x2 - w3 * x3
+        off_y = y[i] - w0 * y0 - w1 * y1 - w2 * y2 - w3 * y3
+        dx, dy = velocity_at(x0, x1, x2, x3, u), velocity_at(y0, y1, y2, y3, u)
+        square = dx * dx + dy * dy
+        still = not square > 0.0
+        divisor = 1.0 if still else square
+        xx = 1.0 if still else (dy * dy + along_weight * dx * dx) / divisor
+        yy = 1.0 if still else (dx * dx + along_weight * dy * dy) / divisor
+        xy = 0.0 if still else (along_weight - 1.0) * dx * dy / divisor
+        rows[0, i], rows[1, i], rows[2, i] = xx, xy, yy
+        rows[3, i], rows[4, i] = xx * off_x + xy * off_y, xy * off_x + yy * off_y
+
+
+@kernel(allocates=False)
 def _least_squares(
-    points: NDArray[np.float64], t: NDArray[np.float64], along_weight: float, curve: NDArray[np.float64]
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    t: NDArray[np.float64],
+    along_weight: float,
+    curve: NDArray[np.float64],
+    rows: NDArray[np.float64],
+    a: NDArray[np.float64],
+    b: NDArray[np.float64],
 ) -> bool:
     """Move P1 and P2 so that the squared distances across the curve are least; False if undetermined.
 
@@ -71,37 +110,31 @@ def _least_squares(
     curvature-based squared distance minimization" (ACM TOG 25, 2006). It converges many times faster than distances to
     fixed parameters.
     """
-    a11, a12, a22 = np.zeros(3), np.zeros(3), np.zeros(3)  # xx, xy, yy of the blocks for P1 P1, P1 P2, P2 P2
-    b = np.zeros(4)
-    for i in range(1, len(points) - 1):
+    _residuals(x, y, t, along_weight, curve, rows)
+    xx11, xy11, yy11, xx12, xy12, yy12, xx22, xy22, yy22 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    bx1, by1, bx2, by2 = 0.0, 0.0, 0.0, 0.0
+    for i in range(1, len(t) - 1):
         s, u = 1.0 - t[i], t[i]
-        w0, w1, w2, w3 = s * s * s, 3.0 * s * s * u, 3.0 * s * u * u, u * u * u
-        off_x = points[i, 0] - w0 * curve[0, 0] - w1 * curve[1, 0] - w2 * curve[2, 0] - w3 * curve[3, 0]
-        off_y = points[i, 1] - w0 * curve[0, 1] - w1 * curve[1, 1] - w2 * curve[2, 1] - w3 * curve[3, 1]
-        dx = velocity_at(curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0], u)
-        dy = velocity_at(curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1], u)
-        square = dx * dx + dy * dy
-        xx, xy, yy = 1.0, 0.0, 1.0
-        if square > 0.0:  # n n^T + along_weight d d^T, with the unit tangent d and the unit normal n
-            xx = (dy * dy + along_weight * dx * dx) / square
-            yy = (dx * dx + along_weight * dy * dy) / square
-            xy = (along_weight - 1.0) * dx * dy / square
-        for k, value in enumerate((xx, xy, yy)):
-            a11[k] += w1 * w1 * value
-            a12[k] += w1 * w2 * value
-            a22[k] += w2 * w2 * value
-        rest_x, rest_y = xx * off_x + xy * off_y, xy * off_x + yy * off_y
-        b[0] += w1 * rest_x
-        b[1] += w1 * rest_y
-        b[2] += w2 * rest_x
-        b[3] += w2 * rest_y
-    a = np.empty((4, 4))
-    for row in range(2):
-        for column in range(2):
-            a[row, column] = a11[row + column]
-            a[row, 2 + column] = a12[row + column]
-            a[2 + row, column] = a12[row + column]
-            a[2 + row, 2 + column] = a22[row + column]
+        w1, w2 = 3.0 * s * s * u, 3.0 * s * u * u
+        xx, xy, yy = rows[0, i], rows[1, i], rows[2, i]
+        xx11 += w1 * w1 * xx
+        xy11 += w1 * w1 * xy
+        yy11 += w1 * w1 * yy
+        xx12 += w1 * w2 * xx
+        xy12 += w1 * w2 * xy
+        yy12 += w1 * w2 * yy
+        xx22 += w2 * w2 * xx
+        xy22 += w2 * w2 * xy
+        yy22 += w2 * w2 * yy
+        bx1 += w1 * rows[3, i]
+        by1 += w1 * rows[4, i]
+        bx2 += w2 * rows[3, i]
+        by2 += w2 * rows[4, i]
+    a[0, 0], a[0, 1], a[0, 2], a[0, 3] = xx11, xy11, xx12, xy12
+    a[1, 0], a[1, 1], a[1, 2], a[1, 3] = xy11, yy11, xy12, yy12
+    a[2, 0], a[2, 1], a[2, 2], a[2, 3] = xx12, xy12, xx22, xy22
+    a[3, 0], a[3, 1], a[3, 2], a[3, 3] = xy12, yy12, xy22, yy22
+    b[0], b[1], b[2], b[3] = bx1, by1, bx2, by2
     if not _solve_symmetric(a, b):
         return False
     for k in range(4):
@@ -110,27 +143,34 @@ def _least_squares(
 
 
 @kernel(allocates=False)
-def project(points: NDArray[np.float64], t: NDArray[np.float64], curve: NDArray[np.float64]) -> float:
+def project(
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    t: NDArray[np.float64],
+    curve: NDArray[np.float64],
+    squares: NDArray[np.float64],
+) -> float:
     """Move each parameter t, (n,), to the nearest place on the curve by a Newton step; return the largest distance.
 
-    The first and the last point, of (n, 2), are the curve's ends and stay.
+    `x` and `y` (n,) are the points, of which the first and the last are the curve's ends and stay. `squares` (n,) is
+    overwritten. The first loop has no sums, and arrays of unit stride: the compiler handles several points at once.
     """
+    x0, x1, x2, x3 = curve[0, 0], curve[1, 0], curve[2, 0], curve[3, 0]
+    y0, y1, y2, y3 = curve[0, 1], curve[1, 1], curve[2, 1], curve[3, 1]
+    for i in range(1, len(t) - 1):
+        u = t[i]
+        off_x, off_y = cubic_at(x0, x1, x2, x3, u) - x[i], cubic_at(y0, y1, y2, y3, u) - y[i]
+        dx, dy = velocity_at(x0, x1, x2, x3, u), velocity_at(y0, y1, y2, y3, u)
+        ddx = 6.0 * ((1.0 - u) * (x2 - 2.0 * x1 + x0) + u * (x3 - 2.0 * x2 + x1))
+        ddy = 6.0 * ((1.0 - u) * (y2 - 2.0 * y1 + y0) + u * (y3 - 2.0 * y2 + y1))
+        slope = dx * dx + off_x * ddx + (dy * dy + off_y * ddy)
+        step = (off_x * dx + off_y * dy) / (slope if slope > 0.0 else 1.0)
+        u = min(max(u - step, 0.0), 1.0) if slope > 0.0 else u
+        off_x, off_y = cubic_at(x0, x1, x2, x3, u) - x[i], cubic_at(y0, y1, y2, y3, u) - y[i]
+        t[i], squares[i] = u, off_x * off_x + off_y * off_y
     worst = 0.0
-    for i in range(1, len(points) - 1):
-        for step in range(2):
-            u = t[i]
-            numerator, denominator, square = 0.0, 0.0, 0.0
-            for axis in range(2):
-                p0, p1, p2, p3 = curve[0, axis], curve[1, axis], curve[2, axis], curve[3, axis]
-                off = cubic_at(p0, p1, p2, p3, u) - points[i, axis]
-                first = velocity_at(p0, p1, p2, p3, u)
-                second = 6.0 * ((1.0 - u) * (p2 - 2.0 * p1 + p0) + u * (p3 - 2.0 * p2 + p1))
-                numerator += off * first
-                denominator += first * first + off * second
-                square += off * off
-            if step == 0 and denominator > 0.0:
-                t[i] = min(max(u - numerator / denominator, 0.0), 1.0)
-        worst = max(worst, square)
+    for i in range(1, len(t) - 1):
+        worst = max(worst, squares[i])
     return np.sqrt(worst)
 
 
@@ -156,14 +196,16 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
     for k in range(4):
         for axis in range(2):
             curve[k, axis] = (1.0 - k / 3.0) * points[0, axis] + (k / 3.0) * points[n - 1, axis]
-    t = np.empty(n)
+    scratch, a, b = np.empty((9, n)), np.empty((4, 4)), np.empty(4)
+    x, y, t, best_t, rows = scratch[0], scratch[1], scratch[2], scratch[3], scratch[4:]
+    for i in range(n):
+        x[i], y[i] = points[i, 0], points[i, 1]
     chord_parameters(points, t)
-    best = np.inf
-    best_curve, best_t = np.empty((4, 2)), np.empty(n)
+    best, best_curve = np.inf, np.empty((4, 2))
     along = ALONG
     slow = 0
     for done in range(1, ROUNDS + 1):
-        worst = project(points, t, curve)
+        worst = project(x, y, t, curve, rows[0])
         slow += 1 if worst > SLOW * best else 0
         if worst < best:
             best = worst
@@ -173,7 +215,7 @@ def fit_cubic(points: NDArray[np.float64], tolerance: float, curve: NDArray[np.f
             along *= 10.0
         if best <= tolerance or slow == SLOW_ROUNDS or (done == FAR_ROUND and best > FAR * tolerance):
             break
-        if not _least_squares(points, t, along, curve):
+        if not _least_squares(x, y, t, along, curve, rows, a, b):
             break
     copy_curve(best_curve, curve)
     return best
@@ -205,8 +247,9 @@ def fit_run(
             low, high = min(curve[0, axis], curve[3, axis]), max(curve[0, axis], curve[3, axis])
             for k in (1, 2):
                 curve[k, axis] = min(max(curve[k, axis], low), high)
-        t = np.empty(count + 1)
+        x, y = points[:, 0].copy(), points[:, 1].copy()
+        t, squares = np.empty(count + 1), np.empty(count + 1)
         chord_parameters(points, t)
         for _ in range(MEASURED):
-            distance = project(points, t, curve)
+            distance = project(x, y, t, curve, squares)
     return distance

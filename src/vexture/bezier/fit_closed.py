@@ -83,6 +83,7 @@ def _fit_span(
     """Write the cubic with given unit tangents at its ends that is nearest to the points; return the distance."""
     n = len(points)
     p0, p3 = points[0], points[n - 1]
+    x, y, squares = points[:, 0].copy(), points[:, 1].copy(), np.empty(n)
     t = np.empty(n)
     length = chord_parameters(points, t)
     first, last = length / 3.0, length / 3.0
@@ -109,7 +110,7 @@ def _fit_span(
         for axis in range(2):
             curve[0, axis], curve[3, axis] = p0[axis], p3[axis]
             curve[1, axis], curve[2, axis] = p0[axis] + first * start[axis], p3[axis] - last * end[axis]
-        worst = project(points, t, curve)
+        worst = project(x, y, t, curve, squares)
         if worst <= tolerance or (step == 2 and worst > 8.0 * tolerance > 0.0):
             break
     return worst

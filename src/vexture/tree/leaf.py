@@ -234,7 +234,12 @@ def leaf_of(
             path[k] = paths_of[i]
         if tolerance > 0.0 and 1 < n <= MOST_MERGED:
             n, distance = merge_chains(
-                room.curves[:n], workspace.path[:n], tolerance * LATTICE / size, out, workspace.merged_path
+                room.curves[:n],
+                workspace.path[:n],
+                tolerance * LATTICE / size,
+                n if at_limit else max(most, MOST_CURVES),
+                out,
+                workspace.merged_path,
             )
             for k in range(n):
                 copy_curve(out[k], room.curves[k])

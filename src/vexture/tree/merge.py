@@ -13,7 +13,7 @@ from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 from vexture.layout import LATTICE
 
-__all__ = ["MOST_MERGED", "merge_chains"]
+__all__ = ["MONOTONE_PARTS", "MOST_MERGED", "merge_chains"]
 
 MOST_MERGED = 64
 """Pieces. In a cell with more nothing is merged, because it will be divided."""
@@ -77,6 +77,7 @@ def merge_chains(
     curves: NDArray[np.float64],
     path: NDArray[np.int64],
     tolerance: float,
+    most: int,
     merged: NDArray[np.float64],
     merged_path: NDArray[np.int64],
 ) -> tuple[int, float]:
@@ -84,13 +85,14 @@ def merge_chains(
 
     Each chain is read once: the longest start that one cubic describes, then the longest start of the rest, and so on.
     `curves` are in the order of their contours. `tolerance` is the largest distance of a cubic from the pieces that it
-    replaces, in lattice units. `merged` (room, 4, 2) and `merged_path` (room,) are written and need room for
-    `MONOTONE_PARTS` pieces more than there were.
+    replaces, in lattice units. The rest is left out once more than `most` written pieces are not horizontal: the cell
+    will be divided. `merged` (room, 4, 2) and `merged_path` (room,) are written and need room for `MONOTONE_PARTS`
+    pieces more than there were.
     """
     trial = np.empty((MONOTONE_PARTS, 4, 2))
     best = np.empty((MONOTONE_PARTS, 4, 2))
-    count, deviation, first, chain_end = 0, 0.0, 0, 0
-    while first < len(path):
+    count, upright, deviation, first, chain_end = 0, 0, 0.0, 0, 0
+    while first < len(path) and upright <= most:
         if first == chain_end:
             chain_end = _chain_end(curves, path, first)
         fitting, failing, parts, distance = 1, chain_end - first + 1, 0, 0.0
@@ -113,6 +115,7 @@ def merge_chains(
             deviation = max(deviation, distance)
         for k in range(parts):
             merged_path[count + k] = path[first]
+            upright += 1 if merged[count + k, 0, 1] != merged[count + k, 3, 1] else 0
         count += parts
         first += fitting
     return count, deviation

@@ -165,15 +165,18 @@ def _crossed_alike(borders: Borders, i: int, j: int) -> bool:
 
 
 @kernel
-def merge_borders(borders: Borders, count: int, tolerance: float, room: NDArray[np.float64]) -> tuple[int, float]:
+def merge_borders(
+    borders: Borders, count: int, tolerance: float, most: int, room: NDArray[np.float64]
+) -> tuple[int, float]:
     """Merge chains of borders that the same paths cross; return how many are left, and how far they moved at most.
 
-    `tolerance` and the result are in lattice units; `room` is scratch for curves.
+    More than `most` may be returned without the rest of them. `tolerance` and the result are in lattice units; `room`
+    is scratch for curves.
     """
     for k in range(count):
         borders.rows[k] = borders.rows[k - 1] if k > 0 and _crossed_alike(borders, k - 1, k) else k
     rows = np.empty(len(borders.rows), np.int64)
-    merged, distance = merge_chains(borders.curves[:count], borders.rows[:count], tolerance, room, rows)
+    merged, distance = merge_chains(borders.curves[:count], borders.rows[:count], tolerance, most, room, rows)
     for k in range(merged):
         copy_curve(room[k], borders.curves[k])
         borders.rows[k] = rows[k]

@@ -170,7 +170,7 @@ def planar_leaf(
     count, borders = find_borders(pool, cell, present, found, workspace.borders)
     workspace = Workspace(borders, windings, out)
     if tolerance > 0.0 and 1 < count <= MOST_MERGED:
-        count, distance = merge_borders(borders, count, tolerance * LATTICE / cell.size, out.curves)
+        count, distance = merge_borders(borders, count, tolerance * LATTICE / cell.size, most, out.curves)
         distance *= cell.size / LATTICE
     made = -1
     if 0 <= count <= most and all_separate(borders.curves[:count]):
