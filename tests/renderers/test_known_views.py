@@ -6,7 +6,7 @@ from vexture.drawing import Drawing, Paint
 from vexture.renderers.cpu import render_cpu
 from vexture.renderers.exact import render_exact
 from vexture.renderers.flatten import find_chords
-from vexture.renderers.picture import painted
+from vexture.renderers.picture import painted, stacked
 from vexture.renderers.shader import included
 from vexture.renderers.view import fit, size_of, view_base, view_matrix
 from vexture.texture.texture import Root, Texture
@@ -35,7 +35,7 @@ def test_chords_of_a_triangle_are_those_that_are_not_level() -> None:
 
 def test_a_translucent_layer_darkens_the_one_below() -> None:
     full = np.ones((1, 1), np.float32)
-    picture = painted((1, 1), [(Paint((1.0, 0.0, 0.0)), full), (Paint(opacity=0.25), full)])
+    picture = stacked((1, 1), [painted(Paint((1.0, 0.0, 0.0)), full), painted(Paint(opacity=0.25), full)])
     np.testing.assert_allclose(picture, [[(0.75, 0.0, 0.0, 1.0)]])
     assert picture.dtype == np.float32
 

@@ -149,7 +149,8 @@ ENTRY = {"name": "a", "quad": 0, "transform": [1, 0, 0, 0, 1, 0], "tolerance": 0
 @pytest.mark.parametrize(
     ("key", "value", "expected"),
     [
-        ("vexture.version", "2", "vexture.version is '2'; this program reads '1'; update it"),
+        ("vexture.version", "3", "vexture.version is '3'; this program reads '1' and '2'; update it"),
+        ("vexture.version", "2", "vexture.version is '2', but with maps it is '2' and without '1'"),
         ("vexture.version", None, "vexture.version is None"),
         ("vexture.encoding", "layers", "vexture.encoding is 'layers'"),
         ("vexture.encoding", "x" * 100_000, "vexture.encoding is 'xxx"),

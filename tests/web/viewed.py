@@ -14,7 +14,7 @@ from viewer_page import data_url, manifest, thesis_view, write_page
 import vexture
 from vexture.live.documents import VIEWER_PARAMETERS, shape_of
 from vexture.renderers.exact import render_exact
-from vexture.renderers.picture import painted
+from vexture.renderers.picture import painted, stacked
 
 SIZE = (512, 512)
 PRECISION = 1e-7  # for views at 10,000x
@@ -39,8 +39,8 @@ class Viewed:
         if self.texture.roots[0].paint is None:
             grey = 255.0 * (1.0 - vexture.coverage(self.drawing, size, matrix, renderer="exact").astype(np.float64))
             return np.repeat(grey[..., None], 3, axis=2)
-        layers = [(layer.paths[0].paint, render_exact(layer, size, matrix)) for layer in self.drawing.layers()]
-        picture = painted(size, layers).astype(np.float64)  # as the page draws them: one over the other
+        layers = (painted(layer.paths[0].paint, render_exact(layer, size, matrix)) for layer in self.drawing.layers())
+        picture = stacked(size, layers).astype(np.float64)  # as the page draws them: one over the other
         return 255.0 * (picture[..., :3] + 1.0 - picture[..., 3:])
 
 

@@ -25,7 +25,7 @@ def facts_of(flat: NDArray[np.uint32], roots: Sequence[Root]) -> dict[str, Any]:
             {
                 "name": root.name,
                 "quad": root.quad,
-                "map": root.is_map,
+                **({"map": True} if root.is_map else {}),
                 **trees[root.quad],
                 "transform": root.to_source.tolist(),
                 "crs": root.crs,

@@ -1,0 +1,230 @@
+"""How exact planar maps are, beside stacked layers, and what they cost.
+
+    python evidence/benchmarks/colours.py [--quick] [--seed 1]
+
+Truth is the exact colour of each pixel (`vexture.renderers.exact`). Errors are of premultiplied RGBA, in 1/255, over
+all pixels of a picture: means over a set's drawings, and the largest of any. *turned* is by 30 degrees; *sheared* are
+pixels that are six times as long as wide, at 45 degrees. The second table has the texels of the textures, and the CPU
+time from a drawing to its texture: map and layers take turns, and a figure is the median of the turns.
+"""
+
+import argparse
+import statistics
+import time
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+import corpora
+from report import cell, table, write_json
+from targets import Target, judged, judgement
+from vexture import window
+from vexture.bezier.convert import ellipse_cubics
+from vexture.drawing import Drawing, Paint, Path
+from vexture.errors import SourceWarning
+from vexture.pipeline import Conversion, run
+from vexture.renderers.exact import render_exact_colours
+from vexture.renderers.view import ViewLike
+from vexture.svg.read import read_svg
+from vexture.tolerance import ROUND
+from vexture_evidence.measures.machine import machine_facts, machine_line
+
+__all__ = ["Set", "checkerboard", "choropleth", "discs", "flags"]
+
+FLAGS: Final = 30
+TURNS: Final = 5
+LARGE: Final = 100
+"""Pixels across the largest picture of a large map: its truth takes minutes."""
+
+
+class Set(NamedTuple):
+    """Drawings that share a row."""
+
+    name: str
+    drawings: Sequence[Drawing]
+    is_large: bool = False
+
+
+class Case(NamedTuple):
+    """A picture: pixels across, and how it looks at the drawing."""
+
+    name: str
+    size: int
+    view: Callable[[int], ViewLike]
+
+
+def sheared(size: int) -> NDArray[np.float64]:
+    """Pixels of the same area as upright ones, six times as long as wide, at 45 degrees."""
+    long, short = 6.0**0.5 / size / 2.0**0.5, 6.0**-0.5 / size / 2.0**0.5
+    steps = np.array([[long, -short], [long, short]])
+    return np.column_stack([steps, 0.5 - steps @ [size / 2, size / 2]])
+
+
+CASES: Final = (
+    *(Case(f"{size} px", size, lambda _: None) for size in (16, 64, 256, 20, 100)),
+    Case("64 px, turned", 64, lambda _: window(0.0, 0.0, 1.0, 1.0, 30.0)),
+    Case("64 px, sheared", 64, sheared),
+)
+IN_STEP: Final = ("16 px", "64 px", "256 px")
+"""Pictures whose pixels are cells; the others are not."""
+
+
+def polygon(corners: NDArray[np.float64], paint: Paint) -> Path:
+    return Path(Drawing.polygon(map(tuple, corners.tolist())).paths[0].contours, paint=paint)
+
+
+def choropleth(cells: int, seed: int) -> Drawing:
+    """Voronoi cells of random points, in random colours."""
+    rng = np.random.default_rng(seed)
+    frame = shapely.box(0.0, 0.0, 1.0, 1.0)
+    found = shapely.voronoi_polygons(shapely.MultiPoint(rng.random((cells, 2))), extend_to=frame).geoms
+    rings = [np.clip(np.array(one.intersection(frame).exterior.coords)[:-1], 0.0, 1.0) for one in found]
+    paints = [Paint(tuple((rng.integers(0, 256, 3) / 255.0).tolist())) for _ in rings]
+    return Drawing(tuple(map(polygon, rings, paints)), name=f"Voronoi {cells:,}")
+
+
+def checkerboard(squares: int = 7) -> Drawing:
+    """Squares of both colours; seven are not in step with cells."""
+    corners = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
+    places = [(x, y) for x in range(squares) for y in range(squares)]
+    paths = (polygon((corners + place) / squares, Paint((sum(place) % 2,) * 3)) for place in places)
+    return Drawing(tuple(paths), name="checkerboard")
+
+
+def discs(count: int, seed: int) -> Drawing:
+    """Translucent circles anywhere."""
+    rng = np.random.default_rng(seed)
+    paths = []
+    for _ in range(count):
+        radius, middle = rng.uniform(0.02, 0.15), rng.uniform(0.15, 0.85, 2)
+        circle = ellipse_cubics(tuple(middle.tolist()), (radius, radius), ROUND)
+        paths.append(Path((circle,), paint=Paint(tuple(rng.random(3).tolist()), 0.5)))
+    return Drawing(tuple(paths), name=f"{count} discs")
+
+
+def flags(count: int, seed: int) -> list[Drawing]:
+    """Square flags."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SourceWarning)
+        return [read_svg(file) for file in corpora.flags(count, seed)]
+
+
+def sets(quick: bool, seed: int) -> Iterator[Set]:
+    """Everything that is measured."""
+    yield Set("flags", flags(3 if quick else FLAGS, seed))
+    yield Set("checkerboard", [checkerboard()])
+    yield Set("discs", [discs(40 if quick else 300, seed)])
+    yield Set("Voronoi 2,000", [choropleth(100 if quick else 2000, seed)])
+    if not quick:
+        yield Set("Voronoi 20,000", [choropleth(20_000, seed)], is_large=True)
+
+
+def turn(drawing: Drawing, split: str) -> tuple[float, Conversion[Any]]:
+    """CPU seconds of a conversion, and the conversion."""
+    start = time.process_time()
+    made: Conversion[Any] = run(drawing, split=split)
+    return time.process_time() - start, made
+
+
+def errors(texture: Any, drawing: Drawing, case: Case) -> tuple[float, float]:
+    """Mean and largest error of a picture, in 1/255."""
+    view = case.view(case.size)
+    error = 255.0 * abs(texture.render(case.size, view) - render_exact_colours(drawing, case.size, view))
+    return float(error.mean()), float(error.max())
+
+
+def set_facts(one: Set, turns: int) -> dict[str, Any]:
+    """All figures of a set."""
+    seconds: dict[str, list[float]] = {"faces": [], "paint": []}
+    made: dict[str, list[Any]] = {}
+    for _ in range(turns):
+        for split, taken in seconds.items():
+            done = [turn(drawing, split) for drawing in one.drawings]
+            taken.append(sum(spent for spent, _ in done))
+            made[split] = [conversion.texture for _, conversion in done]
+    facts: dict[str, Any] = {
+        "name": one.name,
+        "paths": sum(len(drawing.paths) for drawing in one.drawings),
+        "maps": sum(len(texture.roots) for texture in made["faces"]),
+        "seconds": {split: statistics.median(taken) for split, taken in seconds.items()},
+        "texels": {split: sum(texture.info()["texels"] for texture in textures) for split, textures in made.items()},
+        "errors": {},
+    }
+    for case in CASES:
+        if one.is_large and case.size > LARGE:
+            continue
+        facts["errors"][case.name] = {}
+        for split in seconds if case.name in IN_STEP[:2] and not one.is_large else ("faces",):
+            found = [errors(*pair, case) for pair in zip(made[split], one.drawings, strict=True)]
+            means, most = zip(*found, strict=True)
+            facts["errors"][case.name][split] = {"mean": statistics.fmean(means), "most": max(most)}
+    return facts
+
+
+def error_table(facts: Sequence[dict[str, Any]]) -> str:
+    rows = []
+    for one in facts:
+        for case, found in one["errors"].items():
+            layers = found.get("paint", {})
+            row = [found["faces"]["mean"], found["faces"]["most"], layers.get("mean"), layers.get("most")]
+            rows.append([one["name"], case, *(cell(value, 3 - k % 2) for k, value in enumerate(row))])
+    return table(("set", "picture", "map", "largest", "layers", "largest"), rows)
+
+
+def cost_table(facts: Sequence[dict[str, Any]]) -> str:
+    rows = []
+    for one in facts:
+        texels, seconds = one["texels"], one["seconds"]
+        rows.append(
+            [
+                *(one["name"], str(one["paths"]), str(one["maps"])),
+                *(str(texels["faces"]), str(texels["paint"]), cell(texels["faces"] / texels["paint"])),
+                *(cell(1000 * seconds["faces"], 1), cell(1000 * seconds["paint"], 1)),
+                cell(seconds["faces"] / seconds["paint"]),
+            ]
+        )
+    head = ("set", "paths", "maps", "texels", "of layers", "ratio", "ms", "of layers", "ratio")
+    return table(head, rows)
+
+
+def targets(facts: Sequence[dict[str, Any]]) -> list[Target]:
+    """What planar maps must reach."""
+    in_step = [found["faces"] for one in facts for case, found in one["errors"].items() if case in IN_STEP]
+    others = [found["faces"] for one in facts for case, found in one["errors"].items() if case not in IN_STEP]
+    ratios = {one["name"]: one for one in facts}
+
+    def ratio(name: str, what: str) -> float | None:
+        one = ratios.get(name)
+        return None if one is None else one[what]["faces"] / one[what]["paint"]
+
+    return [
+        Target("MAE at 16, 64, 256 px, worst set", max(found["mean"] for found in in_step), 0.02, 0.005),
+        Target("largest pixel there", max(found["most"] for found in in_step), 4.0, 1.0),
+        Target("MAE at 20, 100 px, turned, sheared, worst set", max(found["mean"] for found in others), 0.3, 0.05),
+        Target("largest pixel there", max(found["most"] for found in others), 20.0, 4.0),
+        Target("texels over layers, flags", ratio("flags", "texels"), 1.0, 0.6),
+        Target("texels over layers, Voronoi 20,000", ratio("Voronoi 20,000", "texels"), 0.9, 0.6),
+        Target("conversion over layers, flags", ratio("flags", "seconds"), 1.5, 1.0),
+    ]
+
+
+def main() -> None:
+    """Measure everything and print it."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quick", action="store_true", help="fewer drawings and turns")
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    run(checkerboard(), split="faces").texture.render(4)  # compiles
+    run(checkerboard(), split="paint")
+    facts = [set_facts(one, 1 if arguments.quick else TURNS) for one in sets(arguments.quick, arguments.seed)]
+    reached, machine = targets(facts), machine_facts()
+    print("\n\n".join([error_table(facts), cost_table(facts), judgement(reached), machine_line(machine)]))
+    print(write_json("colours", {"machine": machine, **vars(arguments), "sets": facts, "targets": judged(reached)}))
+
+
+if __name__ == "__main__":
+    main()
