@@ -17,11 +17,11 @@ from vexture.tree.tree import Tree
 
 __all__ = ["Sheet", "sheets_of"]
 
-LEAST_BUDGET: Final = 1 << 16
-"""Texels that any map may have: a megabyte."""
+LEAST_BUDGET: Final = 1 << 17
+"""Texels that any drawing may have: two megabytes. A coat of arms in a flag needs one, and is exact only as a whole."""
 
 BUDGET: Final = 2
-"""Texels of all sheets, relative to those of the drawing's layers."""
+"""Texels of all sheets for each cubic and path: about twice those of the drawing's layers."""
 
 
 class Sheet(NamedTuple):
@@ -50,11 +50,8 @@ def sheets_of(drawing: Drawing, **parameters: Any) -> list[Sheet]:
     layers = drawing.layers() if one_paint else ()
     if len(layers) == 1:
         return [Sheet(layers[0], build_tree(layers[0], **parameters))]
-    whole = build_map(drawing, most_texels=LEAST_BUDGET, **parameters)
-    if whole is None:
-        in_layers = (build_tree(layer, **parameters) for layer in drawing.layers())
-        budget = max(BUDGET * sum(tree.texels for tree in in_layers), LEAST_BUDGET)
-        whole = build_map(drawing, most_texels=budget, **parameters) if budget > LEAST_BUDGET else None
+    budget = max(BUDGET * (drawing.segments + len(drawing.paths)), LEAST_BUDGET)
+    whole = build_map(drawing, most_texels=budget, **parameters)
     if whole is not None:
         return [Sheet(drawing, whole)]
     items = _items(drawing)
