@@ -4,8 +4,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from degenerate import path_windings
-from vexture.drawing import Blend, Drawing, FillRule, Group, Paint, Path
+from vexture.drawing import Blend, Drawing, FillRule, Group, Path
 from vexture.layout import LATTICE
+from vexture.paint import Paint
 from vexture.tree.crossings import x_at
 from vexture.tree.planar.map import PlanarMap
 

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from vexture.bezier.convert import ellipse_cubics, line_cubics, straight
-from vexture.drawing import Drawing, FillRule, Paint, Path
+from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import SourceError
+from vexture.paint import Paint
 
 
 def polygon(*corners: tuple[float, float]) -> np.ndarray:

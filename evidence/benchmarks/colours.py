@@ -24,8 +24,9 @@ from report import cell, table, write_json
 from targets import Target, judged, judgement
 from vexture import window
 from vexture.bezier.convert import ellipse_cubics
-from vexture.drawing import Drawing, Paint, Path
+from vexture.drawing import Drawing, Path
 from vexture.errors import SourceWarning
+from vexture.paint import Paint
 from vexture.pipeline import Conversion, run
 from vexture.renderers.exact import render_exact_colours
 from vexture.renderers.view import ViewLike

@@ -16,7 +16,7 @@ from vexture.errors import (
 if TYPE_CHECKING:
     __version__: str
 
-    from vexture.drawing import Drawing, FillRule, Paint, Path
+    from vexture.drawing import Drawing, FillRule, Path
     from vexture.fold.fold import Fold, fold_from
     from vexture.fold.picture import fold_picture
     from vexture.fold.shore import shore_fold
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from vexture.geo.geojson import read_geojson
     from vexture.images import coverage, render
     from vexture.notes import Note
+    from vexture.paint import Paint
     from vexture.pipeline import atlas, convert
     from vexture.reading import read, read_extent
     from vexture.renderers.shader import shader_source
@@ -71,7 +72,8 @@ __all__ = [
 ]
 
 _HOMES = {
-    "vexture.drawing": ("Drawing", "FillRule", "Paint", "Path"),
+    "vexture.drawing": ("Drawing", "FillRule", "Path"),
+    "vexture.paint": ("Paint",),
     "vexture.fold.fold": ("Fold", "fold_from"),
     "vexture.fold.picture": ("fold_picture",),
     "vexture.fold.shore": ("shore_fold",),

@@ -20,9 +20,10 @@ from vexture.bezier.convert import line_cubics
 from vexture.deadline import check_time
 from vexture.errors import SourceError
 from vexture.notes import Note
+from vexture.paint import BLACK, Affine, Paint
 from vexture.unit_square import clipped, tidied
 
-__all__ = ["Blend", "Drawing", "FillRule", "Group", "Paint", "Path"]
+__all__ = ["Blend", "Drawing", "FillRule", "Group", "Path"]
 
 SHARED_OPACITY: Final = "opacity of a group, which each of its shapes has by itself"
 BLENDING: Final = "mix-blend-mode"
@@ -44,30 +45,6 @@ class FillRule(IntEnum):
 
     NONZERO = 0
     EVENODD = 1
-
-
-@dataclass(frozen=True, slots=True)
-class Paint:
-    """A flat colour: sRGB components and opacity, each in 0..1."""
-
-    color: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    opacity: float = 1.0
-
-    def __post_init__(self) -> None:
-        if not all(0.0 <= part <= 1.0 for part in (*self.color, self.opacity)):
-            raise SourceError(f"a paint is {self.color} with opacity {self.opacity}; all must be in 0..1")
-
-    @property
-    def hex(self) -> str:
-        """The colour as CSS writes it, rounded to 8 bits: ``#rrggbb``, and ``#rrggbbaa`` where it is translucent.
-
-        Examples
-        --------
-        >>> Paint((1.0, 0.5, 0.0)).hex, Paint(opacity=0.5).hex
-        ('#ff8000', '#00000080')
-        """
-        channels = (*self.color, self.opacity) if self.opacity < 1.0 else self.color
-        return "#" + "".join(f"{round(255.0 * channel):02x}" for channel in channels)
 
 
 class Blend(IntEnum):
@@ -136,7 +113,7 @@ class Path:
 
     contours: tuple[NDArray[np.float64], ...]
     fill_rule: FillRule = FillRule.NONZERO
-    paint: Paint = Paint()
+    paint: Paint = BLACK
     group: int = -1
 
     def __post_init__(self) -> None:
@@ -156,10 +133,11 @@ class Path:
             raise SourceError("a contour is open; every cubic must start exactly where the one before it ends")
 
     @classmethod
-    def _sound(cls, contours: tuple[NDArray[np.float64], ...], like: "Path") -> "Path":
-        """Path of contours that are known to be finite and closed, without a check; the rest is another's."""
+    def _sound(cls, contours: tuple[NDArray[np.float64], ...], like: "Path", to_source: Affine) -> "Path":
+        """Path of contours that are known to be finite and closed, without a check; the rest is another's, moved."""
         path = object.__new__(cls)
-        for name, value in zip(cls.__slots__, (contours, like.fill_rule, like.paint, like.group), strict=True):
+        values = (contours, like.fill_rule, like.paint.after(to_source), like.group)
+        for name, value in zip(cls.__slots__, values, strict=True):
             object.__setattr__(path, name, value)
         return path
 
@@ -291,10 +269,7 @@ class Drawing:
         opacities = {-1: 1.0}
         for place, group in enumerate(self.groups):
             opacities[place] = opacities[group.outer] * group.opacity
-        paths = tuple(
-            replace(path, paint=Paint(path.paint.color, opacities[path.group] * path.paint.opacity), group=-1)
-            for path in self.paths
-        )
+        paths = tuple(replace(path, paint=path.paint.faded(opacities[path.group]), group=-1) for path in self.paths)
         return replace(self, paths=paths, groups=(), notes=(*self.notes, *self._lost()))
 
     def _lost(self) -> Iterator[Note]:
@@ -386,11 +361,13 @@ class Drawing:
         ends = np.cumsum([len(contour) for contour in contours])
         kept = tidied(*clipped(joined, ends, low, 1.0 - low))
         normal = []
+        a, b, c, d, e, f = to_source.ravel().tolist()
+        rows = ((a, b, c), (d, e, f))
         at = 0
         for path in listed:
             after = at + len(path.contours)
             inside = tuple(kept[k] for k in range(at, after) if k in kept)
             at = after
             if inside:
-                normal.append(Path._sound(inside, path))
+                normal.append(Path._sound(inside, path, rows))
         return cls(tuple(normal), to_source, name, groups=groups)

@@ -115,7 +115,8 @@ def render(
 
     Examples
     --------
-    >>> from vexture.drawing import Drawing, Paint, Path
+    >>> from vexture.drawing import Drawing, Path
+    >>> from vexture.paint import Paint
     >>> half = Drawing.polygon([(0, 0), (0.5, 0), (0.5, 1), (0, 1)]).paths[0].contours
     >>> red = Drawing((Path(half, paint=Paint((1.0, 0.0, 0.0), 0.5)),))
     >>> render(red, (2, 1), [[0.5, 0, 0], [0, -1, 1]])

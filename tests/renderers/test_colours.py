@@ -12,7 +12,8 @@ from packed_views import ENTRIES, TILTED, View, nudged, turned, zoomed
 
 import degenerate
 import planar
-from vexture.drawing import Drawing, Paint, Path
+from vexture.drawing import Drawing, Path
+from vexture.paint import Paint
 from vexture.renderers.colour import render_cpu_colours
 from vexture.renderers.device import context
 from vexture.renderers.gpu import render_gpu_colours

@@ -7,9 +7,10 @@ import pytest
 from hand import need_gpu
 
 import vexture
-from vexture.drawing import Drawing, Paint, Path
+from vexture.drawing import Drawing, Path
 from vexture.errors import ParameterError
 from vexture.images import coverage, render
+from vexture.paint import Paint
 from vexture.texture.choose import layers_of, place_of
 
 RED, GLASS = Paint((1.0, 0.0, 0.0)), Paint((0.0, 0.5, 1.0), 0.5)

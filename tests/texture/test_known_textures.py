@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from vexture.drawing import Paint
 from vexture.errors import DeviceError, ParameterError
+from vexture.paint import Paint
 from vexture.texture.choose import layers_of, place_of
 from vexture.texture.decode import decode
 from vexture.texture.files import file_name, target_of, writable

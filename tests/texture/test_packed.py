@@ -12,8 +12,8 @@ from test_ktx2 import by_ktx_parse
 from either import decode, encode, info
 from strategies import packed_trees
 from vexture import layout
-from vexture.drawing import Paint
 from vexture.errors import FormatError, LimitError, ParameterError
+from vexture.paint import Paint
 from vexture.texture.encode import encode as encode_packed
 from vexture.texture.texture import Root, Texture
 from vexture.tree.tree import Tree

@@ -5,9 +5,10 @@ import pytest
 
 from degenerate import circle, drawing, heap, points_near, polygon
 from planar import cell_at, coloured, colours_at, paints_at
-from vexture.drawing import Blend, Drawing, FillRule, Group, Paint, Path
+from vexture.drawing import Blend, Drawing, FillRule, Group, Path
 from vexture.errors import LimitError, SourceError
 from vexture.layout import PAINT_ONE
+from vexture.paint import Paint
 from vexture.renderers.exact import render_exact_colours
 from vexture.tree.planar.build import build_map
 from vexture.tree.planar.map import PlanarMap

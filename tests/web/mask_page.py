@@ -12,7 +12,8 @@ from browser import ROOT, bundle
 from numpy.typing import ArrayLike, NDArray
 
 import vexture
-from vexture.drawing import Drawing, Paint
+from vexture.drawing import Drawing
+from vexture.paint import Paint
 
 SHAPES: Final = ROOT / "examples" / "shapes"
 

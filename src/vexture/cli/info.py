@@ -56,7 +56,7 @@ def _lines(facts: dict[str, Any]) -> Iterator[str]:
 def _text(name: str, value: Any) -> str:
     """A value in at most six digits; a colour as CSS writes it; a transform from the unit square as two sums."""
     if name == "paint":
-        from vexture.drawing import Paint
+        from vexture.paint import Paint
 
         return f"{Paint(tuple(value['color'])).hex} at opacity {value['opacity']:.6g}"
     if name == "transform":

@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
 from vexture.content import BYTE_ORDER_MARK, READABLE, about, decompressed, read_bytes
-from vexture.drawing import Drawing, FillRule, Paint, Path
+from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import SourceError
 from vexture.notes import Notes, line_of, warn_of
+from vexture.paint import Paint
 
 __all__ = ["LARGEST", "UNLOCATED", "Area", "areas_of", "geojson_drawing", "met", "read_geojson"]
 

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import Paint
+from vexture.paint import Paint
 
 __all__ = ["painted", "stacked"]
 

@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass, field, replace
 
-from vexture.drawing import Blend, Group, Paint, Path
+from vexture.drawing import Blend, Group, Path
+from vexture.paint import Paint
 from vexture.svg.properties import BLENDS
 from vexture.svg.style import Style
 

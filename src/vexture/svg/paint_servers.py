@@ -5,7 +5,7 @@ import re
 import numpy as np
 from lxml import etree
 
-from vexture.drawing import Paint
+from vexture.paint import Paint
 from vexture.svg.colors import Color, parse_color, parse_paint
 from vexture.svg.document import local_name
 from vexture.svg.report import Report

@@ -7,8 +7,9 @@ import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
-from vexture.drawing import FillRule, Paint, Path
+from vexture.drawing import FillRule, Path
 from vexture.errors import SourceError
+from vexture.paint import Paint
 from vexture.svg.compositing import Veil
 from vexture.svg.outline import Outline
 from vexture.svg.paint_servers import PaintServers

@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import IDENTITY, Paint
+from vexture.drawing import IDENTITY
 from vexture.errors import FormatError, LimitError
 from vexture.layout import TEXT_ROOTS
+from vexture.paint import Paint
 from vexture.texture.walk import REMEDY
 
 __all__ = ["Root", "read_roots", "roots_text"]

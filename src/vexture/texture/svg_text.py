@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.convert import straight
-from vexture.drawing import Paint
+from vexture.paint import Paint
 from vexture.texture.root import Root
 
 __all__ = ["svg_document"]

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vexture import layout
-from vexture.drawing import Paint
 from vexture.encodings import TextureRenderer
 from vexture.errors import FormatError, LimitError, ParameterError
+from vexture.paint import Paint
 from vexture.renderers.picture import painted, stacked
 from vexture.renderers.view import Size, ViewLike, size_of
 from vexture.texture.choose import layers_of, place_of

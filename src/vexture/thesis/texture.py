@@ -8,10 +8,11 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import IDENTITY, Paint
+from vexture.drawing import IDENTITY
 from vexture.encodings import TextureRenderer
 from vexture.errors import FormatError, LimitError, ParameterError
 from vexture.layout import TEXT_ENCODING, TEXT_VERSION
+from vexture.paint import Paint
 from vexture.renderers.picture import painted, stacked
 from vexture.renderers.view import Size, ViewLike, size_of
 from vexture.texture.files import file_name, is_folder, read_file, write_together

@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vexture.content import about
-from vexture.drawing import Drawing, Paint
+from vexture.drawing import Drawing
 from vexture.errors import DeviceError, LimitError, SourceError
 from vexture.notes import Notes, warn_of
+from vexture.paint import Paint
 from vexture.svg.read import svg_drawing
 from vexture.tracing.colours import background_of, flat_colours, mixture, widened
 from vexture.tracing.images import MOST_PIXELS, pixels_of

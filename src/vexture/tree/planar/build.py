@@ -312,7 +312,8 @@ def build_map(
 
     Examples
     --------
-    >>> from vexture.drawing import Paint, Path
+    >>> from vexture.drawing import Path
+    >>> from vexture.paint import Paint
     >>> left = Drawing.polygon([(0, 0), (0.5, 0), (0.5, 1), (0, 1)]).paths[0].contours
     >>> right = Drawing.polygon([(0.5, 0), (1, 0), (1, 1), (0.5, 1)]).paths[0].contours
     >>> planar = build_map(Drawing((Path(left, paint=Paint((1.0, 0.0, 0.0))), Path(right))))
