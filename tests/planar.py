@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from degenerate import path_windings
-from vexture.drawing import Blend, Drawing, FillRule, Group, Path
+from vexture.drawing import Blend, Drawing, FillRule, Group, Mask, Path
 from vexture.layout import LATTICE
 from vexture.paint import Paint
 from vexture.tree.crossings import x_at
@@ -61,8 +61,12 @@ def colours_at(drawing: Drawing, points) -> tuple[NDArray[np.float64], NDArray[n
     """Premultiplied colours of a drawing at points, (n, 4), and the points' distance from the nearest outline."""
     windings, distance = path_windings(drawing, points)
 
+    masks = [sum(mask.outer == place for mask in drawing.groups if mask.mask) for place in range(len(drawing.groups))]
+
     def painted(group: int, start: int) -> tuple[NDArray[np.float64], int]:
-        below, k = np.zeros((len(points), 4)), start
+        """Colours of a group from a path on, masked, and the path after it."""
+        below, k, left = np.zeros((len(points), 4)), start, np.ones((len(points), 1))
+        missing = masks[group] if group >= 0 else 0
         while k < len(drawing.paths):
             around = drawing.around(drawing.paths[k].group)
             if group >= 0 and group not in around:
@@ -70,13 +74,18 @@ def colours_at(drawing: Drawing, points) -> tuple[NDArray[np.float64], NDArray[n
             inner = around[around.index(group) + 1 :] if group >= 0 else around
             if inner:
                 above, k = painted(inner[0], k)
-                below = over(below, above, drawing.groups[inner[0]].blend, drawing.groups[inner[0]].opacity)
+                of = drawing.groups[inner[0]]
+                if of.mask:
+                    amount = above[:, 3] if of.mask is Mask.OPACITY else above[:, :3] @ (0.2125, 0.7154, 0.0721)
+                    left, missing = left * (of.opacity * amount)[:, None], missing - 1
+                else:
+                    below = over(below, above, of.blend, of.opacity)
                 continue
             path, w = drawing.paths[k], windings[k]
             inside = w & 1 != 0 if path.fill_rule == FillRule.EVENODD else w != 0
             colour = np.array([*(c * path.paint.opacity for c in path.paint.color), path.paint.opacity])
             below, k = over(below, inside[:, None] * colour, Blend.NORMAL, 1.0), k + 1
-        return below, k
+        return below * left * (missing == 0), k
 
     return painted(-1, 0)[0], distance
 
@@ -90,7 +99,8 @@ def coloured(drawing: Drawing, rng) -> Drawing:
             around.pop()
         if rng.random() < 0.3:
             blend = Blend(int(rng.choice([Blend.NORMAL, Blend.MULTIPLY, Blend.SCREEN])))
-            groups.append(Group(around[-1] if around else -1, float(rng.choice([0.5, 1.0])), blend))
+            mask = Mask(int(rng.choice(Mask, p=(0.6, 0.2, 0.2)))) if around else Mask.NONE
+            groups.append(Group(around[-1] if around else -1, float(rng.choice([0.5, 1.0])), blend, mask))
             around.append(len(groups) - 1)
         colour = tuple(rng.choice([0.0, 0.5, 1.0], 3).tolist())
         paint = Paint(colour, float(rng.choice([0.3, 1.0, 1.0])))

@@ -2,7 +2,7 @@
 
 import pytest
 
-from vexture.drawing import Blend, Drawing, Group, Path
+from vexture.drawing import Blend, Drawing, Group, Mask, Path
 from vexture.errors import SourceError
 from vexture.paint import Paint
 
@@ -44,3 +44,18 @@ def test_a_group_that_is_not_nested_is_refused(
 def test_an_opacity_beyond_its_range_is_refused(opacity: float) -> None:
     with pytest.raises(SourceError, match="opacity"):
         Group(opacity=opacity)
+
+
+def test_a_mask_without_a_group_around_it_is_refused() -> None:
+    with pytest.raises(SourceError, match="no group around it"):
+        Group(mask=Mask.OPACITY)
+
+
+def test_masks_are_no_layers_and_no_part_of_a_silhouette() -> None:
+    masked = drawing((Group(), Group(0, mask=Mask.LUMINANCE), Group(1)), -1, 0, 1, 2, 0)
+    assert [len(layer.paths) for layer in masked.layers()] == [1, 1, 1]
+    assert [str(note) for note in masked.layers()[0].notes] == ["clip-path or mask"]
+    plain = masked.unmasked()
+    assert (len(plain.paths), plain.groups, [str(note) for note in plain.notes]) == (3, (), ["clip-path or mask"])
+    kept = drawing((Group(),), 0)
+    assert kept.unmasked() is kept

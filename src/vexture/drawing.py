@@ -23,11 +23,12 @@ from vexture.notes import Note
 from vexture.paint import BLACK, Affine, Paint
 from vexture.unit_square import clipped, tidied
 
-__all__ = ["Blend", "Drawing", "FillRule", "Group", "Path"]
+__all__ = ["Blend", "Drawing", "FillRule", "Group", "Mask", "Path"]
 
 SHARED_OPACITY: Final = "opacity of a group, which each of its shapes has by itself"
 BLENDING: Final = "mix-blend-mode"
-"""Messages about layers, which know no groups."""
+MASKING: Final = "clip-path or mask"
+"""Messages about layers and silhouettes, which know no groups."""
 
 IDENTITY = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 
@@ -69,9 +70,22 @@ class Blend(IntEnum):
     PLUS_LIGHTER = 16
 
 
+class Mask(IntEnum):
+    """What of a group's colour masks the group around it, which is hidden where that is 0.
+
+    A clip is a mask by opacity, of opaque paths. Luminance is that of premultiplied sRGB (CSS Masking 1, 7.10.1).
+    """
+
+    NONE = 0
+    OPACITY = 1
+    LUMINANCE = 2
+
+
 @dataclass(frozen=True, slots=True)
 class Group:
     """Paths that are composited by themselves, on nothing, before the result goes on what is below.
+
+    A mask is a group that is not shown itself. It may stand anywhere in the group around it; several multiply.
 
     Parameters
     ----------
@@ -80,15 +94,20 @@ class Group:
     opacity : float
         Of the whole, 0..1.
     blend : Blend
+    mask : Mask
+        Whether it masks the group around it, and by what.
     """
 
     outer: int = -1
     opacity: float = 1.0
     blend: Blend = Blend.NORMAL
+    mask: Mask = Mask.NONE
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.opacity <= 1.0:
             raise SourceError(f"a group has opacity {self.opacity}; it must be in 0..1")
+        if self.mask and self.outer < 0:
+            raise SourceError("a group is a mask, but there is no group around it that it could mask")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -248,7 +267,7 @@ class Drawing:
         [('logo/1-#ff0000', 2), ('logo/2-#0000ff80', 1), ('logo/3-#0000ff80', 1)]
         """
         if self.groups:
-            return self._ungrouped().layers()
+            return self.ungrouped().layers()
         boxes = np.array([path.box for path in self.paths]).reshape(-1, 2, 2)
         starts: list[int] = []
         for place, path in enumerate(self.paths):
@@ -264,13 +283,29 @@ class Drawing:
             for number, (start, end) in enumerate(pairwise([*starts, len(self.paths)]), 1)
         )
 
-    def _ungrouped(self) -> "Drawing":
-        """The drawing without groups: each path has their opacities by itself; notes say where a picture differs."""
-        opacities = {-1: 1.0}
+    def ungrouped(self) -> "Drawing":
+        """The drawing without groups, and so without masks: each path has the opacities of those around it by itself.
+
+        Notes say where a picture differs.
+        """
+        opacities, masks = {-1: 1.0}, set[int]()
         for place, group in enumerate(self.groups):
             opacities[place] = opacities[group.outer] * group.opacity
-        paths = tuple(replace(path, paint=path.paint.faded(opacities[path.group]), group=-1) for path in self.paths)
+            if group.mask or group.outer in masks:
+                masks.add(place)
+        paths = tuple(
+            replace(path, paint=path.paint.faded(opacities[path.group]), group=-1)
+            for path in self.paths
+            if path.group not in masks
+        )
         return replace(self, paths=paths, groups=(), notes=(*self.notes, *self._lost()))
+
+    def unmasked(self) -> "Drawing":
+        """What a silhouette is made of: the drawing without its masks, with a note of them if it has any."""
+        if not any(group.mask for group in self.groups):
+            return self
+        plain = self.ungrouped()
+        return replace(plain, notes=tuple(n for n in plain.notes if n.message not in (SHARED_OPACITY, BLENDING)))
 
     def _lost(self) -> Iterator[Note]:
         """Notes of what layers lose of the groups; a path by itself loses no opacity."""
@@ -279,7 +314,8 @@ class Drawing:
             held[self.groups[place].outer] += held[place]
         shared = sum(group.opacity < 1.0 and held[place] > 1 for place, group in enumerate(self.groups))
         blended = sum(group.blend is not Blend.NORMAL and held[place] > 0 for place, group in enumerate(self.groups))
-        for message, count in ((SHARED_OPACITY, shared), (BLENDING, blended)):
+        masks = sum(group.mask is not Mask.NONE for group in self.groups)
+        for message, count in ((SHARED_OPACITY, shared), (BLENDING, blended), (MASKING, masks)):
             if count:
                 yield Note("simplified", message, count)
 

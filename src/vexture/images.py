@@ -76,7 +76,7 @@ def coverage(
     if renderer == "exact":
         from vexture.renderers.exact import render_exact
 
-        return render_exact(cast("Drawing", thing), size, view)
+        return render_exact(cast("Drawing", thing).unmasked(), size, view)
     texture = convert(thing) if isinstance(thing, Drawing) else thing
     return texture.coverage(size, view, renderer=renderer, root=root)
 

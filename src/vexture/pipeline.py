@@ -104,7 +104,7 @@ def run(
         texture = combine([part], part.drawing.name, None if _is_drawing(source) else Path(part.source).name)
         return replace(part, texture=texture, seconds=time.perf_counter() - start)
     with within(max_seconds):
-        drawing = _drawing_of(source, select)
+        drawing = _drawing_of(source, select).unmasked()
         tree, other_texture, rounding = other.convert(drawing, **parameters)
     return Conversion(drawing, (tree,), other_texture, time.perf_counter() - start, rounding, notes=drawing.notes)
 
@@ -124,11 +124,12 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
         given = {"max_depth": parameters.max_depth, "capacity": parameters.capacity, "precision": parameters.precision}
         bounds: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
         bounds["tolerance"] = tolerance
+        shown = drawing if parameters.split else drawing.unmasked()
         layers = drawing.layers() if parameters.split == "paint" else ()
         if parameters.split == "faces" and drawing.paths:
             sheets = sheets_of(drawing, **bounds)
         else:
-            sheets = [Sheet(layer, build_tree(layer, **bounds)) for layer in layers or (drawing,)]
+            sheets = [Sheet(layer, build_tree(layer, **bounds)) for layer in layers or (shown,)]
     roots = tuple(
         Root(
             part.name, 0, part.to_source, tolerance, part.crs, sheet.paint if parameters.split and part.paths else None
@@ -138,7 +139,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     )
     named = drawing.name if _is_drawing(source) else os.fspath(source)  # type: ignore[arg-type]
     seconds, rounding = time.perf_counter() - start, largest_shift(parameters.precision)
-    notes = layers[0].notes if layers else drawing.notes
+    notes = layers[0].notes if layers else shown.notes
     trees = tuple(sheet.tree for sheet in sheets)
     return Conversion(drawing, trees, None, seconds, rounding, roots, named, notes)
 

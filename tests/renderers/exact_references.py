@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import Blend, FillRule
+from vexture.drawing import Blend, FillRule, Mask
 
 SCANLINES = 1 << 14
 LUM = np.array([0.3, 0.59, 0.11])
@@ -118,12 +118,16 @@ def composited(drawing, inside, group=-1):
         if group not in around:
             continue
         inner = around[around.index(group) + 1]  # the group in this one that the path is in, or -1
-        if inner not in drawn:
+        if inner not in drawn and not drawing.groups[inner].mask:
             of_group = drawing.groups[inner]
             colour = mixed(of_group.opacity * composited(drawing, inside, inner), colour, of_group.blend)
         elif inner == -1 and is_inside:
             colour = mixed(np.multiply((*path.paint.color, 1.0), path.paint.opacity), colour, Blend.NORMAL)
         drawn.add(inner)
+    for place, mask in enumerate(drawing.groups):
+        if mask.mask and mask.outer == group:
+            luminance = (0.2125, 0.7154, 0.0721, 0.0) if mask.mask is Mask.LUMINANCE else (0.0, 0.0, 0.0, 1.0)
+            colour = colour * mask.opacity * np.dot(composited(drawing, inside, place), luminance)
     return colour
 
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from PIL import Image
 
 import vexture
-from vexture.drawing import Blend, Drawing, FillRule, Group, Path
+from vexture.drawing import Blend, Drawing, FillRule, Group, Mask, Path
 from vexture.errors import ParameterError
 from vexture.paint import Paint
 from vexture.renderers.exact import render_exact, render_exact_colours
@@ -227,7 +227,8 @@ def painted_drawings(draw):
         while inner >= 0 and draw(st.booleans()):
             inner = groups[inner].outer
         while len(groups) < 4 and draw(st.booleans()):
-            groups.append(Group(inner, draw(shares), draw(st.sampled_from(Blend))))
+            mask = draw(st.sampled_from(Mask)) if inner >= 0 else Mask.NONE
+            groups.append(Group(inner, draw(shares), draw(st.sampled_from(Blend)), mask))
             inner = len(groups) - 1
         paint = Paint((draw(shares), draw(shares), draw(shares)), draw(shares))
         paths.append(replace(path, paint=paint, group=inner))

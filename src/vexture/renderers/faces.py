@@ -12,7 +12,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import Blend, Drawing, FillRule
+from vexture.drawing import Blend, Drawing, FillRule, Mask
 from vexture.kernels import kernel
 from vexture.renderers.blend import lay
 from vexture.renderers.slabs import Sweep, add_edge, cross
@@ -36,6 +36,8 @@ class Stack(NamedTuple):
     outer: NDArray[np.int64]  # (groups,): of `Group`, as the next two
     opacities: NDArray[np.float64]  # (groups,)
     blends: NDArray[np.int64]  # (groups,)
+    masks: NDArray[np.int64]  # (groups,): of `Group`
+    masked: NDArray[np.int64]  # (groups,): how many masks a group has
 
     @classmethod
     def of(cls, drawing: Drawing) -> "Stack":
@@ -50,6 +52,10 @@ class Stack(NamedTuple):
             np.array([group.outer for group in groups], np.int64),
             np.array([group.opacity for group in groups], np.float64),
             np.array([group.blend for group in groups], np.int64),
+            np.array([group.mask for group in groups], np.int64),
+            np.array(
+                [sum(mask.outer == place for mask in groups if mask.mask) for place in range(len(groups))], np.int64
+            ),
         )
 
 
@@ -62,6 +68,8 @@ class Faces(NamedTuple):
     names: NDArray[np.int64]  # (KEPT,): at the place that its last bits say; at first 0, where nothing is inside
     colours: NDArray[np.float64]  # (KEPT, 4): premultiplied
     levels: NDArray[np.float64]  # (groups + 1, 4): the drawing and each of its groups, as far as composited
+    shown: NDArray[np.float64]  # (groups,): what is left of each by its masks
+    missing: NDArray[np.int64]  # (groups,): its masks of which nothing was met
 
     @classmethod
     def of(cls, stack: Stack) -> "Faces":
@@ -74,6 +82,8 @@ class Faces(NamedTuple):
             np.zeros(KEPT, np.int64),
             np.zeros((KEPT, 4)),
             np.zeros((len(stack.outer) + 1, 4)),
+            np.ones(len(stack.outer)),
+            np.zeros(len(stack.outer), np.int64),
         )
 
 
@@ -131,25 +141,42 @@ def composite(stack: Stack, faces: Faces, colour: NDArray[np.float64]) -> None:
             for path in range(run * RUN, min((run + 1) * RUN, len(stack.names))):
                 winding = faces.winding[path]
                 if (winding & 1 != 0) if stack.evenodd[path] else (winding != 0):
-                    change_group(group, stack.groups[path], stack, levels)
+                    change_group(group, stack.groups[path], stack, faces)
                     group = stack.groups[path]
                     lay(stack.paints[path], 1.0, Blend.NORMAL, levels[group + 1])
-    change_group(group, -1, stack, levels)
+    change_group(group, -1, stack, faces)
     for channel in range(4):
         colour[channel] = levels[0, channel]
 
 
 @kernel(allocates=False)
-def change_group(inner: int, wanted: int, stack: Stack, levels: NDArray[np.float64]) -> None:
-    """Go from one group to another: lay each that ends on the one around it, and begin the others with nothing.
+def change_group(inner: int, wanted: int, stack: Stack, faces: Faces) -> None:
+    """Go from one group to another: end some, and begin others with nothing.
 
     A group stands after the one around it, so the later of two groups is not around the other.
     """
     while inner != wanted:
         if inner > wanted:
-            outer = stack.outer[inner]
-            lay(levels[inner + 1], stack.opacities[inner], stack.blends[inner], levels[outer + 1])
-            inner = outer
+            end_group(inner, stack, faces)
+            inner = stack.outer[inner]
         else:
-            levels[wanted + 1, :] = 0.0
+            faces.levels[wanted + 1, :] = 0.0
+            faces.shown[wanted] = 1.0
+            faces.missing[wanted] = stack.masked[wanted]
             wanted = stack.outer[wanted]
+
+
+@kernel(allocates=False)
+def end_group(group: int, stack: Stack, faces: Faces) -> None:
+    """Lay a group on the one around it, or let it mask that. Of a mask where nothing is, nothing is left to be seen."""
+    outer, colour = stack.outer[group], faces.levels[group + 1]
+    left = faces.shown[group] * stack.opacities[group] if faces.missing[group] == 0 else 0.0
+    if stack.masks[group] == Mask.NONE:
+        lay(colour, left, stack.blends[group], faces.levels[outer + 1])
+        return
+    if stack.masks[group] == Mask.LUMINANCE:
+        left *= 0.2125 * colour[0] + 0.7154 * colour[1] + 0.0721 * colour[2]
+    else:
+        left *= colour[3]
+    faces.shown[outer] *= left
+    faces.missing[outer] -= 1

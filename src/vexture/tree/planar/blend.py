@@ -3,16 +3,17 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import Blend
+from vexture.drawing import Blend, Mask
 from vexture.kernels import kernel
 
-__all__ = ["blend_over"]
+__all__ = ["blend_over", "masking"]
 
 SCREEN, OVERLAY, DARKEN, LIGHTEN = int(Blend.SCREEN), int(Blend.OVERLAY), int(Blend.DARKEN), int(Blend.LIGHTEN)
 DODGE, BURN, HARD, SOFT = int(Blend.COLOR_DODGE), int(Blend.COLOR_BURN), int(Blend.HARD_LIGHT), int(Blend.SOFT_LIGHT)
 NORMAL, MULTIPLY, DIFFERENCE = int(Blend.NORMAL), int(Blend.MULTIPLY), int(Blend.DIFFERENCE)
 EXCLUSION, HUE, SATURATION = int(Blend.EXCLUSION), int(Blend.HUE), int(Blend.SATURATION)
 COLOR, LUMINOSITY, LIGHTER = int(Blend.COLOR), int(Blend.LUMINOSITY), int(Blend.PLUS_LIGHTER)
+LUMINANCE = int(Mask.LUMINANCE)
 
 
 @kernel(allocates=False)
@@ -108,3 +109,11 @@ def blend_over(below: NDArray[np.float64], above: NDArray[np.float64], opacity: 
         mixed = whole[c] if mode >= HUE else _mixed(mode, backdrop[c], source[c])
         below[c] = source[c] * a * (1.0 - b) + backdrop[c] * b * (1.0 - a) + a * b * mixed
     below[3] = a + b * (1.0 - a)
+
+
+@kernel(allocates=False)
+def masking(colour: NDArray[np.float64], mask: int) -> float:
+    """What a mask of a premultiplied colour, (4,), leaves (*CSS Masking Level 1*, 7.10)."""
+    if mask == LUMINANCE:
+        return 0.2125 * colour[0] + 0.7154 * colour[1] + 0.0721 * colour[2]
+    return colour[3]

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vexture.drawing import Drawing
 from vexture.kernels import kernel
 from vexture.layout import PAINT_ONE
-from vexture.tree.planar.blend import blend_over
+from vexture.tree.planar.blend import blend_over, masking
 from vexture.tree.winding import inside
 
 __all__ = ["ONE", "Faces", "Layers", "face_of", "layers_of", "new_faces", "refill", "roomier_faces"]
@@ -36,6 +36,8 @@ class Layers(NamedTuple):
     depth: NDArray[np.int64]  # of each group: how many there are around it
     opacity: NDArray[np.float64]
     blend: NDArray[np.int64]
+    mask: NDArray[np.int64]
+    masked: NDArray[np.int64]  # of each group: how many masks it has
 
 
 class Faces(NamedTuple):
@@ -64,6 +66,8 @@ def layers_of(drawing: Drawing) -> Layers:
         np.array([len(drawing.around(place)) - 1 for place in range(len(groups))], np.int64),
         np.array([group.opacity for group in groups], np.float64),
         np.array([int(group.blend) for group in groups], np.int64),
+        np.array([int(group.mask) for group in groups], np.int64),
+        np.bincount([group.outer for group in groups if group.mask], minlength=len(groups)).astype(np.int64),
     )
 
 
@@ -150,6 +154,7 @@ def _composite(
     for g in range(len(layers.depth)):
         deepest = max(deepest, layers.depth[g] + 1)
     around, inner = np.empty(deepest + 1, np.int64), np.zeros((deepest + 1, 4))
+    shown, missing = np.ones(deepest + 1), np.zeros(deepest + 1, np.int64)  # by masks; masks of which nothing was met
     level = 0  # open groups; inner[level] is what has been painted in the innermost
     for c in range(4):
         inner[0, c] = out[c]
@@ -162,7 +167,12 @@ def _composite(
             group = layers.group[path]
         while level > 0 and not _is_in(layers, group, around[level]):
             g = around[level]
-            blend_over(inner[level - 1], inner[level], layers.opacity[g], layers.blend[g])
+            left = layers.opacity[g] * (shown[level] if missing[level] == 0 else 0.0)
+            if layers.mask[g] == 0:
+                blend_over(inner[level - 1], inner[level], left, layers.blend[g])
+            else:
+                shown[level - 1] *= left * masking(inner[level], layers.mask[g])
+                missing[level - 1] -= 1
             level -= 1
         if k == len(present):
             break
@@ -171,7 +181,7 @@ def _composite(
             while layers.depth[g] > level:
                 g = layers.outer[g]
             level += 1
-            around[level] = g
+            around[level], shown[level], missing[level] = g, 1.0, layers.masked[g]
             for c in range(4):
                 inner[level, c] = 0.0
         blend_over(inner[level], layers.rgba[path], 1.0, 0)
