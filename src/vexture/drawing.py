@@ -26,23 +26,14 @@ from vexture.unit_square import clipped, tidied
 __all__ = ["Blend", "Drawing", "FillRule", "Group", "Mask", "Path"]
 
 SHARED_OPACITY: Final = "opacity of a group, which each of its shapes has by itself"
-BLENDING: Final = "mix-blend-mode"
-MASKING: Final = "clip-path or mask"
+BLENDING, MASKING = "mix-blend-mode", "clip-path or mask"
 """Messages about layers and silhouettes, which know no groups."""
 
 IDENTITY = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 
 
 class FillRule(IntEnum):
-    """Rule by which winding numbers are inside.
-
-    Attributes
-    ----------
-    NONZERO : int
-        All but 0.
-    EVENODD : int
-        The odd ones.
-    """
+    """Rule by which winding numbers are inside: all but 0, or the odd ones."""
 
     NONZERO = 0
     EVENODD = 1

@@ -13,7 +13,7 @@ from vexture.errors import SourceWarning
 from vexture.svg.read import read_svg
 
 FIXTURES = Path(__file__).parent / "fixtures"
-TOPICS = ("groups", "paths", "shapes", "strokes", "structure", "style", "transform", "viewport")
+TOPICS = ("groups", "masks", "paths", "shapes", "strokes", "structure", "style", "transform", "viewport")
 
 # what PyPI's resvg does not know, in words that it and we understand alike
 PLAINER = {

@@ -15,7 +15,7 @@ FIXTURES = Path(__file__).parent / "fixtures"
 
 SAID = {
     "animation": "left out: animation",
-    "clip-path": "left out: clip-path",
+    "clip-path": "left out: clip-path 'circle(9px at 20px 20px)'",
     "css-rotate": "left out: rotate",
     "css-variables": "left out: CSS variables",
     "external-use": "left out: <use> of 'other.svg#a'",
@@ -27,7 +27,7 @@ SAID = {
     "linear-gradient": "simplified: linearGradient read as a solid colour",
     "many": "left out: <text> (2), <image>; invalid and ignored: r='x' of <rect> in line 5",
     "marker": "left out: marker",
-    "mask": "left out: mask",
+    "mask": "left out: mask 'url(stars.svg#m)'",
     "missing-paint": "left out: paint '#none' (2)",
     "pattern": "simplified: pattern read as solid",
     "radial-gradient-by-reference": "simplified: radialGradient read as a solid colour",

@@ -2,8 +2,7 @@
 
 from dataclasses import dataclass, field, replace
 
-from vexture.drawing import Blend, Group, Path
-from vexture.paint import Paint
+from vexture.drawing import Blend, Group, Mask, Path
 from vexture.svg.properties import BLENDS
 from vexture.svg.style import Style
 
@@ -32,6 +31,8 @@ class Veil:
     boxes: list[Box] = field(default_factory=list)
     overlaps: bool = False
     mixes: bool = False  # whether something that is painted in it has a blend mode, which must not see beyond
+    mask: Mask = Mask.NONE  # whether it masks the veil around it
+    masks: "list[Veil]" = field(default_factory=list)  # that mask it
 
     def add(self, box: Box) -> None:
         """Add the box of a path; those of more than `MOST_BOXES` are taken to overlap."""
@@ -39,6 +40,8 @@ class Veil:
         while veil is not None and not veil.overlaps:  # around a veil that overlaps, all do
             veil.overlaps = len(veil.boxes) == MOST_BOXES or any(meet(box, other) for other in veil.boxes)
             veil.boxes.append(box)
+            if veil.mask:
+                break
             if veil.outer is not None and veil.blend is not Blend.NORMAL:
                 veil.outer.mixes = True
             veil = veil.outer
@@ -47,7 +50,7 @@ class Veil:
     def is_group(self) -> bool:
         """Whether its paths cannot have its opacity by themselves, or a blend mode shows that they are together."""
         blends = self.blend is not Blend.NORMAL and (self.outer is None or self.outer.overlaps)
-        return blends or (self.overlaps and (self.opacity < 1.0 or self.mixes))
+        return bool(self.mask or self.masks) or blends or (self.overlaps and (self.opacity < 1.0 or self.mixes))
 
 
 def meet(a: Box, b: Box) -> bool:
@@ -55,13 +58,18 @@ def meet(a: Box, b: Box) -> bool:
     return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
 
 
-def veil_of(style: Style, outer: Veil | None) -> Veil | None:
-    """The veil of an element inside the outermost one; the one around it if it is not composited by itself."""
+def veil_of(style: Style, outer: Veil | None, is_clip: bool = False) -> Veil | None:
+    """The veil of an element inside the outermost one; the one around it if it is not composited by itself.
+
+    In a clip only outlines count, so that nothing but another clip or mask makes a difference.
+    """
     if not style.own:
         return outer
+    isolated = any(style[name].lower() != "none" for name in ISOLATING)
+    if is_clip:
+        return Veil(outer, 1.0) if isolated else outer
     opacity, blend = style.opacity("opacity"), BLENDS[style["mix-blend-mode"].lower()]
-    isolated = style["isolation"].lower() == "isolate" or any(style[name].lower() != "none" for name in ISOLATING)
-    if opacity == 1.0 and blend is Blend.NORMAL and not isolated:
+    if opacity == 1.0 and blend is Blend.NORMAL and not isolated and style["isolation"].lower() != "isolate":
         return outer
     return Veil(outer, opacity, blend)
 
@@ -78,25 +86,32 @@ def grouped(paths: list[Path], veils: list[Veil | None]) -> tuple[list[Path], tu
             assert veil is not None
             unknown.append(veil)
             veil = veil.outer
-        for veil in reversed(unknown):
+        while unknown:
+            veil = unknown.pop()
             place, opacity = places[veil.outer]
             if veil.is_group:
-                groups.append(Group(place, veil.opacity if veil.overlaps else 1.0, veil.blend))
+                groups.append(Group(place, veil.opacity if veil.overlaps else 1.0, veil.blend, veil.mask))
                 place = len(groups) - 1
+            if veil.mask:
+                opacity = 1.0
             places[veil] = place, opacity if veil.overlaps else opacity * veil.opacity
+            unknown += [mask for mask in veil.masks if mask not in unknown]  # also those that show nothing
         place, opacity = places[innermost]
         if innermost is not None:
-            path = replace(path, paint=Paint(path.paint.color, opacity * path.paint.opacity), group=place)
+            path = replace(path, paint=path.paint.faded(opacity), group=place)
         done.append(path)
     return done, tuple(groups)
 
 
 def occupied(paths: tuple[Path, ...], groups: tuple[Group, ...]) -> tuple[tuple[Path, ...], tuple[Group, ...]]:
-    """Paths and their groups, without the groups that hold none of them."""
+    """Paths and their groups, without the groups that hold none of them; a mask that is empty hides what it masks."""
     held = {path.group for path in paths}
     for place in reversed(range(len(groups))):
         if place in held:
             held.add(groups[place].outer)
+    for place, group in enumerate(groups):
+        if group.mask and group.outer in held:
+            held.add(place)
     kept = [place for place in range(len(groups)) if place in held]
     if len(kept) == len(groups):
         return paths, groups

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vexture.drawing import FillRule, Path
 from vexture.errors import SourceError
-from vexture.paint import Paint
+from vexture.paint import BLACK, Paint
 from vexture.svg.compositing import Veil
 from vexture.svg.outline import Outline
 from vexture.svg.paint_servers import PaintServers
@@ -21,7 +21,7 @@ from vexture.svg.transform import Identity, mapped, scale_of
 from vexture.svg.values import number
 from vexture.tolerance import ROUND
 
-__all__ = ["Painter"]
+__all__ = ["Painter", "Ruler"]
 
 MOST_SEGMENTS = 5_000_000
 """Cubics in one drawing."""
@@ -46,8 +46,8 @@ class Painter:
         style = place.style
         if style["visibility"].lower() != "visible" or place.space.flat:
             return
-        fill = self.servers.paint(style, "fill")
-        line = self.servers.paint(style, "stroke")
+        fill = BLACK if place.is_clip else self.servers.paint(style, "fill")
+        line = None if place.is_clip else self.servers.paint(style, "stroke")
         if fill is None and line is None:
             return
         scale = scale_of(place.space.whole)
@@ -67,7 +67,7 @@ class Painter:
     def fill(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | None) -> None:
         """Paint the inside of the outlines."""
         if paint is not None:
-            rule = FillRule[shape.style["fill-rule"].upper()]
+            rule = FillRule[shape.style["clip-rule" if place.is_clip else "fill-rule"].upper()]
             self.add([outline.loop for outline in outlines], place, rule, paint)
 
     def stroke(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | None, size: float) -> None:
@@ -103,6 +103,19 @@ class Painter:
             if place.veil is not None:
                 ends = np.concatenate([contour.reshape(-1, 2) for contour in shown])
                 place.veil.add((*ends.min(axis=0), *ends.max(axis=0)))
+
+
+class Ruler(Painter):
+    """Collects the outlines of shapes, whatever their paints, to measure them."""
+
+    def __init__(self, servers: PaintServers, report: Report, size: float | None) -> None:
+        super().__init__(servers, report, size)
+        self.corners: list[NDArray[np.float64]] = []
+
+    def paint(self, element: etree._Element, place: Place) -> None:
+        """Add the outlines of a shape, in the units of the outermost place."""
+        shape = Shape(element, place.style, place.viewport, inf, self.report)
+        self.corners.extend(mapped(outline.cubics, place.space.whole) for outline in shape_outlines(shape))
 
 
 def stroke_of(shape: Shape, outlines: list[Outline]) -> Stroke | None:

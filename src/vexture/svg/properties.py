@@ -51,6 +51,7 @@ OPACITY = f"{NUMBER}%?"
 FONT_SIZES = "(?:xx?-)?(?:small|large)|medium|smaller|larger"
 
 PROPERTIES: dict[str, Property] = {
+    "clip-rule": Property("nonzero", True, one_of("nonzero", "evenodd")),
     "color": Property("black", True, parse_color),
     "fill": Property("black", True, parse_paint),
     "fill-opacity": Property("1", True, matching(OPACITY)),
@@ -78,6 +79,7 @@ PROPERTIES: dict[str, Property] = {
     "height": Property("auto", False, matching(f"auto|{SIZE}")),
     "isolation": Property("auto", False, one_of("auto", "isolate")),
     "mask": Property("none", False, anything),
+    "mask-type": Property("luminance", False, one_of("luminance", "alpha")),
     "mix-blend-mode": Property("normal", False, one_of(*BLENDS)),
     "opacity": Property("1", False, matching(OPACITY)),
     "overflow": Property("hidden", False, one_of("visible", "hidden", "scroll", "auto", "clip")),

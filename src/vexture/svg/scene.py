@@ -3,6 +3,7 @@
 The walk has its own stack, so that deep nesting cannot exhaust Python's. `use` is expanded on the way, within limits.
 """
 
+from copy import copy
 from dataclasses import replace
 from math import inf
 
@@ -15,11 +16,12 @@ from vexture.drawing import Group, Path
 from vexture.errors import SourceError
 from vexture.svg.compositing import Veil, grouped, veil_of
 from vexture.svg.document import local_name
+from vexture.svg.masks import MASKING, add_masks
 from vexture.svg.paint_servers import PaintServers, reference
-from vexture.svg.painter import Painter
+from vexture.svg.painter import Painter, Ruler
 from vexture.svg.report import Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
-from vexture.svg.space import Place, Space
+from vexture.svg.space import Place, Placed, Space
 from vexture.svg.style import INITIAL, Cascade, Style
 from vexture.svg.transform import Identity, Transform, parse_origin, parse_transform
 from vexture.svg.values import Viewport
@@ -45,9 +47,7 @@ UNPAINTED = frozenset(
 
 ANIMATIONS = frozenset({"animate", "animateColor", "animateMotion", "animateTransform", "discard", "set"})
 EFFECTS = {
-    "clip-path": "none",
     "filter": "none",
-    "mask": "none",
     "rotate": "none",
     "scale": "none",
     "translate": "none",
@@ -57,8 +57,6 @@ EFFECTS = {
 MARKED = frozenset({"line", "path", "polygon", "polyline"})
 LANGUAGE = "en"
 """Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
-
-Placed = tuple[etree._Element, Place]
 
 
 class Scene:
@@ -88,10 +86,11 @@ class Scene:
             self.report.left_out("transform of the outermost <svg>")
         chosen = self.chosen is None or self.root in self.chosen
         place = Place(viewport, Space().moved(matrix), self.style, self.root, chosen=chosen)
-        if opacity < 1.0:  # a blend mode of the outermost element has nothing below it to mix with
+        if opacity < 1.0 or not MASKING.keys().isdisjoint(self.style.own):  # a blend mode has nothing to mix with here
             place = replace(place, veil=Veil(None, opacity))
         used = 0
-        stack = [(child, place) for child in reversed(self.root)]
+        place, stack = add_masks(self, self.root, place)
+        stack.extend((child, place) for child in reversed(self.root))
         while stack:
             check_time()
             element, place = stack.pop()
@@ -115,8 +114,10 @@ class Scene:
                 self.report.left_out("script" if name == "script" else "animation")
             return []
         style = self.cascade.style(element, place.style)
-        if style["display"].lower() == "none" or style.opacity("opacity") == 0.0:
+        if style["display"].lower() == "none" or (style.opacity("opacity") == 0.0 and not place.is_clip):
             return []
+        if place.is_clip and name in CONTAINERS:
+            return []  # a clip shows shapes, and uses of them
         if name not in SHAPES and name not in CONTAINERS and name != "use":
             if chosen:
                 self.report.left_out(f"<{name[:40]}>")
@@ -128,20 +129,49 @@ class Scene:
         if place.depth >= DEEPEST:
             raise SourceError(f"it stands inside {DEEPEST:,} others; flatten the groups or the uses")
         space, depth = place.space.moved(matrix), place.depth + 1
-        veil = veil_of(style, place.veil)
-        inner = Place(place.viewport, space, style, element, place, depth, place.used, chosen=chosen, veil=veil)
+        veil = veil_of(style, place.veil, place.is_clip)
+        inner = replace(place, space=space, style=style, element=element, outer=place, depth=depth)
+        inner, shown = replace(inner, use=None, chosen=chosen, veil=veil), list[Placed]()
+        if name == "use":  # its clips and masks move along
+            inner = replace(inner, space=space.moved(Identity.translate(*position(inner))))
+        if not isinstance(painter, Ruler):
+            inner, shown = add_masks(self, element, inner)
+        return [*shown, *self.content(element, inner, painter)]
+
+    def content(self, element: etree._Element, inner: Place, painter: Painter) -> list[Placed]:
+        """Paint a shape, or return the elements that another one shows; `inner` is the place inside."""
+        name = local_name(element) or ""
         if name in SHAPES:
-            self.note_children(element, name, style)
+            self.note_children(element, name, inner.style)
             painter.paint(element, inner)
             return []
         if name == "use":
             return self.use_target(element, inner)
         if name in ("svg", "symbol"):
-            window = self.window(element, inner, place.use)
+            window = self.window(element, inner, inner.outer.use if inner.outer is not None else None)
             return [] if window is None else [(child, window) for child in element]
         if name == "switch":
             return [(child, inner) for child in element if local_name(child) is not None and applies(child)][:1]
         return [(child, inner) for child in element]
+
+    def extent(self, element: etree._Element, place: Place) -> Rectangle | None:
+        """Bounding box of what an element shows, without strokes and masks, in the units of the place inside it.
+
+        It is None if the box has no area.
+        """
+        silent = copy(self)
+        silent.report = Report()
+        silent.cascade = copy(self.cascade)
+        silent.cascade.report = silent.report
+        ruler = Ruler(self.servers, silent.report, None)
+        stack = silent.content(element, replace(place, space=Space()), ruler)
+        while stack:
+            check_time()
+            stack.extend(silent.visit(*stack.pop(), ruler))
+        if not ruler.corners:
+            return None
+        left, top, right, bottom = bounds(np.concatenate(ruler.corners))
+        return (left, top, right - left, bottom - top) if right > left and bottom > top else None
 
     def use_target(self, element: etree._Element, place: Place) -> list[Placed]:
         """Return the element that a `use` shows."""
@@ -152,9 +182,7 @@ class Scene:
             return []
         if place.inside(target):
             raise SourceError(f"it shows itself (a cycle through {described(target)}); break the cycle")
-        x, y = position(place)
-        space = place.space.moved(Identity.translate(x, y))
-        return [(target, replace(place, space=space, used=True, use=place.style))]
+        return [(target, replace(place, used=True, use=place.style))]
 
     def window(self, element: etree._Element, place: Place, use: Style | None) -> Place | None:
         """Place inside a nested `<svg>` or a shown `<symbol>`; None if it has no size."""

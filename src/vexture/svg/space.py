@@ -14,7 +14,7 @@ from vexture.svg.transform import Identity, Transform, mapped
 from vexture.svg.values import LARGEST, Viewport
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["Place", "Space"]
+__all__ = ["Place", "Placed", "Space"]
 
 SMALLEST = 1 / LARGEST**4
 """Smallest determinant: below it, sizes in user units cannot be computed in floating point."""
@@ -73,6 +73,7 @@ class Place:
     use: Style | None = None  # style of the `use` whose target stands here
     chosen: bool = True  # whether elements here are painted
     veil: Veil | None = None  # the innermost one around it
+    is_clip: bool = False  # whether only the outlines of shapes here count
 
     def inside(self, element: etree._Element) -> bool:
         """Whether an element is around this place."""
@@ -82,3 +83,7 @@ class Place:
                 return True
             place = place.outer
         return False
+
+
+Placed = tuple[etree._Element, Place]
+"""An element, and the place around it."""

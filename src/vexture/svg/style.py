@@ -141,6 +141,13 @@ class Cascade:
             font_size = text_size(inherited.pop("font-size"), parent.font_size)
         return Style(inherited, own, font_size)
 
+    def computed(self, element: etree._Element) -> Style:
+        """Style of an element where it stands in the document."""
+        style = INITIAL
+        for around in reversed([element, *element.iterancestors()]):
+            style = self.style(around, style)
+        return style
+
     def specified(self, element: etree._Element) -> dict[str, str]:
         """Winning declaration of each property, in rising precedence: attributes, rules, `style`, `!important`."""
         found: dict[str, str] = {}

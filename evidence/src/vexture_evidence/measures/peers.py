@@ -7,12 +7,13 @@ checked. Neither draws a silhouette: paths are painted over one another, so an e
 from collections.abc import Callable
 from importlib import import_module
 from io import BytesIO
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vexture.drawing import Blend, FillRule
+from vexture.drawing import Blend, FillRule, Mask
 from vexture.errors import DeviceError
 from vexture.renderers.view import size_of, view_matrix
 from vexture_evidence.measures.raster import FULL
@@ -166,21 +167,37 @@ def paint_with_skia(canvas: Any, drawing: "Drawing", matrix: NDArray[np.float64]
     DeviceError
         If Skia is not installed.
     """
+    _skia()
+    items: dict[int, dict[tuple[str, int], None]] = {}
+    for place, path in enumerate(drawing.paths):
+        around = [-1, *drawing.around(path.group)]
+        for outer, inner in pairwise(around):
+            items.setdefault(outer, {})["group", inner] = None
+        items.setdefault(around[-1], {})["path", place] = None
+    _paint_group(canvas, drawing, matrix, items, -1)
+
+
+def _paint_group(
+    canvas: Any, drawing: "Drawing", matrix: NDArray[np.float64], items: dict[int, dict[tuple[str, int], None]], of: int
+) -> None:
+    """Paint the paths and groups in a group, which `items` lists from below, then what masks it."""
     skia = _skia()
-    inside: list[int] = []
-    for path in drawing.paths:
-        around = drawing.around(path.group)
-        while inside != around[: len(inside)]:
-            canvas.restore()
-            inside.pop()
-        for place in around[len(inside) :]:
+    for kind, place in items.get(of, {}):
+        if kind == "path":
+            path = drawing.paths[place]
+            color = skia.Color4f(*path.paint.color, path.paint.opacity)
+            canvas.drawPath(skia_path(path, matrix), skia.Paint(Color4f=color, AntiAlias=True))
+        elif not drawing.groups[place].mask:
             group = drawing.groups[place]
             canvas.saveLayer(None, skia.Paint(Alphaf=group.opacity, BlendMode=_skia_mode(group.blend)))
-        inside = around
-        color = skia.Color4f(*path.paint.color, path.paint.opacity)
-        canvas.drawPath(skia_path(path, matrix), skia.Paint(Color4f=color, AntiAlias=True))
-    for _ in inside:
-        canvas.restore()
+            _paint_group(canvas, drawing, matrix, items, place)
+            canvas.restore()
+    for place, mask in enumerate(drawing.groups):
+        if mask.mask and mask.outer == of:
+            luma = skia.LumaColorFilter.Make() if mask.mask is Mask.LUMINANCE else None
+            canvas.saveLayer(None, skia.Paint(Alphaf=mask.opacity, BlendMode=skia.BlendMode.kDstIn, ColorFilter=luma))
+            _paint_group(canvas, drawing, matrix, items, place)
+            canvas.restore()
 
 
 def _skia_mode(blend: Blend) -> Any:

@@ -1,0 +1,127 @@
+"""Clips and masks of an element (CSS Masking 1): what they show is painted in groups that mask the element's.
+
+A clip by one rectangle cuts outlines instead, so that silhouettes and layers have it, too.
+"""
+
+import re
+from dataclasses import replace
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+from lxml import etree
+
+from vexture.drawing import Mask
+from vexture.svg.compositing import Veil
+from vexture.svg.document import local_name
+from vexture.svg.report import described
+from vexture.svg.shapes import Shape, shape_outlines
+from vexture.svg.space import Place, Placed, Space
+from vexture.svg.style import Style
+from vexture.svg.transform import Identity, Transform
+from vexture.svg.viewport import Rectangle
+from vexture.tolerance import ROUND
+
+if TYPE_CHECKING:
+    from vexture.svg.scene import Scene
+
+__all__ = ["MASKING", "add_masks"]
+
+MASKING: Final = {"clip-path": "clipPath", "mask": "mask"}
+"""The properties that mask an element, and the elements to which they refer."""
+
+LINK = re.compile(r"\s*url\(\s*(['\"]?)(.*?)\1\s*\)\s*", re.DOTALL)
+REGION: Final = {"x": "-10%", "y": "-10%", "width": "120%", "height": "120%"}
+"""What of a mask is used, if its attributes do not say otherwise."""
+
+NOTHING: Final = Identity.scale(0.0)
+
+
+def add_masks(scene: "Scene", element: etree._Element, place: Place) -> tuple[Place, list[Placed]]:
+    """The place inside an element, cut by its clips, and what is to be shown to mask it.
+
+    The element has a veil of its own if it has a clip or a mask.
+    """
+    shown: list[Placed] = []
+    for name, kind in MASKING.items():
+        value = place.style.own.get(name, "none")
+        if value.lower() == "none":
+            continue
+        link = LINK.fullmatch(value)
+        target = scene.servers.target(link[2]) if link is not None else None
+        if target is None or local_name(target) != kind:
+            scene.report.left_out(f"{name} '{value[:40]}'")
+        elif place.inside(target):
+            scene.report.left_out(f"{name} that refers to itself, of {described(target)}")
+        else:
+            place, more = add_mask(scene, element, target, place)
+            shown += more
+    return place, shown
+
+
+def add_mask(
+    scene: "Scene", element: etree._Element, target: etree._Element, place: Place
+) -> tuple[Place, list[Placed]]:
+    """As `add_masks`, of one `clipPath` or `mask`."""
+    is_clip, style = local_name(target) == "clipPath", scene.cascade.computed(target)
+    matrix = scene.transform(target, style, place) if is_clip else Identity
+    if target.get("clipPathUnits" if is_clip else "maskContentUnits") == "objectBoundingBox":
+        matrix = matrix.transform(box_matrix(scene, element, place))
+    space = place.space.moved(matrix)
+    if is_clip and not space.flat:
+        rectangle = only_rectangle(scene, target, style, place)
+        if rectangle is not None:
+            return replace(place, space=space.window(rectangle, matrix.inverse())), []
+    if not is_clip:
+        space = region(scene, element, target, place, matrix)
+    assert place.veil is not None
+    by_opacity = is_clip or style["mask-type"].lower() == "alpha"
+    veil = Veil(place.veil, 1.0, mask=Mask.OPACITY if by_opacity else Mask.LUMINANCE)
+    place.veil.masks.append(veil)
+    content = Place(place.viewport, space, style, target, place, place.depth + 1, used=True, veil=veil, is_clip=is_clip)
+    content, shown = add_masks(scene, target, content)
+    return place, [*shown, *((child, content) for child in target)]
+
+
+def box_matrix(scene: "Scene", element: etree._Element, place: Place) -> Transform:
+    """From the unit square to the bounding box of what an element shows; to a point if that has no area."""
+    box = scene.extent(element, place)
+    return NOTHING if box is None else Transform(box[2], 0.0, 0.0, box[3], box[0], box[1])
+
+
+def region(scene: "Scene", element: etree._Element, target: etree._Element, place: Place, matrix: Transform) -> Space:
+    """The space inside a mask's region; `matrix` leads from its content to the units of the element."""
+    by_box = target.get("maskUnits") != "userSpaceOnUse"
+    whole = (1.0, 1.0) if by_box else (place.viewport.width, place.viewport.height)
+    units = box_matrix(scene, element, place) if by_box else Identity
+    lengths = []
+    for k, name in enumerate(REGION):
+        text = target.get(name, REGION[name])
+        length = place.viewport.length(text, whole[k % 2], place.style.font_size)
+        if length is None:
+            scene.report.invalid(name, text, target)
+            length = place.viewport.length(REGION[name], whole[k % 2], place.style.font_size)
+        lengths.append(length or 0.0)
+    x, y, width, height = lengths
+    if width <= 0.0 or height <= 0.0 or units == NOTHING:
+        return place.space.moved(NOTHING)
+    visible = (units.dx + x * units.xx, units.dy + y * units.yy, width * units.xx, height * units.yy)
+    return place.space.window(visible, matrix)
+
+
+def only_rectangle(scene: "Scene", clip: etree._Element, style: Style, place: Place) -> Rectangle | None:
+    """The rectangle, in the units of a clip's content, if that is all that it shows, and upright there."""
+    children = [child for child in clip if local_name(child) not in (None, "title", "desc", "metadata")]
+    if len(children) != 1 or local_name(children[0]) != "rect":
+        return None
+    own = scene.cascade.style(children[0], style)
+    if (
+        {*MASKING, "transform", "display"} & {*own.own}
+        or {*MASKING} & {*style.own}
+        or own["visibility"].lower() != "visible"
+    ):
+        return None
+    outlines = shape_outlines(Shape(children[0], own, place.viewport, ROUND, scene.report))
+    if len(outlines) != 1 or len(outlines[0].cubics) != 4:
+        return None
+    (left, top), (right, bottom) = (limit(outlines[0].cubics, axis=(0, 1)).tolist() for limit in (np.min, np.max))
+    return (left, top, right - left, bottom - top)
