@@ -5,7 +5,7 @@ A clip by one rectangle cuts outlines instead, so that silhouettes and layers ha
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING, Final
+from typing import Final, Protocol
 
 import numpy as np
 from lxml import etree
@@ -13,16 +13,14 @@ from lxml import etree
 from vexture.drawing import Mask
 from vexture.svg.compositing import Veil
 from vexture.svg.document import local_name
-from vexture.svg.report import described
+from vexture.svg.paint_servers import PaintServers
+from vexture.svg.report import Report, described
 from vexture.svg.shapes import Shape, shape_outlines
 from vexture.svg.space import Place, Placed, Space
-from vexture.svg.style import Style
+from vexture.svg.style import Cascade, Style
 from vexture.svg.transform import Identity, Transform
 from vexture.svg.viewport import Rectangle
 from vexture.tolerance import ROUND
-
-if TYPE_CHECKING:
-    from vexture.svg.scene import Scene
 
 __all__ = ["MASKING", "add_masks"]
 
@@ -36,7 +34,21 @@ REGION: Final = {"x": "-10%", "y": "-10%", "width": "120%", "height": "120%"}
 NOTHING: Final = Identity.scale(0.0)
 
 
-def add_masks(scene: "Scene", element: etree._Element, place: Place) -> tuple[Place, list[Placed]]:
+class Measured(Protocol):
+    """What is needed of a scene."""
+
+    report: Report
+    cascade: Cascade
+    servers: PaintServers
+
+    def transform(self, element: etree._Element, style: Style, place: Place) -> Transform:
+        """Transform of an element, about its origin."""
+
+    def extent(self, element: etree._Element, place: Place) -> Rectangle | None:
+        """Bounding box of what an element shows, in the units of the place inside it; None if it has no area."""
+
+
+def add_masks(scene: Measured, element: etree._Element, place: Place) -> tuple[Place, list[Placed]]:
     """The place inside an element, cut by its clips, and what is to be shown to mask it.
 
     The element has a veil of its own if it has a clip or a mask.
@@ -59,7 +71,7 @@ def add_masks(scene: "Scene", element: etree._Element, place: Place) -> tuple[Pl
 
 
 def add_mask(
-    scene: "Scene", element: etree._Element, target: etree._Element, place: Place
+    scene: Measured, element: etree._Element, target: etree._Element, place: Place
 ) -> tuple[Place, list[Placed]]:
     """As `add_masks`, of one `clipPath` or `mask`."""
     is_clip, style = local_name(target) == "clipPath", scene.cascade.computed(target)
@@ -82,13 +94,13 @@ def add_mask(
     return place, [*shown, *((child, content) for child in target)]
 
 
-def box_matrix(scene: "Scene", element: etree._Element, place: Place) -> Transform:
+def box_matrix(scene: Measured, element: etree._Element, place: Place) -> Transform:
     """From the unit square to the bounding box of what an element shows; to a point if that has no area."""
     box = scene.extent(element, place)
     return NOTHING if box is None else Transform(box[2], 0.0, 0.0, box[3], box[0], box[1])
 
 
-def region(scene: "Scene", element: etree._Element, target: etree._Element, place: Place, matrix: Transform) -> Space:
+def region(scene: Measured, element: etree._Element, target: etree._Element, place: Place, matrix: Transform) -> Space:
     """The space inside a mask's region; `matrix` leads from its content to the units of the element."""
     by_box = target.get("maskUnits") != "userSpaceOnUse"
     whole = (1.0, 1.0) if by_box else (place.viewport.width, place.viewport.height)
@@ -108,7 +120,7 @@ def region(scene: "Scene", element: etree._Element, target: etree._Element, plac
     return place.space.window(visible, matrix)
 
 
-def only_rectangle(scene: "Scene", clip: etree._Element, style: Style, place: Place) -> Rectangle | None:
+def only_rectangle(scene: Measured, clip: etree._Element, style: Style, place: Place) -> Rectangle | None:
     """The rectangle, in the units of a clip's content, if that is all that it shows, and upright there."""
     children = [child for child in clip if local_name(child) not in (None, "title", "desc", "metadata")]
     if len(children) != 1 or local_name(children[0]) != "rect":
