@@ -31,6 +31,9 @@ DIVIDE = -1
 SPARE = 12
 """Pieces above the capacity that a cell may have before it is resolved: horizontal ones and overlaps vanish."""
 
+LONG_HANDLE = 512.0
+"""Lattice units, of a handle that rounding turns by too little to be seen."""
+
 MOST_RUNS = 1000
 """Runs of resolved pieces that are kept to measure a cell's area."""
 
@@ -56,11 +59,42 @@ class Workspace(NamedTuple):
 
 @kernel(allocates=False)
 def round_controls(curves: NDArray[np.float64], count: int) -> None:
-    """Round inner control points to the lattice, within the range of the format."""
+    """Round inner control points to the lattice, within the range of the format, and keep directions at the ends."""
     for i in range(count):
+        for end, control in ((0, 1), (3, 2)):
+            _aim(curves[i], end, control)
         for k in (1, 2):
             for axis in range(2):
                 curves[i, k, axis] = min(max(np.rint(curves[i, k, axis]), -0.5 * LATTICE), 1.5 * LATTICE - 1.0)
+
+
+@kernel(allocates=False)
+def _aim(curve: NDArray[np.float64], end: int, control: int) -> None:
+    """Lengthen or shorten a handle of a short piece to where rounding turns it least: its direction is seen at the end.
+
+    Such a piece bends little, so that the length of a handle hardly matters: it must not move the curve by half a unit.
+    """
+    x, y = curve[control, 0] - curve[end, 0], curve[control, 1] - curve[end, 1]
+    far_x, far_y = curve[3 - control, 0] - curve[end, 0], curve[3 - control, 1] - curve[end, 1]
+    length = max(abs(x), abs(y))
+    if length > LONG_HANDLE or length < 1.0:
+        return
+    chord_x, chord_y = curve[3, 0] - curve[0, 0], curve[3, 1] - curve[0, 1]
+    chord = np.hypot(chord_x, chord_y)
+    across = abs(x * chord_y - y * chord_x) / chord if chord > 0.0 else length
+    best, least = 1.0, np.inf
+    for k in range(int(length)):
+        change = -(k + 1) // 2 if k % 2 == 1 else k // 2  # units, to and fro
+        share = (length + change) / length
+        if abs(share - 1.0) * across > 0.5:
+            break
+        if change > 0 and (abs(share * x) > abs(far_x) or abs(share * y) > abs(far_y)):
+            continue  # it stays before the other handle, so that the piece stays monotone
+        to_x, to_y = np.rint(share * x), np.rint(share * y)
+        turn = abs(to_x * y - to_y * x) / max(np.hypot(to_x, to_y), 0.5)
+        if turn < 0.9 * least:
+            best, least = share, turn
+    curve[control, 0], curve[control, 1] = curve[end, 0] + best * x, curve[end, 1] + best * y
 
 
 @kernel(allocates=False)
