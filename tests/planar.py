@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+import degenerate
 from degenerate import path_windings
 from vexture.drawing import Blend, Drawing, FillRule, Group, Mask, Path
 from vexture.layout import LATTICE
@@ -90,15 +91,15 @@ def colours_at(drawing: Drawing, points) -> tuple[NDArray[np.float64], NDArray[n
     return painted(-1, 0)[0], distance
 
 
-def coloured(drawing: Drawing, rng) -> Drawing:
-    """A drawing with random paints and groups, some of them equal and some opaque."""
+def coloured(drawing: Drawing, rng, blends=(Blend.NORMAL, Blend.MULTIPLY, Blend.SCREEN)) -> Drawing:
+    """A drawing with random paints, some of them equal and some opaque, and random groups, some of them masks."""
     paths, groups = [], []
     around: list[int] = []
     for path in drawing.paths:
         while around and rng.random() < 0.4:
             around.pop()
         if rng.random() < 0.3:
-            blend = Blend(int(rng.choice([Blend.NORMAL, Blend.MULTIPLY, Blend.SCREEN])))
+            blend = Blend(int(rng.choice(blends)))
             mask = Mask(int(rng.choice(Mask, p=(0.6, 0.2, 0.2)))) if around else Mask.NONE
             groups.append(Group(around[-1] if around else -1, float(rng.choice([0.5, 1.0])), blend, mask))
             around.append(len(groups) - 1)
@@ -106,3 +107,18 @@ def coloured(drawing: Drawing, rng) -> Drawing:
         paint = Paint(colour, float(rng.choice([0.3, 1.0, 1.0])))
         paths.append(Path(path.contours, path.fill_rule, paint, around[-1] if around else -1))
     return Drawing(tuple(paths), groups=tuple(groups))
+
+
+MOST_LAYERS = 30
+
+
+def layered(seed: int) -> Drawing:
+    """Up to 30 random layers, degenerate and coincident ones among them, in groups, with masks and all blend modes."""
+    rng = np.random.default_rng(seed)
+    paths: tuple[Path, ...] = ()
+    for _ in range(int(rng.integers(1, 6))):
+        paths += degenerate.drawing(int(rng.integers(1 << 30))).paths
+    if seed % 3 == 0:
+        distance = 10.0 ** -int(rng.integers(3, 12))
+        paths += degenerate.heap(seed, [1, 2, 1], distance, FillRule(seed // 2 % 2)).paths
+    return coloured(Drawing(paths[:MOST_LAYERS]), rng, list(Blend))

@@ -4,7 +4,7 @@ The formulas are those of *Compositing and Blending Level 1* of the W3C, by its 
 backdrop), s what is laid over it (the source). `Blend.PLUS_LIGHTER` is that of Level 2.
 """
 
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,9 @@ from vexture.kernels import kernel
 __all__ = ["lay"]
 
 Colour: TypeAlias = tuple[float, float, float]
+
+ROUNDING: Final = 1e-9
+"""Of a component, by what was composited before: at 0 and 1, where dodge and burn jump, it must not decide."""
 
 
 @kernel(allocates=False)
@@ -74,9 +77,9 @@ def separable(blend: int, b: float, s: float) -> float:
     if blend == Blend.LIGHTEN:
         return max(b, s)
     if blend == Blend.COLOR_DODGE:
-        return 0.0 if b == 0.0 else 1.0 if s == 1.0 else min(b / (1.0 - s), 1.0)
+        return 0.0 if b <= ROUNDING else 1.0 if s >= 1.0 - ROUNDING else min(b / (1.0 - s), 1.0)
     if blend == Blend.COLOR_BURN:
-        return 1.0 if b == 1.0 else 0.0 if s == 0.0 else 1.0 - min((1.0 - b) / s, 1.0)
+        return 1.0 if b >= 1.0 - ROUNDING else 0.0 if s <= ROUNDING else 1.0 - min((1.0 - b) / s, 1.0)
     if blend == Blend.HARD_LIGHT:
         return hard_light(b, s)
     if blend == Blend.SOFT_LIGHT:

@@ -15,6 +15,9 @@ EXCLUSION, HUE, SATURATION = int(Blend.EXCLUSION), int(Blend.HUE), int(Blend.SAT
 COLOR, LUMINOSITY, LIGHTER = int(Blend.COLOR), int(Blend.LUMINOSITY), int(Blend.PLUS_LIGHTER)
 LUMINANCE = int(Mask.LUMINANCE)
 
+NOTHING = 1e-9
+"""A component this near to 0 or 1 is that, but for rounding: dodge and burn jump there."""
+
 
 @kernel(allocates=False)
 def _mixed(mode: int, b: float, s: float) -> float:
@@ -32,9 +35,9 @@ def _mixed(mode: int, b: float, s: float) -> float:
     if mode == LIGHTEN:
         return max(b, s)
     if mode == DODGE:
-        return 0.0 if b <= 0.0 else (1.0 if s >= 1.0 else min(1.0, b / (1.0 - s)))
+        return 0.0 if b <= NOTHING else (1.0 if s >= 1.0 - NOTHING else min(1.0, b / (1.0 - s)))
     if mode == BURN:
-        return 1.0 if b >= 1.0 else (0.0 if s <= 0.0 else 1.0 - min(1.0, (1.0 - b) / s))
+        return 1.0 if b >= 1.0 - NOTHING else (0.0 if s <= NOTHING else 1.0 - min(1.0, (1.0 - b) / s))
     if mode == SOFT:
         root = ((16.0 * b - 12.0) * b + 4.0) * b if b <= 0.25 else np.sqrt(b)
         return b - (1.0 - 2.0 * s) * b * (1.0 - b) if s <= 0.5 else b + (2.0 * s - 1.0) * (root - b)

@@ -24,6 +24,9 @@ LEAST_BUDGET: Final = 1 << 17
 BUDGET: Final = 2
 """Texels of all sheets for each cubic and path: about twice those of the drawing's layers."""
 
+SPARED: Final = 8
+"""Part of a sheet's layers that it may do without: to find how many just fit takes as long again."""
+
 
 class Sheet(NamedTuple):
     """Consecutive paths of a drawing, and their map; or one layer of it, and its tree."""
@@ -78,7 +81,7 @@ def _greedy(count: int, tried: Callable[[int, int], Sheet | None]) -> list[Sheet
     first = 0
     while first < count:
         best, fitting, step, grows = tried(first, first + 1), 1, 1, True
-        while step > 0 and first + fitting < count:
+        while step > fitting // SPARED and first + fitting < count:
             last = min(first + fitting + step, count)
             more = tried(first, last)
             grows = grows and more is not None
