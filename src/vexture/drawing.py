@@ -27,7 +27,8 @@ __all__ = ["Blend", "Drawing", "FillRule", "Group", "Path"]
 
 SHARED_OPACITY: Final = "opacity of a group, which each of its shapes has by itself"
 BLENDING: Final = "mix-blend-mode"
-"""Messages about layers, which know no groups."""
+SHADED: Final = "gradient shown as its mean colour"
+"""Messages about layers, which know no groups and no gradients."""
 
 IDENTITY = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 
@@ -231,13 +232,13 @@ class Drawing:
 
         Consecutive paths of one opaque paint are one layer. A translucent paint shows twice where two paths overlap,
         so its paths share a layer only if their boxes do not touch. Layers know no groups: each path has the opacities
-        of all groups around it by itself, and blends normally.
+        of all groups around it by itself, and blends normally. A gradient becomes its mean colour.
 
         Returns
         -------
         tuple of Drawing
             In painting order, each of one paint and named ``name/number-colour``, counted from 1, with the notes of
-            the whole, and of what the groups would change; an empty tuple if nothing is painted.
+            the whole, and of what the groups and gradients would change; an empty tuple if nothing is painted.
 
         Examples
         --------
@@ -247,8 +248,8 @@ class Drawing:
         >>> [(layer.name, len(layer.paths)) for layer in logo.layers()]
         [('logo/1-#ff0000', 2), ('logo/2-#0000ff80', 1), ('logo/3-#0000ff80', 1)]
         """
-        if self.groups:
-            return self._ungrouped().layers()
+        if self.groups or any(path.paint.gradient is not None for path in self.paths):
+            return self._flat().layers()
         boxes = np.array([path.box for path in self.paths]).reshape(-1, 2, 2)
         starts: list[int] = []
         for place, path in enumerate(self.paths):
@@ -264,22 +265,28 @@ class Drawing:
             for number, (start, end) in enumerate(pairwise([*starts, len(self.paths)]), 1)
         )
 
-    def _ungrouped(self) -> "Drawing":
-        """The drawing without groups: each path has their opacities by itself; notes say where a picture differs."""
+    def _flat(self) -> "Drawing":
+        """The drawing without groups and gradients: each path has its groups' opacities by itself, in one colour.
+
+        Notes say where a picture differs.
+        """
         opacities = {-1: 1.0}
         for place, group in enumerate(self.groups):
             opacities[place] = opacities[group.outer] * group.opacity
-        paths = tuple(replace(path, paint=path.paint.faded(opacities[path.group]), group=-1) for path in self.paths)
+        paints = (path.paint.faded(opacities[path.group]) for path in self.paths)
+        flat = (Paint(paint.color, paint.opacity) for paint in paints)
+        paths = tuple(replace(path, paint=paint, group=-1) for path, paint in zip(self.paths, flat, strict=True))
         return replace(self, paths=paths, groups=(), notes=(*self.notes, *self._lost()))
 
     def _lost(self) -> Iterator[Note]:
-        """Notes of what layers lose of the groups; a path by itself loses no opacity."""
+        """Notes of what layers lose of groups and gradients; a path by itself loses no opacity."""
         held = Counter(path.group for path in self.paths)
         for place in reversed(range(len(self.groups))):
             held[self.groups[place].outer] += held[place]
         shared = sum(group.opacity < 1.0 and held[place] > 1 for place, group in enumerate(self.groups))
         blended = sum(group.blend is not Blend.NORMAL and held[place] > 0 for place, group in enumerate(self.groups))
-        for message, count in ((SHARED_OPACITY, shared), (BLENDING, blended)):
+        shaded = sum(path.paint.gradient is not None for path in self.paths)
+        for message, count in ((SHARED_OPACITY, shared), (BLENDING, blended), (SHADED, shaded)):
             if count:
                 yield Note("simplified", message, count)
 

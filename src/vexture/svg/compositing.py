@@ -3,7 +3,6 @@
 from dataclasses import dataclass, field, replace
 
 from vexture.drawing import Blend, Group, Path
-from vexture.paint import Paint
 from vexture.svg.properties import BLENDS
 from vexture.svg.style import Style
 
@@ -86,7 +85,7 @@ def grouped(paths: list[Path], veils: list[Veil | None]) -> tuple[list[Path], tu
             places[veil] = place, opacity if veil.overlaps else opacity * veil.opacity
         place, opacity = places[innermost]
         if innermost is not None:
-            path = replace(path, paint=Paint(path.paint.color, opacity * path.paint.opacity), group=place)
+            path = replace(path, paint=path.paint.faded(opacity), group=place)
         done.append(path)
     return done, tuple(groups)
 

@@ -15,7 +15,7 @@ from vexture.svg.colors import Color, parse_color
 from vexture.svg.properties import CSS_ONLY, PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.select import Node
-from vexture.svg.values import Viewport, opacity
+from vexture.svg.values import Viewport, fraction
 
 __all__ = ["INITIAL", "Cascade", "Style"]
 
@@ -60,7 +60,8 @@ class Style:
 
     def opacity(self, name: str) -> float:
         """Opacity that a property gives, 0..1."""
-        return opacity(self[name])
+        value = fraction(self[name])
+        return 1.0 if value is None else value
 
     @property
     def color(self) -> Color:
