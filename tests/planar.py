@@ -5,7 +5,8 @@ from numpy.typing import NDArray
 
 import degenerate
 from degenerate import path_windings
-from vexture.drawing import Blend, Drawing, FillRule, Group, Mask, Path
+from vexture.drawing import Drawing, FillRule, Path
+from vexture.group import Blend, Group, Mask
 from vexture.layout import LATTICE
 from vexture.paint import Paint
 from vexture.tree.crossings import x_at

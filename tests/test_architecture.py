@@ -31,7 +31,7 @@ LONGEST_EXAMPLE = 40
 DUMPING_GROUNDS = {"common", "helper", "helpers", "misc", "tools", "util", "utils"}
 
 BASE = {"deadline", "errors", "kernels", "machine_code", "tolerance"}
-SOURCES = BASE | {"bezier", "content", "drawing", "notes", "paint", "unit_square"}
+SOURCES = BASE | {"bezier", "content", "drawing", "group", "notes", "paint", "unit_square"}
 MAY_IMPORT: dict[str, set[str]] = {
     "deadline": {"errors"},
     "errors": set(),
@@ -41,21 +41,22 @@ MAY_IMPORT: dict[str, set[str]] = {
     "tolerance": set(),
     "content": {"errors"},
     "notes": {"errors"},
+    "group": {"errors"},
     "paint": {"errors"},
     "bezier": {"kernels", "tolerance"},
     "unit_square": {"bezier", "errors", "tolerance"},
-    "drawing": BASE | {"bezier", "notes", "paint", "unit_square"},
+    "drawing": BASE | {"bezier", "group", "notes", "paint", "unit_square"},
     "svg": SOURCES,
     "geo": SOURCES,
     "tracing": SOURCES | {"svg"},
     "reading": SOURCES | {"geo", "svg", "tracing"},
-    "tree": BASE | {"bezier", "drawing", "layout", "paint"},
-    "renderers": BASE | {"drawing", "layout", "paint"},
+    "tree": BASE | {"bezier", "drawing", "group", "layout", "paint"},
+    "renderers": BASE | {"drawing", "group", "layout", "paint"},
     "encodings": {"drawing", "errors", "renderers"},
-    "texture": BASE | {"bezier", "drawing", "encodings", "layout", "paint", "renderers", "tree"},
+    "texture": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "tree"},
     "pipeline": BASE | {"drawing", "encodings", "notes", "reading", "texture", "tree"},
-    "images": BASE | {"drawing", "encodings", "paint", "pipeline", "renderers"},
-    "thesis": BASE | {"bezier", "drawing", "encodings", "layout", "paint", "renderers", "texture", "tree"},
+    "images": BASE | {"drawing", "encodings", "group", "paint", "pipeline", "renderers"},
+    "thesis": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "texture", "tree"},
     "fold": BASE | {"drawing", "layout", "notes", "renderers", "texture"},
     "flood": BASE | {"content", "drawing", "geo", "notes", "renderers"},
     "live": SOURCES | {"encodings", "flood", "fold", "geo", "layout", "pipeline", "reading", "svg", "texture", "tree"},
@@ -65,7 +66,9 @@ MAY_IMPORT: dict[str, set[str]] = {
 ABOVE_ALL = {"__init__", "cli"}
 
 THE_TRUTH = {f"renderers/{name}.py" for name in ("blend", "exact", "faces", "flatten", "slabs", "view")}
-TRUTH_MAY_IMPORT = BASE | {"drawing", "paint"} | {module.removesuffix(".py").replace("/", ".") for module in THE_TRUTH}
+TRUTH_MAY_IMPORT = (
+    BASE | {"drawing", "group", "paint"} | {module.removesuffix(".py").replace("/", ".") for module in THE_TRUTH}
+)
 """The exact renderer judges the tree, so it shares nothing with it."""
 
 LAYOUT_NUMBERS = {thesis_layout.CONTROL_MIN, thesis_layout.CONTROL_MAX, thesis_layout.LIST_LIMIT[16], layout.LATTICE}

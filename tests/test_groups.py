@@ -2,8 +2,9 @@
 
 import pytest
 
-from vexture.drawing import Blend, Drawing, Group, Mask, Path
+from vexture.drawing import Drawing, Path
 from vexture.errors import SourceError
+from vexture.group import Blend, Group, Mask
 from vexture.paint import Paint
 
 SQUARE = Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]).paths[0].contours

@@ -19,15 +19,16 @@ from numpy.typing import NDArray
 from vexture.bezier.convert import line_cubics
 from vexture.deadline import check_time
 from vexture.errors import SourceError
+from vexture.group import Blend, Group, Mask
 from vexture.notes import Note
 from vexture.paint import BLACK, Affine, Paint
 from vexture.unit_square import clipped, tidied
 
-__all__ = ["Blend", "Drawing", "FillRule", "Group", "Mask", "Path"]
+__all__ = ["Drawing", "FillRule", "Path"]
 
 SHARED_OPACITY: Final = "opacity of a group, which each of its shapes has by itself"
-BLENDING, MASKING = "mix-blend-mode", "clip-path or mask"
-"""Messages about layers and silhouettes, which know no groups."""
+BLENDING, MASKING, SHADED = "mix-blend-mode", "clip-path or mask", "gradient shown as its mean colour"
+"""Messages about layers and silhouettes, which know no groups; layers know no gradients either."""
 
 IDENTITY = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 
@@ -37,68 +38,6 @@ class FillRule(IntEnum):
 
     NONZERO = 0
     EVENODD = 1
-
-
-class Blend(IntEnum):
-    """How a group's colours mix with what is below, as in *Compositing and Blending Level 1* of the W3C."""
-
-    NORMAL = 0
-    MULTIPLY = 1
-    SCREEN = 2
-    OVERLAY = 3
-    DARKEN = 4
-    LIGHTEN = 5
-    COLOR_DODGE = 6
-    COLOR_BURN = 7
-    HARD_LIGHT = 8
-    SOFT_LIGHT = 9
-    DIFFERENCE = 10
-    EXCLUSION = 11
-    HUE = 12
-    SATURATION = 13
-    COLOR = 14
-    LUMINOSITY = 15
-    PLUS_LIGHTER = 16
-
-
-class Mask(IntEnum):
-    """What of a group's colour masks the group around it, which is hidden where that is 0.
-
-    A clip is a mask by opacity, of opaque paths. Luminance is that of premultiplied sRGB (CSS Masking 1, 7.10.1).
-    """
-
-    NONE = 0
-    OPACITY = 1
-    LUMINANCE = 2
-
-
-@dataclass(frozen=True, slots=True)
-class Group:
-    """Paths that are composited by themselves, on nothing, before the result goes on what is below.
-
-    A mask is a group that is not shown itself. It may stand anywhere in the group around it; several multiply.
-
-    Parameters
-    ----------
-    outer : int
-        The group around it, as a place in `Drawing.groups` before its own; -1 if there is none.
-    opacity : float
-        Of the whole, 0..1.
-    blend : Blend
-    mask : Mask
-        Whether it masks the group around it, and by what.
-    """
-
-    outer: int = -1
-    opacity: float = 1.0
-    blend: Blend = Blend.NORMAL
-    mask: Mask = Mask.NONE
-
-    def __post_init__(self) -> None:
-        if not 0.0 <= self.opacity <= 1.0:
-            raise SourceError(f"a group has opacity {self.opacity}; it must be in 0..1")
-        if self.mask and self.outer < 0:
-            raise SourceError("a group is a mask, but there is no group around it that it could mask")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -241,13 +180,13 @@ class Drawing:
 
         Consecutive paths of one opaque paint are one layer. A translucent paint shows twice where two paths overlap,
         so its paths share a layer only if their boxes do not touch. Layers know no groups: each path has the opacities
-        of all groups around it by itself, and blends normally.
+        of all groups around it by itself, and blends normally. A gradient becomes its mean colour.
 
         Returns
         -------
         tuple of Drawing
             In painting order, each of one paint and named ``name/number-colour``, counted from 1, with the notes of
-            the whole, and of what the groups would change; an empty tuple if nothing is painted.
+            the whole, and of what the groups and gradients would change; an empty tuple if nothing is painted.
 
         Examples
         --------
@@ -257,8 +196,8 @@ class Drawing:
         >>> [(layer.name, len(layer.paths)) for layer in logo.layers()]
         [('logo/1-#ff0000', 2), ('logo/2-#0000ff80', 1), ('logo/3-#0000ff80', 1)]
         """
-        if self.groups:
-            return self.ungrouped().layers()
+        if self.groups or any(path.paint.gradient is not None for path in self.paths):
+            return self.flat().layers()
         boxes = np.array([path.box for path in self.paths]).reshape(-1, 2, 2)
         starts: list[int] = []
         for place, path in enumerate(self.paths):
@@ -274,39 +213,41 @@ class Drawing:
             for number, (start, end) in enumerate(pairwise([*starts, len(self.paths)]), 1)
         )
 
-    def ungrouped(self) -> "Drawing":
-        """The drawing without groups, and so without masks: each path has the opacities of those around it by itself.
+    def flat(self) -> "Drawing":
+        """The drawing without groups, and so without masks, and without gradients.
 
-        Notes say where a picture differs.
+        Each path has the opacities of the groups around it by itself. Notes say where a picture differs.
         """
         opacities, masks = {-1: 1.0}, set[int]()
         for place, group in enumerate(self.groups):
             opacities[place] = opacities[group.outer] * group.opacity
             if group.mask or group.outer in masks:
                 masks.add(place)
-        paths = tuple(
-            replace(path, paint=path.paint.faded(opacities[path.group]), group=-1)
-            for path in self.paths
-            if path.group not in masks
-        )
+        shown = [path for path in self.paths if path.group not in masks]
+        paints = (path.paint.faded(opacities[path.group]) for path in shown)
+        flat = (Paint(paint.color, paint.opacity) for paint in paints)
+        paths = tuple(replace(path, paint=paint, group=-1) for path, paint in zip(shown, flat, strict=True))
         return replace(self, paths=paths, groups=(), notes=(*self.notes, *self._lost()))
 
     def unmasked(self) -> "Drawing":
         """What a silhouette is made of: the drawing without its masks, with a note of them if it has any."""
         if not any(group.mask for group in self.groups):
             return self
-        plain = self.ungrouped()
-        return replace(plain, notes=tuple(n for n in plain.notes if n.message not in (SHARED_OPACITY, BLENDING)))
+        plain = self.flat()
+        lost = tuple(note for note in plain.notes[len(self.notes) :] if note.message == MASKING)
+        return replace(plain, notes=(*self.notes, *lost))
 
     def _lost(self) -> Iterator[Note]:
-        """Notes of what layers lose of the groups; a path by itself loses no opacity."""
+        """Notes of what layers lose of groups and gradients; a path by itself loses no opacity."""
         held = Counter(path.group for path in self.paths)
         for place in reversed(range(len(self.groups))):
             held[self.groups[place].outer] += held[place]
         shared = sum(group.opacity < 1.0 and held[place] > 1 for place, group in enumerate(self.groups))
         blended = sum(group.blend is not Blend.NORMAL and held[place] > 0 for place, group in enumerate(self.groups))
         masks = sum(group.mask is not Mask.NONE for group in self.groups)
-        for message, count in ((SHARED_OPACITY, shared), (BLENDING, blended), (MASKING, masks)):
+        shaded = sum(path.paint.gradient is not None for path in self.paths)
+        counts = ((SHARED_OPACITY, shared), (BLENDING, blended), (MASKING, masks), (SHADED, shaded))
+        for message, count in counts:
             if count:
                 yield Note("simplified", message, count)
 

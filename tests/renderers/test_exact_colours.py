@@ -14,8 +14,9 @@ from hypothesis import strategies as st
 from PIL import Image
 
 import vexture
-from vexture.drawing import Blend, Drawing, FillRule, Group, Mask, Path
+from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import ParameterError
+from vexture.group import Blend, Group, Mask
 from vexture.paint import Paint
 from vexture.renderers.exact import render_exact, render_exact_colours
 from vexture.renderers.faces import KEPT

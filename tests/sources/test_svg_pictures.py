@@ -13,10 +13,16 @@ from vexture.errors import SourceWarning
 from vexture.svg.read import read_svg
 
 FIXTURES = Path(__file__).parent / "fixtures"
-TOPICS = ("groups", "masks", "paths", "shapes", "strokes", "structure", "style", "transform", "viewport")
+TOPICS = ("gradients", "groups", "masks", "paths", "shapes", "strokes", "structure", "style", "transform", "viewport")
+
+RAMP = '<stop stop-color="#e02020"/><stop offset="0.4" stop-color="#f0d020"/><stop offset="1" stop-color="#2040e0"/>'
 
 # what PyPI's resvg does not know, in words that it and we understand alike
 PLAINER = {
+    "gradients/attributes-by-reference": '<linearGradient id="g" x1="0.1" x2="0.3" gradientTransform="rotate(20)"'
+    f' spreadMethod="reflect">{RAMP}</linearGradient><rect x="10" y="20" width="80" height="60" fill="url(#g)"/>',
+    "gradients/stroke-not-scaling": f'<linearGradient id="g" gradientUnits="userSpaceOnUse" x1="20" x2="80">{RAMP}'
+    '</linearGradient><path d="M20 15H80V60" fill="none" stroke="url(#g)" stroke-width="10"/>',
     "groups/blend-upper-case": '<path fill="#c08040" d="M0 20h100v40h-100z"/>'
     '<path style="mix-blend-mode: multiply" fill="#8f8" d="M30 0h20v100h-20z"/>',
     "groups/opacity-of-nested-svg": '<g opacity="0.5"><path fill="red" d="M10 10h50v50h-50z"/>'
@@ -68,7 +74,7 @@ def box_of(path: Path) -> str:
 
 
 def test_fixtures_are_all_there() -> None:
-    assert len(fixture_names()) > 185
+    assert len(fixture_names()) > 220
     assert set(PLAINER) <= set(fixture_names())
 
 

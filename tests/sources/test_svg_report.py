@@ -24,13 +24,11 @@ SAID = {
     "image": "left out: <image>; nothing in it is painted",
     "import": "left out: @import",
     "lab-color": "simplified: colour of a space other than sRGB read as black",
-    "linear-gradient": "simplified: linearGradient read as a solid colour",
     "many": "left out: <text> (2), <image>; invalid and ignored: r='x' of <rect> in line 5",
     "marker": "left out: marker",
     "mask": "left out: mask 'url(stars.svg#m)'",
     "missing-paint": "left out: paint '#none' (2)",
     "pattern": "simplified: pattern read as solid",
-    "radial-gradient-by-reference": "simplified: radialGradient read as a solid colour",
     "script": "left out: script",
     "text": "left out: <text>; nothing in it is painted",
     "unknown-element": "left out: <flowRoot>",
@@ -48,6 +46,8 @@ def test_unsupported_features_are_named_once(path: Path) -> None:
 
 GROUP = "opacity of a group, which each of its shapes has by itself"
 BLEND = "mix-blend-mode"
+SHADE = "gradient shown as its mean colour"
+RAMP = '<linearGradient id="g"><stop stop-color="red"/><stop offset="1" stop-color="blue"/></linearGradient>'
 TWO = '<rect width="5" height="5"/><rect x="2" width="5" height="5"/>'
 BESIDE = '<rect width="2" height="5"/><rect x="2" width="5" height="5"/>'
 
@@ -68,6 +68,9 @@ BESIDE = '<rect width="2" height="5"/><rect x="2" width="5" height="5"/>'
         (f'<g opacity=".5"><g opacity=".5">{TWO}</g></g>', [f"{GROUP} (2)"]),
         (f'<g opacity=".5" style="mix-blend-mode: screen">{TWO}</g>', [GROUP, BLEND]),
         ('<rect width="5" height="5" style="mix-blend-mode: normal"/>', []),
+        (f'{RAMP}<rect width="5" height="5" fill="url(#g)"/>', [SHADE]),
+        (f'{RAMP}<g opacity=".5" fill="url(#g)" stroke="url(#g)">{TWO}</g>', [GROUP, f"{SHADE} (4)"]),
+        (f"{RAMP}{TWO}", []),
     ],
 )
 def test_layers_name_what_they_lose_and_readings_lose_nothing(body: str, said: list[str]) -> None:
@@ -117,8 +120,6 @@ def file_drawing(file: Path) -> Drawing:
 @pytest.mark.parametrize(
     ("name", "color"),
     [
-        ("linear-gradient", (0.5, 0, 0.5)),
-        ("radial-gradient-by-reference", (0, 1, 0)),
         ("pattern", (0.5, 0.5, 0.5)),
         ("missing-paint", (1, 0, 0)),
     ],
@@ -153,11 +154,3 @@ def test_a_file_without_size_is_reported_once(tmp_path: Path) -> None:
     file.write_text('<svg><text>a</text><rect width="9" height="9"/></svg>')
     with pytest.warns(SourceWarning, match="left out: <text>$"):
         read_svg(file)
-
-
-def test_gradients_that_lend_to_each_other_end(tmp_path: Path) -> None:
-    file = tmp_path / "a.svg"
-    gradients = '<linearGradient id="a" href="#b"/><linearGradient id="b" href="#a"/>'
-    file.write_text(f'<svg viewBox="0 0 9 9">{gradients}<rect width="9" height="9" fill="url(#a)"/></svg>')
-    with pytest.warns(SourceWarning, match="linearGradient"):
-        assert read_svg(file).paths == ()

@@ -7,8 +7,9 @@ import vexture
 from degenerate import circle, drawing, polygon
 from planar import coloured
 from vexture import layout
-from vexture.drawing import Blend, Drawing, Group, Path
+from vexture.drawing import Drawing, Path
 from vexture.errors import FormatError, ParameterError
+from vexture.group import Blend, Group
 from vexture.paint import Paint
 from vexture.pipeline import atlas, run
 from vexture.renderers.exact import render_exact_colours

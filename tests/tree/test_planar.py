@@ -5,8 +5,9 @@ import pytest
 
 from degenerate import circle, drawing, heap, points_near, polygon
 from planar import cell_at, coloured, colours_at, paints_at
-from vexture.drawing import Blend, Drawing, FillRule, Group, Path
+from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import LimitError, SourceError
+from vexture.group import Blend, Group
 from vexture.layout import PAINT_ONE
 from vexture.paint import Paint
 from vexture.renderers.exact import render_exact_colours

@@ -9,7 +9,7 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import Blend
+from vexture.group import Blend
 from vexture.kernels import kernel
 
 __all__ = ["lay"]

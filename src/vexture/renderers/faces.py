@@ -12,7 +12,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import Blend, Drawing, FillRule, Mask
+from vexture.drawing import Drawing, FillRule
+from vexture.group import Blend, Mask
 from vexture.kernels import kernel
 from vexture.renderers.blend import lay
 from vexture.renderers.slabs import Sweep, add_edge, cross

@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass, field, replace
 
-from vexture.drawing import Blend, Group, Mask, Path
+from vexture.drawing import Path
+from vexture.group import Blend, Group, Mask
 from vexture.svg.properties import BLENDS
 from vexture.svg.style import Style
 

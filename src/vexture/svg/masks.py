@@ -10,7 +10,7 @@ from typing import Final, Protocol
 import numpy as np
 from lxml import etree
 
-from vexture.drawing import Mask
+from vexture.group import Mask
 from vexture.svg.compositing import Veil
 from vexture.svg.document import local_name
 from vexture.svg.paint_servers import PaintServers
@@ -74,7 +74,7 @@ def add_mask(
     scene: Measured, element: etree._Element, target: etree._Element, place: Place
 ) -> tuple[Place, list[Placed]]:
     """As `add_masks`, of one `clipPath` or `mask`."""
-    is_clip, style = local_name(target) == "clipPath", scene.cascade.computed(target)
+    is_clip, style = local_name(target) == "clipPath", scene.servers.style_of(target)
     matrix = scene.transform(target, style, place) if is_clip else Identity
     if target.get("clipPathUnits" if is_clip else "maskContentUnits") == "objectBoundingBox":
         matrix = matrix.transform(box_matrix(scene, element, place))

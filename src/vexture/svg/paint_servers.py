@@ -1,20 +1,21 @@
-"""Paint servers, simplified: a gradient becomes the mean of its colours, a pattern becomes grey."""
+"""Paints by reference: gradients; a pattern becomes grey."""
 
 import re
 
-import numpy as np
 from lxml import etree
 
-from vexture.paint import Paint
-from vexture.svg.colors import Color, parse_color, parse_paint
+from vexture.paint import Paint, Stop
+from vexture.svg.colors import Color, PaintText, parse_color, parse_paint
 from vexture.svg.document import local_name
+from vexture.svg.gradients import GRADIENTS, Ramp, read_ramp, stop_offsets
+from vexture.svg.outline import Outline
 from vexture.svg.report import Report
+from vexture.svg.space import Place
 from vexture.svg.style import INITIAL, Cascade, Style
 
 __all__ = ["PaintServers", "reference"]
 
 HREF = ("href", "{http://www.w3.org/1999/xlink}href")
-GRADIENTS = ("linearGradient", "radialGradient")
 GREY = Color((0.5, 0.5, 0.5), 1.0)
 FRAGMENT = re.compile(r"\s*#(.*?)\s*", re.DOTALL)
 
@@ -25,14 +26,15 @@ def reference(element: etree._Element) -> str | None:
 
 
 class PaintServers:
-    """Finds elements by their `id`, and the flat colours that replace paints."""
+    """Finds elements by their `id`, and the paints that shapes refer to."""
 
     def __init__(self, root: etree._Element, cascade: Cascade, report: Report) -> None:
         self.root = root
         self.cascade = cascade
         self.report = report
         self.by_id: dict[str, etree._Element] = {}
-        self.means: dict[etree._Element, Color | None] = {}
+        self.ramps: dict[etree._Element, Ramp | None] = {}
+        self.styles: dict[etree._Element, Style] = {}
 
     def target(self, link: str) -> etree._Element | None:
         """Element of this document that a link like "#name" refers to, or None."""
@@ -44,64 +46,83 @@ class PaintServers:
                 self.by_id.setdefault(element.get("id", ""), element)
         return self.by_id.get(match[1]) if match[1] else None
 
-    def paint(self, style: Style, name: str) -> Paint | None:
-        """Flat paint of `name`, "fill" or "stroke", for an element of a style; None if nothing is painted."""
+    def paint(self, name: str, place: Place, outlines: list[Outline]) -> Paint | None:
+        """Paint of `name`, "fill" or "stroke", for outlines at a place with their style; None if nothing is painted."""
+        style = place.style
         text = parse_paint(style[name])
         if text is None:
             return None
-        color = text.color
-        if text.reference is not None:
-            color = self.server_color(text.reference, color, style)
+        paint = self.flat(text.color, style) if text.reference is None else self.served(text, place, outlines)
+        paint = paint and paint.faded(style.opacity(f"{name}-opacity"))
+        return paint if paint is not None and paint.opacity > 0.0 else None
+
+    def flat(self, color: Color | str | None, style: Style) -> Paint | None:
+        """Paint of one colour."""
         if isinstance(color, str):
             color = style.color
         if color is None:
             return None
+        self.note_space(color)
+        return Paint(color.rgb, color.alpha)
+
+    def note_space(self, color: Color) -> None:
+        """Note a colour that could not be converted."""
         if not color.exact:
             self.report.simplified("colour of a space other than sRGB read as black")
-        opacity = color.alpha * style.opacity(f"{name}-opacity")
-        return Paint(color.rgb, opacity) if opacity > 0.0 else None
 
-    def server_color(self, link: str, fallback: Color | str | None, style: Style) -> Color | str | None:
-        """Flat colour for a reference to a paint server, or its fallback."""
+    def served(self, text: PaintText, place: Place, outlines: list[Outline]) -> Paint | None:
+        """Paint of a reference to a paint server, or its fallback where there is none or it has no area."""
+        link = text.reference or ""
         server = self.target(link)
         name = local_name(server) if server is not None else None
+        fallback = text.color
         if server is not None and name in GRADIENTS:
-            self.report.simplified(f"{name} read as a solid colour")
-            return self.mean_color(server)
-        if name == "pattern":
+            ramp = self.ramp(server)
+            if ramp is None:
+                return None
+            paint = ramp.paint(place, outlines)
+            if paint is not None:
+                return paint
+        elif name == "pattern":
             self.report.simplified("pattern read as solid")
-            return fallback or GREY
-        self.report.left_out(f"paint '{link[:40]}'")
-        return fallback
+            fallback = fallback or GREY
+        else:
+            self.report.left_out(f"paint '{link[:40]}'")
+        return self.flat(fallback, place.style)
 
-    def mean_color(self, gradient: etree._Element) -> Color | None:
-        """Mean of a gradient's stops, or of those that it inherits by reference; None if there are none."""
-        if gradient not in self.means:
-            source: etree._Element | None = gradient
-            seen: set[etree._Element] = set()
-            colors: list[Color] = []
-            while source is not None and source not in seen and not colors:
-                seen.add(source)
-                colors = [self.stop_color(stop) for stop in source if local_name(stop) == "stop"]
-                source = self.target(reference(source) or "")
-            self.means[gradient] = mean(colors)
-        return self.means[gradient]
+    def ramp(self, gradient: etree._Element) -> Ramp | None:
+        """What a gradient and those that it refers to say; None if they have no stops."""
+        if gradient not in self.ramps:
+            chain: list[etree._Element] = []
+            element: etree._Element | None = gradient
+            while element is not None and element not in chain and local_name(element) in GRADIENTS:
+                chain.append(element)
+                element = self.target(reference(element) or "")
+            stops = next(filter(None, map(self.stops, chain)), None)
+            size = self.style_of(gradient).font_size
+            self.ramps[gradient] = None if stops is None else read_ramp(chain, stops, size, self.report)
+        return self.ramps[gradient]
 
-    def stop_color(self, stop: etree._Element) -> Color:
-        """Colour of a gradient's stop."""
-        style = INITIAL
-        for element in reversed([stop, *stop.iterancestors()]):
-            style = self.cascade.style(element, style)
+    def stops(self, gradient: etree._Element) -> tuple[Stop, ...]:
+        """Stops that a gradient has itself."""
+        elements = [child for child in gradient if local_name(child) == "stop"]
+        offsets = stop_offsets(elements, self.report)
+        return tuple(self.stop(element, offset) for element, offset in zip(elements, offsets, strict=True))
+
+    def stop(self, element: etree._Element, offset: float) -> Stop:
+        """A stop at an offset."""
+        style = self.style_of(element)
         color = parse_color(style["stop-color"])
         if not isinstance(color, Color):
             color = style.color
-        return color._replace(alpha=color.alpha * style.opacity("stop-opacity"))
+        self.note_space(color)
+        return Stop(offset, color.rgb, color.alpha * style.opacity("stop-opacity"))
 
-
-def mean(colors: list[Color]) -> Color | None:
-    """Mean of colours, None of none."""
-    if not colors:
-        return None
-    red, green, blue = np.mean([color.rgb for color in colors], axis=0).tolist()
-    alpha = float(np.mean([color.alpha for color in colors]))
-    return Color((red, green, blue), alpha, all(color.exact for color in colors))
+    def style_of(self, element: etree._Element) -> Style:
+        """Style of an element where it stands in the document."""
+        style = INITIAL
+        for around in reversed([element, *element.iterancestors()]):
+            if around not in self.styles:
+                self.styles[around] = self.cascade.style(around, style)
+            style = self.styles[around]
+        return style

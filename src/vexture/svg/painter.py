@@ -46,9 +46,7 @@ class Painter:
         style = place.style
         if style["visibility"].lower() != "visible" or place.space.flat:
             return
-        fill = BLACK if place.is_clip else self.servers.paint(style, "fill")
-        line = None if place.is_clip else self.servers.paint(style, "stroke")
-        if fill is None and line is None:
+        if not place.is_clip and style["fill"].lower() == style["stroke"].lower() == "none":
             return
         scale = scale_of(place.space.whole)
         size = inf if self.size is None else self.size / scale
@@ -56,6 +54,8 @@ class Painter:
         outlines = shape_outlines(shape)
         if not outlines:
             return
+        fill = BLACK if place.is_clip else self.servers.paint("fill", place, outlines)
+        line = None if place.is_clip else self.servers.paint("stroke", place, outlines)
         order = style["paint-order"].lower()
         if "stroke" in order and order.find("stroke") < order.find("fill") % (len(order) + 1):
             self.stroke(shape, outlines, place, line, size)

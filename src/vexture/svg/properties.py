@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable
 from typing import NamedTuple
 
-from vexture.drawing import Blend
+from vexture.group import Blend
 from vexture.svg.colors import parse_color, parse_paint
 from vexture.svg.path_data import NUMBER
 

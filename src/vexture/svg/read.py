@@ -1,4 +1,4 @@
-"""Reading SVG: the silhouette and the flat colours of a drawing."""
+"""Reading SVG: the shapes of a drawing and their paints."""
 
 import os
 from dataclasses import replace
@@ -32,8 +32,8 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
     """Read an SVG file, plain or gzipped.
 
     Shapes, paths, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as browsers
-    draw them. Opacity and blend modes that need several paths together become `Drawing.groups`. Gradients become the
-    mean of their colours. What is not supported is left out and named.
+    draw them. Opacity and blend modes that need several paths together become `Drawing.groups`. Gradients are read in
+    full (`Paint.gradient`), patterns become one colour. What is not supported is left out and named.
 
     The box of the drawing is the outermost viewport: `width` and `height`, or the size in `viewBox` where one of them
     is missing or a percentage. A drawing without any of them is as large as what it paints.

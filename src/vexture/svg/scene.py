@@ -12,8 +12,9 @@ from lxml import etree
 
 from vexture.bezier.bounds import bounds
 from vexture.deadline import check_time
-from vexture.drawing import Group, Path
+from vexture.drawing import Path
 from vexture.errors import SourceError
+from vexture.group import Group
 from vexture.svg.compositing import Veil, grouped, veil_of
 from vexture.svg.document import local_name
 from vexture.svg.masks import MASKING, add_masks

@@ -14,7 +14,7 @@ from vexture.svg.transform import Identity, Transform, mapped
 from vexture.svg.values import LARGEST, Viewport
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["Place", "Placed", "Space"]
+__all__ = ["SMALLEST", "Place", "Placed", "Space"]
 
 SMALLEST = 1 / LARGEST**4
 """Smallest determinant: below it, sizes in user units cannot be computed in floating point."""

@@ -15,7 +15,7 @@ from vexture.svg.colors import Color, parse_color
 from vexture.svg.properties import CSS_ONLY, PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.select import Node
-from vexture.svg.values import Viewport, opacity
+from vexture.svg.values import Viewport, fraction
 
 __all__ = ["INITIAL", "Cascade", "Style"]
 
@@ -60,7 +60,8 @@ class Style:
 
     def opacity(self, name: str) -> float:
         """Opacity that a property gives, 0..1."""
-        return opacity(self[name])
+        value = fraction(self[name])
+        return 1.0 if value is None else value
 
     @property
     def color(self) -> Color:
@@ -140,13 +141,6 @@ class Cascade:
         if inherited is not parent.inherited and "font-size" in inherited:
             font_size = text_size(inherited.pop("font-size"), parent.font_size)
         return Style(inherited, own, font_size)
-
-    def computed(self, element: etree._Element) -> Style:
-        """Style of an element where it stands in the document."""
-        style = INITIAL
-        for around in reversed([element, *element.iterancestors()]):
-            style = self.style(around, style)
-        return style
 
     def specified(self, element: etree._Element) -> dict[str, str]:
         """Winning declaration of each property, in rising precedence: attributes, rules, `style`, `!important`."""

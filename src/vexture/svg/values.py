@@ -8,7 +8,7 @@ from typing import Final
 from vexture.errors import SourceError
 from vexture.svg.path_data import NUMBER
 
-__all__ = ["LARGEST", "Viewport", "number", "numbers", "opacity"]
+__all__ = ["LARGEST", "Viewport", "fraction", "number", "numbers"]
 
 LARGEST: Final = 1e12
 """User units. Larger numbers are errors: the product of two of them and a matrix must stay finite."""
@@ -60,17 +60,17 @@ def bounded(text: str) -> float:
     return value
 
 
-def opacity(text: str) -> float:
-    """Opacity as a number or percentage, clipped to 0..1; 1 if it is neither.
+def fraction(text: str) -> float | None:
+    """Number or percentage, clipped to 0..1; None if the text is neither.
 
     Examples
     --------
-    >>> opacity("25%"), opacity("7"), opacity("?")
-    (0.25, 1.0, 1.0)
+    >>> fraction("25%"), fraction("7"), fraction("?")
+    (0.25, 1.0, None)
     """
     match = LENGTH.fullmatch(text)
     if match is None or match[2] not in ("", "%"):
-        return 1.0
+        return None
     return min(max(bounded(match[1]) / (100.0 if match[2] else 1.0), 0.0), 1.0)
 
 

@@ -13,8 +13,10 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vexture.drawing import Blend, FillRule, Mask
+from vexture.drawing import FillRule
 from vexture.errors import DeviceError
+from vexture.group import Blend, Mask
+from vexture.paint import Paint
 from vexture.renderers.view import size_of, view_matrix
 from vexture_evidence.measures.raster import FULL
 
@@ -185,8 +187,7 @@ def _paint_group(
     for kind, place in items.get(of, {}):
         if kind == "path":
             path = drawing.paths[place]
-            color = skia.Color4f(*path.paint.color, path.paint.opacity)
-            canvas.drawPath(skia_path(path, matrix), skia.Paint(Color4f=color, AntiAlias=True))
+            canvas.drawPath(skia_path(path, matrix), _skia_paint(path.paint, matrix))
         elif not drawing.groups[place].mask:
             group = drawing.groups[place]
             canvas.saveLayer(None, skia.Paint(Alphaf=group.opacity, BlendMode=_skia_mode(group.blend)))
@@ -198,6 +199,27 @@ def _paint_group(
             canvas.saveLayer(None, skia.Paint(Alphaf=mask.opacity, BlendMode=skia.BlendMode.kDstIn, ColorFilter=luma))
             _paint_group(canvas, drawing, matrix, items, place)
             canvas.restore()
+
+
+def _skia_paint(paint: Paint, matrix: NDArray[np.float64]) -> Any:
+    """Skia's paint of a drawing's, moved by `matrix` from the unit square to pixels."""
+    skia, gradient = _skia(), paint.gradient
+    if gradient is None:
+        return skia.Paint(Color4f=skia.Color4f(*paint.color, paint.opacity), AntiAlias=True)
+    to_pixels = matrix @ np.linalg.inv(np.array([*gradient.to_ramp, (0.0, 0.0, 1.0)]))
+    ramp = (
+        [skia.Color4f(*stop.color, stop.opacity).toColor() for stop in gradient.stops],
+        [stop.offset for stop in gradient.stops],
+        (skia.TileMode.kClamp, skia.TileMode.kMirror, skia.TileMode.kRepeat)[gradient.spread],
+        0,
+        skia.Matrix(to_pixels.ravel().tolist()),
+    )
+    if gradient.focus is None:
+        shader = skia.GradientShader.MakeLinear([skia.Point(0, 0), skia.Point(1, 0)], *ramp)
+    else:
+        x, radius = gradient.focus
+        shader = skia.GradientShader.MakeTwoPointConical(skia.Point(x, 0), radius, skia.Point(0, 0), 1.0, *ramp)
+    return skia.Paint(Shader=shader, AntiAlias=True)
 
 
 def _skia_mode(blend: Blend) -> Any:

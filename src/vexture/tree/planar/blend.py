@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.drawing import Blend, Mask
+from vexture.group import Blend, Mask
 from vexture.kernels import kernel
 
 __all__ = ["blend_over", "masking"]

@@ -9,7 +9,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, Final, NamedTuple
 
-from vexture.drawing import Blend, Drawing, Path
+from vexture.drawing import Drawing, Path
+from vexture.group import Blend
 from vexture.paint import Paint
 from vexture.tree.build import build_tree
 from vexture.tree.planar.build import build_map
