@@ -13,6 +13,9 @@ const WINDING_MASK = (1 << COUNT_SHIFT) - 1;
 /** Largest depth of `bounds`: quads with a side of 1/256 count as full. */
 const BOUNDS_DEPTH = 8;
 
+/** Paint of a silhouette. */
+export const BLACK = Object.freeze({ color: Object.freeze([0, 0, 0]), opacity: 1 });
+
 const WHOLE = Object.freeze([0, 0, 1, 1]);
 
 /**
@@ -171,6 +174,30 @@ export function contains(data, quad, u, v) {
     return winding(curvesOf(texels, leaf), cornerOf(leaf.byte), LATTICE * u, LATTICE * v) > 0;
   }
   throw new VextureError(`quad ${quad} lies deeper than ${MOST_DEPTH} levels; read the file with readPacked`, `quad ${quad}`);
+}
+
+/**
+ * Colour of some layers at a point, composited in sRGB, as in browsers.
+ *
+ * @param {PackedData} data
+ * @param {import('./data.js').Root[]} layers the lowest first
+ * @param {number} u
+ * @param {number} v upwards
+ * @returns {import('./data.js').RootPaint}
+ */
+export function colorAt(data, layers, u, v) {
+  const sum = [0, 0, 0, 0];
+  for (const { quad, paint, isMap: ofMap } of layers) {
+    const { color, opacity } = paint ?? BLACK;
+    const isInside = !ofMap && contains(data, quad, u, v);
+    const shown = ofMap ? paintAt(data, quad, u, v).color
+      : isInside ? [...color.map((part) => part * opacity), opacity] : [0, 0, 0, 0];
+    const below = 1 - shown[3];
+    shown.forEach((part, k) => (sum[k] = part + below * sum[k]));
+  }
+  const opacity = sum[3];
+  const [red, green, blue] = sum.map((part) => (opacity ? Math.min(part / opacity, 1) : 0));
+  return { color: [red, green, blue], opacity };
 }
 
 /**

@@ -2,6 +2,7 @@ import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';
 import { TEXT_ROOTS, TEXT_VERSION } from '../generated/layout.js';
 import { readPacked } from '../src/packed.js';
+import { VectorTexture } from '../src/vector-texture.js';
 import { paintAt } from '../src/walk-map.js';
 import { bounds, cellAt, contains, counts } from '../src/walk.js';
 import { TEXTS, altered, fixture, ktx2 } from './files.js';
@@ -16,6 +17,7 @@ const texts = { ...TEXTS, [TEXT_VERSION]: '2', [TEXT_ROOTS]: /\[\{"name".*\]/.ex
 
 const example = await readPacked(ktx2(texels, texts));
 const maps = await readPacked(fixture('maps.ktx2'));
+const drawn = await readPacked(fixture('drawings.ktx2'));
 
 describe('what is read', () => {
   test('the example of FORMAT.md, D.8', () => {
@@ -52,6 +54,18 @@ describe('queries', () => {
     expect([[0.7, 0.7], [0.3, 0.3], [0.05, 0.5], [0.9, 0.1]].map(([u, v]) => contains(example, 1, u, v)))
       .toEqual([true, true, false, false]);
     bounds(example, 1).forEach((at, k) => expect(at).toBeCloseTo([0.125, 0.125, 0.875, 0.875][k], 4));
+  });
+
+  test('the colour of a drawing', () => {
+    const [texture, layers] = [new VectorTexture(maps), new VectorTexture(drawn)];
+    expect(texture.colorAt(0.5, 0.7, 'flag')).toEqual({ color: [0xdc / 255, 0x26 / 255, 0x26 / 255], opacity: 1 });
+    expect(texture.colorAt(0.5, 0.05, 'flag')).toEqual({ color: [0, 0, 0], opacity: 0 });
+    for (const [u, v] of [[0.5, 0.47], [0.5, 0.1], [0.5, 0.7], [0.02, 0.02]]) {
+      const [one, other] = [texture.colorAt(u, v, 'badge'), layers.colorAt(u, v, 'badge')];
+      expect(one.opacity).toBeCloseTo(other.opacity, 4);
+      one.color.forEach((part, k) => expect(part).toBeCloseTo(other.color[k], 4));
+    }
+    expect(() => texture.colorAt(0.5, 0.5)).toThrow(/maps holds 3 drawings \(badge, flag, duck\); choose one by root/);
   });
 
   test('cells have their paints', () => {
