@@ -160,7 +160,7 @@ function setShape(uniforms, data, root) {
 function legendRows(overlays, theme, deepest, isMap) {
   const rows = [];
   const means = (overlays.coverage || overlays.cutoff > 0) && isMap;
-  if (means) rows.push(element('div', { class: 'legend-row' }, 'Mean colours of cells, as they are stored'));
+  if (means) rows.push(element('p', { class: 'hint' }, 'Mean colours of cells, as they are stored'));
   if (overlays.coverage && !isMap) rows.push(gradient('Coverage of a cell', RAMPS[theme].coverage));
   if (overlays.cutoff > 0 && !isMap) rows.push(gradient('Stored for a quad', RAMPS[theme].stored));
   if (overlays.depth) {
