@@ -12,7 +12,8 @@ FADED = 4.0  # pixels: borders of cells up to this size are not drawn, from twic
 class Cells:
     """The cell at the centre of each pixel, no deeper than a level.
 
-    Attributes: `points`, `inside` the unit square, `depth`, `coverage` as it is stored, `is_quad`; `border`, the share
+    Attributes: `points`, `inside` the unit square, `depth`, `coverage` as it is stored, or of a planar map `mean`, the
+    mean colour; `is_quad`; `border`, the share
     of the pixel that a border of one pixel's width takes; `clear`: inside, and not so near to a border that rounding
     decides which cell it is.
     """
@@ -27,14 +28,19 @@ class Cells:
         self.is_quad = self.inside.copy()
         self.border = self._border_of(1.0, matrix)
         self.clear = self.inside.copy()
+        self.mean = np.zeros((*x.shape, 4))
         quad = np.zeros(x.shape, np.int64)
-        for level in walk(texture.texels.reshape(-1, 4), np.array([texture.roots[root].quad]))[:finest]:
+        flat, shape = texture.flat, texture.roots[root]
+        for level in walk(flat, np.array([shape.quad]), shape.is_map)[:finest]:
             side = 0.5 ** (self.depth.max() + 1)
             k = (np.floor(self.points / side).astype(np.int64) & 1) @ [1, 2]
             now = self.is_quad
             k, at = k[now], quad[now]
             self.depth[now] += 1
             self.coverage[now] = level.coverages[at, k] / 255
+            if shape.is_map:
+                words = flat[flat[shape.quad - 1, 1] + 2 * (level.quads[at] - shape.quad), k]
+                self.mean[now] = (words[:, None] >> np.array([0, 8, 16, 24], np.uint32) & 255) / 255
             self.border[now] = np.maximum(self.border, self._border_of(side, matrix))[now]
             self.clear &= ~now | (self._distance(side, matrix) > 1e-3)
             before = np.cumsum(level.is_quad.ravel()) - 1

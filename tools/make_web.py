@@ -23,8 +23,11 @@ __all__ = ["main"]
 FOLDER: Final = Path(__file__).resolve().parents[1] / "web" / "generated"
 HEADER: Final = "// Made by tools/make_web.py; change {owner} and run it again.\n"
 
-PACKED_FILES: Final = {"packed": "layers.glsl", "packedOverlay": "overlay.glsl", "planar": "colour.glsl"}
+PACKED_FILES: Final = {"packed": "layers.glsl", "planar": "sheets.glsl"}
 """Exports that read a packed texture, and the file whose functions each offers."""
+
+OVERLAY: Final = "overlay.glsl"
+"""Stands after either of them."""
 
 COMMENT: Final = re.compile(r"[ \t]*//.*$", re.MULTILINE)
 
@@ -77,12 +80,19 @@ def module_text(name: str, text: str, comment: str) -> str:
     return f"/**\n * {comment}\n *\n * @type {{string}}\n */\nexport const {name} = {json.dumps(text)};\n"
 
 
+def packed_text(file: str) -> str:
+    """Text of a file that reads a packed texture, and of all that it includes."""
+    return bare(inlined(shader_text(file)))
+
+
 def shaders() -> str:
     """Text of the module with the shaders."""
     parts = [HEADER.format(owner="src/vexture/glsl/")]
     for name, file in PACKED_FILES.items():
         comment = f"{file}; the numbers that it asks for by #ifndef may be defined before it."
-        parts.append(module_text(name, bare(inlined(shader_text(file))), comment))
+        parts.append(module_text(name, packed_text(file), comment))
+    alone = packed_text(OVERLAY).removeprefix(packed_text(PACKED_FILES["packed"]))
+    parts.append(module_text("overlay", alone, f"{OVERLAY}, to stand after one of these."))
     comment = "steps.glsl: what the derivatives of a position are, for pixels."
     parts.append(module_text("steps", bare(included("steps.glsl")), comment))
     parts.append("/** Values of VEXTURE_WRAP. */\n")

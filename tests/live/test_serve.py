@@ -14,6 +14,7 @@ from PIL import Image
 from server import COMMAND, TOKEN, Server, Stream, serving, square
 
 from vexture.live.limits import Limits
+from vexture.texture.load import texture_from
 
 
 @pytest.fixture(scope="module")
@@ -120,6 +121,16 @@ def test_geojson_and_textures_are_published_too(server):
     assert (status, again["texture"]) == (201, published["texture"])
     assert server.put("copy", texture[:-20])[0] == 422
     assert server.manifest("copy")["version"] == again["version"]
+
+
+def test_drawings_in_colours_are_planar_maps(server):
+    body = b'<svg viewBox="0 0 9 9"><path fill="red" d="M0 0h9v9z"/><path d="M0 0v9h9z" fill="blue"/></svg>'
+    status, published = server.put("halves", body)
+    assert (status, published["facts"]["layers"], published["facts"]["warnings"]) == (201, 1, [])
+    texture = server.ask("GET", published["texture"][2:])[2]
+    assert [root.is_map for root in texture_from(texture, "halves").roots] == [True]
+    status, again = server.put("again", texture)
+    assert (status, again["facts"]["layers"], again["facts"]["curves"]) == (201, 1, published["facts"]["curves"])
 
 
 def test_pictures_are_traced_and_published(server):

@@ -42,6 +42,7 @@ WITHOUT_MIRROR = {
     "around.glsl",
     "layers.glsl",
     "overlay.glsl",
+    "sheets.glsl",
     "wrap.glsl",
     "shore.glsl",
     "steps.glsl",

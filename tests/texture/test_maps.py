@@ -169,6 +169,17 @@ def test_many_layers_are_cut_into_sheets(monkeypatch: pytest.MonkeyPatch) -> Non
     assert abs(conversion.texture.render(40) - wanted).mean() < abs(in_layers - wanted).mean()
 
 
+def test_precision_alone_cuts_no_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A cut between two that touch is a seam, which would show from nearby."""
+    monkeypatch.setattr("vexture.tree.planar.sheets.LEAST_BUDGET", 200)
+    halves = [polygon([(0.1, 0.1), (0.6, 0.1), (0.4, 0.9), (0.1, 0.9)]), polygon([(0.6, 0.1), (0.9, 0.5), (0.4, 0.9)])]
+    of = Drawing(tuple(Path((half,), paint=Paint((0.2, 0.4, k / 2))) for k, half in enumerate(halves)))
+    near = run(of, split="faces", precision=1e-6)
+    assert len(near.texture.roots) == 1
+    assert len(near.tree.count) > 200
+    assert near.rounding == 1e-6
+
+
 def test_what_blends_is_not_cut_from_what_is_below() -> None:
     from vexture.tree.planar.sheets import _items
 

@@ -14,6 +14,10 @@ from numpy.typing import ArrayLike, NDArray
 import vexture
 from vexture.drawing import Drawing
 from vexture.paint import Paint
+from vexture.texture.encode import encode
+from vexture.texture.texture import Root, Texture
+from vexture.tree.build import build_tree
+from vexture.tree.planar.build import build_map
 
 SHAPES: Final = ROOT / "examples" / "shapes"
 
@@ -56,6 +60,8 @@ def prepare(folder: Path) -> None:
     for name in ("duck", "full", "border"):
         vexture.convert(drawing(name)).save(folder / f"{name}.ktx2")
     vexture.convert(drawing("glass"), split="paint").save(folder / "paint.ktx2")
+    vexture.convert(drawing("glass"), split="faces").save(folder / "map.ktx2")
+    sheets().save(folder / "sheets.ktx2")
     vexture.atlas([SHAPES / f"{name}.svg" for name in ATLAS]).save(folder / "atlas.ktx2")
     vexture.convert(drawing("duck"), encoding="thesis").save(folder / "thesis")
     for three in THREES:
@@ -64,6 +70,24 @@ def prepare(folder: Path) -> None:
         (folder / f"{three}.html").write_text(
             f'{icon}<script type="module" src="{three}.js"></script>', encoding="utf-8"
         )
+
+
+def parts() -> list[Drawing]:
+    """The drawing in colours, cut into two maps and the layer between them."""
+    whole = drawing("glass")
+    paints = list(dict.fromkeys(path.paint for path in whole.paths))
+    wanted = (paints[:2], paints[2:3], paints[1:])
+    return [replace(whole, paths=tuple(path for path in whole.paths if path.paint in some)) for some in wanted]
+
+
+def sheets() -> Texture:
+    """A drawing of several sheets, and another one beside it."""
+    trees = [
+        build_map(part, tolerance=0.0) if len({path.paint for path in part.paths}) > 1 else build_tree(part)
+        for part in parts()
+    ]
+    roots = [Root("glass/1"), Root("glass/2", paint=parts()[1].paths[0].paint), Root("glass/3"), Root("duck")]
+    return encode([tree for tree in [*trees, build_tree(drawing("duck"))] if tree is not None], roots, name="sheets")
 
 
 def decode(text: str) -> Picture:

@@ -3,6 +3,7 @@
 import io
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -86,6 +87,7 @@ def write_pages(folder: Path) -> dict[str, Texture]:
         name: vexture.convert(SHAPES / f"{name}.svg", capacity=4, tolerance=0) for name in ("duck", "ocean", "font")
     }
     textures["boat"] = vexture.convert(folder / "boat.svg", split="paint")
+    textures["map"] = replace(vexture.convert(folder / "boat.svg", split="faces", capacity=2), name="map")
     thesis = vexture.convert(SHAPES / "duck.svg", encoding="thesis")
     for name, texture in textures.items():
         more = {"facts": FACTS, "views": {"thesis16": thesis_view(thesis, folder)}} if name == "duck" else {}

@@ -123,10 +123,12 @@ def test_rays_meet_what_is_seen(page: Any) -> None:
     assert len({tuple(frame["hits"]) for frame in found["frames"]}) > 1
 
 
-@pytest.mark.parametrize("mode", ["alpha", "cut", "mix", "paint"])
-def test_every_mode_moves(page: Any, mode: str) -> None:
+@pytest.mark.parametrize(
+    ("mode", "texture"),
+    [("alpha", "duck"), ("cut", "duck"), ("mix", "duck"), ("paint", "paint"), ("paint", "map"), ("cut", "map")],
+)
+def test_every_mode_moves(page: Any, mode: str, texture: str) -> None:
     """A shift by a quarter of the square is a shift of the picture."""
-    texture = "paint" if mode == "paint" else "duck"
     mask = {"fold": "swing", "mode": mode} | ({"color": 0xFFFFFF} if mode == "mix" else {})
     config = {"size": SIZE, "parameters": BLACK, "texture": texture, "mask": mask}
     still, moved = page.evaluate("config => page.frames(config, [0, 1])", config)["frames"]

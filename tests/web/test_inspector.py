@@ -217,3 +217,26 @@ def test_facts_are_the_textures(show: Callable[..., Shown]) -> None:
     assert region.get_by_role("status").inner_text() == "not measured"
     shown.press("Measure")
     shown.page.wait_for_function("/^[\\d.]+ ms$/.test(document.querySelector('.measured output').value)")
+
+
+def test_it_tells_the_paints_of_a_map(show: Callable[..., Shown], screenshot: Callable[..., Path]) -> None:
+    shown = show("map")
+    shown.press("Inspect cell")
+    shown.look((0.5, 0.5), 1)
+    words = {}
+    for u, v in ((0.72, 0.72), (0.2, 0.9), (0.4, 0.22), (0.05, 0.1)):
+        shown.page.mouse.move(*shown.point(u, v))
+        verdict = shown.page.get_by_role("region", name="Cell").locator(".verdict")
+        verdict.filter(has_text=POINTS[u, v]).wait_for()
+        words[u, v] = verdict.inner_text()
+    screenshot(shown.page)
+    assert len({re.search(r"paint (\d+)", text).group(1) for text in words.values()}) == 4  # type: ignore[union-attr]
+    terms, _, _ = read_inspector(shown.page)
+    assert {"Mean colour", "Base paint"} <= set(terms)
+    assert "Corner winding" not in terms
+    shown.page.mouse.move(*shown.point(0.72, 0.57))
+    shown.page.get_by_role("columnheader", name="Paints").wait_for()
+    assert re.fullmatch(r"\d+ over \d+", read_inspector(shown.page)[1][0][3])
+
+
+POINTS = {(0.72, 0.72): "#ffd23f", (0.2, 0.9): "#bfe3ff", (0.4, 0.22): "#b5322e", (0.05, 0.1): "#3a7d44"}

@@ -113,6 +113,25 @@ def test_overlays_tell_of_one_layer(show: Callable[..., Shown]) -> None:
         shown.page.get_by_text(f"Shown: {shown.texture.roots[root].name}", exact=True).wait_for()
 
 
+def test_cells_of_a_map_show_their_mean_colours(show: Callable[..., Shown], screenshot: Callable[..., Path]) -> None:
+    shown = show("map")
+    plain = shown.picture()
+    shown.press("Coverage")
+    shown.page.get_by_text("Mean colours of cells, as they are stored").wait_for()
+    cells = shown.cells()
+    paper = cells.mean[..., 3:] < 1.0  # below a translucent mean is the colour of an empty cell
+    expected = over(plain, 255.0 * cells.mean[..., :3], OPACITY["Coverage"])
+    sure = cells.clear & ~paper[..., 0]
+    assert sure.mean() > 0.3
+    assert np.ptp(255.0 * cells.mean[sure][:, :3], axis=0).max() > 100
+    screenshot(shown.page)
+    assert differs(shown.picture(), expected, sure) <= ROUNDING
+    shown.press("Coverage")
+    shown.press("Depth")
+    depths = over(plain, depth_colors(shown.page)[cells.depth], OPACITY["Depth"])
+    assert differs(shown.picture(), depths, cells.clear) <= ROUNDING
+
+
 def test_off_the_flat_view_overlays_say_why_they_are_not_there(show: Callable[..., Shown]) -> None:
     shown = show("duck")
     shown.page.get_by_role("combobox", name="Surface").select_option("Plane")

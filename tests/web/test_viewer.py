@@ -16,7 +16,7 @@ from vexture.live.page import exported_page
 
 
 @pytest.mark.parametrize("zoom", [1, 100, 1000, 10000])
-@pytest.mark.parametrize("name", ["duck", "flag"])
+@pytest.mark.parametrize("name", ["duck", "flag", "map"])
 def test_pixels_are_those_of_exact_coverage(
     viewer_pages: dict[str, Viewed],
     open_page: Callable[..., Any],

@@ -13,7 +13,7 @@ from viewer_page import data_url, manifest, thesis_view, write_page
 
 import vexture
 from vexture.live.documents import VIEWER_PARAMETERS, shape_of
-from vexture.renderers.exact import render_exact
+from vexture.renderers.exact import render_exact, render_exact_colours
 from vexture.renderers.picture import painted, stacked
 
 SIZE = (512, 512)
@@ -36,6 +36,9 @@ class Viewed:
 
     def expected(self, matrix: NDArray[np.float64], size: tuple[int, int] = SIZE) -> NDArray[np.float64]:
         """Picture on white in 0..255, from the drawing itself."""
+        if self.texture.roots[0].is_map:
+            exact = render_exact_colours(self.drawing, size, matrix).astype(np.float64)
+            return 255.0 * (exact[..., :3] + 1.0 - exact[..., 3:])
         if self.texture.roots[0].paint is None:
             grey = 255.0 * (1.0 - vexture.coverage(self.drawing, size, matrix, renderer="exact").astype(np.float64))
             return np.repeat(grey[..., None], 3, axis=2)
@@ -63,10 +66,13 @@ def write_pages(folder: Path, url: str) -> dict[str, Viewed]:
     flag_manifest = manifest(textures[1], views=flag_views, facts={"box": flag_facts["box"]})
     write_page(folder / "duck.html", duck_manifest)
     write_page(folder / "flag.html", flag_manifest)
+    faces = vexture.convert(flag, split="faces", precision=PRECISION)
+    write_page(folder / "map.html", manifest(faces, views=flag_views, facts={"box": flag_facts["box"]}))
     write_page(folder / "both.html", duck_manifest, flag_manifest)
     return {
         "duck": Viewed(duck, textures[0], f"{url}/duck.html"),
         "flag": Viewed(flag, textures[1], f"{url}/flag.html"),
+        "map": Viewed(flag, faces, f"{url}/map.html"),
         "thesis": Viewed(duck, thesis, f"{url}/duck.html"),
         "both": Viewed(duck, textures[0], f"{url}/both.html"),
     }

@@ -11,14 +11,15 @@
  * @property {number[]} transform a b c d e f: (x, y) of the unit square is (ax + by + c, dx + ey + f) in the source
  * @property {number} tolerance largest distance from the drawing's outline, in unit-square units
  * @property {string | null} crs coordinate reference system of the source's units
- * @property {RootPaint | null} paint its colour, if it is a layer of a drawing; null for a silhouette
+ * @property {RootPaint | null} paint its colour, if it is a layer of a drawing; null for a silhouette or a map
+ * @property {boolean} isMap whether it is a planar map: a whole drawing in its colours
  *
  * @typedef {object} TextureData Common to all encodings.
  * @property {string} encoding
  * @property {string} name
  * @property {Root[]} roots the shapes, the layers of a drawing in painting order
  *
- * @typedef {object} PackedData FORMAT.md, part B.
+ * @typedef {object} PackedData FORMAT.md, parts B and D.
  * @property {'packed'} encoding
  * @property {string} name
  * @property {number} width texels in a row, a power of two

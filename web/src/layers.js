@@ -3,18 +3,16 @@ import { MOST_ROWS } from '../generated/layout.js';
 import { VextureError } from './errors.js';
 import { layerRange } from './select-root.js';
 import { wordTexture } from './upload.js';
-import { bounds } from './walk.js';
+import { BLACK, bounds } from './walk.js';
 
 /** 1 as a fixed-point coordinate of bounds: 16 fractional bits. */
 const FIXED_ONE = 65536;
 
 const UNORM_ONE = 65535;
 
-const SILHOUETTE = Object.freeze({ color: Object.freeze([0, 0, 0]), opacity: 1 });
-
 /**
- * Texture with a row of two texels for each of the first 16,384 roots: (quad, red and green, blue and opacity, 0), with
- * 16 bits of sRGB for each component; and (x0, y0, x1, y1), the bounds of the shape in 1/65536.
+ * Texture with a row of two texels for each of the first 16,384 roots: (quad, red and green, blue and opacity, 1 for
+ * a planar map), with 16 bits of sRGB for each component; and (x0, y0, x1, y1), the bounds of the shape in 1/65536.
  *
  * @param {import('./data.js').PackedData} data
  * @returns {import('three').DataTexture}
@@ -25,12 +23,12 @@ export function layersTexture(data) {
   /** @type {Map<number, number[]>} */
   const boxes = new Map(); // roots may share a quad
   for (let row = 0; row < height; row++) {
-    const { quad, paint } = data.roots[row];
-    const { color, opacity } = paint ?? SILHOUETTE;
+    const { quad, paint, isMap } = data.roots[row];
+    const { color, opacity } = paint ?? BLACK;
     const [red, green, blue, alpha] = [...color, opacity].map((part) => Math.round(UNORM_ONE * part));
     const box = boxes.get(quad) ?? outwards(bounds(data, quad));
     boxes.set(quad, box);
-    words.set([quad, red | (green << 16), blue | (alpha << 16), 0, ...box], 8 * row);
+    words.set([quad, red | (green << 16), blue | (alpha << 16), Number(isMap), ...box], 8 * row);
   }
   return wordTexture(words, 2, height);
 }

@@ -19,6 +19,8 @@ import { VextureError, line } from './errors.js';
  * @property {import('three').ColorRepresentation} [color] mode `mix`: colour inside; a `Color` may be changed at any time
  * @property {import('three').Texture | null} [map] mode `mix`: map inside, with the mesh's uv and its own transform
  * @property {number} [threshold] mode `cut`: pixels with at least this coverage are drawn
+ * @property {boolean} [linear] mode `paint`, of a planar map: average the colours of a pixel in linear light, as light
+ *   mixes, or in sRGB, as browsers do. By default `true` on lit materials; without effect on a drawing of several layers
  * @property {'own' | 'none'} [background] mode `paint`: around the drawing, the material's own colour or nothing
  * @property {boolean} [instanced] each instance shows the root in its attribute `vextureRoot` (see `rootAttribute`), in
  *   mode `paint` one layer
@@ -28,7 +30,7 @@ import { VextureError, line } from './errors.js';
 
 const NAMES = Object.freeze([
   'root', 'transform', 'mode', 'wrap', 'flat', 'invert', 'color', 'map', 'threshold', 'background', 'instanced',
-  'fold', 'time',
+  'fold', 'time', 'linear',
 ]);
 
 const MODES = Object.freeze(['alpha', 'mix', 'cut', 'paint']);
@@ -39,6 +41,11 @@ const COLORLESS = Object.freeze({
   MeshDepthMaterial: ['cut'],
   MeshDistanceMaterial: ['cut'],
 });
+
+/** Materials that light falls on. */
+const LIT = Object.freeze([
+  'MeshLambertMaterial', 'MeshPhongMaterial', 'MeshStandardMaterial', 'MeshPhysicalMaterial', 'MeshToonMaterial',
+]);
 
 /**
  * @template T
@@ -53,9 +60,10 @@ function choose(name, value, allowed) {
 
 /**
  * @param {MaskOptions} options
+ * @param {string} type of the material
  * @returns {Required<Omit<MaskOptions, 'root'>> & { root?: string | number }}
  */
-export function complete(options) {
+export function complete(options, type) {
   const given = Object.fromEntries(Object.entries(options).filter(([, value]) => value !== undefined));
   const all = {
     transform: new Matrix3(),
@@ -70,6 +78,7 @@ export function complete(options) {
     instanced: false,
     fold: null,
     time: 0,
+    linear: LIT.includes(type),
     ...given,
   };
   for (const name of Object.keys(given)) choose('an option', name, [...NAMES]);

@@ -1,5 +1,5 @@
 // Text that a mask inserts into a material's shader: declarations, and calls of the functions of src/vexture/glsl.
-import { WRAPS, packed, steps } from '../generated/shaders.js';
+import { WRAPS, packed, planar, steps } from '../generated/shaders.js';
 
 /**
  * @typedef {object} Variant All that makes one program differ from another.
@@ -7,6 +7,9 @@ import { WRAPS, packed, steps } from '../generated/shaders.js';
  *   encoding other than the packed one
  * @property {'alpha' | 'mix' | 'cut' | 'paint'} mode
  * @property {boolean} inLayers whether the shape is the union of a drawing's layers
+ * @property {'none' | 'some' | 'all'} maps which of the shapes that may be shown are planar maps; all of several only if
+ *   each is shown alone
+ * @property {boolean} linear
  * @property {'none' | 'clamp' | 'repeat'} wrap
  * @property {boolean} flat
  * @property {boolean} invert
@@ -42,24 +45,35 @@ export function footprint({ fold }) {
 
 /** @param {Variant} variant */
 function coverage(variant) {
-  const { other, inLayers, instanced, invert } = variant;
-  const root = instanced ? 'vextureQuad(vextureInstance)' : 'vextureRootQuad';
-  let text = inLayers ? `${layers(variant)}.a` : `vextureWrapped(${root}, ${footprint(variant)})`;
-  if (other) text = other.coverage;
+  const { other, invert } = variant;
+  const text = other ? other.coverage : coverageOf(variant);
   return invert ? `(1.0 - ${text})` : text;
 }
 
 /** @param {Variant} variant */
-function layers(variant) {
-  return `vextureLayers(${variant.instanced ? 'int(vextureInstance), 1' : 'vextureFirst, vextureCount'}, ${footprint(variant)})`;
+function coverageOf(variant) {
+  if (variant.inLayers || variant.maps === 'all') return `${paint(variant)}.a`;
+  if (variant.maps === 'some') return `vextureSheetCoverage(vextureInstance, ${footprint(variant)})`;
+  return `vextureWrapped(${quad(variant)}, ${footprint(variant)})`;
 }
 
 /** @param {Variant} variant */
-function reader({ other, wrap, flat, fold }) {
+const quad = ({ instanced }) => (instanced ? 'vextureQuad(vextureInstance)' : 'vextureRootQuad');
+
+/** Premultiplied colour. @param {Variant} variant */
+function paint(variant) {
+  if (variant.maps === 'all') return `vextureWrappedColor(${quad(variant)}, ${footprint(variant)})`;
+  const drawn = variant.instanced ? 'int(vextureInstance), 1' : 'vextureFirst, vextureCount';
+  return `${variant.maps === 'some' ? 'vextureSheets' : 'vextureLayers'}(${drawn}, ${footprint(variant)})`;
+}
+
+/** @param {Variant} variant */
+function reader({ other, maps, wrap, flat, fold, linear }) {
   if (other) return other.declared;
   const declared = 'uniform uint vextureRootQuad;\nuniform int vextureFirst;\nuniform int vextureCount;\n';
   const chosen = `#define VEXTURE_FLAT ${Number(flat && !fold)}\n#define VEXTURE_WRAP ${WRAPS[wrap]}\n`;
-  return `${chosen}${packed}${fold}${declared}`;
+  if (maps === 'none') return `${chosen}${packed}${fold}${declared}`;
+  return `${chosen}#define VEXTURE_LINEAR ${Number(linear)}\n${planar}${fold}${declared}`;
 }
 
 /** Fully transparent pixels write no depth, so that they hide nothing. */
@@ -76,7 +90,8 @@ function colorLines(variant) {
     variant.background === 'own'
       ? 'diffuseColor.rgb = mix(diffuseColor.rgb, vexturePaint.rgb, vexturePaint.a);'
       : `diffuseColor = vec4(vexturePaint.rgb, vexturePaint.a * diffuseColor.a);\n${NOTHING}`;
-  const straight = variant.other ? `vec4(vec3(0.0), ${variant.other.coverage})` : `vextureStraight(${layers(variant)})`;
+  const light = variant.maps === 'none' ? 'vextureStraight' : 'vextureLight';
+  const straight = variant.other ? `vec4(vec3(0.0), ${variant.other.coverage})` : `${light}(${paint(variant)})`;
   return `vec4 vexturePaint = ${straight};\n${over}`;
 }
 

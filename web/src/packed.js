@@ -1,6 +1,7 @@
-// Reads a packed texture from its file (FORMAT.md, part B) and validates all that a shader relies on.
+// Reads a packed texture from its file (FORMAT.md, parts B and D) and validates all that a shader relies on.
 import {
   ENCODING_PACKED,
+  MAP_VERSION,
   PACKED_FILE_LIMIT,
   PACKED_VERSION,
   TEXT_ENCODING,
@@ -28,24 +29,31 @@ export async function readPacked(file, name = 'texture') {
       throw new VextureError(`longer than ${PACKED_FILE_LIMIT} bytes, so not a texture; ${REMEDY}`, 'byteLength');
     }
     const { width, height, texels, texts } = await readKtx2(file);
-    for (const [key, known] of [
-      [TEXT_ENCODING, ENCODING_PACKED],
-      [TEXT_VERSION, PACKED_VERSION],
-    ]) {
-      if (texts.get(key) !== known) {
-        throw new VextureError(
-          `${key} is ${line(texts.get(key))}; this package reads "${known}"; update it or ${REMEDY}`,
-          key,
-        );
-      }
-    }
+    checkKnown(texts, TEXT_ENCODING, [ENCODING_PACKED]);
+    checkKnown(texts, TEXT_VERSION, [PACKED_VERSION, MAP_VERSION]);
     const roots = readRoots(texts.get(TEXT_ROOTS) ?? '');
-    checkForest(
-      texels,
-      roots.map((root) => root.quad),
-    );
+    const version = texts.get(TEXT_VERSION);
+    if (version !== (roots.some(({ isMap }) => isMap) ? MAP_VERSION : PACKED_VERSION)) {
+      throw new VextureError(
+        `${TEXT_VERSION} is "${version}", but with maps it is "${MAP_VERSION}" and without "${PACKED_VERSION}"; ${REMEDY}`,
+        TEXT_VERSION,
+      );
+    }
+    checkForest(texels, roots);
     return { encoding: 'packed', name: texts.get(TEXT_NAME) || name, width, height, texels, roots };
   } catch (error) {
     throw error instanceof VextureError ? error.in(name) : error;
   }
+}
+
+/**
+ * @param {Map<string, string>} texts
+ * @param {string} key
+ * @param {string[]} known
+ */
+function checkKnown(texts, key, known) {
+  const found = texts.get(key);
+  if (found !== undefined && known.includes(found)) return;
+  const read = known.map((one) => `"${one}"`).join(' and ');
+  throw new VextureError(`${key} is ${line(found)}; this package reads ${read}; update it or ${REMEDY}`, key);
 }

@@ -30,17 +30,20 @@ export function readRoots(text) {
  */
 function readRoot(entry, place) {
   if (!isObject(entry)) refuse(`root ${place}`, entry, 'an object', place);
-  const { name, quad, crs = null, tolerance = 0, transform, paint = null } = entry;
+  const { name, quad, crs = null, tolerance = 0, transform, paint = null, map = false } = entry;
   if (typeof name !== 'string') refuse(`root ${place}: name`, name, 'a text', place, 'name');
   if (!Number.isInteger(quad) || quad < 0 || quad >= MOST_INDEX) {
     refuse(`root ${place}: quad`, quad, 'an index of a texel', place, 'quad');
   }
+  if (typeof map !== 'boolean') refuse(`root ${place}: map`, map, 'true or false', place, 'map');
   if (crs !== null && typeof crs !== 'string') refuse(`root ${place}: crs`, crs, 'a text', place, 'crs');
   if (!areNumbers(transform, 6)) refuse(`root ${place}: transform`, transform, '6 finite numbers', place, 'transform');
   if (!areNumbers([tolerance], 1) || tolerance < 0) {
     refuse(`root ${place}: tolerance`, tolerance, 'a finite number of at least 0', place, 'tolerance');
   }
-  return { name, quad, transform, tolerance, crs, paint: paint === null ? null : readPaint(paint, place) };
+  return {
+    name, quad, transform, tolerance, crs, paint: paint === null ? null : readPaint(paint, place), isMap: map,
+  };
 }
 
 /**

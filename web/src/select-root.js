@@ -33,12 +33,12 @@ function distance(one, other) {
 }
 
 /**
- * Name of the drawing that a shape belongs to: `NAME` of a painted layer `NAME/LAYER`, otherwise the shape's own name.
+ * Name of the drawing that a shape belongs to: `NAME` of a painted layer or a map `NAME/LAYER`, otherwise the shape's own name.
  *
  * @param {import('./data.js').Root} root
  */
-export function drawingOf({ name, paint }) {
-  const end = paint ? name.lastIndexOf('/') : -1;
+export function drawingOf({ name, paint, isMap }) {
+  const end = paint || isMap ? name.lastIndexOf('/') : -1;
   return end > 0 ? name.slice(0, end) : name;
 }
 

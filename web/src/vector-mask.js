@@ -5,8 +5,9 @@ import { check, insert, takePart } from './hooks.js';
 import { MaskedMesh } from './mask-mesh.js';
 import { lookedUp } from './mask-lookup.js';
 import { checkOptions, complete, isTranslucent } from './mask-options.js';
-import { FOOTPRINT, ROOT_ATTRIBUTE, texts } from './mask-shader.js';
+import { ROOT_ATTRIBUTE, texts } from './mask-shader.js';
 import { mapTransform, uniformValues } from './mask-uniforms.js';
+import { variantOf } from './mask-variant.js';
 import { shapeIndex } from './select-root.js';
 
 /** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
@@ -26,7 +27,8 @@ export class VectorMask {
   #takeBack;
   #inside = new Color();
   #isListening = false;
-  #compiled = '';
+  /** Key of the program since the last refresh: three.js compiles nothing when it goes back to an earlier one. */
+  #drawn = '';
   /** @type {Map<import('./mask-mesh.js').Masked, MaskedMesh>} */
   #meshes = new Map();
   /** @type {Record<string, { value: any }>} */
@@ -53,10 +55,10 @@ export class VectorMask {
     this.#material = material;
     this.#texture = texture;
     this.#transparent = material.transparent;
-    this.#options = complete(options);
+    this.#options = complete(options, material.type);
     this.#check();
-    check(material, texts(this.#variant()));
     this.#resolve();
+    check(material, texts(this.#variant()));
     this.#takeBack = takePart(
       material,
       () => JSON.stringify(this.#variant()),
@@ -74,20 +76,7 @@ export class VectorMask {
 
   /** @returns {Variant} */
   #variant() {
-    const { mode, wrap, flat, invert, background, instanced, map, fold } = this.#options;
-    const reader = this.#texture.maskReader();
-    return {
-      other: reader && { declared: reader.declared, coverage: reader.coverage(FOOTPRINT) },
-      mode,
-      inLayers: mode === 'paint',
-      wrap,
-      flat,
-      invert,
-      background,
-      instanced,
-      hasMap: mode === 'mix' && map !== null,
-      fold: fold?.glsl ?? '',
-    };
+    return variantOf(this.#texture, this.#options, this.#range);
   }
 
   /** Whether only the instances have roots. */
@@ -120,7 +109,8 @@ export class VectorMask {
     for (const [name, value] of Object.entries(values)) (this.#uniforms[name] ??= { value }).value = value;
     this.#material.transparent = isTranslucent(this.#options) || this.#transparent;
     const key = JSON.stringify(this.#variant());
-    if (key !== this.#compiled) this.#material.needsUpdate = true;
+    if (key !== this.#drawn) this.#material.needsUpdate = true;
+    this.#drawn = key;
     for (const mesh of this.#meshes.values()) mesh.update();
   }
 
@@ -129,7 +119,6 @@ export class VectorMask {
    * @param {Variant} variant
    */
   #compile(program, variant, type = this.#material.type) {
-    this.#compiled = JSON.stringify(this.#variant());
     this.#listen(true);
     insert(program, type, texts(variant));
     Object.assign(program.uniforms, this.#uniforms);
@@ -155,7 +144,7 @@ export class VectorMask {
     this.#listen(false);
     this.#texture = texture;
     try {
-      this.#options = complete({ ...before, ...changes });
+      this.#options = complete({ ...before, ...changes }, this.#material.type);
       this.#check();
       this.#resolve();
     } catch (error) {
@@ -272,6 +261,14 @@ export class VectorMask {
 
   get instanced() {
     return this.#options.instanced;
+  }
+
+  get linear() {
+    return this.#options.linear;
+  }
+
+  set linear(linear) {
+    this.set({ linear });
   }
 
   /** @returns {import('./fold-texture.js').FoldTexture | null} */

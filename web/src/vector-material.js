@@ -31,7 +31,7 @@ export class VectorMaterial extends MeshBasicMaterial {
   constructor(parameters = {}) {
     const { texture, root, transform, mode, wrap, flat, invert, threshold, background, instanced, ...others } =
       parameters;
-    const { fold, time, ...basic } = others;
+    const { fold, time, linear, ...basic } = others;
     super();
     for (const name of Object.keys(basic)) {
       if (/** @type {any} */ (this)[name] !== undefined) continue;
@@ -41,7 +41,7 @@ export class VectorMaterial extends MeshBasicMaterial {
       throw new VextureError('texture is undefined; load one by VectorTextureLoader, or give null for none', 'texture');
     }
     this.setValues(basic);
-    this.#options = { root, transform, mode, wrap, flat, invert, threshold, instanced, fold, time };
+    this.#options = { root, transform, mode, wrap, flat, invert, threshold, instanced, fold, time, linear };
     this.#options.background = background ?? 'none';
     if (texture) this.texture = texture;
   }

@@ -2,7 +2,7 @@ import { EventDispatcher } from 'three';
 import { layersOf, layersTexture } from './layers.js';
 import { shapeIndex } from './select-root.js';
 import { wordTexture } from './upload.js';
-import { contains } from './walk.js';
+import { colorAt, contains } from './walk.js';
 
 /** @typedef {import('three').DataTexture} DataTexture */
 /** @typedef {import('./data.js').TextureData} TextureData */
@@ -110,6 +110,20 @@ export class VectorTexture extends EventDispatcher {
   contains(u, v, root) {
     const data = packed(this.#data);
     return contains(data, data.roots[this.index(root)].quad, u, v);
+  }
+
+  /**
+   * Colour of a drawing at a point of the unit square, as mode `paint` shows it.
+   *
+   * @param {number} u
+   * @param {number} v upwards
+   * @param {RootChoice} [root] as in `layersOf`
+   * @returns {import('./data.js').RootPaint} opacity 0 where nothing is
+   * @throws {VextureError} if there is no such drawing, or several and no choice
+   */
+  colorAt(u, v, root) {
+    const { first, count } = this.layersOf(root);
+    return colorAt(packed(this.#data), this.roots.slice(first, first + count), u, v);
   }
 
   /**

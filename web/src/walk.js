@@ -1,27 +1,22 @@
 // Descends the trees of a validated packed texture on the CPU: the cell at a point, containment, bounds, counts.
 // Plain data, without three.js.
-import {
-  CELL_BITS,
-  CONTROL_OFFSET,
-  COORDINATE_BITS,
-  COUNT_SHIFT,
-  COVERAGE_ONE,
-  LATTICE,
-  MOST_DEPTH,
-  QUAD_FLAG,
-  WINDING_OFFSET,
-} from '../generated/layout.js';
+import { COUNT_SHIFT, COVERAGE_ONE, IS_MEAN, LATTICE, MOST_DEPTH, QUAD_FLAG, WINDING_OFFSET } from '../generated/layout.js';
 import { VextureError } from './errors.js';
+import { curvesOf, leafOf } from './leaf.js';
+import { mapLeaf, meanColor, paintAt, paintColor, paintCounts } from './walk-map.js';
 import { filledBox, winding } from './winding.js';
 
 /** @typedef {import('./data.js').PackedData} PackedData */
 
-const CELL_MASK = (1 << CELL_BITS) - 1;
 const WINDING_MASK = (1 << COUNT_SHIFT) - 1;
-const COORDINATE_MASK = (1 << COORDINATE_BITS) - 1;
 
 /** Largest depth of `bounds`: quads with a side of 1/256 count as full. */
 const BOUNDS_DEPTH = 8;
+
+/** Paint of a silhouette. */
+export const BLACK = Object.freeze({ color: Object.freeze([0, 0, 0]), opacity: 1 });
+
+const WHOLE = Object.freeze([0, 0, 1, 1]);
 
 /**
  * @typedef {object} Cell Part of a quad-tree at a point.
@@ -30,68 +25,39 @@ const BOUNDS_DEPTH = 8;
  * @property {number} y of its lower left corner, upwards
  * @property {number} size of its side
  * @property {boolean} isQuad whether it is divided further
- * @property {number} coverage stored, 0..1
+ * @property {number} coverage stored, 0..1; of a planar map the mean opacity
  * @property {number} winding corner winding of a leaf with curves; 0 elsewhere
  * @property {number[][]} curves of a leaf: x0 y0 x1 y1 x2 y2 x3 y3 each, in units of the unit square
  * @property {number} quad index of the quad that holds it
  * @property {number} cell 0 to 3, its place there: (right half) + 2 (upper half); -1 for the unit square itself
- */
-
-/**
- * @typedef {object} Leaf A cell as stored in its quad's texel.
- * @property {number} byte of word 2
- * @property {number} below index of its quad, if it is a quad
- * @property {number} first index of its first curve, if it has any
- * @property {number} coverage 0..255
- */
-
-/**
- * Cell k of a quad.
+ * @property {CellPaints | null} paints of a cell of a planar map; null elsewhere
  *
- * @param {Uint32Array} texels
- * @param {number} quad
- * @param {number} k
- * @returns {Leaf}
+ * @typedef {object} CellPaints
+ * @property {import('./planar-map.js').Color} mean mean colour: premultiplied sRGB and opacity, 0..1
+ * @property {number | null} base number of its base paint; null of a quad, and where only the mean is known
+ * @property {[number, number][]} sides numbers of the paints on the left and on the right of each curve
  */
-function read(texels, quad, k) {
-  const word = texels[4 * quad + 2];
-  let below = texels[4 * quad];
-  let first = texels[4 * quad + 1];
-  for (let i = 0; i < k; i++) {
-    const before = (word >>> (CELL_BITS * i)) & CELL_MASK;
-    if (before === QUAD_FLAG) below++;
-    else first += before >> COUNT_SHIFT;
+
+/**
+ * Root quads of the planar maps of a texture.
+ *
+ * @type {WeakMap<PackedData, Set<number>>}
+ */
+const MAPS = new WeakMap();
+
+/**
+ * Whether a shape is a planar map.
+ *
+ * @param {PackedData} data
+ * @param {number} quad index of the shape's root quad
+ */
+export function isMap(data, quad) {
+  let maps = MAPS.get(data);
+  if (!maps) {
+    maps = new Set(data.roots.filter((root) => root.isMap).map((root) => root.quad));
+    MAPS.set(data, maps);
   }
-  const shift = CELL_BITS * k;
-  return { byte: (word >>> shift) & CELL_MASK, below, first, coverage: (texels[4 * quad + 3] >>> shift) & CELL_MASK };
-}
-
-/**
- * Points of a curve in lattice units of its leaf: x0 y0 x1 y1 x2 y2 x3 y3.
- *
- * @param {Uint32Array} texels
- * @param {number} curve index of its texel
- * @returns {number[]}
- */
-function points(texels, curve) {
-  const found = [];
-  for (let k = 0; k < 4; k++) {
-    const word = texels[4 * curve + k];
-    const offset = k === 1 || k === 2 ? CONTROL_OFFSET : 0;
-    found.push((word & COORDINATE_MASK) - offset, (word >>> COORDINATE_BITS) - offset);
-  }
-  return found;
-}
-
-/**
- * The curves of a leaf, in its lattice units.
- *
- * @param {Uint32Array} texels
- * @param {number} byte of the leaf
- * @param {number} first index of its first curve
- */
-function curvesOf(texels, byte, first) {
-  return Array.from({ length: byte >> COUNT_SHIFT }, (_, i) => points(texels, first + i));
+  return maps.has(quad);
 }
 
 /**
@@ -116,7 +82,9 @@ function cornerOf(byte) {
 export function cellAt(data, quad, u, v, mostDepth = MOST_DEPTH) {
   if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return null;
   const { texels } = data;
-  if (mostDepth < 1) return top(texels, quad);
+  const ofMap = isMap(data, quad);
+  if (mostDepth < 1) return top(data, quad, ofMap);
+  const root = quad;
   let [x, y, size, depth] = [0, 0, 1, 0];
   for (;;) {
     size /= 2;
@@ -126,7 +94,7 @@ export function cellAt(data, quad, u, v, mostDepth = MOST_DEPTH) {
     x += size * right; // exact: a multiple of 2^-20
     y += size * upper;
     const cell = right + 2 * upper;
-    const leaf = read(texels, quad, cell);
+    const leaf = leafOf(texels, quad, cell);
     const isQuad = leaf.byte === QUAD_FLAG;
     if (isQuad && depth < mostDepth) {
       quad = leaf.below;
@@ -135,28 +103,52 @@ export function cellAt(data, quad, u, v, mostDepth = MOST_DEPTH) {
     const scale = size / LATTICE;
     const curves = isQuad
       ? []
-      : curvesOf(texels, leaf.byte, leaf.first).map((curve) => curve.map((at, axis) => at * scale + (axis % 2 ? y : x)));
-    const corner = curves.length ? cornerOf(leaf.byte) : 0;
-    return { depth, x, y, size, isQuad, coverage: leaf.coverage / COVERAGE_ONE, winding: corner, curves, quad, cell };
+      : curvesOf(texels, leaf).map((curve) => curve.map((at, axis) => at * scale + (axis % 2 ? y : x)));
+    const corner = curves.length && !ofMap ? cornerOf(leaf.byte) : 0;
+    const paints = ofMap ? paintsOf(data, root, quad, cell, leaf.byte) : null;
+    const coverage = paints ? paints.mean[3] : leaf.coverage / COVERAGE_ONE;
+    return { depth, x, y, size, isQuad, coverage, winding: corner, curves, quad, cell, paints };
   }
+}
+
+/**
+ * @param {PackedData} data
+ * @param {number} root
+ * @param {number} quad
+ * @param {number} cell
+ * @param {number} byte of the cell
+ * @returns {CellPaints}
+ */
+function paintsOf(data, root, quad, cell, byte) {
+  const mean = meanColor(data, root, quad, cell);
+  if (byte === QUAD_FLAG || byte === IS_MEAN) return { mean, base: null, sides: [] };
+  const { base, sides } = mapLeaf(data, root, quad, cell);
+  return { mean, base, sides };
 }
 
 /**
  * The unit square as a cell.
  *
- * @param {Uint32Array} texels
+ * @param {PackedData} data
  * @param {number} quad
+ * @param {boolean} ofMap
  * @returns {Cell}
  */
-function top(texels, quad) {
-  let sum = 0;
-  for (let k = 0; k < 4; k++) sum += read(texels, quad, k).coverage;
-  const coverage = sum / 4 / COVERAGE_ONE;
-  return { depth: 0, x: 0, y: 0, size: 1, isQuad: true, coverage, winding: 0, curves: [], quad, cell: -1 };
+function top(data, quad, ofMap) {
+  const mean = /** @type {import('./planar-map.js').Color} */ ([0, 0, 0, 0]);
+  let coverage = 0;
+  for (let k = 0; k < 4; k++) {
+    if (ofMap) meanColor(data, quad, quad, k).forEach((part, i) => (mean[i] += part / 4));
+    else coverage += leafOf(data.texels, quad, k).coverage / 4 / COVERAGE_ONE;
+  }
+  const paints = ofMap ? { mean, base: null, sides: [] } : null;
+  if (ofMap) coverage = mean[3];
+  return { depth: 0, x: 0, y: 0, size: 1, isQuad: true, coverage, winding: 0, curves: [], quad, cell: -1, paints };
 }
 
 /**
- * Whether a point is inside a shape, computed from the stored outlines (FORMAT.md, B.6).
+ * Whether a point is inside a shape, computed from the stored outlines (FORMAT.md, B.6); of a planar map, whether
+ * anything is painted there (D.6).
  *
  * @param {PackedData} data
  * @param {number} quad index of the shape's root quad
@@ -165,6 +157,7 @@ function top(texels, quad) {
  * @returns {boolean}
  */
 export function contains(data, quad, u, v) {
+  if (isMap(data, quad)) return paintAt(data, quad, u, v).color[3] > 0;
   if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return false;
   const { texels } = data;
   for (let depth = 0; depth < MOST_DEPTH; depth++) {
@@ -172,15 +165,39 @@ export function contains(data, quad, u, v) {
     const upper = v >= 0.5 ? 1 : 0;
     u = 2 * u - right; // exact
     v = 2 * v - upper;
-    const { byte, below, first, coverage } = read(texels, quad, right + 2 * upper);
-    if (byte === QUAD_FLAG) {
-      quad = below;
+    const leaf = leafOf(texels, quad, right + 2 * upper);
+    if (leaf.byte === QUAD_FLAG) {
+      quad = leaf.below;
       continue;
     }
-    if (!byte) return 2 * coverage > COVERAGE_ONE;
-    return winding(curvesOf(texels, byte, first), cornerOf(byte), LATTICE * u, LATTICE * v) > 0;
+    if (!leaf.byte) return 2 * leaf.coverage > COVERAGE_ONE;
+    return winding(curvesOf(texels, leaf), cornerOf(leaf.byte), LATTICE * u, LATTICE * v) > 0;
   }
   throw new VextureError(`quad ${quad} lies deeper than ${MOST_DEPTH} levels; read the file with readPacked`, `quad ${quad}`);
+}
+
+/**
+ * Colour of some layers at a point, composited in sRGB, as in browsers.
+ *
+ * @param {PackedData} data
+ * @param {import('./data.js').Root[]} layers the lowest first
+ * @param {number} u
+ * @param {number} v upwards
+ * @returns {import('./data.js').RootPaint}
+ */
+export function colorAt(data, layers, u, v) {
+  const sum = [0, 0, 0, 0];
+  for (const { quad, paint, isMap: ofMap } of layers) {
+    const { color, opacity } = paint ?? BLACK;
+    const isInside = !ofMap && contains(data, quad, u, v);
+    const shown = ofMap ? paintAt(data, quad, u, v).color
+      : isInside ? [...color.map((part) => part * opacity), opacity] : [0, 0, 0, 0];
+    const below = 1 - shown[3];
+    shown.forEach((part, k) => (sum[k] = part + below * sum[k]));
+  }
+  const opacity = sum[3];
+  const [red, green, blue] = sum.map((part) => (opacity ? Math.min(part / opacity, 1) : 0));
+  return { color: [red, green, blue], opacity };
 }
 
 /**
@@ -192,6 +209,7 @@ export function contains(data, quad, u, v) {
  */
 export function bounds(data, quad) {
   const { texels } = data;
+  const boxOf = isMap(data, quad) ? paintedBox : coveredBox;
   /** @type {[number, number, number, number]} */
   const box = [1, 1, 0, 0];
   /** @type {(quad: number, x: number, y: number, size: number, depth: number) => void} */
@@ -200,20 +218,53 @@ export function bounds(data, quad) {
     for (let k = 0; k < 4; k++) {
       const [left, low] = [x + size * (k & 1), y + size * (k >> 1)];
       if (left >= box[0] && low >= box[1] && left + size <= box[2] && low + size <= box[3]) continue;
-      const { byte, below, first, coverage } = read(texels, parent, k);
-      if (byte === QUAD_FLAG && depth < BOUNDS_DEPTH) visit(below, left, low, size, depth + 1);
-      else if (byte || coverage) {
-        const isLeaf = byte > 0 && byte !== QUAD_FLAG;
-        const [x0, y0, x1, y1] = isLeaf ? filledBox(curvesOf(texels, byte, first), cornerOf(byte)) : [0, 0, 1, 1];
-        box[0] = Math.min(box[0], left + size * x0);
-        box[1] = Math.min(box[1], low + size * y0);
-        box[2] = Math.max(box[2], left + size * x1);
-        box[3] = Math.max(box[3], low + size * y1);
+      const { byte, below } = leafOf(texels, parent, k);
+      if (byte === QUAD_FLAG && depth < BOUNDS_DEPTH) {
+        visit(below, left, low, size, depth + 1);
+        continue;
       }
+      const found = byte === QUAD_FLAG ? WHOLE : boxOf(data, quad, parent, k);
+      if (!found) continue;
+      box[0] = Math.min(box[0], left + size * found[0]);
+      box[1] = Math.min(box[1], low + size * found[1]);
+      box[2] = Math.max(box[2], left + size * found[2]);
+      box[3] = Math.max(box[3], low + size * found[3]);
     }
   };
   visit(quad, 0, 0, 1, 1);
   return box[0] < box[2] ? box : [0, 0, 0, 0];
+}
+
+/**
+ * Bounding box of the filled part of a leaf, in its own unit square; null if it is empty.
+ *
+ * @param {PackedData} data
+ * @param {number} _root
+ * @param {number} quad that holds it
+ * @param {number} cell
+ */
+function coveredBox({ texels }, _root, quad, cell) {
+  const leaf = leafOf(texels, quad, cell);
+  if (!leaf.byte) return leaf.coverage ? WHOLE : null;
+  const [curves, corner] = [curvesOf(texels, leaf), cornerOf(leaf.byte)];
+  return filledBox(curves, corner > 0, (x, y) => winding(curves, corner, x, y) > 0);
+}
+
+/**
+ * As `coveredBox`, of a leaf of a planar map.
+ *
+ * @param {PackedData} data
+ * @param {number} root
+ * @param {number} quad
+ * @param {number} cell
+ */
+function paintedBox(data, root, quad, cell) {
+  const { byte } = leafOf(data.texels, quad, cell);
+  if (byte === IS_MEAN) return meanColor(data, root, quad, cell)[3] > 0 ? WHOLE : null;
+  const leaf = mapLeaf(data, root, quad, cell);
+  const isSeen = (/** @type {number} */ paint) => paintColor(data, root, paint)[3] > 0;
+  if (!byte) return isSeen(leaf.base) ? WHOLE : null;
+  return filledBox(leaf.curves, isSeen(leaf.base), (x, y) => [...paintCounts(leaf, x, y).keys()].some(isSeen));
 }
 
 /**
@@ -233,7 +284,7 @@ export function counts(data, quad) {
     const below = [];
     for (const parent of level) {
       for (let k = 0; k < 4; k++) {
-        const leaf = read(texels, parent, k);
+        const leaf = leafOf(texels, parent, k);
         if (leaf.byte === QUAD_FLAG) below.push(leaf.below);
         else found.curves += leaf.byte >> COUNT_SHIFT;
       }

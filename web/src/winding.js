@@ -36,6 +36,18 @@ export function xAt(cubic, y) {
 }
 
 /**
+ * Whether a curve is at or left of a point at the point's height, which lies between its ends.
+ *
+ * @param {number[]} curve
+ * @param {number} x
+ * @param {number} y
+ */
+export function isAtOrLeft(curve, x, y) {
+  const [x0, , , , , , x3] = curve;
+  return Math.max(x0, x3) <= x || (Math.min(x0, x3) <= x && xAt(curve, y) <= x);
+}
+
+/**
  * Winding number at a point of a packed leaf (FORMAT.md, B.6).
  *
  * @param {number[][]} curves of the leaf, in its lattice units
@@ -50,8 +62,7 @@ export function winding(curves, corner, x, y) {
     if (x0 === 0 && y0 <= y) sum++;
     if (x3 === 0 && y3 <= y) sum--;
     if (Math.min(y0, y3) > y || y >= Math.max(y0, y3)) continue;
-    const left = Math.max(x0, x3) <= x || (Math.min(x0, x3) <= x && xAt(curve, y) <= x);
-    if (left) sum += y3 > y0 ? -1 : 1;
+    if (isAtOrLeft(curve, x, y)) sum += y3 > y0 ? -1 : 1;
   }
   return sum;
 }
@@ -59,21 +70,22 @@ export function winding(curves, corner, x, y) {
 /**
  * Bounding box of the filled part of a packed leaf, in its own unit square; it may be larger by a lattice unit.
  *
- * Outside the bounding box of the curves' ends, the winding number to the left and below is that of the corner; above
- * it is constant; to the right it changes only at the heights of ends.
+ * Outside the bounding box of the curves' ends, what is to the left and below is as in the corner; what is above is all
+ * alike; to the right it changes only at the heights of ends.
  *
  * @param {number[][]} curves of the leaf, in its lattice units
- * @param {number} corner winding number at its lower left corner
+ * @param {boolean} isCornerFilled what is at its lower left corner, without the curves that start or end there
+ * @param {(x: number, y: number) => boolean} isFilled
  * @returns {[number, number, number, number]} x0 y0 x1 y1
  */
-export function filledBox(curves, corner) {
+export function filledBox(curves, isCornerFilled, isFilled) {
   const xs = curves.flatMap((curve) => [curve[0], curve[6]]).sort((one, other) => one - other);
   const ys = curves.flatMap((curve) => [curve[1], curve[7]]).sort((one, other) => one - other);
   const last = ys.length - 1;
-  const left = corner > 0 && xs[0] > 0;
-  const below = corner > 0 && ys[0] > 0;
-  const above = ys[last] < LATTICE && winding(curves, corner, LATTICE, LATTICE) > 0;
-  const right = ys.some((y, i) => y < ys[i + 1] && winding(curves, corner, LATTICE, (y + ys[i + 1]) / 2) > 0);
+  const left = isCornerFilled && xs[0] > 0;
+  const below = isCornerFilled && ys[0] > 0;
+  const above = ys[last] < LATTICE && isFilled(LATTICE, LATTICE);
+  const right = ys.some((y, i) => y < ys[i + 1] && isFilled(LATTICE, (y + ys[i + 1]) / 2));
   const low = (/** @type {number} */ at) => Math.max(0, at - 1) / LATTICE; // curves are monotone up to rounding
   const high = (/** @type {number} */ at) => Math.min(LATTICE, at + 1) / LATTICE;
   return [

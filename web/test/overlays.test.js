@@ -2,14 +2,15 @@ import { describe, expect, test } from 'vitest';
 import { readPacked } from '../src/packed.js';
 import { cellAt, counts } from '../src/walk.js';
 import { median } from '../viewer/median.js';
-import { RAMPS, css, depthRamp } from '../viewer/overlay-palette.js';
+import { RAMPS, css, depthRamp, paintCss } from '../viewer/overlay-palette.js';
 import { coordinateAt, filledStrip, nearestCurve, solutionsAt } from '../viewer/solutions.js';
-import { CURVE, OTHER, QUAD, TexelMap, UNUSED, folded } from '../viewer/texel-map.js';
+import { BASES, CURVE, HEAD, MEANS, OTHER, PAINTS, QUAD, SIDES, TexelMap, UNUSED, folded } from '../viewer/texel-map.js';
 import { TINTS, brightness } from '../viewer/texel-image.js';
 import { fixture } from './files.js';
 
 const duck = await readPacked(fixture('duck.ktx2'));
 const drawings = await readPacked(fixture('drawings.ktx2'));
+const maps = await readPacked(fixture('maps.ktx2'));
 
 /** Lightness as the eye has it, CIE L*. @param {number[]} color */
 function lightness(color) {
@@ -36,6 +37,7 @@ describe('colours', () => {
       expect(dark[1] - dark[0]).toBeGreaterThan(40);
     }
     expect(css([1, 0.5, 0])).toBe('rgb(255 128 0)');
+    expect([[1, 0.5, 0, 1], [0.25, 0, 0, 0.5], [0, 0, 0, 0]].map(paintCss)).toEqual(['#ff8000', '#80000080', 'transparent']);
   });
 });
 
@@ -118,6 +120,24 @@ describe('texels', () => {
     expect(root.words[0]).toBe(`first quad below: ${duck.texels[4 * duck.roots[0].quad]}`);
     expect(root.words[2].split('; ')).toHaveLength(4);
     expect(root.words[3]).toMatch(/^coverage (\d\.\d{3}(, )?){4}$/);
+  });
+
+  test('every texel of a planar map has its part', () => {
+    const { quad } = maps.roots[1];
+    const map = new TexelMap(maps, quad);
+    const { quads, curves } = counts(maps, quad);
+    const found = (/** @type {number} */ kind) => [...map.kinds].filter((one) => one === kind).length;
+    expect([HEAD, QUAD, CURVE, MEANS, BASES].map(found)).toEqual([1, quads, curves, quads, quads]);
+    expect(found(PAINTS)).toBe(Math.ceil(maps.texels[4 * quad - 4] / 2));
+    expect(map.texel(quad - 1)).toMatchObject({ kind: 'head', words: expect.arrayContaining([expect.stringMatching(/^\d+ paints$/)]) });
+    expect(map.texel(quad).words.slice(2)).toEqual([expect.stringMatching(/curve/), 'not used']);
+    const words = (/** @type {number} */ kind) =>
+      [...map.kinds.keys()].filter((index) => map.kinds[index] === kind).flatMap((index) => map.texel(index).words);
+    expect(words(SIDES).filter((word) => /^curve \d+: paint \d+ \| \d+$/.test(word))).toHaveLength(curves);
+    expect(words(PAINTS).join()).toMatch(/paint 0, transparent: red and green.*#dc2626/);
+    expect(words(MEANS).every((word) => / mean (#|transparent)/.test(word))).toBe(true);
+    expect(words(BASES).every((word) => / base paint \d+$/.test(word))).toBe(true);
+    expect(map.texel(maps.roots[0].quad).kind).toBe('other');
   });
 
   test('lighter words are larger ones, and kinds have colours of their own', () => {

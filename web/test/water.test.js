@@ -10,7 +10,7 @@ import { WATER_TEXTS } from '../src/water/shader.js';
 import { fixture } from './files.js';
 
 const read = async (/** @type {string} */ name) => new VectorTexture(await readPacked(fixture(`${name}.ktx2`), name));
-const [duck, drawings] = await Promise.all([read('duck'), read('drawings')]);
+const [duck, drawings, maps] = await Promise.all([read('duck'), read('drawings'), read('maps')]);
 const plane = new PlaneGeometry();
 const uniforms = (/** @type {VectorWater | SimpleWater} */ water) => water.material.uniforms;
 
@@ -37,6 +37,11 @@ describe("three.js' Water", () => {
 });
 
 describe.each([VectorWater, SimpleWater])('%o', (Kind) => {
+  test('refuses a planar map in one line', () => {
+    expect(() => new Kind(plane, maps, { root: 'flag' })).toThrow(/^maps: "flag" is a planar map, and water needs a shore/);
+    expect(() => new Kind(plane, maps, { root: 2 })).not.toThrow();
+  });
+
   test('reads one shape, or two while one turns into the other', () => {
     const water = new Kind(plane, duck, { root: 0 });
     const { vextureTexels, vextureShapes, vextureShares, vextureRows, vextureQuads } = uniforms(water);

@@ -10,6 +10,8 @@
  * @property {boolean} inside
  * @property {import('./solutions.js').Solution[]} solutions
  * @property {number} nearest index of the curve nearest to the point; -1 without curves
+ * @property {import('../src/walk-map.js').Painted | null} painted what is at the point of a planar map
+ * @property {(paint: number) => string} colorOf colour of a map's paint, for CSS
  */
 import { coordinateAt, filledStrip } from './solutions.js';
 import { cellRect, svgElement } from './svg.js';
@@ -23,7 +25,7 @@ const LEGIBLE = 48;
  * @param {Found} found
  * @param {(u: number, v: number) => Point} toScreen
  */
-export function drawCell({ cell, point, inside, solutions, nearest }, toScreen) {
+export function drawCell({ cell, point, inside, solutions, nearest, colorOf }, toScreen) {
   const screens = cell.curves.map((curve) => [0, 1, 2, 3].map((k) => toScreen(curve[2 * k], curve[2 * k + 1])));
   const [x, y] = toScreen(...point);
   const [, bottom] = toScreen(cell.x, cell.y);
@@ -34,7 +36,7 @@ export function drawCell({ cell, point, inside, solutions, nearest }, toScreen) 
     const named = curve === nearest && isLegible(screens[curve]);
     return named ? [dot, label(at, `t = ${t.toFixed(3)}`, 'solution-label', asideOf(screens[curve], 2.4))] : [dot];
   });
-  const curves = screens.map((points, index) => curveGroup(points, index, index === nearest));
+  const curves = screens.map((points, index) => curveGroup(points, index, index === nearest, cell.paints?.sides[index].map(colorOf)));
   if (nearest >= 0) curves.push(...curves.splice(nearest, 1)); // above the others
   return [
     cellRect(toScreen, cell, 'inspected-cell'),
@@ -68,11 +70,12 @@ function asideOf([p0, , , p3], times = 1) {
  * @param {Point[]} points P0 to P3 on the screen
  * @param {number} index
  * @param {boolean} isNearest whether its points have names
+ * @param {string[]} [sides] colours on its left and its right, of a planar map
  */
-function curveGroup(points, index, isNearest) {
+function curveGroup(points, index, isNearest, sides) {
   const text = points.map((at) => at.join(' '));
   const group = svgElement('g', { class: isNearest ? 'curve nearest' : 'curve' },
-    svgElement('polygon', { class: 'filled-side', points: filledStrip(points, STRIP).map((at) => at.join(',')).join(' ') }),
+    ...(sides ? [strip(points, STRIP, sides[0]), strip(points, -STRIP, sides[1])] : [strip(points, STRIP)]),
     svgElement('polyline', { class: 'control-polygon', points: text.join(' ') }),
     svgElement('path', { class: 'outline', d: `M ${text[0]} C ${text.slice(1).join(' ')}` }),
     ...points.map(([cx, cy], k) => svgElement('circle', { class: k % 3 ? 'control' : 'end', cx, cy, r: 3.5 })));
@@ -82,6 +85,12 @@ function curveGroup(points, index, isNearest) {
   const middle = /** @type {Point} */ ([coordinateAt(flat, 0, 0.5), coordinateAt(flat, 1, 0.5)]);
   group.append(label(middle, String(index + 1), 'curve-label', asideOf(points, 1.2)));
   return group;
+}
+
+/** @param {Point[]} points @param {number} width of it, negative on the right @param {string} [color] */
+function strip(points, width, color) {
+  const corners = filledStrip(points, width).map((at) => at.join(',')).join(' ');
+  return svgElement('polygon', { class: 'filled-side', points: corners, ...(color ? { style: `fill: ${color}; fill-opacity: 0.9` } : {}) });
 }
 
 /** @param {Point} at @param {string} text @param {string} name @param {Point} aside */

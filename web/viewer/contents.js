@@ -73,7 +73,8 @@ export function create(engine, state) {
     summary.textContent = `${data.width} × ${data.height} texels`
       + (shown < data.texels.length / 4 ? `, of which ${first} to ${first + shown - 1} are shown` : '')
       + (columns < data.width ? `, in rows of ${columns} here` : '')
-      + `. Blue: quads; orange: curves${data.roots.length > 1 ? ' of the layer; grey: other layers' : ''}.`;
+      + `. Blue: quads; orange: curves${map.head ? '; green: means and base paints of cells; violet: sides of curves; red: paints' : ''}`
+      + `${data.roots.length > 1 ? ' of the layer; grey: other layers' : ''}.`;
     select(-1);
   }
 
@@ -136,7 +137,10 @@ export function create(engine, state) {
 
 /** @param {import('./texel-map.js').Texel} texel */
 function describe({ index, kind, place, words }) {
-  const what = { quad: 'a quad', curve: 'a curve', other: 'of another layer', unused: 'not used' }[kind];
+  const what = {
+    quad: 'a quad', curve: 'a curve', other: 'of another layer', unused: 'not used', head: 'head of the map',
+    means: 'mean colours of cells', bases: 'base paints of cells', sides: 'paints beside curves', paints: 'colours of paints',
+  }[kind];
   const where = place ? `, depth ${place.depth}, at ${place.x}, ${place.y}` : '';
   return [
     element('p', {}, `Texel ${index}: ${what}${where}`),

@@ -1,4 +1,5 @@
 // The drawings of a texture, and the one that is shown.
+import { mapsAmong } from '../src/mask-variant.js';
 import { drawingOf } from '../src/select-root.js';
 
 /**
@@ -8,6 +9,7 @@ import { drawingOf } from '../src/select-root.js';
  * @property {number} first layer
  * @property {number} count of layers
  * @property {boolean} silhouette whether it is drawn in the theme's ink
+ * @property {'none' | 'some' | 'all'} maps whether its layers are planar maps; `all`: it is one map
  */
 
 /** @typedef {import('../src/data.js').Root} Root */
@@ -22,7 +24,7 @@ export function drawingNames(texture) {
 }
 
 /** @param {Root} root */
-const isBlack = (root) => !root.paint || (root.paint.opacity === 1 && root.paint.color.every((part) => part === 0));
+const isBlack = (root) => !root.isMap && (!root.paint || (root.paint.opacity === 1 && root.paint.color.every((part) => part === 0)));
 
 /**
  * The drawing of a name, or the first one if there is no such drawing.
@@ -38,5 +40,6 @@ export function shownDrawing(texture, name) {
   let end = first + 1;
   while (end < texture.roots.length && drawingOf(texture.roots[end]) === wanted) end++;
   const count = end - first;
-  return { texture, name: wanted, first, count, silhouette: count === 1 && isBlack(texture.roots[first]) };
+  const maps = mapsAmong(texture.roots.slice(first, end), count === 1);
+  return { texture, name: wanted, first, count, silhouette: count === 1 && isBlack(texture.roots[first]), maps };
 }

@@ -1,4 +1,5 @@
 /** Facts about the shape, and its frame time. */
+import { headOf } from '../src/planar-map.js';
 import { counts } from '../src/walk.js';
 import { element, section } from './dom.js';
 import { median } from './median.js';
@@ -53,10 +54,12 @@ export function create(engine, _state) {
     if (!opened || !drawing || !data) return;
     const facts = opened.manifest.facts ?? {};
     const layers = data.roots.slice(drawing.first, drawing.first + drawing.count);
+    const maps = layers.filter(({ isMap }) => isMap);
     const found = [...new Set(layers.map(({ quad }) => quad))].map((quad) => counts(data, quad));
     const rows = [
       ['Segments', count(facts.segments)],
       ['Layers', count(layers.length)],
+      ...(maps.length ? [['Paints', count(maps.reduce((sum, { quad }) => sum + headOf(data.texels, quad).used, 0))]] : []),
       ['Quads', count(found.reduce((sum, { quads }) => sum + quads, 0))],
       ['Curves', count(found.reduce((sum, { curves }) => sum + curves, 0))],
       ['Deepest leaf', count(Math.max(...found.map(({ depth }) => depth)) + 1)],

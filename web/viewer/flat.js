@@ -1,6 +1,6 @@
 /** The flat view of a texture: its layers on the theme's paper. */
 import { Vector2, Vector3, Vector4 } from 'three';
-import { packed, packedOverlay } from '../generated/shaders.js';
+import { overlay, packed, planar } from '../generated/shaders.js';
 import { Pass } from './pass.js';
 import { shaderView } from './view.js';
 
@@ -12,29 +12,44 @@ import { shaderView } from './view.js';
 
 const FLAT = '#define VEXTURE_FLAT 1\n';
 
-const OUTPUT = `
+/** For each kind of drawing the shader's text, and what colours a pixel with a footprint. */
+const DRAWN = Object.freeze({
+  none: { text: packed, call: 'vextureLayers(first, count, FOOTPRINT)' },
+  some: { text: planar, call: 'vextureSheets(first, count, FOOTPRINT)' },
+  all: { text: planar, call: 'vextureWrappedColor(quad, FOOTPRINT)' },
+});
+
+/** @param {string} call */
+const output = (call) => `
+#define FOOTPRINT base, offset, vec2(side, 0.0), vec2(0.0, side)
 uniform uvec2 base;
 uniform vec2 start;
 uniform float side;
 uniform int first;
 uniform int count;
+uniform uint quad;
 uniform bool silhouette;
 uniform vec3 ink;
 uniform vec4 paper;
 out vec4 pixel;
 void main() {
   vec2 offset = start + gl_FragCoord.xy * side;
-  vec4 color = vextureLayers(first, count, base, offset, vec2(side, 0.0), vec2(0.0, side));
+  vec4 color = ${call};
   if (silhouette) color.rgb = ink * color.a;
   pixel = color + paper * (1.0 - color.a);
   #ifdef OVERLAY
-    pixel = vextureOverlay(pixel, base, offset, vec2(side, 0.0), vec2(0.0, side));
+    pixel = vextureOverlay(pixel, FOOTPRINT);
   #endif
 }
 `;
 
-/** Two programs with the same uniforms: the drawing, and the drawing below overlays. */
+/** Two programs for each kind of drawing, with the same uniforms: the drawing, and the drawing below overlays. */
 export class Flat {
+  /** @type {Map<string, Pass>} */
+  #passes = new Map();
+  /** @type {import('./drawing.js').ShownDrawing['maps']} */
+  #maps = 'none';
+
   /** @param {Record<string, {value: any}>} overlays uniforms of overlay.glsl, set by the module `overlays` */
   constructor(overlays) {
     const nothing = /** @type {Texture | undefined} */ (undefined);
@@ -46,12 +61,32 @@ export class Flat {
       side: { value: 1 },
       first: { value: 0 },
       count: { value: 1 },
+      quad: { value: 0 },
       silhouette: { value: true },
       ink: { value: new Vector3() },
       paper: { value: new Vector4(1, 1, 1, 1) },
     });
-    this.plain = new Pass(FLAT + packed + OUTPUT, this.uniforms);
-    this.overlaid = new Pass(FLAT + packedOverlay + OUTPUT, this.uniforms, { OVERLAY: 1 });
+  }
+
+  /** The drawing's own program. */
+  get plain() {
+    return this.#pass(false);
+  }
+
+  /** The program with overlays. */
+  get overlaid() {
+    return this.#pass(true);
+  }
+
+  /** @param {boolean} isOverlaid */
+  #pass(isOverlaid) {
+    const { text, call } = DRAWN[this.#maps];
+    const key = `${this.#maps} ${isOverlaid}`;
+    const made = this.#passes.get(key)
+      ?? (isOverlaid ? new Pass(FLAT + text + overlay + output(call), this.uniforms, { OVERLAY: 1 })
+        : new Pass(FLAT + text + output(call), this.uniforms));
+    this.#passes.set(key, made);
+    return made;
   }
 
   /**
@@ -64,6 +99,8 @@ export class Flat {
     uniforms.vexturePaints.value = shown.texture.textures.layers;
     uniforms.first.value = shown.first;
     uniforms.count.value = shown.count;
+    uniforms.quad.value = shown.texture.roots[shown.first].quad;
+    this.#maps = shown.maps;
     uniforms.silhouette.value = shown.silhouette;
     uniforms.ink.value.fromArray(colors.ink);
     uniforms.paper.value.set(...colors.paper, 1);

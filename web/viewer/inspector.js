@@ -1,8 +1,10 @@
 /** The cell under the pointer: its curves with their control points, and the containment test of a point. */
+import { paintAt, paintColor } from '../src/walk-map.js';
 import { cellAt, contains } from '../src/walk.js';
 import { chosenLayer } from './chosen-layer.js';
 import { drawCell } from './cell-figure.js';
 import { element, section } from './dom.js';
+import { paintCss } from './overlay-palette.js';
 import { watchPointer } from './pointer.js';
 import { nearestCurve, solutionsAt } from './solutions.js';
 import { svgElement, svgLayer } from './svg.js';
@@ -51,7 +53,8 @@ export function create(engine, state) {
     if (!data || !root || !point || !cell) return null;
     return {
       cell, point, inside: contains(data, root.quad, ...point), solutions: solutionsAt(cell, point[0]),
-      nearest: nearestCurve(cell.curves, point),
+      nearest: nearestCurve(cell.curves, point), painted: root.isMap ? paintAt(data, root.quad, ...point) : null,
+      colorOf: (paint) => paintCss(paintColor(data, root.quad, paint)),
     };
   }
 
@@ -107,24 +110,36 @@ function plotted({ x, y, size }) {
  *
  * @param {Found} found
  */
-function described({ cell, point, inside, solutions }) {
+function described({ cell, point, inside, solutions, painted, colorOf }) {
+  const { paints, curves } = cell;
+  const own = paints
+    ? [['Mean colour', paintCss(paints.mean)], ['Base paint', paints.base === null ? 'none: a mean only' : `${paints.base}: ${colorOf(paints.base)}`]]
+    : [['Coverage', cell.coverage.toFixed(3)], ['Corner winding', curves.length ? String(cell.winding) : 'none: constant']];
   const rows = [
     ['x', point[0].toFixed(8)],
     ['y', point[1].toFixed(8)],
     ['Depth', String(cell.depth)],
     ['Side', `1/${2 ** cell.depth}`],
-    ['Coverage', cell.coverage.toFixed(3)],
-    ['Corner winding', cell.curves.length ? String(cell.winding) : 'none: constant'],
-    ['Curves', String(cell.curves.length)],
+    ...own,
+    ['Curves', String(curves.length)],
   ];
   const list = element('dl', {}, ...rows.flatMap(([name, value]) => [
     element('dt', {}, name), element('dd', {}, value)]));
-  const verdict = element('p', { class: 'verdict' }, inside ? 'The point is inside.' : 'The point is outside.');
+  const verdict = element('p', { class: 'verdict' }, painted ? paintVerdict(painted)
+    : inside ? 'The point is inside.' : 'The point is outside.');
   if (!solutions.length) return [list, verdict];
-  const lines = solutions.map(({ curve, t, height, filledAbove }) => element('tr', {},
-    element('td', {}, String(curve + 1)), element('td', {}, t.toFixed(5)), element('td', {}, height.toFixed(8)),
-    element('td', {}, filledAbove ? 'above' : 'below')));
-  const head = ['Curve', 't', 'Height', 'Filled'].map((name) => element('th', { scope: 'col' }, name));
+  const lines = solutions.map(({ curve, t, height, filledAbove }) => {
+    const sides = paints?.sides[curve];
+    const said = sides ? (filledAbove ? sides : [...sides].reverse()).join(' over ') : filledAbove ? 'above' : 'below';
+    return element('tr', {}, element('td', {}, String(curve + 1)), element('td', {}, t.toFixed(5)),
+      element('td', {}, height.toFixed(8)), element('td', {}, said));
+  });
+  const head = ['Curve', 't', 'Height', paints ? 'Paints' : 'Filled'].map((name) => element('th', { scope: 'col' }, name));
   return [list, element('table', {}, element('caption', {}, 'Curves at the x of the point'),
     element('thead', {}, element('tr', {}, ...head)), element('tbody', {}, ...lines)), verdict];
+}
+
+/** @param {import('../src/walk-map.js').Painted} painted */
+function paintVerdict({ paint, color }) {
+  return paint === null ? `The point has no paint of its own: ${paintCss(color)}.` : `The point has paint ${paint}: ${paintCss(color)}.`;
 }

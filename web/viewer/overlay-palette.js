@@ -67,3 +67,15 @@ export function depthRamp(deepest) {
 export function css(color) {
   return `rgb(${color.map((part) => Math.round(255 * part)).join(' ')})`;
 }
+
+/**
+ * A premultiplied colour and opacity, 0..1, as CSS writes the straight one.
+ *
+ * @param {number[]} color
+ */
+export function paintCss([red, green, blue, opacity]) {
+  if (!opacity) return 'transparent';
+  const straight = [red, green, blue].map((part) => part / opacity);
+  const parts = opacity < 1 ? [...straight, opacity] : straight;
+  return `#${parts.map((part) => Math.round(255 * part).toString(16).padStart(2, '0')).join('')}`;
+}

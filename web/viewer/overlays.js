@@ -1,6 +1,7 @@
 /** Switches of the overlays, and their legend. */
 import { Color } from 'three';
 import { MOST_DEPTH } from '../generated/layout.js';
+import { headOf } from '../src/planar-map.js';
 import { counts } from '../src/walk.js';
 import { chosenLayer } from './chosen-layer.js';
 import { element, section, select } from './dom.js';
@@ -70,8 +71,9 @@ export function create(engine, state) {
     layer.list.value = chosen.follows ? FOLLOW : String(chosen.index);
     layerText.textContent = root && chosen.layers.length > 1 ? `Shown: ${root.name}` : '';
     const theme = document.documentElement.dataset.theme === 'dark' ? 'dark' : 'light';
-    setUniforms(uniforms, overlays, theme, root?.quad ?? 0, deepest);
-    legend.replaceChildren(...legendRows(overlays, theme, deepest));
+    setUniforms(uniforms, overlays, theme, deepest);
+    setShape(uniforms, chosen.data, root);
+    legend.replaceChildren(...legendRows(overlays, theme, deepest, root?.isMap ?? false));
     engine.requestFrame();
   }
 
@@ -110,6 +112,8 @@ export function create(engine, state) {
 function makeUniforms(engine) {
   const uniforms = {
     vextureOverlayRoot: { value: 0 },
+    vextureOverlayOfMap: { value: false },
+    vextureOverlayMeans: { value: 0 },
     vextureOverlayShow: { value: [0, 0, 0] },
     vextureOverlayCutoff: { value: 0 },
     vextureOverlayCoverage: { value: [new Color(), new Color()] },
@@ -124,11 +128,9 @@ function makeUniforms(engine) {
  * @param {ReturnType<typeof makeUniforms>} uniforms
  * @param {import('./state.js').Overlays} overlays
  * @param {'light' | 'dark'} theme
- * @param {number} root quad
  * @param {number} deepest
  */
-function setUniforms(uniforms, overlays, theme, root, deepest) {
-  uniforms.vextureOverlayRoot.value = root;
+function setUniforms(uniforms, overlays, theme, deepest) {
   uniforms.vextureOverlayShow.value = SWITCHES.map(([key]) => (overlays[key] ? OPACITY[key] : 0));
   uniforms.vextureOverlayCutoff.value = overlays.cutoff;
   RAMPS[theme].coverage.forEach((color, i) => uniforms.vextureOverlayCoverage.value[i].fromArray(color));
@@ -138,14 +140,29 @@ function setUniforms(uniforms, overlays, theme, root, deepest) {
 }
 
 /**
+ * @param {ReturnType<typeof makeUniforms>} uniforms
+ * @param {import('../src/data.js').PackedData | null} data
+ * @param {import('../src/data.js').Root | null} root
+ */
+function setShape(uniforms, data, root) {
+  const quad = root?.quad ?? 0;
+  uniforms.vextureOverlayRoot.value = quad;
+  uniforms.vextureOverlayOfMap.value = root?.isMap ?? false;
+  if (data && root?.isMap) uniforms.vextureOverlayMeans.value = (headOf(data.texels, quad).cells - 2 * quad) >>> 0;
+}
+
+/**
  * @param {import('./state.js').Overlays} overlays
  * @param {'light' | 'dark'} theme
  * @param {number} deepest
+ * @param {boolean} isMap whether mean colours are shown instead of coverages
  */
-function legendRows(overlays, theme, deepest) {
+function legendRows(overlays, theme, deepest, isMap) {
   const rows = [];
-  if (overlays.coverage) rows.push(gradient('Coverage of a cell', RAMPS[theme].coverage));
-  if (overlays.cutoff > 0) rows.push(gradient('Stored for a quad', RAMPS[theme].stored));
+  const means = (overlays.coverage || overlays.cutoff > 0) && isMap;
+  if (means) rows.push(element('p', { class: 'hint' }, 'Mean colours of cells, as they are stored'));
+  if (overlays.coverage && !isMap) rows.push(gradient('Coverage of a cell', RAMPS[theme].coverage));
+  if (overlays.cutoff > 0 && !isMap) rows.push(gradient('Stored for a quad', RAMPS[theme].stored));
   if (overlays.depth) {
     const swatches = depthRamp(deepest).slice(1).map((color, i) =>
       element('li', {}, element('span', { class: 'swatch', style: `background: ${css(color)}` }), String(i + 1)));

@@ -83,7 +83,7 @@ function rasterSide(bytes, texel) {
  */
 export function rasterRival(renderer, flat, drawing) {
   const { texture } = drawing;
-  const silhouette = drawing.count === 1; // a byte of coverage to a pixel is enough
+  const silhouette = drawing.count === 1 && drawing.maps === 'none'; // a byte of coverage to a pixel is enough
   const side = Math.min(rasterSide(texture.nbytes, silhouette ? 1 : 4), renderer.capabilities.maxTextureSize);
   const target = new WebGLRenderTarget(side, side, {
     format: silhouette ? RedFormat : RGBAFormat, depthBuffer: false, generateMipmaps: true,

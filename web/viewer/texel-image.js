@@ -1,6 +1,6 @@
 /** Texels as pixels: two by two for the four words of each. */
 import { CELL_BITS, COORDINATE_BITS } from '../generated/layout.js';
-import { CURVE, OTHER, QUAD } from './texel-map.js';
+import { BASES, CURVE, HEAD, MEANS, OTHER, PAINTS, QUAD, SIDES } from './texel-map.js';
 
 /** @typedef {[number, number, number]} Bytes */
 
@@ -9,6 +9,11 @@ import { CURVE, OTHER, QUAD } from './texel-map.js';
 export const TINTS = {
   [QUAD]: [[8, 29, 88], [120, 180, 245]],
   [CURVE]: [[140, 65, 0], [255, 224, 160]],
+  [HEAD]: [[110, 10, 70], [250, 170, 215]],
+  [MEANS]: [[0, 75, 45], [150, 235, 190]],
+  [BASES]: [[0, 75, 45], [150, 235, 190]],
+  [SIDES]: [[75, 30, 120], [215, 185, 250]],
+  [PAINTS]: [[110, 10, 70], [250, 170, 215]],
   [OTHER]: [[96, 98, 102], [190, 192, 196]],
 };
 const UNUSED_COLOR = /** @type {Bytes} */ ([226, 227, 230]);
@@ -26,7 +31,7 @@ const BYTE = (1 << CELL_BITS) - 1;
  */
 export function brightness(kind, k, word, length) {
   if (kind === QUAD && k < 2) return Math.min(word / length, 1);
-  if (kind === QUAD) {
+  if (kind === QUAD || kind === MEANS) {
     const bytes = [0, 1, 2, 3].map((i) => (word >>> (CELL_BITS * i)) & BYTE);
     return bytes.reduce((sum, byte) => sum + byte, 0) / (4 * BYTE);
   }

@@ -11,8 +11,8 @@
  *
  * @typedef {object} Texel
  * @property {number} index
- * @property {'quad' | 'curve' | 'other' | 'unused'} kind `other`: of a shape that is not chosen
- * @property {Place | null} place of a quad, or of the leaf that a curve is in
+ * @property {typeof KINDS[number]} kind `other`: of a shape that is not chosen; the last five are parts of a planar map
+ * @property {Place | null} place of a quad, of the leaf that a curve is in, or of the quad that means or bases belong to
  * @property {string[]} words what its four words say
  */
 import {
@@ -21,17 +21,27 @@ import {
   COORDINATE_BITS,
   COUNT_SHIFT,
   COVERAGE_ONE,
+  IS_MEAN,
   LATTICE,
   MOST_CURVES,
+  PAINT_ONE,
   QUAD_FLAG,
   WINDING_OFFSET,
 } from '../generated/layout.js';
+import { headOf, paintSteps, sidesOf } from '../src/planar-map.js';
+import { counts, isMap } from '../src/walk.js';
+import { paintCss } from './overlay-palette.js';
 
 export const UNUSED = 0;
 export const OTHER = 1;
 export const QUAD = 2;
 export const CURVE = 3;
-const KINDS = /** @type {const} */ (['unused', 'other', 'quad', 'curve']);
+export const HEAD = 4;
+export const MEANS = 5;
+export const BASES = 6;
+export const SIDES = 7;
+export const PAINTS = 8;
+const KINDS = /** @type {const} */ (['unused', 'other', 'quad', 'curve', 'head', 'means', 'bases', 'sides', 'paints']);
 
 const BYTE = (1 << CELL_BITS) - 1;
 const WINDING = (1 << COUNT_SHIFT) - 1;
@@ -53,9 +63,11 @@ export class TexelMap {
     const length = texels.length / 4;
     this.data = data;
     this.root = root;
+    /** @type {import('../src/planar-map.js').Head | null} */
+    this.head = isMap(data, root) ? headOf(texels, root) : null;
     this.count = Math.min(length, most);
-    this.first = Math.min(root, length - this.count);
-    /** What each texel is: UNUSED, OTHER, QUAD or CURVE. Only those that are looked at are told apart. */
+    this.first = Math.min(this.head ? root - 1 : root, length - this.count);
+    /** What each texel is: UNUSED, OTHER, QUAD, ... Only those that are looked at are told apart. */
     this.kinds = new Uint8Array(length);
     for (let i = this.first; i < this.first + this.count; i++) {
       const used = texels[4 * i] | texels[4 * i + 1] | texels[4 * i + 2] | texels[4 * i + 3];
@@ -63,7 +75,24 @@ export class TexelMap {
     }
     /** @type {Map<number, Place>} */
     this.places = new Map();
+    /** Index of the first curve, and after the last one. */
+    this.firstCurve = Infinity;
+    this.endCurve = 0;
     this.#walk(root);
+    if (this.head) this.#parts(this.head);
+  }
+
+  /** @param {import('../src/planar-map.js').Head} head */
+  #parts({ quad: root, used, cells, sides, paints }) {
+    const { quads } = counts(this.data, root);
+    this.#set(root - 1, HEAD, null);
+    for (let i = 0; i < quads; i++) {
+      const place = this.places.get(root + i) ?? null;
+      this.#set(cells + 2 * i, MEANS, place);
+      this.#set(cells + 2 * i + 1, BASES, place);
+    }
+    for (let i = Math.floor(this.firstCurve / 4); 4 * i < this.endCurve; i++) this.#set(sides + i, SIDES, null);
+    for (let i = 0; 2 * i < used; i++) this.#set(paints + i, PAINTS, null);
   }
 
   /** @param {number} root */
@@ -80,16 +109,20 @@ export class TexelMap {
         const place = { depth: at.depth + 1, x: at.x + size * (cell & 1), y: at.y + size * (cell >> 1), size };
         const byte = byteOf(texels[4 * quad + 2], cell);
         if (byte === QUAD_FLAG) quads.push([below++, place]);
-        else for (let count = byte >> COUNT_SHIFT; count > 0; count--) this.#set(curve++, CURVE, place);
+        else for (let count = byte >> COUNT_SHIFT; count > 0; count--) {
+          this.firstCurve = Math.min(this.firstCurve, curve);
+          this.endCurve = Math.max(this.endCurve, curve + 1);
+          this.#set(curve++, CURVE, place);
+        }
       }
     }
   }
 
-  /** @param {number} index @param {number} kind @param {Place} place */
+  /** @param {number} index @param {number} kind @param {Place | null} place */
   #set(index, kind, place) {
     if (index < this.first || index >= this.first + this.count) return;
     this.kinds[index] = kind;
-    this.places.set(index, place);
+    if (place) this.places.set(index, place);
   }
 
   /**
@@ -99,9 +132,49 @@ export class TexelMap {
   texel(index) {
     const kind = KINDS[this.kinds[index]];
     const four = [...this.data.texels.subarray(4 * index, 4 * index + 4)];
-    const words = kind === 'quad' ? quadWords(four) : kind === 'curve' ? curveWords(four) : rawWords(four);
-    return { index, kind, place: this.places.get(index) ?? null, words };
+    return { index, kind, place: this.places.get(index) ?? null, words: this.#words(kind, index, four) };
   }
+
+  /** @param {Texel['kind']} kind @param {number} index @param {number[]} four @returns {string[]} */
+  #words(kind, index, four) {
+    const { data: { texels }, head, firstCurve, endCurve } = this;
+    if (kind === 'quad') return head ? mapQuadWords(four) : quadWords(four);
+    if (kind === 'curve') return curveWords(four);
+    if (kind === 'means') return four.map((word, k) => `${CELL_NAMES[k]}: mean ${paintCss([0, 1, 2, 3].map((i) => byteOf(word, i) / COVERAGE_ONE))}`);
+    if (kind === 'bases') return four.map((word, k) => `${CELL_NAMES[k]}: base paint ${word}`);
+    if (kind === 'head') {
+      const [used, cells, sides, paints] = four;
+      return [`${used} paints`, `cells from texel ${cells}`, `sides of curves from ${sides} + curve / 4`, `paints from texel ${paints}`];
+    }
+    if (kind === 'sides' && head) {
+      return four.map((_, k) => {
+        const curve = 4 * (index - head.sides) + k;
+        const [left, right] = sidesOf(texels, head, curve);
+        return curve < firstCurve || curve >= endCurve ? 'of no curve' : `curve ${curve}: paint ${left} | ${right}`;
+      });
+    }
+    if (kind === 'paints' && head) {
+      return [0, 1].flatMap((half) => {
+        const number = 2 * (index - head.paints) + half;
+        if (number >= head.used) return ['of no paint', 'of no paint'];
+        const color = paintCss(paintSteps(texels, head, number).map((part) => part / PAINT_ONE));
+        return [`paint ${number}, ${color}: red and green`, `paint ${number}: blue and opacity`];
+      });
+    }
+    return rawWords(four);
+  }
+}
+
+/** @param {number[]} words of a quad of a planar map */
+function mapQuadWords([below, first, cells]) {
+  const what = CELL_NAMES.map((name, cell) => {
+    const byte = byteOf(cells, cell);
+    const count = byte >> COUNT_SHIFT;
+    if (byte === QUAD_FLAG) return `${name} a quad`;
+    if (byte === IS_MEAN) return `${name} only its mean`;
+    return count ? `${name} ${count} curve${count > 1 ? 's' : ''}` : `${name} one paint`;
+  });
+  return [`first quad below: ${below}`, `first curve: ${first}`, what.join('; '), 'not used'];
 }
 
 /** @param {number[]} words */

@@ -28,7 +28,7 @@ export async function thesisRival([quads, curves], name, drawing) {
     thesis_list_lengths: { value: [data.quadCount, data.curveCount] },
   }));
   return {
-    pass, tint: tintOf(drawing), label: `Thesis, ${data.bits} bit${drawing.count > 1 ? ': silhouette' : ''}`, dispose: () => {
+    pass, tint: tintOf(drawing), label: `Thesis, ${data.bits} bit${drawing.count > 1 || drawing.maps !== 'none' ? ': silhouette' : ''}`, dispose: () => {
       pass.dispose();
       texture.dispose();
     },

@@ -78,7 +78,7 @@ class Outcome:
     "--split",
     type=click.Choice(["paint", "faces"]),
     help="paint: make each colour a shape of its own, in painting order. faces: make the drawing, in its colours, "
-    "one planar map, which Python draws, and pages do not yet.",
+    "one planar map, without seams between colours.",
 )
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
 @tolerance_option

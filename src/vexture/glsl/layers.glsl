@@ -1,15 +1,20 @@
 // Shapes in their colours, composited.
-// Exports: vextureLayers, vextureStraight, vextureQuad.
+// Exports: vexture_layer_paint, vexture_layer_below, vextureLayers, vextureStraight, vextureQuad.
 #include "srgb.glsl"
 #include "wrap.glsl"
 
-// A row for each root of the texture: its quad; red and green, blue and opacity as 16-bit halves of words (sRGB); then the
-// bounding box of the shape, 1.0 = 65536.
+// A row for each root of the texture: its quad; red and green, blue and opacity as 16-bit halves of words (sRGB); 1 for a
+// planar map; then the bounding box of the shape, 1.0 = 65536.
 uniform highp usampler2D vexturePaints;
 
 // Quad of a root, given by its number in the texture.
 uint vextureQuad(uint root) {
     return texelFetch(vexturePaints, ivec2(0, int(root)), 0).x;
+}
+
+// sRGB and opacity, straight.
+vec4 vexture_layer_paint(uvec4 head) {
+    return vec4(unpackUnorm2x16(head.y), unpackUnorm2x16(head.z));
 }
 
 bool vexture_meets(uvec4 box, VextureSpot spot) {
@@ -43,7 +48,7 @@ vec4 vextureLayers(int first, int count, uvec2 base, vec2 offset, vec2 dx, vec2 
     int layer = vexture_layer_below(first + count, first, spot);
     while (layer >= first && color.a < VEXTURE_COVERED) {
         uvec4 head = texelFetch(vexturePaints, ivec2(0, layer), 0);
-        vec4 paint = vec4(unpackUnorm2x16(head.y), unpackUnorm2x16(head.z));
+        vec4 paint = vexture_layer_paint(head);
         float cover = paint.a * vexture_spot_coverage(head.x, spot);
         color += (1.0 - color.a) * cover * vec4(paint.rgb, 1.0);
         layer = vexture_layer_below(layer, first, spot);

@@ -4,6 +4,8 @@
 #include "layers.glsl"
 
 uniform highp uint vextureOverlayRoot;    // the quad whose tree is shown
+uniform bool vextureOverlayOfMap;         // whether it is that of a planar map
+uniform highp uint vextureOverlayMeans;   // then where the means of quad 0 would be
 uniform vec3 vextureOverlayShow;          // opacity of borders, coverage and depth; 0 hides them
 uniform float vextureOverlayCutoff;       // levels by which the cut-off is exaggerated; 0: not shown
 uniform vec3 vextureOverlayCoverage[2];   // colours, sRGB, of an empty and a full cell
@@ -29,6 +31,23 @@ vec3 vexture_contrast(vec4 color) {
     return vec3(dot(color.rgb, vec3(0.299, 0.587, 0.114)) > 0.5 ? 0.0 : 1.0);
 }
 
+// What is stored for a cell: its coverage, or the mean of a map, as a colour between those of empty and full cells.
+vec3 vexture_stored_color(VextureCell cell, vec3 empty, vec3 full) {
+    if (!vextureOverlayOfMap) {
+        float stored = cell.is_quad ? vexture_mean(cell.texel.w, vec2(0.5)) : vexture_stored_coverage(cell);
+        return mix(empty, full, stored);
+    }
+    uvec4 means = vexture_texel(vextureOverlayMeans + 2u * cell.quad);
+    vec4 sum = vec4(0.0);
+    for (int k = 0; k < 4; k++) {
+        bool counts = cell.is_quad || 8u * uint(k) == cell.shift;
+        vec4 mean = vec4((uvec4(means[k]) >> uvec4(0u, 8u, 16u, 24u)) & 255u);
+        sum += counts ? mean : vec4(0.0);
+    }
+    sum *= (cell.is_quad ? 0.25 : 1.0) / float(VEXTURE_COVERAGE_ONE);
+    return sum.rgb + (1.0 - sum.a) * empty;
+}
+
 // The picture's colour with the overlays that are switched on; the other parameters are those of vextureCoverage.
 // The descent ends at the leaf, or at a quad no larger than the cut-off: a pixel, unless exaggerated. The root is no cell.
 vec4 vextureOverlay(vec4 color, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
@@ -49,10 +68,10 @@ vec4 vextureOverlay(vec4 color, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     if (outside != ivec2(0)) {
         return color;
     }
-    float stored = cell.is_quad ? vexture_mean(cell.texel.w, vec2(0.5)) : vexture_stored_coverage(cell);
     bool is_cut = cell.is_quad && vextureOverlayCutoff > 0.0;
-    color = vexture_over(color, mix(vextureOverlayStored[0], vextureOverlayStored[1], stored), is_cut ? 1.0 : 0.0);
-    vec3 shade = mix(vextureOverlayCoverage[0], vextureOverlayCoverage[1], stored);
+    vec3 stored = vexture_stored_color(cell, vextureOverlayStored[0], vextureOverlayStored[1]);
+    color = vexture_over(color, stored, is_cut ? 1.0 : 0.0);
+    vec3 shade = vexture_stored_color(cell, vextureOverlayCoverage[0], vextureOverlayCoverage[1]);
     color = vexture_over(color, shade, is_cut ? 0.0 : vextureOverlayShow.y);
     color = vexture_over(color, vextureOverlayDepth[VEXTURE_POSITION_BITS - cell.bit], vextureOverlayShow.z);
     return vexture_over(color, vexture_contrast(color), border * vextureOverlayShow.x);

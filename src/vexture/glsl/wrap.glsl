@@ -1,5 +1,5 @@
 // Coverage of pixels anywhere: beyond the unit square lies nothing, the border's value, or the shape again.
-// Exports: VextureSpot, vexture_spot, vexture_spot_coverage, vextureWrapped.
+// Exports: VextureSpot, vexture_spot, VextureTiles, vexture_tiles, vexture_tile, vexture_spot_coverage, vextureWrapped.
 //
 // VEXTURE_WRAP selects one of VEXTURE_WRAP_NONE, VEXTURE_WRAP_CLAMP or VEXTURE_WRAP_REPEAT. VEXTURE_FLAT is 1 for views
 // whose pixels are upright in the drawing and all alike, which cost less, or 0 for any view.
@@ -47,23 +47,16 @@ VextureSpot vexture_spot(uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     return VextureSpot(base, offset, dx, dy, reach);
 }
 
-// Stored coverage of the whole square.
-float vexture_mean_coverage(uint root) {
-    return vexture_mean(vexture_texel(root).w, vec2(0.5));
-}
+// The tiles that a footprint touches where a shape is repeated, at most two in each direction.
+struct VextureTiles {
+    int count;
+    int columns;
+    uvec2 next_base;   // in the next tile the base is on the border between the two, where positions of both are exact
+    vec2 next_offset;
+    float whole;       // share of the mean of all of the shape in the result: the footprint is about as large as a tile
+};
 
-float vexture_coverage_at(uint root, uvec2 base, vec2 offset, VextureSpot spot) {
-#if VEXTURE_FLAT
-    return vextureFlatCoverage(root, base, offset, vextureFlat(spot.dx, spot.dy));
-#else
-    return vextureCoverage(root, base, offset, spot.dx, spot.dy);
-#endif
-}
-
-// A repeated shape is the sum over the tiles that the footprint touches, at most two in each direction. In the next tile
-// the base is on the border between the two, where positions of both are exact.
-float vexture_spot_coverage(uint root, VextureSpot spot) {
-#if VEXTURE_WRAP == VEXTURE_WRAP_REPEAT
+VextureTiles vexture_tiles(VextureSpot spot) {
     float whole = (max(spot.reach.x, spot.reach.y) - VEXTURE_NEARLY_TILE) / (VEXTURE_WHOLE_TILE - VEXTURE_NEARLY_TILE);
     whole = clamp(whole, 0.0, 1.0);
     vec2 place = vexture_fraction(spot.base) + spot.offset;
@@ -76,18 +69,44 @@ float vexture_spot_coverage(uint root, VextureSpot spot) {
     vec2 next_offset = spot.offset + mix(-from_right, from_left, left);
     int columns = left.x || right.x ? 2 : 1;
     int rows = left.y || right.y ? 2 : 1;
-    int tiles = whole < 1.0 ? columns * rows : 0;
-    float sum = 0.0;
-    for (int tile = 0; tile < tiles; tile++) {
-        bool next_column = (tile & (columns - 1)) == 1;
-        bool next_row = tile >= columns;
-        uvec2 base = uvec2(next_column ? next_base.x : spot.base.x, next_row ? next_base.y : spot.base.y);
-        vec2 offset = vec2(next_column ? next_offset.x : spot.offset.x, next_row ? next_offset.y : spot.offset.y);
-        sum += vexture_coverage_at(root, base, offset, spot);
-    }
-    return mix(min(sum, 1.0), vexture_mean_coverage(root), whole);
+    return VextureTiles(whole < 1.0 ? columns * rows : 0, columns, next_base, next_offset, whole);
+}
+
+// The footprint in one of them.
+VextureSpot vexture_tile(VextureTiles tiles, VextureSpot spot, int tile) {
+    bool next_column = (tile & (tiles.columns - 1)) == 1;
+    bool next_row = tile >= tiles.columns;
+    spot.base.x = next_column ? tiles.next_base.x : spot.base.x;
+    spot.base.y = next_row ? tiles.next_base.y : spot.base.y;
+    spot.offset.x = next_column ? tiles.next_offset.x : spot.offset.x;
+    spot.offset.y = next_row ? tiles.next_offset.y : spot.offset.y;
+    return spot;
+}
+
+// Stored coverage of the whole square.
+float vexture_mean_coverage(uint root) {
+    return vexture_mean(vexture_texel(root).w, vec2(0.5));
+}
+
+float vexture_coverage_at(uint root, VextureSpot spot) {
+#if VEXTURE_FLAT
+    return vextureFlatCoverage(root, spot.base, spot.offset, vextureFlat(spot.dx, spot.dy));
 #else
-    return vexture_coverage_at(root, spot.base, spot.offset, spot);
+    return vextureCoverage(root, spot.base, spot.offset, spot.dx, spot.dy);
+#endif
+}
+
+// A repeated shape is the sum over the tiles that the footprint touches.
+float vexture_spot_coverage(uint root, VextureSpot spot) {
+#if VEXTURE_WRAP == VEXTURE_WRAP_REPEAT
+    VextureTiles tiles = vexture_tiles(spot);
+    float sum = 0.0;
+    for (int tile = 0; tile < tiles.count; tile++) {
+        sum += vexture_coverage_at(root, vexture_tile(tiles, spot, tile));
+    }
+    return mix(min(sum, 1.0), vexture_mean_coverage(root), tiles.whole);
+#else
+    return vexture_coverage_at(root, spot);
 #endif
 }
 

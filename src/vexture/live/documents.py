@@ -7,7 +7,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 from vexture.content import FileKind, about, decompressed, kind_of, known_kind, start_of
-from vexture.errors import FormatError, SourceError
+from vexture.errors import SourceError
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
 from vexture.notes import line_of
 from vexture.pipeline import Parameters
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
     from vexture.drawing import Drawing
     from vexture.svg.read import Frame
-    from vexture.texture.texture import Texture
 
 __all__ = [
     "PUBLISHED_PARAMETERS",
@@ -27,7 +26,6 @@ __all__ = [
     "VIEWER_PARAMETERS",
     "converted",
     "load_kernels",
-    "page_texture",
     "shape_of",
     "texture_shape",
     "thesis_pair",
@@ -36,10 +34,10 @@ __all__ = [
 VIEW_PRECISION = 1e-7
 """Unit-square units. At 10,000x a window of 1000 pixels shows 1e-4 of the square: the outline is within a pixel."""
 
-VIEWER_PARAMETERS = Parameters(split="paint", precision=VIEW_PRECISION)
+VIEWER_PARAMETERS = Parameters(split="faces", precision=VIEW_PRECISION)
 """The viewer converts in colours, precise enough for the deepest zoom."""
 
-PUBLISHED_PARAMETERS = Parameters(split="paint")
+PUBLISHED_PARAMETERS = Parameters(split="faces")
 """A server converts in colours, and to a small size, since pages fetch a shape again with each change."""
 
 THESIS_BITS = {"thesis16": 16, "thesis8": 8}
@@ -107,7 +105,7 @@ def load_kernels() -> None:
     from vexture.pipeline import convert
     from vexture.svg.read import svg_drawing
 
-    convert(svg_drawing(SMALL, "small.svg"), split="paint", precision=VIEW_PRECISION)
+    convert(svg_drawing(SMALL, "small.svg"), split="faces", precision=VIEW_PRECISION)
 
 
 def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start: float) -> Shape:
@@ -134,19 +132,11 @@ def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start:
     return Shape(drawing.name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
 
 
-def page_texture(data: bytes, file_name: str) -> "Texture":
-    """A texture that pages draw: one without planar maps."""
+def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
+    """Shape of a texture; facts that the texture does not hold are None."""
     from vexture.texture.load import texture_from
 
     texture = texture_from(data, file_name)
-    if any(root.is_map for root in texture.roots):
-        raise FormatError(f"{file_name}: holds planar maps, which pages do not draw yet; convert with `split` paint")
-    return texture
-
-
-def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
-    """Shape of a texture; facts that the texture does not hold are None."""
-    texture = page_texture(data, file_name)
     roots: list[dict[str, Any]] = texture.info()["roots"]
     facts = {
         "segments": None,

@@ -13,7 +13,7 @@ from vexture.content import FileKind, kind_of, start_of, unpacked
 from vexture.errors import LimitError, ParameterError, SourceError, VextureError
 from vexture.flood.scene import PREFIX, labels
 from vexture.geo.extent import Extent, Frame, Step
-from vexture.live.documents import converted, load_kernels, page_texture, texture_shape
+from vexture.live.documents import converted, load_kernels, texture_shape
 from vexture.live.shelf import File, Shape
 from vexture.pipeline import Parameters
 
@@ -109,10 +109,16 @@ class FloodConversion:
 
     def _texture(self, data: bytes, name: str) -> Shape:
         """Shape of a texture that was made in this frame."""
-        roots = page_texture(data, name).roots
+        from vexture.texture.load import texture_from
+
+        roots = texture_from(data, name).roots
         to_source = self.frame.to_source
         if len(roots) != 1:
             raise LimitError(f"{name}: the texture holds {len(roots)} shapes; send one with one, or the data it is of")
+        if roots[0].is_map:
+            raise LimitError(
+                f"{name}: the texture is a planar map, and water needs a silhouette; send the data it is of"
+            )
         apart = np.abs(roots[0].to_source - to_source) / np.abs(np.diag(to_source[:, :2]))[:, None]
         if not apart.max() <= SAME_PLACE:
             raise LimitError(

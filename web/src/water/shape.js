@@ -194,7 +194,21 @@ export class WaterShape {
     if (texture.encoding !== 'packed') {
       throw new VextureError(`${texture.name}: water needs a packed texture; convert the drawing to KTX2`, 'encoding');
     }
-    texture.index(this.#root);
+    this.#rootOf(texture);
+  }
+
+  /**
+   * @param {VectorTexture} texture
+   * @returns {import('../data.js').Root}
+   * @throws {VextureError} if there is no such shape, several and no choice, or it is a planar map
+   */
+  #rootOf(texture) {
+    const root = texture.roots[texture.index(this.#root)];
+    if (!root.isMap) return root;
+    throw new VextureError(
+      `${texture.name}: ${line(root.name)} is a planar map, and water needs a shore; convert the drawing as a silhouette`,
+      'root',
+    );
   }
 
   /**
@@ -242,7 +256,7 @@ export class WaterShape {
   /** @param {VectorTexture} texture */
   #quad(texture) {
     try {
-      return texture.roots[texture.index(this.#root)].quad;
+      return this.#rootOf(texture).quad;
     } catch (error) {
       if (!(error instanceof VextureError)) throw error; // new data lack the root: show the first shape, with a note
       texture.dispatchEvent({ type: 'note', message: error.message });

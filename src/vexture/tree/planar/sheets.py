@@ -49,8 +49,28 @@ class Sheet(NamedTuple):
 def sheets_of(drawing: Drawing, **parameters: Any) -> list[Sheet]:
     """The sheets of a drawing, the lowest first: one, unless its map needs too many texels.
 
-    A drawing that is one layer needs no map. `parameters` and errors are those of `build_map`.
+    A drawing that is one layer needs no map. `parameters` and errors are those of `build_map`. A `precision` cuts no
+    drawing: its texels, like those of layers, grow with the length of the outlines, not with their crossings.
     """
+    precision = parameters.pop("precision", None)
+    sheets = _within_budget(drawing, **parameters)
+    if precision is None:
+        return sheets
+    parameters["precision"] = precision
+    return [Sheet(one.drawing, _again(one, **parameters)) for one in sheets]
+
+
+def _again(sheet: Sheet, **parameters: Any) -> PlanarMap | Tree:
+    """The map or tree of a sheet, with other parameters."""
+    if isinstance(sheet.tree, Tree):
+        return build_tree(sheet.drawing, **parameters)
+    planar = build_map(sheet.drawing, **parameters)
+    assert planar is not None
+    return planar
+
+
+def _within_budget(drawing: Drawing, **parameters: Any) -> list[Sheet]:
+    """The sheets of a drawing, each within its share of the budget."""
     one_paint = not drawing.groups and len({path.paint for path in drawing.paths}) == 1
     layers = drawing.layers() if one_paint else ()
     if len(layers) == 1:

@@ -1,0 +1,115 @@
+// Validates a planar map (FORMAT.md, D.1 to D.5): its parts lie within the texels and apart, and paints are of its table.
+import { CELL_BITS, COORDINATE_BITS, IS_MEAN, MOST_PAINTS, QUAD_FLAG } from '../generated/layout.js';
+import { PART, checkTree } from './check-tree.js';
+import { REMEDY, VextureError } from './errors.js';
+import { basePaint, headOf, meanBytes, paintSteps, sidesOf } from './planar-map.js';
+
+/** @typedef {import('./planar-map.js').Head} Head */
+/** @typedef {import('./check-tree.js').Found} Found */
+
+const CELL_MASK = (1 << CELL_BITS) - 1;
+
+/**
+ * Check a map, and mark its texels in `met`.
+ *
+ * @param {Uint32Array} texels
+ * @param {Uint8Array} met kind of each texel visited
+ * @param {number} quad index of its root quad
+ */
+export function checkMap(texels, met, quad) {
+  const found = checkTree(texels, met, [quad], true);
+  if (quad === 0) refuse(quad, 'the root of a map is quad 0, which has no head before it');
+  const head = headOf(texels, quad);
+  if (head.used < 1 || head.used > MOST_PAINTS) {
+    refuse(quad, `the map with root ${quad} has ${head.used} paints; the limit is ${MOST_PAINTS}`);
+  }
+  const { quads, lastQuad, curves, firstCurve, lastCurve } = found;
+  if (lastQuad - quad + 1 !== quads) refuse(quad, `the quads of the map with root ${quad} are not consecutive`);
+  if (curves && lastCurve - firstCurve + 1 !== curves) {
+    refuse(quad, `the curves of the map with root ${quad} are not consecutive`);
+  }
+  checkWords(texels, quad, found);
+  takeParts(met, head, found);
+  checkPaints(texels, head, found);
+}
+
+/**
+ * @param {number} quad
+ * @param {string} what
+ * @returns {never}
+ */
+function refuse(quad, what) {
+  throw new VextureError(`${what}; ${REMEDY}`, `quad ${quad}`);
+}
+
+/**
+ * Check the quads' last words, and that curves go up.
+ *
+ * @param {Uint32Array} texels
+ * @param {number} root
+ * @param {Found} found
+ */
+function checkWords(texels, root, { quads, curves, firstCurve }) {
+  const heightOf = (/** @type {number} */ word) => word >>> COORDINATE_BITS;
+  let isWrong = false;
+  for (let quad = root; quad < root + quads; quad++) isWrong ||= texels[4 * quad + 3] !== 0;
+  for (let at = 4 * firstCurve; at < 4 * (firstCurve + curves); at += 4) {
+    isWrong ||= heightOf(texels[at]) > heightOf(texels[at + 3]);
+  }
+  if (isWrong) refuse(root, `the map with root ${root} has a quad with a coverage or a curve that goes down`);
+}
+
+/**
+ * Mark the texels of the parts beside quads and curves.
+ *
+ * @param {Uint8Array} met
+ * @param {Head} head
+ * @param {Found} found
+ */
+function takeParts(met, { quad, used, cells, sides, paints }, { quads, curves, firstCurve }) {
+  const skipped = curves ? Math.floor(firstCurve / 4) : 0;
+  const sideTexels = curves ? Math.floor((firstCurve + curves + 3) / 4) - skipped : 0;
+  for (const { what, first, count } of [
+    { what: 'head', first: quad - 1, count: 1 },
+    { what: 'cells', first: cells, count: 2 * quads },
+    { what: 'sides', first: sides + skipped, count: sideTexels },
+    { what: 'paints', first: paints, count: Math.ceil(used / 2) },
+  ]) {
+    if (count && first + count > met.length) {
+      refuse(quad, `the ${what} of the map with root ${quad} end at texel ${first + count} of ${met.length}`);
+    }
+    for (let texel = first; texel < first + count; texel++) {
+      if (met[texel]) throw new VextureError(`texel ${texel} is a part of two things; ${REMEDY}`, `texel ${texel}`);
+      met[texel] = PART;
+    }
+  }
+}
+
+/**
+ * Check the numbers of paints, and that no colour is above its opacity.
+ *
+ * @param {Uint32Array} texels
+ * @param {Head} head whose parts lie within the texels
+ * @param {Found} found
+ */
+function checkPaints(texels, head, { quads, curves, firstCurve }) {
+  const { quad: root, used } = head;
+  let last = 0;
+  let isBright = false;
+  const see = (/** @type {number[]} */ [red, green, blue, opacity]) => {
+    isBright ||= Math.max(red, green, blue) > opacity;
+  };
+  for (let quad = root; quad < root + quads; quad++) {
+    for (let k = 0; k < 4; k++) {
+      const cell = (texels[4 * quad + 2] >>> (CELL_BITS * k)) & CELL_MASK;
+      const base = basePaint(texels, head, quad, k);
+      if (base && (cell === QUAD_FLAG || cell === IS_MEAN)) refuse(quad, 'a cell without a base paint has one');
+      last = Math.max(last, base);
+      see(meanBytes(texels, head, quad, k));
+    }
+  }
+  for (let i = 0; i < curves; i++) last = Math.max(last, ...sidesOf(texels, head, firstCurve + i));
+  if (last >= used) refuse(root, `the map with root ${root} has paint ${last} of ${used}`);
+  for (let paint = 0; paint < used; paint++) see(paintSteps(texels, head, paint));
+  if (isBright) refuse(root, `the map with root ${root} has a colour above its opacity`);
+}

@@ -1,0 +1,44 @@
+// What makes the program of one mask differ from that of another.
+import { FOOTPRINT } from './mask-shader.js';
+
+/** @typedef {import('./mask-shader.js').Variant} Variant */
+
+/**
+ * Which of some shapes are planar maps: `all` only if each is shown alone.
+ *
+ * @param {Pick<import('./data.js').Root, 'isMap'>[]} shown
+ * @param {boolean} isAlone
+ * @returns {Variant['maps']}
+ */
+export function mapsAmong(shown, isAlone) {
+  if (!shown.some(({ isMap }) => isMap)) return 'none';
+  return isAlone && shown.every(({ isMap }) => isMap) ? 'all' : 'some';
+}
+
+/**
+ * @param {import('./vector-texture.js').AnyVectorTexture} texture
+ * @param {ReturnType<typeof import('./mask-options.js').complete>} options
+ * @param {{ first: number, count: number }} range of the shape or the drawing's layers in the texture's roots
+ * @returns {Variant}
+ */
+export function variantOf(texture, options, range) {
+  const { mode, wrap, flat, invert, background, instanced, map, fold, linear } = options;
+  const reader = texture.maskReader();
+  const isAlone = instanced || range.count === 1;
+  const shown = instanced ? texture.roots : texture.roots.slice(range.first, range.first + range.count);
+  const maps = mapsAmong(shown, isAlone);
+  return {
+    other: reader && { declared: reader.declared, coverage: reader.coverage(FOOTPRINT) },
+    mode,
+    inLayers: mode === 'paint',
+    maps,
+    linear: linear && mode === 'paint' && maps !== 'none' && isAlone, // layers are composited in sRGB, as in browsers
+    wrap,
+    flat,
+    invert,
+    background,
+    instanced,
+    hasMap: mode === 'mix' && map !== null,
+    fold: fold?.glsl ?? '',
+  };
+}

@@ -1,0 +1,77 @@
+// Where the parts of a planar map lie, and what they say (FORMAT.md, part D). Plain data, without three.js.
+import { CELL_BITS, COORDINATE_BITS, COVERAGE_ONE, PAINT_ONE } from '../generated/layout.js';
+
+const COMPONENTS = [0, 1, 2, 3];
+
+/**
+ * @typedef {[number, number, number, number]} Color red, green, blue, opacity: sRGB, premultiplied
+ *
+ * @typedef {object} Head The texel before a map's root quad.
+ * @property {number} quad index of the root quad
+ * @property {number} used number of paints
+ * @property {number} cells index of the first texel of the cells' means and base paints
+ * @property {number} sides index of the texel that would hold the sides of curves 0 to 3
+ * @property {number} paints index of the first texel of the table of paints
+ */
+
+/**
+ * @param {Uint32Array} texels
+ * @param {number} quad index of the root quad
+ * @returns {Head}
+ */
+export function headOf(texels, quad) {
+  const [used, cells, sides, paints] = texels.subarray(4 * quad - 4, 4 * quad);
+  return { quad, used, cells, sides, paints };
+}
+
+/**
+ * Mean colour of a cell, in steps of a byte.
+ *
+ * @param {Uint32Array} texels
+ * @param {Head} head
+ * @param {number} quad that holds it
+ * @param {number} cell
+ * @returns {Color}
+ */
+export function meanBytes(texels, head, quad, cell) {
+  const word = texels[4 * (head.cells + 2 * (quad - head.quad)) + cell];
+  return /** @type {Color} */ (COMPONENTS.map((k) => (word >>> (CELL_BITS * k)) & COVERAGE_ONE));
+}
+
+/**
+ * Number of the base paint of a cell.
+ *
+ * @param {Uint32Array} texels
+ * @param {Head} head
+ * @param {number} quad that holds it
+ * @param {number} cell
+ */
+export function basePaint(texels, head, quad, cell) {
+  return texels[4 * (head.cells + 2 * (quad - head.quad) + 1) + cell];
+}
+
+/**
+ * Numbers of the paints on the left and on the right of a curve.
+ *
+ * @param {Uint32Array} texels
+ * @param {Head} head
+ * @param {number} curve index of its texel
+ * @returns {[number, number]}
+ */
+export function sidesOf(texels, head, curve) {
+  const word = texels[4 * head.sides + curve];
+  return [word & PAINT_ONE, word >>> COORDINATE_BITS];
+}
+
+/**
+ * Colour of a paint, in steps of 1/65535.
+ *
+ * @param {Uint32Array} texels
+ * @param {Head} head
+ * @param {number} paint its number
+ * @returns {Color}
+ */
+export function paintSteps(texels, head, paint) {
+  const at = 4 * head.paints + 2 * paint;
+  return /** @type {Color} */ (COMPONENTS.map((k) => (texels[at + (k >> 1)] >>> (COORDINATE_BITS * (k & 1))) & PAINT_ONE));
+}

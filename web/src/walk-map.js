@@ -1,0 +1,138 @@
+// The colours of a validated planar map on the CPU (FORMAT.md, D.6). Plain data, without three.js.
+import { COUNT_SHIFT, COVERAGE_ONE, IS_MEAN, LATTICE, MOST_DEPTH, PAINT_ONE, QUAD_FLAG } from '../generated/layout.js';
+import { VextureError } from './errors.js';
+import { curvesOf, leafOf } from './leaf.js';
+import { basePaint, headOf, meanBytes, paintSteps, sidesOf } from './planar-map.js';
+import { isAtOrLeft } from './winding.js';
+
+/**
+ * @typedef {import('./data.js').PackedData} PackedData
+ * @typedef {import('./planar-map.js').Color} Color
+ *
+ * @typedef {object} Painted What is at a point of a planar map.
+ * @property {number | null} paint its number in the map's table; null where only a mean colour is known, in slivers as
+ *   narrow as the rounding, and outside of the unit square
+ * @property {Color} color premultiplied sRGB and opacity, 0..1
+ *
+ * @typedef {object} MapLeaf A leaf of a map, with its paints.
+ * @property {number[][]} curves in its lattice units
+ * @property {[number, number][]} sides paints on the left and right of each curve
+ * @property {number} base its base paint
+ */
+
+/** @type {Readonly<Painted>} */
+const NOTHING = Object.freeze({ paint: null, color: /** @type {Color} */ ([0, 0, 0, 0]) });
+
+/** @param {Color} color @param {number} one */
+const scaled = (color, one) => /** @type {Color} */ (color.map((part) => part / one));
+
+/**
+ * Colour of a paint: premultiplied sRGB and opacity, 0..1.
+ *
+ * @param {PackedData} data
+ * @param {number} quad index of the map's root quad
+ * @param {number} paint
+ */
+export function paintColor({ texels }, quad, paint) {
+  return scaled(paintSteps(texels, headOf(texels, quad), paint), PAINT_ONE);
+}
+
+/**
+ * Mean colour of a cell: premultiplied sRGB and opacity, 0..1.
+ *
+ * @param {PackedData} data
+ * @param {number} root index of the map's root quad
+ * @param {number} quad that holds the cell
+ * @param {number} cell
+ */
+export function meanColor({ texels }, root, quad, cell) {
+  return scaled(meanBytes(texels, headOf(texels, root), quad, cell), COVERAGE_ONE);
+}
+
+/**
+ * The paints and curves of a leaf, in lattice units.
+ *
+ * @param {PackedData} data
+ * @param {number} root index of the map's root quad
+ * @param {number} quad that holds the leaf
+ * @param {number} cell
+ * @returns {MapLeaf}
+ */
+export function mapLeaf({ texels }, root, quad, cell) {
+  const head = headOf(texels, root);
+  const leaf = leafOf(texels, quad, cell);
+  const sides = Array.from({ length: leaf.byte >> COUNT_SHIFT }, (_, i) => sidesOf(texels, head, leaf.first + i));
+  return { curves: curvesOf(texels, leaf), sides, base: basePaint(texels, head, quad, cell) };
+}
+
+/**
+ * How often each paint counts at a point of a leaf; those that count 0 are left out.
+ *
+ * @param {MapLeaf} leaf
+ * @param {number} x
+ * @param {number} y in its lattice units
+ * @returns {Map<number, number>}
+ */
+export function paintCounts({ curves, sides, base }, x, y) {
+  const counts = new Map([[base, 1]]);
+  const add = (/** @type {number} */ paint, /** @type {number} */ more) => {
+    const count = (counts.get(paint) ?? 0) + more;
+    if (count) counts.set(paint, count);
+    else counts.delete(paint);
+  };
+  curves.forEach((curve, i) => {
+    const [x0, y0, , , , , x3, y3] = curve;
+    let more = 0;
+    if (x0 === 0 && y0 <= y) more++;
+    if (x3 === 0 && y3 <= y) more--;
+    if (y0 <= y && y < y3 && isAtOrLeft(curve, x, y)) more--;
+    if (!more) return;
+    add(sides[i][0], more);
+    add(sides[i][1], -more);
+  });
+  return counts;
+}
+
+/**
+ * The paint and colour at a point of the unit square (FORMAT.md, D.6).
+ *
+ * @param {PackedData} data
+ * @param {number} quad index of the map's root quad
+ * @param {number} u
+ * @param {number} v upwards
+ * @returns {Painted}
+ */
+export function paintAt(data, quad, u, v) {
+  if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return { ...NOTHING };
+  const { texels } = data;
+  let parent = quad;
+  for (let depth = 0; depth < MOST_DEPTH; depth++) {
+    const right = u >= 0.5 ? 1 : 0;
+    const upper = v >= 0.5 ? 1 : 0;
+    u = 2 * u - right; // exact
+    v = 2 * v - upper;
+    const cell = right + 2 * upper;
+    const { byte, below } = leafOf(texels, parent, cell);
+    if (byte === QUAD_FLAG) parent = below;
+    else if (byte === IS_MEAN) return { paint: null, color: meanColor(data, quad, parent, cell) };
+    else return summed(data, quad, paintCounts(mapLeaf(data, quad, parent, cell), LATTICE * u, LATTICE * v));
+  }
+  throw new VextureError(`quad ${parent} lies deeper than ${MOST_DEPTH} levels; read the file with readPacked`, 'quad');
+}
+
+/**
+ * What paints add up to, held in its range.
+ *
+ * @param {PackedData} data
+ * @param {number} quad index of the map's root quad
+ * @param {Map<number, number>} counts
+ * @returns {Painted}
+ */
+function summed(data, quad, counts) {
+  const sum = /** @type {Color} */ ([0, 0, 0, 0]);
+  for (const [paint, count] of counts) paintColor(data, quad, paint).forEach((part, k) => (sum[k] += count * part));
+  const [[paint, count] = [null, 0]] = counts;
+  const opacity = Math.min(Math.max(sum[3], 0), 1);
+  const held = sum.slice(0, 3).map((part) => Math.min(Math.max(part, 0), opacity));
+  return { paint: counts.size === 1 && count === 1 ? paint : null, color: /** @type {Color} */ ([...held, opacity]) };
+}
