@@ -33,7 +33,7 @@ Source: TypeAlias = Place | bytes | bytearray | memoryview | IO[bytes]
 UNNAMED = "drawing"
 
 
-def read(source: Source, *, name: str | None = None, select: str | None = None) -> "Drawing":
+def read(source: Source, *, name: str | None = None, select: str | None = None, names: str | None = None) -> "Drawing":
     """Read a drawing from a file of any supported kind; its content decides, not its suffix.
 
     - SVG, plain or gzipped (`vexture.read_svg`).
@@ -50,6 +50,8 @@ def read(source: Source, *, name: str | None = None, select: str | None = None) 
         Name of the file in messages and, without its suffix, of the drawing; by default the path.
     select : str, optional
         A CSS selector, of SVG only; see `vexture.read_svg`.
+    names : str, optional
+        The property that names paths, of GeoJSON only; see `vexture.read_geojson`.
 
     Returns
     -------
@@ -61,7 +63,8 @@ def read(source: Source, *, name: str | None = None, select: str | None = None) 
     SourceError
         If it cannot be read, or is a texture.
     ParameterError
-        If `select` is given for anything but an SVG, or `source` is the text of a file.
+        If `select` is given for anything but an SVG, `names` for anything but GeoJSON, or `source` is the text of a
+        file.
     TypeError
         If `source` is something else, such as a file that is open in text mode.
     LimitError
@@ -81,19 +84,23 @@ def read(source: Source, *, name: str | None = None, select: str | None = None) 
     >>> read(b'{"type": "Polygon", "coordinates": [[[4, 52], [6, 52], [6, 53], [4, 53]]]}').crs
     'OGC:CRS84'
     """
-    drawing = read_drawing(source, name=name, select=select)
+    drawing = read_drawing(source, name=name, select=select, names=names)
     warn_of(name_of(source, name), drawing.notes)
     return drawing
 
 
-def read_drawing(source: Source, *, name: str | None = None, select: str | None = None) -> "Drawing":
+def read_drawing(
+    source: Source, *, name: str | None = None, select: str | None = None, names: str | None = None
+) -> "Drawing":
     """Read a drawing as `read` does, but without a warning."""
     source, shown = _checked(source), name_of(source, name)
     with about(shown):
         given = unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
         kind = known_kind(start_of(given) or read_bytes(given), shown)
+        if names is not None and kind is not FileKind.GEOJSON:
+            raise ParameterError(f"`names` {names!r} is a property of features in GeoJSON; leave it out")
         if kind is not FileKind.SVG:
-            return _read_other(kind, given, shown, select)
+            return _read_other(kind, given, shown, select, names)
         content = read_bytes(given)
     from vexture.svg.read import svg_drawing
 
@@ -127,7 +134,7 @@ def name_of(source: Source, name: str | None = None) -> str:
     return called if isinstance(called, str) else UNNAMED
 
 
-def _read_other(kind: FileKind, source: Place | bytes, shown: str, select: str | None) -> "Drawing":
+def _read_other(kind: FileKind, source: Place | bytes, shown: str, select: str | None, names: str | None) -> "Drawing":
     """Read anything but SVG; the caller puts the name in front of errors."""
     if kind is FileKind.TEXTURE:
         raise SourceError("is a texture already; give the drawing that it was made from")
@@ -141,7 +148,7 @@ def _read_other(kind: FileKind, source: Place | bytes, shown: str, select: str |
     if kind is FileKind.GEOJSON:
         from vexture.geo.geojson import geojson_drawing
 
-        return geojson_drawing(read_bytes(source), name)
+        return geojson_drawing(read_bytes(source), name, names=names)
     return _read_first_step(source, shown)
 
 

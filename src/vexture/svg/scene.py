@@ -87,7 +87,8 @@ class Scene:
         if "transform" in self.style.own:
             self.report.left_out("transform of the outermost <svg>")
         chosen = self.chosen is None or self.root in self.chosen
-        place = Place(viewport, Space().moved(matrix), self.style, self.root, chosen=chosen)
+        called = self.root.get("id", "")
+        place = Place(viewport, Space().moved(matrix), self.style, self.root, chosen=chosen, name=called)
         if opacity < 1.0:  # a blend mode of the outermost element has nothing below it to mix with
             place = replace(place, veil=Veil(None, opacity))
         used = 0
@@ -129,7 +130,10 @@ class Scene:
             raise SourceError(f"it stands inside {DEEPEST:,} others; flatten the groups or the uses")
         space, depth = place.space.moved(matrix), place.depth + 1
         veil = veil_of(style, place.veil)
-        inner = Place(place.viewport, space, style, element, place, depth, place.used, chosen=chosen, veil=veil)
+        called, is_instance = place.named(element, name == "use")
+        inner = Place(
+            place.viewport, space, style, element, place, depth, place.used, None, chosen, veil, called, is_instance
+        )
         if name in SHAPES:
             self.note_children(element, name, style)
             painter.paint(element, inner)
