@@ -34,7 +34,7 @@ __all__ = [
 Source: TypeAlias = "Drawing | str | os.PathLike[str]"
 """A drawing, or the path of a file that `vexture.read` reads."""
 
-READING: Final = ("select", "names")
+READING: Final = ("select", "names", "snap")
 """Parameters of the source's reader."""
 
 AnyTexture = TypeVar("AnyTexture", bound=EncodedTexture, covariant=True)
@@ -59,6 +59,7 @@ class Parameters:
     precision: float | None = None
     max_seconds: float = DEFAULT_SECONDS
     names: str | None = None
+    snap: float | None = None
 
     def __post_init__(self) -> None:
         if self.split not in (None, "paint", "faces"):
@@ -195,6 +196,7 @@ def convert(
     precision: float | None = ...,
     max_seconds: float = ...,
     names: str | None = ...,
+    snap: float | None = ...,
 ) -> "Texture": ...
 
 
@@ -214,6 +216,7 @@ def convert(
     precision: float | None = None,
     max_seconds: float = DEFAULT_SECONDS,
     names: str | None = None,
+    snap: float | None = None,
     **others: Any,
 ) -> EncodedTexture:
     """Convert a drawing into a texture.
@@ -245,6 +248,8 @@ def convert(
         Most seconds that reading the source and building its trees may take; 300 by default.
     names : str, optional
         The property that names the polygons of GeoJSON; see `vexture.read_geojson`.
+    snap : float, optional
+        How far borders of a map's polygons that become one may differ; see `vexture.read_geojson`.
     **others
         Parameters of another encoding.
 
@@ -276,7 +281,7 @@ def convert(
     >>> [root.name for root in convert(triangle).roots]
     ['drawing']
     """
-    named = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names)
+    named = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap)
     values = ((field.name, getattr(named, field.name)) for field in fields(named))
     given = {name: value for name, value in values if value is not None}
     conversion = run(source, encoding=encoding, **given, **others)
@@ -305,6 +310,7 @@ def atlas(
     precision: float | None = None,
     max_seconds: float = DEFAULT_SECONDS,
     names: str | None = None,
+    snap: float | None = None,
 ) -> "Texture":
     """Convert many drawings into one texture: a shape for each, or with `split` for each layer of each.
 
@@ -315,7 +321,7 @@ def atlas(
         ``name/layer``.
     name : str
         Names the texture.
-    split, select, tolerance, max_depth, capacity, precision, max_seconds, names
+    split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap
         As in `vexture.convert`, for each source.
 
     Returns
@@ -336,7 +342,7 @@ def atlas(
     >>> [root.name for root in both.roots]
     ['a', 'b']
     """
-    parameters = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names)
+    parameters = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap)
     if isinstance(sources, str | bytes | os.PathLike) or not isinstance(sources, Iterable):
         sources = [sources]
     parts = []

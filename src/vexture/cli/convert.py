@@ -82,6 +82,13 @@ class Outcome:
 )
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
 @click.option("--names", metavar="PROPERTY", help="Name the polygons of GeoJSON by a property, rather than by id.")
+@click.option(
+    "--snap",
+    metavar="D",
+    type=float,
+    help="Make borders of a map's polygons one where they differ by no more than D, in parts of the drawing's longer "
+    "side; 0 leaves them.  [default: 3e-6]",
+)
 @tolerance_option
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
 @click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 8]")

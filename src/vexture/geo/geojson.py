@@ -16,6 +16,7 @@ from vexture.bezier.convert import line_cubics
 from vexture.content import BYTE_ORDER_MARK, READABLE, about, decompressed, read_bytes
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import SourceError
+from vexture.geo.snap import snapped
 from vexture.notes import Notes, line_of, warn_of
 from vexture.paint import BLACK, Paint
 
@@ -57,7 +58,9 @@ class Area(NamedTuple):
     where: str
 
 
-def read_geojson(source: str | os.PathLike[str] | bytes, *, names: str | None = None) -> Drawing:
+def read_geojson(
+    source: str | os.PathLike[str] | bytes, *, names: str | None = None, snap: float | None = None
+) -> Drawing:
     """Read GeoJSON (RFC 7946): polygons with their holes, one path for each.
 
     The box around them is fitted into the unit square at its own aspect ratio. The properties ``fill`` and
@@ -71,18 +74,23 @@ def read_geojson(source: str | os.PathLike[str] | bytes, *, names: str | None = 
         The file, plain or gzipped, or its content.
     names : str, optional
         Property by whose values the paths are named, rather than by ``id``.
+    snap : float, optional
+        Borders of two polygons that differ by no more than this become one, in parts of the larger side of the box;
+        3e-6 by default, 0 leaves all as it is, 0.01 is the most. The detail of a border that no other is near stays.
 
     Returns
     -------
     Drawing
         In the unit square, y up; `to_source` maps it to the coordinates of the file, whose reference system is `crs`.
-        Its `notes` list what was left out.
+        Its `notes` list what was left out, and what was snapped.
 
     Raises
     ------
     SourceError
         If it cannot be read, is not GeoJSON, exceeds a limit or holds no area. Features, polygons and rings are
         counted from 1.
+    ParameterError
+        If `snap` is out of range.
 
     Warns
     -----
@@ -102,16 +110,16 @@ def read_geojson(source: str | os.PathLike[str] | bytes, *, names: str | None = 
     (array([ 4., 52.]), 'OGC:CRS84')
     """
     if isinstance(source, bytes):
-        shown, drawing = "the GeoJSON", geojson_drawing(source, "drawing", names=names)
+        shown, drawing = "the GeoJSON", geojson_drawing(source, "drawing", names=names, snap=snap)
     else:
         shown = os.fspath(source)
         with about(shown):
-            drawing = geojson_drawing(read_bytes(source), FilePath(source).stem, names=names)
+            drawing = geojson_drawing(read_bytes(source), FilePath(source).stem, names=names, snap=snap)
     warn_of(shown, drawing.notes)
     return drawing
 
 
-def geojson_drawing(content: bytes, name: str, *, names: str | None = None) -> Drawing:
+def geojson_drawing(content: bytes, name: str, *, names: str | None = None, snap: float | None = None) -> Drawing:
     """Read GeoJSON, plain or gzipped, as `read_geojson` does, but without a warning: all notes are in the drawing."""
     notes = Notes()
     value = _parsed(decompressed(content))
@@ -121,15 +129,24 @@ def geojson_drawing(content: bytes, name: str, *, names: str | None = None) -> D
     points = np.concatenate([ring for area in areas for ring in area.rings])
     low, high = points.min(axis=0), points.max(axis=0)
     width, height = (float(side) for side in high - low)
+    rings = _snapped(areas, max(width, height), snap, notes)
     paths = [
-        Path(tuple(map(_contour, area.rings)), FillRule.EVENODD, area.look.paint, element=area.look.element)
-        for area in areas
+        Path(tuple(map(_contour, own)), FillRule.EVENODD, area.look.paint, element=area.look.element)
+        for area, own in zip(areas, rings, strict=True)
     ]
     drawing = Drawing.from_source(paths, (float(low[0]), -float(high[1]), width, height), name)
     if not drawing.paths:
         raise SourceError("its polygons enclose no area; correct their coordinates")
     turned = drawing.to_source * [[1.0], [-1.0]] + 0.0  # from_source takes y down; no -0.0
     return replace(drawing, to_source=turned, crs=_crs(value.get("crs")), notes=notes.listed)
+
+
+def _snapped(areas: list[Area], size: float, snap: float | None, notes: Notes) -> list[list[Ring]]:
+    """Rings of each area, with shared borders."""
+    rings = [ring for area in areas for ring in area.rings]
+    points, ends = snapped(np.concatenate(rings), np.cumsum([len(ring) for ring in rings]), size, snap, notes)
+    each = iter(np.split(points, ends[:-1]))
+    return [[ring for _ in area.rings if len(ring := next(each))] for area in areas]
 
 
 def areas_of(content: bytes, notes: Notes) -> tuple[list[Area], str]:
