@@ -53,6 +53,9 @@ class Path:
     paint : Paint
     group : int
         The innermost group around it, as a place in `Drawing.groups`; -1 if there is none.
+    element : str
+        Name of the element of the source that it draws, for picking and restyling; several paths may share one. Empty
+        if the element has none.
 
     Raises
     ------
@@ -64,6 +67,7 @@ class Path:
     fill_rule: FillRule = FillRule.NONZERO
     paint: Paint = BLACK
     group: int = -1
+    element: str = ""
 
     def __post_init__(self) -> None:
         for contour in self.contours:
@@ -85,7 +89,7 @@ class Path:
     def _sound(cls, contours: tuple[NDArray[np.float64], ...], like: "Path", to_source: Affine) -> "Path":
         """Path of contours that are known to be finite and closed, without a check; the rest is another's, moved."""
         path = object.__new__(cls)
-        values = (contours, like.fill_rule, like.paint.after(to_source), like.group)
+        values = (contours, like.fill_rule, like.paint.after(to_source), like.group, like.element)
         for name, value in zip(cls.__slots__, values, strict=True):
             object.__setattr__(path, name, value)
         return path

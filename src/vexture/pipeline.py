@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Final, Generic, Literal, TypeAlias, TypeVar, overload
 
 from vexture.deadline import DEFAULT_SECONDS, within
 from vexture.encodings import DEFAULT, EncodedTexture, find_encoding
@@ -18,10 +18,24 @@ if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take 
     from vexture.drawing import Drawing
     from vexture.texture.texture import Root, Texture
 
-__all__ = ["Conversion", "Parameters", "Source", "atlas", "combine", "convert", "run", "trees_of", "warn_of_loss"]
+__all__ = [
+    "READING",
+    "Conversion",
+    "Parameters",
+    "Source",
+    "atlas",
+    "combine",
+    "convert",
+    "run",
+    "trees_of",
+    "warn_of_loss",
+]
 
 Source: TypeAlias = "Drawing | str | os.PathLike[str]"
 """A drawing, or the path of a file that `vexture.read` reads."""
+
+READING: Final = ("select", "names", "snap")
+"""Parameters of the source's reader."""
 
 AnyTexture = TypeVar("AnyTexture", bound=EncodedTexture, covariant=True)
 
@@ -44,10 +58,17 @@ class Parameters:
     capacity: int | None = None
     precision: float | None = None
     max_seconds: float = DEFAULT_SECONDS
+    names: str | None = None
+    snap: float | None = None
 
     def __post_init__(self) -> None:
         if self.split not in (None, "paint", "faces"):
             raise ParameterError(f"`split` is {self.split!r}; it must be 'paint', 'faces' or None")
+
+    @property
+    def reading(self) -> dict[str, Any]:
+        """Those of the source's reader that are given."""
+        return {name: value for name in READING if (value := getattr(self, name)) is not None}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -104,7 +125,7 @@ def run(
         texture = combine([part], part.drawing.name, None if _is_drawing(source) else Path(part.source).name)
         return replace(part, texture=texture, seconds=time.perf_counter() - start)
     with within(max_seconds):
-        drawing = _drawing_of(source, select).unmasked()
+        drawing = _drawing_of(source, {} if select is None else {"select": select}).unmasked()
         tree, other_texture, rounding = other.convert(drawing, **parameters)
     return Conversion(drawing, (tree,), other_texture, time.perf_counter() - start, rounding, notes=drawing.notes)
 
@@ -120,7 +141,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     if tolerance == "auto":
         tolerance = UNSEEN if parameters.precision is None else 0.0
     with within(parameters.max_seconds):
-        drawing = _drawing_of(source, parameters.select)
+        drawing = _drawing_of(source, parameters.reading)
         given = {"max_depth": parameters.max_depth, "capacity": parameters.capacity, "precision": parameters.precision}
         bounds: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
         bounds["tolerance"] = tolerance
@@ -175,6 +196,8 @@ def convert(
     capacity: int | None = ...,
     precision: float | None = ...,
     max_seconds: float = ...,
+    names: str | None = ...,
+    snap: float | None = ...,
 ) -> "Texture": ...
 
 
@@ -193,6 +216,8 @@ def convert(
     capacity: int | None = None,
     precision: float | None = None,
     max_seconds: float = DEFAULT_SECONDS,
+    names: str | None = None,
+    snap: float | None = None,
     **others: Any,
 ) -> EncodedTexture:
     """Convert a drawing into a texture.
@@ -222,6 +247,10 @@ def convert(
         rounding alone divides no leaf.
     max_seconds : float, optional
         Most seconds that reading the source and building its trees may take; 300 by default.
+    names : str, optional
+        The property that names the polygons of GeoJSON; see `vexture.read_geojson`.
+    snap : float, optional
+        How far borders of a map's polygons that become one may differ; see `vexture.read_geojson`.
     **others
         Parameters of another encoding.
 
@@ -253,7 +282,7 @@ def convert(
     >>> [root.name for root in convert(triangle).roots]
     ['drawing']
     """
-    named = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds)
+    named = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap)
     values = ((field.name, getattr(named, field.name)) for field in fields(named))
     given = {name: value for name, value in values if value is not None}
     conversion = run(source, encoding=encoding, **given, **others)
@@ -281,6 +310,8 @@ def atlas(
     capacity: int | None = None,
     precision: float | None = None,
     max_seconds: float = DEFAULT_SECONDS,
+    names: str | None = None,
+    snap: float | None = None,
 ) -> "Texture":
     """Convert many drawings into one texture: a shape for each, or with `split` for each layer of each.
 
@@ -291,7 +322,7 @@ def atlas(
         ``name/layer``.
     name : str
         Names the texture.
-    split, select, tolerance, max_depth, capacity, precision, max_seconds
+    split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap
         As in `vexture.convert`, for each source.
 
     Returns
@@ -312,7 +343,7 @@ def atlas(
     >>> [root.name for root in both.roots]
     ['a', 'b']
     """
-    parameters = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds)
+    parameters = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap)
     if isinstance(sources, str | bytes | os.PathLike) or not isinstance(sources, Iterable):
         sources = [sources]
     parts = []
@@ -332,8 +363,8 @@ def _is_drawing(source: Any) -> bool:
     return isinstance(source, Drawing)
 
 
-def _drawing_of(source: Source, select: str | None) -> "Drawing":
-    """Drawing that a source is or holds."""
+def _drawing_of(source: Source, reading: dict[str, Any]) -> "Drawing":
+    """Drawing that a source is or holds, with the parameters of its reader."""
     from vexture.drawing import Drawing
 
     if not isinstance(source, Drawing):
@@ -344,10 +375,10 @@ def _drawing_of(source: Source, select: str | None) -> "Drawing":
             raise TypeError(
                 f"`source` is of the type {kind}; give a path or a Drawing, which vexture.read makes of bytes and files"
             )
-        return read_drawing(source, select=select)
-    if select is not None:
+        return read_drawing(source, **reading)
+    for name, value in reading.items():
         raise ParameterError(
-            f"`select` is {select!r}, but {source.name} is a drawing, whose elements have no names any more; "
-            "use vexture.read(path, select=...)"
+            f"`{name}` is {value!r}, but {source.name} is a drawing, which is read already; "
+            f"use vexture.read(path, {name}=...)"
         )
     return source

@@ -33,7 +33,14 @@ Source: TypeAlias = Place | bytes | bytearray | memoryview | IO[bytes]
 UNNAMED = "drawing"
 
 
-def read(source: Source, *, name: str | None = None, select: str | None = None) -> "Drawing":
+def read(
+    source: Source,
+    *,
+    name: str | None = None,
+    select: str | None = None,
+    names: str | None = None,
+    snap: float | None = None,
+) -> "Drawing":
     """Read a drawing from a file of any supported kind; its content decides, not its suffix.
 
     - SVG, plain or gzipped (`vexture.read_svg`).
@@ -50,6 +57,10 @@ def read(source: Source, *, name: str | None = None, select: str | None = None) 
         Name of the file in messages and, without its suffix, of the drawing; by default the path.
     select : str, optional
         A CSS selector, of SVG only; see `vexture.read_svg`.
+    names : str, optional
+        The property that names paths, of GeoJSON only; see `vexture.read_geojson`.
+    snap : float, optional
+        How far borders of polygons that become one may differ, of maps only; see `vexture.read_geojson`.
 
     Returns
     -------
@@ -61,7 +72,8 @@ def read(source: Source, *, name: str | None = None, select: str | None = None) 
     SourceError
         If it cannot be read, or is a texture.
     ParameterError
-        If `select` is given for anything but an SVG, or `source` is the text of a file.
+        If `select` is given for anything but an SVG, `names` for anything but GeoJSON, `snap` for anything but a map,
+        or `source` is the text of a file.
     TypeError
         If `source` is something else, such as a file that is open in text mode.
     LimitError
@@ -81,19 +93,30 @@ def read(source: Source, *, name: str | None = None, select: str | None = None) 
     >>> read(b'{"type": "Polygon", "coordinates": [[[4, 52], [6, 52], [6, 53], [4, 53]]]}').crs
     'OGC:CRS84'
     """
-    drawing = read_drawing(source, name=name, select=select)
+    drawing = read_drawing(source, name=name, select=select, names=names, snap=snap)
     warn_of(name_of(source, name), drawing.notes)
     return drawing
 
 
-def read_drawing(source: Source, *, name: str | None = None, select: str | None = None) -> "Drawing":
+def read_drawing(
+    source: Source,
+    *,
+    name: str | None = None,
+    select: str | None = None,
+    names: str | None = None,
+    snap: float | None = None,
+) -> "Drawing":
     """Read a drawing as `read` does, but without a warning."""
     source, shown = _checked(source), name_of(source, name)
     with about(shown):
         given = unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
         kind = known_kind(start_of(given) or read_bytes(given), shown)
+        if names is not None and kind is not FileKind.GEOJSON:
+            raise ParameterError(f"`names` {names!r} is a property of features in GeoJSON; leave it out")
+        if snap is not None and kind in (FileKind.SVG, FileKind.PICTURE):
+            raise ParameterError(f"`snap` {snap} is for the borders of polygons in a map; leave it out")
         if kind is not FileKind.SVG:
-            return _read_other(kind, given, shown, select)
+            return _read_other(kind, given, shown, select, names, snap)
         content = read_bytes(given)
     from vexture.svg.read import svg_drawing
 
@@ -127,7 +150,9 @@ def name_of(source: Source, name: str | None = None) -> str:
     return called if isinstance(called, str) else UNNAMED
 
 
-def _read_other(kind: FileKind, source: Place | bytes, shown: str, select: str | None) -> "Drawing":
+def _read_other(
+    kind: FileKind, source: Place | bytes, shown: str, select: str | None, names: str | None, snap: float | None
+) -> "Drawing":
     """Read anything but SVG; the caller puts the name in front of errors."""
     if kind is FileKind.TEXTURE:
         raise SourceError("is a texture already; give the drawing that it was made from")
@@ -141,20 +166,20 @@ def _read_other(kind: FileKind, source: Place | bytes, shown: str, select: str |
     if kind is FileKind.GEOJSON:
         from vexture.geo.geojson import geojson_drawing
 
-        return geojson_drawing(read_bytes(source), name)
-    return _read_first_step(source, shown)
+        return geojson_drawing(read_bytes(source), name, names=names, snap=snap)
+    return _read_first_step(source, shown, snap)
 
 
-def _read_first_step(source: Place | bytes, shown: str) -> "Drawing":
+def _read_first_step(source: Place | bytes, shown: str, snap: float | None) -> "Drawing":
     """Wet areas at the first time; the file need not be georeferenced."""
     from dataclasses import replace
 
     from vexture.geo.crs import UNPLACED, MissingReferenceError
 
     try:
-        extent = extent_of(source, shown)
+        extent = extent_of(source, shown, snap=snap)
     except MissingReferenceError:
-        extent = extent_of(source, shown, crs=UNPLACED)
+        extent = extent_of(source, shown, crs=UNPLACED, snap=snap)
     drawing, count = extent.steps[0].drawing, len(extent.steps)
     if count == 1:
         return drawing
@@ -173,6 +198,7 @@ def read_extent(
     hmin: float = HMIN,
     variable: str | None = None,
     layer: str | None = None,
+    snap: float | None = None,
 ) -> "Extent":
     """Read wet areas from geographic data of any supported kind.
 
@@ -197,6 +223,9 @@ def read_extent(
         Variable of the depths, where there are several.
     layer : str, optional
         Layer of polygons, where there are several.
+    snap : float, optional
+        Borders of two polygons that differ by no more than this become one, in parts of the frame's larger side; 3e-6
+        by default, 0 leaves all as it is.
 
     Returns
     -------
@@ -229,7 +258,7 @@ def read_extent(
     shown = file_name or ("the data" if isinstance(source, bytes) else os.fspath(source))
     options = {"frame": frame, "bounds": bounds, "crs": crs, "time_dim": time_dim, "variable": variable, "layer": layer}
     try:
-        extent = extent_of(source, shown, hmin=hmin, **options)  # type: ignore[arg-type]
+        extent = extent_of(source, shown, hmin=hmin, snap=snap, **options)  # type: ignore[arg-type]
     except (SourceError, LimitError, ParameterError) as error:
         if isinstance(source, bytes):
             raise
@@ -249,23 +278,24 @@ def extent_of(
     hmin: float = HMIN,
     variable: str | None = None,
     layer: str | None = None,
+    snap: float | None = None,
 ) -> "Extent":
     """Read wet areas as `read_extent` does, but without a warning, and without the file's name in errors."""
     source = unpacked(source)
     if kind_of(start_of(source), file_name) is FileKind.DEPTHS:
         from vexture.geo.depths import read_depths
 
-        _refuse({"`layer`": layer}, "polygons, and this file holds depths")
+        _refuse({"`layer`": layer, "`snap`": snap}, "polygons, and this file holds depths")
         return read_depths(
             source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable
         )
     from vexture.geo.polygons import read_polygons
 
     _refuse({"`time_dim`": time_dim, "`variable`": variable}, "depths, and this file holds polygons")
-    return read_polygons(source, file_name, frame=frame, bounds=bounds, crs=crs, layer=layer)
+    return read_polygons(source, file_name, frame=frame, bounds=bounds, crs=crs, layer=layer, snap=snap)
 
 
-def _refuse(options: dict[str, str | None], kind: str) -> None:
+def _refuse(options: dict[str, str | float | None], kind: str) -> None:
     """Refuse parameters for data of another kind."""
     for option, value in options.items():
         if value is not None:

@@ -146,7 +146,7 @@ def test_a_parameter_of_depths_is_refused(tmp_path):
 def test_without_the_packages_it_says_what_to_install_and_plain_geojson_is_read(tmp_path, monkeypatch):
     geopackage = file(tmp_path, "lake.gpkg")
     geojson = file(tmp_path, "lake.geojson")
-    for package in ("pyogrio", "pyproj", "shapely"):
+    for package in ("pyogrio", "pyproj"):
         monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(DeviceError, match=r"needs the package pyogrio: pip install 'vexture\[gis\]'"):
         read_drawing(geopackage)

@@ -81,6 +81,14 @@ class Outcome:
     "one planar map, without seams between colours.",
 )
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
+@click.option("--names", metavar="PROPERTY", help="Name the polygons of GeoJSON by a property, rather than by id.")
+@click.option(
+    "--snap",
+    metavar="D",
+    type=float,
+    help="Make borders of a map's polygons one where they differ by no more than D, in parts of the drawing's longer "
+    "side; 0 leaves them.  [default: 3e-6]",
+)
 @tolerance_option
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
 @click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 8]")
@@ -216,7 +224,7 @@ def _convert_one(
     `stored` are the parameters of the texture's `files`.
     """
     from vexture.notes import line_of
-    from vexture.pipeline import Parameters, run, trees_of
+    from vexture.pipeline import READING, Parameters, run, trees_of
     from vexture.reading import read_drawing
     from vexture.texture.ktx2 import TEXEL_BYTES
 
@@ -227,7 +235,8 @@ def _convert_one(
     try:
         if content is not None:
             parameters = dict(parameters)
-            given = read_drawing(content, name="standard input", select=parameters.pop("select", None))
+            reading = {name: parameters.pop(name) for name in READING if name in parameters}
+            given = read_drawing(content, name="standard input", **reading)
         if for_atlas:
             done = trees_of(given, Parameters(**parameters))
             size = TEXEL_BYTES * sum(tree.texels for tree in done.trees)

@@ -16,8 +16,9 @@ from vexture.bezier.convert import line_cubics
 from vexture.content import BYTE_ORDER_MARK, READABLE, about, decompressed, read_bytes
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import SourceError
+from vexture.geo.snap import snapped
 from vexture.notes import Notes, line_of, warn_of
-from vexture.paint import Paint
+from vexture.paint import BLACK, Paint
 
 __all__ = ["LARGEST", "UNLOCATED", "Area", "areas_of", "geojson_drawing", "met", "read_geojson"]
 
@@ -42,38 +43,54 @@ WITHOUT_AREA: Final = ("Point", "MultiPoint", "LineString", "MultiLineString")
 Ring = NDArray[np.float64]
 
 
+class Look(NamedTuple):
+    """What all polygons of a feature have: its paint, and its name in drawings."""
+
+    paint: Paint = BLACK
+    element: str = ""
+
+
 class Area(NamedTuple):
-    """One polygon: its rings in the units of the file, y up, its paint, and its name in messages."""
+    """One polygon: its rings in the units of the file, y up, its look, and its name in messages."""
 
     rings: list[Ring]
-    paint: Paint
+    look: Look
     where: str
 
 
-def read_geojson(source: str | os.PathLike[str] | bytes) -> Drawing:
+def read_geojson(
+    source: str | os.PathLike[str] | bytes, *, names: str | None = None, snap: float | None = None
+) -> Drawing:
     """Read GeoJSON (RFC 7946): polygons with their holes, one path for each.
 
     The box around them is fitted into the unit square at its own aspect ratio. The properties ``fill`` and
-    ``fill-opacity`` of a feature (simplestyle) are its paint, else black. Points and lines, which have no area, are
-    left out and named. The old member ``crs`` is read where it names a system; without it, coordinates are degrees of
-    longitude and latitude.
+    ``fill-opacity`` of a feature (simplestyle) are its paint, else black. Its ``id``, else its property ``name``, is
+    the name of its paths (`Path.element`). Points and lines, which have no area, are left out and named. The old member
+    ``crs`` is read where it names a system; without it, coordinates are degrees of longitude and latitude.
 
     Parameters
     ----------
     source : path or bytes
         The file, plain or gzipped, or its content.
+    names : str, optional
+        Property by whose values the paths are named, rather than by ``id``.
+    snap : float, optional
+        Borders of two polygons that differ by no more than this become one, in parts of the larger side of the box;
+        3e-6 by default, 0 leaves all as it is, 0.01 is the most. The detail of a border that no other is near stays.
 
     Returns
     -------
     Drawing
         In the unit square, y up; `to_source` maps it to the coordinates of the file, whose reference system is `crs`.
-        Its `notes` list what was left out.
+        Its `notes` list what was left out, and what was snapped.
 
     Raises
     ------
     SourceError
         If it cannot be read, is not GeoJSON, exceeds a limit or holds no area. Features, polygons and rings are
         counted from 1.
+    ParameterError
+        If `snap` is out of range.
 
     Warns
     -----
@@ -93,31 +110,43 @@ def read_geojson(source: str | os.PathLike[str] | bytes) -> Drawing:
     (array([ 4., 52.]), 'OGC:CRS84')
     """
     if isinstance(source, bytes):
-        shown, drawing = "the GeoJSON", geojson_drawing(source, "drawing")
+        shown, drawing = "the GeoJSON", geojson_drawing(source, "drawing", names=names, snap=snap)
     else:
         shown = os.fspath(source)
         with about(shown):
-            drawing = geojson_drawing(read_bytes(source), FilePath(source).stem)
+            drawing = geojson_drawing(read_bytes(source), FilePath(source).stem, names=names, snap=snap)
     warn_of(shown, drawing.notes)
     return drawing
 
 
-def geojson_drawing(content: bytes, name: str) -> Drawing:
+def geojson_drawing(content: bytes, name: str, *, names: str | None = None, snap: float | None = None) -> Drawing:
     """Read GeoJSON, plain or gzipped, as `read_geojson` does, but without a warning: all notes are in the drawing."""
     notes = Notes()
     value = _parsed(decompressed(content))
-    areas = list(_Reader(notes).areas(value))
+    areas = list(_Reader(notes, names).areas(value))
     if not areas:
         raise SourceError(f"it holds no polygon to fill{met(notes)}; give Polygon or MultiPolygon geometries")
     points = np.concatenate([ring for area in areas for ring in area.rings])
     low, high = points.min(axis=0), points.max(axis=0)
     width, height = (float(side) for side in high - low)
-    paths = [Path(tuple(map(_contour, area.rings)), FillRule.EVENODD, area.paint) for area in areas]
+    rings = _snapped(areas, max(width, height), snap, notes)
+    paths = [
+        Path(tuple(map(_contour, own)), FillRule.EVENODD, area.look.paint, element=area.look.element)
+        for area, own in zip(areas, rings, strict=True)
+    ]
     drawing = Drawing.from_source(paths, (float(low[0]), -float(high[1]), width, height), name)
     if not drawing.paths:
         raise SourceError("its polygons enclose no area; correct their coordinates")
     turned = drawing.to_source * [[1.0], [-1.0]] + 0.0  # from_source takes y down; no -0.0
     return replace(drawing, to_source=turned, crs=_crs(value.get("crs")), notes=notes.listed)
+
+
+def _snapped(areas: list[Area], size: float, snap: float | None, notes: Notes) -> list[list[Ring]]:
+    """Rings of each area, with shared borders."""
+    rings = [ring for area in areas for ring in area.rings]
+    points, ends = snapped(np.concatenate(rings), np.cumsum([len(ring) for ring in rings]), size, snap, notes)
+    each = iter(np.split(points, ends[:-1]))
+    return [[ring for _ in area.rings if len(ring := next(each))] for area in areas]
 
 
 def areas_of(content: bytes, notes: Notes) -> tuple[list[Area], str]:
@@ -152,17 +181,18 @@ def _parsed(content: bytes) -> dict[str, Any]:
 
 
 class _Reader:
-    """Walks over one file, collects notes and counts positions."""
+    """Walks over one file, collects notes and counts positions; features are named by a property, or their `id`."""
 
-    def __init__(self, notes: Notes) -> None:
+    def __init__(self, notes: Notes, names: str | None = None) -> None:
         self._notes = notes
+        self._names = names
         self._positions = 0
 
     def areas(self, value: dict[str, Any]) -> Iterator[Area]:
         """Areas of the outermost object."""
         kind = value.get("type")
         if kind != "FeatureCollection":
-            yield from self._feature(value, "the feature") if kind == "Feature" else self._geometry(value, "", Paint())
+            yield from self._feature(value, "the feature") if kind == "Feature" else self._geometry(value, "", Look())
             return
         features = value.get("features")
         if not isinstance(features, list):
@@ -176,9 +206,11 @@ class _Reader:
         if value.get("geometry") is None:  # RFC 7946, 3.2: an unlocated feature
             self._notes.left_out(UNLOCATED)
         else:
-            yield from self._geometry(value["geometry"], where, self._paint(value.get("properties")))
+            properties = value.get("properties")
+            look = Look(self._paint(properties), self._element(value.get("id"), properties))
+            yield from self._geometry(value["geometry"], where, look)
 
-    def _geometry(self, value: Any, where: str, paint: Paint, depth: int = 0) -> Iterator[Area]:
+    def _geometry(self, value: Any, where: str, look: Look, depth: int = 0) -> Iterator[Area]:
         """Areas of a geometry; `where` names the place in messages."""
         if not isinstance(value, dict):
             raise SourceError(f"{_at(where, 'the geometry')} is a {type(value).__name__}, not an object; correct it")
@@ -193,23 +225,23 @@ class _Reader:
         if not isinstance(content, list):
             raise SourceError(f"{_at(where, kind)} has no list of its parts; correct it")
         if kind == "Polygon":
-            yield from self._polygon(content, where, paint)
+            yield from self._polygon(content, where, look)
         elif kind == "MultiPolygon":
             for number, rings in enumerate(content, 1):
-                yield from self._polygon(rings, _at(where, f"polygon {number}"), paint)
+                yield from self._polygon(rings, _at(where, f"polygon {number}"), look)
         elif depth == MOST_NESTED:
             raise SourceError(f"{_at(where, kind)} is nested more than {MOST_NESTED} deep; flatten it")
         else:
             for number, part in enumerate(content, 1):
-                yield from self._geometry(part, _at(where, f"geometry {number}"), paint, depth + 1)
+                yield from self._geometry(part, _at(where, f"geometry {number}"), look, depth + 1)
 
-    def _polygon(self, rings: Any, where: str, paint: Paint) -> Iterator[Area]:
+    def _polygon(self, rings: Any, where: str, look: Look) -> Iterator[Area]:
         if not isinstance(rings, list):
             raise SourceError(f"{_at(where, 'the polygon')} is a {type(rings).__name__}, not a list of rings")
         read = [self._ring(ring, _at(where, f"ring {number}")) for number, ring in enumerate(rings, 1)]
         kept = [ring for ring in read if ring is not None]
         if kept:
-            yield Area(kept, paint, where)
+            yield Area(kept, look, where)
 
     def _ring(self, ring: Any, where: str) -> Ring | None:
         """Positions of a ring, the first not repeated at the end; None of fewer than three."""
@@ -227,6 +259,12 @@ class _Reader:
             self._notes.left_out("ring of fewer than three positions")
             return None
         return points
+
+    def _element(self, identity: Any, properties: Any) -> str:
+        """Name of a feature, from a text or a number."""
+        held = properties if isinstance(properties, dict) else {}
+        chosen = (identity, held.get("name")) if self._names is None else (held.get(self._names), identity)
+        return next((str(value) for value in chosen if type(value) in (str, *NUMBERS)), "")
 
     def _paint(self, properties: Any) -> Paint:
         """Colour of a feature."""

@@ -26,7 +26,7 @@ from vexture.geo.crs import (
 )
 from vexture.geo.extent import Bounds, Extent, Frame, Step, bounds_of_square
 from vexture.geo.geojson import UNLOCATED, met
-from vexture.geo.rings import Rings, cut, moved, oriented, refuse_far, repaired, unwrapped, within
+from vexture.geo.rings import Rings, cut, moved, oriented, refuse_far, repaired, shared, unwrapped, within
 from vexture.geo.vectors import read_areas
 from vexture.notes import Notes
 from vexture.tolerance import CLOSED
@@ -47,11 +47,13 @@ def read_polygons(
     bounds: Bounds | None = None,
     crs: str | None = None,
     layer: str | None = None,
+    snap: float | None = None,
 ) -> Extent:
     """Read the area under water from GeoJSON, GeoPackage, FlatGeobuf or a shapefile.
 
     All polygons in the file are water, where they overlap too. Straight sides stay straight; rings that cross the
-    antimeridian are unwrapped; invalid polygons are repaired. Parameters and errors as in `vexture.read_extent`.
+    antimeridian are unwrapped; invalid polygons are repaired, and borders that differ by `snap` become
+    one. Parameters and errors as in `vexture.read_extent`.
     """
     notes = Notes()
     rings, named = read_areas(source, file_name, layer, notes)
@@ -70,7 +72,8 @@ def read_polygons(
         if bounds is None and not len(rings.ends):
             raise SourceError("it holds no polygon; for an empty flood, give `bounds`")
         frame = frame_of(bounds, bounds or rings.box, own)
-    drawing = _drawn(_placed(rings, own, frame), frame, FilePath(file_name).stem)
+    rings = shared(_placed(rings, own, frame), float(np.abs(frame.to_source[:, :2]).max()), snap, notes)
+    drawing = _drawn(rings, frame, FilePath(file_name).stem)
     return Extent(frame, (Step(replace(drawing, notes=notes.listed)),), notes=notes.listed)
 
 

@@ -12,10 +12,11 @@ from vexture.deadline import check_time
 from vexture.errors import SourceError, reason_of
 from vexture.geo.extent import Bounds
 from vexture.geo.geojson import LARGEST
+from vexture.geo.snap import snapped
 from vexture.notes import Notes
 from vexture.tolerance import ROUND
 
-__all__ = ["Rings", "cut", "moved", "oriented", "refuse_far", "repaired", "rings_of", "unwrapped", "within"]
+__all__ = ["Rings", "cut", "moved", "oriented", "refuse_far", "repaired", "rings_of", "shared", "unwrapped", "within"]
 
 FULL_TURN: Final = 1.0 - 1e-9
 """Turns. A side this long is meant to go around the world: along a pole or the edge of a map."""
@@ -333,3 +334,20 @@ def oriented(rings: Rings) -> Rings:
     index = np.arange(len(turn))
     index[turn] = (np.repeat(rings.starts + rings.ends - 1, rings.ends - rings.starts) - index)[turn]
     return replace(rings, points=rings.points[index])
+
+
+def shared(rings: Rings, size: float, snap: float | None, notes: Notes) -> Rings:
+    """Polygons whose borders are identical where they differ by `snap`; see `snapped`."""
+    points, ends = snapped(rings.points, rings.ends, size, snap, notes)
+    full = np.diff(ends, prepend=0) > 0
+    whole = full[rings.outer][rings.polygon]  # a polygon without an outer ring has no holes either
+    if whole.all() and full.all():
+        return replace(rings, points=points, ends=ends.astype(np.intp))
+    keep = full & whole
+    old, polygon = np.unique(rings.polygon[keep], return_inverse=True)
+    return Rings(
+        points[np.repeat(keep, np.diff(ends, prepend=0))],
+        np.cumsum(np.diff(ends, prepend=0)[keep]).astype(np.intp),
+        polygon.astype(np.intp),
+        lambda index: rings.place(int(old[index])),
+    )

@@ -26,6 +26,9 @@ __all__ = ["Painter", "Ruler"]
 MOST_SEGMENTS = 5_000_000
 """Cubics in one drawing."""
 
+STROKE = "/stroke"
+"""What the name of an element's stroke has after that of its fill; no id of XML has a slash."""
+
 
 class Painter:
     """Collects the paths of what is painted, in order, and the innermost veil around each.
@@ -68,7 +71,7 @@ class Painter:
         """Paint the inside of the outlines."""
         if paint is not None:
             rule = FillRule[shape.style["clip-rule" if place.is_clip else "fill-rule"].upper()]
-            self.add([outline.loop for outline in outlines], place, rule, paint)
+            self.add([outline.loop for outline in outlines], place, rule, paint, place.name)
 
     def stroke(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | None, size: float) -> None:
         """Paint along the outlines; `size` is the drawing's, in the shape's user units."""
@@ -88,9 +91,11 @@ class Painter:
         contours = stroke_contours(outlines, stroke, size)
         if screen is not Identity:
             contours = [mapped(contour, screen.inverse()) for contour in contours]
-        self.add(contours, place, FillRule.NONZERO, paint)
+        self.add(contours, place, FillRule.NONZERO, paint, place.name and place.name + STROKE)
 
-    def add(self, contours: list[NDArray[np.float64]], place: Place, rule: FillRule, paint: Paint) -> None:
+    def add(
+        self, contours: list[NDArray[np.float64]], place: Place, rule: FillRule, paint: Paint, element: str
+    ) -> None:
         """Add contours, in the units of a place, to the paths."""
         self.segments += sum(map(len, contours))
         if self.segments > MOST_SEGMENTS:
@@ -98,7 +103,7 @@ class Painter:
         shown = [place.space.to_drawing(contour) for contour in contours]
         shown = [contour for contour in shown if len(contour)]
         if shown:
-            self.paths.append(Path(tuple(shown), rule, paint))
+            self.paths.append(Path(tuple(shown), rule, paint, element=element))
             self.veils.append(place.veil)
             if place.veil is not None:
                 ends = np.concatenate([contour.reshape(-1, 2) for contour in shown])

@@ -32,8 +32,10 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
     """Read an SVG file, plain or gzipped.
 
     Shapes, paths, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as browsers
-    draw them. Opacity and blend modes that need several paths together become `Drawing.groups`. Gradients are read in
-    full (`Paint.gradient`), patterns become one colour. What is not supported is left out and named.
+    draw them. Opacity, blend modes, clips and masks that need several paths together become `Drawing.groups`. Gradients
+    are read in full (`Paint.gradient`), patterns become one colour. What is not supported is left out and named. Paths
+    are named (`Path.element`) by the ``id`` of their element or of the nearest one around it, and all that a `use`
+    shows by that of the `use`; a stroke is ``id/stroke``.
 
     The box of the drawing is the outermost viewport: `width` and `height`, or the size in `viewBox` where one of them
     is missing or a percentage. A drawing without any of them is as large as what it paints.

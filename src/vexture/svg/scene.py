@@ -86,7 +86,8 @@ class Scene:
         if "transform" in self.style.own:
             self.report.left_out("transform of the outermost <svg>")
         chosen = self.chosen is None or self.root in self.chosen
-        place = Place(viewport, Space().moved(matrix), self.style, self.root, chosen=chosen)
+        called = self.root.get("id", "")
+        place = Place(viewport, Space().moved(matrix), self.style, self.root, chosen=chosen, name=called)
         if opacity < 1.0 or not MASKING.keys().isdisjoint(self.style.own):  # a blend mode has nothing to mix with here
             place = replace(place, veil=Veil(None, opacity))
         used = 0
@@ -132,7 +133,9 @@ class Scene:
         space, depth = place.space.moved(matrix), place.depth + 1
         veil = veil_of(style, place.veil, place.is_clip)
         inner = replace(place, space=space, style=style, element=element, outer=place, depth=depth)
-        inner, shown = replace(inner, use=None, chosen=chosen, veil=veil), list[Placed]()
+        called, is_instance = place.named(element, name == "use")
+        inner = replace(inner, use=None, chosen=chosen, veil=veil, name=called, is_instance=is_instance)
+        shown = list[Placed]()
         if name == "use":  # its clips and masks move along
             inner = replace(inner, space=space.moved(Identity.translate(*position(inner))))
         if not isinstance(painter, Ruler):

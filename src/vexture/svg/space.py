@@ -74,6 +74,15 @@ class Place:
     chosen: bool = True  # whether elements here are painted
     veil: Veil | None = None  # the innermost one around it
     is_clip: bool = False  # whether only the outlines of shapes here count
+    name: str = ""  # of elements here: the nearest id around them, or that of the outermost `use`
+    is_instance: bool = False  # whether the name is that of a `use`
+
+    def named(self, element: etree._Element, is_use: bool) -> tuple[str, bool]:
+        """Name of an element here, and whether it is that of a `use`: what a `use` shows is one thing, of its name."""
+        own = element.get("id", "")
+        if self.is_instance or not own:
+            return self.name, self.is_instance
+        return own, is_use
 
     def inside(self, element: etree._Element) -> bool:
         """Whether an element is around this place."""

@@ -1,0 +1,60 @@
+"""Paths know which element of the source they draw."""
+
+import json
+
+import pytest
+
+import vexture
+from vexture.errors import ParameterError
+from vexture.geo.geojson import read_geojson
+
+SVG = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"'
+BOX = '<rect width="5" height="5"/>'
+HOUSE = f'<defs><symbol id="house"><rect id="wall" width="5" height="5"/><g id="top">{BOX}</g></symbol></defs>'
+
+
+@pytest.mark.parametrize(
+    ("body", "names"),
+    [
+        (BOX, [""]),
+        ('<rect id="a" width="5" height="5" stroke="red"/>', ["a", "a/stroke"]),
+        ('<rect width="5" height="5" stroke="red"/>', ["", ""]),
+        (f'<g id="a"><g>{BOX}</g><g id="b">{BOX}</g>{BOX}</g>{BOX}', ["a", "b", "a", ""]),
+        (f'{HOUSE}<use id="one" href="#house"/><use href="#house"/>', ["one", "one", "wall", "top"]),
+        (f'{HOUSE}<g id="g"><use href="#house"/></g>', ["wall", "top"]),
+        (f'{HOUSE}<g id="u"><use id="v" href="#house"/></g><use id="w" href="#u"/>', ["v", "v", "w", "w"]),
+        (f'<g id="a"><use href="#b"/></g><g id="b">{BOX}</g>', ["b", "b"]),
+    ],
+)
+def test_an_svg_path_has_the_nearest_id_and_an_instance_its_own(body: str, names: list[str]) -> None:
+    drawing = vexture.read(f"{SVG}>{body}</svg>".encode())
+    assert [path.element for path in drawing.paths] == names
+
+
+def test_an_outermost_svg_names_what_nothing_else_names() -> None:
+    drawing = vexture.read(f'{SVG} id="all">{BOX}<g id="b">{BOX}</g></svg>'.encode())
+    assert [path.element for path in drawing.paths] == ["all", "b"]
+
+
+def collection() -> bytes:
+    ring = [[0, 0], [1, 0], [1, 1], [0, 0]]
+    features = [
+        {"id": 7, "properties": {"name": "Ada", "code": "A"}},
+        {"properties": {"name": "Bob", "code": 2.5}},
+        {"id": "c", "properties": None},
+        {"properties": {"name": ["no text"], "code": True}},
+    ]
+    geometry = {"type": "MultiPolygon", "coordinates": [[ring], [ring]]}
+    listed = [{"type": "Feature", "geometry": geometry, **feature} for feature in features]
+    return json.dumps({"type": "FeatureCollection", "features": listed}).encode()
+
+
+@pytest.mark.parametrize(("names", "found"), [(None, ["7", "Bob", "c", ""]), ("code", ["A", "2.5", "c", ""])])
+def test_polygons_are_named_after_their_feature(names: str | None, found: list[str]) -> None:
+    for drawing in (read_geojson(collection(), names=names), vexture.read(collection(), names=names)):
+        assert [path.element for path in drawing.paths] == [name for name in found for _ in range(2)]
+
+
+def test_names_are_for_geojson() -> None:
+    with pytest.raises(ParameterError, match="`names` 'code' is a property of features in GeoJSON; leave it out"):
+        vexture.read(f"{SVG}>{BOX}</svg>".encode(), names="code")
