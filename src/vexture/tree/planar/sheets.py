@@ -42,27 +42,28 @@ class Sheet(NamedTuple):
         return Sheet(replace(self.drawing, name=f"{name}/{number}-{what}"), self.tree)
 
 
-def sheets_of(drawing: Drawing, **parameters: Any) -> list[Sheet]:
+def sheets_of(drawing: Drawing, restyle: bool = False, **parameters: Any) -> list[Sheet]:
     """The sheets of a drawing, the lowest first: one, unless its map needs too many texels.
 
-    A drawing that is one layer needs no map. `parameters` and errors are those of `build_map`.
+    A drawing that is one layer needs no map, unless it is to be restyled. `parameters` and errors are those of
+    `build_map`.
     """
-    one_paint = not drawing.groups and len({path.paint for path in drawing.paths}) == 1
+    one_paint = not restyle and not drawing.groups and len({path.paint for path in drawing.paths}) == 1
     layers = drawing.layers() if one_paint else ()
     if len(layers) == 1:
         return [Sheet(layers[0], build_tree(layers[0], **parameters))]
     budget = max(BUDGET * (drawing.segments + len(drawing.paths)), LEAST_BUDGET)
-    whole = build_map(drawing, most_texels=budget, **parameters)
+    whole = build_map(drawing, most_texels=budget, restyle=restyle, **parameters)
     if whole is not None:
         return [Sheet(drawing, whole)]
     items = _items(drawing)
 
     def tried(first: int, last: int) -> Sheet | None:
         part = _part(drawing, items[first:last], len(items))
-        if last == first + 1 and len(items[first]) == 1 and part.paths[0].group < 0:
+        if not restyle and last == first + 1 and len(items[first]) == 1 and part.paths[0].group < 0:
             return Sheet(part, build_tree(part, **parameters))
         share = budget * (last - first) // len(items) if last > first + 1 else None
-        planar = build_map(part, most_texels=share, **parameters)
+        planar = build_map(part, most_texels=share, restyle=restyle, **parameters)
         return None if planar is None else Sheet(part, planar)
 
     found = _greedy(len(items), tried)
