@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from vexture.bezier.convert import line_cubics
 from vexture.deadline import check_time
 from vexture.errors import SourceError
-from vexture.group import Blend, Group, Mask
+from vexture.group import Blend, Group, Mask, groups_around
 from vexture.notes import Note
 from vexture.paint import BLACK, Affine, Paint
 from vexture.unit_square import clipped, tidied
@@ -168,11 +168,7 @@ class Drawing:
 
     def around(self, group: int) -> list[int]:
         """The groups from the outermost to a given one, which may be -1."""
-        found = []
-        while group >= 0:
-            found.append(group)
-            group = self.groups[group].outer
-        return found[::-1]
+        return groups_around(self.groups, group)
 
     @property
     def segments(self) -> int:

@@ -1,11 +1,12 @@
 """Groups of a drawing's paths: opacity, blend modes and masks, as SVG and CSS have them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
 from vexture.errors import SourceError
 
-__all__ = ["Blend", "Group", "Mask"]
+__all__ = ["Blend", "Group", "Mask", "groups_around"]
 
 
 class Blend(IntEnum):
@@ -68,3 +69,12 @@ class Group:
             raise SourceError(f"a group has opacity {self.opacity}; it must be in 0..1")
         if self.mask and self.outer < 0:
             raise SourceError("a group is a mask, but there is no group around it that it could mask")
+
+
+def groups_around(groups: Sequence[Group], inner: int) -> list[int]:
+    """Places of the groups from the outermost to a given one, which may be -1."""
+    found = []
+    while inner >= 0:
+        found.append(inner)
+        inner = groups[inner].outer
+    return found[::-1]

@@ -60,10 +60,13 @@ class Parameters:
     max_seconds: float = DEFAULT_SECONDS
     names: str | None = None
     snap: float | None = None
+    restyle: bool = False
 
     def __post_init__(self) -> None:
         if self.split not in (None, "paint", "faces"):
             raise ParameterError(f"`split` is {self.split!r}; it must be 'paint', 'faces' or None")
+        if self.restyle and self.split != "faces":
+            raise ParameterError("`restyle` is for a whole drawing in its colours; add `split` 'faces'")
 
     @property
     def reading(self) -> dict[str, Any]:
@@ -124,36 +127,46 @@ def run(
         part = trees_of(source, Parameters(select=select, max_seconds=max_seconds, **parameters))
         texture = combine([part], part.drawing.name, None if _is_drawing(source) else Path(part.source).name)
         return replace(part, texture=texture, seconds=time.perf_counter() - start)
+    from vexture.reading import drawing_of
+
     with within(max_seconds):
-        drawing = _drawing_of(source, {} if select is None else {"select": select}).unmasked()
+        drawing = drawing_of(source, {} if select is None else {"select": select}).unmasked()
         tree, other_texture, rounding = other.convert(drawing, **parameters)
     return Conversion(drawing, (tree,), other_texture, time.perf_counter() - start, rounding, notes=drawing.notes)
 
 
 def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     """Read one source, split it if the parameters say so, and build its trees."""
+    from vexture.reading import drawing_of
     from vexture.texture.texture import Root
     from vexture.tree.build import build_tree, largest_shift
     from vexture.tree.planar.sheets import Sheet, sheets_of
+    from vexture.tree.planar.style import restylable, style_of
 
     start = time.perf_counter()
     tolerance = parameters.tolerance
     if tolerance == "auto":
         tolerance = UNSEEN if parameters.precision is None else 0.0
     with within(parameters.max_seconds):
-        drawing = _drawing_of(source, parameters.reading)
+        drawing = drawing_of(source, parameters.reading)
+        shown = restylable(drawing) if parameters.restyle else drawing if parameters.split else drawing.unmasked()
         given = {"max_depth": parameters.max_depth, "capacity": parameters.capacity, "precision": parameters.precision}
         bounds: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
         bounds["tolerance"] = tolerance
-        shown = drawing if parameters.split else drawing.unmasked()
         layers = drawing.layers() if parameters.split == "paint" else ()
         if parameters.split == "faces" and drawing.paths:
-            sheets = sheets_of(drawing, **bounds)
+            sheets = sheets_of(shown, parameters.restyle, **bounds)
         else:
             sheets = [Sheet(layer, build_tree(layer, **bounds)) for layer in layers or (shown,)]
     roots = tuple(
         Root(
-            part.name, 0, part.to_source, tolerance, part.crs, sheet.paint if parameters.split and part.paths else None
+            part.name,
+            0,
+            part.to_source,
+            tolerance,
+            part.crs,
+            sheet.paint if parameters.split and part.paths else None,
+            style=style_of(part, sheet.tree) if parameters.restyle and part.paths else None,
         )
         for sheet in sheets
         for part in (sheet.drawing,)
@@ -198,6 +211,7 @@ def convert(
     max_seconds: float = ...,
     names: str | None = ...,
     snap: float | None = ...,
+    restyle: bool = ...,
 ) -> "Texture": ...
 
 
@@ -218,6 +232,7 @@ def convert(
     max_seconds: float = DEFAULT_SECONDS,
     names: str | None = None,
     snap: float | None = None,
+    restyle: bool = False,
     **others: Any,
 ) -> EncodedTexture:
     """Convert a drawing into a texture.
@@ -251,6 +266,9 @@ def convert(
         The property that names the polygons of GeoJSON; see `vexture.read_geojson`.
     snap : float, optional
         How far borders of a map's polygons that become one may differ; see `vexture.read_geojson`.
+    restyle : bool
+        With ``split="faces"``: the colours of elements can be changed in the texture (`Texture.with_paints`), and it
+        tells which element is at a point (`Texture.element_at`). Elements of one colour keep their borders.
     **others
         Parameters of another encoding.
 
@@ -282,9 +300,9 @@ def convert(
     >>> [root.name for root in convert(triangle).roots]
     ['drawing']
     """
-    named = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap)
+    named = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle)
     values = ((field.name, getattr(named, field.name)) for field in fields(named))
-    given = {name: value for name, value in values if value is not None}
+    given = {name: value for name, value in values if value not in (None, False)}
     conversion = run(source, encoding=encoding, **given, **others)
     if isinstance(source, str | os.PathLike):
         warn_of(os.fspath(source), conversion.notes)
@@ -312,6 +330,7 @@ def atlas(
     max_seconds: float = DEFAULT_SECONDS,
     names: str | None = None,
     snap: float | None = None,
+    restyle: bool = False,
 ) -> "Texture":
     """Convert many drawings into one texture: a shape for each, or with `split` for each layer of each.
 
@@ -322,7 +341,7 @@ def atlas(
         ``name/layer``.
     name : str
         Names the texture.
-    split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap
+    split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle
         As in `vexture.convert`, for each source.
 
     Returns
@@ -343,7 +362,7 @@ def atlas(
     >>> [root.name for root in both.roots]
     ['a', 'b']
     """
-    parameters = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap)
+    parameters = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle)
     if isinstance(sources, str | bytes | os.PathLike) or not isinstance(sources, Iterable):
         sources = [sources]
     parts = []
@@ -361,24 +380,3 @@ def _is_drawing(source: Any) -> bool:
     from vexture.drawing import Drawing
 
     return isinstance(source, Drawing)
-
-
-def _drawing_of(source: Source, reading: dict[str, Any]) -> "Drawing":
-    """Drawing that a source is or holds, with the parameters of its reader."""
-    from vexture.drawing import Drawing
-
-    if not isinstance(source, Drawing):
-        from vexture.reading import read_drawing
-
-        if not isinstance(source, str | os.PathLike):
-            kind = type(source).__name__
-            raise TypeError(
-                f"`source` is of the type {kind}; give a path or a Drawing, which vexture.read makes of bytes and files"
-            )
-        return read_drawing(source, **reading)
-    for name, value in reading.items():
-        raise ParameterError(
-            f"`{name}` is {value!r}, but {source.name} is a drawing, which is read already; "
-            f"use vexture.read(path, {name}=...)"
-        )
-    return source

@@ -3,7 +3,7 @@
 import io
 import os
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, TypeAlias
+from typing import IO, TYPE_CHECKING, Any, TypeAlias
 
 from vexture.content import (
     LARGEST_FILE,
@@ -24,7 +24,7 @@ if TYPE_CHECKING:  # at run time a reader is imported when it is needed
     from vexture.drawing import Drawing
     from vexture.geo.extent import Extent, Frame
 
-__all__ = ["Source", "content_of", "extent_of", "name_of", "read", "read_drawing", "read_extent"]
+__all__ = ["Source", "content_of", "drawing_of", "extent_of", "name_of", "read", "read_drawing", "read_extent"]
 
 Place: TypeAlias = str | os.PathLike[str]
 Source: TypeAlias = Place | bytes | bytearray | memoryview | IO[bytes]
@@ -121,6 +121,25 @@ def read_drawing(
     from vexture.svg.read import svg_drawing
 
     return svg_drawing(content, shown, select)
+
+
+def drawing_of(source: "Drawing | Place", reading: dict[str, Any]) -> "Drawing":
+    """Drawing that a source is or holds, with the parameters of its reader."""
+    from vexture.drawing import Drawing
+
+    if not isinstance(source, Drawing):
+        if not isinstance(source, str | os.PathLike):
+            kind = type(source).__name__
+            raise TypeError(
+                f"`source` is of the type {kind}; give a path or a Drawing, which vexture.read makes of bytes and files"
+            )
+        return read_drawing(source, **reading)
+    for name, value in reading.items():
+        raise ParameterError(
+            f"`{name}` is {value!r}, but {source.name} is a drawing, which is read already; "
+            f"use vexture.read(path, {name}=...)"
+        )
+    return source
 
 
 def _checked(source: object) -> Place | bytes | IO[bytes]:

@@ -61,6 +61,27 @@ def read_map(words: np.ndarray, root: int) -> tuple[Map, np.ndarray]:
 
 
 @refusing()
+def read_style(root: dict, planar: Map) -> tuple[list[dict], list[list[int]]]:
+    """Return the elements of a map, each with its place in the style, and the stacks of its paints (D.9)."""
+    elements, groups, stacks = (root["style"][key] for key in ("elements", "groups", "stacks"))
+    need(all(-1 <= group["outer"] < k and 0 <= group["opacity"] <= 1 for k, group in enumerate(groups)), "groups")
+    need(all(-1 <= element.get("group", -1) < len(groups) for element in elements), "the group of an element")
+    need(len(stacks) == len(planar.paints), "as many stacks as paints")
+    need(all(0 <= place < len(elements) for stack in stacks for place in stack), "an element beyond the list")
+    return elements, stacks
+
+
+def composited(elements: list[dict], stack: list[int]) -> np.ndarray:
+    """Return the colour of a stack in which no element is in a group (D.9)."""
+    color = np.zeros(4)
+    for place in stack:
+        need("group" not in elements[place], "no group, as this decoder composites none")
+        opacity = elements[place].get("opacity", 1)
+        color = opacity * np.array([*elements[place]["color"], 1]) + (1 - opacity) * color
+    return color
+
+
+@refusing()
 def read_maps(data: bytes) -> tuple[list[dict], Texture, list[Map | None]]:
     """Read a KTX2 file: its roots; its shapes, of part B; for each root the map, or None for a shape (D)."""
     version, roots, words = read_ktx2(data)

@@ -1,6 +1,7 @@
 """Part D of FORMAT.md says all that a decoder needs: one that was written from it alone draws every map."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import map_decoder
@@ -45,6 +46,20 @@ def test_it_reads_maps_beside_shapes() -> None:
     assert [one is None for one in maps] == [False, True]
     assert [root["name"] for root in roots] == ["drawing", "drawing/1-#000000"]
     assert len(shapes.roots) == 1
+
+
+def test_stacks_say_what_paints_are_made_of() -> None:
+    of = sample(3)
+    paths = (replace(path, group=-1, element=f"p{k}") for k, path in enumerate(of.paths))
+    texture = run(Drawing(tuple(paths)), split="faces", restyle=True).texture
+    (root,), _, (planar,) = map_decoder.read_maps(texture.to_ktx2())
+    elements, stacks = map_decoder.read_style(root, planar)
+    colors = [map_decoder.composited(elements, stack) for stack in stacks]
+    np.testing.assert_allclose(colors, planar.paints, atol=2e-5)
+    points = points_near(of, np.random.default_rng(1), 500)
+    paints = map_decoder.paint_at(planar, *points.T)
+    names = np.array([*(elements[stack[-1]]["name"] if stack else "" for stack in stacks), ""])
+    assert (names[paints] == texture.element_at(points).name)[paints >= 0].all()
 
 
 def test_the_example_is_what_it_says() -> None:

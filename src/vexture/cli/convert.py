@@ -30,6 +30,9 @@ __all__ = ["convert"]
 
 BELONGS_TO: Final = {
     "split": DEFAULT,
+    "restyle": DEFAULT,
+    "names": DEFAULT,
+    "snap": DEFAULT,
     "capacity": DEFAULT,
     "precision": DEFAULT,
     "deflate": DEFAULT,
@@ -79,6 +82,9 @@ class Outcome:
     type=click.Choice(["paint", "faces"]),
     help="paint: make each colour a shape of its own, in painting order. faces: make the drawing, in its colours, "
     "one planar map, without seams between colours.",
+)
+@click.option(
+    "--restyle", is_flag=True, default=None, help="With --split faces: the colours of elements can be changed later."
 )
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
 @click.option("--names", metavar="PROPERTY", help="Name the polygons of GeoJSON by a property, rather than by id.")

@@ -13,6 +13,9 @@ from vexture.errors import FormatError
 
 __all__ = ["info"]
 
+MOST_NAMED = 8
+"""Elements of a shape that a line for people names."""
+
 EXAMPLE = """\b
 Examples:
   vexture info logo.ktx2
@@ -63,6 +66,9 @@ def _text(name: str, value: Any) -> str:
         parts = (zip(row, ("u", "v", ""), strict=True) for row in value)
         sums = (" ".join(f"{'-+'[k > 0]} {abs(k):.6g}{of}" for k, of in part if k) for part in parts)
         return "x = {}, y = {}".format(*(text.removeprefix("+ ") or "0" for text in sums))
+    if name == "elements":
+        more = f" and {len(value) - MOST_NAMED} more" if len(value) > MOST_NAMED else ""
+        return f"{len(value)} ({', '.join(value[:MOST_NAMED])}{more})"
     if isinstance(value, dict):
         return ", ".join(f"{kind} {count}" for kind, count in value.items())
     return f"{value:.6g}" if isinstance(value, float) else str(value)

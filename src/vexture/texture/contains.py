@@ -1,8 +1,9 @@
 """Whether points lie inside a shape of a packed texture, by the texture's own windings."""
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from vexture.errors import ParameterError
 from vexture.kernels import kernel
 from vexture.layout import (
     CELL_BITS,
@@ -18,14 +19,25 @@ from vexture.layout import (
 )
 from vexture.tree.crossings import x_at
 
-__all__ = ["points_inside"]
+__all__ = ["checked_points", "points_inside", "read_curve"]
 
 BYTE = (1 << CELL_BITS) - 1
 COORDINATE = (1 << COORDINATE_BITS) - 1
 
 
+def checked_points(points: ArrayLike) -> NDArray[np.float64]:
+    """Points as an array (n, 2); raises a `ParameterError` if they are no such array of numbers."""
+    try:
+        wanted = np.asarray(points, np.float64)
+    except (TypeError, ValueError):
+        raise ParameterError("`points` is no array of numbers; give (n, 2)") from None
+    if wanted.ndim != 2 or wanted.shape[1] != 2:
+        raise ParameterError(f"`points` has the shape {wanted.shape}; it must be (n, 2)")
+    return wanted
+
+
 @kernel
-def _read_curve(texel: NDArray[np.uint32], curve: NDArray[np.float64]) -> None:
+def read_curve(texel: NDArray[np.uint32], curve: NDArray[np.float64]) -> None:
     """Write the points of a curve in lattice units."""
     for k in range(4):
         offset = CONTROL_OFFSET if k in (1, 2) else 0
@@ -40,7 +52,7 @@ def _winding(
     """Winding number at a point of a leaf; `curve` is written to."""
     winding = corner
     for i in range(first, min(first + count, len(flat))):
-        _read_curve(flat[i], curve)
+        read_curve(flat[i], curve)
         start, end = curve[0, 1], curve[3, 1]
         if curve[0, 0] == 0.0 and start <= y:
             winding += 1

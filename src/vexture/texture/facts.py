@@ -27,6 +27,7 @@ def facts_of(flat: NDArray[np.uint32], roots: Sequence[Root]) -> dict[str, Any]:
                 "quad": root.quad,
                 **({"map": True} if root.is_map else {}),
                 **trees[root.quad],
+                **({} if root.style is None else {"elements": [*dict.fromkeys(filter(None, root.style.names))]}),
                 "transform": root.to_source.tolist(),
                 "crs": root.crs,
                 "tolerance": root.tolerance,

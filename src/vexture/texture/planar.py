@@ -10,7 +10,17 @@ from vexture.errors import FormatError
 from vexture.texture.walk import REMEDY, WalkLevel, curve_points, walk
 from vexture.tree.planar.map import PlanarMap
 
-__all__ = ["MapTexels", "curve_texels", "decode_map", "map_texels", "read_map"]
+__all__ = [
+    "MapHead",
+    "MapTexels",
+    "curve_texels",
+    "decode_map",
+    "head_of",
+    "map_texels",
+    "paint_texels",
+    "paints_from",
+    "read_map",
+]
 
 
 def map_texels(planar: PlanarMap, at: int) -> NDArray[np.uint32]:
@@ -30,7 +40,7 @@ def map_texels(planar: PlanarMap, at: int) -> NDArray[np.uint32]:
         curve_texels(planar.curves),
         _cell_texels(planar),
         sides,
-        _paint_texels(planar.paints),
+        paint_texels(planar.paints),
     ]
     return np.concatenate(texels)
 
@@ -70,12 +80,31 @@ def _side_texels(sides: NDArray[np.int32], skipped: int) -> NDArray[np.uint32]:
     return words.reshape(-1, 4)
 
 
-def _paint_texels(paints: NDArray[np.uint16]) -> NDArray[np.uint32]:
+def paint_texels(paints: NDArray[np.uint16]) -> NDArray[np.uint32]:
     """Two paints to a texel: red and green, blue and opacity."""
     halves = np.zeros((-(-len(paints) // 2) * 2, 4), np.int64)
     halves[: len(paints)] = paints
     words = halves[:, 0::2] | (halves[:, 1::2] << layout.COORDINATE_BITS)
     return words.astype(np.uint32).reshape(-1, 4)
+
+
+class MapHead(NamedTuple):
+    """The head of a planar map (FORMAT.md, D.1)."""
+
+    used: int  # number of paints
+    cells: int
+    sides: int  # texel of the sides of curve 0, if there were one
+    paints: int
+
+    @property
+    def paint_texels(self) -> slice:
+        """Where the paints are."""
+        return slice(self.paints, self.paints + (self.used + 1) // 2)
+
+
+def head_of(flat: NDArray[np.uint32], quad: int) -> MapHead:
+    """The head of the map with a root quad, which is not checked."""
+    return MapHead(*flat[quad - 1].tolist())
 
 
 PARTS: Final = ("head", "quads", "curves", "cells", "sides", "paints")
@@ -113,7 +142,7 @@ def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
     levels = walk(flat, np.array([quad]), of_maps=True)
     if quad == 0:
         raise FormatError(f"the root of a map is quad 0, which has no head before it; {REMEDY}")
-    used, cells, sides, paints = flat[quad - 1].tolist()
+    used, cells, sides, paints = head_of(flat, quad)
     if not 1 <= used <= layout.MOST_PAINTS:
         raise FormatError(f"the map with root {quad} has {used} paints; the limit is {layout.MOST_PAINTS}; {REMEDY}")
     quads = np.concatenate([level.quads for level in levels])
@@ -132,7 +161,7 @@ def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
     last = max(int(_bases(flat, found).max()), int(_sides(flat, found).max(initial=0)))
     if last >= used:
         raise FormatError(f"the map with root {quad} has paint {last} of {used}; {REMEDY}")
-    table, means = _paints(flat, found), _means(flat, found)
+    table, means = paints_from(_parts(flat, found, 5), used), _means(flat, found)
     if (table[:, :3] > table[:, 3:]).any() or (means[..., :3] > means[..., 3:]).any():
         raise FormatError(f"the map with root {quad} has a colour above its opacity; {REMEDY}")
     return found
@@ -166,11 +195,11 @@ def _sides(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
     return np.stack([words & (layout.MOST_PAINTS - 1), words >> layout.COORDINATE_BITS], axis=1)
 
 
-def _paints(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.uint16]:
-    """Paints, (paints, 4)."""
-    words = _parts(flat, found, 5).reshape(-1, 2)
+def paints_from(texels: NDArray[np.uint32], used: int) -> NDArray[np.uint16]:
+    """Paints, (used, 4), from the texels that hold them."""
+    words = texels.reshape(-1, 2)
     halves = np.stack([words & layout.PAINT_ONE, words >> layout.COORDINATE_BITS], axis=2)
-    return halves.reshape(-1, 4)[: found.used].astype(np.uint16)
+    return halves.reshape(-1, 4)[:used].astype(np.uint16)
 
 
 def decode_map(flat: NDArray[np.uint32], quad: int) -> PlanarMap:
@@ -192,7 +221,7 @@ def decode_map(flat: NDArray[np.uint32], quad: int) -> PlanarMap:
         _means(flat, found)[quads - found.quad] / layout.COVERAGE_ONE,
         curve_points(flat[curves]),
         _sides(flat, found)[curves - found.first_curve].astype(np.int32),
-        _paints(flat, found),
+        paints_from(_parts(flat, found, 5), found.used),
         (),
         0.0,
     )

@@ -1,9 +1,6 @@
 """A shape of a packed texture, and the description of all shapes in the texture's file."""
 
 import json
-import math
-import reprlib
-import sys
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,7 +11,9 @@ from vexture.drawing import IDENTITY
 from vexture.errors import FormatError, LimitError
 from vexture.layout import TEXT_ROOTS
 from vexture.paint import Paint
+from vexture.texture.style_text import line, numbers, paint_as_json, read_paint, read_style, short, style_as_json
 from vexture.texture.walk import REMEDY
+from vexture.tree.planar.style import Style
 
 __all__ = ["Root", "read_roots", "roots_text"]
 
@@ -39,6 +38,8 @@ class Root:
         The colour, if the shape is one layer of a drawing; None for a silhouette.
     is_map : bool
         Whether the shape is a planar map: a whole drawing in its colours.
+    style : Style or None
+        The elements of a planar map whose colours can be changed, and whose names can be found.
 
     Examples
     --------
@@ -54,6 +55,7 @@ class Root:
     crs: str | None = None
     paint: Paint | None = None
     is_map: bool = False
+    style: Style | None = None
 
 
 def roots_text(roots: tuple[Root, ...]) -> str:
@@ -74,23 +76,18 @@ def _as_json(root: Root) -> dict[str, Any]:
     entry = {
         "name": root.name,
         "quad": int(root.quad),
-        "transform": [_short(number) for number in root.to_source.flat],
-        "tolerance": _short(root.tolerance),
+        "transform": [short(number) for number in root.to_source.flat],
+        "tolerance": short(root.tolerance),
     }
     if root.is_map:
         entry["map"] = True
+    if root.style is not None:
+        entry["style"] = style_as_json(root.style)
     if root.crs is not None:
         entry["crs"] = root.crs
     if root.paint is not None:
-        entry["paint"] = {"color": [*map(_short, root.paint.color)], "opacity": _short(root.paint.opacity)}
+        entry["paint"] = paint_as_json(root.paint)
     return entry
-
-
-def _short(number: float) -> float:
-    """A number as JSON writes it shortest: integers without a point, except -0.0, which keeps its sign."""
-    value = float(number)
-    whole = value.is_integer() and abs(value) < 2.0**53 and (value != 0.0 or math.copysign(1.0, value) > 0.0)
-    return int(value) if whole else value
 
 
 def read_roots(text: str) -> tuple[Root, ...]:
@@ -101,58 +98,34 @@ def read_roots(text: str) -> tuple[Root, ...]:
     try:
         entries = json.loads(text, parse_constant=_refuse_constant)
     except (ValueError, RecursionError) as error:
-        raise FormatError(f"{TEXT_ROOTS} is not JSON ({_line(error)}); {REMEDY}") from None
+        raise FormatError(f"{TEXT_ROOTS} is not JSON ({line(error)}); {REMEDY}") from None
     if not isinstance(entries, list) or not entries:
-        raise FormatError(f"{TEXT_ROOTS} is {_line(text)}; it must be a list of at least one root; {REMEDY}")
+        raise FormatError(f"{TEXT_ROOTS} is {line(text)}; it must be a list of at least one root; {REMEDY}")
     return tuple(_read_root(entry, place) for place, entry in enumerate(entries))
 
 
 def _read_root(entry: Any, place: int) -> Root:
     if not isinstance(entry, dict):
-        raise FormatError(f"root {place} is {_line(entry)}; it must be an object; {REMEDY}")
+        raise FormatError(f"root {place} is {line(entry)}; it must be an object; {REMEDY}")
     name, quad, crs, is_map = entry.get("name"), entry.get("quad"), entry.get("crs"), entry.get("map", False)
     if not isinstance(name, str):
-        raise FormatError(f"root {place} has the name {_line(name)}; it must be a text; {REMEDY}")
+        raise FormatError(f"root {place} has the name {line(name)}; it must be a text; {REMEDY}")
     if type(quad) is not int or not 0 <= quad < 1 << 32:
-        raise FormatError(f"root {place} has the quad {_line(quad)}; it must be an index of a texel; {REMEDY}")
+        raise FormatError(f"root {place} has the quad {line(quad)}; it must be an index of a texel; {REMEDY}")
     if type(is_map) is not bool:
-        raise FormatError(f"root {place}: map is {_line(is_map)}; it must be true or false; {REMEDY}")
+        raise FormatError(f"root {place}: map is {line(is_map)}; it must be true or false; {REMEDY}")
     if crs is not None and not isinstance(crs, str):
-        raise FormatError(f"root {place} has the crs {_line(crs)}; it must be a text; {REMEDY}")
-    transform = _numbers(entry.get("transform"), 6, f"root {place}: transform")
-    (tolerance,) = _numbers([entry.get("tolerance", 0)], 1, f"root {place}: tolerance")
+        raise FormatError(f"root {place} has the crs {line(crs)}; it must be a text; {REMEDY}")
+    transform = numbers(entry.get("transform"), 6, f"root {place}: transform")
+    (tolerance,) = numbers([entry.get("tolerance", 0)], 1, f"root {place}: tolerance")
     if tolerance < 0.0:
         raise FormatError(f"root {place}: tolerance is {tolerance:g}; it must be at least 0; {REMEDY}")
-    paint = _read_paint(entry.get("paint"), place)
-    return Root(name, quad, np.array(transform).reshape(2, 3), tolerance, crs, paint, is_map)
-
-
-def _read_paint(paint: Any, place: int) -> Paint | None:
-    if paint is None:
-        return None
-    if not isinstance(paint, dict):
-        raise FormatError(f"root {place}: paint is {_line(paint)}; it must be an object; {REMEDY}")
-    red, green, blue = _numbers(paint.get("color"), 3, f"root {place}: color")
-    (opacity,) = _numbers([paint.get("opacity", 1)], 1, f"root {place}: opacity")
-    if not all(0.0 <= part <= 1.0 for part in (red, green, blue, opacity)):
-        raise FormatError(f"root {place}: paint is {_line(paint)}; its numbers must be in 0..1; {REMEDY}")
-    return Paint((red, green, blue), opacity)
-
-
-def _numbers(values: Any, count: int, what: str) -> list[float]:
-    """The finite numbers of a list of `count`."""
-    fits = isinstance(values, list) and len(values) == count
-    if fits and all(type(value) in (int, float) and abs(value) <= sys.float_info.max for value in values):
-        return [float(value) for value in values]
-    kind = "finite number" + ("s" if count > 1 else "")
-    raise FormatError(f"{what} is {_line(values)}; it must be {count} {kind}; {REMEDY}")
+    paint = None if entry.get("paint") is None else read_paint(entry["paint"], f"root {place}")
+    style = None if entry.get("style") is None else read_style(entry["style"], f"root {place}")
+    if style is not None and not is_map:
+        raise FormatError(f"root {place} has a style and is no map; {REMEDY}")
+    return Root(name, quad, np.array(transform).reshape(2, 3), tolerance, crs, paint, is_map, style)
 
 
 def _refuse_constant(name: str) -> float:
     raise ValueError(f"{name} is no number of JSON")
-
-
-def _line(value: Any) -> str:
-    """An untrusted value, or an error, as one short line."""
-    text = str(value) if isinstance(value, Exception) else reprlib.repr(value)
-    return " ".join(text.split())[:60].encode(errors="backslashreplace").decode()

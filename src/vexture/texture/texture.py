@@ -14,16 +14,23 @@ from vexture.errors import FormatError, LimitError, ParameterError
 from vexture.paint import Paint
 from vexture.renderers.picture import painted, stacked
 from vexture.renderers.view import Size, ViewLike, size_of
+from vexture.texture.check import check_styles, check_texels
 from vexture.texture.choose import layers_of, place_of
 from vexture.texture.facts import facts_of
 from vexture.texture.files import target_of, write_together
 from vexture.texture.ktx2 import check_size, write_ktx2
+from vexture.texture.pictures import colours_of, coverage_of
 from vexture.texture.planar import read_map
 from vexture.texture.root import Root, roots_text
-from vexture.texture.walk import REMEDY, walk
+from vexture.texture.walk import walk
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from matplotlib.figure import Figure
+
+    from vexture.texture.pick import Elements
+    from vexture.texture.restyle import Colour
 
 __all__ = ["Root", "Texture"]
 
@@ -118,32 +125,8 @@ class Texture:
 
     def check(self) -> None:
         """Raise a `FormatError` where the texels contradict FORMAT.md; the time is proportional to their number."""
-        flat = self.flat
-        plain, maps = self._trees()
-        levels = walk(flat, plain)
-        times = np.zeros(len(flat), np.int64)
-        for level in levels:
-            times[level.quads] += 1
-            times[level.curves] += 1
-        for quad in maps:
-            found = read_map(flat, quad)
-            levels += found.levels
-            for start, stop in found.ranges:
-                times[start:stop] += 1
-        if times.max() > 1:
-            raise FormatError(f"texel {times.argmax()} is a part of two things; {REMEDY}")
-        unmet = flat.any(axis=1) & (times == 0)
-        if unmet.any():
-            raise FormatError(f"texel {unmet.argmax()} belongs to no root and is not 0; {REMEDY}")
-        curves = np.concatenate([level.curves for level in levels])
-        ends = flat[curves][:, [0, 3]]
-        most = np.maximum(ends & ((1 << layout.COORDINATE_BITS) - 1), ends >> layout.COORDINATE_BITS).max(
-            axis=1, initial=0
-        )
-        if len(most) and most.max() > layout.LATTICE:
-            raise FormatError(
-                f"curve {curves[most.argmax()]} has an end at {most.max()}; the limit is {layout.LATTICE:.0f}; {REMEDY}"
-            )
+        check_texels(self.flat, *self._trees())
+        check_styles(self.flat, self.roots)
 
     def contains(self, points: ArrayLike, root: str | int | None = None) -> NDArray[np.bool_]:
         """Which points are inside a shape, by the stored outlines.
@@ -173,17 +156,79 @@ class Texture:
         >>> texture.contains([(0.5, 0.5), (0.1, 0.5)])
         array([ True, False])
         """
-        from vexture.texture.contains import points_inside  # late: compiled code, not needed for reading
+        from vexture.texture.contains import checked_points, points_inside  # late: compiled code, not needed to read
 
-        try:
-            wanted = np.asarray(points, np.float64)
-        except (TypeError, ValueError):
-            raise ParameterError("`points` is no array of numbers; give (n, 2)") from None
-        if wanted.ndim != 2 or wanted.shape[1] != 2:
-            raise ParameterError(f"`points` has the shape {wanted.shape}; it must be (n, 2)")
+        wanted = checked_points(points)
         inside = np.empty(len(wanted), np.bool_)
         points_inside(self.flat, self._silhouette(root).quad, wanted, inside)
         return inside
+
+    def element_at(self, points: ArrayLike, root: str | int | None = None) -> "Elements":
+        """Which element of a drawing is topmost at points; the drawing was converted with `restyle`.
+
+        Parameters
+        ----------
+        points : (n, 2) array
+            In unit-square units, y up.
+        root : str, int or None
+            Name of the drawing, or name or number of one of its sheets; not needed if there is only one drawing.
+
+        Returns
+        -------
+        Elements
+            The names, and which elements they are of which shapes.
+
+        Raises
+        ------
+        ParameterError
+            As in `contains`; or if the shape has no elements.
+
+        Examples
+        --------
+        >>> import vexture
+        >>> svg = b'<svg viewBox="0 0 2 2"><path id="low" d="M0 0h2v2h-2z"/><path id="up" d="M0 0h2v1h-2z"/></svg>'
+        >>> texture = vexture.convert(vexture.read(svg), split="faces", restyle=True)
+        >>> texture.element_at([(0.5, 0.2), (0.5, 0.8), (0.5, 1.2)]).name.tolist()
+        ['low', 'up', '']
+        """
+        from vexture.texture.pick import elements_at  # late: compiled code, not needed to read
+
+        return elements_at(self.flat, self.roots, layers_of(self.roots, root, self.name), points)
+
+    def with_paints(self, paints: "Mapping[str, Colour]", root: str | int | None = None) -> "Texture":
+        """The same shapes with other colours of some elements; the drawing was converted with `restyle`.
+
+        Parameters
+        ----------
+        paints : mapping of str to colour
+            For the names of elements, a CSS colour, its components in 0..1 (three, or four with the opacity), a flat
+            `Paint`, or None for nothing. It replaces the element's colour and opacity.
+        root : str, int or None
+            As in `element_at`.
+
+        Returns
+        -------
+        Texture
+
+        Raises
+        ------
+        ParameterError
+            If there is no such shape, element or colour, or an opaque element becomes translucent that hides what is
+            below it: the texture does not have that.
+
+        Examples
+        --------
+        >>> import vexture
+        >>> svg = b'<svg viewBox="0 0 1 1"><path id="a" d="M0 0h1v1h-1z"/></svg>'
+        >>> texture = vexture.convert(vexture.read(svg), split="faces", restyle=True)
+        >>> texture.with_paints({"a": "red"}).render(1)[0, 0].tolist()
+        [1.0, 0.0, 0.0, 1.0]
+        """
+        from vexture.texture.restyle import restyled  # late: compiled code, not needed to read
+
+        places = layers_of(self.roots, root, self.name)
+        texels, roots = restyled(self.flat, self.roots, places, paints, self.name)
+        return Texture(texels.reshape(self.texels.shape), roots, self.name, self.source)
 
     def _silhouette(self, root: str | int | None) -> Root:
         """A shape that is no planar map."""
@@ -193,12 +238,7 @@ class Texture:
         return found
 
     def coverage(
-        self,
-        size: Size,
-        view: ViewLike = None,
-        *,
-        renderer: TextureRenderer = "cpu",
-        root: str | int | None = None,
+        self, size: Size, view: ViewLike = None, *, renderer: TextureRenderer = "cpu", root: str | int | None = None
     ) -> NDArray[np.float32]:
         """Covered part of each pixel by one shape. Parameters, result and errors as in `vexture.coverage`.
 
@@ -209,41 +249,14 @@ class Texture:
         array([[0.5, 0.5]], dtype=float32)
         """
         place = place_of(self.roots, root, self.name)
-        if self.roots[place].is_map:
-            return self._colours(size, view, renderer, place)[..., 3]
-        if renderer == "cpu":
-            from vexture.renderers.cpu import render_cpu  # late: compiled code, not needed for reading
-
-            return render_cpu(self, size, view, root=place)
-        if renderer != "gpu":
-            raise ParameterError(f"`renderer` is {renderer!r}; a texture is rendered by 'cpu' or 'gpu'")
-        from vexture.renderers.gpu import render_gpu
-
-        return render_gpu(self, size, view, root=place)
-
-    def _colours(self, size: Size, view: ViewLike, renderer: TextureRenderer, place: int) -> NDArray[np.float32]:
-        """Picture of a planar map, (height, width, 4), premultiplied."""
-        if renderer == "cpu":
-            from vexture.renderers.colour import render_cpu_colours  # late: compiled code, not needed for reading
-
-            return render_cpu_colours(self, size, view, root=place)
-        if renderer != "gpu":
-            raise ParameterError(f"`renderer` is {renderer!r}; a texture is rendered by 'cpu' or 'gpu'")
-        from vexture.renderers.gpu import render_gpu_colours
-
-        return render_gpu_colours(self, size, view, root=place)
+        return coverage_of(self, place, self.roots[place].is_map, size, view, renderer)
 
     def render(
-        self,
-        size: Size,
-        view: ViewLike = None,
-        *,
-        renderer: TextureRenderer = "cpu",
-        root: str | int | None = None,
+        self, size: Size, view: ViewLike = None, *, renderer: TextureRenderer = "cpu", root: str | int | None = None
     ) -> NDArray[np.float32]:
         """Picture of a drawing in its colours, as `vexture.render` makes it. Parameters, result and errors as there."""
         pictures = (
-            self._colours(size, view, renderer, place)
+            colours_of(self, place, size, view, renderer)
             if self.roots[place].is_map
             else painted(self.roots[place].paint or Paint(), self.coverage(size, view, renderer=renderer, root=place))
             for place in layers_of(self.roots, root, self.name)

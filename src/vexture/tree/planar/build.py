@@ -111,6 +111,7 @@ def _child_paths(
             continue
         alone = not changes and layers.group[path] < 0
         if layers.covers[path] and not changes:
+            layers.hides[path] |= here > end or ground != 0
             here, ground, folding = end, 0, True
         if alone and folding:
             present[here, 0], present[here, 1] = path, winding
@@ -305,8 +306,11 @@ def build_map(
     precision: float | None = None,
     most_quads: int = MOST_QUADS,
     most_texels: int | None = None,
+    restyle: bool = False,
 ) -> PlanarMap | None:
     """Planar map of a drawing in its colours; None if it needs more than `most_texels`.
+
+    With `restyle` faces of different elements keep a border where they have one colour.
 
     The other parameters and errors are those of `build_tree`.
 
@@ -321,7 +325,7 @@ def build_map(
     (1, array([1., 0., 0., 1.]), array([0., 0., 0., 1.]))
     """
     bounds = bounds_of(tolerance, max_depth, capacity, precision, most_quads, DEFAULT_MAP_CAPACITY)
-    layers, faces = layers_of(drawing), new_faces()
+    layers, faces = layers_of(drawing, restyle), new_faces()
     check_time(drawing.name)
     root, outside = plant_map(*drawing_cubics(drawing), max_depth)
     if not outside <= CLOSED:  # NaN counts as outside
@@ -335,10 +339,10 @@ def build_map(
         if faces.counts[1]:
             faces = roomier_faces(faces)
         grow_map(growth, layers, faces, bounds, SLICE if most_texels is None else SHORT_SLICE)
-    return _map_of(drawing.name, growth, faces)
+    return _map_of(drawing.name, growth, layers, faces)
 
 
-def _map_of(name: str, growth: PlanarGrowth, faces: Faces) -> PlanarMap:
+def _map_of(name: str, growth: PlanarGrowth, layers: Layers, faces: Faces) -> PlanarMap:
     """The map that has grown, numbered as a `Tree`, in its final types; paints are numbered as they were met."""
     tree, quads = growth.tree, growth.tree.counts[QUADS]
     order = np.concatenate([*levels(tree.cells[:quads, :, IS_QUAD] == 1.0, tree.first[:, 0])])
@@ -364,4 +368,5 @@ def _map_of(name: str, growth: PlanarGrowth, faces: Faces) -> PlanarMap:
         np.rint(ONE * np.clip(faces.rgba[used], 0.0, 1.0)).astype(np.uint16),
         tuple(faces.paths[slice(*faces.starts[[face, face + 1]])] for face in used.tolist()),
         float(tree.deviation[0]),
+        frozenset(np.flatnonzero(layers.hides).tolist()),
     )

@@ -11,12 +11,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
+from vexture.group import Group
 from vexture.kernels import kernel
 from vexture.layout import PAINT_ONE
 from vexture.tree.planar.blend import blend_over, masking
+from vexture.tree.planar.style import elements_of
 from vexture.tree.winding import inside
 
-__all__ = ["ONE", "Faces", "Layers", "face_of", "layers_of", "new_faces", "refill", "roomier_faces"]
+__all__ = [
+    "ONE",
+    "Faces",
+    "Layers",
+    "composite_stacks",
+    "face_of",
+    "layers_of",
+    "new_faces",
+    "refill",
+    "roomier_faces",
+    "solid_layers",
+]
 
 ONE = float(PAINT_ONE)
 """Colours are equal if they are equal in these steps, in which paints are stored."""
@@ -31,7 +44,9 @@ class Layers(NamedTuple):
     rules: NDArray[np.int64]
     rgba: NDArray[np.float64]  # (paths, 4), premultiplied
     covers: NDArray[np.bool_]  # whether nothing below is seen where it is inside: opaque, and in no group
+    hides: NDArray[np.bool_]  # written by the builder: whether something below is left out, as it covers it
     keys: NDArray[np.int64]
+    look: NDArray[np.int64]  # key of each path's element, in a map to be restyled, else 0
     group: NDArray[np.int64]  # innermost group of each path, or -1
     outer: NDArray[np.int64]  # of each group: the group around it, or -1
     depth: NDArray[np.int64]  # of each group: how many there are around it
@@ -48,31 +63,52 @@ class Faces(NamedTuple):
     colour_slots: NDArray[np.int64]  # (4 room,): the same by colour
     keys: NDArray[np.int64]  # (room,)
     rgba: NDArray[np.float64]  # (room, 4), premultiplied
-    paint: NDArray[np.int64]  # (room,): the first face of the same colour
+    look: NDArray[np.int64]  # (room,): key of the stack's elements, in a map to be restyled, else 0
+    paint: NDArray[np.int64]  # (room,): the first face of the same colour and look
     starts: NDArray[np.int64]  # (room + 1,): where the stack of each face begins in `paths`
     paths: NDArray[np.int32]  # numbers of the paths inside, from below; from the highest that covers all below it on
     counts: NDArray[np.int64]  # (2,): faces; 1 if there was no room for another
 
 
-def layers_of(drawing: Drawing) -> Layers:
-    """The arrays of a drawing."""
+def layers_of(drawing: Drawing, restyle: bool = False) -> Layers:
+    """The arrays of a drawing; with `restyle` faces are alike by their elements, not by their colours."""
     paints = [path.paint for path in drawing.paths]
-    opacity = np.array([paint.opacity for paint in paints]).reshape(-1, 1)
-    colour = np.array([paint.color for paint in paints]).reshape(-1, 3)
-    groups = drawing.groups
-    return Layers(
-        np.array([int(path.fill_rule) for path in drawing.paths], np.int64),
-        np.hstack([colour * opacity, opacity]),
-        np.array([path.paint.is_opaque and path.group < 0 for path in drawing.paths], np.bool_),
-        _keys(len(paints)),
-        np.array([path.group for path in drawing.paths], np.int64),
-        np.array([group.outer for group in groups], np.int64),
-        np.array([len(drawing.around(place)) - 1 for place in range(len(groups))], np.int64),
-        np.array([group.opacity for group in groups], np.float64),
-        np.array([int(group.blend) for group in groups], np.int64),
-        np.array([int(group.mask) for group in groups], np.int64),
-        np.bincount([group.outer for group in groups if group.mask], minlength=len(groups)).astype(np.int64),
+    rgba = np.array([(*paint.color, paint.opacity) for paint in paints]).reshape(-1, 4)
+    group = np.array([path.group for path in drawing.paths], np.int64)
+    return solid_layers(rgba, group, drawing.groups)._replace(
+        rules=np.array([int(path.fill_rule) for path in drawing.paths], np.int64),
+        covers=np.array([paint.is_opaque for paint in paints], np.bool_) & (group < 0),
+        look=_looks(drawing) if restyle else np.zeros(len(paints), np.int64),
     )
+
+
+def solid_layers(rgba: NDArray[np.float64], group: NDArray[np.int64], groups: tuple[Group, ...]) -> Layers:
+    """The arrays of flat colours, (n, 4), not premultiplied, and the groups that they are in."""
+    depth: list[int] = []
+    for each in groups:
+        depth.append(depth[each.outer] + 1 if each.outer >= 0 else 0)
+    zeros = np.zeros(len(rgba), np.int64)
+    return Layers(
+        zeros,
+        np.hstack([rgba[:, :3] * rgba[:, 3:], rgba[:, 3:]]),
+        zeros != 0,
+        np.zeros(len(rgba), np.bool_),
+        _keys(len(rgba)),
+        zeros,
+        group,
+        np.array([each.outer for each in groups], np.int64),
+        np.array(depth, np.int64),
+        np.array([each.opacity for each in groups], np.float64),
+        np.array([int(each.blend) for each in groups], np.int64),
+        np.array([int(each.mask) for each in groups], np.int64),
+        np.bincount([each.outer for each in groups if each.mask], minlength=len(groups)).astype(np.int64),
+    )
+
+
+def _looks(drawing: Drawing) -> NDArray[np.int64]:
+    """A key for each path, one for those of one element."""
+    elements, number = elements_of(drawing)
+    return _keys(len(elements))[number]
 
 
 def _keys(count: int) -> NDArray[np.int64]:
@@ -95,6 +131,7 @@ def _faces(room: int, paths: int) -> Faces:
         np.zeros(room, np.int64),
         np.zeros((room, 4)),
         np.zeros(room, np.int64),
+        np.zeros(room, np.int64),
         np.zeros(room + 1, np.int64),
         np.zeros(paths, np.int32),
         np.array([1, 0]),
@@ -107,7 +144,7 @@ def roomier_faces(faces: Faces) -> Faces:
     """A copy with twice the room of what is full."""
     count, room = int(faces.counts[0]), len(faces.keys)
     out = _faces(2 * room, len(faces.paths)) if count == room else _faces(room, 2 * len(faces.paths))
-    for rows, old in zip(out[2:5], faces[2:5], strict=True):
+    for rows, old in zip(out[2:6], faces[2:6], strict=True):
         rows[:count] = old[:count]
     out.starts[: count + 1] = faces.starts[: count + 1]
     out.paths[: faces.starts[count]] = faces.paths[: faces.starts[count]]
@@ -122,7 +159,7 @@ def refill(faces: Faces) -> None:
     for face in range(1, faces.counts[0]):
         faces.slots[_free_slot(faces.slots, faces.keys[face])] = face + 1
         if faces.paint[face] == face:
-            faces.colour_slots[_free_slot(faces.colour_slots, _colour_key(faces.rgba[face]))] = face + 1
+            faces.colour_slots[_free_slot(faces.colour_slots, _colour_key(faces, face))] = face + 1
 
 
 @kernel(allocates=False)
@@ -135,22 +172,23 @@ def _free_slot(slots: NDArray[np.int64], key: int) -> int:
 
 
 @kernel(allocates=False)
-def _colour_key(rgba: NDArray[np.float64]) -> int:
-    """Hash of a colour in steps of 1/65535; 0 only of what is wholly transparent."""
+def _colour_key(faces: Faces, face: int) -> int:
+    """Hash of a face's look and colour in steps of 1/65535; 0 only of what is wholly transparent."""
     key = 0
     for c in range(4):
-        key = (key << 16) | int(np.rint(ONE * rgba[c]))
+        key = (key << 16) | int(np.rint(ONE * faces.rgba[face, c]))
+    key ^= faces.look[face]
     key ^= key >> 31
     key *= 0x5851F42D4C957F2D
     return key ^ (key >> 29)
 
 
 @kernel(allocates=False)
-def _same_colour(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
+def _same_colour(faces: Faces, a: int, b: int) -> bool:
     for c in range(4):
-        if np.rint(ONE * a[c]) != np.rint(ONE * b[c]):
+        if np.rint(ONE * faces.rgba[a, c]) != np.rint(ONE * faces.rgba[b, c]):
             return False
-    return True
+    return faces.look[a] == faces.look[b]
 
 
 @kernel
@@ -188,6 +226,15 @@ def _composite(layers: Layers, stack: NDArray[np.int32], out: NDArray[np.float64
         out[c] = inner[0, c]
 
 
+@kernel
+def composite_stacks(
+    layers: Layers, starts: NDArray[np.int64], paths: NDArray[np.int32], out: NDArray[np.float64]
+) -> None:
+    """Write the colours (n, 4) of stacks, of which number k is `paths[starts[k] : starts[k + 1]]`."""
+    for k in range(len(out)):
+        _composite(layers, paths[starts[k] : starts[k + 1]], out[k])
+
+
 @kernel(allocates=False)
 def _is_in(layers: Layers, group: int, around: int) -> bool:
     """Whether a group, or -1, is another one or lies in it."""
@@ -211,11 +258,22 @@ def _stack(
     for k in range(len(present)):
         path = present[k, 0]
         if inside(windings[k], layers.rules[path]):
-            end = start if layers.covers[path] else end
+            if layers.covers[path] and end > start:
+                layers.hides[path], end = True, start
             faces.paths[end] = path
             end += 1
     faces.starts[face + 1] = end
     return True
+
+
+@kernel(allocates=False)
+def _look_of(layers: Layers, stack: NDArray[np.int32]) -> int:
+    """Hash of a stack's elements, in order; 0 of a map that is not to be restyled."""
+    key = 0
+    for k in range(len(stack)):
+        key = (key ^ layers.look[stack[k]]) * 0x5851F42D4C957F2D
+        key ^= key >> 29
+    return key
 
 
 @kernel
@@ -244,11 +302,13 @@ def face_of(
     faces.slots[slot] = face + 1
     faces.counts[0] = face + 1
     faces.keys[face] = key
-    _composite(layers, faces.paths[faces.starts[face] : faces.starts[face + 1]], faces.rgba[face])
-    slot = _colour_key(faces.rgba[face]) & mask
+    stack = faces.paths[faces.starts[face] : faces.starts[face + 1]]
+    _composite(layers, stack, faces.rgba[face])
+    faces.look[face] = _look_of(layers, stack)
+    slot = _colour_key(faces, face) & mask
     while faces.colour_slots[slot] != 0:
         other = faces.colour_slots[slot] - 1
-        if _same_colour(faces.rgba[other], faces.rgba[face]):
+        if _same_colour(faces, other, face):
             faces.paint[face] = other
             return face
         slot = (slot + 1) & mask

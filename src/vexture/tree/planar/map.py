@@ -34,6 +34,7 @@ class PlanarMap:
     paints: NDArray[np.uint16]  # (paints, 4): premultiplied, in steps of 1/65535; paint 0 is nothing
     stacks: tuple[NDArray[np.int32], ...]  # of each paint: the paths inside where it was met first, from below
     deviation: float  # largest distance between the drawing's outlines and the map's, before quantisation
+    hiding: frozenset[int] = frozenset()  # paths that hide something, which the map therefore does not have
 
     @property
     def coverage(self) -> NDArray[np.float64]:

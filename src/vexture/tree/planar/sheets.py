@@ -46,47 +46,48 @@ class Sheet(NamedTuple):
         return Sheet(replace(self.drawing, name=f"{name}/{number}-{what}"), self.tree)
 
 
-def sheets_of(drawing: Drawing, **parameters: Any) -> list[Sheet]:
+def sheets_of(drawing: Drawing, restyle: bool = False, **parameters: Any) -> list[Sheet]:
     """The sheets of a drawing, the lowest first: one, unless its map needs too many texels.
 
-    A drawing that is one layer needs no map. `parameters` and errors are those of `build_map`. A `precision` cuts no
-    drawing: its texels, like those of layers, grow with the length of the outlines, not with their crossings.
+    A drawing that is one layer needs no map, unless it is to be restyled. `parameters` and errors are those of
+    `build_map`. A `precision` cuts no drawing: its texels, like those of layers, grow with the length of outlines, not
+    with their crossings.
     """
     precision = parameters.pop("precision", None)
-    sheets = _within_budget(drawing, **parameters)
+    sheets = _within_budget(drawing, restyle, **parameters)
     if precision is None:
         return sheets
     parameters["precision"] = precision
-    return [Sheet(one.drawing, _again(one, **parameters)) for one in sheets]
+    return [Sheet(one.drawing, _again(one, restyle, **parameters)) for one in sheets]
 
 
-def _again(sheet: Sheet, **parameters: Any) -> PlanarMap | Tree:
+def _again(sheet: Sheet, restyle: bool, **parameters: Any) -> PlanarMap | Tree:
     """The map or tree of a sheet, with other parameters."""
     if isinstance(sheet.tree, Tree):
         return build_tree(sheet.drawing, **parameters)
-    planar = build_map(sheet.drawing, **parameters)
+    planar = build_map(sheet.drawing, restyle=restyle, **parameters)
     assert planar is not None
     return planar
 
 
-def _within_budget(drawing: Drawing, **parameters: Any) -> list[Sheet]:
+def _within_budget(drawing: Drawing, restyle: bool, **parameters: Any) -> list[Sheet]:
     """The sheets of a drawing, each within its share of the budget."""
-    one_paint = not drawing.groups and len({path.paint for path in drawing.paths}) == 1
+    one_paint = not restyle and not drawing.groups and len({path.paint for path in drawing.paths}) == 1
     layers = drawing.layers() if one_paint else ()
     if len(layers) == 1:
         return [Sheet(layers[0], build_tree(layers[0], **parameters))]
     budget = max(BUDGET * (drawing.segments + len(drawing.paths)), LEAST_BUDGET)
-    whole = build_map(drawing, most_texels=budget, **parameters)
+    whole = build_map(drawing, most_texels=budget, restyle=restyle, **parameters)
     if whole is not None:
         return [Sheet(drawing, whole)]
     items = _items(drawing)
 
     def tried(first: int, last: int) -> Sheet | None:
         part = _part(drawing, items[first:last], len(items))
-        if last == first + 1 and len(items[first]) == 1 and part.paths[0].group < 0:
+        if not restyle and last == first + 1 and len(items[first]) == 1 and part.paths[0].group < 0:
             return Sheet(part, build_tree(part, **parameters))
         share = budget * (last - first) // len(items) if last > first + 1 else None
-        planar = build_map(part, most_texels=share, **parameters)
+        planar = build_map(part, most_texels=share, restyle=restyle, **parameters)
         return None if planar is None else Sheet(part, planar)
 
     found = _greedy(len(items), tried)

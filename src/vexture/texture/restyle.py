@@ -1,0 +1,190 @@
+"""New colours for the elements of planar maps: another table of paints and other means, for the same tree."""
+
+import difflib
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.bezier.area import integral_x_dy
+from vexture.errors import ParameterError
+from vexture.kernels import kernel
+from vexture.layout import (
+    CELL_BITS,
+    COORDINATE_BITS,
+    COUNT_SHIFT,
+    COVERAGE_ONE,
+    IS_MEAN,
+    LATTICE,
+    MOST_PAINTS,
+    PAINT_ONE,
+    QUAD_FLAG,
+)
+from vexture.paint import Paint
+from vexture.texture.contains import read_curve
+from vexture.texture.pick import style_of_root
+from vexture.texture.planar import head_of, paint_texels, paints_from
+from vexture.texture.root import Root
+from vexture.tree.planar.faces import composite_stacks, solid_layers
+from vexture.tree.planar.style import Style, rounded
+
+__all__ = ["Colour", "renew_means", "restyled"]
+
+Colour: TypeAlias = str | Sequence[float] | Paint | None
+"""A CSS colour, three or four components in 0..1, a flat paint, or None for nothing."""
+
+NOTHING: Final = (0.0, 0.0, 0.0, 0.0)
+MOST_NEAR: Final = 5
+"""Names that a message proposes."""
+
+BYTE = (1 << CELL_BITS) - 1
+
+
+def restyled(
+    flat: NDArray[np.uint32],
+    roots: tuple[Root, ...],
+    places: Sequence[int],
+    colours: Mapping[str, Colour],
+    texture: str,
+) -> tuple[NDArray[np.uint32], tuple[Root, ...]]:
+    """Texels and roots with other colours of elements, in some of the shapes; errors as in `Texture.with_paints`."""
+    names = {name: k for k, name in enumerate(colours)}
+    rgba = rounded([_components(name, colour) for name, colour in colours.items()])
+    styles = {place: style_of_root(roots[place]) for place in places}
+    _check_names(names, {name for style in styles.values() for name in style.names} - {""}, texture)
+    texels, new = flat.copy(), list(roots)
+    for place, style in styles.items():
+        which = np.array([names.get(name, -1) for name in style.names], np.int64)
+        styled = style.rgba.copy()
+        styled[which >= 0] = rgba[which[which >= 0]]
+        changed = (styled != style.rgba).any(axis=1)
+        if not changed.any():
+            continue
+        faded = changed & style.hides & (styled[:, 3] < 1.0)
+        if faded.any():
+            k = int(faded.argmax())
+            raise ParameterError(
+                f"{style.names[k]!r} gets the opacity {styled[k, 3]:g}, but the texture does not have what it hides; "
+                "make it opaque, or convert the drawing with that colour"
+            )
+        restyle = replace(style, rgba=styled)
+        _repaint(texels, roots[place].quad, restyle, changed)
+        for k, root in enumerate(roots):
+            if root.is_map and root.quad == roots[place].quad:
+                new[k] = replace(root, style=restyle)
+    return texels, tuple(new)
+
+
+def _components(name: str, colour: Any) -> tuple[float, ...]:
+    """Red, green, blue and opacity of a colour that a user gives, in 0..1."""
+    if isinstance(colour, str) and colour.strip().lower() != "none":
+        from vexture.svg.colors import Color, parse_color  # late: CSS is needed for texts only
+
+        parsed = parse_color(colour)
+        if isinstance(parsed, Color):
+            return (*parsed.rgb, parsed.alpha)
+    elif colour is None or isinstance(colour, str):
+        return NOTHING
+    elif isinstance(colour, Paint):
+        if colour.gradient is None:
+            return (*colour.color, colour.opacity)
+    elif isinstance(colour, Sequence | np.ndarray) and len(colour) in (3, 4):
+        with suppress(TypeError, ValueError):
+            parts = tuple(float(part) for part in (*colour, 1.0)[:4])
+            if all(0.0 <= part <= 1.0 for part in parts):
+                return parts
+    raise ParameterError(
+        f"the colour of {name!r} is {str(colour)[:60]!r}; give a CSS colour, three or four numbers in 0..1, or None"
+    )
+
+
+def _check_names(wanted: Mapping[str, int], known: set[str], texture: str) -> None:
+    """Refuse names that no element has; propose near ones."""
+    for name in wanted:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, n=MOST_NEAR) or sorted(known)[:MOST_NEAR]
+            listed = ", ".join(map(repr, near)) or "none, as the drawing names no element"
+            raise ParameterError(f"{texture}: no element {name!r}; near names are {listed}; there are {len(known)}")
+
+
+def _repaint(flat: NDArray[np.uint32], quad: int, style: Style, changed: NDArray[np.bool_]) -> None:
+    """Write the colours of all paints that some elements are part of, and all means."""
+    head = head_of(flat, quad)
+    colours = np.zeros((head.used, 4))
+    composite_stacks(solid_layers(style.rgba, style.group, style.groups), style.starts, style.members, colours)
+    times = np.append(0, np.cumsum(changed[style.members]))
+    anew = times[style.starts[1:]] > times[style.starts[:-1]]
+    table = paints_from(flat[head.paint_texels], head.used)
+    table[anew] = np.rint(PAINT_ONE * np.clip(colours[anew], 0.0, 1.0))
+    flat[head.paint_texels] = paint_texels(table)
+    renew_means(flat, quad, head.cells, head.sides, table / PAINT_ONE)
+
+
+@kernel
+def _count_quads(flat: NDArray[np.uint32], root: int) -> int:
+    """Number of quads of a map, which are consecutive, each before those below it."""
+    quad, stop = root, root + 1
+    while quad < stop:
+        below = 0
+        for k in range(4):
+            below += 1 if int(flat[quad, 2]) >> CELL_BITS * k & BYTE == QUAD_FLAG else 0
+        if below > 0:
+            stop = max(stop, int(flat[quad, 0]) + below)
+        quad += 1
+    return stop - root
+
+
+@kernel
+def _set_leaf_mean(
+    flat: NDArray[np.uint32],
+    base: int,
+    curves: tuple[int, int],
+    sides: int,
+    table: NDArray[np.float64],
+    curve: NDArray[np.float64],
+    mean: NDArray[np.float64],
+) -> None:
+    """Write the mean colour (4,) of a leaf with the curves first..last-1 (FORMAT.md, D.7); `curve` is scratch."""
+    for c in range(4):
+        mean[c] = table[base, c]
+    for i in range(curves[0], curves[1]):
+        read_curve(flat[i], curve)
+        area = (curve[0, 1] - curve[3, 1]) / LATTICE + integral_x_dy(curve) / LATTICE**2
+        area += 1.0 - curve[0, 1] / LATTICE if curve[0, 0] == 0.0 else 0.0
+        area -= 1.0 - curve[3, 1] / LATTICE if curve[3, 0] == 0.0 else 0.0
+        pair = int(flat[sides + (i >> 2), i & 3])
+        left, right = pair & MOST_PAINTS - 1, pair >> COORDINATE_BITS
+        for c in range(4):
+            mean[c] += area * (table[left, c] - table[right, c])
+
+
+@kernel
+def renew_means(flat: NDArray[np.uint32], root: int, cells: int, sides: int, table: NDArray[np.float64]) -> None:
+    """Write the means of a sound map's cells for a table of paints; leaves of which only the mean is known keep it.
+
+    `cells` and `sides` are those of the map's head.
+    """
+    quads, curve = _count_quads(flat, root), np.empty((4, 2))
+    means = np.empty((quads, 4, 4))
+    for place in range(quads - 1, -1, -1):
+        below, at = int(flat[root + place, 0]) - root, int(flat[root + place, 1])
+        for k in range(4):
+            cell, mean = int(flat[root + place, 2]) >> CELL_BITS * k & BYTE, means[place, k]
+            if cell == QUAD_FLAG:
+                for c in range(4):
+                    mean[c] = 0.25 * (means[below, 0, c] + means[below, 1, c] + means[below, 2, c] + means[below, 3, c])
+                below += 1
+            elif cell == IS_MEAN:
+                for c in range(4):
+                    mean[c] = (int(flat[cells + 2 * place, k]) >> CELL_BITS * c & BYTE) / COVERAGE_ONE
+            else:
+                base, after = int(flat[cells + 2 * place + 1, k]), at + (cell >> COUNT_SHIFT)
+                _set_leaf_mean(flat, base, (at, after), sides, table, curve, mean)
+                at = after
+            word = 0
+            for c in range(4):
+                word |= int(np.rint(COVERAGE_ONE * min(max(mean[c], 0.0), 1.0))) << CELL_BITS * c
+            flat[cells + 2 * place, k] = word

@@ -1,0 +1,300 @@
+"""Planar maps to be restyled: new colours without a new tree, and the element at a point."""
+
+import json
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import vexture
+from degenerate import circle, drawing, heap, path_windings, points_near, polygon
+from planar import coloured
+from vexture.drawing import Drawing, FillRule, Path
+from vexture.errors import FormatError, ParameterError
+from vexture.group import Blend, Group
+from vexture.layout import COVERAGE_ONE, TEXT_ROOTS
+from vexture.paint import Gradient, Paint, Stop
+from vexture.pipeline import atlas, run
+from vexture.renderers.exact import render_exact_colours
+from vexture.texture.ktx2 import write_ktx2
+from vexture.texture.load import texture_from
+from vexture.texture.planar import decode_map
+from vexture.texture.restyle import renew_means, restyled
+from vexture.tree.planar import sheets
+
+CLEAR = 3e-5  # unit-square units; beyond them rounding moves no outline
+RED, GREEN = Paint((1.0, 0.0, 0.0)), Paint((0.0, 1.0, 0.0), 0.5)
+SQUARE = polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
+
+
+def named(of: Drawing, rng) -> Drawing:
+    """A drawing whose paths have names, some of them shared, some none."""
+    names = rng.choice(["", *"abcdefgh"], len(of.paths)).tolist()
+    paths = zip(of.paths, names, strict=True)
+    return replace(of, paths=tuple(replace(path, element=name) for path, name in paths))
+
+
+def sample(seed: int) -> Drawing:
+    rng = np.random.default_rng(seed)
+    paths = drawing(seed).paths + drawing(seed + 100).paths
+    if seed % 2:
+        paths += heap(seed, [1, 2, 1], 1e-9, FillRule(seed // 2 % 2)).paths
+    return named(coloured(Drawing(paths), rng), rng)
+
+
+def faces(of: Drawing, restyle: bool = True) -> vexture.Texture:
+    return run(of, split="faces", restyle=restyle).texture
+
+
+def recoloured(of: Drawing, paints) -> Drawing:
+    return replace(of, paths=tuple(replace(p, paint=paints.get(p.element, p.paint)) for p in of.paths))
+
+
+def new_paints(texture: vexture.Texture, rng) -> dict[str, Paint]:
+    """Random paints for about half of the names, opaque where something is hidden."""
+    style = texture.roots[0].style
+    hiding = {name for name, hides in zip(style.names, style.hides, strict=True) if hides}
+    opacity = {name: 1.0 if name in hiding else float(rng.choice([0.0, 0.4, 1.0])) for name in style.names}
+    return {name: Paint(tuple(rng.random(3).round(3).tolist()), a) for name, a in opacity.items() if name}
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_new_colours_are_those_of_the_drawing_in_new_colours(seed: int) -> None:
+    of, rng = sample(seed), np.random.default_rng(seed)
+    texture = faces(of)
+    paints = new_paints(texture, rng)
+    changed, wanted = texture.with_paints(paints), recoloured(of, paints)
+    changed.check()
+    fresh = faces(wanted)
+    for size in (16, 61):
+        assert 255 * abs(changed.render(size) - render_exact_colours(wanted, size)).max() < 1.5
+        assert 255 * abs(changed.render(size) - fresh.render(size)).max() < 1.5
+    means = [decode_map(each.flat, each.roots[0].quad).mean[0] for each in (changed, fresh)]
+    np.testing.assert_allclose(*means, atol=1.01 / COVERAGE_ONE)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_same_colours_are_the_same_bytes(seed: int) -> None:
+    of = sample(seed)
+    unique = replace(of, paths=tuple(replace(path, element=f"p{k}") for k, path in enumerate(of.paths)))
+    texture = faces(unique)
+    again = texture.with_paints({path.element: path.paint for path in unique.paths})
+    assert again.to_ktx2() == texture.to_ktx2()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_means_are_renewed_as_they_were_built(seed: int) -> None:
+    texture = faces(sample(seed))
+    quad = texture.roots[0].quad
+    planar, flat = decode_map(texture.flat, quad), texture.flat.copy()
+    used, cells, here, _ = flat[quad - 1].tolist()
+    assert used == len(planar.paints)
+    flat[cells : cells + 2 * len(planar.count) : 2][~planar.is_mean] = 0
+    renew_means(flat, quad, cells, here, planar.paints / 65535.0)
+    np.testing.assert_allclose(decode_map(flat, quad).mean, planar.mean, atol=1.01 / COVERAGE_ONE)
+
+
+@settings(max_examples=40)
+@given(st.integers(0, 10_000))
+def test_the_topmost_element_at_a_point(seed: int) -> None:
+    of, rng = sample(seed), np.random.default_rng(seed)
+    texture = faces(of)
+    points = points_near(of, rng, 60)
+    windings, distance = path_windings(of, points)
+    rules = np.array([path.fill_rule == FillRule.EVENODD for path in of.paths])
+    inside = np.where(rules[:, None], np.array(windings) & 1, np.array(windings)) != 0
+    top = np.array([topmost(of, np.flatnonzero(here).tolist()) for here in inside.T])
+    found = texture.element_at(points)
+    planar, known = decode_map(texture.flat, texture.roots[0].quad), distance > CLEAR
+    known &= (found.element >= 0) | (top < 0) | (not planar.is_mean.any())
+    wanted = np.array([*(path.element for path in of.paths), ""])[top]
+    assert (found.name[known] == wanted[known]).all()
+    assert ((found.element < 0) == (top < 0))[known].all()
+    assert (found.root[found.element >= 0] == 0).all()
+
+
+def topmost(of: Drawing, inside: list[int]) -> int:
+    """The highest of the paths inside that is no mask, and that no mask hides of which nothing is there; or -1."""
+    met = {place for path in inside for place in of.around(of.paths[path].group)}
+    for path in reversed(inside):
+        around = of.around(of.paths[path].group)
+        masks = [k for k, mask in enumerate(of.groups) if mask.mask and mask.outer in around]
+        if met.issuperset(masks) and not any(of.groups[place].mask for place in around):
+            return path
+    return -1
+
+
+def checkerboard(n: int, colours) -> Drawing:
+    lines = np.linspace(0, 1, n + 1)
+    return Drawing(
+        tuple(
+            Path((polygon([(x, y), (u, y), (u, v), (x, v)]),), paint=colours(i, j), element=f"{i}-{j}")
+            for j, (y, v) in enumerate(pairwise(lines))
+            for i, (x, u) in enumerate(pairwise(lines))
+        )
+    )
+
+
+def test_a_map_costs_what_it_costs_in_different_colours_and_neighbours_keep_their_border() -> None:
+    different, alike = checkerboard(7, lambda i, j: Paint((i / 6, j / 6, 0.0))), checkerboard(7, lambda i, j: RED)
+    static, same = faces(different, restyle=False), faces(alike)
+    assert len(faces(different).flat) == len(static.flat)
+    assert same.info()["roots"][0]["curves"] == static.info()["roots"][0]["curves"]
+    painted = same.with_paints({path.element: path.paint for path in different.paths})
+    np.testing.assert_allclose(painted.render(20), static.render(20), atol=2e-5)
+
+
+def test_what_an_opaque_element_hides_is_not_there() -> None:
+    lid = Path((polygon([(0, 0), (0.5, 0), (0.5, 1), (0, 1)]),), paint=RED, element="lid")
+    beside = Path((polygon([(0.5, 0), (1, 0), (1, 1), (0.5, 1)]),), paint=RED, element="beside")
+    low = Path((circle((0.25, 0.5), 0.2),), element="low")
+    texture = faces(Drawing((low, lid, beside)))
+    with pytest.raises(ParameterError, match=r"'lid' gets the opacity 0\.5, but the texture does not have"):
+        texture.with_paints({"lid": (1, 0, 0, 0.5)})
+    assert texture.with_paints({"beside": None, "lid": "blue"}).render(2)[0].tolist() == [[0, 0, 1, 1], [0, 0, 0, 0]]
+
+
+def test_groups_are_composited_again() -> None:
+    groups = (Group(opacity=0.5), Group(0, 0.8, Blend.MULTIPLY))
+    of = Drawing(
+        tuple(
+            Path((circle((0.3 + 0.1 * k, 0.5), 0.25),), paint=RED, group=group, element=f"{k}")
+            for k, group in enumerate((-1, 0, 1, 0))
+        ),
+        groups=groups,
+    )
+    paints = {"0": GREEN, "2": Paint((0.2, 0.4, 1.0)), "3": Paint((0.0, 1.0, 1.0), 0.3)}
+    texture = texture_from(faces(of).to_ktx2(), "again")
+    assert texture.roots[0].style.groups == groups
+    wanted = render_exact_colours(recoloured(of, paints), 32)
+    np.testing.assert_allclose(texture.with_paints(paints).render(32), wanted, atol=1.5 / 255)
+
+
+def test_sheets_of_one_drawing_are_restyled_together(monkeypatch) -> None:
+    monkeypatch.setattr(sheets, "LEAST_BUDGET", 0)
+    rng = np.random.default_rng(1)
+    centres = rng.random((12, 2)) * 0.6 + 0.2
+    discs = [Path((circle(centre, 0.2),), paint=GREEN, element=f"d{k}") for k, centre in enumerate(centres)]
+    of = Drawing(tuple(discs), name="discs")
+    texture = faces(of)
+    assert len(texture.roots) > 1
+    assert all(root.is_map for root in texture.roots)
+    paints = {f"d{k}": Paint((k / 12, 0.5, 0.0), 0.5) for k in range(0, 12, 2)}
+    wanted = recoloured(of, paints)
+    np.testing.assert_allclose(
+        texture.with_paints(paints).render(20), faces(wanted, restyle=False).render(20), atol=1e-3
+    )
+    points = rng.random((200, 2))
+    windings, distance = path_windings(of, points)
+    top = [max(np.flatnonzero(inside), default=-1) for inside in (np.array(windings) != 0).T]
+    clear = distance > CLEAR
+    assert (texture.element_at(points).name == np.array([*(p.element for p in discs), ""])[top])[clear].all()
+
+
+def test_a_gradient_becomes_its_mean_and_a_note_says_so() -> None:
+    shade = Paint.of(Gradient(((1, 0, 0), (0, 1, 0)), (Stop(0, (1, 0, 0)), Stop(1, (0, 0, 1)))))
+    of = Drawing((Path((SQUARE,), paint=shade, element="a"), Path((circle((0.5, 0.5), 0.2),), element="b")))
+    with pytest.warns(vexture.errors.SourceWarning, match="gradient, of its mean colour"):
+        texture = vexture.convert(of, split="faces", restyle=True)
+    np.testing.assert_allclose(texture.render(8)[0, 0], [0.5, 0, 0.5, 1], atol=1e-4)
+
+
+def two() -> vexture.Texture:
+    paths = (Path((SQUARE,), paint=RED, element="alpha"), Path((circle((0.5, 0.5), 0.2),), element="beta"))
+    return faces(Drawing(paths, name="two"))
+
+
+@pytest.mark.parametrize(
+    ("paints", "message"),
+    [
+        ({"alpa": "red"}, "two: no element 'alpa'; near names are 'alpha'; there are 2"),
+        ({"": "red"}, "two: no element ''; near names are 'alpha', 'beta'; there are 2"),
+        ({"beta": "reddish"}, "the colour of 'beta' is 'reddish'; give a CSS colour, three or four numbers in 0..1"),
+        ({"beta": (1, 2, 0)}, "the colour of 'beta' is "),
+        ({"beta": (1, float("nan"), 0)}, "the colour of 'beta' is "),
+        ({"beta": (1, "a", 0)}, "the colour of 'beta' is "),
+        ({"beta": 7}, "the colour of 'beta' is '7'"),
+    ],
+)
+def test_wrong_names_and_colours_are_refused_in_a_line(paints, message: str) -> None:
+    with pytest.raises(ParameterError) as error:
+        two().with_paints(paints)
+    assert str(error.value).startswith(message)
+    assert "\n" not in str(error.value)
+
+
+COLOURS = ["#00ff00", "lime", (0, 1, 0), [0.0, 1.0, 0.0, 1.0], np.array([0, 1, 0]), Paint((0.0, 1.0, 0.0))]
+
+
+@pytest.mark.parametrize("colour", COLOURS)
+def test_a_colour_is_given_in_several_ways(colour) -> None:
+    assert two().with_paints({"alpha": colour}).render(8)[0, 0].tolist() == [0, 1, 0, 1]
+
+
+def test_only_maps_to_be_restyled_have_elements() -> None:
+    of = Drawing((Path((SQUARE,), paint=RED), Path((circle((0.5, 0.5), 0.2),))), name="plain")
+    for texture in (faces(of, restyle=False), vexture.convert(of)):
+        with pytest.raises(ParameterError, match="`root` 'plain' has no elements; convert the drawing with `restyle`"):
+            texture.with_paints({})
+        with pytest.raises(ParameterError, match="has no elements"):
+            texture.element_at([(0.5, 0.5)])
+    with pytest.raises(ParameterError, match="`restyle` is for a whole drawing in its colours; add `split` 'faces'"):
+        vexture.convert(of, restyle=True)
+    with pytest.raises(ParameterError, match=r"`points` has the shape \(2,\)"):
+        two().element_at((0.5, 0.5))
+
+
+def test_shapes_of_an_atlas_are_restyled_by_name() -> None:
+    one = Drawing((Path((SQUARE,), paint=RED, element="a"),), name="one")
+    texture = atlas([one, replace(one, name="other")], split="faces", restyle=True)
+    changed = texture.with_paints({"a": "blue"}, root="other")
+    assert changed.render(1, root="one")[0, 0].tolist() == [1, 0, 0, 1]
+    assert changed.render(1, root="other")[0, 0].tolist() == [0, 0, 1, 1]
+    assert changed.element_at([(0.5, 0.5)], root="other").root.tolist() == [1]
+    assert changed.info()["roots"][1]["elements"] == ["a"]
+    with pytest.raises(ParameterError, match="choose one by `root`"):
+        texture.with_paints({"a": "blue"})
+
+
+STYLE = {"elements": [{"name": "a", "color": [1, 0, 0]}], "groups": [], "stacks": [[], [0]]}
+GROUP = {"outer": -1, "opacity": 1, "blend": "normal"}
+
+
+@pytest.mark.parametrize(
+    ("style", "message"),
+    [
+        (7, "style is 7; it must be an object"),
+        ({}, "elements is None; it must be a list"),
+        (STYLE | {"elements": [{"color": [1, 0, 0]}]}, "it must be an object with a name"),
+        (STYLE | {"elements": [{"name": "a", "color": [1, 0, 2]}]}, "its numbers must be in 0..1"),
+        (STYLE | {"elements": [{"name": "a", "color": [1, 0, 0], "group": 0}]}, "a path is in group 0, of 0"),
+        (STYLE | {"elements": [{"name": "a", "color": [1, 0, 0], "hides": 1}]}, "hides is a truth"),
+        (STYLE | {"groups": [GROUP | {"blend": "glow"}]}, "it must be an object with outer and blend"),
+        (STYLE | {"groups": [GROUP | {"outer": 3}]}, "group 0 lies in group 3, which is not before it"),
+        (STYLE | {"groups": [GROUP | {"opacity": 2}]}, "a group has opacity 2; it must be in 0..1"),
+        (STYLE | {"stacks": [[], [1]]}, "a stack names none of the 1 elements"),
+        (STYLE | {"stacks": [[], [0.0]]}, "a stack names none of the 1 elements"),
+        (STYLE | {"stacks": [[], 0]}, "a stack is 0; it must be a list"),
+        (STYLE | {"stacks": [[]]}, "has 2 paints, and stacks of 1"),
+    ],
+)
+def test_a_style_that_breaks_the_format_is_refused_in_a_line(style, message: str) -> None:
+    texture = faces(Drawing((Path((SQUARE,), paint=RED, element="a"),)))
+    texts = texture.texts()
+    roots = json.loads(texts[TEXT_ROOTS])
+    assert {key: roots[0]["style"][key] for key in STYLE} == STYLE
+    roots[0]["style"] = style
+    with pytest.raises(FormatError) as error:
+        texture_from(write_ktx2(texture.texels, texts | {TEXT_ROOTS: json.dumps(roots)}, True), "broken")
+    assert message in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_two_roots_of_one_map_are_restyled_together() -> None:
+    texture = faces(Drawing((Path((SQUARE,), paint=RED, element="a"),), name="one"))
+    twin = replace(texture.roots[0], name="two")
+    _, roots = restyled(texture.flat, (*texture.roots, twin), [0], {"a": "blue"}, "both")
+    assert [root.style.rgba.tolist() for root in roots] == [[[0, 0, 1, 1]]] * 2
