@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from degenerate import circle, drawing, heap, points_near, polygon
+from degenerate import circle, drawing, heap, path_windings, points_near, polygon
 from planar import cell_at, coloured, colours_at, paints_at
 from vexture.drawing import Blend, Drawing, FillRule, Group, Path
 from vexture.errors import LimitError, SourceError
@@ -99,6 +99,23 @@ def test_more_faces_than_the_table_holds_at_first() -> None:
     planar = build_map(of)
     assert len(planar.paints) > 1100
     assert check_points(of, planar, rng.random((200, 2))) > 150
+
+
+def test_paints_know_which_paths_are_inside() -> None:
+    rng = np.random.default_rng(5)
+    discs = [circle(0.1 + 0.8 * rng.random(2), 0.08) for _ in range(150)]
+    paints = [Paint(tuple(rng.random(3).tolist()), 1.0 if k % 9 == 8 else 0.5) for k in range(len(discs))]
+    groups = [0 if 30 <= k < 50 else -1 for k in range(len(discs))]  # what is opaque in a group hides nothing below it
+    paths = [Path((disc,), paint=paint, group=g) for disc, paint, g in zip(discs, paints, groups, strict=True)]
+    of = Drawing(tuple(paths), groups=(Group(opacity=0.7),))
+    planar, points = build_map(of), rng.random((200, 2))
+    windings, distance = path_windings(of, points)
+    for point, inside, off in zip(points, np.transpose(windings), distance, strict=True):
+        if off > CLEAR:
+            wanted = np.flatnonzero(inside)
+            lids = [k for k in wanted if paints[k].is_opaque and groups[k] < 0]
+            (paint,) = paints_at(planar, point)
+            assert planar.stacks[paint].tolist() == wanted[wanted >= max(lids, default=0)].tolist()
 
 
 @pytest.mark.parametrize("wedges", [5, 12, 15, 24])

@@ -193,5 +193,6 @@ def decode_map(flat: NDArray[np.uint32], quad: int) -> PlanarMap:
         curve_points(flat[curves]),
         _sides(flat, found)[curves - found.first_curve].astype(np.int32),
         _paints(flat, found),
+        (),
         0.0,
     )

@@ -110,7 +110,7 @@ def _child_paths(
         if not changes and not inside(winding, layers.rules[path]):
             continue
         alone = not changes and layers.group[path] < 0
-        if alone and layers.rgba[path, 3] >= 1.0:
+        if layers.covers[path] and not changes:
             here, ground, folding = end, 0, True
         if alone and folding:
             present[here, 0], present[here, 1] = path, winding
@@ -362,5 +362,6 @@ def _map_of(name: str, growth: PlanarGrowth, faces: Faces) -> PlanarMap:
         tree.curves[curves].astype(np.int32),
         numbers[base.size :].reshape(-1, 2),
         np.rint(ONE * np.clip(faces.rgba[used], 0.0, 1.0)).astype(np.uint16),
+        tuple(faces.paths[slice(*faces.starts[[face, face + 1]])] for face in used.tolist()),
         float(tree.deviation[0]),
     )

@@ -30,6 +30,7 @@ class Layers(NamedTuple):
 
     rules: NDArray[np.int64]
     rgba: NDArray[np.float64]  # (paths, 4), premultiplied
+    covers: NDArray[np.bool_]  # whether nothing below is seen where it is inside: opaque, and in no group
     keys: NDArray[np.int64]
     group: NDArray[np.int64]  # innermost group of each path, or -1
     outer: NDArray[np.int64]  # of each group: the group around it, or -1
@@ -46,6 +47,8 @@ class Faces(NamedTuple):
     keys: NDArray[np.int64]  # (room,)
     rgba: NDArray[np.float64]  # (room, 4), premultiplied
     paint: NDArray[np.int64]  # (room,): the first face of the same colour
+    starts: NDArray[np.int64]  # (room + 1,): where the stack of each face begins in `paths`
+    paths: NDArray[np.int32]  # numbers of the paths inside, from below; from the highest that covers all below it on
     counts: NDArray[np.int64]  # (2,): faces; 1 if there was no room for another
 
 
@@ -58,6 +61,7 @@ def layers_of(drawing: Drawing) -> Layers:
     return Layers(
         np.array([int(path.fill_rule) for path in drawing.paths], np.int64),
         np.hstack([colour * opacity, opacity]),
+        np.array([path.paint.is_opaque and path.group < 0 for path in drawing.paths], np.bool_),
         _keys(len(paints)),
         np.array([path.group for path in drawing.paths], np.int64),
         np.array([group.outer for group in groups], np.int64),
@@ -77,16 +81,18 @@ def _keys(count: int) -> NDArray[np.int64]:
 
 def new_faces() -> Faces:
     """A table that holds face 0."""
-    return _faces(FIRST_ROOM)
+    return _faces(FIRST_ROOM, FIRST_ROOM)
 
 
-def _faces(room: int) -> Faces:
+def _faces(room: int, paths: int) -> Faces:
     faces = Faces(
         np.zeros(4 * room, np.int64),
         np.zeros(4 * room, np.int64),
         np.zeros(room, np.int64),
         np.zeros((room, 4)),
         np.zeros(room, np.int64),
+        np.zeros(room + 1, np.int64),
+        np.zeros(paths, np.int32),
         np.array([1, 0]),
     )
     faces.slots[0] = faces.colour_slots[0] = 1
@@ -94,11 +100,13 @@ def _faces(room: int) -> Faces:
 
 
 def roomier_faces(faces: Faces) -> Faces:
-    """A copy with twice the room."""
-    count = int(faces.counts[0])
-    out = _faces(2 * len(faces.keys))
+    """A copy with twice the room of what is full."""
+    count, room = int(faces.counts[0]), len(faces.keys)
+    out = _faces(2 * room, len(faces.paths)) if count == room else _faces(room, 2 * len(faces.paths))
     for rows, old in zip(out[2:5], faces[2:5], strict=True):
         rows[:count] = old[:count]
+    out.starts[: count + 1] = faces.starts[: count + 1]
+    out.paths[: faces.starts[count]] = faces.paths[: faces.starts[count]]
     out.counts[0] = count
     refill(out)
     return out
@@ -142,29 +150,20 @@ def _same_colour(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
 
 
 @kernel
-def _composite(
-    layers: Layers, present: NDArray[np.int64], windings: NDArray[np.int64], out: NDArray[np.float64]
-) -> None:
-    """Composite the paths that are inside onto a colour, `out` (4,); those of a group are composited by themselves."""
+def _composite(layers: Layers, stack: NDArray[np.int32], out: NDArray[np.float64]) -> None:
+    """Write the colour (4,) of a stack of paths; those of a group are composited by themselves."""
     deepest = 0
     for g in range(len(layers.depth)):
         deepest = max(deepest, layers.depth[g] + 1)
     around, inner = np.empty(deepest + 1, np.int64), np.zeros((deepest + 1, 4))
     level = 0  # open groups; inner[level] is what has been painted in the innermost
-    for c in range(4):
-        inner[0, c] = out[c]
-    for k in range(len(present) + 1):
-        group = -1
-        if k < len(present):
-            path = present[k, 0]
-            if not inside(windings[k], layers.rules[path]):
-                continue
-            group = layers.group[path]
+    for k in range(len(stack) + 1):
+        group = layers.group[stack[k]] if k < len(stack) else -1
         while level > 0 and not _is_in(layers, group, around[level]):
             g = around[level]
             blend_over(inner[level - 1], inner[level], layers.opacity[g], layers.blend[g])
             level -= 1
-        if k == len(present):
+        if k == len(stack):
             break
         while level <= (layers.depth[group] if group >= 0 else -1):
             g = group
@@ -174,7 +173,7 @@ def _composite(
             around[level] = g
             for c in range(4):
                 inner[level, c] = 0.0
-        blend_over(inner[level], layers.rgba[path], 1.0, 0)
+        blend_over(inner[level], layers.rgba[stack[k]], 1.0, 0)
     for c in range(4):
         out[c] = inner[0, c]
 
@@ -185,6 +184,28 @@ def _is_in(layers: Layers, group: int, around: int) -> bool:
     while group >= 0 and layers.depth[group] > layers.depth[around]:
         group = layers.outer[group]
     return group == around
+
+
+@kernel(allocates=False)
+def _stack(
+    faces: Faces, layers: Layers, ground: int, present: NDArray[np.int64], windings: NDArray[np.int64], face: int
+) -> bool:
+    """Write the stack of a face, which is that of its ground and the paths inside; False if there is no room."""
+    start = faces.starts[face]
+    end, first = start, faces.starts[ground]
+    if start + faces.starts[ground + 1] - first + len(present) > len(faces.paths):
+        return False
+    for k in range(first, faces.starts[ground + 1]):
+        faces.paths[end] = faces.paths[k]
+        end += 1
+    for k in range(len(present)):
+        path = present[k, 0]
+        if inside(windings[k], layers.rules[path]):
+            end = start if layers.covers[path] else end
+            faces.paths[end] = path
+            end += 1
+    faces.starts[face + 1] = end
+    return True
 
 
 @kernel
@@ -207,15 +228,13 @@ def face_of(
             return face
         slot = (slot + 1) & mask
     face = faces.counts[0]
-    if face == len(faces.keys):
+    if face == len(faces.keys) or not _stack(faces, layers, ground, present, windings, face):
         faces.counts[1] = 1
         return 0
     faces.slots[slot] = face + 1
     faces.counts[0] = face + 1
     faces.keys[face] = key
-    for c in range(4):
-        faces.rgba[face, c] = faces.rgba[ground, c]
-    _composite(layers, present, windings, faces.rgba[face])
+    _composite(layers, faces.paths[faces.starts[face] : faces.starts[face + 1]], faces.rgba[face])
     slot = _colour_key(faces.rgba[face]) & mask
     while faces.colour_slots[slot] != 0:
         other = faces.colour_slots[slot] - 1

@@ -32,6 +32,7 @@ class PlanarMap:
     curves: NDArray[np.int32]  # (curves, 4, 2), in lattice units of their leaf
     sides: NDArray[np.int32]  # (curves, 2): paint on the left and on the right of each
     paints: NDArray[np.uint16]  # (paints, 4): premultiplied, in steps of 1/65535; paint 0 is nothing
+    stacks: tuple[NDArray[np.int32], ...]  # of each paint: the paths inside where it was met first, from below
     deviation: float  # largest distance between the drawing's outlines and the map's, before quantisation
 
     @property
