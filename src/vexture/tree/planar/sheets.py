@@ -45,9 +45,9 @@ class Sheet(NamedTuple):
 def sheets_of(drawing: Drawing, **parameters: Any) -> list[Sheet]:
     """The sheets of a drawing, the lowest first: one, unless its map needs too many texels.
 
-    A drawing that is one layer needs no map. `parameters` and errors are those of `build_map`.
+    A drawing that is one layer of one colour needs no map. `parameters` and errors are those of `build_map`.
     """
-    one_paint = not drawing.groups and len({path.paint for path in drawing.paths}) == 1
+    one_paint = _is_flat(drawing.paths) and not drawing.groups and len({path.paint for path in drawing.paths}) == 1
     layers = drawing.layers() if one_paint else ()
     if len(layers) == 1:
         return [Sheet(layers[0], build_tree(layers[0], **parameters))]
@@ -59,7 +59,7 @@ def sheets_of(drawing: Drawing, **parameters: Any) -> list[Sheet]:
 
     def tried(first: int, last: int) -> Sheet | None:
         part = _part(drawing, items[first:last], len(items))
-        if last == first + 1 and len(items[first]) == 1 and part.paths[0].group < 0:
+        if last == first + 1 and len(items[first]) == 1 and part.paths[0].group < 0 and _is_flat(part.paths):
             return Sheet(part, build_tree(part, **parameters))
         share = budget * (last - first) // len(items) if last > first + 1 else None
         planar = build_map(part, most_texels=share, **parameters)
@@ -67,6 +67,11 @@ def sheets_of(drawing: Drawing, **parameters: Any) -> list[Sheet]:
 
     found = _greedy(len(items), tried)
     return [sheet.named(drawing.name, number) for number, sheet in enumerate(found, 1)]
+
+
+def _is_flat(paths: Sequence[Path]) -> bool:
+    """Whether no path has a gradient."""
+    return all(path.paint.gradient is None for path in paths)
 
 
 def _greedy(count: int, tried: Callable[[int, int], Sheet | None]) -> list[Sheet]:
