@@ -8,7 +8,7 @@ from degenerate import path_windings
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.group import Blend, Group, Mask
 from vexture.layout import LATTICE
-from vexture.paint import Paint
+from vexture.paint import Gradient, Paint, Spread
 from vexture.tree.crossings import x_at
 from vexture.tree.planar.map import PlanarMap
 
@@ -46,6 +46,34 @@ def paints_at(planar: PlanarMap, point) -> dict[int, int]:
     return {paint: times for paint, times in tally.items() if times}
 
 
+def gradient_colours(gradient: Gradient, points) -> NDArray[np.float64]:
+    """Premultiplied colours (n, 4) at points, by the text of SVG 2: the greatest t whose circle has a radius."""
+    x, y = np.array(gradient.to_ramp)[:, :2] @ np.transpose(points) + np.array(gradient.to_ramp)[:, 2:]
+    t = x
+    if gradient.focus is not None:
+        fx, fr = gradient.focus
+        # |(x, y) - (fx (1 - t), 0)| = fr (1 - t) + t, as a polynomial of t
+        a, b, c = fx**2 - (1 - fr) ** 2, 2 * (fx * (x - fx) - fr * (1 - fr)), (x - fx) ** 2 + y**2 - fr**2
+        with np.errstate(invalid="ignore", divide="ignore"):
+            root = np.sqrt(b * b - 4 * a * c)
+            both = np.sort([(-b - root) / (2 * a), (-b + root) / (2 * a)] if a else [-c / b, -c / b], axis=0)
+            both[~(fr + both * (1 - fr) >= 0)] = np.nan
+        t = np.where(np.isnan(both[1]), both[0], both[1])
+    there = np.nan_to_num(t)
+    if gradient.spread is Spread.REPEAT:
+        there = there % 1.0
+    elif gradient.spread is Spread.REFLECT:
+        there = np.minimum(there % 2.0, -there % 2.0)
+    offsets = np.array([stop.offset for stop in gradient.stops])
+    straight = np.array([(*stop.color, stop.opacity) for stop in gradient.stops])
+    high = np.searchsorted(offsets, there, side="right")
+    before, after = np.maximum(high - 1, 0), np.minimum(high, len(offsets) - 1)
+    way = np.where(after > before, offsets[after] - offsets[before], 1.0)
+    share = np.where(after > before, (there - offsets[before]) / way, 0.0)[:, None]
+    colours = (1 - share) * straight[before] + share * straight[after]
+    return np.where(np.isnan(t)[:, None], 0.0, colours * np.append(colours[:, [3, 3, 3]], np.ones((len(t), 1)), axis=1))
+
+
 def over(below, above, blend: Blend, opacity: float):
     """Premultiplied colours (n, 4), of the blend modes that tests use."""
     above = above * opacity
@@ -59,9 +87,9 @@ def over(below, above, blend: Blend, opacity: float):
     return out
 
 
-def colours_at(drawing: Drawing, points) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def colours_at(drawing: Drawing, points, chords: int = 256) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Premultiplied colours of a drawing at points, (n, 4), and the points' distance from the nearest outline."""
-    windings, distance = path_windings(drawing, points)
+    windings, distance = path_windings(drawing, points, chords)
 
     masks = [sum(mask.outer == place for mask in drawing.groups if mask.mask) for place in range(len(drawing.groups))]
 
@@ -85,7 +113,9 @@ def colours_at(drawing: Drawing, points) -> tuple[NDArray[np.float64], NDArray[n
                 continue
             path, w = drawing.paths[k], windings[k]
             inside = w & 1 != 0 if path.fill_rule == FillRule.EVENODD else w != 0
-            colour = np.array([*(c * path.paint.opacity for c in path.paint.color), path.paint.opacity])
+            flat = [*(c * path.paint.opacity for c in path.paint.color), path.paint.opacity]
+            gradient = path.paint.gradient
+            colour = np.array(flat) if gradient is None else gradient_colours(gradient, points)
             below, k = over(below, inside[:, None] * colour, Blend.NORMAL, 1.0), k + 1
         return below * left * (missing == 0), k
 
@@ -123,3 +153,10 @@ def layered(seed: int) -> Drawing:
         distance = 10.0 ** -int(rng.integers(3, 12))
         paths += degenerate.heap(seed, [1, 2, 1], distance, FillRule(seed // 2 % 2)).paths
     return coloured(Drawing(paths[:MOST_LAYERS]), rng, list(Blend))
+
+
+def sampled(drawing: Drawing, size: int, samples: int = 32) -> NDArray[np.float64]:
+    """Picture of a drawing, (size, size, 4), by samples x samples points in a pixel."""
+    at = (np.arange(size * samples) + 0.5) / (size * samples)
+    rows = [colours_at(drawing, np.column_stack([at, np.full(len(at), y)]), 24)[0] for y in at[::-1]]
+    return np.array(rows).reshape(size, samples, size, samples, 4).mean(axis=(1, 3))

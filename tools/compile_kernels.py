@@ -25,6 +25,7 @@ import numpy as np
 from vexture import Drawing, convert, read_svg
 from vexture.bezier.reduce import reduced
 from vexture.kernels import Kernel, text_digest
+from vexture.layout import MAP_HEAD
 from vexture.machine_code import RELEASE, SHIPPED, Code, described, host, load
 from vexture.renderers.colour import draw_colours
 from vexture.renderers.cpu import draw
@@ -35,7 +36,8 @@ from vexture.tree.build import SLICE, Bounds, grow, grow_on
 from vexture.tree.cubics import gather
 from vexture.tree.growth import WAITING, Growth, tree_of, with_needed_room
 from vexture.tree.planar.build import build_map, drawing_cubics, grow_map, plant_map, planted, with_room
-from vexture.tree.planar.faces import layers_of, new_faces, refill
+from vexture.tree.planar.faces import new_faces, operations_of, refill
+from vexture.tree.planar.layers import layers_of
 from vexture.tree.tree import MOST_QUADS
 
 SHAPES = Path(__file__).parent.parent / "examples" / "shapes"
@@ -141,23 +143,24 @@ def calls() -> Iterator[tuple[Any, tuple[Any, ...]]]:
 
 def map_calls(drawing: Drawing) -> Iterator[tuple[Any, tuple[Any, ...]]]:
     """The kernels of planar maps."""
-    outlines = drawing_cubics(drawing)
+    outlines, layers = drawing_cubics(drawing), layers_of(drawing)
     yield plant_map, (*outlines, 16)
     for tolerance in (0.0, 0.001):
         growth, faces = planted(*plant_map.dispatcher(*outlines, 16)[0]), new_faces()
         growth.tree.needed[:] = ROOM
         yield (
             grow_map,
-            (with_room(growth), layers_of(drawing), faces, Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS), SLICE),
+            (with_room(growth), layers, faces, Bounds(4, tolerance, 1e-5, 1, 16, MOST_QUADS), SLICE),
         )
     yield refill, (new_faces(),)
+    yield operations_of, (layers, np.arange(len(drawing.paths), dtype=np.int32))
     planar = build_map(drawing)
     assert planar is not None
     texels = texel_rows(map_texels(planar, 0))
     for flat_view in (0, 1):
         to_unit = np.array([[0.02, 0.0, 0.0], [0.0, -0.02, 1.0], [0.0, 0.0, 1.0]])
         image = np.full((50, 50, 4), np.nan, np.float32)
-        yield draw_colours, (texels, 0, flat_view, 1, (0, 0), to_unit, image)
+        yield draw_colours, (texels, 0, flat_view, MAP_HEAD, (0, 0), to_unit, image)
 
 
 def object_file(text: str, entry: str, processor: Processor) -> tuple[bytes, list[str]]:

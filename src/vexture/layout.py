@@ -12,14 +12,27 @@ __all__ = [
     "COUNT_SHIFT",
     "COVERAGE_ONE",
     "ENCODING_PACKED",
+    "HOLDS_PROGRAM",
     "IS_MEAN",
+    "KIND_FOCAL",
+    "KIND_FOLLOWS",
+    "KIND_KEEP",
+    "KIND_LINEAR",
+    "KIND_MIX",
+    "KIND_RADIAL",
+    "KIND_SHIFT",
+    "KIND_SOLID",
     "LATTICE",
     "LATTICE_BITS",
+    "MAP_HEAD",
     "MAP_VERSION",
     "MOST_CURVES",
     "MOST_DEPTH",
+    "MOST_KEPT",
     "MOST_PAINTS",
+    "MOST_PROGRAM",
     "MOST_ROWS",
+    "MOST_STOPS",
     "MOST_TEXT_BYTES",
     "PACKED_FILE_LIMIT",
     "PACKED_SUFFIX",
@@ -27,6 +40,8 @@ __all__ = [
     "PAINT_ONE",
     "QUAD_FLAG",
     "ROW_BITS",
+    "STOP_BITS",
+    "STOP_COUNT_BITS",
     "TEXT_ENCODING",
     "TEXT_NAME",
     "TEXT_ROOTS",
@@ -57,6 +72,9 @@ TEXT_ROOTS: Final = "vexture.roots"
 
 ENCODING_PACKED: Final = "packed"
 PACKED_VERSION: Final = "1"
+
+MAP_HEAD: Final = 2
+"""Texels before the root quad of a planar map, which say where its parts lie."""
 
 MAP_VERSION: Final = "2"
 """Version of a texture with planar maps."""
@@ -104,6 +122,29 @@ MOST_PAINTS: Final = 1 << COORDINATE_BITS
 
 PAINT_ONE: Final = 65535
 """A channel of a paint that is full; a mean has `COVERAGE_ONE`."""
+
+MOST_PROGRAM: Final = 64
+"""Texels of a program: what a pixel runs at most for one paint."""
+
+KIND_SHIFT: Final = 29
+"""The last word of a program's texel has its kind above these bits."""
+
+KIND_SOLID, KIND_LINEAR, KIND_RADIAL, KIND_FOCAL, KIND_KEEP, KIND_MIX, KIND_FOLLOWS = range(1, 8)
+"""Kinds: a colour; gradients, radial ones without and with a focal circle; a group's begin and end; what follows the
+first texel of a gradient."""
+
+HOLDS_PROGRAM: Final = 4
+"""Added to the cell byte of a planar map's leaf, if a paint in it is a program."""
+
+MOST_KEPT: Final = 2
+"""Groups of a program that are open at once: each needs a colour in the shader's registers."""
+
+STOP_BITS: Final = 19
+STOP_COUNT_BITS: Final = 8
+"""Of a gradient's word: how far its stops are from its texel, and above that how many there are."""
+
+MOST_STOPS: Final = (1 << STOP_COUNT_BITS) - 1
+"""Stops of a gradient, and of all gradients of a program."""
 
 CONTROL_OFFSET: Final = 16384
 """Lattice units added to the coordinates of P1 and P2, which so span -1/2 to 3/2 of the leaf."""

@@ -31,6 +31,11 @@ __all__ = [
     "warn_of_loss",
 ]
 
+FLATTENED: Final = (
+    "gradient, of its mean colour: more are over one another, or blend otherwise, than a pixel composites"
+)
+"""Message about faces of planar maps."""
+
 Source: TypeAlias = "Drawing | str | os.PathLike[str]"
 """A drawing, or the path of a file that `vexture.read` reads."""
 
@@ -173,9 +178,15 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     )
     named = drawing.name if _is_drawing(source) else os.fspath(source)  # type: ignore[arg-type]
     seconds, rounding = time.perf_counter() - start, largest_shift(parameters.precision)
-    notes = layers[0].notes if layers else shown.notes
+    notes = layers[0].notes if layers else (*shown.notes, *_flattened(sheet.tree for sheet in sheets))
     trees = tuple(sheet.tree for sheet in sheets)
     return Conversion(drawing, trees, None, seconds, rounding, roots, named, notes)
+
+
+def _flattened(trees: Iterable[Any]) -> tuple[Note, ...]:
+    """A note of the faces of planar maps that have the means of gradients instead of these."""
+    count = sum(getattr(tree, "flattened", 0) for tree in trees)
+    return (Note("simplified", FLATTENED, count),) if count else ()
 
 
 def combine(parts: Sequence[Conversion[Any]], name: str, source: str | None = None) -> "Texture":

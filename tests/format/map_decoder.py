@@ -17,12 +17,13 @@ from decoder import (
     trace,
 )
 
-KINDS = [0, 2, 128, *(8 * n for n in range(1, 16))]  # D.2
+KINDS = [0, 4, 2, 128, *(8 * n + more for n in range(1, 16) for more in (0, 4))]  # D.2
 # Arrays [quad - root, cell k]: the quad below less the root, or -1; the leaf's first curve, of those of the map; how
 # many it has; its base paint; whether only its mean is known; the mean colour. Then for each curve the points in units
-# of the lattice, the paints on its left and on its right; and the colours of the paints. Colours are sRGB, 0..1,
-# premultiplied: red, green, blue, opacity.
-Map = namedtuple("Map", "child first count base mean_only mean curves left right paints")
+# of the lattice, the paints on its left and on its right; the colours of the paints; the programs of some of them, each
+# a list of operations: kind, texels, first stop; and offset and colour of all stops. Colours are sRGB, 0..1,
+# premultiplied but for those of stops: red, green, blue, opacity.
+Map = namedtuple("Map", "child first count base mean_only mean curves left right paints programs stops")
 
 
 def part(words: np.ndarray, first: int, count: int) -> np.ndarray:
@@ -31,10 +32,126 @@ def part(words: np.ndarray, first: int, count: int) -> np.ndarray:
     return np.arange(first, first + count)
 
 
+def read_programs(words: np.ndarray, first: int, count: int, stops: int, runs: dict) -> dict[int, list[list]]:
+    """Return the operations of each program, as lists of texels of one operation each (D.6)."""
+    at, programs = first, {}
+    for paint, (begin, length) in runs.items():
+        need(begin == at and 1 <= length <= 64, "programs follow one another")
+        at += length
+        need(at <= first + count, "a program beyond its part")
+        programs[paint], row, opened = [], begin, 0
+        while row < at:
+            kind, rest = divmod(int(words[row, 3]), 1 << 29)
+            size = {1: 1, 2: 1, 3: 2, 4: 3, 5: 1, 6: 1}.get(kind, 0)
+            texels = words[row : row + size].astype(np.uint32)
+            need(size and row + size <= at and (texels[1:, 3] == 7 << 29).all(), "operation")
+            check_operation(kind, rest, texels, first + count - row, first + count + stops - row, words[row:])
+            opened += (kind == 5) - (kind == 6)
+            need(0 <= opened <= 2, "groups")
+            programs[paint].append((kind, texels, row + (rest & 0x7FFFF) - first - count))
+            row += size
+        need(opened == 0, "a group is not ended")
+        number = [int(texels[0, 3]) >> 19 & 255 for kind, texels, _ in programs[paint] if 2 <= kind <= 4]
+        need(sum(number) <= 255, "stops of a program")
+    need(at == first + count, "operations of no program")
+    return programs
+
+
+def check_operation(kind: int, rest: int, texels: np.ndarray, low: int, high: int, words: np.ndarray) -> None:
+    """Refuse what D.6 does not allow; stops lie in words[low:high]."""
+    numbers = texels[:, :3].copy().view(np.float32)
+    if 2 <= kind <= 4:
+        first, count, spread = rest & 0x7FFFF, rest >> 19 & 255, rest >> 27
+        need(np.isfinite(numbers).all() and spread <= 2, "gradient")
+        need(kind < 4 or (not np.signbit(numbers[2, :2]).any() and texels[2, 2] == 0), "focal circle")
+        need(low <= first and count > 0 and first + count <= high, "stops elsewhere")
+        offsets = words[first : first + count, 0].astype(np.uint32).view(np.float32)
+        need((np.diff(offsets) >= 0).all(), "order of stops")
+        return
+    need(rest == 0 and texels[0, 2] == 0, "a word that is not 0")
+    halves = np.array([word >> shift & 65535 for word in texels[0, :2].tolist() for shift in (0, 16)])
+    need(kind != 1 or (halves[:3] <= halves[3]).all(), "a colour above its opacity")
+    need(kind != 5 or not texels[0, :2].any(), "a word that is not 0")
+    need(kind != 6 or (texels[0, 0] <= 65535 and int(texels[0, 1]) in {*range(12), 16}), "group")
+
+
+def read_stops(words: np.ndarray) -> np.ndarray:
+    """Return the offset and colour of each stop (D.6)."""
+    offsets = words[:, 0].astype(np.uint32).view(np.float32)
+    need(((offsets >= 0) & (offsets <= 1)).all() and not words[:, 3].any(), "stop")
+    return np.column_stack([offsets, (words[:, 1:3, None] >> np.array([0, 16]) & 65535).reshape(-1, 4) / 65535])
+
+
+def ramp_place(kind: int, numbers: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return t of a gradient at each point, or NaN (D.6)."""
+    u, v = (numbers[k, 0] * x + numbers[k, 1] * y + numbers[k, 2] for k in (0, min(1, len(numbers) - 1)))
+    if kind < 4:
+        return u if kind == 2 else np.hypot(u, v)
+    fx, fr = numbers[2, :2].tolist()
+    a, b, c = fx**2 - (1 - fr) ** 2, fx * (u - fx) - fr * (1 - fr), (u - fx) ** 2 + v**2 - fr**2
+    with np.errstate(all="ignore"):
+        root = np.sqrt(b * b - a * c)
+        roots = np.array([(-b - root) / a, (-b + root) / a] if a else [-c / (2 * b)] * 2)
+        return np.fmax(*np.where(fr * (1 - roots) + roots >= 0, roots, np.nan))
+
+
+def gradient_color(kind: int, texels: np.ndarray, stops: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return the premultiplied colour of a gradient at each point (D.6)."""
+    t = ramp_place(kind, texels[:, :3].copy().view(np.float32).astype(float), x, y)
+    spread, nowhere = int(texels[0, 3]) >> 27 & 3, np.isnan(t)
+    t = np.nan_to_num(t)
+    t = [np.clip(t, 0, 1), 1 - abs(1 - (t - 2 * np.floor(t / 2))), t - np.floor(t)][spread]
+    above = np.searchsorted(stops[:, 0], t, side="right")
+    low, high = np.maximum(above - 1, 0), np.minimum(above, len(stops) - 1)
+    way = np.where(low < high, stops[high, 0] - stops[low, 0], 1)
+    share = np.where(low < high, (t - stops[low, 0]) / way, 0)[:, None]
+    color = stops[low, 1:] + share * (stops[high, 1:] - stops[low, 1:])
+    color[:, :3] *= color[:, 3:]
+    return np.where(nowhere[:, None], 0, color)
+
+
+def blended(below: np.ndarray, above: np.ndarray, mode: int) -> np.ndarray:
+    """Return one premultiplied colour over another (D.6, and the formulas of the W3C)."""
+    if mode == 16:
+        return np.minimum(below + above, 1)
+    ab, as_ = below[:, 3:], above[:, 3:]
+    with np.errstate(all="ignore"):
+        b, s = (np.nan_to_num(np.minimum(color[:, :3] / color[:, 3:], 1)) for color in (below, above))
+        hard = [np.where(q <= 0.5, 2 * p * q, 1 - 2 * (1 - p) * (1 - q)) for p, q in ((s, b), (b, s))]
+        dodge = np.where(b == 0, 0, np.where(s >= 1, 1, np.minimum(b / (1 - s), 1)))
+        burn = np.where(b >= 1, 1, np.where(s == 0, 0, 1 - np.minimum((1 - b) / s, 1)))
+        root = np.where(b <= 0.25, ((16 * b - 12) * b + 4) * b, np.sqrt(b))
+        soft = b + (2 * s - 1) * np.where(s <= 0.5, b - b * b, root - b)
+    table = [s, b * s, b + s - b * s, hard[0], np.minimum(b, s), np.maximum(b, s), dodge, burn, hard[1], soft]
+    mixed = [*table, abs(b - s), b + s - 2 * b * s][mode]
+    color = above[:, :3] * (1 - ab) + below[:, :3] * (1 - as_) + as_ * ab * mixed
+    return np.column_stack([color, as_ + ab * (1 - as_)])
+
+
+def run(program: list, stops: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return the colour of a program at each point (D.6)."""
+    color, kept = np.zeros((len(x), 4)), []
+    for kind, texels, first in program:
+        if kind == 5:
+            kept.append(color)
+            color = np.zeros_like(color)
+        elif kind == 6:
+            color = blended(kept.pop(), color * int(texels[0, 0]) / 65535, int(texels[0, 1]))
+        elif kind == 1:
+            solid = np.array([word >> shift & 65535 for word in texels[0, :2].tolist() for shift in (0, 16)]) / 65535
+            color = blended(color, np.broadcast_to(solid, color.shape), 0)
+        else:
+            count = int(texels[0, 3]) >> 19 & 255
+            color = blended(color, gradient_color(kind, texels, stops[first : first + count], x, y), 0)
+    return color
+
+
 def read_map(words: np.ndarray, root: int) -> tuple[Map, np.ndarray]:
-    """Return the map with this root quad, and the indices of the texels of its parts (D.1 to D.5)."""
-    need(0 < root < len(words), "no head")
+    """Return the map with this root quad, and the indices of the texels of its parts (D.1 to D.6)."""
+    need(1 < root < len(words), "no head")
     p, cells, sides, paints = words[root - 1].tolist()
+    first_program, operations, stops, rest = words[root - 2].tolist()
+    need(rest == 0 and (operations > 0 or first_program == stops == 0), "head")
     need(1 <= p <= 65536, "number of paints")
     quads, curves = trace(words, [root], KINDS)
     c, n, m = min(curves, default=0), len(quads), len(curves)
@@ -50,14 +167,20 @@ def read_map(words: np.ndarray, root: int) -> tuple[Map, np.ndarray]:
     left, right = (words[at_sides].reshape(-1)[c % 4 :][:m] >> shift & 65535 for shift in (0, 16))
     need(max(base.max(), left.max(initial=0), right.max(initial=0)) < p, "a paint beyond the table")
     at_paints = part(words, paints, (p + 1) // 2)
-    colors = (words[at_paints, :, None] >> np.array([0, 16]) & 65535).reshape(-1, 4)[:p]
+    pairs = words[at_paints].reshape(-1, 2)[:p]
+    is_program = (pairs[:, 1] >> 16 == 0) & (pairs[:, 0] != 0)
+    colors = np.where(is_program[:, None], 0, (pairs[:, :, None] >> np.array([0, 16]) & 65535).reshape(-1, 4))
+    at_programs = part(words, first_program, operations + stops)
+    runs = {int(j): pairs[j].tolist() for j in np.flatnonzero(is_program)}
+    programs = read_programs(words, first_program, operations, stops, runs)
     need(all((color[..., :3] <= color[..., 3:]).all() for color in (mean, colors)), "a colour above its opacity")
 
     kind, child, first, n_curves = (array[root : root + n] for array in read_cells(words))
     need(not base[(kind == 128) | (kind == 2)].any(), "a base paint where there is none")
-    used = np.concatenate([[root - 1], quads, curves, at_cells, at_sides, at_paints])
+    used = np.concatenate([[root - 2, root - 1], quads, curves, at_cells, at_sides, at_paints, at_programs])
     arrays = np.where(child < 0, -1, child - root), np.where(n_curves > 0, first - c, 0), n_curves
-    return Map(*arrays, base, kind == 2, mean / 255, points, left, right, colors / 65535), used
+    faces = points, left, right, colors / 65535, programs, read_stops(words[at_programs[operations:]])
+    return Map(*arrays, base, kind == 2, mean / 255, *faces), used
 
 
 @refusing()
@@ -113,7 +236,7 @@ def at_height(curves: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def counts(planar: Map, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return points, paints and how often each is counted there, if not 0 (D.6). Where only a mean is known, none."""
+    """Return points, paints and how often each is counted there, if not 0 (D.7). Where only a mean is known, none."""
     square, quad, k, x, y = locate(planar.child, 0, x, y)
     square &= ~planar.mean_only[quad, k]
     x, y, number = 32768 * x, 32768 * y, np.where(square, planar.count[quad, k], 0)
@@ -134,7 +257,7 @@ def counts(planar: Map, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.nd
 
 
 def paint_at(planar: Map, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the paint at each point (D.6), or -1: outside, where only a mean is known, and in slivers."""
+    """Return the paint at each point (D.7), or -1: outside, where only a mean is known, and in slivers."""
     point, paint, count = counts(planar, x, y)
     alone = (np.bincount(point, minlength=np.size(x))[point] == 1) & (count == 1)
     answer = np.full(np.size(x), -1)
@@ -143,11 +266,15 @@ def paint_at(planar: Map, x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def color_at(planar: Map, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the colour at each point; in slivers what the counts add up to (D.6, D.7)."""
+    """Return the colour at each point; in slivers what the counts add up to (D.7, D.8)."""
     square, quad, k, *_ = locate(planar.child, 0, x, y)
     color = np.where((square & planar.mean_only[quad, k])[:, None], planar.mean[quad, k], 0)
     point, paint, count = counts(planar, x, y)
-    np.add.at(color, point, count[:, None] * planar.paints[paint])
+    colors = planar.paints[paint]
+    for j, program in planar.programs.items():
+        at = np.flatnonzero(paint == j)
+        colors[at] = run(program, planar.stops, np.asarray(x)[point[at]], np.asarray(y)[point[at]])
+    np.add.at(color, point, count[:, None] * colors)
     return color
 
 

@@ -11,9 +11,12 @@ import pytest
 import vexture
 from degenerate import drawing, points_near
 from planar import coloured
+from shaded import DRAWINGS, blended
 from vexture.drawing import Drawing
+from vexture.group import Blend
 from vexture.pipeline import atlas, run
 from vexture.renderers.exact import render_exact_colours
+from vexture.texture.load import texture_from
 
 REPOSITORY = Path(__file__).parents[2]
 SIZE = 32
@@ -30,6 +33,16 @@ def test_it_draws_random_drawings(seed: int) -> None:
     error = abs(map_decoder.map_picture(planar, SIZE, 8) - render_exact_colours(of, SIZE))
     assert error.mean() < 0.004  # 64 points of a pixel through which an outline goes are off by 0.02 at random
     assert error.max() < 0.15
+
+
+@pytest.mark.parametrize("of", [*DRAWINGS.values(), *map(blended, (Blend.OVERLAY, Blend.SOFT_LIGHT))])
+def test_it_runs_programs(of: Drawing) -> None:
+    data = run(of, split="faces").texture.to_ktx2()
+    _, _, (planar,) = map_decoder.read_maps(data)
+    pixels = texture_from(data, "it").render(8, vexture.window(0.3, 0.3, 1e-3, 1e-3))
+    middles = (np.arange(8) + 0.5) / 8000 + 0.3
+    wanted = map_decoder.color_at(planar, *(axis.ravel() for axis in np.meshgrid(middles, middles[::-1])))
+    np.testing.assert_allclose(pixels.reshape(-1, 4), wanted, atol=0.01)
 
 
 @pytest.mark.parametrize("seed", [3, 7])
@@ -63,9 +76,9 @@ def test_stacks_say_what_paints_are_made_of() -> None:
 
 
 def test_the_example_is_what_it_says() -> None:
-    part = (REPOSITORY / "FORMAT.md").read_text(encoding="utf-8").split("### D.8 Example")[1]
+    part = (REPOSITORY / "FORMAT.md").read_text(encoding="utf-8").split("### D.9 Example")[1]
     rows = re.findall(r"^\| \d+ \|((?: [0-9a-f]{8} \|){4})", part, re.M)
     words = np.array([[int(word, 16) for word in row.split("|")[:4]] for row in rows])
-    planar, used = map_decoder.read_map(words, 1)
-    assert sorted(used.tolist()) == list(range(17))
+    planar, used = map_decoder.read_map(words, 2)
+    assert sorted(used.tolist()) == list(range(18))
     assert map_decoder.paint_at(planar, np.array([0.7, 0.3, 0.05]), np.array([0.7, 0.3, 0.5])).tolist() == [2, 1, 0]

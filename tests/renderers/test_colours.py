@@ -12,7 +12,9 @@ from packed_views import ENTRIES, TILTED, View, nudged, turned, zoomed
 
 import degenerate
 import planar
+import shaded
 from vexture.drawing import Drawing, Path
+from vexture.layout import MAP_HEAD
 from vexture.paint import Paint
 from vexture.renderers.colour import render_cpu_colours
 from vexture.renderers.device import context
@@ -41,7 +43,7 @@ class MapTexture:
 def map_of(drawing: Drawing, **options: int) -> MapTexture:
     before = np.full((BEFORE, 4), 0xFFFFFFFF, np.uint32)
     texels = np.concatenate([before, map_texels(build_map(drawing, tolerance=2e-5, **options), BEFORE)])
-    return MapTexture(texel_rows(texels), np.array([BEFORE + 1]))
+    return MapTexture(texel_rows(texels), np.array([BEFORE + MAP_HEAD]))
 
 
 def painted(*shapes: tuple[Any, tuple[float, float, float], float]) -> Drawing:
@@ -67,11 +69,12 @@ DRAWINGS = {"flag": flag} | {
     f"degenerate {seed}": lambda seed=seed: planar.coloured(degenerate.drawing(seed), np.random.default_rng(seed))
     for seed in (6, 7, 9, 13, 21, 28)
 }
+SHADED = {f"shaded {name}": lambda name=name: shaded.DRAWINGS[name] for name in shaded.DRAWINGS}
 
 
 @cache
 def made(name: str) -> tuple[Drawing, MapTexture]:
-    drawing = DRAWINGS[name]()
+    drawing = (DRAWINGS | SHADED)[name]()
     return drawing, map_of(drawing)
 
 
@@ -91,7 +94,7 @@ def views(drawing: Drawing) -> dict[str, View]:
 
 
 @pytest.mark.parametrize("is_linear", [False, True])
-@pytest.mark.parametrize("name", DRAWINGS)
+@pytest.mark.parametrize("name", DRAWINGS | SHADED)
 def test_the_shader_draws_what_its_mirror_draws(name: str, is_linear: bool) -> None:
     need_gpu()
     drawing, texture = made(name)
@@ -103,13 +106,22 @@ def test_the_shader_draws_what_its_mirror_draws(name: str, is_linear: bool) -> N
         assert np.abs(on_cpu - on_gpu).max() < (NEAR_IN_DEEP_ZOOM if "deep" in view else NEAR), view
 
 
-@pytest.mark.parametrize("name", DRAWINGS)
+@pytest.mark.parametrize("name", DRAWINGS | SHADED)
 def test_a_flat_view_is_any_view(name: str) -> None:
     _drawing, texture = made(name)
     for side in (20, 64):
         view = (side, side), fit((side, side))
         flat, any_view = (render_cpu_colours(texture, *entry(view)) for entry in ENTRIES.values())
         assert np.abs(flat - any_view).max() < NEAR
+
+
+@pytest.mark.parametrize("name", shaded.DRAWINGS)
+def test_gradients_are_those_of_many_points(name: str) -> None:
+    """Errors over 4 and 20 pixels, where a gradient is far from flat in a pixel; in 1/255."""
+    drawing, texture = made(f"shaded {name}")
+    for size, mean in ((4, 3.2), (20, 0.8)):
+        error = 255 * abs(render_cpu_colours(texture, (size, size)) - planar.sampled(drawing, size, 12))
+        assert error.mean() < mean, size
 
 
 @pytest.mark.parametrize("entry", ENTRIES)
@@ -137,8 +149,8 @@ def test_light_is_averaged_and_straight_colours_are_decoded(render: Any, entry: 
 def test_the_shader_compiles_in_both_dialects(version: str) -> None:
     need_gpu()
     with context() as gl:
-        for is_flat, is_linear in ((False, False), (True, True)):
-            fragment = color_source(version, is_flat, is_linear)
+        for is_flat, is_linear, has_gradients in ((False, False, True), (True, True, False), (True, False, True)):
+            fragment = color_source(version, is_flat, is_linear, has_gradients)
             gl.program(vertex_shader=vertex_source(version), fragment_shader=fragment).release()
 
 

@@ -11,14 +11,14 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from packed_views import TILTED, View, turned
 
-from vexture.layout import MOST_CURVES, MOST_DEPTH
+from vexture.layout import MOST_CURVES, MOST_DEPTH, MOST_PROGRAM, MOST_STOPS
 from vexture.renderers import cells, gpu
 from vexture.renderers.cells import texel
 from vexture.renderers.colour import render_cpu_colours
 from vexture.renderers.cpu import render_cpu
 from vexture.renderers.device import VERSION, compiled, context
 from vexture.renderers.gpu import render_gpu, render_gpu_colours
-from vexture.renderers.method import LONG, MOST_PARTS, STEPS
+from vexture.renderers.method import LONG, MOST_PARTS, MOST_RAMP_PARTS, STEPS
 from vexture.renderers.shader import color_source, view_source
 from vexture.renderers.view import fit, window
 from vexture.texture.texture import Root, Texture
@@ -41,7 +41,10 @@ COLOURS: list[Any] = [
 
 LOOP = re.compile(r"^( *(?:for|while) \(.*\) \{)$", re.MULTILINE)
 MOST_CELLS = 4 * (2 + 4 / LONG**0.5) ** 2  # of half the least size for a long footprint, in the box around it
+MOST_RAMP_TRIPS = MOST_RAMP_PARTS**2 * (MOST_PROGRAM + 2 * (MOST_STOPS + 2 * MOST_PROGRAM))
+MOST_PAINT_TRIPS = (1 + 3) * MOST_PROGRAM + MOST_RAMP_TRIPS
 MOST_TRIPS = MOST_CELLS * (1 + MOST_DEPTH + MOST_CURVES * (2 + STEPS + int(MOST_PARTS)))
+MOST_COLOUR_TRIPS = MOST_TRIPS + MOST_CELLS * (1 + 2 * MOST_CURVES) * (1 + MOST_PAINT_TRIPS)
 
 
 @st.composite
@@ -109,9 +112,9 @@ def test_the_work_for_a_pixel_is_bounded(view: str, monkeypatch: pytest.MonkeyPa
     with context():
         kinds = (False, True)
         programs = {is_flat: counting(view_source(VERSION, is_flat)) for is_flat in kinds}
-        colours = {is_flat: counting(color_source(VERSION, is_flat, is_linear=False)) for is_flat in kinds}
+        colours = {is_flat: counting(color_source(VERSION, is_flat, False, True)) for is_flat in kinds}
     monkeypatch.setattr(gpu, "program", programs.get)
-    monkeypatch.setattr(gpu, "color_program", lambda is_flat, _: colours[is_flat])
+    monkeypatch.setattr(gpu, "color_program", lambda is_flat, *_: colours[is_flat])
     size, matrix = VIEWS[view]
     rng = np.random.default_rng(3)
     for mask in (0, QUADS, 0x78787878, ALL_ONES):
@@ -119,4 +122,4 @@ def test_the_work_for_a_pixel_is_bounded(view: str, monkeypatch: pytest.MonkeyPa
         words[..., 2] |= np.uint32(mask)
         for render in (render_gpu, render_gpu_colours):
             trips = render(Texture(words, (Root("noise"),)), size, matrix)
-            assert 0 < trips.max() <= MOST_TRIPS
+            assert 0 < trips.max() <= (MOST_TRIPS if render is render_gpu else MOST_COLOUR_TRIPS)

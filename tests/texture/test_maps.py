@@ -6,6 +6,7 @@ import pytest
 import vexture
 from degenerate import circle, drawing, polygon
 from planar import coloured
+from shaded import DRAWINGS
 from vexture import layout
 from vexture.drawing import Drawing, Path
 from vexture.errors import FormatError, ParameterError
@@ -98,6 +99,8 @@ def test_a_drawing_without_paths_is_empty() -> None:
 @pytest.mark.parametrize(
     ("part", "word", "value", "message"),
     [
+        ("programs", 3, 1, "a head that is not 0"),
+        ("programs", 0, 1, "a head that is not 0"),
         ("head", 0, 0, "has 0 paints; the limit is 65536"),
         ("head", 0, 1 << 17, "has 131072 paints; the limit is 65536"),
         ("head", 0, 1 << 16, "end at texel"),
@@ -107,24 +110,26 @@ def test_a_drawing_without_paths_is_empty() -> None:
         ("head", 2, 1 << 31, "end at texel"),
         ("head", 2, 1, "two things|paint"),
         ("head", 3, 1 << 31, "end at texel"),
-        ("head", 3, 1, "two things|opacity"),
+        ("head", 3, 1, "two things|opacity|gaps"),
         ("quad", 2, 0x01, "no valid cell"),
         ("quad", 3, 1, "a coverage"),
         ("quad", 2, 0x03, "no valid cell"),
         ("cells", 0, 0x00FF0000, "above its opacity"),
         ("bases", 0, 1 << 20, "has paint|base paint"),
         ("sides", 0, 0xFFFF0000, "has paint"),
-        ("paints", 0, 0x0000FFFF, "above its opacity"),
+        ("paints", 1, 0x0000FFFF, "above its opacity"),
+        ("paints", 0, 0x0000FFFF, "gaps"),
     ],
 )
 def test_damaged_maps_are_refused(part: str, word: int, value: int, message: str) -> None:
     texture = faces(sample(3))
     flat = texture.flat.copy()
-    head = flat[0].tolist()
-    first_curve = int(flat[1, 1])
+    head = flat[1].tolist()
+    first_curve = int(flat[2, 1])
     at = {
-        "head": 0,
-        "quad": 1,
+        "programs": 0,
+        "head": 1,
+        "quad": 2,
         "cells": head[1],
         "bases": head[1] + 1,
         "sides": head[2] + (first_curve >> 2),
@@ -137,11 +142,57 @@ def test_damaged_maps_are_refused(part: str, word: int, value: int, message: str
         damaged.check()
 
 
-@pytest.mark.parametrize("seed", range(60))
+GRADIENT = layout.KIND_LINEAR << layout.KIND_SHIFT | 3 << layout.STOP_BITS
+MIX = layout.KIND_MIX << layout.KIND_SHIFT
+
+
+@pytest.mark.parametrize(
+    ("part", "at", "word", "value", "message"),
+    [
+        ("head", 0, 1, 0, "a head that is not 0"),
+        ("head", 0, 1, 1, "gaps|one is empty or too long"),
+        ("head", 0, 0, 1 << 31, "end at texel"),
+        ("head", 0, 2, 1 << 31, "end at texel"),
+        ("head", 0, 2, 2, "stops elsewhere"),
+        ("programs", 0, 3, 0, "an unknown operation"),
+        ("programs", 0, 3, layout.KIND_FOLLOWS << layout.KIND_SHIFT, "half of one"),
+        ("programs", 0, 3, layout.KIND_FOCAL << layout.KIND_SHIFT, "wrong length"),
+        ("programs", 0, 3, GRADIENT, "stops elsewhere"),
+        ("programs", 0, 3, GRADIENT | (1 << layout.STOP_BITS) - 1, "stops elsewhere"),
+        ("programs", 0, 3, layout.KIND_LINEAR << layout.KIND_SHIFT | 1, "stops elsewhere"),
+        ("programs", 0, 3, GRADIENT | 3 << 27 | 5, "no such spread|stops elsewhere"),
+        ("programs", 0, 0, 0x7F800000, "not finite"),
+        ("programs", 0, 3, MIX, "a group is not ended|no such group|not 0"),
+        ("programs", 0, 3, layout.KIND_KEEP << layout.KIND_SHIFT, "a word that is not 0"),
+        ("programs", 0, 3, layout.KIND_SOLID << layout.KIND_SHIFT, "a colour above its opacity|not 0"),
+        ("stops", 0, 0, 0x3F800000, "stops that are not in order"),
+        ("stops", 0, 0, 0xBF800000, "not in 0..1"),
+        ("stops", 0, 0, 0x7FC00000, "not in 0..1"),
+        ("stops", 0, 3, 1, "a word that is not 0"),
+    ],
+)
+def test_damaged_programs_are_refused(part: str, at: int, word: int, value: int, message: str) -> None:
+    texture = faces(DRAWINGS["groups"])
+    texture.check()
+    flat = texture.flat.copy()
+    programs, operations, _, _ = flat[0].tolist()
+    flat[at + {"head": 0, "programs": programs, "stops": programs + operations}[part], word] = value
+    with pytest.raises(FormatError, match=message):
+        Texture(flat.reshape(texture.texels.shape), texture.roots).check()
+
+
+@pytest.mark.parametrize("name", DRAWINGS)
+def test_programs_read_back(name: str) -> None:
+    texture = faces(DRAWINGS[name])
+    planar = decode_map(texture.flat, texture.roots[0].quad)
+    np.testing.assert_array_equal(map_texels(planar, 0), texture.flat[: len(map_texels(planar, 0))])
+
+
+@pytest.mark.parametrize("seed", range(80))
 def test_random_damage_is_refused_or_drawn(seed: int) -> None:
     """No picture of a texture that passes the check, or of one that was never checked, leaves 0..1 or hangs."""
     rng = np.random.default_rng(seed)
-    texture = faces(sample(seed % 5))
+    texture = faces(sample(seed % 5) if seed < 40 else [*DRAWINGS.values()][seed % len(DRAWINGS)])
     flat = texture.flat.copy()
     for _ in range(rng.integers(1, 4)):
         flat[rng.integers(len(flat)), rng.integers(4)] ^= np.uint32(1 << rng.integers(32))

@@ -1,8 +1,9 @@
-// Validates a planar map (FORMAT.md, D.1 to D.5): its parts lie within the texels and apart, and paints are of its table.
-import { CELL_BITS, COORDINATE_BITS, IS_MEAN, MOST_PAINTS, QUAD_FLAG } from '../generated/layout.js';
+// Validates a planar map (FORMAT.md, D.1 to D.6): its parts lie within the texels and apart, and paints are of its table.
+import { CELL_BITS, COORDINATE_BITS, IS_MEAN, MAP_HEAD, MOST_PAINTS, QUAD_FLAG } from '../generated/layout.js';
 import { PART, checkTree } from './check-tree.js';
 import { REMEDY, VextureError } from './errors.js';
 import { basePaint, headOf, meanBytes, paintSteps, sidesOf } from './planar-map.js';
+import { checkPrograms, programOf } from './programs.js';
 
 /** @typedef {import('./planar-map.js').Head} Head */
 /** @typedef {import('./check-tree.js').Found} Found */
@@ -18,8 +19,11 @@ const CELL_MASK = (1 << CELL_BITS) - 1;
  */
 export function checkMap(texels, met, quad) {
   const found = checkTree(texels, met, [quad], true);
-  if (quad === 0) refuse(quad, 'the root of a map is quad 0, which has no head before it');
+  if (quad < MAP_HEAD) refuse(quad, `the root of a map is quad ${quad}, which has no head before it`);
   const head = headOf(texels, quad);
+  if (head.rest || (!head.operations && (head.programs || head.stops))) {
+    refuse(quad, `the map with root ${quad} has a head that is not 0 where it must be`);
+  }
   if (head.used < 1 || head.used > MOST_PAINTS) {
     refuse(quad, `the map with root ${quad} has ${head.used} paints; the limit is ${MOST_PAINTS}`);
   }
@@ -30,6 +34,7 @@ export function checkMap(texels, met, quad) {
   }
   checkWords(texels, quad, found);
   takeParts(met, head, found);
+  checkPrograms(texels, head);
   checkPaints(texels, head, found);
 }
 
@@ -66,14 +71,15 @@ function checkWords(texels, root, { quads, curves, firstCurve }) {
  * @param {Head} head
  * @param {Found} found
  */
-function takeParts(met, { quad, used, cells, sides, paints }, { quads, curves, firstCurve }) {
+function takeParts(met, { quad, used, cells, sides, paints, ...head }, { quads, curves, firstCurve }) {
   const skipped = curves ? Math.floor(firstCurve / 4) : 0;
   const sideTexels = curves ? Math.floor((firstCurve + curves + 3) / 4) - skipped : 0;
   for (const { what, first, count } of [
-    { what: 'head', first: quad - 1, count: 1 },
+    { what: 'head', first: quad - MAP_HEAD, count: MAP_HEAD },
     { what: 'cells', first: cells, count: 2 * quads },
     { what: 'sides', first: sides + skipped, count: sideTexels },
     { what: 'paints', first: paints, count: Math.ceil(used / 2) },
+    { what: 'programs', first: head.programs, count: head.operations + head.stops },
   ]) {
     if (count && first + count > met.length) {
       refuse(quad, `the ${what} of the map with root ${quad} end at texel ${first + count} of ${met.length}`);
@@ -110,6 +116,6 @@ function checkPaints(texels, head, { quads, curves, firstCurve }) {
   }
   for (let i = 0; i < curves; i++) last = Math.max(last, ...sidesOf(texels, head, firstCurve + i));
   if (last >= used) refuse(root, `the map with root ${root} has paint ${last} of ${used}`);
-  for (let paint = 0; paint < used; paint++) see(paintSteps(texels, head, paint));
+  for (let paint = 0; paint < used; paint++) if (!programOf(texels, head, paint)) see(paintSteps(texels, head, paint));
   if (isBright) refuse(root, `the map with root ${root} has a colour above its opacity`);
 }

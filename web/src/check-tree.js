@@ -1,5 +1,5 @@
 // Validates the quads and curves of trees (FORMAT.md, B.3, D.2): they are disjoint, of limited depth, and within the texels.
-import { CELL_BITS, COUNT_SHIFT, IS_MEAN, MOST_CURVES, MOST_DEPTH, QUAD_FLAG } from '../generated/layout.js';
+import { CELL_BITS, COUNT_SHIFT, HOLDS_PROGRAM, IS_MEAN, MOST_CURVES, MOST_DEPTH, QUAD_FLAG } from '../generated/layout.js';
 import { REMEDY, VextureError } from './errors.js';
 
 const CELL_MASK = (1 << CELL_BITS) - 1;
@@ -96,7 +96,7 @@ function isLeaf(cell, ofMap) {
   const curves = cell >> COUNT_SHIFT;
   if (curves > MOST_CURVES) return false;
   const low = cell & LOW_MASK;
-  return ofMap ? low === 0 || cell === IS_MEAN : curves > 0 === low > 0;
+  return ofMap ? low === 0 || low === HOLDS_PROGRAM || cell === IS_MEAN : curves > 0 === low > 0;
 }
 
 /**

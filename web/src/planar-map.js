@@ -1,17 +1,21 @@
 // Where the parts of a planar map lie, and what they say (FORMAT.md, part D). Plain data, without three.js.
-import { CELL_BITS, COORDINATE_BITS, COVERAGE_ONE, PAINT_ONE } from '../generated/layout.js';
+import { CELL_BITS, COORDINATE_BITS, COVERAGE_ONE, MAP_HEAD, PAINT_ONE } from '../generated/layout.js';
 
 const COMPONENTS = [0, 1, 2, 3];
 
 /**
  * @typedef {[number, number, number, number]} Color red, green, blue, opacity: sRGB, premultiplied
  *
- * @typedef {object} Head The texel before a map's root quad.
+ * @typedef {object} Head The texels before a map's root quad.
  * @property {number} quad index of the root quad
  * @property {number} used number of paints
  * @property {number} cells index of the first texel of the cells' means and base paints
  * @property {number} sides index of the texel that would hold the sides of curves 0 to 3
  * @property {number} paints index of the first texel of the table of paints
+ * @property {number} programs index of the first texel of operations
+ * @property {number} operations number of their texels
+ * @property {number} stops number of the texels of stops, which follow
+ * @property {number} rest what must be 0
  */
 
 /**
@@ -20,8 +24,9 @@ const COMPONENTS = [0, 1, 2, 3];
  * @returns {Head}
  */
 export function headOf(texels, quad) {
-  const [used, cells, sides, paints] = texels.subarray(4 * quad - 4, 4 * quad);
-  return { quad, used, cells, sides, paints };
+  const words = texels.subarray(4 * (quad - MAP_HEAD), 4 * quad);
+  const [programs, operations, stops, rest, used, cells, sides, paints] = words;
+  return { quad, used, cells, sides, paints, programs, operations, stops, rest };
 }
 
 /**

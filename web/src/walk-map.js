@@ -1,8 +1,9 @@
-// The colours of a validated planar map on the CPU (FORMAT.md, D.6). Plain data, without three.js.
+// The colours of a validated planar map on the CPU (FORMAT.md, D.6, D.7). Plain data, without three.js.
 import { COUNT_SHIFT, COVERAGE_ONE, IS_MEAN, LATTICE, MOST_DEPTH, PAINT_ONE, QUAD_FLAG } from '../generated/layout.js';
 import { VextureError } from './errors.js';
 import { curvesOf, leafOf } from './leaf.js';
 import { basePaint, headOf, meanBytes, paintSteps, sidesOf } from './planar-map.js';
+import { programColor, programOf } from './programs.js';
 import { isAtOrLeft } from './winding.js';
 
 /**
@@ -27,14 +28,30 @@ const NOTHING = Object.freeze({ paint: null, color: /** @type {Color} */ ([0, 0,
 const scaled = (color, one) => /** @type {Color} */ (color.map((part) => part / one));
 
 /**
- * Colour of a paint: premultiplied sRGB and opacity, 0..1.
+ * Colour of a paint at a point: premultiplied sRGB and opacity, 0..1.
+ *
+ * @param {PackedData} data
+ * @param {number} quad index of the map's root quad
+ * @param {number} paint
+ * @param {number} u of the unit square
+ * @param {number} v upwards
+ */
+export function paintColor({ texels }, quad, paint, u, v) {
+  const head = headOf(texels, quad);
+  const program = programOf(texels, head, paint);
+  return program ? programColor(texels, program, u, v) : scaled(paintSteps(texels, head, paint), PAINT_ONE);
+}
+
+/**
+ * Whether anything is seen of a paint, or may be, as it holds gradients.
  *
  * @param {PackedData} data
  * @param {number} quad index of the map's root quad
  * @param {number} paint
  */
-export function paintColor({ texels }, quad, paint) {
-  return scaled(paintSteps(texels, headOf(texels, quad), paint), PAINT_ONE);
+export function isSeen({ texels }, quad, paint) {
+  const head = headOf(texels, quad);
+  return programOf(texels, head, paint) !== null || paintSteps(texels, head, paint)[3] > 0;
 }
 
 /**
@@ -94,7 +111,7 @@ export function paintCounts({ curves, sides, base }, x, y) {
 }
 
 /**
- * The paint and colour at a point of the unit square (FORMAT.md, D.6).
+ * The paint and colour at a point of the unit square (FORMAT.md, D.7).
  *
  * @param {PackedData} data
  * @param {number} quad index of the map's root quad
@@ -105,6 +122,7 @@ export function paintCounts({ curves, sides, base }, x, y) {
 export function paintAt(data, quad, u, v) {
   if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return { ...NOTHING };
   const { texels } = data;
+  const point = /** @type {[number, number]} */ ([u, v]);
   let parent = quad;
   for (let depth = 0; depth < MOST_DEPTH; depth++) {
     const right = u >= 0.5 ? 1 : 0;
@@ -115,7 +133,7 @@ export function paintAt(data, quad, u, v) {
     const { byte, below } = leafOf(texels, parent, cell);
     if (byte === QUAD_FLAG) parent = below;
     else if (byte === IS_MEAN) return { paint: null, color: meanColor(data, quad, parent, cell) };
-    else return summed(data, quad, paintCounts(mapLeaf(data, quad, parent, cell), LATTICE * u, LATTICE * v));
+    else return summed(data, quad, paintCounts(mapLeaf(data, quad, parent, cell), LATTICE * u, LATTICE * v), point);
   }
   throw new VextureError(`quad ${parent} lies deeper than ${MOST_DEPTH} levels; read the file with readPacked`, 'quad');
 }
@@ -126,11 +144,14 @@ export function paintAt(data, quad, u, v) {
  * @param {PackedData} data
  * @param {number} quad index of the map's root quad
  * @param {Map<number, number>} counts
+ * @param {[number, number]} point
  * @returns {Painted}
  */
-function summed(data, quad, counts) {
+function summed(data, quad, counts, [u, v]) {
   const sum = /** @type {Color} */ ([0, 0, 0, 0]);
-  for (const [paint, count] of counts) paintColor(data, quad, paint).forEach((part, k) => (sum[k] += count * part));
+  for (const [paint, count] of counts) {
+    paintColor(data, quad, paint, u, v).forEach((part, k) => (sum[k] += count * part));
+  }
   const [[paint, count] = [null, 0]] = counts;
   const opacity = Math.min(Math.max(sum[3], 0), 1);
   const held = sum.slice(0, 3).map((part) => Math.min(Math.max(part, 0), opacity));

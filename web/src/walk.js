@@ -3,7 +3,7 @@
 import { COUNT_SHIFT, COVERAGE_ONE, IS_MEAN, LATTICE, MOST_DEPTH, QUAD_FLAG, WINDING_OFFSET } from '../generated/layout.js';
 import { VextureError } from './errors.js';
 import { curvesOf, leafOf } from './leaf.js';
-import { mapLeaf, meanColor, paintAt, paintColor, paintCounts } from './walk-map.js';
+import { isSeen, mapLeaf, meanColor, paintAt, paintCounts } from './walk-map.js';
 import { filledBox, winding } from './winding.js';
 
 /** @typedef {import('./data.js').PackedData} PackedData */
@@ -262,9 +262,9 @@ function paintedBox(data, root, quad, cell) {
   const { byte } = leafOf(data.texels, quad, cell);
   if (byte === IS_MEAN) return meanColor(data, root, quad, cell)[3] > 0 ? WHOLE : null;
   const leaf = mapLeaf(data, root, quad, cell);
-  const isSeen = (/** @type {number} */ paint) => paintColor(data, root, paint)[3] > 0;
-  if (!byte) return isSeen(leaf.base) ? WHOLE : null;
-  return filledBox(leaf.curves, isSeen(leaf.base), (x, y) => [...paintCounts(leaf, x, y).keys()].some(isSeen));
+  const seen = (/** @type {number} */ paint) => isSeen(data, root, paint);
+  if (!(byte >> COUNT_SHIFT)) return seen(leaf.base) ? WHOLE : null;
+  return filledBox(leaf.curves, seen(leaf.base), (x, y) => [...paintCounts(leaf, x, y).keys()].some(seen));
 }
 
 /**

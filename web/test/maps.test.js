@@ -8,8 +8,8 @@ import { bounds, cellAt, contains, counts } from '../src/walk.js';
 import { TEXTS, altered, fixture, ktx2 } from './files.js';
 import { expectRefusal } from './refused.js';
 
-/** The example of FORMAT.md, D.8: a red triangle, and a translucent blue one that shares its long side. */
-const PART = readFileSync(new URL('../../FORMAT.md', import.meta.url), 'utf8').split('### D.8 Example')[1];
+/** The example of FORMAT.md, D.9: a red triangle, and a translucent blue one that shares its long side. */
+const PART = readFileSync(new URL('../../FORMAT.md', import.meta.url), 'utf8').split('### D.9 Example')[1].split('### D.10')[0];
 const ROWS = [...PART.matchAll(/^\| \d+ \|((?: [0-9a-f]{8} \|){4})/gm)].map(([, row]) => row.match(/\w{8}/g) ?? []);
 const texels = new Uint32Array(4 * 32);
 ROWS.flat().forEach((word, place) => (texels[place] = parseInt(word, 16)));
@@ -20,13 +20,13 @@ const maps = await readPacked(fixture('maps.ktx2'));
 const drawn = await readPacked(fixture('drawings.ktx2'));
 
 describe('what is read', () => {
-  test('the example of FORMAT.md, D.8', () => {
-    expect(example.roots).toMatchObject([{ name: 'two', quad: 1, isMap: true, paint: null }]);
-    expect(counts(example, 1)).toEqual({ quads: 1, curves: 8, depth: 0 });
-    expect([[0.7, 0.7], [0.3, 0.3], [0.05, 0.5], [0.125, 0.5], [0.9, 0.1]].map(([u, v]) => paintAt(example, 1, u, v).paint))
+  test('the example of FORMAT.md, D.9', () => {
+    expect(example.roots).toMatchObject([{ name: 'two', quad: 2, isMap: true, paint: null }]);
+    expect(counts(example, 2)).toEqual({ quads: 1, curves: 8, depth: 0 });
+    expect([[0.7, 0.7], [0.3, 0.3], [0.05, 0.5], [0.125, 0.5], [0.9, 0.1]].map(([u, v]) => paintAt(example, 2, u, v).paint))
       .toEqual([2, 1, 0, 1, 0]);
-    expect(paintAt(example, 1, 0.3, 0.3).color).toEqual([1, 0, 0, 1]);
-    expect(paintAt(example, 1, 0.7, 0.7).color).toEqual([0, 0, 0x8000 / 0xffff, 0x8000 / 0xffff]);
+    expect(paintAt(example, 2, 0.3, 0.3).color).toEqual([1, 0, 0, 1]);
+    expect(paintAt(example, 2, 0.7, 0.7).color).toEqual([0, 0, 0x8000 / 0xffff, 0x8000 / 0xffff]);
   });
 
   test('maps and a layer in one file', () => {
@@ -45,15 +45,15 @@ describe('what is read', () => {
 describe('queries', () => {
   test('nothing beyond the unit square, and no number', () => {
     for (const [u, v] of [[-0.001, 0.5], [1, 0.5], [0.5, 1], [0.5, -1], [NaN, 0.5], [0.5, Infinity]]) {
-      expect(paintAt(example, 1, u, v)).toEqual({ paint: null, color: [0, 0, 0, 0] });
-      expect(contains(example, 1, u, v)).toBe(false);
+      expect(paintAt(example, 2, u, v)).toEqual({ paint: null, color: [0, 0, 0, 0] });
+      expect(contains(example, 2, u, v)).toBe(false);
     }
   });
 
   test('what is painted is inside, and within the bounds', () => {
-    expect([[0.7, 0.7], [0.3, 0.3], [0.05, 0.5], [0.9, 0.1]].map(([u, v]) => contains(example, 1, u, v)))
+    expect([[0.7, 0.7], [0.3, 0.3], [0.05, 0.5], [0.9, 0.1]].map(([u, v]) => contains(example, 2, u, v)))
       .toEqual([true, true, false, false]);
-    bounds(example, 1).forEach((at, k) => expect(at).toBeCloseTo([0.125, 0.125, 0.875, 0.875][k], 4));
+    bounds(example, 2).forEach((at, k) => expect(at).toBeCloseTo([0.125, 0.125, 0.875, 0.875][k], 4));
   });
 
   test('the colour of a drawing', () => {
@@ -69,36 +69,38 @@ describe('queries', () => {
   });
 
   test('cells have their paints', () => {
-    expect(cellAt(example, 1, 0.9, 0.1)).toMatchObject({
+    expect(cellAt(example, 2, 0.9, 0.1)).toMatchObject({
       depth: 1, winding: 0, coverage: 0x6c / 255, paints: { base: 0, mean: [0x48, 0, 0x24, 0x6c].map((part) => part / 255) },
     });
-    expect(cellAt(example, 1, 0.9, 0.1)?.paints?.sides).toEqual([[1, 2], [2, 0], [1, 0]]);
-    expect(cellAt(example, 1, 0.9, 0.1, 0)).toMatchObject({ isQuad: true, paints: { base: null, sides: [] } });
+    expect(cellAt(example, 2, 0.9, 0.1)?.paints?.sides).toEqual([[1, 2], [2, 0], [1, 0]]);
+    expect(cellAt(example, 2, 0.9, 0.1, 0)).toMatchObject({ isQuad: true, paints: { base: null, sides: [] } });
     expect(cellAt(maps, maps.roots[2].quad, 0.5, 0.5)?.paints).toBeNull();
   });
 });
 
 /** Broken in one place: what to expect, and the change. @type {[string, RegExp, (texels: Uint32Array) => void][]} */
 const BROKEN = [
-  ['no paints', /has 0 paints; the limit is 65536/, (words) => (words[0] = 0)],
-  ['too many paints', /has 65537 paints/, (words) => (words[0] = 65537)],
-  ['cells beyond the end', /the cells of the map with root 1 end at texel 33 of 32/, (words) => (words[1] = 31)],
-  ['cells far beyond the end', /the cells of the map/, (words) => (words[1] = 0xffffffff)],
-  ['sides beyond the end', /the sides of the map with root 1 end at texel 34 of 32/, (words) => (words[2] = 31)],
-  ['paints beyond the end', /the paints of the map with root 1 end at texel 33 of 32/, (words) => (words[3] = 31)],
-  ['cells over curves', /texel 9 is a part of two things/, (words) => (words[1] = 9)],
-  ['sides over cells', /texel 11 is a part of two things/, (words) => (words[2] = 11)],
-  ['paints over the head', /texel 0 is a part of two things/, (words) => (words[3] = 0)],
-  ['a quad with a coverage', /a quad with a coverage or a curve that goes down/, (words) => (words[7] = 1)],
-  ['a curve that goes down', /a quad with a coverage or a curve that goes down/, (words) => (words[8] = 0xa0002000)],
-  ['a cell with a winding', /quad 1, cell 0 is 9, which is no valid cell/, (words) => words[6]++],
-  ['a cell of another kind', /quad 1, cell 0 is 1, which is no valid cell/, (words) => (words[6] = 1)],
-  ['a base paint of a mean', /a cell without a base paint has one/, (words) => (words[6] = 0x02101808)],
-  ['a base paint beyond the table', /has paint 3 of 3/, (words) => (words[44] = 3)],
-  ['a side beyond the table', /has paint 4 of 3/, (words) => (words[50] = 0x00040000)],
-  ['a mean above its opacity', /a colour above its opacity/, (words) => (words[40] = 0x8f000090)],
-  ['a paint above its opacity', /a colour above its opacity/, (words) => (words[65] = 0x80008001)],
-  ['an end beyond the lattice', /curve 2 has an end at 40960/, (words) => (words[11] = 0xa0002000)],
+  ['a head that goes on', /the map with root 2 has a head that is not 0 where it must be/, (words) => (words[3] = 1)],
+  ['programs without a number', /has a head that is not 0 where it must be/, (words) => (words[0] = 20)],
+  ['no paints', /has 0 paints; the limit is 65536/, (words) => (words[4] = 0)],
+  ['too many paints', /has 65537 paints/, (words) => (words[4] = 65537)],
+  ['cells beyond the end', /the cells of the map with root 2 end at texel 33 of 32/, (words) => (words[5] = 31)],
+  ['cells far beyond the end', /the cells of the map/, (words) => (words[5] = 0xffffffff)],
+  ['sides beyond the end', /the sides of the map with root 2 end at texel 34 of 32/, (words) => (words[6] = 31)],
+  ['paints beyond the end', /the paints of the map with root 2 end at texel 33 of 32/, (words) => (words[7] = 31)],
+  ['cells over curves', /texel 9 is a part of two things/, (words) => (words[5] = 9)],
+  ['sides over cells', /texel 11 is a part of two things/, (words) => (words[6] = 11)],
+  ['paints over the head', /texel 0 is a part of two things/, (words) => (words[7] = 0)],
+  ['a quad with a coverage', /a quad with a coverage or a curve that goes down/, (words) => (words[11] = 1)],
+  ['a curve that goes down', /a quad with a coverage or a curve that goes down/, (words) => (words[12] = 0xa0002000)],
+  ['a cell with a winding', /quad 2, cell 0 is 9, which is no valid cell/, (words) => words[10]++],
+  ['a cell of another kind', /quad 2, cell 0 is 1, which is no valid cell/, (words) => (words[10] = 1)],
+  ['a base paint of a mean', /a cell without a base paint has one/, (words) => (words[10] = 0x02101808)],
+  ['a base paint beyond the table', /has paint 3 of 3/, (words) => (words[48] = 3)],
+  ['a side beyond the table', /has paint 4 of 3/, (words) => (words[55] = 0x00040000)],
+  ['a mean above its opacity', /a colour above its opacity/, (words) => (words[44] = 0x8f000090)],
+  ['a paint above its opacity', /a colour above its opacity/, (words) => (words[69] = 0x80008001)],
+  ['an end beyond the lattice', /curve 3 has an end at 40960/, (words) => (words[15] = 0xa0002000)],
   ['a texel that is no part', /texel 20 belongs to no root and is not 0/, (words) => (words[80] = 1)],
 ];
 
@@ -108,20 +110,20 @@ describe('untrusted maps', () => {
   });
 
   test('a root without a head', async () => {
-    const roots = texts[TEXT_ROOTS].replace('"quad":1', '"quad":0');
-    const whole = [[0, 0, 0, 0]];
-    await expectRefusal(readPacked(ktx2(whole, { ...texts, [TEXT_ROOTS]: roots })), 'quad 0', /has no head before it/);
+    const roots = texts[TEXT_ROOTS].replace('"quad":2', '"quad":1');
+    const whole = [[0, 0, 0, 0], [0, 0, 0, 0]];
+    await expectRefusal(readPacked(ktx2(whole, { ...texts, [TEXT_ROOTS]: roots })), 'quad 1', /has no head before it/);
   });
 
   test('quads with a gap, and curves', async () => {
     const rows = Array.from({ length: 16 }, () => [0, 0, 0, 0]);
-    rows[0] = [1, 8, 13, 12];
-    rows[1] = [3, 0, 0x80, 0];
-    await expectRefusal(readPacked(ktx2(rows, texts)), 'quad 1', /the quads of the map with root 1 are not consecutive/);
-    rows[1] = [2, 5, 0x0880, 0];
-    rows[2] = [0, 3, 0x08, 0];
-    await expectRefusal(readPacked(ktx2(rows, texts)), 'quad 1', /the curves of the map with root 1 are not consecutive/);
-    rows[1][1] = 4;
+    rows[1] = [1, 9, 14, 13];
+    rows[2] = [4, 0, 0x80, 0];
+    await expectRefusal(readPacked(ktx2(rows, texts)), 'quad 2', /the quads of the map with root 2 are not consecutive/);
+    rows[2] = [3, 6, 0x0880, 0];
+    rows[3] = [0, 4, 0x08, 0];
+    await expectRefusal(readPacked(ktx2(rows, texts)), 'quad 2', /the curves of the map with root 2 are not consecutive/);
+    rows[2][1] = 5;
     expect((await readPacked(ktx2(rows, texts))).width).toBe(16);
   });
 

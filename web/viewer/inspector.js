@@ -54,7 +54,7 @@ export function create(engine, state) {
     return {
       cell, point, inside: contains(data, root.quad, ...point), solutions: solutionsAt(cell, point[0]),
       nearest: nearestCurve(cell.curves, point), painted: root.isMap ? paintAt(data, root.quad, ...point) : null,
-      colorOf: (paint) => paintCss(paintColor(data, root.quad, paint)),
+      colorOf: (paint) => paintCss(paintColor(data, root.quad, paint, ...point)),
     };
   }
 

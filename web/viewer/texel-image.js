@@ -1,6 +1,6 @@
 /** Texels as pixels: two by two for the four words of each. */
 import { CELL_BITS, COORDINATE_BITS } from '../generated/layout.js';
-import { BASES, CURVE, HEAD, MEANS, OTHER, PAINTS, QUAD, SIDES } from './texel-map.js';
+import { BASES, CURVE, HEAD, MEANS, OPERATIONS, OTHER, PAINTS, QUAD, SIDES, STOPS } from './texel-map.js';
 
 /** @typedef {[number, number, number]} Bytes */
 
@@ -14,6 +14,8 @@ export const TINTS = {
   [BASES]: [[0, 75, 45], [150, 235, 190]],
   [SIDES]: [[75, 30, 120], [215, 185, 250]],
   [PAINTS]: [[110, 10, 70], [250, 170, 215]],
+  [OPERATIONS]: [[70, 70, 0], [225, 220, 130]],
+  [STOPS]: [[70, 70, 0], [225, 220, 130]],
   [OTHER]: [[96, 98, 102], [190, 192, 196]],
 };
 const UNUSED_COLOR = /** @type {Bytes} */ ([226, 227, 230]);

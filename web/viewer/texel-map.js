@@ -11,7 +11,7 @@
  *
  * @typedef {object} Texel
  * @property {number} index
- * @property {typeof KINDS[number]} kind `other`: of a shape that is not chosen; the last five are parts of a planar map
+ * @property {typeof KINDS[number]} kind `other`: of a shape that is not chosen; the last seven are parts of a planar map
  * @property {Place | null} place of a quad, of the leaf that a curve is in, or of the quad that means or bases belong to
  * @property {string[]} words what its four words say
  */
@@ -22,13 +22,17 @@ import {
   COUNT_SHIFT,
   COVERAGE_ONE,
   IS_MEAN,
+  KIND_FOLLOWS,
+  KIND_SHIFT,
   LATTICE,
+  MAP_HEAD,
   MOST_CURVES,
   PAINT_ONE,
   QUAD_FLAG,
   WINDING_OFFSET,
 } from '../generated/layout.js';
 import { headOf, paintSteps, sidesOf } from '../src/planar-map.js';
+import { programOf } from '../src/programs.js';
 import { counts, isMap } from '../src/walk.js';
 import { paintCss } from './overlay-palette.js';
 
@@ -41,7 +45,9 @@ export const MEANS = 5;
 export const BASES = 6;
 export const SIDES = 7;
 export const PAINTS = 8;
-const KINDS = /** @type {const} */ (['unused', 'other', 'quad', 'curve', 'head', 'means', 'bases', 'sides', 'paints']);
+export const OPERATIONS = 9;
+export const STOPS = 10;
+const KINDS = /** @type {const} */ (['unused', 'other', 'quad', 'curve', 'head', 'means', 'bases', 'sides', 'paints', 'operations', 'stops']);
 
 const BYTE = (1 << CELL_BITS) - 1;
 const WINDING = (1 << COUNT_SHIFT) - 1;
@@ -66,7 +72,7 @@ export class TexelMap {
     /** @type {import('../src/planar-map.js').Head | null} */
     this.head = isMap(data, root) ? headOf(texels, root) : null;
     this.count = Math.min(length, most);
-    this.first = Math.min(this.head ? root - 1 : root, length - this.count);
+    this.first = Math.min(this.head ? root - MAP_HEAD : root, length - this.count);
     /** What each texel is: UNUSED, OTHER, QUAD, ... Only those that are looked at are told apart. */
     this.kinds = new Uint8Array(length);
     for (let i = this.first; i < this.first + this.count; i++) {
@@ -83,9 +89,9 @@ export class TexelMap {
   }
 
   /** @param {import('../src/planar-map.js').Head} head */
-  #parts({ quad: root, used, cells, sides, paints }) {
+  #parts({ quad: root, used, cells, sides, paints, programs, operations, stops }) {
     const { quads } = counts(this.data, root);
-    this.#set(root - 1, HEAD, null);
+    for (let i = 1; i <= MAP_HEAD; i++) this.#set(root - i, HEAD, null);
     for (let i = 0; i < quads; i++) {
       const place = this.places.get(root + i) ?? null;
       this.#set(cells + 2 * i, MEANS, place);
@@ -93,6 +99,7 @@ export class TexelMap {
     }
     for (let i = Math.floor(this.firstCurve / 4); 4 * i < this.endCurve; i++) this.#set(sides + i, SIDES, null);
     for (let i = 0; 2 * i < used; i++) this.#set(paints + i, PAINTS, null);
+    for (let i = 0; i < operations + stops; i++) this.#set(programs + i, i < operations ? OPERATIONS : STOPS, null);
   }
 
   /** @param {number} root */
@@ -142,6 +149,9 @@ export class TexelMap {
     if (kind === 'curve') return curveWords(four);
     if (kind === 'means') return four.map((word, k) => `${CELL_NAMES[k]}: mean ${paintCss([0, 1, 2, 3].map((i) => byteOf(word, i) / COVERAGE_ONE))}`);
     if (kind === 'bases') return four.map((word, k) => `${CELL_NAMES[k]}: base paint ${word}`);
+    if (kind === 'head' && head && index < head.quad - 1) {
+      return [`programs from texel ${four[0]}`, `${four[1]} texels of operations`, `${four[2]} texels of stops`, '0'];
+    }
     if (kind === 'head') {
       const [used, cells, sides, paints] = four;
       return [`${used} paints`, `cells from texel ${cells}`, `sides of curves from ${sides} + curve / 4`, `paints from texel ${paints}`];
@@ -157,10 +167,14 @@ export class TexelMap {
       return [0, 1].flatMap((half) => {
         const number = 2 * (index - head.paints) + half;
         if (number >= head.used) return ['of no paint', 'of no paint'];
+        const program = programOf(texels, head, number);
+        if (program) return [`paint ${number}, a program from texel ${program.first}`, `paint ${number}: ${program.count} texels`];
         const color = paintCss(paintSteps(texels, head, number).map((part) => part / PAINT_ONE));
         return [`paint ${number}, ${color}: red and green`, `paint ${number}: blue and opacity`];
       });
     }
+    if (kind === 'operations') return operationWords(four);
+    if (kind === 'stops') return [`stop at ${floatOf(four[0])}`, 'red and green', 'blue and opacity', '0'];
     return rawWords(four);
   }
 }
@@ -175,6 +189,21 @@ function mapQuadWords([below, first, cells]) {
     return count ? `${name} ${count} curve${count > 1 ? 's' : ''}` : `${name} one paint`;
   });
   return [`first quad below: ${below}`, `first curve: ${first}`, what.join('; '), 'not used'];
+}
+
+/** What the kinds of operations are, from 1 on. */
+const OPERATION_NAMES = ['a colour', 'a linear gradient', 'a radial gradient', 'a gradient with a focal circle',
+  'begin a group', 'end a group', 'more of a gradient'];
+
+/** @param {number} word that is a 32-bit float */
+const floatOf = (word) => String(Number(new Float32Array(Uint32Array.of(word).buffer)[0].toPrecision(5)));
+
+/** @param {number[]} words of a texel of a program */
+function operationWords(words) {
+  const kind = words[3] >>> KIND_SHIFT;
+  const isGradient = (kind > 1 && kind < 5) || kind === KIND_FOLLOWS;
+  const numbers = words.slice(0, 3);
+  return [...(isGradient ? numbers.map(floatOf) : rawWords(numbers)), OPERATION_NAMES[kind - 1]];
 }
 
 /** @param {number[]} words */

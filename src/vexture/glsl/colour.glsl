@@ -3,8 +3,10 @@
 // on the piece's right.
 // Exports: VexturePlanar, vextureFlatColor, vextureColor.
 //
-// VEXTURE_LINEAR is 0 for a mean in sRGB, or 1 for one in linear light, with linear components.
+// VEXTURE_LINEAR is 0 for a mean in sRGB, or 1 for one in linear light, with linear components. VEXTURE_GRADIENTS is 0 where
+// no map has programs.
 #include "coverage.glsl"
+#include "gradient.glsl"
 #include "srgb.glsl"
 
 #ifndef VEXTURE_LINEAR
@@ -33,16 +35,29 @@ vec4 vexture_averaged(vec4 stored) {
 #endif
 }
 
-vec4 vexture_paint(VexturePlanar planar, uint number) {
+// Colour of a paint; of one that holds gradients, over a region.
+vec4 vexture_paint(VexturePlanar planar, uint number, VextureRegion region) {
     uvec4 both = vexture_texel(planar.paints + (number >> 1));
     uvec2 words = (number & 1u) == 0u ? both.xy : both.zw;
-    return vexture_averaged(vec4(uvec4(words.x & 0xffffu, words.x >> 16, words.y & 0xffffu, words.y >> 16)));
+    vec4 color = vexture_halves(words);
+#if VEXTURE_GRADIENTS
+    if (words.x != 0u && color.a == 0.0) {
+        color = vexture_program(words.x, words.y, region);
+    }
+#endif
+    return vexture_averaged(color);
 }
 
 // Colour on the left of a piece minus that on its right.
-vec4 vexture_jump(VexturePlanar planar, uint curve) {
+vec4 vexture_jump(VexturePlanar planar, uint curve, VextureRegion region) {
     uint sides = vexture_texel(planar.sides + (curve >> 2))[curve & 3u];
-    return vexture_paint(planar, sides & 0xffffu) - vexture_paint(planar, sides >> VEXTURE_COORDINATE_BITS);
+    vec4 color = vec4(0.0);
+    for (int side = 0; side < 2; side++) {
+        // one call for both: programs are long
+        vec4 paint = vexture_paint(planar, side == 0 ? sides >> VEXTURE_COORDINATE_BITS : sides & 0xffffu, region);
+        color = paint - color;
+    }
+    return color;
 }
 
 // In steps of a byte.
@@ -58,10 +73,29 @@ vec4 vexture_mean_color(uvec4 stored, vec2 place) {
     return clamp(mix(low, high, at.y), 0.0, float(VEXTURE_COVERAGE_ONE));
 }
 
-// Colour of a cell without its pieces: of a quad, its mean about a place in its own unit square; of a leaf, its base paint,
-// or its mean if that is all that is known of it.
-vec4 vexture_cell_color(VexturePlanar planar, VextureCell cell, vec2 place) {
-    bool is_mean = ((cell.texel.z >> cell.shift) & 255u) == uint(VEXTURE_IS_MEAN);
+uint vexture_leaf_kind(VextureCell cell) {
+    return (cell.texel.z >> cell.shift) & ((1u << VEXTURE_COUNT_SHIFT) - 1u);
+}
+
+// Whether a paint in a leaf is a program.
+bool vexture_holds_program(VextureCell cell) {
+#if VEXTURE_GRADIENTS
+    return (vexture_leaf_kind(cell) & uint(VEXTURE_HOLDS_PROGRAM)) != 0u;
+#else
+    return false;
+#endif
+}
+
+// Whether the mean of a leaf is read and not its pieces: nothing else is known of it, or a paint in it is a program and it
+// lies, all but the least share, in the footprint.
+bool vexture_reads_mean(VextureCell cell, float share) {
+    bool is_whole = vexture_holds_program(cell) && share > VEXTURE_NEARLY_WHOLE;
+    return is_whole || vexture_leaf_kind(cell) == uint(VEXTURE_IS_MEAN);
+}
+
+// Colour of a cell without its pieces: of a quad, its mean about a place in its own unit square; of a leaf, its base paint
+// over a region, or its mean.
+vec4 vexture_cell_color(VexturePlanar planar, VextureCell cell, bool is_mean, vec2 place, VextureRegion region) {
     uint at = planar.cells + 2u * cell.quad;
     uvec4 stored = vexture_texel(cell.is_quad || is_mean ? at : at + 1u);
     uint word = stored[cell.shift >> 3];
@@ -69,7 +103,13 @@ vec4 vexture_cell_color(VexturePlanar planar, VextureCell cell, vec2 place) {
     if (cell.is_quad) {
         return step * vexture_mean_color(stored, place);
     }
-    return is_mean ? step * vexture_unpacked(word) : vexture_paint(planar, word);
+    return is_mean ? step * vexture_unpacked(word) : vexture_paint(planar, word, region);
+}
+
+// The region about a place in a cell, in positions, as are its sides.
+VextureRegion vexture_region(ivec2 origin, vec2 middle, vec2 right, vec2 up) {
+    float unit = 1.0 / float(1 << VEXTURE_POSITION_BITS);
+    return VextureRegion((vec2(origin) + middle) * unit, right * unit, up * unit);
 }
 
 // As vexture_first_look, of a pixel whose sides are level and upright; it needs no note of ends on the leaf's left edge.
@@ -88,13 +128,15 @@ VextureLook vexture_flat_look(uvec4 texel, VextureBox box) {
 }
 
 // Adds the colour of the part of a cell in the box, times its area.
-void vexture_add_flat_cell(inout vec4 color, VexturePlanar planar, VextureCell cell, VextureBox box) {
+void vexture_add_flat_cell(inout vec4 color, VexturePlanar planar, VextureCell cell, ivec2 origin, VextureBox box) {
     float whole = box.size.x * box.size.y;
-    float side = uintBitsToFloat(uint(127 - cell.bit) << 23);
-    vec2 place = (box.way + (box.part + 0.5) * box.size) * side;
-    color += whole * vexture_cell_color(planar, cell, place);
+    float side = uintBitsToFloat(uint(127 - cell.bit) << 23);  // inverse
+    vec2 middle = box.way + (box.part + 0.5) * box.size;
+    bool is_mean = vexture_reads_mean(cell, min(box.size.x, box.size.y) * side);
+    VextureRegion region = vexture_region(origin, middle, vec2(box.size.x, 0.0), vec2(0.0, box.size.y));
+    color += whole * vexture_cell_color(planar, cell, is_mean, middle * side, region);
     uint curve = vexture_first_curve(cell);
-    int count = cell.is_quad ? 0 : vexture_count(cell);
+    int count = cell.is_quad || is_mean ? 0 : vexture_count(cell);
     int counted = 0;  // a bit for each piece that is not clear of the box: others need no colours
     for (int i = 0; i < count; i++) {
         VextureLook look = vexture_flat_look(vexture_texel(curve + uint(i)), box);
@@ -110,7 +152,7 @@ void vexture_add_flat_cell(inout vec4 color, VexturePlanar planar, VextureCell c
         if (look.crosses) {
             area += vexture_flat_piece_area(texel, box);
         }
-        color += whole * area * vexture_jump(planar, at);
+        color += whole * area * vexture_jump(planar, at, region);
     }
 }
 
@@ -131,26 +173,34 @@ vec4 vextureFlatColor(uint root, uvec2 base, vec2 offset, VextureFlat view) {
     while (square.position.x < VEXTURE_NO_CELL) {
         VextureCell cell = vexture_descend(top, shared_bit, view.finest, square.position);
         ivec2 origin = square.position & -(1 << cell.bit);
-        vexture_add_flat_cell(color, planar, cell, vexture_box(origin, cell.bit, place, view.extent));
+        vexture_add_flat_cell(color, planar, cell, origin, vexture_box(origin, cell.bit, place, view.extent));
         square = vexture_next_square(square.position, origin + (1 << cell.bit), place);
     }
     return vexture_held(color * (view.inverse / float(VEXTURE_PAINT_ONE)));
 }
 
 // Adds the colour of the part of a footprint in a cell, times its area.
-void vexture_add_cell(inout vec4 color, VexturePlanar planar, VextureCell cell, VextureBox box, VextureFrame frame) {
+void vexture_add_cell(
+    inout vec4 color, VexturePlanar planar, VextureCell cell, ivec2 origin, VextureBox box, VextureFrame frame
+) {
     bool is_cut = any(greaterThan(box.low, -frame.extent)) || any(lessThan(box.low + box.size, frame.extent));
     float whole = 1.0;
     if (is_cut) {
         whole = vexture_box_area(frame, box.low, box.size);
     }
     vec2 place = vec2(0.5);
-    if (cell.is_quad) {
+    if (cell.is_quad || vexture_holds_program(cell)) {
         place = vexture_cut_place(cell, box, frame);
     }
-    color += whole * vexture_cell_color(planar, cell, place);
+    float side = float(1 << cell.bit);
+    bool is_mean = vexture_reads_mean(cell, whole * frame.size / (side * side));
+    vec2 part = box.size / (2.0 * frame.extent);
+    vec2 right = vec2(frame.up.y, -frame.up.x) * frame.size;
+    vec2 up = vec2(-frame.right.y, frame.right.x) * frame.size;
+    VextureRegion region = vexture_region(origin, place * side, part * right, part * up);
+    color += whole * vexture_cell_color(planar, cell, is_mean, place, region);
     uint curve = vexture_first_curve(cell);
-    int count = whole > 0.0 && !cell.is_quad ? vexture_count(cell) : 0;
+    int count = whole > 0.0 && !cell.is_quad && !is_mean ? vexture_count(cell) : 0;
     int counted = 0;  // a bit for each piece that is not clear of the footprint's box: others need no colours
     for (int i = 0; i < count; i++) {
         VextureLook look = vexture_first_look(vexture_texel(curve + uint(i)), box);
@@ -166,7 +216,7 @@ void vexture_add_cell(inout vec4 color, VexturePlanar planar, VextureCell cell, 
         if (look.crosses) {
             area += vexture_piece_area(texel, look.turns, box, frame);
         }
-        color += area * vexture_jump(planar, at);
+        color += area * vexture_jump(planar, at, region);
     }
 }
 
@@ -187,7 +237,7 @@ vec4 vextureColor(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
             VextureCell cell = vexture_descend(top, shared_bit, finest, square.position);
             bit = cell.bit;
             ivec2 origin = square.position & -(1 << bit);
-            vexture_add_cell(color, planar, cell, vexture_box(origin, bit, place, frame.extent), frame);
+            vexture_add_cell(color, planar, cell, origin, vexture_box(origin, bit, place, frame.extent), frame);
         }
         int side = 1 << bit;
         square = vexture_next_square(square.position, (square.position & -side) + side, place);

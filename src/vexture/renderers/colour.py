@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.kernels import kernel
-from vexture.layout import COORDINATE_BITS, COVERAGE_ONE, IS_MEAN, PAINT_ONE
+from vexture.layout import COORDINATE_BITS, COUNT_SHIFT, COVERAGE_ONE, HOLDS_PROGRAM, IS_MEAN, PAINT_ONE
 from vexture.renderers.cells import (
     Cell,
     Texel,
@@ -38,15 +38,13 @@ from vexture.renderers.cpu import (
     is_beside,
     piece_area,
 )
-from vexture.renderers.method import NO_CELL
+from vexture.renderers.gradient import Region, Vec3, Vec4, halves, plus, program, times
+from vexture.renderers.method import NEARLY_WHOLE, NO_CELL, POSITION_BITS
 from vexture.renderers.piece import Box, Frame, box, box_area, frame, in_box, view_pixel, word
 from vexture.renderers.uniforms import HasTexels, uniforms_of
 from vexture.renderers.view import Size, ViewLike
 
 __all__ = ["render_cpu_colours"]
-
-Vec3 = tuple[float, float, float]
-Vec4 = tuple[float, float, float, float]
 
 
 class Planar(NamedTuple):
@@ -86,32 +84,20 @@ def averaged(is_linear: int, stored: Vec4) -> Vec4:
 
 
 @kernel(allocates=False)
-def paint(texels: Texels, is_linear: int, planar: Planar, number: int) -> Vec4:
+def paint(texels: Texels, is_linear: int, planar: Planar, number: int, region: Region) -> Vec4:
     both = texel(texels, planar.paints + (number >> 1))
     low, high = (both[0], both[1]) if number & 1 == 0 else (both[2], both[3])
-    mask = (1 << COORDINATE_BITS) - 1
-    red, green = float(low & mask), float(low >> COORDINATE_BITS)
-    return averaged(is_linear, (red, green, float(high & mask), float(high >> COORDINATE_BITS)))
+    color = halves(low, high)
+    if low != 0 and color[3] == 0.0:
+        color = program(texels, low, high, region)
+    return averaged(is_linear, color)
 
 
 @kernel(allocates=False)
-def jump(texels: Texels, is_linear: int, planar: Planar, curve: int) -> Vec4:
+def jump(texels: Texels, is_linear: int, planar: Planar, curve: int, region: Region) -> Vec4:
     sides = texel(texels, planar.sides + (curve >> 2))[curve & 3]
-    left = paint(texels, is_linear, planar, sides & ((1 << COORDINATE_BITS) - 1))
-    right = paint(texels, is_linear, planar, sides >> COORDINATE_BITS)
-    return left[0] - right[0], left[1] - right[1], left[2] - right[2], left[3] - right[3]
-
-
-@kernel(allocates=False)
-def plus(a: Vec4, b: Vec4, share: float) -> Vec4:
-    """What GLSL writes as ``a + share * b``."""
-    return a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2], a[3] + share * b[3]
-
-
-@kernel(allocates=False)
-def times(a: Vec4, share: float) -> Vec4:
-    """What GLSL writes as ``share * a``."""
-    return a[0] * share, a[1] * share, a[2] * share, a[3] * share
+    right = paint(texels, is_linear, planar, sides >> COORDINATE_BITS, region)
+    return plus(paint(texels, is_linear, planar, sides & ((1 << COORDINATE_BITS) - 1), region), right, -1.0)
 
 
 @kernel(allocates=False)
@@ -132,15 +118,39 @@ def mean_color(is_linear: int, stored: Texel, place: Vec2) -> Vec4:
 
 
 @kernel(allocates=False)
-def cell_color(texels: Texels, is_linear: int, planar: Planar, cell: Cell, place: Vec2) -> Vec4:
-    is_mean = (cell.texel[2] >> cell.shift) & 255 == IS_MEAN
+def leaf_kind(cell: Cell) -> int:
+    return (cell.texel[2] >> cell.shift) & ((1 << COUNT_SHIFT) - 1)
+
+
+@kernel(allocates=False)
+def holds_program(cell: Cell) -> bool:
+    return leaf_kind(cell) & HOLDS_PROGRAM != 0
+
+
+@kernel(allocates=False)
+def reads_mean(cell: Cell, share: float) -> bool:
+    is_whole = holds_program(cell) and share > NEARLY_WHOLE
+    return is_whole or leaf_kind(cell) == IS_MEAN
+
+
+@kernel(allocates=False)
+def cell_color(
+    texels: Texels, is_linear: int, planar: Planar, cell: Cell, is_mean: bool, place: Vec2, region: Region
+) -> Vec4:
     at = planar.cells + 2 * cell.quad
     stored = texel(texels, at if cell.is_quad or is_mean else at + 1)
     word = stored[cell.shift >> 3]
     step = PAINT_ONE / COVERAGE_ONE
     if cell.is_quad:
         return times(mean_color(is_linear, stored, place), step)
-    return times(unpacked(is_linear, word), step) if is_mean else paint(texels, is_linear, planar, word)
+    return times(unpacked(is_linear, word), step) if is_mean else paint(texels, is_linear, planar, word, region)
+
+
+@kernel(allocates=False)
+def region(origin: Whole2, middle: Vec2, right: Vec2, up: Vec2) -> Region:
+    unit = 1.0 / float(1 << POSITION_BITS)
+    point = ((origin[0] + middle[0]) * unit, (origin[1] + middle[1]) * unit)
+    return Region(point, (right[0] * unit, right[1] * unit), (up[0] * unit, up[1] * unit))
 
 
 @kernel(allocates=False)
@@ -156,22 +166,26 @@ def flat_look(texel: Texel, box: Box) -> Look:
 
 
 @kernel(allocates=False)
-def add_flat_cell(texels: Texels, is_linear: int, color: Vec4, planar: Planar, cell: Cell, box: Box) -> Vec4:
+def add_flat_cell(
+    texels: Texels, is_linear: int, color: Vec4, planar: Planar, cell: Cell, origin: Whole2, box: Box
+) -> Vec4:
     """Return the new `color`, which GLSL changes in place."""
     whole = box.size[0] * box.size[1]
     side = 2.0**-cell.bit
-    x = (box.way[0] + (box.part[0] + 0.5) * box.size[0]) * side
-    y = (box.way[1] + (box.part[1] + 0.5) * box.size[1]) * side
-    color = plus(color, cell_color(texels, is_linear, planar, cell, (x, y)), whole)
+    x = box.way[0] + (box.part[0] + 0.5) * box.size[0]
+    y = box.way[1] + (box.part[1] + 0.5) * box.size[1]
+    is_mean = reads_mean(cell, min(box.size[0], box.size[1]) * side)
+    here = region(origin, (x, y), (box.size[0], 0.0), (0.0, box.size[1]))
+    color = plus(color, cell_color(texels, is_linear, planar, cell, is_mean, (x * side, y * side), here), whole)
     curve = first_curve(cell)
-    for i in range(0 if cell.is_quad else count(cell)):
+    for i in range(0 if cell.is_quad or is_mean else count(cell)):
         found = texel(texels, curve + i)
         look = flat_look(found, box)
         area = look.filled
         if look.crosses:
             area += flat_piece_area(found, box)
         if area != 0.0:
-            color = plus(color, jump(texels, is_linear, planar, curve + i), whole * area)
+            color = plus(color, jump(texels, is_linear, planar, curve + i, here), whole * area)
     return color
 
 
@@ -188,7 +202,7 @@ def flat_color(texels: Texels, is_linear: int, root: int, base: Whole2, offset: 
         cell, start = descend(texels, start, shared, view.finest, position)
         side = 1 << cell.bit
         origin = (position[0] & -side, position[1] & -side)
-        color = add_flat_cell(texels, is_linear, color, parts, cell, box(origin, cell.bit, there, view.extent))
+        color = add_flat_cell(texels, is_linear, color, parts, cell, origin, box(origin, cell.bit, there, view.extent))
         square = next_square(position, (origin[0] + side, origin[1] + side), there)
     return held(times(color, view.inverse / PAINT_ONE))
 
@@ -206,23 +220,31 @@ def held_channel(value: float, most: float) -> float:
 
 
 @kernel(allocates=False)
-def add_cell(texels: Texels, is_linear: int, color: Vec4, planar: Planar, cell: Cell, box: Box, frame: Frame) -> Vec4:
+def add_cell(
+    texels: Texels, is_linear: int, color: Vec4, planar: Planar, cell: Cell, origin: Whole2, box: Box, frame: Frame
+) -> Vec4:
     """Return the new `color`, which GLSL changes in place."""
     low, size, extent = box.low, box.size, frame.extent
     whole = 1.0
     if low[0] > -extent[0] or low[1] > -extent[1] or low[0] + size[0] < extent[0] or low[1] + size[1] < extent[1]:
         whole = box_area(frame, low, size)
-    place = cut_place(cell, box, frame) if cell.is_quad else (0.5, 0.5)
-    color = plus(color, cell_color(texels, is_linear, planar, cell, place), whole)
+    place = cut_place(cell, box, frame) if cell.is_quad or holds_program(cell) else (0.5, 0.5)
+    side = 2.0**cell.bit
+    is_mean = reads_mean(cell, whole * frame.size / (side * side))
+    part = (size[0] / (2.0 * extent[0]), size[1] / (2.0 * extent[1]))
+    right = (part[0] * frame.up[1] * frame.size, -part[1] * frame.up[0] * frame.size)
+    up = (-part[0] * frame.right[1] * frame.size, part[1] * frame.right[0] * frame.size)
+    here = region(origin, (place[0] * side, place[1] * side), right, up)
+    color = plus(color, cell_color(texels, is_linear, planar, cell, is_mean, place, here), whole)
     curve = first_curve(cell)
-    for i in range(count(cell) if whole > 0.0 and not cell.is_quad else 0):
+    for i in range(count(cell) if whole > 0.0 and not cell.is_quad and not is_mean else 0):
         found = texel(texels, curve + i)
         look = first_look(found, box)
         area = whole * look.filled
         if look.crosses:
             area += piece_area(found, look.turns, box, frame)
         if area != 0.0:
-            color = plus(color, jump(texels, is_linear, planar, curve + i), area)
+            color = plus(color, jump(texels, is_linear, planar, curve + i, here), area)
     return color
 
 
@@ -243,7 +265,9 @@ def color(texels: Texels, is_linear: int, root: int, base: Whole2, offset: Vec2,
             cell, start = descend(texels, start, shared, finest, position)
             bit = cell.bit
             origin = (position[0] & -(1 << bit), position[1] & -(1 << bit))
-            total = add_cell(texels, is_linear, total, parts, cell, box(origin, bit, there, pixel.extent), pixel)
+            total = add_cell(
+                texels, is_linear, total, parts, cell, origin, box(origin, bit, there, pixel.extent), pixel
+            )
         side = 1 << bit
         square = next_square(position, ((position[0] & -side) + side, (position[1] & -side) + side), there)
         beside = square.position[0] < NO_CELL and is_beside(square, there, pixel)

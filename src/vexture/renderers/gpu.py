@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.layout import MAP_HEAD
 from vexture.renderers.device import ONE_AT_A_TIME, VERSION, compiled, context, draw, upload
 from vexture.renderers.shader import color_source, view_source
 from vexture.renderers.uniforms import HasTexels, Uniforms, uniforms_of
@@ -21,9 +22,15 @@ def program(is_flat: bool) -> Any:
 
 
 @cache
-def color_program(is_flat: bool, is_linear: bool) -> Any:
-    """The same for all planar maps, averaged in linear light or in sRGB."""
-    return compiled(color_source(VERSION, is_flat, is_linear))
+def color_program(is_flat: bool, is_linear: bool, has_gradients: bool) -> Any:
+    """The same for planar maps, averaged in linear light or in sRGB."""
+    return compiled(color_source(VERSION, is_flat, is_linear, has_gradients))
+
+
+def has_gradients(texture: HasTexels, quad: int) -> bool:
+    """Whether a paint of the planar map with this root quad is a program (FORMAT.md, D.1)."""
+    flat, head = texture.texels.reshape(-1, 4), quad - MAP_HEAD
+    return not 0 <= head < len(flat) or bool(flat[head, 1])
 
 
 def drawn(gl: Any, triangle: Any, texture: HasTexels, uniforms: Uniforms, channels: int) -> NDArray[np.float32]:
@@ -57,4 +64,6 @@ def render_gpu_colours(
     """
     uniforms = uniforms_of(texture, size, view, root)
     with ONE_AT_A_TIME, context() as gl:
-        return drawn(gl, color_program(uniforms.is_flat, is_linear), texture, uniforms, 4)
+        return drawn(
+            gl, color_program(uniforms.is_flat, is_linear, has_gradients(texture, uniforms.quad)), texture, uniforms, 4
+        )

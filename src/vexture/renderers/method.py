@@ -13,14 +13,22 @@ __all__ = [
     "FOLLOWED_QUADS",
     "FURTHER",
     "LEAST_FINEST",
+    "LEAST_RADIUS",
     "LEVEL_BIAS",
     "LONG",
+    "LONGEST_RAMP",
     "MOST_PARTS",
+    "MOST_RAMP_PARTS",
     "NEARLY_TILE",
+    "NEARLY_WHOLE",
+    "NOTHING",
     "NO_CELL",
+    "NO_PLACE",
     "NO_SIZE",
     "POSITION_BITS",
+    "RAMP_PARTS",
     "REST_BITS",
+    "SHORTEST_RAMP",
     "SHORT_WAY",
     "SMALLEST_BOX",
     "SMALLEST_PIXEL",
@@ -93,6 +101,30 @@ LONG: Final = 2.0**-8
 
 LEVEL_BIAS: Final = 2.0**-8
 """Relative; without it drivers would disagree on the level of a footprint whose size is a power of two."""
+
+NEARLY_WHOLE: Final = 1.0 - 2.0**-10
+"""Share of a leaf in a footprint from which all of it counts."""
+
+RAMP_PARTS: Final = 6
+"""Parts across a spot for each unit of a ramp, or radius of a circle, that it spans."""
+
+MOST_RAMP_PARTS: Final = 4
+"""Most of them."""
+
+SHORTEST_RAMP: Final = 2.0**-22
+"""Least interval over which a gradient is averaged: two steps of float32 at the end of the ramp."""
+
+LONGEST_RAMP: Final = 2.0**20
+"""The longest one."""
+
+NO_PLACE: Final = -1e30
+"""Place on a ramp of what has none."""
+
+LEAST_RADIUS: Final = 2.0**-20
+"""Of a gradient's circle: float32 may make as much of 0, or as much less."""
+
+NOTHING: Final = 2.0**-60
+"""Instead of 0 in a divisor."""
 
 WRAP_NONE: Final = 0
 WRAP_CLAMP: Final = 1

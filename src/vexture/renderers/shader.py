@@ -7,11 +7,13 @@ the shading method (`vexture.renderers.method`).
 import re
 from functools import cache
 from importlib import resources
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Final
 
 from vexture import layout
 from vexture.errors import ParameterError
+from vexture.group import Blend
+from vexture.paint import Spread
 from vexture.renderers import method
 
 __all__ = [
@@ -47,8 +49,13 @@ void main() { color_of_pixel = view_color(gl_FragCoord.xy); }
 WRAPS: Final = {"none": method.WRAP_NONE, "clamp": method.WRAP_CLAMP, "repeat": method.WRAP_REPEAT}
 """Values of ``VEXTURE_WRAP``."""
 
-CHOSEN: Final = {"FLAT", "LINEAR", "WRAP"}
+CHOSEN: Final = {"FLAT", "GRADIENTS", "LINEAR", "WRAP"}
 """Numbers that each program sets itself."""
+
+MODES: Final = SimpleNamespace(
+    **{f"BLEND_{blend.name}": int(blend) for blend in Blend}, **{f"SPREAD_{one.name}": int(one) for one in Spread}
+)
+"""Numbers of blend modes, and of what gradients do beyond their ends."""
 
 PREFIXED: Final = re.compile(r"\bVEXTURE_(\w+)")
 """A number in the packed texture's files; the prefix avoids clashes with an application's own names."""
@@ -124,7 +131,7 @@ def shader_text(file: str, *owners: ModuleType) -> str:
     text = included(file)
     lines = []
     for name in sorted(set(PREFIXED.findall(text)) - CHOSEN):
-        value = next((getattr(owner, name) for owner in (method, layout, *owners) if hasattr(owner, name)), None)
+        value = next((getattr(owner, name) for owner in (method, layout, MODES, *owners) if hasattr(owner, name)), None)
         if value is None:
             raise NameError(f"{file} names VEXTURE_{name}, which no owner of numbers defines")
         lines.append(f"#define VEXTURE_{name} {value!r}\n")
@@ -138,7 +145,8 @@ def view_source(version: str, is_flat: bool) -> str:
     )
 
 
-def color_source(version: str, is_flat: bool, is_linear: bool) -> str:
-    """Fragment shader that draws a planar map, averaged in linear light or in sRGB."""
-    chosen = f"#define VEXTURE_FLAT {int(is_flat)}\n#define VEXTURE_LINEAR {int(is_linear)}\n"
-    return VERSIONS[version] + chosen + shader_text("view_color.glsl") + COLOR_MAIN
+def color_source(version: str, is_flat: bool, is_linear: bool, has_gradients: bool) -> str:
+    """Fragment shader that draws a planar map, with or without gradients, averaged in linear light or in sRGB."""
+    chosen = {"FLAT": is_flat, "LINEAR": is_linear, "GRADIENTS": has_gradients}
+    lines = "".join(f"#define VEXTURE_{name} {int(value)}\n" for name, value in chosen.items())
+    return VERSIONS[version] + lines + shader_text("view_color.glsl") + COLOR_MAIN

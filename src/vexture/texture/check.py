@@ -48,6 +48,8 @@ def check_styles(flat: NDArray[np.uint32], roots: Sequence[Root]) -> None:
     for root in roots:
         if root.style is None:
             continue
+        if flat[root.quad - layout.MAP_HEAD].any():
+            raise FormatError(f"the map {root.name[:60]!r} has a style, and paints that are programs; {REMEDY}")
         used, stacks = head_of(flat, root.quad).used, len(root.style.starts) - 1
         if used != stacks:
             raise FormatError(f"the map {root.name[:60]!r} has {used} paints, and stacks of {stacks}; {REMEDY}")

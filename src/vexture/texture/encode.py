@@ -39,7 +39,7 @@ def encode(
     for tree, root in zip(trees, roots, strict=True):
         if isinstance(tree, PlanarMap):
             texels.append(map_texels(tree, at))
-            placed.append(replace(root, quad=at + 1, is_map=True))
+            placed.append(replace(root, quad=at + layout.MAP_HEAD, is_map=True))
         else:
             texels.append(np.concatenate([_quad_texels(tree, at), curve_texels(tree.curves)]))
             placed.append(replace(root, quad=at))

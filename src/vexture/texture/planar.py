@@ -7,8 +7,10 @@ from numpy.typing import NDArray
 
 from vexture import layout
 from vexture.errors import FormatError
+from vexture.texture.programs import NO_PROGRAMS, ProgramTexels, halves, program_texels, read_programs
 from vexture.texture.walk import REMEDY, WalkLevel, curve_points, walk
 from vexture.tree.planar.map import PlanarMap
+from vexture.tree.planar.programs import Program
 
 __all__ = [
     "MapHead",
@@ -24,35 +26,50 @@ __all__ = [
 
 
 def map_texels(planar: PlanarMap, at: int) -> NDArray[np.uint32]:
-    """The texels of a map, (n, 4), of which the first has index `at`: head, quads, curves, cells, sides, paints."""
+    """The texels of a map, (n, 4), of which the first has index `at`, in the order of `PARTS`."""
     quads, curves = len(planar.count), len(planar.curves)
-    first_quad = at + 1
+    first_quad = at + layout.MAP_HEAD
     first_curve = first_quad + quads
     first_cells = first_curve + curves
     sides = _side_texels(planar.sides, first_curve & 3)
     first_sides = first_cells + 2 * quads
-    head = np.array(
-        [[len(planar.paints), first_cells, first_sides - (first_curve >> 2), first_sides + len(sides)]], np.uint32
-    )
+    first_paint = first_sides + len(sides)
+    programs = program_texels(planar.programs)
+    paints = paint_texels(planar.paints, programs, first_paint)
+    some = [first_paint + len(paints), len(programs.operations), len(programs.stops)] if planar.programs else [0, 0, 0]
+    head = [[*some, 0], [len(planar.paints), first_cells, first_sides - (first_curve >> 2), first_paint]]
     texels = [
-        head,
+        np.array(head, np.uint32),
         _quad_texels(planar, first_quad, first_curve),
         curve_texels(planar.curves),
         _cell_texels(planar),
         sides,
-        paint_texels(planar.paints),
+        paints,
+        programs.operations,
+        programs.stops,
     ]
     return np.concatenate(texels)
 
 
 def _quad_texels(planar: PlanarMap, first_quad: int, first_curve: int) -> NDArray[np.uint32]:
     cells = planar.count.astype(np.int64) << layout.COUNT_SHIFT
+    cells += np.where(_holds_program(planar), layout.HOLDS_PROGRAM, 0)
     cells = np.where(planar.is_quad, layout.QUAD_FLAG, np.where(planar.is_mean, layout.IS_MEAN, cells))
     texels = np.zeros((len(cells), 4), np.uint32)
     texels[:, 0] = first_quad + planar.first_quad
     texels[:, 1] = first_curve + planar.first_curve
     texels[:, 2] = (cells << layout.CELL_BITS * np.arange(4)).sum(axis=1)
     return texels
+
+
+def _holds_program(planar: PlanarMap) -> NDArray[np.bool_]:
+    """Whether the base paint of a cell, or a paint beside a curve of it, is a program; (quads, 4)."""
+    is_program = np.zeros(len(planar.paints), np.bool_)
+    is_program[list(planar.programs)] = True
+    beside = np.append(0, np.cumsum(is_program[planar.sides].any(axis=1)))
+    last = planar.first_curve[:, None] + np.cumsum(planar.count, axis=1, dtype=np.int64)
+    holds: NDArray[np.bool_] = is_program[planar.base] | (beside[last] > beside[last - planar.count])
+    return holds
 
 
 def curve_texels(curves: NDArray[np.int32]) -> NDArray[np.uint32]:
@@ -80,11 +97,19 @@ def _side_texels(sides: NDArray[np.int32], skipped: int) -> NDArray[np.uint32]:
     return words.reshape(-1, 4)
 
 
-def paint_texels(paints: NDArray[np.uint16]) -> NDArray[np.uint32]:
-    """Two paints to a texel: red and green, blue and opacity."""
-    halves = np.zeros((-(-len(paints) // 2) * 2, 4), np.int64)
+def paint_texels(
+    paints: NDArray[np.uint16], programs: ProgramTexels = NO_PROGRAMS, after: int = 0
+) -> NDArray[np.uint32]:
+    """Two paints to a texel: red and green, blue and opacity; or a program's first texel and how many it has.
+
+    The paints begin at texel `after`, and programs follow on them.
+    """
+    size = -(-len(paints) // 2)
+    halves = np.zeros((2 * size, 4), np.int64)
     halves[: len(paints)] = paints
     words = halves[:, 0::2] | (halves[:, 1::2] << layout.COORDINATE_BITS)
+    for paint, (start, count) in programs.starts.items():
+        words[paint] = after + size + start, count
     return words.astype(np.uint32).reshape(-1, 4)
 
 
@@ -107,7 +132,7 @@ def head_of(flat: NDArray[np.uint32], quad: int) -> MapHead:
     return MapHead(*flat[quad - 1].tolist())
 
 
-PARTS: Final = ("head", "quads", "curves", "cells", "sides", "paints")
+PARTS: Final = ("head", "quads", "curves", "cells", "sides", "paints", "programs")
 
 
 class MapTexels(NamedTuple):
@@ -121,6 +146,9 @@ class MapTexels(NamedTuple):
     sides: int  # texel of the first curve's paints
     paints: int
     used: int  # number of paints
+    programs: int
+    operations: int  # number of texels of programs; those of stops follow
+    stops: int
 
     @property
     def ranges(self) -> list[tuple[int, int]]:
@@ -128,21 +156,25 @@ class MapTexels(NamedTuple):
         quads = sum(len(level.quads) for level in self.levels)
         after = (self.first_curve + self.curves + 3) // 4 - self.first_curve // 4 if self.curves else 0
         return [
-            (self.quad - 1, self.quad),
+            (self.quad - layout.MAP_HEAD, self.quad),
             (self.quad, self.quad + quads),
             (self.first_curve, self.first_curve + self.curves),
             (self.cells, self.cells + 2 * quads),
             (self.sides, self.sides + after),
             (self.paints, self.paints + (self.used + 1) // 2),
+            (self.programs, self.programs + self.operations + self.stops),
         ]
 
 
 def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
     """The parts of the planar map with a root quad; raises a `FormatError` where they contradict FORMAT.md."""
     levels = walk(flat, np.array([quad]), of_maps=True)
-    if quad == 0:
-        raise FormatError(f"the root of a map is quad 0, which has no head before it; {REMEDY}")
+    if quad < layout.MAP_HEAD:
+        raise FormatError(f"the root of a map is quad {quad}, which has no head before it; {REMEDY}")
     used, cells, sides, paints = head_of(flat, quad)
+    programs, operations, stops, rest = flat[quad - layout.MAP_HEAD].tolist()
+    if rest or (operations == 0 and programs + stops):
+        raise FormatError(f"the map with root {quad} has a head that is not 0 where it must be; {REMEDY}")
     if not 1 <= used <= layout.MOST_PAINTS:
         raise FormatError(f"the map with root {quad} has {used} paints; the limit is {layout.MOST_PAINTS}; {REMEDY}")
     quads = np.concatenate([level.quads for level in levels])
@@ -151,7 +183,9 @@ def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
         if len(listed) and np.ptp(listed) + 1 != len(listed):
             raise FormatError(f"the {what} of the map with root {quad} are not consecutive; {REMEDY}")
     first_curve = int(curves.min()) if len(curves) else 0
-    found = MapTexels(levels, quad, first_curve, len(curves), cells, sides + first_curve // 4, paints, used)
+    first_sides = sides + first_curve // 4
+    parts = (levels, quad, first_curve, len(curves), cells, first_sides, paints, used, programs, operations, stops)
+    found = MapTexels(*parts)
     ends = curve_points(flat[curves])[:, [0, 3], 1]
     if flat[quads, 3].any() or (ends[:, 0] > ends[:, 1]).any():
         raise FormatError(f"the map with root {quad} has a quad with a coverage or a curve that goes down; {REMEDY}")
@@ -161,7 +195,8 @@ def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
     last = max(int(_bases(flat, found).max()), int(_sides(flat, found).max(initial=0)))
     if last >= used:
         raise FormatError(f"the map with root {quad} has paint {last} of {used}; {REMEDY}")
-    table, means = paints_from(_parts(flat, found, 5), used), _means(flat, found)
+    _programs(flat, found)
+    table, means = _paints(flat, found), _means(flat, found)
     if (table[:, :3] > table[:, 3:]).any() or (means[..., :3] > means[..., 3:]).any():
         raise FormatError(f"the map with root {quad} has a colour above its opacity; {REMEDY}")
     return found
@@ -196,10 +231,28 @@ def _sides(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
 
 
 def paints_from(texels: NDArray[np.uint32], used: int) -> NDArray[np.uint16]:
-    """Paints, (used, 4), from the texels that hold them."""
-    words = texels.reshape(-1, 2)
-    halves = np.stack([words & layout.PAINT_ONE, words >> layout.COORDINATE_BITS], axis=2)
-    return halves.reshape(-1, 4)[:used].astype(np.uint16)
+    """Paints, (used, 4), from the texels that hold them, none of which is a program."""
+    return halves(texels.reshape(-1, 2)[:used]).astype(np.uint16)
+
+
+def _paint_words(flat: NDArray[np.uint32], found: MapTexels) -> tuple[NDArray[np.uint32], NDArray[np.bool_]]:
+    """Both words of each paint, (paints, 2), and whether it is a program: without opacity, but with a first word."""
+    words = _parts(flat, found, 5).reshape(-1, 2)[: found.used]
+    return words, (words[:, 0] != 0) & (words[:, 1] >> layout.COORDINATE_BITS == 0)
+
+
+def _paints(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.uint16]:
+    """Paints, (paints, 4); of programs 0."""
+    words, is_program = _paint_words(flat, found)
+    return np.where(is_program[:, None], 0, halves(words)).astype(np.uint16)
+
+
+def _programs(flat: NDArray[np.uint32], found: MapTexels) -> dict[int, Program]:
+    """The programs of paints."""
+    words, is_program = _paint_words(flat, found)
+    starts = {int(j): (int(words[j, 0]) - found.programs, int(words[j, 1])) for j in np.flatnonzero(is_program)}
+    texels = _parts(flat, found, 6)
+    return read_programs(texels[: found.operations], texels[found.operations :], starts)
 
 
 def decode_map(flat: NDArray[np.uint32], quad: int) -> PlanarMap:
@@ -221,7 +274,9 @@ def decode_map(flat: NDArray[np.uint32], quad: int) -> PlanarMap:
         _means(flat, found)[quads - found.quad] / layout.COVERAGE_ONE,
         curve_points(flat[curves]),
         _sides(flat, found)[curves - found.first_curve].astype(np.int32),
-        paints_from(_parts(flat, found, 5), found.used),
+        _paints(flat, found),
+        _programs(flat, found),
         (),
+        0,
         0.0,
     )

@@ -28,7 +28,8 @@ from vexture.texture.contains import read_curve
 from vexture.texture.pick import style_of_root
 from vexture.texture.planar import head_of, paint_texels, paints_from
 from vexture.texture.root import Root
-from vexture.tree.planar.faces import composite_stacks, solid_layers
+from vexture.tree.planar.faces import composite_stacks
+from vexture.tree.planar.layers import solid_layers
 from vexture.tree.planar.style import Style, rounded
 
 __all__ = ["Colour", "renew_means", "restyled"]

@@ -26,7 +26,7 @@ class WalkLevel(NamedTuple):
     tree: NDArray[np.int64]  # (n,): which root each belongs to, among the different roots in order of their quads
     is_quad: NDArray[np.bool_]  # (n, 4)
     counts: NDArray[np.int64]  # (n, 4): curves of each leaf
-    windings: NDArray[np.int64]  # (n, 4): corner winding of each leaf with curves; 0 elsewhere; in maps, `IS_MEAN` or 0
+    windings: NDArray[np.int64]  # (n, 4): corner winding of each leaf with curves; 0 elsewhere; in maps, the low bits
     coverages: NDArray[np.int64]  # (n, 4): coverage byte of each cell
     curves: NDArray[np.int64]  # (m,): index of each curve's texel, in the order of the quads and their cells
 
@@ -69,7 +69,8 @@ def _cells(
     is_quad = cells >= layout.QUAD_FLAG
     count = np.where(is_quad, 0, cells >> layout.COUNT_SHIFT & layout.MOST_CURVES)
     winding = np.where(is_quad, 0, cells & ((1 << layout.COUNT_SHIFT) - 1))
-    leaf_is_wrong = (winding > 0) & (cells != layout.IS_MEAN) if of_maps else (count > 0) != (winding > 0)
+    is_map_leaf = (winding == 0) | (winding == layout.HOLDS_PROGRAM) | (cells == layout.IS_MEAN)
+    leaf_is_wrong = ~is_map_leaf if of_maps else (count > 0) != (winding > 0)
     wrong = np.where(is_quad, cells != layout.QUAD_FLAG, leaf_is_wrong)
     if wrong.any():
         place, cell = np.argwhere(wrong)[0]

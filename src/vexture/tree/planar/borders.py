@@ -14,7 +14,7 @@ from vexture.kernels import kernel
 from vexture.tree.boundary import quantise_piece
 from vexture.tree.divide import PiecePool
 from vexture.tree.merge import merge_chains
-from vexture.tree.planar.faces import Layers
+from vexture.tree.planar.layers import Layers
 from vexture.tree.winding import inside
 
 __all__ = ["Borders", "Cell", "cross", "find_borders", "key_of", "merge_borders", "new_borders", "set_left_edge"]

@@ -15,7 +15,7 @@ from vexture.deadline import check_time
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
 from vexture.kernels import kernel
-from vexture.layout import LATTICE, MOST_PAINTS
+from vexture.layout import LATTICE, MOST_PAINTS, PAINT_ONE
 from vexture.tolerance import CLOSED
 from vexture.tree.build import (
     CELL,
@@ -52,9 +52,12 @@ from vexture.tree.growth import (
 )
 from vexture.tree.leaf import DIVIDE
 from vexture.tree.planar.borders import Cell, key_of
-from vexture.tree.planar.faces import ONE, Faces, Layers, face_of, layers_of, new_faces, roomier_faces
+from vexture.tree.planar.faces import Faces, face_of, new_faces, roomier_faces
+from vexture.tree.planar.layers import Layers, layers_of
 from vexture.tree.planar.leaf import PlanarLeaf, Workspace, new_workspace, planar_leaf
 from vexture.tree.planar.map import PlanarMap, texels_of
+from vexture.tree.planar.means import set_mean
+from vexture.tree.planar.programs import programs_of
 from vexture.tree.tree import MOST_QUADS, levels, runs
 from vexture.tree.winding import child_windings, inside
 
@@ -195,8 +198,7 @@ def _leaf(
     if cell.first == cell.last:
         face = face_of(faces, layers, ground, present, present[:, 1], key_of(layers, present, present[:, 1]))
         leaf = PlanarLeaf(0, faces.paint[face], 0.0, True)
-        for c in range(4):
-            mean[c] = faces.rgba[leaf.base, c]
+        set_mean(workspace.pieces, 0, leaf.base, cell, layers, faces, mean)
     elif depth < bounds.least_depth:
         leaf = PlanarLeaf(DIVIDE, 0, 0.0, True)
     else:
@@ -339,10 +341,10 @@ def build_map(
         if faces.counts[1]:
             faces = roomier_faces(faces)
         grow_map(growth, layers, faces, bounds, SLICE if most_texels is None else SHORT_SLICE)
-    return _map_of(drawing.name, growth, layers, faces)
+    return _map_of(drawing, growth, layers, faces)
 
 
-def _map_of(name: str, growth: PlanarGrowth, layers: Layers, faces: Faces) -> PlanarMap:
+def _map_of(drawing: Drawing, growth: PlanarGrowth, layers: Layers, faces: Faces) -> PlanarMap:
     """The map that has grown, numbered as a `Tree`, in its final types; paints are numbered as they were met."""
     tree, quads = growth.tree, growth.tree.counts[QUADS]
     order = np.concatenate([*levels(tree.cells[:quads, :, IS_QUAD] == 1.0, tree.first[:, 0])])
@@ -353,7 +355,9 @@ def _map_of(name: str, growth: PlanarGrowth, layers: Layers, faces: Faces) -> Pl
     base = np.where(is_quad | is_mean, 0, cells[:, :, BASE]).astype(np.int64)
     used, number = np.unique(np.concatenate([[0], base.ravel(), growth.sides[curves].ravel()]), return_inverse=True)
     if len(used) > MOST_PAINTS:
-        raise LimitError(f"{name}: {len(used)} colours; the limit is {MOST_PAINTS}; use `split` paint")
+        raise LimitError(f"{drawing.name}: {len(used)} colours; the limit is {MOST_PAINTS}; use `split` paint")
+    stacks = tuple(faces.paths[slice(*faces.starts[[face, face + 1]])] for face in used.tolist())
+    programs, flattened = programs_of(drawing, layers, stacks)
     numbers: NDArray[np.int32] = number[1:].astype(np.int32)
     return PlanarMap(
         is_quad,
@@ -365,8 +369,10 @@ def _map_of(name: str, growth: PlanarGrowth, layers: Layers, faces: Faces) -> Pl
         growth.mean[order],
         tree.curves[curves].astype(np.int32),
         numbers[base.size :].reshape(-1, 2),
-        np.rint(ONE * np.clip(faces.rgba[used], 0.0, 1.0)).astype(np.uint16),
-        tuple(faces.paths[slice(*faces.starts[[face, face + 1]])] for face in used.tolist()),
+        np.rint(PAINT_ONE * np.clip(faces.rgba[used], 0.0, 1.0)).astype(np.uint16),
+        programs,
+        stacks,
+        flattened,
         float(tree.deviation[0]),
         frozenset(np.flatnonzero(layers.hides).tolist()),
     )

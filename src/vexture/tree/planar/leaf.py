@@ -5,29 +5,25 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.area import integral_x_dy
 from vexture.kernels import kernel
 from vexture.layout import LATTICE, MOST_CURVES
-from vexture.tree.boundary import MOST_RESOLVED, sort_order
-from vexture.tree.crossings import x_at
+from vexture.tree.boundary import MOST_RESOLVED
 from vexture.tree.divide import PiecePool
 from vexture.tree.leaf import DIVIDE, SPARE, round_controls
 from vexture.tree.merge import MOST_MERGED
-from vexture.tree.planar.borders import Borders, Cell, find_borders, key_of, merge_borders, new_borders
-from vexture.tree.planar.faces import Faces, Layers, face_of
+from vexture.tree.planar.borders import Borders, Cell, find_borders, merge_borders, new_borders
+from vexture.tree.planar.faces import Faces
+from vexture.tree.planar.layers import Layers
 from vexture.tree.planar.left_edge import settle_left_edge
+from vexture.tree.planar.means import set_crowded_mean, set_mean
 from vexture.tree.planar.slabs import Pieces, clean_borders, sweep
 from vexture.tree.separate import all_separate
-from vexture.tree.winding import inside
 
 __all__ = ["PlanarLeaf", "Workspace", "new_workspace", "planar_leaf"]
 
 KNOT = LATTICE / 4.0
 """Pieces that all have an end in a square this wide are one *knot*: dividing the leaf would follow it down many levels.
 They need not meet exactly: crossings are rounded, and maps have short borders between two junctions."""
-
-SCANLINES = 64
-"""Heights at which a cell with too many pieces to resolve is measured."""
 
 MOST_PIECES = 250
 """Pieces of a resolved cell at the depth limit that are kept to measure its mean."""
@@ -78,72 +74,6 @@ def _is_knot(pieces: Pieces, count: int) -> bool:
     return False
 
 
-@kernel(allocates=False)
-def _set_mean(pieces: Pieces, count: int, base: int, faces: Faces, mean: NDArray[np.float64]) -> None:
-    """Write the mean colour of a leaf."""
-    for c in range(4):
-        mean[c] = faces.rgba[base, c]
-    for k in range(count):
-        curve = pieces.curves[k]
-        area = (curve[0, 1] - curve[3, 1]) / LATTICE + integral_x_dy(curve) / LATTICE**2
-        area += 1.0 - curve[0, 1] / LATTICE if curve[0, 0] == 0.0 else 0.0
-        area -= 1.0 - curve[3, 1] / LATTICE if curve[3, 0] == 0.0 else 0.0
-        for c in range(4):
-            mean[c] += area * (faces.rgba[pieces.sides[k, 0], c] - faces.rgba[pieces.sides[k, 1], c])
-    for c in range(4):
-        mean[c] = min(max(mean[c], 0.0), 1.0)
-
-
-@kernel
-def _set_crowded_mean(
-    pool: PiecePool,
-    cell: Cell,
-    ground: int,
-    present: NDArray[np.int64],
-    layers: Layers,
-    faces: Faces,
-    windings: NDArray[np.int64],
-    mean: NDArray[np.float64],
-) -> None:
-    """Write the mean colour of a cell with too many pieces to resolve: that of `SCANLINES` lines."""
-    n = cell.last - cell.first
-    crossing_x, crossing, owner = np.empty(n), np.empty(n, np.int64), np.empty(n, np.int64)
-    k = 0
-    for i in range(n):
-        while present[k, 0] != pool.path[pool.numbers[cell.first + i]]:
-            k += 1
-        owner[i] = k
-    mean[:4] = 0.0
-    for line in range(SCANLINES):
-        y, count = cell.y + cell.size * (line + 0.5) / SCANLINES, 0
-        for k in range(len(present)):
-            windings[k] = present[k, 1]
-        for i in range(n):
-            curve = pool.points[pool.numbers[cell.first + i]]
-            for end, event in ((0, 1), (3, -1)):
-                if curve[end, 0] == cell.x and curve[end, 1] <= y:
-                    windings[owner[i]] += event
-            if min(curve[0, 1], curve[3, 1]) <= y < max(curve[0, 1], curve[3, 1]):
-                crossing_x[count], crossing[count] = x_at(curve, y), i
-                count += 1
-        key, x, at = key_of(layers, present, windings), cell.x, 0
-        order = sort_order(crossing_x, count)
-        while at <= count:
-            end_x = cell.x + cell.size if at == count else crossing_x[order[at]]
-            if end_x > x:
-                face = face_of(faces, layers, ground, present, windings, key)
-                for c in range(4):
-                    mean[c] += (end_x - x) / (cell.size * SCANLINES) * faces.rgba[face, c]
-                x = end_x
-            if at < count:
-                i = crossing[order[at]]
-                curve, path = pool.points[pool.numbers[cell.first + i]], present[owner[i], 0]
-                before = inside(windings[owner[i]], layers.rules[path])
-                windings[owner[i]] += -1 if curve[3, 1] > curve[0, 1] else 1
-                key ^= 0 if before == inside(windings[owner[i]], layers.rules[path]) else layers.keys[path]
-            at += 1
-
-
 @kernel
 def planar_leaf(
     pool: PiecePool,
@@ -180,11 +110,11 @@ def planar_leaf(
         made = sweep(borders, count, ground, present, layers, faces, windings, stored, out)
     if made < 0:
         if at_limit:
-            _set_crowded_mean(pool, cell, ground, present, layers, faces, windings, mean)
+            set_crowded_mean(pool, cell, ground, present, layers, faces, windings, mean)
         return PlanarLeaf(0 if at_limit else DIVIDE, 0, 0.0, False), workspace
     made, base = settle_left_edge(borders, count, ground, present, layers, faces, windings, out, made)
     round_controls(out.curves, made)
-    _set_mean(out, made, base, faces, mean)
+    set_mean(out, made, base, cell, layers, faces, mean)
     if made > capacity and not (made <= MOST_CURVES and (at_limit or _is_knot(out, made))):
         return PlanarLeaf(0 if at_limit else DIVIDE, base, distance, False), workspace
     return PlanarLeaf(made, base, distance, True), workspace

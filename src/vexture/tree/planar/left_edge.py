@@ -12,7 +12,8 @@ from vexture.kernels import kernel
 from vexture.layout import LATTICE
 from vexture.tree.boundary import sort_order
 from vexture.tree.planar.borders import Borders, set_left_edge
-from vexture.tree.planar.faces import Faces, Layers, face_of
+from vexture.tree.planar.faces import Faces, face_of
+from vexture.tree.planar.layers import Layers
 from vexture.tree.planar.slabs import Pieces
 
 __all__ = ["settle_left_edge"]

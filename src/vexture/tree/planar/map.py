@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.tree.planar.programs import Program
+
 __all__ = ["PlanarMap", "texels_of"]
 
 
@@ -31,8 +33,10 @@ class PlanarMap:
     mean: NDArray[np.float64]  # (quads, 4, 4): exact mean colour of each cell, premultiplied
     curves: NDArray[np.int32]  # (curves, 4, 2), in lattice units of their leaf
     sides: NDArray[np.int32]  # (curves, 2): paint on the left and on the right of each
-    paints: NDArray[np.uint16]  # (paints, 4): premultiplied, in steps of 1/65535; paint 0 is nothing
+    paints: NDArray[np.uint16]  # (paints, 4): premultiplied, in steps of 1/65535; paint 0 is nothing; 0 of programs
+    programs: dict[int, Program]  # of the paints that hold gradients, by their numbers
     stacks: tuple[NDArray[np.int32], ...]  # of each paint: the paths inside where it was met first, from below
+    flattened: int  # paints of a colour whose gradients, or their blending, no program can hold: of their means
     deviation: float  # largest distance between the drawing's outlines and the map's, before quantisation
     hiding: frozenset[int] = frozenset()  # paths that hide something, which the map therefore does not have
 

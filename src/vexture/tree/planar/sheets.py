@@ -49,9 +49,9 @@ class Sheet(NamedTuple):
 def sheets_of(drawing: Drawing, restyle: bool = False, **parameters: Any) -> list[Sheet]:
     """The sheets of a drawing, the lowest first: one, unless its map needs too many texels.
 
-    A drawing that is one layer needs no map, unless it is to be restyled. `parameters` and errors are those of
-    `build_map`. A `precision` cuts no drawing: its texels, like those of layers, grow with the length of outlines, not
-    with their crossings.
+    A drawing that is one layer of one colour needs no map, unless it is to be restyled. `parameters` and errors are those
+    of `build_map`. A `precision` cuts no drawing: its texels, like those of layers, grow with the length of outlines,
+    not with their crossings.
     """
     precision = parameters.pop("precision", None)
     sheets = _within_budget(drawing, restyle, **parameters)
@@ -72,7 +72,8 @@ def _again(sheet: Sheet, restyle: bool, **parameters: Any) -> PlanarMap | Tree:
 
 def _within_budget(drawing: Drawing, restyle: bool, **parameters: Any) -> list[Sheet]:
     """The sheets of a drawing, each within its share of the budget."""
-    one_paint = not restyle and not drawing.groups and len({path.paint for path in drawing.paths}) == 1
+    one_paint = len({path.paint for path in drawing.paths}) == 1 and _is_flat(drawing.paths)
+    one_paint = one_paint and not restyle and not drawing.groups
     layers = drawing.layers() if one_paint else ()
     if len(layers) == 1:
         return [Sheet(layers[0], build_tree(layers[0], **parameters))]
@@ -84,7 +85,8 @@ def _within_budget(drawing: Drawing, restyle: bool, **parameters: Any) -> list[S
 
     def tried(first: int, last: int) -> Sheet | None:
         part = _part(drawing, items[first:last], len(items))
-        if not restyle and last == first + 1 and len(items[first]) == 1 and part.paths[0].group < 0:
+        is_layer = last == first + 1 and len(items[first]) == 1 and part.paths[0].group < 0 and _is_flat(part.paths)
+        if is_layer and not restyle:
             return Sheet(part, build_tree(part, **parameters))
         share = budget * (last - first) // len(items) if last > first + 1 else None
         planar = build_map(part, most_texels=share, restyle=restyle, **parameters)
@@ -92,6 +94,11 @@ def _within_budget(drawing: Drawing, restyle: bool, **parameters: Any) -> list[S
 
     found = _greedy(len(items), tried)
     return [sheet.named(drawing.name, number) for number, sheet in enumerate(found, 1)]
+
+
+def _is_flat(paths: Sequence[Path]) -> bool:
+    """Whether no path has a gradient."""
+    return all(path.paint.gradient is None for path in paths)
 
 
 def _greedy(count: int, tried: Callable[[int, int], Sheet | None]) -> list[Sheet]:

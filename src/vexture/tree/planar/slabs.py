@@ -15,7 +15,8 @@ from vexture.tree.boundary import coincide, order_slab, slab_heights
 from vexture.tree.crossings import x_at
 from vexture.tree.leaf import keep_run
 from vexture.tree.planar.borders import Borders, cross, set_left_edge
-from vexture.tree.planar.faces import Faces, Layers, face_of
+from vexture.tree.planar.faces import Faces, face_of
+from vexture.tree.planar.layers import Layers
 
 __all__ = ["Pieces", "clean_borders", "sweep"]
 

@@ -1,0 +1,267 @@
+"""The mirror of ``glsl/gradient.glsl`` and ``glsl/blend.glsl``: paints that hold gradients.
+
+See `vexture.renderers.cpu`.
+"""
+
+import math
+from typing import NamedTuple
+
+from vexture.group import Blend
+from vexture.kernels import kernel
+from vexture.layout import (
+    COORDINATE_BITS,
+    KIND_FOCAL,
+    KIND_FOLLOWS,
+    KIND_KEEP,
+    KIND_LINEAR,
+    KIND_MIX,
+    KIND_SHIFT,
+    KIND_SOLID,
+    MOST_PROGRAM,
+    MOST_STOPS,
+    PAINT_ONE,
+    STOP_BITS,
+    STOP_COUNT_BITS,
+)
+from vexture.paint import Spread
+from vexture.renderers.blend import separable
+from vexture.renderers.cells import Texel, Texels, Vec2, clamp, texel
+from vexture.renderers.method import (
+    LEAST_RADIUS,
+    LONGEST_RAMP,
+    MOST_RAMP_PARTS,
+    NO_PLACE,
+    NOTHING,
+    RAMP_PARTS,
+    SHORTEST_RAMP,
+)
+
+__all__ = ["Region", "Vec3", "Vec4", "halves", "plus", "program", "times"]
+
+Vec3 = tuple[float, float, float]
+Vec4 = tuple[float, float, float, float]
+
+NORMAL, PLUS_LIGHTER = int(Blend.NORMAL), int(Blend.PLUS_LIGHTER)
+PAD, REFLECT = int(Spread.PAD), int(Spread.REFLECT)
+
+
+class Region(NamedTuple):
+    """The part of a footprint in a cell, in the unit square: its middle and its sides."""
+
+    point: Vec2
+    right: Vec2
+    up: Vec2
+
+
+class Ramp(NamedTuple):
+    """A place on a ramp, how it changes along x and y, and how much of the region has one."""
+
+    t: float
+    way: Vec2
+    share: float
+
+
+@kernel(allocates=False)
+def plus(a: Vec4, b: Vec4, share: float) -> Vec4:
+    """What GLSL writes as ``a + share * b``."""
+    return a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2], a[3] + share * b[3]
+
+
+@kernel(allocates=False)
+def times(a: Vec4, share: float) -> Vec4:
+    """What GLSL writes as ``share * a``."""
+    return a[0] * share, a[1] * share, a[2] * share, a[3] * share
+
+
+@kernel(allocates=False)
+def halves(low: int, high: int) -> Vec4:
+    """Four numbers in two words, 0..65535."""
+    mask = (1 << COORDINATE_BITS) - 1
+    red, green = float(low & mask), float(low >> COORDINATE_BITS)
+    return red, green, float(high & mask), float(high >> COORDINATE_BITS)
+
+
+@kernel(allocates=False)
+def as_float(bits: int) -> float:
+    """What GLSL's ``uintBitsToFloat`` gives, by IEEE 754: float32 is exact in float64."""
+    size, part = (bits >> 23) & 255, bits & 0x7FFFFF
+    if size == 255:
+        value = math.nan if part else math.inf
+    else:
+        value = math.ldexp(float(part + 0x800000), size - 150) if size else math.ldexp(float(part), -149)
+    return -value if bits >> 31 else value
+
+
+@kernel(allocates=False)
+def as_floats(bits: Texel) -> Vec3:
+    """The first three words of a texel."""
+    return as_float(bits[0]), as_float(bits[1]), as_float(bits[2])
+
+
+# --- blend.glsl ------------------------------------------------------------------------------------------------
+
+
+@kernel(allocates=False)
+def blended(below: Vec4, above: Vec4, mode: int) -> Vec4:
+    if mode == NORMAL:
+        return plus(above, below, 1.0 - above[3])
+    if mode == PLUS_LIGHTER:
+        red, green, blue = min(below[0] + above[0], 1.0), min(below[1] + above[1], 1.0), min(below[2] + above[2], 1.0)
+        return red, green, blue, min(below[3] + above[3], 1.0)
+    red, green = blended_channel(below, above, mode, 0), blended_channel(below, above, mode, 1)
+    return red, green, blended_channel(below, above, mode, 2), above[3] + below[3] * (1.0 - above[3])
+
+
+@kernel(allocates=False)
+def blended_channel(below: Vec4, above: Vec4, mode: int, k: int) -> float:
+    """One channel of what GLSL computes as vectors."""
+    b, s = min(below[k] / max(below[3], NOTHING), 1.0), min(above[k] / max(above[3], NOTHING), 1.0)
+    apart = above[k] * (1.0 - below[3]) + below[k] * (1.0 - above[3])
+    return apart + above[3] * below[3] * separable(mode, b, s)
+
+
+# --- gradient.glsl ---------------------------------------------------------------------------------------------
+
+
+@kernel(allocates=False)
+def dot(row: Vec3, point: Vec2) -> float:
+    """What GLSL writes as ``dot(row.xy, point)``."""
+    return row[0] * point[0] + row[1] * point[1]
+
+
+@kernel(allocates=False)
+def span(way: Vec2, region: Region) -> float:
+    row = (way[0], way[1], 0.0)
+    return math.hypot(dot(row, region.right), dot(row, region.up))
+
+
+@kernel(allocates=False)
+def along(slope: Vec2, across: Vec3, up: Vec3) -> Vec2:
+    """What GLSL writes as ``slope.x * across.xy + slope.y * up.xy``."""
+    return slope[0] * across[0] + slope[1] * up[0], slope[0] * across[1] + slope[1] * up[1]
+
+
+@kernel(allocates=False)
+def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
+    qx = dot(across, region.point) + across[2] - focus[0]
+    qy = dot(up, region.point) + up[2]
+    grows = 1.0 - focus[1]
+    a = focus[0] * focus[0] - grows * grows
+    b = focus[1] * grows - qx * focus[0]
+    c = qx * qx + qy * qy - focus[1] * focus[1]
+    inside = b * b - a * c
+    slope = (-2.0 * (b * focus[0] + a * qx), -2.0 * a * qy)
+    soft = span(along(slope, across, up), region)
+    share = 1.0 if a < 0.0 else clamp(0.5 + inside / max(soft, NOTHING), 0.0, 1.0)
+    root = math.sqrt(max(inside, 0.0))
+    far = b - root if b < 0.0 else b + root
+    first = far / a if a != 0.0 else NO_PLACE
+    second = c / far if far != 0.0 else NO_PLACE
+    t = max(first, second)
+    t = min(first, second) if focus[1] + t * grows < -LEAST_RADIUS or t > -NO_PLACE else t
+    exists = focus[1] + t * grows >= -LEAST_RADIUS and t > NO_PLACE
+    e = (qx + t * focus[0], qy)
+    radius = math.hypot(e[0], e[1])
+    e = (e[0] / radius, e[1] / radius) if radius > LEAST_RADIUS else (0.0, 0.0)
+    down = grows - e[0] * focus[0]
+    e = (e[0] / down, e[1] / down) if down != 0.0 else (0.0, 0.0)
+    return Ramp(t, along(e, across, up), share if exists else 0.0)
+
+
+@kernel(allocates=False)
+def ramp_sum(texels: Texels, stops: int, number: int, low: float, high: float) -> Vec4:
+    total, before = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
+    begin = low
+    for k in range(number + 1):
+        stop = texel(texels, stops + min(k, number - 1))
+        after = times(halves(stop[1], stop[2]), 1.0 / PAINT_ONE)
+        end = as_float(stop[0]) if k < number else high
+        before = after if k == 0 else before
+        a = clamp(begin, low, high)
+        b = clamp(end, a, high)
+        if b > a:
+            scale = 0.0 if k in (0, number) else 1.0 / (end - begin)
+            slope = times(plus(after, before, -1.0), scale)
+            c0, c2 = plus(before, slope, a - begin), plus(before, slope, b - begin)
+            c1 = times(plus(c0, c2, 1.0), 0.5)
+            red = c0[0] * c0[3] + 4.0 * c1[0] * c1[3] + c2[0] * c2[3]
+            green = c0[1] * c0[3] + 4.0 * c1[1] * c1[3] + c2[1] * c2[3]
+            blue = c0[2] * c0[3] + 4.0 * c1[2] * c1[3] + c2[2] * c2[3]
+            total = plus(total, (red, green, blue, 6.0 * c1[3]), (b - a) / 6.0)
+        if end >= high:
+            break
+        begin, before = end, after
+    return total
+
+
+@kernel(allocates=False)
+def ramp_mean(texels: Texels, stops: int, number: int, spread: int, middle: float, width: float) -> Vec4:
+    if spread != PAD and width >= 1.0:
+        return ramp_sum(texels, stops, number, 0.0, 1.0)
+    pads = spread == PAD
+    middle = clamp(middle, -width, 1.0 + width) if pads else middle
+    low = middle - 0.5 * width
+    whole = 0.0 if pads else math.floor(low)
+    low -= whole
+    high = low + width
+    back = spread == REFLECT and whole % 2.0 != 0.0
+    held = high if pads else min(high, 1.0)
+    begin, end = (1.0 - held, 1.0 - low) if back else (low, held)
+    size = end - begin
+    total = ramp_sum(texels, stops, number, begin, end)
+    if held < high:
+        begin, end = (2.0 - high, 1.0) if spread == REFLECT and not back else (0.0, high - 1.0)
+        size += end - begin
+        total = plus(total, ramp_sum(texels, stops, number, begin, end), 1.0)
+    return times(total, 1.0 / size)
+
+
+@kernel(allocates=False)
+def gradient(texels: Texels, at: int, found: Texel, number: int, region: Region) -> Vec4:
+    kind = found[3] >> KIND_SHIFT
+    across, up, focus = as_floats(found), (0.0, 0.0, 0.0), (0.0, 0.0)
+    if kind != KIND_LINEAR:
+        up = as_floats(texel(texels, at + 1))
+    if kind == KIND_FOCAL:
+        circle = as_floats(texel(texels, at + 2))
+        focus = (circle[0], circle[1])
+    stops = at + (found[3] & ((1 << STOP_BITS) - 1))
+    spread = (found[3] >> (STOP_BITS + STOP_COUNT_BITS)) & 3
+    size = RAMP_PARTS * max(span((across[0], across[1]), region), span((up[0], up[1]), region))
+    parts = max(math.ceil(size), 1) if size < MOST_RAMP_PARTS else MOST_RAMP_PARTS
+    right, above = (region.right[0] / parts, region.right[1] / parts), (region.up[0] / parts, region.up[1] / parts)
+    total = (0.0, 0.0, 0.0, 0.0)
+    for k in range(parts * parts):
+        x, y = k % parts + 0.5 - 0.5 * parts, k // parts + 0.5 - 0.5 * parts
+        point = (region.point[0] + x * right[0] + y * above[0], region.point[1] + x * right[1] + y * above[1])
+        part = Region(point, right, above)
+        ramp = Ramp(dot(across, point) + across[2], (across[0], across[1]), 1.0)
+        if kind != KIND_LINEAR:
+            ramp = round_ramp(across, up, focus, part)
+        if ramp.share > 0.0:
+            width = clamp(span(ramp.way, part), SHORTEST_RAMP, LONGEST_RAMP)
+            total = plus(total, ramp_mean(texels, stops, number, spread, ramp.t, width), ramp.share)
+    return times(total, 1.0 / (parts * parts))
+
+
+@kernel(allocates=False)
+def program(texels: Texels, at: int, count: int, region: Region) -> Vec4:
+    """Premultiplied colour of a program over a region, in steps of a paint."""
+    color, kept, kept_before = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
+    left = MOST_STOPS
+    for k in range(at, at + min(count, MOST_PROGRAM)):
+        found = texel(texels, k)
+        kind = found[3] >> KIND_SHIFT
+        if kind == KIND_KEEP:
+            kept_before, kept, color = kept, color, (0.0, 0.0, 0.0, 0.0)
+        elif kind == KIND_MIX:
+            color = blended(kept, times(color, found[0] / PAINT_ONE), found[1])
+            kept = kept_before
+        elif kind != KIND_FOLLOWS:
+            above = times(halves(found[0], found[1]), 1.0 / PAINT_ONE)
+            if kind != KIND_SOLID:
+                number = min(max((found[3] >> STOP_BITS) & MOST_STOPS, 1), max(left, 1))
+                left -= min(number, left)
+                above = gradient(texels, k, found, number, region)
+            color = plus(above, color, 1.0 - above[3])
+    return times(color, float(PAINT_ONE))

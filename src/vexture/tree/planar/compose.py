@@ -1,0 +1,228 @@
+"""A stack of paths as a *program*: the operations that give its colour at any point.
+
+Solids are composited as SVG says, source-over in sRGB, and groups of solids by themselves: of flat colours one solid is
+left. Gradients stay operations, in the order in which they are painted: what `KEEP` sets aside is composited with what
+follows by the next `MIX`.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.group import Blend
+from vexture.kernels import kernel
+from vexture.layout import MOST_KEPT, MOST_PROGRAM, MOST_STOPS, PAINT_ONE
+from vexture.tree.planar.blend import blend_over, masking
+from vexture.tree.planar.layers import Layers
+from vexture.tree.planar.shades import shade_at
+
+__all__ = [
+    "KEEP",
+    "MIX",
+    "ONE",
+    "SHADE",
+    "SOLID",
+    "Operations",
+    "colour_at",
+    "compose",
+    "key_of_operations",
+    "new_operations",
+]
+
+ONE = float(PAINT_ONE)
+"""Colours are equal if they are equal in these steps, in which paints are stored."""
+
+SOLID, SHADE, KEEP, MIX = range(4)
+"""What an operation does: paint a solid, a gradient; begin a group; end it."""
+
+NORMAL, HUE, LUMINOSITY = int(Blend.NORMAL), int(Blend.HUE), int(Blend.LUMINOSITY)
+
+
+class Operations(NamedTuple):
+    """Operations from below, a row for each."""
+
+    code: NDArray[np.int64]
+    number: NDArray[np.int64]  # of a gradient; of `MIX` its blend mode, above 16 bits of opacity
+    rgba: NDArray[np.float64]  # (room, 4): premultiplied colours of solids
+
+
+@kernel
+def new_operations(layers: Layers, stack: NDArray[np.int32]) -> Operations:
+    """Arrays with room for those of a stack."""
+    room = len(stack) + 1
+    for k in range(len(stack)):
+        group = layers.group[stack[k]]
+        room += 2 * (layers.depth[group] + 1) if group >= 0 else 0
+    return Operations(np.zeros(room, np.int64), np.zeros(room, np.int64), np.zeros((room, 4)))
+
+
+@kernel(allocates=False)
+def _solid(ops: Operations, count: int, base: int, rgba: NDArray[np.float64], opacity: float) -> int:
+    """Append a solid to a group that begins at operation `base`; return the new number of operations."""
+    alpha = rgba[3] * opacity
+    if alpha <= 0.0:
+        return count
+    if alpha >= 1.0:
+        count = base
+    if count == base or ops.code[count - 1] != SOLID:
+        ops.code[count], ops.number[count] = SOLID, 0
+        for c in range(4):
+            ops.rgba[count, c] = 0.0
+        count += 1
+    blend_over(ops.rgba[count - 1], rgba, opacity, NORMAL)
+    return count
+
+
+@kernel(allocates=False)
+def _end_group(ops: Operations, count: int, base: int, start: int, opacity: float, blend: int) -> int:
+    """End a group that begins with the `KEEP` at `start`, in one that begins at `base`; return the new number."""
+    if count == start + 1:
+        return start
+    onto = start - base  # operations below it, in the group around it
+    if count == start + 2 and ops.code[start + 1] == SOLID:
+        rgba = ops.rgba[start + 1]
+        if blend == NORMAL or onto == 0:
+            return _solid(ops, start, base, rgba, opacity)
+        if onto == 1 and ops.code[base] == SOLID:
+            blend_over(ops.rgba[base], rgba, opacity, blend)
+            return start
+    ops.code[count] = MIX
+    ops.number[count] = ((blend if onto > 0 else NORMAL) << 16) | int(np.rint(ONE * opacity))
+    return count + 1
+
+
+@kernel(allocates=False)
+def _is_in(layers: Layers, group: int, around: int) -> bool:
+    """Whether a group, or -1, is another one or lies in it."""
+    while group >= 0 and layers.depth[group] > layers.depth[around]:
+        group = layers.outer[group]
+    return group == around
+
+
+@kernel(allocates=False)
+def _leave(
+    layers: Layers,
+    ops: Operations,
+    count: int,
+    around: NDArray[np.int64],
+    starts: NDArray[np.int64],
+    shown: NDArray[np.float64],
+    level: int,
+) -> int:
+    """End the innermost group, or let it mask the one around it; return the new number of operations.
+
+    `shown` has for each open group what its masks leave, and how many masks there are of which nothing was met. The
+    result is -1 if a mask holds a gradient.
+    """
+    g, start = around[level], starts[level]
+    left = layers.opacity[g] * (shown[level, 0] if shown[level, 1] == 0.0 else 0.0)
+    if layers.mask[g] == 0:
+        blend = layers.blend[g]
+        return _end_group(ops, count, starts[level - 1] + 1, start, left, blend) if left > 0.0 else start
+    if count > start + 2 or (count == start + 2 and ops.code[start + 1] != SOLID):
+        return -1
+    shown[level - 1, 0] *= left * masking(ops.rgba[start + 1], layers.mask[g]) if count == start + 2 else 0.0
+    shown[level - 1, 1] -= 1.0
+    return start
+
+
+@kernel
+def compose(layers: Layers, stack: NDArray[np.int32], is_flat: bool, ops: Operations) -> int:
+    """Write the operations of a stack of paths; return how many, or -1 if no paint can hold them.
+
+    Of flat colours there is one solid, or none. With `is_flat` gradients are the solids of their means.
+    """
+    deepest = 1
+    for g in range(len(layers.depth)):
+        deepest = max(deepest, layers.depth[g] + 2)
+    around, starts, shown = np.empty(deepest, np.int64), np.empty(deepest, np.int64), np.ones((deepest, 2))
+    level, count = 0, 0  # open groups; starts[level] is the `KEEP` of the innermost
+    starts[0] = -1
+    for k in range(len(stack) + 1):
+        group = layers.group[stack[k]] if k < len(stack) else -1
+        while level > 0 and not _is_in(layers, group, around[level]):
+            count = _leave(layers, ops, count, around, starts, shown, level)
+            if count < 0:
+                return count
+            level -= 1
+        if k == len(stack):
+            break
+        while level <= (layers.depth[group] if group >= 0 else -1):
+            g = group
+            while layers.depth[g] > level:
+                g = layers.outer[g]
+            level += 1
+            around[level], starts[level], shown[level, 0], shown[level, 1] = g, count, 1.0, layers.masked[g]
+            ops.code[count], ops.number[count] = KEEP, 0
+            count += 1
+        path = stack[k]
+        if is_flat or layers.shade[path] < 0:
+            count = _solid(ops, count, starts[level] + 1, layers.rgba[path], 1.0)
+            continue
+        count = starts[level] + 1 if layers.opaque[path] else count
+        ops.code[count], ops.number[count] = SHADE, layers.shade[path]
+        count += 1
+    return count if is_flat or _fits(layers, ops, count) else -1
+
+
+@kernel(allocates=False)
+def _fits(layers: Layers, ops: Operations, count: int) -> bool:
+    """Whether a shader can run the operations: few, of few stops, few groups in one another, of known blending."""
+    texels, stops, kept, most = 0, 0, 0, 0
+    for k in range(count):
+        texels += 1
+        if ops.code[k] == SHADE:
+            number = ops.number[k]
+            texels += 2 if layers.shades.focus[number, 0] >= 0.0 else 0
+            stops += layers.shades.first[number + 1] - layers.shades.first[number]
+        elif ops.code[k] == KEEP:
+            kept += 1
+            most = max(most, kept)
+        elif ops.code[k] == MIX:
+            kept -= 1
+            if HUE <= ops.number[k] >> 16 <= LUMINOSITY:
+                return False
+    return texels <= MOST_PROGRAM and stops <= MOST_STOPS and most <= MOST_KEPT
+
+
+@kernel(allocates=False)
+def key_of_operations(ops: Operations, count: int) -> int:
+    """Hash of the operations, colours in steps of 1/65535; 0 only of none and of one solid."""
+    if count == 0 or (count == 1 and ops.code[0] == SOLID):
+        return 0
+    key = count
+    for k in range(count):
+        word = ops.number[k]
+        for c in range(4):
+            word = (word << 16) ^ int(np.rint(ONE * ops.rgba[k, c])) if ops.code[k] == SOLID else word
+        for part in (ops.code[k], word):
+            key = (key ^ part) * 0x5851F42D4C957F2D  # multiplier of Knuth's MMIX
+            key ^= key >> 29
+    return key if key != 0 else 1
+
+
+@kernel(allocates=False)
+def colour_at(
+    layers: Layers, ops: Operations, count: int, x: float, y: float, work: NDArray[np.float64], out: NDArray[np.float64]
+) -> None:
+    """Write the premultiplied colour (4,) of operations at a point of the unit square; `work` is scratch, (room, 4)."""
+    level = 0
+    for c in range(4):
+        work[0, c] = 0.0
+    for k in range(count):
+        code = ops.code[k]
+        if code == SOLID:
+            blend_over(work[level], ops.rgba[k], 1.0, NORMAL)
+        elif code == SHADE:
+            shade_at(layers.shades, ops.number[k], x, y, out)
+            blend_over(work[level], out, 1.0, NORMAL)
+        elif code == KEEP:
+            level += 1
+            for c in range(4):
+                work[level, c] = 0.0
+        else:
+            level -= 1
+            blend_over(work[level], work[level + 1], (ops.number[k] & PAINT_ONE) / ONE, ops.number[k] >> 16)
+    for c in range(4):
+        out[c] = work[0, c]

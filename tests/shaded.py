@@ -1,0 +1,71 @@
+"""Drawings with gradients of all kinds."""
+
+import numpy as np
+
+from degenerate import circle, polygon
+from vexture.drawing import Drawing, Path
+from vexture.group import Blend, Group
+from vexture.paint import Gradient, Paint, Spread, Stop
+
+SQUARE = polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
+WARM = (Stop(0, (1, 1, 1)), Stop(0.4, (0.9, 0.2, 0.1)), Stop(1, (0.2, 0, 0.3)))
+FADING = (Stop(0, (1, 1, 0.2), 0.9), Stop(0.6, (0.1, 0.7, 1), 0.5), Stop(1, (0, 0, 0.4), 0))
+BANDS = tuple(
+    Stop(at, colour) for at, colour in ((0.3, (1, 0, 0)), (0.3, (1, 1, 1)), (0.6, (1, 1, 1)), (0.6, (0, 0, 1)))
+)
+
+
+def linear(start, end, stops, spread=Spread.PAD) -> Gradient:
+    """From one point of the unit square to another."""
+    start, way = np.array(start), np.subtract(end, start)
+    x, y = way / (way @ way)
+    return Gradient(((x, y, -(start @ (x, y))), (-y, x, 0.0)), tuple(stops), spread)
+
+
+def radial(middle, radius, stops, spread=Spread.PAD, focus=None, focal_radius=0.0) -> Gradient:
+    """About a point, with another focal point; the focal radius is a share of the other one."""
+    away = np.subtract(middle if focus is None else focus, middle)
+    x, y = away / np.hypot(*away) if away.any() else (1.0, 0.0)
+    rows = np.array([(x, y), (-y, x)]) / radius
+    moved = -rows @ np.array(middle)
+    to_ramp = tuple((*row, at) for row, at in zip(rows.tolist(), moved.tolist(), strict=True))
+    return Gradient(to_ramp, tuple(stops), spread, (float(np.hypot(*away) / radius), focal_radius))
+
+
+def shaded(contour, paint, group=-1) -> Path:
+    """A path of one contour; a gradient is a paint."""
+    return Path((contour,), paint=Paint.of(paint) if isinstance(paint, Gradient) else paint, group=group)
+
+
+DISC, LENS, OTHER = circle((0.5, 0.5), 0.45), circle((0.4, 0.45), 0.33), circle((0.62, 0.58), 0.3)
+UPWARDS = shaded(SQUARE, linear((0, 0), (0, 1), WARM))
+DRAWINGS: dict[str, Drawing] = {
+    "highlight": Drawing((shaded(DISC, radial((0.5, 0.5), 0.45, WARM, focus=(0.35, 0.7))),)),
+    "overlay": Drawing(
+        (
+            shaded(SQUARE, linear((0, 0), (1, 1), WARM)),
+            shaded(LENS, linear((0.1, 0.2), (0.7, 0.8), FADING)),
+            shaded(OTHER, radial((0.6, 0.6), 0.3, FADING)),
+        )
+    ),
+    "bands": Drawing((shaded(DISC, linear((0.1, 0.2), (0.9, 0.7), BANDS)),)),
+    "repeated": Drawing((shaded(DISC, linear((0.4, 0.4), (0.52, 0.46), WARM[:2], Spread.REPEAT)),)),
+    "reflected": Drawing((shaded(SQUARE, radial((0.4, 0.6), 0.17, WARM, Spread.REFLECT, (0.45, 0.65), 0.2)),)),
+    "cone": Drawing(
+        (shaded(SQUARE, Paint((0.9, 0.9, 0.9))), shaded(SQUARE, radial((0.6, 0.5), 0.2, WARM, focus=(0.2, 0.4))))
+    ),
+    "groups": Drawing(
+        (
+            UPWARDS,
+            shaded(LENS, radial((0.4, 0.5), 0.3, WARM), 0),
+            shaded(OTHER, Paint((0.1, 0.8, 0.3)), 0),
+            shaded(circle((0.5, 0.3), 0.2), linear((0.3, 0.3), (0.7, 0.3), FADING), 1),
+        ),
+        groups=(Group(opacity=0.6), Group(blend=Blend.MULTIPLY, opacity=0.9)),
+    ),
+}
+
+
+def blended(blend: Blend) -> Drawing:
+    """A gradient that blends with another."""
+    return Drawing((UPWARDS, shaded(LENS, linear((0, 0), (1, 0), WARM[1:]), 0)), groups=(Group(-1, 0.8, blend),))

@@ -1,0 +1,116 @@
+"""Gradients in planar maps: programs, the faces that they make equal, and means."""
+
+import numpy as np
+import pytest
+
+from degenerate import circle, polygon
+from planar import colours_at, gradient_colours, paints_at, sampled
+from shaded import DRAWINGS, LENS, SQUARE, UPWARDS, WARM, blended, linear, radial, shaded
+from vexture.drawing import Drawing
+from vexture.group import Blend, Group
+from vexture.paint import Gradient, Paint, Spread, Stop
+from vexture.pipeline import run
+from vexture.tree.planar.build import build_map
+from vexture.tree.planar.map import PlanarMap
+from vexture.tree.planar.programs import Keep, Mix, Solid
+from vexture.tree.planar.shades import shade_at, shades_of
+
+HALF_GREY = Paint((0.5, 0.5, 0.5), 0.5)
+GREY = Solid((16384, 16384, 16384, 32768))
+
+
+def program_at(planar: PlanarMap, point) -> tuple:
+    (paint,) = paints_at(planar, point)
+    return planar.programs[paint]
+
+
+@pytest.mark.parametrize("spread", Spread)
+@pytest.mark.parametrize(
+    "focus", [None, (0.0, 0.0), (0.4, 0.0), (0.3, 0.5), (1.5, 0.2), (0.5, 0.5), (0.2, 1.4), (0.0, 1.0)]
+)
+def test_a_gradient_is_what_svg_says(focus: tuple[float, float] | None, spread: Spread) -> None:
+    points = np.random.default_rng(1).random((300, 2))
+    gradient = Gradient(((2.0, 0.5, -1.1), (-0.4, 3.0, -1.2)), WARM, spread, focus)
+    shades, found = shades_of([gradient]), np.empty((len(points), 4))
+    for point, out in zip(points, found, strict=True):
+        shade_at(shades, 0, *point.tolist(), out)
+    np.testing.assert_allclose(found, gradient_colours(gradient, points), atol=1e-9)
+
+
+def test_a_program_is_what_is_seen_from_below() -> None:
+    up, glow = UPWARDS.paint.gradient, radial((0.4, 0.5), 0.3, WARM)
+    hidden = shaded(LENS, linear((0, 0), (1, 0), WARM))
+    red, grey = shaded(SQUARE, Paint((1, 0, 0))), shaded(SQUARE, HALF_GREY)
+    groups = (Group(opacity=0.6), Group(0), Group(opacity=0.5, blend=Blend.SCREEN))
+    inside, centre = shaded(LENS, glow, 1), (0.4, 0.45)
+    for paths, program in (
+        ((red, UPWARDS), (up,)),
+        ((hidden, UPWARDS, grey), (up, GREY)),
+        ((UPWARDS, grey, grey), (up, Solid((24576, 24576, 24576, 49151)))),
+        ((UPWARDS, shaded(LENS, HALF_GREY, 0)), (up, Solid((9830, 9830, 9830, 19660)))),
+        ((UPWARDS, shaded(LENS, HALF_GREY, 2)), (up, Keep(), GREY, Mix(32768, Blend.SCREEN))),
+        (
+            (UPWARDS, inside, shaded(LENS, HALF_GREY, 0)),
+            (up, Keep(), Keep(), glow, Mix(65535, Blend.NORMAL), GREY, Mix(39321, Blend.NORMAL)),
+        ),
+        ((shaded(LENS, glow, 2), grey), (Keep(), glow, Mix(32768, Blend.NORMAL), GREY)),
+    ):
+        assert program_at(build_map(Drawing(paths, groups=groups)), centre) == program
+    of = Drawing(
+        (UPWARDS, shaded(SQUARE, Paint((1, 0, 0)), 0), shaded(LENS, glow, 0), shaded(SQUARE, Paint(), 0)), groups=groups
+    )
+    assert program_at(build_map(of), centre) == (up, Solid((0, 0, 0, 39321)))  # black hides the group's others
+
+
+def test_faces_of_equal_programs_are_one_face() -> None:
+    halves = [polygon([(x, 0.2), (x + 0.3, 0.2), (x + 0.3, 0.8), (x, 0.8)]) for x in (0.2, 0.5)]
+    planar = build_map(Drawing((UPWARDS, *(shaded(half, HALF_GREY) for half in halves))))
+    whole = build_map(Drawing((UPWARDS, shaded(polygon([(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)]), HALF_GREY))))
+    assert len(planar.programs) == 2
+    assert len(planar.curves) == len(whole.curves)
+
+
+@pytest.mark.parametrize("name", DRAWINGS)
+def test_means_are_those_of_many_points(name: str) -> None:
+    planar = build_map(DRAWINGS[name])
+    wanted = sampled(DRAWINGS[name], 2, 64)
+    np.testing.assert_allclose(planar.mean[0].reshape(2, 2, 4)[::-1], wanted, atol=1.5 / 255)
+
+
+def test_a_crowded_cell_has_the_mean_of_its_gradients() -> None:
+    rng = np.random.default_rng(7)
+    lines = [polygon([(0.01, y), (0.99, 1 - y), (0.99, 1.004 - y)]) for y in rng.uniform(0.1, 0.9, 90)]
+    ramp = linear((0, 0), (1, 0), WARM)
+    of = Drawing(tuple(shaded(line, Paint((0, 0, k % 2), 0.5) if k % 3 else ramp) for k, line in enumerate(lines)))
+    planar = build_map(of, max_depth=2)
+    assert planar.unresolved > 0
+    np.testing.assert_allclose(planar.mean[0].reshape(2, 2, 4)[::-1], sampled(of, 2, 40), atol=0.02)
+
+
+@pytest.mark.parametrize("blend", Blend)
+def test_what_no_program_holds_is_flat_and_noted(blend: Blend) -> None:
+    conversion = run(blended(blend), split="faces")
+    flat = Blend.HUE <= blend <= Blend.LUMINOSITY
+    assert [note.count for note in conversion.notes] == [1] * flat
+    (paint,) = paints_at(conversion.tree, (0.4, 0.45))
+    assert (paint in conversion.tree.programs) != flat
+    mean = UPWARDS.paint
+    assert conversion.tree.paints[paint, 3] == (65535 if flat else 0)
+    assert mean.gradient in conversion.tree.programs[next(iter(conversion.tree.programs))]
+
+
+def test_too_many_gradients_on_one_another_are_flat() -> None:
+    glow = [
+        shaded(circle((0.5, 0.5), 0.4 - 0.001 * k), linear((0, k / 99), (1, 0), (*WARM[:2], Stop(1, (0, 0, 0), 0.5))))
+        for k in range(70)
+    ]
+    conversion = run(Drawing((UPWARDS, *glow)), split="faces")
+    assert 0 < conversion.notes[0].count < 70
+    assert max(map(len, conversion.tree.programs.values())) == 64
+
+
+def test_one_layer_of_a_gradient_is_a_map() -> None:
+    of = DRAWINGS["highlight"]
+    texture = run(of, split="faces").texture
+    assert texture.roots[0].is_map
+    assert abs(texture.render(8)[4, 4] - colours_at(of, np.array([[0.5625, 0.4375]]))[0][0]).max() < 0.02
