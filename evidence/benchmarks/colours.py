@@ -26,7 +26,7 @@ from vexture import window
 from vexture.bezier.convert import ellipse_cubics
 from vexture.drawing import Drawing, Path
 from vexture.errors import SourceWarning
-from vexture.paint import Paint
+from vexture.paint import Gradient, Paint, Spread, Stop
 from vexture.pipeline import Conversion, run
 from vexture.renderers.exact import render_exact_colours
 from vexture.renderers.view import ViewLike
@@ -38,6 +38,9 @@ __all__ = ["Set", "checkerboard", "choropleth", "discs", "flags"]
 
 FLAGS: Final = 30
 TURNS: Final = 5
+GRADIENTS: Final = "gradients"
+"""Name of the set whose faces are not flat: other targets hold for it."""
+
 LARGE: Final = 100
 """Pixels across the largest picture of a large map: its truth takes minutes."""
 
@@ -66,7 +69,7 @@ def sheared(size: int) -> NDArray[np.float64]:
 
 
 CASES: Final = (
-    *(Case(f"{size} px", size, lambda _: None) for size in (16, 64, 256, 20, 100)),
+    *(Case(f"{size} px", size, lambda _: None) for size in (4, 16, 64, 256, 20, 100)),
     Case("64 px, turned", 64, lambda _: window(0.0, 0.0, 1.0, 1.0, 30.0)),
     Case("64 px, sheared", 64, sheared),
 )
@@ -107,6 +110,31 @@ def discs(count: int, seed: int) -> Drawing:
     return Drawing(tuple(paths), name=f"{count} discs")
 
 
+def spheres(count: int, seed: int) -> Drawing:
+    """A background, and discs with gradients of all kinds, every other one of them translucent."""
+    rng = np.random.default_rng(seed)
+    square = Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]).paths[0].contours
+    paths = [Path(square, paint=Paint.of(random_gradient(rng, np.array([0.5, 0.5]), 0.7, 1.0)))]
+    for k in range(count):
+        radius, middle = rng.uniform(0.05, 0.25), rng.uniform(0.25, 0.75, 2)
+        circle = ellipse_cubics(tuple(middle.tolist()), (radius, radius), ROUND)
+        opacity = 1.0 if k % 2 else 0.6
+        paths.append(Path((circle,), paint=Paint.of(random_gradient(rng, middle, radius, opacity))))
+    return Drawing(tuple(paths), name=f"{count} spheres")
+
+
+def random_gradient(rng: np.random.Generator, middle: NDArray[np.float64], radius: float, opacity: float) -> Gradient:
+    """Linear or radial, of two to four stops, about a circle; one in three radial ones with another focal point."""
+    turn = rng.uniform(0.0, 2.0 * np.pi)
+    rows = np.array([(np.cos(turn), np.sin(turn)), (-np.sin(turn), np.cos(turn))]) / radius
+    moved = -rows @ middle
+    to_ramp = (*rows[0].tolist(), float(moved[0])), (*rows[1].tolist(), float(moved[1]))
+    offsets = np.sort(rng.random(rng.integers(2, 5))).tolist()
+    stops = tuple(Stop(at, tuple(rng.random(3).tolist()), opacity) for at in offsets)
+    is_radial, focus = rng.random() < 0.5, (float(rng.choice([0.0, 0.0, 0.6])), 0.0)
+    return Gradient(to_ramp, stops, Spread(int(rng.integers(3))), focus if is_radial else None)
+
+
 def flags(count: int, seed: int) -> list[Drawing]:
     """Square flags."""
     with warnings.catch_warnings():
@@ -119,6 +147,7 @@ def sets(quick: bool, seed: int) -> Iterator[Set]:
     yield Set("flags", flags(3 if quick else FLAGS, seed))
     yield Set("checkerboard", [checkerboard()])
     yield Set("discs", [discs(40 if quick else 300, seed)])
+    yield Set(GRADIENTS, [spheres(4 if quick else 12, seed + k) for k in range(1 if quick else 8)])
     yield Set("Voronoi 2,000", [choropleth(100 if quick else 2000, seed)])
     if not quick:
         yield Set("Voronoi 20,000", [choropleth(20_000, seed)], is_large=True)
@@ -194,8 +223,14 @@ def cost_table(facts: Sequence[dict[str, Any]]) -> str:
 
 def targets(facts: Sequence[dict[str, Any]]) -> list[Target]:
     """What planar maps must reach."""
-    in_step = [found["faces"] for one in facts for case, found in one["errors"].items() if case in IN_STEP]
-    others = [found["faces"] for one in facts for case, found in one["errors"].items() if case not in IN_STEP]
+    flat = [
+        (case, found["faces"]) for one in facts if one["name"] != GRADIENTS for case, found in one["errors"].items()
+    ]
+    in_step = [found for case, found in flat if case in IN_STEP]
+    others = [found for case, found in flat if case not in IN_STEP]
+    shaded = {
+        case: found["faces"] for one in facts if one["name"] == GRADIENTS for case, found in one["errors"].items()
+    }
     ratios = {one["name"]: one for one in facts}
 
     def ratio(name: str, what: str) -> float | None:
@@ -207,6 +242,10 @@ def targets(facts: Sequence[dict[str, Any]]) -> list[Target]:
         Target("largest pixel there", max(found["most"] for found in in_step), 4.0, 1.0),
         Target("MAE at 20, 100 px, turned, sheared, worst set", max(found["mean"] for found in others), 0.3, 0.05),
         Target("largest pixel there", max(found["most"] for found in others), 20.0, 4.0),
+        *(
+            Target(f"MAE of gradients at {case}", shaded[case]["mean"], required, wished)
+            for case, required, wished in (("64 px", 0.1, 0.03), ("16 px", 0.4, 0.2), ("4 px", 0.8, 0.5))
+        ),
         Target("texels over layers, flags", ratio("flags", "texels"), 1.0, 0.6),
         Target("texels over layers, Voronoi 20,000", ratio("Voronoi 20,000", "texels"), 0.9, 0.6),
         Target("conversion over layers, flags", ratio("flags", "seconds"), 1.5, 1.0),

@@ -41,7 +41,7 @@ COLOURS: list[Any] = [
 
 LOOP = re.compile(r"^( *(?:for|while) \(.*\) \{)$", re.MULTILINE)
 MOST_CELLS = 4 * (2 + 4 / LONG**0.5) ** 2  # of half the least size for a long footprint, in the box around it
-MOST_RAMP_TRIPS = MOST_RAMP_PARTS**2 * (MOST_PROGRAM + 2 * (MOST_STOPS + 2 * MOST_PROGRAM))
+MOST_RAMP_TRIPS = MOST_RAMP_PARTS**2 * (10 * MOST_PROGRAM + 6 * (MOST_STOPS + 2 * MOST_PROGRAM))
 MOST_PAINT_TRIPS = (1 + 3) * MOST_PROGRAM + MOST_RAMP_TRIPS
 MOST_TRIPS = MOST_CELLS * (1 + MOST_DEPTH + MOST_CURVES * (2 + STEPS + int(MOST_PARTS)))
 MOST_COLOUR_TRIPS = MOST_TRIPS + MOST_CELLS * (1 + 2 * MOST_CURVES) * (1 + MOST_PAINT_TRIPS)

@@ -7,7 +7,7 @@ from hand import EMPTY, FULL, TREE, need_gpu, texture_of
 
 from vexture.errors import FormatError
 from vexture.fold import blend
-from vexture.renderers import cells, colour, cpu, piece
+from vexture.renderers import cells, colour, cpu, gradient, piece
 from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, included, vertex_source
 from vexture.thesis import cpu as thesis_cpu
@@ -32,7 +32,9 @@ MIRROR = dict.fromkeys(FILES, cpu) | {
     "pixel.glsl": piece,
     "piece.glsl": piece,
     "view.glsl": piece,
+    "blend.glsl": gradient,
     "colour.glsl": colour,
+    "gradient.glsl": gradient,
     "srgb.glsl": colour,
     "view_color.glsl": colour,
     "fold.glsl": blend,

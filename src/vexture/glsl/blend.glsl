@@ -2,8 +2,8 @@
 // Exports: vexture_blended.
 
 // B(cb, cs) of one component, b of what is below and s of what is laid over it.
-float vexture_separable(uint mode, float b, float s) {
-    switch (mode) {
+float vexture_separable(uint blend, float b, float s) {
+    switch (blend) {
     case uint(VEXTURE_BLEND_MULTIPLY):
         return b * s;
     case uint(VEXTURE_BLEND_SCREEN):

@@ -30,10 +30,9 @@ struct VextureRamp {
     float share;  // of the region: beside a cone there is no place
 };
 
-// How far a value goes across a region that changes along x and y like this: the length of an interval with the variance of
-// both sides.
-float vexture_span(vec2 way, VextureRegion region) {
-    return length(vec2(dot(way, region.right), dot(way, region.up)));
+// How far a value goes along each side of a region, that changes along x and y like this.
+vec2 vexture_spans(vec2 way, VextureRegion region) {
+    return abs(vec2(dot(way, region.right), dot(way, region.up)));
 }
 
 // The place on a circular ramp: the greatest t whose circle, about c t from the focal point, goes through the region's middle
@@ -46,7 +45,7 @@ VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion r
     float c = dot(q, q) - focus.y * focus.y;
     float inside = b * b - a * c;
     vec2 slope = -2.0 * vec2(b * focus.x + a * q.x, a * q.y);
-    float soft = vexture_span(slope.x * across.xy + slope.y * up.xy, region);
+    float soft = length(vexture_spans(slope.x * across.xy + slope.y * up.xy, region));
     float share = a < 0.0 ? 1.0 : clamp(0.5 + inside / max(soft, VEXTURE_NOTHING), 0.0, 1.0);
     float root = sqrt(max(inside, 0.0));
     float far = b < 0.0 ? b - root : b + root;  // the roots are far / a and c / far: neither is a small difference
@@ -62,26 +61,33 @@ VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion r
     return VextureRamp(t, e.x * across.xy + e.y * up.xy, exists ? share : 0.0);
 }
 
-// Integral of a ramp over an interval: Simpson's rule is exact for a premultiplied segment between two stops.
-vec4 vexture_ramp_sum(uint stops, uint number, float low, float high) {
+// Integral of a ramp over a part of it, with weights that run straight from its begin to its end. Between two stops Simpson's
+// rule is exact: a premultiplied colour is a quadratic.
+vec4 vexture_ramp_sum(uint stops, uint number, vec2 part, vec2 weights) {
     vec4 sum = vec4(0.0);
     vec4 before = vec4(0.0);
-    float begin = low;
+    float begin = part.x;
+    float growth = (weights.y - weights.x) / (part.y - part.x);
     for (uint k = 0u; k <= number; k++) {
         uvec4 stop = vexture_texel(stops + min(k, number - 1u));
         vec4 after = vexture_halves(stop.yz) / float(VEXTURE_PAINT_ONE);
-        float end = k < number ? uintBitsToFloat(stop.x) : high;
+        float end = k < number ? uintBitsToFloat(stop.x) : part.y;
         before = k == 0u ? after : before;
-        float a = clamp(begin, low, high);
-        float b = clamp(end, a, high);
+        float a = clamp(begin, part.x, part.y);
+        float b = clamp(end, a, part.y);
         if (b > a) {
             vec4 slope = k == 0u || k == number ? vec4(0.0) : (after - before) / (end - begin);
             vec4 c0 = before + slope * (a - begin);
             vec4 c2 = before + slope * (b - begin);
             vec4 c1 = 0.5 * (c0 + c2);
-            sum += (b - a) / 6.0 * vec4(c0.rgb * c0.a + 4.0 * c1.rgb * c1.a + c2.rgb * c2.a, 6.0 * c1.a);
+            float w0 = weights.x + growth * (a - part.x);
+            float w2 = weights.x + growth * (b - part.x);
+            c0 = w0 * vec4(c0.rgb * c0.a, c0.a);
+            c1 = 2.0 * (w0 + w2) * vec4(c1.rgb * c1.a, c1.a);
+            c2 = w2 * vec4(c2.rgb * c2.a, c2.a);
+            sum += (b - a) / 6.0 * (c0 + c1 + c2);
         }
-        if (end >= high) {
+        if (end >= part.y) {
             break;
         }
         begin = end;
@@ -90,36 +96,57 @@ vec4 vexture_ramp_sum(uint stops, uint number, float low, float high) {
     return sum;
 }
 
-// Mean of a ramp over an interval; beyond 0..1 it goes on as `spread` says.
-vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, float width) {
-    if (spread != uint(VEXTURE_SPREAD_PAD) && width >= 1.0) {
-        return vexture_ramp_sum(stops, number, 0.0, 1.0);
+// The same of a ramp that goes on beyond 0..1, over a part no longer than that, if it is not padded.
+vec4 vexture_spread_sum(uint stops, uint number, uint spread, vec2 part, vec2 weights) {
+    if (spread == uint(VEXTURE_SPREAD_PAD)) {
+        return vexture_ramp_sum(stops, number, part, weights);
     }
-    bool pads = spread == uint(VEXTURE_SPREAD_PAD);
-    middle = pads ? clamp(middle, -width, 1.0 + width) : middle;
-    float low = middle - 0.5 * width;
-    float whole = pads ? 0.0 : floor(low);
-    low -= whole;
-    float high = low + width;
-    bool back = spread == uint(VEXTURE_SPREAD_REFLECT) && mod(whole, 2.0) != 0.0;
-    float held = pads ? high : min(high, 1.0);
-    vec2 part = back ? vec2(1.0 - held, 1.0 - low) : vec2(low, held);
-    float size = part.y - part.x;
-    vec4 sum = vexture_ramp_sum(stops, number, part.x, part.y);
-    if (held < high) {
-        bool goes_back = spread == uint(VEXTURE_SPREAD_REFLECT) && !back;
-        part = goes_back ? vec2(2.0 - high, 1.0) : vec2(0.0, high - 1.0);
-        size += part.y - part.x;
-        sum += vexture_ramp_sum(stops, number, part.x, part.y);
+    float whole = floor(part.x);
+    vec2 held = part - whole;
+    float middle = mix(weights.x, weights.y, clamp((1.0 - held.x) / (held.y - held.x), 0.0, 1.0));
+    bool reflects = spread == uint(VEXTURE_SPREAD_REFLECT);
+    bool goes_back = reflects && mod(whole, 2.0) != 0.0;
+    vec4 sum = vec4(0.0);
+    for (int k = 0; k < 2; k++) {
+        vec2 here = k == 0 ? vec2(held.x, min(held.y, 1.0)) : vec2(0.0, held.y - 1.0);
+        vec2 by = k == 0 ? vec2(weights.x, middle) : vec2(middle, weights.y);
+        if (here.y > here.x) {
+            sum += vexture_ramp_sum(stops, number, goes_back ? 1.0 - here.yx : here, goes_back ? by.yx : by);
+        }
+        goes_back = reflects && !goes_back;
+    }
+    return sum;
+}
+
+// Mean of a ramp about a place over a parallelogram along whose sides it goes this far: the weights of its places rise, stay
+// and fall.
+vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 spans) {
+    float wide = clamp(max(spans.x, spans.y), VEXTURE_SHORTEST_RAMP, VEXTURE_LONGEST_RAMP);
+    float narrow = min(min(spans.x, spans.y), wide);
+    if (spread != uint(VEXTURE_SPREAD_PAD) && wide >= 1.0) {
+        return vexture_ramp_sum(stops, number, vec2(0.0, 1.0), vec2(1.0));
+    }
+    middle = spread == uint(VEXTURE_SPREAD_PAD) ? clamp(middle, -wide - narrow, 1.0 + wide + narrow) : middle;
+    vec4 sum = vec4(0.0);
+    float size = 0.0;
+    float low = middle - 0.5 * (wide + narrow);
+    for (int k = 0; k < 3; k++) {
+        float high = middle + 0.5 * (k == 0 ? narrow - wide : k == 1 ? wide - narrow : wide + narrow);
+        vec2 weights = vec2(k == 0 ? 0.0 : 1.0, k == 2 ? 0.0 : 1.0);
+        if (high > low) {
+            sum += vexture_spread_sum(stops, number, spread, vec2(low, high), weights);
+            size += 0.5 * (high - low) * (weights.x + weights.y);
+            low = high;
+        }
     }
     return sum / size;
 }
 
-// Premultiplied colour of a gradient, whose first texel is given with its index, and its number of stops. A region in which a
-// circle bends, or a ramp begins again, is divided.
-vec4 vexture_gradient(uint at, uvec4 texel, uint number, VextureRegion region) {
-    uint kind = texel.w >> VEXTURE_KIND_SHIFT;
-    vec3 across = uintBitsToFloat(texel.xyz);
+// Premultiplied colour of a gradient, whose first texel is given with its index, and its number of stops. A region in which
+// circles bend is divided.
+vec4 vexture_gradient(uint at, uvec4 record, uint number, VextureRegion region) {
+    uint kind = record.w >> VEXTURE_KIND_SHIFT;
+    vec3 across = uintBitsToFloat(record.xyz);
     vec3 up = vec3(0.0);
     vec2 focus = vec2(0.0);
     if (kind != uint(VEXTURE_KIND_LINEAR)) {
@@ -128,9 +155,10 @@ vec4 vexture_gradient(uint at, uvec4 texel, uint number, VextureRegion region) {
     if (kind == uint(VEXTURE_KIND_FOCAL)) {
         focus = uintBitsToFloat(vexture_texel(at + 2u).xy);
     }
-    uint stops = at + (texel.w & ((1u << VEXTURE_STOP_BITS) - 1u));
-    uint spread = (texel.w >> (VEXTURE_STOP_BITS + VEXTURE_STOP_COUNT_BITS)) & 3u;
-    float size = float(VEXTURE_RAMP_PARTS) * max(vexture_span(across.xy, region), vexture_span(up.xy, region));
+    uint stops = at + (record.w & ((1u << VEXTURE_STOP_BITS) - 1u));
+    uint spread = (record.w >> (VEXTURE_STOP_BITS + VEXTURE_STOP_COUNT_BITS)) & 3u;
+    vec2 spans = max(vexture_spans(across.xy, region), vexture_spans(up.xy, region));
+    float size = kind == uint(VEXTURE_KIND_LINEAR) ? 0.0 : float(VEXTURE_RAMP_PARTS) * length(spans);
     int parts = size < float(VEXTURE_MOST_RAMP_PARTS) ? max(int(ceil(size)), 1) : VEXTURE_MOST_RAMP_PARTS;
     VextureRegion part = VextureRegion(region.point, region.right / float(parts), region.up / float(parts));
     vec4 sum = vec4(0.0);
@@ -142,8 +170,7 @@ vec4 vexture_gradient(uint at, uvec4 texel, uint number, VextureRegion region) {
             ramp = vexture_round_ramp(across, up, focus, part);
         }
         if (ramp.share > 0.0) {
-            float width = clamp(vexture_span(ramp.way, part), VEXTURE_SHORTEST_RAMP, VEXTURE_LONGEST_RAMP);
-            sum += ramp.share * vexture_ramp_mean(stops, number, spread, ramp.t, width);
+            sum += ramp.share * vexture_ramp_mean(stops, number, spread, ramp.t, vexture_spans(ramp.way, part));
         }
     }
     return sum / float(parts * parts);

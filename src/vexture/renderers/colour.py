@@ -87,7 +87,7 @@ def averaged(is_linear: int, stored: Vec4) -> Vec4:
 def paint(texels: Texels, is_linear: int, planar: Planar, number: int, region: Region) -> Vec4:
     both = texel(texels, planar.paints + (number >> 1))
     low, high = (both[0], both[1]) if number & 1 == 0 else (both[2], both[3])
-    color = halves(low, high)
+    color = halves((low, high))
     if low != 0 and color[3] == 0.0:
         color = program(texels, low, high, region)
     return averaged(is_linear, color)

@@ -25,7 +25,7 @@ from vexture.layout import (
 )
 from vexture.paint import Spread
 from vexture.renderers.blend import separable
-from vexture.renderers.cells import Texel, Texels, Vec2, clamp, texel
+from vexture.renderers.cells import Texel, Texels, Vec2, Whole2, clamp, texel
 from vexture.renderers.method import (
     LEAST_RADIUS,
     LONGEST_RAMP,
@@ -74,9 +74,9 @@ def times(a: Vec4, share: float) -> Vec4:
 
 
 @kernel(allocates=False)
-def halves(low: int, high: int) -> Vec4:
+def halves(words: Whole2) -> Vec4:
     """Four numbers in two words, 0..65535."""
-    mask = (1 << COORDINATE_BITS) - 1
+    mask, (low, high) = (1 << COORDINATE_BITS) - 1, words
     red, green = float(low & mask), float(low >> COORDINATE_BITS)
     return red, green, float(high & mask), float(high >> COORDINATE_BITS)
 
@@ -130,9 +130,15 @@ def dot(row: Vec3, point: Vec2) -> float:
 
 
 @kernel(allocates=False)
-def span(way: Vec2, region: Region) -> float:
+def spans(way: Vec2, region: Region) -> Vec2:
     row = (way[0], way[1], 0.0)
-    return math.hypot(dot(row, region.right), dot(row, region.up))
+    return abs(dot(row, region.right)), abs(dot(row, region.up))
+
+
+@kernel(allocates=False)
+def length(way: Vec2) -> float:
+    """What GLSL has built in."""
+    return math.hypot(way[0], way[1])
 
 
 @kernel(allocates=False)
@@ -151,7 +157,7 @@ def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
     c = qx * qx + qy * qy - focus[1] * focus[1]
     inside = b * b - a * c
     slope = (-2.0 * (b * focus[0] + a * qx), -2.0 * a * qy)
-    soft = span(along(slope, across, up), region)
+    soft = length(spans(along(slope, across, up), region))
     share = 1.0 if a < 0.0 else clamp(0.5 + inside / max(soft, NOTHING), 0.0, 1.0)
     root = math.sqrt(max(inside, 0.0))
     far = b - root if b < 0.0 else b + root
@@ -161,7 +167,7 @@ def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
     t = min(first, second) if focus[1] + t * grows < -LEAST_RADIUS or t > -NO_PLACE else t
     exists = focus[1] + t * grows >= -LEAST_RADIUS and t > NO_PLACE
     e = (qx + t * focus[0], qy)
-    radius = math.hypot(e[0], e[1])
+    radius = length(e)
     e = (e[0] / radius, e[1] / radius) if radius > LEAST_RADIUS else (0.0, 0.0)
     down = grows - e[0] * focus[0]
     e = (e[0] / down, e[1] / down) if down != 0.0 else (0.0, 0.0)
@@ -169,65 +175,88 @@ def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
 
 
 @kernel(allocates=False)
-def ramp_sum(texels: Texels, stops: int, number: int, low: float, high: float) -> Vec4:
+def premultiplied(color: Vec4, weight: float) -> Vec4:
+    """What GLSL writes as ``weight * vec4(color.rgb * color.a, color.a)``."""
+    alpha = weight * color[3]
+    return color[0] * alpha, color[1] * alpha, color[2] * alpha, alpha
+
+
+@kernel(allocates=False)
+def ramp_sum(texels: Texels, stops: int, number: int, part: Vec2, weights: Vec2) -> Vec4:
     total, before = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
-    begin = low
+    begin, growth = part[0], (weights[1] - weights[0]) / (part[1] - part[0])
     for k in range(number + 1):
         stop = texel(texels, stops + min(k, number - 1))
-        after = times(halves(stop[1], stop[2]), 1.0 / PAINT_ONE)
-        end = as_float(stop[0]) if k < number else high
+        after = times(halves((stop[1], stop[2])), 1.0 / PAINT_ONE)
+        end = as_float(stop[0]) if k < number else part[1]
         before = after if k == 0 else before
-        a = clamp(begin, low, high)
-        b = clamp(end, a, high)
+        a = clamp(begin, part[0], part[1])
+        b = clamp(end, a, part[1])
         if b > a:
             scale = 0.0 if k in (0, number) else 1.0 / (end - begin)
             slope = times(plus(after, before, -1.0), scale)
             c0, c2 = plus(before, slope, a - begin), plus(before, slope, b - begin)
-            c1 = times(plus(c0, c2, 1.0), 0.5)
-            red = c0[0] * c0[3] + 4.0 * c1[0] * c1[3] + c2[0] * c2[3]
-            green = c0[1] * c0[3] + 4.0 * c1[1] * c1[3] + c2[1] * c2[3]
-            blue = c0[2] * c0[3] + 4.0 * c1[2] * c1[3] + c2[2] * c2[3]
-            total = plus(total, (red, green, blue, 6.0 * c1[3]), (b - a) / 6.0)
-        if end >= high:
+            w0, w2 = weights[0] + growth * (a - part[0]), weights[0] + growth * (b - part[0])
+            c1 = premultiplied(times(plus(c0, c2, 1.0), 0.5), 2.0 * (w0 + w2))
+            both = plus(premultiplied(c0, w0), premultiplied(c2, w2), 1.0)
+            total = plus(total, plus(both, c1, 1.0), (b - a) / 6.0)
+        if end >= part[1]:
             break
         begin, before = end, after
     return total
 
 
 @kernel(allocates=False)
-def ramp_mean(texels: Texels, stops: int, number: int, spread: int, middle: float, width: float) -> Vec4:
-    if spread != PAD and width >= 1.0:
-        return ramp_sum(texels, stops, number, 0.0, 1.0)
-    pads = spread == PAD
-    middle = clamp(middle, -width, 1.0 + width) if pads else middle
-    low = middle - 0.5 * width
-    whole = 0.0 if pads else math.floor(low)
-    low -= whole
-    high = low + width
-    back = spread == REFLECT and whole % 2.0 != 0.0
-    held = high if pads else min(high, 1.0)
-    begin, end = (1.0 - held, 1.0 - low) if back else (low, held)
-    size = end - begin
-    total = ramp_sum(texels, stops, number, begin, end)
-    if held < high:
-        begin, end = (2.0 - high, 1.0) if spread == REFLECT and not back else (0.0, high - 1.0)
-        size += end - begin
-        total = plus(total, ramp_sum(texels, stops, number, begin, end), 1.0)
+def spread_sum(texels: Texels, stops: int, number: int, spread: int, part: Vec2, weights: Vec2) -> Vec4:
+    if spread == PAD:
+        return ramp_sum(texels, stops, number, part, weights)
+    whole = math.floor(part[0])
+    low, high = part[0] - whole, part[1] - whole
+    middle = weights[0] + (weights[1] - weights[0]) * clamp((1.0 - low) / (high - low), 0.0, 1.0)
+    goes_back = spread == REFLECT and whole % 2.0 != 0.0
+    total = (0.0, 0.0, 0.0, 0.0)
+    for k in range(2):
+        here = (low, min(high, 1.0)) if k == 0 else (0.0, high - 1.0)
+        by = (weights[0], middle) if k == 0 else (middle, weights[1])
+        if here[1] > here[0]:
+            here = (1.0 - here[1], 1.0 - here[0]) if goes_back else here
+            by = (by[1], by[0]) if goes_back else by
+            total = plus(total, ramp_sum(texels, stops, number, here, by), 1.0)
+        goes_back = spread == REFLECT and not goes_back
+    return total
+
+
+@kernel(allocates=False)
+def ramp_mean(texels: Texels, stops: int, number: int, spread: int, middle: float, spans: Vec2) -> Vec4:
+    wide = clamp(max(spans[0], spans[1]), SHORTEST_RAMP, LONGEST_RAMP)
+    narrow = min(min(spans[0], spans[1]), wide)
+    if spread != PAD and wide >= 1.0:
+        return ramp_sum(texels, stops, number, (0.0, 1.0), (1.0, 1.0))
+    middle = clamp(middle, -wide - narrow, 1.0 + wide + narrow) if spread == PAD else middle
+    total, size, low = (0.0, 0.0, 0.0, 0.0), 0.0, middle - 0.5 * (wide + narrow)
+    for k in range(3):
+        high = middle + 0.5 * (narrow - wide if k == 0 else wide - narrow if k == 1 else wide + narrow)
+        weights = (0.0 if k == 0 else 1.0, 0.0 if k == 2 else 1.0)
+        if high > low:
+            total = plus(total, spread_sum(texels, stops, number, spread, (low, high), weights), 1.0)
+            size += 0.5 * (high - low) * (weights[0] + weights[1])
+            low = high
     return times(total, 1.0 / size)
 
 
 @kernel(allocates=False)
-def gradient(texels: Texels, at: int, found: Texel, number: int, region: Region) -> Vec4:
-    kind = found[3] >> KIND_SHIFT
-    across, up, focus = as_floats(found), (0.0, 0.0, 0.0), (0.0, 0.0)
+def gradient(texels: Texels, at: int, record: Texel, number: int, region: Region) -> Vec4:
+    kind = record[3] >> KIND_SHIFT
+    across, up, focus = as_floats(record), (0.0, 0.0, 0.0), (0.0, 0.0)
     if kind != KIND_LINEAR:
         up = as_floats(texel(texels, at + 1))
     if kind == KIND_FOCAL:
         circle = as_floats(texel(texels, at + 2))
         focus = (circle[0], circle[1])
-    stops = at + (found[3] & ((1 << STOP_BITS) - 1))
-    spread = (found[3] >> (STOP_BITS + STOP_COUNT_BITS)) & 3
-    size = RAMP_PARTS * max(span((across[0], across[1]), region), span((up[0], up[1]), region))
+    stops = at + (record[3] & ((1 << STOP_BITS) - 1))
+    spread = (record[3] >> (STOP_BITS + STOP_COUNT_BITS)) & 3
+    first, second = spans((across[0], across[1]), region), spans((up[0], up[1]), region)
+    size = RAMP_PARTS * length((max(first[0], second[0]), max(first[1], second[1]))) if kind != KIND_LINEAR else 0.0
     parts = max(math.ceil(size), 1) if size < MOST_RAMP_PARTS else MOST_RAMP_PARTS
     right, above = (region.right[0] / parts, region.right[1] / parts), (region.up[0] / parts, region.up[1] / parts)
     total = (0.0, 0.0, 0.0, 0.0)
@@ -239,8 +268,8 @@ def gradient(texels: Texels, at: int, found: Texel, number: int, region: Region)
         if kind != KIND_LINEAR:
             ramp = round_ramp(across, up, focus, part)
         if ramp.share > 0.0:
-            width = clamp(span(ramp.way, part), SHORTEST_RAMP, LONGEST_RAMP)
-            total = plus(total, ramp_mean(texels, stops, number, spread, ramp.t, width), ramp.share)
+            found = ramp_mean(texels, stops, number, spread, ramp.t, spans(ramp.way, part))
+            total = plus(total, found, ramp.share)
     return times(total, 1.0 / (parts * parts))
 
 
@@ -258,7 +287,7 @@ def program(texels: Texels, at: int, count: int, region: Region) -> Vec4:
             color = blended(kept, times(color, found[0] / PAINT_ONE), found[1])
             kept = kept_before
         elif kind != KIND_FOLLOWS:
-            above = times(halves(found[0], found[1]), 1.0 / PAINT_ONE)
+            above = times(halves((found[0], found[1])), 1.0 / PAINT_ONE)
             if kind != KIND_SOLID:
                 number = min(max((found[3] >> STOP_BITS) & MOST_STOPS, 1), max(left, 1))
                 left -= min(number, left)

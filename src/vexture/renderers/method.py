@@ -106,7 +106,7 @@ NEARLY_WHOLE: Final = 1.0 - 2.0**-10
 """Share of a leaf in a footprint from which all of it counts."""
 
 RAMP_PARTS: Final = 6
-"""Parts across a spot for each unit of a ramp, or radius of a circle, that it spans."""
+"""Parts across a region for each radius of a circle that it spans."""
 
 MOST_RAMP_PARTS: Final = 4
 """Most of them."""
