@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, get_args, overload
 
 from vexture.deadline import DEFAULT_SECONDS, within
 from vexture.encodings import DEFAULT, EncodedTexture, find_encoding
@@ -23,6 +23,11 @@ __all__ = ["Conversion", "Parameters", "Source", "atlas", "combine", "convert", 
 Source: TypeAlias = "Drawing | str | os.PathLike[str]"
 """A drawing, or the path of a file that `vexture.read` reads."""
 
+Split: TypeAlias = Literal["auto", "faces", "paint"] | None
+"""How a drawing becomes shapes; see `vexture.convert`."""
+
+SPLITS = get_args(get_args(Split)[0])
+
 AnyTexture = TypeVar("AnyTexture", bound=EncodedTexture, covariant=True)
 
 
@@ -34,10 +39,10 @@ class Parameters:
     --------
     >>> Parameters(split="colour")
     Traceback (most recent call last):
-    vexture.errors.ParameterError: `split` is 'colour'; it must be 'paint', 'faces' or None
+    vexture.errors.ParameterError: `split` is 'colour'; it must be 'auto', 'faces', 'paint' or None
     """
 
-    split: Literal["paint", "faces"] | None = None
+    split: Split = "auto"
     select: str | None = None
     tolerance: float | Literal["auto"] = "auto"
     max_depth: int | None = None
@@ -46,8 +51,8 @@ class Parameters:
     max_seconds: float = DEFAULT_SECONDS
 
     def __post_init__(self) -> None:
-        if self.split not in (None, "paint", "faces"):
-            raise ParameterError(f"`split` is {self.split!r}; it must be 'paint', 'faces' or None")
+        if self.split is not None and self.split not in SPLITS:
+            raise ParameterError(f"`split` is {self.split!r}; it must be {', '.join(map(repr, SPLITS))} or None")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -124,15 +129,16 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
         given = {"max_depth": parameters.max_depth, "capacity": parameters.capacity, "precision": parameters.precision}
         bounds: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
         bounds["tolerance"] = tolerance
-        layers = drawing.layers() if parameters.split == "paint" else ()
-        if parameters.split == "faces" and drawing.paths:
+        split = parameters.split
+        if split == "auto":
+            split = "faces" if drawing.is_coloured else None
+        layers = drawing.layers() if split == "paint" else ()
+        if split == "faces" and drawing.paths:
             sheets = sheets_of(drawing, **bounds)
         else:
             sheets = [Sheet(layer, build_tree(layer, **bounds)) for layer in layers or (drawing,)]
     roots = tuple(
-        Root(
-            part.name, 0, part.to_source, tolerance, part.crs, sheet.paint if parameters.split and part.paths else None
-        )
+        Root(part.name, 0, part.to_source, tolerance, part.crs, sheet.paint if split and part.paths else None)
         for sheet in sheets
         for part in (sheet.drawing,)
     )
@@ -167,7 +173,7 @@ def convert(
     source: Source,
     *,
     encoding: Literal["packed"] = ...,
-    split: Literal["paint", "faces"] | None = ...,
+    split: Split = ...,
     select: str | None = ...,
     tolerance: float | Literal["auto"] = ...,
     max_depth: int | None = ...,
@@ -185,7 +191,7 @@ def convert(
     source: Source,
     *,
     encoding: str = DEFAULT,
-    split: Literal["paint", "faces"] | None = None,
+    split: Split = "auto",
     select: str | None = None,
     tolerance: float | Literal["auto"] = "auto",
     max_depth: int | None = None,
@@ -203,9 +209,10 @@ def convert(
     encoding : str
         ``"packed"``, the encoding of `Texture`, or a registered one, whose parameters its package documents:
         ``"thesis"`` (`vexture.thesis.convert`).
-    split : str, optional
+    split : str or None
         ``"faces"`` makes the whole drawing, in its colours, one planar map. ``"paint"`` makes each layer of the
-        drawing (`Drawing.layers`) a shape of its own, with its colour. None converts the silhouette.
+        drawing (`Drawing.layers`) a shape of its own, with its colour. None converts the silhouette, of no colour.
+        ``"auto"`` is ``"faces"`` of a drawing of more than one colour (`Drawing.is_coloured`), and None of others.
     select : str, optional
         Convert only what a CSS selector chooses of an SVG; see `vexture.read_svg`.
     tolerance : float or "auto"
@@ -254,7 +261,9 @@ def convert(
     """
     named = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds)
     values = ((field.name, getattr(named, field.name)) for field in fields(named))
-    given = {name: value for name, value in values if value is not None}
+    given = {name: value for name, value in values if value is not None or name == "split"}
+    if encoding != DEFAULT and split in ("auto", None):
+        del given["split"]  # other encodings have silhouettes only
     conversion = run(source, encoding=encoding, **given, **others)
     if isinstance(source, str | os.PathLike):
         warn_of(os.fspath(source), conversion.notes)
@@ -273,7 +282,7 @@ def atlas(
     sources: Iterable[Source],
     *,
     name: str = "atlas",
-    split: Literal["paint", "faces"] | None = None,
+    split: Split = "auto",
     select: str | None = None,
     tolerance: float | Literal["auto"] = "auto",
     max_depth: int | None = None,
@@ -281,7 +290,7 @@ def atlas(
     precision: float | None = None,
     max_seconds: float = DEFAULT_SECONDS,
 ) -> "Texture":
-    """Convert many drawings into one texture: a shape for each, or with `split` for each layer of each.
+    """Convert many drawings into one texture: a shape for each, or if `split` is ``"paint"`` for each layer of each.
 
     Parameters
     ----------

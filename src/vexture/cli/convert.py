@@ -45,8 +45,8 @@ QUIET, NORMAL, VERBOSE = -1, 0, 1
 
 EXAMPLE = """\b
 Examples:
-  vexture convert logo.svg                              logo.ktx2, a silhouette
-  vexture convert logo.svg --split paint                a shape for each colour
+  vexture convert logo.svg                              logo.ktx2, in its colours
+  vexture convert logo.svg --silhouette                 its covered area, without colours
   vexture convert icons/*.svg --atlas icons.ktx2 -j 4   one texture of all icons
   cat logo.svg | vexture convert - -o - > logo.ktx2     from and to a pipe
 """
@@ -76,9 +76,13 @@ class Outcome:
 @click.option("--atlas", metavar="FILE.ktx2|-", type=PATH, help="Write one texture of all files, a shape for each.")
 @click.option(
     "--split",
-    type=click.Choice(["paint", "faces"]),
-    help="paint: make each colour a shape of its own, in painting order. faces: make the drawing, in its colours, "
-    "one planar map, without seams between colours.",
+    type=click.Choice(["auto", "faces", "paint"]),
+    help="faces: make the drawing, in its colours, one planar map, without seams between colours. paint: make each "
+    "colour a shape of its own, in painting order. auto: faces, or of a drawing of one colour the silhouette.  "
+    "[default: auto]",
+)
+@click.option(
+    "--silhouette", is_flag=True, default=None, help="Convert the covered area of the drawing, without colours."
 )
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
 @tolerance_option
@@ -161,6 +165,11 @@ def _checked(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
             raise ParameterError(
                 f"{given} means nothing to the encoding {encoding}; leave it out or use `encoding` {owner}"
             )
+    if parameters.pop("silhouette", False):
+        if "split" in parameters:
+            raise ParameterError(f"`split` {parameters['split']} and `silhouette` exclude each other; leave one out")
+        if encoding == DEFAULT:  # other encodings have silhouettes only
+            parameters["split"] = None
     if "bits" in parameters:
         parameters["bits"] = int(parameters["bits"])
     return parameters

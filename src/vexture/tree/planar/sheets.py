@@ -67,8 +67,7 @@ def _again(sheet: Sheet, **parameters: Any) -> PlanarMap | Tree:
 
 def _within_budget(drawing: Drawing, **parameters: Any) -> list[Sheet]:
     """The sheets of a drawing, each within its share of the budget."""
-    one_paint = not drawing.groups and len({path.paint for path in drawing.paths}) == 1
-    layers = drawing.layers() if one_paint else ()
+    layers = () if drawing.is_coloured else drawing.layers()
     if len(layers) == 1:
         return [Sheet(layers[0], build_tree(layers[0], **parameters))]
     budget = max(BUDGET * (drawing.segments + len(drawing.paths)), LEAST_BUDGET)
