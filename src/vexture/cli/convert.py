@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from vexture.cli.messages import as_options, one_line, say
-from vexture.cli.options import PATH, STANDARD, Sectioned, standard_input, tolerance_option
+from vexture.cli.options import PATH, SILHOUETTE_HELP, STANDARD, Sectioned, split_of, standard_input, tolerance_option
 from vexture.deadline import DEFAULT_SECONDS
 from vexture.encodings import DEFAULT, REGISTERED
 from vexture.errors import EXPECTED, ParameterError, VextureError
@@ -81,9 +81,7 @@ class Outcome:
     "colour a shape of its own, in painting order. auto: faces, or of a drawing of one colour the silhouette.  "
     "[default: auto]",
 )
-@click.option(
-    "--silhouette", is_flag=True, default=None, help="Convert the covered area of the drawing, without colours."
-)
+@click.option("--silhouette", is_flag=True, default=None, help=f"Convert {SILHOUETTE_HELP}")
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
 @tolerance_option
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
@@ -165,11 +163,9 @@ def _checked(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
             raise ParameterError(
                 f"{given} means nothing to the encoding {encoding}; leave it out or use `encoding` {owner}"
             )
-    if parameters.pop("silhouette", False):
-        if "split" in parameters:
-            raise ParameterError(f"`split` {parameters['split']} and `silhouette` exclude each other; leave one out")
-        if encoding == DEFAULT:  # other encodings have silhouettes only
-            parameters["split"] = None
+    parameters |= split_of(parameters.get("split"), parameters.pop("silhouette", None))
+    if encoding != DEFAULT:
+        parameters.pop("split", None)  # other encodings have silhouettes only
     if "bits" in parameters:
         parameters["bits"] = int(parameters["bits"])
     return parameters
