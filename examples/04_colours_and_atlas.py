@@ -1,4 +1,4 @@
-"""A logo of three colours: as one shape for each, drawn over one another, and as one of many shapes in an atlas.
+"""A logo of three colours: as one picture, as one shape for each colour, and as one of many shapes in an atlas.
 
 python examples/04_colours_and_atlas.py [FOLDER]
 """
@@ -20,12 +20,13 @@ folder.mkdir(parents=True, exist_ok=True)
 logo = folder / "logo.svg"
 logo.write_text(LOGO)
 
-texture = vexture.convert(logo, split="paint")
-print(*(f"{root.name}: opacity {root.paint.opacity:g}, quad {root.quad}" for root in texture.roots), sep="\n")
-image = vexture.render(texture, size=(300, 300), renderer="cpu")  # premultiplied RGBA
+whole = vexture.convert(logo)
+image = vexture.render(whole, size=(300, 300), renderer="cpu")  # premultiplied RGBA
 on_white = image[..., :3] + 1 - image[..., 3:]
 Image.fromarray(np.uint8(np.rint(255 * on_white))).save(folder / "logo.png")
 
+texture = vexture.convert(logo, split="paint")
+print(*(f"{root.name}: opacity {root.paint.opacity:g}, quad {root.quad}" for root in texture.roots), sep="\n")
 sun = vexture.read_svg(logo, select="#sun")  # a part, where it was in the whole
 shapes = Path(__file__).parent / "shapes"
 atlas = vexture.atlas([logo, shapes / "duck.svg", shapes / "cake.svg"])

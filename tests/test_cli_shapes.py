@@ -92,11 +92,22 @@ def test_atlas(square, tmp_path):
     assert texture.name == "all"
     np.testing.assert_array_equal(texture.texels, vexture.atlas([square, logo]).texels)
     sizes = [int(re.search(r"(\d+) bytes", line)[1]) for line in (first, second)]
-    assert texture.roots[1].quad * 16 == sizes[0]
+    assert texture.roots[1].is_map
+    assert (texture.roots[1].quad - 1) * 16 == sizes[0]  # its head comes before it
     assert sum(sizes) <= texture.nbytes
     assert run("convert", square, logo, "--atlas", target, "--split", "paint").exit_code == 0
     names = [root.name for root in vexture.load(target).roots]
     assert names == ["square/1-#000000", "logo/1-#0000ff", "logo/2-#ffffff", "logo/3-#ff000080"]
+
+
+def test_a_silhouette_has_no_colours(tmp_path):
+    logo = tmp_path / "logo.svg"
+    logo.write_text(LOGO)
+    assert run("convert", logo, "-o", tmp_path).exit_code == 0
+    assert vexture.load(tmp_path / "logo.ktx2").roots[0].is_map
+    assert run("convert", logo, "-o", tmp_path, "--silhouette").exit_code == 0
+    plain = vexture.load(tmp_path / "logo.ktx2")
+    np.testing.assert_array_equal(plain.texels, vexture.convert(logo, split=None).texels)
 
 
 def test_an_atlas_is_whole_or_not_written(square, tmp_path):
@@ -122,6 +133,7 @@ def test_an_atlas_is_whole_or_not_written(square, tmp_path):
         (("--bits", "8"), "--bits 8 means nothing to the encoding packed; leave it out or use --encoding thesis"),
         (("--strategy", "sampled"), "use --encoding thesis"),
         (("--encoding", "thesis", "--split", "paint"), "use --encoding packed"),
+        (("--silhouette", "--split", "faces"), "--split faces and --silhouette exclude each other; leave one out"),
         (("--encoding", "thesis", "--capacity", "4"), "use --encoding packed"),
         (("--encoding", "thesis", "--precision", "1e-3"), "use --encoding packed"),
         (("--encoding", "thesis", "--atlas", "all.ktx2"), "use the encoding packed"),

@@ -73,7 +73,7 @@ def test_quiet_is_quiet_while_kernels_are_compiled(logo, tmp_path, how, said):
     whole = kernel_cache()  # without one kernel, since all of them take a minute
     shutil.copytree(whole, tmp_path / whole.name, ignore=shutil.ignore_patterns("build.grow-*", "*.tmp.*"))
     command = [sys.executable, "-c", "from vexture.cli.main import main; main()"]
-    command += ["convert", str(logo), "-o", str(tmp_path), *how]
+    command += ["convert", str(logo), "--silhouette", "-o", str(tmp_path), *how]
     environment = os.environ | {"VEXTURE_CACHE": str(tmp_path)}
     result = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=500)
     assert result.returncode == 0
@@ -131,6 +131,7 @@ LOST = "simplified: opacity of a group, which each of its shapes has by itself"
         (("convert", "-o", ".", "--split", "paint"), ["{file}: " + LOST]),
         (("convert", "--atlas", "a.ktx2", "--split", "paint"), ["{file}: " + LOST]),
         (("convert", "-o", ".", "--split", "faces"), []),
+        (("convert", "-o", ".", "--silhouette"), []),
         (("render", "-o", "a.png", "--size", "8"), []),
         (("render", "-o", "a.png", "--size", "8", "--renderer", "exact"), []),
         (("render", "-o", "a.png", "--size", "8", "--silhouette"), []),

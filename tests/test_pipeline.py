@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import vexture
-from vexture.drawing import Drawing, Path
+from vexture.drawing import Drawing, Group, Path
 from vexture.errors import LimitError, ParameterError, SourceError
 from vexture.paint import Paint
 from vexture.pipeline import run
@@ -47,7 +47,7 @@ def logo(tmp_path: File) -> File:
 
 
 def test_packed_is_the_default(logo: File) -> None:
-    texture = vexture.convert(logo)
+    texture = vexture.convert(logo, split=None)
     drawing = vexture.read_svg(logo)
     assert isinstance(texture, Texture)
     np.testing.assert_array_equal(texture.texels, texels_of(drawing, tolerance=UNSEEN))
@@ -203,9 +203,25 @@ def test_widest_leaf(capacity: int) -> None:
 # --- atlases ----------------------------------------------------------------------------------------------------------
 
 
+def test_colours_are_kept_and_one_colour_is_a_silhouette(logo: File) -> None:
+    five = star(5, "five", GLASS)
+    texture = vexture.convert(logo)
+    np.testing.assert_array_equal(texture.texels, vexture.convert(logo, split="faces").texels)
+    assert [(root.name, root.is_map) for root in texture.roots] == [("logo", True)]
+    both = vexture.atlas([logo, five])
+    assert [(root.name, root.is_map, root.paint) for root in both.roots] == [
+        ("logo", True, None),
+        ("five", False, None),
+    ]
+    assert vexture.convert(five).to_ktx2() == vexture.convert(five, split=None).to_ktx2()
+    grouped = replace(five, groups=(Group(-1, 0.5),), paths=tuple(replace(path, group=0) for path in five.paths))
+    assert vexture.convert(grouped).roots[0].is_map
+    assert not vexture.convert(Drawing(())).roots[0].is_map
+
+
 def test_atlas_holds_each_drawing_as_it_is_alone(logo: File) -> None:
     drawings = [star(5, "five"), vexture.read_svg(logo), star(11, "eleven")]
-    texture = vexture.atlas([drawings[0], logo, drawings[2]], name="signs", capacity=3)
+    texture = vexture.atlas([drawings[0], logo, drawings[2]], name="signs", capacity=3, split=None)
     assert [root.name for root in texture.roots] == ["five", "logo", "eleven"]
     assert (texture.name, texture.source) == ("signs", None)
     trees = [build_tree(drawing, capacity=3) for drawing in drawings]

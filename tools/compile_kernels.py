@@ -133,7 +133,7 @@ def calls() -> Iterator[tuple[Any, tuple[Any, ...]]]:
             tree = Growth(*grow.dispatcher(*outlines, bounds, 0)[0])
             tree.needed[:] = ROOM
             yield grow_on, (with_needed_room(tree), outlines[2], bounds, SLICE)
-        texture = convert(drawing)
+        texture = convert(drawing, split=None)
         for flat_view in (0, 1):
             to_unit = np.array([[0.02, 0.0, 0.0], [0.0, -0.02, 1.0], [0.0, 0.0, 1.0]])
             image = np.full((50, 50), np.nan, np.float32)

@@ -80,7 +80,7 @@ def reading_times(path: Path, repeat: int) -> Taken:
         start = time.perf_counter()
         extent = read_extent(path, path.name)
         taken.drawing.append(1000 * (time.perf_counter() - start))
-        texture = convert(extent.steps[0].drawing, precision=WATER_PARAMETERS.precision)
+        texture = convert(extent.steps[0].drawing, split=None, precision=WATER_PARAMETERS.precision)
         taken.texture.append(1000 * (time.perf_counter() - start))
         size = len(texture.to_ktx2())
         taken.file.append(1000 * (time.perf_counter() - start))

@@ -60,7 +60,7 @@ def shape_of(drawing: Drawing, bands: int) -> dict[str, Any]:
     width = 1 << ROW_BITS
     return {
         "box": square_of(drawing).ravel().tolist(),
-        "packed": base64.b64encode(convert(drawing).to_ktx2()).decode(),
+        "packed": base64.b64encode(convert(drawing, split=None).to_ktx2()).decode(),
         "bands": {
             "lists": text_of(rows_of(lists.lists[:, None], width)),
             "outlines": text_of(rows_of(lists.outlines, width)),

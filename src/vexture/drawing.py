@@ -175,6 +175,18 @@ class Drawing:
         """Number of cubics."""
         return sum(len(contour) for path in self.paths for contour in path.contours)
 
+    @property
+    def is_coloured(self) -> bool:
+        """Whether it has more than one colour: several paints, a gradient, or groups, which change colours.
+
+        Examples
+        --------
+        >>> Drawing.polygon([(0, 0), (1, 0), (0, 1)]).is_coloured
+        False
+        """
+        paints = {path.paint for path in self.paths}
+        return len(paints) > 1 or bool(self.groups) or any(paint.gradient is not None for paint in paints)
+
     def layers(self) -> "tuple[Drawing, ...]":
         """Split the drawing by paint: drawn in this order, the layers give the drawing in its colours.
 

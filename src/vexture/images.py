@@ -35,8 +35,8 @@ def coverage(
     Parameters
     ----------
     thing : Drawing or Texture
-        ``"exact"`` renders a drawing; ``"cpu"`` and ``"gpu"`` render a texture, and convert a drawing with the
-        defaults of `vexture.convert` first.
+        ``"exact"`` renders a drawing; ``"cpu"`` and ``"gpu"`` render a texture, and convert the silhouette of a
+        drawing first, with the defaults of `vexture.convert`.
     size : int or tuple of int
         Width and height of the image in pixels, or the side of a square one.
     view : (2, 3) or (3, 3) array, View or None
@@ -77,7 +77,7 @@ def coverage(
         from vexture.renderers.exact import render_exact
 
         return render_exact(cast("Drawing", thing).unmasked(), size, view)
-    texture = convert(thing) if isinstance(thing, Drawing) else thing
+    texture = convert(thing, split=None) if isinstance(thing, Drawing) else thing
     return texture.coverage(size, view, renderer=renderer, root=root)
 
 

@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Generic, Literal, TypeAlias, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Final, Generic, Literal, TypeAlias, TypeVar, get_args, overload
 
 from vexture.deadline import DEFAULT_SECONDS, within
 from vexture.encodings import DEFAULT, EncodedTexture, find_encoding
@@ -31,13 +31,13 @@ __all__ = [
     "warn_of_loss",
 ]
 
-FLATTENED: Final = (
-    "gradient, of its mean colour: more are over one another, or blend otherwise, than a pixel composites"
-)
-"""Message about faces of planar maps."""
-
 Source: TypeAlias = "Drawing | str | os.PathLike[str]"
 """A drawing, or the path of a file that `vexture.read` reads."""
+
+Split: TypeAlias = Literal["auto", "faces", "paint"] | None
+"""How a drawing becomes shapes; see `vexture.convert`."""
+
+SPLITS = get_args(get_args(Split)[0])
 
 READING: Final = ("select", "names", "snap")
 """Parameters of the source's reader."""
@@ -53,10 +53,10 @@ class Parameters:
     --------
     >>> Parameters(split="colour")
     Traceback (most recent call last):
-    vexture.errors.ParameterError: `split` is 'colour'; it must be 'paint', 'faces' or None
+    vexture.errors.ParameterError: `split` is 'colour'; it must be 'auto', 'faces', 'paint' or None
     """
 
-    split: Literal["paint", "faces"] | None = None
+    split: Split = "auto"
     select: str | None = None
     tolerance: float | Literal["auto"] = "auto"
     max_depth: int | None = None
@@ -68,15 +68,23 @@ class Parameters:
     restyle: bool = False
 
     def __post_init__(self) -> None:
-        if self.split not in (None, "paint", "faces"):
-            raise ParameterError(f"`split` is {self.split!r}; it must be 'paint', 'faces' or None")
-        if self.restyle and self.split != "faces":
-            raise ParameterError("`restyle` is for a whole drawing in its colours; add `split` 'faces'")
+        if self.split is not None and self.split not in SPLITS:
+            raise ParameterError(f"`split` is {self.split!r}; it must be {', '.join(map(repr, SPLITS))} or None")
+        if self.restyle and self.split not in ("auto", "faces"):
+            raise ParameterError(
+                f"`split` is {self.split!r}, but `restyle` is for a whole drawing in its colours: 'faces'"
+            )
 
     @property
     def reading(self) -> dict[str, Any]:
         """Those of the source's reader that are given."""
         return {name: value for name in READING if (value := getattr(self, name)) is not None}
+
+    def split_of(self, drawing: "Drawing") -> Split:
+        """How a drawing becomes shapes: "auto" decided."""
+        if self.split != "auto":
+            return self.split
+        return "faces" if self.restyle or drawing.is_coloured else None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -145,7 +153,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     from vexture.reading import drawing_of
     from vexture.texture.texture import Root
     from vexture.tree.build import build_tree, largest_shift
-    from vexture.tree.planar.sheets import Sheet, sheets_of
+    from vexture.tree.planar.sheets import Sheet, flattened_notes, sheets_of
     from vexture.tree.planar.style import restylable, style_of
 
     start = time.perf_counter()
@@ -154,12 +162,13 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
         tolerance = UNSEEN if parameters.precision is None else 0.0
     with within(parameters.max_seconds):
         drawing = drawing_of(source, parameters.reading)
-        shown = restylable(drawing) if parameters.restyle else drawing if parameters.split else drawing.unmasked()
+        split = parameters.split_of(drawing)
+        shown = restylable(drawing) if parameters.restyle else drawing if split else drawing.unmasked()
         given = {"max_depth": parameters.max_depth, "capacity": parameters.capacity, "precision": parameters.precision}
         bounds: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
         bounds["tolerance"] = tolerance
-        layers = drawing.layers() if parameters.split == "paint" else ()
-        if parameters.split == "faces" and drawing.paths:
+        layers = drawing.layers() if split == "paint" else ()
+        if split == "faces" and drawing.paths:
             sheets = sheets_of(shown, parameters.restyle, **bounds)
         else:
             sheets = [Sheet(layer, build_tree(layer, **bounds)) for layer in layers or (shown,)]
@@ -170,7 +179,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
             part.to_source,
             tolerance,
             part.crs,
-            sheet.paint if parameters.split and part.paths else None,
+            sheet.paint if split and part.paths else None,
             style=style_of(part, sheet.tree) if parameters.restyle and part.paths else None,
         )
         for sheet in sheets
@@ -178,15 +187,9 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     )
     named = drawing.name if _is_drawing(source) else os.fspath(source)  # type: ignore[arg-type]
     seconds, rounding = time.perf_counter() - start, largest_shift(parameters.precision)
-    notes = layers[0].notes if layers else (*shown.notes, *_flattened(sheet.tree for sheet in sheets))
+    notes = layers[0].notes if layers else (*shown.notes, *flattened_notes(sheets))
     trees = tuple(sheet.tree for sheet in sheets)
     return Conversion(drawing, trees, None, seconds, rounding, roots, named, notes)
-
-
-def _flattened(trees: Iterable[Any]) -> tuple[Note, ...]:
-    """A note of the faces of planar maps that have the means of gradients instead of these."""
-    count = sum(getattr(tree, "flattened", 0) for tree in trees)
-    return (Note("simplified", FLATTENED, count),) if count else ()
 
 
 def combine(parts: Sequence[Conversion[Any]], name: str, source: str | None = None) -> "Texture":
@@ -213,7 +216,7 @@ def convert(
     source: Source,
     *,
     encoding: Literal["packed"] = ...,
-    split: Literal["paint", "faces"] | None = ...,
+    split: Split = ...,
     select: str | None = ...,
     tolerance: float | Literal["auto"] = ...,
     max_depth: int | None = ...,
@@ -234,7 +237,7 @@ def convert(
     source: Source,
     *,
     encoding: str = DEFAULT,
-    split: Literal["paint", "faces"] | None = None,
+    split: Split = "auto",
     select: str | None = None,
     tolerance: float | Literal["auto"] = "auto",
     max_depth: int | None = None,
@@ -255,9 +258,10 @@ def convert(
     encoding : str
         ``"packed"``, the encoding of `Texture`, or a registered one, whose parameters its package documents:
         ``"thesis"`` (`vexture.thesis.convert`).
-    split : str, optional
+    split : str or None
         ``"faces"`` makes the whole drawing, in its colours, one planar map. ``"paint"`` makes each layer of the
-        drawing (`Drawing.layers`) a shape of its own, with its colour. None converts the silhouette.
+        drawing (`Drawing.layers`) a shape of its own, with its colour. None converts the silhouette, of no colour.
+        ``"auto"`` is ``"faces"`` of a drawing of more than one colour (`Drawing.is_coloured`), and None of others.
     select : str, optional
         Convert only what a CSS selector chooses of an SVG; see `vexture.read_svg`.
     tolerance : float or "auto"
@@ -313,7 +317,9 @@ def convert(
     """
     named = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle)
     values = ((field.name, getattr(named, field.name)) for field in fields(named))
-    given = {name: value for name, value in values if value not in (None, False)}
+    given = {name: value for name, value in values if value not in (None, False) or name == "split"}
+    if encoding != DEFAULT and split in ("auto", None):
+        del given["split"]  # other encodings have silhouettes only
     conversion = run(source, encoding=encoding, **given, **others)
     if isinstance(source, str | os.PathLike):
         warn_of(os.fspath(source), conversion.notes)
@@ -332,7 +338,7 @@ def atlas(
     sources: Iterable[Source],
     *,
     name: str = "atlas",
-    split: Literal["paint", "faces"] | None = None,
+    split: Split = "auto",
     select: str | None = None,
     tolerance: float | Literal["auto"] = "auto",
     max_depth: int | None = None,
@@ -343,7 +349,7 @@ def atlas(
     snap: float | None = None,
     restyle: bool = False,
 ) -> "Texture":
-    """Convert many drawings into one texture: a shape for each, or with `split` for each layer of each.
+    """Convert many drawings into one texture: a shape for each, or if `split` is ``"paint"`` for each layer of each.
 
     Parameters
     ----------

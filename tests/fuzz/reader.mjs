@@ -14,6 +14,10 @@ const LOADERS = {
     const { quad } = data.roots[0];
     bounds(data, quad);
     const texture = new VectorTexture(data);
+    const colors = PLACES.map(([u, v]) => texture.colorAt(u, v, 0));
+    if (!colors.every(({ color, opacity }) => [...color, opacity].every((part) => part >= 0 && part <= 1))) {
+      throw new Error(`a colour is out of range: ${JSON.stringify(colors)}`);
+    }
     return { count: counts(data, quad), inside: PLACES.map(([u, v]) => texture.contains(u, v, 0)) };
   },
   /** @param {Buffer} file */

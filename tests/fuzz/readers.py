@@ -154,7 +154,8 @@ def read_packed(data: bytes) -> str:
     drawn = texture.coverage(5, root=0)
     if not np.isfinite(drawn).all():
         raise FindingError("a coverage is not finite")
-    texture.to_svg(0)
+    if not texture.roots[0].is_map:
+        texture.to_svg(0)
     return f"{texture.depth} {len(texture.roots)} {texture.info().keys()}"
 
 
@@ -228,7 +229,7 @@ def in_javascript(kind: str, read: Callable[[bytes], str]) -> Callable[[bytes], 
 
 def inside_alike(texture: Texture, inside: list[bool]) -> None:
     """Python finds the same points inside."""
-    if texture.contains(PLACES, 0).tolist() != inside:
+    if not texture.roots[0].is_map and texture.contains(PLACES, 0).tolist() != inside:
         raise FindingError("Python and JavaScript find other points inside")
 
 

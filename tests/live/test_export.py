@@ -39,6 +39,21 @@ def content(address):
     return head, base64.b64decode(data, validate=True)
 
 
+@pytest.mark.parametrize(
+    ("options", "names"),
+    [((), ["a"]), (("--split", "paint"), ["a/1-#ff0000", "a/2-#0000ff"]), (("--silhouette",), ["a"])],
+)
+def test_colours_are_one_picture_or_layers_or_none(tmp_path, options, names):
+    file, page = tmp_path / "a.svg", tmp_path / "page.html"
+    file.write_text('<svg viewBox="0 0 9 9"><path fill="red" d="M0 0h9v9z"/><path fill="blue" d="M0 0v9h9z"/></svg>')
+    outcome = export(file, "-o", page, *options)
+    assert outcome.returncode == 0, outcome.stderr
+    (shape,) = scene(page.read_text(encoding="utf-8"))["shapes"]
+    roots = texture_from(content(shape["texture"])[1], "page").roots
+    assert [root.name for root in roots] == names
+    assert [root.is_map for root in roots] == [not options] * len(names)
+
+
 def test_page_holds_textures_sources_and_comparisons(tmp_path):
     page = tmp_path / "page.html"
     outcome = export(SHAPES / "duck.svg", SHAPES / "hairline.svg", "-o", page, "--title", "Birds & <lines>")

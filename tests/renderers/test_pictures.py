@@ -80,7 +80,7 @@ def test_a_texture_of_one_shape_needs_no_root(renderer: str) -> None:
         need_gpu()
     image = coverage(flag(), SIZE, None, renderer)
     np.testing.assert_allclose(image, coverage(flag(), SIZE, renderer="exact"), atol=0.01)
-    texture = vexture.convert(flag())
+    texture = vexture.convert(flag(), split=None)
     np.testing.assert_array_equal(coverage(texture, SIZE, None, renderer), image)
     np.testing.assert_array_equal(coverage(texture, SIZE, None, renderer, root="flag"), image)
     np.testing.assert_allclose(on_white(texture, SIZE, None, renderer)[..., 0], 1.0 - image, atol=1e-6)
@@ -95,7 +95,7 @@ def test_a_texture_of_one_shape_needs_no_root(renderer: str) -> None:
 
 
 def test_shapes_are_found_by_name_or_place() -> None:
-    texture = vexture.atlas([flag("1"), flag("0")])
+    texture = vexture.atlas([flag("1"), flag("0")], split=None)
     assert [place_of(texture.roots, root) for root in ("1", "0", 0, 1)] == [0, 1, 0, 1]
     for root, says in (("2", "no shape '2'"), (2, "no shape 2"), (-1, "no shape -1"), ("", "no shape ''")):
         for draw in (coverage, render):
@@ -104,11 +104,11 @@ def test_shapes_are_found_by_name_or_place() -> None:
 
 
 def test_a_missing_root_means_the_whole_or_the_only_shape() -> None:
-    texture = vexture.atlas([flag("1"), flag("0")])
+    texture = vexture.atlas([flag("1"), flag("0")], split=None)
     for draw in (texture.coverage, texture.plot, texture.root, texture.contains):
         with pytest.raises(ParameterError, match=r"atlas holds 2 shapes \(1, 0\); choose one by `root`"):
             draw(*{texture.coverage: (SIZE,), texture.contains: ([(0.5, 0.5)],)}.get(draw, ()))
-    many = vexture.atlas([flag(str(number)) for number in range(20)])
+    many = vexture.atlas([flag(str(number)) for number in range(20)], split=None)
     with pytest.raises(ParameterError, match=r"20 drawings \(0, 1, 2, 3, 4, 5 and 14 more\); choose one"):
         render(many, SIZE)
     assert many.to_svg().count("<path") == 20

@@ -18,6 +18,7 @@ from vexture.errors import LimitError, SourceError, SourceWarning, VextureError
 from vexture.live.documents import VIEWER_PARAMETERS, shape_of
 from vexture.renderers.exact import render_exact
 from vexture.svg.read import svg_drawing
+from vexture.texture.load import texture_from
 from vexture.tracing.images import MOST_PIXELS
 from vexture.tracing.trace import MOST_CURVES, MOST_PIECES, _outline
 
@@ -385,7 +386,10 @@ def test_selectors_choose_nothing_of_a_picture(logo, tmp_path):
 
 def test_pictures_are_published_and_shown(logo):
     shape = shape_of(logo.read_bytes(), "logo.png", "logo", VIEWER_PARAMETERS)
-    assert shape.facts["layers"] == len(COLOURS)
+    texture = texture_from(shape.texture.data, "logo")
+    assert [root.is_map for root in texture.roots] == [True]
+    shown = {tuple(np.rint(255 * color).astype(int)) for color in texture.render(64).reshape(-1, 4)}
+    assert {(*bytes.fromhex(color[1:]), 255) for color in COLOURS} <= shown
     assert shape.views == {}
     with pytest.raises(VextureError, match=r"^broken\.png: is a damaged picture"):
         shape_of(logo.read_bytes()[:100], "broken.png", "broken", VIEWER_PARAMETERS)

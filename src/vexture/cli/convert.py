@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from vexture.cli.messages import as_options, one_line, say
-from vexture.cli.options import PATH, STANDARD, Sectioned, standard_input, tolerance_option
+from vexture.cli.options import PATH, SILHOUETTE_HELP, STANDARD, Sectioned, split_of, standard_input, tolerance_option
 from vexture.deadline import DEFAULT_SECONDS
 from vexture.encodings import DEFAULT, REGISTERED
 from vexture.errors import EXPECTED, ParameterError, VextureError
@@ -48,8 +48,8 @@ QUIET, NORMAL, VERBOSE = -1, 0, 1
 
 EXAMPLE = """\b
 Examples:
-  vexture convert logo.svg                              logo.ktx2, a silhouette
-  vexture convert logo.svg --split paint                a shape for each colour
+  vexture convert logo.svg                              logo.ktx2, in its colours
+  vexture convert logo.svg --silhouette                 its covered area, without colours
   vexture convert icons/*.svg --atlas icons.ktx2 -j 4   one texture of all icons
   cat logo.svg | vexture convert - -o - > logo.ktx2     from and to a pipe
 """
@@ -79,13 +79,13 @@ class Outcome:
 @click.option("--atlas", metavar="FILE.ktx2|-", type=PATH, help="Write one texture of all files, a shape for each.")
 @click.option(
     "--split",
-    type=click.Choice(["paint", "faces"]),
-    help="paint: make each colour a shape of its own, in painting order. faces: make the drawing, in its colours, "
-    "one planar map, without seams between colours.",
+    type=click.Choice(["auto", "faces", "paint"]),
+    help="faces: make the drawing, in its colours, one planar map, without seams between colours. paint: make each "
+    "colour a shape of its own, in painting order. auto: faces, or of a drawing of one colour the silhouette.  "
+    "[default: auto]",
 )
-@click.option(
-    "--restyle", is_flag=True, default=None, help="With --split faces: the colours of elements can be changed later."
-)
+@click.option("--silhouette", is_flag=True, default=None, help=f"Convert {SILHOUETTE_HELP}")
+@click.option("--restyle", is_flag=True, default=None, help="A planar map whose elements can get other colours later.")
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
 @click.option("--names", metavar="PROPERTY", help="Name the polygons of GeoJSON by a property, rather than by id.")
 @click.option(
@@ -175,6 +175,9 @@ def _checked(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
             raise ParameterError(
                 f"{given} means nothing to the encoding {encoding}; leave it out or use `encoding` {owner}"
             )
+    parameters |= split_of(parameters.get("split"), parameters.pop("silhouette", None))
+    if encoding != DEFAULT:
+        parameters.pop("split", None)  # other encodings have silhouettes only
     if "bits" in parameters:
         parameters["bits"] = int(parameters["bits"])
     return parameters

@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
+from vexture.errors import ParameterError
+
 __all__ = [
     "PATH",
+    "SILHOUETTE_HELP",
     "STANDARD",
     "Colour",
     "Place",
@@ -18,6 +21,7 @@ __all__ = [
     "Tolerance",
     "conversion_options",
     "drawing_kind",
+    "split_of",
     "standard_input",
     "tolerance_option",
     "viewer_parameters",
@@ -145,16 +149,36 @@ tolerance_option = click.option(
 )
 
 
+SILHOUETTE_HELP: Final = "the covered area of a drawing, without colours."
+
+
+def split_of(split: str | None, silhouette: bool | None) -> dict[str, str | None]:
+    """The parameter `split` by two options, if one of them is given."""
+    if not silhouette:
+        return {} if split is None else {"split": split}
+    if split is not None:
+        raise ParameterError(f"`split` {split} and `silhouette` exclude each other; leave one out")
+    return {"split": None}
+
+
 def conversion_options(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options of the viewer's conversions to a command."""
     precision = click.option("--precision", metavar="P", type=float, help="Largest shift by rounding.  [default: 1e-7]")
     select = click.option("--select", metavar="SELECTOR", help="Show only the elements that a CSS selector matches.")
-    return select(precision(tolerance_option(command)))
+    split = click.option(
+        "--split", type=click.Choice(["paint"]), help="paint: show each colour as a layer, one over the other."
+    )
+    silhouette = click.option("--silhouette", is_flag=True, help=f"Show {SILHOUETTE_HELP}")
+    return split(silhouette(select(precision(tolerance_option(command)))))
 
 
-def viewer_parameters(tolerance: Any, precision: float | None, select: str | None) -> "Parameters":
+def viewer_parameters(
+    tolerance: Any, precision: float | None, select: str | None, split: str | None, silhouette: bool
+) -> "Parameters":
     """The viewer's parameters, with those that are given as options."""
     from vexture.live.documents import VIEWER_PARAMETERS
 
-    most = VIEWER_PARAMETERS.precision if precision is None else precision
-    return replace(VIEWER_PARAMETERS, tolerance=tolerance, precision=most, select=select)
+    given: dict[str, Any] = {"tolerance": tolerance, "select": select, **split_of(split, silhouette)}
+    if precision is not None:
+        given["precision"] = precision
+    return replace(VIEWER_PARAMETERS, **given)

@@ -19,7 +19,7 @@ from vexture.pipeline import Parameters
 
 __all__ = ["WATER_PARAMETERS", "FloodConversion"]
 
-WATER_PARAMETERS: Final = Parameters(precision=2e-6)
+WATER_PARAMETERS: Final = Parameters(split=None, precision=2e-6)
 """Seen from the beach, a pixel is about 1e-5 of the frame: the outline shifts by a fifth of one."""
 
 SAME_PLACE: Final = 1e-6

@@ -234,7 +234,9 @@ class Texture:
         """A shape that is no planar map."""
         found = self.root(root)
         if found.is_map:
-            raise ParameterError(f"`root` {found.name!r} is a planar map, which has no outlines; convert a silhouette")
+            raise ParameterError(
+                f"`root` {found.name!r} is a planar map, without outlines; convert it with `split` None"
+            )
         return found
 
     def coverage(

@@ -58,7 +58,7 @@ def tracing(image: "NDArray[np.float32]", traced: Drawing, true: Drawing | None 
     if true is not None:
         draw_outline(axes[1], true, bounds, color=COLOURS["sampled"], linewidth=5.0, label="the true outline")
     draw_outline(axes[1], traced, bounds, color=INK, linewidth=1.2, label="the traced one")
-    texture = convert(traced)
+    texture = convert(traced, split=None)
     show(axes[2], coverage(texture, (SIDE, SIDE), renderer="cpu"), extent=unit)
     part = closeup((SIDE, SIDE), np.array([x, y]), side / PIXELS)
     show(axes[3], coverage(texture, (SIDE, SIDE), part, "cpu"), extent=(bounds[0], bounds[2], bounds[1], bounds[3]))

@@ -68,13 +68,13 @@ def edited(drawing: Drawing, texture: Texture, change: str, repeat: int = 5) -> 
         path, target = Path(folder) / f"{texture.name}.svg", Path(folder) / "converted.ktx2"
         text = texture.to_svg()
         path.write_text(text, encoding="utf-8")
-        exported = run(path).drawing
+        exported = run(path, split=None).drawing
         path.write_text(text.replace("</svg>", f"{change}</svg>"), encoding="utf-8")
-        made = run(path)
+        made = run(path, split=None)
         assert isinstance(made.texture, Texture)
 
         def convert() -> None:
-            converted = run(path).texture
+            converted = run(path, split=None).texture
             assert isinstance(converted, Texture)
             converted.save(target)
 

@@ -22,7 +22,7 @@ Made: TypeAlias = "Conversion[Texture | ThesisTexture]"
 WAYS: Final[dict[str, dict[str, Any]]] = {
     "sampled": {"encoding": "thesis", "strategy": "sampled"},
     "direct": {"encoding": "thesis", "strategy": "direct"},
-    "packed": {"encoding": "packed"},
+    "packed": {"encoding": "packed", "split": None},
 }
 """Parameters of `vexture.convert`: the thesis's own conversion, ours to its encoding, and the packed encoding."""
 

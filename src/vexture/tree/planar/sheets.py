@@ -5,19 +5,25 @@ concentric translucent discs need a million, where their layers need ten thousan
 exceeds it is cut into sheets of consecutive layers, as many to a sheet as their share of the budget allows.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import Any, Final, NamedTuple
 
 from vexture.drawing import Drawing, Path
 from vexture.group import Blend
+from vexture.notes import Note
 from vexture.paint import Paint
 from vexture.tree.build import build_tree
 from vexture.tree.planar.build import build_map
 from vexture.tree.planar.map import PlanarMap
 from vexture.tree.tree import Tree
 
-__all__ = ["Sheet", "sheets_of"]
+__all__ = ["Sheet", "flattened_notes", "sheets_of"]
+
+FLATTENED: Final = (
+    "gradient, of its mean colour: more are over one another, or blend otherwise, than a pixel composites"
+)
+"""Message about faces of planar maps."""
 
 LEAST_BUDGET: Final = 1 << 17
 """Texels that any drawing may have: two megabytes. A coat of arms in a flag needs one, and is exact only as a whole."""
@@ -49,9 +55,9 @@ class Sheet(NamedTuple):
 def sheets_of(drawing: Drawing, restyle: bool = False, **parameters: Any) -> list[Sheet]:
     """The sheets of a drawing, the lowest first: one, unless its map needs too many texels.
 
-    A drawing that is one layer of one colour needs no map, unless it is to be restyled. `parameters` and errors are those
-    of `build_map`. A `precision` cuts no drawing: its texels, like those of layers, grow with the length of outlines,
-    not with their crossings.
+    A drawing that is one layer of one colour needs no map, unless it is to be restyled. `parameters` and errors are
+    those of `build_map`. A `precision` cuts no drawing: its texels, like those of layers, grow with the length of
+    outlines, not with their crossings.
     """
     precision = parameters.pop("precision", None)
     sheets = _within_budget(drawing, restyle, **parameters)
@@ -72,9 +78,7 @@ def _again(sheet: Sheet, restyle: bool, **parameters: Any) -> PlanarMap | Tree:
 
 def _within_budget(drawing: Drawing, restyle: bool, **parameters: Any) -> list[Sheet]:
     """The sheets of a drawing, each within its share of the budget."""
-    one_paint = len({path.paint for path in drawing.paths}) == 1 and _is_flat(drawing.paths)
-    one_paint = one_paint and not restyle and not drawing.groups
-    layers = drawing.layers() if one_paint else ()
+    layers = () if restyle or drawing.is_coloured else drawing.layers()
     if len(layers) == 1:
         return [Sheet(layers[0], build_tree(layers[0], **parameters))]
     budget = max(BUDGET * (drawing.segments + len(drawing.paths)), LEAST_BUDGET)
@@ -99,6 +103,12 @@ def _within_budget(drawing: Drawing, restyle: bool, **parameters: Any) -> list[S
 def _is_flat(paths: Sequence[Path]) -> bool:
     """Whether no path has a gradient."""
     return all(path.paint.gradient is None for path in paths)
+
+
+def flattened_notes(sheets: Iterable[Sheet]) -> tuple[Note, ...]:
+    """A note of the faces that have the means of gradients instead of these."""
+    count = sum(sheet.tree.flattened for sheet in sheets if isinstance(sheet.tree, PlanarMap))
+    return (Note("simplified", FLATTENED, count),) if count else ()
 
 
 def _greedy(count: int, tried: Callable[[int, int], Sheet | None]) -> list[Sheet]:
