@@ -64,7 +64,8 @@ MAY_IMPORT: dict[str, set[str]] = {
 
 ABOVE_ALL = {"__init__", "cli"}
 
-THE_TRUTH = {f"renderers/{name}.py" for name in ("blend", "exact", "faces", "flatten", "slabs", "view")}
+TRUTH_MODULES = ("blend", "exact", "faces", "flatten", "ramps", "regions", "slabs", "varying", "view")
+THE_TRUTH = {f"renderers/{name}.py" for name in TRUTH_MODULES}
 TRUTH_MAY_IMPORT = BASE | {"drawing", "paint"} | {module.removesuffix(".py").replace("/", ".") for module in THE_TRUTH}
 """The exact renderer judges the tree, so it shares nothing with it."""
 
