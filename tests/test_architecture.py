@@ -65,7 +65,8 @@ MAY_IMPORT: dict[str, set[str]] = {
 
 ABOVE_ALL = {"__init__", "cli"}
 
-THE_TRUTH = {f"renderers/{name}.py" for name in ("blend", "exact", "faces", "flatten", "slabs", "view")}
+TRUTH_MODULES = ("blend", "exact", "faces", "flatten", "ramps", "regions", "slabs", "varying", "view")
+THE_TRUTH = {f"renderers/{name}.py" for name in TRUTH_MODULES}
 TRUTH_MAY_IMPORT = (
     BASE | {"drawing", "group", "paint"} | {module.removesuffix(".py").replace("/", ".") for module in THE_TRUTH}
 )

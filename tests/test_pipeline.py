@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 import vexture
-from vexture.drawing import Drawing, Group, Path
+from vexture.drawing import Drawing, Path
 from vexture.errors import LimitError, ParameterError, SourceError
+from vexture.group import Group
 from vexture.paint import Paint
 from vexture.pipeline import run
 from vexture.texture.encode import encode

@@ -14,6 +14,7 @@ __all__ = [
     "PARAMETER",
     "ROUND",
     "SCANLINE",
+    "STEADY",
     "UNSEEN",
 ]
 
@@ -43,6 +44,9 @@ FLATNESS: Final = 2e-5
 
 SCANLINE: Final = 2.0**-30
 """Pixels. Lattice of the heights at which the exact renderer's chords begin, end and cross (about 1e-9)."""
+
+STEADY: Final = 1e-6
+"""Parts of a colour, times pixels. The exact renderer refines an integral over a gradient until it changes by less."""
 
 ROUND: Final = 1e-5
 """Unit-square units. Largest distance from the true curve when a reader approximates arcs and strokes."""

@@ -1,14 +1,18 @@
 """Gradients of an SVG, at the edges of the standard; the fixtures in `gradients` are compared as pictures elsewhere."""
 
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
-from svg_reference import render_drawing
+from svg_reference import render_drawing, render_file
 
 import vexture
 from vexture.drawing import Drawing
 from vexture.errors import SourceError, SourceWarning
+from vexture.paint import Paint
+from vexture.renderers.exact import render_exact_colours
+from vexture.svg.read import read_svg
 
 STOPS = '<stop stop-color="red"/><stop offset="1" stop-color="blue"/>'
 LIME, BLACK = '<stop offset="{}" stop-color="lime"/>', '<stop offset="{}"/>'
@@ -114,5 +118,22 @@ def test_opacities_reach_the_stops_and_the_mean() -> None:
 def test_layers_are_flat_and_silhouettes_lose_nothing() -> None:
     drawing = drawing_of(linear("") + linear(""))
     (layer,) = drawing.layers()
-    assert [path.paint for path in layer.paths] == [vexture.drawing.Paint((0.5, 0.0, 0.5))] * 2
+    assert [path.paint for path in layer.paths] == [Paint((0.5, 0.0, 0.5))] * 2
     assert drawing.notes == ()
+
+
+FIXTURES = sorted((Path(__file__).parent / "fixtures" / "gradients").glob("*.svg"))
+NOT_BY_RESVG = ("attributes-by-reference", "stroke-not-scaling")
+SIZE, TIMES = 25, 8
+
+
+@pytest.mark.parametrize(
+    "path", [path for path in FIXTURES if path.stem not in NOT_BY_RESVG], ids=lambda path: path.stem
+)
+def test_exact_colours_are_what_resvg_draws_eight_times_as_large(path: Path) -> None:
+    side = f'<svg width="{SIZE * TIMES}" height="{SIZE * TIMES}" '
+    large = render_file(path.read_text().replace("<svg ", side, 1))
+    mean = large.reshape(SIZE, TIMES, SIZE, TIMES, 4).mean(axis=(1, 3))
+    gap = np.abs(render_exact_colours(read_svg(path), SIZE) - mean).max(axis=2)
+    assert gap.mean() < 0.5 / 255
+    assert gap.max() < 0.05  # half of a pixel of theirs along a jump

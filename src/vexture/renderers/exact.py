@@ -3,7 +3,8 @@
 It deliberately uses neither the quad-tree, its boundary code nor a fill library, because it judges them. A sweep goes
 from top to bottom over the drawing's chords (`vexture.renderers.flatten`), slab by slab (`vexture.renderers.slabs`).
 Each path's winding number, counted from left to right, tells which chords bound the union of the paths, or at which the
-colour changes (`vexture.renderers.faces`). The exact trapezoids of these are added to the pixels of the row.
+colour changes (`vexture.renderers.faces`). The exact trapezoids of these are added to the pixels of the row, and the
+integrals over faces with gradients (`vexture.renderers.regions`).
 """
 
 import numpy as np
@@ -12,8 +13,9 @@ from numpy.typing import NDArray
 from vexture.drawing import Drawing, FillRule
 from vexture.errors import ParameterError
 from vexture.kernels import kernel
-from vexture.renderers.faces import Faces, Stack, colour_slab
+from vexture.renderers.faces import FLAT, RUN, Faces, Stack, find_face, forget
 from vexture.renderers.flatten import Chords, find_chords
+from vexture.renderers.regions import SIDE, Regions, add_region, end_row
 from vexture.renderers.slabs import Sweep, add_edge, cross, next_slab
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 from vexture.tolerance import FLATNESS, SCANLINE
@@ -45,17 +47,23 @@ def render_exact_colours(
 ) -> NDArray[np.float32]:
     """Exact colour of each pixel's square, in sRGB: the sum, over the faces, of a face's colour times its area there.
 
-    A *face* is where the same paths are inside. It has one colour, composited as SVG and CSS say, with the drawing's
-    groups. So nothing shines through where two paths touch. The result is (height, width, 4), premultiplied, top row
-    first; all else is as in `render_exact`. The error of a component is at most 2/3 of the flatness times the length of
-    the outlines in the pixel, each times the jump of the component there: by default 0.005/255 for one outline.
+    A *face* is where the same paths are inside. Its colour is composited as SVG and CSS say, with the drawing's groups:
+    once, or where gradients are seen at every point, over which it is integrated. So nothing shines through where two
+    paths touch. The result is (height, width, 4), premultiplied, top row first; all else is as in `render_exact`.
+
+    The error of a component is at most 2/3 of the flatness times the length of the outlines in the pixel, each times
+    the jump of the component there: by default 0.005/255 for one outline. Integrals over gradients are refined until
+    they are steady, which costs up to 0.02/255 in most drawings, and was 0.1/255 in the worst pixel of 120 random ones
+    with all blend modes and up to ten periods of a gradient in a pixel. More than 64 periods in a pixel, or 1,024
+    corners of ramps on a line of one, are not resolved.
     """
     width, height = size_of(size)
     image = np.zeros((height, width, 4), np.float32)
     chords = chords_of(drawing, (width, height), view, flatness)
     if len(chords.lines):
-        stack = Stack.of(drawing)
-        colour_rows(Sweep.over(chords), chords.owners, stack, Faces.of(stack), image)
+        stack = Stack.of(drawing, view_matrix(view, (width, height)))
+        regions = Regions.between(chords.lines if stack.ramps.stops.size else chords.lines[:0], width)
+        colour_rows(Sweep.over(chords), chords.owners, stack, Faces.of(stack), regions, image)
     return image
 
 
@@ -111,7 +119,7 @@ def cover_slab(
 
 @kernel
 def colour_rows(
-    sweep: Sweep, owners: NDArray[np.int32], stack: Stack, faces: Faces, image: NDArray[np.float32]
+    sweep: Sweep, owners: NDArray[np.int32], stack: Stack, faces: Faces, regions: Regions, image: NDArray[np.float32]
 ) -> None:
     """Accumulate the colours of each row, slab by slab."""
     height, width = image.shape[:2]
@@ -119,12 +127,53 @@ def colour_rows(
     y = 0.0
     for row in range(height):
         change[:] = 0.0
+        forget(faces)
         while y < row + 1.0:
             low = next_slab(sweep, y, row + 1.0)
-            colour_slab(sweep, owners, low - y, stack, faces, change)
+            colour_slab(sweep, owners, (y, low), stack, faces, regions, change)
             y = low
+        end_row(stack, faces, regions, change)
         for channel in range(4):
             value = 0.0
             for column in range(width):
                 value += change[column, channel]
                 image[row, column, channel] = min(max(value, 0.0), 1.0)
+
+
+@kernel(allocates=False)
+def colour_slab(
+    sweep: Sweep,
+    owners: NDArray[np.int32],
+    heights: tuple[float, float],
+    stack: Stack,
+    faces: Faces,
+    regions: Regions,
+    change: NDArray[np.float64],
+) -> None:
+    """Add the chords of a slab at which the colour changes, by as much as it changes, and what varies between them."""
+    active, left = sweep.active[: sweep.counts[0]], faces.left
+    name, begin, face = 0, SIDE, (FLAT, 0)
+    left[:] = 0.0
+    for k in range(len(active)):
+        owner = owners[active[k]]
+        path = abs(owner) - 1
+        step = cross(owner, faces.winding, stack.evenodd)
+        if step != 0:
+            if face[0] != FLAT:
+                add_region((begin, active[k]), face, heights, stack, faces, regions, change)
+            faces.inside[path // RUN] += step
+            name ^= stack.names[path]
+            found = find_face(name, stack, faces)
+            begin, face = active[k], (faces.starts[found], faces.ends[found])
+            right = faces.colours[found]
+            jump = right[0] - left[0], right[1] - left[1], right[2] - left[2], right[3] - left[3]
+            if jump != (0.0, 0.0, 0.0, 0.0):
+                add_edge(sweep.highs[k], sweep.lows[k], heights[1] - heights[0], jump, change)
+                for channel in range(4):
+                    left[channel] = right[channel]
+    if face[0] != FLAT:
+        add_region((begin, SIDE), face, heights, stack, faces, regions, change)
+    for chord in active:
+        path = abs(owners[chord]) - 1
+        faces.winding[path] = 0
+        faces.inside[path // RUN] = 0
