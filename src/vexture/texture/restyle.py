@@ -184,7 +184,7 @@ def renew_means(flat: NDArray[np.uint32], root: int, cells: int, sides: int, tab
                 base, after = int(flat[cells + 2 * place + 1, k]), at + (cell >> COUNT_SHIFT)
                 _set_leaf_mean(flat, base, (at, after), sides, table, curve, mean)
                 at = after
-            word = 0
+            word, alpha = 0, min(max(mean[3], 0.0), 1.0)
             for c in range(4):
-                word |= int(np.rint(COVERAGE_ONE * min(max(mean[c], 0.0), 1.0))) << CELL_BITS * c
+                word |= int(np.rint(COVERAGE_ONE * min(max(mean[c], 0.0), alpha))) << CELL_BITS * c
             flat[cells + 2 * place, k] = word

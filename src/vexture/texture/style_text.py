@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from vexture.drawing import Blend, Group
-from vexture.errors import FormatError, SourceError
+from vexture.errors import FormatError, LimitError, SourceError
 from vexture.paint import Paint
 from vexture.texture.walk import REMEDY
 from vexture.tree.planar.style import Style, rounded
@@ -74,7 +74,7 @@ def read_style(value: Any, what: str) -> Style:
     )
     try:
         style.check_groups()
-    except SourceError as error:
+    except (LimitError, SourceError) as error:
         raise FormatError(f"{what}: {line(error)}; {REMEDY}") from None
     return style
 
