@@ -1,5 +1,6 @@
 """The command line on shapes: colours, parts of drawings, atlases."""
 
+import json
 import os
 import re
 
@@ -52,6 +53,44 @@ def test_colours_and_parts(tmp_path):
     assert (result.exit_code, result.output.count("\n")) == (1, 1)
     assert "'#wrod' matches no element" in result.output
     assert [root.name for root in vexture.load(tmp_path / "logo.ktx2").roots] == [root.name for root in roots]
+
+
+def test_elements_are_named_and_get_other_colours(tmp_path):
+    logo, plain, blue = tmp_path / "logo.svg", tmp_path / "plain.ktx2", tmp_path / "blue.ktx2"
+    logo.write_text(LOGO)
+    assert run("convert", logo, "-o", plain, "--split", "faces", "--restyle").exit_code == 0
+    assert "elements 1 (word)" in run("info", plain).stdout
+    result = run("restyle", plain, "word=rgb(0 0 255 / 1)", "-o", blue)
+    assert (result.exit_code, result.stdout[-7:]) == (0, " bytes\n")
+    assert vexture.load(blue).render(10)[3, 4].tolist() == [0, 0, 1, 1]
+    for arguments, says in (
+        (("wrd=red", "-o", blue), "no element 'wrd'; near names are 'word'; there are 1"),
+        (("word", "-o", blue), "'word' names no colour; give NAME=COLOUR"),
+        (("word=red", "-o", tmp_path / "a.png"), "textures are KTX2 files; name one that ends in .ktx2"),
+        (("word=#f008", "-o", blue), "'word' gets the opacity 0.533333, but the texture does not have what it hides"),
+    ):
+        result = run("restyle", plain, *arguments)
+        assert result.exit_code == 1
+        assert says in result.stderr
+        assert len(result.stderr.splitlines()) == 1
+    result = run("convert", logo, "-o", plain, "--restyle")
+    assert "`restyle`" not in result.stderr
+    assert "--restyle is for a whole drawing in its colours; add --split 'faces'" in result.stderr
+
+
+def test_polygons_are_named_by_a_property_and_snapped(tmp_path):
+    rings = [[[0, 0], [1, 0], [1, 1], [0, 1]], [[1.000001, 0], [2, 0], [2, 1], [1.000001, 1]]]
+    features = [
+        {"type": "Feature", "properties": {"code": f"c{k}"}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+        for k, ring in enumerate(rings)
+    ]
+    source, target = tmp_path / "two.geojson", tmp_path / "two.ktx2"
+    source.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    arguments = ("convert", source, "-o", target, "--split", "faces", "--restyle", "--names", "code")
+    result = run(*arguments)
+    assert "2 corners snapped to borders beside them" in result.stderr
+    assert vexture.load(target).element_at([(0.2, 0.5), (0.8, 0.5), (0.5, 0.1)]).name.tolist() == ["c0", "c1", ""]
+    assert "snapped" not in run(*arguments, "--snap", 0).stderr
 
 
 def test_output_may_name_the_file_of_one_drawing(square, tmp_path):

@@ -85,6 +85,14 @@ def test_figures(tmp_path):
     assert all(dark_share(tmp_path / f"heart-{name}.png") > 0.02 for name in ("texture", "depths", "edges"))
 
 
+def test_choropleth(tmp_path):
+    lines = run(ROOT / "examples" / "07_choropleth.py", tmp_path, folder=tmp_path).splitlines()
+    assert re.fullmatch(r"in the middle: county \d+", lines[0])
+    pictures = [np.asarray(Image.open(tmp_path / f"{year}.png")) for year in (2000, 2010, 2020)]
+    assert all((picture[0, 0] == 255).all() and 0.7 < (picture[..., 1] < 100).mean() < 0.85 for picture in pictures)
+    assert np.abs(np.diff([picture[200, 200].astype(int) for picture in pictures], axis=0)).max(axis=1).min() > 20
+
+
 def test_every_example_is_tested():
     names = {path.name for path in (ROOT / "examples").glob("*.py")}
     assert names == set(re.findall(r"\d\d_\w+\.py", Path(__file__).read_text(encoding="utf-8")))

@@ -185,7 +185,7 @@ def read_map(words: np.ndarray, root: int) -> tuple[Map, np.ndarray]:
 
 @refusing()
 def read_style(root: dict, planar: Map) -> tuple[list[dict], list[list[int]]]:
-    """Return the elements of a map, each with its place in the style, and the stacks of its paints (D.9)."""
+    """Return the elements of a map, each with its place in the style, and the stacks of its paints (D.10)."""
     elements, groups, stacks = (root["style"][key] for key in ("elements", "groups", "stacks"))
     need(all(-1 <= group["outer"] < k and 0 <= group["opacity"] <= 1 for k, group in enumerate(groups)), "groups")
     need(all(-1 <= element.get("group", -1) < len(groups) for element in elements), "the group of an element")
@@ -195,7 +195,7 @@ def read_style(root: dict, planar: Map) -> tuple[list[dict], list[list[int]]]:
 
 
 def composited(elements: list[dict], stack: list[int]) -> np.ndarray:
-    """Return the colour of a stack in which no element is in a group (D.9)."""
+    """Return the colour of a stack in which no element is in a group (D.10)."""
     color = np.zeros(4)
     for place in stack:
         need("group" not in elements[place], "no group, as this decoder composites none")

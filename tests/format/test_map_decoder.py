@@ -76,7 +76,7 @@ def test_stacks_say_what_paints_are_made_of() -> None:
 
 
 def test_the_example_is_what_it_says() -> None:
-    part = (REPOSITORY / "FORMAT.md").read_text(encoding="utf-8").split("### D.9 Example")[1]
+    part = (REPOSITORY / "FORMAT.md").read_text(encoding="utf-8").split("### D.9 Example")[1].split("### D.10")[0]
     rows = re.findall(r"^\| \d+ \|((?: [0-9a-f]{8} \|){4})", part, re.M)
     words = np.array([[int(word, 16) for word in row.split("|")[:4]] for row in rows])
     planar, used = map_decoder.read_map(words, 2)

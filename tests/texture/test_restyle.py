@@ -273,6 +273,7 @@ GROUP = {"outer": -1, "opacity": 1, "blend": "normal"}
         (STYLE | {"elements": [{"name": "a", "color": [1, 0, 0], "group": 0}]}, "a path is in group 0, of 0"),
         (STYLE | {"elements": [{"name": "a", "color": [1, 0, 0], "hides": 1}]}, "hides is a truth"),
         (STYLE | {"groups": [GROUP | {"blend": "glow"}]}, "it must be an object with outer and blend"),
+        (STYLE | {"groups": [GROUP | {"outer": k - 1} for k in range(101)]}, "groups are 101 deep; the limit of"),
         (STYLE | {"groups": [GROUP | {"outer": 3}]}, "group 0 lies in group 3, which is not before it"),
         (STYLE | {"groups": [GROUP | {"opacity": 2}]}, "a group has opacity 2; it must be in 0..1"),
         (STYLE | {"stacks": [[], [1]]}, "a stack names none of the 1 elements"),

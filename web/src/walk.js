@@ -148,7 +148,7 @@ function top(data, quad, ofMap) {
 
 /**
  * Whether a point is inside a shape, computed from the stored outlines (FORMAT.md, B.6); of a planar map, whether
- * anything is painted there (D.6).
+ * anything is painted there (D.7).
  *
  * @param {PackedData} data
  * @param {number} quad index of the shape's root quad

@@ -4,6 +4,7 @@ from typing import Final
 
 __all__ = [
     "BEND",
+    "BISECTIONS",
     "BORDER",
     "CLOSE",
     "COVERED",
@@ -130,6 +131,9 @@ WRAP_NONE: Final = 0
 WRAP_CLAMP: Final = 1
 WRAP_REPEAT: Final = 2
 """Beyond the unit square: nothing, the border's value, or the shape again."""
+
+BISECTIONS: Final = 24
+"""Halvings of a curve to find the face at a point: as many as a float32 has bits."""
 
 BORDER: Final = 2.0**-22
 """Unit-square units; more than float32 loses of a position near the square's border."""

@@ -1,4 +1,4 @@
-"""Which element of a drawing is at a point of its planar map, by FORMAT.md, D.6."""
+"""Which element of a drawing is at a point of its planar map, by FORMAT.md, D.7."""
 
 from collections.abc import Sequence
 from typing import NamedTuple

@@ -148,7 +148,7 @@ def _set_leaf_mean(
     curve: NDArray[np.float64],
     mean: NDArray[np.float64],
 ) -> None:
-    """Write the mean colour (4,) of a leaf with the curves first..last-1 (FORMAT.md, D.7); `curve` is scratch."""
+    """Write the mean colour (4,) of a leaf with the curves first..last-1 (FORMAT.md, D.8); `curve` is scratch."""
     for c in range(4):
         mean[c] = table[base, c]
     for i in range(curves[0], curves[1]):
@@ -185,7 +185,7 @@ def renew_means(flat: NDArray[np.uint32], root: int, cells: int, sides: int, tab
                 base, after = int(flat[cells + 2 * place + 1, k]), at + (cell >> COUNT_SHIFT)
                 _set_leaf_mean(flat, base, (at, after), sides, table, curve, mean)
                 at = after
-            word = 0
+            word, alpha = 0, min(max(mean[3], 0.0), 1.0)
             for c in range(4):
-                word |= int(np.rint(COVERAGE_ONE * min(max(mean[c], 0.0), 1.0))) << CELL_BITS * c
+                word |= int(np.rint(COVERAGE_ONE * min(max(mean[c], 0.0), alpha))) << CELL_BITS * c
             flat[cells + 2 * place, k] = word

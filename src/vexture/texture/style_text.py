@@ -1,4 +1,4 @@
-"""Colours, and what can be restyled, as JSON (FORMAT.md, B.5 and D.9)."""
+"""Colours, and what can be restyled, as JSON (FORMAT.md, B.5 and D.10)."""
 
 import math
 import reprlib
@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from vexture.errors import FormatError, SourceError
+from vexture.errors import FormatError, LimitError, SourceError
 from vexture.group import Blend, Group, Mask
 from vexture.paint import Paint
 from vexture.texture.walk import REMEDY
@@ -79,7 +79,7 @@ def read_style(value: Any, what: str) -> Style:
     )
     try:
         style.check_groups()
-    except SourceError as error:
+    except (LimitError, SourceError) as error:
         raise FormatError(f"{what}: {line(error)}; {REMEDY}") from None
     return style
 

@@ -171,7 +171,7 @@ class Texture:
         points : (n, 2) array
             In unit-square units, y up.
         root : str, int or None
-            Name of the drawing, or name or number of one of its sheets; not needed if there is only one drawing.
+            As in `render`.
 
         Returns
         -------
@@ -204,11 +204,7 @@ class Texture:
             For the names of elements, a CSS colour, its components in 0..1 (three, or four with the opacity), a flat
             `Paint`, or None for nothing. It replaces the element's colour and opacity.
         root : str, int or None
-            As in `element_at`.
-
-        Returns
-        -------
-        Texture
+            As in `render`.
 
         Raises
         ------

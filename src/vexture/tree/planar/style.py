@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing, Path
+from vexture.errors import LimitError
 from vexture.group import Group, groups_around
 from vexture.notes import Note
 from vexture.paint import Paint
@@ -16,6 +17,9 @@ __all__ = ["Style", "elements_of", "restylable", "rounded", "style_of"]
 
 DIGITS: Final = 6
 """Decimals of an element's colour and opacity: finer than the steps of 1/65535 in which paints are stored."""
+
+MOST_NESTED: Final = 100
+"""Groups around one another: a file of very deep ones would take long to read."""
 
 SHADED: Final = "gradient, of its mean colour, as colours that can be changed are flat"
 
@@ -72,7 +76,15 @@ class Style:
         return [element for element in stack if hidden.isdisjoint(around[element])]
 
     def check_groups(self) -> None:
-        """Raise a `SourceError` if the groups are not nested, or the elements of one do not follow one another."""
+        """Raise a `LimitError` if groups are nested too deeply.
+
+        Raise a `SourceError` if they are not nested, or the elements of one do not follow one another.
+        """
+        depth: list[int] = []
+        for group in self.groups:
+            depth.append(depth[group.outer] + 1 if 0 <= group.outer < len(depth) else 1)
+        if max(depth, default=0) > MOST_NESTED:
+            raise LimitError(f"groups are {max(depth)} deep; the limit of what can be restyled is {MOST_NESTED}")
         if self.groups or (self.group != -1).any():
             Drawing(tuple(Path((), group=group) for group in self.group.tolist()), groups=self.groups)
 
@@ -108,7 +120,7 @@ def style_of(drawing: Drawing, planar: Any) -> Style:
     first, number = elements_of(drawing)
     hides = np.zeros(len(first), np.bool_)
     hides[number[list(planar.hiding)]] = True
-    return Style(
+    style = Style(
         tuple(path.element for path in first),
         rounded([(*path.paint.color, path.paint.opacity) for path in first]),
         np.array([path.group for path in first], np.int64),
@@ -117,3 +129,5 @@ def style_of(drawing: Drawing, planar: Any) -> Style:
         np.append(0, np.cumsum([len(stack) for stack in planar.stacks], dtype=np.int64)),
         number[np.fromiter(chain.from_iterable(planar.stacks), np.int64)].astype(np.int32),
     )
+    style.check_groups()
+    return style
