@@ -9,6 +9,7 @@ import { WRAPS, packed, planar, steps } from '../generated/shaders.js';
  * @property {boolean} inLayers whether the shape is the union of a drawing's layers
  * @property {'none' | 'some' | 'all'} maps which of the shapes that may be shown are planar maps; all of several only if
  *   each is shown alone
+ * @property {boolean} gradients whether a map holds gradients
  * @property {boolean} linear
  * @property {'none' | 'clamp' | 'repeat'} wrap
  * @property {boolean} flat
@@ -68,12 +69,13 @@ function paint(variant) {
 }
 
 /** @param {Variant} variant */
-function reader({ other, maps, wrap, flat, fold, linear }) {
+function reader({ other, maps, gradients, wrap, flat, fold, linear }) {
   if (other) return other.declared;
   const declared = 'uniform uint vextureRootQuad;\nuniform int vextureFirst;\nuniform int vextureCount;\n';
   const chosen = `#define VEXTURE_FLAT ${Number(flat && !fold)}\n#define VEXTURE_WRAP ${WRAPS[wrap]}\n`;
   if (maps === 'none') return `${chosen}${packed}${fold}${declared}`;
-  return `${chosen}#define VEXTURE_LINEAR ${Number(linear)}\n${planar}${fold}${declared}`;
+  const colors = `#define VEXTURE_LINEAR ${Number(linear)}\n#define VEXTURE_GRADIENTS ${Number(gradients)}\n`;
+  return `${chosen}${colors}${planar}${fold}${declared}`;
 }
 
 /** Fully transparent pixels write no depth, so that they hide nothing. */

@@ -32,6 +32,7 @@ export function variantOf(texture, options, range) {
     mode,
     inLayers: mode === 'paint',
     maps,
+    gradients: shown.some(({ hasGradients }) => hasGradients),
     linear: linear && mode === 'paint' && maps !== 'none' && isAlone, // layers are composited in sRGB, as in browsers
     wrap,
     flat,

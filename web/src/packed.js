@@ -12,6 +12,7 @@ import {
 import { checkForest } from './check-texels.js';
 import { REMEDY, VextureError, line } from './errors.js';
 import { readKtx2 } from './ktx2.js';
+import { headOf } from './planar-map.js';
 import { readRoots } from './read-roots.js';
 
 /**
@@ -40,6 +41,7 @@ export async function readPacked(file, name = 'texture') {
       );
     }
     checkForest(texels, roots);
+    for (const root of roots) root.hasGradients = root.isMap && headOf(texels, root.quad).operations > 0;
     return { encoding: 'packed', name: texts.get(TEXT_NAME) || name, width, height, texels, roots };
   } catch (error) {
     throw error instanceof VextureError ? error.in(name) : error;

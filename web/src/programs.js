@@ -43,7 +43,7 @@ const PAD = 0;
 const REFLECT = 1;
 const MOST_SPREAD = 2;
 
-/** Texels of the kind FOLLOWS after the first of an operation. */
+/** Texels of the kind FOLLOWS after the first of an operation. @type {Readonly<Record<number, number>>} */
 const FOLLOWING = { [KIND_RADIAL]: 1, [KIND_FOCAL]: 2 };
 
 /** @param {Uint32Array} texels */

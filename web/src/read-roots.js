@@ -42,7 +42,7 @@ function readRoot(entry, place) {
     refuse(`root ${place}: tolerance`, tolerance, 'a finite number of at least 0', place, 'tolerance');
   }
   return {
-    name, quad, transform, tolerance, crs, paint: paint === null ? null : readPaint(paint, place), isMap: map,
+    name, quad, transform, tolerance, crs, paint: paint === null ? null : readPaint(paint, place), isMap: map, hasGradients: false,
   };
 }
 

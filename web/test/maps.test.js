@@ -18,6 +18,7 @@ const texts = { ...TEXTS, [TEXT_VERSION]: '2', [TEXT_ROOTS]: /\[\{"name".*\]/.ex
 const example = await readPacked(ktx2(texels, texts));
 const maps = await readPacked(fixture('maps.ktx2'));
 const drawn = await readPacked(fixture('drawings.ktx2'));
+const shades = await readPacked(fixture('shades.ktx2'));
 
 describe('what is read', () => {
   test('the example of FORMAT.md, D.9', () => {
@@ -103,6 +104,68 @@ const BROKEN = [
   ['an end beyond the lattice', /curve 3 has an end at 40960/, (words) => (words[15] = 0xa0002000)],
   ['a texel that is no part', /texel 20 belongs to no root and is not 0/, (words) => (words[80] = 1)],
 ];
+
+describe('gradients', () => {
+  const [{ quad }] = shades.roots;
+  /** @param {number} x @param {number} y of the source, downwards */
+  const at = (x, y) => paintAt(shades, quad, x / 64, 1 - y / 64).color;
+  /** @param {number[]} color @param {number[]} wanted */
+  const expectColor = (color, wanted) => wanted.forEach((part, k) => expect(color[k]).toBeCloseTo(part, 4));
+
+  test('along a line', () => {
+    for (const t of [0.125, 0.25, 0.75]) expectColor(at(64 * t, 10), [1 - t, 0, t, 1]);
+  });
+
+  test('about a point, and back again', () => {
+    for (const [t, back] of [[0.25, 0.25], [0.5, 0.5], [1.0625, 0.9375]]) {
+      const grey = 1 - back;
+      expectColor(at(16 + (16 * t) / Math.SQRT2, 48 - (16 * t) / Math.SQRT2), [grey, grey, grey, 1]);
+    }
+  });
+
+  test('about a focal point, in a translucent group over a colour', () => {
+    // on the axis the circle at t reaches from 40 - 8 t to 40 + 24 t
+    for (const [x, t] of [[46, 0.25], [58, 0.75], [34, 0.75]]) expectColor(at(x, 48), [0.5, t / 2, (1 - t) / 2, 1]);
+  });
+
+  test('cells know what paints are programs', () => {
+    expect(contains(shades, quad, 0.5, 0.5)).toBe(true);
+    expect(bounds(shades, quad)).toEqual([0, 0, 1, 1]);
+  });
+});
+
+/** The head says where operations begin; the first is the linear gradient's. */
+const PROGRAMS = shades.texels[4 * (shades.roots[0].quad - 2)];
+const STOPS = PROGRAMS + shades.texels[4 * (shades.roots[0].quad - 2) + 1];
+const kindAt = (/** @type {number} */ texel) => shades.texels[4 * texel + 3] >>> 29;
+const place = (/** @type {number} */ kind) => 4 * [...Array(STOPS - PROGRAMS).keys()].map((k) => PROGRAMS + k).find((k) => kindAt(k) === kind);
+
+/** @type {[string, RegExp, (texels: Uint32Array) => void][]} */
+const BROKEN_PROGRAMS = [
+  ['more operations than texels', /the programs of the map/, (words) => (words[4 * (shades.roots[0].quad - 2) + 1] = 0xfffffff0)],
+  ['fewer operations', /they leave gaps/, (words) => words[4 * (shades.roots[0].quad - 2) + 1]--],
+  ['no kind', /an unknown operation, or half of one/, (words) => (words[place(2) + 3] &= 0x1fffffff)],
+  ['half of a gradient', /an unknown operation, or half of one|of the wrong length/, (words) => (words[place(2) + 3] |= 0xe0000000)],
+  ['a number that is not finite', /a number is not finite/, (words) => (words[place(2)] = 0x7f800000)],
+  ['stops beyond the part', /stops elsewhere/, (words) => (words[place(2) + 3] |= 0x7ffff)],
+  ['no stops', /stops elsewhere/, (words) => (words[place(2) + 3] &= ~(255 << 19))],
+  ['no such spread', /no such spread/, (words) => (words[place(2) + 3] |= 3 << 27)],
+  ['a group that is not begun', /too many groups in one another/, (words) => (words[place(5) + 3] = 6 << 29 >>> 0)],
+  ['a group that is not ended', /a group is not ended|too many groups/, (words) => {
+    words.set([0, 0, 0, 5 << 29 >>> 0], place(6));
+  }],
+  ['a blend mode of whole colours', /no such group/, (words) => (words[place(6) + 1] = 12)],
+  ['a colour above its opacity', /a colour above its opacity/, (words) => (words[place(1)] = 0xffff, words[place(1) + 1] = 0x7fff0000)],
+  ['a stop beyond 1', /a stop that is not in 0..1|not in order/, (words) => (words[4 * STOPS + 4] = 0x40000000)],
+  ['stops out of order', /stops that are not in order/, (words) => (words[4 * STOPS] = 0x3f800000, words[4 * STOPS + 4] = 0)],
+  ['a focal circle of negative radius', /a focal circle/, (words) => (words[place(4) + 9] = 0x80000000)],
+];
+
+describe('untrusted programs', () => {
+  test.each(BROKEN_PROGRAMS)('%s', async (_, message, change) => {
+    await expectRefusal(readPacked(altered(shades, change)), /./, message);
+  });
+});
 
 describe('untrusted maps', () => {
   test.each(BROKEN)('%s', async (_, message, change) => {

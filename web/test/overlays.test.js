@@ -127,7 +127,7 @@ describe('texels', () => {
     const map = new TexelMap(maps, quad);
     const { quads, curves } = counts(maps, quad);
     const found = (/** @type {number} */ kind) => [...map.kinds].filter((one) => one === kind).length;
-    expect([HEAD, QUAD, CURVE, MEANS, BASES].map(found)).toEqual([1, quads, curves, quads, quads]);
+    expect([HEAD, QUAD, CURVE, MEANS, BASES].map(found)).toEqual([2, quads, curves, quads, quads]);
     expect(found(PAINTS)).toBe(Math.ceil(maps.texels[4 * quad - 4] / 2));
     expect(map.texel(quad - 1)).toMatchObject({ kind: 'head', words: expect.arrayContaining([expect.stringMatching(/^\d+ paints$/)]) });
     expect(map.texel(quad).words.slice(2)).toEqual([expect.stringMatching(/curve/), 'not used']);

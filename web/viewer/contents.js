@@ -140,6 +140,7 @@ function describe({ index, kind, place, words }) {
   const what = {
     quad: 'a quad', curve: 'a curve', other: 'of another layer', unused: 'not used', head: 'head of the map',
     means: 'mean colours of cells', bases: 'base paints of cells', sides: 'paints beside curves', paints: 'colours of paints',
+    operations: 'operations of a program', stops: 'stops of gradients',
   }[kind];
   const where = place ? `, depth ${place.depth}, at ${place.x}, ${place.y}` : '';
   return [

@@ -10,6 +10,7 @@ import { drawingOf } from '../src/select-root.js';
  * @property {number} count of layers
  * @property {boolean} silhouette whether it is drawn in the theme's ink
  * @property {'none' | 'some' | 'all'} maps whether its layers are planar maps; `all`: it is one map
+ * @property {boolean} gradients whether a map holds gradients
  */
 
 /** @typedef {import('../src/data.js').Root} Root */
@@ -40,6 +41,8 @@ export function shownDrawing(texture, name) {
   let end = first + 1;
   while (end < texture.roots.length && drawingOf(texture.roots[end]) === wanted) end++;
   const count = end - first;
-  const maps = mapsAmong(texture.roots.slice(first, end), count === 1);
-  return { texture, name: wanted, first, count, silhouette: count === 1 && isBlack(texture.roots[first]), maps };
+  const layers = texture.roots.slice(first, end);
+  const silhouette = count === 1 && isBlack(layers[0]);
+  const gradients = layers.some(({ hasGradients }) => hasGradients);
+  return { texture, name: wanted, first, count, silhouette, maps: mapsAmong(layers, count === 1), gradients };
 }

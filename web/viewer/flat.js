@@ -49,6 +49,7 @@ export class Flat {
   #passes = new Map();
   /** @type {import('./drawing.js').ShownDrawing['maps']} */
   #maps = 'none';
+  #gradients = false;
 
   /** @param {Record<string, {value: any}>} overlays uniforms of overlay.glsl, set by the module `overlays` */
   constructor(overlays) {
@@ -81,10 +82,11 @@ export class Flat {
   /** @param {boolean} isOverlaid */
   #pass(isOverlaid) {
     const { text, call } = DRAWN[this.#maps];
-    const key = `${this.#maps} ${isOverlaid}`;
+    const key = `${this.#maps} ${this.#gradients} ${isOverlaid}`;
+    const chosen = `${FLAT}#define VEXTURE_GRADIENTS ${Number(this.#gradients)}\n`;
     const made = this.#passes.get(key)
-      ?? (isOverlaid ? new Pass(FLAT + text + overlay + output(call), this.uniforms, { OVERLAY: 1 })
-        : new Pass(FLAT + text + output(call), this.uniforms));
+      ?? (isOverlaid ? new Pass(chosen + text + overlay + output(call), this.uniforms, { OVERLAY: 1 })
+        : new Pass(chosen + text + output(call), this.uniforms));
     this.#passes.set(key, made);
     return made;
   }
@@ -101,6 +103,7 @@ export class Flat {
     uniforms.count.value = shown.count;
     uniforms.quad.value = shown.texture.roots[shown.first].quad;
     this.#maps = shown.maps;
+    this.#gradients = shown.gradients;
     uniforms.silhouette.value = shown.silhouette;
     uniforms.ink.value.fromArray(colors.ink);
     uniforms.paper.value.set(...colors.paper, 1);
