@@ -20,6 +20,7 @@ from vexture.tree.build import build_tree
 from vexture.tree.planar.build import build_map
 
 SHAPES: Final = ROOT / "examples" / "shapes"
+SHADES: Final = ROOT / "web" / "test" / "fixtures" / "shades.svg"
 
 ATLAS: Final = ("holes", "flame", "cake", "thumb")
 
@@ -61,6 +62,7 @@ def prepare(folder: Path) -> None:
         vexture.convert(drawing(name)).save(folder / f"{name}.ktx2")
     vexture.convert(drawing("glass"), split="paint").save(folder / "paint.ktx2")
     vexture.convert(drawing("glass"), split="faces").save(folder / "map.ktx2")
+    vexture.convert(SHADES).save(folder / "shades.ktx2")
     sheets().save(folder / "sheets.ktx2")
     vexture.atlas([SHAPES / f"{name}.svg" for name in ATLAS]).save(folder / "atlas.ktx2")
     vexture.convert(drawing("duck"), encoding="thesis").save(folder / "thesis")

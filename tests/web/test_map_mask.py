@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from browser import served
-from mask_page import NEWEST, Picture, decode, distance, draw, drawing, encoded, linear, parts
+from mask_page import NEWEST, SHADES, Picture, decode, distance, draw, drawing, encoded, linear, parts
 from numpy.typing import ArrayLike
 
 import vexture
@@ -19,6 +19,7 @@ from vexture.renderers.picture import stacked
 HALF_STEP = 0.6  # of 255: an 8-bit framebuffer rounds
 FIT = np.array([[1 / 512, 0, 0], [0, -1 / 512, 1]])  # the square in a picture of 512 pixels
 ALONE: dict[str, Any] = {"material": "VectorMaterial", "texture": "map"}
+SHADED: dict[str, Any] = ALONE | {"texture": "shades"}
 
 
 @pytest.fixture(scope="module")
@@ -67,6 +68,17 @@ def test_it_stays_sharp_nearby_and_when_turned(page: Any, screenshot: Callable[.
         assert np.ptp(near[..., :3]) > 0.2
         assert distance(draw(page, **ALONE, parameters=parameters), on_white(near)) <= HALF_STEP
         screenshot(page.locator("canvas"), str(number))
+
+
+def test_gradients_are_what_the_exact_renderer_draws(page: Any, screenshot: Callable[..., Path]) -> None:
+    shades = vexture.read_svg(SHADES)
+    for flat in (False, True):
+        for size in (512, 50):
+            wanted = render_exact_colours(shades, size, FIT * [512 / size, 512 / size, 1]).astype(float)
+            picture = draw(page, **SHADED, parameters={"mode": "paint", "flat": flat}, size=size)
+            assert distance(picture, on_white(wanted)) <= HALF_STEP
+            assert 255.0 * np.abs(picture - on_white(wanted)).max() <= 3.0
+    screenshot(page.locator("canvas"))
 
 
 def test_it_repeats_and_is_clamped(page: Any, screenshot: Callable[..., Path]) -> None:

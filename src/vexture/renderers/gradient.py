@@ -88,7 +88,7 @@ def as_float(bits: int) -> float:
     if size == 255:
         value = math.nan if part else math.inf
     else:
-        value = math.ldexp(float(part + 0x800000), size - 150) if size else math.ldexp(float(part), -149)
+        value = (part + 0x800000) * 2.0 ** (size - 150) if size else part * 2.0**-149
     return -value if bits >> 31 else value
 
 

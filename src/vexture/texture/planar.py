@@ -84,6 +84,7 @@ def _cell_texels(planar: PlanarMap) -> NDArray[np.uint32]:
     """Two texels for each quad: the mean colours of its cells, and their base paints."""
     shift = np.arange(4, dtype=np.int64) * layout.CELL_BITS
     means = np.rint(planar.mean.clip(0.0, 1.0) * layout.COVERAGE_ONE).astype(np.int64)
+    means = np.minimum(means, means[..., 3:])  # sums of areas round
     texels = np.empty((2 * len(means), 4), np.uint32)
     texels[0::2] = (means << shift).sum(axis=2)
     texels[1::2] = planar.base

@@ -56,7 +56,7 @@ from vexture.tree.planar.faces import Faces, face_of, new_faces, roomier_faces
 from vexture.tree.planar.layers import Layers, layers_of
 from vexture.tree.planar.leaf import PlanarLeaf, Workspace, new_workspace, planar_leaf
 from vexture.tree.planar.map import PlanarMap, texels_of
-from vexture.tree.planar.means import set_mean
+from vexture.tree.planar.means import add_programs, set_flat_mean
 from vexture.tree.planar.programs import programs_of
 from vexture.tree.tree import MOST_QUADS, levels, runs
 from vexture.tree.winding import child_windings, inside
@@ -198,7 +198,8 @@ def _leaf(
     if cell.first == cell.last:
         face = face_of(faces, layers, ground, present, present[:, 1], key_of(layers, present, present[:, 1]))
         leaf = PlanarLeaf(0, faces.paint[face], 0.0, True)
-        set_mean(workspace.pieces, 0, leaf.base, cell, layers, faces, mean)
+        if set_flat_mean(workspace.pieces, 0, leaf.base, faces, mean):
+            add_programs(workspace.pieces, 0, leaf.base, cell, layers, faces, mean)
     elif depth < bounds.least_depth:
         leaf = PlanarLeaf(DIVIDE, 0, 0.0, True)
     else:
@@ -356,7 +357,8 @@ def _map_of(drawing: Drawing, growth: PlanarGrowth, layers: Layers, faces: Faces
     used, number = np.unique(np.concatenate([[0], base.ravel(), growth.sides[curves].ravel()]), return_inverse=True)
     if len(used) > MOST_PAINTS:
         raise LimitError(f"{drawing.name}: {len(used)} colours; the limit is {MOST_PAINTS}; use `split` paint")
-    stacks = tuple(faces.paths[slice(*faces.starts[[face, face + 1]])] for face in used.tolist())
+    begins, ends = faces.starts[used].tolist(), faces.starts[used + 1].tolist()
+    stacks = tuple(faces.paths[begin:end] for begin, end in zip(begins, ends, strict=True))
     programs, flattened = programs_of(drawing, layers, stacks)
     numbers: NDArray[np.int32] = number[1:].astype(np.int32)
     return PlanarMap(

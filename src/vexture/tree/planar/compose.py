@@ -15,7 +15,7 @@ from vexture.kernels import kernel
 from vexture.layout import MOST_KEPT, MOST_PROGRAM, MOST_STOPS, PAINT_ONE
 from vexture.tree.planar.blend import blend_over, masking
 from vexture.tree.planar.layers import Layers
-from vexture.tree.planar.shades import shade_at
+from vexture.tree.planar.shades import COUNT, FOCUS, shade_at
 
 __all__ = [
     "KEEP",
@@ -173,9 +173,9 @@ def _fits(layers: Layers, ops: Operations, count: int) -> bool:
     for k in range(count):
         texels += 1
         if ops.code[k] == SHADE:
-            number = ops.number[k]
-            texels += 2 if layers.shades.focus[number, 0] >= 0.0 else 0
-            stops += layers.shades.first[number + 1] - layers.shades.first[number]
+            row = layers.shades.rows[ops.number[k]]
+            texels += 2 if row[FOCUS] >= 0.0 else 0
+            stops += int(row[COUNT])
         elif ops.code[k] == KEEP:
             kept += 1
             most = max(most, kept)

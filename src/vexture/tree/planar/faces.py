@@ -193,13 +193,33 @@ def face_of(
     if key == 0:
         return ground
     key ^= faces.keys[ground]
+    slot = _slot_of(faces, key)
+    if faces.slots[slot] != 0:
+        return faces.slots[slot] - 1
+    return _new_face(faces, layers, ground, present, windings, key, slot)  # apart: what is rare slows what is not
+
+
+@kernel(allocates=False)
+def _slot_of(faces: Faces, key: int) -> int:
+    """The slot of the face with a key, or the free one where it belongs."""
     mask = len(faces.slots) - 1
     slot = key & mask
-    while faces.slots[slot] != 0:
-        face = faces.slots[slot] - 1
-        if faces.keys[face] == key:
-            return face
+    while faces.slots[slot] != 0 and faces.keys[faces.slots[slot] - 1] != key:
         slot = (slot + 1) & mask
+    return slot
+
+
+@kernel
+def _new_face(
+    faces: Faces,
+    layers: Layers,
+    ground: int,
+    present: NDArray[np.int64],
+    windings: NDArray[np.int64],
+    key: int,
+    slot: int,
+) -> int:
+    """Add a face with a key to the table, and its paint, if that is new."""
     face = faces.counts[0]
     if face == len(faces.keys) or not _stack(faces, layers, ground, present, windings, face):
         faces.counts[1] = 1
@@ -213,6 +233,7 @@ def face_of(
     faces.program[face] = key_of_operations(ops, count)
     for c in range(4):
         faces.rgba[face, c] = ops.rgba[0, c] if faces.program[face] == 0 and count > 0 else 0.0
+    mask = len(faces.slots) - 1
     slot = _paint_key(faces, face) & mask
     while faces.paint_slots[slot] != 0:
         other = faces.paint_slots[slot] - 1

@@ -15,7 +15,7 @@ from vexture.tree.planar.borders import Borders, Cell, find_borders, merge_borde
 from vexture.tree.planar.faces import Faces
 from vexture.tree.planar.layers import Layers
 from vexture.tree.planar.left_edge import settle_left_edge
-from vexture.tree.planar.means import set_crowded_mean, set_mean
+from vexture.tree.planar.means import add_programs, set_crowded_mean, set_flat_mean
 from vexture.tree.planar.slabs import Pieces, clean_borders, sweep
 from vexture.tree.separate import all_separate
 
@@ -114,7 +114,8 @@ def planar_leaf(
         return PlanarLeaf(0 if at_limit else DIVIDE, 0, 0.0, False), workspace
     made, base = settle_left_edge(borders, count, ground, present, layers, faces, windings, out, made)
     round_controls(out.curves, made)
-    set_mean(out, made, base, cell, layers, faces, mean)
+    if set_flat_mean(out, made, base, faces, mean):
+        add_programs(out, made, base, cell, layers, faces, mean)
     if made > capacity and not (made <= MOST_CURVES and (at_limit or _is_knot(out, made))):
         return PlanarLeaf(0 if at_limit else DIVIDE, base, distance, False), workspace
     return PlanarLeaf(made, base, distance, True), workspace

@@ -16,7 +16,7 @@ from vexture.tree.planar.layers import Layers
 from vexture.tree.planar.slabs import Pieces
 from vexture.tree.winding import inside
 
-__all__ = ["set_crowded_mean", "set_mean"]
+__all__ = ["add_programs", "set_crowded_mean", "set_flat_mean"]
 
 SCANLINES = 64
 """Heights at which a cell with too many pieces to resolve is measured."""
@@ -64,28 +64,31 @@ def _add_colour(
         mean[c] += share * colour[c]
 
 
-@kernel
-def set_mean(
-    pieces: Pieces, count: int, base: int, cell: Cell, layers: Layers, faces: Faces, mean: NDArray[np.float64]
-) -> None:
-    """Write the mean colour of a leaf."""
+@kernel(allocates=False)
+def set_flat_mean(pieces: Pieces, count: int, base: int, faces: Faces, mean: NDArray[np.float64]) -> bool:
+    """Write the mean colour of a leaf, without its programs; return whether it has any."""
     holds_program = faces.program[base] != 0
-    for k in range(count):
-        holds_program |= faces.program[pieces.sides[k, 0]] != 0 or faces.program[pieces.sides[k, 1]] != 0
     for c in range(4):
         mean[c] = faces.rgba[base, c]
     for k in range(count):
-        area = _area(pieces.curves[k])
+        area, left, right = _area(pieces.curves[k]), pieces.sides[k, 0], pieces.sides[k, 1]
+        holds_program = holds_program or faces.program[left] != 0 or faces.program[right] != 0
         for c in range(4):
-            mean[c] += area * (faces.rgba[pieces.sides[k, 0], c] - faces.rgba[pieces.sides[k, 1], c])
-    if holds_program:
-        _add_programs(pieces, count, base, cell, layers, faces, mean)
+            mean[c] += area * (faces.rgba[left, c] - faces.rgba[right, c])
+    if not holds_program:
+        _hold(mean)
+    return holds_program
+
+
+@kernel(allocates=False)
+def _hold(mean: NDArray[np.float64]) -> None:
+    """Bring a colour into 0..1."""
     for c in range(4):
         mean[c] = min(max(mean[c], 0.0), 1.0)
 
 
 @kernel
-def _add_programs(
+def add_programs(
     pieces: Pieces, count: int, base: int, cell: Cell, layers: Layers, faces: Faces, mean: NDArray[np.float64]
 ) -> None:
     """Add the means of a leaf's programs: of each the mean over the points in it, times its exact area."""
@@ -118,6 +121,7 @@ def _add_programs(
                     total[c] += colour[c]
         for c in range(4):
             mean[c] += areas[at] * total[c] / met
+    _hold(mean)
 
 
 @kernel

@@ -45,7 +45,7 @@ def programs_of(
 ) -> tuple[dict[int, Program], int]:
     """The programs of the stacks that need one, by their places; and of how many no paint can hold the gradients."""
     gradients, programs, flattened = gradients_of(drawing), {}, 0
-    for place, stack in enumerate(stacks):
+    for place, stack in enumerate(stacks if gradients else ()):
         if (layers.shade[stack] >= 0).any():
             count, ops, is_flat = operations_of(layers, stack)
             ops, flattened = Operations(*ops), flattened + is_flat

@@ -9,33 +9,33 @@ from numpy.typing import NDArray
 from vexture.kernels import kernel
 from vexture.paint import Gradient, Spread
 
-__all__ = ["Shades", "shade_at", "shades_of"]
+__all__ = ["COUNT", "FOCUS", "Shades", "shade_at", "shades_of"]
 
 REFLECT, REPEAT = int(Spread.REFLECT), int(Spread.REPEAT)
 
 
 class Shades(NamedTuple):
-    """Gradients, a row for each; `first` has one row more."""
+    """Gradients: two arrays, as each one more costs every call of a kernel."""
 
-    to_ramp: NDArray[np.float64]  # (n, 6): both rows of the map
-    focus: NDArray[np.float64]  # (n, 2): x of the focal point and focal radius; -1 of linear ones
-    spread: NDArray[np.int64]
-    first: NDArray[np.int64]  # first stop of each
-    offset: NDArray[np.float64]  # (stops,)
-    straight: NDArray[np.float64]  # (stops, 4): colours, not premultiplied
+    rows: NDArray[np.float64]  # (n, 11): both rows of the map to the ramp; `FOCUS` and on
+    stops: NDArray[np.float64]  # (stops, 5): colours, not premultiplied, and `OFFSET`
+
+
+FOCUS, SPREAD, FIRST, COUNT = 6, 8, 9, 10
+"""Columns of a gradient: focal point and radius, -1 of linear ones; spread; its first stop, and how many it has."""
+
+OFFSET = 4
 
 
 def shades_of(gradients: Sequence[Gradient]) -> Shades:
     """The arrays of some gradients."""
-    stops = [stop for gradient in gradients for stop in gradient.stops]
-    return Shades(
-        np.array([[*one.to_ramp[0], *one.to_ramp[1]] for one in gradients], np.float64).reshape(-1, 6),
-        np.array([one.focus or (-1.0, -1.0) for one in gradients], np.float64).reshape(-1, 2),
-        np.array([int(one.spread) for one in gradients], np.int64),
-        np.cumsum([0, *(len(one.stops) for one in gradients)], dtype=np.int64),
-        np.array([stop.offset for stop in stops], np.float64),
-        np.array([(*stop.color, stop.opacity) for stop in stops], np.float64).reshape(-1, 4),
-    )
+    rows: list[list[float]] = []
+    stops: list[tuple[float, ...]] = []
+    for one in gradients:
+        focus = one.focus or (-1.0, -1.0)
+        rows.append([*one.to_ramp[0], *one.to_ramp[1], *focus, one.spread, len(stops), len(one.stops)])
+        stops += [(*stop.color, stop.opacity, stop.offset) for stop in one.stops]
+    return Shades(np.array(rows, np.float64).reshape(-1, 11), np.array(stops, np.float64).reshape(-1, 5))
 
 
 @kernel(allocates=False)
@@ -73,23 +73,24 @@ def _spread(spread: int, t: float) -> float:
 @kernel(allocates=False)
 def shade_at(shades: Shades, number: int, x: float, y: float, out: NDArray[np.float64]) -> None:
     """Write the premultiplied colour (4,) of a gradient at a point of the unit square."""
-    row, focus = shades.to_ramp[number], shades.focus[number]
+    row, stops = shades.rows[number], shades.stops
     t = row[0] * x + row[1] * y + row[2]
-    if focus[0] >= 0.0:
-        t = _ramp_place(focus[0], focus[1], t, row[3] * x + row[4] * y + row[5])
+    if row[FOCUS] >= 0.0:
+        t = _ramp_place(row[FOCUS], row[FOCUS + 1], t, row[3] * x + row[4] * y + row[5])
     for c in range(4):
         out[c] = 0.0
     if np.isnan(t):
         return
-    t = _spread(shades.spread[number], t)
-    first, last = shades.first[number], shades.first[number + 1] - 1
+    t = _spread(int(row[SPREAD]), t)
+    first = int(row[FIRST])
+    last = first + int(row[COUNT]) - 1
     k = first
-    while k <= last and shades.offset[k] <= t:
+    while k <= last and stops[k, OFFSET] <= t:
         k += 1
     low, high = max(k - 1, first), min(k, last)
-    way = shades.offset[high] - shades.offset[low]
-    share = (t - shades.offset[low]) / way if low < high else 0.0
+    way = stops[high, OFFSET] - stops[low, OFFSET]
+    share = (t - stops[low, OFFSET]) / way if low < high else 0.0
     for c in range(4):
-        out[c] = shades.straight[low, c] + share * (shades.straight[high, c] - shades.straight[low, c])
+        out[c] = stops[low, c] + share * (stops[high, c] - stops[low, c])
     for c in range(3):
         out[c] *= out[3]

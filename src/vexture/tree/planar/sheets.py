@@ -21,7 +21,7 @@ from vexture.tree.tree import Tree
 __all__ = ["Sheet", "flattened_notes", "sheets_of"]
 
 FLATTENED: Final = (
-    "gradient, of its mean colour: more are over one another, or blend otherwise, than a pixel composites"
+    "gradients by their mean colours: too many on one another, or blended by hue, saturation, color or luminosity"
 )
 """Message about faces of planar maps."""
 
