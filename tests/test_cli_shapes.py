@@ -10,6 +10,7 @@ from PIL import Image
 
 import vexture
 from test_cli import SQUARE, SVG, run
+from vexture.layout import MAP_HEAD
 
 LOGO = SVG.format(
     '<rect width="10" height="10" fill="#00f"/><path id="word" d="M2 2h6v4h-6z" fill="white"/>'
@@ -73,9 +74,9 @@ def test_elements_are_named_and_get_other_colours(tmp_path):
         assert result.exit_code == 1
         assert says in result.stderr
         assert len(result.stderr.splitlines()) == 1
-    result = run("convert", logo, "-o", plain, "--restyle")
+    result = run("convert", logo, "-o", plain, "--restyle", "--silhouette")
     assert "`restyle`" not in result.stderr
-    assert "--restyle is for a whole drawing in its colours; add --split 'faces'" in result.stderr
+    assert "--restyle is for a whole drawing in its colours" in result.stderr
 
 
 def test_polygons_are_named_by_a_property_and_snapped(tmp_path):
@@ -132,7 +133,7 @@ def test_atlas(square, tmp_path):
     np.testing.assert_array_equal(texture.texels, vexture.atlas([square, logo]).texels)
     sizes = [int(re.search(r"(\d+) bytes", line)[1]) for line in (first, second)]
     assert texture.roots[1].is_map
-    assert (texture.roots[1].quad - 1) * 16 == sizes[0]  # its head comes before it
+    assert (texture.roots[1].quad - MAP_HEAD) * 16 == sizes[0]  # its head comes before it
     assert sum(sizes) <= texture.nbytes
     assert run("convert", square, logo, "--atlas", target, "--split", "paint").exit_code == 0
     names = [root.name for root in vexture.load(target).roots]

@@ -66,6 +66,7 @@ def inlined(text: str) -> str:
     numbers = NUMBERS.match(text)
     assert numbers
     values = dict(line.split()[1:] for line in numbers[0].splitlines())
+    values |= {name: f"({value})" for name, value in values.items() if value.startswith("-")}
     return re.sub(r"\bVEXTURE_\w+", lambda name: values.get(name[0], name[0]), text[numbers.end() :])
 
 
@@ -75,9 +76,9 @@ def used(declarations: str, text: str) -> str:
     return "".join(f"{line}\n" for line in declarations.splitlines() if names & set(re.findall(r"\w+(?= =|\[)", line)))
 
 
-def module_text(name: str, text: str, comment: str) -> str:
+def module_text(name: str, text: str, comment: str, before: str = "") -> str:
     """Return an export of shader text; its type keeps the text out of the package's declarations."""
-    return f"/**\n * {comment}\n *\n * @type {{string}}\n */\nexport const {name} = {json.dumps(text)};\n"
+    return f"/**\n * {comment}\n *\n * @type {{string}}\n */\nexport const {name} = {before}{json.dumps(text)};\n"
 
 
 def packed_text(file: str) -> str:
@@ -88,10 +89,13 @@ def packed_text(file: str) -> str:
 def shaders() -> str:
     """Text of the module with the shaders."""
     parts = [HEADER.format(owner="src/vexture/glsl/")]
-    for name, file in PACKED_FILES.items():
-        comment = f"{file}; the numbers that it asks for by #ifndef may be defined before it."
-        parts.append(module_text(name, packed_text(file), comment))
-    alone = packed_text(OVERLAY).removeprefix(packed_text(PACKED_FILES["packed"]))
+    packed, planar = (packed_text(file) for file in PACKED_FILES.values())
+    assert planar.startswith(packed), "sheets.glsl must include layers.glsl first: a bundle has its text once"
+    comment = "{}; the numbers that it asks for by #ifndef may be defined before it."
+    parts.append(module_text("packed", packed, comment.format(PACKED_FILES["packed"])))
+    rest = planar.removeprefix(packed)
+    parts.append(module_text("planar", rest, comment.format(PACKED_FILES["planar"]), "packed + "))
+    alone = packed_text(OVERLAY).removeprefix(packed)
     parts.append(module_text("overlay", alone, f"{OVERLAY}, to stand after one of these."))
     comment = "steps.glsl: what the derivatives of a position are, for pixels."
     parts.append(module_text("steps", bare(included("steps.glsl")), comment))

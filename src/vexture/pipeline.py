@@ -317,7 +317,7 @@ def convert(
     """
     named = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle)
     values = ((field.name, getattr(named, field.name)) for field in fields(named))
-    given = {name: value for name, value in values if value not in (None, False) or name == "split"}
+    given = {name: value for name, value in values if (value is not None and value is not False) or name == "split"}
     if encoding != DEFAULT and split in ("auto", None):
         del given["split"]  # other encodings have silhouettes only
     conversion = run(source, encoding=encoding, **given, **others)

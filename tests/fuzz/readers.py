@@ -27,7 +27,7 @@ from vexture.svg.colors import parse_color, parse_paint
 from vexture.svg.path_data import path_outlines
 from vexture.svg.select import chosen
 from vexture.svg.transform import parse_origin, parse_transform
-from vexture.svg.values import Viewport, number, opacity
+from vexture.svg.values import Viewport, fraction, number
 from vexture.svg.viewport import parse_fit, view_box
 from vexture.texture.load import texture_from
 from vexture.texture.texture import Texture
@@ -132,8 +132,9 @@ def read_path(data: bytes) -> str:
 def read_values(data: bytes) -> str:
     """One attribute's text, by every parser of values."""
     text = data.translate(None, NO_XML).decode("latin-1")
-    if not 0.0 <= opacity(text) <= 1.0:
-        raise FindingError(f"opacity {opacity(text)}")
+    part = fraction(text)
+    if part is not None and not 0.0 <= part <= 1.0:
+        raise FindingError(f"fraction {part}")
     return str([parsed(parse, text) for parse in PARSERS])
 
 

@@ -30,7 +30,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[Path]]:
 def assert_shows(manifest: Mapping[str, Any], drawing: Drawing, said_of: str) -> None:
     facts = manifest["facts"]
     assert facts["segments"] == drawing.segments, said_of
-    assert facts["layers"] == len(drawing.layers())
+    assert facts["layers"] == (1 if drawing.is_coloured else len(drawing.layers()))  # a map is one
     assert facts["to_source"] == drawing.to_source.ravel().tolist()
     assert facts["warnings"] == [line for line in [line_of(said_of, drawing.notes)] if line]
 

@@ -241,8 +241,9 @@ def test_only_maps_to_be_restyled_have_elements() -> None:
             texture.with_paints({})
         with pytest.raises(ParameterError, match="has no elements"):
             texture.element_at([(0.5, 0.5)])
-    with pytest.raises(ParameterError, match="`restyle` is for a whole drawing in its colours; add `split` 'faces'"):
-        vexture.convert(of, restyle=True)
+    with pytest.raises(ParameterError, match="`split` is 'paint', but `restyle` is for a whole drawing in its colours"):
+        vexture.convert(of, split="paint", restyle=True)
+    assert vexture.convert(of, restyle=True).roots[0].style is not None
     with pytest.raises(ParameterError, match=r"`points` has the shape \(2,\)"):
         two().element_at((0.5, 0.5))
 

@@ -1,5 +1,5 @@
-// Blend modes that treat each component by itself (Compositing and Blending Level 1 of the W3C), by their numbers in
-// FORMAT.md, D.6.
+// Blend modes of the W3C's Compositing and Blending Level 1, by their numbers: those that treat each component by itself
+// are in programs (FORMAT.md, D.6), all of them in styles (D.10).
 
 /** @typedef {import('./planar-map.js').Color} Color */
 
@@ -34,8 +34,55 @@ const MODES = Object.freeze({
   11: (b, s) => b + s - 2 * b * s,
 });
 
+/** @typedef {[number, number, number]} Straight a colour without its opacity */
+
+const luminosity = (/** @type {Straight} */ [red, green, blue]) => 0.3 * red + 0.59 * green + 0.11 * blue;
+const saturation = (/** @type {Straight} */ color) => Math.max(...color) - Math.min(...color);
+
+/** The W3C's SetLum and ClipColor. @param {Straight} color @param {number} wanted */
+function withLuminosity(color, wanted) {
+  const moved = color.map((part) => part + wanted - luminosity(color));
+  const [least, most] = [Math.min(...moved), Math.max(...moved)];
+  let share = least < 0 ? wanted / (wanted - least) : 1;
+  if (most > 1) share = Math.min(share, (1 - wanted) / (most - wanted));
+  return /** @type {Straight} */ (moved.map((part) => wanted + (part - wanted) * share));
+}
+
+/** The W3C's SetSat. @param {Straight} color @param {number} wanted */
+function withSaturation(color, wanted) {
+  const range = saturation(color);
+  const least = Math.min(...color);
+  return /** @type {Straight} */ (color.map((part) => (range ? ((part - least) * wanted) / range : 0)));
+}
+
 /**
- * Whether a mode has this number.
+ * B(cb, cs) of whole colours.
+ *
+ * @type {Readonly<Record<number, (b: Straight, s: Straight) => Straight>>}
+ */
+const WHOLE = Object.freeze({
+  12: (b, s) => withLuminosity(withSaturation(s, saturation(b)), luminosity(b)),
+  13: (b, s) => withLuminosity(withSaturation(b, saturation(s)), luminosity(b)),
+  14: (b, s) => withLuminosity(s, luminosity(b)),
+  15: (b, s) => withLuminosity(b, luminosity(s)),
+});
+
+/** Names in CSS, by number. */
+const NAMES = ['normal', 'multiply', 'screen', 'overlay', 'darken', 'lighten', 'color-dodge', 'color-burn', 'hard-light',
+  'soft-light', 'difference', 'exclusion', 'hue', 'saturation', 'color', 'luminosity', 'plus-lighter'];
+
+/**
+ * Number of a mode by its name in CSS; null if it is none.
+ *
+ * @param {unknown} name
+ */
+export function modeNamed(name) {
+  const number = NAMES.indexOf(/** @type {string} */ (name));
+  return number >= 0 ? number : null;
+}
+
+/**
+ * Whether a mode that a program may have has this number.
  *
  * @param {number} mode
  */
@@ -55,10 +102,10 @@ export function blended(below, above, mode) {
   const [under, over] = [below[3], above[3]];
   if (mode === PLUS_LIGHTER) return /** @type {Color} */ (below.map((part, k) => Math.min(part + above[k], 1)));
   if (mode === NORMAL) return /** @type {Color} */ (below.map((part, k) => above[k] + (1 - over) * part));
-  const straight = (/** @type {number} */ part, /** @type {number} */ opacity) => (opacity ? Math.min(part / opacity, 1) : 0);
-  const mixed = [0, 1, 2].map((k) => {
-    const both = MODES[mode](straight(below[k], under), straight(above[k], over));
-    return above[k] * (1 - under) + below[k] * (1 - over) + over * under * both;
-  });
+  const straight = (/** @type {Color} */ [red, green, blue, opacity]) => /** @type {Straight} */ (
+    [red, green, blue].map((part) => (opacity ? Math.min(part / opacity, 1) : 0)));
+  const [b, s] = [straight(below), straight(above)];
+  const both = mode in WHOLE ? WHOLE[mode](b, s) : b.map((part, k) => MODES[mode](part, s[k]));
+  const mixed = both.map((part, k) => above[k] * (1 - under) + below[k] * (1 - over) + over * under * part);
   return /** @type {Color} */ ([...mixed, over + under * (1 - over)]);
 }

@@ -14,6 +14,7 @@
  * @property {RootPaint | null} paint its colour, if it is a layer of a drawing; null for a silhouette or a map
  * @property {boolean} isMap whether it is a planar map: a whole drawing in its colours
  * @property {boolean} hasGradients whether a paint of the map holds gradients
+ * @property {import('./style.js').Style | null} style what of the map can get other colours; null of others
  *
  * @typedef {object} TextureData Common to all encodings.
  * @property {string} encoding

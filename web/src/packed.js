@@ -41,10 +41,25 @@ export async function readPacked(file, name = 'texture') {
       );
     }
     checkForest(texels, roots);
-    for (const root of roots) root.hasGradients = root.isMap && headOf(texels, root.quad).operations > 0;
+    for (const root of roots) if (root.isMap) compare(root, headOf(texels, root.quad));
     return { encoding: 'packed', name: texts.get(TEXT_NAME) || name, width, height, texels, roots };
   } catch (error) {
     throw error instanceof VextureError ? error.in(name) : error;
+  }
+}
+
+/**
+ * Note whether a map holds gradients, and check that its style is of its paints.
+ *
+ * @param {import('./data.js').Root} root
+ * @param {import('./planar-map.js').Head} head
+ */
+function compare(root, { used, operations }) {
+  root.hasGradients = operations > 0;
+  const what = `the map ${line(root.name)} has`;
+  if (root.style && root.hasGradients) throw new VextureError(`${what} a style, and paints that are programs; ${REMEDY}`, 'style');
+  if (root.style && root.style.stacks.length !== used) {
+    throw new VextureError(`${what} ${used} paints, and stacks of ${root.style.stacks.length}; ${REMEDY}`, 'style');
   }
 }
 

@@ -1,6 +1,7 @@
 // Reads and validates the list of roots in a packed texture's file (FORMAT.md, B.5).
 import { TEXT_ROOTS } from '../generated/layout.js';
 import { REMEDY, VextureError, line } from './errors.js';
+import { readStyle } from './style.js';
 
 const MOST_INDEX = 2 ** 32;
 
@@ -30,7 +31,7 @@ export function readRoots(text) {
  */
 function readRoot(entry, place) {
   if (!isObject(entry)) refuse(`root ${place}`, entry, 'an object', place);
-  const { name, quad, crs = null, tolerance = 0, transform, paint = null, map = false } = entry;
+  const { name, quad, crs = null, tolerance = 0, transform, paint = null, map = false, style = null } = entry;
   if (typeof name !== 'string') refuse(`root ${place}: name`, name, 'a text', place, 'name');
   if (!Number.isInteger(quad) || quad < 0 || quad >= MOST_INDEX) {
     refuse(`root ${place}: quad`, quad, 'an index of a texel', place, 'quad');
@@ -41,8 +42,10 @@ function readRoot(entry, place) {
   if (!areNumbers([tolerance], 1) || tolerance < 0) {
     refuse(`root ${place}: tolerance`, tolerance, 'a finite number of at least 0', place, 'tolerance');
   }
+  if (style !== null && !map) refuse(`root ${place}: style`, style, 'of a map', place, 'style');
   return {
     name, quad, transform, tolerance, crs, paint: paint === null ? null : readPaint(paint, place), isMap: map, hasGradients: false,
+    style: style === null ? null : readStyle(style, `root ${place}`),
   };
 }
 

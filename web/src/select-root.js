@@ -62,10 +62,19 @@ export function shapeIndex({ name, roots }, choice, otherwise = '') {
   }
   const place = roots.findIndex((root) => root.name === choice);
   if (place >= 0) return place;
-  const far = new Map(roots.map((root) => [root.name, distance(choice.slice(0, 99), root.name.slice(0, 99))]));
+  throw new VextureError(`${name}: no root ${line(choice)}; ${nearNames(choice, roots.map((root) => root.name))}`, 'root');
+}
+
+/**
+ * End of a message about a name that is not there.
+ *
+ * @param {string} wanted
+ * @param {string[]} names that are
+ */
+export function nearNames(wanted, names) {
+  const far = new Map(names.map((name) => [name, distance(wanted.slice(0, 99), name.slice(0, 99))]));
   const near = [...far].sort((a, b) => a[1] - b[1]).slice(0, MOST_NEAR);
-  const listed = near.map(([other]) => line(other)).join(', ');
-  throw new VextureError(`${name}: no root ${line(choice)}; near names are ${listed}; there are ${roots.length}`, 'root');
+  return `near names are ${near.map(([other]) => line(other)).join(', ') || 'none'}; there are ${names.length}`;
 }
 
 /**

@@ -22,7 +22,7 @@ describe('what is read', () => {
     const data = await readPacked(ktx2(texels), 'triangle');
     expect(data).toMatchObject({ encoding: 'packed', name: 'triangle', width: 8, height: 1, texels });
     expect(data.roots).toEqual([
-      { name: 'one', quad: 0, transform: [1, 0, 0, 0, 1, 0], tolerance: 0, crs: null, paint: null, isMap: false, hasGradients: false },
+      { name: 'one', quad: 0, transform: [1, 0, 0, 0, 1, 0], tolerance: 0, crs: null, paint: null, isMap: false, hasGradients: false, style: null },
     ]);
   });
 

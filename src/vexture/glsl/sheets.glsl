@@ -2,8 +2,8 @@
 // Exports: vextureWrappedColor, vextureSheets, vextureSheetCoverage, vextureLight.
 //
 // With VEXTURE_LINEAR, all colours here are of linear light, but for those of vextureLight, which always are.
-#include "colour.glsl"
 #include "layers.glsl"
+#include "colour.glsl"
 
 vec4 vexture_color_at(uint root, VextureSpot spot) {
 #if VEXTURE_FLAT
