@@ -5,7 +5,7 @@ import json
 import pytest
 
 import vexture
-from vexture.errors import ParameterError
+from vexture.errors import ParameterError, SourceError
 from vexture.geo.geojson import read_geojson
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"'
@@ -53,6 +53,11 @@ def collection() -> bytes:
 def test_polygons_are_named_after_their_feature(names: str | None, found: list[str]) -> None:
     for drawing in (read_geojson(collection(), names=names), vexture.read(collection(), names=names)):
         assert [path.element for path in drawing.paths] == [name for name in found for _ in range(2)]
+
+
+def test_names_of_a_property_that_no_feature_has_are_refused() -> None:
+    with pytest.raises(SourceError, match="no feature has the property 'nme' of `names`; there are 'code', 'name'"):
+        read_geojson(collection(), names="nme")
 
 
 def test_names_are_for_geojson() -> None:

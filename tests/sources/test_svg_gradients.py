@@ -137,3 +137,13 @@ def test_exact_colours_are_what_resvg_draws_eight_times_as_large(path: Path) -> 
     gap = np.abs(render_exact_colours(read_svg(path), SIZE) - mean).max(axis=2)
     assert gap.mean() < 0.5 / 255
     assert gap.max() < 0.05  # half of a pixel of theirs along a jump
+
+
+def test_a_gradient_of_very_many_stops_keeps_as_many_as_a_pixel_can_run_through() -> None:
+    stops = "".join(f'<stop offset="{k / 999}" stop-color="rgb({k // 4},0,{250 - k // 4})"/>' for k in range(1000))
+    text = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><linearGradient id="g">{stops}</linearGradient>'
+    with pytest.warns(SourceWarning, match="gradient of more than 128 stops, of which as many are kept"):
+        drawing = vexture.read(f'{text}<rect width="9" height="9" fill="url(#g)"/></svg>'.encode())
+    gradient = drawing.paths[0].paint.gradient
+    assert gradient is not None
+    assert (len(gradient.stops), gradient.stops[0].offset, gradient.stops[-1].offset) == (128, 0.0, 1.0)

@@ -40,6 +40,10 @@ SAID = {
     "width-zero": "the width of the outermost <svg> is 0",
 }
 
+MASKED = '<rect width="9" height="9" mask="url(#m{})"/>'
+MASK = '<mask id="m{0}">' + 2 * MASKED.replace("{}", "{1}") + "</mask>"
+CLIP = '<clipPath id="c{0}" clip-path="url(#c{1})"><circle r="9"/></clipPath>'
+
 GENERATED = {
     "nested.svg": (HEAD + "<g>" * 50_000 + "</g>" * 50_000 + "</svg>", "nested more than 256 deep"),
     "unclosed.svg": (HEAD + "<g>" * 50_000, "nested more than 256 deep"),
@@ -47,6 +51,16 @@ GENERATED = {
     "chain.svg": (
         HEAD + "".join(f'<use id="u{k}" href="#u{k + 1}"/>' for k in range(2000)) + '<g id="u2000"/></svg>',
         "stands inside 1,000 others",
+    ),
+    "masks.svg": (
+        HEAD + "".join(MASK.format(k, k + 1) for k in range(25)) + MASKED.format(0) + "</svg>",
+        "<use>, clips and masks show more than 50,000 elements",
+    ),
+    "clips.svg": (
+        HEAD
+        + "".join(CLIP.format(k, k + 1) for k in range(2000))
+        + '<rect width="9" height="9" clip-path="url(#c0)"/></svg>',
+        "clips and masks are nested more than 32 deep",
     ),
     "brackets.svg": (HEAD + f"<rect style='fill:{'[' * 50_000}'/></svg>", "nests brackets too deeply"),
     "cut.svgz": (gzip.compress(HEAD.encode() + b"</svg>")[:-9], "gzip data breaks off"),

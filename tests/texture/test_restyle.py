@@ -300,3 +300,9 @@ def test_two_roots_of_one_map_are_restyled_together() -> None:
     twin = replace(texture.roots[0], name="two")
     _, roots = restyled(texture.flat, (*texture.roots, twin), [0], {"a": "blue"}, "both")
     assert [root.style.rgba.tolist() for root in roots] == [[[0, 0, 1, 1]]] * 2
+
+
+@pytest.mark.parametrize("colours", ["red", {0: "red"}, None])
+def test_colours_that_are_no_mapping_of_names_get_one_line(colours) -> None:
+    with pytest.raises(ParameterError, match="no mapping of elements' names"):
+        two().with_paints(colours)

@@ -123,9 +123,11 @@ def geojson_drawing(content: bytes, name: str, *, names: str | None = None, snap
     """Read GeoJSON, plain or gzipped, as `read_geojson` does, but without a warning: all notes are in the drawing."""
     notes = Notes()
     value = _parsed(decompressed(content))
-    areas = list(_Reader(notes, names).areas(value))
+    reader = _Reader(notes, names)
+    areas = list(reader.areas(value))
     if not areas:
         raise SourceError(f"it holds no polygon to fill{met(notes)}; give Polygon or MultiPolygon geometries")
+    reader.check_names()
     points = np.concatenate([ring for area in areas for ring in area.rings])
     low, high = points.min(axis=0), points.max(axis=0)
     width, height = (float(side) for side in high - low)
@@ -186,6 +188,7 @@ class _Reader:
     def __init__(self, notes: Notes, names: str | None = None) -> None:
         self._notes = notes
         self._names = names
+        self._known: set[str] = set()
         self._positions = 0
 
     def areas(self, value: dict[str, Any]) -> Iterator[Area]:
@@ -260,9 +263,16 @@ class _Reader:
             return None
         return points
 
+    def check_names(self) -> None:
+        """Raise a `SourceError` if names are to be those of a property that no feature has."""
+        if self._names is not None and self._names not in self._known:
+            known = ", ".join(sorted(map(repr, self._known))[:10]) or "none"
+            raise SourceError(f"no feature has the property {self._names!r} of `names`; there are {known}")
+
     def _element(self, identity: Any, properties: Any) -> str:
         """Name of a feature, from a text or a number."""
         held = properties if isinstance(properties, dict) else {}
+        self._known.update(held.keys())
         chosen = (identity, held.get("name")) if self._names is None else (held.get(self._names), identity)
         return next((str(value) for value in chosen if type(value) in (str, *NUMBERS)), "")
 

@@ -17,6 +17,9 @@ __all__ = ["PaintServers", "reference"]
 
 HREF = ("href", "{http://www.w3.org/1999/xlink}href")
 GREY = Color((0.5, 0.5, 0.5), 1.0)
+MOST_STOPS = 128
+"""Of a gradient: half of what a pixel can run through for one paint (FORMAT.md, D.6)."""
+
 FRAGMENT = re.compile(r"\s*#(.*?)\s*", re.DOTALL)
 
 
@@ -107,7 +110,11 @@ class PaintServers:
         """Stops that a gradient has itself."""
         elements = [child for child in gradient if local_name(child) == "stop"]
         offsets = stop_offsets(elements, self.report)
-        return tuple(self.stop(element, offset) for element, offset in zip(elements, offsets, strict=True))
+        stops = tuple(self.stop(element, offset) for element, offset in zip(elements, offsets, strict=True))
+        if len(stops) <= MOST_STOPS:
+            return stops
+        self.report.simplified(f"gradient of more than {MOST_STOPS} stops, of which as many are kept")
+        return tuple(stops[(len(stops) - 1) * k // (MOST_STOPS - 1)] for k in range(MOST_STOPS))
 
     def stop(self, element: etree._Element, offset: float) -> Stop:
         """A stop at an offset."""

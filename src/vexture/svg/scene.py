@@ -31,7 +31,7 @@ from vexture.svg.viewport import CENTRED, Rectangle, parse_fit, view_box, view_t
 __all__ = ["Scene"]
 
 MOST_USED = 50_000
-"""Elements that `use` may show; each time counts."""
+"""Elements that `use`, clips and masks may show; each time counts, in nested masks as often as they are deep."""
 
 DEEPEST = 1_000
 """Elements around an element, including those that `use` adds."""
@@ -96,9 +96,10 @@ class Scene:
         while stack:
             check_time()
             element, place = stack.pop()
-            used += place.used
+            used += place.masks or place.used
             if used > MOST_USED:
-                raise SourceError(f"<use> shows more than {MOST_USED:,} elements (a use bomb?); draw fewer copies")
+                what = "<use>, clips and masks show" if place.masks else "<use> shows"
+                raise SourceError(f"{what} more than {MOST_USED:,} elements (a use bomb?); draw fewer copies")
             try:
                 stack.extend(reversed(self.visit(element, place, painter)))
             except SourceError as error:

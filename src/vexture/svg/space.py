@@ -74,6 +74,7 @@ class Place:
     chosen: bool = True  # whether elements here are painted
     veil: Veil | None = None  # the innermost one around it
     is_clip: bool = False  # whether only the outlines of shapes here count
+    masks: int = 0  # number of clips and masks around it that it is a part of
     name: str = ""  # of elements here: the nearest id around them, or that of the outermost `use`
     is_instance: bool = False  # whether the name is that of a `use`
 

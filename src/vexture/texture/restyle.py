@@ -52,6 +52,8 @@ def restyled(
     texture: str,
 ) -> tuple[NDArray[np.uint32], tuple[Root, ...]]:
     """Texels and roots with other colours of elements, in some of the shapes; errors as in `Texture.with_paints`."""
+    if not isinstance(colours, Mapping) or not all(isinstance(name, str) for name in colours):
+        raise ParameterError("the colours are no mapping of elements' names, such as {'sun': 'red'}")
     names = {name: k for k, name in enumerate(colours)}
     rgba = rounded([_components(name, colour) for name, colour in colours.items()])
     styles = {place: style_of_root(roots[place]) for place in places}

@@ -163,7 +163,7 @@ class Texture:
         points_inside(self.flat, self._silhouette(root).quad, wanted, inside)
         return inside
 
-    def element_at(self, points: ArrayLike, root: str | int | None = None) -> "Elements":
+    def element_at(self, points: ArrayLike, *, root: str | int | None = None) -> "Elements":
         """Which element of a drawing is topmost at points; the drawing was converted with `restyle`.
 
         Parameters
@@ -195,7 +195,7 @@ class Texture:
 
         return elements_at(self.flat, self.roots, layers_of(self.roots, root, self.name), points)
 
-    def with_paints(self, paints: "Mapping[str, Colour]", root: str | int | None = None) -> "Texture":
+    def with_paints(self, paints: "Mapping[str, Colour]", *, root: str | int | None = None) -> "Texture":
         """The same shapes with other colours of some elements; the drawing was converted with `restyle`.
 
         Parameters

@@ -21,7 +21,7 @@ from vexture.tree.tree import Tree
 __all__ = ["Sheet", "flattened_notes", "sheets_of"]
 
 FLATTENED: Final = (
-    "gradients by their mean colours: too many on one another, or blended by hue, saturation, color or luminosity"
+    "gradients by their mean colours: in a mask, too many on one another, or blended by hue, saturation or the like"
 )
 """Message about faces of planar maps."""
 
