@@ -6,7 +6,7 @@ import pytest
 from degenerate import circle, polygon
 from planar import colours_at, gradient_colours, paints_at, sampled
 from shaded import DRAWINGS, LENS, SQUARE, UPWARDS, WARM, blended, linear, radial, shaded
-from vexture.drawing import Drawing
+from vexture.drawing import Drawing, Path
 from vexture.group import Blend, Group
 from vexture.paint import Gradient, Paint, Spread, Stop
 from vexture.pipeline import run
@@ -41,7 +41,7 @@ def test_a_program_is_what_is_seen_from_below() -> None:
     up, glow = UPWARDS.paint.gradient, radial((0.4, 0.5), 0.3, WARM)
     hidden = shaded(LENS, linear((0, 0), (1, 0), WARM))
     red, grey = shaded(SQUARE, Paint((1, 0, 0))), shaded(SQUARE, HALF_GREY)
-    groups = (Group(opacity=0.6), Group(0), Group(opacity=0.5, blend=Blend.SCREEN))
+    groups = (Group(opacity=0.6), Group(0, 0.5), Group(opacity=0.5, blend=Blend.SCREEN))
     inside, centre = shaded(LENS, glow, 1), (0.4, 0.45)
     for paths, program in (
         ((red, UPWARDS), (up,)),
@@ -51,7 +51,7 @@ def test_a_program_is_what_is_seen_from_below() -> None:
         ((UPWARDS, shaded(LENS, HALF_GREY, 2)), (up, Keep(), GREY, Mix(32768, Blend.SCREEN))),
         (
             (UPWARDS, inside, shaded(LENS, HALF_GREY, 0)),
-            (up, Keep(), Keep(), glow, Mix(65535, Blend.NORMAL), GREY, Mix(39321, Blend.NORMAL)),
+            (up, Keep(), Keep(), glow, Mix(32768, Blend.NORMAL), GREY, Mix(39321, Blend.NORMAL)),
         ),
         ((shaded(LENS, glow, 2), grey), (Keep(), glow, Mix(32768, Blend.NORMAL), GREY)),
     ):
@@ -114,3 +114,14 @@ def test_one_layer_of_a_gradient_is_a_map() -> None:
     texture = run(of, split="faces").texture
     assert texture.roots[0].is_map
     assert abs(texture.render(8)[4, 4] - colours_at(of, np.array([[0.5625, 0.4375]]))[0][0]).max() < 0.02
+
+
+def test_a_group_that_makes_no_difference_is_no_part_of_a_program() -> None:
+    """Such as that of a clip: without it, groups within are not too deep for a pixel."""
+    square = Drawing.polygon([(0, 0), (1, 0), (1, 1), (0, 1)]).paths[0].contours
+    shade = Paint.of(Gradient(((1, 0, 0), (0, 1, 0)), (Stop(0, (1, 0, 0)), Stop(1, (0, 0, 1)))))
+    groups = (Group(), Group(0, 0.85), Group(1, blend=Blend.MULTIPLY))
+    paths = [Path(square, paint=shade, group=group) for group in (0, 1, 2)]
+    planar = build_map(Drawing(tuple(paths), groups=groups))
+    assert planar is not None
+    assert planar.flattened == 0

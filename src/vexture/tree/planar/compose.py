@@ -75,6 +75,15 @@ def _solid(ops: Operations, count: int, base: int, rgba: NDArray[np.float64], op
 
 
 @kernel(allocates=False)
+def _blends(ops: Operations, start: int, count: int) -> bool:
+    """Whether some of the operations blend with what is below them otherwise than source-over."""
+    for k in range(start, count):
+        if ops.code[k] == MIX and ops.number[k] >> 16 != NORMAL:
+            return True
+    return False
+
+
+@kernel(allocates=False)
 def _end_group(ops: Operations, count: int, base: int, start: int, opacity: float, blend: int) -> int:
     """End a group that begins with the `KEEP` at `start`, in one that begins at `base`; return the new number."""
     if count == start + 1:
@@ -87,6 +96,12 @@ def _end_group(ops: Operations, count: int, base: int, start: int, opacity: floa
         if onto == 1 and ops.code[base] == SOLID:
             blend_over(ops.rgba[base], rgba, opacity, blend)
             return start
+    if blend == NORMAL and opacity == 1.0 and (onto == 0 or not _blends(ops, start, count)):
+        for k in range(start, count - 1):  # it makes no difference, as source-over is associative
+            ops.code[k], ops.number[k] = ops.code[k + 1], ops.number[k + 1]
+            for c in range(4):
+                ops.rgba[k, c] = ops.rgba[k + 1, c]
+        return count - 1
     ops.code[count] = MIX
     ops.number[count] = ((blend if onto > 0 else NORMAL) << 16) | int(np.rint(ONE * opacity))
     return count + 1
