@@ -4,7 +4,7 @@ import numpy as np
 
 from degenerate import circle, polygon
 from vexture.drawing import Drawing, Path
-from vexture.group import Blend, Group
+from vexture.group import Blend, Group, Mask
 from vexture.paint import Gradient, Paint, Spread, Stop
 
 SQUARE = polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
@@ -62,6 +62,16 @@ DRAWINGS: dict[str, Drawing] = {
             shaded(circle((0.5, 0.3), 0.2), linear((0.3, 0.3), (0.7, 0.3), FADING), 1),
         ),
         groups=(Group(opacity=0.6), Group(blend=Blend.MULTIPLY, opacity=0.9)),
+    ),
+    "faded": Drawing(
+        (
+            UPWARDS,
+            shaded(SQUARE, linear((0, 0.2), (0, 0.8), (Stop(0, (1, 1, 1)), Stop(1, (0, 0, 0)))), 1),
+            shaded(LENS, Paint((0.1, 0.8, 0.3)), 0),
+            shaded(OTHER, linear((0.3, 0.3), (0.7, 0.3), FADING), 0),
+            shaded(DISC, radial((0.5, 0.5), 0.5, FADING), 2),
+        ),
+        groups=(Group(opacity=0.9), Group(0, mask=Mask.LUMINANCE), Group(0, 0.8, mask=Mask.OPACITY)),
     ),
 }
 

@@ -24,8 +24,12 @@ __all__ = [
     "KIND_SOLID",
     "LATTICE",
     "LATTICE_BITS",
+    "LUMINANCE_BLUE",
+    "LUMINANCE_GREEN",
+    "LUMINANCE_RED",
     "MAP_HEAD",
     "MAP_VERSION",
+    "MASKS",
     "MOST_CURVES",
     "MOST_DEPTH",
     "MOST_KEPT",
@@ -136,8 +140,14 @@ first texel of a gradient."""
 HOLDS_PROGRAM: Final = 4
 """Added to the cell byte of a planar map's leaf, if a paint in it is a program."""
 
-MOST_KEPT: Final = 2
+MOST_KEPT: Final = 3
 """Groups of a program that are open at once: each needs a colour in the shader's registers."""
+
+MASKS: Final = 32
+"""Added to a group's `vexture.group.Mask`, where its end has a blend mode if it is no mask."""
+
+LUMINANCE_RED, LUMINANCE_GREEN, LUMINANCE_BLUE = 0.2125, 0.7154, 0.0721
+"""Parts of a premultiplied colour's components in what a mask by luminance leaves (CSS Masking 1, 7.10.1)."""
 
 STOP_BITS: Final = 19
 STOP_COUNT_BITS: Final = 8

@@ -47,7 +47,7 @@ def read_programs(words: np.ndarray, first: int, count: int, stops: int, runs: d
             need(size and row + size <= at and (texels[1:, 3] == 7 << 29).all(), "operation")
             check_operation(kind, rest, texels, first + count - row, first + count + stops - row, words[row:])
             opened += (kind == 5) - (kind == 6)
-            need(0 <= opened <= 2, "groups")
+            need(0 <= opened <= 3, "groups")
             programs[paint].append((kind, texels, row + (rest & 0x7FFFF) - first - count))
             row += size
         need(opened == 0, "a group is not ended")
@@ -72,7 +72,7 @@ def check_operation(kind: int, rest: int, texels: np.ndarray, low: int, high: in
     halves = np.array([word >> shift & 65535 for word in texels[0, :2].tolist() for shift in (0, 16)])
     need(kind != 1 or (halves[:3] <= halves[3]).all(), "a colour above its opacity")
     need(kind != 5 or not texels[0, :2].any(), "a word that is not 0")
-    need(kind != 6 or (texels[0, 0] <= 65535 and int(texels[0, 1]) in {*range(12), 16}), "group")
+    need(kind != 6 or (texels[0, 0] <= 65535 and int(texels[0, 1]) in {*range(12), 16, 33, 34}), "group")
 
 
 def read_stops(words: np.ndarray) -> np.ndarray:
@@ -111,7 +111,9 @@ def gradient_color(kind: int, texels: np.ndarray, stops: np.ndarray, x: np.ndarr
 
 
 def blended(below: np.ndarray, above: np.ndarray, mode: int) -> np.ndarray:
-    """Return one premultiplied colour over another (D.6, and the formulas of the W3C)."""
+    """Return one premultiplied colour over another, or masked by it (D.6, and the formulas of the W3C)."""
+    if mode in (33, 34):
+        return below * (above[:, 3:] if mode == 33 else above[:, :3] @ [[0.2125], [0.7154], [0.0721]])
     if mode == 16:
         return np.minimum(below + above, 1)
     ab, as_ = below[:, 3:], above[:, 3:]

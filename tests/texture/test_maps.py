@@ -5,8 +5,8 @@ import pytest
 
 import vexture
 from degenerate import circle, drawing, polygon
-from planar import coloured
-from shaded import DRAWINGS
+from planar import coloured, colours_at
+from shaded import DRAWINGS, shaded
 from vexture import layout
 from vexture.drawing import Drawing, Path
 from vexture.errors import FormatError, ParameterError
@@ -14,9 +14,11 @@ from vexture.group import Blend, Group
 from vexture.paint import Paint
 from vexture.pipeline import atlas, run
 from vexture.renderers.exact import render_exact_colours
+from vexture.texture.encode import encode
 from vexture.texture.load import texture_from
 from vexture.texture.planar import decode_map, map_texels
-from vexture.texture.texture import Texture
+from vexture.texture.texture import Root, Texture
+from vexture.tree.planar.build import build_map
 
 RED, BLUE = Paint((1.0, 0.0, 0.0)), Paint((0.0, 0.0, 1.0), 0.5)
 
@@ -85,7 +87,26 @@ def test_a_silhouette_keeps_version_1() -> None:
     assert "map" not in texture.texts()[layout.TEXT_ROOTS]
 
 
-@pytest.mark.parametrize("ask", [lambda t: t.contains([(0.5, 0.5)]), lambda t: t.to_svg(), lambda t: t.plot()])
+@pytest.mark.parametrize("name", DRAWINGS)
+def test_a_map_contains_what_it_paints(name: str) -> None:
+    points = np.random.default_rng(3).uniform(-0.1, 1.1, (400, 2))
+    colours, distance = colours_at(DRAWINGS[name], points)
+    within = ((points >= 0.0) & (points < 1.0)).all(axis=1)
+    sure = (distance > 1e-3) & ((colours[:, 3] == 0) | (colours[:, 3] > 1e-4))
+    np.testing.assert_array_equal(faces(DRAWINGS[name]).contains(points)[sure], (within & (colours[:, 3] > 0))[sure])
+
+
+def test_a_cell_of_which_the_mean_is_known_contains_what_it_paints() -> None:
+    lines = [polygon([(0.01, y), (0.45, 0.5 - y), (0.45, 0.502 - y)]) for y in np.linspace(0.05, 0.4, 90)]
+    planar = build_map(
+        Drawing(tuple(shaded(line, Paint((k % 2, 0, 0), 0.5)) for k, line in enumerate(lines))), max_depth=2
+    )
+    assert planar.is_mean.any()
+    texture = encode([planar], [Root("lines")], name="lines")
+    np.testing.assert_array_equal(texture.contains([(0.2, 0.2), (0.7, 0.7)]), [True, False])
+
+
+@pytest.mark.parametrize("ask", [lambda t: t.to_svg(), lambda t: t.plot()])
 def test_a_map_has_no_outlines(ask) -> None:
     with pytest.raises(ParameterError, match="is a planar map, without outlines; convert it with `split` None"):
         ask(faces(sample(3)))

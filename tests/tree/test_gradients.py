@@ -1,16 +1,21 @@
 """Gradients in planar maps: programs, the faces that they make equal, and means."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from degenerate import circle, polygon
-from planar import colours_at, gradient_colours, paints_at, sampled
-from shaded import DRAWINGS, LENS, SQUARE, UPWARDS, WARM, blended, linear, radial, shaded
+from planar import coloured, colours_at, gradient_colours, paints_at, sampled
+from shaded import BANDS, DRAWINGS, FADING, LENS, SQUARE, UPWARDS, WARM, blended, linear, radial, shaded
 from vexture.drawing import Drawing, Path
-from vexture.group import Blend, Group
+from vexture.group import Blend, Group, Mask
 from vexture.paint import Gradient, Paint, Spread, Stop
 from vexture.pipeline import run
 from vexture.tree.planar.build import build_map
+from vexture.tree.planar.compose import Operations, colour_at
+from vexture.tree.planar.faces import operations_of
+from vexture.tree.planar.layers import layers_of
 from vexture.tree.planar.map import PlanarMap
 from vexture.tree.planar.programs import Keep, Mix, Solid
 from vexture.tree.planar.shades import shade_at, shades_of
@@ -60,6 +65,55 @@ def test_a_program_is_what_is_seen_from_below() -> None:
         (UPWARDS, shaded(SQUARE, Paint((1, 0, 0)), 0), shaded(LENS, glow, 0), shaded(SQUARE, Paint(), 0)), groups=groups
     )
     assert program_at(build_map(of), centre) == (up, Solid((0, 0, 0, 39321)))  # black hides the group's others
+
+
+def test_a_mask_that_holds_a_gradient_comes_after_what_it_masks() -> None:
+    up, fade = UPWARDS.paint.gradient, linear((0, 0), (1, 0), WARM)
+    red, solid = shaded(LENS, Paint((1, 0, 0)), 0), Solid((65535, 0, 0, 65535))
+    above, below = Mix(65535, Mask.LUMINANCE), Mix(65535, Mask.OPACITY)
+    out = Mix(65535, Blend.NORMAL)
+    mask, half = Group(0, mask=Mask.LUMINANCE), Group(0, 0.5, mask=Mask.OPACITY)
+    inside, flat = shaded(SQUARE, fade, 1), shaded(SQUARE, Paint((1, 1, 1)), 2)
+    for paths, program in (
+        ((UPWARDS, inside, red), (up, Keep(), solid, Keep(), fade, above, out)),
+        ((UPWARDS, red, inside), (up, Keep(), solid, Keep(), fade, above, out)),
+        ((inside, red), (solid, Keep(), fade, above)),
+        ((UPWARDS, inside, red, flat), (up, Keep(), solid, Keep(), fade, above, Mix(32768, Blend.NORMAL))),
+        ((UPWARDS, inside), (up,)),
+        ((UPWARDS, inside, red, shaded(SQUARE, fade, 0)), (up, Keep(), fade, Keep(), fade, above, out)),
+    ):
+        groups = (Group(), mask, half)[: 3 if flat in paths else 2]
+        assert program_at(build_map(Drawing(paths, groups=groups)), (0.4, 0.45)) == program
+    both = (UPWARDS, inside, shaded(SQUARE, fade, 2), red)
+    two = (Group(), mask, Group(0, mask=Mask.OPACITY))
+    program = (up, Keep(), solid, Keep(), fade, above, Keep(), fade, below, out)
+    assert program_at(build_map(Drawing(both, groups=two)), (0.4, 0.45)) == program
+
+
+MOST_LAYERS = 7  # of more, groups may be too deep in one another
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_programs_of_random_groups_are_right(seed: int) -> None:
+    """Gradients and flat colours in groups in one another, some of them masks, before or after what they mask."""
+    rng = np.random.default_rng(seed)
+    layers = Drawing(tuple(shaded(SQUARE, Paint()) for _ in range(rng.integers(2, MOST_LAYERS))))
+    of = coloured(layers, rng)
+    shades = [linear(rng.random(2), rng.random(2), stops) for stops in (WARM, FADING, BANDS, FADING)]
+    paints = [
+        Paint.of(shades[k]) if k < len(shades) else path.paint
+        for k, path in zip(rng.permutation(8)[: len(of.paths)], of.paths, strict=True)
+    ]
+    of = replace(of, paths=tuple(replace(path, paint=paint) for path, paint in zip(of.paths, paints, strict=True)))
+    layers, stack = layers_of(of), np.arange(len(of.paths), dtype=np.int32)
+    count, ops, is_flat = operations_of(layers, stack)
+    assert not is_flat
+    points = rng.random((20, 2))
+    wanted, _ = colours_at(of, points)
+    work, found = np.zeros((len(ops[0]) + 1, 4)), np.zeros(4)
+    for point, colour in zip(points, wanted, strict=True):
+        colour_at(layers, Operations(*ops), count, *point.tolist(), work, found)
+        np.testing.assert_allclose(found, colour, atol=2e-5)  # opacities have 16 bits
 
 
 def test_faces_of_equal_programs_are_one_face() -> None:

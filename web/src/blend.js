@@ -1,5 +1,6 @@
 // Blend modes of the W3C's Compositing and Blending Level 1, by their numbers: those that treat each component by itself
 // are in programs (FORMAT.md, D.6), all of them in styles (D.10).
+import { LUMINANCE_BLUE, LUMINANCE_GREEN, LUMINANCE_RED } from '../generated/layout.js';
 
 /** @typedef {import('./planar-map.js').Color} Color */
 
@@ -88,6 +89,16 @@ export function modeNamed(name) {
  */
 export function isBlend(mode) {
   return mode === NORMAL || mode === PLUS_LIGHTER || Object.hasOwn(MODES, mode);
+}
+
+/**
+ * What a mask of a premultiplied colour leaves: its opacity or its luminance.
+ *
+ * @param {Color} color
+ * @param {boolean} byOpacity
+ */
+export function masking([red, green, blue, opacity], byOpacity) {
+  return byOpacity ? opacity : LUMINANCE_RED * red + LUMINANCE_GREEN * green + LUMINANCE_BLUE * blue;
 }
 
 /**

@@ -10,6 +10,7 @@ import {
   KIND_RADIAL,
   KIND_SHIFT,
   KIND_SOLID,
+  MASKS,
   MOST_KEPT,
   MOST_PROGRAM,
   MOST_STOPS,
@@ -17,7 +18,7 @@ import {
   STOP_BITS,
   STOP_COUNT_BITS,
 } from '../generated/layout.js';
-import { blended, isBlend } from './blend.js';
+import { blended, isBlend, masking } from './blend.js';
 import { REMEDY, VextureError } from './errors.js';
 
 /**
@@ -37,6 +38,9 @@ import { REMEDY, VextureError } from './errors.js';
  * @property {number} stops index of the first one
  * @property {number} number of stops
  */
+
+/** How a group ends that masks what is around it: by its opacity, by its luminance. */
+const MASKS_BY = [MASKS + 1, MASKS + 2];
 
 const SPREAD_SHIFT = STOP_BITS + STOP_COUNT_BITS;
 const PAD = 0;
@@ -126,7 +130,7 @@ function checkProgram(texels, head, { first, count }) {
       need(words[0] === 0 && words[1] === 0, 'a word that is not 0');
       kept++;
     } else {
-      need(words[0] <= PAINT_ONE && isBlend(words[1]), 'no such group');
+      need(words[0] <= PAINT_ONE && (isBlend(words[1]) || MASKS_BY.includes(words[1])), 'no such group');
       kept--;
     }
     need(kept >= 0 && kept <= MOST_KEPT, 'too many groups in one another');
@@ -217,7 +221,7 @@ export function programColor(texels, { first, count }, u, v) {
       color = [0, 0, 0, 0];
     } else if (kind === KIND_MIX) {
       const faded = /** @type {Color} */ (color.map((part) => (part * low) / PAINT_ONE));
-      color = blended(kept.pop() ?? [0, 0, 0, 0], faded, high);
+      color = ended(kept.pop() ?? [0, 0, 0, 0], faded, high);
     } else if (kind === KIND_SOLID) {
       color = blended(color, /** @type {Color} */ (halves(low, high).map((part) => part / PAINT_ONE)), 0);
     } else if (kind !== KIND_FOLLOWS) {
@@ -225,6 +229,20 @@ export function programColor(texels, { first, count }, u, v) {
     }
   }
   return color;
+}
+
+/**
+ * What was kept when a group began, with the group's colour on it, or masked by it.
+ *
+ * @param {Color} kept
+ * @param {Color} color
+ * @param {number} how
+ * @returns {Color}
+ */
+function ended(kept, color, how) {
+  if (how < MASKS) return blended(kept, color, how);
+  const left = masking(color, how === MASKS_BY[0]);
+  return /** @type {Color} */ (kept.map((part) => part * left));
 }
 
 /**

@@ -1,5 +1,5 @@
 // What of a planar map can be restyled (FORMAT.md, D.10): its elements, and which of them each paint is made of.
-import { blended, modeNamed } from './blend.js';
+import { blended, masking, modeNamed } from './blend.js';
 import { REMEDY, VextureError, line } from './errors.js';
 
 /**
@@ -169,7 +169,7 @@ export function composited({ elements, groups }, stack) {
       onto.color = blended(onto.color, /** @type {Color} */ (color.map((part) => part * share)), blend);
       return;
     }
-    onto.left *= share * (mask === 'opacity' ? color[3] : 0.2125 * color[0] + 0.7154 * color[1] + 0.0721 * color[2]);
+    onto.left *= share * masking(color, mask === 'opacity');
     onto.missing--;
   };
   for (const number of stack) {

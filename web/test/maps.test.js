@@ -113,7 +113,7 @@ describe('gradients', () => {
   const expectColor = (color, wanted) => wanted.forEach((part, k) => expect(color[k]).toBeCloseTo(part, 4));
 
   test('along a line', () => {
-    for (const t of [0.125, 0.25, 0.75]) expectColor(at(64 * t, 10), [1 - t, 0, t, 1]);
+    for (const t of [0.125, 0.25, 0.75]) expectColor(at(64 * t, 24), [1 - t, 0, t, 1]);
   });
 
   test('about a point, and back again', () => {
@@ -126,6 +126,14 @@ describe('gradients', () => {
   test('about a focal point, in a translucent group over a colour', () => {
     // on the axis the circle at t reaches from 40 - 8 t to 40 + 24 t
     for (const [x, t] of [[46, 0.25], [58, 0.75], [34, 0.75]]) expectColor(at(x, 48), [0.5, t / 2, (1 - t) / 2, 1]);
+  });
+
+  test('as masks, by luminance and by opacity', () => {
+    for (const t of [0.25, 0.75]) {
+      expectColor(at(16 * t, 5), [t * (1 - t / 4), 1 - t, (t * t) / 4, 1]);
+      const below = 56 / 64;
+      expectColor(at(56, 16 * t), [t + (1 - t) * (1 - below), t, t + (1 - t) * below, 1]);
+    }
   });
 
   test('cells know what paints are programs', () => {
@@ -155,6 +163,7 @@ const BROKEN_PROGRAMS = [
     words.set([0, 0, 0, 5 << 29 >>> 0], place(6));
   }],
   ['a blend mode of whole colours', /no such group/, (words) => (words[place(6) + 1] = 12)],
+  ['a mask by nothing', /no such group/, (words) => (words[place(6) + 1] = 32)],
   ['a colour above its opacity', /a colour above its opacity/, (words) => (words[place(1)] = 0xffff, words[place(1) + 1] = 0x7fff0000)],
   ['a stop beyond 1', /a stop that is not in 0..1|not in order/, (words) => (words[4 * STOPS + 4] = 0x40000000)],
   ['stops out of order', /stops that are not in order/, (words) => (words[4 * STOPS] = 0x3f800000, words[4 * STOPS + 4] = 0)],

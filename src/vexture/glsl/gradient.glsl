@@ -176,23 +176,35 @@ vec4 vexture_gradient(uint at, uvec4 record, uint number, VextureRegion region) 
     return sum / float(parts * parts);
 }
 
+// What was kept when a group began, with the group's colour on it, or masked by it.
+vec4 vexture_ended(vec4 kept, vec4 color, uint how) {
+    if (how < uint(VEXTURE_MASKS)) {
+        return vexture_blended(kept, color, how);
+    }
+    vec3 parts = vec3(VEXTURE_LUMINANCE_RED, VEXTURE_LUMINANCE_GREEN, VEXTURE_LUMINANCE_BLUE);
+    return kept * (how == uint(VEXTURE_MASKS + VEXTURE_MASK_LUMINANCE) ? dot(parts, color.rgb) : color.a);
+}
+
 // Premultiplied colour of a program, given by its first texel and how many it has; in steps of a paint.
 vec4 vexture_program(uint at, uint count, VextureRegion region) {
     vec4 color = vec4(0.0);
     vec4 kept = vec4(0.0);
     vec4 kept_before = vec4(0.0);
+    vec4 kept_first = vec4(0.0);
     uint end = at + min(count, uint(VEXTURE_MOST_PROGRAM));
     uint left = uint(VEXTURE_MOST_STOPS);  // what is no program ends as well
     for (; at < end; at++) {
         uvec4 texel = vexture_texel(at);
         uint kind = texel.w >> VEXTURE_KIND_SHIFT;
         if (kind == uint(VEXTURE_KIND_KEEP)) {
+            kept_first = kept_before;
             kept_before = kept;
             kept = color;
             color = vec4(0.0);
         } else if (kind == uint(VEXTURE_KIND_MIX)) {
-            color = vexture_blended(kept, color * (float(texel.x) / float(VEXTURE_PAINT_ONE)), texel.y);
+            color = vexture_ended(kept, color * (float(texel.x) / float(VEXTURE_PAINT_ONE)), texel.y);
             kept = kept_before;
+            kept_before = kept_first;
         } else if (kind != uint(VEXTURE_KIND_FOLLOWS)) {
             vec4 above = vexture_halves(texel.xy) / float(VEXTURE_PAINT_ONE);
             if (kind != uint(VEXTURE_KIND_SOLID)) {

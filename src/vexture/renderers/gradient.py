@@ -6,7 +6,7 @@ See `vexture.renderers.cpu`.
 import math
 from typing import NamedTuple
 
-from vexture.group import Blend
+from vexture.group import Blend, Mask
 from vexture.kernels import kernel
 from vexture.layout import (
     COORDINATE_BITS,
@@ -17,6 +17,10 @@ from vexture.layout import (
     KIND_MIX,
     KIND_SHIFT,
     KIND_SOLID,
+    LUMINANCE_BLUE,
+    LUMINANCE_GREEN,
+    LUMINANCE_RED,
+    MASKS,
     MOST_PROGRAM,
     MOST_STOPS,
     PAINT_ONE,
@@ -42,6 +46,7 @@ Vec3 = tuple[float, float, float]
 Vec4 = tuple[float, float, float, float]
 
 NORMAL, PLUS_LIGHTER = int(Blend.NORMAL), int(Blend.PLUS_LIGHTER)
+LUMINANCE = int(Mask.LUMINANCE)
 PAD, REFLECT = int(Spread.PAD), int(Spread.REFLECT)
 
 
@@ -274,18 +279,27 @@ def gradient(texels: Texels, at: int, record: Texel, number: int, region: Region
 
 
 @kernel(allocates=False)
+def ended(kept: Vec4, color: Vec4, how: int) -> Vec4:
+    if how < MASKS:
+        return blended(kept, color, how)
+    luminance = LUMINANCE_RED * color[0] + LUMINANCE_GREEN * color[1] + LUMINANCE_BLUE * color[2]
+    return times(kept, luminance if how == MASKS + LUMINANCE else color[3])
+
+
+@kernel(allocates=False)
 def program(texels: Texels, at: int, count: int, region: Region) -> Vec4:
     """Premultiplied colour of a program over a region, in steps of a paint."""
-    color, kept, kept_before = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
+    nothing = (0.0, 0.0, 0.0, 0.0)
+    color, kept, kept_before, kept_first = nothing, nothing, nothing, nothing
     left = MOST_STOPS
     for k in range(at, at + min(count, MOST_PROGRAM)):
         found = texel(texels, k)
         kind = found[3] >> KIND_SHIFT
         if kind == KIND_KEEP:
-            kept_before, kept, color = kept, color, (0.0, 0.0, 0.0, 0.0)
+            kept_first, kept_before, kept, color = kept_before, kept, color, nothing
         elif kind == KIND_MIX:
-            color = blended(kept, times(color, found[0] / PAINT_ONE), found[1])
-            kept = kept_before
+            color = ended(kept, times(color, found[0] / PAINT_ONE), found[1])
+            kept, kept_before = kept_before, kept_first
         elif kind != KIND_FOLLOWS:
             above = times(halves((found[0], found[1])), 1.0 / PAINT_ONE)
             if kind != KIND_SOLID:

@@ -12,7 +12,7 @@ from typing import Final
 
 from vexture import layout
 from vexture.errors import ParameterError
-from vexture.group import Blend
+from vexture.group import Blend, Mask
 from vexture.paint import Spread
 from vexture.renderers import method
 
@@ -53,9 +53,13 @@ CHOSEN: Final = {"FLAT", "GRADIENTS", "LINEAR", "WRAP"}
 """Numbers that each program sets itself."""
 
 MODES: Final = SimpleNamespace(
-    **{f"BLEND_{blend.name}": int(blend) for blend in Blend}, **{f"SPREAD_{one.name}": int(one) for one in Spread}
+    **{
+        f"{kind.__name__.upper()}_{one.name}": int(one)
+        for kind in (Blend, Mask, Spread)
+        for one in kind.__members__.values()
+    }
 )
-"""Numbers of blend modes, and of what gradients do beyond their ends."""
+"""Numbers of blend modes and kinds of masks, and of what gradients do beyond their ends."""
 
 PREFIXED: Final = re.compile(r"\bVEXTURE_(\w+)")
 """A number in the packed texture's files; the prefix avoids clashes with an application's own names."""

@@ -1,4 +1,4 @@
-"""Which element of a drawing is at a point of its planar map, by FORMAT.md, D.7."""
+"""What is at a point of a planar map, by FORMAT.md, D.7: a paint, an element of the drawing, or nothing."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -19,13 +19,14 @@ from vexture.layout import (
     MOST_PAINTS,
     QUAD_FLAG,
 )
+from vexture.renderers.gradient import Region, program
 from vexture.texture.contains import checked_points, read_curve
 from vexture.texture.planar import head_of
 from vexture.texture.root import Root
 from vexture.tree.crossings import x_at
 from vexture.tree.planar.style import Style
 
-__all__ = ["Elements", "elements_at", "paints_at", "style_of_root"]
+__all__ = ["Elements", "elements_at", "painted_at", "paints_at", "style_of_root"]
 
 BYTE = (1 << CELL_BITS) - 1
 
@@ -76,7 +77,7 @@ def _paint_at(
     curve: NDArray[np.float64],
     tally: NDArray[np.int64],
 ) -> int:
-    """Paint at a point of the unit square; -1 where only a mean is known."""
+    """Paint at a point of the unit square; where only a mean is known, -2 less the number of its word in the cells."""
     quad = root
     for _ in range(MOST_DEPTH):
         right, upper = 1 if x >= 0.5 else 0, 1 if y >= 0.5 else 0
@@ -90,7 +91,7 @@ def _paint_at(
             quad = int(flat[quad, 0]) + quads
             continue
         if cell == IS_MEAN:
-            return -1
+            return -2 - (8 * (quad - root) + place)
         first, n = int(flat[quad, 1]) + curves, 1
         tally[0, 0], tally[1, 0] = int(flat[cells + 2 * (quad - root) + 1, place]), 1
         for i in range(first, first + (cell >> COUNT_SHIFT)):
@@ -118,14 +119,42 @@ def paints_at(
 ) -> None:
     """Write the paint at each point (m, 2), in unit-square units, of the planar map with a root quad, which is sound.
 
-    `cells` and `sides` are those of the map's head. The paint is -1 outside 0 <= x < 1, 0 <= y < 1, and where only a
-    mean is known.
+    `cells` and `sides` are those of the map's head. The paint is -1 outside 0 <= x < 1, 0 <= y < 1; where only a mean
+    is known, it is -2 less the number of its word in the cells.
     """
     curve, tally = np.empty((4, 2)), np.empty((2, 2 * MOST_CURVES + 1), np.int64)
     for i in range(len(points)):
         x, y = points[i, 0], points[i, 1]
         known = 0.0 <= x < 1.0 and 0.0 <= y < 1.0
         paints[i] = _paint_at(flat, root, cells, sides, x, y, curve, tally) if known else -1
+
+
+@kernel
+def programs_paint(
+    texels: NDArray[np.uint32], words: NDArray[np.uint32], points: NDArray[np.float64], painted: NDArray[np.bool_]
+) -> None:
+    """Write where programs paint something: number k, of the paint's `words` (n, 2), at point k."""
+    for k in range(len(points)):
+        point = Region((points[k, 0], points[k, 1]), (0.0, 0.0), (0.0, 0.0))
+        painted[k] = program(texels, int(words[k, 0]), int(words[k, 1]), point)[3] > 0.0
+
+
+def painted_at(texels: NDArray[np.uint32], root: Root, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether the planar map of a root paints anything at points (n, 2); texels (rows, columns, 4)."""
+    flat = texels.reshape(-1, 4)
+    head, found = head_of(flat, root.quad), np.empty(len(points), np.int64)
+    paints_at(flat, root.quad, head.cells, head.sides, points, found)
+    words = flat[head.paint_texels].reshape(-1, 2)[np.maximum(found, 0)]
+    opacity = words[:, 1] >> COORDINATE_BITS
+    painted: NDArray[np.bool_] = (found >= 0) & (opacity > 0)
+    of_means = found < -1
+    painted[of_means] = flat[head.cells :].ravel()[-2 - found[of_means]] >> 3 * CELL_BITS > 0
+    of_programs = (found >= 0) & (opacity == 0) & (words[:, 0] != 0)
+    if of_programs.any():
+        shown = np.empty(np.count_nonzero(of_programs), np.bool_)
+        programs_paint(texels, words[of_programs], points[of_programs], shown)
+        painted[of_programs] = shown
+    return painted
 
 
 def style_of_root(root: Root) -> Style:
@@ -145,7 +174,7 @@ def elements_at(flat: NDArray[np.uint32], roots: Sequence[Root], places: Sequenc
         style, head = style_of_root(root), head_of(flat, root.quad)
         paints, bare = np.empty(len(wanted), np.int64), element < 0
         paints_at(flat, root.quad, head.cells, head.sides, wanted, paints)
-        top = np.append(style.top, -1)  # the last is that of paint -1
+        paints, top = np.maximum(paints, -1), np.append(style.top, -1)  # the last is that of paint -1
         here = bare & (top[paints] >= 0)
         element[here], owner[here] = top[paints[here]], place
         name[here] = np.array([*style.names, ""], dtype=np.object_)[element[here]]

@@ -7,15 +7,18 @@ from numpy.typing import NDArray
 
 from vexture import layout
 from vexture.errors import FormatError, LimitError
-from vexture.group import Blend
+from vexture.group import Blend, Mask
 from vexture.paint import Gradient, Spread, Stop
 from vexture.texture.walk import REMEDY
-from vexture.tree.planar.programs import Keep, Mix, Operation, Program, Solid
+from vexture.tree.planar.programs import Keep, Mix, Operation, Program, Solid, how_of, number_of
 
 __all__ = ["NO_PROGRAMS", "ProgramTexels", "halves", "program_texels", "read_programs"]
 
-BLENDS: Final = [int(blend) for blend in Blend if not Blend.HUE <= blend <= Blend.LUMINOSITY]
-"""Blend modes of programs."""
+ENDS: Final = [
+    *(number_of(blend) for blend in Blend if not Blend.HUE <= blend <= Blend.LUMINOSITY),
+    *(number_of(mask) for mask in Mask if mask),
+]
+"""How a group may end."""
 
 FOLLOWING: Final = np.array([0, 0, 0, 1, 2, 0, 0, 0])
 """Texels of the kind `FOLLOWS` after the first of an operation, by its kind."""
@@ -69,7 +72,7 @@ def _rows(operation: Operation) -> list[list[int]]:
     if isinstance(operation, Keep):
         return [[0, 0, 0, layout.KIND_KEEP << layout.KIND_SHIFT]]
     if isinstance(operation, Mix):
-        return [[operation.opacity, int(operation.blend), 0, layout.KIND_MIX << layout.KIND_SHIFT]]
+        return [[operation.opacity, number_of(operation.how), 0, layout.KIND_MIX << layout.KIND_SHIFT]]
     if isinstance(operation, Solid):
         red, green, blue, alpha = operation.rgba
         word, other = red | green << layout.COORDINATE_BITS, blue | alpha << layout.COORDINATE_BITS
@@ -132,7 +135,7 @@ def _check(operations: NDArray[np.uint32], stops: NDArray[np.uint32], starts: ND
         -1, 4
     )
     _need(bool((halves[:, :3] <= halves[:, 3:]).all()), "a colour above its opacity")
-    _need(bool((mixes[:, 0] <= layout.PAINT_ONE).all() and np.isin(mixes[:, 1], BLENDS).all()), "no such group")
+    _need(bool((mixes[:, 0] <= layout.PAINT_ONE).all() and np.isin(mixes[:, 1], ENDS).all()), "no such group")
     opened = np.cumsum((kind == layout.KIND_KEEP).astype(np.int64) - (kind == layout.KIND_MIX))
     _need(not opened[begin + counts - 1].any(), "a group is not ended")
     _need(opened.min(initial=0) >= 0 and opened.max(initial=0) <= layout.MOST_KEPT, "too many groups in one another")
@@ -175,7 +178,7 @@ def _operation(operations: NDArray[np.uint32], row: int, stops: list[Stop]) -> O
     if kind == layout.KIND_KEEP:
         return Keep()
     if kind == layout.KIND_MIX:
-        return Mix(words[0], Blend(words[1]))
+        return Mix(words[0], how_of(words[1]))
     if kind == layout.KIND_SOLID:
         red, green, blue, alpha = (word >> shift & layout.PAINT_ONE for word in words[:2] for shift in (0, 16))
         return Solid((red, green, blue, alpha))

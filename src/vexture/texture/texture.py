@@ -129,7 +129,7 @@ class Texture:
         check_styles(self.flat, self.roots)
 
     def contains(self, points: ArrayLike, root: str | int | None = None) -> NDArray[np.bool_]:
-        """Which points are inside a shape, by the stored outlines.
+        """Which points are inside a shape, by the stored outlines; of a planar map, where it paints anything.
 
         Parameters
         ----------
@@ -158,9 +158,13 @@ class Texture:
         """
         from vexture.texture.contains import checked_points, points_inside  # late: compiled code, not needed to read
 
-        wanted = checked_points(points)
+        wanted, shape = checked_points(points), self.root(root)
+        if shape.is_map:
+            from vexture.texture.pick import painted_at
+
+            return painted_at(self.texels, shape, wanted)
         inside = np.empty(len(wanted), np.bool_)
-        points_inside(self.flat, self._silhouette(root).quad, wanted, inside)
+        points_inside(self.flat, shape.quad, wanted, inside)
         return inside
 
     def element_at(self, points: ArrayLike, *, root: str | int | None = None) -> "Elements":
@@ -231,7 +235,7 @@ class Texture:
         found = self.root(root)
         if found.is_map:
             raise ParameterError(
-                f"`root` {found.name!r} is a planar map, without outlines; convert it with `split` None"
+                f"`root` {found.name!r} is a planar map, without outlines; convert it with `split` None or 'paint'"
             )
         return found
 

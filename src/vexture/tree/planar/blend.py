@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from vexture.group import Blend, Mask
 from vexture.kernels import kernel
+from vexture.layout import LUMINANCE_BLUE, LUMINANCE_GREEN, LUMINANCE_RED
 
 __all__ = ["blend_over", "masking"]
 
@@ -118,5 +119,5 @@ def blend_over(below: NDArray[np.float64], above: NDArray[np.float64], opacity: 
 def masking(colour: NDArray[np.float64], mask: int) -> float:
     """What a mask of a premultiplied colour, (4,), leaves (*CSS Masking Level 1*, 7.10)."""
     if mask == LUMINANCE:
-        return 0.2125 * colour[0] + 0.7154 * colour[1] + 0.0721 * colour[2]
+        return LUMINANCE_RED * colour[0] + LUMINANCE_GREEN * colour[1] + LUMINANCE_BLUE * colour[2]
     return colour[3]

@@ -2,7 +2,7 @@
 
 Solids are composited as SVG says, source-over in sRGB, and groups of solids by themselves: of flat colours one solid is
 left. Gradients stay operations, in the order in which they are painted: what `KEEP` sets aside is composited with what
-follows by the next `MIX`.
+follows by the next `MIX`, or masked by it. A mask that holds a gradient comes after all that it masks.
 """
 
 from typing import NamedTuple
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vexture.group import Blend
 from vexture.kernels import kernel
-from vexture.layout import MOST_KEPT, MOST_PROGRAM, MOST_STOPS, PAINT_ONE
+from vexture.layout import MASKS, MOST_KEPT, MOST_PROGRAM, MOST_STOPS, PAINT_ONE
 from vexture.tree.planar.blend import blend_over, masking
 from vexture.tree.planar.layers import Layers
 from vexture.tree.planar.shades import COUNT, FOCUS, shade_at
@@ -43,7 +43,7 @@ class Operations(NamedTuple):
     """Operations from below, a row for each."""
 
     code: NDArray[np.int64]
-    number: NDArray[np.int64]  # of a gradient; of `MIX` its blend mode, above 16 bits of opacity
+    number: NDArray[np.int64]  # of a gradient; of `MIX` its blend mode or `MASKS` + mask, above 16 bits of opacity
     rgba: NDArray[np.float64]  # (room, 4): premultiplied colours of solids
 
 
@@ -76,11 +76,34 @@ def _solid(ops: Operations, count: int, base: int, rgba: NDArray[np.float64], op
 
 @kernel(allocates=False)
 def _blends(ops: Operations, start: int, count: int) -> bool:
-    """Whether some of the operations blend with what is below them otherwise than source-over."""
+    """Whether some of the operations blend with what is below them otherwise than source-over, or mask it."""
+    inside = 0
     for k in range(start, count):
-        if ops.code[k] == MIX and ops.number[k] >> 16 != NORMAL:
-            return True
+        if ops.code[k] == KEEP:
+            inside += 1
+        elif ops.code[k] == MIX:
+            inside -= 1
+            if inside == 0 and ops.number[k] >> 16 != NORMAL:
+                return True
     return False
+
+
+@kernel(allocates=False)
+def _reverse(ops: Operations, first: int, end: int) -> None:
+    for k in range((end - first) // 2):
+        low, high = first + k, end - 1 - k
+        ops.code[low], ops.code[high] = ops.code[high], ops.code[low]
+        ops.number[low], ops.number[high] = ops.number[high], ops.number[low]
+        for c in range(4):
+            ops.rgba[low, c], ops.rgba[high, c] = ops.rgba[high, c], ops.rgba[low, c]
+
+
+@kernel(allocates=False)
+def _swap(ops: Operations, first: int, second: int, end: int) -> None:
+    """Let the operations first..second-1 and second..end-1 change places."""
+    _reverse(ops, first, second)
+    _reverse(ops, second, end)
+    _reverse(ops, first, end)
 
 
 @kernel(allocates=False)
@@ -96,11 +119,8 @@ def _end_group(ops: Operations, count: int, base: int, start: int, opacity: floa
         if onto == 1 and ops.code[base] == SOLID:
             blend_over(ops.rgba[base], rgba, opacity, blend)
             return start
-    if blend == NORMAL and opacity == 1.0 and (onto == 0 or not _blends(ops, start, count)):
-        for k in range(start, count - 1):  # it makes no difference, as source-over is associative
-            ops.code[k], ops.number[k] = ops.code[k + 1], ops.number[k + 1]
-            for c in range(4):
-                ops.rgba[k, c] = ops.rgba[k + 1, c]
+    if opacity == 1.0 and (onto == 0 or (blend == NORMAL and not _blends(ops, start + 1, count))):
+        _swap(ops, start, start + 1, count)  # it makes no difference, as source-over is associative
         return count - 1
     ops.code[count] = MIX
     ops.number[count] = ((blend if onto > 0 else NORMAL) << 16) | int(np.rint(ONE * opacity))
@@ -127,19 +147,24 @@ def _leave(
 ) -> int:
     """End the innermost group, or let it mask the one around it; return the new number of operations.
 
-    `shown` has for each open group what its masks leave, and how many masks there are of which nothing was met. The
-    result is -1 if a mask holds a gradient.
+    `starts` has for each open group where its `KEEP` is, and where what it paints begins: until it is ended, that is
+    after its masks that hold gradients. `shown` has what its other masks leave, and of how many nothing was met.
     """
-    g, start = around[level], starts[level]
+    g, start, mask = around[level], starts[level, 0], layers.mask[around[level]]
     left = layers.opacity[g] * (shown[level, 0] if shown[level, 1] == 0.0 else 0.0)
-    if layers.mask[g] == 0:
-        blend = layers.blend[g]
-        return _end_group(ops, count, starts[level - 1] + 1, start, left, blend) if left > 0.0 else start
-    if count > start + 2 or (count == start + 2 and ops.code[start + 1] != SOLID):
-        return -1
-    shown[level - 1, 0] *= left * masking(ops.rgba[start + 1], layers.mask[g]) if count == start + 2 else 0.0
+    count = start + 1 if left == 0.0 or count == starts[level, 1] else count
+    if count > start + 1:
+        _swap(ops, start + 1, starts[level, 1], count)
+    if mask == 0:
+        return _end_group(ops, count, starts[level - 1, 1], start, left, layers.blend[g])
     shown[level - 1, 1] -= 1.0
-    return start
+    if count == start + 1 or (count == start + 2 and ops.code[start + 1] == SOLID):
+        shown[level - 1, 0] *= left * masking(ops.rgba[start + 1], mask) if count > start + 1 else 0.0
+        return start
+    ops.code[count], ops.number[count] = MIX, (MASKS + mask) << 16 | int(np.rint(ONE * left))
+    _swap(ops, starts[level - 1, 1], start, count + 1)
+    starts[level - 1, 1] += count + 1 - start
+    return count + 1
 
 
 @kernel
@@ -151,15 +176,13 @@ def compose(layers: Layers, stack: NDArray[np.int32], is_flat: bool, ops: Operat
     deepest = 1
     for g in range(len(layers.depth)):
         deepest = max(deepest, layers.depth[g] + 2)
-    around, starts, shown = np.empty(deepest, np.int64), np.empty(deepest, np.int64), np.ones((deepest, 2))
-    level, count = 0, 0  # open groups; starts[level] is the `KEEP` of the innermost
-    starts[0] = -1
+    around, starts, shown = np.empty(deepest, np.int64), np.empty((deepest, 2), np.int64), np.ones((deepest, 2))
+    level, count = 0, 0  # open groups, and operations
+    starts[0, 0], starts[0, 1] = -1, 0
     for k in range(len(stack) + 1):
         group = layers.group[stack[k]] if k < len(stack) else -1
         while level > 0 and not _is_in(layers, group, around[level]):
             count = _leave(layers, ops, count, around, starts, shown, level)
-            if count < 0:
-                return count
             level -= 1
         if k == len(stack):
             break
@@ -168,14 +191,15 @@ def compose(layers: Layers, stack: NDArray[np.int32], is_flat: bool, ops: Operat
             while layers.depth[g] > level:
                 g = layers.outer[g]
             level += 1
-            around[level], starts[level], shown[level, 0], shown[level, 1] = g, count, 1.0, layers.masked[g]
+            around[level], shown[level, 0], shown[level, 1] = g, 1.0, layers.masked[g]
             ops.code[count], ops.number[count] = KEEP, 0
+            starts[level, 0], starts[level, 1] = count, count + 1
             count += 1
         path = stack[k]
         if is_flat or layers.shade[path] < 0:
-            count = _solid(ops, count, starts[level] + 1, layers.rgba[path], 1.0)
+            count = _solid(ops, count, starts[level, 1], layers.rgba[path], 1.0)
             continue
-        count = starts[level] + 1 if layers.opaque[path] else count
+        count = starts[level, 1] if layers.opaque[path] else count
         ops.code[count], ops.number[count] = SHADE, layers.shade[path]
         count += 1
     return count if is_flat or _fits(layers, ops, count) else -1
@@ -238,6 +262,12 @@ def colour_at(
                 work[level, c] = 0.0
         else:
             level -= 1
-            blend_over(work[level], work[level + 1], (ops.number[k] & PAINT_ONE) / ONE, ops.number[k] >> 16)
+            opacity, how = (ops.number[k] & PAINT_ONE) / ONE, ops.number[k] >> 16
+            if how < MASKS:
+                blend_over(work[level], work[level + 1], opacity, how)
+            else:
+                left = opacity * masking(work[level + 1], how - MASKS)
+                for c in range(4):
+                    work[level, c] *= left
     for c in range(4):
         out[c] = work[0, c]

@@ -7,14 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
-from vexture.group import Blend
-from vexture.layout import PAINT_ONE
+from vexture.group import Blend, Mask
+from vexture.layout import MASKS, PAINT_ONE
 from vexture.paint import Gradient
 from vexture.tree.planar.compose import KEEP, SHADE, SOLID, Operations
 from vexture.tree.planar.faces import operations_of
 from vexture.tree.planar.layers import Layers, gradients_of
 
-__all__ = ["Keep", "Mix", "Operation", "Program", "Solid", "programs_of"]
+__all__ = ["Keep", "Mix", "Operation", "Program", "Solid", "how_of", "number_of", "programs_of"]
 
 
 class Solid(NamedTuple):
@@ -28,10 +28,10 @@ class Keep(NamedTuple):
 
 
 class Mix(NamedTuple):
-    """End a group: composite it on what was kept."""
+    """End a group: composite it on what was kept, or let it mask that."""
 
     opacity: int  # in steps of 1/65535
-    blend: Blend
+    how: Blend | Mask
 
 
 Operation: TypeAlias = Solid | Gradient | Keep | Mix
@@ -61,4 +61,14 @@ def _operation(ops: Operations, k: int, gradients: Sequence[Gradient]) -> Operat
         return Solid((red, green, blue, alpha))
     if code == SHADE:
         return gradients[number]
-    return Keep() if code == KEEP else Mix(number & PAINT_ONE, Blend(number >> 16))
+    return Keep() if code == KEEP else Mix(number & PAINT_ONE, how_of(number >> 16))
+
+
+def how_of(number: int) -> Blend | Mask:
+    """How a group ends, by its number in a program."""
+    return Blend(number) if number < MASKS else Mask(number - MASKS)
+
+
+def number_of(how: Blend | Mask) -> int:
+    """Number in a program of how a group ends."""
+    return MASKS + how if isinstance(how, Mask) else int(how)

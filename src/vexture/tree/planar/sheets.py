@@ -11,6 +11,7 @@ from typing import Any, Final, NamedTuple
 
 from vexture.drawing import Drawing, Path
 from vexture.group import Blend
+from vexture.layout import MOST_KEPT
 from vexture.notes import Note
 from vexture.paint import Paint
 from vexture.tree.build import build_tree
@@ -21,7 +22,8 @@ from vexture.tree.tree import Tree
 __all__ = ["Sheet", "flattened_notes", "sheets_of"]
 
 FLATTENED: Final = (
-    "gradients by their mean colours: in a mask, too many on one another, or blended by hue, saturation or the like"
+    "gradients by their mean colours: too many on one another, "
+    f"in more than {MOST_KEPT} groups in one another, or blended by hue, saturation or the like"
 )
 """Message about faces of planar maps."""
 
