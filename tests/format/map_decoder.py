@@ -72,7 +72,7 @@ def check_operation(kind: int, rest: int, texels: np.ndarray, low: int, high: in
     halves = np.array([word >> shift & 65535 for word in texels[0, :2].tolist() for shift in (0, 16)])
     need(kind != 1 or (halves[:3] <= halves[3]).all(), "a colour above its opacity")
     need(kind != 5 or not texels[0, :2].any(), "a word that is not 0")
-    need(kind != 6 or (texels[0, 0] <= 65535 and int(texels[0, 1]) in {*range(12), 16, 33, 34}), "group")
+    need(kind != 6 or (texels[0, 0] <= 65535 and int(texels[0, 1]) in {*range(17), 33, 34}), "group")
 
 
 def read_stops(words: np.ndarray) -> np.ndarray:
@@ -110,6 +110,24 @@ def gradient_color(kind: int, texels: np.ndarray, stops: np.ndarray, x: np.ndarr
     return np.where(nowhere[:, None], 0, color)
 
 
+def whole(b: np.ndarray, s: np.ndarray, mode: int) -> np.ndarray:
+    """Return what modes that look at whole colours make of two (the W3C's Lum, Sat, SetSat, SetLum and ClipColor)."""
+    weights = [[0.3], [0.59], [0.11]]
+    if mode in (12, 13):
+        c, other = (s, b) if mode == 12 else (b, s)
+        with np.errstate(all="ignore"):
+            c = np.nan_to_num((c - c.min(1, keepdims=True)) / np.ptp(c, axis=1, keepdims=True))
+        c = c * np.ptp(other, axis=1, keepdims=True)
+    else:
+        c = s if mode == 14 else b
+    wanted = (s if mode == 15 else b) @ weights
+    c = c + wanted - c @ weights
+    low, high = c.min(1, keepdims=True), c.max(1, keepdims=True)
+    with np.errstate(all="ignore"):
+        c = np.where(low < 0, wanted + (c - wanted) * wanted / (wanted - low), c)
+        return np.where(high > 1, wanted + (c - wanted) * (1 - wanted) / (high - wanted), c)
+
+
 def blended(below: np.ndarray, above: np.ndarray, mode: int) -> np.ndarray:
     """Return one premultiplied colour over another, or masked by it (D.6, and the formulas of the W3C)."""
     if mode in (33, 34):
@@ -125,7 +143,8 @@ def blended(below: np.ndarray, above: np.ndarray, mode: int) -> np.ndarray:
         root = np.where(b <= 0.25, ((16 * b - 12) * b + 4) * b, np.sqrt(b))
         soft = b + (2 * s - 1) * np.where(s <= 0.5, b - b * b, root - b)
     table = [s, b * s, b + s - b * s, hard[0], np.minimum(b, s), np.maximum(b, s), dodge, burn, hard[1], soft]
-    mixed = [*table, abs(b - s), b + s - 2 * b * s][mode]
+    table += [abs(b - s), b + s - 2 * b * s]
+    mixed = table[mode] if mode < len(table) else whole(b, s, mode)
     color = above[:, :3] * (1 - ab) + below[:, :3] * (1 - as_) + as_ * ab * mixed
     return np.column_stack([color, as_ + ab * (1 - as_)])
 

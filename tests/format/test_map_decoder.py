@@ -35,7 +35,7 @@ def test_it_draws_random_drawings(seed: int) -> None:
     assert error.max() < 0.15
 
 
-@pytest.mark.parametrize("of", [*DRAWINGS.values(), *map(blended, (Blend.OVERLAY, Blend.SOFT_LIGHT))])
+@pytest.mark.parametrize("of", [*DRAWINGS.values(), *map(blended, Blend)])
 def test_it_runs_programs(of: Drawing) -> None:
     data = run(of, split="faces").texture.to_ktx2()
     _, _, (planar,) = map_decoder.read_maps(data)

@@ -1,13 +1,14 @@
 import inspect
 import re
 from importlib import resources
+from types import SimpleNamespace
 
 import pytest
 from hand import EMPTY, FULL, TREE, need_gpu, texture_of
 
 from vexture.errors import FormatError
-from vexture.fold import blend
-from vexture.renderers import cells, colour, cpu, feature, gradient, piece
+from vexture.fold import blend as folding
+from vexture.renderers import blend, cells, colour, cpu, feature, gradient, piece
 from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, included, vertex_source
 from vexture.thesis import cpu as thesis_cpu
@@ -32,13 +33,13 @@ MIRROR = dict.fromkeys(FILES, cpu) | {
     "pixel.glsl": piece,
     "piece.glsl": piece,
     "view.glsl": piece,
-    "blend.glsl": gradient,
+    "blend.glsl": SimpleNamespace(**{**vars(blend), **vars(gradient)}),
     "colour.glsl": colour,
     "gradient.glsl": gradient,
     "srgb.glsl": colour,
     "feature.glsl": feature,
     "view_color.glsl": colour,
-    "fold.glsl": blend,
+    "fold.glsl": folding,
 }
 # only the web's, judged by its pixels (tests/web) and by decoded trees (test_packed_overlay.py)
 WITHOUT_MIRROR = {

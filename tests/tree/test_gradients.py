@@ -142,15 +142,21 @@ def test_a_crowded_cell_has_the_mean_of_its_gradients() -> None:
 
 
 @pytest.mark.parametrize("blend", Blend)
-def test_what_no_program_holds_is_flat_and_noted(blend: Blend) -> None:
+def test_programs_have_all_blend_modes(blend: Blend) -> None:
     conversion = run(blended(blend), split="faces")
-    flat = Blend.HUE <= blend <= Blend.LUMINOSITY
-    assert [note.count for note in conversion.notes] == [1] * flat
-    (paint,) = paints_at(conversion.tree, (0.4, 0.45))
-    assert (paint in conversion.tree.programs) != flat
-    mean = UPWARDS.paint
-    assert conversion.tree.paints[paint, 3] == (65535 if flat else 0)
-    assert mean.gradient in conversion.tree.programs[next(iter(conversion.tree.programs))]
+    assert not conversion.notes
+    up, keep, _, mix = program_at(conversion.tree, (0.4, 0.45))
+    assert (up, keep, mix) == (UPWARDS.paint.gradient, Keep(), Mix(52428, blend))
+
+
+def test_gradients_in_too_many_groups_are_flat_and_noted() -> None:
+    groups = tuple(Group(k - 1, 0.9) for k in range(5))
+    paths = tuple(shaded(LENS, linear((0, 0), (1, 0), FADING), k - 1) for k in range(6))
+    for deep, flat in ((4, 0), (5, 1)):
+        conversion = run(Drawing((UPWARDS, *paths[:deep]), groups=groups), split="faces")
+        assert [note.count for note in conversion.notes] == [1] * flat
+        (paint,) = paints_at(conversion.tree, (0.4, 0.45))
+        assert (paint in conversion.tree.programs) != flat
 
 
 def test_too_many_gradients_on_one_another_are_flat() -> None:

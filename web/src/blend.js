@@ -1,5 +1,5 @@
-// Blend modes of the W3C's Compositing and Blending Level 1, by their numbers: those that treat each component by itself
-// are in programs (FORMAT.md, D.6), all of them in styles (D.10).
+// Blend modes of the W3C's Compositing and Blending Level 1, by their numbers: those of programs (FORMAT.md, D.6) and
+// styles (D.10).
 import { LUMINANCE_BLUE, LUMINANCE_GREEN, LUMINANCE_RED } from '../generated/layout.js';
 
 /** @typedef {import('./planar-map.js').Color} Color */
@@ -83,12 +83,12 @@ export function modeNamed(name) {
 }
 
 /**
- * Whether a mode that a program may have has this number.
+ * Whether a mode has this number.
  *
  * @param {number} mode
  */
 export function isBlend(mode) {
-  return mode === NORMAL || mode === PLUS_LIGHTER || Object.hasOwn(MODES, mode);
+  return mode < NAMES.length;
 }
 
 /**

@@ -162,7 +162,7 @@ const BROKEN_PROGRAMS = [
   ['a group that is not ended', /a group is not ended|too many groups/, (words) => {
     words.set([0, 0, 0, 5 << 29 >>> 0], place(6));
   }],
-  ['a blend mode of whole colours', /no such group/, (words) => (words[place(6) + 1] = 12)],
+  ['no blend mode', /no such group/, (words) => (words[place(6) + 1] = 17)],
   ['a mask by nothing', /no such group/, (words) => (words[place(6) + 1] = 32)],
   ['a colour above its opacity', /a colour above its opacity/, (words) => (words[place(1)] = 0xffff, words[place(1) + 1] = 0x7fff0000)],
   ['a stop beyond 1', /a stop that is not in 0..1|not in order/, (words) => (words[4 * STOPS + 4] = 0x40000000)],

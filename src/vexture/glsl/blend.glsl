@@ -1,4 +1,4 @@
-// Blend modes that treat each component by itself (Compositing and Blending Level 1 of the W3C).
+// Blend modes (Compositing and Blending Level 1 of the W3C).
 // Exports: vexture_blended.
 
 // B(cb, cs) of one component, b of what is below and s of what is laid over it.
@@ -30,6 +30,44 @@ float vexture_separable(uint blend, float b, float s) {
     return b + s - 2.0 * b * s;  // exclusion
 }
 
+float vexture_luminosity(vec3 c) {
+    return dot(c, vec3(0.3, 0.59, 0.11));
+}
+
+float vexture_saturation(vec3 c) {
+    return max(max(c.r, c.g), c.b) - min(min(c.r, c.g), c.b);
+}
+
+// The W3C's SetSat.
+vec3 vexture_with_saturation(vec3 c, float wanted) {
+    return (c - min(min(c.r, c.g), c.b)) * (wanted / max(vexture_saturation(c), VEXTURE_NOTHING));
+}
+
+// The W3C's SetLum and ClipColor.
+vec3 vexture_with_luminosity(vec3 c, float wanted) {
+    c += wanted - vexture_luminosity(c);
+    float least = min(min(c.r, c.g), c.b);
+    float greatest = max(max(c.r, c.g), c.b);
+    float share = least < 0.0 ? wanted / (wanted - least) : 1.0;
+    share = greatest > 1.0 ? (1.0 - wanted) / (greatest - wanted) : share;
+    return wanted + (c - wanted) * share;
+}
+
+// B(cb, cs), of straight colours.
+vec3 vexture_mixture(uint blend, vec3 b, vec3 s) {
+    if (blend < uint(VEXTURE_BLEND_HUE)) {
+        float red = vexture_separable(blend, b.r, s.r);
+        return vec3(red, vexture_separable(blend, b.g, s.g), vexture_separable(blend, b.b, s.b));
+    }
+    vec3 color = blend == uint(VEXTURE_BLEND_COLOR) ? s : b;
+    if (blend == uint(VEXTURE_BLEND_HUE)) {
+        color = vexture_with_saturation(s, vexture_saturation(b));
+    } else if (blend == uint(VEXTURE_BLEND_SATURATION)) {
+        color = vexture_with_saturation(b, vexture_saturation(s));
+    }
+    return vexture_with_luminosity(color, vexture_luminosity(blend == uint(VEXTURE_BLEND_LUMINOSITY) ? s : b));
+}
+
 // One premultiplied colour over another.
 vec4 vexture_blended(vec4 below, vec4 above, uint mode) {
     if (mode == uint(VEXTURE_BLEND_NORMAL)) {
@@ -40,10 +78,6 @@ vec4 vexture_blended(vec4 below, vec4 above, uint mode) {
     }
     vec3 b = min(below.rgb / max(below.a, VEXTURE_NOTHING), 1.0);
     vec3 s = min(above.rgb / max(above.a, VEXTURE_NOTHING), 1.0);
-    vec3 mixed;
-    for (int k = 0; k < 3; k++) {
-        mixed[k] = vexture_separable(mode, b[k], s[k]);
-    }
     vec3 apart = above.rgb * (1.0 - below.a) + below.rgb * (1.0 - above.a);
-    return vec4(apart + above.a * below.a * mixed, above.a + below.a * (1.0 - above.a));
+    return vec4(apart + above.a * below.a * vexture_mixture(mode, b, s), above.a + below.a * (1.0 - above.a));
 }

@@ -28,7 +28,7 @@ from vexture.layout import (
     STOP_COUNT_BITS,
 )
 from vexture.paint import Spread
-from vexture.renderers.blend import separable
+from vexture.renderers.blend import mixture
 from vexture.renderers.cells import Texel, Texels, Vec2, Whole2, clamp, texel
 from vexture.renderers.method import (
     LEAST_RADIUS,
@@ -113,16 +113,19 @@ def blended(below: Vec4, above: Vec4, mode: int) -> Vec4:
     if mode == PLUS_LIGHTER:
         red, green, blue = min(below[0] + above[0], 1.0), min(below[1] + above[1], 1.0), min(below[2] + above[2], 1.0)
         return red, green, blue, min(below[3] + above[3], 1.0)
-    red, green = blended_channel(below, above, mode, 0), blended_channel(below, above, mode, 1)
-    return red, green, blended_channel(below, above, mode, 2), above[3] + below[3] * (1.0 - above[3])
+    under, over = below[3], above[3]
+    mixed = mixture(mode, straight(below), straight(above))
+    red = above[0] * (1.0 - under) + below[0] * (1.0 - over) + over * under * mixed[0]
+    green = above[1] * (1.0 - under) + below[1] * (1.0 - over) + over * under * mixed[1]
+    blue = above[2] * (1.0 - under) + below[2] * (1.0 - over) + over * under * mixed[2]
+    return red, green, blue, over + under * (1.0 - over)
 
 
 @kernel(allocates=False)
-def blended_channel(below: Vec4, above: Vec4, mode: int, k: int) -> float:
-    """One channel of what GLSL computes as vectors."""
-    b, s = min(below[k] / max(below[3], NOTHING), 1.0), min(above[k] / max(above[3], NOTHING), 1.0)
-    apart = above[k] * (1.0 - below[3]) + below[k] * (1.0 - above[3])
-    return apart + above[3] * below[3] * separable(mode, b, s)
+def straight(color: Vec4) -> Vec3:
+    """A colour without its opacity."""
+    opacity = max(color[3], NOTHING)
+    return min(color[0] / opacity, 1.0), min(color[1] / opacity, 1.0), min(color[2] / opacity, 1.0)
 
 
 # --- gradient.glsl ---------------------------------------------------------------------------------------------

@@ -14,10 +14,7 @@ from vexture.tree.planar.programs import Keep, Mix, Operation, Program, Solid, h
 
 __all__ = ["NO_PROGRAMS", "ProgramTexels", "halves", "program_texels", "read_programs"]
 
-ENDS: Final = [
-    *(number_of(blend) for blend in Blend if not Blend.HUE <= blend <= Blend.LUMINOSITY),
-    *(number_of(mask) for mask in Mask if mask),
-]
+ENDS: Final = [*map(number_of, Blend), *(number_of(mask) for mask in Mask if mask)]
 """How a group may end."""
 
 FOLLOWING: Final = np.array([0, 0, 0, 1, 2, 0, 0, 0])

@@ -36,7 +36,7 @@ ONE = float(PAINT_ONE)
 SOLID, SHADE, KEEP, MIX = range(4)
 """What an operation does: paint a solid, a gradient; begin a group; end it."""
 
-NORMAL, HUE, LUMINOSITY = int(Blend.NORMAL), int(Blend.HUE), int(Blend.LUMINOSITY)
+NORMAL = int(Blend.NORMAL)
 
 
 class Operations(NamedTuple):
@@ -207,7 +207,7 @@ def compose(layers: Layers, stack: NDArray[np.int32], is_flat: bool, ops: Operat
 
 @kernel(allocates=False)
 def _fits(layers: Layers, ops: Operations, count: int) -> bool:
-    """Whether a shader can run the operations: few, of few stops, few groups in one another, of known blending."""
+    """Whether a shader can run the operations: few, of few stops, few groups in one another."""
     texels, stops, kept, most = 0, 0, 0, 0
     for k in range(count):
         texels += 1
@@ -220,8 +220,6 @@ def _fits(layers: Layers, ops: Operations, count: int) -> bool:
             most = max(most, kept)
         elif ops.code[k] == MIX:
             kept -= 1
-            if HUE <= ops.number[k] >> 16 <= LUMINOSITY:
-                return False
     return texels <= MOST_PROGRAM and stops <= MOST_STOPS and most <= MOST_KEPT
 
 

@@ -22,8 +22,7 @@ from vexture.tree.tree import Tree
 __all__ = ["Sheet", "flattened_notes", "sheets_of"]
 
 FLATTENED: Final = (
-    "gradients by their mean colours: too many on one another, "
-    f"in more than {MOST_KEPT} groups in one another, or blended by hue, saturation or the like"
+    f"gradients by their mean colours: too many on one another, or in more than {MOST_KEPT} groups in one another"
 )
 """Message about faces of planar maps."""
 
