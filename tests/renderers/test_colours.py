@@ -18,6 +18,7 @@ from vexture.layout import MAP_HEAD
 from vexture.paint import Paint
 from vexture.renderers.colour import render_cpu_colours
 from vexture.renderers.device import context
+from vexture.renderers.exact import render_exact_colours
 from vexture.renderers.gpu import render_gpu_colours
 from vexture.renderers.shader import VERSIONS, color_source, vertex_source
 from vexture.renderers.view import fit, window
@@ -122,6 +123,21 @@ def test_gradients_are_those_of_many_points(name: str) -> None:
     for size, mean in ((4, 3.2), (20, 0.8)):
         error = 255 * abs(render_cpu_colours(texture, (size, size)) - planar.sampled(drawing, size, 12))
         assert error.mean() < mean, size
+
+
+@pytest.mark.parametrize("size", [64, 100, 256])
+def test_the_edge_of_a_cone_is_antialiased(size: int) -> None:
+    """All but its tip; in 1/255."""
+    drawing, texture = made("shaded cone")
+    error = 255 * abs(render_cpu_colours(texture, (size, size)) - render_exact_colours(drawing, size))
+    assert error.max() < 14
+    assert error.mean() < 0.04
+
+
+def test_hard_stops_are_exact() -> None:
+    stripes = Drawing((shaded.shaded(shaded.SQUARE, shaded.linear((0.1, 0.2), (0.9, 0.7), shaded.BANDS)),))
+    error = 255 * abs(render_cpu_colours(map_of(stripes), (64, 64)) - render_exact_colours(stripes, 64))
+    assert error.max() < 0.01
 
 
 @pytest.mark.parametrize("entry", ENTRIES)

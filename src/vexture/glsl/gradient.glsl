@@ -35,6 +35,16 @@ vec2 vexture_spans(vec2 way, VextureRegion region) {
     return abs(vec2(dot(way, region.right), dot(way, region.up)));
 }
 
+// The part of a parallelogram in which a value is above 0, that is this in the middle and goes this far along its sides.
+float vexture_part_above(float value, vec2 sides) {
+    float wide = max(max(sides.x, sides.y), VEXTURE_NOTHING);
+    float narrow = min(sides.x, sides.y);
+    float rest = 0.5 * (wide + narrow) - abs(value);
+    float corner = max(rest, 0.0);
+    float less = rest < narrow ? corner * corner / (2.0 * wide * max(narrow, VEXTURE_NOTHING)) : 0.5 - abs(value) / wide;
+    return value > 0.0 ? 1.0 - less : less;
+}
+
 // The place on a circular ramp: the greatest t whose circle, about c t from the focal point, goes through the region's middle
 // and has a radius, |q - c t|^2 = (fr + t dr)^2. Parameters: the rows of the map to the ramp; focal point and radius.
 VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion region) {
@@ -45,8 +55,14 @@ VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion r
     float c = dot(q, q) - focus.y * focus.y;
     float inside = b * b - a * c;
     vec2 slope = -2.0 * vec2(b * focus.x + a * q.x, a * q.y);
-    float soft = length(vexture_spans(slope.x * across.xy + slope.y * up.xy, region));
-    float share = a < 0.0 ? 1.0 : clamp(0.5 + inside / max(soft, VEXTURE_NOTHING), 0.0, 1.0);
+    vec2 sides = vexture_spans(slope.x * across.xy + slope.y * up.xy, region);
+    float share = a < 0.0 ? 1.0 : vexture_part_above(inside, sides);
+    if (share < 1.0) {  // beside a cone: about where the middle is of what lies in it
+        q += (0.5 * share * (sides.x + sides.y) - inside) / max(dot(slope, slope), VEXTURE_NOTHING) * slope;
+        b = focus.y * grows - q.x * focus.x;
+        c = dot(q, q) - focus.y * focus.y;
+        inside = b * b - a * c;
+    }
     float root = sqrt(max(inside, 0.0));
     float far = b < 0.0 ? b - root : b + root;  // the roots are far / a and c / far: neither is a small difference
     float first = a != 0.0 ? far / a : VEXTURE_NO_PLACE;

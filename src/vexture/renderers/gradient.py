@@ -156,6 +156,16 @@ def along(slope: Vec2, across: Vec3, up: Vec3) -> Vec2:
 
 
 @kernel(allocates=False)
+def part_above(value: float, sides: Vec2) -> float:
+    wide = max(max(sides[0], sides[1]), NOTHING)
+    narrow = min(sides[0], sides[1])
+    rest = 0.5 * (wide + narrow) - abs(value)
+    corner = max(rest, 0.0)
+    less = corner * corner / (2.0 * wide * max(narrow, NOTHING)) if rest < narrow else 0.5 - abs(value) / wide
+    return 1.0 - less if value > 0.0 else less
+
+
+@kernel(allocates=False)
 def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
     qx = dot(across, region.point) + across[2] - focus[0]
     qy = dot(up, region.point) + up[2]
@@ -165,8 +175,14 @@ def round_ramp(across: Vec3, up: Vec3, focus: Vec2, region: Region) -> Ramp:
     c = qx * qx + qy * qy - focus[1] * focus[1]
     inside = b * b - a * c
     slope = (-2.0 * (b * focus[0] + a * qx), -2.0 * a * qy)
-    soft = length(spans(along(slope, across, up), region))
-    share = 1.0 if a < 0.0 else clamp(0.5 + inside / max(soft, NOTHING), 0.0, 1.0)
+    sides = spans(along(slope, across, up), region)
+    share = 1.0 if a < 0.0 else part_above(inside, sides)
+    if share < 1.0:
+        moved = (0.5 * share * (sides[0] + sides[1]) - inside) / max(slope[0] * slope[0] + slope[1] * slope[1], NOTHING)
+        qx, qy = qx + moved * slope[0], qy + moved * slope[1]
+        b = focus[1] * grows - qx * focus[0]
+        c = qx * qx + qy * qy - focus[1] * focus[1]
+        inside = b * b - a * c
     root = math.sqrt(max(inside, 0.0))
     far = b - root if b < 0.0 else b + root
     first = far / a if a != 0.0 else NO_PLACE
