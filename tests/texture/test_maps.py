@@ -127,7 +127,7 @@ def test_a_drawing_without_paths_is_empty() -> None:
         ("head", 0, 1 << 16, "end at texel"),
         ("head", 0, 2, "has paint . of 2"),
         ("head", 1, 1 << 31, "end at texel"),
-        ("head", 1, 1, "two things|opacity|base paint"),
+        ("head", 1, 1, "two things|opacity|paint"),
         ("head", 2, 1 << 31, "end at texel"),
         ("head", 2, 1, "two things|paint"),
         ("head", 3, 1 << 31, "end at texel"),

@@ -48,16 +48,83 @@ vec4 vexture_paint(VexturePlanar planar, uint number, VextureRegion region) {
     return vexture_averaged(color);
 }
 
-// Colour on the left of a piece minus that on its right.
-vec4 vexture_jump(VexturePlanar planar, uint curve, VextureRegion region) {
-    uint sides = vexture_texel(planar.sides + (curve >> 2))[curve & 3u];
-    vec4 color = vec4(0.0);
-    for (int side = 0; side < 2; side++) {
-        // one call for both: programs are long
-        vec4 paint = vexture_paint(planar, side == 0 ? sides >> VEXTURE_COORDINATE_BITS : sides & 0xffffu, region);
-        color = paint - color;
+// The colours of a pixel, times their areas. Pieces of a cell name the same few paints again and again, and of most nothing is
+// left: where paints are programs, their areas are summed first, so that each is run once.
+struct VextureSum {
+    vec4 color;
+#if VEXTURE_GRADIENTS
+    uvec4 paints;
+    vec4 areas;  // where 0 is room for another paint
+#endif
+};
+
+VextureSum vexture_nothing() {
+#if VEXTURE_GRADIENTS
+    return VextureSum(vec4(0.0), uvec4(0u), vec4(0.0));
+#else
+    return VextureSum(vec4(0.0));
+#endif
+}
+
+#if VEXTURE_GRADIENTS
+// Whether the colour of a paint is still to be added.
+bool vexture_waits(VextureSum sum) {
+    return any(notEqual(sum.areas, vec4(0.0)));
+}
+#endif
+
+// Whether there is room for the two paints beside a piece.
+bool vexture_has_room(VextureSum sum) {
+#if VEXTURE_GRADIENTS
+    return dot(vec4(equal(sum.areas, vec4(0.0))), vec4(1.0)) > 1.5;
+#else
+    return true;
+#endif
+}
+
+// Adds a paint over a region.
+void vexture_add_paint(
+    inout VextureSum sum, VexturePlanar planar, uint paint, float area, VextureRegion region
+) {
+#if VEXTURE_GRADIENTS
+    int free = 0;
+    int same = -1;
+    for (int slot = 0; slot < 4; slot++) {
+        bool is_free = sum.areas[slot] == 0.0;
+        free = is_free ? slot : free;
+        same = !is_free && sum.paints[slot] == paint ? slot : same;
     }
-    return color;
+    int slot = same < 0 ? free : same;
+    sum.paints[slot] = paint;
+    sum.areas[slot] += area;
+#else
+    sum.color += area * vexture_paint(planar, paint, region);
+#endif
+}
+
+// Adds the paint on the left of a piece, and takes away that on its right.
+void vexture_add_piece(
+    inout VextureSum sum, VexturePlanar planar, uint curve, float area, VextureRegion region
+) {
+    uint sides = vexture_texel(planar.sides + (curve >> 2))[curve & 3u];
+#if VEXTURE_GRADIENTS
+    vexture_add_paint(sum, planar, sides & 0xffffu, area, region);
+    vexture_add_paint(sum, planar, sides >> VEXTURE_COORDINATE_BITS, -area, region);
+#else
+    vec4 right = vexture_paint(planar, sides >> VEXTURE_COORDINATE_BITS, region);
+    sum.color += area * (vexture_paint(planar, sides & 0xffffu, region) - right);
+#endif
+}
+
+// Adds the colours of paints of which only the areas are known.
+void vexture_settle(inout VextureSum sum, VexturePlanar planar, VextureRegion region) {
+#if VEXTURE_GRADIENTS
+    while (vexture_waits(sum)) {
+        int slot = sum.areas.x != 0.0 ? 0 : sum.areas.y != 0.0 ? 1 : sum.areas.z != 0.0 ? 2 : 3;
+        sum.color += sum.areas[slot] * vexture_paint(planar, sum.paints[slot], region);
+        sum.areas[slot] = 0.0;
+    }
+#endif
 }
 
 // In steps of a byte.
@@ -93,17 +160,22 @@ bool vexture_reads_mean(VextureCell cell, float share) {
     return is_whole || vexture_leaf_kind(cell) == uint(VEXTURE_IS_MEAN);
 }
 
-// Colour of a cell without its pieces: of a quad, its mean about a place in its own unit square; of a leaf, its base paint
-// over a region, or its mean.
-vec4 vexture_cell_color(VexturePlanar planar, VextureCell cell, bool is_mean, vec2 place, VextureRegion region) {
+// Adds a cell of this area without its pieces: of a quad, its mean about a place in its own unit square; of a leaf, its base
+// paint over a region, or its mean.
+void vexture_add_whole(
+    inout VextureSum sum, VexturePlanar planar, VextureCell cell, bool is_mean, vec2 place, float area, VextureRegion region
+) {
     uint at = planar.cells + 2u * cell.quad;
     uvec4 stored = vexture_texel(cell.is_quad || is_mean ? at : at + 1u);
     uint word = stored[cell.shift >> 3];
-    float step = float(VEXTURE_PAINT_ONE) / float(VEXTURE_COVERAGE_ONE);
+    float step = area * (float(VEXTURE_PAINT_ONE) / float(VEXTURE_COVERAGE_ONE));
     if (cell.is_quad) {
-        return step * vexture_mean_color(stored, place);
+        sum.color += step * vexture_mean_color(stored, place);
+    } else if (is_mean) {
+        sum.color += step * vexture_unpacked(word);
+    } else {
+        vexture_add_paint(sum, planar, word, area, region);
     }
-    return is_mean ? step * vexture_unpacked(word) : vexture_paint(planar, word, region);
 }
 
 // The region about a place in a cell, in positions, as are its sides.
@@ -128,13 +200,13 @@ VextureLook vexture_flat_look(uvec4 texel, VextureBox box) {
 }
 
 // Adds the colour of the part of a cell in the box, times its area.
-void vexture_add_flat_cell(inout vec4 color, VexturePlanar planar, VextureCell cell, ivec2 origin, VextureBox box) {
+void vexture_add_flat_cell(inout VextureSum sum, VexturePlanar planar, VextureCell cell, ivec2 origin, VextureBox box) {
     float whole = box.size.x * box.size.y;
     float side = uintBitsToFloat(uint(127 - cell.bit) << 23);  // inverse
     vec2 middle = box.way + (box.part + 0.5) * box.size;
     bool is_mean = vexture_reads_mean(cell, min(box.size.x, box.size.y) * side);
     VextureRegion region = vexture_region(origin, middle, vec2(box.size.x, 0.0), vec2(0.0, box.size.y));
-    color += whole * vexture_cell_color(planar, cell, is_mean, middle * side, region);
+    vexture_add_whole(sum, planar, cell, is_mean, middle * side, whole, region);
     uint curve = vexture_first_curve(cell);
     int count = cell.is_quad || is_mean ? 0 : vexture_count(cell);
     int counted = 0;  // a bit for each piece that is not clear of the box: others need no colours
@@ -142,17 +214,23 @@ void vexture_add_flat_cell(inout vec4 color, VexturePlanar planar, VextureCell c
         VextureLook look = vexture_flat_look(vexture_texel(curve + uint(i)), box);
         counted |= look.crosses || look.filled != 0.0 ? 1 << i : 0;
     }
-    while (counted != 0) {
-        int lowest = counted & -counted;
-        uint at = curve + (floatBitsToUint(float(lowest)) >> 23) - 127u;
-        counted ^= lowest;
-        uvec4 texel = vexture_texel(at);
-        VextureLook look = vexture_flat_look(texel, box);
-        float area = look.filled;
-        if (look.crosses) {
-            area += vexture_flat_piece_area(texel, box);
+#if VEXTURE_GRADIENTS
+    while (counted != 0 || vexture_waits(sum))  // a loop that flat colours would turn once, which costs a tenth of the time
+#endif
+    {
+        while (counted != 0 && vexture_has_room(sum)) {
+            int lowest = counted & -counted;
+            uint at = curve + (floatBitsToUint(float(lowest)) >> 23) - 127u;
+            counted ^= lowest;
+            uvec4 texel = vexture_texel(at);
+            VextureLook look = vexture_flat_look(texel, box);
+            float area = look.filled;
+            if (look.crosses) {
+                area += vexture_flat_piece_area(texel, box);
+            }
+            vexture_add_piece(sum, planar, at, whole * area, region);
         }
-        color += whole * area * vexture_jump(planar, at, region);
+        vexture_settle(sum, planar, region);
     }
 }
 
@@ -169,19 +247,19 @@ vec4 vextureFlatColor(uint root, uvec2 base, vec2 offset, VextureFlat view) {
     VextureSquare square = vexture_first_square(place);
     int shared_bit = square.bit;
     VextureTop top = vexture_top(root);
-    vec4 color = vec4(0.0);
+    VextureSum sum = vexture_nothing();
     while (square.position.x < VEXTURE_NO_CELL) {
         VextureCell cell = vexture_descend(top, shared_bit, view.finest, square.position);
         ivec2 origin = square.position & -(1 << cell.bit);
-        vexture_add_flat_cell(color, planar, cell, origin, vexture_box(origin, cell.bit, place, view.extent));
+        vexture_add_flat_cell(sum, planar, cell, origin, vexture_box(origin, cell.bit, place, view.extent));
         square = vexture_next_square(square.position, origin + (1 << cell.bit), place);
     }
-    return vexture_held(color * (view.inverse / float(VEXTURE_PAINT_ONE)));
+    return vexture_held(sum.color * (view.inverse / float(VEXTURE_PAINT_ONE)));
 }
 
 // Adds the colour of the part of a footprint in a cell, times its area.
 void vexture_add_cell(
-    inout vec4 color, VexturePlanar planar, VextureCell cell, ivec2 origin, VextureBox box, VextureFrame frame
+    inout VextureSum sum, VexturePlanar planar, VextureCell cell, ivec2 origin, VextureBox box, VextureFrame frame
 ) {
     bool is_cut = any(greaterThan(box.low, -frame.extent)) || any(lessThan(box.low + box.size, frame.extent));
     float whole = 1.0;
@@ -198,7 +276,7 @@ void vexture_add_cell(
     vec2 right = vec2(frame.up.y, -frame.up.x) * frame.size;
     vec2 up = vec2(-frame.right.y, frame.right.x) * frame.size;
     VextureRegion region = vexture_region(origin, place * side, part * right, part * up);
-    color += whole * vexture_cell_color(planar, cell, is_mean, place, region);
+    vexture_add_whole(sum, planar, cell, is_mean, place, whole, region);
     uint curve = vexture_first_curve(cell);
     int count = whole > 0.0 && !cell.is_quad && !is_mean ? vexture_count(cell) : 0;
     int counted = 0;  // a bit for each piece that is not clear of the footprint's box: others need no colours
@@ -206,17 +284,23 @@ void vexture_add_cell(
         VextureLook look = vexture_first_look(vexture_texel(curve + uint(i)), box);
         counted |= look.crosses || look.filled != 0.0 ? 1 << i : 0;
     }
-    while (counted != 0) {
-        int lowest = counted & -counted;
-        uint at = curve + (floatBitsToUint(float(lowest)) >> 23) - 127u;
-        counted ^= lowest;
-        uvec4 texel = vexture_texel(at);
-        VextureLook look = vexture_first_look(texel, box);
-        float area = whole * look.filled;
-        if (look.crosses) {
-            area += vexture_piece_area(texel, look.turns, box, frame);
+#if VEXTURE_GRADIENTS
+    while (counted != 0 || vexture_waits(sum))
+#endif
+    {
+        while (counted != 0 && vexture_has_room(sum)) {
+            int lowest = counted & -counted;
+            uint at = curve + (floatBitsToUint(float(lowest)) >> 23) - 127u;
+            counted ^= lowest;
+            uvec4 texel = vexture_texel(at);
+            VextureLook look = vexture_first_look(texel, box);
+            float area = whole * look.filled;
+            if (look.crosses) {
+                area += vexture_piece_area(texel, look.turns, box, frame);
+            }
+            vexture_add_piece(sum, planar, at, area, region);
         }
-        color += area * vexture_jump(planar, at, region);
+        vexture_settle(sum, planar, region);
     }
 }
 
@@ -229,7 +313,7 @@ vec4 vextureColor(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
     int shared_bit = square.bit;
     int finest = vexture_finest_bit(frame.size, frame.longer);
     VextureTop top = vexture_top(root);
-    vec4 color = vec4(0.0);
+    VextureSum sum = vexture_nothing();
     bool beside = false;
     while (square.position.x < VEXTURE_NO_CELL) {
         int bit = square.bit;
@@ -237,7 +321,7 @@ vec4 vextureColor(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
             VextureCell cell = vexture_descend(top, shared_bit, finest, square.position);
             bit = cell.bit;
             ivec2 origin = square.position & -(1 << bit);
-            vexture_add_cell(color, planar, cell, origin, vexture_box(origin, bit, place, frame.extent), frame);
+            vexture_add_cell(sum, planar, cell, origin, vexture_box(origin, bit, place, frame.extent), frame);
         }
         int side = 1 << bit;
         square = vexture_next_square(square.position, (square.position & -side) + side, place);
@@ -245,5 +329,5 @@ vec4 vextureColor(uint root, uvec2 base, vec2 offset, vec2 dx, vec2 dy) {
             beside = vexture_is_beside(square, place, frame);
         }
     }
-    return vexture_held(color / float(VEXTURE_PAINT_ONE));
+    return vexture_held(sum.color / float(VEXTURE_PAINT_ONE));
 }

@@ -93,11 +93,67 @@ def paint(texels: Texels, is_linear: int, planar: Planar, number: int, region: R
     return averaged(is_linear, color)
 
 
+class Sum(NamedTuple):
+    """The colours of a pixel, times their areas; `areas` are those of `paints` whose colours are not added yet."""
+
+    color: Vec4
+    paints: tuple[int, int, int, int]
+    areas: Vec4
+
+
 @kernel(allocates=False)
-def jump(texels: Texels, is_linear: int, planar: Planar, curve: int, region: Region) -> Vec4:
-    sides = texel(texels, planar.sides + (curve >> 2))[curve & 3]
-    right = paint(texels, is_linear, planar, sides >> COORDINATE_BITS, region)
-    return plus(paint(texels, is_linear, planar, sides & ((1 << COORDINATE_BITS) - 1), region), right, -1.0)
+def nothing() -> Sum:
+    return Sum((0.0, 0.0, 0.0, 0.0), (0, 0, 0, 0), (0.0, 0.0, 0.0, 0.0))
+
+
+@kernel(allocates=False)
+def waits(sum: Sum) -> bool:
+    areas = sum.areas
+    return areas[0] != 0.0 or areas[1] != 0.0 or areas[2] != 0.0 or areas[3] != 0.0
+
+
+@kernel(allocates=False)
+def has_room(sum: Sum) -> bool:
+    free = 0
+    for slot in range(4):
+        free += 1 if sum.areas[slot] == 0.0 else 0
+    return free > 1
+
+
+@kernel(allocates=False)
+def add_paint(sum: Sum, planar: Planar, paint: int, area: float, region: Region) -> Sum:
+    """Return the new `sum`, which GLSL changes in place, as with ``VEXTURE_GRADIENTS``."""
+    (a, b, c, d), areas = sum.paints, sum.areas
+    free, same = 0, -1
+    for slot in range(4):
+        is_free = areas[slot] == 0.0
+        free = slot if is_free else free
+        same = slot if not is_free and sum.paints[slot] == paint else same
+    at = free if same < 0 else same
+    a, b = paint if at == 0 else a, paint if at == 1 else b
+    c, d = paint if at == 2 else c, paint if at == 3 else d
+    area += areas[at]
+    x, y = area if at == 0 else areas[0], area if at == 1 else areas[1]
+    z, w = area if at == 2 else areas[2], area if at == 3 else areas[3]
+    return Sum(sum.color, (a, b, c, d), (x, y, z, w))
+
+
+@kernel(allocates=False)
+def add_piece(texels: Texels, sum: Sum, planar: Planar, curve: int, area: float, region: Region) -> Sum:
+    sides = 0 + texel(texels, planar.sides + (curve >> 2))[curve & 3]  # of 64 bits
+    sum = add_paint(sum, planar, sides & ((1 << COORDINATE_BITS) - 1), area, region)
+    return add_paint(sum, planar, sides >> COORDINATE_BITS, -area, region)
+
+
+@kernel(allocates=False)
+def settle(texels: Texels, is_linear: int, sum: Sum, planar: Planar, region: Region) -> Sum:
+    if not waits(sum):
+        return sum
+    color = sum.color
+    for slot in range(4):
+        if sum.areas[slot] != 0.0:
+            color = plus(color, paint(texels, is_linear, planar, sum.paints[slot], region), sum.areas[slot])
+    return Sum(color, sum.paints, (0.0, 0.0, 0.0, 0.0))
 
 
 @kernel(allocates=False)
@@ -134,16 +190,26 @@ def reads_mean(cell: Cell, share: float) -> bool:
 
 
 @kernel(allocates=False)
-def cell_color(
-    texels: Texels, is_linear: int, planar: Planar, cell: Cell, is_mean: bool, place: Vec2, region: Region
-) -> Vec4:
+def add_whole(
+    texels: Texels,
+    is_linear: int,
+    sum: Sum,
+    planar: Planar,
+    cell: Cell,
+    is_mean: bool,
+    place: Vec2,
+    area: float,
+    region: Region,
+) -> Sum:
     at = planar.cells + 2 * cell.quad
     stored = texel(texels, at if cell.is_quad or is_mean else at + 1)
-    word = stored[cell.shift >> 3]
-    step = PAINT_ONE / COVERAGE_ONE
+    word = 0 + stored[cell.shift >> 3]  # of 64 bits
+    step = area * (PAINT_ONE / COVERAGE_ONE)
     if cell.is_quad:
-        return times(mean_color(is_linear, stored, place), step)
-    return times(unpacked(is_linear, word), step) if is_mean else paint(texels, is_linear, planar, word, region)
+        return Sum(plus(sum.color, mean_color(is_linear, stored, place), step), sum.paints, sum.areas)
+    if is_mean:
+        return Sum(plus(sum.color, unpacked(is_linear, word), step), sum.paints, sum.areas)
+    return add_paint(sum, planar, word, area, region)
 
 
 @kernel(allocates=False)
@@ -167,26 +233,24 @@ def flat_look(texel: Texel, box: Box) -> Look:
 
 @kernel(allocates=False)
 def add_flat_cell(
-    texels: Texels, is_linear: int, color: Vec4, planar: Planar, cell: Cell, origin: Whole2, box: Box
-) -> Vec4:
-    """Return the new `color`, which GLSL changes in place."""
+    texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, origin: Whole2, box: Box
+) -> Sum:
     whole = box.size[0] * box.size[1]
     side = 2.0**-cell.bit
     x = box.way[0] + (box.part[0] + 0.5) * box.size[0]
     y = box.way[1] + (box.part[1] + 0.5) * box.size[1]
     is_mean = reads_mean(cell, min(box.size[0], box.size[1]) * side)
     here = region(origin, (x, y), (box.size[0], 0.0), (0.0, box.size[1]))
-    color = plus(color, cell_color(texels, is_linear, planar, cell, is_mean, (x * side, y * side), here), whole)
+    sum = add_whole(texels, is_linear, sum, planar, cell, is_mean, (x * side, y * side), whole, here)
     curve = first_curve(cell)
     for i in range(0 if cell.is_quad or is_mean else count(cell)):
         found = texel(texels, curve + i)
         look = flat_look(found, box)
-        area = look.filled
-        if look.crosses:
-            area += flat_piece_area(found, box)
-        if area != 0.0:
-            color = plus(color, jump(texels, is_linear, planar, curve + i, here), whole * area)
-    return color
+        if look.crosses or look.filled != 0.0:
+            sum = sum if has_room(sum) else settle(texels, is_linear, sum, planar, here)
+            area = look.filled + (flat_piece_area(found, box) if look.crosses else 0.0)
+            sum = add_piece(texels, sum, planar, curve + i, whole * area, here)
+    return settle(texels, is_linear, sum, planar, here)
 
 
 @kernel(allocates=False)
@@ -196,15 +260,16 @@ def flat_color(texels: Texels, is_linear: int, root: int, base: Whole2, offset: 
     square = first_square(there)
     shared = square.bit
     start = top(root)
-    color = (0.0, 0.0, 0.0, 0.0)
+    sum = nothing()
     while square.position[0] < NO_CELL:
         position = square.position
         cell, start = descend(texels, start, shared, view.finest, position)
         side = 1 << cell.bit
         origin = (position[0] & -side, position[1] & -side)
-        color = add_flat_cell(texels, is_linear, color, parts, cell, origin, box(origin, cell.bit, there, view.extent))
+        local = box(origin, cell.bit, there, view.extent)
+        sum = add_flat_cell(texels, is_linear, sum, parts, cell, origin, local)
         square = next_square(position, (origin[0] + side, origin[1] + side), there)
-    return held(times(color, view.inverse / PAINT_ONE))
+    return held(times(sum.color, view.inverse / PAINT_ONE))
 
 
 @kernel(allocates=False)
@@ -221,9 +286,8 @@ def held_channel(value: float, most: float) -> float:
 
 @kernel(allocates=False)
 def add_cell(
-    texels: Texels, is_linear: int, color: Vec4, planar: Planar, cell: Cell, origin: Whole2, box: Box, frame: Frame
-) -> Vec4:
-    """Return the new `color`, which GLSL changes in place."""
+    texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, origin: Whole2, box: Box, frame: Frame
+) -> Sum:
     low, size, extent = box.low, box.size, frame.extent
     whole = 1.0
     if low[0] > -extent[0] or low[1] > -extent[1] or low[0] + size[0] < extent[0] or low[1] + size[1] < extent[1]:
@@ -235,17 +299,16 @@ def add_cell(
     right = (part[0] * frame.up[1] * frame.size, -part[1] * frame.up[0] * frame.size)
     up = (-part[0] * frame.right[1] * frame.size, part[1] * frame.right[0] * frame.size)
     here = region(origin, (place[0] * side, place[1] * side), right, up)
-    color = plus(color, cell_color(texels, is_linear, planar, cell, is_mean, place, here), whole)
+    sum = add_whole(texels, is_linear, sum, planar, cell, is_mean, place, whole, here)
     curve = first_curve(cell)
     for i in range(count(cell) if whole > 0.0 and not cell.is_quad and not is_mean else 0):
         found = texel(texels, curve + i)
         look = first_look(found, box)
-        area = whole * look.filled
-        if look.crosses:
-            area += piece_area(found, look.turns, box, frame)
-        if area != 0.0:
-            color = plus(color, jump(texels, is_linear, planar, curve + i, here), area)
-    return color
+        if look.crosses or look.filled != 0.0:
+            sum = sum if has_room(sum) else settle(texels, is_linear, sum, planar, here)
+            area = whole * look.filled + (piece_area(found, look.turns, box, frame) if look.crosses else 0.0)
+            sum = add_piece(texels, sum, planar, curve + i, area, here)
+    return settle(texels, is_linear, sum, planar, here)
 
 
 @kernel(allocates=False)
@@ -257,7 +320,7 @@ def color(texels: Texels, is_linear: int, root: int, base: Whole2, offset: Vec2,
     shared = square.bit
     finest = finest_bit(pixel.size, pixel.longer)
     start = top(root)
-    total = (0.0, 0.0, 0.0, 0.0)
+    sum = nothing()
     beside = False
     while square.position[0] < NO_CELL:
         position, bit = square.position, square.bit
@@ -265,13 +328,12 @@ def color(texels: Texels, is_linear: int, root: int, base: Whole2, offset: Vec2,
             cell, start = descend(texels, start, shared, finest, position)
             bit = cell.bit
             origin = (position[0] & -(1 << bit), position[1] & -(1 << bit))
-            total = add_cell(
-                texels, is_linear, total, parts, cell, origin, box(origin, bit, there, pixel.extent), pixel
-            )
+            local = box(origin, bit, there, pixel.extent)
+            sum = add_cell(texels, is_linear, sum, parts, cell, origin, local, pixel)
         side = 1 << bit
         square = next_square(position, ((position[0] & -side) + side, (position[1] & -side) + side), there)
         beside = square.position[0] < NO_CELL and is_beside(square, there, pixel)
-    return held(times(total, 1.0 / PAINT_ONE))
+    return held(times(sum.color, 1.0 / PAINT_ONE))
 
 
 # --- view_color.glsl -------------------------------------------------------------------------------------------
