@@ -29,11 +29,12 @@ unexport PYTHONDONTWRITEBYTECODE
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help demo docs report viewer test sweep checks checks-web lint kernels test-web bench fuzz dist dist-check clean
+.PHONY: help demo counties docs report viewer test sweep checks checks-web lint kernels test-web bench fuzz dist dist-check clean
 
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
 	@echo 'make viewer  build the page of `vexture view` and `vexture export`, with node and npm'
+	@echo 'make counties  build a page with a map of all counties of the United States, with node and npm'
 	@echo 'make test    lint, types and tests, with all that they need'
 	@echo 'make sweep   the tests that take long and find little that those do not, and 24,000 drawings of others'
 	@echo 'make docs    build the documentation into site/, to be read from the disk'
@@ -115,6 +116,15 @@ demo: .venv/for-demo
 	@echo
 	@echo 'Open the pictures in demo/pictures/: duck-1000.png is drawn from the texture demo/duck.ktx2, duck-50.png from'
 	@echo 'demo/all.ktx2, which holds all the drawings; duck-exact.png is what they must look like.'
+
+examples/counties/node_modules/made: examples/counties/package.json examples/counties/package-lock.json
+	@$(PYTHON) tools/prepare.py web
+	@echo 'installing the packages of the example into examples/counties/node_modules ...'
+	@npm ci --prefix examples/counties --no-audit --no-fund --loglevel error
+	@touch $@
+
+counties: .venv/for-demo examples/counties/node_modules/made
+	@PATH="$(CURDIR)/$(BIN):$$PATH" npm run --silent build --prefix examples/counties
 
 report: .venv/for-report
 	$(BIN)/vexture report -o demo/report
@@ -204,4 +214,4 @@ dist-check: dist .venv/for-test
 clean:
 	rm -rf .venv demo build dist src/vexture/compiled src/*.egg-info evidence/src/*.egg-info evidence/benchmarks/results \
 		.hypothesis .mypy_cache .pytest_cache .ruff_cache fuzz-findings \
-		web/node_modules web/types src/vexture/live/built tests/web/screenshots site
+		web/node_modules examples/counties/node_modules web/types src/vexture/live/built tests/web/screenshots site

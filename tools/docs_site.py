@@ -28,6 +28,7 @@ HOMES: Final = {
     "FORMAT.md": "reference/format.md",
     "SECURITY.md": "project/security.md",
     "evidence/benchmarks/README.md": "project/benchmarks.md",
+    "examples/counties/README.md": "project/counties.md",
     "examples/shapes/README.md": "project/example-drawings.md",
     "web/README.md": "reference/javascript.md",
 }

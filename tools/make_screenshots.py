@@ -1,12 +1,13 @@
-"""Take the pictures of the pages: `python tools/make_screenshots.py` writes viewer.png, flood.jpg and guide.png.
+"""Take the pictures of the pages: `python tools/make_screenshots.py` writes those of MAKERS, or some by their names.
 
-Needs Chromium and the built pages (`make viewer`): they are exported and looked at as a person would. Those of the
-guide are what its test saw last (`pytest tests/web/test_guide_three.py`). The pictures go into docs/pictures/.
+Needs Chromium and the built pages (`make viewer counties`): they are exported and looked at as a person would. Those of
+the guide are what its test saw last (`pytest tests/web/test_guide_three.py`). The pictures go into docs/pictures/.
 """
 
 import io
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final
 
@@ -85,9 +86,9 @@ def flood_looks(browser: Any, address: str) -> list[Image.Image]:
 
 
 def sheet_of(pictures: list[Image.Image]) -> Image.Image:
-    """Four pictures, two by two."""
+    """Pictures, two in a row."""
     width, height = pictures[0].size
-    sheet = Image.new("RGB", (2 * width + GAP, 2 * height + GAP), "#ffffff")
+    sheet = Image.new("RGB", (2 * width + GAP, len(pictures) // 2 * (height + GAP) - GAP), "#ffffff")
     for place, picture in enumerate(pictures):
         sheet.paste(picture, (place % 2 * (width + GAP), place // 2 * (height + GAP)))
     return sheet
@@ -111,20 +112,65 @@ def row_of_guide() -> Image.Image:
     return row
 
 
+COUNTIES: Final = ROOT / "demo" / "counties" / "index.html"
+
+
+def county_looks(browser: Any) -> list[Image.Image]:
+    """All counties with one picked, and some from nearby with one under the pointer."""
+    page = browser.new_page(viewport={"width": SIZE[0], "height": SIZE[1]}, reduced_motion="reduce")
+    page.goto(COUNTIES.as_uri())
+    page.wait_for_function("window.counties")
+    page.evaluate("counties.state.seconds = 2; counties.recolor()")
+    page.mouse.click(430, 360)
+    page.mouse.move(520, 300)
+    taken = []
+    for distance in (None, 0.5):
+        if distance:
+            page.evaluate(
+                "distance => { const {camera, controls} = counties; controls.target.set(0.35, 0.02, -0.03);"
+                " camera.position.set(0.35, 0.02 - 0.5 * distance, 0.87 * distance); controls.update(); }",
+                distance,
+            )
+        page.wait_for_timeout(2000)
+        picture = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+        taken.append(picture.resize((SHOWN, SHOWN * SIZE[1] // SIZE[0]), Image.Resampling.LANCZOS))
+    page.close()
+    return taken
+
+
+def viewer(browser: Any, folder: Path) -> Image.Image:
+    """The page of `vexture view`."""
+    target = folder / "page.html"
+    export([SHAPES / f"{name}.svg" for name in ("duck", "cake", "ocean")], target, None, VIEWER_PARAMETERS, print)
+    page = browser.new_page(viewport={"width": SIZE[0], "height": SIZE[1]}, color_scheme="light")
+    page.goto(target.as_uri())
+    page.wait_for_function("() => window.vexture?.viewer?.engine?.drawing")
+    taken = looks(page)
+    page.close()
+    return sheet_of(taken)
+
+
+def flood(browser: Any, folder: Path) -> Image.Image:
+    """The page of `vexture flood`."""
+    depths, ground = make_flood(folder)
+    target = folder / "flood.html"
+    export_flood(FloodOptions(depths, time_dim="time", ground=ground, title="Santa Cruz"), target, print)
+    return sheet_of(flood_looks(browser, target.as_uri()))
+
+
+MAKERS: Final[dict[str, Callable[[Any, Path], Image.Image]]] = {
+    "guide.png": lambda browser, folder: row_of_guide(),
+    "viewer.png": viewer,
+    "flood.jpg": flood,
+    "counties.jpg": lambda browser, folder: sheet_of(county_looks(browser)),
+}
+
+
 def main() -> None:
-    """Export pages of the examples, and put the screenshots of each side by side."""
-    row_of_guide().save(PICTURES / "guide.png", optimize=True)
+    """Take the pictures that are asked for."""
     with tempfile.TemporaryDirectory() as folder, chromium() as browser:
-        target = Path(folder) / "page.html"
-        export([SHAPES / f"{name}.svg" for name in ("duck", "cake", "ocean")], target, None, VIEWER_PARAMETERS, print)
-        page = browser.new_page(viewport={"width": SIZE[0], "height": SIZE[1]}, color_scheme="light")
-        page.goto(target.as_uri())
-        page.wait_for_function("() => window.vexture?.viewer?.engine?.drawing")
-        sheet_of(looks(page)).save(PICTURES / "viewer.png", optimize=True)
-        page.close()
-        flood, ground = make_flood(Path(folder))
-        export_flood(FloodOptions(flood, time_dim="time", ground=ground, title="Santa Cruz"), target, print)
-        sheet_of(flood_looks(browser, target.as_uri())).save(PICTURES / "flood.jpg", quality=86, optimize=True)
+        for name in sys.argv[1:] or MAKERS:
+            MAKERS[name](browser, Path(folder)).save(PICTURES / name, quality=86, optimize=True)
 
 
 if __name__ == "__main__":

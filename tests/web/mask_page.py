@@ -63,6 +63,7 @@ def prepare(folder: Path) -> None:
     vexture.convert(drawing("glass"), split="paint").save(folder / "paint.ktx2")
     vexture.convert(drawing("glass"), split="faces").save(folder / "map.ktx2")
     vexture.convert(SHADES).save(folder / "shades.ktx2")
+    elements().save(folder / "elements.ktx2")
     sheets().save(folder / "sheets.ktx2")
     vexture.atlas([SHAPES / f"{name}.svg" for name in ATLAS]).save(folder / "atlas.ktx2")
     vexture.convert(drawing("duck"), encoding="thesis").save(folder / "thesis")
@@ -72,6 +73,19 @@ def prepare(folder: Path) -> None:
         (folder / f"{three}.html").write_text(
             f'{icon}<script type="module" src="{three}.js"></script>', encoding="utf-8"
         )
+
+
+@cache
+def elements() -> Texture:
+    """A map of many rows of texels, whose polygons can get other colours."""
+    cells = [(x, y) for x in range(40) for y in range(40)]
+    corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 0.5), (0.5, 1.0), (0.0, 1.0)]
+    paths = [
+        replace(path, element=f"{x} {y}")
+        for x, y in cells
+        for path in Drawing.polygon([((x + a) / 40, (y + b) / 40) for a, b in corners]).paths
+    ]
+    return vexture.convert(Drawing(tuple(paths), name="elements"), split="faces", restyle=True)
 
 
 def parts() -> list[Drawing]:

@@ -8,7 +8,19 @@ from typing import Any
 import numpy as np
 import pytest
 from browser import served
-from mask_page import NEWEST, SHADES, Picture, decode, distance, draw, drawing, encoded, linear, parts
+from mask_page import (
+    NEWEST,
+    SHADES,
+    Picture,
+    decode,
+    distance,
+    draw,
+    drawing,
+    elements,
+    encoded,
+    linear,
+    parts,
+)
 from numpy.typing import ArrayLike
 
 import vexture
@@ -170,3 +182,20 @@ def test_new_data_of_another_kind_show_in_the_next_picture(page: Any) -> None:
     for picture, expected in zip(found[:4], (glass, layers, glass, np.zeros_like(glass)), strict=True):
         assert distance(picture, expected) <= HALF_STEP
     assert distance(found[5], glass) <= 2.0
+
+
+@pytest.mark.parametrize("three", NEWEST)
+def test_new_colours_show_in_every_renderer(three: str, address: str, open_page: Callable[..., Any]) -> None:
+    """Rows that one of them has missed are sent, and a new context gets all of them."""
+    page = open_page(f"{address}/{three}.html", errors=True)  # three.js reports the loss as one, depending on version
+    config = {**ALONE, "texture": "elements", "parameters": {"mode": "paint"}, "size": 256}
+    colours = [
+        {f"{x} {y}": (x / 40, y / 40, 0.5, 1.0) for x in range(40) for y in range(40)},
+        {f"{x} {y}": (0.9, 0.5, 0.0, 1.0) for x in range(10, 30) for y in range(10)},
+        {"39 39": (0.0, 0.0, 1.0, 1.0)},
+    ]
+    found = page.evaluate("([config, all]) => page.recolors(config, all)", [config, colours])
+    texture = elements()
+    for text, paints in zip(found, [*colours, {}], strict=True):
+        texture = texture.with_paints(paints)
+        assert distance(decode(text), on_white(texture.render(256).astype(float))) <= HALF_STEP

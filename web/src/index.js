@@ -8,3 +8,6 @@ export { bounds, cellAt, contains, counts } from './walk.js';
 export { paintAt } from './walk-map.js';
 export { VectorMask, applyVectorMask, rootAttribute } from './vector-mask.js';
 export { VectorMaterial } from './vector-material.js';
+
+/** @typedef {import('./mask-mesh.js').MaskedIntersection} MaskedIntersection */
+/** @typedef {import('./element-at.js').FoundElement} FoundElement */

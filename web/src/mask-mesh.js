@@ -8,6 +8,7 @@ import { takePart } from './hooks.js';
  * @property {import('three').Material} material
  * @property {() => boolean} cuts whether light passes outside the shape
  * @property {(u: number, v: number, instance?: number) => boolean} hits
+ * @property {(u: number, v: number, instance?: number) => import('./element-at.js').FoundElement | null} elementAt
  * @property {() => string} key
  * @property {(program: import('./hooks.js').Program, type: string) => void} compile for depths and distances
  *
@@ -15,6 +16,9 @@ import { takePart } from './hooks.js';
  *   material: import('three').Material | import('three').Material[],
  *   geometry: import('three').BufferGeometry
  * }} Masked
+ *
+ * @typedef {import('three').Intersection & { element?: import('./element-at.js').FoundElement | null }} MaskedIntersection
+ *   what a ray finds on an attached mesh: `element` is the element of the drawing there, null without any
  */
 
 /**
@@ -55,19 +59,26 @@ export class MaskedMesh {
     }
     const raycast = mesh.raycast;
     mesh.raycast = (raycaster, hits) => {
-      /** @type {import('three').Intersection[]} */
+      /** @type {MaskedIntersection[]} */
       const found = [];
       raycast.call(mesh, raycaster, found);
-      hits.push(...found.filter((hit) => this.#isHit(hit)));
+      for (const hit of found) if (this.#isHit(hit)) hits.push(hit);
     };
     this.update();
   }
 
-  /** @param {import('three').Intersection} hit */
-  #isHit({ uv, face, instanceId }) {
+  /**
+   * Whether a ray meets the masked surface; `element` of the intersection tells which part of the drawing.
+   *
+   * @param {MaskedIntersection} hit
+   */
+  #isHit(hit) {
+    const { uv, face, instanceId } = hit;
     const { material } = this.#mesh;
     const one = Array.isArray(material) ? material[face?.materialIndex ?? 0] : material;
-    return uv === undefined || one !== this.#cut.material || this.#cut.hits(uv.x, uv.y, instanceId);
+    if (uv === undefined || one !== this.#cut.material) return true;
+    hit.element = this.#cut.elementAt(uv.x, uv.y, instanceId);
+    return this.#cut.hits(uv.x, uv.y, instanceId);
   }
 
   /** Follow a change of the mask. */

@@ -1,59 +1,173 @@
 // New colours for the elements of a planar map: another table of paints and other means, in place, for the same tree.
-import { CELL_BITS, COORDINATE_BITS, COVERAGE_ONE, IS_MEAN, LATTICE, PAINT_ONE, QUAD_FLAG } from '../generated/layout.js';
 import { VextureError, line } from './errors.js';
-import { curvesOf, leafOf } from './leaf.js';
-import { basePaint, headOf, meanBytes, paintSteps, sidesOf } from './planar-map.js';
+import { MapMeans, listed } from './map-means.js';
 import { nearNames } from './select-root.js';
 import { composited } from './style.js';
 
 /**
  * @typedef {import('./data.js').PackedData} PackedData
  * @typedef {import('./style.js').Style} Style
- * @typedef {[number, number, number, number]} Paint red, green, blue, opacity: sRGB, not premultiplied, 0..1
+ * @typedef {import('./paints.js').Paints} Paints
+ *
+ * @typedef {object} Coloring What new colours of a map need, found when it gets the first ones.
+ * @property {number} quad index of the map's root quad
+ * @property {Style} style
+ * @property {Map<string, number>} named place of the first element of each name
+ * @property {Int32Array} next of each element, the place of the next one of its name; -1 of the last
+ * @property {Float64Array} rgba colours and opacities of the elements
+ * @property {import('./map-means.js').Lists} paints of each element, those in which it is seen
+ * @property {Int32Array} alone of each paint, the element that it shows if that is a single one in no group; else -1
+ * @property {Uint8Array} isStale of each paint, whether it is to be composited
+ * @property {MapMeans} means
  */
 
-const BYTE = (1 << CELL_BITS) - 1;
-
-/** Colours and opacities of elements are whole numbers of these parts, as in files. */
-const DIGITS = 1e6;
-
-/** The nearest whole number, of two the even one, as Python rounds: so both write the same texels. @param {number} value */
-function rounded(value) {
-  const up = Math.round(value);
-  return up - value === 0.5 && up % 2 !== 0 ? up - 1 : up;
-}
+/** @type {WeakMap<Uint32Array, Map<number, Coloring>>} */
+const COLORINGS = new WeakMap();
 
 /**
  * Give elements other colours: texels and the style are changed in place.
  *
  * @param {PackedData} data
  * @param {number[]} places of the roots, maps with a style
- * @param {Map<string, Paint>} paints by name
- * @returns {boolean} whether something became visible that was not, or the reverse
+ * @param {Paints} paints
+ * @returns {{ appears: boolean, runs: [number, number][] }} whether something became visible that was not, or the reverse;
+ *   first and end of each run of texels that may have changed
  * @throws {VextureError} if no element has a name, or one that hides others would not stay opaque
  */
-export function restyle(data, places, paints) {
-  const styles = places.map((place) => styleOf(data.roots[place]));
-  const known = new Set(styles.flatMap(({ elements }) => elements.map((element) => element.name)));
-  known.delete('');
-  for (const name of paints.keys()) {
-    if (!known.has(name)) {
-      throw new VextureError(`${data.name} has no element ${line(name)}; ${nearNames(name, [...known])}`, 'name');
+export function restyle(data, places, { names, parts }) {
+  const colorings = places.map((place) => coloringOf(data, data.roots[place]));
+  const found = colorings.map((coloring) => firstElements(coloring, names));
+  for (let k = 0; k < names.length; k++) {
+    let isKnown = false;
+    for (let c = 0; c < found.length; c++) {
+      isKnown ||= found[c][k] >= 0;
+      if (parts[4 * k + 3] < 1) checkHiding(colorings[c], found[c][k], parts[4 * k + 3]);
     }
-  }
-  for (const { elements } of styles) for (const { name, hides } of elements) {
-    const opacity = paints.get(name)?.[3] ?? 1;
-    if (hides && opacity < 1) {
-      throw new VextureError(
-        `"${name}" gets the opacity ${opacity}, but the texture does not have what it hides; make it opaque, ` +
-          'or convert the drawing with that colour', 'opacity');
-    }
+    if (!isKnown) refuseName(data.name, names[k], colorings);
   }
   let appears = false;
-  for (const [k, quad] of places.map((place) => data.roots[place].quad).entries()) {
-    appears = repaint(data, quad, styles[k], paints) || appears;
-    for (const root of data.roots) if (root.isMap && root.quad === quad) root.style = styles[k];
+  colorings.forEach((coloring, c) => {
+    recolor(coloring, found[c], parts);
+    appears = renew(coloring) || appears;
+    for (const root of data.roots) if (root.isMap && root.quad === coloring.quad) root.style = coloring.style;
+  });
+  return { appears, runs: colorings.flatMap(({ means }) => means.runs) };
+}
+
+/**
+ * @param {PackedData} data
+ * @param {import('./data.js').Root} root
+ * @returns {Coloring}
+ */
+function coloringOf({ texels }, root) {
+  const style = styleOf(root);
+  const known = COLORINGS.get(texels) ?? new Map();
+  COLORINGS.set(texels, known);
+  if (known.get(root.quad)?.style !== style) known.set(root.quad, prepared(texels, root.quad, style));
+  return known.get(root.quad);
+}
+
+/**
+ * @param {Uint32Array} texels
+ * @param {number} quad
+ * @param {Style} style
+ * @returns {Coloring}
+ */
+function prepared(texels, quad, style) {
+  const { elements, stacks } = style;
+  const named = new Map();
+  const next = new Int32Array(elements.length).fill(-1);
+  const rgba = new Float64Array(4 * elements.length);
+  for (let number = elements.length - 1; number >= 0; number--) {
+    const { name, color, opacity } = elements[number];
+    rgba.set([...color, opacity], 4 * number);
+    if (!name) continue;
+    next[number] = named.get(name) ?? -1;
+    named.set(name, number);
   }
+  const paints = listed(elements.length, (add) => {
+    stacks.forEach((stack, paint) => stack.forEach((number) => add(number, paint)));
+  });
+  const alone = Int32Array.from(stacks, (stack) => (stack.length === 1 && elements[stack[0]].group < 0 ? stack[0] : -1));
+  const isStale = new Uint8Array(stacks.length);
+  return { quad, style, named, next, rgba, paints, alone, isStale, means: new MapMeans(texels, quad) };
+}
+
+/**
+ * @param {Coloring} coloring
+ * @param {string[]} names
+ * @returns {Int32Array} place of the first element of each name, or -1
+ */
+function firstElements({ named }, names) {
+  const found = new Int32Array(names.length);
+  for (let k = 0; k < names.length; k++) found[k] = named.get(names[k]) ?? -1;
+  return found;
+}
+
+/**
+ * @param {string} texture its name
+ * @param {string} name that no element has
+ * @param {Coloring[]} colorings
+ * @returns {never}
+ */
+function refuseName(texture, name, colorings) {
+  const known = new Set(colorings.flatMap(({ named }) => [...named.keys()]));
+  throw new VextureError(`${texture} has no element ${line(name)}; ${nearNames(name, [...known])}`, 'name');
+}
+
+/**
+ * @param {Coloring} coloring
+ * @param {number} first element of a name, or -1
+ * @param {number} opacity that those of its name are to have
+ */
+function checkHiding({ style: { elements }, next }, first, opacity) {
+  for (let number = first; number >= 0; number = next[number]) {
+    const { name, hides } = elements[number];
+    if (!hides) continue;
+    throw new VextureError(
+      `"${name}" gets the opacity ${opacity}, but the texture does not have what it hides; make it opaque, ` +
+        'or convert the drawing with that colour', 'opacity');
+  }
+}
+
+/**
+ * Give elements their colours.
+ *
+ * @param {Coloring} coloring
+ * @param {Int32Array} found the first element of each name, or -1
+ * @param {Float64Array} colors for each name
+ */
+function recolor({ style: { elements }, next, rgba, paints: { starts, members }, isStale }, found, colors) {
+  for (let k = 0; k < found.length; k++) {
+    for (let number = found[k]; number >= 0; number = next[number]) {
+      const element = elements[number];
+      for (let c = 0; c < 3; c++) element.color[c] = rgba[4 * number + c] = colors[4 * k + c];
+      element.opacity = rgba[4 * number + 3] = colors[4 * k + 3];
+      for (let i = starts[number]; i < starts[number + 1]; i++) isStale[members[i]] = 1;
+    }
+  }
+}
+
+/**
+ * Composite the paints of which an element has changed, and renew the means.
+ *
+ * @param {Coloring} coloring
+ * @returns {boolean} whether something became visible that was not, or the reverse
+ */
+function renew({ style, rgba, alone, isStale, means }) {
+  const color = /** @type {import('./planar-map.js').Color} */ ([0, 0, 0, 0]);
+  let appears = false;
+  for (let paint = 0; paint < isStale.length; paint++) {
+    if (!isStale[paint]) continue;
+    isStale[paint] = 0;
+    const at = 4 * alone[paint];
+    if (at >= 0) {
+      color[3] = rgba[at + 3];
+      for (let c = 0; c < 3; c++) color[c] = rgba[at + c] * color[3];
+    }
+    appears = means.repaint(paint, at >= 0 ? color : composited(style, style.stacks[paint])) || appears;
+  }
+  means.renew();
   return appears;
 }
 
@@ -64,154 +178,4 @@ export function restyle(data, places, paints) {
 export function styleOf({ name, style }) {
   if (!style) throw new VextureError(`"${name}" has no elements; convert the drawing with --restyle`, 'style');
   return style;
-}
-
-/**
- * @param {PackedData} data
- * @param {number} quad
- * @param {Style} style
- * @param {Map<string, Paint>} paints
- */
-function repaint({ texels }, quad, style, paints) {
-  const changed = new Set();
-  style.elements.forEach((element, number) => {
-    const paint = paints.get(element.name);
-    if (!paint || !element.name) return;
-    const [red, green, blue, opacity] = paint.map((part) => rounded(part * DIGITS) / DIGITS);
-    changed.add(number);
-    element.color = [red, green, blue];
-    element.opacity = opacity;
-  });
-  const head = headOf(texels, quad);
-  let appears = false;
-  style.stacks.forEach((stack, paint) => {
-    if (!stack.some((number) => changed.has(number))) return;
-    const steps = composited(style, stack).map((part) => rounded(PAINT_ONE * Math.min(Math.max(part, 0), 1)));
-    appears ||= (paintSteps(texels, head, paint)[3] > 0) !== steps[3] > 0;
-    const at = 4 * head.paints + 2 * paint;
-    texels[at] = steps[0] + steps[1] * 2 ** COORDINATE_BITS;
-    texels[at + 1] = steps[2] + steps[3] * 2 ** COORDINATE_BITS;
-  });
-  renewMeans(texels, quad);
-  return appears;
-}
-
-/**
- * What the means of a map are computed from, which no colour changes.
- *
- * @typedef {object} Weights
- * @property {Int32Array} bases base paint of each cell; QUAD and MEAN of those without
- * @property {Int32Array} below of each cell that is a quad, its place in the map
- * @property {Int32Array} starts where the curves of each cell begin, and end
- * @property {Float64Array} areas how often the left paint of each curve counts more in its leaf, the right one less
- * @property {Int32Array} sides left and right paint of each curve
- */
-
-/** @type {WeakMap<Uint32Array, Map<number, Weights>>} */
-const WEIGHTS = new WeakMap();
-
-const QUAD = -1;
-const MEAN = -2;
-
-/**
- * @param {Uint32Array} texels
- * @param {number} root
- * @returns {Weights}
- */
-function weightsOf(texels, root) {
-  const known = WEIGHTS.get(texels) ?? new Map();
-  WEIGHTS.set(texels, known);
-  if (!known.has(root)) known.set(root, measured(texels, root));
-  return known.get(root);
-}
-
-/**
- * @param {Uint32Array} texels
- * @param {number} root
- * @returns {Weights}
- */
-function measured(texels, root) {
-  const head = headOf(texels, root);
-  /** @type {number[]} */ const bases = [];
-  /** @type {number[]} */ const below = [];
-  const starts = [0];
-  /** @type {number[]} */ const areas = [];
-  /** @type {number[]} */ const sides = [];
-  for (let quad = root, end = root + 1; quad < end; quad++) {
-    for (let k = 0; k < 4; k++) {
-      const leaf = leafOf(texels, quad, k);
-      const isQuad = leaf.byte === QUAD_FLAG;
-      if (isQuad) end = Math.max(end, leaf.below + 1);
-      below.push(isQuad ? leaf.below - root : 0);
-      bases.push(isQuad ? QUAD : leaf.byte === IS_MEAN ? MEAN : basePaint(texels, head, quad, k));
-      if (!isQuad) curvesOf(texels, leaf).forEach((curve, i) => {
-        areas.push(areaOf(curve));
-        sides.push(...sidesOf(texels, head, leaf.first + i));
-      });
-      starts.push(areas.length);
-    }
-  }
-  return {
-    bases: Int32Array.from(bases), below: Int32Array.from(below), starts: Int32Array.from(starts),
-    areas: Float64Array.from(areas), sides: Int32Array.from(sides),
-  };
-}
-
-/**
- * Part of a leaf in which the left paint of a curve counts more (FORMAT.md, D.8), with the integral of x dy in closed form
- * (Manson and Schaefer, "Wavelet Rasterization", Eurographics 2011).
- *
- * @param {number[]} curve in lattice units
- */
-function areaOf(curve) {
-  const [x0, y0, x1, y1, x2, y2, x3, y3] = curve.map((at) => at / LATTICE);
-  const integral = (x0 * (-10 * y0 + 6 * y1 + 3 * y2 + y3) + x1 * (-6 * y0 + 3 * y2 + 3 * y3)
-    + x2 * (-3 * y0 - 3 * y1 + 6 * y3) + x3 * (-y0 - 3 * y1 - 6 * y2 + 10 * y3)) / 20;
-  return integral - (y3 - y0) + (x0 === 0 ? 1 - y0 : 0) - (x3 === 0 ? 1 - y3 : 0);
-}
-
-/**
- * Write the means of all cells anew, from the leaves up; of a leaf of which only the mean is known it stays.
- *
- * @param {Uint32Array} texels
- * @param {number} root
- */
-function renewMeans(texels, root) {
-  const { bases, below, starts, areas, sides } = weightsOf(texels, root);
-  const head = headOf(texels, root);
-  const table = new Float64Array(4 * head.used);
-  for (let paint = 0; paint < head.used; paint++) {
-    const at = 4 * head.paints + 2 * paint;
-    table[4 * paint] = (texels[at] & PAINT_ONE) / PAINT_ONE;
-    table[4 * paint + 1] = (texels[at] >>> COORDINATE_BITS) / PAINT_ONE;
-    table[4 * paint + 2] = (texels[at + 1] & PAINT_ONE) / PAINT_ONE;
-    table[4 * paint + 3] = (texels[at + 1] >>> COORDINATE_BITS) / PAINT_ONE;
-  }
-  const means = new Float64Array(4 * bases.length);
-  for (let cell = bases.length - 1; cell >= 0; cell--) {
-    const base = bases[cell];
-    const place = 4 * cell;
-    if (base === QUAD) {
-      for (let c = 0; c < 4; c++) {
-        const first = 16 * below[cell] + c;
-        means[place + c] = 0.25 * (means[first] + means[first + 4] + means[first + 8] + means[first + 12]);
-      }
-    } else if (base === MEAN) {
-      meanBytes(texels, head, root + (cell >> 2), cell & 3).forEach((part, c) => (means[place + c] = part / COVERAGE_ONE));
-    } else {
-      for (let c = 0; c < 4; c++) {
-        let sum = table[4 * base + c];
-        for (let i = starts[cell]; i < starts[cell + 1]; i++) {
-          sum += areas[i] * (table[4 * sides[2 * i] + c] - table[4 * sides[2 * i + 1] + c]);
-        }
-        means[place + c] = sum;
-      }
-    }
-    const opacity = Math.min(Math.max(means[place + 3], 0), 1);
-    let word = 0;
-    for (let c = 3; c >= 0; c--) {
-      word = (word << CELL_BITS) | (rounded(COVERAGE_ONE * Math.min(Math.max(means[place + c], 0), opacity)) & BYTE);
-    }
-    texels[4 * (head.cells + 2 * (cell >> 2)) + (cell & 3)] = word >>> 0;
-  }
 }

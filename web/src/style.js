@@ -152,10 +152,6 @@ export function groupsAround(groups, inner) {
  * @returns {Color}
  */
 export function composited({ elements, groups }, stack) {
-  if (stack.length === 1 && elements[stack[0]].group < 0) {
-    const [{ color: [red, green, blue], opacity }] = [elements[stack[0]]];
-    return [red * opacity, green * opacity, blue * opacity, opacity];
-  }
   /** @typedef {{ group: number, color: Color, left: number, missing: number }} Level */
   /** @param {number} group @returns {Level} */
   const level = (group) => ({ group, color: [0, 0, 0, 0], left: 1, missing: masksOf(groups, group) });

@@ -1,5 +1,6 @@
 import { Color, InstancedBufferAttribute } from 'three';
 import { MOST_ROWS } from '../generated/layout.js';
+import { elementAt } from './element-at.js';
 import { VextureError } from './errors.js';
 import { check, insert, takePart } from './hooks.js';
 import { MaskedMesh } from './mask-mesh.js';
@@ -312,7 +313,23 @@ export class VectorMask {
   }
 
   /**
-   * Let rays and light pass through a mesh outside the shape.
+   * The topmost element at a point of a mesh; null where nothing is, or nothing with elements (`vexture convert --restyle`).
+   *
+   * @param {number} u
+   * @param {number} v the mesh's uv
+   * @param {number} [root] place of another shape than the mask's
+   * @returns {import('./element-at.js').FoundElement | null}
+   */
+  elementAt(u, v, root) {
+    const { data } = this.#texture;
+    if (data.encoding !== 'packed' || (this.#isRootless && root === undefined)) return null;
+    const { first, count } = root === undefined ? this.#range : { first: root, count: 1 };
+    const { x, y } = lookedUp(u, v, this.#options);
+    return elementAt(/** @type {import('./data.js').PackedData} */ (data), first, count, x, y);
+  }
+
+  /**
+   * Let rays and light pass through a mesh outside the shape, and rays find the elements of the drawing.
    *
    * @param {import('./mask-mesh.js').Masked} mesh that has this material
    * @returns {this}
@@ -328,15 +345,15 @@ export class VectorMask {
         ROOT_ATTRIBUTE,
       );
     }
+    const rootOf = (instance = 0) =>
+      this.#options.instanced ? mesh.geometry.getAttribute(ROOT_ATTRIBUTE)?.getX(instance) : undefined;
     this.#meshes.set(
       mesh,
       new MaskedMesh(mesh, {
         material: this.#material,
         cuts: () => this.#options.mode === 'cut' || isTranslucent(this.#options),
-        hits: (u, v, instance) => {
-          const roots = this.#options.instanced ? mesh.geometry.getAttribute(ROOT_ATTRIBUTE) : null;
-          return this.hits(u, v, roots?.getX(instance ?? 0));
-        },
+        hits: (u, v, instance) => this.hits(u, v, rootOf(instance)),
+        elementAt: (u, v, instance) => this.elementAt(u, v, rootOf(instance)),
         key: () => JSON.stringify({ ...this.#variant(), mode: 'cut' }),
         compile: (program, type) => this.#compile(program, { ...this.#variant(), mode: 'cut' }, type),
       }),

@@ -1,15 +1,14 @@
-import { Color, EventDispatcher, LinearSRGBColorSpace, SRGBColorSpace } from 'three';
-import { VextureError, line } from './errors.js';
+import { EventDispatcher } from 'three';
+import { elementAt } from './element-at.js';
 import { layersOf, layersTexture } from './layers.js';
+import { readPaints } from './paints.js';
 import { restyle, styleOf } from './restyle.js';
 import { shapeIndex } from './select-root.js';
-import { topmost } from './style.js';
 import { wordTexture } from './upload.js';
-import { paintAt } from './walk-map.js';
 import { colorAt, contains } from './walk.js';
 
 /** @typedef {import('three').DataTexture} DataTexture */
-/** @typedef {import('three').ColorRepresentation} ColorRepresentation */
+/** @typedef {import('./paints.js').Paint} Paint */
 /** @typedef {import('./data.js').TextureData} TextureData */
 /** @typedef {import('./data.js').PackedData} PackedData */
 /** @typedef {import('./select-root.js').RootChoice} RootChoice */
@@ -134,8 +133,8 @@ export class VectorTexture extends EventDispatcher {
   /**
    * Give elements of a drawing other colours, which the next frame shows: no tree is built, and no program.
    *
-   * @param {Record<string, ColorRepresentation | [number, number, number, number]>} paints by element: a colour as
-   *   `THREE.Color` reads it, or sRGB components and opacity, 0..1
+   * @param {Readonly<Record<string, Paint>> | ReadonlyMap<string, Paint>} paints by element: a colour as `THREE.Color`
+   *   reads it, or sRGB components and opacity, 0..1. Of thousands, a `Map` is read faster than an object
    * @param {RootChoice} [root] as in `layersOf`
    * @throws {VextureError} if the texture knows no elements (it was converted without `--restyle`), none has a name, or
    *   one that hides others would not stay opaque
@@ -144,9 +143,10 @@ export class VectorTexture extends EventDispatcher {
     const data = packed(this.#data);
     const { first, count } = this.layersOf(root);
     const places = Array.from({ length: count }, (_, k) => first + k);
-    const appears = restyle(data, places, new Map(Object.entries(paints).map(([name, paint]) => [name, partsOf(paint)])));
-    if (appears) this.replace(this.#data); // the bounds, which masks read, have changed
-    else this.#textures.texels.needsUpdate = true;
+    const { appears, runs } = restyle(data, places, readPaints(paints));
+    if (appears) return this.replace(this.#data); // the bounds, which masks read, have changed
+    const texels = /** @type {import('./upload.js').WordTexture} */ (this.#textures.texels);
+    for (const [from, end] of runs) texels.sendRows(Math.floor(from / data.width), Math.ceil(end / data.width));
   }
 
   /**
@@ -155,20 +155,14 @@ export class VectorTexture extends EventDispatcher {
    * @param {number} u
    * @param {number} v upwards
    * @param {RootChoice} [root] as in `layersOf`
-   * @returns {{ name: string, element: number, root: number } | null} its name and place in the `style` of a root; null
-   *   where nothing is
+   * @returns {import('./element-at.js').FoundElement | null} null where nothing is
    * @throws {VextureError} if the texture knows no elements
    */
   elementAt(u, v, root) {
     const data = packed(this.#data);
     const { first, count } = this.layersOf(root);
-    for (let place = first + count - 1; place >= first; place--) {
-      const style = styleOf(data.roots[place]);
-      const { paint } = paintAt(data, data.roots[place].quad, u, v);
-      const element = paint === null ? null : topmost(style, style.stacks[paint]);
-      if (element !== null) return { name: style.elements[element].name, element, root: place };
-    }
-    return null;
+    for (const root of data.roots.slice(first, first + count)) styleOf(root);
+    return elementAt(data, first, count, u, v);
   }
 
   /**
@@ -233,22 +227,6 @@ export class VectorTexture extends EventDispatcher {
  */
 function packed(data) {
   return /** @type {PackedData} */ (data);
-}
-
-/**
- * @param {ColorRepresentation | [number, number, number, number]} paint
- * @returns {[number, number, number, number]} sRGB components and opacity
- */
-function partsOf(paint) {
-  if (Array.isArray(paint)) {
-    if (paint.length === 4 && paint.every((part) => part >= 0 && part <= 1)) return paint;
-    throw new VextureError(`a paint is ${line(paint)}; give a colour, or four numbers in 0..1`, 'paint');
-  }
-  const color = new Color(); // a text or number is taken as it is: to linear light and back would cost digits
-  if (typeof paint === 'string') color.setStyle(paint, LinearSRGBColorSpace);
-  else if (typeof paint === 'number') color.setHex(paint, LinearSRGBColorSpace);
-  else paint.getRGB(color, SRGBColorSpace);
-  return [color.r, color.g, color.b, 1];
 }
 
 /** @param {TextureMap} textures */

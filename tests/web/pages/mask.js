@@ -212,10 +212,7 @@ async function changes(config, steps) {
   return pictures;
 }
 
-async function loss(config) {
-  const built = await build(config);
-  const before = render(config, built);
-  const renderer = rendererOf(config);
+async function loseContext(renderer) {
   const extension = renderer.getContext().getExtension('WEBGL_lose_context');
   const canvas = renderer.domElement;
   const lost = new Promise((done) => canvas.addEventListener('webglcontextlost', done, { once: true }));
@@ -225,7 +222,33 @@ async function loss(config) {
   const restored = new Promise((done) => canvas.addEventListener('webglcontextrestored', done, { once: true }));
   extension.restoreContext();
   await restored;
+}
+
+async function loss(config) {
+  const built = await build(config);
+  const before = render(config, built);
+  await loseContext(rendererOf(config));
   return [before, render(config, built)];
+}
+
+// A picture after each of some new colours, which another renderer misses; what it shows then; and both after the last
+// colours, of which the first renderer hears together with the loss of its context.
+async function recolors(config, all) {
+  const built = await build({ ...config, texture: undefined });
+  built.mask.texture = await load(config.texture);
+  const [one, two] = [config, { ...config, logarithmicDepthBuffer: true }];
+  const pictures = [];
+  render(two, built);
+  for (const paints of all.slice(0, -1)) {
+    built.mask.texture.setPaints(paints);
+    pictures.push(render(one, built));
+  }
+  built.mask.texture.setPaints(all.at(-1));
+  pictures.push(render(two, built));
+  built.mask.texture.setPaints(all.at(-1));
+  await loseContext(rendererOf(one));
+  pictures.push(render(one, built));
+  return pictures;
 }
 
 async function refusals() {
@@ -261,4 +284,4 @@ async function refusals() {
   return outcomes;
 }
 
-window.page = { draw, frames, shadow, rays, changes, loss, refusals, revision: THREE.REVISION };
+window.page = { draw, frames, shadow, rays, changes, loss, recolors, refusals, revision: THREE.REVISION };

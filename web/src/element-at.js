@@ -1,0 +1,30 @@
+// Which element of a drawing is seen at a point. Plain data, without three.js.
+import { topmost } from './style.js';
+import { paintAt } from './walk-map.js';
+
+/**
+ * @typedef {object} FoundElement
+ * @property {string} name
+ * @property {number} element its place in the `style` of its root
+ * @property {number} root place of the root
+ */
+
+/**
+ * The topmost element of some layers and maps at a point of the unit square; null where nothing is, or nothing with elements.
+ *
+ * @param {import('./data.js').PackedData} data
+ * @param {number} first root
+ * @param {number} count of roots, in painting order
+ * @param {number} u
+ * @param {number} v upwards
+ * @returns {FoundElement | null}
+ */
+export function elementAt(data, first, count, u, v) {
+  for (let place = first + count - 1; place >= first; place--) {
+    const { style, quad } = data.roots[place];
+    const paint = style && paintAt(data, quad, u, v).paint;
+    const element = style && paint !== null ? topmost(style, style.stacks[paint]) : null;
+    if (style && element !== null) return { name: style.elements[element].name, element, root: place };
+  }
+  return null;
+}
