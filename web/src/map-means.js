@@ -74,10 +74,13 @@ export class MapMeans {
    * @returns {boolean} whether it became visible, or the reverse
    */
   repaint(paint, color) {
-    const [red, green, blue, opacity] = [stepOf(color[0]), stepOf(color[1]), stepOf(color[2]), stepOf(color[3])];
+    const red = stepOf(color[0]);
+    const green = stepOf(color[1]);
+    const blue = stepOf(color[2]);
+    const opacity = stepOf(color[3]);
     const at = 4 * this.#head.paints + 2 * paint;
-    const low = red + green * 2 ** COORDINATE_BITS;
-    const high = blue + opacity * 2 ** COORDINATE_BITS;
+    const low = (red | (green << COORDINATE_BITS)) >>> 0;
+    const high = (blue | (opacity << COORDINATE_BITS)) >>> 0;
     const wasSeen = this.#texels[at + 1] >>> COORDINATE_BITS > 0;
     if (this.#texels[at] === low && this.#texels[at + 1] === high) return false;
     this.#texels[at] = low;
@@ -88,7 +91,8 @@ export class MapMeans {
     colors[4 * paint + 2] = blue / PAINT_ONE;
     colors[4 * paint + 3] = opacity / PAINT_ONE;
     const { starts, members } = this.#leaves;
-    for (let i = starts[paint]; i < starts[paint + 1]; i++) this.#isStale[members[i]] = 1;
+    const isStale = this.#isStale;
+    for (let i = starts[paint], end = starts[paint + 1]; i < end; i++) isStale[members[i]] = 1;
     return wasSeen !== opacity > 0;
   }
 
@@ -188,10 +192,10 @@ function cellsOf(texels, head) {
  * @param {number[]} curve in lattice units
  */
 function areaOf(curve) {
-  const [x0, y0, x1, y1, x2, y2, x3, y3] = curve.map((at) => at / LATTICE);
+  const [x0, y0, x1, y1, x2, y2, x3, y3] = curve;
   const integral = (x0 * (-10 * y0 + 6 * y1 + 3 * y2 + y3) + x1 * (-6 * y0 + 3 * y2 + 3 * y3)
     + x2 * (-3 * y0 - 3 * y1 + 6 * y3) + x3 * (-y0 - 3 * y1 - 6 * y2 + 10 * y3)) / 20;
-  return integral - (y3 - y0) + (x0 === 0 ? 1 - y0 : 0) - (x3 === 0 ? 1 - y3 : 0);
+  return (y0 - y3 + integral / LATTICE + (x0 === 0 ? LATTICE - y0 : 0) - (x3 === 0 ? LATTICE - y3 : 0)) / LATTICE;
 }
 
 /**

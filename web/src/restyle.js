@@ -37,18 +37,12 @@ const COLORINGS = new WeakMap();
 export function restyle(data, places, { names, parts }) {
   const colorings = places.map((place) => coloringOf(data, data.roots[place]));
   const found = colorings.map((coloring) => firstElements(coloring, names));
-  for (let k = 0; k < names.length; k++) {
-    let isKnown = false;
-    for (let c = 0; c < found.length; c++) {
-      isKnown ||= found[c][k] >= 0;
-      if (parts[4 * k + 3] < 1) checkHiding(colorings[c], found[c][k], parts[4 * k + 3]);
-    }
-    if (!isKnown) refuseName(data.name, names[k], colorings);
-  }
+  check(data.name, colorings, found, { names, parts });
   let appears = false;
-  colorings.forEach((coloring, c) => {
+  colorings.forEach((coloring, c) => { // the loops are functions of their own: V8 compiles a loop anew if more work follows it
     recolor(coloring, found[c], parts);
-    appears = renew(coloring) || appears;
+    appears = repaint(coloring) || appears;
+    coloring.means.renew();
     for (const root of data.roots) if (root.isMap && root.quad === coloring.quad) root.style = coloring.style;
   });
   return { appears, runs: colorings.flatMap(({ means }) => means.runs) };
@@ -106,6 +100,23 @@ function firstElements({ named }, names) {
 
 /**
  * @param {string} texture its name
+ * @param {Coloring[]} colorings
+ * @param {Int32Array[]} found of each, the first element of each name, or -1
+ * @param {Paints} paints
+ */
+function check(texture, colorings, found, { names, parts }) {
+  for (let k = 0; k < names.length; k++) {
+    let isKnown = false;
+    for (let c = 0; c < found.length; c++) {
+      isKnown ||= found[c][k] >= 0;
+      if (parts[4 * k + 3] < 1) checkHiding(colorings[c], found[c][k], parts[4 * k + 3]);
+    }
+    if (!isKnown) refuseName(texture, names[k], colorings);
+  }
+}
+
+/**
+ * @param {string} texture its name
  * @param {string} name that no element has
  * @param {Coloring[]} colorings
  * @returns {never}
@@ -149,12 +160,12 @@ function recolor({ style: { elements }, next, rgba, paints: { starts, members },
 }
 
 /**
- * Composite the paints of which an element has changed, and renew the means.
+ * Composite the paints of which an element has changed.
  *
  * @param {Coloring} coloring
  * @returns {boolean} whether something became visible that was not, or the reverse
  */
-function renew({ style, rgba, alone, isStale, means }) {
+function repaint({ style, rgba, alone, isStale, means }) {
   const color = /** @type {import('./planar-map.js').Color} */ ([0, 0, 0, 0]);
   let appears = false;
   for (let paint = 0; paint < isStale.length; paint++) {
@@ -167,7 +178,6 @@ function renew({ style, rgba, alone, isStale, means }) {
     }
     appears = means.repaint(paint, at >= 0 ? color : composited(style, style.stacks[paint])) || appears;
   }
-  means.renew();
   return appears;
 }
 
