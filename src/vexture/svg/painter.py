@@ -1,7 +1,6 @@
 """Painting one shape: its fill and its stroke become paths in the drawing's coordinates."""
 
 from collections.abc import Callable
-from copy import deepcopy
 from dataclasses import replace
 from math import inf
 
@@ -137,22 +136,23 @@ class Painter:
         if self.canvas.frame is None:
             return False
         shape, window = visible(shape, self.canvas.frame)
-        first = self.first_tile(place, tiling) if shape else FirstTile(Veil(None, 1.0), [], [])
-        if first is None or not first.paths:
-            return first is not None
-        tiles = Tiles.over(tiling.tile, tiling.space.whole, shape, window, self.canvas)
-        fitted = [tiles.fitted(path) for path in first.paths]
-        cubics, gradients = (sum(cost) for cost in zip(*map(tiles.cost, fitted), strict=True))
+        if not shape:
+            return True
+        first = self.first_tile(place, tiling)
+        if first is None:
+            return False
+        tiles = Tiles.over(first.canvas, shape, window, self.canvas)
+        costs = np.array([tiles.cost(path) for path, _ in first.painted]).reshape(-1, 2)
+        cubics, gradients = costs.sum(axis=0).tolist()
         if not self.servers.budget.affords(tiling.pattern.element, segments=cubics, gradients=gradients):
             return False
         first.veil.enter(place.veil, (*window[0], *window[1]))
         if is_window(shape, window):
             first.veil.opacity = tiling.opacity
-        else:
-            mask = first.veil.masked(tiling.opacity)
+        elif first.painted:
             self.paths.append(Path(tuple(shape), rule, Paint(tiling.solid.color)))
-            self.veils.append(mask)
-        for path, veil in zip(fitted, first.veils, strict=True):
+            self.veils.append(first.veil.masked(tiling.opacity))
+        for path, veil in first.painted:
             repeated = [replace(made, element=element) for made in tiles.repeated(path)]
             self.paths += repeated
             self.veils += [veil] * len(repeated)
@@ -168,8 +168,8 @@ class Painter:
             canvas = Canvas(tiling.tile, self.canvas.size, tiling.space.whole)
             painter, veil = Painter(self.servers, self.report, canvas, self.walk), Veil(None, 1.0)
             self.walk(tiling.shown(place, veil), painter)
-            tiles[key] = FirstTile(veil, painter.paths, painter.veils)
-        return deepcopy(tiles[key], {id(path): path for path in tiles[key].paths})
+            tiles[key] = FirstTile.of(canvas, veil, painter.paths, painter.veils)
+        return tiles[key].again()
 
 
 class Ruler(Painter):

@@ -6,6 +6,7 @@ the other is not repeated but stretched: a hatching is one strip for each of its
 
 from collections import Counter
 from collections.abc import Iterator
+from copy import deepcopy
 from dataclasses import dataclass, replace
 from math import ceil, floor
 from typing import Final
@@ -48,14 +49,65 @@ class Canvas:
     size: float  # larger side of the drawing, which bounds the error of approximations; infinite while it is unknown
     whole: Transform = Identity  # to the drawing
 
+    @property
+    def window(self) -> Window:
+        """Corners of the frame, as `Space.window` clips to it."""
+        assert self.frame is not None
+        x, y, width, height = self.frame
+        return np.array([x, y]), np.array([x + width, y + height])
+
+    @property
+    def sides(self) -> NDArray[np.float64]:
+        """Width and height of the frame."""
+        assert self.frame is not None
+        return np.array(self.frame[2:])
+
+    @property
+    def near(self) -> float:
+        """Distance within which points are on the border of a tile."""
+        return min(ROUND * self.size / scale_of(self.whole), LOOSE * float(self.sides.min()))
+
+    def fitted(self, contour: NDArray[np.float64]) -> NDArray[np.float64]:
+        """A contour whose points near the border are on it; empty if it has no area then."""
+        lines, near = straight(contour), self.near
+        for border in self.window:
+            contour = np.where(np.abs(contour - border) <= near, border, contour)
+        contour[lines] = line_cubics(contour[lines, 0], contour[lines, 3])
+        contour = contour[(contour != contour[:, :1]).any(axis=(1, 2))]
+        return contour if len(contour) and np.ptp(contour, axis=(0, 1)).all() else contour[:0]
+
+    def spans(self, contour: NDArray[np.float64]) -> tuple[bool, bool]:
+        """Whether a contour is an upright rectangle from one side to the other, across and down."""
+        ends = contour[:, 0]
+        upright = (np.abs(contour[:, 3] - ends) <= self.near).any(axis=1)
+        if len(contour) != 4 or not upright.all() or not straight(contour).all():
+            return False, False
+        low, high = self.window
+        x, y = (bool(set(ends[:, axis].tolist()) == {low[axis], high[axis]}) for axis in (0, 1))
+        return x, y
+
 
 @dataclass(frozen=True, slots=True)
 class FirstTile:
     """What a pattern paints in one tile, in the pattern's space but for gradients, which are in the drawing's."""
 
+    canvas: Canvas
     veil: Veil  # around all of it
-    paths: list[Path]
-    veils: list[Veil | None]  # the innermost one around each
+    painted: tuple[tuple[Path, Veil | None], ...]  # each with the innermost veil around it
+
+    @classmethod
+    def of(cls, canvas: Canvas, veil: Veil, paths: list[Path], veils: list[Veil | None]) -> "FirstTile":
+        """What was painted, fitted into the tile."""
+        painted = []
+        for path, innermost in zip(paths, veils, strict=True):
+            fitted = tuple(contour for contour in map(canvas.fitted, path.contours) if len(contour))
+            if fitted:
+                painted.append((replace(path, contours=fitted), innermost))
+        return cls(canvas, veil, tuple(painted))
+
+    def again(self) -> "FirstTile":
+        """The same with veils of its own."""
+        return deepcopy(self, {id(path): path for path, _ in self.painted})
 
 
 class Budget:
@@ -82,56 +134,26 @@ class Budget:
 class Tiles:
     """The tiles over a part of the drawing."""
 
-    tile: Rectangle  # the first one, in the pattern's space
-    matrix: Transform  # from there to the canvas
-    whole: Transform  # from there to the drawing
+    tile: Canvas  # the first one
+    matrix: Transform  # from the pattern's space to the canvas that is painted on
     first: tuple[int, int]  # column and row
     last: tuple[int, int]  # behind the last
     window: Window  # on the canvas
-    near: float  # distance, in the pattern's space, within which points are on a border
 
     @classmethod
-    def over(
-        cls, tile: Rectangle, whole: Transform, shape: list[NDArray[np.float64]], window: Window, canvas: Canvas
-    ) -> "Tiles":
-        """The tiles of a pattern over a shape within a window of a canvas; `whole` leads to the drawing."""
-        x, y, width, height = tile
-        matrix = whole if canvas.whole == Identity else canvas.whole.inverse().transform(whole)
+    def over(cls, tile: Canvas, shape: list[NDArray[np.float64]], window: Window, canvas: Canvas) -> "Tiles":
+        """The tiles over a shape within a window of a canvas."""
+        (x, y), (width, height) = tile.window[0], tile.sides
+        matrix = tile.whole if canvas.whole == Identity else canvas.whole.inverse().transform(tile.whole)
         left, top, right, bottom = bounds(mapped(np.concatenate(shape), matrix.inverse()))
         first = floor((left - x) / width + TOUCHED), floor((top - y) / height + TOUCHED)
         last = ceil((right - x) / width - TOUCHED), ceil((bottom - y) / height - TOUCHED)
-        last = max(last[0], first[0] + 1), max(last[1], first[1] + 1)
-        near = min(ROUND * canvas.size / scale_of(whole), LOOSE * min(width, height))
-        return cls(tile, matrix, whole, first, last, window, near)
-
-    @property
-    def low(self) -> NDArray[np.float64]:
-        """Least corner of the first tile."""
-        return np.array(self.tile[:2])
-
-    @property
-    def high(self) -> NDArray[np.float64]:
-        """Greatest corner, as `Space.window` clips to it."""
-        x, y, width, height = self.tile
-        return np.array([x + width, y + height])
+        return cls(tile, matrix, first, (max(last[0], first[0] + 1), max(last[1], first[1] + 1)), window)
 
     @property
     def count(self) -> int:
         """Number of tiles."""
         return (self.last[0] - self.first[0]) * (self.last[1] - self.first[1])
-
-    def fitted(self, path: Path) -> Path:
-        """A path of the first tile whose points near its border are on it, without what has no area then."""
-        contours = []
-        for contour in path.contours:
-            lines = straight(contour)
-            for border in (self.low, self.high):
-                contour = np.where(np.abs(contour - border) <= self.near, border, contour)
-            contour[lines] = line_cubics(contour[lines, 0], contour[lines, 3])
-            contour = contour[(contour != contour[:, :1]).any(axis=(1, 2))]
-            if len(contour) and np.ptp(contour, axis=(0, 1)).all():
-                contours.append(contour)
-        return replace(path, contours=tuple(contours))
 
     def cost(self, path: Path) -> tuple[int, int]:
         """Number of cubics and of gradients that `repeated` makes of a path."""
@@ -140,18 +162,9 @@ class Tiles:
         columns, rows = self.last[0] - self.first[0], self.last[1] - self.first[1]
         cubics = 0
         for contour in path.contours:
-            across, down = self.spans(contour)
+            across, down = self.tile.spans(contour)
             cubics += len(contour) * (1 if across else columns) * (1 if down else rows)
         return cubics, 0
-
-    def spans(self, contour: NDArray[np.float64]) -> tuple[bool, bool]:
-        """Whether a contour is an upright rectangle from one side of the tile to the other, across and down."""
-        ends = contour[:, 0]
-        upright = (np.abs(contour[:, 3] - ends) <= self.near).any(axis=1)
-        if len(contour) != 4 or not upright.all() or not straight(contour).all():
-            return False, False
-        x, y = (bool(set(ends[:, axis].tolist()) == {self.low[axis], self.high[axis]}) for axis in (0, 1))
-        return x, y
 
     def repeated(self, path: Path) -> list[Path]:
         """What a path of the first tile is in all tiles."""
@@ -161,7 +174,7 @@ class Tiles:
         contours: list[NDArray[np.float64]] = []
         for contour in path.contours:
             check_time()
-            across, down = self.spans(contour)
+            across, down = self.tile.spans(contour)
             start = np.stack(np.meshgrid(columns[:1] if across else columns, rows[:1] if down else rows), axis=-1)
             start = start.reshape(-1, 2)
             end = start + 1.0
@@ -174,8 +187,8 @@ class Tiles:
         check_time()
         contours = [part for contour in path.contours for part in self._moved(contour, at[None], at[None] + 1.0)]
         if contours:
-            a, b, c, d = self.whole[:4]
-            x, y = (at * self.tile[2:]).tolist()
+            a, b, c, d = self.tile.whole[:4]
+            x, y = (at * self.tile.sides).tolist()
             paint = path.paint.after(((1.0, 0.0, -a * x - c * y), (0.0, 1.0, -b * x - d * y)))
             yield replace(path, contours=tuple(contours), paint=paint)
 
@@ -186,10 +199,11 @@ class Tiles:
 
         Its points on the greater borders move to the columns and rows `end`, (m, 2), and all others to `start`.
         """
-        on_end = contour == self.high
-        base = np.where(on_end, self.low, contour)
+        low, high = self.tile.window
+        on_end = contour == high
+        base = np.where(on_end, low, contour)
         index = np.where(on_end, end[:, None, None], start[:, None, None])
-        points = base + index * np.array(self.tile[2:])
+        points = base + index * self.tile.sides
         if (end - start > 1.0).any():
             ends = points[:, :, 0]
             points = line_cubics(ends, np.roll(ends, -1, axis=1))
