@@ -30,6 +30,7 @@ def dots(attributes: str, fill: str = FILLED) -> str:
 
 
 SIZE = 'width="10" height="10"'
+STRETCHED = 'viewBox="0 0 10 10" preserveAspectRatio="none"'
 FALLBACK = 'fill="url(#p) lime"'
 CASES = {
     "usual": (dots(SIZE), [100], ["#ff0000"]),
@@ -38,6 +39,11 @@ CASES = {
     "negative width": (dots('width="-10" height="10"'), [], []),
     "width without meaning": (dots('width="abc" height="10"'), [], []),
     "hardly a width": (dots('width="1e-300" height="10"'), [], []),
+    "very many strips in one": (
+        PATTERN.format(f'width="10" height="1e-11" {STRETCHED}', '<path d="M0 0h5v10H0z"/>') + RECT.format(FILLED),
+        [10],
+        ["#000000"],
+    ),
     "negative corner": (dots(SIZE + ' x="-1010" y="-2010"'), [100], ["#ff0000"]),
     "singular transform": (dots(SIZE + ' patternTransform="scale(0 1)"'), [], []),
     "singular transform, fallback": (dots(SIZE + ' patternTransform="scale(0 1)"', FALLBACK), [1], ["#00ff00"]),

@@ -168,19 +168,21 @@ class Tiles:
 
     def repeated(self, path: Path) -> list[Path]:
         """What a path of the first tile is in all tiles."""
-        columns, rows = (np.arange(*ends, dtype=np.float64) for ends in zip(self.first, self.last, strict=True))
         if path.paint.gradient is not None:
-            return [made for column in columns for row in rows for made in self._shaded(path, np.array([column, row]))]
+            return [made for at in self._places(False, False) for made in self._shaded(path, at)]
         contours: list[NDArray[np.float64]] = []
         for contour in path.contours:
             check_time()
-            across, down = self.tile.spans(contour)
-            start = np.stack(np.meshgrid(columns[:1] if across else columns, rows[:1] if down else rows), axis=-1)
-            start = start.reshape(-1, 2)
-            end = start + 1.0
-            end[:, [across, down]] = np.array(self.last)[[across, down]]
-            contours += self._moved(contour, start, end)
+            stretched = self.tile.spans(contour)
+            start = self._places(*stretched)
+            contours += self._moved(contour, start, np.where(stretched, np.array(self.last, np.float64), start + 1.0))
         return [replace(path, contours=tuple(contours))] if contours else []
+
+    def _places(self, across: bool, down: bool) -> NDArray[np.float64]:
+        """Columns and rows of tiles, (m, 2): of all, or along an axis of the first ones only."""
+        ends = zip(self.first, self.last, (across, down), strict=True)
+        columns, rows = (np.arange(first, first + 1 if one else last, dtype=np.float64) for first, last, one in ends)
+        return np.stack(np.meshgrid(columns, rows), axis=-1).reshape(-1, 2)
 
     def _shaded(self, path: Path, at: NDArray[np.float64]) -> Iterator[Path]:
         """A path with a gradient, in one tile."""
