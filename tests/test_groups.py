@@ -58,5 +58,18 @@ def test_masks_are_no_layers_and_no_part_of_a_silhouette() -> None:
     assert [str(note) for note in masked.layers()[0].notes] == ["clip-path or mask"]
     plain = masked.unmasked()
     assert (len(plain.paths), plain.groups, [str(note) for note in plain.notes]) == (3, (), ["clip-path or mask"])
+
+
+def test_a_pattern_gives_way_to_its_mask_where_masks_are_unknown() -> None:
+    """Of patterns in each other that is the outer one's."""
+    groups = (Group(opacity=0.5, pattern=True), Group(0, 0.5, mask=Mask.OPACITY), Group(0, pattern=True))
+    nested = drawing((*groups, Group(2, mask=Mask.OPACITY)), 1, 0, 2, 3)
+    (layer,) = nested.layers()
+    assert [path.paint.opacity for path in layer.paths] == [0.125]
+    assert [str(note) for note in layer.notes] == ["pattern shown as solid (2)"]
+    assert len(nested.unmasked().paths) == 1
+
+
+def test_a_drawing_without_masks_stays_as_it_is() -> None:
     kept = drawing((Group(),), 0)
     assert kept.unmasked() is kept

@@ -28,6 +28,7 @@ __all__ = ["Drawing", "FillRule", "Path"]
 
 SHARED_OPACITY: Final = "opacity of a group, which each of its shapes has by itself"
 BLENDING, MASKING, SHADED = "mix-blend-mode", "clip-path or mask", "gradient shown as its mean colour"
+SOLID: Final = "pattern shown as solid"
 """Messages about layers and silhouettes, which know no groups; layers know no gradients either."""
 
 IDENTITY = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
@@ -228,14 +229,17 @@ class Drawing:
     def flat(self) -> "Drawing":
         """The drawing without groups, and so without masks, and without gradients.
 
-        Each path has the opacities of the groups around it by itself. Notes say where a picture differs.
+        Each path has the opacities of the groups around it by itself, and a shape that a pattern fills is solid. Notes
+        say where a picture differs.
         """
-        opacities, masks = {-1: 1.0}, set[int]()
+        opacities, hidden = {-1: 1.0}, set[int]()
+        patterns = {place for place, group in enumerate(self.groups) if group.pattern}
         for place, group in enumerate(self.groups):
             opacities[place] = opacities[group.outer] * group.opacity
-            if group.mask or group.outer in masks:
-                masks.add(place)
-        shown = [path for path in self.paths if path.group not in masks]
+            if group.outer in hidden or bool(group.mask) != (group.outer in patterns):
+                hidden.add(place)
+        hidden |= patterns
+        shown = [path for path in self.paths if path.group not in hidden]
         paints = (path.paint.faded(opacities[path.group]) for path in shown)
         flat = (Paint(paint.color, paint.opacity) for paint in paints)
         paths = tuple(replace(path, paint=paint, group=-1) for path, paint in zip(shown, flat, strict=True))
@@ -246,19 +250,22 @@ class Drawing:
         if not any(group.mask for group in self.groups):
             return self
         plain = self.flat()
-        lost = tuple(note for note in plain.notes[len(self.notes) :] if note.message == MASKING)
+        lost = tuple(note for note in plain.notes[len(self.notes) :] if note.message in (MASKING, SOLID))
         return replace(plain, notes=(*self.notes, *lost))
 
     def _lost(self) -> Iterator[Note]:
         """Notes of what layers lose of groups and gradients; a path by itself loses no opacity."""
         held = Counter(path.group for path in self.paths)
         for place in reversed(range(len(self.groups))):
+            if self.groups[place].pattern:
+                held[place] = min(held[place], 1)  # the shape that it fills
             held[self.groups[place].outer] += held[place]
         shared = sum(group.opacity < 1.0 and held[place] > 1 for place, group in enumerate(self.groups))
         blended = sum(group.blend is not Blend.NORMAL and held[place] > 0 for place, group in enumerate(self.groups))
-        masks = sum(group.mask is not Mask.NONE for group in self.groups)
+        patterns = sum(group.pattern for group in self.groups)
+        masks = sum(group.mask is not Mask.NONE for group in self.groups) - patterns
         shaded = sum(path.paint.gradient is not None for path in self.paths)
-        counts = ((SHARED_OPACITY, shared), (BLENDING, blended), (MASKING, masks), (SHADED, shaded))
+        counts = ((SHARED_OPACITY, shared), (BLENDING, blended), (MASKING, masks), (SOLID, patterns), (SHADED, shaded))
         for message, count in counts:
             if count:
                 yield Note("simplified", message, count)

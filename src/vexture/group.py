@@ -57,12 +57,16 @@ class Group:
     blend : Blend
     mask : Mask
         Whether it masks the group around it, and by what.
+    pattern : bool
+        Whether it is a pattern, masked by the shape that the pattern fills. Whatever knows no masks shows that shape
+        instead.
     """
 
     outer: int = -1
     opacity: float = 1.0
     blend: Blend = Blend.NORMAL
     mask: Mask = Mask.NONE
+    pattern: bool = False
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.opacity <= 1.0:

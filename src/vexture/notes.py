@@ -36,7 +36,7 @@ class Note:
         ``"left out"``: not supported and not in the result. ``"simplified"``: in the result, but not as it should be.
         ``"invalid"``: against the standard and ignored. ``"remark"``: a sentence about the whole.
     message : str
-        Such as ``<text>`` or ``pattern read as solid``.
+        Such as ``<text>`` or ``pattern shown as solid``.
     count : int
         How often.
 

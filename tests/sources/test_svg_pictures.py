@@ -13,7 +13,19 @@ from vexture.errors import SourceWarning
 from vexture.svg.read import read_svg
 
 FIXTURES = Path(__file__).parent / "fixtures"
-TOPICS = ("gradients", "groups", "masks", "paths", "shapes", "strokes", "structure", "style", "transform", "viewport")
+TOPICS = (
+    "gradients",
+    "groups",
+    "masks",
+    "paths",
+    "patterns",
+    "shapes",
+    "strokes",
+    "structure",
+    "style",
+    "transform",
+    "viewport",
+)
 
 RAMP = '<stop stop-color="#e02020"/><stop offset="0.4" stop-color="#f0d020"/><stop offset="1" stop-color="#2040e0"/>'
 
@@ -74,7 +86,7 @@ def box_of(path: Path) -> str:
 
 
 def test_fixtures_are_all_there() -> None:
-    assert len(fixture_names()) > 220
+    assert len(fixture_names()) > 280
     assert set(PLAINER) <= set(fixture_names())
 
 

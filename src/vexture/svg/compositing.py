@@ -34,6 +34,22 @@ class Veil:
     mixes: bool = False  # whether something that is painted in it has a blend mode, which must not see beyond
     mask: Mask = Mask.NONE  # whether it masks the veil around it
     masks: "list[Veil]" = field(default_factory=list)  # that mask it
+    is_pattern: bool = False  # whether a pattern fills or strokes a shape in it, and that shape is its mask
+
+    def enter(self, outer: "Veil | None", box: Box) -> None:
+        """Put a veil of its own, that of a pattern, with all that it paints in a box, into another."""
+        self.outer = outer
+        if outer is not None:
+            outer.add(box)
+        while outer is not None and self.overlaps:
+            outer.overlaps = True
+            outer = None if outer.mask else outer.outer
+
+    def masked(self, opacity: float) -> "Veil":
+        """Make it the veil of a pattern, and return that of the shape that masks it, of an opacity."""
+        self.is_pattern = True
+        self.masks.append(Veil(self, opacity, mask=Mask.OPACITY))
+        return self.masks[-1]
 
     def add(self, box: Box) -> None:
         """Add the box of a path; those of more than `MOST_BOXES` are taken to overlap."""
@@ -90,12 +106,16 @@ def grouped(paths: list[Path], veils: list[Veil | None]) -> tuple[list[Path], tu
         while unknown:
             veil = unknown.pop()
             place, opacity = places[veil.outer]
-            if veil.is_group:
-                groups.append(Group(place, veil.opacity if veil.overlaps else 1.0, veil.blend, veil.mask))
-                place = len(groups) - 1
             if veil.mask:
                 opacity = 1.0
-            places[veil] = place, opacity if veil.overlaps else opacity * veil.opacity
+            own, each = (veil.opacity, 1.0) if veil.overlaps else (1.0, veil.opacity)
+            opacity *= each
+            if veil.is_group:
+                if veil.is_pattern:  # its opacity is that of the shape, too, which may stand for it
+                    own, opacity = own * opacity, 1.0
+                groups.append(Group(place, own, veil.blend, veil.mask, veil.is_pattern))
+                place = len(groups) - 1
+            places[veil] = place, opacity
             unknown += [mask for mask in veil.masks if mask not in unknown]  # also those that show nothing
         place, opacity = places[innermost]
         if innermost is not None:

@@ -17,7 +17,7 @@ from vexture.svg.space import SMALLEST, Place
 from vexture.svg.transform import Identity, Transform, parse_transform
 from vexture.svg.values import LARGEST, Viewport, fraction, number
 
-__all__ = ["GRADIENTS", "Ramp", "read_ramp", "stop_offsets"]
+__all__ = ["BOXED", "GRADIENTS", "SHORTEST", "WHOLE", "Ramp", "read_ramp", "stop_offsets"]
 
 LENGTHS: Final = {
     "linearGradient": {"x1": "0%", "y1": "0%", "x2": "100%", "y2": "0%"},
@@ -32,7 +32,7 @@ WHOLE = Viewport(1.0, 1.0)
 """Percentages of an `objectBoundingBox`."""
 
 SHORTEST: Final = 1 / LARGEST
-"""User units, or parts of a bounding box. A ramp that is shorter has only its end."""
+"""User units, or parts of a bounding box. A ramp that is shorter has only its end, a tile that is shorter no area."""
 
 TOUCHING: Final = 1 / 4096
 """Part of the outer radius. Circles that nearly touch from inside do touch, as in Skia, which browsers draw by: if they

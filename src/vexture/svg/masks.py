@@ -10,7 +10,6 @@ from typing import Final, Protocol
 import numpy as np
 from lxml import etree
 
-from vexture.errors import SourceError
 from vexture.group import Mask
 from vexture.svg.compositing import Veil
 from vexture.svg.document import local_name
@@ -24,9 +23,6 @@ from vexture.svg.viewport import Rectangle
 from vexture.tolerance import ROUND
 
 __all__ = ["MASKING", "add_masks"]
-
-DEEPEST: Final = 32
-"""Clips and masks in one another."""
 
 MASKING: Final = {"clip-path": "clipPath", "mask": "mask"}
 """The properties that mask an element, and the elements to which they refer."""
@@ -78,8 +74,7 @@ def add_mask(
     scene: Measured, element: etree._Element, target: etree._Element, place: Place
 ) -> tuple[Place, list[Placed]]:
     """As `add_masks`, of one `clipPath` or `mask`."""
-    if place.masks >= DEEPEST:
-        raise SourceError(f"its clips and masks are nested more than {DEEPEST} deep; simplify them")
+    masks = place.deeper()
     is_clip, style = local_name(target) == "clipPath", scene.servers.style_of(target)
     matrix = scene.transform(target, style, place) if is_clip else Identity
     if target.get("clipPathUnits" if is_clip else "maskContentUnits") == "objectBoundingBox":
@@ -105,7 +100,7 @@ def add_mask(
         used=True,
         veil=veil,
         is_clip=is_clip,
-        masks=place.masks + 1,
+        masks=masks,
         is_instance=True,
     )
     content, shown = add_masks(scene, target, content)

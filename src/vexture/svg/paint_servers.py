@@ -1,6 +1,7 @@
-"""Paints by reference: gradients; a pattern becomes grey."""
+"""Paints by reference: gradients and patterns."""
 
 import re
+from collections.abc import Hashable
 
 from lxml import etree
 
@@ -9,14 +10,17 @@ from vexture.svg.colors import Color, PaintText, parse_color, parse_paint
 from vexture.svg.document import local_name
 from vexture.svg.gradients import GRADIENTS, Ramp, read_ramp, stop_offsets
 from vexture.svg.outline import Outline
-from vexture.svg.report import Report
+from vexture.svg.patterns import Pattern, Tiling, read_pattern
+from vexture.svg.report import Report, described
 from vexture.svg.space import Place
 from vexture.svg.style import INITIAL, Cascade, Style
+from vexture.svg.tiles import Budget, FirstTile
 
 __all__ = ["PaintServers", "reference"]
 
 HREF = ("href", "{http://www.w3.org/1999/xlink}href")
 GREY = Color((0.5, 0.5, 0.5), 1.0)
+PATTERNS = frozenset({"pattern"})
 MOST_STOPS = 128
 """Of a gradient: half of what a pixel can run through for one paint (FORMAT.md, D.6)."""
 
@@ -37,7 +41,10 @@ class PaintServers:
         self.report = report
         self.by_id: dict[str, etree._Element] = {}
         self.ramps: dict[etree._Element, Ramp | None] = {}
+        self.patterns: dict[etree._Element, Pattern | None] = {}
         self.styles: dict[etree._Element, Style] = {}
+        self.budget: Budget = Budget(report)
+        self.tiles: dict[tuple[Hashable, ...], FirstTile] = {}  # of patterns, as painted so far
 
     def target(self, link: str) -> etree._Element | None:
         """Element of this document that a link like "#name" refers to, or None."""
@@ -49,12 +56,13 @@ class PaintServers:
                 self.by_id.setdefault(element.get("id", ""), element)
         return self.by_id.get(match[1]) if match[1] else None
 
-    def paint(self, name: str, place: Place, outlines: list[Outline]) -> Paint | None:
+    def paint(self, name: str, place: Place, outlines: list[Outline]) -> Paint | Tiling | None:
         """Paint of `name`, "fill" or "stroke", for outlines at a place with their style; None if nothing is painted."""
         style = place.style
         text = parse_paint(style[name])
         if text is None:
             return None
+        paint: Paint | Tiling | None
         paint = self.flat(text.color, style) if text.reference is None else self.served(text, place, outlines)
         paint = paint and paint.faded(style.opacity(f"{name}-opacity"))
         return paint if paint is not None and paint.opacity > 0.0 else None
@@ -73,34 +81,56 @@ class PaintServers:
         if not color.exact:
             self.report.simplified("colour of a space other than sRGB read as black")
 
-    def served(self, text: PaintText, place: Place, outlines: list[Outline]) -> Paint | None:
+    def served(self, text: PaintText, place: Place, outlines: list[Outline]) -> Paint | Tiling | None:
         """Paint of a reference to a paint server, or its fallback where there is none or it has no area."""
         link = text.reference or ""
         server = self.target(link)
         name = local_name(server) if server is not None else None
-        fallback = text.color
+        found: Paint | Tiling | None = None
         if server is not None and name in GRADIENTS:
             ramp = self.ramp(server)
             if ramp is None:
                 return None
-            paint = ramp.paint(place, outlines)
-            if paint is not None:
-                return paint
-        elif name == "pattern":
-            self.report.simplified("pattern read as solid")
-            fallback = fallback or GREY
+            found = ramp.paint(place, outlines)
+        elif server is not None and name in PATTERNS:
+            found = self.tiling(server, text.color, place, outlines)
         else:
             self.report.left_out(f"paint '{link[:40]}'")
-        return self.flat(fallback, place.style)
+        return self.flat(text.color, place.style) if found is None else found
+
+    def tiling(
+        self, server: etree._Element, fallback: Color | str | None, place: Place, outlines: list[Outline]
+    ) -> Tiling | None:
+        """A pattern on outlines; None if it shows nothing."""
+        pattern = self.pattern(server)
+        if pattern is None:
+            return None
+        if place.inside(pattern.holder):
+            self.report.left_out(f"pattern that refers to itself, of {described(pattern.holder)}")
+            return None
+        solid = self.flat(fallback or GREY, place.style)
+        return None if solid is None else pattern.tiling(place, outlines, solid)
+
+    def pattern(self, element: etree._Element) -> Pattern | None:
+        """What a pattern and those that it refers to say; None if they have no content."""
+        if element not in self.patterns:
+            chain = self.chain(element, PATTERNS)
+            self.patterns[element] = read_pattern(chain, [*map(self.style_of, chain)], self.report)
+        return self.patterns[element]
+
+    def chain(self, first: etree._Element, kinds: frozenset[str]) -> list[etree._Element]:
+        """An element, the one that it refers to, the one to which that refers, and so on, as long as they are alike."""
+        chain: list[etree._Element] = []
+        element: etree._Element | None = first
+        while element is not None and element not in chain and local_name(element) in kinds:
+            chain.append(element)
+            element = self.target(reference(element) or "")
+        return chain
 
     def ramp(self, gradient: etree._Element) -> Ramp | None:
         """What a gradient and those that it refers to say; None if they have no stops."""
         if gradient not in self.ramps:
-            chain: list[etree._Element] = []
-            element: etree._Element | None = gradient
-            while element is not None and element not in chain and local_name(element) in GRADIENTS:
-                chain.append(element)
-                element = self.target(reference(element) or "")
+            chain = self.chain(gradient, GRADIENTS)
             stops = next(filter(None, map(self.stops, chain)), None)
             size = self.style_of(gradient).font_size
             self.ramps[gradient] = None if stops is None else read_ramp(chain, stops, size, self.report)

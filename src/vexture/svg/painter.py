@@ -1,5 +1,6 @@
 """Painting one shape: its fill and its stroke become paths in the drawing's coordinates."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from math import inf
 
@@ -13,10 +14,12 @@ from vexture.paint import BLACK, Paint
 from vexture.svg.compositing import Veil
 from vexture.svg.outline import Outline
 from vexture.svg.paint_servers import PaintServers
+from vexture.svg.patterns import Tiling
 from vexture.svg.report import Report
 from vexture.svg.shapes import Shape, shape_outlines
-from vexture.svg.space import Place
+from vexture.svg.space import Place, Placed
 from vexture.svg.strokes import Stroke, arc_length, stroke_contours
+from vexture.svg.tiles import Canvas, FirstTile, Tiles, is_window, visible
 from vexture.svg.transform import Identity, mapped, scale_of
 from vexture.svg.values import number
 from vexture.tolerance import ROUND
@@ -33,13 +36,20 @@ STROKE = "/stroke"
 class Painter:
     """Collects the paths of what is painted, in order, and the innermost veil around each.
 
-    `size` is the larger side of the drawing, which bounds the error of approximations; None while the side is unknown.
+    `walk` paints what a pattern shows.
     """
 
-    def __init__(self, servers: PaintServers, report: Report, size: float | None) -> None:
+    def __init__(
+        self,
+        servers: PaintServers,
+        report: Report,
+        canvas: Canvas,
+        walk: "Callable[[list[Placed], Painter], None]",
+    ) -> None:
         self.servers = servers
         self.report = report
-        self.size = size
+        self.canvas = canvas
+        self.walk = walk
         self.paths: list[Path] = []
         self.veils: list[Veil | None] = []
         self.segments: int = 0
@@ -52,7 +62,7 @@ class Painter:
         if not place.is_clip and style["fill"].lower() == style["stroke"].lower() == "none":
             return
         scale = scale_of(place.space.whole)
-        size = inf if self.size is None else self.size / scale
+        size = self.canvas.size / scale
         shape = Shape(element, style, place.viewport, ROUND * size, self.report)
         outlines = shape_outlines(shape)
         if not outlines:
@@ -67,13 +77,15 @@ class Painter:
             self.fill(shape, outlines, place, fill)
             self.stroke(shape, outlines, place, line, size)
 
-    def fill(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | None) -> None:
+    def fill(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | Tiling | None) -> None:
         """Paint the inside of the outlines."""
         if paint is not None:
             rule = FillRule[shape.style["clip-rule" if place.is_clip else "fill-rule"].upper()]
             self.add([outline.loop for outline in outlines], place, rule, paint, place.name)
 
-    def stroke(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | None, size: float) -> None:
+    def stroke(
+        self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | Tiling | None, size: float
+    ) -> None:
         """Paint along the outlines; `size` is the drawing's, in the shape's user units."""
         stroke = stroke_of(shape, outlines) if paint is not None else None
         if paint is None or stroke is None:
@@ -94,7 +106,7 @@ class Painter:
         self.add(contours, place, FillRule.NONZERO, paint, place.name and place.name + STROKE)
 
     def add(
-        self, contours: list[NDArray[np.float64]], place: Place, rule: FillRule, paint: Paint, element: str
+        self, contours: list[NDArray[np.float64]], place: Place, rule: FillRule, paint: Paint | Tiling, element: str
     ) -> None:
         """Add contours, in the units of a place, to the paths."""
         self.segments += sum(map(len, contours))
@@ -102,19 +114,69 @@ class Painter:
             raise SourceError(f"here the drawing exceeds the limit of {MOST_SEGMENTS:,} segments; simplify it")
         shown = [place.space.to_drawing(contour) for contour in contours]
         shown = [contour for contour in shown if len(contour)]
-        if shown:
-            self.paths.append(Path(tuple(shown), rule, paint, element=element))
-            self.veils.append(place.veil)
-            if place.veil is not None:
-                ends = np.concatenate([contour.reshape(-1, 2) for contour in shown])
-                place.veil.add((*ends.min(axis=0), *ends.max(axis=0)))
+        if not shown:
+            return
+        if isinstance(paint, Tiling):
+            if self.tile(shown, place, rule, paint, element):
+                return
+            paint = paint.solid
+        self.paths.append(Path(tuple(shown), rule, paint, element=element))
+        self.veils.append(place.veil)
+        if place.veil is not None:
+            ends = np.concatenate([contour.reshape(-1, 2) for contour in shown])
+            place.veil.add((*ends.min(axis=0), *ends.max(axis=0)))
+
+    def tile(
+        self, shape: list[NDArray[np.float64]], place: Place, rule: FillRule, tiling: Tiling, element: str
+    ) -> bool:
+        """Paint the tiles of a pattern over a shape on the canvas; False if they are too many, or the frame is unknown.
+
+        The shape is their mask, unless it is an upright rectangle, to which they are cut.
+        """
+        if self.canvas.frame is None:
+            return False
+        shape, window = visible(shape, self.canvas.frame)
+        if not shape:
+            return True
+        first = self.first_tile(place, tiling)
+        if first is None:
+            return False
+        tiles = Tiles.over(first.canvas, shape, window, self.canvas)
+        costs = np.array([tiles.cost(path) for path, _ in first.painted]).reshape(-1, 2)
+        cubics, gradients = costs.sum(axis=0).tolist()
+        if not self.servers.budget.affords(tiling.pattern.element, segments=cubics, gradients=gradients):
+            return False
+        first.veil.enter(place.veil, (*window[0], *window[1]))
+        if is_window(shape, window):
+            first.veil.opacity = tiling.opacity
+        elif first.painted:
+            self.paths.append(Path(tuple(shape), rule, Paint(tiling.solid.color)))
+            self.veils.append(first.veil.masked(tiling.opacity))
+        for path, veil in first.painted:
+            repeated = [replace(made, element=element) for made in tiles.repeated(path)]
+            self.paths += repeated
+            self.veils += [veil] * len(repeated)
+        return True
+
+    def first_tile(self, place: Place, tiling: Tiling) -> FirstTile | None:
+        """The first tile of a pattern, painted once for all shapes in one coordinate system; None if it is too much."""
+        tiles, key = self.servers.tiles, tiling.key
+        if key not in tiles:
+            elements = sum(1 for _ in tiling.pattern.holder.iter("*"))
+            if not self.servers.budget.affords(tiling.pattern.element, elements=elements):
+                return None
+            canvas = Canvas(tiling.tile, self.canvas.size, tiling.space.whole)
+            painter, veil = Painter(self.servers, self.report, canvas, self.walk), Veil(None, 1.0)
+            self.walk(tiling.shown(place, veil), painter)
+            tiles[key] = FirstTile.of(canvas, veil, painter.paths, painter.veils)
+        return tiles[key].again()
 
 
 class Ruler(Painter):
     """Collects the outlines of shapes, whatever their paints, to measure them."""
 
-    def __init__(self, servers: PaintServers, report: Report, size: float | None) -> None:
-        super().__init__(servers, report, size)
+    def __init__(self, servers: PaintServers, report: Report, walk: "Callable[[list[Placed], Painter], None]") -> None:
+        super().__init__(servers, report, Canvas(None, inf), walk)
         self.corners: list[NDArray[np.float64]] = []
 
     def paint(self, element: etree._Element, place: Place) -> None:

@@ -33,9 +33,9 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
 
     Shapes, paths, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as browsers
     draw them. Opacity, blend modes, clips and masks that need several paths together become `Drawing.groups`. Gradients
-    are read in full (`Paint.gradient`), patterns become one colour. What is not supported is left out and named. Paths
-    are named (`Path.element`) by the ``id`` of their element or of the nearest one around it, and all that a `use`
-    shows by that of the `use`; a stroke is ``id/stroke``.
+    are read in full (`Paint.gradient`), patterns as the paths of their tiles. What is not supported is left out and
+    named. Paths are named (`Path.element`) by the ``id`` of their element or of the nearest one around it, and all that
+    a `use` or a pattern shows by that of the `use` or the shape; a stroke is ``id/stroke``.
 
     The box of the drawing is the outermost viewport: `width` and `height`, or the size in `viewBox` where one of them
     is missing or a percentage. A drawing without any of them is as large as what it paints.
@@ -134,7 +134,7 @@ def drawing_of(scene: Scene, framed: Frame | None, name: str) -> Drawing:
         box = (left, top, right - left, bottom - top)
         if box[2] == 0.0 or box[3] == 0.0:
             return Drawing((), name=name)
-    paths, groups = scene.paint(viewport, matrix, max(box[2:]))
+    paths, groups = scene.paint(viewport, matrix, box)
     drawing = Drawing.from_source(paths, box, name, groups)
     shown, groups = occupied(drawing.paths, groups)
     return replace(drawing, paths=shown, groups=groups, to_source=after(drawing.to_source, matrix.inverse()))

@@ -24,6 +24,7 @@ from vexture.svg.report import Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
 from vexture.svg.space import Place, Placed, Space
 from vexture.svg.style import INITIAL, Cascade, Style
+from vexture.svg.tiles import Canvas
 from vexture.svg.transform import Identity, Transform, parse_origin, parse_transform
 from vexture.svg.values import Viewport
 from vexture.svg.viewport import CENTRED, Rectangle, parse_fit, view_box, view_transform
@@ -31,7 +32,7 @@ from vexture.svg.viewport import CENTRED, Rectangle, parse_fit, view_box, view_t
 __all__ = ["Scene"]
 
 MOST_USED = 50_000
-"""Elements that `use`, clips and masks may show; each time counts, in nested masks as often as they are deep."""
+"""Elements that `use`, clips, masks and first tiles may show; each time counts, in nested ones as often as deep."""
 
 DEEPEST = 1_000
 """Elements around an element, including those that `use` adds."""
@@ -60,6 +61,10 @@ LANGUAGE = "en"
 """Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
 
 
+class LocatedError(SourceError):
+    """An error that names an element."""
+
+
 class Scene:
     """A document that can be painted: all of it, or the elements in `chosen` with all their content."""
 
@@ -70,15 +75,19 @@ class Scene:
         self.cascade: Cascade = Cascade(root, report)
         self.servers: PaintServers = PaintServers(root, self.cascade, report)
         self.style: Style = self.cascade.style(root, INITIAL)
+        self.used: int = 0
 
-    def paint(self, viewport: Viewport, matrix: Transform, size: float | None) -> tuple[list[Path], tuple[Group, ...]]:
+    def paint(
+        self, viewport: Viewport, matrix: Transform, frame: Rectangle | None
+    ) -> tuple[list[Path], tuple[Group, ...]]:
         """Paint everything, and find the groups.
 
-        Percentages at the root refer to `viewport`, and `matrix` maps user units to the drawing. `size` is the
-        drawing's larger side, None if it is unknown. Raises a `SourceError` if a limit is exceeded or
+        Percentages at the root refer to `viewport`, and `matrix` maps user units to the drawing. `frame` is what of the
+        drawing is visible, None while it is unknown. Raises a `SourceError` if a limit is exceeded or
         `use` shows itself.
         """
-        painter = Painter(self.servers, self.report, size)
+        canvas = Canvas(frame, inf if frame is None else max(frame[2:]))
+        painter = Painter(self.servers, self.report, canvas, self.walk)
         opacity = self.style.opacity("opacity")
         if self.style["display"].lower() == "none" or opacity == 0.0:
             return [], ()
@@ -90,21 +99,26 @@ class Scene:
         place = Place(viewport, Space().moved(matrix), self.style, self.root, chosen=chosen, name=called)
         if opacity < 1.0 or not MASKING.keys().isdisjoint(self.style.own):  # a blend mode has nothing to mix with here
             place = replace(place, veil=Veil(None, opacity))
-        used = 0
         place, stack = add_masks(self, self.root, place)
         stack.extend((child, place) for child in reversed(self.root))
+        self.walk(stack, painter)
+        return grouped(painter.paths, painter.veils)
+
+    def walk(self, stack: list[Placed], painter: Painter) -> None:
+        """Paint all elements of a stack, the last one first, with what they show."""
         while stack:
             check_time()
             element, place = stack.pop()
-            used += place.masks or place.used
-            if used > MOST_USED:
-                what = "<use>, clips and masks show" if place.masks else "<use> shows"
+            self.used += place.masks or place.used
+            if self.used > MOST_USED:
+                what = "<use>, clips, masks and patterns show" if place.masks else "<use> shows"
                 raise SourceError(f"{what} more than {MOST_USED:,} elements (a use bomb?); draw fewer copies")
             try:
                 stack.extend(reversed(self.visit(element, place, painter)))
+            except LocatedError:
+                raise
             except SourceError as error:
-                raise SourceError(f"{described(element)}: {error}") from None
-        return grouped(painter.paths, painter.veils)
+                raise LocatedError(f"{described(element)}: {error}") from None
 
     def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Placed]:
         """Paint an element, or return the elements that it shows."""
@@ -168,7 +182,7 @@ class Scene:
         silent.report = Report()
         silent.cascade = copy(self.cascade)
         silent.cascade.report = silent.report
-        ruler = Ruler(self.servers, silent.report, None)
+        ruler = Ruler(self.servers, silent.report, self.walk)
         stack = silent.content(element, replace(place, space=Space()), ruler)
         while stack:
             check_time()

@@ -16,6 +16,9 @@ from vexture.svg.viewport import Rectangle
 
 __all__ = ["SMALLEST", "Place", "Placed", "Space"]
 
+MOST_MASKS = 32
+"""Clips, masks and patterns in one another."""
+
 SMALLEST = 1 / LARGEST**4
 """Smallest determinant: below it, sizes in user units cannot be computed in floating point."""
 
@@ -74,9 +77,15 @@ class Place:
     chosen: bool = True  # whether elements here are painted
     veil: Veil | None = None  # the innermost one around it
     is_clip: bool = False  # whether only the outlines of shapes here count
-    masks: int = 0  # number of clips and masks around it that it is a part of
+    masks: int = 0  # number of clips, masks and patterns around it that it is a part of
     name: str = ""  # of elements here: the nearest id around them, or that of the outermost `use`
     is_instance: bool = False  # whether the name is that of a `use`
+
+    def deeper(self) -> int:
+        """Number of clips, masks and patterns around what is in one more; a `SourceError` if they are too many."""
+        if self.masks >= MOST_MASKS:
+            raise SourceError(f"its clips, masks and patterns are nested more than {MOST_MASKS} deep; simplify them")
+        return self.masks + 1
 
     def named(self, element: etree._Element, is_use: bool) -> tuple[str, bool]:
         """Name of an element here, and whether it is that of a `use`: what a `use` shows is one thing, of its name."""
