@@ -278,7 +278,7 @@ def convert(
     max_seconds : float, optional
         Most seconds that reading the source and building its trees may take; 300 by default.
     names : str, optional
-        The property that names the polygons of GeoJSON; see `vexture.read_geojson`.
+        What names elements: a property of GeoJSON, an attribute or ``title`` of SVG; see `vexture.read`.
     snap : float, optional
         How far borders of a map's polygons that become one may differ; see `vexture.read_geojson`.
     restyle : bool

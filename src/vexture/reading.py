@@ -58,7 +58,8 @@ def read(
     select : str, optional
         A CSS selector, of SVG only; see `vexture.read_svg`.
     names : str, optional
-        The property that names paths, of GeoJSON only; see `vexture.read_geojson`.
+        What names paths: a property of GeoJSON (`vexture.read_geojson`), an attribute or ``title`` of SVG
+        (`vexture.read_svg`).
     snap : float, optional
         How far borders of polygons that become one may differ, of maps only; see `vexture.read_geojson`.
 
@@ -72,8 +73,8 @@ def read(
     SourceError
         If it cannot be read, or is a texture.
     ParameterError
-        If `select` is given for anything but an SVG, `names` for anything but GeoJSON, `snap` for anything but a map,
-        or `source` is the text of a file.
+        If `select` is given for anything but an SVG, `names` for neither GeoJSON nor SVG, `snap` for anything but a
+        map, or `source` is the text of a file.
     TypeError
         If `source` is something else, such as a file that is open in text mode.
     LimitError
@@ -111,8 +112,8 @@ def read_drawing(
     with about(shown):
         given = unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
         kind = known_kind(start_of(given) or read_bytes(given), shown)
-        if names is not None and kind is not FileKind.GEOJSON:
-            raise ParameterError(f"`names` {names!r} is a property of features in GeoJSON; leave it out")
+        if names is not None and kind not in (FileKind.GEOJSON, FileKind.SVG):
+            raise ParameterError(f"`names` {names!r} is for the elements of GeoJSON and SVG; leave it out")
         if snap is not None and kind in (FileKind.SVG, FileKind.PICTURE):
             raise ParameterError(f"`snap` {snap} is for the borders of polygons in a map; leave it out")
         if kind is not FileKind.SVG:
@@ -120,7 +121,7 @@ def read_drawing(
         content = read_bytes(given)
     from vexture.svg.read import svg_drawing
 
-    return svg_drawing(content, shown, select)
+    return svg_drawing(content, shown, select, names)
 
 
 def drawing_of(source: "Drawing | Place", reading: dict[str, Any]) -> "Drawing":

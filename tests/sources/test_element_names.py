@@ -1,8 +1,10 @@
 """Paths know which element of the source they draw."""
 
+import io
 import json
 
 import pytest
+from PIL import Image
 
 import vexture
 from vexture.errors import ParameterError, SourceError
@@ -60,6 +62,34 @@ def test_names_of_a_property_that_no_feature_has_are_refused() -> None:
         read_geojson(collection(), names="nme")
 
 
-def test_names_are_for_geojson() -> None:
-    with pytest.raises(ParameterError, match="`names` 'code' is a property of features in GeoJSON; leave it out"):
-        vexture.read(f"{SVG}>{BOX}</svg>".encode(), names="code")
+def test_names_are_for_geojson_and_svg() -> None:
+    picture = io.BytesIO()
+    Image.new("RGB", (4, 4), "red").save(picture, "PNG")
+    with pytest.raises(ParameterError, match="`names` 'code' is for the elements of GeoJSON and SVG; leave it out"):
+        vexture.read(picture.getvalue(), names="code")
+
+
+LABELLED = (
+    '<svg xmlns="http://www.w3.org/2000/svg" xmlns:i="http://www.inkscape.org/namespaces/inkscape" viewBox="0 0 9 9">'
+    '<g i:label="sky"><title>All the sky</title><rect id="r1" width="9" height="9" fill="blue"/>'
+    '<circle id="c1" r="3" i:label="sun" stroke="red"><title>The\n Sun</title></circle></g>'
+    '<path id="p" d="M0 5h9v4H0z"/></svg>'
+)
+
+
+@pytest.mark.parametrize(
+    ("names", "found"),
+    [
+        (None, ["r1", "c1", "c1/stroke", "p"]),
+        ("i:label", ["sky", "sun", "sun/stroke", ""]),
+        ("title", ["All the sky", "The Sun", "The Sun/stroke", ""]),
+    ],
+)
+def test_names_may_be_labels_and_titles(names: str | None, found: list[str]) -> None:
+    assert [path.element for path in vexture.read(LABELLED.encode(), names=names).paths] == found
+
+
+@pytest.mark.parametrize("names", ["label", "x:label", "", ":"])
+def test_names_that_no_element_has_are_told(names: str) -> None:
+    with pytest.raises(SourceError, match=f"no element has the name '{names}' of `names`; give title, id or another"):
+        vexture.read(LABELLED.encode(), names=names)

@@ -87,7 +87,11 @@ class Outcome:
 @click.option("--silhouette", is_flag=True, default=None, help=f"Convert {SILHOUETTE_HELP}")
 @click.option("--restyle", is_flag=True, default=None, help="A planar map whose elements can get other colours later.")
 @click.option("--select", metavar="SELECTOR", help="Convert only the elements that a CSS selector matches.")
-@click.option("--names", metavar="PROPERTY", help="Name the polygons of GeoJSON by a property, rather than by id.")
+@click.option(
+    "--names",
+    metavar="NAME",
+    help="Name elements by a property of GeoJSON, or by an attribute of SVG or title, rather than by id.",
+)
 @click.option(
     "--snap",
     metavar="D",

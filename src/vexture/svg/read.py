@@ -28,7 +28,7 @@ Frame: TypeAlias = tuple[tuple[float, float], Viewport, Transform]
 """Size of a drawing in pixels, the root's viewport, and the map from user units to pixels."""
 
 
-def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing:
+def read_svg(path: str | os.PathLike[str], select: str | None = None, names: str | None = None) -> Drawing:
     """Read an SVG file, plain or gzipped.
 
     Shapes, paths, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as browsers
@@ -47,6 +47,9 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
     select : str, optional
         A CSS selector. Only elements that match are painted, with all their content, including what `use` shows. The
         box of the whole drawing stays, so that parts of one drawing lie on one another.
+    names : str, optional
+        What names elements instead of ``id``: an attribute, such as ``inkscape:label`` or ``data-name``, or ``title``,
+        the element that holds an element's title. Paths without it have the name of what is around them.
 
     Returns
     -------
@@ -83,12 +86,12 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None) -> Drawing
     """
     with about(os.fspath(path)):
         content = read_bytes(path)
-    drawing = svg_drawing(content, os.fspath(path), select)
+    drawing = svg_drawing(content, os.fspath(path), select, names)
     warn_of(os.fspath(path), drawing.notes)
     return drawing
 
 
-def svg_drawing(content: bytes, source: str, select: str | None = None) -> Drawing:
+def svg_drawing(content: bytes, source: str, select: str | None = None, names: str | None = None) -> Drawing:
     """Read the content of an SVG file, plain or gzipped, as `read_svg` does, but without a warning.
 
     `source` is the name of the file: it names the drawing and stands in messages, and is not opened.
@@ -98,17 +101,19 @@ def svg_drawing(content: bytes, source: str, select: str | None = None) -> Drawi
     >>> svg_drawing(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "half.svg").name
     'half'
     """
-    return framed_drawing(content, source, select)[0]
+    return framed_drawing(content, source, select, names)[0]
 
 
-def framed_drawing(content: bytes, source: str, select: str | None = None) -> tuple[Drawing, Frame | None]:
+def framed_drawing(
+    content: bytes, source: str, select: str | None = None, names: str | None = None
+) -> tuple[Drawing, Frame | None]:
     """Read as `svg_drawing` does, and return the frame of the whole drawing too."""
     report = Report()
     with about(source):
         try:
             root = parse_svg(decompressed(content))
             part = None if select is None else chosen(root, select)
-            scene = Scene(root, report, part)
+            scene = Scene(root, report, part, "id" if names is None else names)
             framed = frame(scene)
             drawing = drawing_of(scene, framed, Path(source).stem)
         except RecursionError:  # tinycss2 and cssselect2 recurse into brackets

@@ -18,6 +18,7 @@ from vexture.group import Group
 from vexture.svg.compositing import Veil, grouped, veil_of
 from vexture.svg.document import local_name
 from vexture.svg.masks import MASKING, add_masks
+from vexture.svg.names import ElementNames
 from vexture.svg.paint_servers import PaintServers, reference
 from vexture.svg.painter import Painter, Ruler
 from vexture.svg.report import Report, described
@@ -68,9 +69,12 @@ class LocatedError(SourceError):
 class Scene:
     """A document that can be painted: all of it, or the elements in `chosen` with all their content."""
 
-    def __init__(self, root: etree._Element, report: Report, chosen: set[etree._Element] | None = None) -> None:
+    def __init__(
+        self, root: etree._Element, report: Report, chosen: set[etree._Element] | None = None, names: str = "id"
+    ) -> None:
         self.root = root
         self.chosen = chosen
+        self.names = ElementNames(root, names)
         self.report = report
         self.cascade: Cascade = Cascade(root, report)
         self.servers: PaintServers = PaintServers(root, self.cascade, report)
@@ -95,7 +99,7 @@ class Scene:
         if "transform" in self.style.own:
             self.report.left_out("transform of the outermost <svg>")
         chosen = self.chosen is None or self.root in self.chosen
-        called = self.root.get("id", "")
+        called = self.names.of(self.root)
         place = Place(viewport, Space().moved(matrix), self.style, self.root, chosen=chosen, name=called)
         if opacity < 1.0 or not MASKING.keys().isdisjoint(self.style.own):  # a blend mode has nothing to mix with here
             place = replace(place, veil=Veil(None, opacity))
@@ -148,7 +152,7 @@ class Scene:
         space, depth = place.space.moved(matrix), place.depth + 1
         veil = veil_of(style, place.veil, place.is_clip)
         inner = replace(place, space=space, style=style, element=element, outer=place, depth=depth)
-        called, is_instance = place.named(element, name == "use")
+        called, is_instance = place.named(self.names.of(element), name == "use")
         inner = replace(inner, use=None, chosen=chosen, veil=veil, name=called, is_instance=is_instance)
         shown = list[Placed]()
         if name == "use":  # its clips and masks move along

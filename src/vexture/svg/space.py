@@ -78,7 +78,7 @@ class Place:
     veil: Veil | None = None  # the innermost one around it
     is_clip: bool = False  # whether only the outlines of shapes here count
     masks: int = 0  # number of clips, masks and patterns around it that it is a part of
-    name: str = ""  # of elements here: the nearest id around them, or that of the outermost `use`
+    name: str = ""  # of elements here: the nearest name around them, or that of the outermost `use`
     is_instance: bool = False  # whether the name is that of a `use`
 
     def deeper(self) -> int:
@@ -87,9 +87,11 @@ class Place:
             raise SourceError(f"its clips, masks and patterns are nested more than {MOST_MASKS} deep; simplify them")
         return self.masks + 1
 
-    def named(self, element: etree._Element, is_use: bool) -> tuple[str, bool]:
-        """Name of an element here, and whether it is that of a `use`: what a `use` shows is one thing, of its name."""
-        own = element.get("id", "")
+    def named(self, own: str, is_use: bool) -> tuple[str, bool]:
+        """Name of an element here, and whether it is that of a `use`: what a `use` shows is one thing, of its name.
+
+        `own` is what the element is named itself.
+        """
         if self.is_instance or not own:
             return self.name, self.is_instance
         return own, is_use
