@@ -26,7 +26,9 @@ from vexture.errors import LimitError, SourceError, VextureError
 
 __all__ = [
     "ALPHANUMERICS",
+    "coat_of_arms",
     "dejavu_sans",
+    "emoji",
     "flags",
     "fractal_coastline",
     "glyphs",
@@ -146,6 +148,7 @@ MDI = Package("@mdi/svg", "7.4.47", "svg")
 LUCIDE = Package("lucide-static", "1.62.0", "icons")
 SIMPLE_ICONS = Package("simple-icons", "16.37.0", "icons")
 FLAG_ICONS = Package("flag-icons", "7.5.0", "flags/4x3")
+TWEMOJI = Package("@twemoji/svg", "15.0.0", ".")
 KTX_PARSE = Package("ktx-parse", "1.1.0", "dist")
 LIBRSVG_TESTS = DebianPackage("librsvg2-tests", "usr/libexec/installed-tests/RSVG/fixtures/reftests")
 OPENCLIPART = DebianPackage("openclipart-svg", "usr/share/openclipart/svg")
@@ -171,6 +174,16 @@ def simple_icons(count: int, seed: int) -> list[Path]:
 def flags(count: int, seed: int) -> list[Path]:
     """Return flags of flag-icons (MIT): many colours, transforms, `use`, clip paths, coats of arms."""
     return FLAG_ICONS.files(count, seed)
+
+
+def coat_of_arms() -> Path:
+    """Return the flag of flag-icons with the most paths but for two: 578, of a coat of arms and its supporters."""
+    return FLAG_ICONS.installed() / FLAG_ICONS.folder / "es.svg"
+
+
+def emoji(count: int, seed: int) -> list[Path]:
+    """Return emoji of Twemoji (CC BY 4.0): a few flat colours."""
+    return TWEMOJI.files(count, seed)
 
 
 def ktx_parse() -> Path:

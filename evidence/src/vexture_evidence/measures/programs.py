@@ -30,13 +30,18 @@ from vexture.tree.build import build_tree
 from vexture_evidence.measures.bands import BandTexture, band_constants, band_shader
 
 __all__ = [
+    "MAIN",
+    "VERSION",
     "Program",
     "Target",
     "band_program",
     "band_source",
+    "compiled",
+    "current",
     "driver",
     "fetch_program",
     "fetch_source",
+    "nearest",
     "packed_program",
     "packed_source",
     "packed_texture",

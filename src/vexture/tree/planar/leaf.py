@@ -9,7 +9,7 @@ from vexture.kernels import kernel
 from vexture.layout import LATTICE, MOST_CURVES
 from vexture.tree.boundary import MOST_RESOLVED
 from vexture.tree.divide import PiecePool
-from vexture.tree.leaf import DIVIDE, round_controls
+from vexture.tree.leaf import DIVIDE, SPARE, round_controls
 from vexture.tree.merge import MOST_MERGED
 from vexture.tree.planar.borders import Borders, Cell, find_borders, merge_borders, new_borders
 from vexture.tree.planar.faces import Faces
@@ -24,10 +24,6 @@ __all__ = ["PlanarLeaf", "Workspace", "new_workspace", "planar_leaf"]
 KNOT = LATTICE / 4.0
 """Pieces that all have an end in a square this wide are one *knot*: dividing the leaf would follow it down many levels.
 They need not meet exactly: crossings are rounded, and maps have short borders between two junctions."""
-
-HIDDEN = 18
-"""Borders above the capacity that a cell may have before it is swept: those between equal paints vanish, such as what
-lies under an opaque path. With 24, flags take 2 % fewer texels, and 12 % more time to convert."""
 
 MOST_PIECES = 250
 """Pieces of a resolved cell at the depth limit that are kept to measure its mean."""
@@ -99,7 +95,7 @@ def planar_leaf(
     may not be divided. The workspace that is returned may have more room.
     """
     windings, out, distance = workspace.windings, workspace.pieces, 0.0
-    most = MOST_RESOLVED if at_limit else capacity + HIDDEN
+    most = MOST_RESOLVED if at_limit else capacity + SPARE
     found = max(most, MOST_MERGED) if tolerance > 0.0 else most
     count, borders = find_borders(pool, cell, present, found, workspace.borders)
     workspace = Workspace(borders, windings, out)
