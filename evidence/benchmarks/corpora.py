@@ -152,6 +152,8 @@ TWEMOJI = Package("@twemoji/svg", "15.0.0", ".")
 KTX_PARSE = Package("ktx-parse", "1.1.0", "dist")
 LIBRSVG_TESTS = DebianPackage("librsvg2-tests", "usr/libexec/installed-tests/RSVG/fixtures/reftests")
 OPENCLIPART = DebianPackage("openclipart-svg", "usr/share/openclipart/svg")
+TANGO = DebianPackage("tango-icon-theme", "usr/share/icons/Tango/scalable")
+DEVICON = Package("devicon", "2.17.0", "icons")
 NOTO = DebianPackage("fonts-noto-core", "usr/share/fonts/truetype/noto")
 GSHHG = DebianPackage("gmt-gshhg-low", "usr/share/gmt-gshhg")
 
