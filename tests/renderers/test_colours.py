@@ -15,7 +15,7 @@ import planar
 import shaded
 from vexture.drawing import Drawing, Path
 from vexture.layout import MAP_HEAD
-from vexture.paint import Paint
+from vexture.paint import Paint, Spread
 from vexture.renderers.colour import render_cpu_colours
 from vexture.renderers.device import context
 from vexture.renderers.exact import render_exact_colours
@@ -132,6 +132,21 @@ def test_the_edge_of_a_cone_is_antialiased(size: int) -> None:
     error = 255 * abs(render_cpu_colours(texture, (size, size)) - render_exact_colours(drawing, size))
     assert error.max() < 14
     assert error.mean() < 0.04
+
+
+@pytest.mark.parametrize("spread", [Spread.REFLECT, Spread.REPEAT])
+@pytest.mark.parametrize("is_round", [False, True])
+def test_a_sliver_of_a_pixel_has_a_place_on_a_ramp_that_goes_on(spread: Spread, is_round: bool) -> None:
+    """A cell's border cuts a pixel that it should only touch; all of the picture is opaque."""
+    need_gpu()
+    stops = (shaded.WARM[0], shaded.WARM[2])
+    ramp = (
+        shaded.radial((0.1, 0.2), 0.05, stops, spread)
+        if is_round
+        else shaded.linear((0.0, 0.0), (0.13, 0.07), stops, spread)
+    )
+    texture = map_of(Drawing((shaded.shaded(shaded.SQUARE, ramp),)))
+    assert render_gpu_colours(texture, (600, 600))[..., 3].min() > 0.999
 
 
 def test_hard_stops_are_exact() -> None:

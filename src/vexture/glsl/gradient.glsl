@@ -142,7 +142,8 @@ vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 
     if (spread != uint(VEXTURE_SPREAD_PAD) && wide >= 1.0) {
         return vexture_ramp_sum(stops, number, vec2(0.0, 1.0), vec2(1.0));
     }
-    middle = spread == uint(VEXTURE_SPREAD_PAD) ? clamp(middle, -wide - narrow, 1.0 + wide + narrow) : middle;
+    bool pads = spread == uint(VEXTURE_SPREAD_PAD);  // what goes on is the same after 2, and finer there
+    middle = pads ? clamp(middle, -wide - narrow, 1.0 + wide + narrow) : mod(middle, 2.0);
     vec4 sum = vec4(0.0);
     float size = 0.0;
     float low = middle - 0.5 * (wide + narrow);

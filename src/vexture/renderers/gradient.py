@@ -256,7 +256,7 @@ def ramp_mean(texels: Texels, stops: int, number: int, spread: int, middle: floa
     narrow = min(min(spans[0], spans[1]), wide)
     if spread != PAD and wide >= 1.0:
         return ramp_sum(texels, stops, number, (0.0, 1.0), (1.0, 1.0))
-    middle = clamp(middle, -wide - narrow, 1.0 + wide + narrow) if spread == PAD else middle
+    middle = clamp(middle, -wide - narrow, 1.0 + wide + narrow) if spread == PAD else middle % 2.0
     total, size, low = (0.0, 0.0, 0.0, 0.0), 0.0, middle - 0.5 * (wide + narrow)
     for k in range(3):
         high = middle + 0.5 * (narrow - wide if k == 0 else wide - narrow if k == 1 else wide + narrow)
