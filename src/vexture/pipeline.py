@@ -153,7 +153,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     from vexture.reading import drawing_of
     from vexture.texture.texture import Root
     from vexture.tree.build import build_tree, largest_shift
-    from vexture.tree.planar.sheets import Sheet, flattened_notes, sheets_of
+    from vexture.tree.planar.sheets import Sheet, notes_of_sheets, sheets_of
     from vexture.tree.planar.style import restylable, style_of
 
     start = time.perf_counter()
@@ -187,7 +187,9 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     )
     named = drawing.name if _is_drawing(source) else os.fspath(source)  # type: ignore[arg-type]
     seconds, rounding = time.perf_counter() - start, largest_shift(parameters.precision)
-    notes = layers[0].notes if layers else (*shown.notes, *flattened_notes(sheets))
+    notes = layers[0].notes if layers else (*shown.notes, *notes_of_sheets(sheets))
+    if parameters.restyle and not any(path.element for path in drawing.paths):
+        notes = (*notes, Note("remark", "no element has a name, so none can get another colour"))
     trees = tuple(sheet.tree for sheet in sheets)
     return Conversion(drawing, trees, None, seconds, rounding, roots, named, notes)
 

@@ -68,6 +68,11 @@ def test_bad_colours_are_named_and_black(properties):
     assert drawing.paths[0].paint == Paint()
 
 
+def test_strokes_are_named():
+    with pytest.warns(SourceWarning, match="left out: stroke of a feature$"):
+        read({"type": "Feature", "properties": {"fill": "#0f0", "stroke": "#f00"}, "geometry": POLYGON})
+
+
 def test_rings_may_be_open_and_turn_either_way():
     found = corners(read({"type": "Polygon", "coordinates": [OUTER[:-1][::-1]]}))
     np.testing.assert_allclose(found[0], OUTER[:-1][::-1], atol=1e-12)

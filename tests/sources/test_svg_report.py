@@ -20,6 +20,8 @@ SAID = {
     "css-variables": "left out: CSS variables",
     "external-use": "left out: <use> of 'other.svg#a'",
     "filter": "left out: filter",
+    "linear-light": "simplified: gradient in linear light (color-interpolation) read as one in sRGB, "
+    "mask in linear light (color-interpolation) read as one in sRGB",
     "foreign-object": "left out: <foreignObject>; nothing in it is painted",
     "image": "left out: <image>; nothing in it is painted",
     "import": "left out: @import",

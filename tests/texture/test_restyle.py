@@ -179,8 +179,10 @@ def test_sheets_of_one_drawing_are_restyled_together(monkeypatch) -> None:
     centres = rng.random((12, 2)) * 0.6 + 0.2
     discs = [Path((circle(centre, 0.2),), paint=GREEN, element=f"d{k}") for k, centre in enumerate(centres)]
     of = Drawing(tuple(discs), name="discs")
-    texture = faces(of)
+    conversion = run(of, split="faces", restyle=True)
+    texture = conversion.texture
     assert len(texture.roots) > 1
+    assert str(conversion.notes[0]).startswith(f"so many crossing shapes are {len(texture.roots)} maps on one another")
     assert all(root.is_map for root in texture.roots)
     paints = {f"d{k}": Paint((k / 12, 0.5, 0.0), 0.5) for k in range(0, 12, 2)}
     wanted = recoloured(of, paints)
@@ -212,7 +214,8 @@ def two() -> vexture.Texture:
     [
         ({"alpa": "red"}, "two: no element 'alpa'; near names are 'alpha'; there are 2"),
         ({"": "red"}, "two: no element ''; near names are 'alpha', 'beta'; there are 2"),
-        ({"beta": "reddish"}, "the colour of 'beta' is 'reddish'; give a CSS colour, three or four numbers in 0..1"),
+        ({"beta": "reddish"}, "the colour of 'beta' is 'reddish'; give a CSS colour of sRGB, three or four numbers in"),
+        ({"beta": "oklch(60% 0.15 50)"}, "the colour of 'beta' is 'oklch(60% 0.15 50)'; give a CSS colour of sRGB"),
         ({"beta": (1, 2, 0)}, "the colour of 'beta' is "),
         ({"beta": (1, float("nan"), 0)}, "the colour of 'beta' is "),
         ({"beta": (1, "a", 0)}, "the colour of 'beta' is "),
@@ -243,7 +246,10 @@ def test_only_maps_to_be_restyled_have_elements() -> None:
             texture.element_at([(0.5, 0.5)])
     with pytest.raises(ParameterError, match="`split` is 'paint', but `restyle` is for a whole drawing in its colours"):
         vexture.convert(of, split="paint", restyle=True)
-    assert vexture.convert(of, restyle=True).roots[0].style is not None
+    with pytest.warns(
+        vexture.errors.SourceWarning, match="plain: no element has a name, so none can get another colour"
+    ):
+        assert vexture.convert(of, restyle=True).roots[0].style is not None
     with pytest.raises(ParameterError, match=r"`points` has the shape \(2,\)"):
         two().element_at((0.5, 0.5))
 

@@ -4,8 +4,8 @@ import { VextureError, line } from './errors.js';
 import { nearest } from './map-means.js';
 
 /**
- * @typedef {import('three').ColorRepresentation | [number, number, number, number]} Paint a colour as `THREE.Color` reads
- *   it, or sRGB components and opacity, 0..1
+ * @typedef {import('three').ColorRepresentation | [number, number, number, number] | null} Paint a colour as `THREE.Color`
+ *   reads it, with `#rrggbbaa` and `rgba()`; or sRGB components and opacity, 0..1; null or `none` hides
  *
  * @typedef {object} Paints
  * @property {string[]} names of elements
@@ -21,6 +21,7 @@ const DIGITS = 1e6;
  * @throws {VextureError} if one is no paint
  */
 export function readPaints(paints) {
+  if (!(paints instanceof Object)) throw new VextureError(`paints are ${line(paints)}; give an object or a Map`, 'paint');
   const isMap = paints instanceof Map;
   const names = isMap ? [...paints.keys()] : Object.keys(paints);
   const parts = new Float64Array(4 * names.length);
@@ -28,9 +29,9 @@ export function readPaints(paints) {
   let at = 0;
   const read = (/** @type {Paint} */ paint) => {
     if (Array.isArray(paint)) readParts(paint, parts, at);
-    else {
+    else if (paint !== null && paint !== 'none') {
+      parts[at + 3] = typeof paint === 'string' ? opacityOf(paint) : 1;
       readColor(paint, color).toArray(parts, at);
-      parts[at + 3] = 1;
     }
     at += 4;
   };
@@ -51,8 +52,23 @@ function readParts(paint, parts, at) {
     isPaint &&= paint[c] >= 0 && paint[c] <= 1;
     parts[at + c] = paint[c];
   }
-  if (!isPaint) throw new VextureError(`a paint is ${line(paint)}; give a colour, or four numbers in 0..1`, 'paint');
+  if (!isPaint) throw noPaint(paint);
 }
+
+/** Colours that `THREE.Color` reads: by name, #rgb and #rrggbb, rgb() and hsl(); and, here, #rgba and #rrggbbaa. */
+const COLORS = /^(?:[a-z]+|#(?:[\da-f]{3,4}|[\da-f]{6}|[\da-f]{8})|(?:rgb|hsl)a?\([\d\s.,%/+-]*\))$/i;
+
+/** @param {string} text a colour @returns {number} its opacity, 0..1 */
+function opacityOf(text) {
+  const hex = /^#(?:[\da-f]{3}([\da-f])|[\da-f]{6}([\da-f]{2}))$/i.exec(text);
+  if (hex) return hex[1] ? parseInt(hex[1], 16) / 15 : parseInt(hex[2], 16) / 255;
+  const last = /^(?:rgb|hsl)a?\([^,]+,[^,]+,[^,]+,\s*([\d.]+)(%?)\s*\)$/i.exec(text);
+  return last ? Math.min(Number(last[1]) / (last[2] ? 100 : 1), 1) : 1;
+}
+
+/** @param {unknown} paint @returns {VextureError} */
+const noPaint = (paint) =>
+  new VextureError(`a paint is ${line(paint)}; give a colour, four numbers in 0..1, or null`, 'paint');
 
 /**
  * The sRGB components of a colour; a text or number is taken as it is, as to linear light and back would cost digits.
@@ -61,8 +77,18 @@ function readParts(paint, parts, at) {
  * @param {Color} color receives them
  */
 function readColor(paint, color) {
-  if (typeof paint === 'string') return color.setStyle(paint, LinearSRGBColorSpace);
-  if (typeof paint === 'number') return color.setHex(paint, LinearSRGBColorSpace);
+  if (typeof paint === 'string') {
+    const isName = /^[a-z]+$/i.test(paint);
+    if (!COLORS.test(paint) || (isName && !(paint.toLowerCase() in Color.NAMES))) throw noPaint(paint);
+    const opaque = paint
+      .replace(/^#([\da-f]{3})[\da-f]$|^#([\da-f]{6})[\da-f]{2}$/i, '#$1$2')
+      .replace(/^(rgb|hsl)a?\(([^,]+,[^,]+,[^,]+),[^,]*\)$/i, '$1($2)');
+    return color.setStyle(opaque, LinearSRGBColorSpace);
+  }
+  if (typeof paint === 'number' && Number.isInteger(paint) && paint >= 0 && paint <= 0xffffff) {
+    return color.setHex(paint, LinearSRGBColorSpace);
+  }
+  if (!(paint instanceof Object) || !paint.isColor) throw noPaint(paint);
   paint.getRGB(color, SRGBColorSpace);
   return color;
 }

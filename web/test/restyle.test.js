@@ -65,9 +65,32 @@ describe('new colours', () => {
     expect(texture.contains(0.9, 0.6)).toBe(false);
   });
 
+  test('texts with an opacity, and nothing at all', async () => {
+    const [texture, other] = [await read(), await read()];
+    texture.setPaints({ sky: '#12345680', hill: '#0F08', cloud: 'rgba(255, 0, 0, 0.5)', sail: 'hsla(0, 100%, 50%, 20%)', fog: null });
+    other.setPaints({
+      sky: [18 / 255, 52 / 255, 86 / 255, 128 / 255], hill: [0, 1, 0, 8 / 15], cloud: [1, 0, 0, 0.5], sail: [1, 0, 0, 0.2],
+      fog: 'none',
+    });
+    expect([...texture.data.texels]).toEqual([...other.data.texels]);
+    other.setPaints({ fog: [0, 0, 0, 0] });
+    expect([...texture.data.texels]).toEqual([...other.data.texels]);
+  });
+
+  test.each([['reddish'], ['currentColor'], ['oklch(60% 0.1 50)'], ['#12345'], [NaN], [-1], [0.5], [undefined], [{}]])(
+    '%s is no colour',
+    async (paint) => {
+      const texture = await read();
+      const before = [...texture.data.texels];
+      expect(() => texture.setPaints(/** @type {any} */ ({ sky: paint }))).toThrow(/a paint is .*; give a colour, four/);
+      expect([...texture.data.texels]).toEqual(before);
+    },
+  );
+
   test('names that no element has, and colours that are none', async () => {
     const texture = await read();
     expect(() => texture.setPaints({ skye: 'red' })).toThrow(/no element "skye"; near names are "sky"/);
+    expect(() => texture.setPaints(/** @type {any} */ (null))).toThrow(/paints are null; give an object or a Map/);
     expect(() => texture.setPaints({ sky: [0, 0, 2, 1] })).toThrow(/a paint is .*four numbers in 0..1/);
     expect(() => new VectorTexture(restyled).setPaints({ toString: 'red' })).toThrow(/no element "toString"/);
     const maps = new VectorTexture(await readPacked(fixture('maps.ktx2')));

@@ -283,7 +283,9 @@ class _Reader:
         fill, opacity = properties.get("fill", "#000"), properties.get("fill-opacity", 1)
         match = COLOR.fullmatch(fill) if isinstance(fill, str) else None
         if match is None:
-            self._notes.left_out(f"fill {_shown(fill)}")
+            self._notes.left_out(f"fill {_shown(fill)} (colours are #rgb or #rrggbb)")
+        if "stroke" in properties:
+            self._notes.left_out("stroke of a feature")
         if type(opacity) not in NUMBERS or not 0 <= opacity <= 1:
             self._notes.left_out(f"fill-opacity {_shown(opacity)}")
             opacity = 1

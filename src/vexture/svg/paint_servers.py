@@ -133,6 +133,8 @@ class PaintServers:
             chain = self.chain(gradient, GRADIENTS)
             stops = next(filter(None, map(self.stops, chain)), None)
             size = self.style_of(gradient).font_size
+            if self.style_of(gradient)["color-interpolation"].lower() == "linearrgb":
+                self.report.simplified("gradient in linear light (color-interpolation) read as one in sRGB")
             self.ramps[gradient] = None if stops is None else read_ramp(chain, stops, size, self.report)
         return self.ramps[gradient]
 

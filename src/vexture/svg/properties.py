@@ -53,6 +53,7 @@ FONT_SIZES = "(?:xx?-)?(?:small|large)|medium|smaller|larger"
 PROPERTIES: dict[str, Property] = {
     "clip-rule": Property("nonzero", True, one_of("nonzero", "evenodd")),
     "color": Property("black", True, parse_color),
+    "color-interpolation": Property("srgb", True, one_of("auto", "srgb", "linearrgb")),
     "fill": Property("black", True, parse_paint),
     "fill-opacity": Property("1", True, matching(OPACITY)),
     "fill-rule": Property("nonzero", True, one_of("nonzero", "evenodd")),

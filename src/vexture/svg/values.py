@@ -56,7 +56,7 @@ def bounded(text: str) -> float:
     """Value of a number; a `SourceError` if it is too large."""
     value = float(text)
     if not abs(value) <= LARGEST:
-        raise SourceError(f"the number {text[:40]} is too large; the limit is {LARGEST:g}")
+        raise SourceError(f"the number {text[:40]} is too large; the limit is {LARGEST:g}; move and scale the drawing")
     return value
 
 

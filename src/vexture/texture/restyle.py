@@ -87,7 +87,7 @@ def _components(name: str, colour: Any) -> tuple[float, ...]:
         from vexture.svg.colors import Color, parse_color  # late: CSS is needed for texts only
 
         parsed = parse_color(colour)
-        if isinstance(parsed, Color):
+        if isinstance(parsed, Color) and parsed.exact:
             return (*parsed.rgb, parsed.alpha)
     elif colour is None or isinstance(colour, str):
         return NOTHING
@@ -100,7 +100,8 @@ def _components(name: str, colour: Any) -> tuple[float, ...]:
             if all(0.0 <= part <= 1.0 for part in parts):
                 return parts
     raise ParameterError(
-        f"the colour of {name!r} is {str(colour)[:60]!r}; give a CSS colour, three or four numbers in 0..1, or None"
+        f"the colour of {name!r} is {str(colour)[:60]!r}; "
+        "give a CSS colour of sRGB, three or four numbers in 0..1, or None"
     )
 
 

@@ -5,7 +5,7 @@ concentric translucent discs need a million, where their layers need ten thousan
 exceeds it is cut into sheets of consecutive layers, as many to a sheet as their share of the budget allows.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, Final, NamedTuple
 
@@ -19,12 +19,15 @@ from vexture.tree.planar.build import build_map
 from vexture.tree.planar.map import PlanarMap
 from vexture.tree.tree import Tree
 
-__all__ = ["Sheet", "flattened_notes", "sheets_of"]
+__all__ = ["Sheet", "notes_of_sheets", "sheets_of"]
 
 FLATTENED: Final = (
     f"gradients by their mean colours: too many on one another, or in more than {MOST_KEPT} groups in one another"
 )
 """Message about faces of planar maps."""
+
+SEVERAL: Final = "so many crossing shapes are {} maps on one another; what is below shows through where they touch"
+"""Message about sheets."""
 
 LEAST_BUDGET: Final = 1 << 17
 """Texels that any drawing may have: two megabytes. A coat of arms in a flag needs one, and is exact only as a whole."""
@@ -106,10 +109,13 @@ def _is_flat(paths: Sequence[Path]) -> bool:
     return all(path.paint.gradient is None for path in paths)
 
 
-def flattened_notes(sheets: Iterable[Sheet]) -> tuple[Note, ...]:
-    """A note of the faces that have the means of gradients instead of these."""
+def notes_of_sheets(sheets: Sequence[Sheet]) -> tuple[Note, ...]:
+    """Notes of the faces that have the means of gradients instead of these, and of several sheets."""
     count = sum(sheet.tree.flattened for sheet in sheets if isinstance(sheet.tree, PlanarMap))
-    return (Note("simplified", FLATTENED, count),) if count else ()
+    notes = [Note("simplified", FLATTENED, count)] if count else []
+    if len(sheets) > 1:
+        notes.append(Note("simplified", SEVERAL.format(len(sheets))))
+    return tuple(notes)
 
 
 def _greedy(count: int, tried: Callable[[int, int], Sheet | None]) -> list[Sheet]:
