@@ -25,10 +25,10 @@ def check_texels(flat: NDArray[np.uint32], plain: NDArray[np.int64], maps: list[
     for level in levels:
         times[level.quads] += 1
         times[level.curves] += 1
-    curves = np.concatenate([np.zeros(0, np.int64), *(level.curves for level in levels)])
-    check_ends(curve_points(flat[curves])[:, [0, 3]], curves)
+    curves = [(curve_points(flat[level.curves]), level.curves) for level in levels]
     for quad in maps:
         found = read_map(flat, quad)
+        curves.append((found.points, found.texels))
         for start, stop in found.ranges:
             times[start:stop] += 1
     if times.max() > 1:
@@ -36,6 +36,8 @@ def check_texels(flat: NDArray[np.uint32], plain: NDArray[np.int64], maps: list[
     unmet = flat.any(axis=1) & (times == 0)
     if unmet.any():
         raise FormatError(f"texel {unmet.argmax()} belongs to no root and is not 0; {REMEDY}")
+    for points, texels in curves:
+        check_ends(points[:, [0, 3]], texels)
 
 
 def check_styles(flat: NDArray[np.uint32], roots: Sequence[Root]) -> None:

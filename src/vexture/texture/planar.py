@@ -9,7 +9,7 @@ from vexture import layout
 from vexture.errors import FormatError
 from vexture.texture.curves import LeafCurves, are_straight, leaf_points, leaf_texels, texels_in
 from vexture.texture.programs import NO_PROGRAMS, ProgramTexels, halves, program_texels, read_programs
-from vexture.texture.walk import REMEDY, WalkLevel, check_ends, walk
+from vexture.texture.walk import REMEDY, WalkLevel, walk
 from vexture.tree.planar.map import PlanarMap
 from vexture.tree.planar.programs import Program
 
@@ -149,6 +149,7 @@ class MapTexels(NamedTuple):
     first_curve: int
     curves: int  # number of their texels
     points: NDArray[np.int32]  # of each curve, (curves, 4, 2), in the order of the levels
+    texels: NDArray[np.int64]  # of each of them
     cells: int
     sides: int
     paints: int
@@ -189,9 +190,9 @@ def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
         if len(listed) and np.ptp(listed) + 1 != len(listed):
             raise FormatError(f"the {what} of the map with root {quad} are not consecutive; {REMEDY}")
     first_curve = int(curves.min()) if len(curves) else 0
-    points = _curves(flat, levels, curves)
-    parts = (levels, quad, first_curve, len(curves), points, cells, sides, paints, used, programs, operations, stops)
-    found = MapTexels(*parts)
+    points, at = _curves(flat, levels, curves)
+    parts = (cells, sides, paints, used, programs, operations, stops)
+    found = MapTexels(levels, quad, first_curve, len(curves), points, at, *parts)
     count = np.concatenate([level.counts for level in levels]).sum(axis=1)
     order = np.argsort(quads)
     if (flat[quads[order], 3] != _before(count[order])).any() or (points[:, 0, 1] > points[:, 3, 1]).any():
@@ -209,17 +210,18 @@ def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
     return found
 
 
-def _curves(flat: NDArray[np.uint32], levels: list[WalkLevel], texels: NDArray[np.int64]) -> NDArray[np.int32]:
-    """The curves of a map, (curves, 4, 2), in the order of the levels, as are their texels; none leaves its leaf."""
+def _curves(
+    flat: NDArray[np.uint32], levels: list[WalkLevel], texels: NDArray[np.int64]
+) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+    """The curves of a map, (curves, 4, 2), and the texel of each, both in the order of the levels, as are `texels`."""
     count = np.concatenate([level.counts.ravel() for level in levels])
     straight = np.concatenate([level.windings.ravel() & layout.STRAIGHT > 0 for level in levels])
     at = LeafCurves.of(count, straight)
     points = leaf_points(flat[texels], at)
-    check_ends(points[:, [0, 3]], texels[at.texel])
     alone = np.cumsum(texels_in(count, straight))[straight & (count % 2 == 1)] - 1
     if flat[texels[alone], 2:].any():
         raise FormatError(f"texel {texels[alone][0]} or another of one curve has a second one; {REMEDY}")
-    return points
+    return points, texels[at.texel]
 
 
 def _parts(flat: NDArray[np.uint32], found: MapTexels, part: int) -> NDArray[np.uint32]:
