@@ -46,6 +46,7 @@ __all__ = [
     "ROW_BITS",
     "STOP_BITS",
     "STOP_COUNT_BITS",
+    "STRAIGHT",
     "TEXT_ENCODING",
     "TEXT_NAME",
     "TEXT_ROOTS",
@@ -111,6 +112,9 @@ COUNT_SHIFT: Final = 3
 
 IS_MEAN: Final = 2
 """Cell byte of a planar map's leaf of which only the mean is known."""
+
+STRAIGHT: Final = 1
+"""Added to the cell byte of a planar map's leaf with curves, if all of them are straight: two of them share a texel."""
 
 WINDING_OFFSET: Final = 4
 """Added to the corner winding of a leaf with curves, -3 to 3; a constant leaf has 0 there."""

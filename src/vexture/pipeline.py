@@ -273,7 +273,7 @@ def convert(
     max_depth : int, optional
         Cells of this depth are not divided further; 16 by default.
     capacity : int, optional
-        Pieces in a leaf, 1 to 15; 8 by default, 14 of a planar map. Fewer draw faster and make the texture larger.
+        Pieces in a leaf, 1 to 15; 8 by default, 12 of a planar map. Fewer draw faster and make the texture larger.
     precision : float, optional
         Largest shift of the outline by rounding, in unit-square units; leaves are divided until it holds. By default
         rounding alone divides no leaf.

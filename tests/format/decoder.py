@@ -4,7 +4,7 @@ import json
 import struct
 import zlib
 from collections import namedtuple
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import numpy as np
@@ -111,9 +111,9 @@ def read_points(words: np.ndarray) -> np.ndarray:
     return np.stack([words & 65535, words >> 16], axis=-1) - np.array([0, 16384, 16384, 0])[:, None]
 
 
-def trace(words: np.ndarray, roots: list[int], kinds: list[int]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the indices of the quads and curves below the roots, whose cells are of these kinds (B.3)."""
-    (cells, child, first, count), level = read_cells(words), np.unique(np.array(roots, int))
+def trace(words: np.ndarray, roots: list[int], kinds: list[int], read: Callable) -> tuple[np.ndarray, np.ndarray]:
+    """Return the indices of the quads and curves' texels below the roots, whose cells are of these kinds (B.3)."""
+    (cells, child, first, count), level = read(words), np.unique(np.array(roots, int))
     quads, curves = [level[:0]], [level[:0]]
     while len(level) and len(quads) <= 20:
         need(np.isin(cells[level], kinds).all(), "a kind of cell")
@@ -123,19 +123,18 @@ def trace(words: np.ndarray, roots: list[int], kinds: list[int]) -> tuple[np.nda
         curves += [np.arange(i, i + m) for i, m in zip(first[level].flat, n.flat, strict=True)]
         quads, level = [*quads, level], child[level][is_quad]
     need(not len(level), "too deep")
-    met = np.concatenate(curves)
-    need((read_points(words[met])[:, [0, 3]] <= 32768).all(), "an end of a curve")
-    return np.concatenate(quads), met
+    return np.concatenate(quads), np.concatenate(curves)
 
 
 def read_shapes(words: np.ndarray, roots: list[dict]) -> tuple[Texture, np.ndarray]:
     """Return the shapes, and the indices of their texels, each as often as it is reached."""
     cells, child, first, count = read_cells(words)
     kinds = [0, 128, *(8 * n + w for n in range(1, 16) for w in range(1, 8))]
-    used = np.concatenate(trace(words, [root["quad"] for root in roots], kinds))
+    quads, curves = trace(words, [root["quad"] for root in roots], kinds, read_cells)
     coverage, points = (words[:, 3, None] >> np.array([0, 8, 16, 24]) & 255) / 255, read_points(words)
+    need((points[curves][:, [0, 3]] <= 32768).all(), "an end of a curve")
     arrays = child, coverage, first, count, cells % 8 - 4, BERNSTEIN @ (points / 32768)
-    return Texture(*arrays, points[:, [0, 3], 0] == 0, False, roots), used
+    return Texture(*arrays, points[:, [0, 3], 0] == 0, False, roots), np.append(quads, curves)
 
 
 def check_used(words: np.ndarray, used: np.ndarray) -> None:

@@ -17,7 +17,7 @@ from decoder import (
     trace,
 )
 
-KINDS = [0, 4, 2, 128, *(8 * n + more for n in range(1, 16) for more in (0, 4))]  # D.2
+KINDS = [0, 4, 2, 128, *(8 * n + more for n in range(1, 16) for more in (0, 1, 4, 5))]  # D.2
 # Arrays [quad - root, cell k]: the quad below less the root, or -1; the leaf's first curve, of those of the map; how
 # many it has; its base paint; whether only its mean is known; the mean colour. Then for each curve the points in units
 # of the lattice, the paints on its left and on its right; the colours of the paints; the programs of some of them, each
@@ -167,6 +167,32 @@ def run(program: list, stops: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.nd
     return color
 
 
+def read_map_cells(words: np.ndarray) -> tuple[np.ndarray, ...]:
+    """As `read_cells`, with the first texel of curves of each cell and the number of these texels (D.2)."""
+    cells, child, _, n = read_cells(words)
+    texels = np.where(cells & 1, (n + 1) // 2, n)
+    return cells, child, words[:, [1]] + np.cumsum(texels, axis=1) - texels, texels
+
+
+def read_curves(words: np.ndarray, quads: np.ndarray) -> np.ndarray:
+    """Return the points of the curves of a map, by their numbers (D.2)."""
+    (cells, _, first, _), (*_, count), found = read_map_cells(words), read_cells(words), []
+    for quad in np.sort(quads):
+        need(words[quad, 3] == len(found), "the number of a quad's first curve")
+        for cell, texel, n in zip(cells[quad], first[quad], count[quad], strict=True):
+            if not n or not cell & 1:
+                found += list(read_points(words[texel : texel + n]))
+                continue
+            ends = words[texel : texel + (n + 1) // 2].reshape(-1, 2)
+            need(n % 2 == 0 or not ends[n].any(), "half a texel that is not 0")
+            for p0, p3 in np.stack([ends & 65535, ends >> 16], axis=-1)[:n]:
+                found.append(np.array([p0, (2 * p0 + p3 + 1) // 3, (p0 + 2 * p3 + 1) // 3, p3]))
+    points = np.array(found, int).reshape(-1, 4, 2)
+    need((points[:, [0, 3]] <= 32768).all(), "an end of a curve")
+    need((points[:, 0, 1] <= points[:, 3, 1]).all(), "a curve that goes down")
+    return points
+
+
 def read_map(words: np.ndarray, root: int) -> tuple[Map, np.ndarray]:
     """Return the map with this root quad, and the indices of the texels of its parts (D.1 to D.6)."""
     need(1 < root < len(words), "no head")
@@ -174,18 +200,18 @@ def read_map(words: np.ndarray, root: int) -> tuple[Map, np.ndarray]:
     first_program, operations, stops, rest = words[root - 2].tolist()
     need(rest == 0 and (operations > 0 or first_program == stops == 0), "head")
     need(1 <= p <= 65536, "number of paints")
-    quads, curves = trace(words, [root], KINDS)
-    c, n, m = min(curves, default=0), len(quads), len(curves)
+    quads, curves = trace(words, [root], KINDS, read_map_cells)
+    c, n, t = min(curves, default=0), len(quads), len(curves)
     need((np.sort(quads) == np.arange(root, root + n)).all(), "quads are not consecutive")
-    need((np.sort(curves) == np.arange(c, c + m)).all(), "curves are not consecutive")
-    points = read_points(words[c : c + m])
-    need(not words[quads, 3].any() and (points[:, 0, 1] <= points[:, 3, 1]).all(), "word 3 or a curve that goes down")
+    need((np.sort(curves) == np.arange(c, c + t)).all(), "curves are not consecutive")
+    points = read_curves(words, quads)
+    m = len(points)
 
     at_cells = part(words, cells, 2 * n)
     mean = words[at_cells[::2], :, None] >> np.array([0, 8, 16, 24]) & 255
     base = words[at_cells[1::2]]
-    at_sides = part(words, sides + c // 4, (c + m - 1) // 4 - c // 4 + 1) if m else np.arange(0)
-    left, right = (words[at_sides].reshape(-1)[c % 4 :][:m] >> shift & 65535 for shift in (0, 16))
+    at_sides = part(words, sides, (m + 3) // 4) if m else np.arange(0)
+    left, right = (words[at_sides].reshape(-1)[:m] >> shift & 65535 for shift in (0, 16))
     need(max(base.max(), left.max(initial=0), right.max(initial=0)) < p, "a paint beyond the table")
     at_paints = part(words, paints, (p + 1) // 2)
     pairs = words[at_paints].reshape(-1, 2)[:p]
@@ -196,10 +222,11 @@ def read_map(words: np.ndarray, root: int) -> tuple[Map, np.ndarray]:
     programs = read_programs(words, first_program, operations, stops, runs)
     need(all((color[..., :3] <= color[..., 3:]).all() for color in (mean, colors)), "a colour above its opacity")
 
-    kind, child, first, n_curves = (array[root : root + n] for array in read_cells(words))
+    kind, child, _, n_curves = (array[root : root + n] for array in read_cells(words))
+    first = words[root : root + n, [3]] + np.cumsum(n_curves, axis=1) - n_curves
     need(not base[(kind == 128) | (kind == 2)].any(), "a base paint where there is none")
     used = np.concatenate([[root - 2, root - 1], quads, curves, at_cells, at_sides, at_paints, at_programs])
-    arrays = np.where(child < 0, -1, child - root), np.where(n_curves > 0, first - c, 0), n_curves
+    arrays = np.where(child < 0, -1, child - root), first, n_curves
     faces = points, left, right, colors / 65535, programs, read_stops(words[at_programs[operations:]])
     return Map(*arrays, base, kind == 2, mean / 255, *faces), used
 

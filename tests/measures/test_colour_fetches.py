@@ -31,18 +31,18 @@ def test_a_cell_without_pieces_costs_its_quad_its_base_and_its_paint():
     assert fetches(halves, "faces", 2) == 4.0  # and the head of the map
 
 
-def test_a_piece_that_is_not_clear_costs_itself_twice_its_sides_and_both_paints():
+def test_a_piece_that_is_not_clear_costs_itself_its_sides_and_both_paints():
     bands = Drawing((box(0.0, 0.25, RED), box(0.25, 1.0, BLUE)))
-    crossed, clear = 4.0 + 1.0 + 4.0, 4.0
+    crossed, clear = 4.0 + 1.0 + 3.0, 4.0
     assert fetches(bands, "faces", 2) == (crossed + clear) / 2
 
 
 def test_paints_of_which_nothing_is_left_are_not_read_where_they_could_be_programs():
     shades = Drawing((box(0.0, 1.0, RED), *(box(0.02 * k, 0.02 * k + 0.01, FADE) for k in range(1, 6))))
     flat = Drawing(tuple(Path(path.contours, paint=BLUE if path.paint is FADE else RED) for path in shades.paths))
-    beside = window(0.25, 0.0, 0.25, 0.25)  # all ten pieces lie to the left of it, in its leaf
-    assert fetches(flat, "faces", 1, beside) == 3.0 + 3.0 * 10 + 1.0 + 2.0 * 10
-    assert fetches(shades, "faces", 1, beside) == 3.0 + 3.0 * 10 + 1.0
+    beside = window(0.25, 0.0, 0.25, 0.25)  # all ten pieces lie to the left of it: five texels, with sides in three
+    assert fetches(flat, "faces", 1, beside) == 3.0 + 2.0 * 5 + 3.0 + 1.0 + 2.0 * 10
+    assert fetches(shades, "faces", 1, beside) == 3.0 + 2.0 * 5 + 3.0 + 1.0
 
 
 def test_layers_are_read_down_to_the_one_that_covers():

@@ -8,7 +8,7 @@ from hand import EMPTY, FULL, TREE, need_gpu, texture_of
 
 from vexture.errors import FormatError
 from vexture.fold import blend as folding
-from vexture.renderers import blend, cells, colour, cpu, feature, gradient, piece
+from vexture.renderers import blend, cells, colour, cpu, feature, gradient, leaf, piece
 from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, included, vertex_source
 from vexture.thesis import cpu as thesis_cpu
@@ -38,6 +38,7 @@ MIRROR = dict.fromkeys(FILES, cpu) | {
     "gradient.glsl": gradient,
     "srgb.glsl": colour,
     "feature.glsl": feature,
+    "leaf.glsl": leaf,
     "view_color.glsl": colour,
     "fold.glsl": folding,
 }

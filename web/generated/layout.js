@@ -39,6 +39,7 @@ export const QUAD_FLAG = 128;
 export const ROW_BITS = 11;
 export const STOP_BITS = 19;
 export const STOP_COUNT_BITS = 8;
+export const STRAIGHT = 1;
 export const TEXT_ENCODING = "vexture.encoding";
 export const TEXT_NAME = "vexture.name";
 export const TEXT_ROOTS = "vexture.roots";

@@ -1,6 +1,6 @@
 // Validates a planar map (FORMAT.md, D.1 to D.6): its parts lie within the texels and apart, and paints are of its table.
-import { CELL_BITS, COORDINATE_BITS, IS_MEAN, MAP_HEAD, MOST_PAINTS, QUAD_FLAG } from '../generated/layout.js';
-import { PART, checkTree } from './check-tree.js';
+import { CELL_BITS, COORDINATE_BITS, COUNT_SHIFT, IS_MEAN, MAP_HEAD, MOST_PAINTS, QUAD_FLAG } from '../generated/layout.js';
+import { PAIR, PART, checkTree } from './check-tree.js';
 import { REMEDY, VextureError } from './errors.js';
 import { basePaint, headOf, meanBytes, paintSteps, sidesOf } from './planar-map.js';
 import { checkPrograms, programOf } from './programs.js';
@@ -27,12 +27,12 @@ export function checkMap(texels, met, quad) {
   if (head.used < 1 || head.used > MOST_PAINTS) {
     refuse(quad, `the map with root ${quad} has ${head.used} paints; the limit is ${MOST_PAINTS}`);
   }
-  const { quads, lastQuad, curves, firstCurve, lastCurve } = found;
+  const { quads, lastQuad, curves, curveTexels, firstCurve, lastCurve } = found;
   if (lastQuad - quad + 1 !== quads) refuse(quad, `the quads of the map with root ${quad} are not consecutive`);
-  if (curves && lastCurve - firstCurve + 1 !== curves) {
+  if (curves && lastCurve - firstCurve + 1 !== curveTexels) {
     refuse(quad, `the curves of the map with root ${quad} are not consecutive`);
   }
-  checkWords(texels, quad, found);
+  checkWords(texels, met, quad, found);
   takeParts(met, head, found);
   checkPrograms(texels, head);
   checkPaints(texels, head, found);
@@ -48,20 +48,30 @@ function refuse(quad, what) {
 }
 
 /**
- * Check the quads' last words, and that curves go up.
+ * Check the numbers of the quads' first curves, and that curves go up.
  *
  * @param {Uint32Array} texels
+ * @param {Uint8Array} met
  * @param {number} root
  * @param {Found} found
  */
-function checkWords(texels, root, { quads, curves, firstCurve }) {
+function checkWords(texels, met, root, { quads, curveTexels, firstCurve }) {
   const heightOf = (/** @type {number} */ word) => word >>> COORDINATE_BITS;
   let isWrong = false;
-  for (let quad = root; quad < root + quads; quad++) isWrong ||= texels[4 * quad + 3] !== 0;
-  for (let at = 4 * firstCurve; at < 4 * (firstCurve + curves); at += 4) {
-    isWrong ||= heightOf(texels[at]) > heightOf(texels[at + 3]);
+  let number = 0;
+  for (let quad = root; quad < root + quads; quad++) {
+    isWrong ||= texels[4 * quad + 3] !== number;
+    for (let k = 0; k < 4; k++) {
+      const cell = (texels[4 * quad + 2] >>> (CELL_BITS * k)) & CELL_MASK;
+      if (cell !== QUAD_FLAG) number += cell >> COUNT_SHIFT;
+    }
   }
-  if (isWrong) refuse(root, `the map with root ${root} has a quad with a coverage or a curve that goes down`);
+  for (let texel = firstCurve; texel < firstCurve + curveTexels; texel++) {
+    const isPair = met[texel] === PAIR;
+    isWrong ||= heightOf(texels[4 * texel]) > heightOf(texels[4 * texel + (isPair ? 1 : 3)]);
+    isWrong ||= isPair && heightOf(texels[4 * texel + 2]) > heightOf(texels[4 * texel + 3]);
+  }
+  if (isWrong) refuse(root, `the map with root ${root} has curves out of number or a curve that goes down`);
 }
 
 /**
@@ -71,13 +81,11 @@ function checkWords(texels, root, { quads, curves, firstCurve }) {
  * @param {Head} head
  * @param {Found} found
  */
-function takeParts(met, { quad, used, cells, sides, paints, ...head }, { quads, curves, firstCurve }) {
-  const skipped = curves ? Math.floor(firstCurve / 4) : 0;
-  const sideTexels = curves ? Math.floor((firstCurve + curves + 3) / 4) - skipped : 0;
+function takeParts(met, { quad, used, cells, sides, paints, ...head }, { quads, curves }) {
   for (const { what, first, count } of [
     { what: 'head', first: quad - MAP_HEAD, count: MAP_HEAD },
     { what: 'cells', first: cells, count: 2 * quads },
-    { what: 'sides', first: sides + skipped, count: sideTexels },
+    { what: 'sides', first: sides, count: Math.ceil(curves / 4) },
     { what: 'paints', first: paints, count: Math.ceil(used / 2) },
     { what: 'programs', first: head.programs, count: head.operations + head.stops },
   ]) {
@@ -98,7 +106,7 @@ function takeParts(met, { quad, used, cells, sides, paints, ...head }, { quads, 
  * @param {Head} head whose parts lie within the texels
  * @param {Found} found
  */
-function checkPaints(texels, head, { quads, curves, firstCurve }) {
+function checkPaints(texels, head, { quads, curves }) {
   const { quad: root, used } = head;
   let last = 0;
   let isBright = false;
@@ -114,7 +122,7 @@ function checkPaints(texels, head, { quads, curves, firstCurve }) {
       see(meanBytes(texels, head, quad, k));
     }
   }
-  for (let i = 0; i < curves; i++) last = Math.max(last, ...sidesOf(texels, head, firstCurve + i));
+  for (let i = 0; i < curves; i++) last = Math.max(last, ...sidesOf(texels, head, i));
   if (last >= used) refuse(root, `the map with root ${root} has paint ${last} of ${used}`);
   for (let paint = 0; paint < used; paint++) if (!programOf(texels, head, paint)) see(paintSteps(texels, head, paint));
   if (isBright) refuse(root, `the map with root ${root} has a colour above its opacity`);

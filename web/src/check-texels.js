@@ -1,7 +1,7 @@
 // Validates texels (FORMAT.md, B.2 to B.4, D.1 to D.5): they form disjoint trees and maps, and all others are zero.
 import { COORDINATE_BITS, LATTICE } from '../generated/layout.js';
 import { checkMap } from './check-map.js';
-import { CURVE, checkTree } from './check-tree.js';
+import { CURVE, PAIR, checkTree } from './check-tree.js';
 import { REMEDY, VextureError } from './errors.js';
 
 const COORDINATE_MASK = (1 << COORDINATE_BITS) - 1;
@@ -30,8 +30,9 @@ export function checkForest(texels, roots) {
 function checkRest(texels, met) {
   for (let texel = 0; texel < met.length; texel++) {
     const at = 4 * texel;
-    if (met[texel] === CURVE) {
-      for (const end of [texels[at], texels[at + 3]]) {
+    if (met[texel] === CURVE || met[texel] === PAIR) {
+      const ends = met[texel] === PAIR ? texels.subarray(at, at + 4) : [texels[at], texels[at + 3]];
+      for (const end of ends) {
         const most = Math.max(end & COORDINATE_MASK, end >>> COORDINATE_BITS);
         if (most > LATTICE) {
           throw new VextureError(

@@ -168,12 +168,12 @@ function cellsOf(texels, head) {
   /** @type {number[]} */ const sides = [];
   for (let cell = 0; cell < 4 * above.length; cell++) {
     const quad = head.quad + (cell >> 2);
-    const leaf = leafOf(texels, quad, cell & 3);
+    const leaf = leafOf(texels, quad, cell & 3, true);
     const place = leaf.byte === QUAD_FLAG ? leaf.below - head.quad : 0;
     if (place) above[place] = cell;
     else curvesOf(texels, leaf).forEach((curve, i) => {
       areas.push(areaOf(curve));
-      for (const paint of sidesOf(texels, head, leaf.first + i)) sides.push(4 * paint);
+      for (const paint of sidesOf(texels, head, leaf.number + i)) sides.push(4 * paint);
     });
     below.push(16 * place);
     bases.push(place ? QUAD : leaf.byte === IS_MEAN ? MEAN : 4 * basePaint(texels, head, quad, cell & 3));

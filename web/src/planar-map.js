@@ -10,7 +10,7 @@ const COMPONENTS = [0, 1, 2, 3];
  * @property {number} quad index of the root quad
  * @property {number} used number of paints
  * @property {number} cells index of the first texel of the cells' means and base paints
- * @property {number} sides index of the texel that would hold the sides of curves 0 to 3
+ * @property {number} sides index of the first texel of the paints beside curves
  * @property {number} paints index of the first texel of the table of paints
  * @property {number} programs index of the first texel of operations
  * @property {number} operations number of their texels
@@ -60,7 +60,7 @@ export function basePaint(texels, head, quad, cell) {
  *
  * @param {Uint32Array} texels
  * @param {Head} head
- * @param {number} curve index of its texel
+ * @param {number} curve its number
  * @returns {[number, number]}
  */
 export function sidesOf(texels, head, curve) {

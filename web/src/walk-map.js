@@ -77,8 +77,8 @@ export function meanColor({ texels }, root, quad, cell) {
  */
 export function mapLeaf({ texels }, root, quad, cell) {
   const head = headOf(texels, root);
-  const leaf = leafOf(texels, quad, cell);
-  const sides = Array.from({ length: leaf.byte >> COUNT_SHIFT }, (_, i) => sidesOf(texels, head, leaf.first + i));
+  const leaf = leafOf(texels, quad, cell, true);
+  const sides = Array.from({ length: leaf.byte >> COUNT_SHIFT }, (_, i) => sidesOf(texels, head, leaf.number + i));
   return { curves: curvesOf(texels, leaf), sides, base: basePaint(texels, head, quad, cell) };
 }
 
@@ -130,7 +130,7 @@ export function paintAt(data, quad, u, v) {
     u = 2 * u - right; // exact
     v = 2 * v - upper;
     const cell = right + 2 * upper;
-    const { byte, below } = leafOf(texels, parent, cell);
+    const { byte, below } = leafOf(texels, parent, cell, true);
     if (byte === QUAD_FLAG) parent = below;
     else if (byte === IS_MEAN) return { paint: null, color: meanColor(data, quad, parent, cell) };
     else return summed(data, quad, paintCounts(mapLeaf(data, quad, parent, cell), LATTICE * u, LATTICE * v), point);

@@ -94,7 +94,7 @@ export function cellAt(data, quad, u, v, mostDepth = MOST_DEPTH) {
     x += size * right; // exact: a multiple of 2^-20
     y += size * upper;
     const cell = right + 2 * upper;
-    const leaf = leafOf(texels, quad, cell);
+    const leaf = leafOf(texels, quad, cell, ofMap);
     const isQuad = leaf.byte === QUAD_FLAG;
     if (isQuad && depth < mostDepth) {
       quad = leaf.below;
@@ -139,7 +139,7 @@ function top(data, quad, ofMap) {
   let coverage = 0;
   for (let k = 0; k < 4; k++) {
     if (ofMap) meanColor(data, quad, quad, k).forEach((part, i) => (mean[i] += part / 4));
-    else coverage += leafOf(data.texels, quad, k).coverage / 4 / COVERAGE_ONE;
+    else coverage += leafOf(data.texels, quad, k, false).coverage / 4 / COVERAGE_ONE;
   }
   const paints = ofMap ? { mean, base: null, sides: [] } : null;
   if (ofMap) coverage = mean[3];
@@ -165,7 +165,7 @@ export function contains(data, quad, u, v) {
     const upper = v >= 0.5 ? 1 : 0;
     u = 2 * u - right; // exact
     v = 2 * v - upper;
-    const leaf = leafOf(texels, quad, right + 2 * upper);
+    const leaf = leafOf(texels, quad, right + 2 * upper, false);
     if (leaf.byte === QUAD_FLAG) {
       quad = leaf.below;
       continue;
@@ -209,7 +209,8 @@ export function colorAt(data, layers, u, v) {
  */
 export function bounds(data, quad) {
   const { texels } = data;
-  const boxOf = isMap(data, quad) ? paintedBox : coveredBox;
+  const ofMap = isMap(data, quad);
+  const boxOf = ofMap ? paintedBox : coveredBox;
   /** @type {[number, number, number, number]} */
   const box = [1, 1, 0, 0];
   /** @type {(quad: number, x: number, y: number, size: number, depth: number) => void} */
@@ -218,7 +219,7 @@ export function bounds(data, quad) {
     for (let k = 0; k < 4; k++) {
       const [left, low] = [x + size * (k & 1), y + size * (k >> 1)];
       if (left >= box[0] && low >= box[1] && left + size <= box[2] && low + size <= box[3]) continue;
-      const { byte, below } = leafOf(texels, parent, k);
+      const { byte, below } = leafOf(texels, parent, k, ofMap);
       if (byte === QUAD_FLAG && depth < BOUNDS_DEPTH) {
         visit(below, left, low, size, depth + 1);
         continue;
@@ -244,7 +245,7 @@ export function bounds(data, quad) {
  * @param {number} cell
  */
 function coveredBox({ texels }, _root, quad, cell) {
-  const leaf = leafOf(texels, quad, cell);
+  const leaf = leafOf(texels, quad, cell, false);
   if (!leaf.byte) return leaf.coverage ? WHOLE : null;
   const [curves, corner] = [curvesOf(texels, leaf), cornerOf(leaf.byte)];
   return filledBox(curves, corner > 0, (x, y) => winding(curves, corner, x, y) > 0);
@@ -259,7 +260,7 @@ function coveredBox({ texels }, _root, quad, cell) {
  * @param {number} cell
  */
 function paintedBox(data, root, quad, cell) {
-  const { byte } = leafOf(data.texels, quad, cell);
+  const { byte } = leafOf(data.texels, quad, cell, true);
   if (byte === IS_MEAN) return meanColor(data, root, quad, cell)[3] > 0 ? WHOLE : null;
   const leaf = mapLeaf(data, root, quad, cell);
   const seen = (/** @type {number} */ paint) => isSeen(data, root, paint);
@@ -276,6 +277,7 @@ function paintedBox(data, root, quad, cell) {
  */
 export function counts(data, quad) {
   const { texels } = data;
+  const ofMap = isMap(data, quad);
   const found = { quads: 0, curves: 0, depth: -1 };
   for (let level = [quad]; level.length; ) {
     found.depth++;
@@ -284,7 +286,7 @@ export function counts(data, quad) {
     const below = [];
     for (const parent of level) {
       for (let k = 0; k < 4; k++) {
-        const leaf = leafOf(texels, parent, k);
+        const leaf = leafOf(texels, parent, k, ofMap);
         if (leaf.byte === QUAD_FLAG) below.push(leaf.below);
         else found.curves += leaf.byte >> COUNT_SHIFT;
       }

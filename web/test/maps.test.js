@@ -11,7 +11,7 @@ import { expectRefusal } from './refused.js';
 /** The example of FORMAT.md, D.9: a red triangle, and a translucent blue one that shares its long side. */
 const PART = readFileSync(new URL('../../FORMAT.md', import.meta.url), 'utf8').split('### D.9 Example')[1].split('### D.10')[0];
 const ROWS = [...PART.matchAll(/^\| \d+ \|((?: [0-9a-f]{8} \|){4})/gm)].map(([, row]) => row.match(/\w{8}/g) ?? []);
-const texels = new Uint32Array(4 * 32);
+const texels = new Uint32Array(4 * 16);
 ROWS.flat().forEach((word, place) => (texels[place] = parseInt(word, 16)));
 const texts = { ...TEXTS, [TEXT_VERSION]: '2', [TEXT_ROOTS]: /\[\{"name".*\]/.exec(PART)?.[0] ?? '' };
 
@@ -85,24 +85,27 @@ const BROKEN = [
   ['programs without a number', /has a head that is not 0 where it must be/, (words) => (words[0] = 20)],
   ['no paints', /has 0 paints; the limit is 65536/, (words) => (words[4] = 0)],
   ['too many paints', /has 65537 paints/, (words) => (words[4] = 65537)],
-  ['cells beyond the end', /the cells of the map with root 2 end at texel 33 of 32/, (words) => (words[5] = 31)],
+  ['cells beyond the end', /the cells of the map with root 2 end at texel 17 of 16/, (words) => (words[5] = 15)],
   ['cells far beyond the end', /the cells of the map/, (words) => (words[5] = 0xffffffff)],
-  ['sides beyond the end', /the sides of the map with root 2 end at texel 34 of 32/, (words) => (words[6] = 31)],
-  ['paints beyond the end', /the paints of the map with root 2 end at texel 33 of 32/, (words) => (words[7] = 31)],
-  ['cells over curves', /texel 9 is a part of two things/, (words) => (words[5] = 9)],
-  ['sides over cells', /texel 11 is a part of two things/, (words) => (words[6] = 11)],
+  ['sides beyond the end', /the sides of the map with root 2 end at texel 17 of 16/, (words) => (words[6] = 15)],
+  ['paints beyond the end', /the paints of the map with root 2 end at texel 17 of 16/, (words) => (words[7] = 15)],
+  ['cells over curves', /texel 6 is a part of two things/, (words) => (words[5] = 6)],
+  ['sides over cells', /texel 8 is a part of two things/, (words) => (words[6] = 8)],
   ['paints over the head', /texel 0 is a part of two things/, (words) => (words[7] = 0)],
-  ['a quad with a coverage', /a quad with a coverage or a curve that goes down/, (words) => (words[11] = 1)],
-  ['a curve that goes down', /a quad with a coverage or a curve that goes down/, (words) => (words[12] = 0xa0002000)],
-  ['a cell with a winding', /quad 2, cell 0 is 9, which is no valid cell/, (words) => words[10]++],
+  ['a quad with another number', /curves out of number or a curve that goes down/, (words) => (words[11] = 1)],
+  ['a curve that goes down', /curves out of number or a curve that goes down/, (words) => (words[12] = 0xa0002000)],
+  ['the second of two curves goes down', /or a curve that goes down/, (words) => (words[19] = 0x10006000)],
+  ['a curve beside one that is alone', /texel 3 of one curve has a second one/, (words) => (words[14] = 1)],
+  ['a cell with a winding', /quad 2, cell 0 is 10, which is no valid cell/, (words) => words[10]++],
   ['a cell of another kind', /quad 2, cell 0 is 1, which is no valid cell/, (words) => (words[10] = 1)],
-  ['a base paint of a mean', /a cell without a base paint has one/, (words) => (words[10] = 0x02101808)],
-  ['a base paint beyond the table', /has paint 3 of 3/, (words) => (words[48] = 3)],
-  ['a side beyond the table', /has paint 4 of 3/, (words) => (words[55] = 0x00040000)],
-  ['a mean above its opacity', /a colour above its opacity/, (words) => (words[44] = 0x8f000090)],
-  ['a paint above its opacity', /a colour above its opacity/, (words) => (words[69] = 0x80008001)],
-  ['an end beyond the lattice', /curve 3 has an end at 40960/, (words) => (words[15] = 0xa0002000)],
-  ['a texel that is no part', /texel 20 belongs to no root and is not 0/, (words) => (words[80] = 1)],
+  ['a base paint of a mean', /a cell without a base paint has one/, (words) => (words[10] = 0x02111909)],
+  ['a base paint beyond the table', /has paint 3 of 3/, (words) => (words[36] = 3)],
+  ['a side beyond the table', /has paint 4 of 3/, (words) => (words[41] = 0x00040000)],
+  ['a mean above its opacity', /a colour above its opacity/, (words) => (words[32] = 0x8f000090)],
+  ['a paint above its opacity', /a colour above its opacity/, (words) => (words[53] = 0x80008001)],
+  ['an end beyond the lattice', /curve 3 has an end at 40960/, (words) => (words[13] = 0xa0002000)],
+  ['an end of a second curve beyond it', /curve 4 has an end at 40960/, (words) => (words[19] = 0xa0006000)],
+  ['a texel that is no part', /texel 15 belongs to no root and is not 0/, (words) => (words[60] = 1)],
 ];
 
 describe('gradients', () => {
@@ -193,7 +196,7 @@ describe('untrusted maps', () => {
     rows[2] = [4, 0, 0x80, 0];
     await expectRefusal(readPacked(ktx2(rows, texts)), 'quad 2', /the quads of the map with root 2 are not consecutive/);
     rows[2] = [3, 6, 0x0880, 0];
-    rows[3] = [0, 4, 0x08, 0];
+    rows[3] = [0, 4, 0x08, 1];
     await expectRefusal(readPacked(ktx2(rows, texts)), 'quad 2', /the curves of the map with root 2 are not consecutive/);
     rows[2][1] = 5;
     expect((await readPacked(ktx2(rows, texts))).width).toBe(16);

@@ -126,11 +126,14 @@ describe('texels', () => {
     const { quad } = maps.roots[1];
     const map = new TexelMap(maps, quad);
     const { quads, curves } = counts(maps, quad);
+    const pairs = [...map.pairs].flatMap((index) => map.texel(index).words);
+    const paired = pairs.filter((word) => /^curve [12]: P0 \(\d\.\d{4}, \d\.\d{4}\) of the cell$/.test(word)).length;
+    expect(paired).toBeGreaterThan(0);
     const found = (/** @type {number} */ kind) => [...map.kinds].filter((one) => one === kind).length;
-    expect([HEAD, QUAD, CURVE, MEANS, BASES].map(found)).toEqual([2, quads, curves, quads, quads]);
+    expect([HEAD, QUAD, CURVE, MEANS, BASES].map(found)).toEqual([2, quads, curves - paired + map.pairs.size, quads, quads]);
     expect(found(PAINTS)).toBe(Math.ceil(maps.texels[4 * quad - 4] / 2));
     expect(map.texel(quad - 1)).toMatchObject({ kind: 'head', words: expect.arrayContaining([expect.stringMatching(/^\d+ paints$/)]) });
-    expect(map.texel(quad).words.slice(2)).toEqual([expect.stringMatching(/curve/), 'not used']);
+    expect(map.texel(quad).words.slice(2)).toEqual([expect.stringMatching(/straight curve/), 'number of the first curve: 0']);
     const words = (/** @type {number} */ kind) =>
       [...map.kinds.keys()].filter((index) => map.kinds[index] === kind).flatMap((index) => map.texel(index).words);
     expect(words(SIDES).filter((word) => /^curve \d+: paint \d+ \| \d+$/.test(word))).toHaveLength(curves);

@@ -29,8 +29,10 @@ import {
   MOST_CURVES,
   PAINT_ONE,
   QUAD_FLAG,
+  STRAIGHT,
   WINDING_OFFSET,
 } from '../generated/layout.js';
+import { texelsIn } from '../src/leaf.js';
 import { headOf, paintSteps, sidesOf } from '../src/planar-map.js';
 import { programOf } from '../src/programs.js';
 import { counts, isMap } from '../src/walk.js';
@@ -81,23 +83,25 @@ export class TexelMap {
     }
     /** @type {Map<number, Place>} */
     this.places = new Map();
-    /** Index of the first curve, and after the last one. */
-    this.firstCurve = Infinity;
-    this.endCurve = 0;
+    /** Texels of two curves. @type {Set<number>} */
+    this.pairs = new Set();
+    /** Number of curves of a planar map. */
+    this.curves = 0;
     this.#walk(root);
     if (this.head) this.#parts(this.head);
   }
 
   /** @param {import('../src/planar-map.js').Head} head */
   #parts({ quad: root, used, cells, sides, paints, programs, operations, stops }) {
-    const { quads } = counts(this.data, root);
+    const { quads, curves } = counts(this.data, root);
+    this.curves = curves;
     for (let i = 1; i <= MAP_HEAD; i++) this.#set(root - i, HEAD, null);
     for (let i = 0; i < quads; i++) {
       const place = this.places.get(root + i) ?? null;
       this.#set(cells + 2 * i, MEANS, place);
       this.#set(cells + 2 * i + 1, BASES, place);
     }
-    for (let i = Math.floor(this.firstCurve / 4); 4 * i < this.endCurve; i++) this.#set(sides + i, SIDES, null);
+    for (let i = 0; 4 * i < curves; i++) this.#set(sides + i, SIDES, null);
     for (let i = 0; 2 * i < used; i++) this.#set(paints + i, PAINTS, null);
     for (let i = 0; i < operations + stops; i++) this.#set(programs + i, i < operations ? OPERATIONS : STOPS, null);
   }
@@ -116,10 +120,10 @@ export class TexelMap {
         const place = { depth: at.depth + 1, x: at.x + size * (cell & 1), y: at.y + size * (cell >> 1), size };
         const byte = byteOf(texels[4 * quad + 2], cell);
         if (byte === QUAD_FLAG) quads.push([below++, place]);
-        else for (let count = byte >> COUNT_SHIFT; count > 0; count--) {
-          this.firstCurve = Math.min(this.firstCurve, curve);
-          this.endCurve = Math.max(this.endCurve, curve + 1);
-          this.#set(curve++, CURVE, place);
+        else for (let count = texelsIn(byte, this.head !== null); count > 0; count--) {
+          this.#set(curve, CURVE, place);
+          if (this.head && byte & STRAIGHT && this.kinds[curve] === CURVE) this.pairs.add(curve);
+          curve++;
         }
       }
     }
@@ -144,9 +148,9 @@ export class TexelMap {
 
   /** @param {Texel['kind']} kind @param {number} index @param {number[]} four @returns {string[]} */
   #words(kind, index, four) {
-    const { data: { texels }, head, firstCurve, endCurve } = this;
+    const { data: { texels }, head, curves, pairs } = this;
     if (kind === 'quad') return head ? mapQuadWords(four) : quadWords(four);
-    if (kind === 'curve') return curveWords(four);
+    if (kind === 'curve') return pairs.has(index) ? pairWords(four) : curveWords(four);
     if (kind === 'means') return four.map((word, k) => `${CELL_NAMES[k]}: mean ${paintCss([0, 1, 2, 3].map((i) => byteOf(word, i) / COVERAGE_ONE))}`);
     if (kind === 'bases') return four.map((word, k) => `${CELL_NAMES[k]}: base paint ${word}`);
     if (kind === 'head' && head && index < head.quad - 1) {
@@ -154,13 +158,13 @@ export class TexelMap {
     }
     if (kind === 'head') {
       const [used, cells, sides, paints] = four;
-      return [`${used} paints`, `cells from texel ${cells}`, `sides of curves from ${sides} + curve / 4`, `paints from texel ${paints}`];
+      return [`${used} paints`, `cells from texel ${cells}`, `sides of curves from texel ${sides}`, `paints from texel ${paints}`];
     }
     if (kind === 'sides' && head) {
       return four.map((_, k) => {
         const curve = 4 * (index - head.sides) + k;
         const [left, right] = sidesOf(texels, head, curve);
-        return curve < firstCurve || curve >= endCurve ? 'of no curve' : `curve ${curve}: paint ${left} | ${right}`;
+        return curve >= curves ? 'of no curve' : `curve ${curve}: paint ${left} | ${right}`;
       });
     }
     if (kind === 'paints' && head) {
@@ -180,15 +184,16 @@ export class TexelMap {
 }
 
 /** @param {number[]} words of a quad of a planar map */
-function mapQuadWords([below, first, cells]) {
+function mapQuadWords([below, first, cells, number]) {
   const what = CELL_NAMES.map((name, cell) => {
     const byte = byteOf(cells, cell);
     const count = byte >> COUNT_SHIFT;
     if (byte === QUAD_FLAG) return `${name} a quad`;
     if (byte === IS_MEAN) return `${name} only its mean`;
-    return count ? `${name} ${count} curve${count > 1 ? 's' : ''}` : `${name} one paint`;
+    if (!count) return `${name} one paint`;
+    return `${name} ${count} ${byte & STRAIGHT ? 'straight ' : ''}curve${count > 1 ? 's' : ''}`;
   });
-  return [`first quad below: ${below}`, `first curve: ${first}`, what.join('; '), 'not used'];
+  return [`first quad below: ${below}`, `first curve: texel ${first}`, what.join('; '), `number of the first curve: ${number}`];
 }
 
 /** What the kinds of operations are, from 1 on. */
@@ -229,12 +234,24 @@ function quadWords([below, first, cells, coverages]) {
   ];
 }
 
+/** @param {number[]} words of two straight curves; of the second one 0, if there is none */
+function pairWords(words) {
+  return words.map((word, k) => {
+    if (k > 1 && !words[2] && !words[3]) return 'of no curve';
+    return `curve ${k < 2 ? 1 : 2}: P${k % 2 ? 3 : 0} ${pointOf(word & COORDINATE, word >>> COORDINATE_BITS)}`;
+  });
+}
+
+/** @param {number} x @param {number} y in lattice units */
+function pointOf(x, y) {
+  return `(${(x / LATTICE).toFixed(4)}, ${(y / LATTICE).toFixed(4)}) of the cell`;
+}
+
 /** @param {number[]} words of a curve */
 function curveWords(words) {
   return words.map((word, k) => {
     const offset = k === 1 || k === 2 ? CONTROL_OFFSET : 0;
-    const [x, y] = [(word & COORDINATE) - offset, (word >>> COORDINATE_BITS) - offset];
-    return `P${k} (${(x / LATTICE).toFixed(4)}, ${(y / LATTICE).toFixed(4)}) of the cell`;
+    return `P${k} ${pointOf((word & COORDINATE) - offset, (word >>> COORDINATE_BITS) - offset)}`;
   });
 }
 

@@ -101,7 +101,7 @@ class Outcome:
 )
 @tolerance_option
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
-@click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 8, in colours 14]")
+@click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 8, in colours 12]")
 @click.option("--precision", metavar="P", type=float, help="Largest shift by rounding, in unit-square units.")
 @click.option(
     "--no-deflate",

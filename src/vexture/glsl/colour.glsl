@@ -7,6 +7,7 @@
 // no map has programs.
 #include "coverage.glsl"
 #include "gradient.glsl"
+#include "leaf.glsl"
 #include "srgb.glsl"
 
 #ifndef VEXTURE_LINEAR
@@ -104,9 +105,8 @@ void vexture_add_paint(
 
 // Adds the paint on the left of a piece, and takes away that on its right.
 void vexture_add_piece(
-    inout VextureSum sum, VexturePlanar planar, uint curve, float area, VextureRegion region
+    inout VextureSum sum, VexturePlanar planar, uint sides, float area, VextureRegion region
 ) {
-    uint sides = vexture_texel(planar.sides + (curve >> 2))[curve & 3u];
 #if VEXTURE_GRADIENTS
     vexture_add_paint(sum, planar, sides & 0xffffu, area, region);
     vexture_add_paint(sum, planar, sides >> VEXTURE_COORDINATE_BITS, -area, region);
@@ -207,11 +207,11 @@ void vexture_add_flat_cell(inout VextureSum sum, VexturePlanar planar, VextureCe
     bool is_mean = vexture_reads_mean(cell, min(box.size.x, box.size.y) * side);
     VextureRegion region = vexture_region(origin, middle, vec2(box.size.x, 0.0), vec2(0.0, box.size.y));
     vexture_add_whole(sum, planar, cell, is_mean, middle * side, whole, region);
-    uint curve = vexture_first_curve(cell);
+    VextureLeaf leaf = vexture_leaf(cell);
     int count = cell.is_quad || is_mean ? 0 : vexture_count(cell);
     int counted = 0;  // a bit for each piece that is not clear of the box: others need no colours
     for (int i = 0; i < count; i++) {
-        VextureLook look = vexture_flat_look(vexture_texel(curve + uint(i)), box);
+        VextureLook look = vexture_flat_look(vexture_leaf_piece(leaf, i), box);
         counted |= look.crosses || look.filled != 0.0 ? 1 << i : 0;
     }
 #if VEXTURE_GRADIENTS
@@ -220,15 +220,16 @@ void vexture_add_flat_cell(inout VextureSum sum, VexturePlanar planar, VextureCe
     {
         while (counted != 0 && vexture_has_room(sum)) {
             int lowest = counted & -counted;
-            uint at = curve + (floatBitsToUint(float(lowest)) >> 23) - 127u;
+            int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
             counted ^= lowest;
-            uvec4 texel = vexture_texel(at);
+            uvec4 texel = vexture_leaf_piece(leaf, i);
             VextureLook look = vexture_flat_look(texel, box);
             float area = look.filled;
             if (look.crosses) {
                 area += vexture_flat_piece_area(texel, box);
             }
-            vexture_add_piece(sum, planar, at, whole * area, region);
+            uint sides = vexture_leaf_sides(leaf, planar.sides, i);
+            vexture_add_piece(sum, planar, sides, whole * area, region);
         }
         vexture_settle(sum, planar, region);
     }
@@ -277,11 +278,11 @@ void vexture_add_cell(
     vec2 up = vec2(-frame.right.y, frame.right.x) * frame.size;
     VextureRegion region = vexture_region(origin, place * side, part * right, part * up);
     vexture_add_whole(sum, planar, cell, is_mean, place, whole, region);
-    uint curve = vexture_first_curve(cell);
+    VextureLeaf leaf = vexture_leaf(cell);
     int count = whole > 0.0 && !cell.is_quad && !is_mean ? vexture_count(cell) : 0;
     int counted = 0;  // a bit for each piece that is not clear of the footprint's box: others need no colours
     for (int i = 0; i < count; i++) {
-        VextureLook look = vexture_first_look(vexture_texel(curve + uint(i)), box);
+        VextureLook look = vexture_first_look(vexture_leaf_piece(leaf, i), box);
         counted |= look.crosses || look.filled != 0.0 ? 1 << i : 0;
     }
 #if VEXTURE_GRADIENTS
@@ -290,15 +291,16 @@ void vexture_add_cell(
     {
         while (counted != 0 && vexture_has_room(sum)) {
             int lowest = counted & -counted;
-            uint at = curve + (floatBitsToUint(float(lowest)) >> 23) - 127u;
+            int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
             counted ^= lowest;
-            uvec4 texel = vexture_texel(at);
+            uvec4 texel = vexture_leaf_piece(leaf, i);
             VextureLook look = vexture_first_look(texel, box);
             float area = whole * look.filled;
             if (look.crosses) {
                 area += vexture_piece_area(texel, look.turns, box, frame);
             }
-            vexture_add_piece(sum, planar, at, area, region);
+            uint sides = vexture_leaf_sides(leaf, planar.sides, i);
+            vexture_add_piece(sum, planar, sides, area, region);
         }
         vexture_settle(sum, planar, region);
     }

@@ -54,12 +54,11 @@ int vextureFeature(uint root, uvec2 base, vec2 offset) {
     vec2 point = way * uintBitsToFloat(uint(127 + VEXTURE_LATTICE_BITS - cell.bit) << 23);
     uint number = vexture_texel(planar.cells + 2u * cell.quad + 1u)[cell.shift >> 3];
     uint square = number * number;  // where one paint is left, that of its number
-    uint curve = vexture_first_curve(cell);
+    VextureLeaf leaf = vexture_leaf(cell);
     int count = vexture_count(cell);
     for (int i = 0; i < count; i++) {
-        uint at = curve + uint(i);
-        uint counted = uint(vexture_counted(vexture_texel(at), point));
-        uint sides = vexture_texel(planar.sides + (at >> 2))[at & 3u];
+        uint counted = uint(vexture_counted(vexture_leaf_piece(leaf, i), point));
+        uint sides = vexture_leaf_sides(leaf, planar.sides, i);
         uint left = sides & 0xffffu;
         uint right = sides >> VEXTURE_COORDINATE_BITS;
         number += counted * (left - right);

@@ -20,7 +20,6 @@ from vexture.renderers.cells import (
     count,
     descend,
     finest_bit,
-    first_curve,
     first_square,
     next_square,
     place,
@@ -39,6 +38,7 @@ from vexture.renderers.cpu import (
     piece_area,
 )
 from vexture.renderers.gradient import Region, Vec3, Vec4, halves, plus, program, times
+from vexture.renderers.leaf import leaf, leaf_piece, leaf_sides
 from vexture.renderers.method import NEARLY_WHOLE, NO_CELL, POSITION_BITS
 from vexture.renderers.piece import Box, Frame, box, box_area, frame, in_box, view_pixel, word
 from vexture.renderers.uniforms import HasTexels, uniforms_of
@@ -139,8 +139,7 @@ def add_paint(sum: Sum, planar: Planar, paint: int, area: float, region: Region)
 
 
 @kernel(allocates=False)
-def add_piece(texels: Texels, sum: Sum, planar: Planar, curve: int, area: float, region: Region) -> Sum:
-    sides = 0 + texel(texels, planar.sides + (curve >> 2))[curve & 3]  # of 64 bits
+def add_piece(sum: Sum, planar: Planar, sides: int, area: float, region: Region) -> Sum:
     sum = add_paint(sum, planar, sides & ((1 << COORDINATE_BITS) - 1), area, region)
     return add_paint(sum, planar, sides >> COORDINATE_BITS, -area, region)
 
@@ -242,14 +241,15 @@ def add_flat_cell(
     is_mean = reads_mean(cell, min(box.size[0], box.size[1]) * side)
     here = region(origin, (x, y), (box.size[0], 0.0), (0.0, box.size[1]))
     sum = add_whole(texels, is_linear, sum, planar, cell, is_mean, (x * side, y * side), whole, here)
-    curve = first_curve(cell)
+    pieces = leaf(cell)
     for i in range(0 if cell.is_quad or is_mean else count(cell)):
-        found = texel(texels, curve + i)
+        found, pieces = leaf_piece(texels, pieces, i)
         look = flat_look(found, box)
         if look.crosses or look.filled != 0.0:
             sum = sum if has_room(sum) else settle(texels, is_linear, sum, planar, here)
             area = look.filled + (flat_piece_area(found, box) if look.crosses else 0.0)
-            sum = add_piece(texels, sum, planar, curve + i, whole * area, here)
+            beside, pieces = leaf_sides(texels, pieces, planar.sides, i)
+            sum = add_piece(sum, planar, beside, whole * area, here)
     return settle(texels, is_linear, sum, planar, here)
 
 
@@ -300,14 +300,15 @@ def add_cell(
     up = (-part[0] * frame.right[1] * frame.size, part[1] * frame.right[0] * frame.size)
     here = region(origin, (place[0] * side, place[1] * side), right, up)
     sum = add_whole(texels, is_linear, sum, planar, cell, is_mean, place, whole, here)
-    curve = first_curve(cell)
+    pieces = leaf(cell)
     for i in range(count(cell) if whole > 0.0 and not cell.is_quad and not is_mean else 0):
-        found = texel(texels, curve + i)
+        found, pieces = leaf_piece(texels, pieces, i)
         look = first_look(found, box)
         if look.crosses or look.filled != 0.0:
             sum = sum if has_room(sum) else settle(texels, is_linear, sum, planar, here)
             area = whole * look.filled + (piece_area(found, look.turns, box, frame) if look.crosses else 0.0)
-            sum = add_piece(texels, sum, planar, curve + i, area, here)
+            beside, pieces = leaf_sides(texels, pieces, planar.sides, i)
+            sum = add_piece(sum, planar, beside, area, here)
     return settle(texels, is_linear, sum, planar, here)
 
 

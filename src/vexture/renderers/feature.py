@@ -2,8 +2,9 @@
 
 from vexture.kernels import kernel
 from vexture.layout import CONTROL_OFFSET, COORDINATE_BITS, IS_MEAN, LATTICE_BITS, MOST_DEPTH, MOST_PAINTS
-from vexture.renderers.cells import Texel, Texels, Vec2, Whole2, count, descend, first_curve, place, texel, top
+from vexture.renderers.cells import Texel, Texels, Vec2, Whole2, count, descend, place, texel, top
 from vexture.renderers.colour import planar
+from vexture.renderers.leaf import leaf, leaf_piece, leaf_sides
 from vexture.renderers.method import BISECTIONS, POSITION_BITS
 from vexture.renderers.piece import word
 
@@ -52,11 +53,11 @@ def feature(texels: Texels, root: int, base: Whole2, offset: Vec2) -> int:
     inner, unit = (1 << cell.bit) - 1, 2.0 ** (LATTICE_BITS - cell.bit)
     point = ((x & inner) + there.rest[0] % 1.0) * unit, ((y & inner) + there.rest[1] % 1.0) * unit
     number = 0 + texel(texels, parts.cells + 2 * cell.quad + 1)[cell.shift >> 3]  # of 64 bits
-    square, curve = number * number, first_curve(cell)
+    square, pieces = number * number, leaf(cell)
     for i in range(count(cell)):
-        at = curve + i
-        times = counted(texel(texels, at), point)
-        sides = texel(texels, parts.sides + (at >> 2))[at & 3]
+        found, pieces = leaf_piece(texels, pieces, i)
+        times = counted(found, point)
+        sides, pieces = leaf_sides(texels, pieces, parts.sides, i)
         left, right = sides & 0xFFFF, sides >> COORDINATE_BITS
         number += times * (left - right)
         square += times * (left * left - right * right)

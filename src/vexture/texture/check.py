@@ -7,9 +7,10 @@ from numpy.typing import NDArray
 
 from vexture import layout
 from vexture.errors import FormatError
+from vexture.texture.curves import curve_points
 from vexture.texture.planar import head_of, read_map
 from vexture.texture.root import Root
-from vexture.texture.walk import REMEDY, walk
+from vexture.texture.walk import REMEDY, check_ends, walk
 
 __all__ = ["check_styles", "check_texels"]
 
@@ -24,9 +25,10 @@ def check_texels(flat: NDArray[np.uint32], plain: NDArray[np.int64], maps: list[
     for level in levels:
         times[level.quads] += 1
         times[level.curves] += 1
+    curves = [(curve_points(flat[level.curves]), level.curves) for level in levels]
     for quad in maps:
         found = read_map(flat, quad)
-        levels += found.levels
+        curves.append((found.points, found.texels))
         for start, stop in found.ranges:
             times[start:stop] += 1
     if times.max() > 1:
@@ -34,13 +36,8 @@ def check_texels(flat: NDArray[np.uint32], plain: NDArray[np.int64], maps: list[
     unmet = flat.any(axis=1) & (times == 0)
     if unmet.any():
         raise FormatError(f"texel {unmet.argmax()} belongs to no root and is not 0; {REMEDY}")
-    curves = np.concatenate([level.curves for level in levels])
-    ends = flat[curves][:, [0, 3]]
-    most = np.maximum(ends & ((1 << layout.COORDINATE_BITS) - 1), ends >> layout.COORDINATE_BITS).max(axis=1, initial=0)
-    if len(most) and most.max() > layout.LATTICE:
-        raise FormatError(
-            f"curve {curves[most.argmax()]} has an end at {most.max()}; the limit is {layout.LATTICE:.0f}; {REMEDY}"
-        )
+    for points, texels in curves:
+        check_ends(points[:, [0, 3]], texels)
 
 
 def check_styles(flat: NDArray[np.uint32], roots: Sequence[Root]) -> None:

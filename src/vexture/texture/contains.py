@@ -7,8 +7,6 @@ from vexture.errors import ParameterError
 from vexture.kernels import kernel
 from vexture.layout import (
     CELL_BITS,
-    CONTROL_OFFSET,
-    COORDINATE_BITS,
     COUNT_SHIFT,
     COVERAGE_ONE,
     LATTICE,
@@ -17,12 +15,12 @@ from vexture.layout import (
     QUAD_FLAG,
     WINDING_OFFSET,
 )
+from vexture.texture.curves import read_curve
 from vexture.tree.crossings import x_at
 
-__all__ = ["checked_points", "points_inside", "read_curve"]
+__all__ = ["checked_points", "points_inside"]
 
 BYTE = (1 << CELL_BITS) - 1
-COORDINATE = (1 << COORDINATE_BITS) - 1
 
 
 def checked_points(points: ArrayLike) -> NDArray[np.float64]:
@@ -34,15 +32,6 @@ def checked_points(points: ArrayLike) -> NDArray[np.float64]:
     if wanted.ndim != 2 or wanted.shape[1] != 2:
         raise ParameterError(f"`points` has the shape {wanted.shape}; it must be (n, 2)")
     return wanted
-
-
-@kernel
-def read_curve(texel: NDArray[np.uint32], curve: NDArray[np.float64]) -> None:
-    """Write the points of a curve in lattice units."""
-    for k in range(4):
-        offset = CONTROL_OFFSET if k in (1, 2) else 0
-        word = int(texel[k])
-        curve[k, 0], curve[k, 1] = (word & COORDINATE) - offset, (word >> COORDINATE_BITS) - offset
 
 
 @kernel

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture import layout
+from vexture.texture.curves import curve_points
 from vexture.texture.texture import Texture
-from vexture.texture.walk import WalkLevel, curve_points, walk
+from vexture.texture.walk import WalkLevel, walk
 from vexture.tree.tree import Tree
 
 __all__ = ["decode"]

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from vexture import layout
 from vexture.errors import LimitError
-from vexture.texture.planar import curve_texels, map_texels
+from vexture.texture.curves import curve_texels
+from vexture.texture.planar import map_texels
 from vexture.texture.texture import Root, Texture
 from vexture.tree.planar.map import PlanarMap
 from vexture.tree.tree import Tree

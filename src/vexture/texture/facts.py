@@ -70,7 +70,7 @@ def _map_facts(flat: NDArray[np.uint32], quad: int) -> dict[str, Any]:
     return {
         "coverage": float(alpha.mean()) / layout.COVERAGE_ONE,
         "quads": sum(len(level.quads) for level in found.levels),
-        "curves": found.curves,
+        "curves": len(found.points),
         "paints": found.used,
         "depth": len(found.levels) - 1,
         "texels": sum(stop - start for start, stop in found.ranges),

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
 from vexture.layout import COVERAGE_ONE, LATTICE, MOST_DEPTH
-from vexture.texture.walk import HALVES, curve_points, walk
+from vexture.texture.curves import curve_points
+from vexture.texture.walk import HALVES, walk
 
 __all__ = ["outlines"]
 

@@ -20,7 +20,8 @@ from vexture.layout import (
     QUAD_FLAG,
 )
 from vexture.renderers.gradient import Region, program
-from vexture.texture.contains import checked_points, read_curve
+from vexture.texture.contains import checked_points
+from vexture.texture.curves import read_leaf_curve, texels_of_cell
 from vexture.texture.planar import head_of
 from vexture.texture.root import Root
 from vexture.tree.crossings import x_at
@@ -82,23 +83,25 @@ def _paint_at(
     for _ in range(MOST_DEPTH):
         right, upper = 1 if x >= 0.5 else 0, 1 if y >= 0.5 else 0
         x, y = 2.0 * x - right, 2.0 * y - upper
-        quads, curves, cell, place = 0, 0, 0, right + 2 * upper
+        quads, curves, texels, cell, place = 0, 0, 0, 0, right + 2 * upper
         for k in range(place + 1):
             quads += cell // QUAD_FLAG
             curves += cell >> COUNT_SHIFT & MOST_CURVES
+            texels += texels_of_cell(cell)
             cell = int(flat[quad, 2]) >> CELL_BITS * k & BYTE
         if cell >= QUAD_FLAG:
             quad = int(flat[quad, 0]) + quads
             continue
         if cell == IS_MEAN:
             return -2 - (8 * (quad - root) + place)
-        first, n = int(flat[quad, 1]) + curves, 1
+        first, number, n = int(flat[quad, 1]) + texels, int(flat[quad, 3]) + curves, 1
         tally[0, 0], tally[1, 0] = int(flat[cells + 2 * (quad - root) + 1, place]), 1
-        for i in range(first, first + (cell >> COUNT_SHIFT)):
-            read_curve(flat[i], curve)
+        for i in range(cell >> COUNT_SHIFT):
+            read_leaf_curve(flat, first, cell, i, curve)
             times = _times(curve, LATTICE * x, LATTICE * y)
             if times != 0:
-                pair = int(flat[sides + (i >> 2), i & 3])
+                j = number + i
+                pair = int(flat[sides + (j >> 2), j & 3])
                 n = _tally(tally[0], tally[1], n, pair & MOST_PAINTS - 1, times)
                 n = _tally(tally[0], tally[1], n, pair >> COORDINATE_BITS, -times)
         for k in range(n):

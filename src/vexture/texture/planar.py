@@ -7,15 +7,15 @@ from numpy.typing import NDArray
 
 from vexture import layout
 from vexture.errors import FormatError
+from vexture.texture.curves import LeafCurves, are_straight, leaf_points, leaf_texels, texels_in
 from vexture.texture.programs import NO_PROGRAMS, ProgramTexels, halves, program_texels, read_programs
-from vexture.texture.walk import REMEDY, WalkLevel, curve_points, walk
+from vexture.texture.walk import REMEDY, WalkLevel, walk
 from vexture.tree.planar.map import PlanarMap
 from vexture.tree.planar.programs import Program
 
 __all__ = [
     "MapHead",
     "MapTexels",
-    "curve_texels",
     "decode_map",
     "head_of",
     "map_texels",
@@ -27,21 +27,24 @@ __all__ = [
 
 def map_texels(planar: PlanarMap, at: int) -> NDArray[np.uint32]:
     """The texels of a map, (n, 4), of which the first has index `at`, in the order of `PARTS`."""
-    quads, curves = len(planar.count), len(planar.curves)
+    quads = len(planar.count)
+    count = planar.count.ravel().astype(np.int64)
+    straight = are_straight(planar.curves, count)
+    curves = leaf_texels(planar.curves, count, straight)
     first_quad = at + layout.MAP_HEAD
     first_curve = first_quad + quads
-    first_cells = first_curve + curves
-    sides = _side_texels(planar.sides, first_curve & 3)
+    first_cells = first_curve + len(curves)
+    sides = _side_texels(planar.sides)
     first_sides = first_cells + 2 * quads
     first_paint = first_sides + len(sides)
     programs = program_texels(planar.programs)
     paints = paint_texels(planar.paints, programs, first_paint)
     some = [first_paint + len(paints), len(programs.operations), len(programs.stops)] if planar.programs else [0, 0, 0]
-    head = [[*some, 0], [len(planar.paints), first_cells, first_sides - (first_curve >> 2), first_paint]]
+    head = [[*some, 0], [len(planar.paints), first_cells, first_sides, first_paint]]
     texels = [
         np.array(head, np.uint32),
-        _quad_texels(planar, first_quad, first_curve),
-        curve_texels(planar.curves),
+        _quad_texels(planar, straight.reshape(-1, 4), first_quad, first_curve),
+        curves,
         _cell_texels(planar),
         sides,
         paints,
@@ -51,15 +54,25 @@ def map_texels(planar: PlanarMap, at: int) -> NDArray[np.uint32]:
     return np.concatenate(texels)
 
 
-def _quad_texels(planar: PlanarMap, first_quad: int, first_curve: int) -> NDArray[np.uint32]:
-    cells = planar.count.astype(np.int64) << layout.COUNT_SHIFT
+def _quad_texels(
+    planar: PlanarMap, straight: NDArray[np.bool_], first_quad: int, first_curve: int
+) -> NDArray[np.uint32]:
+    count = planar.count.astype(np.int64)
+    cells = (count << layout.COUNT_SHIFT) + np.where(straight, layout.STRAIGHT, 0)
     cells += np.where(_holds_program(planar), layout.HOLDS_PROGRAM, 0)
     cells = np.where(planar.is_quad, layout.QUAD_FLAG, np.where(planar.is_mean, layout.IS_MEAN, cells))
     texels = np.zeros((len(cells), 4), np.uint32)
     texels[:, 0] = first_quad + planar.first_quad
-    texels[:, 1] = first_curve + planar.first_curve
+    texels[:, 1] = first_curve + _before(texels_in(count, straight).sum(axis=1))
     texels[:, 2] = (cells << layout.CELL_BITS * np.arange(4)).sum(axis=1)
+    texels[:, 3] = _before(count.sum(axis=1))
     return texels
+
+
+def _before(count: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The sum of those before each."""
+    before: NDArray[np.int64] = np.cumsum(count) - count
+    return before
 
 
 def _holds_program(planar: PlanarMap) -> NDArray[np.bool_]:
@@ -70,14 +83,6 @@ def _holds_program(planar: PlanarMap) -> NDArray[np.bool_]:
     last = planar.first_curve[:, None] + np.cumsum(planar.count, axis=1, dtype=np.int64)
     holds: NDArray[np.bool_] = is_program[planar.base] | (beside[last] > beside[last - planar.count])
     return holds
-
-
-def curve_texels(curves: NDArray[np.int32]) -> NDArray[np.uint32]:
-    """A texel for each curve (n, 4, 2), in lattice units."""
-    offset = np.array([0, layout.CONTROL_OFFSET, layout.CONTROL_OFFSET, 0])[:, None]
-    stored = curves + offset
-    texels: NDArray[np.uint32] = (stored[:, :, 0] | (stored[:, :, 1] << layout.COORDINATE_BITS)).astype(np.uint32)
-    return texels
 
 
 def _cell_texels(planar: PlanarMap) -> NDArray[np.uint32]:
@@ -91,10 +96,10 @@ def _cell_texels(planar: PlanarMap) -> NDArray[np.uint32]:
     return texels
 
 
-def _side_texels(sides: NDArray[np.int32], skipped: int) -> NDArray[np.uint32]:
-    """Four curves to a texel, the paints on their left in the low bits; as many places as `skipped` come before."""
-    words = np.zeros(-(-(skipped + len(sides)) // 4) * 4, np.uint32)
-    words[skipped : skipped + len(sides)] = sides[:, 0] | (sides[:, 1] << layout.COORDINATE_BITS)
+def _side_texels(sides: NDArray[np.int32]) -> NDArray[np.uint32]:
+    """Four curves to a texel, the paints on their left in the low bits."""
+    words = np.zeros(-(-len(sides) // 4) * 4, np.uint32)
+    words[: len(sides)] = sides[:, 0] | (sides[:, 1] << layout.COORDINATE_BITS)
     return words.reshape(-1, 4)
 
 
@@ -119,7 +124,7 @@ class MapHead(NamedTuple):
 
     used: int  # number of paints
     cells: int
-    sides: int  # texel of the sides of curve 0, if there were one
+    sides: int
     paints: int
 
     @property
@@ -142,9 +147,11 @@ class MapTexels(NamedTuple):
     levels: list[WalkLevel]
     quad: int
     first_curve: int
-    curves: int
+    curves: int  # number of their texels
+    points: NDArray[np.int32]  # of each curve, (curves, 4, 2), in the order of the levels
+    texels: NDArray[np.int64]  # of each of them
     cells: int
-    sides: int  # texel of the first curve's paints
+    sides: int
     paints: int
     used: int  # number of paints
     programs: int
@@ -155,13 +162,12 @@ class MapTexels(NamedTuple):
     def ranges(self) -> list[tuple[int, int]]:
         """First and last + 1 of the texels of each part."""
         quads = sum(len(level.quads) for level in self.levels)
-        after = (self.first_curve + self.curves + 3) // 4 - self.first_curve // 4 if self.curves else 0
         return [
             (self.quad - layout.MAP_HEAD, self.quad),
             (self.quad, self.quad + quads),
             (self.first_curve, self.first_curve + self.curves),
             (self.cells, self.cells + 2 * quads),
-            (self.sides, self.sides + after),
+            (self.sides, self.sides + (len(self.points) + 3) // 4),
             (self.paints, self.paints + (self.used + 1) // 2),
             (self.programs, self.programs + self.operations + self.stops),
         ]
@@ -184,12 +190,13 @@ def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
         if len(listed) and np.ptp(listed) + 1 != len(listed):
             raise FormatError(f"the {what} of the map with root {quad} are not consecutive; {REMEDY}")
     first_curve = int(curves.min()) if len(curves) else 0
-    first_sides = sides + first_curve // 4
-    parts = (levels, quad, first_curve, len(curves), cells, first_sides, paints, used, programs, operations, stops)
-    found = MapTexels(*parts)
-    ends = curve_points(flat[curves])[:, [0, 3], 1]
-    if flat[quads, 3].any() or (ends[:, 0] > ends[:, 1]).any():
-        raise FormatError(f"the map with root {quad} has a quad with a coverage or a curve that goes down; {REMEDY}")
+    points, at = _curves(flat, levels, curves)
+    parts = (cells, sides, paints, used, programs, operations, stops)
+    found = MapTexels(levels, quad, first_curve, len(curves), points, at, *parts)
+    count = np.concatenate([level.counts for level in levels]).sum(axis=1)
+    order = np.argsort(quads)
+    if (flat[quads[order], 3] != _before(count[order])).any() or (points[:, 0, 1] > points[:, 3, 1]).any():
+        raise FormatError(f"the map with root {quad} has curves out of number or a curve that goes down; {REMEDY}")
     for what, (_, stop) in zip(PARTS, found.ranges, strict=True):
         if stop > len(flat):
             raise FormatError(f"the {what} of the map with root {quad} end at texel {stop} of {len(flat)}; {REMEDY}")
@@ -201,6 +208,20 @@ def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
     if (table[:, :3] > table[:, 3:]).any() or (means[..., :3] > means[..., 3:]).any():
         raise FormatError(f"the map with root {quad} has a colour above its opacity; {REMEDY}")
     return found
+
+
+def _curves(
+    flat: NDArray[np.uint32], levels: list[WalkLevel], texels: NDArray[np.int64]
+) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+    """The curves of a map, (curves, 4, 2), and the texel of each, both in the order of the levels, as are `texels`."""
+    count = np.concatenate([level.counts.ravel() for level in levels])
+    straight = np.concatenate([level.windings.ravel() & layout.STRAIGHT > 0 for level in levels])
+    at = LeafCurves.of(count, straight)
+    points = leaf_points(flat[texels], at)
+    alone = np.cumsum(texels_in(count, straight))[straight & (count % 2 == 1)] - 1
+    if flat[texels[alone], 2:].any():
+        raise FormatError(f"texel {texels[alone][0]} or another of one curve has a second one; {REMEDY}")
+    return points, texels[at.texel]
 
 
 def _parts(flat: NDArray[np.uint32], found: MapTexels, part: int) -> NDArray[np.uint32]:
@@ -227,7 +248,7 @@ def _means(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
 
 def _sides(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
     """Paints on the left and right of each curve, (curves, 2)."""
-    words = _parts(flat, found, 4).ravel()[found.first_curve % 4 :][: found.curves].astype(np.int64)
+    words = _parts(flat, found, 4).ravel()[: len(found.points)].astype(np.int64)
     return np.stack([words & (layout.MOST_PAINTS - 1), words >> layout.COORDINATE_BITS], axis=1)
 
 
@@ -261,20 +282,21 @@ def decode_map(flat: NDArray[np.uint32], quad: int) -> PlanarMap:
     found = read_map(flat, quad)
     levels = found.levels
     quads = np.concatenate([level.quads for level in levels])
-    curves = np.concatenate([level.curves for level in levels])
     is_quad = np.concatenate([level.is_quad for level in levels])
     count = np.concatenate([level.counts for level in levels])
     quads_in, curves_in = is_quad.sum(axis=1), count.sum(axis=1)
+    first = _before(curves_in)
+    number = np.arange(len(found.points)) + np.repeat(flat[quads, 3] - first, curves_in)
     return PlanarMap(
         is_quad,
         np.concatenate([level.windings == layout.IS_MEAN for level in levels]),
         count.astype(np.uint8),
         _bases(flat, found)[quads - found.quad].astype(np.int32),
         np.where(quads_in > 0, 1 + np.cumsum(quads_in) - quads_in, 0).astype(np.int32),
-        np.where(curves_in > 0, np.cumsum(curves_in) - curves_in, 0).astype(np.int32),
+        np.where(curves_in > 0, first, 0).astype(np.int32),
         _means(flat, found)[quads - found.quad] / layout.COVERAGE_ONE,
-        curve_points(flat[curves]),
-        _sides(flat, found)[curves - found.first_curve].astype(np.int32),
+        found.points,
+        _sides(flat, found)[number].astype(np.int32),
         _paints(flat, found),
         _programs(flat, found),
         (),

@@ -24,7 +24,7 @@ from vexture.layout import (
     QUAD_FLAG,
 )
 from vexture.paint import Paint
-from vexture.texture.contains import read_curve
+from vexture.texture.curves import read_leaf_curve, texels_of_cell
 from vexture.texture.pick import style_of_root
 from vexture.texture.planar import head_of, paint_texels, paints_from
 from vexture.texture.root import Root
@@ -145,21 +145,26 @@ def _count_quads(flat: NDArray[np.uint32], root: int) -> int:
 def _set_leaf_mean(
     flat: NDArray[np.uint32],
     base: int,
-    curves: tuple[int, int],
+    cell: int,
+    first: tuple[int, int],
     sides: int,
     table: NDArray[np.float64],
     curve: NDArray[np.float64],
     mean: NDArray[np.float64],
 ) -> None:
-    """Write the mean colour (4,) of a leaf with the curves first..last-1 (FORMAT.md, D.8); `curve` is scratch."""
+    """Write the mean colour (4,) of a leaf (FORMAT.md, D.8); `curve` is scratch.
+
+    `cell` is the leaf's byte; `first` are the texel and the number of its first curve.
+    """
     for c in range(4):
         mean[c] = table[base, c]
-    for i in range(curves[0], curves[1]):
-        read_curve(flat[i], curve)
+    for i in range(cell >> COUNT_SHIFT):
+        read_leaf_curve(flat, first[0], cell, i, curve)
         area = (curve[0, 1] - curve[3, 1]) / LATTICE + integral_x_dy(curve) / LATTICE**2
         area += 1.0 - curve[0, 1] / LATTICE if curve[0, 0] == 0.0 else 0.0
         area -= 1.0 - curve[3, 1] / LATTICE if curve[3, 0] == 0.0 else 0.0
-        pair = int(flat[sides + (i >> 2), i & 3])
+        j = first[1] + i
+        pair = int(flat[sides + (j >> 2), j & 3])
         left, right = pair & MOST_PAINTS - 1, pair >> COORDINATE_BITS
         for c in range(4):
             mean[c] += area * (table[left, c] - table[right, c])
@@ -175,6 +180,7 @@ def renew_means(flat: NDArray[np.uint32], root: int, cells: int, sides: int, tab
     means = np.empty((quads, 4, 4))
     for place in range(quads - 1, -1, -1):
         below, at = int(flat[root + place, 0]) - root, int(flat[root + place, 1])
+        number = int(flat[root + place, 3])
         for k in range(4):
             cell, mean = int(flat[root + place, 2]) >> CELL_BITS * k & BYTE, means[place, k]
             if cell == QUAD_FLAG:
@@ -185,9 +191,10 @@ def renew_means(flat: NDArray[np.uint32], root: int, cells: int, sides: int, tab
                 for c in range(4):
                     mean[c] = (int(flat[cells + 2 * place, k]) >> CELL_BITS * c & BYTE) / COVERAGE_ONE
             else:
-                base, after = int(flat[cells + 2 * place + 1, k]), at + (cell >> COUNT_SHIFT)
-                _set_leaf_mean(flat, base, (at, after), sides, table, curve, mean)
-                at = after
+                base = int(flat[cells + 2 * place + 1, k])
+                _set_leaf_mean(flat, base, cell, (at, number), sides, table, curve, mean)
+                at += texels_of_cell(cell)
+                number += cell >> COUNT_SHIFT
             word, alpha = 0, min(max(mean[3], 0.0), 1.0)
             for c in range(4):
                 word |= int(np.rint(COVERAGE_ONE * min(max(mean[c], 0.0), alpha))) << CELL_BITS * c

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from vexture import layout
 from vexture.errors import FormatError
+from vexture.texture.curves import texels_in
 
-__all__ = ["HALVES", "REMEDY", "WalkLevel", "curve_points", "walk"]
+__all__ = ["HALVES", "REMEDY", "WalkLevel", "check_ends", "walk"]
 
 REMEDY: Final = "convert the drawing again"
 
@@ -28,7 +29,7 @@ class WalkLevel(NamedTuple):
     counts: NDArray[np.int64]  # (n, 4): curves of each leaf
     windings: NDArray[np.int64]  # (n, 4): corner winding of each leaf with curves; 0 elsewhere; in maps, the low bits
     coverages: NDArray[np.int64]  # (n, 4): coverage byte of each cell
-    curves: NDArray[np.int64]  # (m,): index of each curve's texel, in the order of the quads and their cells
+    curves: NDArray[np.int64]  # (m,): index of each texel of curves, in the order of the quads and their cells
 
 
 def walk(flat: NDArray[np.uint32], roots: NDArray[np.int64], of_maps: bool = False) -> list[WalkLevel]:
@@ -52,7 +53,8 @@ def walk(flat: NDArray[np.uint32], roots: NDArray[np.int64], of_maps: bool = Fal
             raise FormatError(f"quad {quads[0]} lies at depth {depth}; the limit is {deepest}; {REMEDY}")
         is_quad, count, winding, coverage = _cells(flat, quads, of_maps)
         below = _below(flat[:, 0], quads, is_quad.sum(axis=1), met, "quad")
-        curves = _below(flat[:, 1], quads, count.sum(axis=1), met, "curve")
+        texels = texels_in(count, (winding & layout.STRAIGHT > 0) & of_maps).sum(axis=1)
+        curves = _below(flat[:, 1], quads, texels, met, "curve")
         levels.append(WalkLevel(quads, tree, is_quad, count, winding, coverage, curves))
         quads, tree = below, np.repeat(tree, is_quad.sum(axis=1))
     return levels
@@ -69,7 +71,8 @@ def _cells(
     is_quad = cells >= layout.QUAD_FLAG
     count = np.where(is_quad, 0, cells >> layout.COUNT_SHIFT & layout.MOST_CURVES)
     winding = np.where(is_quad, 0, cells & ((1 << layout.COUNT_SHIFT) - 1))
-    is_map_leaf = (winding == 0) | (winding == layout.HOLDS_PROGRAM) | (cells == layout.IS_MEAN)
+    allowed = layout.HOLDS_PROGRAM | np.where(count > 0, layout.STRAIGHT, 0)
+    is_map_leaf = (winding & ~allowed == 0) | (cells == layout.IS_MEAN)
     leaf_is_wrong = ~is_map_leaf if of_maps else (count > 0) != (winding > 0)
     wrong = np.where(is_quad, cells != layout.QUAD_FLAG, leaf_is_wrong)
     if wrong.any():
@@ -102,9 +105,10 @@ def _below(
     return found
 
 
-def curve_points(texels: NDArray[np.uint32]) -> NDArray[np.int32]:
-    """Points of curves in lattice units of their leaf, (n, 4) -> (n, 4, 2)."""
-    mask = (1 << layout.COORDINATE_BITS) - 1
-    points = np.stack([texels & mask, texels >> layout.COORDINATE_BITS], axis=2).astype(np.int32)
-    points[:, 1:3] -= layout.CONTROL_OFFSET
-    return points
+def check_ends(ends: NDArray[np.int32], texels: NDArray[np.int64]) -> None:
+    """Raise a `FormatError` where an end of a curve, (n, 2, 2), lies beyond its leaf; `texels` are the curves' (n,)."""
+    most = ends.max(axis=(1, 2), initial=0)
+    if len(most) and most.max() > layout.LATTICE:
+        raise FormatError(
+            f"curve {texels[most.argmax()]} has an end at {most.max()}; the limit is {layout.LATTICE:.0f}; {REMEDY}"
+        )

@@ -1,9 +1,9 @@
 """Texels that the shader reads for a pixel in colours: of a planar map, and of stacked layers.
 
 The mirror (`vexture.renderers.colour`, `cpu`) runs with its reads counted, and what it reads once is counted as often
-as the shader reads it: a piece that is not clear of the pixel twice, and in maps without gradients both paints beside
-it. Layers are visited as `vextureLayers` does it, from the top until none below would show; one whose box the pixel
-does not meet costs the texel of its box.
+as the shader reads it: a piece that is not clear of the pixel twice, if its texel is not the one that was read last,
+and in maps without gradients both paints beside it. Layers are visited as `vextureLayers` does it, from the top until
+none below would show; one whose box the pixel does not meet costs the texel of its box.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
 from vexture.renderers import colour, cpu
+from vexture.renderers.cells import Texel
 from vexture.renderers.gpu import has_gradients
+from vexture.renderers.leaf import Leaf
 from vexture.renderers.method import BORDER, COVERED
 from vexture.renderers.uniforms import Uniforms, uniforms_of
 from vexture.renderers.view import ViewLike
@@ -25,6 +27,30 @@ __all__ = ["Sheets", "layer_boxes", "pixel_fetches", "spread_pixels"]
 
 BOX, HEAD = 1, 1
 """Texels with the box of a layer, and with its quad and paint."""
+
+
+class SecondLoop:
+    """Counts what the shader reads anew in its second loop over the pieces of a leaf: those not clear of the pixel."""
+
+    def __init__(self, found: list[int]) -> None:
+        self.found, self.at = found, 0
+        self.wanted: list[int] = []
+
+    def piece(self, result: tuple[Texel, Leaf], *_: Any) -> None:
+        """The first loop reads a piece."""
+        self.at = result[1].at
+
+    def look(self, seen: cpu.Look, *_: Any) -> None:
+        """It looks at that piece."""
+        if seen.crosses or seen.filled != 0.0:
+            self.wanted.append(self.at)
+
+    def end(self, *_: Any) -> None:
+        """The leaf ends."""
+        for at in self.wanted:
+            self.found[0] += 1 if at != self.at else 0
+            self.at = at
+        self.wanted.clear()
 
 
 class Sheets(NamedTuple):
@@ -97,10 +123,9 @@ def _opacity(
 
         return note
 
-    def look(seen: cpu.Look, *_: Any) -> None:
-        found[0] += 1 if seen.crosses or seen.filled != 0.0 else 0
-
-    notes = {"texel": adding(1), "flat_look": look, "first_look": look}
+    second = SecondLoop(found)
+    notes = {"texel": adding(1), "flat_look": second.look, "first_look": second.look, "leaf_piece": second.piece}
+    notes |= {"add_flat_cell": second.end, "add_cell": second.end}
     if is_plain:  # flat colours are read where they are named, and not when all are summed
         notes |= {"paint": adding(-1), "add_paint": adding(1)}
     color = noted(colour.view_color, notes, {})
