@@ -54,13 +54,13 @@ GENERATED = {
     ),
     "masks.svg": (
         HEAD + "".join(MASK.format(k, k + 1) for k in range(25)) + MASKED.format(0) + "</svg>",
-        "<use>, clips, masks and patterns show more than 50,000 elements",
+        "<use>, clips, markers, masks and patterns show more than 50,000 elements",
     ),
     "clips.svg": (
         HEAD
         + "".join(CLIP.format(k, k + 1) for k in range(2000))
         + '<rect width="9" height="9" clip-path="url(#c0)"/></svg>',
-        "clips, masks and patterns are nested more than 32 deep",
+        "clips, markers, masks and patterns are nested more than 32 deep",
     ),
     "brackets.svg": (HEAD + f"<rect style='fill:{'[' * 50_000}'/></svg>", "nests brackets too deeply"),
     "cut.svgz": (gzip.compress(HEAD.encode() + b"</svg>")[:-9], "gzip data breaks off"),

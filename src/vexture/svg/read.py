@@ -33,9 +33,10 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None, names: str
 
     Shapes, paths, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as browsers
     draw them. Opacity, blend modes, clips and masks that need several paths together become `Drawing.groups`. Gradients
-    are read in full (`Paint.gradient`), patterns as the paths of their tiles. What is not supported is left out and
-    named. Paths are named (`Path.element`) by the ``id`` of their element or of the nearest one around it, and all that
-    a `use` or a pattern shows by that of the `use` or the shape; a stroke is ``id/stroke``.
+    are read in full (`Paint.gradient`), patterns as the paths of their tiles, markers as the paths of their content.
+    What is not supported is left out and named. Paths are named (`Path.element`) by the ``id`` of their element or of
+    the nearest one around it, and all that a `use`, a marker or a pattern shows by that of the `use` or the shape; a
+    stroke is ``id/stroke``.
 
     The box of the drawing is the outermost viewport: `width` and `height`, or the size in `viewBox` where one of them
     is missing or a percentage. A drawing without any of them is as large as what it paints.

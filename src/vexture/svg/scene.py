@@ -5,6 +5,7 @@ The walk has its own stack, so that deep nesting cannot exhaust Python's. `use` 
 
 from copy import copy
 from dataclasses import replace
+from functools import cache
 from math import inf
 
 import numpy as np
@@ -17,13 +18,15 @@ from vexture.errors import SourceError
 from vexture.group import Group
 from vexture.svg.compositing import Veil, grouped, veil_of
 from vexture.svg.document import local_name
+from vexture.svg.markers import has_markers, markers
 from vexture.svg.masks import MASKING, add_masks
 from vexture.svg.names import ElementNames
+from vexture.svg.outline import Outline
 from vexture.svg.paint_servers import PaintServers, reference
 from vexture.svg.painter import Painter, Ruler
 from vexture.svg.report import Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
-from vexture.svg.space import Place, Placed, Space
+from vexture.svg.space import Context, Place, Placed, Space, Window
 from vexture.svg.style import INITIAL, Cascade, Style
 from vexture.svg.tiles import Canvas
 from vexture.svg.transform import Identity, Transform, parse_origin, parse_transform
@@ -33,7 +36,7 @@ from vexture.svg.viewport import CENTRED, Rectangle, parse_fit, view_box, view_t
 __all__ = ["Scene"]
 
 MOST_USED = 50_000
-"""Elements that `use`, clips, masks and first tiles may show; each time counts, in nested ones as often as deep."""
+"""Elements that `use`, clips, markers, masks and first tiles show; each time counts, nested ones as often as deep."""
 
 DEEPEST = 1_000
 """Elements around an element, including those that `use` adds."""
@@ -57,7 +60,6 @@ EFFECTS = {
 }
 """Properties that are not supported, and the value of each without effect."""
 
-MARKED = frozenset({"line", "path", "polygon", "polyline"})
 LANGUAGE = "en"
 """Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
 
@@ -115,7 +117,7 @@ class Scene:
             element, place = stack.pop()
             self.used += place.masks or place.used
             if self.used > MOST_USED:
-                what = "<use>, clips, masks and patterns show" if place.masks else "<use> shows"
+                what = "<use>, clips, markers, masks and patterns show" if place.masks else "<use> shows"
                 raise SourceError(f"{what} more than {MOST_USED:,} elements (a use bomb?); draw fewer copies")
             try:
                 stack.extend(reversed(self.visit(element, place, painter)))
@@ -165,14 +167,18 @@ class Scene:
         """Paint a shape, or return the elements that another one shows; `inner` is the place inside."""
         name = local_name(element) or ""
         if name in SHAPES:
-            self.note_children(element, name, inner.style)
-            painter.paint(element, inner)
+            if any(local_name(child) in ANIMATIONS for child in element):
+                self.report.left_out("animation")
+            marked = not inner.is_clip and has_markers(name, inner.style)
+            painter.paint(element, inner, markers(self, element, inner) if marked else ())
             return []
         if name == "use":
             return self.use_target(element, inner)
         if name in ("svg", "symbol"):
-            window = self.window(element, inner, inner.outer.use if inner.outer is not None else None)
-            return [] if window is None else [(child, window) for child in element]
+            sides = self.sides(inner, inner.outer.use if inner.outer is not None else None)
+            window = self.window(element, inner.style, sides)
+            within = None if window is None else window.within(inner)
+            return [] if within is None else [(child, within) for child in element]
         if name == "switch":
             return [(child, inner) for child in element if local_name(child) is not None and applies(child)][:1]
         return [(child, inner) for child in element]
@@ -188,13 +194,18 @@ class Scene:
         silent.cascade.report = silent.report
         ruler = Ruler(self.servers, silent.report, self.walk)
         stack = silent.content(element, replace(place, space=Space()), ruler)
-        while stack:
-            check_time()
-            stack.extend(silent.visit(*stack.pop(), ruler))
+        silent.walk(stack, ruler)
         if not ruler.corners:
             return None
         left, top, right, bottom = bounds(np.concatenate(ruler.corners))
         return (left, top, right - left, bottom - top) if right > left and bottom > top else None
+
+    def box(self, place: Place) -> Outline:
+        """Outline of the bounding box of what the element at a place shows; a point if it has no area."""
+        assert place.element is not None
+        left, top, width, height = self.extent(place.element, place) or (0.0, 0.0, 0.0, 0.0)
+        right, bottom = left + width, top + height
+        return Outline.polygon(np.array([(left, top), (right, top), (right, bottom), (left, bottom)]), closed=True)
 
     def use_target(self, element: etree._Element, place: Place) -> list[Placed]:
         """Return the element that a `use` shows."""
@@ -205,29 +216,27 @@ class Scene:
             return []
         if place.inside(target):
             raise SourceError(f"it shows itself (a cycle through {described(target)}); break the cycle")
-        return [(target, replace(place, used=True, use=place.style))]
+        context = Context(place, cache(lambda: [self.box(place)]))
+        return [(target, replace(place, used=True, use=place.style, context=context))]
 
-    def window(self, element: etree._Element, place: Place, use: Style | None) -> Place | None:
-        """Place inside a nested `<svg>` or a shown `<symbol>`; None if it has no size."""
+    def sides(self, place: Place, use: Style | None) -> Rectangle:
+        """Viewport of a nested `<svg>` or a shown `<symbol>`, of which a `use` may give the size."""
         style = place.style
-        x, y = position(place)
         sides = []
         for name, whole in (("width", place.viewport.width), ("height", place.viewport.height)):
             text = style[name] if use is None or use[name].lower() == "auto" else use[name]
             auto = text.lower() == "auto"
             sides.append(whole if auto else place.viewport.length(text, whole, style.font_size) or 0.0)
-        width, height = sides
+        return *position(place), sides[0], sides[1]
+
+    def window(self, element: etree._Element, style: Style, sides: Rectangle) -> Window | None:
+        """How an element with sides shows its content; None if it shows nothing."""
+        x, y, width, height = sides
         if width <= 0.0 or height <= 0.0:
             return None
-        box = view_box(element.get("viewBox"))
-        shown = self.fit(element, box or (0.0, 0.0, width, height), width, height)
-        matrix = Identity.translate(x, y).transform(shown)
-        if style["overflow"].lower() in ("visible", "auto"):
-            space = place.space.moved(matrix)
-        else:
-            space = place.space.window((x, y, width, height), matrix)
-        size = box[2:] if box else (width, height)
-        return replace(place, viewport=replace(place.viewport, width=size[0], height=size[1]), space=space)
+        box = view_box(element.get("viewBox")) or (0.0, 0.0, width, height)
+        content = Identity.translate(x, y).transform(self.fit(element, box, width, height))
+        return Window(None if style["overflow"].lower() in ("visible", "auto") else sides, content, box[2:])
 
     def fit(self, element: etree._Element, box: Rectangle, width: float, height: float) -> Transform:
         """Map from a view box to a viewport, by the element's `preserveAspectRatio`."""
@@ -273,13 +282,6 @@ class Scene:
             for name, nothing in EFFECTS.items():
                 if style.own.get(name, nothing).lower() != nothing:
                     self.report.left_out(name)
-
-    def note_children(self, element: etree._Element, name: str, style: Style) -> None:
-        """Note what is attached to a shape and not supported."""
-        if any(local_name(child) in ANIMATIONS for child in element):
-            self.report.left_out("animation")
-        if name in MARKED and any(style[f"marker-{end}"].lower() != "none" for end in ("start", "mid", "end")):
-            self.report.left_out("marker")
 
 
 def position(place: Place) -> tuple[float, float]:

@@ -17,7 +17,7 @@ from vexture.svg.report import Report
 from vexture.svg.style import Style
 from vexture.svg.values import LARGEST, Viewport
 
-__all__ = ["SHAPES", "Shape", "shape_outlines"]
+__all__ = ["SHAPES", "Shape", "check", "path_data", "shape_outlines"]
 
 CSS_PATH = re.compile(r"path\(\s*(?:(?:nonzero|evenodd)\s*,\s*)?(['\"])(.*)\1\s*\)", re.DOTALL)
 HORIZONTAL = frozenset({"x", "cx", "rx", "width", "x1", "x2"})
@@ -72,13 +72,17 @@ def check(coordinates: NDArray[np.float64]) -> None:
         raise SourceError(f"it has a coordinate of {largest:g}; the limit is {LARGEST:g}; correct it")
 
 
+def path_data(shape: Shape) -> str:
+    """Path data of `<path>`, empty without."""
+    data = shape.style["d"]
+    if css := CSS_PATH.fullmatch(data):
+        return css[2]
+    return "" if data == "none" else data
+
+
 def path(shape: Shape) -> list[Outline]:
     """Outlines of `<path>`, up to the first error in its data."""
-    data = shape.style["d"]
-    if data == "none":
-        return []
-    if css := CSS_PATH.fullmatch(data):
-        data = css[2]
+    data = path_data(shape)
     outlines, valid = path_outlines(data, shape.tolerance)
     if valid < len(data):
         shape.report.invalid("d", f"...{data[valid:]}", shape.element)
