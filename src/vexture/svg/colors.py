@@ -42,6 +42,10 @@ def read_color(text: str) -> Color | str | None:
         return None
     if parsed == "currentcolor":
         return "currentcolor"
+    if parsed.space == "hsl":  # its saturation and lightness are clamped before they are converted, as browsers do
+        hue, *parts = parsed.coordinates
+        parts = [min(max(part or 0.0, 0.0), 100.0) for part in parts]
+        parsed = tinycss2.color4.Color("hsl", (hue, *parts), parsed.alpha)
     try:
         red, green, blue = (min(max(float(channel or 0), 0.0), 1.0) for channel in parsed.to("srgb").coordinates)
     except NotImplementedError:

@@ -18,7 +18,8 @@ from vexture.svg.tiles import Budget, FirstTile
 
 __all__ = ["PaintServers", "reference"]
 
-HREF = ("href", "{http://www.w3.org/1999/xlink}href")
+HREF = ("href", "{http://www.w3.org/1999/xlink}href", "xlink:href")
+"""Attributes that link, the last one in files that do not declare its prefix, as HTML allows."""
 GREY = Color((0.5, 0.5, 0.5), 1.0)
 PATTERNS = frozenset({"pattern"})
 MOST_STOPS = 128

@@ -30,8 +30,8 @@ from vexture.svg.space import Context, Place, Placed, Space, Window
 from vexture.svg.style import INITIAL, Cascade, Style
 from vexture.svg.tiles import Canvas
 from vexture.svg.transform import Identity, Transform, parse_origin, parse_transform
-from vexture.svg.values import Viewport
-from vexture.svg.viewport import CENTRED, Rectangle, parse_fit, view_box, view_transform
+from vexture.svg.values import TooLargeError, Viewport
+from vexture.svg.viewport import CENTRED, THINNEST, Rectangle, parse_fit, view_box, view_transform
 
 __all__ = ["Scene"]
 
@@ -59,6 +59,9 @@ EFFECTS = {
     "translate": "none",
 }
 """Properties that are not supported, and the value of each without effect."""
+
+DRAWN = frozenset({*SHAPES, *CONTAINERS, "image", "text", "use"})
+"""Elements that a `switch` may choose before those that are not known."""
 
 LANGUAGE = "en"
 """Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
@@ -89,8 +92,7 @@ class Scene:
         """Paint everything, and find the groups.
 
         Percentages at the root refer to `viewport`, and `matrix` maps user units to the drawing. `frame` is what of the
-        drawing is visible, None while it is unknown. Raises a `SourceError` if a limit is exceeded or
-        `use` shows itself.
+        drawing is visible, None while it is unknown. Raises a `SourceError` if a limit is exceeded.
         """
         canvas = Canvas(frame, inf if frame is None else max(frame[2:]))
         painter = Painter(self.servers, self.report, canvas, self.walk)
@@ -123,12 +125,16 @@ class Scene:
                 stack.extend(reversed(self.visit(element, place, painter)))
             except LocatedError:
                 raise
+            except TooLargeError as error:
+                self.report.left_out(f"{described(element)}: {error}")
             except SourceError as error:
                 raise LocatedError(f"{described(element)}: {error}") from None
 
     def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Placed]:
         """Paint an element, or return the elements that it shows."""
         name = local_name(element)
+        if name is None and str(element.tag).rpartition("}")[2] in DRAWN:
+            self.report.left_out(f"{described(element)}, of another namespace")
         if name is None or name in UNPAINTED or (name == "symbol" and place.use is None) or not applies(element):
             return []
         chosen = place.chosen or (self.chosen is not None and element in self.chosen)
@@ -180,7 +186,7 @@ class Scene:
             within = None if window is None else window.within(inner)
             return [] if within is None else [(child, within) for child in element]
         if name == "switch":
-            return [(child, inner) for child in element if local_name(child) is not None and applies(child)][:1]
+            return [(child, inner) for child in switched(element)]
         return [(child, inner) for child in element]
 
     def extent(self, element: etree._Element, place: Place) -> Rectangle | None:
@@ -215,7 +221,8 @@ class Scene:
             self.report.left_out(f"<use> of '{link[:40]}'")
             return []
         if place.inside(target):
-            raise SourceError(f"it shows itself (a cycle through {described(target)}); break the cycle")
+            self.report.left_out(f"{described(element)} that shows itself")
+            return []
         context = Context(place, cache(lambda: [self.box(place)]))
         return [(target, replace(place, used=True, use=place.style, context=context))]
 
@@ -234,9 +241,19 @@ class Scene:
         x, y, width, height = sides
         if width <= 0.0 or height <= 0.0:
             return None
-        box = view_box(element.get("viewBox")) or (0.0, 0.0, width, height)
+        box = self.view(element) or (0.0, 0.0, width, height)
+        if min(box[2:]) < THINNEST:
+            return None
         content = Identity.translate(x, y).transform(self.fit(element, box, width, height))
         return Window(None if style["overflow"].lower() in ("visible", "auto") else sides, content, box[2:])
+
+    def view(self, element: etree._Element) -> Rectangle | None:
+        """The `viewBox` of an element; None without a valid one."""
+        text = element.get("viewBox")
+        box = None if text is None else view_box(text)
+        if text is not None and box is None:
+            self.report.invalid("viewBox", text, element)
+        return box
 
     def fit(self, element: etree._Element, box: Rectangle, width: float, height: float) -> Transform:
         """Map from a view box to a viewport, by the element's `preserveAspectRatio`."""
@@ -289,6 +306,12 @@ def position(place: Place) -> tuple[float, float]:
     x, y = place.style["x"], place.style["y"]
     view, font_size = place.viewport, place.style.font_size
     return view.length(x, view.width, font_size) or 0.0, view.length(y, view.height, font_size) or 0.0
+
+
+def switched(switch: etree._Element) -> list[etree._Element]:
+    """The child that a `switch` shows: the first that applies and is drawn; without one, all, for their notes."""
+    children = [child for child in switch if local_name(child) is not None and applies(child)]
+    return [child for child in children if local_name(child) in DRAWN][:1] or children
 
 
 def applies(element: etree._Element) -> bool:

@@ -10,12 +10,11 @@ from lxml import etree
 from numpy.typing import NDArray
 
 from vexture.bezier.convert import arc_cubics, ellipse_cubics
-from vexture.errors import SourceError
 from vexture.svg.outline import Outline
 from vexture.svg.path_data import NUMBER, POINTS, path_outlines
 from vexture.svg.report import Report
 from vexture.svg.style import Style
-from vexture.svg.values import LARGEST, Viewport
+from vexture.svg.values import LARGEST, TooLargeError, Viewport
 
 __all__ = ["SHAPES", "Shape", "check", "path_data", "shape_outlines"]
 
@@ -58,7 +57,7 @@ class Shape:
 
 
 def shape_outlines(shape: Shape) -> list[Outline]:
-    """Outlines of a shape in its own user units; a `SourceError` if a coordinate exceeds `LARGEST`."""
+    """Outlines of a shape in its own user units; a `TooLargeError` if a coordinate exceeds `LARGEST`."""
     outlines = SHAPES[etree.QName(shape.element).localname](shape)
     for outline in outlines:
         check(outline.cubics)
@@ -69,7 +68,7 @@ def check(coordinates: NDArray[np.float64]) -> None:
     """Reject coordinates that are too large to compute with."""
     largest = np.abs(coordinates).max(initial=0.0)
     if not largest <= LARGEST:
-        raise SourceError(f"it has a coordinate of {largest:g}; the limit is {LARGEST:g}; correct it")
+        raise TooLargeError(f"it has a coordinate of {largest:g}; the limit is {LARGEST:g}; correct it")
 
 
 def path_data(shape: Shape) -> str:

@@ -13,7 +13,7 @@ from vexture.svg.compositing import Veil
 from vexture.svg.outline import Outline
 from vexture.svg.style import INITIAL, Style
 from vexture.svg.transform import Identity, Transform, mapped
-from vexture.svg.values import LARGEST, Viewport
+from vexture.svg.values import LARGEST, TooLargeError, Viewport
 from vexture.svg.viewport import Rectangle
 
 __all__ = ["SMALLEST", "Context", "Place", "Placed", "Space", "Window"]
@@ -44,7 +44,7 @@ class Space:
         """Coordinate system of an element with a transform."""
         whole = self.whole.transform(matrix)
         if not max(map(abs, whole)) <= LARGEST:
-            raise SourceError(f"the transforms multiply to {max(map(abs, whole)):g}; the limit is {LARGEST:g}")
+            raise TooLargeError(f"the transforms multiply to {max(map(abs, whole)):g}; the limit is {LARGEST:g}")
         return replace(self, matrix=self.matrix.transform(matrix), whole=whole)
 
     def window(self, visible: Rectangle, matrix: Transform) -> "Space":
