@@ -156,3 +156,6 @@ def test_a_file_without_size_is_reported_once(tmp_path: Path) -> None:
     file.write_text('<svg><text>a</text><rect width="9" height="9"/></svg>')
     with pytest.warns(SourceWarning, match="left out: <text>$"):
         read_svg(file)
+    file.write_text("<svg><text>a</text></svg>")
+    with pytest.warns(SourceWarning, match="left out: <text>; nothing in it is painted$"):
+        read_svg(file)

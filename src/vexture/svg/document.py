@@ -19,8 +19,11 @@ def parse_svg(content: bytes) -> etree._Element:
     try:
         root = etree.fromstring(content, parser)
     except etree.XMLSyntaxError as error:
-        if not parser.error_log or any(entry.domain_name != "NAMESPACE" for entry in parser.error_log):
-            raise SourceError(explained(" ".join((error.msg or "it is empty").split()))) from None
+        others = [entry for entry in parser.error_log if entry.domain_name != "NAMESPACE"]
+        if others or not parser.error_log:
+            known = len(others) == len(parser.error_log)
+            message = error.msg or "it is empty" if known else f"{others[0].message}, line {others[0].line}"
+            raise SourceError(explained(" ".join(message.split()))) from None
         root = etree.fromstring(content, parser_of(recover=True))
     if local_name(root) != "svg":
         space, _, name = str(root.tag).rpartition("}")

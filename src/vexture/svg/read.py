@@ -140,6 +140,7 @@ def drawing_of(scene: Scene, framed: Frame | None, name: str) -> Drawing:
         viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
         paths, _ = Scene(scene.root, Report()).paint(viewport, matrix, None)  # all of it, to measure; notes come later
         if not paths:
+            scene.paint(viewport, matrix, None)  # for its notes
             return Drawing((), name=name)
         left, top, right, bottom = bounds(np.concatenate([contour for path in paths for contour in path.contours]))
         box = (left, top, right - left, bottom - top)
