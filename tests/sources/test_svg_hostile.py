@@ -16,9 +16,6 @@ FIXTURES = Path(__file__).parent / "fixtures"
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">'
 
 SAID = {
-    "arc-1e300": "coordinate of .*; the limit is 1e.12",
-    "coordinate-1e300": '<path id="far"> in line 2: it has a coordinate of 1e.300; the limit is 1e.12',
-    "coordinate-infinite": "<path> in line 2: it has a coordinate of (nan|inf); the limit is 1e.12",
     "dash-bomb": "dashes; the limit is 100,000; lengthen",
     "empty": "not well-formed XML",
     "entity-bomb": "entities expand to too much text",
@@ -26,18 +23,9 @@ SAID = {
     "external-entity": "Entity .* external ones never",
     "far-from-view-box": "the limit is 1e.09; correct the coordinate",
     "html": "the root element is <html>, not <svg>",
-    "length-1e300": "<rect> in line 2: the number 1e300 is too large; the limit is 1e.12",
     "not-xml": "not well-formed XML",
-    "transform-1e300": "the transforms multiply to 1e.22; the limit is 1e.12",
     "truncated": "not well-formed XML: Premature end of data in tag g line 2",
-    "use-ancestor": 'shows itself .a cycle through <svg id="top"> in line 1.',
     "use-bomb": "<use> shows more than 50,000 elements",
-    "use-cycle": "shows itself .a cycle",
-    "use-itself": "shows itself .a cycle",
-    "view-box-nan": "viewBox is '0 0 nan 10'; it must be four numbers",
-    "view-box-three": "viewBox is '0 0 10'; it must be four numbers",
-    "view-box-zero": "viewBox is '0 0 0 0'; its width and height must be at least",
-    "width-zero": "the width of the outermost <svg> is 0",
 }
 
 MASKED = '<rect width="9" height="9" mask="url(#m{})"/>'
@@ -54,13 +42,13 @@ GENERATED = {
     ),
     "masks.svg": (
         HEAD + "".join(MASK.format(k, k + 1) for k in range(25)) + MASKED.format(0) + "</svg>",
-        "<use>, clips, masks and patterns show more than 50,000 elements",
+        "<use>, clips, markers, masks and patterns show more than 50,000 elements",
     ),
     "clips.svg": (
         HEAD
         + "".join(CLIP.format(k, k + 1) for k in range(2000))
         + '<rect width="9" height="9" clip-path="url(#c0)"/></svg>',
-        "clips, masks and patterns are nested more than 32 deep",
+        "clips, markers, masks and patterns are nested more than 32 deep",
     ),
     "brackets.svg": (HEAD + f"<rect style='fill:{'[' * 50_000}'/></svg>", "nests brackets too deeply"),
     "cut.svgz": (gzip.compress(HEAD.encode() + b"</svg>")[:-9], "gzip data breaks off"),

@@ -263,7 +263,7 @@ def test_patterns_in_patterns_end() -> None:
     inside = '<rect width="5" height="5" fill="url(#p{0})"/><rect x="5" y="5" width="5" height="4" fill="url(#p{0})"/>'
     pattern = '<pattern id="p{}" width="10%" height="10%" viewBox="0 0 10 10">{}</pattern>'
     chain = "".join(pattern.format(k, inside.format(k + 1)) for k in range(30))
-    with pytest.raises(SourceError, match="clips, masks and patterns show more than 50,000 elements"):
+    with pytest.raises(SourceError, match="clips, markers, masks and patterns show more than 50,000 elements"):
         drawing_of(f'{chain}<pattern id="p30" {SIZE}>{DOT}</pattern>{inside.format(0)}')
 
 
@@ -279,5 +279,7 @@ def test_tiles_in_tiles_are_counted() -> None:
 def test_patterns_nested_too_deeply_are_an_error() -> None:
     square = '<rect width="5" height="5" fill="url(#p{})"/>'
     chain = "".join(f'<pattern id="p{k}" width="1" height="1">{square.format(k + 1)}</pattern>' for k in range(40))
-    with pytest.raises(SourceError, match=r"^[^:]*: <rect> in line 1: its clips, masks and patterns are nested more"):
+    with pytest.raises(
+        SourceError, match=r"^[^:]*: <rect> in line 1: its clips, markers, masks and patterns are nested more"
+    ):
         drawing_of(chain + square.format(0))

@@ -27,7 +27,8 @@ SAID = {
     "import": "left out: @import",
     "lab-color": "simplified: colour of a space other than sRGB read as black",
     "many": "left out: <text> (2), <image>; invalid and ignored: r='x' of <rect> in line 5",
-    "marker": "left out: marker",
+    "marker": "left out: marker-start 'url(#none)', marker-start that refers to itself, of <marker id=\"c\"> in line 2;"
+    " invalid and ignored: markerWidth='-3' of <marker id=\"c\"> in line 2",
     "mask": "left out: mask 'url(stars.svg#m)'",
     "missing-paint": "left out: paint '#none' (2)",
     "pattern": 'simplified: <pattern id="c"> in line 2 read as solid: here it has 12,500,000,000 segments in its tiles;'
@@ -156,4 +157,7 @@ def test_a_file_without_size_is_reported_once(tmp_path: Path) -> None:
     file = tmp_path / "a.svg"
     file.write_text('<svg><text>a</text><rect width="9" height="9"/></svg>')
     with pytest.warns(SourceWarning, match="left out: <text>$"):
+        read_svg(file)
+    file.write_text("<svg><text>a</text></svg>")
+    with pytest.warns(SourceWarning, match="left out: <text>; nothing in it is painted$"):
         read_svg(file)

@@ -6,13 +6,14 @@ from typing import NamedTuple
 
 import tinycss2.color4
 
-__all__ = ["Color", "PaintText", "parse_color", "parse_paint"]
+__all__ = ["CONTEXT", "Color", "PaintText", "parse_color", "parse_paint"]
 
 LONGEST = 200
 """Characters. A colour is never longer, and the cache must not keep long untrusted texts."""
 
 REFERENCE = re.compile(r"url\(\s*(['\"]?)(.*?)\1\s*\)\s*(.*)", re.IGNORECASE | re.DOTALL)
-CONTEXT = ("context-fill", "context-stroke")
+CONTEXT = {"context-fill": "fill", "context-stroke": "stroke"}
+"""Paints of the context element, and the properties that give them (SVG 2, 13.2)."""
 
 
 class Color(NamedTuple):
@@ -27,7 +28,7 @@ class PaintText(NamedTuple):
     """A paint as written."""
 
     reference: str | None  # paint server to use if possible
-    color: Color | str | None  # None for no paint; "currentcolor" for the element's own colour
+    color: Color | str | None  # None for no paint; "currentcolor" for the element's own colour; or of `CONTEXT`
 
 
 @lru_cache(maxsize=512)
@@ -41,6 +42,10 @@ def read_color(text: str) -> Color | str | None:
         return None
     if parsed == "currentcolor":
         return "currentcolor"
+    if parsed.space == "hsl":  # its saturation and lightness are clamped before they are converted, as browsers do
+        hue, *parts = parsed.coordinates
+        parts = [min(max(part or 0.0, 0.0), 100.0) for part in parts]
+        parsed = tinycss2.color4.Color("hsl", (hue, *parts), parsed.alpha)
     try:
         red, green, blue = (min(max(float(channel or 0), 0.0), 1.0) for channel in parsed.to("srgb").coordinates)
     except NotImplementedError:
@@ -73,7 +78,7 @@ def parse_paint(text: str) -> PaintText | None:
     if text.lower() == "none":
         return PaintText(None, None)
     if text.lower() in CONTEXT:
-        return PaintText(text.lower(), None)
+        return PaintText(None, text.lower())
     if match := REFERENCE.fullmatch(text):
         fallback = match[3]
         return PaintText(match[2], parse_color(fallback) if fallback and fallback.lower() != "none" else None)

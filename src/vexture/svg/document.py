@@ -15,21 +15,33 @@ def parse_svg(content: bytes) -> etree._Element:
     Entities that the document itself defines are expanded within libxml2's limits; external ones are errors. Raises a
     `SourceError` if the content is not well-formed, exceeds a limit of libxml2, or is not SVG.
     """
-    parser = etree.XMLParser(
+    parser = parser_of()
+    try:
+        root = etree.fromstring(content, parser)
+    except etree.XMLSyntaxError as error:
+        others = [entry for entry in parser.error_log if entry.domain_name != "NAMESPACE"]
+        if others or not parser.error_log:
+            known = len(others) == len(parser.error_log)
+            message = error.msg or "it is empty" if known else f"{others[0].message}, line {others[0].line}"
+            raise SourceError(explained(" ".join(message.split()))) from None
+        root = etree.fromstring(content, parser_of(recover=True))
+    if local_name(root) != "svg":
+        space, _, name = str(root.tag).rpartition("}")
+        if name == "svg":
+            raise SourceError(f"the root element has the namespace {space[1:][:80]!r}; the one of SVG is {SVG!r}")
+        raise SourceError(f"the root element is <{name[:40]}>, not <svg>; this is not an SVG file")
+    return root
+
+
+def parser_of(recover: bool = False) -> etree.XMLParser:
+    """Parser with all limits; one that recovers takes a prefix without a namespace as a part of the name."""
+    return etree.XMLParser(
         resolve_entities="internal",  # type: ignore[arg-type]  # lxml-stubs knows only True and False
         no_network=True,
         huge_tree=False,
         remove_comments=True,
+        recover=recover,
     )
-    try:
-        root = etree.fromstring(content, parser)
-    except etree.XMLSyntaxError as error:
-        raise SourceError(explained(" ".join((error.msg or "it is empty").split()))) from None
-    if local_name(root) != "svg":
-        raise SourceError(
-            f"the root element is <{etree.QName(root).localname[:40]}>, not <svg>; this is not an SVG file"
-        )
-    return root
 
 
 def explained(message: str) -> str:

@@ -3,7 +3,6 @@
 A clip by one rectangle cuts outlines instead, so that silhouettes and layers have it, too.
 """
 
-import re
 from dataclasses import replace
 from typing import Final, Protocol
 
@@ -14,7 +13,7 @@ from vexture.group import Mask
 from vexture.svg.compositing import Veil
 from vexture.svg.document import local_name
 from vexture.svg.paint_servers import PaintServers
-from vexture.svg.report import Report, described
+from vexture.svg.report import Report
 from vexture.svg.shapes import Shape, shape_outlines
 from vexture.svg.space import Place, Placed, Space
 from vexture.svg.style import Cascade, Style
@@ -22,12 +21,11 @@ from vexture.svg.transform import Identity, Transform
 from vexture.svg.viewport import Rectangle
 from vexture.tolerance import ROUND
 
-__all__ = ["MASKING", "add_masks"]
+__all__ = ["MASKING", "Measured", "add_masks"]
 
 MASKING: Final = {"clip-path": "clipPath", "mask": "mask"}
 """The properties that mask an element, and the elements to which they refer."""
 
-LINK = re.compile(r"\s*url\(\s*(['\"]?)(.*?)\1\s*\)\s*", re.DOTALL)
 REGION: Final = {"x": "-10%", "y": "-10%", "width": "120%", "height": "120%"}
 """What of a mask is used, if its attributes do not say otherwise."""
 
@@ -55,16 +53,8 @@ def add_masks(scene: Measured, element: etree._Element, place: Place) -> tuple[P
     """
     shown: list[Placed] = []
     for name, kind in MASKING.items():
-        value = place.style.own.get(name, "none")
-        if value.lower() == "none":
-            continue
-        link = LINK.fullmatch(value)
-        target = scene.servers.target(link[2]) if link is not None else None
-        if target is None or local_name(target) != kind:
-            scene.report.left_out(f"{name} '{value[:40]}'")
-        elif place.inside(target):
-            scene.report.left_out(f"{name} that refers to itself, of {described(target)}")
-        else:
+        target = scene.servers.referred(name, kind, place)
+        if target is not None:
             place, more = add_mask(scene, element, target, place)
             shown += more
     return place, shown

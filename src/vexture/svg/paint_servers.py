@@ -1,12 +1,12 @@
 """Paints by reference: gradients and patterns."""
 
 import re
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 
 from lxml import etree
 
 from vexture.paint import Paint, Stop
-from vexture.svg.colors import Color, PaintText, parse_color, parse_paint
+from vexture.svg.colors import CONTEXT, Color, PaintText, parse_color, parse_paint
 from vexture.svg.document import local_name
 from vexture.svg.gradients import GRADIENTS, Ramp, read_ramp, stop_offsets
 from vexture.svg.outline import Outline
@@ -18,12 +18,14 @@ from vexture.svg.tiles import Budget, FirstTile
 
 __all__ = ["PaintServers", "reference"]
 
-HREF = ("href", "{http://www.w3.org/1999/xlink}href")
+HREF = ("href", "{http://www.w3.org/1999/xlink}href", "xlink:href")
+"""Attributes that link, the last one in files that do not declare its prefix, as HTML allows."""
 GREY = Color((0.5, 0.5, 0.5), 1.0)
 PATTERNS = frozenset({"pattern"})
 MOST_STOPS = 128
 """Of a gradient: half of what a pixel can run through for one paint (FORMAT.md, D.6)."""
 
+LINK = re.compile(r"\s*url\(\s*(['\"]?)(.*?)\1\s*\)\s*", re.DOTALL)
 FRAGMENT = re.compile(r"\s*#(.*?)\s*", re.DOTALL)
 
 
@@ -56,16 +58,38 @@ class PaintServers:
                 self.by_id.setdefault(element.get("id", ""), element)
         return self.by_id.get(match[1]) if match[1] else None
 
+    def referred(self, name: str, kind: str, place: Place) -> etree._Element | None:
+        """Element of a kind to which a property at a place refers; None, with a note, if it is none or around it."""
+        value = place.style[name]
+        if value.lower() == "none":
+            return None
+        link = LINK.fullmatch(value)
+        target = self.target(link[2]) if link is not None else None
+        if target is None or local_name(target) != kind:
+            self.report.left_out(f"{name} '{value[:40]}'")
+        elif place.inside(target):
+            self.report.left_out(f"{name} that refers to itself, of {described(target)}")
+        else:
+            return target
+        return None
+
     def paint(self, name: str, place: Place, outlines: list[Outline]) -> Paint | Tiling | None:
         """Paint of `name`, "fill" or "stroke", for outlines at a place with their style; None if nothing is painted."""
-        style = place.style
-        text = parse_paint(style[name])
+        paint = self.found(name, place, lambda: outlines)
+        paint = paint and paint.faded(place.style.opacity(f"{name}-opacity"))
+        return paint if paint is not None and paint.opacity > 0.0 else None
+
+    def found(self, name: str, place: Place, outlines: Callable[[], list[Outline]]) -> Paint | Tiling | None:
+        """As `paint`, but for the opacity of the property."""
+        text = parse_paint(place.style[name])
         if text is None:
             return None
-        paint: Paint | Tiling | None
-        paint = self.flat(text.color, style) if text.reference is None else self.served(text, place, outlines)
-        paint = paint and paint.faded(style.opacity(f"{name}-opacity"))
-        return paint if paint is not None and paint.opacity > 0.0 else None
+        if text.reference is not None:
+            return self.served(text, place, outlines())
+        if text.color not in CONTEXT:
+            return self.flat(text.color, place.style)
+        context = place.context
+        return None if context is None else self.found(CONTEXT[text.color], context.place, context.outlines)
 
     def flat(self, color: Color | str | None, style: Style) -> Paint | None:
         """Paint of one colour."""

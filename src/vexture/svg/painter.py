@@ -1,6 +1,6 @@
 """Painting one shape: its fill and its stroke become paths in the drawing's coordinates."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from math import inf
 
@@ -26,6 +26,9 @@ from vexture.tolerance import ROUND
 
 __all__ = ["Painter", "Ruler"]
 
+PARTS = ("fill", "stroke", "markers")
+"""What is painted of a shape, one after another, if `paint-order` does not say otherwise."""
+
 MOST_SEGMENTS = 5_000_000
 """Cubics in one drawing."""
 
@@ -36,7 +39,7 @@ STROKE = "/stroke"
 class Painter:
     """Collects the paths of what is painted, in order, and the innermost veil around each.
 
-    `walk` paints what a pattern shows.
+    `walk` paints what markers and patterns show.
     """
 
     def __init__(
@@ -54,12 +57,12 @@ class Painter:
         self.veils: list[Veil | None] = []
         self.segments: int = 0
 
-    def paint(self, element: etree._Element, place: Place) -> None:
-        """Paint a shape; `place` has the shape's own style and transform."""
+    def paint(self, element: etree._Element, place: Place, markers: Iterable[list[Placed]] = ()) -> None:
+        """Paint a shape, and what its markers show; `place` has the shape's own style and transform."""
         style = place.style
         if style["visibility"].lower() != "visible" or place.space.flat:
             return
-        if not place.is_clip and style["fill"].lower() == style["stroke"].lower() == "none":
+        if not (place.is_clip or markers) and style["fill"].lower() == style["stroke"].lower() == "none":
             return
         scale = scale_of(place.space.whole)
         size = self.canvas.size / scale
@@ -69,13 +72,14 @@ class Painter:
             return
         fill = BLACK if place.is_clip else self.servers.paint("fill", place, outlines)
         line = None if place.is_clip else self.servers.paint("stroke", place, outlines)
-        order = style["paint-order"].lower()
-        if "stroke" in order and order.find("stroke") < order.find("fill") % (len(order) + 1):
-            self.stroke(shape, outlines, place, line, size)
-            self.fill(shape, outlines, place, fill)
-        else:
-            self.fill(shape, outlines, place, fill)
-            self.stroke(shape, outlines, place, line, size)
+        for part in dict.fromkeys([*style["paint-order"].lower().split(), *PARTS]):
+            if part == "fill":
+                self.fill(shape, outlines, place, fill)
+            elif part == "stroke":
+                self.stroke(shape, outlines, place, line, size)
+            elif part == "markers":
+                for marker in markers:
+                    self.walk(marker, self)
 
     def fill(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | Tiling | None) -> None:
         """Paint the inside of the outlines."""
@@ -179,8 +183,8 @@ class Ruler(Painter):
         super().__init__(servers, report, Canvas(None, inf), walk)
         self.corners: list[NDArray[np.float64]] = []
 
-    def paint(self, element: etree._Element, place: Place) -> None:
-        """Add the outlines of a shape, in the units of the outermost place."""
+    def paint(self, element: etree._Element, place: Place, markers: Iterable[list[Placed]] = ()) -> None:
+        """Add the outlines of a shape, in the units of the outermost place; markers do not count."""
         shape = Shape(element, place.style, place.viewport, inf, self.report)
         self.corners.extend(mapped(outline.cubics, place.space.whole) for outline in shape_outlines(shape))
 

@@ -9,7 +9,7 @@ import numpy as np
 from vexture.bezier.convert import arc_cubics
 from vexture.svg.outline import Outline
 
-__all__ = ["GAP", "NUMBER", "POINTS", "SPACE", "path_outlines"]
+__all__ = ["GAP", "NUMBER", "POINTS", "SPACE", "Pen", "Point", "path_outlines"]
 
 # atomic groups: backtracking never splits a number in two
 NUMBER = r"(?>[+-]?(?:[0-9]*\.[0-9]+|[0-9]+)(?:[eE][+-]?[0-9]+)?)"
@@ -63,17 +63,8 @@ def path_outlines(data: str, tolerance: float) -> tuple[list[Outline], int]:
     (True, 4, False, [4.0, 0.0], 20)
     """
     pen = Pen(tolerance)
-    at = len(data) - len(data.lstrip(" \t\n\r\f"))
-    possible = "Mm"
-    while at < len(data) and data[at] in possible:
-        letter = data[at]
-        match = COMMANDS[letter.upper()].match(data, at + 1)
-        if match is None:
-            break
-        pen.draw(letter, match[1])
-        at, possible = match.end(), "MmLlTtHhVvCcSsQqAaZz"
-    pen.finish(closed=False)
-    return pen.outlines, at
+    valid = pen.follow(data)
+    return pen.outlines, valid
 
 
 class Pen:
@@ -88,6 +79,20 @@ class Pen:
         self.control: tuple[float, float] = (0.0, 0.0)
         self.bend: str = ""  # kind of the last segment: S and T mirror its control point
         self.down: bool = False
+
+    def follow(self, data: str) -> int:
+        """Draw path data up to the first error, and return the number of valid characters."""
+        at = len(data) - len(data.lstrip(" \t\n\r\f"))
+        possible = "Mm"
+        while at < len(data) and data[at] in possible:
+            letter = data[at]
+            match = COMMANDS[letter.upper()].match(data, at + 1)
+            if match is None:
+                break
+            self.draw(letter, match[1])
+            at, possible = match.end(), "MmLlTtHhVvCcSsQqAaZz"
+        self.finish(closed=False)
+        return at
 
     def draw(self, letter: str, text: str) -> None:
         """Draw a command with all its arguments."""

@@ -18,7 +18,7 @@ from vexture.svg.space import SMALLEST, Place, Placed, Space
 from vexture.svg.style import Style
 from vexture.svg.transform import Identity, Transform, parse_transform
 from vexture.svg.values import Viewport, number
-from vexture.svg.viewport import CENTRED, Fit, Rectangle, parse_fit, view_box, view_transform
+from vexture.svg.viewport import CENTRED, THINNEST, Fit, Rectangle, parse_fit, view_box, view_transform
 
 __all__ = ["Pattern", "Tiling", "read_pattern"]
 
@@ -52,7 +52,7 @@ class Pattern:
         tile = self.in_view(WHOLE if self.boxed else place.viewport)
         if self.boxed:
             tile = left + tile[0] * width, top + tile[1] * height, tile[2] * width, tile[3] * height
-        if min(tile[2:]) < SHORTEST:
+        if min(tile[2:]) < SHORTEST or (self.view is not None and min(self.view[2:]) < THINNEST):
             return None
         content, viewport = Identity.translate(*tile[:2]), place.viewport
         if self.view is not None:

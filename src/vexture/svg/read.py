@@ -3,7 +3,7 @@
 import os
 from dataclasses import replace
 from pathlib import Path
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,17 +15,20 @@ from vexture.errors import SourceError
 from vexture.notes import warn_of
 from vexture.svg.compositing import occupied
 from vexture.svg.document import parse_svg
-from vexture.svg.report import Report
+from vexture.svg.report import Report, described
 from vexture.svg.scene import Scene
 from vexture.svg.select import chosen, nothing_painted
 from vexture.svg.transform import Identity, Transform
 from vexture.svg.values import Viewport
-from vexture.svg.viewport import THINNEST, Rectangle, view_box
+from vexture.svg.viewport import THINNEST, Rectangle
 
 __all__ = ["framed_drawing", "read_svg", "svg_drawing"]
 
 Frame: TypeAlias = tuple[tuple[float, float], Viewport, Transform]
 """Size of a drawing in pixels, the root's viewport, and the map from user units to pixels."""
+
+EMPTY: Final[Frame] = (0.0, 0.0), Viewport(0.0, 0.0), Identity
+"""Frame that shows nothing."""
 
 
 def read_svg(path: str | os.PathLike[str], select: str | None = None, names: str | None = None) -> Drawing:
@@ -33,9 +36,10 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None, names: str
 
     Shapes, paths, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as browsers
     draw them. Opacity, blend modes, clips and masks that need several paths together become `Drawing.groups`. Gradients
-    are read in full (`Paint.gradient`), patterns as the paths of their tiles. What is not supported is left out and
-    named. Paths are named (`Path.element`) by the ``id`` of their element or of the nearest one around it, and all that
-    a `use` or a pattern shows by that of the `use` or the shape; a stroke is ``id/stroke``.
+    are read in full (`Paint.gradient`), patterns as the paths of their tiles, markers as the paths of their content.
+    What is not supported is left out and named. Paths are named (`Path.element`) by the ``id`` of their element or of
+    the nearest one around it, and all that a `use`, a marker or a pattern shows by that of the `use` or the shape; a
+    stroke is ``id/stroke``.
 
     The box of the drawing is the outermost viewport: `width` and `height`, or the size in `viewBox` where one of them
     is missing or a percentage. A drawing without any of them is as large as what it paints.
@@ -122,11 +126,13 @@ def framed_drawing(
             raise nothing_painted(select, len(part))
     if not drawing.paths:
         report.remark("nothing in it is painted")
-    return replace(drawing, notes=report.listed), framed
+    return replace(drawing, notes=report.listed), None if framed is EMPTY else framed
 
 
 def drawing_of(scene: Scene, framed: Frame | None, name: str) -> Drawing:
     """Paint a scene into the frame that its outermost element sets, or around what it paints."""
+    if framed is EMPTY:
+        return Drawing((), name=name)
     if framed is not None:
         size, viewport, matrix = framed
         box: Rectangle = (0.0, 0.0, *size)
@@ -134,6 +140,7 @@ def drawing_of(scene: Scene, framed: Frame | None, name: str) -> Drawing:
         viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
         paths, _ = Scene(scene.root, Report()).paint(viewport, matrix, None)  # all of it, to measure; notes come later
         if not paths:
+            scene.paint(viewport, matrix, None)  # for its notes
             return Drawing((), name=name)
         left, top, right, bottom = bounds(np.concatenate([contour for path in paths for contour in path.contours]))
         box = (left, top, right - left, bottom - top)
@@ -146,21 +153,19 @@ def drawing_of(scene: Scene, framed: Frame | None, name: str) -> Drawing:
 
 
 def frame(scene: Scene) -> Frame | None:
-    """Frame that the outermost element sets, or None if it sets no size."""
+    """Frame that the outermost element sets, or None if it sets no size; `EMPTY`, with a note, if a side is zero."""
     root, style = scene.root, scene.style
-    box = view_box(root.get("viewBox"))
+    box = scene.view(root)
     absolute = Viewport(0.0, 0.0, style.font_size)
     sides = []
     for name in ("width", "height"):
         text = style[name]
         relative = text.lower() == "auto" or text.endswith("%")
-        side = None if relative else absolute.length(text, 0.0, style.font_size)
-        if side is not None and side < THINNEST:
-            raise SourceError(
-                f"the {name} of the outermost <svg> is {text}; it must be at least {THINNEST:g}, not zero"
-            )
-        sides.append(side)
+        sides.append(None if relative else absolute.length(text, 0.0, style.font_size))
     width, height = sides
+    if any(side is not None and side < THINNEST for side in (*sides, *(box or ())[2:])):
+        scene.report.left_out(f"{described(root)}, whose width or height is zero")
+        return EMPTY
     if box is not None:
         ratio = box[2] / box[3]
         if width is None and height is None:

@@ -15,7 +15,7 @@ def described(element: etree._Element) -> str:
     >>> described(etree.fromstring('<svg><path id="a"/></svg>')[0])
     '<path id="a"> in line 1'
     """
-    name = etree.QName(element).localname
+    name = str(element.tag).rpartition("}")[2]
     label = f' id="{element.get("id", "")[:40]}"' if element.get("id") else ""
     line = f" in line {element.sourceline}" if element.sourceline else ""
     return f"<{name[:40]}{label}>{line}"

@@ -5,6 +5,7 @@ The walk has its own stack, so that deep nesting cannot exhaust Python's. `use` 
 
 from copy import copy
 from dataclasses import replace
+from functools import cache
 from math import inf
 
 import numpy as np
@@ -17,23 +18,25 @@ from vexture.errors import SourceError
 from vexture.group import Group
 from vexture.svg.compositing import Veil, grouped, veil_of
 from vexture.svg.document import local_name
+from vexture.svg.markers import has_markers, markers
 from vexture.svg.masks import MASKING, add_masks
 from vexture.svg.names import ElementNames
+from vexture.svg.outline import Outline
 from vexture.svg.paint_servers import PaintServers, reference
 from vexture.svg.painter import Painter, Ruler
 from vexture.svg.report import Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
-from vexture.svg.space import Place, Placed, Space
+from vexture.svg.space import Context, Place, Placed, Space, Window
 from vexture.svg.style import INITIAL, Cascade, Style
 from vexture.svg.tiles import Canvas
 from vexture.svg.transform import Identity, Transform, parse_origin, parse_transform
-from vexture.svg.values import Viewport
-from vexture.svg.viewport import CENTRED, Rectangle, parse_fit, view_box, view_transform
+from vexture.svg.values import TooLargeError, Viewport
+from vexture.svg.viewport import CENTRED, THINNEST, Rectangle, parse_fit, view_box, view_transform
 
 __all__ = ["Scene"]
 
 MOST_USED = 50_000
-"""Elements that `use`, clips, masks and first tiles may show; each time counts, in nested ones as often as deep."""
+"""Elements that `use`, clips, markers, masks and first tiles show; each time counts, nested ones as often as deep."""
 
 DEEPEST = 1_000
 """Elements around an element, including those that `use` adds."""
@@ -57,7 +60,9 @@ EFFECTS = {
 }
 """Properties that are not supported, and the value of each without effect."""
 
-MARKED = frozenset({"line", "path", "polygon", "polyline"})
+DRAWN = frozenset({*SHAPES, *CONTAINERS, "image", "text", "use"})
+"""Elements that a `switch` may choose before those that are not known."""
+
 LANGUAGE = "en"
 """Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
 
@@ -87,8 +92,7 @@ class Scene:
         """Paint everything, and find the groups.
 
         Percentages at the root refer to `viewport`, and `matrix` maps user units to the drawing. `frame` is what of the
-        drawing is visible, None while it is unknown. Raises a `SourceError` if a limit is exceeded or
-        `use` shows itself.
+        drawing is visible, None while it is unknown. Raises a `SourceError` if a limit is exceeded.
         """
         canvas = Canvas(frame, inf if frame is None else max(frame[2:]))
         painter = Painter(self.servers, self.report, canvas, self.walk)
@@ -115,18 +119,22 @@ class Scene:
             element, place = stack.pop()
             self.used += place.masks or place.used
             if self.used > MOST_USED:
-                what = "<use>, clips, masks and patterns show" if place.masks else "<use> shows"
+                what = "<use>, clips, markers, masks and patterns show" if place.masks else "<use> shows"
                 raise SourceError(f"{what} more than {MOST_USED:,} elements (a use bomb?); draw fewer copies")
             try:
                 stack.extend(reversed(self.visit(element, place, painter)))
             except LocatedError:
                 raise
+            except TooLargeError as error:
+                self.report.left_out(f"{described(element)}: {error}")
             except SourceError as error:
                 raise LocatedError(f"{described(element)}: {error}") from None
 
     def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Placed]:
         """Paint an element, or return the elements that it shows."""
         name = local_name(element)
+        if name is None and str(element.tag).rpartition("}")[2] in DRAWN:
+            self.report.left_out(f"{described(element)}, of another namespace")
         if name is None or name in UNPAINTED or (name == "symbol" and place.use is None) or not applies(element):
             return []
         chosen = place.chosen or (self.chosen is not None and element in self.chosen)
@@ -165,16 +173,20 @@ class Scene:
         """Paint a shape, or return the elements that another one shows; `inner` is the place inside."""
         name = local_name(element) or ""
         if name in SHAPES:
-            self.note_children(element, name, inner.style)
-            painter.paint(element, inner)
+            if any(local_name(child) in ANIMATIONS for child in element):
+                self.report.left_out("animation")
+            marked = not inner.is_clip and has_markers(name, inner.style)
+            painter.paint(element, inner, markers(self, element, inner) if marked else ())
             return []
         if name == "use":
             return self.use_target(element, inner)
         if name in ("svg", "symbol"):
-            window = self.window(element, inner, inner.outer.use if inner.outer is not None else None)
-            return [] if window is None else [(child, window) for child in element]
+            sides = self.sides(inner, inner.outer.use if inner.outer is not None else None)
+            window = self.window(element, inner.style, sides)
+            within = None if window is None else window.within(inner)
+            return [] if within is None else [(child, within) for child in element]
         if name == "switch":
-            return [(child, inner) for child in element if local_name(child) is not None and applies(child)][:1]
+            return [(child, inner) for child in switched(element)]
         return [(child, inner) for child in element]
 
     def extent(self, element: etree._Element, place: Place) -> Rectangle | None:
@@ -188,13 +200,18 @@ class Scene:
         silent.cascade.report = silent.report
         ruler = Ruler(self.servers, silent.report, self.walk)
         stack = silent.content(element, replace(place, space=Space()), ruler)
-        while stack:
-            check_time()
-            stack.extend(silent.visit(*stack.pop(), ruler))
+        silent.walk(stack, ruler)
         if not ruler.corners:
             return None
         left, top, right, bottom = bounds(np.concatenate(ruler.corners))
         return (left, top, right - left, bottom - top) if right > left and bottom > top else None
+
+    def box(self, place: Place) -> Outline:
+        """Outline of the bounding box of what the element at a place shows; a point if it has no area."""
+        assert place.element is not None
+        left, top, width, height = self.extent(place.element, place) or (0.0, 0.0, 0.0, 0.0)
+        right, bottom = left + width, top + height
+        return Outline.polygon(np.array([(left, top), (right, top), (right, bottom), (left, bottom)]), closed=True)
 
     def use_target(self, element: etree._Element, place: Place) -> list[Placed]:
         """Return the element that a `use` shows."""
@@ -204,30 +221,39 @@ class Scene:
             self.report.left_out(f"<use> of '{link[:40]}'")
             return []
         if place.inside(target):
-            raise SourceError(f"it shows itself (a cycle through {described(target)}); break the cycle")
-        return [(target, replace(place, used=True, use=place.style))]
+            self.report.left_out(f"{described(element)} that shows itself")
+            return []
+        context = Context(place, cache(lambda: [self.box(place)]))
+        return [(target, replace(place, used=True, use=place.style, context=context))]
 
-    def window(self, element: etree._Element, place: Place, use: Style | None) -> Place | None:
-        """Place inside a nested `<svg>` or a shown `<symbol>`; None if it has no size."""
+    def sides(self, place: Place, use: Style | None) -> Rectangle:
+        """Viewport of a nested `<svg>` or a shown `<symbol>`, of which a `use` may give the size."""
         style = place.style
-        x, y = position(place)
         sides = []
         for name, whole in (("width", place.viewport.width), ("height", place.viewport.height)):
             text = style[name] if use is None or use[name].lower() == "auto" else use[name]
             auto = text.lower() == "auto"
             sides.append(whole if auto else place.viewport.length(text, whole, style.font_size) or 0.0)
-        width, height = sides
+        return *position(place), sides[0], sides[1]
+
+    def window(self, element: etree._Element, style: Style, sides: Rectangle) -> Window | None:
+        """How an element with sides shows its content; None if it shows nothing."""
+        x, y, width, height = sides
         if width <= 0.0 or height <= 0.0:
             return None
-        box = view_box(element.get("viewBox"))
-        shown = self.fit(element, box or (0.0, 0.0, width, height), width, height)
-        matrix = Identity.translate(x, y).transform(shown)
-        if style["overflow"].lower() in ("visible", "auto"):
-            space = place.space.moved(matrix)
-        else:
-            space = place.space.window((x, y, width, height), matrix)
-        size = box[2:] if box else (width, height)
-        return replace(place, viewport=replace(place.viewport, width=size[0], height=size[1]), space=space)
+        box = self.view(element) or (0.0, 0.0, width, height)
+        if min(box[2:]) < THINNEST:
+            return None
+        content = Identity.translate(x, y).transform(self.fit(element, box, width, height))
+        return Window(None if style["overflow"].lower() in ("visible", "auto") else sides, content, box[2:])
+
+    def view(self, element: etree._Element) -> Rectangle | None:
+        """The `viewBox` of an element; None without a valid one."""
+        text = element.get("viewBox")
+        box = None if text is None else view_box(text)
+        if text is not None and box is None:
+            self.report.invalid("viewBox", text, element)
+        return box
 
     def fit(self, element: etree._Element, box: Rectangle, width: float, height: float) -> Transform:
         """Map from a view box to a viewport, by the element's `preserveAspectRatio`."""
@@ -274,19 +300,18 @@ class Scene:
                 if style.own.get(name, nothing).lower() != nothing:
                     self.report.left_out(name)
 
-    def note_children(self, element: etree._Element, name: str, style: Style) -> None:
-        """Note what is attached to a shape and not supported."""
-        if any(local_name(child) in ANIMATIONS for child in element):
-            self.report.left_out("animation")
-        if name in MARKED and any(style[f"marker-{end}"].lower() != "none" for end in ("start", "mid", "end")):
-            self.report.left_out("marker")
-
 
 def position(place: Place) -> tuple[float, float]:
     """Values of `x` and `y` of the element at a place."""
     x, y = place.style["x"], place.style["y"]
     view, font_size = place.viewport, place.style.font_size
     return view.length(x, view.width, font_size) or 0.0, view.length(y, view.height, font_size) or 0.0
+
+
+def switched(switch: etree._Element) -> list[etree._Element]:
+    """The child that a `switch` shows: the first that applies and is drawn; without one, all, for their notes."""
+    children = [child for child in switch if local_name(child) is not None and applies(child)]
+    return [child for child in children if local_name(child) in DRAWN][:1] or children
 
 
 def applies(element: etree._Element) -> bool:

@@ -10,14 +10,13 @@ from lxml import etree
 from numpy.typing import NDArray
 
 from vexture.bezier.convert import arc_cubics, ellipse_cubics
-from vexture.errors import SourceError
 from vexture.svg.outline import Outline
 from vexture.svg.path_data import NUMBER, POINTS, path_outlines
 from vexture.svg.report import Report
 from vexture.svg.style import Style
-from vexture.svg.values import LARGEST, Viewport
+from vexture.svg.values import LARGEST, TooLargeError, Viewport
 
-__all__ = ["SHAPES", "Shape", "shape_outlines"]
+__all__ = ["SHAPES", "Shape", "check", "path_data", "shape_outlines"]
 
 CSS_PATH = re.compile(r"path\(\s*(?:(?:nonzero|evenodd)\s*,\s*)?(['\"])(.*)\1\s*\)", re.DOTALL)
 HORIZONTAL = frozenset({"x", "cx", "rx", "width", "x1", "x2"})
@@ -58,7 +57,7 @@ class Shape:
 
 
 def shape_outlines(shape: Shape) -> list[Outline]:
-    """Outlines of a shape in its own user units; a `SourceError` if a coordinate exceeds `LARGEST`."""
+    """Outlines of a shape in its own user units; a `TooLargeError` if a coordinate exceeds `LARGEST`."""
     outlines = SHAPES[etree.QName(shape.element).localname](shape)
     for outline in outlines:
         check(outline.cubics)
@@ -69,16 +68,20 @@ def check(coordinates: NDArray[np.float64]) -> None:
     """Reject coordinates that are too large to compute with."""
     largest = np.abs(coordinates).max(initial=0.0)
     if not largest <= LARGEST:
-        raise SourceError(f"it has a coordinate of {largest:g}; the limit is {LARGEST:g}; correct it")
+        raise TooLargeError(f"it has a coordinate of {largest:g}; the limit is {LARGEST:g}; correct it")
+
+
+def path_data(shape: Shape) -> str:
+    """Path data of `<path>`, empty without."""
+    data = shape.style["d"]
+    if css := CSS_PATH.fullmatch(data):
+        return css[2]
+    return "" if data == "none" else data
 
 
 def path(shape: Shape) -> list[Outline]:
     """Outlines of `<path>`, up to the first error in its data."""
-    data = shape.style["d"]
-    if data == "none":
-        return []
-    if css := CSS_PATH.fullmatch(data):
-        data = css[2]
+    data = path_data(shape)
     outlines, valid = path_outlines(data, shape.tolerance)
     if valid < len(data):
         shape.report.invalid("d", f"...{data[valid:]}", shape.element)

@@ -1,5 +1,6 @@
 """Where an element stands: its user units, the viewports that clip it, and the style that it inherits."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,15 +10,16 @@ from numpy.typing import NDArray
 from vexture.bezier.clip import clip_contour
 from vexture.errors import SourceError
 from vexture.svg.compositing import Veil
+from vexture.svg.outline import Outline
 from vexture.svg.style import INITIAL, Style
 from vexture.svg.transform import Identity, Transform, mapped
-from vexture.svg.values import LARGEST, Viewport
+from vexture.svg.values import LARGEST, TooLargeError, Viewport
 from vexture.svg.viewport import Rectangle
 
-__all__ = ["SMALLEST", "Place", "Placed", "Space"]
+__all__ = ["SMALLEST", "Context", "Place", "Placed", "Space", "Window"]
 
 MOST_MASKS = 32
-"""Clips, masks and patterns in one another."""
+"""Clips, markers, masks and patterns in one another."""
 
 SMALLEST = 1 / LARGEST**4
 """Smallest determinant: below it, sizes in user units cannot be computed in floating point."""
@@ -42,7 +44,7 @@ class Space:
         """Coordinate system of an element with a transform."""
         whole = self.whole.transform(matrix)
         if not max(map(abs, whole)) <= LARGEST:
-            raise SourceError(f"the transforms multiply to {max(map(abs, whole)):g}; the limit is {LARGEST:g}")
+            raise TooLargeError(f"the transforms multiply to {max(map(abs, whole)):g}; the limit is {LARGEST:g}")
         return replace(self, matrix=self.matrix.transform(matrix), whole=whole)
 
     def window(self, visible: Rectangle, matrix: Transform) -> "Space":
@@ -77,14 +79,16 @@ class Place:
     chosen: bool = True  # whether elements here are painted
     veil: Veil | None = None  # the innermost one around it
     is_clip: bool = False  # whether only the outlines of shapes here count
-    masks: int = 0  # number of clips, masks and patterns around it that it is a part of
+    masks: int = 0  # number of clips, markers, masks and patterns around it that it is a part of
     name: str = ""  # of elements here: the nearest name around them, or that of the outermost `use`
     is_instance: bool = False  # whether the name is that of a `use`
+    context: "Context | None" = None  # the element whose paints `context-fill` and `context-stroke` are
 
     def deeper(self) -> int:
-        """Number of clips, masks and patterns around what is in one more; a `SourceError` if they are too many."""
+        """Number of clips, markers, masks and patterns around what is in one more; a `SourceError` if too many."""
         if self.masks >= MOST_MASKS:
-            raise SourceError(f"its clips, masks and patterns are nested more than {MOST_MASKS} deep; simplify them")
+            what = "its clips, markers, masks and patterns"
+            raise SourceError(f"{what} are nested more than {MOST_MASKS} deep; simplify them")
         return self.masks + 1
 
     def named(self, own: str, is_use: bool) -> tuple[str, bool]:
@@ -104,6 +108,31 @@ class Place:
                 return True
             place = place.outer
         return False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Context:
+    """An element that has markers, or a `use`: its paints lie as it does (SVG 2, 13.2)."""
+
+    place: Place  # inside it, with its style
+    outlines: Callable[[], list[Outline]]  # of which gradients and patterns may need the bounding box
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """A viewport, and how it shows its content."""
+
+    visible: Rectangle | None  # None if its content may reach beyond
+    content: Transform  # from the units of its content to those around it
+    size: tuple[float, float]  # to which percentages in its content refer
+
+    def within(self, place: Place) -> Place:
+        """The place inside it, if it stands at a place."""
+        space = place.space.moved(self.content)
+        if self.visible is not None:
+            space = place.space.window(self.visible, self.content)
+        width, height = self.size
+        return replace(place, viewport=replace(place.viewport, width=width, height=height), space=space)
 
 
 Placed = tuple[etree._Element, Place]

@@ -17,7 +17,7 @@ from vexture.svg.report import Report
 from vexture.svg.select import Node
 from vexture.svg.values import Viewport, fraction
 
-__all__ = ["INITIAL", "Cascade", "Style"]
+__all__ = ["INITIAL", "MARKERS", "Cascade", "Style"]
 
 PLAIN = re.compile(r"[^\"'\\/(){}\[\]@!<&]*")
 """Style attributes that need no tokeniser: they can be split at ; and :."""

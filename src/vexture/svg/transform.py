@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 from math import pi, radians, sqrt, tan
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vexture.svg.path_data import GAP, NUMBER, SPACE
 from vexture.svg.values import number
 
-__all__ = ["Identity", "Transform", "mapped", "parse_origin", "parse_transform", "scale_of"]
+__all__ = ["KEYWORDS", "Identity", "Transform", "angle", "mapped", "parse_origin", "parse_transform", "scale_of"]
 
 if TYPE_CHECKING:
 
@@ -47,7 +47,7 @@ else:
 TURN = {"": pi / 180, "deg": pi / 180, "grad": pi / 200, "rad": 1.0, "turn": 2 * pi}
 """Radians of each unit of angle; in attributes, degrees have no unit."""
 
-KEYWORDS = {"left": "0%", "top": "0%", "center": "50%", "right": "100%", "bottom": "100%"}
+KEYWORDS: Final = {"left": "0%", "top": "0%", "center": "50%", "right": "100%", "bottom": "100%"}
 
 WITH_UNIT = rf"{NUMBER}(?:[a-zA-Z]++|%)?+"
 ARGUMENT = re.compile(WITH_UNIT)

@@ -8,10 +8,15 @@ from typing import Final
 from vexture.errors import SourceError
 from vexture.svg.path_data import NUMBER
 
-__all__ = ["LARGEST", "Viewport", "fraction", "number", "numbers"]
+__all__ = ["LARGEST", "TooLargeError", "Viewport", "fraction", "number", "numbers"]
 
 LARGEST: Final = 1e12
-"""User units. Larger numbers are errors: the product of two of them and a matrix must stay finite."""
+"""User units. An element with larger numbers is lost: the product of two of them and a matrix must stay finite."""
+
+
+class TooLargeError(SourceError):
+    """A number of an element exceeds `LARGEST`; inside the drawing, only that element is lost."""
+
 
 PIXELS: Final = {
     "": 1.0,
@@ -33,7 +38,7 @@ SEPARATOR = re.compile(r"\s*,\s*|\s+")
 
 
 def number(text: str) -> float | None:
-    """Finite number; None if the text is anything else; a `SourceError` if it is larger than `LARGEST`.
+    """Finite number; None if the text is anything else; a `TooLargeError` if it is larger than `LARGEST`.
 
     Examples
     --------
@@ -53,10 +58,10 @@ def numbers(text: str) -> list[float] | None:
 
 
 def bounded(text: str) -> float:
-    """Value of a number; a `SourceError` if it is too large."""
+    """Value of a number; a `TooLargeError` if it is one."""
     value = float(text)
     if not abs(value) <= LARGEST:
-        raise SourceError(f"the number {text[:40]} is too large; the limit is {LARGEST:g}; move and scale the drawing")
+        raise TooLargeError(f"the number {text[:40]} is too large; the limit is {LARGEST:g}; move and scale the drawing")
     return value
 
 

@@ -3,7 +3,6 @@
 import re
 from typing import Final, NamedTuple
 
-from vexture.errors import SourceError
 from vexture.svg.transform import Transform
 from vexture.svg.values import numbers
 
@@ -31,16 +30,18 @@ PART = {"min": 0.0, "mid": 0.5, "max": 1.0}
 ASPECT = re.compile(r"\s*(?:defer\s+)?(?:(none)|x(min|mid|max)y(min|mid|max))(?:\s+(meet|slice))?\s*", re.IGNORECASE)
 
 
-def view_box(text: str | None) -> Rectangle | None:
-    """Parse `viewBox`; None without it; a `SourceError` if it is not four numbers or has no size."""
-    if text is None:
-        return None
+def view_box(text: str) -> Rectangle | None:
+    """Parse `viewBox`; None if it is not four numbers, or its width or height is negative.
+
+    Examples
+    --------
+    >>> view_box("0 0, 8 4"), view_box("0 0 8"), view_box("0 0 8 -4")
+    ((0.0, 0.0, 8.0, 4.0), None, None)
+    """
     values = numbers(text)
-    if values is None or len(values) != 4:
-        raise SourceError(f"viewBox is '{text[:60]}'; it must be four numbers")
+    if values is None or len(values) != 4 or min(values[2:]) < 0.0:
+        return None
     x, y, width, height = values
-    if width < THINNEST or height < THINNEST:
-        raise SourceError(f"viewBox is '{text[:60]}'; its width and height must be at least {THINNEST:g}, not zero")
     return x, y, width, height
 
 

@@ -1,0 +1,83 @@
+"""What is wrong in an SVG loses its element with a note, and not the drawing."""
+
+import warnings
+from pathlib import Path
+
+import pytest
+
+import vexture
+from vexture.errors import SourceError, SourceWarning
+
+FIXTURES = Path(__file__).parent / "fixtures" / "errors"
+GREEN, RED, BLACK = "#008000", "#ff0000", "#000000"
+LARGE = "the number 1e300 is too large; the limit is 1e+12"
+FAR = "it has a coordinate of {}; the limit is 1e+12; correct it"
+FLAT = ["<svg> in line 1, whose width or height is zero", "nothing in it is painted"]
+
+SHOWN = {
+    "arc-1e300": ([GREEN], ["<path> in line 2: " + FAR.format("1e+200")]),
+    "coordinate-1e300": ([GREEN], ['<path id="far"> in line 2: ' + FAR.format("1e+300")]),
+    "coordinate-infinite": ([GREEN], ["<path> in line 2: " + FAR.format("nan")]),
+    "gradient-1e300": ([GREEN], ["<rect> in line 3: " + LARGE]),
+    "hsl-out-of-range": ([GREEN, "#404040", "#ffffff", GREEN], []),
+    "length-1e300": ([GREEN], ["<rect> in line 2: " + LARGE]),
+    "marker-1e300": (["#0000ff", GREEN], ["<path> in line 3: " + LARGE]),
+    "mask-1e300": ([RED, "#ffffff", GREEN], ["<circle> in line 2: " + LARGE]),
+    "namespace-of-element": ([GREEN], ["<rect> in line 2, of another namespace"]),
+    "paint-missing": ([GREEN], ["paint '#none' (2)"]),
+    "prefix-of-element": ([GREEN], ["<a:rect>"]),
+    "prefix-of-link": ([GREEN, GREEN], []),
+    "switch-only-unknown": ([GREEN], ["<foreignObject>"]),
+    "switch-unknown": ([GREEN], []),
+    "transform-1e300": ([GREEN], ["<rect> in line 2: the transforms multiply to 1e+22; the limit is 1e+12"]),
+    "use-ancestor": ([GREEN], ["<use> in line 2 that shows itself"]),
+    "use-cycle": ([RED, RED, GREEN], ["<use> in line 3 that shows itself", "<use> in line 2 that shows itself"]),
+    "use-itself": ([GREEN], ['<use id="a"> in line 2 that shows itself']),
+    "view-box-nan": ([BLACK], ["viewBox='0 0 nan 10' of <svg> in line 1"]),
+    "view-box-negative": ([GREEN], ["viewBox='0 0 -10 10' of <svg> in line 1"]),
+    "view-box-nested-three": ([RED, GREEN], ["viewBox='0 0 10' of <svg> in line 2"]),
+    "view-box-nested-zero": ([GREEN], []),
+    "view-box-of-pattern": ([GREEN], []),
+    "view-box-of-symbol-1e300": ([GREEN], ['<symbol id="s"> in line 2: ' + LARGE]),
+    "view-box-three": ([BLACK], ["viewBox='0 0 10' of <svg> in line 1"]),
+    "view-box-zero": ([], FLAT),
+    "width-nan": ([GREEN], ["width='nan' of <svg> in line 1"]),
+    "width-zero": ([], FLAT),
+}
+
+
+@pytest.mark.parametrize("path", sorted(FIXTURES.glob("*.svg")), ids=lambda path: path.stem)
+def test_an_element_that_is_wrong_is_lost_and_named(path: Path) -> None:
+    with warnings.catch_warnings(action="ignore", category=SourceWarning):
+        drawing = vexture.read(path)
+    hexes, notes = SHOWN[path.stem]
+    assert [shown.paint.hex for shown in drawing.paths] == hexes
+    assert [str(note) for note in drawing.notes] == notes
+
+
+def test_a_drawing_of_no_size_becomes_a_texture() -> None:
+    with warnings.catch_warnings(action="ignore", category=SourceWarning):
+        texture = vexture.convert(FIXTURES / "width-zero.svg")
+    assert not texture.contains([[0.5, 0.5]]).any()
+
+
+def test_a_root_of_another_namespace_is_named() -> None:
+    with pytest.raises(SourceError, match=r"the root element has the namespace 'urn:x'; the one of SVG is 'http"):
+        vexture.read(b'<svg xmlns="urn:x"/>', name="a.svg")
+
+
+def test_missing_prefixes_excuse_no_other_error() -> None:
+    with pytest.raises(SourceError, match="not well-formed XML: Opening and ending tag mismatch: use"):
+        vexture.read(b'<svg><a:b/><use xlink:href="#a"></svg>', name="a.svg")
+    bomb = "".join(f'<!ENTITY e{k} "{f"&e{k - 1};" * 10}">' for k in range(1, 10))
+    with pytest.raises(SourceError, match="entities expand"):
+        vexture.read(
+            f'<!DOCTYPE svg [<!ENTITY e0 "xxxxxxxxxx">{bomb}]><svg><a:b c="&e9;"/></svg>'.encode(), name="a.svg"
+        )
+
+
+def test_uses_that_show_one_another_too_often_are_an_error() -> None:
+    names = "abcdefghij"
+    groups = "".join(f'<g id="{a}">' + "".join(f'<use href="#{b}"/>' for b in names) + "</g>" for a in names)
+    with pytest.raises(SourceError, match="<use> shows more than 50,000 elements"):
+        vexture.read(f"<svg>{groups}</svg>".encode(), name="a.svg")
