@@ -29,6 +29,9 @@ REVERSED = "auto-start-reverse"
 class Marking(Measured, Protocol):
     """What is needed of a scene."""
 
+    def check_used(self, more: int, masks: int) -> None:
+        """Raise a `SourceError` if so many more elements are too many; `masks` as in `Place`."""
+
     def window(self, element: etree._Element, style: Style, sides: Rectangle) -> Window | None:
         """How an element with sides shows its content; None if it shows nothing."""
 
@@ -62,10 +65,13 @@ def markers(scene: Marking, element: etree._Element, place: Place) -> Iterator[l
         return
     context = Context(place, cache(lambda: shape_outlines(shape)))
     points, angles = (array.tolist() for array in vertices(shape))
-    for marker, where in zip(found, (slice(0, 1), slice(1, -1), slice(-1, None)), strict=True):
-        if marker is not None and len(marker.element):
-            for point, direction in zip(points[where], angles[where], strict=True):
-                yield shown(scene, marker, point, direction, place, context)
+    ends = slice(0, 1), slice(1, -1), slice(-1, None)
+    drawn = [(marker, where) for marker, where in zip(found, ends, strict=True) if marker and len(marker.element)]
+    masks = place.deeper()
+    scene.check_used(masks * sum(len(marker.element) * len(points[where]) for marker, where in drawn), masks)
+    for marker, where in drawn:
+        for point, direction in zip(points[where], angles[where], strict=True):
+            yield shown(scene, marker, point, direction, place, context)
 
 
 def shown(

@@ -117,10 +117,9 @@ class Scene:
         while stack:
             check_time()
             element, place = stack.pop()
-            self.used += place.masks or place.used
-            if self.used > MOST_USED:
-                what = "<use>, clips, markers, masks and patterns show" if place.masks else "<use> shows"
-                raise SourceError(f"{what} more than {MOST_USED:,} elements (a use bomb?); draw fewer copies")
+            count = place.masks or int(place.used)
+            self.check_used(count, place.masks)
+            self.used += count
             try:
                 stack.extend(reversed(self.visit(element, place, painter)))
             except LocatedError:
@@ -129,6 +128,12 @@ class Scene:
                 self.report.left_out(f"{described(element)}: {error}")
             except SourceError as error:
                 raise LocatedError(f"{described(element)}: {error}") from None
+
+    def check_used(self, more: int, masks: int) -> None:
+        """Raise a `SourceError` if so many more elements are too many; `masks` as in `Place`."""
+        if self.used + more > MOST_USED:
+            what = "<use>, clips, markers, masks and patterns show" if masks else "<use> shows"
+            raise SourceError(f"{what} more than {MOST_USED:,} elements (a use bomb?); draw fewer copies")
 
     def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Placed]:
         """Paint an element, or return the elements that it shows."""
