@@ -190,8 +190,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     notes = layers[0].notes if layers else (*shown.notes, *notes_of_sheets(sheets))
     if parameters.restyle and not any(path.element for path in drawing.paths):
         notes = (*notes, Note("remark", "no element has a name, so none can get another colour"))
-    trees = tuple(sheet.tree for sheet in sheets)
-    return Conversion(drawing, trees, None, seconds, rounding, roots, named, notes)
+    return Conversion(drawing, tuple(each.tree for each in sheets), None, seconds, rounding, roots, named, notes)
 
 
 def combine(parts: Sequence[Conversion[Any]], name: str, source: str | None = None) -> "Texture":

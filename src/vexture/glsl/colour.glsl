@@ -215,9 +215,10 @@ void vexture_add_flat_cell(inout VextureSum sum, VexturePlanar planar, VextureCe
         counted |= look.crosses || look.filled != 0.0 ? 1 << i : 0;
     }
 #if VEXTURE_GRADIENTS
-    while (counted != 0 || vexture_waits(sum))  // a loop that flat colours would turn once, which costs a tenth of the time
+    while (counted != 0 || vexture_waits(sum)) {
+#else
+    {  // a loop would turn once, which costs a tenth of the time
 #endif
-    {
         while (counted != 0 && vexture_has_room(sum)) {
             int lowest = counted & -counted;
             int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
@@ -286,9 +287,10 @@ void vexture_add_cell(
         counted |= look.crosses || look.filled != 0.0 ? 1 << i : 0;
     }
 #if VEXTURE_GRADIENTS
-    while (counted != 0 || vexture_waits(sum))
-#endif
+    while (counted != 0 || vexture_waits(sum)) {
+#else
     {
+#endif
         while (counted != 0 && vexture_has_room(sum)) {
             int lowest = counted & -counted;
             int i = (floatBitsToInt(float(lowest)) >> 23) - 127;

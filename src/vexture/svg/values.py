@@ -61,7 +61,7 @@ def bounded(text: str) -> float:
     """Value of a number; a `TooLargeError` if it is one."""
     value = float(text)
     if not abs(value) <= LARGEST:
-        raise TooLargeError(f"the number {text[:40]} is too large; the limit is {LARGEST:g}; scale the drawing")
+        raise TooLargeError(f"the number {text[:40]} is too large; the limit is {LARGEST:g}")
     return value
 
 
