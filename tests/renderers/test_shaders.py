@@ -8,7 +8,7 @@ from hand import EMPTY, FULL, TREE, need_gpu, texture_of
 
 from vexture.errors import FormatError
 from vexture.fold import blend as folding
-from vexture.renderers import blend, cells, colour, cpu, feature, gradient, leaf, piece
+from vexture.renderers import blend, cells, colour, cpu, feature, gradient, leaf, moment, paints, piece
 from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, included, vertex_source
 from vexture.thesis import cpu as thesis_cpu
@@ -36,7 +36,9 @@ MIRROR = dict.fromkeys(FILES, cpu) | {
     "blend.glsl": SimpleNamespace(**{**vars(blend), **vars(gradient)}),
     "colour.glsl": colour,
     "gradient.glsl": gradient,
-    "srgb.glsl": colour,
+    "srgb.glsl": paints,
+    "paints.glsl": paints,
+    "moment.glsl": moment,
     "feature.glsl": feature,
     "leaf.glsl": leaf,
     "view_color.glsl": colour,

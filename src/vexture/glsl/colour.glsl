@@ -1,144 +1,11 @@
 // Colour of a pixel from a planar map (FORMAT.md, part D): the mean of the map's colours over the pixel's footprint,
 // premultiplied. In a cell it is that of the base paint, plus the jump in colour across each piece times the area that lies
 // on the piece's right.
-// Exports: VexturePlanar, vextureFlatColor, vextureColor.
-//
-// VEXTURE_LINEAR is 0 for a mean in sRGB, or 1 for one in linear light, with linear components. VEXTURE_GRADIENTS is 0 where
-// no map has programs.
+// Exports: vextureFlatColor, vextureColor.
 #include "coverage.glsl"
-#include "gradient.glsl"
 #include "leaf.glsl"
-#include "srgb.glsl"
-
-#ifndef VEXTURE_LINEAR
-#define VEXTURE_LINEAR 0
-#endif
-
-// Where the parts of a map begin.
-struct VexturePlanar {
-    uint cells;   // less two texels for each quad before the first one
-    uint sides;
-    uint paints;
-};
-
-// The map with a root quad; its head comes before that.
-VexturePlanar vexture_planar(uint root) {
-    uvec4 head = vexture_texel(root - 1u);
-    return VexturePlanar(head.y - 2u * root, head.z, head.w);
-}
-
-// A stored colour as what is averaged, premultiplied. In whole steps, sums of differences are exact.
-vec4 vexture_averaged(vec4 stored) {
-#if VEXTURE_LINEAR
-    return vec4(vexture_linear(min(stored.rgb / max(stored.a, 1.0), 1.0)) * stored.a, stored.a);
-#else
-    return stored;
-#endif
-}
-
-// Colour of a paint; of one that holds gradients, over a region.
-vec4 vexture_paint(VexturePlanar planar, uint number, VextureRegion region) {
-    uvec4 both = vexture_texel(planar.paints + (number >> 1));
-    uvec2 words = (number & 1u) == 0u ? both.xy : both.zw;
-    vec4 color = vexture_halves(words);
-#if VEXTURE_GRADIENTS
-    if (words.x != 0u && color.a == 0.0) {
-        color = vexture_program(words.x, words.y, region);
-    }
-#endif
-    return vexture_averaged(color);
-}
-
-// The colours of a pixel, times their areas. Pieces of a cell name the same few paints again and again, and of most nothing is
-// left: where paints are programs, their areas are summed first, so that each is run once.
-struct VextureSum {
-    vec4 color;
-#if VEXTURE_GRADIENTS
-    uvec4 paints;
-    vec4 areas;  // where 0 is room for another paint
-#endif
-};
-
-VextureSum vexture_nothing() {
-#if VEXTURE_GRADIENTS
-    return VextureSum(vec4(0.0), uvec4(0u), vec4(0.0));
-#else
-    return VextureSum(vec4(0.0));
-#endif
-}
-
-#if VEXTURE_GRADIENTS
-// Whether the colour of a paint is still to be added.
-bool vexture_waits(VextureSum sum) {
-    return any(notEqual(sum.areas, vec4(0.0)));
-}
-#endif
-
-// Whether there is room for the two paints beside a piece.
-bool vexture_has_room(VextureSum sum) {
-#if VEXTURE_GRADIENTS
-    return dot(vec4(equal(sum.areas, vec4(0.0))), vec4(1.0)) > 1.5;
-#else
-    return true;
-#endif
-}
-
-// Adds a paint over a region.
-void vexture_add_paint(
-    inout VextureSum sum, VexturePlanar planar, uint paint, float area, VextureRegion region
-) {
-#if VEXTURE_GRADIENTS
-    int free = 0;
-    int same = -1;
-    for (int slot = 0; slot < 4; slot++) {
-        bool is_free = sum.areas[slot] == 0.0;
-        free = is_free ? slot : free;
-        same = !is_free && sum.paints[slot] == paint ? slot : same;
-    }
-    int slot = same < 0 ? free : same;
-    sum.paints[slot] = paint;
-    sum.areas[slot] += area;
-#else
-    sum.color += area * vexture_paint(planar, paint, region);
-#endif
-}
-
-// Adds the paint on the left of a piece, and takes away that on its right.
-void vexture_add_piece(
-    inout VextureSum sum, VexturePlanar planar, uint sides, float area, VextureRegion region
-) {
-#if VEXTURE_GRADIENTS
-    vexture_add_paint(sum, planar, sides & 0xffffu, area, region);
-    vexture_add_paint(sum, planar, sides >> VEXTURE_COORDINATE_BITS, -area, region);
-#else
-    vec4 right = vexture_paint(planar, sides >> VEXTURE_COORDINATE_BITS, region);
-    sum.color += area * (vexture_paint(planar, sides & 0xffffu, region) - right);
-#endif
-}
-
-// Adds the colours of paints of which only the areas are known.
-void vexture_settle(inout VextureSum sum, VexturePlanar planar, VextureRegion region) {
-#if VEXTURE_GRADIENTS
-    while (vexture_waits(sum)) {
-        int slot = sum.areas.x != 0.0 ? 0 : sum.areas.y != 0.0 ? 1 : sum.areas.z != 0.0 ? 2 : 3;
-        sum.color += sum.areas[slot] * vexture_paint(planar, sum.paints[slot], region);
-        sum.areas[slot] = 0.0;
-    }
-#endif
-}
-
-// In steps of a byte.
-vec4 vexture_unpacked(uint word) {
-    return vexture_averaged(vec4(uvec4(word & 255u, (word >> 8) & 255u, (word >> 16) & 255u, word >> 24)));
-}
-
-// Mean of a quad about a place in its own unit square: as vexture_mean, in steps of a byte.
-vec4 vexture_mean_color(uvec4 stored, vec2 place) {
-    vec2 at = 2.0 * place - 0.5;
-    vec4 low = mix(vexture_unpacked(stored.x), vexture_unpacked(stored.y), at.x);
-    vec4 high = mix(vexture_unpacked(stored.z), vexture_unpacked(stored.w), at.x);
-    return clamp(mix(low, high, at.y), 0.0, float(VEXTURE_COVERAGE_ONE));
-}
+#include "moment.glsl"
+#include "paints.glsl"
 
 uint vexture_leaf_kind(VextureCell cell) {
     return (cell.texel.z >> cell.shift) & ((1u << VEXTURE_COUNT_SHIFT) - 1u);
@@ -174,7 +41,7 @@ void vexture_add_whole(
     } else if (is_mean) {
         sum.color += step * vexture_unpacked(word);
     } else {
-        vexture_add_paint(sum, planar, word, area, region);
+        vexture_add_paint(sum, planar, word, vec3(area, 0.0, 0.0), region);
     }
 }
 
@@ -199,9 +66,11 @@ VextureLook vexture_flat_look(uvec4 texel, VextureBox box) {
     return VextureLook(filled, false, left < 1.0 && y0 != y3);
 }
 
-// Adds the colour of the part of a cell in the box, times its area.
-void vexture_add_flat_cell(inout VextureSum sum, VexturePlanar planar, VextureCell cell, ivec2 origin, VextureBox box) {
-    float whole = box.size.x * box.size.y;
+// Adds the colour of the part of a cell in the box, times its share of the pixel, of whose area this is the inverse.
+void vexture_add_flat_cell(
+    inout VextureSum sum, VexturePlanar planar, VextureCell cell, ivec2 origin, VextureBox box, float inverse
+) {
+    float whole = box.size.x * box.size.y * inverse;
     float side = uintBitsToFloat(uint(127 - cell.bit) << 23);  // inverse
     vec2 middle = box.way + (box.part + 0.5) * box.size;
     bool is_mean = vexture_reads_mean(cell, min(box.size.x, box.size.y) * side);
@@ -225,12 +94,14 @@ void vexture_add_flat_cell(inout VextureSum sum, VexturePlanar planar, VextureCe
             counted ^= lowest;
             uvec4 texel = vexture_leaf_piece(leaf, i);
             VextureLook look = vexture_flat_look(texel, box);
-            float area = look.filled;
+            vec3 share = vec3(look.filled, 0.0, vexture_lift(texel, look.crosses, box));
             if (look.crosses) {
-                area += vexture_flat_piece_area(texel, box);
+                VexturePiece piece = vexture_piece(texel, box);
+                VextureEnds ends = vexture_ends(piece);
+                share += vec3(vexture_flat_piece_area(piece, ends), vexture_moment(piece, ends));
             }
             uint sides = vexture_leaf_sides(leaf, planar.sides, i);
-            vexture_add_piece(sum, planar, sides, whole * area, region);
+            vexture_add_piece(sum, planar, sides, whole * share, region);
         }
         vexture_settle(sum, planar, region);
     }
@@ -253,10 +124,11 @@ vec4 vextureFlatColor(uint root, uvec2 base, vec2 offset, VextureFlat view) {
     while (square.position.x < VEXTURE_NO_CELL) {
         VextureCell cell = vexture_descend(top, shared_bit, view.finest, square.position);
         ivec2 origin = square.position & -(1 << cell.bit);
-        vexture_add_flat_cell(sum, planar, cell, origin, vexture_box(origin, cell.bit, place, view.extent));
+        VextureBox box = vexture_box(origin, cell.bit, place, view.extent);
+        vexture_add_flat_cell(sum, planar, cell, origin, box, view.inverse);
         square = vexture_next_square(square.position, origin + (1 << cell.bit), place);
     }
-    return vexture_held(sum.color * (view.inverse / float(VEXTURE_PAINT_ONE)));
+    return vexture_held(sum.color / float(VEXTURE_PAINT_ONE));
 }
 
 // Adds the colour of the part of a footprint in a cell, times its area.
@@ -279,6 +151,9 @@ void vexture_add_cell(
     vec2 up = vec2(-frame.right.y, frame.right.x) * frame.size;
     VextureRegion region = vexture_region(origin, place * side, part * right, part * up);
     vexture_add_whole(sum, planar, cell, is_mean, place, whole, region);
+    // moments of the box as those of a footprint that is turned in it, whose parts lie as much nearer its middle
+    float filled = whole * frame.size / (box.size.x * box.size.y);
+    float turned = whole * sqrt(clamp(filled, 0.0, 1.0));
     VextureLeaf leaf = vexture_leaf(cell);
     int count = whole > 0.0 && !cell.is_quad && !is_mean ? vexture_count(cell) : 0;
     int counted = 0;  // a bit for each piece that is not clear of the footprint's box: others need no colours
@@ -297,12 +172,15 @@ void vexture_add_cell(
             counted ^= lowest;
             uvec4 texel = vexture_leaf_piece(leaf, i);
             VextureLook look = vexture_first_look(texel, box);
-            float area = whole * look.filled;
+            vec3 share = vec3(whole * look.filled, 0.0, turned * vexture_lift(texel, look.crosses, box));
             if (look.crosses) {
-                area += vexture_piece_area(texel, look.turns, box, frame);
+                VexturePiece piece = vexture_piece(texel, box);
+                VextureEnds ends = vexture_ends(piece);
+                share.x += vexture_piece_area(texel, look.turns, piece, ends, box, frame);
+                share.yz += turned * vexture_moment(piece, ends);
             }
             uint sides = vexture_leaf_sides(leaf, planar.sides, i);
-            vexture_add_piece(sum, planar, sides, area, region);
+            vexture_add_piece(sum, planar, sides, share, region);
         }
         vexture_settle(sum, planar, region);
     }

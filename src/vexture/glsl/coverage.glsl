@@ -54,9 +54,9 @@ float vexture_curve_area(VexturePiece piece, VextureEnds ends, VextureCorner cor
 
 // Area on the right of a piece inside the box, negative for a piece that goes up. If it `turns`, an end of it lies on the
 // leaf's left edge and in the box, and the area of the box above that end is included with the sign of its winding.
-float vexture_piece_area(uvec4 texel, bool turns, VextureBox box, VextureFrame frame) {
-    VexturePiece piece = vexture_piece(texel, box);
-    VextureEnds ends = vexture_ends(piece);
+float vexture_piece_area(
+    uvec4 texel, bool turns, VexturePiece piece, VextureEnds ends, VextureBox box, VextureFrame frame
+) {
     VextureCorner corner = vexture_corner(piece.falls, box, frame);
 
     // the path along the box's sides: its left side while the piece is left of the box, and back on its right side
@@ -166,7 +166,9 @@ float vexture_cell_area(VextureCell cell, VextureBox box, VextureFrame frame) {
         int lowest = crossing & -crossing;
         int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
         crossing ^= lowest;
-        area += vexture_piece_area(vexture_texel(curve + uint(i)), (turning & lowest) != 0, box, frame);
+        uvec4 texel = vexture_texel(curve + uint(i));
+        VexturePiece piece = vexture_piece(texel, box);
+        area += vexture_piece_area(texel, (turning & lowest) != 0, piece, vexture_ends(piece), box, frame);
     }
     return area;
 }

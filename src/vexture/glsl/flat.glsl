@@ -19,9 +19,7 @@ VextureFlat vextureFlat(vec2 dx, vec2 dy) {
 }
 
 // Area of the box on the right of a piece, negative for one that rises.
-float vexture_flat_piece_area(uvec4 texel, VextureBox box) {
-    VexturePiece piece = vexture_piece(texel, box);
-    VextureEnds ends = vexture_ends(piece);
+float vexture_flat_piece_area(VexturePiece piece, VextureEnds ends) {
     vec2 chord = ends.leave - ends.enter;
     vec2 first = vexture_slope(piece, ends.start);
     vec2 last = vexture_slope(piece, ends.end);
@@ -63,7 +61,8 @@ float vexture_flat_cell_area(VextureCell cell, VextureBox box) {
         int lowest = crossing & -crossing;
         int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
         crossing ^= lowest;
-        filled += vexture_flat_piece_area(vexture_texel(curve + uint(i)), box);
+        VexturePiece piece = vexture_piece(vexture_texel(curve + uint(i)), box);
+        filled += vexture_flat_piece_area(piece, vexture_ends(piece));
     }
     return filled;
 }

@@ -160,7 +160,7 @@ vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 
 }
 
 // Premultiplied colour of a gradient, whose first texel is given with its index, and its number of stops. A region in which
-// circles bend is divided.
+// circles bend is divided, most near their tip.
 vec4 vexture_gradient(uint at, uvec4 record, uint number, VextureRegion region) {
     uint kind = record.w >> VEXTURE_KIND_SHIFT;
     vec3 across = uintBitsToFloat(record.xyz);
@@ -175,7 +175,10 @@ vec4 vexture_gradient(uint at, uvec4 record, uint number, VextureRegion region) 
     uint stops = at + (record.w & ((1u << VEXTURE_STOP_BITS) - 1u));
     uint spread = (record.w >> (VEXTURE_STOP_BITS + VEXTURE_STOP_COUNT_BITS)) & 3u;
     vec2 spans = max(vexture_spans(across.xy, region), vexture_spans(up.xy, region));
-    float size = kind == uint(VEXTURE_KIND_LINEAR) ? 0.0 : float(VEXTURE_RAMP_PARTS) * length(spans);
+    float width = kind == uint(VEXTURE_KIND_LINEAR) ? 0.0 : length(spans);
+    float tip = focus.x / max(1.0 - focus.y, VEXTURE_NOTHING);  // where the circles have no radius
+    float away = length(vec2(dot(across.xy, region.point) + across.z - tip, dot(up.xy, region.point) + up.z));
+    float size = away < width ? float(VEXTURE_MOST_RAMP_PARTS) : float(VEXTURE_RAMP_PARTS) * width;
     int parts = size < float(VEXTURE_MOST_RAMP_PARTS) ? max(int(ceil(size)), 1) : VEXTURE_MOST_RAMP_PARTS;
     VextureRegion part = VextureRegion(region.point, region.right / float(parts), region.up / float(parts));
     vec4 sum = vec4(0.0);

@@ -1,15 +1,15 @@
-"""The mirror of ``glsl/colour.glsl`` and ``glsl/srgb.glsl``: the colour of a pixel from a planar map.
+"""The mirror of ``glsl/colour.glsl``: the colour of a pixel from a planar map.
 
 See `vexture.renderers.cpu`. `is_linear` is what ``VEXTURE_LINEAR`` is in the shader.
 """
 
-from typing import NamedTuple
+import math
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.kernels import kernel
-from vexture.layout import COORDINATE_BITS, COUNT_SHIFT, COVERAGE_ONE, HOLDS_PROGRAM, IS_MEAN, PAINT_ONE
+from vexture.layout import COUNT_SHIFT, COVERAGE_ONE, HOLDS_PROGRAM, IS_MEAN, PAINT_ONE
 from vexture.renderers.cells import (
     Cell,
     Texel,
@@ -37,139 +37,27 @@ from vexture.renderers.cpu import (
     is_beside,
     piece_area,
 )
-from vexture.renderers.gradient import Region, Vec3, Vec4, halves, plus, program, times
+from vexture.renderers.gradient import Region, Vec4, plus, times
 from vexture.renderers.leaf import leaf, leaf_piece, leaf_sides
 from vexture.renderers.method import NEARLY_WHOLE, NO_CELL, POSITION_BITS
-from vexture.renderers.piece import Box, Frame, box, box_area, frame, in_box, view_pixel, word
+from vexture.renderers.moment import lift, moment
+from vexture.renderers.paints import (
+    Planar,
+    Sum,
+    add_paint,
+    add_piece,
+    has_room,
+    mean_color,
+    nothing,
+    planar,
+    settle,
+    unpacked,
+)
+from vexture.renderers.piece import Box, Frame, box, box_area, ends, frame, in_box, piece, view_pixel, word
 from vexture.renderers.uniforms import HasTexels, uniforms_of
 from vexture.renderers.view import Size, ViewLike
 
 __all__ = ["render_cpu_colours"]
-
-
-class Planar(NamedTuple):
-    """Where the parts of a planar map begin."""
-
-    cells: int
-    sides: int
-    paints: int
-
-
-@kernel(allocates=False)
-def linear(encoded: Vec3) -> Vec3:
-    """Linear components of sRGB (IEC 61966-2-1)."""
-    return linear_component(encoded[0]), linear_component(encoded[1]), linear_component(encoded[2])
-
-
-@kernel(allocates=False)
-def linear_component(encoded: float) -> float:
-    """One component of what GLSL computes as vectors."""
-    return encoded / 12.92 if encoded <= 0.04045 else ((encoded + 0.055) / 1.055) ** 2.4
-
-
-@kernel(allocates=False)
-def planar(texels: Texels, root: int) -> Planar:
-    head = texel(texels, root - 1)
-    return Planar(head[1] - 2 * root, 0 + head[2], 0 + head[3])  # of 64 bits
-
-
-@kernel(allocates=False)
-def averaged(is_linear: int, stored: Vec4) -> Vec4:
-    if not is_linear:
-        return stored
-    alpha = max(stored[3], 1.0)
-    red, green, blue = min(stored[0] / alpha, 1.0), min(stored[1] / alpha, 1.0), min(stored[2] / alpha, 1.0)
-    red, green, blue = linear((red, green, blue))
-    return red * stored[3], green * stored[3], blue * stored[3], stored[3]
-
-
-@kernel(allocates=False)
-def paint(texels: Texels, is_linear: int, planar: Planar, number: int, region: Region) -> Vec4:
-    both = texel(texels, planar.paints + (number >> 1))
-    low, high = (both[0], both[1]) if number & 1 == 0 else (both[2], both[3])
-    color = halves((low, high))
-    if low != 0 and color[3] == 0.0:
-        color = program(texels, low, high, region)
-    return averaged(is_linear, color)
-
-
-class Sum(NamedTuple):
-    """The colours of a pixel, times their areas; `areas` are those of `paints` whose colours are not added yet."""
-
-    color: Vec4
-    paints: tuple[int, int, int, int]
-    areas: Vec4
-
-
-@kernel(allocates=False)
-def nothing() -> Sum:
-    return Sum((0.0, 0.0, 0.0, 0.0), (0, 0, 0, 0), (0.0, 0.0, 0.0, 0.0))
-
-
-@kernel(allocates=False)
-def waits(sum: Sum) -> bool:
-    areas = sum.areas
-    return areas[0] != 0.0 or areas[1] != 0.0 or areas[2] != 0.0 or areas[3] != 0.0
-
-
-@kernel(allocates=False)
-def has_room(sum: Sum) -> bool:
-    free = 0
-    for slot in range(4):
-        free += 1 if sum.areas[slot] == 0.0 else 0
-    return free > 1
-
-
-@kernel(allocates=False)
-def add_paint(sum: Sum, planar: Planar, paint: int, area: float, region: Region) -> Sum:
-    """Return the new `sum`, which GLSL changes in place, as with ``VEXTURE_GRADIENTS``."""
-    (a, b, c, d), areas = sum.paints, sum.areas
-    free, same = 0, -1
-    for slot in range(4):
-        is_free = areas[slot] == 0.0
-        free = slot if is_free else free
-        same = slot if not is_free and sum.paints[slot] == paint else same
-    at = free if same < 0 else same
-    a, b = paint if at == 0 else a, paint if at == 1 else b
-    c, d = paint if at == 2 else c, paint if at == 3 else d
-    area += areas[at]
-    x, y = area if at == 0 else areas[0], area if at == 1 else areas[1]
-    z, w = area if at == 2 else areas[2], area if at == 3 else areas[3]
-    return Sum(sum.color, (a, b, c, d), (x, y, z, w))
-
-
-@kernel(allocates=False)
-def add_piece(sum: Sum, planar: Planar, sides: int, area: float, region: Region) -> Sum:
-    sum = add_paint(sum, planar, sides & ((1 << COORDINATE_BITS) - 1), area, region)
-    return add_paint(sum, planar, sides >> COORDINATE_BITS, -area, region)
-
-
-@kernel(allocates=False)
-def settle(texels: Texels, is_linear: int, sum: Sum, planar: Planar, region: Region) -> Sum:
-    if not waits(sum):
-        return sum
-    color = sum.color
-    for slot in range(4):
-        if sum.areas[slot] != 0.0:
-            color = plus(color, paint(texels, is_linear, planar, sum.paints[slot], region), sum.areas[slot])
-    return Sum(color, sum.paints, (0.0, 0.0, 0.0, 0.0))
-
-
-@kernel(allocates=False)
-def unpacked(is_linear: int, word: int) -> Vec4:
-    red, green, blue = float(word & 255), float((word >> 8) & 255), float((word >> 16) & 255)
-    return averaged(is_linear, (red, green, blue, float(word >> 24)))
-
-
-@kernel(allocates=False)
-def mean_color(is_linear: int, stored: Texel, place: Vec2) -> Vec4:
-    x, y = 2.0 * place[0] - 0.5, 2.0 * place[1] - 0.5
-    low = plus(times(unpacked(is_linear, stored[0]), 1.0 - x), unpacked(is_linear, stored[1]), x)
-    high = plus(times(unpacked(is_linear, stored[2]), 1.0 - x), unpacked(is_linear, stored[3]), x)
-    found = plus(times(low, 1.0 - y), high, y)
-    most = float(COVERAGE_ONE)
-    red, green, blue = clamp(found[0], 0.0, most), clamp(found[1], 0.0, most), clamp(found[2], 0.0, most)
-    return red, green, blue, clamp(found[3], 0.0, most)
 
 
 @kernel(allocates=False)
@@ -205,10 +93,12 @@ def add_whole(
     word = 0 + stored[cell.shift >> 3]  # of 64 bits
     step = area * (PAINT_ONE / COVERAGE_ONE)
     if cell.is_quad:
-        return Sum(plus(sum.color, mean_color(is_linear, stored, place), step), sum.paints, sum.areas)
+        return Sum(
+            plus(sum.color, mean_color(is_linear, stored, place), step), sum.paints, sum.areas, sum.across, sum.up
+        )
     if is_mean:
-        return Sum(plus(sum.color, unpacked(is_linear, word), step), sum.paints, sum.areas)
-    return add_paint(sum, planar, word, area, region)
+        return Sum(plus(sum.color, unpacked(is_linear, word), step), sum.paints, sum.areas, sum.across, sum.up)
+    return add_paint(sum, planar, word, (area, 0.0, 0.0), region)
 
 
 @kernel(allocates=False)
@@ -232,9 +122,9 @@ def flat_look(texel: Texel, box: Box) -> Look:
 
 @kernel(allocates=False)
 def add_flat_cell(
-    texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, origin: Whole2, box: Box
+    texels: Texels, is_linear: int, sum: Sum, planar: Planar, cell: Cell, origin: Whole2, box: Box, inverse: float
 ) -> Sum:
-    whole = box.size[0] * box.size[1]
+    whole = box.size[0] * box.size[1] * inverse
     side = 2.0**-cell.bit
     x = box.way[0] + (box.part[0] + 0.5) * box.size[0]
     y = box.way[1] + (box.part[1] + 0.5) * box.size[1]
@@ -247,9 +137,14 @@ def add_flat_cell(
         look = flat_look(found, box)
         if look.crosses or look.filled != 0.0:
             sum = sum if has_room(sum) else settle(texels, is_linear, sum, planar, here)
-            area = look.filled + (flat_piece_area(found, box) if look.crosses else 0.0)
+            area, moved, lifted = look.filled, 0.0, lift(found, look.crosses, box)
+            if look.crosses:
+                one = piece(found, box)
+                both = ends(one)
+                more = moment(one, both)
+                area, moved, lifted = area + flat_piece_area(one, both), more[0], lifted + more[1]
             beside, pieces = leaf_sides(texels, pieces, planar.sides, i)
-            sum = add_piece(sum, planar, beside, whole * area, here)
+            sum = add_piece(sum, planar, beside, (whole * area, whole * moved, whole * lifted), here)
     return settle(texels, is_linear, sum, planar, here)
 
 
@@ -267,9 +162,9 @@ def flat_color(texels: Texels, is_linear: int, root: int, base: Whole2, offset: 
         side = 1 << cell.bit
         origin = (position[0] & -side, position[1] & -side)
         local = box(origin, cell.bit, there, view.extent)
-        sum = add_flat_cell(texels, is_linear, sum, parts, cell, origin, local)
+        sum = add_flat_cell(texels, is_linear, sum, parts, cell, origin, local, view.inverse)
         square = next_square(position, (origin[0] + side, origin[1] + side), there)
-    return held(times(sum.color, view.inverse / PAINT_ONE))
+    return held(times(sum.color, 1.0 / PAINT_ONE))
 
 
 @kernel(allocates=False)
@@ -300,15 +195,22 @@ def add_cell(
     up = (-part[0] * frame.right[1] * frame.size, part[1] * frame.right[0] * frame.size)
     here = region(origin, (place[0] * side, place[1] * side), right, up)
     sum = add_whole(texels, is_linear, sum, planar, cell, is_mean, place, whole, here)
+    turned = whole * math.sqrt(clamp(whole * frame.size / (size[0] * size[1]), 0.0, 1.0))
     pieces = leaf(cell)
     for i in range(count(cell) if whole > 0.0 and not cell.is_quad and not is_mean else 0):
         found, pieces = leaf_piece(texels, pieces, i)
         look = first_look(found, box)
         if look.crosses or look.filled != 0.0:
             sum = sum if has_room(sum) else settle(texels, is_linear, sum, planar, here)
-            area = whole * look.filled + (piece_area(found, look.turns, box, frame) if look.crosses else 0.0)
+            area, moved, lifted = whole * look.filled, 0.0, turned * lift(found, look.crosses, box)
+            if look.crosses:
+                one = piece(found, box)
+                both = ends(one)
+                more = moment(one, both)
+                area += piece_area(found, look.turns, one, both, box, frame)
+                moved, lifted = turned * more[0], lifted + turned * more[1]
             beside, pieces = leaf_sides(texels, pieces, planar.sides, i)
-            sum = add_piece(sum, planar, beside, area, here)
+            sum = add_piece(sum, planar, beside, (area, moved, lifted), here)
     return settle(texels, is_linear, sum, planar, here)
 
 

@@ -112,17 +112,15 @@ def flat(dx: Vec2, dy: Vec2) -> Flat:
 
 
 @kernel(allocates=False)
-def flat_piece_area(texel: Texel, box: Box) -> float:
-    one = piece(texel, box)
-    found = ends(one)
-    enter, leave = found.enter, found.leave
+def flat_piece_area(piece: Piece, ends: Ends) -> float:
+    enter, leave = ends.enter, ends.leave
     chord = (leave[0] - enter[0], leave[1] - enter[1])
-    first, last = slope(one, found.start), slope(one, found.end)
-    left = 0.5 * (enter[0] + leave[0]) * chord[1] + bulge((found.end - found.start) / 3.0, first, last, chord)
-    y0 = clamp(one.d[1], 0.0, 1.0)
-    y3 = clamp(one.d[1] + one.way[1], 0.0, 1.0)
-    area = y3 - leave[1] + left if one.falls[0] else leave[1] - y0 - left
-    return area if one.falls[1] else -area
+    first, last = slope(piece, ends.start), slope(piece, ends.end)
+    left = 0.5 * (enter[0] + leave[0]) * chord[1] + bulge((ends.end - ends.start) / 3.0, first, last, chord)
+    y0 = clamp(piece.d[1], 0.0, 1.0)
+    y3 = clamp(piece.d[1] + piece.way[1], 0.0, 1.0)
+    area = y3 - leave[1] + left if piece.falls[0] else leave[1] - y0 - left
+    return area if piece.falls[1] else -area
 
 
 @kernel(allocates=False)
@@ -146,7 +144,8 @@ def flat_cell_area(texels: Texels, cell: Cell, box: Box) -> float:
         filled += y0 - y3 if right <= 0.0 else 0.0
         left = min(r0[0], r3[0]) if right > 0.0 else 1.0
         if left < 1.0 and y0 != y3:
-            filled += flat_piece_area(found, box)
+            one = piece(found, box)
+            filled += flat_piece_area(one, ends(one))
     return filled
 
 
@@ -218,30 +217,28 @@ def curve_area(piece: Piece, ends: Ends, corner: Corner) -> float:
 
 
 @kernel(allocates=False)
-def piece_area(texel: Texel, turns: bool, box: Box, frame: Frame) -> float:
-    one = piece(texel, box)
-    found = ends(one)
-    there = corner(one.falls, box, frame)
-    falls = one.falls[0]
-    top = 0.0 if one.falls[1] else 1.0
-    y0 = clamp(one.d[1], 0.0, 1.0)
-    y3 = clamp(one.d[1] + one.way[1], 0.0, 1.0)
+def piece_area(texel: Texel, turns: bool, piece: Piece, ends: Ends, box: Box, frame: Frame) -> float:
+    there = corner(piece.falls, box, frame)
+    falls = piece.falls[0]
+    top = 0.0 if piece.falls[1] else 1.0
+    y0 = clamp(piece.d[1], 0.0, 1.0)
+    y3 = clamp(piece.d[1] + piece.way[1], 0.0, 1.0)
     y0 = top if turns and texel[0] & 0xFFFF == 0 else y0
     y3 = top if turns and texel[3] & 0xFFFF == 0 else y3
     left = 1.0 if falls else 0.0
     right = 1.0 - left
-    left_end = y3 if falls else found.enter[1]
-    right_end = found.enter[1] if falls else y0
-    left_start = found.leave[1] if falls else y0
-    right_start = y3 if falls else found.leave[1]
+    left_end = y3 if falls else ends.enter[1]
+    right_end = ends.enter[1] if falls else y0
+    left_start = ends.leave[1] if falls else y0
+    right_start = y3 if falls else ends.leave[1]
     level = slopes(frame.right[0], frame.up[0])
     upright = slopes(frame.right[1], frame.up[1])
     l0, l1 = from_corner(there, left, left_start), from_corner(there, left, left_end)
     r0, r1 = from_corner(there, right, right_start), from_corner(there, right, right_end)
-    e0, e1 = from_corner(there, found.enter[0], right_end), from_corner(there, found.leave[0], right_start)
+    e0, e1 = from_corner(there, ends.enter[0], right_end), from_corner(there, ends.leave[0], right_start)
     area = beside_sloped(l0, l1[1], upright) + beside_sloped(r0, r1[1], upright)
     area += beside_sloped(e1, r0[1], level) + beside_sloped(r1, e0[1], level)
-    return area + curve_area(one, found, there)
+    return area + curve_area(piece, ends, there)
 
 
 @kernel(allocates=False)
@@ -309,7 +306,8 @@ def cell_area(texels: Texels, cell: Cell, box: Box, frame: Frame) -> float:
         look = first_look(found, box)
         filled += look.filled
         if look.crosses:
-            area += piece_area(found, look.turns, box, frame)
+            one = piece(found, box)
+            area += piece_area(found, look.turns, one, ends(one), box, frame)
     return area + filled * whole
 
 

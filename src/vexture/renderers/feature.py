@@ -3,9 +3,9 @@
 from vexture.kernels import kernel
 from vexture.layout import CONTROL_OFFSET, COORDINATE_BITS, IS_MEAN, LATTICE_BITS, MOST_DEPTH, MOST_PAINTS
 from vexture.renderers.cells import Texel, Texels, Vec2, Whole2, count, descend, place, texel, top
-from vexture.renderers.colour import planar
 from vexture.renderers.leaf import leaf, leaf_piece, leaf_sides
 from vexture.renderers.method import BISECTIONS, POSITION_BITS
+from vexture.renderers.paints import planar
 from vexture.renderers.piece import word
 
 __all__ = ["feature"]

@@ -280,7 +280,10 @@ def gradient(texels: Texels, at: int, record: Texel, number: int, region: Region
     stops = at + (record[3] & ((1 << STOP_BITS) - 1))
     spread = (record[3] >> (STOP_BITS + STOP_COUNT_BITS)) & 3
     first, second = spans((across[0], across[1]), region), spans((up[0], up[1]), region)
-    size = RAMP_PARTS * length((max(first[0], second[0]), max(first[1], second[1]))) if kind != KIND_LINEAR else 0.0
+    width = length((max(first[0], second[0]), max(first[1], second[1]))) if kind != KIND_LINEAR else 0.0
+    tip = focus[0] / max(1.0 - focus[1], NOTHING)
+    away = length((dot(across, region.point) + across[2] - tip, dot(up, region.point) + up[2]))
+    size = float(MOST_RAMP_PARTS) if away < width else RAMP_PARTS * width
     parts = max(math.ceil(size), 1) if size < MOST_RAMP_PARTS else MOST_RAMP_PARTS
     right, above = (region.right[0] / parts, region.right[1] / parts), (region.up[0] / parts, region.up[1] / parts)
     total = (0.0, 0.0, 0.0, 0.0)

@@ -15,6 +15,7 @@ __all__ = [
     "FURTHER",
     "LEAST_FINEST",
     "LEAST_RADIUS",
+    "LEAST_SHARE",
     "LEVEL_BIAS",
     "LONG",
     "LONGEST_RAMP",
@@ -105,6 +106,9 @@ LEVEL_BIAS: Final = 2.0**-8
 
 NEARLY_WHOLE: Final = 1.0 - 2.0**-10
 """Share of a leaf in a footprint from which all of it counts."""
+
+LEAST_SHARE: Final = 2.0**-20
+"""Share of a pixel, as area and moments, from which a paint's part is something: less is what rounding leaves."""
 
 RAMP_PARTS: Final = 6
 """Parts across a region for each radius of a circle that it spans."""
