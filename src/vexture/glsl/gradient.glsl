@@ -135,14 +135,27 @@ vec4 vexture_spread_sum(uint stops, uint number, uint spread, vec2 part, vec2 we
 }
 
 // Mean of a ramp about a place over a parallelogram along whose sides it goes this far: the weights of its places rise, stay
-// and fall.
+// and fall. Of one that goes on, whole periods of a side have its mean; what a side is longer or shorter than those counts
+// for that share of it, half of them away.
 vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 spans) {
-    float wide = clamp(max(spans.x, spans.y), VEXTURE_SHORTEST_RAMP, VEXTURE_LONGEST_RAMP);
-    float narrow = min(min(spans.x, spans.y), wide);
-    if (spread != uint(VEXTURE_SPREAD_PAD) && wide >= 1.0) {
-        return vexture_ramp_sum(stops, number, vec2(0.0, 1.0), vec2(1.0));
+    bool pads = spread == uint(VEXTURE_SPREAD_PAD);
+    spans = clamp(spans, pads ? 0.0 : VEXTURE_SHORTEST_RAMP, VEXTURE_LONGEST_RAMP);
+    float period = spread == uint(VEXTURE_SPREAD_REFLECT) ? 2.0 : 1.0;
+    vec2 whole = pads ? vec2(0.0) : period * floor(spans / period + 0.5);
+    vec4 mean = vec4(0.0);
+    float share = 1.0;
+    if (whole != vec2(0.0)) {
+        mean = vexture_ramp_sum(stops, number, vec2(0.0, 1.0), vec2(1.0));
+        share = (1.0 - whole.x / spans.x) * (1.0 - whole.y / spans.y);
+        middle = mod(middle, 2.0) - 0.5 * mod(whole.x + whole.y, 4.0);
+        spans = abs(spans - whole);
     }
-    bool pads = spread == uint(VEXTURE_SPREAD_PAD);  // what goes on is the same after 2, and finer there
+    if (abs(share) < 1.0 - VEXTURE_NEARLY_WHOLE) {
+        return mean;
+    }
+    float wide = max(max(spans.x, spans.y), VEXTURE_SHORTEST_RAMP);
+    float narrow = min(spans.x, spans.y);
+    // what goes on is the same after 2, and finer there
     middle = pads ? clamp(middle, -wide - narrow, 1.0 + wide + narrow) : mod(middle, 2.0);
     vec4 sum = vec4(0.0);
     float size = 0.0;
@@ -156,7 +169,7 @@ vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 
             low = high;
         }
     }
-    return sum / size;
+    return mix(mean, sum / size, share);
 }
 
 // Premultiplied colour of a gradient, whose first texel is given with its index, and its number of stops. A region in which

@@ -34,6 +34,7 @@ from vexture.renderers.method import (
     LEAST_RADIUS,
     LONGEST_RAMP,
     MOST_RAMP_PARTS,
+    NEARLY_WHOLE,
     NO_PLACE,
     NOTHING,
     RAMP_PARTS,
@@ -252,10 +253,20 @@ def spread_sum(texels: Texels, stops: int, number: int, spread: int, part: Vec2,
 
 @kernel(allocates=False)
 def ramp_mean(texels: Texels, stops: int, number: int, spread: int, middle: float, spans: Vec2) -> Vec4:
-    wide = clamp(max(spans[0], spans[1]), SHORTEST_RAMP, LONGEST_RAMP)
-    narrow = min(min(spans[0], spans[1]), wide)
-    if spread != PAD and wide >= 1.0:
-        return ramp_sum(texels, stops, number, (0.0, 1.0), (1.0, 1.0))
+    least = 0.0 if spread == PAD else SHORTEST_RAMP
+    first, second = clamp(spans[0], least, LONGEST_RAMP), clamp(spans[1], least, LONGEST_RAMP)
+    period = 2.0 if spread == REFLECT else 1.0
+    whole_first = 0.0 if spread == PAD else period * math.floor(first / period + 0.5)
+    whole_second = 0.0 if spread == PAD else period * math.floor(second / period + 0.5)
+    mean, share = (0.0, 0.0, 0.0, 0.0), 1.0
+    if whole_first != 0.0 or whole_second != 0.0:
+        mean = ramp_sum(texels, stops, number, (0.0, 1.0), (1.0, 1.0))
+        share = (1.0 - whole_first / first) * (1.0 - whole_second / second)
+        middle = middle % 2.0 - 0.5 * ((whole_first + whole_second) % 4.0)
+        first, second = abs(first - whole_first), abs(second - whole_second)
+    if abs(share) < 1.0 - NEARLY_WHOLE:
+        return mean
+    wide, narrow = max(max(first, second), SHORTEST_RAMP), min(first, second)
     middle = clamp(middle, -wide - narrow, 1.0 + wide + narrow) if spread == PAD else middle % 2.0
     total, size, low = (0.0, 0.0, 0.0, 0.0), 0.0, middle - 0.5 * (wide + narrow)
     for k in range(3):
@@ -265,7 +276,7 @@ def ramp_mean(texels: Texels, stops: int, number: int, spread: int, middle: floa
             total = plus(total, spread_sum(texels, stops, number, spread, (low, high), weights), 1.0)
             size += 0.5 * (high - low) * (weights[0] + weights[1])
             low = high
-    return times(total, 1.0 / size)
+    return plus(times(mean, 1.0 - share), total, share / size)
 
 
 @kernel(allocates=False)
