@@ -30,6 +30,7 @@ __all__ = [
     "MAP_HEAD",
     "MAP_VERSION",
     "MASKS",
+    "MOST_BYTE_PAINTS",
     "MOST_CURVES",
     "MOST_DEPTH",
     "MOST_KEPT",
@@ -124,6 +125,9 @@ COVERAGE_ONE: Final = 255
 
 COORDINATE_BITS: Final = 16
 """A point is one word: x in its low bits, y above."""
+
+MOST_BYTE_PAINTS: Final = 1 << CELL_BITS
+"""Most paints of a map in which those beside a curve are two bytes; in others they are two halves of a word."""
 
 MOST_PAINTS: Final = 1 << COORDINATE_BITS
 """Paints of a planar map: a piece names those beside it by 16 bits each."""

@@ -210,8 +210,10 @@ def read_map(words: np.ndarray, root: int) -> tuple[Map, np.ndarray]:
     at_cells = part(words, cells, 2 * n)
     mean = words[at_cells[::2], :, None] >> np.array([0, 8, 16, 24]) & 255
     base = words[at_cells[1::2]]
-    at_sides = part(words, sides, (m + 3) // 4) if m else np.arange(0)
-    left, right = (words[at_sides].reshape(-1)[:m] >> shift & 65535 for shift in (0, 16))
+    bits = 8 if p <= 256 else 16
+    at_sides = part(words, sides, -(-2 * bits * m // 128)) if m else np.arange(0)
+    numbers = (words[at_sides].reshape(-1, 1) >> np.arange(0, 32, bits) & (1 << bits) - 1).ravel()
+    left, right = numbers[: 2 * m : 2], numbers[1 : 2 * m : 2]
     need(max(base.max(), left.max(initial=0), right.max(initial=0)) < p, "a paint beyond the table")
     at_paints = part(words, paints, (p + 1) // 2)
     pairs = words[at_paints].reshape(-1, 2)[:p]

@@ -54,6 +54,26 @@ def test_pixels_are_exact(seed: int) -> None:
         assert error.mean() < 0.03
 
 
+@pytest.mark.parametrize("side", [15, 17])
+def test_numbers_of_paints_take_one_byte_or_two(side: int) -> None:
+    """Squares in so many colours, and nothing around them: 226 and 290 paints."""
+    places = [(x, y) for x in range(side) for y in range(side)]
+    corners = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
+    squares = [polygon((corners + place) / (side + 1)) for place in places]
+    colours = np.random.default_rng(side).random((len(places), 3)).tolist()
+    of = Drawing(tuple(Path((square,), paint=Paint(tuple(c))) for square, c in zip(squares, colours, strict=True)))
+    planar, texture = build_map(of, tolerance=0.0), faces(of)
+    again = decode_map(map_texels(planar, 0), layout.MAP_HEAD)
+    assert len(again.paints) == side * side + 1
+    assert (np.sort(again.sides, axis=0) == np.sort(planar.sides, axis=0)).all()
+    truth = render_exact_colours(of, 61)
+    for renderer in ("cpu", "gpu"):
+        assert abs(texture.render(61, renderer=renderer) - truth).max() < 1.5 / 255
+    points = (np.array(places) + 0.5) / (side + 1)
+    assert texture.contains(points).all()
+    assert not texture.contains([(0.999, 0.5)]).any()
+
+
 def test_a_file_reads_back() -> None:
     texture = faces(sample(3))
     again = texture_from(texture.to_ktx2(), "again")
@@ -137,7 +157,7 @@ def test_a_drawing_without_paths_is_empty() -> None:
         ("quad", 2, 0x03, "no valid cell"),
         ("cells", 0, 0x00FF0000, "above its opacity"),
         ("bases", 0, 1 << 20, "has paint|base paint"),
-        ("sides", 0, 0xFFFF0000, "has paint"),
+        ("sides", 0, 0xFF000000, "has paint"),
         ("paints", 1, 0x0000FFFF, "above its opacity"),
         ("paints", 0, 0x0000FFFF, "gaps"),
     ],

@@ -90,10 +90,10 @@ def test_means_are_renewed_as_they_were_built(seed: int) -> None:
     texture = faces(sample(seed))
     quad = texture.roots[0].quad
     planar, flat = decode_map(texture.flat, quad), texture.flat.copy()
-    used, cells, here, _ = flat[quad - 1].tolist()
+    used, cells, _, _ = flat[quad - 1].tolist()
     assert used == len(planar.paints)
     flat[cells : cells + 2 * len(planar.count) : 2][~planar.is_mean] = 0
-    renew_means(flat, quad, cells, here, planar.paints / 65535.0)
+    renew_means(flat, quad, cells, planar.paints / 65535.0)
     np.testing.assert_allclose(decode_map(flat, quad).mean, planar.mean, atol=1.01 / COVERAGE_ONE)
 
 

@@ -23,6 +23,7 @@ export const LUMINANCE_RED = 0.2125;
 export const MAP_HEAD = 2;
 export const MAP_VERSION = "2";
 export const MASKS = 32;
+export const MOST_BYTE_PAINTS = 256;
 export const MOST_CURVES = 15;
 export const MOST_DEPTH = 20;
 export const MOST_KEPT = 3;

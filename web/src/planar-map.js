@@ -1,5 +1,5 @@
 // Where the parts of a planar map lie, and what they say (FORMAT.md, part D). Plain data, without three.js.
-import { CELL_BITS, COORDINATE_BITS, COVERAGE_ONE, MAP_HEAD, PAINT_ONE } from '../generated/layout.js';
+import { CELL_BITS, COORDINATE_BITS, COVERAGE_ONE, MAP_HEAD, MOST_BYTE_PAINTS, PAINT_ONE } from '../generated/layout.js';
 
 const COMPONENTS = [0, 1, 2, 3];
 
@@ -56,6 +56,15 @@ export function basePaint(texels, head, quad, cell) {
 }
 
 /**
+ * How many curves have the paints beside them in one texel.
+ *
+ * @param {number} used number of paints
+ */
+export function sidesInTexel(used) {
+  return used > MOST_BYTE_PAINTS ? 4 : 8;
+}
+
+/**
  * Numbers of the paints on the left and on the right of a curve.
  *
  * @param {Uint32Array} texels
@@ -64,8 +73,11 @@ export function basePaint(texels, head, quad, cell) {
  * @returns {[number, number]}
  */
 export function sidesOf(texels, head, curve) {
-  const word = texels[4 * head.sides + curve];
-  return [word & PAINT_ONE, word >>> COORDINATE_BITS];
+  const narrow = head.used > MOST_BYTE_PAINTS ? 0 : 1;
+  const word = texels[4 * head.sides + (curve >> narrow)] >>> ((curve & narrow) << 4);
+  const bits = COORDINATE_BITS >> narrow;
+  const mask = (1 << bits) - 1;
+  return [word & mask, (word >>> bits) & mask];
 }
 
 /**

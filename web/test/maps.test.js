@@ -30,6 +30,19 @@ describe('what is read', () => {
     expect(paintAt(example, 2, 0.7, 0.7).color).toEqual([0, 0, 0x8000 / 0xffff, 0x8000 / 0xffff]);
   });
 
+  test('more than 256 paints, whose numbers beside curves take two bytes', async () => {
+    const wide = new Uint32Array(4 * 256);
+    wide.set(texels.subarray(0, 40));
+    wide.set([257, 8, 10, 12], 4);
+    wide.set([0x00010000, 0x00020001, 0x00000002, 0x00000001, 0x00020001, 0x00010000, 0x00000002, 0x00020000], 40);
+    wide.set(texels.subarray(44, 52), 48);
+    const many = await readPacked(ktx2(wide, texts));
+    for (const [u, v] of [[0.7, 0.7], [0.3, 0.3], [0.05, 0.5], [0.9, 0.1]]) {
+      expect(paintAt(many, 2, u, v)).toEqual(paintAt(example, 2, u, v));
+    }
+    await expectRefusal(readPacked(altered(many, (words) => (words[40] = 0x01010000))), 'quad 2', /has paint 257 of 257/);
+  });
+
   test('maps and a layer in one file', () => {
     expect(maps.roots.map(({ isMap, paint }) => [isMap, paint !== null])).toEqual([[true, false], [true, false], [false, true]]);
     const red = paintAt(maps, maps.roots[1].quad, 0.5, 0.7).color;
@@ -87,7 +100,7 @@ const BROKEN = [
   ['too many paints', /has 65537 paints/, (words) => (words[4] = 65537)],
   ['cells beyond the end', /the cells of the map with root 2 end at texel 17 of 16/, (words) => (words[5] = 15)],
   ['cells far beyond the end', /the cells of the map/, (words) => (words[5] = 0xffffffff)],
-  ['sides beyond the end', /the sides of the map with root 2 end at texel 17 of 16/, (words) => (words[6] = 15)],
+  ['sides beyond the end', /the sides of the map with root 2 end at texel 17 of 16/, (words) => (words[6] = 16)],
   ['paints beyond the end', /the paints of the map with root 2 end at texel 17 of 16/, (words) => (words[7] = 15)],
   ['cells over curves', /texel 6 is a part of two things/, (words) => (words[5] = 6)],
   ['sides over cells', /texel 8 is a part of two things/, (words) => (words[6] = 8)],
@@ -100,9 +113,9 @@ const BROKEN = [
   ['a cell of another kind', /quad 2, cell 0 is 1, which is no valid cell/, (words) => (words[10] = 1)],
   ['a base paint of a mean', /a cell without a base paint has one/, (words) => (words[10] = 0x02111909)],
   ['a base paint beyond the table', /has paint 3 of 3/, (words) => (words[36] = 3)],
-  ['a side beyond the table', /has paint 4 of 3/, (words) => (words[41] = 0x00040000)],
+  ['a side beyond the table', /has paint 4 of 3/, (words) => (words[40] = 0x02010104)],
   ['a mean above its opacity', /a colour above its opacity/, (words) => (words[32] = 0x8f000090)],
-  ['a paint above its opacity', /a colour above its opacity/, (words) => (words[53] = 0x80008001)],
+  ['a paint above its opacity', /a colour above its opacity/, (words) => (words[49] = 0x80008001)],
   ['an end beyond the lattice', /curve 3 has an end at 40960/, (words) => (words[13] = 0xa0002000)],
   ['an end of a second curve beyond it', /curve 4 has an end at 40960/, (words) => (words[19] = 0xa0006000)],
   ['a texel that is no part', /texel 15 belongs to no root and is not 0/, (words) => (words[60] = 1)],

@@ -33,7 +33,7 @@ import {
   WINDING_OFFSET,
 } from '../generated/layout.js';
 import { texelsIn } from '../src/leaf.js';
-import { headOf, paintSteps, sidesOf } from '../src/planar-map.js';
+import { headOf, paintSteps, sidesInTexel, sidesOf } from '../src/planar-map.js';
 import { programOf } from '../src/programs.js';
 import { counts, isMap } from '../src/walk.js';
 import { paintCss } from './overlay-palette.js';
@@ -101,7 +101,7 @@ export class TexelMap {
       this.#set(cells + 2 * i, MEANS, place);
       this.#set(cells + 2 * i + 1, BASES, place);
     }
-    for (let i = 0; 4 * i < curves; i++) this.#set(sides + i, SIDES, null);
+    for (let i = 0; sidesInTexel(used) * i < curves; i++) this.#set(sides + i, SIDES, null);
     for (let i = 0; 2 * i < used; i++) this.#set(paints + i, PAINTS, null);
     for (let i = 0; i < operations + stops; i++) this.#set(programs + i, i < operations ? OPERATIONS : STOPS, null);
   }
@@ -161,10 +161,14 @@ export class TexelMap {
       return [`${used} paints`, `cells from texel ${cells}`, `sides of curves from texel ${sides}`, `paints from texel ${paints}`];
     }
     if (kind === 'sides' && head) {
+      const inWord = sidesInTexel(head.used) / four.length;
       return four.map((_, k) => {
-        const curve = 4 * (index - head.sides) + k;
-        const [left, right] = sidesOf(texels, head, curve);
-        return curve >= curves ? 'of no curve' : `curve ${curve}: paint ${left} | ${right}`;
+        const first = inWord * (four.length * (index - head.sides) + k);
+        const said = Array.from({ length: Math.max(Math.min(inWord, curves - first), 0) }, (_, i) => {
+          const [left, right] = sidesOf(texels, head, first + i);
+          return `curve ${first + i}: paint ${left} | ${right}`;
+        });
+        return said.join('; ') || 'of no curve';
       });
     }
     if (kind === 'paints' && head) {

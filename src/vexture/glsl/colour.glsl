@@ -100,7 +100,7 @@ void vexture_add_flat_cell(
                 VextureEnds ends = vexture_ends(piece);
                 share += vec3(vexture_flat_piece_area(piece, ends), vexture_moment(piece, ends));
             }
-            uint sides = vexture_leaf_sides(leaf, planar.sides, i);
+            uvec2 sides = vexture_leaf_sides(leaf, planar, i);
             vexture_add_piece(sum, planar, sides, whole * share, region);
         }
         vexture_settle(sum, planar, region);
@@ -179,7 +179,7 @@ void vexture_add_cell(
                 share.x += vexture_piece_area(texel, look.turns, piece, ends, box, frame);
                 share.yz += turned * vexture_moment(piece, ends);
             }
-            uint sides = vexture_leaf_sides(leaf, planar.sides, i);
+            uvec2 sides = vexture_leaf_sides(leaf, planar, i);
             vexture_add_piece(sum, planar, sides, share, region);
         }
         vexture_settle(sum, planar, region);

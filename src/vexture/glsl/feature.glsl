@@ -1,7 +1,7 @@
 // Which face of a planar map a point is in (FORMAT.md, D.7): the number of its paint, of which the map's style says the
 // elements.
 // Exports: vextureFeature.
-#include "colour.glsl"
+#include "leaf.glsl"
 
 // Where a curve is at a height between its ends, in lattice units.
 float vexture_x_at(uvec4 texel, float y) {
@@ -58,11 +58,9 @@ int vextureFeature(uint root, uvec2 base, vec2 offset) {
     int count = vexture_count(cell);
     for (int i = 0; i < count; i++) {
         uint counted = uint(vexture_counted(vexture_leaf_piece(leaf, i), point));
-        uint sides = vexture_leaf_sides(leaf, planar.sides, i);
-        uint left = sides & 0xffffu;
-        uint right = sides >> VEXTURE_COORDINATE_BITS;
-        number += counted * (left - right);
-        square += counted * (left * left - right * right);
+        uvec2 sides = vexture_leaf_sides(leaf, planar, i);
+        number += counted * (sides.x - sides.y);
+        square += counted * (sides.x * sides.x - sides.y * sides.y);
     }
     return number < uint(VEXTURE_MOST_PAINTS) && number * number == square ? int(number) : -1;
 }

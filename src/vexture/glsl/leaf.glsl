@@ -1,6 +1,7 @@
 // The pieces of a planar map's leaf (FORMAT.md, D.2): each a texel, or, where all are straight, two to a texel.
 // Those that share a texel, or a texel of sides, cost one fetch if they are read one after another.
 // Exports: VextureLeaf, vexture_leaf, vexture_leaf_piece, vexture_leaf_sides.
+#include "paints.glsl"
 #include "piece.glsl"
 
 struct VextureLeaf {
@@ -43,13 +44,15 @@ uvec4 vexture_leaf_piece(inout VextureLeaf leaf, int i) {
     return leaf.is_straight ? vexture_straight((i & 1) == 0 ? leaf.texel.xy : leaf.texel.zw) : leaf.texel;
 }
 
-// The paints beside piece i of a leaf, of a map whose sides begin at a texel: the left one in the low bits.
-uint vexture_leaf_sides(inout VextureLeaf leaf, uint sides, int i) {
+// The paints on the left and on the right of piece i of a leaf.
+uvec2 vexture_leaf_sides(inout VextureLeaf leaf, VexturePlanar planar, int i) {
     uint number = leaf.number + uint(i);
-    uint at = sides + (number >> 2);
+    uint at = planar.sides + (number >> (2u + planar.narrow));
     if (at != leaf.sides_at) {
         leaf.sides_at = at;
         leaf.sides = vexture_texel(at);
     }
-    return leaf.sides[number & 3u];
+    uint word = leaf.sides[(number >> planar.narrow) & 3u] >> ((number & planar.narrow) << 4);
+    int bits = VEXTURE_COORDINATE_BITS >> planar.narrow;
+    return (uvec2(word, word >> bits)) & ((1u << bits) - 1u);
 }

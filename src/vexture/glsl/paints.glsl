@@ -15,12 +15,13 @@ struct VexturePlanar {
     uint cells;   // less two texels for each quad before the first one
     uint sides;
     uint paints;
+    uint narrow;  // 1 where paints are numbered by bytes
 };
 
 // The map with a root quad; its head comes before that.
 VexturePlanar vexture_planar(uint root) {
     uvec4 head = vexture_texel(root - 1u);
-    return VexturePlanar(head.y - 2u * root, head.z, head.w);
+    return VexturePlanar(head.y - 2u * root, head.z, head.w, head.x > uint(VEXTURE_MOST_BYTE_PAINTS) ? 0u : 1u);
 }
 
 // A stored colour as what is averaged, premultiplied. In whole steps, sums of differences are exact.
@@ -107,13 +108,13 @@ void vexture_add_paint(inout VextureSum sum, VexturePlanar planar, uint paint, v
 }
 
 // Adds the paint on the left of a piece, and takes away that on its right.
-void vexture_add_piece(inout VextureSum sum, VexturePlanar planar, uint sides, vec3 share, VextureRegion region) {
+void vexture_add_piece(inout VextureSum sum, VexturePlanar planar, uvec2 sides, vec3 share, VextureRegion region) {
 #if VEXTURE_GRADIENTS
-    vexture_add_paint(sum, planar, sides & 0xffffu, share, region);
-    vexture_add_paint(sum, planar, sides >> VEXTURE_COORDINATE_BITS, -share, region);
+    vexture_add_paint(sum, planar, sides.x, share, region);
+    vexture_add_paint(sum, planar, sides.y, -share, region);
 #else
-    vec4 right = vexture_paint(planar, sides >> VEXTURE_COORDINATE_BITS, region);
-    sum.color += share.x * (vexture_paint(planar, sides & 0xffffu, region) - right);
+    vec4 right = vexture_paint(planar, sides.y, region);
+    sum.color += share.x * (vexture_paint(planar, sides.x, region) - right);
 #endif
 }
 

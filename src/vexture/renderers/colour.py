@@ -143,7 +143,7 @@ def add_flat_cell(
                 both = ends(one)
                 more = moment(one, both)
                 area, moved, lifted = area + flat_piece_area(one, both), more[0], lifted + more[1]
-            beside, pieces = leaf_sides(texels, pieces, planar.sides, i)
+            beside, pieces = leaf_sides(texels, pieces, planar, i)
             sum = add_piece(sum, planar, beside, (whole * area, whole * moved, whole * lifted), here)
     return settle(texels, is_linear, sum, planar, here)
 
@@ -209,7 +209,7 @@ def add_cell(
                 more = moment(one, both)
                 area += piece_area(found, look.turns, one, both, box, frame)
                 moved, lifted = turned * more[0], lifted + turned * more[1]
-            beside, pieces = leaf_sides(texels, pieces, planar.sides, i)
+            beside, pieces = leaf_sides(texels, pieces, planar, i)
             sum = add_piece(sum, planar, beside, (area, moved, lifted), here)
     return settle(texels, is_linear, sum, planar, here)
 

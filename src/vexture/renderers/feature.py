@@ -1,7 +1,7 @@
 """The mirror of ``glsl/feature.glsl``: which face of a planar map a point is in (see `vexture.renderers.cpu`)."""
 
 from vexture.kernels import kernel
-from vexture.layout import CONTROL_OFFSET, COORDINATE_BITS, IS_MEAN, LATTICE_BITS, MOST_DEPTH, MOST_PAINTS
+from vexture.layout import CONTROL_OFFSET, IS_MEAN, LATTICE_BITS, MOST_DEPTH, MOST_PAINTS
 from vexture.renderers.cells import Texel, Texels, Vec2, Whole2, count, descend, place, texel, top
 from vexture.renderers.leaf import leaf, leaf_piece, leaf_sides
 from vexture.renderers.method import BISECTIONS, POSITION_BITS
@@ -57,8 +57,8 @@ def feature(texels: Texels, root: int, base: Whole2, offset: Vec2) -> int:
     for i in range(count(cell)):
         found, pieces = leaf_piece(texels, pieces, i)
         times = counted(found, point)
-        sides, pieces = leaf_sides(texels, pieces, parts.sides, i)
-        left, right = sides & 0xFFFF, sides >> COORDINATE_BITS
+        sides, pieces = leaf_sides(texels, pieces, parts, i)
+        left, right = sides
         number += times * (left - right)
         square += times * (left * left - right * right)
     return number if 0 <= number < MOST_PAINTS and number * number == square else -1

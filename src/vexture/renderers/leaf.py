@@ -4,7 +4,8 @@ from typing import NamedTuple
 
 from vexture.kernels import kernel
 from vexture.layout import CONTROL_OFFSET, COORDINATE_BITS, COUNT_SHIFT, MOST_CURVES, STRAIGHT
-from vexture.renderers.cells import Cell, Texel, Texels, texel
+from vexture.renderers.cells import Cell, Texel, Texels, Whole2, texel
+from vexture.renderers.paints import Planar
 
 __all__ = ["Leaf", "leaf", "leaf_piece", "leaf_sides"]
 
@@ -56,10 +57,11 @@ def leaf_piece(texels: Texels, leaf: Leaf, i: int) -> tuple[Texel, Leaf]:
 
 
 @kernel(allocates=False)
-def leaf_sides(texels: Texels, leaf: Leaf, sides: int, i: int) -> tuple[int, Leaf]:
-    """As `leaf_piece`, of the paints beside a piece."""
-    number = leaf.number + i
-    at = sides + (number >> 2)
+def leaf_sides(texels: Texels, leaf: Leaf, planar: Planar, i: int) -> tuple[Whole2, Leaf]:
+    """As `leaf_piece`, of the paints on the left and on the right of a piece."""
+    number, narrow = leaf.number + i, planar.narrow
+    at = planar.sides + (number >> (2 + narrow))
     if at != leaf.sides_at:
         leaf = Leaf(leaf.first, leaf.number, leaf.is_straight, leaf.at, leaf.texel, at, texel(texels, at))
-    return 0 + leaf.sides[number & 3], leaf  # of 64 bits
+    word, bits = leaf.sides[(number >> narrow) & 3] >> ((number & narrow) << 4), COORDINATE_BITS >> narrow
+    return (word & ((1 << bits) - 1), (word >> bits) & ((1 << bits) - 1)), leaf

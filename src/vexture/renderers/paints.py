@@ -6,8 +6,8 @@ See `vexture.renderers.cpu`. `is_linear` is what ``VEXTURE_LINEAR`` is in the sh
 from typing import NamedTuple
 
 from vexture.kernels import kernel
-from vexture.layout import COORDINATE_BITS, COVERAGE_ONE
-from vexture.renderers.cells import Texel, Texels, Vec2, clamp, texel
+from vexture.layout import COVERAGE_ONE, MOST_BYTE_PAINTS
+from vexture.renderers.cells import Texel, Texels, Vec2, Whole2, clamp, texel
 from vexture.renderers.gradient import Region, Vec3, Vec4, halves, plus, program, times
 from vexture.renderers.method import LEAST_SHARE
 
@@ -31,6 +31,7 @@ class Planar(NamedTuple):
     cells: int
     sides: int
     paints: int
+    narrow: int
 
 
 @kernel(allocates=False)
@@ -49,7 +50,7 @@ def linear_component(encoded: float) -> float:
 def planar(texels: Texels, root: int) -> Planar:
     """Where the parts of the map with a root quad begin."""
     head = texel(texels, root - 1)
-    return Planar(head[1] - 2 * root, 0 + head[2], 0 + head[3])  # of 64 bits
+    return Planar(head[1] - 2 * root, 0 + head[2], 0 + head[3], 0 if head[0] > MOST_BYTE_PAINTS else 1)  # of 64 bits
 
 
 @kernel(allocates=False)
@@ -138,10 +139,10 @@ def add_paint(sum: Sum, planar: Planar, paint: int, share: Vec3, region: Region)
 
 
 @kernel(allocates=False)
-def add_piece(sum: Sum, planar: Planar, sides: int, share: Vec3, region: Region) -> Sum:
+def add_piece(sum: Sum, planar: Planar, sides: Whole2, share: Vec3, region: Region) -> Sum:
     """Return the sum with the paint on the left of a piece, less that on its right."""
-    sum = add_paint(sum, planar, sides & ((1 << COORDINATE_BITS) - 1), share, region)
-    return add_paint(sum, planar, sides >> COORDINATE_BITS, (-share[0], -share[1], -share[2]), region)
+    sum = add_paint(sum, planar, sides[0], share, region)
+    return add_paint(sum, planar, sides[1], (-share[0], -share[1], -share[2]), region)
 
 
 @kernel(allocates=False)

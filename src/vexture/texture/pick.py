@@ -16,12 +16,11 @@ from vexture.layout import (
     LATTICE,
     MOST_CURVES,
     MOST_DEPTH,
-    MOST_PAINTS,
     QUAD_FLAG,
 )
 from vexture.renderers.gradient import Region, program
 from vexture.texture.contains import checked_points
-from vexture.texture.curves import read_leaf_curve, texels_of_cell
+from vexture.texture.curves import read_leaf_curve, read_sides, texels_of_cell
 from vexture.texture.planar import head_of
 from vexture.texture.root import Root
 from vexture.tree.crossings import x_at
@@ -72,7 +71,6 @@ def _paint_at(
     flat: NDArray[np.uint32],
     root: int,
     cells: int,
-    sides: int,
     x: float,
     y: float,
     curve: NDArray[np.float64],
@@ -100,10 +98,9 @@ def _paint_at(
             read_leaf_curve(flat, first, cell, i, curve)
             times = _times(curve, LATTICE * x, LATTICE * y)
             if times != 0:
-                j = number + i
-                pair = int(flat[sides + (j >> 2), j & 3])
-                n = _tally(tally[0], tally[1], n, pair & MOST_PAINTS - 1, times)
-                n = _tally(tally[0], tally[1], n, pair >> COORDINATE_BITS, -times)
+                left, right = read_sides(flat, root, number + i)
+                n = _tally(tally[0], tally[1], n, left, times)
+                n = _tally(tally[0], tally[1], n, right, -times)
         for k in range(n):
             if tally[1, k] > 0:
                 return int(tally[0, k])
@@ -116,20 +113,19 @@ def paints_at(
     flat: NDArray[np.uint32],
     root: int,
     cells: int,
-    sides: int,
     points: NDArray[np.float64],
     paints: NDArray[np.int64],
 ) -> None:
     """Write the paint at each point (m, 2), in unit-square units, of the planar map with a root quad, which is sound.
 
-    `cells` and `sides` are those of the map's head. The paint is -1 outside 0 <= x < 1, 0 <= y < 1; where only a mean
+    `cells` is that of the map's head. The paint is -1 outside 0 <= x < 1, 0 <= y < 1; where only a mean
     is known, it is -2 less the number of its word in the cells.
     """
     curve, tally = np.empty((4, 2)), np.empty((2, 2 * MOST_CURVES + 1), np.int64)
     for i in range(len(points)):
         x, y = points[i, 0], points[i, 1]
         known = 0.0 <= x < 1.0 and 0.0 <= y < 1.0
-        paints[i] = _paint_at(flat, root, cells, sides, x, y, curve, tally) if known else -1
+        paints[i] = _paint_at(flat, root, cells, x, y, curve, tally) if known else -1
 
 
 @kernel
@@ -146,7 +142,7 @@ def painted_at(texels: NDArray[np.uint32], root: Root, points: NDArray[np.float6
     """Whether the planar map of a root paints anything at points (n, 2); texels (rows, columns, 4)."""
     flat = texels.reshape(-1, 4)
     head, found = head_of(flat, root.quad), np.empty(len(points), np.int64)
-    paints_at(flat, root.quad, head.cells, head.sides, points, found)
+    paints_at(flat, root.quad, head.cells, points, found)
     words = flat[head.paint_texels].reshape(-1, 2)[np.maximum(found, 0)]
     opacity = words[:, 1] >> COORDINATE_BITS
     painted: NDArray[np.bool_] = (found >= 0) & (opacity > 0)
@@ -176,7 +172,7 @@ def elements_at(flat: NDArray[np.uint32], roots: Sequence[Root], places: Sequenc
         root = roots[place]
         style, head = style_of_root(root), head_of(flat, root.quad)
         paints, bare = np.empty(len(wanted), np.int64), element < 0
-        paints_at(flat, root.quad, head.cells, head.sides, wanted, paints)
+        paints_at(flat, root.quad, head.cells, wanted, paints)
         paints, top = np.maximum(paints, -1), np.append(style.top, -1)  # the last is that of paint -1
         here = bare & (top[paints] >= 0)
         element[here], owner[here] = top[paints[here]], place

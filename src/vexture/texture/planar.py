@@ -34,7 +34,7 @@ def map_texels(planar: PlanarMap, at: int) -> NDArray[np.uint32]:
     first_quad = at + layout.MAP_HEAD
     first_curve = first_quad + quads
     first_cells = first_curve + len(curves)
-    sides = _side_texels(planar.sides)
+    sides = side_texels(planar.sides, len(planar.paints))
     first_sides = first_cells + 2 * quads
     first_paint = first_sides + len(sides)
     programs = program_texels(planar.programs)
@@ -96,11 +96,21 @@ def _cell_texels(planar: PlanarMap) -> NDArray[np.uint32]:
     return texels
 
 
-def _side_texels(sides: NDArray[np.int32]) -> NDArray[np.uint32]:
-    """Four curves to a texel, the paints on their left in the low bits."""
-    words = np.zeros(-(-len(sides) // 4) * 4, np.uint32)
-    words[: len(sides)] = sides[:, 0] | (sides[:, 1] << layout.COORDINATE_BITS)
-    return words.reshape(-1, 4)
+def _number(paints: int) -> np.dtype[np.unsignedinteger]:
+    """What the number of a paint beside a curve is, in a map with so many paints."""
+    return np.dtype("<u1" if paints <= layout.MOST_BYTE_PAINTS else "<u2")
+
+
+def sides_in_texel(paints: int) -> int:
+    """Curves of which a texel holds the paints beside them, in a map with so many paints."""
+    return np.dtype("4<u4").itemsize // (2 * _number(paints).itemsize)
+
+
+def side_texels(sides: NDArray[np.int32], paints: int) -> NDArray[np.uint32]:
+    """Paints on the left and right of curves, (n, 2), as texels of a map with so many paints."""
+    room = np.zeros((-(-len(sides) // sides_in_texel(paints)) * sides_in_texel(paints), 2), _number(paints))
+    room[: len(sides)] = sides
+    return room.ravel().view("<u4").astype(np.uint32).reshape(-1, 4)
 
 
 def paint_texels(
@@ -167,7 +177,7 @@ class MapTexels(NamedTuple):
             (self.quad, self.quad + quads),
             (self.first_curve, self.first_curve + self.curves),
             (self.cells, self.cells + 2 * quads),
-            (self.sides, self.sides + (len(self.points) + 3) // 4),
+            (self.sides, self.sides + -(-len(self.points) // sides_in_texel(self.used))),
             (self.paints, self.paints + (self.used + 1) // 2),
             (self.programs, self.programs + self.operations + self.stops),
         ]
@@ -248,8 +258,8 @@ def _means(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
 
 def _sides(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
     """Paints on the left and right of each curve, (curves, 2)."""
-    words = _parts(flat, found, 4).ravel()[: len(found.points)].astype(np.int64)
-    return np.stack([words & (layout.MOST_PAINTS - 1), words >> layout.COORDINATE_BITS], axis=1)
+    numbers = _parts(flat, found, 4).astype("<u4").view(_number(found.used)).reshape(-1, 2)
+    return numbers[: len(found.points)].astype(np.int64)
 
 
 def paints_from(texels: NDArray[np.uint32], used: int) -> NDArray[np.uint16]:

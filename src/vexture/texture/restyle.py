@@ -14,17 +14,15 @@ from vexture.errors import ParameterError
 from vexture.kernels import kernel
 from vexture.layout import (
     CELL_BITS,
-    COORDINATE_BITS,
     COUNT_SHIFT,
     COVERAGE_ONE,
     IS_MEAN,
     LATTICE,
-    MOST_PAINTS,
     PAINT_ONE,
     QUAD_FLAG,
 )
 from vexture.paint import Paint
-from vexture.texture.curves import read_leaf_curve, texels_of_cell
+from vexture.texture.curves import read_leaf_curve, read_sides, texels_of_cell
 from vexture.texture.pick import style_of_root
 from vexture.texture.planar import head_of, paint_texels, paints_from
 from vexture.texture.root import Root
@@ -124,7 +122,7 @@ def _repaint(flat: NDArray[np.uint32], quad: int, style: Style, changed: NDArray
     table = paints_from(flat[head.paint_texels], head.used)
     table[anew] = np.rint(PAINT_ONE * np.clip(colours[anew], 0.0, 1.0))
     flat[head.paint_texels] = paint_texels(table)
-    renew_means(flat, quad, head.cells, head.sides, table / PAINT_ONE)
+    renew_means(flat, quad, head.cells, table / PAINT_ONE)
 
 
 @kernel
@@ -147,7 +145,7 @@ def _set_leaf_mean(
     base: int,
     cell: int,
     first: tuple[int, int],
-    sides: int,
+    root: int,
     table: NDArray[np.float64],
     curve: NDArray[np.float64],
     mean: NDArray[np.float64],
@@ -163,18 +161,16 @@ def _set_leaf_mean(
         area = (curve[0, 1] - curve[3, 1]) / LATTICE + integral_x_dy(curve) / LATTICE**2
         area += 1.0 - curve[0, 1] / LATTICE if curve[0, 0] == 0.0 else 0.0
         area -= 1.0 - curve[3, 1] / LATTICE if curve[3, 0] == 0.0 else 0.0
-        j = first[1] + i
-        pair = int(flat[sides + (j >> 2), j & 3])
-        left, right = pair & MOST_PAINTS - 1, pair >> COORDINATE_BITS
+        left, right = read_sides(flat, root, first[1] + i)
         for c in range(4):
             mean[c] += area * (table[left, c] - table[right, c])
 
 
 @kernel
-def renew_means(flat: NDArray[np.uint32], root: int, cells: int, sides: int, table: NDArray[np.float64]) -> None:
+def renew_means(flat: NDArray[np.uint32], root: int, cells: int, table: NDArray[np.float64]) -> None:
     """Write the means of a sound map's cells for a table of paints; leaves of which only the mean is known keep it.
 
-    `cells` and `sides` are those of the map's head.
+    `cells` is that of the map's head.
     """
     quads, curve = _count_quads(flat, root), np.empty((4, 2))
     means = np.empty((quads, 4, 4))
@@ -192,7 +188,7 @@ def renew_means(flat: NDArray[np.uint32], root: int, cells: int, sides: int, tab
                     mean[c] = (int(flat[cells + 2 * place, k]) >> CELL_BITS * c & BYTE) / COVERAGE_ONE
             else:
                 base = int(flat[cells + 2 * place + 1, k])
-                _set_leaf_mean(flat, base, cell, (at, number), sides, table, curve, mean)
+                _set_leaf_mean(flat, base, cell, (at, number), root, table, curve, mean)
                 at += texels_of_cell(cell)
                 number += cell >> COUNT_SHIFT
             word, alpha = 0, min(max(mean[3], 0.0), 1.0)
