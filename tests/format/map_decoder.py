@@ -207,13 +207,17 @@ def read_map(words: np.ndarray, root: int) -> tuple[Map, np.ndarray]:
     points = read_curves(words, quads)
     m = len(points)
 
-    at_cells = part(words, cells, 2 * n)
-    mean = words[at_cells[::2], :, None] >> np.array([0, 8, 16, 24]) & 255
-    base = words[at_cells[1::2]]
-    bits = 8 if p <= 256 else 16
-    at_sides = part(words, sides, -(-2 * bits * m // 128)) if m else np.arange(0)
-    numbers = (words[at_sides].reshape(-1, 1) >> np.arange(0, 32, bits) & (1 << bits) - 1).ravel()
-    left, right = numbers[: 2 * m : 2], numbers[1 : 2 * m : 2]
+    bits, s = (8, 4) if p <= 256 else (16, 2)
+
+    def numbers(texels: np.ndarray) -> np.ndarray:
+        return words[texels].reshape(-1, 1) >> np.arange(0, 32, bits) & (1 << bits) - 1
+
+    j = np.arange(n)
+    at_cells = part(words, cells, n + (n + s - 1) // s)
+    mean = words[cells + 1 + j + j // s, :, None] >> np.array([0, 8, 16, 24]) & 255
+    base = numbers(cells + (s + 1) * np.arange((n + s - 1) // s)).reshape(-1, 4)[:n]
+    at_sides = part(words, sides, (m + 2 * s - 1) // (2 * s)) if m else np.arange(0)
+    left, right = numbers(at_sides).reshape(-1, 2)[:m].T
     need(max(base.max(), left.max(initial=0), right.max(initial=0)) < p, "a paint beyond the table")
     at_paints = part(words, paints, (p + 1) // 2)
     pairs = words[at_paints].reshape(-1, 2)[:p]

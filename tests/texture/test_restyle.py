@@ -92,7 +92,8 @@ def test_means_are_renewed_as_they_were_built(seed: int) -> None:
     planar, flat = decode_map(texture.flat, quad), texture.flat.copy()
     used, cells, _, _ = flat[quad - 1].tolist()
     assert used == len(planar.paints)
-    flat[cells : cells + 2 * len(planar.count) : 2][~planar.is_mean] = 0
+    means = cells + 1 + np.arange(len(planar.count)) + np.arange(len(planar.count)) // 4
+    flat[means] = np.where(planar.is_mean, flat[means], 0)
     renew_means(flat, quad, cells, planar.paints / 65535.0)
     np.testing.assert_allclose(decode_map(flat, quad).mean, planar.mean, atol=1.01 / COVERAGE_ONE)
 

@@ -2,7 +2,7 @@
 import { CELL_BITS, COORDINATE_BITS, COUNT_SHIFT, IS_MEAN, MAP_HEAD, MOST_PAINTS, QUAD_FLAG } from '../generated/layout.js';
 import { PAIR, PART, checkTree } from './check-tree.js';
 import { REMEDY, VextureError } from './errors.js';
-import { basePaint, headOf, meanBytes, paintSteps, sidesInTexel, sidesOf } from './planar-map.js';
+import { basePaint, headOf, meanBytes, paintSteps, quadsInBlock, sidesInTexel, sidesOf } from './planar-map.js';
 import { checkPrograms, programOf } from './programs.js';
 
 /** @typedef {import('./planar-map.js').Head} Head */
@@ -84,7 +84,7 @@ function checkWords(texels, met, root, { quads, curveTexels, firstCurve }) {
 function takeParts(met, { quad, used, cells, sides, paints, ...head }, { quads, curves }) {
   for (const { what, first, count } of [
     { what: 'head', first: quad - MAP_HEAD, count: MAP_HEAD },
-    { what: 'cells', first: cells, count: 2 * quads },
+    { what: 'cells', first: cells, count: quads + Math.ceil(quads / quadsInBlock(used)) },
     { what: 'sides', first: sides, count: Math.ceil(curves / sidesInTexel(used)) },
     { what: 'paints', first: paints, count: Math.ceil(used / 2) },
     { what: 'programs', first: head.programs, count: head.operations + head.stops },

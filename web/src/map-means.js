@@ -1,7 +1,7 @@
 // The means of a planar map's cells, computed again where a paint has changed. Plain data, without three.js.
 import { CELL_BITS, COORDINATE_BITS, COVERAGE_ONE, IS_MEAN, LATTICE, PAINT_ONE, QUAD_FLAG } from '../generated/layout.js';
 import { curvesOf, leafOf } from './leaf.js';
-import { basePaint, headOf, meanBytes, paintSteps, sidesOf } from './planar-map.js';
+import { basePaint, headOf, meanBytes, meansAt, paintSteps, sidesOf } from './planar-map.js';
 
 const QUAD = -1;
 const MEAN = -2;
@@ -62,8 +62,8 @@ export class MapMeans {
 
   /** Runs of texels, first and end, that hold what can change: means and paints. @returns {[number, number][]} */
   get runs() {
-    const { cells, paints, used } = this.#head;
-    return [[cells, cells + this.#cells.bases.length / 2], [paints, paints + Math.ceil(used / 2)]];
+    const { quad, cells, paints, used } = this.#head;
+    return [[cells, meansAt(this.#head, quad + this.#cells.bases.length / 4 - 1) + 1], [paints, paints + Math.ceil(used / 2)]];
   }
 
   /**
@@ -150,7 +150,7 @@ export class MapMeans {
     for (let c = 3; c >= 0; c--) {
       word = (word << CELL_BITS) | nearest(COVERAGE_ONE * Math.min(Math.max(means[4 * cell + c], 0), opacity));
     }
-    this.#texels[4 * (this.#head.cells + 2 * (cell >> 2)) + (cell & 3)] = word;
+    this.#texels[4 * meansAt(this.#head, this.#head.quad + (cell >> 2)) + (cell & 3)] = word;
   }
 }
 

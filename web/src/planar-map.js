@@ -30,6 +30,40 @@ export function headOf(texels, quad) {
 }
 
 /**
+ * One of the numbers of paints that fill words.
+ *
+ * @param {Uint32Array} texels
+ * @param {Head} head
+ * @param {number} word the first of them
+ * @param {number} place
+ */
+function numberIn(texels, head, word, place) {
+  const narrow = head.used > MOST_BYTE_PAINTS ? 0 : 1;
+  const bits = COORDINATE_BITS >> narrow;
+  return (texels[word + (place >> (1 + narrow))] >>> (bits * (place & (1 + 2 * narrow)))) & ((1 << bits) - 1);
+}
+
+/**
+ * Quads whose base paints share a texel, before the texels of their means.
+ *
+ * @param {number} used number of paints
+ */
+export function quadsInBlock(used) {
+  return sidesInTexel(used) / 2;
+}
+
+/**
+ * The texel of the means of a quad's cells.
+ *
+ * @param {Head} head
+ * @param {number} quad
+ */
+export function meansAt(head, quad) {
+  const place = quad - head.quad;
+  return head.cells + 1 + place + Math.floor(place / quadsInBlock(head.used));
+}
+
+/**
  * Mean colour of a cell, in steps of a byte.
  *
  * @param {Uint32Array} texels
@@ -39,7 +73,7 @@ export function headOf(texels, quad) {
  * @returns {Color}
  */
 export function meanBytes(texels, head, quad, cell) {
-  const word = texels[4 * (head.cells + 2 * (quad - head.quad)) + cell];
+  const word = texels[4 * meansAt(head, quad) + cell];
   return /** @type {Color} */ (COMPONENTS.map((k) => (word >>> (CELL_BITS * k)) & COVERAGE_ONE));
 }
 
@@ -52,7 +86,10 @@ export function meanBytes(texels, head, quad, cell) {
  * @param {number} cell
  */
 export function basePaint(texels, head, quad, cell) {
-  return texels[4 * (head.cells + 2 * (quad - head.quad) + 1) + cell];
+  const place = quad - head.quad;
+  const inBlock = quadsInBlock(head.used);
+  const block = Math.floor(place / inBlock);
+  return numberIn(texels, head, 4 * (head.cells + (1 + inBlock) * block), 4 * (place - inBlock * block) + cell);
 }
 
 /**
@@ -73,11 +110,8 @@ export function sidesInTexel(used) {
  * @returns {[number, number]}
  */
 export function sidesOf(texels, head, curve) {
-  const narrow = head.used > MOST_BYTE_PAINTS ? 0 : 1;
-  const word = texels[4 * head.sides + (curve >> narrow)] >>> ((curve & narrow) << 4);
-  const bits = COORDINATE_BITS >> narrow;
-  const mask = (1 << bits) - 1;
-  return [word & mask, (word >>> bits) & mask];
+  const first = 4 * head.sides;
+  return [numberIn(texels, head, first, 2 * curve), numberIn(texels, head, first, 2 * curve + 1)];
 }
 
 /**

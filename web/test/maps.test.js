@@ -34,6 +34,7 @@ describe('what is read', () => {
     const wide = new Uint32Array(4 * 256);
     wide.set(texels.subarray(0, 40));
     wide.set([257, 8, 10, 12], 4);
+    wide.set([0, 0x00020000], 32);
     wide.set([0x00010000, 0x00020001, 0x00000002, 0x00000001, 0x00020001, 0x00010000, 0x00000002, 0x00020000], 40);
     wide.set(texels.subarray(44, 52), 48);
     const many = await readPacked(ktx2(wide, texts));
@@ -112,9 +113,9 @@ const BROKEN = [
   ['a cell with a winding', /quad 2, cell 0 is 10, which is no valid cell/, (words) => words[10]++],
   ['a cell of another kind', /quad 2, cell 0 is 1, which is no valid cell/, (words) => (words[10] = 1)],
   ['a base paint of a mean', /a cell without a base paint has one/, (words) => (words[10] = 0x02111909)],
-  ['a base paint beyond the table', /has paint 3 of 3/, (words) => (words[36] = 3)],
+  ['a base paint beyond the table', /has paint 3 of 3/, (words) => (words[32] = 3)],
   ['a side beyond the table', /has paint 4 of 3/, (words) => (words[40] = 0x02010104)],
-  ['a mean above its opacity', /a colour above its opacity/, (words) => (words[32] = 0x8f000090)],
+  ['a mean above its opacity', /a colour above its opacity/, (words) => (words[36] = 0x8f000090)],
   ['a paint above its opacity', /a colour above its opacity/, (words) => (words[49] = 0x80008001)],
   ['an end beyond the lattice', /curve 3 has an end at 40960/, (words) => (words[13] = 0xa0002000)],
   ['an end of a second curve beyond it', /curve 4 has an end at 40960/, (words) => (words[19] = 0xa0006000)],

@@ -1,7 +1,7 @@
 /** Switches of the overlays, and their legend. */
 import { Color } from 'three';
 import { MOST_DEPTH } from '../generated/layout.js';
-import { headOf } from '../src/planar-map.js';
+import { headOf, meansAt, quadsInBlock } from '../src/planar-map.js';
 import { counts } from '../src/walk.js';
 import { chosenLayer } from './chosen-layer.js';
 import { element, section, select } from './dom.js';
@@ -113,7 +113,7 @@ function makeUniforms(engine) {
   const uniforms = {
     vextureOverlayRoot: { value: 0 },
     vextureOverlayOfMap: { value: false },
-    vextureOverlayMeans: { value: 0 },
+    vextureOverlayMeans: { value: [0, 0] },
     vextureOverlayShow: { value: [0, 0, 0] },
     vextureOverlayCutoff: { value: 0 },
     vextureOverlayCoverage: { value: [new Color(), new Color()] },
@@ -148,7 +148,10 @@ function setShape(uniforms, data, root) {
   const quad = root?.quad ?? 0;
   uniforms.vextureOverlayRoot.value = quad;
   uniforms.vextureOverlayOfMap.value = root?.isMap ?? false;
-  if (data && root?.isMap) uniforms.vextureOverlayMeans.value = (headOf(data.texels, quad).cells - 2 * quad) >>> 0;
+  if (data && root?.isMap) {
+    const head = headOf(data.texels, quad);
+    uniforms.vextureOverlayMeans.value = [meansAt(head, quad), Math.log2(quadsInBlock(head.used))];
+  }
 }
 
 /**

@@ -33,7 +33,7 @@ import {
   WINDING_OFFSET,
 } from '../generated/layout.js';
 import { texelsIn } from '../src/leaf.js';
-import { headOf, paintSteps, sidesInTexel, sidesOf } from '../src/planar-map.js';
+import { basePaint, headOf, meansAt, paintSteps, quadsInBlock, sidesInTexel, sidesOf } from '../src/planar-map.js';
 import { programOf } from '../src/programs.js';
 import { counts, isMap } from '../src/walk.js';
 import { paintCss } from './overlay-palette.js';
@@ -85,8 +85,9 @@ export class TexelMap {
     this.places = new Map();
     /** Texels of two curves. @type {Set<number>} */
     this.pairs = new Set();
-    /** Number of curves of a planar map. */
+    /** Numbers of curves and quads of a planar map. */
     this.curves = 0;
+    this.quads = 0;
     this.#walk(root);
     if (this.head) this.#parts(this.head);
   }
@@ -95,11 +96,12 @@ export class TexelMap {
   #parts({ quad: root, used, cells, sides, paints, programs, operations, stops }) {
     const { quads, curves } = counts(this.data, root);
     this.curves = curves;
+    this.quads = quads;
     for (let i = 1; i <= MAP_HEAD; i++) this.#set(root - i, HEAD, null);
     for (let i = 0; i < quads; i++) {
-      const place = this.places.get(root + i) ?? null;
-      this.#set(cells + 2 * i, MEANS, place);
-      this.#set(cells + 2 * i + 1, BASES, place);
+      const at = meansAt(/** @type {import('../src/planar-map.js').Head} */ (this.head), root + i);
+      this.#set(at, MEANS, this.places.get(root + i) ?? null);
+      if (i % quadsInBlock(used) === 0) this.#set(at - 1, BASES, null);
     }
     for (let i = 0; sidesInTexel(used) * i < curves; i++) this.#set(sides + i, SIDES, null);
     for (let i = 0; 2 * i < used; i++) this.#set(paints + i, PAINTS, null);
@@ -146,13 +148,27 @@ export class TexelMap {
     return { index, kind, place: this.places.get(index) ?? null, words: this.#words(kind, index, four) };
   }
 
+  /** Words of base paints, all or half of those of a quad. @param {number} index @returns {string[]} */
+  #baseWords(index) {
+    const { data: { texels }, head, quads } = this;
+    if (!head) return [];
+    const inBlock = quadsInBlock(head.used);
+    const first = inBlock * Math.floor((index - head.cells) / (1 + inBlock));
+    return CELL_NAMES.map((_, word) => {
+      const place = first + ((word * inBlock) >> 2);
+      const cells = Array.from({ length: inBlock }, (_, i) => (word * inBlock + i) & 3);
+      const base = (/** @type {number} */ cell) => basePaint(texels, head, head.quad + place, cell);
+      return place < quads ? `quad ${head.quad + place}: base paints ${cells.map(base).join(', ')}` : 'of no quad';
+    });
+  }
+
   /** @param {Texel['kind']} kind @param {number} index @param {number[]} four @returns {string[]} */
   #words(kind, index, four) {
     const { data: { texels }, head, curves, pairs } = this;
     if (kind === 'quad') return head ? mapQuadWords(four) : quadWords(four);
     if (kind === 'curve') return pairs.has(index) ? pairWords(four) : curveWords(four);
     if (kind === 'means') return four.map((word, k) => `${CELL_NAMES[k]}: mean ${paintCss([0, 1, 2, 3].map((i) => byteOf(word, i) / COVERAGE_ONE))}`);
-    if (kind === 'bases') return four.map((word, k) => `${CELL_NAMES[k]}: base paint ${word}`);
+    if (kind === 'bases') return this.#baseWords(index);
     if (kind === 'head' && head && index < head.quad - 1) {
       return [`programs from texel ${four[0]}`, `${four[1]} texels of operations`, `${four[2]} texels of stops`, '0'];
     }

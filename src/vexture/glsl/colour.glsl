@@ -32,16 +32,12 @@ bool vexture_reads_mean(VextureCell cell, float share) {
 void vexture_add_whole(
     inout VextureSum sum, VexturePlanar planar, VextureCell cell, bool is_mean, vec2 place, float area, VextureRegion region
 ) {
-    uint at = planar.cells + 2u * cell.quad;
-    uvec4 stored = vexture_texel(cell.is_quad || is_mean ? at : at + 1u);
-    uint word = stored[cell.shift >> 3];
-    float step = area * (float(VEXTURE_PAINT_ONE) / float(VEXTURE_COVERAGE_ONE));
-    if (cell.is_quad) {
-        sum.color += step * vexture_mean_color(stored, place);
-    } else if (is_mean) {
-        sum.color += step * vexture_unpacked(word);
+    if (cell.is_quad || is_mean) {
+        uvec4 stored = vexture_texel(vexture_means_at(planar, cell.quad));
+        float step = area * (float(VEXTURE_PAINT_ONE) / float(VEXTURE_COVERAGE_ONE));
+        sum.color += step * (cell.is_quad ? vexture_mean_color(stored, place) : vexture_unpacked(stored[cell.shift >> 3]));
     } else {
-        vexture_add_paint(sum, planar, word, vec3(area, 0.0, 0.0), region);
+        vexture_add_paint(sum, planar, vexture_base_paint(planar, cell), vec3(area, 0.0, 0.0), region);
     }
 }
 

@@ -52,7 +52,7 @@ int vextureFeature(uint root, uvec2 base, vec2 offset) {
     }
     vec2 way = vec2(position & ((1 << cell.bit) - 1)) + fract(place.rest);
     vec2 point = way * uintBitsToFloat(uint(127 + VEXTURE_LATTICE_BITS - cell.bit) << 23);
-    uint number = vexture_texel(planar.cells + 2u * cell.quad + 1u)[cell.shift >> 3];
+    uint number = vexture_base_paint(planar, cell);
     uint square = number * number;  // where one paint is left, that of its number
     VextureLeaf leaf = vexture_leaf(cell);
     int count = vexture_count(cell);

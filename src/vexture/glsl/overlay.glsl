@@ -5,7 +5,7 @@
 
 uniform highp uint vextureOverlayRoot;    // the quad whose tree is shown
 uniform bool vextureOverlayOfMap;         // whether it is that of a planar map
-uniform highp uint vextureOverlayMeans;   // then where the means of quad 0 would be
+uniform highp uvec2 vextureOverlayMeans;  // then the texel of the root's means, and two to which power quads are in a block
 uniform vec3 vextureOverlayShow;          // opacity of borders, coverage and depth; 0 hides them
 uniform float vextureOverlayCutoff;       // levels by which the cut-off is exaggerated; 0: not shown
 uniform vec3 vextureOverlayCoverage[2];   // colours, sRGB, of an empty and a full cell
@@ -37,7 +37,8 @@ vec3 vexture_stored_color(VextureCell cell, vec3 empty, vec3 full) {
         float stored = cell.is_quad ? vexture_mean(cell.texel.w, vec2(0.5)) : vexture_stored_coverage(cell);
         return mix(empty, full, stored);
     }
-    uvec4 means = vexture_texel(vextureOverlayMeans + 2u * cell.quad);
+    uint place = cell.quad - vextureOverlayRoot;
+    uvec4 means = vexture_texel(vextureOverlayMeans.x + place + (place >> vextureOverlayMeans.y));
     vec4 sum = vec4(0.0);
     for (int k = 0; k < 4; k++) {
         bool counts = cell.is_quad || 8u * uint(k) == cell.shift;

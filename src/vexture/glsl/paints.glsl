@@ -12,7 +12,8 @@
 
 // Where the parts of a map begin.
 struct VexturePlanar {
-    uint cells;   // less two texels for each quad before the first one
+    uint root;
+    uint cells;
     uint sides;
     uint paints;
     uint narrow;  // 1 where paints are numbered by bytes
@@ -21,7 +22,24 @@ struct VexturePlanar {
 // The map with a root quad; its head comes before that.
 VexturePlanar vexture_planar(uint root) {
     uvec4 head = vexture_texel(root - 1u);
-    return VexturePlanar(head.y - 2u * root, head.z, head.w, head.x > uint(VEXTURE_MOST_BYTE_PAINTS) ? 0u : 1u);
+    return VexturePlanar(root, head.y, head.z, head.w, head.x > uint(VEXTURE_MOST_BYTE_PAINTS) ? 0u : 1u);
+}
+
+// The texel of the means of a quad's cells. Before those of each two quads, or four, is one of base paints.
+uint vexture_means_at(VexturePlanar planar, uint quad) {
+    uint place = quad - planar.root;
+    return planar.cells + 1u + place + (place >> (1u + planar.narrow));
+}
+
+// Number of the base paint of a leaf.
+uint vexture_base_paint(VexturePlanar planar, VextureCell cell) {
+    uint place = cell.quad - planar.root;
+    uint block = place >> (1u + planar.narrow);
+    uvec4 numbers = vexture_texel(planar.cells + place - (place & (1u + 2u * planar.narrow)) + block);
+    uint k = 4u * place + (cell.shift >> 3);
+    int bits = VEXTURE_COORDINATE_BITS >> planar.narrow;
+    uint word = numbers[(k >> (1u + planar.narrow)) & 3u] >> (uint(bits) * (k & (1u + 2u * planar.narrow)));
+    return word & ((1u << bits) - 1u);
 }
 
 // A stored colour as what is averaged, premultiplied. In whole steps, sums of differences are exact.

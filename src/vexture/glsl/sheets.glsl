@@ -15,7 +15,7 @@ vec4 vexture_color_at(uint root, VextureSpot spot) {
 
 // Stored mean of the whole square.
 vec4 vexture_whole_color(uint root) {
-    uvec4 means = vexture_texel(vexture_planar(root).cells + 2u * root);
+    uvec4 means = vexture_texel(vexture_means_at(vexture_planar(root), root));
     return vexture_mean_color(means, vec2(0.5)) / float(VEXTURE_COVERAGE_ONE);
 }
 

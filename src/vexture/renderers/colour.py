@@ -46,8 +46,10 @@ from vexture.renderers.paints import (
     Sum,
     add_paint,
     add_piece,
+    base_paint,
     has_room,
     mean_color,
+    means_at,
     nothing,
     planar,
     settle,
@@ -88,17 +90,15 @@ def add_whole(
     area: float,
     region: Region,
 ) -> Sum:
-    at = planar.cells + 2 * cell.quad
-    stored = texel(texels, at if cell.is_quad or is_mean else at + 1)
-    word = 0 + stored[cell.shift >> 3]  # of 64 bits
+    if not cell.is_quad and not is_mean:
+        return add_paint(sum, planar, base_paint(texels, planar, cell), (area, 0.0, 0.0), region)
+    stored = texel(texels, means_at(planar, cell.quad))
     step = area * (PAINT_ONE / COVERAGE_ONE)
     if cell.is_quad:
-        return Sum(
-            plus(sum.color, mean_color(is_linear, stored, place), step), sum.paints, sum.areas, sum.across, sum.up
-        )
-    if is_mean:
-        return Sum(plus(sum.color, unpacked(is_linear, word), step), sum.paints, sum.areas, sum.across, sum.up)
-    return add_paint(sum, planar, word, (area, 0.0, 0.0), region)
+        color = plus(sum.color, mean_color(is_linear, stored, place), step)
+    else:
+        color = plus(sum.color, unpacked(is_linear, 0 + stored[cell.shift >> 3]), step)  # of 64 bits
+    return Sum(color, sum.paints, sum.areas, sum.across, sum.up)
 
 
 @kernel(allocates=False)

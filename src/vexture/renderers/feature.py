@@ -2,10 +2,10 @@
 
 from vexture.kernels import kernel
 from vexture.layout import CONTROL_OFFSET, IS_MEAN, LATTICE_BITS, MOST_DEPTH, MOST_PAINTS
-from vexture.renderers.cells import Texel, Texels, Vec2, Whole2, count, descend, place, texel, top
+from vexture.renderers.cells import Texel, Texels, Vec2, Whole2, count, descend, place, top
 from vexture.renderers.leaf import leaf, leaf_piece, leaf_sides
 from vexture.renderers.method import BISECTIONS, POSITION_BITS
-from vexture.renderers.paints import planar
+from vexture.renderers.paints import base_paint, planar
 from vexture.renderers.piece import word
 
 __all__ = ["feature"]
@@ -52,7 +52,7 @@ def feature(texels: Texels, root: int, base: Whole2, offset: Vec2) -> int:
         return -1
     inner, unit = (1 << cell.bit) - 1, 2.0 ** (LATTICE_BITS - cell.bit)
     point = ((x & inner) + there.rest[0] % 1.0) * unit, ((y & inner) + there.rest[1] % 1.0) * unit
-    number = 0 + texel(texels, parts.cells + 2 * cell.quad + 1)[cell.shift >> 3]  # of 64 bits
+    number = base_paint(texels, parts, cell)
     square, pieces = number * number, leaf(cell)
     for i in range(count(cell)):
         found, pieces = leaf_piece(texels, pieces, i)

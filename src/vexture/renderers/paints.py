@@ -6,8 +6,8 @@ See `vexture.renderers.cpu`. `is_linear` is what ``VEXTURE_LINEAR`` is in the sh
 from typing import NamedTuple
 
 from vexture.kernels import kernel
-from vexture.layout import COVERAGE_ONE, MOST_BYTE_PAINTS
-from vexture.renderers.cells import Texel, Texels, Vec2, Whole2, clamp, texel
+from vexture.layout import COORDINATE_BITS, COVERAGE_ONE, MOST_BYTE_PAINTS
+from vexture.renderers.cells import Cell, Texel, Texels, Vec2, Whole2, clamp, texel
 from vexture.renderers.gradient import Region, Vec3, Vec4, halves, plus, program, times
 from vexture.renderers.method import LEAST_SHARE
 
@@ -16,8 +16,10 @@ __all__ = [
     "Sum",
     "add_paint",
     "add_piece",
+    "base_paint",
     "has_room",
     "mean_color",
+    "means_at",
     "nothing",
     "planar",
     "settle",
@@ -28,6 +30,7 @@ __all__ = [
 class Planar(NamedTuple):
     """Where the parts of a planar map begin."""
 
+    root: int
     cells: int
     sides: int
     paints: int
@@ -50,7 +53,24 @@ def linear_component(encoded: float) -> float:
 def planar(texels: Texels, root: int) -> Planar:
     """Where the parts of the map with a root quad begin."""
     head = texel(texels, root - 1)
-    return Planar(head[1] - 2 * root, 0 + head[2], 0 + head[3], 0 if head[0] > MOST_BYTE_PAINTS else 1)  # of 64 bits
+    return Planar(root, 0 + head[1], 0 + head[2], 0 + head[3], 0 if head[0] > MOST_BYTE_PAINTS else 1)  # of 64 bits
+
+
+@kernel(allocates=False)
+def means_at(planar: Planar, quad: int) -> int:
+    """The texel of the means of a quad's cells."""
+    place = quad - planar.root
+    return planar.cells + 1 + place + (place >> (1 + planar.narrow))
+
+
+@kernel(allocates=False)
+def base_paint(texels: Texels, planar: Planar, cell: Cell) -> int:
+    """Number of the base paint of a leaf."""
+    place, narrow = cell.quad - planar.root, planar.narrow
+    numbers = texel(texels, planar.cells + place - (place & (1 + 2 * narrow)) + (place >> (1 + narrow)))
+    k, bits = 4 * place + (cell.shift >> 3), COORDINATE_BITS >> narrow
+    word = numbers[(k >> (1 + narrow)) & 3] >> (bits * (k & (1 + 2 * narrow)))
+    return 0 + word & ((1 << bits) - 1)  # of 64 bits
 
 
 @kernel(allocates=False)

@@ -10,7 +10,6 @@ from vexture.layout import (
     CONTROL_OFFSET,
     COORDINATE_BITS,
     COUNT_SHIFT,
-    MOST_BYTE_PAINTS,
     MOST_CURVES,
     QUAD_FLAG,
     STRAIGHT,
@@ -25,7 +24,6 @@ __all__ = [
     "leaf_texels",
     "read_curve",
     "read_leaf_curve",
-    "read_sides",
     "texels_in",
     "texels_of_cell",
 ]
@@ -143,12 +141,3 @@ def texels_of_cell(cell: int) -> int:
         return 0
     count = cell >> COUNT_SHIFT & MOST_CURVES
     return (count + 1) >> 1 if cell & STRAIGHT != 0 else count
-
-
-@kernel
-def read_sides(flat: NDArray[np.uint32], root: int, number: int) -> tuple[int, int]:
-    """Paints on the left and on the right of the curve with a number, of the map with a root quad (FORMAT.md, D.4)."""
-    narrow = 0 if int(flat[root - 1, 0]) > MOST_BYTE_PAINTS else 1
-    at = int(flat[root - 1, 2]) + (number >> (2 + narrow))
-    word, bits = int(flat[at, (number >> narrow) & 3]) >> ((number & narrow) << 4), COORDINATE_BITS >> narrow
-    return word & ((1 << bits) - 1), (word >> bits) & ((1 << bits) - 1)

@@ -66,7 +66,7 @@ def _tree_facts(flat: NDArray[np.uint32], roots: NDArray[np.int64]) -> dict[int,
 def _map_facts(flat: NDArray[np.uint32], quad: int) -> dict[str, Any]:
     """Facts of a planar map."""
     found = read_map(flat, quad)
-    alpha = flat[found.cells] >> layout.CELL_BITS * 3
+    alpha = flat[found.cells + 1] >> layout.CELL_BITS * 3
     return {
         "coverage": float(alpha.mean()) / layout.COVERAGE_ONE,
         "quads": sum(len(level.quads) for level in found.levels),

@@ -20,7 +20,8 @@ from vexture.layout import (
 )
 from vexture.renderers.gradient import Region, program
 from vexture.texture.contains import checked_points
-from vexture.texture.curves import read_leaf_curve, read_sides, texels_of_cell
+from vexture.texture.curves import read_leaf_curve, texels_of_cell
+from vexture.texture.numbers import means_place, read_base, read_sides
 from vexture.texture.planar import head_of
 from vexture.texture.root import Root
 from vexture.tree.crossings import x_at
@@ -70,7 +71,6 @@ def _times(curve: NDArray[np.float64], x: float, y: float) -> int:
 def _paint_at(
     flat: NDArray[np.uint32],
     root: int,
-    cells: int,
     x: float,
     y: float,
     curve: NDArray[np.float64],
@@ -91,9 +91,9 @@ def _paint_at(
             quad = int(flat[quad, 0]) + quads
             continue
         if cell == IS_MEAN:
-            return -2 - (8 * (quad - root) + place)
+            return -2 - (4 * means_place(flat, root, quad) + place)
         first, number, n = int(flat[quad, 1]) + texels, int(flat[quad, 3]) + curves, 1
-        tally[0, 0], tally[1, 0] = int(flat[cells + 2 * (quad - root) + 1, place]), 1
+        tally[0, 0], tally[1, 0] = read_base(flat, root, quad, place), 1
         for i in range(cell >> COUNT_SHIFT):
             read_leaf_curve(flat, first, cell, i, curve)
             times = _times(curve, LATTICE * x, LATTICE * y)
@@ -112,20 +112,19 @@ def _paint_at(
 def paints_at(
     flat: NDArray[np.uint32],
     root: int,
-    cells: int,
     points: NDArray[np.float64],
     paints: NDArray[np.int64],
 ) -> None:
     """Write the paint at each point (m, 2), in unit-square units, of the planar map with a root quad, which is sound.
 
-    `cells` is that of the map's head. The paint is -1 outside 0 <= x < 1, 0 <= y < 1; where only a mean
+    The paint is -1 outside 0 <= x < 1, 0 <= y < 1; where only a mean
     is known, it is -2 less the number of its word in the cells.
     """
     curve, tally = np.empty((4, 2)), np.empty((2, 2 * MOST_CURVES + 1), np.int64)
     for i in range(len(points)):
         x, y = points[i, 0], points[i, 1]
         known = 0.0 <= x < 1.0 and 0.0 <= y < 1.0
-        paints[i] = _paint_at(flat, root, cells, x, y, curve, tally) if known else -1
+        paints[i] = _paint_at(flat, root, x, y, curve, tally) if known else -1
 
 
 @kernel
@@ -142,7 +141,7 @@ def painted_at(texels: NDArray[np.uint32], root: Root, points: NDArray[np.float6
     """Whether the planar map of a root paints anything at points (n, 2); texels (rows, columns, 4)."""
     flat = texels.reshape(-1, 4)
     head, found = head_of(flat, root.quad), np.empty(len(points), np.int64)
-    paints_at(flat, root.quad, head.cells, points, found)
+    paints_at(flat, root.quad, points, found)
     words = flat[head.paint_texels].reshape(-1, 2)[np.maximum(found, 0)]
     opacity = words[:, 1] >> COORDINATE_BITS
     painted: NDArray[np.bool_] = (found >= 0) & (opacity > 0)
@@ -170,9 +169,9 @@ def elements_at(flat: NDArray[np.uint32], roots: Sequence[Root], places: Sequenc
     name = np.full(len(wanted), "", dtype=np.object_)
     for place in reversed(places):
         root = roots[place]
-        style, head = style_of_root(root), head_of(flat, root.quad)
+        style = style_of_root(root)
         paints, bare = np.empty(len(wanted), np.int64), element < 0
-        paints_at(flat, root.quad, head.cells, wanted, paints)
+        paints_at(flat, root.quad, wanted, paints)
         paints, top = np.maximum(paints, -1), np.append(style.top, -1)  # the last is that of paint -1
         here = bare & (top[paints] >= 0)
         element[here], owner[here] = top[paints[here]], place

@@ -35,7 +35,8 @@ def map_texels(planar: PlanarMap, at: int) -> NDArray[np.uint32]:
     first_curve = first_quad + quads
     first_cells = first_curve + len(curves)
     sides = side_texels(planar.sides, len(planar.paints))
-    first_sides = first_cells + 2 * quads
+    cells = cell_texels(planar)
+    first_sides = first_cells + len(cells)
     first_paint = first_sides + len(sides)
     programs = program_texels(planar.programs)
     paints = paint_texels(planar.paints, programs, first_paint)
@@ -45,7 +46,7 @@ def map_texels(planar: PlanarMap, at: int) -> NDArray[np.uint32]:
         np.array(head, np.uint32),
         _quad_texels(planar, straight.reshape(-1, 4), first_quad, first_curve),
         curves,
-        _cell_texels(planar),
+        cells,
         sides,
         paints,
         programs.operations,
@@ -85,20 +86,30 @@ def _holds_program(planar: PlanarMap) -> NDArray[np.bool_]:
     return holds
 
 
-def _cell_texels(planar: PlanarMap) -> NDArray[np.uint32]:
-    """Two texels for each quad: the mean colours of its cells, and their base paints."""
+def cell_texels(planar: PlanarMap) -> NDArray[np.uint32]:
+    """Blocks of some quads: a texel with the base paints of all their cells, and one for each with its cells' means."""
     shift = np.arange(4, dtype=np.int64) * layout.CELL_BITS
     means = np.rint(planar.mean.clip(0.0, 1.0) * layout.COVERAGE_ONE).astype(np.int64)
     means = np.minimum(means, means[..., 3:])  # sums of areas round
-    texels = np.empty((2 * len(means), 4), np.uint32)
-    texels[0::2] = (means << shift).sum(axis=2)
-    texels[1::2] = planar.base
-    return texels
+    quads, inside = len(means), quads_in_block(len(planar.paints))
+    blocks = np.zeros((-(-quads // inside), 1 + inside, 4), np.uint32)
+    base = np.zeros((inside * len(blocks), 4), _number(len(planar.paints)))
+    base[:quads] = planar.base
+    blocks[:, 0] = base.ravel().view("<u4").reshape(-1, 4)
+    texels = np.zeros((inside * len(blocks), 4), np.uint32)
+    texels[:quads] = (means << shift).sum(axis=2)
+    blocks[:, 1:] = texels.reshape(len(blocks), inside, 4)
+    return blocks.reshape(-1, 4)[: quads + len(blocks)]
 
 
 def _number(paints: int) -> np.dtype[np.unsignedinteger]:
     """What the number of a paint beside a curve is, in a map with so many paints."""
     return np.dtype("<u1" if paints <= layout.MOST_BYTE_PAINTS else "<u2")
+
+
+def quads_in_block(paints: int) -> int:
+    """Quads of which a texel holds all base paints, in a map with so many paints."""
+    return sides_in_texel(paints) // 2
 
 
 def sides_in_texel(paints: int) -> int:
@@ -176,7 +187,7 @@ class MapTexels(NamedTuple):
             (self.quad - layout.MAP_HEAD, self.quad),
             (self.quad, self.quad + quads),
             (self.first_curve, self.first_curve + self.curves),
-            (self.cells, self.cells + 2 * quads),
+            (self.cells, self.cells + quads + -(-quads // quads_in_block(self.used))),
             (self.sides, self.sides + -(-len(self.points) // sides_in_texel(self.used))),
             (self.paints, self.paints + (self.used + 1) // 2),
             (self.programs, self.programs + self.operations + self.stops),
@@ -239,20 +250,30 @@ def _parts(flat: NDArray[np.uint32], found: MapTexels, part: int) -> NDArray[np.
     return flat[start:stop]
 
 
+def _blocks(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.uint32]:
+    """The texels of cells, (blocks, 1 + quads, 4), of which the last block ends in others."""
+    texels, size = _parts(flat, found, 3), 1 + quads_in_block(found.used)
+    blocks = np.zeros((-(-len(texels) // size), size, 4), np.uint32)
+    blocks.reshape(-1, 4)[: len(texels)] = texels
+    return blocks
+
+
 def _bases(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
     """Base paint of each cell, (quads, 4); 0 of those that have none."""
-    bases = _parts(flat, found, 3)[1::2].astype(np.int64)
+    blocks, number = _blocks(flat, found)[:, 0], _number(found.used)
+    bases = np.ascontiguousarray(blocks).astype("<u4").view(number).reshape(-1, 4).astype(np.int64)
     quads = np.concatenate([level.quads for level in found.levels]) - found.quad
     none = np.concatenate([level.is_quad | (level.windings == layout.IS_MEAN) for level in found.levels])
     if (bases[quads][none] != 0).any():
         raise FormatError(f"a cell without a base paint has one; {REMEDY}")
-    return bases
+    return bases[: len(quads)]
 
 
 def _means(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.int64]:
     """Mean colour of each cell, (quads, 4, 4), 0..255."""
     shift = np.arange(4) * layout.CELL_BITS
-    means: NDArray[np.int64] = _parts(flat, found, 3)[0::2].astype(np.int64)[:, :, None] >> shift & layout.COVERAGE_ONE
+    words = _blocks(flat, found)[:, 1:].reshape(-1, 4)[: sum(len(level.quads) for level in found.levels)]
+    means: NDArray[np.int64] = words.astype(np.int64)[:, :, None] >> shift & layout.COVERAGE_ONE
     return means
 
 

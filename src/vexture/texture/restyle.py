@@ -22,7 +22,8 @@ from vexture.layout import (
     QUAD_FLAG,
 )
 from vexture.paint import Paint
-from vexture.texture.curves import read_leaf_curve, read_sides, texels_of_cell
+from vexture.texture.curves import read_leaf_curve, texels_of_cell
+from vexture.texture.numbers import means_place, read_base, read_sides
 from vexture.texture.pick import style_of_root
 from vexture.texture.planar import head_of, paint_texels, paints_from
 from vexture.texture.root import Root
@@ -177,6 +178,7 @@ def renew_means(flat: NDArray[np.uint32], root: int, cells: int, table: NDArray[
     for place in range(quads - 1, -1, -1):
         below, at = int(flat[root + place, 0]) - root, int(flat[root + place, 1])
         number = int(flat[root + place, 3])
+        here = cells + means_place(flat, root, root + place)
         for k in range(4):
             cell, mean = int(flat[root + place, 2]) >> CELL_BITS * k & BYTE, means[place, k]
             if cell == QUAD_FLAG:
@@ -185,13 +187,13 @@ def renew_means(flat: NDArray[np.uint32], root: int, cells: int, table: NDArray[
                 below += 1
             elif cell == IS_MEAN:
                 for c in range(4):
-                    mean[c] = (int(flat[cells + 2 * place, k]) >> CELL_BITS * c & BYTE) / COVERAGE_ONE
+                    mean[c] = (int(flat[here, k]) >> CELL_BITS * c & BYTE) / COVERAGE_ONE
             else:
-                base = int(flat[cells + 2 * place + 1, k])
+                base = read_base(flat, root, root + place, k)
                 _set_leaf_mean(flat, base, cell, (at, number), root, table, curve, mean)
                 at += texels_of_cell(cell)
                 number += cell >> COUNT_SHIFT
             word, alpha = 0, min(max(mean[3], 0.0), 1.0)
             for c in range(4):
                 word |= int(np.rint(COVERAGE_ONE * min(max(mean[c], 0.0), alpha))) << CELL_BITS * c
-            flat[cells + 2 * place, k] = word
+            flat[here, k] = word
