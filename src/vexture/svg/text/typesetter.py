@@ -1,0 +1,67 @@
+"""Setting texts: the fonts of a drawing, and what each of its texts paints."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from os import PathLike
+from typing import Final
+
+from lxml import etree
+
+from vexture.errors import DeviceError, SourceError
+from vexture.fonts.library import Fonts
+from vexture.svg.outline import Outline
+from vexture.svg.report import Report
+from vexture.svg.space import Place
+from vexture.svg.text.embedded import embedded_fonts
+from vexture.svg.text.layout import is_vertical, laid_out
+from vexture.svg.text.pieces import Piece, cells, pieces
+from vexture.svg.text.runs import Faces, clusters
+from vexture.svg.text.tree import Setting, characters
+
+__all__ = ["Text", "Typesetter"]
+
+MOST_CHARACTERS: Final = 200_000
+"""Characters of texts that are set; each time counts that `use`, a clip or the measuring of a box shows a text."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Text:
+    """What a text paints, and the box around the cells of its glyphs."""
+
+    pieces: tuple[Piece, ...] = ()
+    box: Outline | None = None
+
+
+class Typesetter:
+    """Sets the texts of a drawing in fonts: of files, of its own, and of the system."""
+
+    def __init__(
+        self, files: Sequence[str | PathLike[str]], font_faces: Sequence[dict[str, str]], report: Report
+    ) -> None:
+        self.files = files
+        self.font_faces = font_faces
+        self.report = report
+        self.count: int = 0  # of characters set so far
+
+    @cached_property
+    def faces(self) -> Faces:
+        """The faces of the drawing; raises a `DeviceError` without HarfBuzz."""
+        return Faces(Fonts(self.files, embedded_fonts(self.font_faces, self.report)), self.report)
+
+    def text(self, scene: Setting, element: etree._Element, place: Place) -> Text:
+        """What a text element paints at a place with its style."""
+        found = characters(scene, element, place)
+        self.count += len(found.text)
+        if self.count > MOST_CHARACTERS:
+            raise SourceError(f"texts have more than {MOST_CHARACTERS:,} characters; draw less text, or as outlines")
+        vertical = is_vertical(place.style)
+        try:
+            faces = self.faces
+            faces.report = scene.report
+            made = clusters(found, faces, vertical)
+        except DeviceError as error:
+            scene.report.left_out(f"<text>: {error}")
+            return Text()
+        chunks = laid_out(found, made, vertical, scene.report)
+        return Text(tuple(pieces(chunks, vertical, scene.report)), cells(chunks))
