@@ -16,7 +16,16 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from vexture.cli.messages import as_options, one_line, say
-from vexture.cli.options import PATH, SILHOUETTE_HELP, STANDARD, Sectioned, split_of, standard_input, tolerance_option
+from vexture.cli.options import (
+    PATH,
+    SILHOUETTE_HELP,
+    STANDARD,
+    Sectioned,
+    font_option,
+    split_of,
+    standard_input,
+    tolerance_option,
+)
 from vexture.deadline import DEFAULT_SECONDS
 from vexture.encodings import DEFAULT, REGISTERED
 from vexture.errors import EXPECTED, ParameterError, VextureError
@@ -33,6 +42,7 @@ BELONGS_TO: Final = {
     "restyle": DEFAULT,
     "names": DEFAULT,
     "snap": DEFAULT,
+    "fonts": DEFAULT,
     "capacity": DEFAULT,
     "precision": DEFAULT,
     "deflate": DEFAULT,
@@ -99,6 +109,7 @@ class Outcome:
     help="Make borders of a map's polygons one where they differ by no more than D, in parts of the drawing's longer "
     "side; 0 leaves them.  [default: 3e-6]",
 )
+@font_option
 @tolerance_option
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
 @click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 8, in colours 12]")
@@ -237,7 +248,8 @@ def _convert_one(
     `stored` are the parameters of the texture's `files`.
     """
     from vexture.notes import line_of
-    from vexture.pipeline import READING, Parameters, run, trees_of
+    from vexture.parameters import READING, Parameters
+    from vexture.pipeline import run, trees_of
     from vexture.reading import read_drawing
     from vexture.texture.ktx2 import TEXEL_BYTES
 

@@ -146,6 +146,11 @@ class Face:
         return self._metric("STRIKEOUT_OFFSET"), self._metric("STRIKEOUT_SIZE")
 
     @property
+    def shifts(self) -> tuple[float, float]:
+        """Baselines of subscripts, below 0, and of superscripts."""
+        return -self._metric("SUBSCRIPT_EM_Y_OFFSET"), self._metric("SUPERSCRIPT_EM_Y_OFFSET")
+
+    @property
     def vertical(self) -> tuple[float, float]:
         """Ascender and descender of vertical lines: to the right and left of their middle."""
         return self._metric("VERTICAL_ASCENDER"), self._metric("VERTICAL_DESCENDER")

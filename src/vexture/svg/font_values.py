@@ -79,7 +79,7 @@ def font_longhands(value: str) -> Iterator[tuple[str, str]]:
     >>> [pair for pair in font_longhands("italic 12px/1.5 'Noto Sans', serif") if "normal" not in pair]
     [('font-style', 'italic'), ('font-size', '12px'), ('font-family', "'Noto Sans', serif")]
     """
-    found = {name: "normal" for name in BEFORE_SIZE}
+    found = dict.fromkeys(BEFORE_SIZE, "normal")
     at = 0
     for _ in range(MOST_BEFORE):
         match = PART.match(value, at)

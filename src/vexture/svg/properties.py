@@ -150,5 +150,11 @@ PROPERTIES: dict[str, Property] = {
     "y": Property("0", False, matching(LENGTH)),
 }
 
-CSS_ONLY = frozenset({"isolation", "mix-blend-mode", "rotate", "scale", "translate"})
+CSS_ONLY = frozenset(
+    {
+        *("font-feature-settings", "font-kerning", "font-synthesis", "font-variant-caps", "font-variant-ligatures"),
+        *("font-variant-numeric", "font-variant-position", "font-variation-settings", "isolation", "mix-blend-mode"),
+        *("rotate", "scale", "text-decoration-line", "text-orientation", "text-transform", "translate"),
+    }
+)
 """Properties that are no presentation attributes (SVG 2, 6.6); some names have another meaning as attributes."""

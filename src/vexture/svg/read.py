@@ -156,7 +156,9 @@ def drawing_of(scene: Scene, framed: Frame | None, name: str) -> Drawing:
         box: Rectangle = (0.0, 0.0, *size)
     else:
         viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
-        paths, _ = Scene(scene.root, Report(), fonts=scene.typesetter.files).paint(viewport, matrix, None)  # all of it, to measure; notes come later
+        paths, _ = Scene(scene.root, Report(), fonts=scene.typesetter.files).paint(
+            viewport, matrix, None
+        )  # all of it, to measure; notes come later
         if not paths:
             scene.paint(viewport, matrix, None)  # for its notes
             return Drawing((), name=name)

@@ -5,7 +5,6 @@ SVG 2, 11.10.2, and CSS Inline Layout 3. Lengths are in user units; what is abov
 
 from typing import Final
 
-from vexture.fonts.face import Face
 from vexture.svg.document import local_name
 from vexture.svg.text.runs import Cluster
 from vexture.svg.text.tree import Span
@@ -17,9 +16,6 @@ HANGING, MATHEMATICAL = 0.8, 0.5
 
 OVER: Final = frozenset({"before-edge", "text-before-edge", "text-top"})
 UNDER: Final = frozenset({"after-edge", "text-after-edge", "text-bottom", "ideographic"})
-
-SUB, SUPER = 0.2, 0.4
-"""Shifts as parts of the font size, for fonts that do not tell them."""
 
 
 def baseline(cluster: Cluster, vertical: bool) -> float:
@@ -57,13 +53,13 @@ def height(name: str, cluster: Cluster) -> float:
 
 
 def extent(cluster: Cluster) -> tuple[float, float]:
-    """Ascent and descent of a cluster's face; if they overlap, those of its em."""
+    """Ascent and descent of a cluster's face."""
     return cluster.face.ascender * cluster.scale, -cluster.face.descender * cluster.scale
 
 
 def middle(cluster: Cluster) -> float:
-    """How far a cluster that lies on its side is moved to have its letters on the middle of a vertical line."""
-    return cluster.face.x_height * cluster.scale / 2.0
+    """How far a cluster that lies on its side is moved down to have its middle on a vertical line."""
+    return height("central", cluster)
 
 
 def shifted(span: Span, cluster: Cluster) -> float:
@@ -72,11 +68,6 @@ def shifted(span: Span, cluster: Cluster) -> float:
     if text in ("baseline", "top", "center", "bottom") or local_name(span.element) == "text":
         return 0.0
     if text in ("sub", "super"):
-        return offset(cluster.face, text) * cluster.scale
+        return cluster.face.shifts[0 if text == "sub" else 1] * cluster.scale
     size = span.place.style.font_size
     return span.place.viewport.length(text, size, size) or 0.0
-
-
-def offset(face: Face, name: str) -> float:
-    """Offset of subscripts, below 0, or of superscripts, in font units."""
-    return face.units_per_em * (SUPER if name == "super" else -SUB)

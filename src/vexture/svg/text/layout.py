@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import pi, radians
 from typing import Final
 
@@ -108,7 +109,7 @@ def fit_span(span: Span, inside: Sequence[Cluster], fitted: Sequence[Span], leng
         return
     loose = [
         cluster
-        for cluster, after in zip(inside, inside[1:], strict=False)
+        for cluster, after in pairwise(inside)
         if not any(inner.start <= cluster.start and after.start < inner.end for inner in fitted)
     ]
     for cluster in loose:

@@ -12,7 +12,7 @@ from vexture.fonts.face import Face
 from vexture.fonts.library import Fonts
 from vexture.fonts.shaping import Glyph, shape
 from vexture.svg.report import Report
-from vexture.svg.text.levels import CURSIVE, is_upright, levels, scripts
+from vexture.svg.text.levels import is_upright, levels, scripts
 from vexture.svg.text.tree import Characters, Span
 from vexture.svg.text.wanted import GENERIC, SMALL, Wanted, wanted
 
@@ -27,7 +27,6 @@ SLANT: Final = tan(radians(14.0))
 BOLD: Final = 600.0
 """Weight from which a face that is lighter is made bolder (CSS Fonts 4, 8.1)."""
 
-JOINERS: Final = frozenset("\u200c\u200d")
 EMBEDS: Final = {"embed": "\u202a\u202b", "isolate": "\u202a\u202b", "plaintext": "\u202a\u202b"}
 OVERRIDES: Final = {"bidi-override": "\u202d\u202e", "isolate-override": "\u202d\u202e"}
 POP: Final = "\u202c"
@@ -146,7 +145,7 @@ def clusters(found: Characters, faces: Faces, vertical: bool) -> list[Cluster]:
         return []
     wants = wants_of(found.spans)
     kinds = kinds_of(found, [wants[span] for span in found.holders], faces, vertical)
-    edges = [at for at in range(1, len(kinds)) if kinds[at] != kinds[at - 1] or breaks(found, kinds, at)]
+    edges = [at for at in range(1, len(kinds)) if kinds[at] != kinds[at - 1] or found.starts_chunk(at)]
     made: list[Cluster] = []
     for start, end in pairwise([0, *edges, len(kinds)]):
         kind = kinds[start]
@@ -163,14 +162,6 @@ def wants_of(spans: Sequence[Span]) -> dict[Span, Wanted]:
         want = wanted(span.place.style, span.element)
         found[span] = same.setdefault(want, want)
     return found
-
-
-def breaks(found: Characters, kinds: Sequence[Kind | None], at: int) -> bool:
-    """Whether a chunk that begins at a character is shaped by itself: its letters do not join what is before."""
-    kind = kinds[at]
-    if kind is None or not found.starts_chunk(at):
-        return False
-    return kind.script not in CURSIVE or found.holders[at].track is not found.holders[at - 1].track
 
 
 def kinds_of(found: Characters, wants: list[Wanted], faces: Faces, vertical: bool) -> list[Kind | None]:
@@ -209,16 +200,16 @@ def stands(character: str, style: object) -> bool:
 
 def face_of(want: Wanted, character: str, faces: Faces, last: Face | None) -> Face | None:
     """Face of a character; `last` is that of the one before it, if both want the same."""
-    if last is not None and (category(character) in ("Mn", "Me", "Mc", "Cf") or character in JOINERS):
-        if category(character) == "Cf" or last.has(ord(character)):
-            return last
+    kind = category(character)
+    if last is not None and (kind == "Cf" or (kind in ("Mn", "Me", "Mc") and last.has(ord(character)))):
+        return last  # joiners are of the category Cf
     face = faces.choose(want, character)
     if face is not None:
         if not character.isspace():
             faces.note(want, face, character)
         return face
     face = last or faces.first(want)
-    if face is not None and category(character) not in ("Cc", "Cf", "Zs"):
+    if face is not None and kind not in ("Cc", "Cf", "Zs"):
         faces.report.left_out(f"{described(character)}, which no font has")
     return face
 
@@ -241,13 +232,11 @@ def controls(spans: Sequence[Span]) -> list[tuple[int, str]]:
     return [(at, control) for at, _, control in sorted(opened, key=lambda one: (one[0], one[2] != POP, one[1]))]
 
 
-def shaped(
-    found: Characters, kind: Kind, start: int, end: int, faces: Faces, vertical: bool
-) -> Iterator[Cluster]:
+def shaped(found: Characters, kind: Kind, start: int, end: int, faces: Faces, vertical: bool) -> Iterator[Cluster]:
     """Clusters of characters of one kind, in logical order."""
     check_time()
     want, face = kind.wanted, kind.face
-    text, places = [], []
+    text, places = "", list[int]()
     for at in range(start, end):
         character = found.text[at].upper() if kind.small else found.text[at]
         text += character
@@ -258,9 +247,7 @@ def shaped(
     scale = size / face.units_per_em
     direction = "ttb" if kind.upright else "rtl" if kind.level % 2 else "ltr"
     features = [feature for feature in want.features if not (kind.small and feature in (SMALL, "c2sc"))]
-    glyphs = shape(
-        face, "".join(text), direction=direction, script=kind.script, language=want.language, features=features
-    )
+    glyphs = shape(face, text, direction=direction, script=kind.script, language=want.language, features=features)
     starts = sorted({glyph.cluster for glyph in glyphs})
     ends = dict(zip(starts, [*(places[at] for at in starts[1:]), end], strict=True))
     together: dict[int, list[Glyph]] = {}

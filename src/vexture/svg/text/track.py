@@ -124,7 +124,7 @@ def polygon(outlines: list[Outline]) -> tuple[NDArray[np.float64], NDArray[np.fl
 
 
 def offset(scene: Measured, element: etree._Element, place: Place, length: float, whole: float | None) -> float:
-    """Where a text starts along a path of a length, by `startOffset`; `whole` is what the path's author takes it for."""
+    """Where a text starts along a path of a length, by `startOffset`; `whole` is its `pathLength`."""
     text = element.get("startOffset")
     if text is None:
         return 0.0
@@ -135,5 +135,3 @@ def offset(scene: Measured, element: etree._Element, place: Place, length: float
     if whole is not None and whole > 0.0 and not text.strip().endswith("%"):
         start *= length / whole
     return start
-
-

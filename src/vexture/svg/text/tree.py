@@ -105,9 +105,7 @@ class Characters:
 
     def starts_chunk(self, at: int) -> bool:
         """Whether a character has a position of its own, so that an anchored chunk begins with it."""
-        return (
-            at == 0 or at in self.x or at in self.y or (self.holders[at].track is not self.holders[at - 1].track)
-        )
+        return at == 0 or at in self.x or at in self.y or (self.holders[at].track is not self.holders[at - 1].track)
 
 
 def transformed(character: str, how: str, before: str) -> str:
@@ -201,9 +199,7 @@ def position(scene: Setting, found: Characters, span: Span) -> None:
         read_list(scene, span, "rotate", turns, found.rotate)
 
 
-def read_list(
-    scene: Setting, span: Span, name: str, values: list[float | None], places: dict[int, float]
-) -> None:
+def read_list(scene: Setting, span: Span, name: str, values: list[float | None], places: dict[int, float]) -> None:
     """Give the characters of a span the values of a list."""
     values = values[: span.end - span.start]
     if None in values:
