@@ -9,7 +9,7 @@ from vexture.svg.document import local_name
 from vexture.svg.text.runs import Cluster
 from vexture.svg.text.tree import Span
 
-__all__ = ["baseline", "extent", "middle"]
+__all__ = ["baseline", "extent"]
 
 HANGING, MATHEMATICAL = 0.8, 0.5
 """Heights of baselines as parts of the ascent, for fonts that do not tell them (XSL 1.1, 7.14)."""
@@ -19,10 +19,10 @@ UNDER: Final = frozenset({"after-edge", "text-after-edge", "text-bottom", "ideog
 
 
 def baseline(cluster: Cluster, vertical: bool) -> float:
-    """How far a cluster is moved down."""
+    """How far a cluster is moved down; in vertical text, those on their side lie on its middle."""
     shift = sum(shifted(span, cluster) for span in cluster.span.around)
     if vertical:
-        return -shift
+        return (0.0 if cluster.upright else height("central", cluster)) - shift
     name = cluster.span.place.style["alignment-baseline"].lower()
     if name in ("auto", "baseline"):
         name = dominant(cluster.span)
@@ -55,11 +55,6 @@ def height(name: str, cluster: Cluster) -> float:
 def extent(cluster: Cluster) -> tuple[float, float]:
     """Ascent and descent of a cluster's face."""
     return cluster.face.ascender * cluster.scale, -cluster.face.descender * cluster.scale
-
-
-def middle(cluster: Cluster) -> float:
-    """How far a cluster that lies on its side is moved down to have its middle on a vertical line."""
-    return height("central", cluster)
 
 
 def shifted(span: Span, cluster: Cluster) -> float:

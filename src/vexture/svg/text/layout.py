@@ -9,7 +9,7 @@ from typing import Final
 from vexture.svg.document import local_name
 from vexture.svg.report import Report
 from vexture.svg.style import Style
-from vexture.svg.text.baselines import baseline, middle
+from vexture.svg.text.baselines import baseline
 from vexture.svg.text.levels import CURSIVE, reordered
 from vexture.svg.text.runs import Cluster
 from vexture.svg.text.track import Track
@@ -98,7 +98,10 @@ def fit(spans: Sequence[Span], made: Sequence[Cluster], report: Report) -> None:
 
 
 def fit_span(span: Span, inside: Sequence[Cluster], fitted: Sequence[Span], length: float) -> None:
-    """Fit clusters into a length; those of spans in which others are fitted already move together."""
+    """Fit clusters into a length; those of spans in which others are fitted already move together.
+
+    The last one has a gap behind it too, as in browsers; an anchor does not see it.
+    """
     width = sum(cluster.advance for cluster in inside)
     if span.element.get("lengthAdjust", "").strip() == "spacingAndGlyphs":
         factor = length / width if width > 0.0 else 1.0
@@ -112,8 +115,9 @@ def fit_span(span: Span, inside: Sequence[Cluster], fitted: Sequence[Span], leng
         for cluster, after in pairwise(inside)
         if not any(inner.start <= cluster.start and after.start < inner.end for inner in fitted)
     ]
-    for cluster in loose:
-        cluster.advance += (length - width) / len(loose)
+    for cluster in loose and [*loose, inside[-1]]:
+        cluster.gap = (length - width) / len(loose)
+        cluster.advance += cluster.gap
 
 
 def chunk_of(
@@ -121,7 +125,7 @@ def chunk_of(
 ) -> tuple[Chunk, tuple[float, float]]:
     """Chunk of clusters in visual order that begins at a character, and where what follows it goes on from `at`."""
     style, track = found.holders[first].place.style, found.holders[first].track
-    length = sum(cluster.advance for cluster in visual)
+    length = sum(cluster.advance for cluster in visual) - visual[-1].gap
     part = ANCHORS[style["text-anchor"].lower()]
     if style["direction"].lower() == "rtl":
         part = 1.0 - part
@@ -136,8 +140,8 @@ def chunk_of(
         dx, dy = shifts(found, cluster)
         along, across = (along + dy, across - dx) if vertical else (along + dx, across + dy)
         turn = radians(found.rotate.get(cluster.start, 0.0))
-        matrix = flow.translate(along, across + baseline(cluster, vertical)).rotate(turn)
-        matrices.append(matrix.transform(own(cluster, vertical)))
+        matrix = flow.translate(along, across + baseline(cluster, vertical))
+        matrices.append(matrix.rotate(turn).transform(own(cluster)))
         moved.append(bool(dx or dy or turn))
         along += cluster.advance
     end = flow.transformPoint((along, across))  # type: ignore[attr-defined]
@@ -147,8 +151,11 @@ def chunk_of(
 def on_track(
     found: Characters, visual: Sequence[Cluster], vertical: bool, track: Track, along: float
 ) -> tuple[Chunk, tuple[float, float]]:
-    """Chunk along a path from a distance, each cluster turned about the middle of its advance; see `chunk_of`."""
-    matrices, across, end = [], 0.0, (0.0, 0.0)
+    """Chunk along a path from a distance, each cluster turned about the middle of its advance; see `chunk_of`.
+
+    What follows a path goes on from its end (SVG 2, 11.5, "Position on path").
+    """
+    matrices, across = [], 0.0
     for cluster in visual:
         dx, dy = shifts(found, cluster)
         along, across = (along + dy, across - dx) if vertical else (along + dx, across + dy)
@@ -160,19 +167,16 @@ def on_track(
         else:
             turn = radians(found.rotate.get(cluster.start, 0.0))
             matrix = Identity.translate(point.x, point.y).rotate(point.turn)
-            matrix = matrix.translate(-half, across + baseline(cluster, vertical)).rotate(turn)
-            matrices.append(matrix.transform(own(cluster, vertical)))
-            end = point.x - half + cluster.advance, point.y
+            matrix = matrix.translate(-half, across + baseline(cluster, vertical))
+            matrices.append(matrix.rotate(turn).transform(own(cluster)))
         along += cluster.advance
-    return Chunk(tuple(visual), tuple(matrices), (True,) * len(visual)), end
+    return Chunk(tuple(visual), tuple(matrices), (True,) * len(visual)), track.end
 
 
-def own(cluster: Cluster, vertical: bool) -> Transform:
-    """What stretches a cluster, and lays it on the middle of a vertical line."""
+def own(cluster: Cluster) -> Transform:
+    """What stretches a cluster, and turns it where it stands upright in vertical text."""
     matrix = Identity.scale(cluster.stretch, 1.0)
-    if cluster.upright:
-        return matrix.rotate(-pi / 2.0)
-    return matrix.translate(0.0, middle(cluster)) if vertical else matrix
+    return matrix.rotate(-pi / 2.0) if cluster.upright else matrix
 
 
 def shifts(found: Characters, cluster: Cluster) -> tuple[float, float]:

@@ -50,6 +50,7 @@ class Cluster:
     slant: float = 0.0
     bolder: bool = False
     stretch: float = 1.0  # by `textLength`
+    gap: float = 0.0  # part of the advance that `textLength` adds
     hidden: bool = False
 
 

@@ -1,7 +1,7 @@
 """The path that a `textPath` follows (SVG 2, 11.8)."""
 
-from dataclasses import dataclass
-from math import atan2
+from dataclasses import dataclass, replace
+from math import hypot, pi
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -26,6 +26,10 @@ __all__ = ["Point", "Track", "read_track"]
 STEPS: Final = 64
 """Chords for each cubic: they are shorter than their arc by less than 1 / (24 STEPS^2) of it times its turn squared."""
 
+PLACES: Final = np.linspace(0.0, 1.0, STEPS + 1)
+VELOCITIES: Final = np.stack([(1.0 - PLACES) ** 2, 2.0 * PLACES * (1.0 - PLACES), PLACES**2])
+"""Parameters of the ends of chords, and weights of the steps between control points in a third of the velocity."""
+
 MOST_CUBICS: Final = 20_000
 """Of a path that a text follows."""
 
@@ -40,29 +44,38 @@ class Point(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Track:
-    """A path as a text follows it."""
+    """A path as a text follows it: the chords of its cubics."""
 
-    points: NDArray[np.float64]  # (n, 2), corners of a fine polygon
-    distances: NDArray[np.float64]  # (n,) along it; a jump to the next part has no length
-    start: float  # where the text starts along it
+    chords: NDArray[np.float64]  # (n, 2, 2), start and end of each
+    turns: NDArray[np.float64]  # (n, 2), direction of the cubic at both, radians, less than half a turn apart
+    distances: NDArray[np.float64]  # (n,), of each end along the path; a jump to the next part has no length
+    start: float = 0.0  # where the text starts along it
 
     @property
     def length(self) -> float:
         """Length of all its parts."""
         return float(self.distances[-1])
 
+    @property
+    def end(self) -> tuple[float, float]:
+        """Where it ends."""
+        x, y = self.chords[-1, 1].tolist()
+        return x, y
+
+    def reversed(self) -> "Track":
+        """The same path the other way."""
+        before = np.concatenate([[0.0], self.distances[:-1]])
+        return Track(self.chords[::-1, ::-1], self.turns[::-1, ::-1] + pi, (self.length - before)[::-1])
+
     def at(self, distance: float) -> Point | None:
         """The place at a distance; None beyond its ends."""
         if not 0.0 <= distance <= self.length:
             return None
-        last = min(max(int(np.searchsorted(self.distances, distance)), 1), len(self.distances) - 1)
-        while last < len(self.distances) - 1 and self.distances[last] == self.distances[last - 1]:
-            last += 1
-        first, step = last - 1, self.distances[last] - self.distances[last - 1]
-        dx, dy = (self.points[last] - self.points[first]).tolist()
-        part = (distance - float(self.distances[first])) / float(step) if step else 0.0
-        x, y = self.points[first].tolist()
-        return Point(x + part * dx, y + part * dy, atan2(dy, dx))
+        k = min(int(np.searchsorted(self.distances, distance)), len(self.distances) - 1)
+        (x0, y0), (x1, y1) = self.chords[k].tolist()
+        first, second = self.turns[k].tolist()
+        part = 1.0 - (float(self.distances[k]) - distance) / hypot(x1 - x0, y1 - y0)
+        return Point(x0 + part * (x1 - x0), y0 + part * (y1 - y0), first + part * (second - first))
 
 
 def read_track(scene: Measured, element: etree._Element, place: Place) -> Track | None:
@@ -79,13 +92,12 @@ def read_track(scene: Measured, element: etree._Element, place: Place) -> Track 
         value = element.get(name, usual).strip()
         if value not in (usual, "auto"):
             scene.report.simplified(f"textPath with {name} {value[:40]} drawn with {usual}")
-    points, distances = polygon(outlines)
-    if element.get("side", "left").strip() == "right":
-        points, distances = points[::-1], (distances[-1] - distances)[::-1]
-    length = float(distances[-1])
-    if not length > 0.0:
+    track = track_of(outlines)
+    if track is None:
         return None
-    return Track(points, distances, offset(scene, element, place, length, whole))
+    if element.get("side", "left").strip() == "right":
+        track = track.reversed()
+    return replace(track, start=offset(scene, element, place, track.length, whole))
 
 
 def outlines_of(scene: Measured, element: etree._Element, place: Place) -> tuple[list[Outline], float | None]:
@@ -108,19 +120,22 @@ def outlines_of(scene: Measured, element: etree._Element, place: Place) -> tuple
     return [Outline(mapped(outline.cubics, matrix), outline.closed) for outline in outlines], whole
 
 
-def polygon(outlines: list[Outline]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Corners of a polygon along outlines, and their distances from its start."""
-    parts, distances, at = [], [], 0.0
-    for outline in outlines:
-        cubics = outline.loop if outline.closed else outline.cubics
-        inner = points_along(cubics, np.linspace(0.0, 1.0, STEPS + 1)[1:]).reshape(-1, 2)
-        part = np.concatenate([cubics[0, :1], inner])
-        steps = np.hypot(*np.diff(part, axis=0).T)
-        distance = at + np.concatenate([[0.0], np.cumsum(steps)])
-        at = float(distance[-1])
-        parts.append(part)
-        distances.append(distance)
-    return np.concatenate(parts), np.concatenate(distances)
+def track_of(outlines: list[Outline]) -> Track | None:
+    """A path as a text follows it; None without length."""
+    cubics = np.concatenate([outline.loop if outline.closed else outline.cubics for outline in outlines])
+    points = points_along(cubics, PLACES)
+    chords = np.stack([points[:, :-1], points[:, 1:]], axis=2).reshape(-1, 2, 2)
+    steps = chords[:, 1] - chords[:, 0]
+    lengths = np.hypot(*steps.T)
+    velocities = np.einsum("kt,mkc->mtc", VELOCITIES, np.diff(cubics, axis=1))
+    both = np.stack([velocities[:, :-1], velocities[:, 1:]], axis=2).reshape(-1, 2, 2)
+    real = lengths > 0.0
+    if not real.any():
+        return None
+    straight = np.arctan2(steps[:, 1], steps[:, 0])[:, None]
+    away = np.arctan2(both[..., 1], both[..., 0]) - straight
+    away = np.where((both == 0.0).all(axis=2), 0.0, (away + pi) % (2.0 * pi) - pi)
+    return Track(chords[real], (straight + away)[real], np.cumsum(lengths[real]))
 
 
 def offset(scene: Measured, element: etree._Element, place: Place, length: float, whole: float | None) -> float:
