@@ -13,7 +13,7 @@ from vexture.content import read_bytes, start_of
 from vexture.errors import SourceError
 from vexture.fonts.engine import harfbuzz
 from vexture.fonts.files import is_sfnt, sfnt_of
-from vexture.fonts.layers import Layers
+from vexture.fonts.layers import Layers, glyph_layers
 from vexture.fonts.outlines import glyph_outline
 from vexture.paint import Color
 
@@ -180,7 +180,13 @@ class Face:
 
     def layers(self, glyph: int, foreground: Color = (0.0, 0.0, 0.0)) -> Layers | None:
         """What a glyph in colour paints, with the text's own colour where the font says so; None of any other."""
-        return None
+        return glyph_layers(self._font, glyph, self.outline, foreground) if self._in_colour else None
+
+    @cached_property
+    def _in_colour(self) -> bool:
+        """Whether it may have glyphs in colour."""
+        face = self._font.face
+        return bool(face.has_color_paint or face.has_color_layers or face.has_color_svg or face.has_color_png)
 
     def varied(self, weight: float, stretch: float, style: str) -> "Face":
         """The face nearest to a style; itself if it is not variable."""
