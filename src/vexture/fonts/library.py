@@ -86,11 +86,21 @@ class Fonts:
         of the system. `Face.family` tells what a face is of.
         """
         shown: set[int] = set()
-        named = (self._chosen(name, weight, style, stretch) for name in self._asked(families))
-        for listed in chain(chain.from_iterable(named), self._others(weight, style, stretch)):
+        for listed in chain(self._named(families, weight, style, stretch), self._others(weight, style, stretch)):
             if id(listed) not in shown:
                 shown.add(id(listed))
                 yield listed.face.varied(weight, stretch, style)
+
+    def count_named(
+        self, families: Sequence[str], weight: int = 400, style: str = "normal", stretch: float = 100.0
+    ) -> int:
+        """Number of the first `faces` that are of the families; the others stand in for these."""
+        return len({id(listed) for listed in self._named(families, weight, style, stretch)})
+
+    def _named(self, families: Sequence[str], weight: float, style: str, stretch: float) -> Iterator[Listed]:
+        """The best face of each of some families."""
+        for name in self._asked(families):
+            yield from self._chosen(name, weight, style, stretch)
 
     def _asked(self, families: Sequence[str]) -> Iterator[str]:
         """Names of families, with those that stand for generic ones."""

@@ -1,5 +1,6 @@
 """Where the clusters of a text go (SVG 2, 11.5): spaces, `textLength`, chunks with their anchors, and paths."""
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -81,24 +82,23 @@ def pixels(spacing: str) -> float:
 
 def fit(spans: Sequence[Span], made: Sequence[Cluster], report: Report) -> None:
     """Fit the clusters of each element with a `textLength` into that, the innermost elements first (SVG 2, 11.5)."""
-    done: list[Span] = []
+    starts = [cluster.start for cluster in made]
     for span in reversed(spans):
         text = span.element.get("textLength")
         if text is None or local_name(span.element) == "a":
             continue
         place = span.place
         length = place.viewport.length(text, place.viewport.width, place.style.font_size)
-        inside = [cluster for cluster in made if span.start <= cluster.start < span.end]
+        inside = made[bisect_left(starts, span.start) : bisect_left(starts, span.end)]
         if length is None or length < 0.0:
             report.invalid("textLength", text, span.element)
             continue
         if inside:
-            fit_span(span, inside, [inner for inner in done if span in inner.around], length)
-            done.append(span)
+            fit_span(span, inside, length)
 
 
-def fit_span(span: Span, inside: Sequence[Cluster], fitted: Sequence[Span], length: float) -> None:
-    """Fit clusters into a length; those of spans in which others are fitted already move together.
+def fit_span(span: Span, inside: Sequence[Cluster], length: float) -> None:
+    """Fit clusters into a length; those that are fitted into that of an element inside already move together.
 
     The last one has a gap behind it too, as in browsers; an anchor does not see it.
     """
@@ -111,13 +111,13 @@ def fit_span(span: Span, inside: Sequence[Cluster], fitted: Sequence[Span], leng
             cluster.width *= factor
         return
     loose = [
-        cluster
-        for cluster, after in pairwise(inside)
-        if not any(inner.start <= cluster.start and after.start < inner.end for inner in fitted)
+        cluster for cluster, after in pairwise(inside) if cluster.fitted is None or cluster.fitted is not after.fitted
     ]
     for cluster in loose and [*loose, inside[-1]]:
         cluster.gap = (length - width) / len(loose)
         cluster.advance += cluster.gap
+    for cluster in inside:
+        cluster.fitted = span
 
 
 def chunk_of(

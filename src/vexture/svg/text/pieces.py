@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.bounds import bounds
+from vexture.deadline import check_time
 from vexture.fonts.layers import Layers
 from vexture.svg.outline import Outline
 from vexture.svg.report import Report
@@ -44,34 +45,41 @@ class Piece:
 def pieces(chunks: Sequence[Chunk], vertical: bool, report: Report) -> Iterator[Piece]:
     """What a text paints, in painting order (CSS Text Decoration 3, 2.4)."""
     for chunk in chunks:
-        spans = dict.fromkeys(cluster.span for cluster in sorted(chunk.clusters, key=lambda cluster: cluster.start))
-        for span in spans:
+        for span, held in members(chunk):
+            check_time()
             if span.place.style["visibility"].lower() != "visible" or not span.place.chosen:
                 continue
             lines = {word: decoration(span, word, report) for word in WORDS}
             for word in WORDS[:2]:
-                yield from decorated(chunk, span, word, lines[word], vertical)
-            yield from painted(chunk, span)
-            yield from decorated(chunk, span, WORDS[2], lines[WORDS[2]], vertical)
+                yield from decorated(held, word, lines[word], vertical)
+            yield from painted(span, held)
+            yield from decorated(held, WORDS[2], lines[WORDS[2]], vertical)
 
 
-def members(chunk: Chunk, span: Span) -> list[tuple[Cluster, Transform, bool]]:
-    """Clusters of a span in a chunk that are shown, with their matrices, and whether they begin a line."""
-    found = []
-    before = True
+Member = tuple[Cluster, Transform, bool]
+"""A cluster that is shown, its matrix, and whether a line begins at it."""
+
+
+def members(chunk: Chunk) -> list[tuple[Span, list[Member]]]:
+    """The clusters of each stretch of text of one element in a chunk, in logical order; each stretch in visual order."""
+    stretches: list[tuple[Span, list[Member]]] = []
+    homes: dict[Cluster, list[Member]] = {}
+    for cluster in sorted(chunk.clusters, key=lambda one: one.start):
+        if not stretches or stretches[-1][0] is not cluster.span:
+            stretches.append((cluster.span, []))
+        homes[cluster] = stretches[-1][1]
+    before: list[Member] | None = None
     for cluster, matrix, moved in zip(chunk.clusters, chunk.matrices, chunk.moved, strict=True):
-        if cluster.span is span and not cluster.hidden:
-            found.append((cluster, matrix, moved or before))
-            before = False
-        else:
-            before = True
-    return found
+        if not cluster.hidden:
+            homes[cluster].append((cluster, matrix, moved or before is not homes[cluster]))
+        before = None if cluster.hidden else homes[cluster]
+    return stretches
 
 
-def painted(chunk: Chunk, span: Span) -> Iterator[Piece]:
-    """The glyphs of a span in a chunk: outlines together, and each in colour by itself."""
+def painted(span: Span, held: Sequence[Member]) -> Iterator[Piece]:
+    """The glyphs of a span: outlines together, and each in colour by itself."""
     together: list[Outline] = []
-    for cluster, matrix, _ in members(chunk, span):
+    for cluster, matrix, _ in held:
         color = span.place.style.color.rgb
         x = y = 0.0
         for glyph in cluster.glyphs:
@@ -122,23 +130,23 @@ def decoration(span: Span, word: str, report: Report) -> Place | None:
     inside = True
     while place is not None:
         words = f"{place.style['text-decoration']} {place.style['text-decoration-line']}".lower().split()
-        for style in STYLES.intersection(words):
-            report.simplified(f"text-decoration {style} drawn as a solid line")
         if word in words:
+            for style in STYLES.intersection(words):
+                report.simplified(f"text-decoration {style} drawn as a solid line")
             return replace(place if inside else text, name=span.place.name, chosen=True)
         inside = inside and place is not text
         place = place.outer
     return None
 
 
-def decorated(chunk: Chunk, span: Span, word: str, place: Place | None, vertical: bool) -> Iterator[Piece]:
-    """The lines of a kind along a span in a chunk."""
+def decorated(held: Sequence[Member], word: str, place: Place | None, vertical: bool) -> Iterator[Piece]:
+    """The lines of a kind along the clusters of a span."""
     if place is None:
         return
     outlines = []
     begin: tuple[Cluster, Transform] | None = None
     width = 0.0
-    for cluster, matrix, begins in [*members(chunk, span), (None, None, True)]:
+    for cluster, matrix, begins in [*held, (None, None, True)]:
         if begins and begin is not None:
             outlines.append(line(begin[0], begin[1], width, word, vertical))
         if cluster is None or matrix is None:

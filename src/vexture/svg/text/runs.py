@@ -1,8 +1,8 @@
 """From characters to clusters: faces, runs of one kind, and shaping."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import islice, pairwise
 from math import radians, tan
 from typing import Final
 from unicodedata import category
@@ -50,6 +50,7 @@ class Cluster:
     slant: float = 0.0
     bolder: bool = False
     stretch: float = 1.0  # by `textLength`
+    fitted: Span | None = None  # outermost element into whose `textLength` it is fitted
     gap: float = 0.0  # part of the advance that `textLength` adds
     hidden: bool = False
 
@@ -74,13 +75,15 @@ class Faces:
         self.report = report
         self.known: dict[tuple[object, ...], tuple[list[Face], Iterator[Face]]] = {}
         self.found: dict[tuple[object, ...], Face | None] = {}
+        self.counts: dict[tuple[object, ...], int] = {}  # of faces that are of the families that are asked for
         self.small: dict[Face, bool] = {}
+        self.noted: set[str] = set()  # for the text that is set now
 
     def of(self, want: Wanted) -> Iterator[Face]:
         """Faces in the order in which a text tries them."""
         key = (want.families, want.weight, want.style, want.stretch, want.variations)
         if key not in self.known:
-            faces = self.fonts.faces(want.families, round(want.weight), want.style, want.stretch)
+            faces = self.fonts.faces(*asked(want))
             self.known[key] = ([], (varied(face, want.variations) for face in faces))
         listed, others = self.known[key]
         at = 0
@@ -114,17 +117,28 @@ class Faces:
         return self.small[face]
 
     def note(self, want: Wanted, face: Face, character: str) -> None:
-        """Note a family that is not there, or lacks a character."""
+        """Note once for a text a family that is not there, or lacks a character."""
         named = [family for family in want.families if family not in GENERIC]
-        used = {name.casefold() for name in face.names}
-        if not named or any(family.casefold() in used for family in named):
+        if asked(want) not in self.counts:
+            self.counts[asked(want)] = self.fonts.count_named(*asked(want))
+        if not named or face in islice(self.of(want), self.counts[asked(want)]):
             return
-        first = self.first(want)
-        other = {name.casefold() for name in first.names} if first is not None else set()
-        if any(family.casefold() in other for family in named):
-            self.report.simplified(f"{described(character)}, which {named[0][:40]!r} lacks, drawn in {face.family}")
+        if self.fonts.count_named(named, *asked(want)[1:]):
+            what = f"{described(character)}, which {named[0][:40]!r} lacks,"
         else:
-            self.report.simplified(f"font {named[0][:40]!r} drawn in {face.family}")
+            what = f"font {named[0][:40]!r}"
+        self.note_once(self.report.simplified, f"{what} drawn in {face.family}")
+
+    def note_once(self, how: Callable[[str], None], what: str) -> None:
+        """Note something once for a text."""
+        if what not in self.noted:
+            self.noted.add(what)
+            how(what)
+
+
+def asked(want: Wanted) -> tuple[tuple[str, ...], int, str, float]:
+    """How a font is asked for."""
+    return want.families, round(want.weight), want.style, want.stretch
 
 
 def varied(face: Face, variations: tuple[tuple[str, float], ...]) -> Face:
@@ -211,7 +225,7 @@ def face_of(want: Wanted, character: str, faces: Faces, last: Face | None) -> Fa
         return face
     face = last or faces.first(want)
     if face is not None and kind not in ("Cc", "Cf", "Zs"):
-        faces.report.left_out(f"{described(character)}, which no font has")
+        faces.note_once(faces.report.left_out, f"{described(character)}, which no font has")
     return face
 
 

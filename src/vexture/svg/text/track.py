@@ -9,6 +9,7 @@ from lxml import etree
 from numpy.typing import NDArray
 
 from vexture.bezier.points import points_along
+from vexture.deadline import check_time
 from vexture.svg.document import local_name
 from vexture.svg.masks import Measured
 from vexture.svg.outline import Outline
@@ -30,7 +31,7 @@ PLACES: Final = np.linspace(0.0, 1.0, STEPS + 1)
 VELOCITIES: Final = np.stack([(1.0 - PLACES) ** 2, 2.0 * PLACES * (1.0 - PLACES), PLACES**2])
 """Parameters of the ends of chords, and weights of the steps between control points in a third of the velocity."""
 
-MOST_CUBICS: Final = 20_000
+MOST_CUBICS: Final = 5_000
 """Of a path that a text follows."""
 
 
@@ -80,6 +81,7 @@ class Track:
 
 def read_track(scene: Measured, element: etree._Element, place: Place) -> Track | None:
     """The path of a `textPath`; None, with a note, if it has none."""
+    check_time()
     outlines, whole = outlines_of(scene, element, place)
     if not outlines:
         scene.report.left_out(f"{described(element)} without a path")

@@ -7,6 +7,7 @@ from typing import Final, Protocol
 from lxml import etree
 
 from vexture.deadline import check_time
+from vexture.errors import SourceError
 from vexture.svg.document import applies, local_name
 from vexture.svg.masks import Measured
 from vexture.svg.names import ElementNames
@@ -24,6 +25,10 @@ SILENT: Final = frozenset({"desc", "metadata", "script", "style", "title"})
 """Elements in a text that show nothing and change nothing."""
 
 ANIMATIONS: Final = frozenset({"animate", "animateColor", "animateMotion", "animateTransform", "discard", "set"})
+
+MOST_CHARACTERS: Final = 200_000
+"""Characters and elements of texts that are set; each time counts that `use`, a clip or the measuring of a box shows
+them."""
 
 PRESERVED: Final = frozenset({"pre", "pre-wrap", "break-spaces"})
 """Values of `white-space` that keep spaces."""
@@ -77,6 +82,7 @@ class Characters:
     dx: dict[int, float] = field(default_factory=dict)
     dy: dict[int, float] = field(default_factory=dict)
     rotate: dict[int, float] = field(default_factory=dict)  # degrees
+    count: int = 0  # of characters and elements in all texts so far
     after_space: bool = True  # whether white space that comes next collapses
 
     def add(self, text: str, span: Span) -> None:
@@ -95,6 +101,13 @@ class Characters:
                 self.after_space = False
             self.text.append(character)
             self.holders.append(span)
+            self.add_one()
+
+    def add_one(self) -> None:
+        """Count a character or an element; a `SourceError` if they are too many."""
+        self.count += 1
+        if self.count > MOST_CHARACTERS:
+            raise SourceError(f"texts have more than {MOST_CHARACTERS:,} characters; draw less text, or as outlines")
 
     def finish(self) -> None:
         """Remove white space at the end, and place the characters."""
@@ -119,9 +132,9 @@ def transformed(character: str, how: str, before: str) -> str:
     return changed if len(changed) == 1 else character
 
 
-def characters(scene: Setting, element: etree._Element, place: Place) -> Characters:
-    """Characters of a text element at a place with its style."""
-    found = Characters()
+def characters(scene: Setting, element: etree._Element, place: Place, count: int) -> Characters:
+    """Characters of a text element at a place with its style; `count` are those before."""
+    found = Characters(count=count)
     read(scene, found, Span(replace(place, element=element), None, 0))
     found.finish()
     for span in found.spans:
@@ -135,6 +148,7 @@ def read(scene: Setting, found: Characters, span: Span) -> None:
     check_time()
     element = span.element
     found.spans.append(span)
+    found.add_one()
     found.add(element.text or "", span)
     for child in element:
         name = local_name(child)

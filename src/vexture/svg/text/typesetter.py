@@ -4,11 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
-from typing import Final
 
 from lxml import etree
 
-from vexture.errors import DeviceError, SourceError
+from vexture.errors import DeviceError
 from vexture.fonts.library import Fonts
 from vexture.svg.outline import Outline
 from vexture.svg.report import Report
@@ -20,9 +19,6 @@ from vexture.svg.text.runs import Faces, clusters
 from vexture.svg.text.tree import Setting, characters
 
 __all__ = ["Text", "Typesetter"]
-
-MOST_CHARACTERS: Final = 200_000
-"""Characters of texts that are set; each time counts that `use`, a clip or the measuring of a box shows a text."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,14 +47,12 @@ class Typesetter:
 
     def text(self, scene: Setting, element: etree._Element, place: Place) -> Text:
         """What a text element paints at a place with its style."""
-        found = characters(scene, element, place)
-        self.count += len(found.text)
-        if self.count > MOST_CHARACTERS:
-            raise SourceError(f"texts have more than {MOST_CHARACTERS:,} characters; draw less text, or as outlines")
+        found = characters(scene, element, place, self.count)
+        self.count = found.count
         vertical = is_vertical(place.style)
         try:
             faces = self.faces
-            faces.report = scene.report
+            faces.report, faces.noted = scene.report, set()
             made = clusters(found, faces, vertical)
         except DeviceError as error:
             scene.report.left_out(f"<text>: {error}")

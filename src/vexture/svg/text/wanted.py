@@ -64,7 +64,8 @@ SMALL: Final = "smcp"
 SETTING = re.compile(r"\s*(['\"])([ -~]{4})\1\s*(on|off|[-+]?\d{0,6}(?:\.\d{1,6})?)\s*", re.IGNORECASE)
 FAMILY = re.compile(r"\s*(?:\"([^\"]*)\"|'([^']*)'|([^,\"']+))\s*(?:,|$)")
 
-MOST_FAMILIES: Final = 50
+LONGEST: Final = 2_000
+"""Characters of a list that are read."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +109,7 @@ def families(text: str) -> tuple[str, ...]:
     ('Noto Sans', 'Open Sans', 'serif')
     """
     found = []
-    for double, single, plain in FAMILY.findall(text)[:MOST_FAMILIES]:
+    for double, single, plain in FAMILY.findall(text[:LONGEST]):
         name = double or single or " ".join(plain.split())
         if name:
             found.append(name.lower() if plain and name.lower() in GENERIC else name)
@@ -130,7 +131,7 @@ def features(style: Style) -> tuple[str, ...]:
         found.append("-kern")
     if float(style["letter-spacing"] if style["letter-spacing"] != "normal" else 0.0) != 0.0:
         found += VARIANTS["no-common-ligatures"]  # CSS Text 3, 8.2
-    for _, tag, value in SETTING.findall(style["font-feature-settings"]):
+    for _, tag, value in SETTING.findall(style["font-feature-settings"][:LONGEST]):
         count = {"on": "1", "": "1", "off": "0"}.get(value.lower(), value)
         if tag.isalnum() and count.isdecimal():
             found.append(f"{tag}={count}")
@@ -139,7 +140,7 @@ def features(style: Style) -> tuple[str, ...]:
 
 def variations(text: str) -> tuple[tuple[str, float], ...]:
     """Places on the axes of a variable font."""
-    found = {tag: number(value) for _, tag, value in SETTING.findall(text)}
+    found = {tag: number(value) for _, tag, value in SETTING.findall(text[:LONGEST])}
     return tuple(sorted((tag, value) for tag, value in found.items() if value is not None))
 
 
