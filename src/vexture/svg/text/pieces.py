@@ -61,7 +61,7 @@ Member = tuple[Cluster, Transform, bool]
 
 
 def members(chunk: Chunk) -> list[tuple[Span, list[Member]]]:
-    """The clusters of each stretch of text of one element in a chunk, in logical order; each stretch in visual order."""
+    """Stretches of one element in a chunk, in logical order, and the clusters of each in visual order."""
     stretches: list[tuple[Span, list[Member]]] = []
     homes: dict[Cluster, list[Member]] = {}
     for cluster in sorted(chunk.clusters, key=lambda one: one.start):
