@@ -56,6 +56,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "encodings": {"drawing", "errors", "renderers"},
     "texture": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "svg", "tree"},
     "pipeline": BASE | {"drawing", "encodings", "notes", "reading", "texture", "tree"},
+    "glyph_atlas": {"deadline", "drawing", "errors", "fonts", "notes", "paint", "pipeline", "texture"},
     "images": BASE | {"drawing", "encodings", "group", "paint", "pipeline", "renderers"},
     "thesis": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "texture", "tree"},
     "fold": BASE | {"drawing", "layout", "notes", "renderers", "texture"},
@@ -82,6 +83,7 @@ WITH_SHADER_TEXT = {"renderers/shader.py", "thesis/shader.py"}
 SHADER_WORDS = re.compile(r"\b(texelFetch|gl_\w+|(uniform|varying|highp|mediump) \w+|[ib]?vec[234]\()|^#version", re.M)
 HEAVY = {
     "PIL",
+    "bidi",
     "cssselect2",
     "fontTools",
     "llvmlite",
