@@ -13,6 +13,7 @@ from vexture.deadline import DEFAULT_SECONDS, check_time, within
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
 from vexture.fonts.face import Face
+from vexture.fonts.levels import LATIN, scripts
 from vexture.fonts.lines import Placed, named
 from vexture.fonts.shaping import Glyph, shape
 from vexture.fonts.text import Canvas, TextOptions
@@ -30,10 +31,10 @@ PRINTABLE: Final = "".join(map(chr, range(0x20, 0x7F)))
 
 MOST_CHARACTERS: Final = 4096
 
-MOST_KERNED: Final = 256
-"""Characters of which all pairs are shaped: 65,536 pairs take half a second."""
+MOST_KERNED: Final = 1024
+"""Characters of which all pairs are shaped: a million pairs."""
 
-UNKERNED: Final = f"kerning: there are more than {MOST_KERNED} characters, so that there are too many pairs"
+UNKERNED: Final = f"kerning: there are more than {MOST_KERNED:,} characters, so that there are too many pairs"
 
 LINE_METRICS: Final = ("ascender", "descender", "line_gap", "x_height", "cap_height")
 
@@ -61,7 +62,7 @@ class FontAtlas:
 
     def files(self, path: Path, *, deflate: bool = True) -> dict[Path, bytes]:
         """Contents of the texture's file and of the metrics', which is beside it and ends in ``.json``."""
-        text = json.dumps(self.metrics, ensure_ascii=False, indent=1) + "\n"
+        text = json.dumps(self.metrics, ensure_ascii=False, separators=(",", ":")) + "\n"
         return {path: self.texture.to_ktx2(deflate=deflate), path.with_suffix(".json"): text.encode()}
 
     def save(self, path: str | os.PathLike[str]) -> Path:
@@ -131,13 +132,18 @@ def font_atlas(
     return made
 
 
-def made_atlas(options: TextOptions, characters: Iterable[str], **parameters: Any) -> FontAtlas:
-    """Make an atlas as `font_atlas` does, but without a warning; of `options`, the font and its style count."""
-    wanted = [*dict.fromkeys(characters)]
-    if len(wanted) > MOST_CHARACTERS:
-        raise LimitError(f"{len(wanted):,} characters, of at most {MOST_CHARACTERS:,}; make several atlases")
+def made_atlas(
+    options: TextOptions, characters: Iterable[str], optional: Iterable[int] = (), **parameters: Any
+) -> FontAtlas:
+    """Make an atlas as `font_atlas` does, but without a warning; of `options`, the font and its style count.
+
+    `optional` are codes of characters that the font need not have.
+    """
     notes = Notes()
     face = options.choice(notes).first
+    wanted = [*dict.fromkeys([*characters, *(chr(code) for code in optional if face.has(code))])]
+    if len(wanted) > MOST_CHARACTERS:
+        raise LimitError(f"{len(wanted):,} characters, of at most {MOST_CHARACTERS:,}; make several atlases")
     known = [character for character in wanted if face.has(ord(character))]
     missing = [character for character in wanted if not face.has(ord(character))]
     for character in missing:
@@ -205,14 +211,25 @@ def entry(glyph: Glyph, shapes: dict[int, Shape]) -> dict[str, Any]:
 
 def kerning(glyphs: dict[str, Glyph]) -> dict[str, dict[str, float]]:
     """What is added to the advance of a character before another, in ems, where it is not 0."""
+    kinds = {character: scripts([character])[0] for character in glyphs}  # Latin, if it is common to several
+    groups: dict[str, list[str]] = {}
+    for character, script in kinds.items():
+        groups.setdefault(script, []).append(character)
     found: dict[str, dict[str, float]] = {}
     for first, one in glyphs.items():
         check_time()
-        for second, two in glyphs.items():
-            pair = shape(one.face, first + second, features=PLAIN)
-            added = sum(glyph.advance[0] for glyph in pair) - one.advance[0] - two.advance[0]
-            if added and {glyph.glyph for glyph in pair} == {one.glyph, two.glyph}:
-                found.setdefault(first, {})[second] = rounded(added / one.face.units_per_em)
+        pairs = {}
+        for group, seconds in groups.items():
+            script = group if kinds[first] == LATIN else kinds[first]
+            line = "".join(first + second for second in seconds)
+            row = shape(one.face, line, direction="ltr", script=script, features=PLAIN)
+            clusters = {glyph.cluster: glyph for glyph in row}
+            for place, second in enumerate(seconds):
+                glyph = clusters.get(2 * place)
+                if glyph is not None and glyph.glyph == one.glyph and glyph.advance != one.advance:
+                    pairs[second] = rounded((glyph.advance[0] - one.advance[0]) / one.face.units_per_em)
+        if pairs:
+            found[first] = pairs
     return found
 
 
