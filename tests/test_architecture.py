@@ -57,6 +57,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "texture": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "svg", "tree"},
     "parameters": {"deadline", "drawing", "errors"},
     "pipeline": BASE | {"drawing", "encodings", "notes", "parameters", "reading", "texture", "tree"},
+    "glyph_atlas": {"deadline", "drawing", "errors", "fonts", "notes", "paint", "pipeline", "texture"},
     "images": BASE | {"drawing", "encodings", "group", "paint", "pipeline", "renderers"},
     "thesis": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "texture", "tree"},
     "fold": BASE | {"drawing", "layout", "notes", "renderers", "texture"},
@@ -84,6 +85,7 @@ WITH_SHADER_TEXT = {"renderers/shader.py", "thesis/shader.py"}
 SHADER_WORDS = re.compile(r"\b(texelFetch|gl_\w+|(uniform|varying|highp|mediump) \w+|[ib]?vec[234]\()|^#version", re.M)
 HEAVY = {
     "PIL",
+    "bidi",
     "cssselect2",
     "fontTools",
     "llvmlite",

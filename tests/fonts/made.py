@@ -44,15 +44,19 @@ SHAPES = {
 """Glyphs that those in colour are painted of."""
 
 
-def made_font(characters, paints=None, family="Made", weight=400, advance=900, kerning=None, **info):
-    """Bytes of a font: glyphs of characters, by the name of a shape or as a glyph, some of them with a COLR paint."""
+def made_font(characters, paints=None, family="Made", weight=400, advance=900, kerning=None, alike=(), **info):
+    """Bytes of a font: glyphs of characters, by the name of a shape or as a glyph, some of them with a COLR paint.
+
+    `alike` are further characters, and those whose glyphs they have; `info` goes into the table OS/2.
+    """
     glyphs = {".notdef": box(50, 0, 450, 700), "space": TTGlyphPen(None).glyph(), **SHAPES}
     names = {char: f"u{ord(char):04X}" for char in characters}
     for char, shape in characters.items():
         glyphs[names[char]] = SHAPES[shape] if isinstance(shape, str) else shape
     builder = FontBuilder(UNITS, isTTF=True)
     builder.setupGlyphOrder(list(glyphs))
-    builder.setupCharacterMap({ord(char): name for char, name in names.items()} | {32: "space"})
+    others = {ord(char): names[other] for char, other in dict(alike).items()}
+    builder.setupCharacterMap({ord(char): name for char, name in names.items()} | others | {32: "space"})
     builder.setupGlyf(glyphs)
     builder.setupHorizontalMetrics({name: (advance, getattr(glyph, "xMin", 0)) for name, glyph in glyphs.items()})
     builder.setupHorizontalHeader(ascent=800, descent=-200)

@@ -14,7 +14,7 @@ from vexture.fonts.face import Face, faces_in, faces_of
 from vexture.fonts.matching import Traits, preference
 from vexture.fonts.system import default_files, font_files, generic_family, system_files
 
-__all__ = ["EmbeddedFont", "Fonts"]
+__all__ = ["GENERIC", "EmbeddedFont", "Fonts"]
 
 Place: TypeAlias = str | os.PathLike[str]
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 from vexture.errors import ParameterError
 from vexture.fonts.engine import harfbuzz
@@ -75,6 +76,7 @@ def shape(
     ]
 
 
+@cache
 def feature_of(text: str) -> tuple[str, int]:
     """Tag and value of a feature.
 

@@ -7,11 +7,11 @@ from itertools import pairwise
 from math import pi, radians
 from typing import Final
 
+from vexture.fonts.levels import CURSIVE, reordered
 from vexture.svg.document import local_name
 from vexture.svg.report import Report
 from vexture.svg.style import Style
 from vexture.svg.text.baselines import baseline
-from vexture.svg.text.levels import CURSIVE, reordered
 from vexture.svg.text.runs import Cluster
 from vexture.svg.text.track import Track
 from vexture.svg.text.tree import Characters, Span

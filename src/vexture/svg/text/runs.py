@@ -9,10 +9,10 @@ from unicodedata import category
 
 from vexture.deadline import check_time
 from vexture.fonts.face import Face
+from vexture.fonts.levels import is_upright, levels, scripts
 from vexture.fonts.library import Fonts
 from vexture.fonts.shaping import Glyph, shape
 from vexture.svg.report import Report
-from vexture.svg.text.levels import is_upright, levels, scripts
 from vexture.svg.text.tree import Characters, Span
 from vexture.svg.text.wanted import GENERIC, SMALL, Wanted, wanted
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Final
 
-__all__ = ["CURSIVE", "is_upright", "levels", "reordered", "scripts"]
+__all__ = ["CURSIVE", "LATIN", "is_upright", "levels", "reordered", "scripts"]
 
 CURSIVE: Final = frozenset(
     {
