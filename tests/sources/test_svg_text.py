@@ -1,6 +1,8 @@
 """Texts look like what resvg draws with the same fonts, or like a plainer file that says the same."""
 
 import base64
+import subprocess
+import sys
 import warnings
 from functools import cache
 from pathlib import Path
@@ -229,3 +231,24 @@ def test_the_box_of_a_text_is_that_of_its_cells(tmp_path: Path) -> None:
     right = max(contour[..., 0].max() for path in drawing.paths for contour in path.contours)
     assert 100 * right <= 10 + 2 * advance("h") + 1e-9
     assert 100 * right > 10 + 2 * advance("h") - advance("h") / 2
+
+
+@pytest.mark.parametrize(
+    ("package", "text", "needs"),
+    [
+        ("uharfbuzz", "Ship", "fonts need the package uharfbuzz"),
+        ("bidi.algorithm", HEBREW, "text from right to left needs the package python-bidi"),
+        ("bidi.algorithm", "Ship", ""),
+    ],
+)
+def test_without_a_package_a_text_is_left_out(package: str, text: str, needs: str) -> None:
+    program = f"""
+import sys
+sys.modules[{package!r}] = None
+from vexture.svg.read import svg_drawing
+drawing = svg_drawing('<svg viewBox="0 0 9 9"><text y="9">{text}</text></svg>'.encode(), "text.svg")
+print(*drawing.notes, sep="; ")
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    noted = f"<text>: {needs}; install it: pip install 'vexture[text]'; nothing in it is painted" if needs else ""
+    assert done.stdout.strip() == noted

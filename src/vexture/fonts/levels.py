@@ -2,8 +2,11 @@
 
 from bisect import bisect_right
 from collections.abc import Sequence
+from importlib import import_module
 from itertools import pairwise
-from typing import Final
+from typing import Any, Final
+
+from vexture.errors import DeviceError
 
 __all__ = ["CURSIVE", "LATIN", "is_upright", "levels", "reordered", "scripts"]
 
@@ -68,12 +71,12 @@ def levels(text: Sequence[str], base: int, controls: Sequence[tuple[int, str]]) 
 
     `controls` are formatting characters, in order, and the places before which they stand.
     """
-    from bidi import algorithm
     from fontTools.unicodedata import bidirectional
 
     kinds = [bidirectional(character) for character in text]
     if not (base or controls or {"R", "AL", "AN", "RLE", "RLO", "RLI"}.intersection(kinds)):
         return [0] * len(text)
+    algorithm = bidirectional_algorithm()
     characters, at = [], 0
     for place, control in (*controls, (len(text), "")):
         characters += [entry(kinds[k], base, k) for k in range(at, place)]
@@ -97,6 +100,16 @@ def levels(text: Sequence[str], base: int, controls: Sequence[tuple[int, str]]) 
         end -= 1
         found[end] = base
     return found
+
+
+def bidirectional_algorithm() -> Any:
+    """Return the module of python-bidi; raises a `DeviceError` if it is not installed."""
+    try:
+        return import_module("bidi.algorithm")
+    except ImportError:
+        raise DeviceError(
+            "text from right to left needs the package python-bidi; install it: pip install 'vexture[text]'"
+        ) from None
 
 
 def entry(kind: str, level: int, at: int) -> dict[str, object]:
