@@ -85,6 +85,11 @@ def test_what_stands_in_for_a_font_or_character_is_named(folder):
     assert [str(note) for note in other.notes] == ["font 'Nowhere' in Made", "italic style, which Made lacks, upright"]
 
 
+def test_joiners_and_variation_selectors_stay_with_their_character(folder):
+    found = drawn(folder, "A\ufe0fV\u200dA", ".", family="Made")
+    assert found.notes == ()
+
+
 def test_a_character_that_no_font_has_is_left_out_by_name(folder):
     with pytest.warns(vexture.SourceWarning, match=r"left out: character \(U\+10FFFF\), which no font has"):
         vexture.text("A\U0010ffff", font=folder / "plain.ttf")

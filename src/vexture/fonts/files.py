@@ -21,7 +21,7 @@ WOFF, WOFF2 = b"wOFF", b"wOF2"
 WOFF_HEADER, WOFF2_HEADER, METADATA = 44, 48, 20
 """Bytes of the headers, and of their end, which says where metadata is."""
 
-LARGEST_FONT: Final = 128 * 2**20
+LARGEST_FONT: Final = 64 * 2**20
 """Bytes, after decompression; the largest fonts of the Han scripts have 30 MB."""
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
+from typing import Final
 from unicodedata import category
 
 from vexture.deadline import check_time
@@ -13,6 +14,10 @@ from vexture.fonts.shaping import Glyph, shape
 from vexture.notes import Notes
 
 __all__ = ["Choice", "Placed", "Typesetting", "line_of_glyphs"]
+
+
+SELECTORS: Final = frozenset(map(chr, (*range(0xFE00, 0xFE10), *range(0xE0100, 0xE01F0))))
+"""Variation selectors, which choose a form of the character before them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +67,8 @@ class Choice:
     def of(self, character: str, last: Face | None) -> Face:
         """The face of a character; `last` is that of the one before, with which it may have to go."""
         kind = category(character)
-        if last is not None and (kind == "Cf" or (kind[0] == "M" and last.has(ord(character)))):
+        selects = kind == "Cf" or character in SELECTORS
+        if last is not None and (selects or (kind[0] == "M" and last.has(ord(character)))):
             return last
         for face in self._all():
             check_time()
@@ -71,7 +77,7 @@ class Choice:
                     example = self.others.setdefault(face.family, named(character))
                     self.notes.simplified(f"{example}, which {self.first.family} lacks, and such in {face.family}")
                 return face
-        if kind not in ("Cc", "Cf", "Zs"):
+        if kind not in ("Cc", "Zs") and not selects:
             self.notes.left_out(f"{named(character)}, which no font has")
         return last or self.first
 
