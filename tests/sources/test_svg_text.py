@@ -6,6 +6,7 @@ import sys
 import warnings
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
 from fontTools.ttLib import TTFont
@@ -114,10 +115,10 @@ PLAINER = {
 }
 
 
-def read(path: Path, **options: object) -> Drawing:
+def read(path: Path, **options: Any) -> Drawing:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SourceWarning)
-        return read_svg(path, fonts=[FONTS], **options)
+        return read_svg(path, **{"fonts": [FONTS], **options})
 
 
 @pytest.mark.parametrize("name", sorted(path.stem for path in FOLDER.glob("*.svg")))
@@ -133,7 +134,7 @@ def test_fixtures_are_all_there() -> None:
     assert set(PLAINER) <= names
 
 
-def drawn(folder: Path, body: str, head: str = "", **options: object) -> Drawing:
+def drawn(folder: Path, body: str, head: str = "", **options: Any) -> Drawing:
     file = folder / "drawing.svg"
     file.write_text(f"<svg {ROOT}>{head}{body}</svg>", encoding="utf-8")
     return read(file, **options)

@@ -103,10 +103,12 @@ class Fonts:
             yield from self._chosen(name, weight, style, stretch)
 
     def _asked(self, families: Sequence[str]) -> Iterator[str]:
-        """Names of families, with those that stand for generic ones."""
+        """Names of families, with those that stand for generic ones: given ones, the system's choice, and others."""
         for family in families:
             yield family
             if family.lower() in GENERIC:
+                given = {name for listed in (*self._given, *self._embedded) for name in listed.names}
+                yield from (name for name in GENERIC[family.lower()] if name.casefold() in given)
                 yield from filter(None, [generic_family(family.lower()) if self.system else ""])
                 yield from GENERIC[family.lower()]
 

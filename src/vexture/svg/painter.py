@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from math import inf
+from typing import TYPE_CHECKING
 
 import numpy as np
 from lxml import etree
@@ -10,7 +11,6 @@ from numpy.typing import NDArray
 
 from vexture.drawing import FillRule, Path
 from vexture.errors import SourceError
-from vexture.fonts.layers import Layers
 from vexture.paint import BLACK, Paint
 from vexture.svg.compositing import Veil
 from vexture.svg.outline import Outline
@@ -25,6 +25,9 @@ from vexture.svg.tiles import Canvas, FirstTile, Tiles, is_window, visible
 from vexture.svg.transform import Identity, Transform, mapped, scale_of
 from vexture.svg.values import number
 from vexture.tolerance import ROUND
+
+if TYPE_CHECKING:  # imported at run time for drawings with texts only
+    from vexture.fonts.layers import Layers
 
 __all__ = ["Painter", "Ruler"]
 
@@ -114,7 +117,7 @@ class Painter:
                 for marker in markers:
                     self.walk(marker, self)
 
-    def paint_layers(self, layers: Layers, matrix: Transform, place: Place) -> None:
+    def paint_layers(self, layers: "Layers", matrix: Transform, place: Place) -> None:
         """Paint a glyph in colour; `matrix` leads from its units to those of a place."""
         space = place.space.moved(matrix)
         a, b, c, d, e, f = space.whole.inverse()

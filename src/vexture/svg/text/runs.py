@@ -137,7 +137,7 @@ class Faces:
 
 
 def asked(want: Wanted) -> tuple[tuple[str, ...], int, str, float]:
-    """How a font is asked for."""
+    """How `Fonts` is asked for a font."""
     return want.families, round(want.weight), want.style, want.stretch
 
 

@@ -1,22 +1,22 @@
 """Setting texts: the fonts of a drawing, and what each of its texts paints."""
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from os import PathLike
+from typing import TYPE_CHECKING
 
 from lxml import etree
 
 from vexture.errors import DeviceError
-from vexture.fonts.library import Fonts
 from vexture.svg.outline import Outline
 from vexture.svg.report import Report
 from vexture.svg.space import Place
-from vexture.svg.text.embedded import embedded_fonts
-from vexture.svg.text.layout import is_vertical, laid_out
-from vexture.svg.text.pieces import Piece, cells, pieces
-from vexture.svg.text.runs import Faces, clusters
-from vexture.svg.text.tree import Setting, characters
+
+if TYPE_CHECKING:  # imported at run time for drawings with texts only
+    from vexture.svg.text.pieces import Piece
+    from vexture.svg.text.runs import Faces
+    from vexture.svg.text.tree import Setting
 
 __all__ = ["Text", "Typesetter"]
 
@@ -25,7 +25,7 @@ __all__ = ["Text", "Typesetter"]
 class Text:
     """What a text paints, and the box around the cells of its glyphs."""
 
-    pieces: tuple[Piece, ...] = ()
+    pieces: "tuple[Piece, ...]" = ()
     box: Outline | None = None
 
 
@@ -33,20 +33,29 @@ class Typesetter:
     """Sets the texts of a drawing in fonts: of files, of its own, and of the system."""
 
     def __init__(
-        self, files: Sequence[str | PathLike[str]], font_faces: Sequence[dict[str, str]], report: Report
+        self, files: Sequence[str | os.PathLike[str]], font_faces: Sequence[dict[str, str]], report: Report
     ) -> None:
-        self.files = files
+        self.files = (files,) if isinstance(files, str | os.PathLike) else files
         self.font_faces = font_faces
         self.report = report
         self.count: int = 0  # of characters set so far
 
     @cached_property
-    def faces(self) -> Faces:
+    def faces(self) -> "Faces":
         """The faces of the drawing; raises a `DeviceError` without HarfBuzz."""
+        from vexture.fonts.library import Fonts
+        from vexture.svg.text.embedded import embedded_fonts
+        from vexture.svg.text.runs import Faces
+
         return Faces(Fonts(self.files, embedded_fonts(self.font_faces, self.report)), self.report)
 
-    def text(self, scene: Setting, element: etree._Element, place: Place) -> Text:
+    def text(self, scene: "Setting", element: etree._Element, place: Place) -> Text:
         """What a text element paints at a place with its style."""
+        from vexture.svg.text.layout import is_vertical, laid_out
+        from vexture.svg.text.pieces import cells, pieces
+        from vexture.svg.text.runs import clusters
+        from vexture.svg.text.tree import characters
+
         found = characters(scene, element, place, self.count)
         self.count = found.count
         vertical = is_vertical(place.style)
