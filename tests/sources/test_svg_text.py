@@ -192,6 +192,10 @@ def test_missing_fonts_and_characters_are_named_with_what_is_used(tmp_path: Path
             "<style>@font-face { font-family: F; src: url(https://example.org/f.woff2) }</style><text y='9'>a</text>",
             "left out: font 'F', which is not in the file; give it by `fonts`",
         ),
+        (
+            "<style>@font-face { font-family: F; src: url(data:font/ttf,abc) }</style><text y='9'>a</text>",
+            "left out: font 'F': holds no font; give a TrueType, OpenType, WOFF or WOFF2 font",
+        ),
     ],
 )
 def test_notes(tmp_path: Path, body: str, note: str) -> None:
@@ -224,6 +228,12 @@ def test_hostile_texts_end_in_one_line(tmp_path: Path) -> None:
         drawn(tmp_path, paths)
     far = drawn(tmp_path, '<text y="50" font-size="1e11">a</text><text y="50" letter-spacing="1e12">ab</text>')
     assert far.paths or far.notes
+
+
+def test_a_length_of_zero_does_not_squeeze(tmp_path: Path) -> None:
+    bodies = [f'<text y="50" {length} lengthAdjust="spacingAndGlyphs">ab</text>' for length in ("", 'textLength="0"')]
+    natural, zero = (drawn(tmp_path, body).paths[0] for body in bodies)
+    assert (natural.box == zero.box).all()
 
 
 def test_the_box_of_a_text_is_that_of_its_cells(tmp_path: Path) -> None:

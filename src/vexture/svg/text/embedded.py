@@ -6,6 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import Final
 from urllib.parse import unquote_to_bytes
 
+from vexture.errors import DeviceError, SourceError
+from vexture.fonts.face import faces_in
 from vexture.fonts.library import EmbeddedFont
 from vexture.svg.font_values import font_weight
 from vexture.svg.report import Report
@@ -27,6 +29,11 @@ def embedded_fonts(rules: Sequence[dict[str, str]], report: Report) -> Iterator[
         if not names or content is None:
             if "url(" in rule.get("src", ""):
                 report.left_out(f"font {''.join(names[:1])[:40]!r}, which is not in the file; give it by `fonts`")
+            continue
+        try:
+            faces_in(content)
+        except (DeviceError, SourceError) as error:
+            report.left_out(f"font {names[0][:40]!r}: {error}")
             continue
         yield EmbeddedFont(
             names[0],

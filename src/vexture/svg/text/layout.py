@@ -24,6 +24,9 @@ SEPARATORS: Final = frozenset(" \u00a0\u1361\U00010100\U00010101\U0001039f\U0001
 
 VERTICAL: Final = frozenset({"vertical-rl", "vertical-lr", "sideways-rl", "sideways-lr", "tb", "tb-rl", "tb-lr"})
 
+FLATTEST: Final = 1e-3
+"""Width of squeezed glyphs as a part of their own; a smaller `textLength` is ignored, as 0 is by browsers."""
+
 ANCHORS: Final = {"start": 0.0, "middle": 0.5, "end": 1.0}
 
 
@@ -104,7 +107,7 @@ def fit_span(span: Span, inside: Sequence[Cluster], length: float) -> None:
     """
     width = sum(cluster.advance for cluster in inside)
     if span.element.get("lengthAdjust", "").strip() == "spacingAndGlyphs":
-        factor = length / width if width > 0.0 else 1.0
+        factor = length / width if length > FLATTEST * width > 0.0 else 1.0
         for cluster in inside:
             cluster.stretch *= factor
             cluster.advance *= factor
