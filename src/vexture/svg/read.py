@@ -40,12 +40,12 @@ def read_svg(
 ) -> Drawing:
     """Read an SVG file, plain or gzipped.
 
-    Shapes, paths, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as browsers
-    draw them. Opacity, blend modes, clips and masks that need several paths together become `Drawing.groups`. Gradients
-    are read in full (`Paint.gradient`), patterns as the paths of their tiles, markers as the paths of their content.
-    What is not supported is left out and named. Paths are named (`Path.element`) by the ``id`` of their element or of
-    the nearest one around it, and all that a `use`, a marker or a pattern shows by that of the `use` or the shape; a
-    stroke is ``id/stroke``.
+    Shapes, paths, texts, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as
+    browsers draw them. Opacity, blend modes, clips and masks that need several paths together become
+    `Drawing.groups`. Gradients are read in full (`Paint.gradient`), patterns as the paths of their tiles, markers
+    as the paths of their content. What is not supported is left out and named. Paths are named (`Path.element`) by
+    the ``id`` of their element or of the nearest one around it, and all that a `use`, a marker or a pattern shows
+    by that of the `use` or the shape; a stroke is ``id/stroke``.
 
     The box of the drawing is the outermost viewport: `width` and `height`, or the size in `viewBox` where one of them
     is missing or a percentage. A drawing without any of them is as large as what it paints.
@@ -156,9 +156,8 @@ def drawing_of(scene: Scene, framed: Frame | None, name: str) -> Drawing:
         box: Rectangle = (0.0, 0.0, *size)
     else:
         viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
-        paths, _ = Scene(scene.root, Report(), fonts=scene.typesetter.files).paint(
-            viewport, matrix, None
-        )  # all of it, to measure; notes come later
+        whole = Scene(scene.root, Report(), fonts=scene.typesetter.files)  # to measure; notes come later
+        paths, _ = whole.paint(viewport, matrix, None)
         if not paths:
             scene.paint(viewport, matrix, None)  # for its notes
             return Drawing((), name=name)

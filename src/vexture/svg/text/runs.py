@@ -27,6 +27,9 @@ SLANT: Final = tan(radians(14.0))
 BOLD: Final = 600.0
 """Weight from which a face that is lighter is made bolder (CSS Fonts 4, 8.1)."""
 
+VARIATIONS: Final = frozenset(map(chr, range(0xFE00, 0xFE10)))
+"""Characters that choose among shapes of the one before them, whether a font knows them or not."""
+
 EMBEDS: Final = {"embed": "\u202a\u202b", "isolate": "\u202a\u202b", "plaintext": "\u202a\u202b"}
 OVERRIDES: Final = {"bidi-override": "\u202d\u202e", "isolate-override": "\u202d\u202e"}
 POP: Final = "\u202c"
@@ -216,8 +219,11 @@ def stands(character: str, style: object) -> bool:
 def face_of(want: Wanted, character: str, faces: Faces, last: Face | None) -> Face | None:
     """Face of a character; `last` is that of the one before it, if both want the same."""
     kind = category(character)
-    if last is not None and (kind == "Cf" or (kind in ("Mn", "Me", "Mc") and last.has(ord(character)))):
-        return last  # joiners are of the category Cf
+    joins = (
+        kind == "Cf" or character in VARIATIONS or (kind in ("Mn", "Me", "Mc") and last and last.has(ord(character)))
+    )
+    if last is not None and joins:
+        return last
     face = faces.choose(want, character)
     if face is not None:
         if not character.isspace():
