@@ -3,7 +3,7 @@
 from bisect import bisect_right
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import Final
+from typing import Any, Final
 
 __all__ = ["CURSIVE", "LATIN", "is_upright", "levels", "reordered", "scripts"]
 
@@ -37,6 +37,13 @@ UPRIGHT: Final = (
 """First and last characters that stand upright in vertical text, or are transformed for it (Unicode Annex 50)."""
 
 STARTS: Final = [first for first, _ in UPRIGHT]
+
+BRACKETS: Final = "()[]{}⁅⁆⁽⁾₍₎⌈⌉⌊⌋❨❩❪❫❬❭❮❯❰❱❲❳❴❵⟅⟆⟦⟧⟨⟩⟪⟫⟬⟭⟮⟯⦃⦄⦅⦆〈〉《》「」『』【】〔〕〖〗〘〙〚〛（）［］｛｝｟｠｢｣"
+CLOSING: Final = dict(zip(BRACKETS[::2], BRACKETS[1::2], strict=True))
+"""Brackets that close what others open (BidiBrackets.txt, without those of rare scripts)."""
+
+STRONG: Final = {"L": "L", "R": "R", "EN": "R", "AN": "R"}
+"""Directions of characters, for brackets around and beside them."""
 
 EMBEDDING: Final = {"LRI": "LRE", "RLI": "RLE", "FSI": "LRE", "PDI": "PDF"}
 """What stands for the isolates, which python-bidi does not know."""
@@ -83,6 +90,8 @@ def levels(text: Sequence[str], base: int, controls: Sequence[tuple[int, str]]) 
     storage["base_level"], storage["base_dir"], storage["chars"] = base, "LR"[base], characters
     algorithm.explicit_embed_and_overrides(storage)
     algorithm.resolve_weak_types(storage)
+    for run in storage["runs"]:
+        pair_brackets(text, characters_of(storage, run), run["sor"])
     algorithm.resolve_neutral_types(storage, False)
     algorithm.resolve_implicit_levels(storage, False)
     found = [-1] * len(text)
@@ -97,6 +106,46 @@ def levels(text: Sequence[str], base: int, controls: Sequence[tuple[int, str]]) 
         end -= 1
         found[end] = base
     return found
+
+
+def characters_of(storage: dict[str, Any], run: dict[str, Any]) -> list[dict[str, Any]]:
+    """Characters of a run of one level, as python-bidi keeps them."""
+    found: list[dict[str, Any]] = storage["chars"][run["start"] : run["start"] + run["length"]]
+    return found
+
+
+def pair_brackets(text: Sequence[str], run: list[dict[str, Any]], before: str) -> None:
+    """Give the brackets of a run one direction in pairs (rule N0, which python-bidi lacks).
+
+    `before` is the direction of what is before the run.
+    """
+    strong = [STRONG.get(character["type"]) for character in run]
+    for first, last in bracket_pairs(text, run):
+        own = "LR"[run[first]["level"] % 2]
+        inside = set(strong[first + 1 : last]) - {None}
+        if not inside:
+            continue
+        context = next((kind for kind in reversed(strong[:first]) if kind is not None), before)
+        direction = own if own in inside or context == own else context
+        for place in (first, last):
+            run[place]["type"] = strong[place] = direction
+
+
+def bracket_pairs(text: Sequence[str], run: list[dict[str, Any]]) -> list[tuple[int, int]]:
+    """Places of brackets that belong together in a run, in the order of the first ones (definition BD16)."""
+    opened: list[tuple[str, int]] = []
+    pairs = []
+    for place, character in enumerate(run):
+        if character["type"] != "ON" or character["at"] < 0:
+            continue
+        shown = text[character["at"]]
+        if shown in CLOSING:
+            opened.append((CLOSING[shown], place))
+        closed = next((k for k in reversed(range(len(opened))) if opened[k][0] == shown), None)
+        if closed is not None:
+            pairs.append((opened[closed][1], place))
+            del opened[closed:]
+    return sorted(pairs)
 
 
 def entry(kind: str, level: int, at: int) -> dict[str, object]:
