@@ -16,7 +16,7 @@ from vexture.fonts.face import Face
 from vexture.fonts.levels import LATIN, scripts
 from vexture.fonts.lines import Placed, named
 from vexture.fonts.shaping import Glyph, shape
-from vexture.fonts.text import Canvas, TextOptions
+from vexture.fonts.text import Canvas, Places, TextOptions
 from vexture.notes import Note, Notes, warn_of
 from vexture.paint import BLACK
 from vexture.pipeline import atlas
@@ -75,7 +75,7 @@ class FontAtlas:
 
 
 def font_atlas(
-    font: str | os.PathLike[str],
+    font: Places = (),
     characters: Iterable[str] = PRINTABLE,
     *,
     weight: float = 400,
@@ -88,8 +88,8 @@ def font_atlas(
 
     Parameters
     ----------
-    font : path
-        A font file, or a folder of the faces of one font.
+    font : path or sequence of path
+        A font file, or a folder of the faces of a font; by default the default font, Noto Sans.
     characters : iterable of str
         By default the printable ones of ASCII. A shape has the name of its character; characters that look alike may
         share one. Ligatures and the forms of joined scripts are no characters: draw those as a `vexture.text`.
@@ -120,15 +120,14 @@ def font_atlas(
 
     Examples
     --------
-    >>> from vexture.fonts.system import default_files
-    >>> made = font_atlas(default_files()[-1], "AV ")
+    >>> made = font_atlas(characters="AV ")
     >>> [root.name for root in made.texture.roots]
     ['A', 'V']
     >>> made.metrics["kerning"]["A"]
     {'V': -0.04}
     """
     made = made_atlas(TextOptions(font, (), weight, style, stretch, name=name), characters, **parameters)
-    warn_of(os.fspath(font), made.notes)
+    warn_of(made.texture.name, made.notes)
     return made
 
 

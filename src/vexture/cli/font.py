@@ -23,7 +23,7 @@ Examples:
 
 @options_of_convert("tolerance", "max_depth", "capacity", "precision", "deflate", "max_seconds", "quiet")
 @click.command(epilog=EXAMPLE)
-@click.argument("font", metavar="FONT", type=PATH)
+@click.argument("font", metavar="[FONT]", required=False, type=PATH)
 @click.option("-o", "--output", metavar="FILE.ktx2", required=True, type=PATH, help="File to write, or a folder.")
 @click.option("--chars", metavar="TEXT", help="Characters to convert.  [default: those of ASCII]")
 @click.option("--chars-file", metavar="FILE", type=PATH, help="A text in UTF-8 whose characters to convert.")
@@ -37,7 +37,7 @@ Examples:
 @face_options
 @click.option("--name", help="Name of the texture.  [default: the family]")
 def font(
-    font: Path,
+    font: Path | None,
     output: Path,
     chars: str | None,
     chars_file: Path | None,
@@ -49,7 +49,10 @@ def font(
     quiet: bool,
     **options: Any,
 ) -> None:
-    """Convert the characters of a font into one texture, a shape for each, with its metrics as JSON beside it."""
+    """Convert the characters of a font into one texture, a shape for each, with its metrics as JSON beside it.
+
+    FONT is a file, or a folder of the faces of a font; by default Noto Sans.
+    """
     with one_line():
         from vexture.fonts.text import TextOptions
         from vexture.glyph_atlas import PRINTABLE, made_atlas
@@ -57,7 +60,7 @@ def font(
 
         check_places((), output, None, DEFAULT, False)
         asked = (chars or "") + ("" if chars_file is None else read_text(chars_file))
-        styled = TextOptions(font, (), weight, style, stretch, name=name)
+        styled = TextOptions(font or (), (), weight, style, stretch, name=name)
         ranged = [code for text in ranges for code in codes_of(text)]
         wanted = asked if asked or ranges else PRINTABLE
         parameters = given_options(options)
@@ -66,7 +69,7 @@ def font(
         files = made.files(target_of(output, made.texture.name), **stored)
         write_together(files)
         if not quiet:
-            say_notes(font, made.notes)
+            say_notes(font or made.texture.name, made.notes)
             target, metrics = files
             count = len(made.metrics["glyphs"])
             shapes = len(made.texture.roots)

@@ -41,6 +41,16 @@ UPRIGHT: Final = (
 
 STARTS: Final = [first for first, _ in UPRIGHT]
 
+BRACKETS: Final = "()[]{}⁅⁆⁽⁾₍₎⌈⌉⌊⌋❨❩❪❫❬❭❮❯❰❱❲❳❴❵⟅⟆⟦⟧⟨⟩⟪⟫⟬⟭⟮⟯⦃⦄⦅⦆〈〉《》「」『』【】〔〕〖〗〘〙〚〛（）［］｛｝｟｠｢｣"
+CLOSING: Final = dict(zip(BRACKETS[::2], BRACKETS[1::2], strict=True))
+"""Brackets that close what others open (BidiBrackets.txt, without those of rare scripts)."""
+
+DEEPEST_BRACKETS: Final = 63
+"""Open brackets from which on no more are paired (BD16)."""
+
+STRONG: Final = {"L": "L", "R": "R", "EN": "R", "AN": "R"}
+"""Directions of characters, for brackets around and beside them."""
+
 EMBEDDING: Final = {"LRI": "LRE", "RLI": "RLE", "FSI": "LRE", "PDI": "PDF"}
 """What stands for the isolates, which python-bidi does not know."""
 
@@ -86,6 +96,8 @@ def levels(text: Sequence[str], base: int, controls: Sequence[tuple[int, str]]) 
     storage["base_level"], storage["base_dir"], storage["chars"] = base, "LR"[base], characters
     algorithm.explicit_embed_and_overrides(storage)
     algorithm.resolve_weak_types(storage)
+    for run in storage["runs"]:
+        pair_brackets(text, characters_of(storage, run), run["sor"])
     algorithm.resolve_neutral_types(storage, False)
     algorithm.resolve_implicit_levels(storage, False)
     found = [-1] * len(text)
@@ -110,6 +122,48 @@ def bidirectional_algorithm() -> Any:
         raise DeviceError(
             "text from right to left needs the package python-bidi; install it: pip install 'vexture[text]'"
         ) from None
+
+
+def characters_of(storage: dict[str, Any], run: dict[str, Any]) -> list[dict[str, Any]]:
+    """Characters of a run of one level, as python-bidi keeps them."""
+    found: list[dict[str, Any]] = storage["chars"][run["start"] : run["start"] + run["length"]]
+    return found
+
+
+def pair_brackets(text: Sequence[str], run: list[dict[str, Any]], before: str) -> None:
+    """Give the brackets of a run one direction in pairs (rule N0, which python-bidi lacks).
+
+    `before` is the direction of what is before the run.
+    """
+    strong = [STRONG.get(character["type"]) for character in run]
+    for first, last in bracket_pairs(text, run):
+        own = "LR"[run[first]["level"] % 2]
+        inside = set(strong[first + 1 : last]) - {None}
+        if not inside:
+            continue
+        context = next((strong[k] for k in range(first - 1, -1, -1) if strong[k] is not None), before)
+        direction = own if own in inside or context == own else context
+        for place in (first, last):
+            run[place]["type"] = strong[place] = direction
+
+
+def bracket_pairs(text: Sequence[str], run: list[dict[str, Any]]) -> list[tuple[int, int]]:
+    """Places of brackets that belong together in a run, in the order of the first ones (definition BD16)."""
+    opened: list[tuple[str, int]] = []
+    pairs = []
+    for place, character in enumerate(run):
+        if character["type"] != "ON" or character["at"] < 0:
+            continue
+        shown = text[character["at"]]
+        if shown in CLOSING:
+            if len(opened) == DEEPEST_BRACKETS:
+                break
+            opened.append((CLOSING[shown], place))
+        closed = next((k for k in reversed(range(len(opened))) if opened[k][0] == shown), None)
+        if closed is not None:
+            pairs.append((opened[closed][1], place))
+            del opened[closed:]
+    return sorted(pairs)
 
 
 def entry(kind: str, level: int, at: int) -> dict[str, object]:
