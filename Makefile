@@ -52,7 +52,7 @@ help:
 
 .venv/for-demo: pyproject.toml | .venv/made
 	@echo 'installing vexture and its libraries into .venv (a minute or less) ...'
-	@$(INSTALL) --editable '.[gis,gpu,trace]'
+	@$(INSTALL) --editable '.[gis,gpu,text,trace]'
 	@touch $@
 
 .venv/for-test: pyproject.toml evidence/pyproject.toml | .venv/made

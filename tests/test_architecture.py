@@ -46,7 +46,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     "bezier": {"kernels", "tolerance"},
     "unit_square": {"bezier", "errors", "tolerance"},
     "drawing": BASE | {"bezier", "group", "notes", "paint", "unit_square"},
-    "svg": SOURCES,
+    "fonts": {"bezier", "content", "deadline", "drawing", "errors", "group", "notes", "paint"},
+    "svg": SOURCES | {"fonts"},
     "geo": SOURCES,
     "tracing": SOURCES | {"svg"},
     "reading": SOURCES | {"geo", "svg", "tracing"},
@@ -54,12 +55,15 @@ MAY_IMPORT: dict[str, set[str]] = {
     "renderers": BASE | {"drawing", "group", "layout", "paint"},
     "encodings": {"drawing", "errors", "renderers"},
     "texture": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "svg", "tree"},
-    "pipeline": BASE | {"drawing", "encodings", "notes", "reading", "texture", "tree"},
+    "parameters": {"deadline", "drawing", "errors"},
+    "pipeline": BASE | {"drawing", "encodings", "notes", "parameters", "reading", "texture", "tree"},
+    "glyph_atlas": {"deadline", "drawing", "errors", "fonts", "notes", "paint", "pipeline", "texture"},
     "images": BASE | {"drawing", "encodings", "group", "paint", "pipeline", "renderers"},
     "thesis": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "texture", "tree"},
     "fold": BASE | {"drawing", "layout", "notes", "renderers", "texture"},
     "flood": BASE | {"content", "drawing", "geo", "notes", "renderers"},
-    "live": SOURCES | {"encodings", "flood", "fold", "geo", "layout", "pipeline", "reading", "svg", "texture", "tree"},
+    "live": SOURCES
+    | {"encodings", "flood", "fold", "geo", "layout", "parameters", "pipeline", "reading", "svg", "texture", "tree"},
 }
 """What each part may import besides itself, wherever in a module; `cli` and the public face stand above all."""
 
@@ -81,6 +85,7 @@ WITH_SHADER_TEXT = {"renderers/shader.py", "thesis/shader.py"}
 SHADER_WORDS = re.compile(r"\b(texelFetch|gl_\w+|(uniform|varying|highp|mediump) \w+|[ib]?vec[234]\()|^#version", re.M)
 HEAVY = {
     "PIL",
+    "bidi",
     "cssselect2",
     "fontTools",
     "llvmlite",
@@ -103,6 +108,7 @@ HEAVY = {
     "shapely",
     "skia",
     "starlette",
+    "uharfbuzz",
     "uvicorn",
     "vtracer",
     "watchfiles",

@@ -8,6 +8,7 @@ import sys
 import warnings
 from pathlib import Path
 
+import matplotlib
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -128,15 +129,15 @@ def test_info(square, tmp_path):
 
 def test_warnings_are_one_line(tmp_path):
     file = tmp_path / "text.svg"
-    file.write_text(SVG.format('<text x="1" y="5">hello</text><text>again</text><path d="M2 2h6v5z"/>'))
+    file.write_text(SVG.format('<foreignObject/><foreignObject/><path d="M2 2h6v5z"/>'))
     result = run("convert", file, "-o", tmp_path)
     assert result.exit_code == 0
     lines = [line for line in result.output.splitlines() if "warning" in line]
     assert len(lines) == 1
-    assert "text" in lines[0]
+    assert "foreignObject" in lines[0]
 
 
-@pytest.mark.parametrize("content", ["", '<path d="M0 0h5v5z" display="none"/>', "<text>hi</text>"])
+@pytest.mark.parametrize("content", ["", '<path d="M0 0h5v5z" display="none"/>', "<foreignObject/>"])
 def test_empty_drawing_is_an_empty_texture_and_is_noted(tmp_path, content):
     file = tmp_path / "empty.svg"
     file.write_text(SVG.format(content))
@@ -353,3 +354,21 @@ def test_public_names_are_there():
         assert getattr(vexture, name).__name__ == name
     with pytest.raises(AttributeError, match="nothing"):
         _ = vexture.nothing
+
+
+def test_fonts_of_texts(tmp_path):
+    folder = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
+    file, areas = tmp_path / "text.svg", tmp_path / "areas.geojson"
+    file.write_text(SVG.format('<text y="8" font-size="8" font-family="cmr10">h</text>'))
+    areas.write_text('{"type": "Polygon", "coordinates": [[[4, 52], [6, 52], [6, 53], [4, 53]]]}')
+    for font in (folder, folder / "cmr10.ttf"):
+        result = run("convert", file, "-o", tmp_path, "--font", font, "--font", folder / "cmtt10.ttf")
+        assert (result.exit_code, result.stderr) == (0, "")
+        assert vexture.load(tmp_path / "text.ktx2").coverage(16).any()
+    shown = [run("render", file, "-o", tmp_path / "a.png", "--font", folder / name) for name in ("cmr10.ttf", "no.ttf")]
+    assert shown[0].stderr == ""
+    assert (shown[1].exit_code, shown[1].stderr.count("\n")) == (1, 1)
+    assert "no.ttf" in shown[1].stderr
+    refused = run("convert", areas, "-o", tmp_path, "--font", folder)
+    assert refused.exit_code == 1
+    assert f"--font '{folder}' is for the texts of an SVG; leave it out" in refused.stderr

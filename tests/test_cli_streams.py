@@ -29,7 +29,7 @@ def run(*arguments, given=None):
 @pytest.fixture
 def logo(tmp_path):
     file = tmp_path / "logo.svg"
-    file.write_text(LOGO.format("<text>hi</text>"))
+    file.write_text(LOGO.format("<foreignObject/>"))
     return file
 
 
@@ -115,7 +115,7 @@ def test_json_has_the_facts_of_each_source(logo, tmp_path):
     assert good["bytes"] == file.stat().st_size
     assert good["layers"] == len(good["shapes"]) == 2
     assert good["quads"] == sum(root["quads"] for root in texture.info()["roots"])
-    assert good["warning"] == f"{logo}: left out: <text>"
+    assert good["warning"] == f"{logo}: left out: <foreignObject>"
     assert failed.keys() == {"source", "error"}
     assert "holds nothing that can be read" in failed["error"]
 
@@ -169,7 +169,7 @@ def test_quiet_says_errors_only_and_verbose_each_shape(logo, tmp_path):
     assert run("convert", tmp_path / "gone.svg", "-o", tmp_path, "-q").stderr.count("\n") == 1
     plain = run("convert", logo, "-o", tmp_path, "--split", "paint")
     told = run("convert", logo, "-o", tmp_path, "--split", "paint", "-v")
-    assert "left out: <text>" in plain.stderr
+    assert "left out: <foreignObject>" in plain.stderr
     assert len(plain.stdout.splitlines()) == 1
     assert told.stdout.splitlines()[1:] == [
         "  shape 0: 1 quads, 4 curves",

@@ -22,8 +22,8 @@ def test_errors_begin_with_the_name_of_their_source() -> None:
 
 
 def test_what_is_left_out_is_noted() -> None:
-    drawing = read_drawing(b'<svg viewBox="0 0 9 9"><text>a</text><path d="M0 0h9v9z"/></svg>')
-    assert drawing.notes == (Note(kind="left out", message="<text>", count=1),)
+    drawing = read_drawing(b'<svg viewBox="0 0 9 9"><foreignObject/><path d="M0 0h9v9z"/></svg>')
+    assert drawing.notes == (Note(kind="left out", message="<foreignObject>", count=1),)
 
 
 def test_types_of_arguments_are_described() -> None:

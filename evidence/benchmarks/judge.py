@@ -14,6 +14,7 @@ import traceback
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, Final
@@ -123,8 +124,7 @@ def stages(case: Case) -> Iterator[Facts]:
     """Facts of a case, a stage at a time."""
     try:
         drawing, texture, seconds = converted(case)
-        # the references have no fonts: text excuses no difference
-        excuses = [note for note in drawing.notes if note.kind != "remark" and note.message != "<text>"]
+        excuses = [note for note in drawing.notes if note.kind != "remark"]
         yield {"seconds": seconds, "notes": line_of(case.name, excuses)}
         yield {"texture": texture_gap(drawing, texture)}
     except VextureError as error:
@@ -158,12 +158,20 @@ def texture_gap(drawing: Drawing, texture: Any) -> float:
     return float(np.abs(texture.coverage(SIZE, renderer="cpu") - exact).max())
 
 
+@cache
+def with_fonts() -> resvg.usvg.Options:
+    """Options of resvg with the fonts of the system, which are ours too."""
+    options = resvg.usvg.Options.default()
+    options.load_system_fonts()
+    return options
+
+
 def reading_gaps(case: Case, drawing: Drawing) -> Facts:
     """Largest differences between the pictures of a drawing and the references' of its file."""
     gaps: Facts = {}
     for finer in FINER:
         text, size = enlarged(case.same or case.content, drawing, SIZE * finer)
-        tree = resvg.usvg.Tree.from_str(text.decode(), resvg.usvg.Options.default())
+        tree = resvg.usvg.Tree.from_str(text.decode(), with_fonts())
         theirs = np.asarray(Image.open(io.BytesIO(bytes(resvg.render(tree, (1, 0, 0, 0, 1, 0))))).convert("RGBA"))
         ours = drawn(drawing, theirs.shape[:2], size)
         gaps = {"resvg": difference(ours, theirs, finer)}

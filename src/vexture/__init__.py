@@ -20,8 +20,10 @@ if TYPE_CHECKING:
     from vexture.fold.fold import Fold, fold_from
     from vexture.fold.picture import fold_picture
     from vexture.fold.shore import shore_fold
+    from vexture.fonts.text import text
     from vexture.geo.extent import Extent, Frame
     from vexture.geo.geojson import read_geojson
+    from vexture.glyph_atlas import FontAtlas, font_atlas
     from vexture.images import coverage, render
     from vexture.notes import Note
     from vexture.paint import Paint
@@ -40,6 +42,7 @@ __all__ = [
     "Extent",
     "FillRule",
     "Fold",
+    "FontAtlas",
     "FormatError",
     "Frame",
     "LimitError",
@@ -58,6 +61,7 @@ __all__ = [
     "coverage",
     "fold_from",
     "fold_picture",
+    "font_atlas",
     "load",
     "read",
     "read_extent",
@@ -67,6 +71,7 @@ __all__ = [
     "render",
     "shader_source",
     "shore_fold",
+    "text",
     "trace",
     "window",
 ]
@@ -77,8 +82,10 @@ _HOMES = {
     "vexture.fold.fold": ("Fold", "fold_from"),
     "vexture.fold.picture": ("fold_picture",),
     "vexture.fold.shore": ("shore_fold",),
+    "vexture.fonts.text": ("text",),
     "vexture.geo.extent": ("Extent", "Frame"),
     "vexture.geo.geojson": ("read_geojson",),
+    "vexture.glyph_atlas": ("FontAtlas", "font_atlas"),
     "vexture.images": ("coverage", "render"),
     "vexture.notes": ("Note",),
     "vexture.pipeline": ("atlas", "convert"),

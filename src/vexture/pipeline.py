@@ -6,12 +6,13 @@ import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Generic, Literal, TypeAlias, TypeVar, get_args, overload
+from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, overload
 
 from vexture.deadline import DEFAULT_SECONDS, within
 from vexture.encodings import DEFAULT, EncodedTexture, find_encoding
 from vexture.errors import ParameterError
 from vexture.notes import Note, warn_of
+from vexture.parameters import Fonts, Parameters, Split
 from vexture.tolerance import UNSEEN
 
 if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take long
@@ -19,9 +20,7 @@ if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take 
     from vexture.texture.texture import Root, Texture
 
 __all__ = [
-    "READING",
     "Conversion",
-    "Parameters",
     "Source",
     "atlas",
     "combine",
@@ -34,57 +33,7 @@ __all__ = [
 Source: TypeAlias = "Drawing | str | os.PathLike[str]"
 """A drawing, or the path of a file that `vexture.read` reads."""
 
-Split: TypeAlias = Literal["auto", "faces", "paint"] | None
-"""How a drawing becomes shapes; see `vexture.convert`."""
-
-SPLITS = get_args(get_args(Split)[0])
-
-READING: Final = ("select", "names", "snap")
-"""Parameters of the source's reader."""
-
 AnyTexture = TypeVar("AnyTexture", bound=EncodedTexture, covariant=True)
-
-
-@dataclass(frozen=True, slots=True)
-class Parameters:
-    """Parameters of a conversion, as `vexture.convert` describes them; None is the default.
-
-    Examples
-    --------
-    >>> Parameters(split="colour")
-    Traceback (most recent call last):
-    vexture.errors.ParameterError: `split` is 'colour'; it must be 'auto', 'faces', 'paint' or None
-    """
-
-    split: Split = "auto"
-    select: str | None = None
-    tolerance: float | Literal["auto"] = "auto"
-    max_depth: int | None = None
-    capacity: int | None = None
-    precision: float | None = None
-    max_seconds: float = DEFAULT_SECONDS
-    names: str | None = None
-    snap: float | None = None
-    restyle: bool = False
-
-    def __post_init__(self) -> None:
-        if self.split is not None and self.split not in SPLITS:
-            raise ParameterError(f"`split` is {self.split!r}; it must be {', '.join(map(repr, SPLITS))} or None")
-        if self.restyle and self.split not in ("auto", "faces"):
-            raise ParameterError(
-                f"`split` is {self.split!r}, but `restyle` is for a whole drawing in its colours: 'faces'"
-            )
-
-    @property
-    def reading(self) -> dict[str, Any]:
-        """Those of the source's reader that are given."""
-        return {name: value for name in READING if (value := getattr(self, name)) is not None}
-
-    def split_of(self, drawing: "Drawing") -> Split:
-        """How a drawing becomes shapes: "auto" decided."""
-        if self.split != "auto":
-            return self.split
-        return "faces" if self.restyle or drawing.is_coloured else None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -227,6 +176,7 @@ def convert(
     names: str | None = ...,
     snap: float | None = ...,
     restyle: bool = ...,
+    fonts: Fonts = ...,
 ) -> "Texture": ...
 
 
@@ -248,6 +198,7 @@ def convert(
     names: str | None = None,
     snap: float | None = None,
     restyle: bool = False,
+    fonts: Fonts = None,
     **others: Any,
 ) -> EncodedTexture:
     """Convert a drawing into a texture.
@@ -285,6 +236,8 @@ def convert(
     restyle : bool
         With ``split="faces"``: the colours of elements can be changed in the texture (`Texture.with_paints`), and it
         tells which element is at a point (`Texture.element_at`). Elements of one colour keep their borders.
+    fonts : sequence of path, optional
+        Font files, and folders of them, for the texts of an SVG; see `vexture.read_svg`.
     **others
         Parameters of another encoding.
 
@@ -316,7 +269,9 @@ def convert(
     >>> [root.name for root in convert(triangle).roots]
     ['drawing']
     """
-    named = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle)
+    named = Parameters(
+        split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts
+    )
     values = ((field.name, getattr(named, field.name)) for field in fields(named))
     given = {name: value for name, value in values if (value is not None and value is not False) or name == "split"}
     if encoding != DEFAULT and split in ("auto", None):
@@ -349,6 +304,7 @@ def atlas(
     names: str | None = None,
     snap: float | None = None,
     restyle: bool = False,
+    fonts: Fonts = None,
 ) -> "Texture":
     """Convert many drawings into one texture: a shape for each, or if `split` is ``"paint"`` for each layer of each.
 
@@ -359,7 +315,7 @@ def atlas(
         ``name/layer``.
     name : str
         Names the texture.
-    split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle
+    split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts
         As in `vexture.convert`, for each source.
 
     Returns
@@ -380,7 +336,9 @@ def atlas(
     >>> [root.name for root in both.roots]
     ['a', 'b']
     """
-    parameters = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle)
+    parameters = Parameters(
+        split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts
+    )
     if isinstance(sources, str | bytes | os.PathLike) or not isinstance(sources, Iterable):
         sources = [sources]
     parts = []

@@ -2,6 +2,7 @@
 
 import io
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, TypeAlias
 
@@ -40,6 +41,7 @@ def read(
     select: str | None = None,
     names: str | None = None,
     snap: float | None = None,
+    fonts: Sequence[Place] = (),
 ) -> "Drawing":
     """Read a drawing from a file of any supported kind; its content decides, not its suffix.
 
@@ -62,6 +64,8 @@ def read(
         (`vexture.read_svg`).
     snap : float, optional
         How far borders of polygons that become one may differ, of maps only; see `vexture.read_geojson`.
+    fonts : sequence of path
+        Font files, and folders of them, for the texts of an SVG; see `vexture.read_svg`.
 
     Returns
     -------
@@ -74,7 +78,7 @@ def read(
         If it cannot be read, or is a texture.
     ParameterError
         If `select` is given for anything but an SVG, `names` for neither GeoJSON nor SVG, `snap` for anything but a
-        map, or `source` is the text of a file.
+        map, `fonts` for anything but an SVG, or `source` is the text of a file.
     TypeError
         If `source` is something else, such as a file that is open in text mode.
     LimitError
@@ -94,7 +98,7 @@ def read(
     >>> read(b'{"type": "Polygon", "coordinates": [[[4, 52], [6, 52], [6, 53], [4, 53]]]}').crs
     'OGC:CRS84'
     """
-    drawing = read_drawing(source, name=name, select=select, names=names, snap=snap)
+    drawing = read_drawing(source, name=name, select=select, names=names, snap=snap, fonts=fonts)
     warn_of(name_of(source, name), drawing.notes)
     return drawing
 
@@ -106,6 +110,7 @@ def read_drawing(
     select: str | None = None,
     names: str | None = None,
     snap: float | None = None,
+    fonts: Sequence[Place] = (),
 ) -> "Drawing":
     """Read a drawing as `read` does, but without a warning."""
     source, shown = _checked(source), name_of(source, name)
@@ -116,12 +121,14 @@ def read_drawing(
             raise ParameterError(f"`names` {names!r} is for the elements of GeoJSON and SVG; leave it out")
         if snap is not None and kind in (FileKind.SVG, FileKind.PICTURE):
             raise ParameterError(f"`snap` {snap} is for the borders of polygons in a map; leave it out")
+        if fonts and kind is not FileKind.SVG:
+            raise ParameterError(f"`fonts` {os.fspath(fonts[0])!r} is for the texts of an SVG; leave it out")
         if kind is not FileKind.SVG:
             return _read_other(kind, given, shown, select, names, snap)
         content = read_bytes(given)
     from vexture.svg.read import svg_drawing
 
-    return svg_drawing(content, shown, select, names)
+    return svg_drawing(content, shown, select, names, fonts)
 
 
 def drawing_of(source: "Drawing | Place", reading: dict[str, Any]) -> "Drawing":

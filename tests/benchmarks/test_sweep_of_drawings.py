@@ -38,7 +38,7 @@ def judged(content: bytes, same: bytes | None = None) -> str:
         (GROUPED, GROUPED.replace(b"multiply", b"screen"), "silent"),
         (SQUARE, OTHER, "silent"),
         (MASKED, OTHER, "warned"),
-        (LETTERED, OTHER, "silent"),  # no reference draws text
+        (LETTERED, OTHER, "silent"),
         (b"<svg", None, "refused"),
         (SQUARE, b"<svg", "unjudged"),
         (ROOT.format("").encode(), None, "right"),

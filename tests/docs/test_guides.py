@@ -12,7 +12,11 @@ from PIL import Image
 import vexture
 from guides import GUIDES, Block, Reader, alike, blocks_of, free_port
 
-ELSEWHERE = {"from-svg-to-three": "web/test_guide_three.py", "coastal-data": "flood/test_guide_coastal.py"}
+ELSEWHERE = {
+    "from-svg-to-three": "web/test_guide_three.py",
+    "coastal-data": "flood/test_guide_coastal.py",
+    "fonts": "web/test_guide_fonts.py",
+}
 TESTS = Path(__file__).parents[1]
 
 

@@ -20,6 +20,8 @@ from degenerate import OUTLINES, heap
 from vexture.drawing import Drawing, FillRule
 from vexture.errors import EXPECTED
 from vexture.fold.fold import fold_from
+from vexture.fonts.face import faces_in
+from vexture.fonts.shaping import shape
 from vexture.pipeline import convert
 from vexture.reading import read_drawing
 from vexture.renderers.exact import render_exact
@@ -183,6 +185,25 @@ def read_thesis(data: bytes) -> str:
     return f"{texture.bits} {texture.depth}"
 
 
+def read_font(data: bytes) -> str:
+    """A font: all that a text asks of its faces, outlines and colours."""
+    faces = faces_in(data)
+    for face in faces:
+        shaped = [glyph.glyph for glyph in shape(face, "AVA\u0627\u0644 ")]
+        for glyph in (*shaped, 0, 5, face.glyph_count - 1, face.glyph_count):
+            layers = face.layers(glyph)
+            contours = (
+                [contour for path in layers.paths for contour in path.contours] if layers else face.outline(glyph)
+            )
+            if not all(np.isfinite(contour).all() for contour in contours):
+                raise FindingError("a contour is not finite")
+        metrics = (face.ascender, face.descender, face.x_height, face.cap_height, *face.underline, *face.vertical)
+        if not np.isfinite(metrics).all() or face.units_per_em <= 0:
+            raise FindingError("a metric is not finite")
+        face.varied(700.0, 80.0, "italic").outline(1)
+    return f"{len(faces)} {[face.names for face in faces]}"
+
+
 def read_geometry(data: bytes) -> str:
     """A recipe of `degenerate.heap` and a size: its texture is drawn as the exact renderer draws the drawing."""
     seed, counts, distance, rule, kind, size = data.decode().split()
@@ -280,6 +301,7 @@ TARGETS = {
     "packed-js": Target(in_javascript("packed", read_packed), KTX),
     "fold-js": Target(in_javascript("fold", read_fold), KTX),
     "thesis-js": Target(in_javascript("thesis", read_thesis), BINARY, repair=png_repaired),
+    "font": Target(read_font, BINARY, in_a_second=1000),
     "geometry": Target(read_geometry, make=recipe, in_a_second=2),
     "gzip": Target(drawing(".svgz")),
     "picture": Target(drawing(".png"), BINARY, repair=png_repaired, in_a_second=50),

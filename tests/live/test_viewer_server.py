@@ -199,11 +199,11 @@ def test_warnings_are_facts(tmp_path):
     drawing = tmp_path / "label.svg"
     drawing.write_text(
         '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><g opacity="0.5"><path d="M1 1h5v5z"/>'
-        '<path d="M1 1h5v5z"/></g><text>a</text></svg>'
+        '<path d="M1 1h5v5z"/></g><foreignObject/></svg>'
     )
     with viewing(tmp_path, drawing) as running:
         (warning,) = running.manifest("label")["facts"]["warnings"]
-        assert warning.endswith("label.svg: left out: <text>")
+        assert warning.endswith("label.svg: left out: <foreignObject>")
         assert warning in running.complaints.read_text()
 
 

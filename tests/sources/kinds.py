@@ -11,7 +11,9 @@ from geographic import UTM, file
 from PIL import Image
 from rasterio.transform import Affine
 
-SVG = b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><path d="M1 1h5v7z" fill="red"/><text>a</text></svg>'
+SVG = (
+    b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><path d="M1 1h5v7z" fill="red"/><foreignObject/></svg>'
+)
 RING = [[4, 52], [6, 52], [6, 53], [4, 53]]
 GEOMETRIES = [{"type": "Polygon", "coordinates": [RING]}, {"type": "Point", "coordinates": [4, 52]}]
 PICTURES = {"png": "PNG", "jpg": "JPEG", "webp": "WEBP", "gif": "GIF", "bmp": "BMP"}

@@ -4,8 +4,10 @@ Only for files that we wrote ourselves: both libraries crash on hostile ones.
 """
 
 import io
+from functools import cache
 from pathlib import Path
 
+import matplotlib
 import numpy as np
 import resvg
 import skia
@@ -14,12 +16,30 @@ from PIL import Image
 from vexture.drawing import Drawing
 from vexture_evidence.measures.peers import paint_with_skia
 
-__all__ = ["difference", "render_drawing", "render_file"]
+__all__ = ["FONTS", "difference", "different_part", "render_drawing", "render_file"]
+
+
+FONTS = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
+"""Fonts with Latin, Greek, Arabic and Hebrew letters, of which resvg and the tests of texts use no others."""
+
+
+SIDE, FINER = 100, 4
+"""Pixels across a picture, and those of it as it is drawn across one of them."""
+
+VISIBLE = 40 / 255
+
+
+@cache
+def options() -> resvg.usvg.Options:
+    """Options of resvg with the fonts."""
+    made = resvg.usvg.Options.default()
+    made.load_fonts_dir(str(FONTS))
+    return made
 
 
 def render_file(text: str) -> np.ndarray:
     """What resvg draws, (height, width, 4), at the file's own size."""
-    tree = resvg.usvg.Tree.from_str(text, resvg.usvg.Options.default())
+    tree = resvg.usvg.Tree.from_str(text, options())
     png = bytes(resvg.render(tree, (1, 0, 0, 0, 1, 0)))
     return premultiplied(np.array(Image.open(io.BytesIO(png)).convert("RGBA")))
 
@@ -47,3 +67,13 @@ def difference(path: Path, drawing: Drawing, text: str | None = None) -> tuple[f
     gap = np.abs(theirs - ours).max(axis=2)
     touched = (theirs[..., 3] > 0) | (ours[..., 3] > 0)
     return (float(gap[touched].mean()) if touched.any() else 0.0), float(gap.max())
+
+
+def different_part(path: Path, drawing: Drawing, text: str | None = None) -> float:
+    """Part of the pixels of a square file, drawn larger and reduced, that differ by more than `VISIBLE` on white."""
+    larger = (text or path.read_text()).replace("<svg ", f'<svg width="{SIDE * FINER}" height="{SIDE * FINER}" ', 1)
+    theirs = render_file(larger)
+    pictures = [theirs, render_drawing(drawing, *theirs.shape[:2])]
+    on_white = [picture[..., :3] + 1.0 - picture[..., 3:] for picture in pictures]
+    coarse = [picture.reshape(SIDE, FINER, SIDE, FINER, 3).mean(axis=(1, 3)) for picture in on_white]
+    return float((np.abs(coarse[0] - coarse[1]).max(axis=2) > VISIBLE).mean())

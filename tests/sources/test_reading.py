@@ -21,8 +21,8 @@ from vexture.notes import Note, line_of
 from vexture.reading import content_of, read_drawing
 
 NOTED = {
-    "packed.svgz": (Note("left out", "<text>"),),
-    "plain.svg": (Note("left out", "<text>"),),
+    "packed.svgz": (Note("left out", "<foreignObject>"),),
+    "plain.svg": (Note("left out", "<foreignObject>"),),
     "raster.tif": (
         Note(
             "remark",

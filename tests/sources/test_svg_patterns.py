@@ -51,7 +51,7 @@ CASES = {
     "invalid units": (dots(SIZE.replace("10", "50") + ' patternContentUnits="melt"'), [4], ["#ff0000"]),
     "no content": (PATTERN.format(SIZE, "<!-- none -->") + RECT.format(FILLED), [], []),
     "no content, fallback": (PATTERN.format(SIZE, "") + RECT.format(FALLBACK), [1], ["#00ff00"]),
-    "content that is not painted": (PATTERN.format(SIZE, "<text>a</text>") + RECT.format(FALLBACK), [], []),
+    "content that is not painted": (PATTERN.format(SIZE, "<foreignObject/>") + RECT.format(FALLBACK), [], []),
     "references in a circle": (
         f'<pattern id="p" href="#q"/><pattern id="q" href="#p" {SIZE}/>{RECT.format(FILLED)}',
         [],

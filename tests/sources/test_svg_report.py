@@ -26,7 +26,7 @@ SAID = {
     "image": "left out: <image>; nothing in it is painted",
     "import": "left out: @import",
     "lab-color": "simplified: colour of a space other than sRGB read as black",
-    "many": "left out: <text> (2), <image>; invalid and ignored: r='x' of <rect> in line 5",
+    "many": "left out: <foreignObject> (2), <image>; invalid and ignored: r='x' of <rect> in line 5",
     "marker": "left out: marker-start 'url(#none)', marker-start that refers to itself, of <marker id=\"c\"> in line 2;"
     " invalid and ignored: markerWidth='-3' of <marker id=\"c\"> in line 2",
     "mask": "left out: mask 'url(stars.svg#m)'",
@@ -34,7 +34,6 @@ SAID = {
     "pattern": 'simplified: <pattern id="c"> in line 2 read as solid: here it has 12,500,000,000 segments in its tiles;'
     " all patterns of a drawing may have 400,000",
     "script": "left out: script",
-    "text": "left out: <text>; nothing in it is painted",
     "unknown-element": "left out: <flowRoot>",
     "vector-effect": "left out: vector-effect 'fixed-position'",
 }
@@ -88,7 +87,7 @@ def test_layers_name_the_opacity_of_the_outermost_svg() -> None:
     assert [str(note) for note in drawing.layers()[0].notes] == [GROUP]
 
 
-SHARED = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><g opacity=".5">{TWO}</g><text>a</text></svg>'
+SHARED = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><g opacity=".5">{TWO}</g><foreignObject/></svg>'
 
 
 def warned(work: Callable[[], object]) -> list[str]:
@@ -101,7 +100,7 @@ def warned(work: Callable[[], object]) -> list[str]:
 def test_what_layers_lose_is_warned_of_where_a_drawing_is_stacked(tmp_path: Path) -> None:
     file = tmp_path / "a.svg"
     file.write_text(SHARED)
-    unread, lost = f"{file}: left out: <text>", f"simplified: {GROUP}"
+    unread, lost = f"{file}: left out: <foreignObject>", f"simplified: {GROUP}"
     assert warned(lambda: convert(file)) == [unread]
     assert warned(lambda: convert(file, split="paint")) == [f"{unread}; {lost}"]
     assert warned(lambda: atlas([file], split="paint")) == [f"{unread}; {lost}"]
@@ -155,9 +154,9 @@ def test_a_long_list_is_cut(tmp_path: Path) -> None:
 def test_a_file_without_size_is_reported_once(tmp_path: Path) -> None:
     """It is painted twice, the first time to find its size."""
     file = tmp_path / "a.svg"
-    file.write_text('<svg><text>a</text><rect width="9" height="9"/></svg>')
-    with pytest.warns(SourceWarning, match="left out: <text>$"):
+    file.write_text('<svg><foreignObject/><rect width="9" height="9"/></svg>')
+    with pytest.warns(SourceWarning, match="left out: <foreignObject>$"):
         read_svg(file)
-    file.write_text("<svg><text>a</text></svg>")
-    with pytest.warns(SourceWarning, match="left out: <text>; nothing in it is painted$"):
+    file.write_text("<svg><foreignObject/></svg>")
+    with pytest.warns(SourceWarning, match="left out: <foreignObject>; nothing in it is painted$"):
         read_svg(file)

@@ -17,7 +17,7 @@ MAP = """<svg {}><style>.road {{ stroke: red; fill: none }} g > .road {{ stroke-
 <g id="roads" map:label="Roads" opacity="0.5"><path class="road" d="M10 80H90"/></g>
 <svg x="50" y="50" width="20" height="20" viewBox="0 0 2 2"><rect id="clipped" x="1" width="9" height="9"/></svg>
 <use id="here" href="#pin" width="10" height="10"/><g display="none"><path id="hidden" d="M0 0h9v9z"/></g>
-<text id="words">words</text></svg>"""
+<foreignObject id="words">words</foreignObject></svg>"""
 
 
 @pytest.fixture
@@ -29,7 +29,7 @@ def file(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def whole(file: Path) -> Drawing:
-    with pytest.warns(SourceWarning, match="left out: <text>$"):
+    with pytest.warns(SourceWarning, match="left out: <foreignObject>$"):
         return read_svg(file)
 
 
@@ -56,7 +56,7 @@ def whole(file: Path) -> Drawing:
 def test_parts_are_painted_as_in_the_whole(file: Path, whole: Drawing, select: str, painted: list[int]) -> None:
     warned = ("svg",)
     if select in warned:
-        with pytest.warns(SourceWarning, match="text"):
+        with pytest.warns(SourceWarning, match="foreignObject"):
             part = read_svg(file, select)
     else:
         part = read_svg(file, select)
@@ -118,5 +118,5 @@ def test_what_chooses_nothing_gets_one_line(file: Path, select: str) -> None:
 def test_what_is_not_chosen_is_not_complained_about(file: Path, recwarn: pytest.WarningsRecorder) -> None:
     assert read_svg(file, "#island").segments == 3
     assert not recwarn.list
-    with pytest.warns(SourceWarning, match="left out: <text>$"):
-        read_svg(file, "text, #island")
+    with pytest.warns(SourceWarning, match="left out: <foreignObject>$"):
+        read_svg(file, "foreignObject, #island")

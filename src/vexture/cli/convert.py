@@ -4,10 +4,9 @@ import json
 import logging
 import signal
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
 from functools import partial
 from multiprocessing import active_children, get_context
 from pathlib import Path
@@ -15,24 +14,44 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from vexture.cli.messages import as_options, one_line, say
-from vexture.cli.options import PATH, SILHOUETTE_HELP, STANDARD, Sectioned, split_of, standard_input, tolerance_option
+from vexture.cli.messages import one_line, say
+from vexture.cli.options import (
+    PATH,
+    SILHOUETTE_HELP,
+    STANDARD,
+    Sectioned,
+    font_option,
+    split_of,
+    standard_input,
+    tolerance_option,
+)
+from vexture.cli.outcome import (
+    NORMAL,
+    QUIET,
+    VERBOSE,
+    Outcome,
+    facts_of,
+    is_texture_file,
+    say_outcome,
+    shape_facts,
+    written,
+)
 from vexture.deadline import DEFAULT_SECONDS
 from vexture.encodings import DEFAULT, REGISTERED
-from vexture.errors import EXPECTED, ParameterError, VextureError
+from vexture.errors import EXPECTED, ParameterError
 from vexture.layout import PACKED_SUFFIX
 
 if TYPE_CHECKING:
     from vexture.drawing import Drawing
-    from vexture.pipeline import Conversion
 
-__all__ = ["convert"]
+__all__ = ["check_places", "convert", "given_options", "options_of_convert"]
 
 BELONGS_TO: Final = {
     "split": DEFAULT,
     "restyle": DEFAULT,
     "names": DEFAULT,
     "snap": DEFAULT,
+    "fonts": DEFAULT,
     "capacity": DEFAULT,
     "precision": DEFAULT,
     "deflate": DEFAULT,
@@ -44,8 +63,6 @@ BELONGS_TO: Final = {
 FILE_SUFFIXES: Final = (PACKED_SUFFIX, ".svg", ".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp")
 """Endings of files: a folder of such a name would be a mistake."""
 
-QUIET, NORMAL, VERBOSE = -1, 0, 1
-
 EXAMPLE = """\b
 Examples:
   vexture convert logo.svg                              logo.ktx2, in its colours
@@ -53,18 +70,6 @@ Examples:
   vexture convert icons/*.svg --atlas icons.ktx2 -j 4   one texture of all icons
   cat logo.svg | vexture convert - -o - > logo.ktx2     from and to a pipe
 """
-
-
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """Result of one source: the contents of its files, or for an atlas its trees; or why there are none."""
-
-    source: Path
-    facts: dict[str, Any]
-    files: dict[str, bytes] | None = None
-    trees: "Conversion[Any] | None" = None
-    warning: str = ""
-    error: str = ""
 
 
 @click.command(cls=Sectioned, epilog=EXAMPLE)
@@ -99,6 +104,7 @@ class Outcome:
     help="Make borders of a map's polygons one where they differ by no more than D, in parts of the drawing's longer "
     "side; 0 leaves them.  [default: 3e-6]",
 )
+@font_option
 @tolerance_option
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
 @click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 8, in colours 12]")
@@ -148,21 +154,21 @@ def convert(
         parameters = _checked(encoding, options)
         to_pipe = Path(STANDARD) in (output, atlas)
         level = QUIET if quiet else VERBOSE if verbose else NORMAL
-        _check_places(sources, output, atlas, encoding, to_pipe)
+        check_places(sources, output, atlas, encoding, to_pipe)
         stored = {name: parameters.pop(name) for name in ("deflate",) if name in parameters}
         work = partial(_convert_one, encoding=encoding, parameters=parameters, stored=stored)
         work = partial(work, for_atlas=atlas is not None, quiet=quiet)
         outcomes: list[Outcome] = []
-        owners: dict[str, Path] = {}
+        owners: dict[str, Path | str] = {}
         for found in _outcomes(work, sources, jobs, level):
-            outcome = found if atlas or found.error else _written(found, output or Path(), owners)
-            _say(outcome, level, quiet=as_json, to_pipe=to_pipe)
+            outcome = found if atlas or found.error else written(found, output or Path(), owners)
+            say_outcome(outcome, level, quiet=as_json, to_pipe=to_pipe)
             outcomes.append(outcome)
         failed = sum(bool(outcome.error) for outcome in outcomes)
         if atlas is not None and not failed:
             _write_atlas(outcomes, atlas, stored, silent=as_json or level == QUIET, to_pipe=to_pipe)
         if as_json:
-            click.echo(json.dumps([_facts_of(outcome) for outcome in outcomes], indent=2), err=to_pipe)
+            click.echo(json.dumps([facts_of(outcome) for outcome in outcomes], indent=2), err=to_pipe)
     if failed:
         if len(sources) > 1:
             say(f"{failed} of {len(sources)} files failed{'' if atlas is None else f'; {atlas} is not written'}")
@@ -171,7 +177,7 @@ def convert(
 
 def _checked(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
     """Parameters of the conversion, without those that were not given."""
-    parameters = {name: value for name, value in options.items() if value is not None}
+    parameters = given_options(options)
     for name, owner in BELONGS_TO.items():
         if name in parameters and owner != encoding:
             value = parameters[name]
@@ -179,7 +185,6 @@ def _checked(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
             raise ParameterError(
                 f"{given} means nothing to the encoding {encoding}; leave it out or use `encoding` {owner}"
             )
-    parameters |= split_of(parameters.get("split"), parameters.pop("silhouette", None))
     if encoding != DEFAULT:
         parameters.pop("split", None)  # other encodings have silhouettes only
     if "bits" in parameters:
@@ -187,7 +192,24 @@ def _checked(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
     return parameters
 
 
-def _check_places(
+def given_options(options: dict[str, Any]) -> dict[str, Any]:
+    """Parameters that are given as options."""
+    parameters = {name: value for name, value in options.items() if value is not None}
+    return parameters | split_of(parameters.get("split"), parameters.pop("silhouette", None))
+
+
+def options_of_convert(*names: str) -> Callable[[click.Command], click.Command]:
+    """Give a command some of the options of `convert`, at the end of its own."""
+
+    def with_options(command: click.Command) -> click.Command:
+        known = {option.name: option for option in convert.params}
+        command.params += [known[name] for name in names]
+        return command
+
+    return with_options
+
+
+def check_places(
     sources: tuple[Path, ...], output: Path | None, atlas: Path | None, encoding: str, to_pipe: bool
 ) -> None:
     """Refuse outputs that cannot be written, before anything is converted."""
@@ -210,17 +232,13 @@ def _check_places(
     if to_pipe and len(sources) > 1:
         raise ParameterError("`output` -: standard output takes one texture; use `atlas` - or name a folder")
     place = output or Path()
-    is_file = to_pipe or _is_texture_file(place, encoding)
+    is_file = to_pipe or is_texture_file(place, encoding)
     if is_file and len(sources) > 1:
         raise ParameterError(f"`output` {output}: one file for {len(sources)} drawings; use `atlas`, or name a folder")
     if not is_file and place.suffix.lower() in FILE_SUFFIXES and not place.is_dir():
         remedy = f"FILE{PACKED_SUFFIX} or a folder" if encoding == DEFAULT else "a folder, for several files"
         raise ParameterError(f"`output` {output}: the encoding {encoding} writes no such file; name {remedy}")
     writable(place.parent if is_file else place)
-
-
-def _is_texture_file(output: Path, encoding: str) -> bool:
-    return encoding == DEFAULT and output.suffix.lower() == PACKED_SUFFIX and not output.is_dir()
 
 
 def _convert_one(
@@ -237,7 +255,8 @@ def _convert_one(
     `stored` are the parameters of the texture's `files`.
     """
     from vexture.notes import line_of
-    from vexture.pipeline import READING, Parameters, run, trees_of
+    from vexture.parameters import READING, Parameters
+    from vexture.pipeline import run, trees_of
     from vexture.reading import read_drawing
     from vexture.texture.ktx2 import TEXEL_BYTES
 
@@ -260,27 +279,7 @@ def _convert_one(
     except EXPECTED as error:
         return Outcome(source, {}, error=str(error))
     warning = line_of(str(source), done.notes)
-    return Outcome(source, _facts(done) | {"bytes": size}, files, done if for_atlas else None, warning)
-
-
-def _facts(done: "Conversion[Any]") -> dict[str, Any]:
-    """Facts of a conversion, ready for JSON."""
-    shapes = [
-        {"quads": len(tree.coverage), "curves": len(tree.curves), "unresolved": int(tree.unresolved)}
-        for tree in done.trees
-    ]
-    return {
-        "name": done.drawing.name,
-        "segments": done.drawing.segments,
-        "layers": len(shapes),
-        "quads": sum(shape["quads"] for shape in shapes),
-        "curves": sum(shape["curves"] for shape in shapes),
-        "milliseconds": round(1000.0 * done.seconds, 1),
-        "deviation": max(float(tree.deviation) for tree in done.trees),
-        "rounding": done.rounding,
-        "unresolved": sum(shape["unresolved"] for shape in shapes),
-        "shapes": shapes,
-    }
+    return Outcome(source, shape_facts(done) | {"bytes": size}, files, done if for_atlas else None, warning)
 
 
 def _outcomes(work: Any, sources: tuple[Path, ...], jobs: int, level: int) -> Iterator[Outcome]:
@@ -309,31 +308,6 @@ def _end_workers(kind: type[BaseException] | None, *_: object) -> None:
         worker.terminate()
 
 
-def _written(outcome: Outcome, output: Path, owners: dict[str, Path]) -> Outcome:
-    """Write the files of an outcome, and return it with their names, or with an error."""
-    from vexture.texture.files import file_name, write_together
-
-    assert outcome.files is not None
-    if output == Path(STANDARD):
-        sys.stdout.buffer.write(next(iter(outcome.files.values())))
-        return outcome
-    if _is_texture_file(output, DEFAULT if len(outcome.files) == 1 else ""):
-        places = {output: next(iter(outcome.files.values()))}
-    else:
-        stem = file_name(outcome.facts["name"])
-        places = {output / (stem + suffix): data for suffix, data in outcome.files.items()}
-    first = str(next(iter(places)))
-    if first in owners:
-        error = f"{outcome.source}: {first} is already what {owners[first]} became; convert it to another folder"
-        return replace(outcome, error=error)
-    try:
-        write_together(places)
-    except VextureError as error:
-        return replace(outcome, error=str(error))
-    owners[first] = outcome.source
-    return replace(outcome, facts=outcome.facts | {"files": [str(place) for place in places]})
-
-
 def _write_atlas(outcomes: list[Outcome], atlas: Path, stored: dict[str, Any], *, silent: bool, to_pipe: bool) -> None:
     """Write one texture of all shapes."""
     from vexture.pipeline import combine
@@ -347,38 +321,3 @@ def _write_atlas(outcomes: list[Outcome], atlas: Path, stored: dict[str, Any], *
         texture.save(atlas, **stored)
     if not silent:
         click.echo(f"{atlas}: {len(texture.roots)} shapes, {len(data)} bytes", err=to_pipe)
-
-
-def _say(outcome: Outcome, level: int, *, quiet: bool, to_pipe: bool) -> None:
-    """Print the result of one source."""
-    if outcome.error:
-        say(outcome.error)
-        return
-    if level > QUIET and outcome.warning:
-        say(f"warning: {outcome.warning}")
-    if level > QUIET and not quiet:
-        click.echo(_line(outcome.facts), err=to_pipe)
-    if level == VERBOSE and not quiet:
-        for place, shape in enumerate(outcome.facts["shapes"]):
-            click.echo(f"  shape {place}: {shape['quads']} quads, {shape['curves']} curves", err=to_pipe)
-        for file in outcome.facts.get("files", ()):
-            click.echo(f"  {file}", err=to_pipe)
-
-
-def _line(facts: dict[str, Any]) -> str:
-    """One line about a source."""
-    layers = f"{facts['layers']} layers, " if facts["layers"] > 1 else ""
-    line = (
-        f"{facts['name']}: {facts['segments']} segments, {layers}{facts['quads']} quads, {facts['curves']} curves, "
-        f"{facts['bytes']} bytes, {facts['milliseconds']:.1f} ms, "
-        f"distance {facts['deviation']:.1e} + {facts['rounding']:.1e}"
-    )
-    return line + (f", {facts['unresolved']} cells at the depth limit" if facts["unresolved"] else "")
-
-
-def _facts_of(outcome: Outcome) -> dict[str, Any]:
-    """Facts of a source for JSON, its error or warning included."""
-    facts: dict[str, Any] = {"source": str(outcome.source)}
-    if outcome.error:
-        return facts | {"error": as_options(outcome.error)}
-    return facts | outcome.facts | ({"warning": outcome.warning} if outcome.warning else {})

@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 
 from vexture.cli.messages import one_line, say_notes
-from vexture.cli.options import PATH
+from vexture.cli.options import PATH, font_option
 from vexture.errors import ParameterError
 
 __all__ = ["fold"]
@@ -26,7 +26,16 @@ Example:
 @click.option("--period", metavar="SECONDS", type=float, default=8.0, show_default=True, help="From wave to wave.")
 @click.option("--size", metavar="N", type=int, default=64, show_default=True, help="Texels each way, 8 to 256.")
 @click.option("--picture", metavar="PNG", type=PATH, help="Draw what moves where, too.")
-def fold(drawing: Path, output: Path, amplitude: float, period: float, size: int, picture: Path | None) -> None:
+@font_option
+def fold(
+    drawing: Path,
+    output: Path,
+    amplitude: float,
+    period: float,
+    size: int,
+    picture: Path | None,
+    fonts: tuple[Path, ...] | None,
+) -> None:
     """Make the outline of a drawing slide to and fro, as water on a beach."""
     with one_line():
         import numpy as np
@@ -41,7 +50,7 @@ def fold(drawing: Path, output: Path, amplitude: float, period: float, size: int
             raise ParameterError(f"`picture` {picture}: pictures are PNG files; name one that ends in .png")
         if not output.is_dir() and output.suffix.lower() != PACKED_SUFFIX:
             raise ParameterError(f"`output` {output}: folds are KTX2 files; name one that ends in {FOLD_SUFFIX}")
-        shape = read_drawing(drawing)
+        shape = read_drawing(drawing, fonts=fonts or ())
         made = fold_of_shore(shape, amplitude=amplitude, period=period, size=size)
         say_notes(drawing, (*shape.notes, *made.notes))
         target = output / (file_name(shape.name) + FOLD_SUFFIX) if output.is_dir() else output

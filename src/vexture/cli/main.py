@@ -16,7 +16,9 @@ __all__ = ["COMMANDS", "main"]
 
 COMMANDS: Final = {
     name: f"vexture.cli.{name}"
-    for name in ("convert", "render", "info", "restyle", "view", "export", "serve", "push", "flood", "fold")
+    for name in (
+        *("convert", "text", "font", "render", "info", "restyle", "view", "export", "serve", "push", "flood", "fold"),
+    )
 }
 """Module of each command; it is imported when the command is used or listed."""
 

@@ -21,6 +21,7 @@ __all__ = [
     "Tolerance",
     "conversion_options",
     "drawing_kind",
+    "font_option",
     "split_of",
     "standard_input",
     "tolerance_option",
@@ -29,7 +30,7 @@ __all__ = [
 
 if TYPE_CHECKING:
     from vexture.content import FileKind
-    from vexture.pipeline import Parameters
+    from vexture.parameters import Parameters
 
     ParamType = click.ParamType[Any]
 else:  # generic since click 8.4
@@ -149,6 +150,18 @@ tolerance_option = click.option(
 )
 
 
+font_option = click.option(
+    "--font",
+    "fonts",
+    metavar="FILE|DIR",
+    type=PATH,
+    multiple=True,
+    callback=lambda _context, _parameter, given: given or None,
+    help="A font, or a folder of fonts, for the texts of an SVG; may be given several times. They come before the "
+    "fonts of the system.",
+)
+
+
 SILHOUETTE_HELP: Final = "the covered area of a drawing, without colours."
 
 
@@ -169,16 +182,21 @@ def conversion_options(command: Callable[..., None]) -> Callable[..., None]:
         "--split", type=click.Choice(["paint"]), help="paint: show each colour as a layer, one over the other."
     )
     silhouette = click.option("--silhouette", is_flag=True, help=f"Show {SILHOUETTE_HELP}")
-    return split(silhouette(select(precision(tolerance_option(command)))))
+    return split(silhouette(select(font_option(precision(tolerance_option(command))))))
 
 
 def viewer_parameters(
-    tolerance: Any, precision: float | None, select: str | None, split: str | None, silhouette: bool
+    tolerance: Any,
+    precision: float | None,
+    select: str | None,
+    split: str | None,
+    silhouette: bool,
+    fonts: tuple[Path, ...] | None,
 ) -> "Parameters":
     """The viewer's parameters, with those that are given as options."""
     from vexture.live.documents import VIEWER_PARAMETERS
 
-    given: dict[str, Any] = {"tolerance": tolerance, "select": select, **split_of(split, silhouette)}
+    given: dict[str, Any] = {"tolerance": tolerance, "select": select, "fonts": fonts, **split_of(split, silhouette)}
     if precision is not None:
         given["precision"] = precision
     return replace(VIEWER_PARAMETERS, **given)

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from vexture.cli.messages import as_options, one_line
-from vexture.cli.options import PATH
+from vexture.cli.options import PATH, font_option
 from vexture.live.limits import Limits
 
 __all__ = ["serve"]
@@ -29,6 +29,7 @@ Examples:
 @click.option("--max-shapes", type=int, default=DEFAULTS.max_shapes, show_default=True, help="Number of shapes.")
 @click.option("--rate", type=float, default=DEFAULTS.rate, show_default=True, help="Uploads a second from one address.")
 @click.option("--precision", metavar="P", type=float, help="Largest shift by rounding, for views from nearby.")
+@font_option
 def serve(
     folder: Path,
     token_file: Path | None,
@@ -39,6 +40,7 @@ def serve(
     max_shapes: int,
     rate: float,
     precision: float | None,
+    fonts: tuple[Path, ...] | None,
 ) -> None:
     """Serve a folder of shapes, and take new ones by a token.
 
@@ -48,4 +50,4 @@ def serve(
         from vexture.live.serve import serve as run
 
         limits = Limits(max_bytes=max_bytes, max_total=max_total, max_shapes=max_shapes, rate=rate)
-        run(folder, token_file, host, port, limits, precision, lambda line: click.echo(as_options(line)))
+        run(folder, token_file, host, port, limits, precision, fonts, lambda line: click.echo(as_options(line)))

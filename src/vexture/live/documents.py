@@ -10,7 +10,7 @@ from vexture.content import FileKind, about, decompressed, kind_of, known_kind, 
 from vexture.errors import SourceError
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
 from vexture.notes import line_of
-from vexture.pipeline import Parameters
+from vexture.parameters import Parameters
 
 if TYPE_CHECKING:
     import numpy as np
@@ -76,7 +76,7 @@ def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters) -> 
     start = time.perf_counter()
     framed = None
     if kind is FileKind.SVG:
-        drawing, framed = framed_drawing(plain, file_name, parameters.select)
+        drawing, framed = framed_drawing(plain, file_name, parameters.select, fonts=parameters.fonts or ())
     else:
         drawing = read_drawing(plain, name=file_name, select=parameters.select)
     shape = converted(replace(drawing, name=name), file_name, parameters, start)
@@ -112,7 +112,7 @@ def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start:
     """Shape of a drawing, with the facts of its conversion; its notes are one line, if there are any."""
     from vexture.pipeline import combine, trees_of
 
-    part = trees_of(drawing, replace(parameters, select=None))  # what was selected is the drawing already
+    part = trees_of(drawing, replace(parameters, select=None, fonts=None))  # what was selected is the drawing already
     texture = combine([part], drawing.name, PurePath(file_name).name)
     milliseconds = 1000.0 * (time.perf_counter() - start)
     data = texture.to_ktx2()

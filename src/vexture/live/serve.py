@@ -1,6 +1,6 @@
 """`vexture serve`: the shapes of a folder, for readers and publishers."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import closing, suppress
 from dataclasses import replace
 from pathlib import Path
@@ -28,17 +28,18 @@ def serve(
     port: int,
     limits: Limits,
     precision: float | None,
+    fonts: Sequence[Path] | None,
     say: Callable[[str], None],
 ) -> None:
     """Serve a folder until Ctrl-C or SIGTERM; without a token nothing can be published.
 
-    `precision` is that of conversions; `say` takes lines for the user, first the address of the server.
+    `precision` and `fonts` are those of conversions; `say` takes lines for the user, first the address of the server.
     """
     token = None if token_file is None else read_token(token_file)
     with closing(bind(host, port)) as taken:
         is_new = not path.exists()
         folder = Folder(path, limits, say)
-        converter = Converter(limits, replace(PUBLISHED_PARAMETERS, precision=precision))
+        converter = Converter(limits, replace(PUBLISHED_PARAMETERS, precision=precision, fonts=fonts))
 
         async def start() -> None:
             with suppress(BusyError):

@@ -12,7 +12,7 @@ from vexture.errors import EXPECTED, LimitError
 from vexture.live.documents import shape_of
 from vexture.live.shelf import Shape, Shelf
 from vexture.live.watch import Source, named, watch
-from vexture.pipeline import Parameters
+from vexture.parameters import Parameters
 from vexture.reading import content_of
 
 __all__ = ["export", "view"]

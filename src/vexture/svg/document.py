@@ -4,9 +4,13 @@ from lxml import etree
 
 from vexture.errors import SourceError
 
-__all__ = ["SVG", "local_name", "parse_svg"]
+__all__ = ["SVG", "XML", "applies", "local_name", "parse_svg"]
 
 SVG = "http://www.w3.org/2000/svg"
+XML = "http://www.w3.org/XML/1998/namespace"
+
+LANGUAGE = "en"
+"""Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
 
 
 def parse_svg(content: bytes) -> etree._Element:
@@ -70,3 +74,13 @@ def local_name(element: etree._Element) -> str | None:
         return None
     namespace, _, name = tag[1:].rpartition("}") if tag[0] == "{" else ("", "", tag)
     return name if namespace in (SVG, "") else None
+
+
+def applies(element: etree._Element) -> bool:
+    """Whether the conditions on an element hold (SVG 2, 5.9)."""
+    if element.get("requiredExtensions") is not None:
+        return False
+    languages = element.get("systemLanguage")
+    if languages is None:
+        return True
+    return any(tag.strip().lower().split("-")[0] == LANGUAGE for tag in languages.split(","))

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from math import inf
+from typing import TYPE_CHECKING
 
 import numpy as np
 from lxml import etree
@@ -16,13 +17,17 @@ from vexture.svg.outline import Outline
 from vexture.svg.paint_servers import PaintServers
 from vexture.svg.patterns import Tiling
 from vexture.svg.report import Report
-from vexture.svg.shapes import Shape, shape_outlines
+from vexture.svg.shapes import Shape, check, shape_outlines
 from vexture.svg.space import Place, Placed
 from vexture.svg.strokes import Stroke, arc_length, stroke_contours
+from vexture.svg.text.typesetter import Text
 from vexture.svg.tiles import Canvas, FirstTile, Tiles, is_window, visible
-from vexture.svg.transform import Identity, mapped, scale_of
+from vexture.svg.transform import Identity, Transform, mapped, scale_of
 from vexture.svg.values import number
 from vexture.tolerance import ROUND
+
+if TYPE_CHECKING:  # imported at run time for drawings with texts only
+    from vexture.fonts.layers import Layers
 
 __all__ = ["Painter", "Ruler"]
 
@@ -68,24 +73,69 @@ class Painter:
         size = self.canvas.size / scale
         shape = Shape(element, style, place.viewport, ROUND * size, self.report)
         outlines = shape_outlines(shape)
-        if not outlines:
+        if outlines:
+            rule = FillRule[style["clip-rule" if place.is_clip else "fill-rule"].upper()]
+            self.paint_outlines(shape, outlines, outlines, place, rule, size, markers)
+
+    def paint_text(self, text: Text, place: Place) -> None:
+        """Paint a text; `place` has its transform."""
+        if place.space.flat or text.box is None:
             return
-        fill = BLACK if place.is_clip else self.servers.paint("fill", place, outlines)
-        line = None if place.is_clip else self.servers.paint("stroke", place, outlines)
+        size = self.canvas.size / scale_of(place.space.whole)
+        for piece in text.pieces:
+            assert piece.place.element is not None
+            style = piece.place.style
+            if piece.layers is not None:
+                if style["fill"].lower() != "none":
+                    self.paint_layers(piece.layers, piece.matrix, piece.place)
+                continue
+            shape = Shape(piece.place.element, style, place.viewport, ROUND * size, self.report)
+            for outline in piece.outlines:
+                check(outline.cubics)
+            self.paint_outlines(shape, [*piece.outlines], [text.box], piece.place, FillRule.NONZERO, size)
+
+    def paint_outlines(
+        self,
+        shape: Shape,
+        outlines: list[Outline],
+        boxed: list[Outline],
+        place: Place,
+        rule: FillRule,
+        size: float,
+        markers: Iterable[list[Placed]] = (),
+    ) -> None:
+        """Paint outlines and markers; `boxed` are what the bounding box is around, `size` as in `stroke`."""
+        fill = BLACK if place.is_clip else self.servers.paint("fill", place, boxed)
+        line = None if place.is_clip else self.servers.paint("stroke", place, boxed)
+        style = shape.style
         for part in dict.fromkeys([*style["paint-order"].lower().split(), *PARTS]):
-            if part == "fill":
-                self.fill(shape, outlines, place, fill)
+            if part == "fill" and fill is not None:
+                self.add([outline.loop for outline in outlines], place, rule, fill, place.name)
             elif part == "stroke":
                 self.stroke(shape, outlines, place, line, size)
             elif part == "markers":
                 for marker in markers:
                     self.walk(marker, self)
 
-    def fill(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | Tiling | None) -> None:
-        """Paint the inside of the outlines."""
-        if paint is not None:
-            rule = FillRule[shape.style["clip-rule" if place.is_clip else "fill-rule"].upper()]
-            self.add([outline.loop for outline in outlines], place, rule, paint, place.name)
+    def paint_layers(self, layers: "Layers", matrix: Transform, place: Place) -> None:
+        """Paint a glyph in colour; `matrix` leads from its units to those of a place."""
+        space = place.space.moved(matrix)
+        a, b, c, d, e, f = space.whole.inverse()
+        opacity = place.style.opacity("fill-opacity")
+        veils: dict[int, Veil | None] = {-1: place.veil}
+        if opacity < 1.0:
+            veils[-1] = Veil(place.veil, opacity)
+        for at, group in enumerate(layers.groups):
+            outer = veils[group.outer]
+            veils[at] = veil = Veil(outer, group.opacity, group.blend, mask=group.mask)
+            if group.mask and outer is not None:
+                outer.masks.append(veil)
+        for path in layers.paths:
+            inner = replace(place, space=space, veil=veils[path.group])
+            paint = path.paint.after(((a, c, e), (b, d, f)))
+            self.add([*path.contours], inner, path.fill_rule, paint, place.name)
+        for note in layers.notes:
+            self.report.count(note.kind, note.message)
 
     def stroke(
         self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | Tiling | None, size: float
@@ -187,6 +237,11 @@ class Ruler(Painter):
         """Add the outlines of a shape, in the units of the outermost place; markers do not count."""
         shape = Shape(element, place.style, place.viewport, inf, self.report)
         self.corners.extend(mapped(outline.cubics, place.space.whole) for outline in shape_outlines(shape))
+
+    def paint_text(self, text: Text, place: Place) -> None:
+        """Add the box of a text."""
+        if text.box is not None:
+            self.corners.append(mapped(text.box.cubics, place.space.whole))
 
 
 def stroke_of(shape: Shape, outlines: list[Outline]) -> Stroke | None:

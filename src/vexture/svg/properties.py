@@ -48,7 +48,14 @@ LENGTH = f"{NUMBER}{UNIT}"
 SIZE = f"{POSITIVE}{UNIT}"
 OPACITY = f"{NUMBER}%?"
 
+SPACING = rf"normal|{LENGTH}"
+
 FONT_SIZES = "(?:xx?-)?(?:small|large)|medium|smaller|larger"
+STRETCHES = "(?:(?:ultra|extra|semi)-)?(?:condensed|expanded)|normal"
+BASELINES = (
+    *("auto", "alphabetic", "central", "hanging", "ideographic", "mathematical", "middle", "text-top", "text-bottom"),
+    *("text-after-edge", "text-before-edge"),
+)
 
 PROPERTIES: dict[str, Property] = {
     "clip-rule": Property("nonzero", True, one_of("nonzero", "evenodd")),
@@ -57,7 +64,25 @@ PROPERTIES: dict[str, Property] = {
     "fill": Property("black", True, parse_paint),
     "fill-opacity": Property("1", True, matching(OPACITY)),
     "fill-rule": Property("nonzero", True, one_of("nonzero", "evenodd")),
+    "direction": Property("ltr", True, one_of("ltr", "rtl")),
+    "dominant-baseline": Property("auto", True, one_of(*BASELINES, "use-script", "no-change", "reset-size")),
+    "font-family": Property("", True, anything),
+    "font-feature-settings": Property("normal", True, anything),
+    "font-kerning": Property("auto", True, one_of("auto", "none", "normal")),
     "font-size": Property("medium", True, matching(rf"{SIZE}|{FONT_SIZES}")),
+    "font-size-adjust": Property("none", True, matching(rf"none|(?:ex-height\s+)?{POSITIVE}")),
+    "font-stretch": Property("normal", True, matching(rf"{STRETCHES}|{POSITIVE}%")),
+    "font-style": Property("normal", True, matching(rf"normal|italic|oblique(?:\s+{NUMBER}(?:deg|grad|rad|turn))?")),
+    "font-synthesis": Property("weight style small-caps", True, anything),
+    "font-variant": Property("normal", True, anything),
+    "font-variant-caps": Property("normal", True, anything),
+    "font-variant-ligatures": Property("normal", True, anything),
+    "font-variant-numeric": Property("normal", True, anything),
+    "font-variant-position": Property("normal", True, anything),
+    "font-variation-settings": Property("normal", True, anything),
+    "font-weight": Property("normal", True, matching(f"normal|bold|bolder|lighter|{POSITIVE}")),
+    "glyph-orientation-vertical": Property("auto", True, matching(f"auto|{NUMBER}(?:deg|grad|rad|turn)?")),
+    "letter-spacing": Property("normal", True, matching(SPACING)),
     "marker-end": Property("none", True, anything),
     "marker-mid": Property("none", True, anything),
     "marker-start": Property("none", True, anything),
@@ -70,7 +95,22 @@ PROPERTIES: dict[str, Property] = {
     "stroke-miterlimit": Property("4", True, matching(POSITIVE)),
     "stroke-opacity": Property("1", True, matching(OPACITY)),
     "stroke-width": Property("1", True, matching(SIZE)),
+    "text-anchor": Property("start", True, one_of("start", "middle", "end")),
+    "text-orientation": Property("mixed", True, one_of("mixed", "upright", "sideways", "sideways-right")),
+    "text-transform": Property("none", True, one_of("none", "uppercase", "lowercase", "capitalize", "full-width")),
+    "white-space": Property("normal", True, one_of("normal", "nowrap", "pre", "pre-wrap", "pre-line", "break-spaces")),
+    "word-spacing": Property("normal", True, matching(SPACING)),
+    "writing-mode": Property(
+        "horizontal-tb",
+        True,
+        one_of(
+            *("horizontal-tb", "vertical-rl", "vertical-lr", "sideways-rl", "sideways-lr"),
+            *("lr", "lr-tb", "rl", "rl-tb", "tb", "tb-rl", "tb-lr"),
+        ),
+    ),
     "visibility": Property("visible", True, one_of("visible", "hidden", "collapse")),
+    "alignment-baseline": Property("baseline", False, one_of(*BASELINES, "baseline", "before-edge", "after-edge")),
+    "baseline-shift": Property("baseline", False, matching(rf"{LENGTH}|baseline|sub|super|top|center|bottom")),
     "clip-path": Property("none", False, anything),
     "cx": Property("0", False, matching(LENGTH)),
     "cy": Property("0", False, matching(LENGTH)),
@@ -91,17 +131,30 @@ PROPERTIES: dict[str, Property] = {
     "scale": Property("none", False, anything),
     "stop-color": Property("black", False, parse_color),
     "stop-opacity": Property("1", False, matching(OPACITY)),
+    "text-decoration": Property("none", False, anything),
+    "text-decoration-line": Property("none", False, anything),
     "transform": Property("none", False, anything),
     "transform-box": Property(
         "view-box", False, one_of("view-box", "fill-box", "stroke-box", "content-box", "border-box")
     ),
     "transform-origin": Property("0 0", False, anything),
     "translate": Property("none", False, anything),
+    "unicode-bidi": Property(
+        "normal",
+        False,
+        one_of("normal", "embed", "isolate", "bidi-override", "isolate-override", "plaintext"),
+    ),
     "vector-effect": Property("none", False, anything),
     "width": Property("auto", False, matching(f"auto|{SIZE}")),
     "x": Property("0", False, matching(LENGTH)),
     "y": Property("0", False, matching(LENGTH)),
 }
 
-CSS_ONLY = frozenset({"isolation", "mix-blend-mode", "rotate", "scale", "translate"})
+CSS_ONLY = frozenset(
+    {
+        *("font-feature-settings", "font-kerning", "font-synthesis", "font-variant-caps", "font-variant-ligatures"),
+        *("font-variant-numeric", "font-variant-position", "font-variation-settings", "isolation", "mix-blend-mode"),
+        *("rotate", "scale", "text-decoration-line", "text-orientation", "text-transform", "translate"),
+    }
+)
 """Properties that are no presentation attributes (SVG 2, 6.6); some names have another meaning as attributes."""

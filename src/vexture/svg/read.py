@@ -1,6 +1,7 @@
 """Reading SVG: the shapes of a drawing and their paints."""
 
 import os
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Final, TypeAlias
@@ -31,15 +32,20 @@ EMPTY: Final[Frame] = (0.0, 0.0), Viewport(0.0, 0.0), Identity
 """Frame that shows nothing."""
 
 
-def read_svg(path: str | os.PathLike[str], select: str | None = None, names: str | None = None) -> Drawing:
+def read_svg(
+    path: str | os.PathLike[str],
+    select: str | None = None,
+    names: str | None = None,
+    fonts: Sequence[str | os.PathLike[str]] = (),
+) -> Drawing:
     """Read an SVG file, plain or gzipped.
 
-    Shapes, paths, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as browsers
-    draw them. Opacity, blend modes, clips and masks that need several paths together become `Drawing.groups`. Gradients
-    are read in full (`Paint.gradient`), patterns as the paths of their tiles, markers as the paths of their content.
-    What is not supported is left out and named. Paths are named (`Path.element`) by the ``id`` of their element or of
-    the nearest one around it, and all that a `use`, a marker or a pattern shows by that of the `use` or the shape; a
-    stroke is ``id/stroke``.
+    Shapes, paths, texts, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as
+    browsers draw them. Opacity, blend modes, clips and masks that need several paths together become
+    `Drawing.groups`. Gradients are read in full (`Paint.gradient`), patterns as the paths of their tiles, markers
+    as the paths of their content. What is not supported is left out and named. Paths are named (`Path.element`) by
+    the ``id`` of their element or of the nearest one around it, and all that a `use`, a marker or a pattern shows
+    by that of the `use` or the shape; a stroke is ``id/stroke``.
 
     The box of the drawing is the outermost viewport: `width` and `height`, or the size in `viewBox` where one of them
     is missing or a percentage. A drawing without any of them is as large as what it paints.
@@ -54,6 +60,8 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None, names: str
     names : str, optional
         What names elements instead of ``id``: an attribute, such as ``inkscape:label`` or ``data-name``, or ``title``,
         the element that holds an element's title. Paths without it have the name of what is around them.
+    fonts : sequence of path
+        Font files, and folders of them, for texts. They come before the fonts in the drawing and those of the system.
 
     Returns
     -------
@@ -90,12 +98,18 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None, names: str
     """
     with about(os.fspath(path)):
         content = read_bytes(path)
-    drawing = svg_drawing(content, os.fspath(path), select, names)
+    drawing = svg_drawing(content, os.fspath(path), select, names, fonts)
     warn_of(os.fspath(path), drawing.notes)
     return drawing
 
 
-def svg_drawing(content: bytes, source: str, select: str | None = None, names: str | None = None) -> Drawing:
+def svg_drawing(
+    content: bytes,
+    source: str,
+    select: str | None = None,
+    names: str | None = None,
+    fonts: Sequence[str | os.PathLike[str]] = (),
+) -> Drawing:
     """Read the content of an SVG file, plain or gzipped, as `read_svg` does, but without a warning.
 
     `source` is the name of the file: it names the drawing and stands in messages, and is not opened.
@@ -105,11 +119,15 @@ def svg_drawing(content: bytes, source: str, select: str | None = None, names: s
     >>> svg_drawing(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "half.svg").name
     'half'
     """
-    return framed_drawing(content, source, select, names)[0]
+    return framed_drawing(content, source, select, names, fonts)[0]
 
 
 def framed_drawing(
-    content: bytes, source: str, select: str | None = None, names: str | None = None
+    content: bytes,
+    source: str,
+    select: str | None = None,
+    names: str | None = None,
+    fonts: Sequence[str | os.PathLike[str]] = (),
 ) -> tuple[Drawing, Frame | None]:
     """Read as `svg_drawing` does, and return the frame of the whole drawing too."""
     report = Report()
@@ -117,7 +135,7 @@ def framed_drawing(
         try:
             root = parse_svg(decompressed(content))
             part = None if select is None else chosen(root, select)
-            scene = Scene(root, report, part, "id" if names is None else names)
+            scene = Scene(root, report, part, "id" if names is None else names, fonts)
             framed = frame(scene)
             drawing = drawing_of(scene, framed, Path(source).stem)
         except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
@@ -138,7 +156,8 @@ def drawing_of(scene: Scene, framed: Frame | None, name: str) -> Drawing:
         box: Rectangle = (0.0, 0.0, *size)
     else:
         viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
-        paths, _ = Scene(scene.root, Report()).paint(viewport, matrix, None)  # all of it, to measure; notes come later
+        whole = Scene(scene.root, Report(), fonts=scene.typesetter.files)  # to measure; notes come later
+        paths, _ = whole.paint(viewport, matrix, None)
         if not paths:
             scene.paint(viewport, matrix, None)  # for its notes
             return Drawing((), name=name)

@@ -3,10 +3,12 @@
 The walk has its own stack, so that deep nesting cannot exhaust Python's. `use` is expanded on the way, within limits.
 """
 
+from collections.abc import Sequence
 from copy import copy
 from dataclasses import replace
 from functools import cache
 from math import inf
+from os import PathLike
 
 import numpy as np
 from lxml import etree
@@ -17,7 +19,7 @@ from vexture.drawing import Path
 from vexture.errors import SourceError
 from vexture.group import Group
 from vexture.svg.compositing import Veil, grouped, veil_of
-from vexture.svg.document import local_name
+from vexture.svg.document import applies, local_name
 from vexture.svg.markers import has_markers, markers
 from vexture.svg.masks import MASKING, add_masks
 from vexture.svg.names import ElementNames
@@ -28,6 +30,7 @@ from vexture.svg.report import Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
 from vexture.svg.space import Context, Place, Placed, Space, Window
 from vexture.svg.style import INITIAL, Cascade, Style
+from vexture.svg.text.typesetter import Typesetter
 from vexture.svg.tiles import Canvas
 from vexture.svg.transform import Identity, Transform, parse_origin, parse_transform
 from vexture.svg.values import TooLargeError, Viewport
@@ -63,9 +66,6 @@ EFFECTS = {
 DRAWN = frozenset({*SHAPES, *CONTAINERS, "image", "text", "use"})
 """Elements that a `switch` may choose before those that are not known."""
 
-LANGUAGE = "en"
-"""Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
-
 
 class LocatedError(SourceError):
     """An error that names an element."""
@@ -75,7 +75,12 @@ class Scene:
     """A document that can be painted: all of it, or the elements in `chosen` with all their content."""
 
     def __init__(
-        self, root: etree._Element, report: Report, chosen: set[etree._Element] | None = None, names: str = "id"
+        self,
+        root: etree._Element,
+        report: Report,
+        chosen: set[etree._Element] | None = None,
+        names: str = "id",
+        fonts: Sequence[str | PathLike[str]] = (),
     ) -> None:
         self.root = root
         self.chosen = chosen
@@ -85,6 +90,7 @@ class Scene:
         self.servers: PaintServers = PaintServers(root, self.cascade, report)
         self.style: Style = self.cascade.style(root, INITIAL)
         self.used: int = 0
+        self.typesetter: Typesetter = Typesetter(fonts, self.cascade.font_faces, report)
 
     def paint(
         self, viewport: Viewport, matrix: Transform, frame: Rectangle | None
@@ -152,7 +158,7 @@ class Scene:
             return []
         if place.is_clip and name in CONTAINERS:
             return []  # a clip shows shapes, and uses of them
-        if name not in SHAPES and name not in CONTAINERS and name != "use":
+        if name not in SHAPES and name not in CONTAINERS and name not in ("text", "use"):
             if chosen:
                 self.report.left_out(f"<{name[:40]}>")
             return []
@@ -182,6 +188,9 @@ class Scene:
                 self.report.left_out("animation")
             marked = not inner.is_clip and has_markers(name, inner.style)
             painter.paint(element, inner, markers(self, element, inner) if marked else ())
+            return []
+        if name == "text":
+            painter.paint_text(self.typesetter.text(self, element, inner), inner)
             return []
         if name == "use":
             return self.use_target(element, inner)
@@ -317,13 +326,3 @@ def switched(switch: etree._Element) -> list[etree._Element]:
     """The child that a `switch` shows: the first that applies and is drawn; without one, all, for their notes."""
     children = [child for child in switch if local_name(child) is not None and applies(child)]
     return [child for child in children if local_name(child) in DRAWN][:1] or children
-
-
-def applies(element: etree._Element) -> bool:
-    """Whether the conditions on an element hold (SVG 2, 5.9)."""
-    if element.get("requiredExtensions") is not None:
-        return False
-    languages = element.get("systemLanguage")
-    if languages is None:
-        return True
-    return any(tag.strip().lower().split("-")[0] == LANGUAGE for tag in languages.split(","))

@@ -12,10 +12,12 @@ from lxml import etree
 
 from vexture.errors import SourceError
 from vexture.svg.colors import Color, parse_color
+from vexture.svg.document import XML, local_name
+from vexture.svg.font_values import SPACINGS, font_longhands, font_weight, in_pixels, text_size
 from vexture.svg.properties import CSS_ONLY, PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.select import Node
-from vexture.svg.values import Viewport, fraction
+from vexture.svg.values import fraction
 
 __all__ = ["INITIAL", "MARKERS", "Cascade", "Style"]
 
@@ -28,19 +30,15 @@ SCREEN = re.compile(r"\s*(?:only\s+)?(?:all|screen)?\s*", re.IGNORECASE)
 OTHER_MEDIUM = re.compile(r"\s*(?:only\s+)?(?:print|speech)\b.*|\s*not\s+(?:all|screen)\s*", re.IGNORECASE | re.DOTALL)
 
 MARKERS = ("marker-start", "marker-mid", "marker-end")
-TEXT_SIZES = {
-    "xx-small": 9.0,
-    "x-small": 10.0,
-    "small": 13.0,
-    "medium": 16.0,
-    "large": 18.0,
-    "x-large": 24.0,
-    "xx-large": 32.0,
-}
-"""User units of each font-size keyword (CSS Fonts 4, 2.5)."""
 
 UNSET = ("unset", "revert", "revert-layer")
 """Keywords for the inherited value, or else the initial one."""
+
+SPACE_MODES = {"default": "normal", "preserve": "pre"}
+"""What `xml:space` says, as the value of `white-space` that browsers give it."""
+
+LISTED, LISTING = frozenset({"x", "y"}), frozenset({"text", "tspan", "textPath", "tref"})
+"""Attributes that are lists of these elements, and no properties (SVG 2, 11.2)."""
 
 Declaration = tuple[str, str, bool]
 """Property, value, and whether it is important."""
@@ -80,6 +78,7 @@ class Cascade:
     def __init__(self, root: etree._Element, report: Report) -> None:
         self.report = report
         self.matcher: Any = None
+        self.font_faces: list[dict[str, str]] = []  # descriptors of each @font-face rule, by name
         self.wrappers: dict[etree._Element, Any] = {}
         sheets = [element for element in root.iter("{*}style") if element.text]
         if sheets:
@@ -110,6 +109,8 @@ class Cascade:
     def add_at_rule(self, rule: Any) -> None:
         """Add the rules inside an at-rule, if it is a medium that applies."""
         name = rule.lower_at_keyword
+        if name == "font-face":
+            self.font_faces.append({key: value for key, value, _ in read_descriptors(rule.content or [])})
         if name in ("charset", "font-face", "namespace"):
             return
         queries = tinycss2.serialize(rule.prelude).split(",")
@@ -131,6 +132,8 @@ class Cascade:
                 value = parent[name]
             elif keyword == "initial":
                 value = entry.initial
+            elif keyword in ("bolder", "lighter"):
+                value = f"{font_weight(value, parent[name]):g}"
             if not entry.inherited:
                 own[name] = value
             elif inherited.get(name) != value:
@@ -140,14 +143,23 @@ class Cascade:
         font_size = parent.font_size
         if inherited is not parent.inherited and "font-size" in inherited:
             font_size = text_size(inherited.pop("font-size"), parent.font_size)
+        if inherited is not parent.inherited:
+            for name in SPACINGS:
+                if inherited.get(name) != parent.inherited.get(name):
+                    inherited[name] = in_pixels(inherited[name], font_size)
         return Style(inherited, own, font_size)
 
     def specified(self, element: etree._Element) -> dict[str, str]:
         """Winning declaration of each property, in rising precedence: attributes, rules, `style`, `!important`."""
         found: dict[str, str] = {}
+        mode = SPACE_MODES.get(str(element.get(f"{{{XML}}}space")))
+        if mode is not None:
+            found["white-space"] = mode
         for key, value in element.attrib.items():
             name = str(key)
             if name in PROPERTIES and name not in CSS_ONLY:
+                if name in LISTED and local_name(element) in LISTING:
+                    continue
                 self.declare(found, name, str(value), element)
         for name, value, _ in sorted(self.declared(element), key=itemgetter(2)):  # stable; important ones come last
             self.declare(found, name, value, element)
@@ -192,11 +204,17 @@ def tokens(text: str) -> list[Any]:
         raise SourceError("an integer in its styles has more than 4,300 digits; round it") from None
 
 
-def read_declarations(content: Any) -> Iterator[Declaration]:
-    """Yield the declarations of a style sheet's rule or of a `style` attribute."""
+def read_descriptors(content: Any) -> Iterator[Declaration]:
+    """Yield what the rules of a style sheet's block say, as written."""
     for item in tinycss2.parse_blocks_contents(content, skip_comments=True, skip_whitespace=True):
         if item.type == "declaration":
-            yield from expanded(item.lower_name, tinycss2.serialize(item.value).strip(), item.important)
+            yield item.lower_name, tinycss2.serialize(item.value).strip(), item.important
+
+
+def read_declarations(content: Any) -> Iterator[Declaration]:
+    """Yield the declarations of a style sheet's rule or of a `style` attribute."""
+    for name, value, important in read_descriptors(content):
+        yield from expanded(name, value, important)
 
 
 def expanded(name: str, value: str, important: bool) -> Iterator[Declaration]:
@@ -206,13 +224,6 @@ def expanded(name: str, value: str, important: bool) -> Iterator[Declaration]:
     elif name == "marker" and value:
         for marker in MARKERS:
             yield marker, value, important
-
-
-def text_size(text: str, parent: float) -> float:
-    """Font size in user units, from its value and the parent's size."""
-    word = text.lower()
-    if word in TEXT_SIZES:
-        return TEXT_SIZES[word]
-    if word in ("smaller", "larger"):
-        return parent * (1.2 if word == "larger" else 1 / 1.2)
-    return Viewport(parent, parent).length(text, parent, parent) or 0.0
+    elif name == "font":
+        for longhand, part in font_longhands(value):
+            yield longhand, part, important

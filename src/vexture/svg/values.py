@@ -8,7 +8,7 @@ from typing import Final
 from vexture.errors import SourceError
 from vexture.svg.path_data import NUMBER
 
-__all__ = ["LARGEST", "TooLargeError", "Viewport", "fraction", "number", "numbers"]
+__all__ = ["LARGEST", "SEPARATOR", "TooLargeError", "Viewport", "fraction", "number", "numbers"]
 
 LARGEST: Final = 1e12
 """User units. An element with larger numbers is lost: the product of two of them and a matrix must stay finite."""

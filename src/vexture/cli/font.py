@@ -1,0 +1,108 @@
+"""The command `font`."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from vexture.cli.convert import check_places, given_options, options_of_convert
+from vexture.cli.messages import one_line, say_notes
+from vexture.cli.options import PATH
+from vexture.cli.text import face_options
+from vexture.encodings import DEFAULT
+from vexture.errors import ParameterError
+
+__all__ = ["font"]
+
+EXAMPLE = """\b
+Examples:
+  vexture font Lato.ttf -o lato.ktx2                       ASCII, and its metrics in lato.json
+  vexture font Lato.ttf --range U+0020-00FF --chars "€…" -o lato.ktx2
+"""
+
+
+@options_of_convert("tolerance", "max_depth", "capacity", "precision", "deflate", "max_seconds", "quiet")
+@click.command(epilog=EXAMPLE)
+@click.argument("font", metavar="[FONT]", required=False, type=PATH)
+@click.option("-o", "--output", metavar="FILE.ktx2", required=True, type=PATH, help="File to write, or a folder.")
+@click.option("--chars", metavar="TEXT", help="Characters to convert.  [default: those of ASCII]")
+@click.option("--chars-file", metavar="FILE", type=PATH, help="A text in UTF-8 whose characters to convert.")
+@click.option(
+    "--range",
+    "ranges",
+    metavar="U+A-B",
+    multiple=True,
+    help="Those of a range that the font has, such as U+0400-04FF; may be given several times.",
+)
+@face_options
+@click.option("--name", help="Name of the texture.  [default: the family]")
+def font(
+    font: Path | None,
+    output: Path,
+    chars: str | None,
+    chars_file: Path | None,
+    ranges: tuple[str, ...],
+    weight: float,
+    style: str,
+    stretch: float,
+    name: str | None,
+    quiet: bool,
+    **options: Any,
+) -> None:
+    """Convert the characters of a font into one texture, a shape for each, with its metrics as JSON beside it.
+
+    FONT is a file, or a folder of the faces of a font; by default Noto Sans.
+    """
+    with one_line():
+        from vexture.fonts.text import TextOptions
+        from vexture.glyph_atlas import PRINTABLE, made_atlas
+        from vexture.texture.files import target_of, write_together
+
+        check_places((), output, None, DEFAULT, False)
+        asked = (chars or "") + ("" if chars_file is None else read_text(chars_file))
+        styled = TextOptions(font or (), (), weight, style, stretch, name=name)
+        ranged = [code for text in ranges for code in codes_of(text)]
+        wanted = asked if asked or ranges else PRINTABLE
+        parameters = given_options(options)
+        stored = {name: parameters.pop(name) for name in ("deflate",) if name in parameters}
+        made = made_atlas(styled, wanted, ranged, **parameters)
+        files = made.files(target_of(output, made.texture.name), **stored)
+        write_together(files)
+        if not quiet:
+            say_notes(font or made.texture.name, made.notes)
+            target, metrics = files
+            count = len(made.metrics["glyphs"])
+            shapes = len(made.texture.roots)
+            click.echo(f"{target}: {count} characters, {shapes} shapes, {len(files[target])} bytes; {metrics}")
+
+
+def read_text(file: Path) -> str:
+    """Characters of a file; those that control lines are none."""
+    from vexture.content import about, read_bytes
+
+    with about(str(file)):
+        try:
+            return "".join(character for character in read_bytes(file).decode("utf-8-sig") if character.isprintable())
+        except UnicodeDecodeError:
+            raise ParameterError("is no text in UTF-8; save it as one") from None
+
+
+def codes_of(text: str) -> range:
+    """Characters of a range such as U+0400-04FF.
+
+    Examples
+    --------
+    >>> codes_of("U+41-5A"), codes_of("U+20AC")
+    (range(65, 91), range(8364, 8365))
+    """
+    first, _, last = text.upper().removeprefix("U+").partition("-")
+    try:
+        low, high = int(first, 16), int(last.removeprefix("U+") or first, 16)
+    except ValueError:
+        low, high = 1, 0
+    if not low <= high <= LAST_CHARACTER:
+        raise ParameterError(f"`range` {text!r} is no range of characters; write one as U+0400-04FF")
+    return range(low, high + 1)
+
+
+LAST_CHARACTER = 0x10FFFF

@@ -1,0 +1,223 @@
+"""One face of a font: its names, metrics and outlines, in font units."""
+
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.content import read_bytes, start_of
+from vexture.errors import SourceError
+from vexture.fonts.engine import harfbuzz
+from vexture.fonts.files import is_sfnt, sfnt_of
+from vexture.fonts.layers import Layers, glyph_layers
+from vexture.fonts.outlines import glyph_outline
+from vexture.paint import Color
+
+__all__ = ["Face", "faces_in", "faces_of"]
+
+FAMILY_NAMES: Final = (16, 21, 1)
+"""Name IDs of families: typographic, of weights and widths and slopes only, and the legacy one."""
+
+MOST_FACES: Final = 1000
+"""Of a collection."""
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """A face of a font, with its variations set if it is a variable one.
+
+    All lengths are in font units, of which `units_per_em` make an em, y up.
+
+    Parameters
+    ----------
+    blob : uharfbuzz.Blob
+        A TrueType or OpenType font, or a collection of them; `faces_in` and `faces_of` make it of bytes and files.
+    index : int
+        Which of a collection.
+    variations : tuple of (str, float)
+        Places on the axes of a variable font, such as ``("wght", 700)``; the others have their defaults.
+
+    Raises
+    ------
+    SourceError
+        If it is no font.
+    DeviceError
+        If uharfbuzz is not installed.
+    """
+
+    blob: Any
+    index: int = 0
+    variations: tuple[tuple[str, float], ...] = ()
+
+    def __post_init__(self) -> None:
+        if not self._font.face.glyph_count:
+            raise SourceError("the font is damaged: it has no glyphs; save it again")
+
+    @cached_property
+    def _font(self) -> Any:
+        hb = harfbuzz()
+        font = hb.Font(hb.Face(self.blob, self.index))
+        if self.variations:
+            font.set_variations(dict(self.variations))
+        return font
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """All names of its family, in all languages; the first is `family`."""
+        face = self._font.face
+        entries = {(entry.name_id, entry.language) for entry in face.list_names()}
+        english = [face.get_name(number) for number in FAMILY_NAMES if any(number == known for known, _ in entries)]
+        others = [face.get_name(number, language) for number, language in sorted(entries) if number in FAMILY_NAMES]
+        return tuple(dict.fromkeys(name for name in (*english, *others) if name))
+
+    @property
+    def family(self) -> str:
+        """Name of its family, in English if it has one; ``unnamed`` without any."""
+        return self.names[0] if self.names else "unnamed"
+
+    @cached_property
+    def weight(self) -> int:
+        """CSS weight, 1 to 1000: 400 is regular, 700 bold."""
+        return min(max(round(self._style("WEIGHT")), 1), 1000)
+
+    @cached_property
+    def stretch(self) -> float:
+        """Width in percent of the normal one."""
+        return float(self._style("WIDTH"))
+
+    @cached_property
+    def style(self) -> str:
+        """``"normal"``, ``"italic"`` or ``"oblique"``."""
+        if self._style("ITALIC") > 0.0:
+            return "italic"
+        return "oblique" if self._style("SLANT_ANGLE") != 0.0 else "normal"
+
+    def _style(self, name: str) -> float:
+        value: float = self._font.get_style_value(harfbuzz().StyleTag[name])
+        return value
+
+    @cached_property
+    def axes(self) -> dict[str, tuple[float, float]]:
+        """Least and greatest place on each axis of a variable font."""
+        return {axis.tag: (axis.min_value, axis.max_value) for axis in self._font.face.axis_infos}
+
+    @property
+    def units_per_em(self) -> int:
+        """Units that make an em."""
+        return int(self._font.face.upem)
+
+    @property
+    def ascender(self) -> float:
+        """Height of a line above the baseline."""
+        return self._metric("HORIZONTAL_ASCENDER")
+
+    @property
+    def descender(self) -> float:
+        """Depth of a line below the baseline: below 0."""
+        return self._metric("HORIZONTAL_DESCENDER")
+
+    @property
+    def line_gap(self) -> float:
+        """Additional distance between lines."""
+        return self._metric("HORIZONTAL_LINE_GAP")
+
+    @property
+    def x_height(self) -> float:
+        """Height of an x; that of the glyph if the font says none."""
+        return self._metric("X_HEIGHT")
+
+    @property
+    def cap_height(self) -> float:
+        """Height of an H; that of the glyph if the font says none."""
+        return self._metric("CAP_HEIGHT")
+
+    @property
+    def underline(self) -> tuple[float, float]:
+        """Position of the middle of the line, and its thickness."""
+        return self._metric("UNDERLINE_OFFSET"), self._metric("UNDERLINE_SIZE")
+
+    @property
+    def strikeout(self) -> tuple[float, float]:
+        """Position of the middle of the line, and its thickness."""
+        return self._metric("STRIKEOUT_OFFSET"), self._metric("STRIKEOUT_SIZE")
+
+    @property
+    def shifts(self) -> tuple[float, float]:
+        """Baselines of subscripts, below 0, and of superscripts."""
+        return -self._metric("SUBSCRIPT_EM_Y_OFFSET"), self._metric("SUPERSCRIPT_EM_Y_OFFSET")
+
+    @property
+    def vertical(self) -> tuple[float, float]:
+        """Ascender and descender of vertical lines: to the right and left of their middle."""
+        return self._metric("VERTICAL_ASCENDER"), self._metric("VERTICAL_DESCENDER")
+
+    def _metric(self, name: str) -> float:
+        tag = harfbuzz().OTMetricsTag[name]
+        return float(self._font.get_metric_position_with_fallback(tag))
+
+    def has(self, codepoint: int) -> bool:
+        """Whether it has a glyph of a character."""
+        return self._font.get_nominal_glyph(codepoint) is not None
+
+    @property
+    def glyph_count(self) -> int:
+        """Number of glyphs."""
+        return int(self._font.face.glyph_count)
+
+    def outline(self, glyph: int) -> tuple[NDArray[np.float64], ...]:
+        """Closed contours of cubics (n, 4, 2), filled by the nonzero rule; none of a glyph that is empty."""
+        if glyph not in self._outlines:
+            self._outlines[glyph] = glyph_outline(self._font, glyph)
+        return self._outlines[glyph]
+
+    @cached_property
+    def _outlines(self) -> dict[int, tuple[NDArray[np.float64], ...]]:
+        return {}
+
+    def layers(self, glyph: int, foreground: Color = (0.0, 0.0, 0.0)) -> Layers | None:
+        """What a glyph in colour paints, with the text's own colour where the font says so; None of any other."""
+        return glyph_layers(self._font, glyph, self.outline, foreground) if self._in_colour else None
+
+    @cached_property
+    def _in_colour(self) -> bool:
+        """Whether it may have glyphs in colour."""
+        face = self._font.face
+        return bool(face.has_color_paint or face.has_color_layers or face.has_color_svg or face.has_color_png)
+
+    def varied(self, weight: float, stretch: float, style: str) -> "Face":
+        """The face nearest to a style; itself if it is not variable."""
+        slant = {"italic": ("ital", 1.0), "oblique": ("slnt", -14.0)}
+        wanted = dict([("wght", weight), ("wdth", stretch), *([slant[style]] if style in slant else [])])
+        if style == "italic" and "ital" not in self.axes:
+            wanted["slnt"] = slant["oblique"][1]
+        places = {
+            tag: min(max(value, low), high)
+            for tag, value in wanted.items()
+            for low, high in [self.axes.get(tag, (None, None))]
+            if low is not None and high is not None
+        }
+        return Face(self.blob, self.index, tuple(sorted(places.items()))) if places else self
+
+
+def faces_in(content: bytes) -> list[Face]:
+    """All faces of the content of a font file or collection; raises as `sfnt_of` does."""
+    return _all_faces(harfbuzz().Blob(sfnt_of(content)))
+
+
+def faces_of(path: Path) -> list[Face]:
+    """All faces of a font file, of which only those parts are read that are used; raises as `faces_in` does."""
+    start = start_of(path)
+    if not is_sfnt(start):
+        return faces_in(read_bytes(path))
+    return _all_faces(harfbuzz().Blob.from_file_path(os.fspath(path)))
+
+
+def _all_faces(blob: Any) -> list[Face]:
+    count = min(harfbuzz().Face(blob).count, MOST_FACES)
+    if not count:
+        raise SourceError("the font is damaged: it has no faces; save it again")
+    return [Face(blob, index) for index in range(count)]

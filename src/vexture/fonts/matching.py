@@ -1,0 +1,65 @@
+"""Choosing among the faces of a family as CSS Fonts 4, 5.2 does."""
+
+from dataclasses import dataclass
+from math import inf
+from typing import Final
+
+__all__ = ["Traits", "preference"]
+
+STYLES: Final = {
+    "normal": ("normal", "oblique", "italic"),
+    "italic": ("italic", "oblique", "normal"),
+    "oblique": ("oblique", "italic", "normal"),
+}
+"""Styles in the order in which they stand in for one that is asked for."""
+
+REGULAR, MEDIUM = 400, 500
+"""Weights between which heavier ones, up to the second, stand in before lighter ones."""
+
+NORMAL_STRETCH: Final = 100.0
+
+
+@dataclass(frozen=True, slots=True)
+class Traits:
+    """What a face offers: the least and greatest weight and stretch, and its styles."""
+
+    weights: tuple[float, float]
+    stretches: tuple[float, float]
+    styles: tuple[str, ...]
+
+
+def preference(traits: Traits, weight: float, style: str, stretch: float) -> tuple[float, ...]:
+    """Sorts the faces of a family: that with the least tuple stands in for what is asked for.
+
+    Examples
+    --------
+    >>> light, bold = (Traits((w, w), (100, 100), ("normal",)) for w in (300, 700))
+    >>> preference(light, 400, "normal", 100) < preference(bold, 400, "normal", 100)
+    True
+    >>> preference(light, 600, "normal", 100) < preference(bold, 600, "normal", 100)
+    False
+    """
+    order = STYLES.get(style, STYLES["normal"])
+    slope = min((order.index(offered) for offered in traits.styles), default=len(order))
+    narrow = stretch <= NORMAL_STRETCH
+    width = distances(traits.stretches, stretch, -inf if narrow else inf)
+    if REGULAR <= weight <= MEDIUM:
+        return (*width, slope, *distances(traits.weights, weight, MEDIUM))
+    return (*width, slope, *distances(traits.weights, weight, -inf if weight < REGULAR else inf))
+
+
+def distances(offered: tuple[float, float], wanted: float, first: float) -> tuple[float, float]:
+    """Rank of the side on which an offered range lies, and how far: the side towards `first`, and up to it, is before.
+
+    Examples
+    --------
+    >>> distances((300, 300), 400, 500), distances((500, 500), 400, 500), distances((600, 600), 400, 500)
+    ((2, 100), (1, 100), (3, 200))
+    """
+    low, high = offered
+    if low <= wanted <= high:
+        return 0, 0
+    place = low if wanted < low else high
+    if min(wanted, first) <= place <= max(wanted, first):
+        return 1, abs(place - wanted)
+    return 2 if (place < wanted) == (first >= wanted) else 3, abs(place - wanted)

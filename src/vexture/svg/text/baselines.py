@@ -1,0 +1,68 @@
+"""How far clusters are moved from the line by `dominant-baseline`, `alignment-baseline` and `baseline-shift`.
+
+SVG 2, 11.10.2, and CSS Inline Layout 3. Lengths are in user units; what is above the alphabetic baseline is below 0.
+"""
+
+from typing import Final
+
+from vexture.svg.document import local_name
+from vexture.svg.text.runs import Cluster
+from vexture.svg.text.tree import Span
+
+__all__ = ["baseline", "extent"]
+
+HANGING, MATHEMATICAL = 0.8, 0.5
+"""Heights of baselines as parts of the ascent, for fonts that do not tell them (XSL 1.1, 7.14)."""
+
+OVER: Final = frozenset({"before-edge", "text-before-edge", "text-top"})
+UNDER: Final = frozenset({"after-edge", "text-after-edge", "text-bottom", "ideographic"})
+
+
+def baseline(cluster: Cluster, vertical: bool) -> float:
+    """How far a cluster is moved down; in vertical text, those on their side lie on its middle."""
+    shift = sum(shifted(span, cluster) for span in cluster.span.around)
+    if vertical:
+        return (0.0 if cluster.upright else height("central", cluster)) - shift
+    name = cluster.span.place.style["alignment-baseline"].lower()
+    if name in ("auto", "baseline"):
+        name = dominant(cluster.span)
+    return height(name, cluster) - shift
+
+
+def dominant(span: Span) -> str:
+    """The baseline that a span's characters align with the line."""
+    for around in span.around:
+        name = around.place.style["dominant-baseline"].lower()
+        if name != "no-change":
+            return name
+    return "auto"
+
+
+def height(name: str, cluster: Cluster) -> float:
+    """Height of a baseline of a cluster's face over the alphabetic one."""
+    over, under = extent(cluster)
+    if name in OVER:
+        return over
+    if name in UNDER:
+        return -under
+    if name == "middle":
+        return cluster.face.x_height * cluster.scale / 2.0
+    if name == "central":
+        return (over - under) / 2.0
+    return over * {"hanging": HANGING, "mathematical": MATHEMATICAL}.get(name, 0.0)
+
+
+def extent(cluster: Cluster) -> tuple[float, float]:
+    """Ascent and descent of a cluster's face."""
+    return cluster.face.ascender * cluster.scale, -cluster.face.descender * cluster.scale
+
+
+def shifted(span: Span, cluster: Cluster) -> float:
+    """How far `baseline-shift` of a span moves it up."""
+    text = span.place.style["baseline-shift"].lower()
+    if text in ("baseline", "top", "center", "bottom") or local_name(span.element) == "text":
+        return 0.0
+    if text in ("sub", "super"):
+        return cluster.face.shifts[0 if text == "sub" else 1] * cluster.scale
+    size = span.place.style.font_size
+    return span.place.viewport.length(text, size, size) or 0.0

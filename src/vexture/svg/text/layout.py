@@ -1,0 +1,188 @@
+"""Where the clusters of a text go (SVG 2, 11.5): spaces, `textLength`, chunks with their anchors, and paths."""
+
+from bisect import bisect_left
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import pi, radians
+from typing import Final
+
+from vexture.fonts.levels import CURSIVE, reordered
+from vexture.svg.document import local_name
+from vexture.svg.report import Report
+from vexture.svg.style import Style
+from vexture.svg.text.baselines import baseline
+from vexture.svg.text.runs import Cluster
+from vexture.svg.text.track import Track
+from vexture.svg.text.tree import Characters, Span
+from vexture.svg.transform import Identity, Transform
+
+__all__ = ["Chunk", "is_vertical", "laid_out"]
+
+SEPARATORS: Final = frozenset(" \u00a0\u1361\U00010100\U00010101\U0001039f\U0001091f")
+"""Characters between words (CSS Text 3, 7.1)."""
+
+VERTICAL: Final = frozenset({"vertical-rl", "vertical-lr", "sideways-rl", "sideways-lr", "tb", "tb-rl", "tb-lr"})
+
+FLATTEST: Final = 1e-3
+"""Width of squeezed glyphs as a part of their own; a smaller `textLength` is ignored, as 0 is by browsers."""
+
+ANCHORS: Final = {"start": 0.0, "middle": 0.5, "end": 1.0}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Chunk:
+    """Clusters that follow one another from a position of their own, in visual order, and the place of each.
+
+    A cluster's matrix leads from its own coordinates, with its origin at (0, 0), its advance along x and y down, to
+    those of the text. `moved` says whether it does not simply follow the cluster before it.
+    """
+
+    clusters: tuple[Cluster, ...]
+    matrices: tuple[Transform, ...]
+    moved: tuple[bool, ...]
+
+
+def is_vertical(style: Style) -> bool:
+    """Whether a text runs from top to bottom."""
+    return style["writing-mode"].lower() in VERTICAL
+
+
+def laid_out(found: Characters, made: list[Cluster], vertical: bool, report: Report) -> list[Chunk]:
+    """Chunks of a text with all clusters in their places; `made` are they in logical order."""
+    edges = {at for at in range(len(found.text)) if found.starts_chunk(at)}
+    groups: list[list[Cluster]] = []
+    for cluster in made:
+        if not groups or cluster.start in edges:
+            groups.append([])
+        groups[-1].append(cluster)
+    for group in groups:
+        space(found, group)
+    fit(found.spans, made, report)
+    chunks, at = [], (0.0, 0.0)
+    for group in groups:
+        visual = [group[k] for k in reordered([cluster.level for cluster in group])]
+        chunk, at = chunk_of(found, group[0].start, visual, vertical, at)
+        chunks.append(chunk)
+    return chunks
+
+
+def space(found: Characters, group: Sequence[Cluster]) -> None:
+    """Add the spaces of `letter-spacing` and `word-spacing` to the clusters of a chunk, in logical order."""
+    for cluster in group:
+        style = cluster.span.place.style
+        letter, word = (pixels(style[name]) for name in ("letter-spacing", "word-spacing"))
+        if cluster.script not in CURSIVE and cluster is not group[-1]:
+            cluster.advance += letter
+        if found.text[cluster.start] in SEPARATORS:
+            cluster.advance += word
+
+
+def pixels(spacing: str) -> float:
+    """Length of a space; the cascade made it one in user units."""
+    return 0.0 if spacing == "normal" else float(spacing)
+
+
+def fit(spans: Sequence[Span], made: Sequence[Cluster], report: Report) -> None:
+    """Fit the clusters of each element with a `textLength` into that, the innermost elements first (SVG 2, 11.5)."""
+    starts = [cluster.start for cluster in made]
+    for span in reversed(spans):
+        text = span.element.get("textLength")
+        if text is None or local_name(span.element) == "a":
+            continue
+        place = span.place
+        length = place.viewport.length(text, place.viewport.width, place.style.font_size)
+        inside = made[bisect_left(starts, span.start) : bisect_left(starts, span.end)]
+        if length is None or length < 0.0:
+            report.invalid("textLength", text, span.element)
+            continue
+        if inside:
+            fit_span(span, inside, length)
+
+
+def fit_span(span: Span, inside: Sequence[Cluster], length: float) -> None:
+    """Fit clusters into a length; those that are fitted into that of an element inside already move together.
+
+    The last one has a gap behind it too, as in browsers; an anchor does not see it.
+    """
+    width = sum(cluster.advance for cluster in inside)
+    if span.element.get("lengthAdjust", "").strip() == "spacingAndGlyphs":
+        factor = length / width if length > FLATTEST * width > 0.0 else 1.0
+        for cluster in inside:
+            cluster.stretch *= factor
+            cluster.advance *= factor
+            cluster.width *= factor
+        return
+    loose = [
+        cluster for cluster, after in pairwise(inside) if cluster.fitted is None or cluster.fitted is not after.fitted
+    ]
+    for cluster in loose and [*loose, inside[-1]]:
+        cluster.gap = (length - width) / len(loose)
+        cluster.advance += cluster.gap
+    for cluster in inside:
+        cluster.fitted = span
+
+
+def chunk_of(
+    found: Characters, first: int, visual: Sequence[Cluster], vertical: bool, at: tuple[float, float]
+) -> tuple[Chunk, tuple[float, float]]:
+    """Chunk of clusters in visual order that begins at a character, and where what follows it goes on from `at`."""
+    style, track = found.holders[first].place.style, found.holders[first].track
+    length = sum(cluster.advance for cluster in visual) - visual[-1].gap
+    part = ANCHORS[style["text-anchor"].lower()]
+    if style["direction"].lower() == "rtl":
+        part = 1.0 - part
+    if track is not None:
+        begin = (found.y if vertical else found.x).get(first, 0.0)
+        return on_track(found, visual, vertical, track, track.start + begin - part * length)
+    origin = found.x.get(first, at[0]), found.y.get(first, at[1])
+    flow = Identity.translate(*origin).rotate(pi / 2.0 if vertical else 0.0)
+    along, across = -part * length, 0.0
+    matrices, moved = [], []
+    for cluster in visual:
+        dx, dy = shifts(found, cluster)
+        along, across = (along + dy, across - dx) if vertical else (along + dx, across + dy)
+        turn = radians(found.rotate.get(cluster.start, 0.0))
+        matrix = flow.translate(along, across + baseline(cluster, vertical))
+        matrices.append(matrix.rotate(turn).transform(own(cluster)))
+        moved.append(bool(dx or dy or turn))
+        along += cluster.advance
+    end = flow.transformPoint((along, across))  # type: ignore[attr-defined]
+    return Chunk(tuple(visual), tuple(matrices), tuple(moved)), end
+
+
+def on_track(
+    found: Characters, visual: Sequence[Cluster], vertical: bool, track: Track, along: float
+) -> tuple[Chunk, tuple[float, float]]:
+    """Chunk along a path from a distance, each cluster turned about the middle of its advance; see `chunk_of`.
+
+    What follows a path goes on from its end (SVG 2, 11.5, "Position on path").
+    """
+    matrices, across = [], 0.0
+    for cluster in visual:
+        dx, dy = shifts(found, cluster)
+        along, across = (along + dy, across - dx) if vertical else (along + dx, across + dy)
+        half = cluster.width / 2.0
+        point = track.at(along + half)
+        if point is None:
+            cluster.hidden = True
+            matrices.append(Identity)
+        else:
+            turn = radians(found.rotate.get(cluster.start, 0.0))
+            matrix = Identity.translate(point.x, point.y).rotate(point.turn)
+            matrix = matrix.translate(-half, across + baseline(cluster, vertical))
+            matrices.append(matrix.rotate(turn).transform(own(cluster)))
+        along += cluster.advance
+    return Chunk(tuple(visual), tuple(matrices), (True,) * len(visual)), track.end
+
+
+def own(cluster: Cluster) -> Transform:
+    """What stretches a cluster, and turns it where it stands upright in vertical text."""
+    matrix = Identity.scale(cluster.stretch, 1.0)
+    return matrix.rotate(-pi / 2.0) if cluster.upright else matrix
+
+
+def shifts(found: Characters, cluster: Cluster) -> tuple[float, float]:
+    """Sums of `dx` and `dy` of a cluster's characters."""
+    places = range(cluster.start, cluster.end)
+    return sum(found.dx.get(at, 0.0) for at in places), sum(found.dy.get(at, 0.0) for at in places)

@@ -1,0 +1,191 @@
+"""What a text paints: outlines and glyphs in colour, each with the style that paints it."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.bezier.bounds import bounds
+from vexture.deadline import check_time
+from vexture.fonts.layers import Layers
+from vexture.svg.outline import Outline
+from vexture.svg.report import Report
+from vexture.svg.space import Place
+from vexture.svg.strokes import Stroke, stroke_contours
+from vexture.svg.text.baselines import extent
+from vexture.svg.text.layout import Chunk
+from vexture.svg.text.runs import Cluster
+from vexture.svg.text.tree import Span
+from vexture.svg.transform import Identity, Transform, mapped
+
+__all__ = ["Piece", "cells", "pieces"]
+
+Line = tuple[float, float]
+"""Position above the baseline, and thickness."""
+
+WORDS: Final = ("underline", "overline", "line-through")
+STYLES: Final = frozenset({"dashed", "dotted", "double", "wavy"})
+
+EMBOLDENING: Final = ((9.0, 1 / 24), (36.0, 1 / 32))
+"""Font sizes, and of each the width by which a face is made bolder as a part of it: what Skia does."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Piece:
+    """Outlines, or a glyph in colour, that are painted with the style of a place."""
+
+    place: Place
+    outlines: tuple[Outline, ...] = ()
+    layers: Layers | None = None
+    matrix: Transform = Identity  # of the layers, to the units of the place
+
+
+def pieces(chunks: Sequence[Chunk], vertical: bool, report: Report) -> Iterator[Piece]:
+    """What a text paints, in painting order (CSS Text Decoration 3, 2.4)."""
+    for chunk in chunks:
+        for span, held in members(chunk):
+            check_time()
+            if span.place.style["visibility"].lower() != "visible" or not span.place.chosen:
+                continue
+            lines = {word: decoration(span, word, report) for word in WORDS}
+            for word in WORDS[:2]:
+                yield from decorated(held, word, lines[word], vertical)
+            yield from painted(span, held)
+            yield from decorated(held, WORDS[2], lines[WORDS[2]], vertical)
+
+
+Member = tuple[Cluster, Transform, bool]
+"""A cluster that is shown, its matrix, and whether a line begins at it."""
+
+
+def members(chunk: Chunk) -> list[tuple[Span, list[Member]]]:
+    """Stretches of one element in a chunk, in logical order, and the clusters of each in visual order."""
+    stretches: list[tuple[Span, list[Member]]] = []
+    homes: dict[Cluster, list[Member]] = {}
+    for cluster in sorted(chunk.clusters, key=lambda one: one.start):
+        if not stretches or stretches[-1][0] is not cluster.span:
+            stretches.append((cluster.span, []))
+        homes[cluster] = stretches[-1][1]
+    before: list[Member] | None = None
+    for cluster, matrix, moved in zip(chunk.clusters, chunk.matrices, chunk.moved, strict=True):
+        if not cluster.hidden:
+            homes[cluster].append((cluster, matrix, moved or before is not homes[cluster]))
+        before = None if cluster.hidden else homes[cluster]
+    return stretches
+
+
+def painted(span: Span, held: Sequence[Member]) -> Iterator[Piece]:
+    """The glyphs of a span: outlines together, and each in colour by itself."""
+    together: list[Outline] = []
+    for cluster, matrix, _ in held:
+        color = span.place.style.color.rgb
+        x = y = 0.0
+        for glyph in cluster.glyphs:
+            right, down = (x + glyph.offset[0]) * cluster.scale, -(y + glyph.offset[1]) * cluster.scale
+            units = matrix.translate(right, down).transform(
+                Transform(cluster.scale, 0.0, cluster.slant * cluster.scale, -cluster.scale, 0.0, 0.0)
+            )
+            x, y = x + glyph.advance[0], y + glyph.advance[1]
+            layers = cluster.face.layers(glyph.glyph, color)
+            if layers is not None and not span.place.is_clip:
+                if together:
+                    yield Piece(span.place, tuple(together))
+                    together = []
+                yield Piece(span.place, layers=layers, matrix=units)
+                continue
+            contours = list(cluster.face.outline(glyph.glyph))
+            if cluster.bolder and contours:
+                contours += emboldened(contours, cluster)
+            together += [Outline(mapped(contour, units), closed=True) for contour in contours]
+    if together:
+        yield Piece(span.place, tuple(together))
+
+
+def emboldened(contours: list[NDArray[np.float64]], cluster: Cluster) -> list[NDArray[np.float64]]:
+    """Strokes that make contours bolder, in font units; they wind as the contours do."""
+    em = cluster.face.units_per_em
+    sizes, parts = zip(*EMBOLDENING, strict=True)
+    width = em * float(np.interp(em * cluster.scale, sizes, parts))
+    outlines = [Outline(contour, closed=True) for contour in contours]
+    strokes = stroke_contours(outlines, Stroke(width, join="miter"), float(em))
+    areas = [sum(map(turning, shapes)) for shapes in (contours, strokes)]
+    return strokes if areas[0] * areas[1] > 0.0 else [stroke[::-1, ::-1] for stroke in strokes]
+
+
+def turning(contour: NDArray[np.float64]) -> float:
+    """Area of the polygon of a contour's control points; its sign tells how the contour winds."""
+    (x0, y0), (x1, y1) = contour[:, :3].reshape(-1, 2).T, contour[:, 1:].reshape(-1, 2).T
+    return float((x0 * y1 - x1 * y0).sum())
+
+
+def decoration(span: Span, word: str, report: Report) -> Place | None:
+    """Place whose style paints a line of a span: that of the nearest element that declares it; None without one.
+
+    A line that is declared outside the text is painted as the text is.
+    """
+    place: Place | None = span.place
+    text = next(each for each in span.around if each.outer is None).place
+    inside = True
+    while place is not None:
+        words = f"{place.style['text-decoration']} {place.style['text-decoration-line']}".lower().split()
+        if word in words:
+            for style in STYLES.intersection(words):
+                report.simplified(f"text-decoration {style} drawn as a solid line")
+            return replace(place if inside else text, name=span.place.name, chosen=True)
+        inside = inside and place is not text
+        place = place.outer
+    return None
+
+
+def decorated(held: Sequence[Member], word: str, place: Place | None, vertical: bool) -> Iterator[Piece]:
+    """The lines of a kind along the clusters of a span."""
+    if place is None:
+        return
+    outlines = []
+    begin: tuple[Cluster, Transform] | None = None
+    width = 0.0
+    for cluster, matrix, begins in [*held, (None, None, True)]:
+        if begins and begin is not None:
+            outlines.append(line(begin[0], begin[1], width, word, vertical))
+        if cluster is None or matrix is None:
+            break
+        if begins:
+            begin, width = (cluster, matrix), 0.0
+        width += cluster.advance
+    if outlines:
+        yield Piece(place, tuple(outlines))
+
+
+def line(cluster: Cluster, matrix: Transform, width: float, word: str, vertical: bool) -> Outline:
+    """A line of a width that begins at a cluster."""
+    over, under = extent(cluster)
+    position, thickness = (part * cluster.scale for part in cluster.face.underline)
+    if vertical:
+        position = {"underline": -(over + under) / 2.0, "overline": (over + under) / 2.0}.get(word, 0.0)
+    elif word == "overline":
+        position = over
+    elif word == "line-through":
+        position = cluster.face.strikeout[0] * cluster.scale
+    top, bottom = -position - thickness / 2.0, -position + thickness / 2.0
+    right = width / cluster.stretch
+    corners = np.array([(0.0, top), (right, top), (right, bottom), (0.0, bottom)])
+    return Outline(mapped(Outline.polygon(corners, closed=True).cubics, matrix), closed=True)
+
+
+def cells(chunks: Sequence[Chunk]) -> Outline | None:
+    """Outline of the box around the cells of all glyphs (SVG 2, 11.10.3); None if there is none."""
+    corners = []
+    for chunk in chunks:
+        for cluster, matrix in zip(chunk.clusters, chunk.matrices, strict=True):
+            if not cluster.hidden:
+                over, under = extent(cluster)
+                right = cluster.width / cluster.stretch
+                cell = np.array([(0.0, -over), (right, -over), (right, under), (0.0, under)])
+                corners.append(mapped(cell, matrix))
+    if not corners:
+        return None
+    points = np.concatenate(corners)
+    left, top, right, bottom = bounds(np.repeat(points[:, None], 4, axis=1))
+    return Outline.polygon(np.array([(left, top), (right, top), (right, bottom), (left, bottom)]), closed=True)

@@ -1,0 +1,222 @@
+"""The characters of a text element, the elements that they stand in, and what their attributes say (SVG 2, 11.4)."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from typing import Final, Protocol
+
+from lxml import etree
+
+from vexture.deadline import check_time
+from vexture.errors import SourceError
+from vexture.svg.document import applies, local_name
+from vexture.svg.masks import Measured
+from vexture.svg.names import ElementNames
+from vexture.svg.report import described
+from vexture.svg.space import Place
+from vexture.svg.text.track import Track, read_track
+from vexture.svg.values import SEPARATOR, number
+
+__all__ = ["Characters", "Setting", "Span", "characters"]
+
+PARTS: Final = frozenset({"a", "textPath", "tspan"})
+"""Elements in a text that have characters of it."""
+
+SILENT: Final = frozenset({"desc", "metadata", "script", "style", "title"})
+"""Elements in a text that show nothing and change nothing."""
+
+ANIMATIONS: Final = frozenset({"animate", "animateColor", "animateMotion", "animateTransform", "discard", "set"})
+
+MOST_CHARACTERS: Final = 200_000
+"""Characters and elements of texts that are set; each time counts that `use`, a clip or the measuring of a box shows
+them."""
+
+PRESERVED: Final = frozenset({"pre", "pre-wrap", "break-spaces"})
+"""Values of `white-space` that keep spaces."""
+
+POSITIONED: Final = frozenset({"text", "tspan"})
+"""Elements that place single characters."""
+
+
+class Setting(Measured, Protocol):
+    """What is needed of a scene."""
+
+    names: ElementNames
+    chosen: set[etree._Element] | None
+
+
+@dataclass(slots=True, eq=False)
+class Span:
+    """An element of a text, and which characters are in it."""
+
+    place: Place  # inside it, with its style and name
+    outer: "Span | None"
+    start: int
+    end: int = 0
+    track: Track | None = None  # that its characters follow
+    afresh: bool = False  # whether it begins or ends a path, so that its neighbours do not continue it
+
+    @property
+    def element(self) -> etree._Element:
+        """The element."""
+        assert self.place.element is not None
+        return self.place.element
+
+    @property
+    def around(self) -> "Iterator[Span]":
+        """The span and those around it, the innermost first."""
+        span: Span | None = self
+        while span is not None:
+            yield span
+            span = span.outer
+
+
+@dataclass(slots=True, eq=False)
+class Characters:
+    """The characters of a text that attributes can address; the spans are in the order of the document."""
+
+    text: list[str] = field(default_factory=list)
+    holders: list[Span] = field(default_factory=list)  # the innermost span of each
+    spans: list[Span] = field(default_factory=list)
+    x: dict[int, float] = field(default_factory=dict)
+    y: dict[int, float] = field(default_factory=dict)
+    dx: dict[int, float] = field(default_factory=dict)
+    dy: dict[int, float] = field(default_factory=dict)
+    rotate: dict[int, float] = field(default_factory=dict)  # degrees
+    count: int = 0  # of characters and elements in all texts so far
+    after_space: bool = True  # whether white space that comes next collapses
+
+    def add(self, text: str, span: Span) -> None:
+        """Add the text of a span; white space that collapses is left out (CSS Text 3, 4.1)."""
+        style = span.place.style
+        preserved = style["white-space"].lower() in PRESERVED
+        transform = style["text-transform"].lower()
+        for character in text:
+            if character in " \t\n\r":
+                if self.after_space and not preserved:
+                    continue
+                self.after_space = not preserved
+                character = " "
+            else:
+                character = transformed(character, transform, self.text[-1] if self.text else " ")
+                self.after_space = False
+            self.text.append(character)
+            self.holders.append(span)
+            self.add_one()
+
+    def add_one(self) -> None:
+        """Count a character or an element; a `SourceError` if they are too many."""
+        self.count += 1
+        if self.count > MOST_CHARACTERS:
+            raise SourceError(f"texts have more than {MOST_CHARACTERS:,} characters; draw less text, or as outlines")
+
+    def finish(self) -> None:
+        """Remove white space at the end, and place the characters."""
+        if self.text and self.after_space:
+            del self.text[-1], self.holders[-1]
+        for span in self.spans:
+            span.start, span.end = min(span.start, len(self.text)), min(span.end, len(self.text))
+
+    def starts_chunk(self, at: int) -> bool:
+        """Whether a character has a position of its own, so that an anchored chunk begins with it."""
+        return at == 0 or at in self.x or at in self.y or (self.holders[at].track is not self.holders[at - 1].track)
+
+
+def transformed(character: str, how: str, before: str) -> str:
+    """Character by `text-transform`, which is not to change their number; `before` is the one before it."""
+    if how == "uppercase" or (how == "capitalize" and not before.isalnum()):
+        changed = character.upper()
+    elif how == "lowercase":
+        changed = character.lower()
+    else:
+        return character
+    return changed if len(changed) == 1 else character
+
+
+def characters(scene: Setting, element: etree._Element, place: Place, count: int) -> Characters:
+    """Characters of a text element at a place with its style; `count` are those before."""
+    found = Characters(count=count)
+    read(scene, found, Span(replace(place, element=element), None, 0))
+    found.finish()
+    for span in found.spans:
+        if local_name(span.element) in POSITIONED:
+            position(scene, found, span)
+    return found
+
+
+def read(scene: Setting, found: Characters, span: Span) -> None:
+    """Add the characters of a span."""
+    check_time()
+    element = span.element
+    found.spans.append(span)
+    found.add_one()
+    found.add(element.text or "", span)
+    for child in element:
+        name = local_name(child)
+        if name in PARTS and applies(child):
+            inner = part(scene, child, span, len(found.text))
+            if inner is not None:
+                read(scene, found, inner)
+        elif name in ANIMATIONS:
+            scene.report.left_out("animation")
+        elif name is not None and name not in SILENT and applies(child):
+            scene.report.left_out(f"<{name[:40]}> in a text")
+        found.add(child.tail or "", span)
+    span.end = len(found.text)
+
+
+def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Span | None:
+    """The span of an element in a text; None if it shows nothing."""
+    style = scene.cascade.style(element, outer.place.style)
+    if style["display"].lower() == "none":
+        return None
+    called, is_instance = outer.place.named(scene.names.of(element), False)
+    chosen = outer.place.chosen or (scene.chosen is not None and element in scene.chosen)
+    place = replace(
+        outer.place,
+        style=style,
+        element=element,
+        outer=outer.place,
+        depth=outer.place.depth + 1,
+        name=called,
+        is_instance=is_instance,
+        chosen=chosen,
+    )
+    track = outer.track
+    if local_name(element) == "textPath":
+        if any(local_name(span.element) not in ("a", "text") for span in outer.around):
+            scene.report.left_out(f"{described(element)}, which is not a child of <text>")
+            return None
+        track = read_track(scene, element, place)
+        if track is None:
+            return None
+    return Span(place, outer, start, track=track)
+
+
+def position(scene: Setting, found: Characters, span: Span) -> None:
+    """Read the positions that an element gives its characters; inner elements come later, and override them."""
+    view, font_size = span.place.viewport, span.place.style.font_size
+    for name, places, whole in (
+        ("x", found.x, view.width),
+        ("y", found.y, view.height),
+        ("dx", found.dx, view.width),
+        ("dy", found.dy, view.height),
+    ):
+        text = span.element.get(name, "").strip()
+        if text:
+            lengths = [view.length(part, whole, font_size) for part in SEPARATOR.split(text, span.end - span.start)]
+            read_list(scene, span, name, lengths, places)
+    text = span.element.get("rotate", "").strip()
+    if text:
+        turns = [number(part) for part in SEPARATOR.split(text, span.end - span.start)][: span.end - span.start]
+        if None not in turns and turns:  # the last one is that of all others (SVG 2, 11.4)
+            turns += turns[-1:] * (span.end - span.start - len(turns))
+        read_list(scene, span, "rotate", turns, found.rotate)
+
+
+def read_list(scene: Setting, span: Span, name: str, values: list[float | None], places: dict[int, float]) -> None:
+    """Give the characters of a span the values of a list."""
+    values = values[: span.end - span.start]
+    if None in values:
+        scene.report.invalid(name, span.element.get(name, ""), span.element)
+        return
+    places.update((span.start + k, value) for k, value in enumerate(values) if value is not None)

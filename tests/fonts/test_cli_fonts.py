@@ -1,0 +1,81 @@
+"""The commands `text` and `font`."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+from made import BLUE, RED, filled, made_font, solid, stacked
+
+import vexture
+from vexture.cli.main import main
+
+
+@pytest.fixture(scope="module")
+def font(tmp_path_factory):
+    file = tmp_path_factory.mktemp("cli") / "made.ttf"
+    paint = stacked(filled("square", solid(RED)), filled("tall", solid(BLUE)))
+    file.write_bytes(made_font({"A": "left", "V": "disc", "é": "left", "C": "square"}, {"C": paint}))
+    return file
+
+
+def run(*arguments, **options):
+    return CliRunner().invoke(main, [str(argument) for argument in arguments], **options)
+
+
+def test_a_word_becomes_a_texture(font, tmp_path):
+    result = run("text", "AV", "--font", font, "-o", tmp_path)
+    assert result.exit_code == 0, result.output
+    assert result.stdout.startswith("AV: ")
+    (root,) = vexture.load(tmp_path / "AV.ktx2").roots
+    assert (root.name, root.is_map, root.paint) == ("AV", False, None)
+
+
+def test_options_of_convert_and_of_the_text_are_heard(font, tmp_path):
+    target = tmp_path / "word.ktx2"
+    arguments = ("--font", font, "--name", "word", "--color", "#ff000080", "--tolerance", 0, "--json", "-o", target)
+    result = run("text", r"A\nV", *arguments)
+    assert result.exit_code == 0, result.output
+    (facts,) = json.loads(result.stdout)
+    assert (facts["source"], facts["files"]) == ("word", [str(target)])
+    (root,) = vexture.load(target).roots
+    assert root.paint.hex == "#ff000080"
+    assert root.to_source[0, 0] == pytest.approx(2.0)  # ems of two lines
+
+
+def test_text_of_a_pipe_in_colours_to_a_pipe(font):
+    result = run("text", "-", "--font", font, "-o", "-", input="AC\n")
+    assert result.exit_code == 0
+    (root,) = vexture.texture.load.texture_from(result.stdout_bytes, "pipe").roots
+    assert root.is_map
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("text", " "), "nothing of the text is painted"),
+        (("text", "A", "--weight", 0), "--weight is 0; it must be 1 to 1000"),
+        (("text", "A", "--features", "x"), "--features 'x' is no OpenType feature"),
+        (("text", "A", "-o", "a.svg"), "name FILE.ktx2 or a folder"),
+        (("font", "FONT", "--range", "U+5-4", "-o", "a.ktx2"), "--range 'U+5-4' is no range of characters"),
+        (("font", "FONT", "--chars", "xyz", "-o", "a.ktx2"), "Made has none of the 3 characters; give others"),
+        (("font", __file__, "-o", "a.ktx2"), "holds no font; give a TrueType"),
+    ],
+)
+def test_what_cannot_be_is_said_in_one_line(font, arguments, message):
+    given = [font if part == "FONT" else part for part in arguments]
+    result = run(*given, *(("--font", font) if given[0] == "text" else ()))
+    assert result.exit_code == 1
+    assert message in result.output
+    assert result.output.count("\n") == 1
+
+
+def test_characters_of_a_font_become_an_atlas(font, tmp_path):
+    wanted = tmp_path / "chars.txt"
+    wanted.write_text("V\nV", encoding="utf-8")
+    target = tmp_path / "atlas.ktx2"
+    result = run("font", font, "--chars", "A", "--chars-file", wanted, "--range", "U+E0-FF", "-o", target)
+    assert result.exit_code == 0, result.output
+    assert result.stdout == (
+        f"{target}: 3 characters, 3 shapes, {target.stat().st_size} bytes; {target.with_suffix('.json')}\n"
+    )
+    assert [*json.loads(target.with_suffix(".json").read_text(encoding="utf-8"))["glyphs"]] == ["A", "V", "é"]

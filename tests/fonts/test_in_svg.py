@@ -1,0 +1,34 @@
+"""Fonts in texts of SVG: glyphs in colour, and which font stands for a generic family."""
+
+import pytest
+from made import OWN, RED, filled, made_font, solid, stacked
+
+from vexture.svg.read import svg_drawing
+
+ROOT = 'xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"'
+
+
+def drawn(body, *fonts):
+    return svg_drawing(f"<svg {ROOT}>{body}</svg>".encode(), "text.svg", fonts=fonts)
+
+
+def test_glyphs_in_colour_are_painted_where_they_stand(tmp_path):
+    file = tmp_path / "made.ttf"
+    layers = stacked(filled("square", solid(RED)), filled("disc", solid(OWN)))
+    file.write_bytes(made_font({"a": "square", "b": "left"}, {"a": layers}))
+    body = '<text id="t" x="10" y="50" font-size="20" font-family="Made" color="blue" fill-opacity="0.5">ba</text>'
+    drawing = drawn(body, file)
+    assert [path.element for path in drawing.paths] == ["t", "t", "t"]
+    assert [path.paint.hex for path in drawing.paths] == ["#00000080", "#ff0000", "#0000ff"]
+    assert [path.group for path in drawing.paths] == [-1, 0, 0]
+    assert [group.opacity for group in drawing.groups] == [0.5]
+    sides = [100 * side for side in drawing.paths[1].box.ravel()]
+    assert sides == pytest.approx([10 + 18 + 2, 50, 10 + 18 + 16, 50 + 14])
+    assert drawn(body.replace("<text", '<text fill="none"'), file).paths == ()
+
+
+def test_generic_families_are_those_of_the_given_fonts_first(tmp_path):
+    for name, family, shape in (("a.ttf", "Other", "square"), ("b.ttf", "Noto Serif", "left")):
+        (tmp_path / name).write_bytes(made_font({"a": shape}, family=family))
+    drawing = drawn('<text y="50" font-family="serif" font-size="10">a</text>', tmp_path)
+    assert 100 * drawing.paths[0].box.ravel()[2] == pytest.approx(5)

@@ -1,0 +1,115 @@
+"""Which face a text gets: CSS Fonts 4, 5.2, and the order of the sources."""
+
+import sys
+
+import pytest
+from made import made_font
+
+from vexture.errors import DeviceError, SourceError
+from vexture.fonts import engine, library, system
+from vexture.fonts.library import EmbeddedFont, Fonts
+from vexture.fonts.matching import Traits, preference
+
+
+def order(weights, wanted, style="normal", stretch=100.0):
+    """Weights in the order in which they stand in for one."""
+    faces = [Traits((weight, weight), (100.0, 100.0), ("normal",)) for weight in weights]
+    return [face.weights[0] for face in sorted(faces, key=lambda face: preference(face, wanted, style, stretch))]
+
+
+@pytest.mark.parametrize(
+    ("wanted", "expected"),
+    [
+        (400, [400, 450, 500, 350, 100, 600, 900]),
+        (450, [450, 500, 400, 350, 100, 600, 900]),
+        (500, [500, 450, 400, 350, 100, 600, 900]),
+        (300, [100, 350, 400, 450, 500, 600, 900]),
+        (700, [900, 600, 500, 450, 400, 350, 100]),
+    ],
+)
+def test_weights_stand_in_as_css_says(wanted, expected):
+    assert order([900, 100, 500, 400, 600, 350, 450], wanted) == expected
+
+
+def test_stretch_comes_before_style_and_style_before_weight():
+    offered = {
+        "narrow": Traits((400, 400), (75, 75), ("italic",)),
+        "italic": Traits((900, 900), (100, 100), ("italic",)),
+        "oblique": Traits((400, 400), (100, 100), ("oblique",)),
+        "variable": Traits((100, 900), (100, 100), ("normal",)),
+        "wide": Traits((400, 400), (125, 125), ("italic",)),
+    }
+
+    def ranked(*wanted):
+        return sorted(offered, key=lambda name: preference(offered[name], *wanted))
+
+    assert ranked(400, "italic", 100) == ["italic", "oblique", "variable", "narrow", "wide"]
+    assert ranked(400, "normal", 100) == ["variable", "oblique", "italic", "narrow", "wide"]
+    assert ranked(400, "italic", 110)[0] == "wide"
+
+
+@pytest.fixture
+def folder(tmp_path):
+    for name, family, weight, chars in (
+        ("a.ttf", "Harbour", 400, "AB"),
+        ("b.ttf", "Harbour", 700, "AB"),
+        ("c.ttf", "Quay", 400, "C"),
+    ):
+        (tmp_path / name).write_bytes(made_font(dict.fromkeys(chars, "square"), family=family, weight=weight))
+    (tmp_path / "broken.ttf").write_bytes(b"\0\1\0\0")
+    return tmp_path
+
+
+def families(faces):
+    return [(face.family, face.weight) for face in faces]
+
+
+def test_faces_of_the_family_come_first_and_others_after_them(folder, monkeypatch):
+    monkeypatch.setattr(library, "default_files", lambda: ())
+    fonts = Fonts([folder], system=False)
+    assert families(fonts.faces(["harbour"], 600)) == [("Harbour", 700), ("Quay", 400)]
+    assert families(fonts.faces(["Nowhere", "Quay"], 400)) == [("Quay", 400), ("Harbour", 400)]
+
+
+def test_default_font_comes_after_the_given_ones_and_stands_for_generic_families(folder, default_faces):
+    found = families(Fonts([folder / "c.ttf"], system=False).faces(["Nowhere"], 700))
+    assert found == [("Quay", 400), ("Noto Sans", 700)]
+    (best, *_) = Fonts([folder / "c.ttf"], system=False).faces(["sans-serif"], 300, "italic", 75.0)
+    assert (best.family, best.weight, best.style, best.stretch) == ("Noto Sans", 300, "italic", 75.0)
+
+
+def test_font_of_a_drawing_has_the_name_and_style_of_its_rule(folder):
+    content = (folder / "c.ttf").read_bytes()
+    embedded = [EmbeddedFont("Own", content, weights=(600, 600)), EmbeddedFont("Own", content, style="italic")]
+    fonts = Fonts(embedded=embedded, system=False)
+    assert next(iter(fonts.faces(["own"], 700))).family == "Quay"
+    bold, slanted = fonts._embedded
+    assert (bold.traits.weights, slanted.traits.styles) == ((600, 600), ("italic",))
+
+
+def test_a_given_file_that_is_no_font_is_named(folder):
+    with pytest.raises(SourceError, match=r"broken.ttf: the font is damaged: it has no"):
+        next(Fonts([folder / "broken.ttf"]).faces(["Harbour"]))
+    with pytest.raises(SourceError, match=r"none.ttf: cannot be read"):
+        next(Fonts([folder / "none.ttf"]).faces(["Harbour"]))
+
+
+def test_system_fonts_come_from_fontconfig_or_the_usual_folders(folder, monkeypatch):
+    monkeypatch.setattr(
+        system, "asked", lambda *command: f"{folder / 'a.ttf'}\n{folder / 'a.ttf'}\n{folder / 'x.pcf'}\n"
+    )
+    assert system.system_files.__wrapped__() == (folder / "a.ttf",)
+    monkeypatch.setattr(system, "asked", lambda *command: "")
+    monkeypatch.setattr(system, "LINUX", (str(folder), str(folder / "nowhere")))
+    monkeypatch.setattr(system.sys, "platform", "linux")
+    assert [path.name for path in system.system_files.__wrapped__()] == ["a.ttf", "b.ttf", "broken.ttf", "c.ttf"]
+
+
+def test_without_uharfbuzz_the_remedy_is_named(folder, monkeypatch):
+    monkeypatch.setitem(sys.modules, "uharfbuzz", None)
+    engine.harfbuzz.cache_clear()
+    try:
+        with pytest.raises(DeviceError, match=r"pip install 'vexture\[text\]'"):
+            next(Fonts([folder / "a.ttf"]).faces(["Harbour"]))
+    finally:
+        engine.harfbuzz.cache_clear()

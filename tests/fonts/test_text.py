@@ -1,0 +1,124 @@
+"""Texts as drawings: where their glyphs are, in which order, and what is said about fonts and characters."""
+
+import numpy as np
+import pytest
+from made import BLUE, RED, composite, filled, made_font, solid, stacked
+
+import vexture
+from vexture.fonts.text import TextOptions, text_drawing
+from vexture.paint import Gradient, Paint, Stop
+
+ADVANCE = 0.9
+"""Of all letters of the made fonts, in ems; their squares begin at 0.1 and end at 0.8."""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("fonts")
+    letters = dict.fromkeys("AVאב(", "square")
+    (folder / "plain.ttf").write_bytes(made_font(letters, kerning=[("u0041", "u0056", -80)]))
+    paint = composite("XOR", filled("square", solid(RED)), filled("disc", solid(BLUE)))
+    paints = {"B": stacked(filled("square", solid(RED)), filled("tall", solid(BLUE))), "C": paint}
+    (folder / "colours.ttf").write_bytes(made_font(dict.fromkeys("BC", "square"), paints, family="Colours"))
+    return folder
+
+
+def drawn(folder, text, font="plain.ttf", **options):
+    return text_drawing(text, TextOptions(folder / font, **options))
+
+
+def places(drawing):
+    """Letters of a drawing with their lower left corners in units of the source, y down."""
+    found = []
+    for path in drawing.paths:
+        x, y = path.box[0]
+        found.append((path.element, *np.round(drawing.to_source @ (x, y, 1.0), 9).tolist()))
+    return found
+
+
+def test_letters_are_kerned_and_in_ems_from_the_baseline(folder):
+    assert places(drawn(folder, "AVA")) == [("A", 0.1, 0.0), ("V", 0.92, 0.0), ("A", 1.82, 0.0)]
+    assert places(drawn(folder, "AV", features=["-kern"], size=10.0)) == [("A", 1.0, 0.0), ("V", 10.0, 0.0)]
+
+
+def test_the_box_is_that_of_the_lines(folder):
+    found = drawn(folder, "AA\nA")  # 1.8 wide, from 0.8 above to 1.2 below the first baseline
+    np.testing.assert_allclose(found.to_source, [[2.0, 0.0, -0.1], [0.0, -2.0, 1.2]], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("align", "direction", "start"),
+    [("start", "ltr", 0.0), ("center", "ltr", 0.45), ("end", "ltr", 0.9), ("start", "rtl", 0.9), ("end", "rtl", 0.0)],
+)
+def test_lines_are_aligned_in_the_direction_of_the_text(folder, align, direction, start):
+    found = places(drawn(folder, "AA\nA", align=align, direction=direction, line_height=1.5))
+    assert found[2] == ("A", pytest.approx(start + 0.1), 1.5)
+
+
+def test_text_of_both_directions_is_in_visual_order(folder):
+    assert [letter for letter, *_ in places(drawn(folder, "אבAV"))] == ["A", "V", "ב", "א"]
+    assert [letter for letter, *_ in places(drawn(folder, "אבAV", direction="ltr"))] == ["ב", "א", "A", "V"]
+
+
+def test_a_colour_font_is_a_planar_map_and_takes_the_opacity_as_a_whole(folder):
+    found = drawn(folder, "BC", "colours.ttf")
+    assert found.is_coloured
+    assert {path.element for path in found.paths} == {"B", "C"}
+    faded = drawn(folder, "BC", "colours.ttf", paint=Paint(opacity=0.5))
+    pictures = [vexture.render(drawing, size=60, renderer="exact") for drawing in (found, faded)]
+    np.testing.assert_allclose(pictures[1], pictures[0] * 0.5, atol=2 / 255)
+
+
+def test_a_gradient_goes_over_the_whole_text(folder):
+    gradient = Gradient(((1 / 1.8, 0, 0), (0, 1, 0)), (Stop(0, (1, 0, 0)), Stop(1, (0, 0, 1))))
+    image = vexture.render(drawn(folder, "AA", paint=Paint.of(gradient)), size=180, renderer="exact")
+    for column in (20, 70, 110, 160):
+        assert image[90, column, 2] == pytest.approx((column + 0.5) / 180, abs=0.01)
+
+
+def test_what_stands_in_for_a_font_or_character_is_named(folder):
+    found = drawn(folder, "AB☃", ".", family="Made")
+    told = [str(note) for note in found.notes]
+    assert "character 'B' (U+0042), which Made lacks, and such in Colours" in told
+    assert places(found)[1][0] == "B"
+    other = drawn(folder, "A", family="Nowhere", style="italic")
+    assert [str(note) for note in other.notes] == ["font 'Nowhere' in Made", "italic style, which Made lacks, upright"]
+
+
+def test_joiners_and_variation_selectors_stay_with_their_character(folder):
+    found = drawn(folder, "A\ufe0fV\u200dA", ".", family="Made")
+    assert found.notes == ()
+
+
+def test_a_character_that_no_font_has_is_left_out_by_name(folder):
+    with pytest.warns(vexture.SourceWarning, match=r"left out: character \(U\+10FFFF\), which no font has"):
+        vexture.text("A\U0010ffff", font=folder / "plain.ttf")
+
+
+def test_the_default_font_is_shaped_in_its_weight(default_faces):
+    widths = [vexture.text("Harbour", family="Noto Sans", weight=weight).to_source[0, 0] for weight in (100, 900)]
+    assert widths[0] < widths[1]
+
+
+def test_an_empty_text_is_an_empty_drawing(folder):
+    for text in ("", " \n\t", "\x07"):
+        found = drawn(folder, text)
+        assert found.paths == ()
+        assert [str(note) for note in found.notes] == ["nothing in it is painted"]
+
+
+@pytest.mark.parametrize(
+    ("option", "message"),
+    [
+        ({"align": "left"}, "`align` is 'left'; it must be start, center, end"),
+        ({"direction": "up"}, "`direction` is 'up'; it must be auto, ltr, rtl"),
+        ({"weight": 0}, "`weight` is 0; it must be 1 to 1000"),
+        ({"size": float("inf")}, "`size` is inf; it must be above 0"),
+        ({"stretch": 0.0}, "`stretch` is 0; it must be above 0"),
+    ],
+)
+def test_options_out_of_range_are_named(option, message):
+    with pytest.raises(vexture.ParameterError, match=message):
+        vexture.text("A", **option)
+    with pytest.raises(vexture.LimitError, match="`text` has 100,001 characters"):
+        vexture.text("A" * 100_001)
