@@ -14,6 +14,7 @@ from vexture.svg.read import read_svg
 
 FIXTURES = Path(__file__).parent / "fixtures"
 TOPICS = (
+    "filters",
     "gradients",
     "groups",
     "markers",
@@ -45,6 +46,8 @@ def marked(under: str, *places: tuple[float, float, float], scale: float = 0.9, 
 
 # what PyPI's resvg does not know, in words that it and we understand alike
 PLAINER = {
+    # "A reference to a non-existent object is considered ... the whole filter chain is ignored" (Filter Effects 1, 5)
+    "filters/missing": '<rect x="10" y="10" width="30" height="30"/><rect x="50" y="50" width="30" height="30"/>',
     "gradients/attributes-by-reference": '<linearGradient id="g" x1="0.1" x2="0.3" gradientTransform="rotate(20)"'
     f' spreadMethod="reflect">{RAMP}</linearGradient><rect x="10" y="20" width="80" height="60" fill="url(#g)"/>',
     "gradients/stroke-not-scaling": f'<linearGradient id="g" gradientUnits="userSpaceOnUse" x1="20" x2="80">{RAMP}'

@@ -16,7 +16,16 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from vexture.cli.messages import as_options, one_line, say
-from vexture.cli.options import PATH, SILHOUETTE_HELP, STANDARD, Sectioned, split_of, standard_input, tolerance_option
+from vexture.cli.options import (
+    PATH,
+    SILHOUETTE_HELP,
+    STANDARD,
+    Sectioned,
+    split_of,
+    standard_input,
+    strict_option,
+    tolerance_option,
+)
 from vexture.deadline import DEFAULT_SECONDS
 from vexture.encodings import DEFAULT, REGISTERED
 from vexture.errors import EXPECTED, ParameterError, VextureError
@@ -116,6 +125,7 @@ class Outcome:
 @click.option(
     "-j", "--jobs", metavar="N", type=click.IntRange(1), default=1, show_default=True, help="Processes to use."
 )
+@strict_option
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON list with the facts of each source.")
 @click.option("-q", "--quiet", is_flag=True, help="Print errors only.")
 @click.option("-v", "--verbose", is_flag=True, help="Print each shape, too.")
@@ -134,6 +144,7 @@ def convert(
     atlas: Path | None,
     encoding: str,
     jobs: int,
+    strict: bool,
     as_json: bool,
     quiet: bool,
     verbose: bool,
@@ -151,7 +162,7 @@ def convert(
         _check_places(sources, output, atlas, encoding, to_pipe)
         stored = {name: parameters.pop(name) for name in ("deflate",) if name in parameters}
         work = partial(_convert_one, encoding=encoding, parameters=parameters, stored=stored)
-        work = partial(work, for_atlas=atlas is not None, quiet=quiet)
+        work = partial(work, for_atlas=atlas is not None, strict=strict, quiet=quiet)
         outcomes: list[Outcome] = []
         owners: dict[str, Path] = {}
         for found in _outcomes(work, sources, jobs, level):
@@ -230,13 +241,14 @@ def _convert_one(
     parameters: dict[str, Any],
     stored: dict[str, Any],
     for_atlas: bool,
+    strict: bool,
     quiet: bool,
 ) -> Outcome:
     """Convert one source, in this process or another; an error is returned as its line.
 
     `stored` are the parameters of the texture's `files`.
     """
-    from vexture.notes import line_of
+    from vexture.notes import check_losses, line_of
     from vexture.pipeline import READING, Parameters, run, trees_of
     from vexture.reading import read_drawing
     from vexture.texture.ktx2 import TEXEL_BYTES
@@ -257,6 +269,7 @@ def _convert_one(
             done = run(given, encoding=encoding, **parameters)
             files = done.texture.files(**stored)
             size = sum(map(len, files.values()))
+        check_losses(str(source), done.notes, is_empty=not done.drawing.paths, strict=strict)
     except EXPECTED as error:
         return Outcome(source, {}, error=str(error))
     warning = line_of(str(source), done.notes)
@@ -280,6 +293,7 @@ def _facts(done: "Conversion[Any]") -> dict[str, Any]:
         "rounding": done.rounding,
         "unresolved": sum(shape["unresolved"] for shape in shapes),
         "shapes": shapes,
+        "notes": [note.facts() for note in done.notes],
     }
 
 

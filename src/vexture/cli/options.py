@@ -23,6 +23,7 @@ __all__ = [
     "drawing_kind",
     "split_of",
     "standard_input",
+    "strict_option",
     "tolerance_option",
     "viewer_parameters",
 ]
@@ -146,6 +147,13 @@ tolerance_option = click.option(
     show_default=True,
     help="Largest distance from the drawing's outline, in unit-square units: the drawing's longer side is 1. "
     "auto is 2e-5, or 0 with a precision; 0 merges nothing.",
+)
+
+
+strict_option = click.option(
+    "--strict",
+    is_flag=True,
+    help="Fail, and write nothing, where anything of a drawing is left out, simplified or invalid; remarks do no harm.",
 )
 
 

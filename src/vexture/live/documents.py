@@ -128,6 +128,7 @@ def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start:
         "to_source": drawing.to_source.ravel().tolist(),
         "box": None,
         "warnings": [line] if line else [],
+        "notes": [note.facts() for note in part.notes],
     }
     return Shape(drawing.name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
 
@@ -149,6 +150,7 @@ def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
         "to_source": texture.roots[0].to_source.ravel().tolist(),
         "box": None,
         "warnings": [],
+        "notes": [],
     }
     return Shape(name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
 

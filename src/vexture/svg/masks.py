@@ -76,7 +76,7 @@ def add_mask(
             return replace(place, space=space.window(rectangle, matrix.inverse())), []
     if not is_clip:
         if style["color-interpolation"].lower() == "linearrgb":
-            scene.report.simplified("mask in linear light (color-interpolation) read as one in sRGB")
+            scene.report.simplified("mask in linear light (color-interpolation) read as one in sRGB", element)
         space = region(scene, element, target, place, matrix)
     assert place.veil is not None
     by_opacity = is_clip or style["mask-type"].lower() == "alpha"

@@ -37,7 +37,7 @@ STROKE = "/stroke"
 
 
 class Painter:
-    """Collects the paths of what is painted, in order, and the innermost veil around each.
+    """Collects the paths of what is painted, in order, with the innermost veil around each, and its place.
 
     `walk` paints what markers and patterns show.
     """
@@ -55,6 +55,7 @@ class Painter:
         self.walk = walk
         self.paths: list[Path] = []
         self.veils: list[Veil | None] = []
+        self.places: list[Place] = []
         self.segments: int = 0
 
     def paint(self, element: etree._Element, place: Place, markers: Iterable[list[Placed]] = ()) -> None:
@@ -101,7 +102,7 @@ class Painter:
             outlines = [replace(outline, cubics=mapped(outline.cubics, screen)) for outline in outlines]
             size *= scale_of(screen)
         elif effect != "none":
-            self.report.left_out(f"vector-effect '{effect[:40]}'")
+            self.report.left_out(f"vector-effect '{effect[:40]}'", shape.element)
         if size == inf:
             size = max(stroke.width, *(float(np.ptp(outline.cubics, axis=(0, 1)).max()) for outline in outlines))
         contours = stroke_contours(outlines, stroke, size)
@@ -126,6 +127,7 @@ class Painter:
             paint = paint.solid
         self.paths.append(Path(tuple(shown), rule, paint, element=element))
         self.veils.append(place.veil)
+        self.places.append(place)
         if place.veil is not None:
             ends = np.concatenate([contour.reshape(-1, 2) for contour in shown])
             place.veil.add((*ends.min(axis=0), *ends.max(axis=0)))
@@ -156,10 +158,12 @@ class Painter:
         elif first.painted:
             self.paths.append(Path(tuple(shape), rule, Paint(tiling.solid.color)))
             self.veils.append(first.veil.masked(tiling.opacity))
+            self.places.append(place)
         for path, veil in first.painted:
             repeated = [replace(made, element=element) for made in tiles.repeated(path)]
             self.paths += repeated
             self.veils += [veil] * len(repeated)
+            self.places += [place] * len(repeated)
         return True
 
     def first_tile(self, place: Place, tiling: Tiling) -> FirstTile | None:
@@ -197,7 +201,7 @@ def stroke_of(shape: Shape, outlines: list[Outline]) -> Stroke | None:
         return None
     join = style["stroke-linejoin"].lower()
     if join in ("miter-clip", "arcs"):
-        shape.report.simplified(f"stroke-linejoin {join} drawn as miter")
+        shape.report.simplified(f"stroke-linejoin {join} drawn as miter", shape.element)
         join = "miter"
     dashes = dashes_of(shape)
     offset = shape.length("stroke-dashoffset") or 0.0

@@ -15,9 +15,10 @@ from vexture.errors import SourceError
 from vexture.notes import warn_of
 from vexture.svg.compositing import occupied
 from vexture.svg.document import parse_svg
-from vexture.svg.report import Report, described
+from vexture.svg.report import Report
 from vexture.svg.scene import Scene
 from vexture.svg.select import chosen, nothing_painted
+from vexture.svg.subjects import subject_of
 from vexture.svg.transform import Identity, Transform
 from vexture.svg.values import Viewport
 from vexture.svg.viewport import THINNEST, Rectangle
@@ -119,20 +120,25 @@ def framed_drawing(
             part = None if select is None else chosen(root, select)
             scene = Scene(root, report, part, "id" if names is None else names)
             framed = frame(scene)
-            drawing = drawing_of(scene, framed, Path(source).stem)
+            drawing, to_pixels = drawing_of(scene, framed, Path(source).stem)
         except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
             raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
         if select is not None and part is not None and not drawing.paths:
             raise nothing_painted(select, len(part))
     if not drawing.paths:
         report.remark("nothing in it is painted")
-    return replace(drawing, notes=report.listed), None if framed is EMPTY else framed
+    notes = report.about(lambda element: subject_of(element, scene.names, scene.boxes, to_pixels))
+    return replace(drawing, notes=notes), None if framed is EMPTY else framed
 
 
-def drawing_of(scene: Scene, framed: Frame | None, name: str) -> Drawing:
-    """Paint a scene into the frame that its outermost element sets, or around what it paints."""
+def drawing_of(scene: Scene, framed: Frame | None, name: str) -> tuple[Drawing, NDArray[np.float64] | None]:
+    """Paint a scene into the frame that its outermost element sets, or around what it paints.
+
+    Return the map from the unit square to pixels, too, if there is one.
+    """
+    nothing = Drawing((), name=name), None
     if framed is EMPTY:
-        return Drawing((), name=name)
+        return nothing
     if framed is not None:
         size, viewport, matrix = framed
         box: Rectangle = (0.0, 0.0, *size)
@@ -141,15 +147,16 @@ def drawing_of(scene: Scene, framed: Frame | None, name: str) -> Drawing:
         paths, _ = Scene(scene.root, Report()).paint(viewport, matrix, None)  # all of it, to measure; notes come later
         if not paths:
             scene.paint(viewport, matrix, None)  # for its notes
-            return Drawing((), name=name)
+            return nothing
         left, top, right, bottom = bounds(np.concatenate([contour for path in paths for contour in path.contours]))
         box = (left, top, right - left, bottom - top)
         if box[2] == 0.0 or box[3] == 0.0:
-            return Drawing((), name=name)
+            return nothing
     paths, groups = scene.paint(viewport, matrix, box)
     drawing = Drawing.from_source(paths, box, name, groups)
     shown, groups = occupied(drawing.paths, groups)
-    return replace(drawing, paths=shown, groups=groups, to_source=after(drawing.to_source, matrix.inverse()))
+    to_source = after(drawing.to_source, matrix.inverse())
+    return replace(drawing, paths=shown, groups=groups, to_source=to_source), drawing.to_source
 
 
 def frame(scene: Scene) -> Frame | None:
@@ -164,7 +171,7 @@ def frame(scene: Scene) -> Frame | None:
         sides.append(None if relative else absolute.length(text, 0.0, style.font_size))
     width, height = sides
     if any(side is not None and side < THINNEST for side in (*sides, *(box or ())[2:])):
-        scene.report.left_out(f"{described(root)}, whose width or height is zero")
+        scene.report.remark("its width or height is zero, at which nothing is shown")
         return EMPTY
     if box is not None:
         ratio = box[2] / box[3]

@@ -18,6 +18,7 @@ from vexture.errors import SourceError
 from vexture.group import Group
 from vexture.svg.compositing import Veil, grouped, veil_of
 from vexture.svg.document import local_name
+from vexture.svg.filters import HIDING, filter_named
 from vexture.svg.markers import has_markers, markers
 from vexture.svg.masks import MASKING, add_masks
 from vexture.svg.names import ElementNames
@@ -28,8 +29,10 @@ from vexture.svg.report import Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
 from vexture.svg.space import Context, Place, Placed, Space, Window
 from vexture.svg.style import INITIAL, Cascade, Style
+from vexture.svg.subjects import Boxes, boxes_of
 from vexture.svg.tiles import Canvas
 from vexture.svg.transform import Identity, Transform, parse_origin, parse_transform
+from vexture.svg.unseen import ANIMATIONS, name_unseen
 from vexture.svg.values import TooLargeError, Viewport
 from vexture.svg.viewport import CENTRED, THINNEST, Rectangle, parse_fit, view_box, view_transform
 
@@ -45,20 +48,18 @@ CONTAINERS = frozenset({"a", "g", "svg", "switch", "symbol"})
 UNPAINTED = frozenset(
     {
         *("clipPath", "color-profile", "cursor", "defs", "desc", "filter", "font", "font-face", "hatch"),
-        *("linearGradient", "marker", "mask", "meshgradient", "metadata", "pattern", "radialGradient"),
+        *("linearGradient", "marker", "mask", "meshgradient", "metadata", "pattern", "radialGradient", "script"),
+        *ANIMATIONS,
         *("solidcolor", "style", "title", "view"),
     }
 )
 """Elements that paint nothing themselves."""
 
-ANIMATIONS = frozenset({"animate", "animateColor", "animateMotion", "animateTransform", "discard", "set"})
-EFFECTS = {
-    "filter": "none",
-    "rotate": "none",
-    "scale": "none",
-    "translate": "none",
-}
-"""Properties that are not supported, and the value of each without effect."""
+EFFECTS = ("rotate", "scale", "translate")
+"""Properties that are not supported."""
+
+
+HTML = "{http://www.w3.org/1999/xhtml}"
 
 DRAWN = frozenset({*SHAPES, *CONTAINERS, "image", "text", "use"})
 """Elements that a `switch` may choose before those that are not known."""
@@ -85,6 +86,7 @@ class Scene:
         self.servers: PaintServers = PaintServers(root, self.cascade, report)
         self.style: Style = self.cascade.style(root, INITIAL)
         self.used: int = 0
+        self.boxes: Boxes = {}  # of what the notes are about, once it is painted
 
     def paint(
         self, viewport: Viewport, matrix: Transform, frame: Rectangle | None
@@ -94,14 +96,14 @@ class Scene:
         Percentages at the root refer to `viewport`, and `matrix` maps user units to the drawing. `frame` is what of the
         drawing is visible, None while it is unknown. Raises a `SourceError` if a limit is exceeded.
         """
+        name_unseen(self.root, self.servers, self.report, self.chosen)
         canvas = Canvas(frame, inf if frame is None else max(frame[2:]))
         painter = Painter(self.servers, self.report, canvas, self.walk)
         opacity = self.style.opacity("opacity")
-        if self.style["display"].lower() == "none" or opacity == 0.0:
+        if self.style["display"].lower() == "none" or opacity == 0.0 or not self.note_effects(self.root, self.style):
             return [], ()
-        self.note_effects(self.style)
         if "transform" in self.style.own:
-            self.report.left_out("transform of the outermost <svg>")
+            self.report.left_out("transform of the outermost <svg>", self.root)
         chosen = self.chosen is None or self.root in self.chosen
         called = self.names.of(self.root)
         place = Place(viewport, Space().moved(matrix), self.style, self.root, chosen=chosen, name=called)
@@ -110,6 +112,7 @@ class Scene:
         place, stack = add_masks(self, self.root, place)
         stack.extend((child, place) for child in reversed(self.root))
         self.walk(stack, painter)
+        self.boxes = boxes_of(self.report.elements, painter.paths, painter.places)
         return grouped(painter.paths, painter.veils)
 
     def walk(self, stack: list[Placed], painter: Painter) -> None:
@@ -125,7 +128,7 @@ class Scene:
             except LocatedError:
                 raise
             except TooLargeError as error:
-                self.report.left_out(f"{described(element)}: {error}")
+                self.report.left_out(f"{described(element)}: {error}", element)
             except SourceError as error:
                 raise LocatedError(f"{described(element)}: {error}") from None
 
@@ -138,15 +141,11 @@ class Scene:
     def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Placed]:
         """Paint an element, or return the elements that it shows."""
         name = local_name(element)
-        if name is None and str(element.tag).rpartition("}")[2] in DRAWN:
-            self.report.left_out(f"{described(element)}, of another namespace")
+        if name is None and (str(element.tag).rpartition("}")[2] in DRAWN or str(element.tag).startswith(HTML)):
+            self.report.left_out(f"{described(element)}, of another namespace", element)
         if name is None or name in UNPAINTED or (name == "symbol" and place.use is None) or not applies(element):
             return []
         chosen = place.chosen or (self.chosen is not None and element in self.chosen)
-        if name in ANIMATIONS or name == "script":
-            if chosen:
-                self.report.left_out("script" if name == "script" else "animation")
-            return []
         style = self.cascade.style(element, place.style)
         if style["display"].lower() == "none" or (style.opacity("opacity") == 0.0 and not place.is_clip):
             return []
@@ -154,11 +153,12 @@ class Scene:
             return []  # a clip shows shapes, and uses of them
         if name not in SHAPES and name not in CONTAINERS and name != "use":
             if chosen:
-                self.report.left_out(f"<{name[:40]}>")
+                self.report.left_out(f"<{name[:40]}>", element)
             return []
         if name in SHAPES and not chosen:
             return []
-        self.note_effects(style)
+        if not place.is_clip and not self.note_effects(element, style):
+            return []
         matrix = self.transform(element, style, place)
         if place.depth >= DEEPEST:
             raise SourceError(f"it stands inside {DEEPEST:,} others; flatten the groups or the uses")
@@ -178,8 +178,6 @@ class Scene:
         """Paint a shape, or return the elements that another one shows; `inner` is the place inside."""
         name = local_name(element) or ""
         if name in SHAPES:
-            if any(local_name(child) in ANIMATIONS for child in element):
-                self.report.left_out("animation")
             marked = not inner.is_clip and has_markers(name, inner.style)
             painter.paint(element, inner, markers(self, element, inner) if marked else ())
             return []
@@ -223,10 +221,10 @@ class Scene:
         link = reference(element) or ""
         target = self.servers.target(link)
         if target is None:
-            self.report.left_out(f"<use> of '{link[:40]}'")
+            self.report.left_out(f"<use> of '{link[:40]}'", element)
             return []
         if place.inside(target):
-            self.report.left_out(f"{described(element)} that shows itself")
+            self.report.left_out(f"{described(element)} that shows itself", element)
             return []
         context = Context(place, cache(lambda: [self.box(place)]))
         return [(target, replace(place, used=True, use=place.style, context=context))]
@@ -284,7 +282,7 @@ class Scene:
                 left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in outlines]))
                 width, height = right - left, bottom - top
             else:
-                self.report.simplified("transform-box of a group read as view-box")
+                self.report.simplified("transform-box of a group read as view-box", element)
 
         def length(value: str, axis: int) -> float | None:
             return place.viewport.length(value, (width, height)[axis], style.font_size)
@@ -298,12 +296,20 @@ class Scene:
         x, y = left + origin[0], top + origin[1]
         return Identity.translate(x, y).transform(matrix).translate(-x, -y) if x or y else matrix
 
-    def note_effects(self, style: Style) -> None:
-        """Note effects that are not supported."""
-        if style.own:
-            for name, nothing in EFFECTS.items():
-                if style.own.get(name, nothing).lower() != nothing:
-                    self.report.left_out(name)
+    def note_effects(self, element: etree._Element, style: Style) -> bool:
+        """Note effects that are not supported; return whether anything is seen of an element with its filter."""
+        for name in EFFECTS if style.own else ():
+            if style.own.get(name, "none").lower() != "none":
+                self.report.left_out(name, element)
+        value = style["filter"]
+        if value.lower() == "none":
+            return True
+        named = filter_named(value, self.servers)
+        if named is None:
+            self.report.invalid("filter", value, element)
+        elif named != HIDING:
+            self.report.left_out(named, element)
+        return named != HIDING
 
 
 def position(place: Place) -> tuple[float, float]:
