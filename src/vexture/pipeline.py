@@ -39,7 +39,7 @@ Split: TypeAlias = Literal["auto", "faces", "paint"] | None
 
 SPLITS = get_args(get_args(Split)[0])
 
-READING: Final = ("select", "names", "snap")
+READING: Final = ("select", "names", "snap", "trace_images")
 """Parameters of the source's reader."""
 
 AnyTexture = TypeVar("AnyTexture", bound=EncodedTexture, covariant=True)
@@ -66,6 +66,7 @@ class Parameters:
     names: str | None = None
     snap: float | None = None
     restyle: bool = False
+    trace_images: bool = False
 
     def __post_init__(self) -> None:
         if self.split is not None and self.split not in SPLITS:
@@ -78,7 +79,8 @@ class Parameters:
     @property
     def reading(self) -> dict[str, Any]:
         """Those of the source's reader that are given."""
-        return {name: value for name in READING if (value := getattr(self, name)) is not None}
+        values = ((name, getattr(self, name)) for name in READING)
+        return {name: value for name, value in values if value is not None and value is not False}
 
     def split_of(self, drawing: "Drawing") -> Split:
         """How a drawing becomes shapes: "auto" decided."""
@@ -227,6 +229,7 @@ def convert(
     names: str | None = ...,
     snap: float | None = ...,
     restyle: bool = ...,
+    trace_images: bool = ...,
 ) -> "Texture": ...
 
 
@@ -248,6 +251,7 @@ def convert(
     names: str | None = None,
     snap: float | None = None,
     restyle: bool = False,
+    trace_images: bool = False,
     **others: Any,
 ) -> EncodedTexture:
     """Convert a drawing into a texture.
@@ -285,6 +289,8 @@ def convert(
     restyle : bool
         With ``split="faces"``: the colours of elements can be changed in the texture (`Texture.with_paints`), and it
         tells which element is at a point (`Texture.element_at`). Elements of one colour keep their borders.
+    trace_images : bool
+        Trace the pictures in an SVG; see `vexture.read`.
     **others
         Parameters of another encoding.
 
@@ -316,7 +322,9 @@ def convert(
     >>> [root.name for root in convert(triangle).roots]
     ['drawing']
     """
-    named = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle)
+    named = Parameters(
+        split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, trace_images
+    )
     values = ((field.name, getattr(named, field.name)) for field in fields(named))
     given = {name: value for name, value in values if (value is not None and value is not False) or name == "split"}
     if encoding != DEFAULT and split in ("auto", None):
@@ -349,6 +357,7 @@ def atlas(
     names: str | None = None,
     snap: float | None = None,
     restyle: bool = False,
+    trace_images: bool = False,
 ) -> "Texture":
     """Convert many drawings into one texture: a shape for each, or if `split` is ``"paint"`` for each layer of each.
 
@@ -359,7 +368,7 @@ def atlas(
         ``name/layer``.
     name : str
         Names the texture.
-    split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle
+    split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, trace_images
         As in `vexture.convert`, for each source.
 
     Returns
@@ -380,7 +389,9 @@ def atlas(
     >>> [root.name for root in both.roots]
     ['a', 'b']
     """
-    parameters = Parameters(split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle)
+    parameters = Parameters(
+        split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, trace_images
+    )
     if isinstance(sources, str | bytes | os.PathLike) or not isinstance(sources, Iterable):
         sources = [sources]
     parts = []

@@ -17,6 +17,7 @@ TOPICS = (
     "filters",
     "gradients",
     "groups",
+    "images",
     "markers",
     "masks",
     "paths",

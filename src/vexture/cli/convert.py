@@ -25,6 +25,7 @@ from vexture.cli.options import (
     standard_input,
     strict_option,
     tolerance_option,
+    trace_images_option,
 )
 from vexture.deadline import DEFAULT_SECONDS
 from vexture.encodings import DEFAULT, REGISTERED
@@ -42,6 +43,7 @@ BELONGS_TO: Final = {
     "restyle": DEFAULT,
     "names": DEFAULT,
     "snap": DEFAULT,
+    "trace_images": DEFAULT,
     "capacity": DEFAULT,
     "precision": DEFAULT,
     "deflate": DEFAULT,
@@ -108,6 +110,7 @@ class Outcome:
     help="Make borders of a map's polygons one where they differ by no more than D, in parts of the drawing's longer "
     "side; 0 leaves them.  [default: 3e-6]",
 )
+@trace_images_option
 @tolerance_option
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
 @click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 8, in colours 12]")
@@ -183,6 +186,8 @@ def convert(
 def _checked(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
     """Parameters of the conversion, without those that were not given."""
     parameters = {name: value for name, value in options.items() if value is not None}
+    if not parameters["trace_images"]:
+        del parameters["trace_images"]
     for name, owner in BELONGS_TO.items():
         if name in parameters and owner != encoding:
             value = parameters[name]

@@ -25,6 +25,7 @@ __all__ = [
     "standard_input",
     "strict_option",
     "tolerance_option",
+    "trace_images_option",
     "viewer_parameters",
 ]
 
@@ -157,6 +158,13 @@ strict_option = click.option(
 )
 
 
+trace_images_option = click.option(
+    "--trace-images",
+    is_flag=True,
+    help="Trace the pictures in an SVG, and those in files beside it or below.",
+)
+
+
 SILHOUETTE_HELP: Final = "the covered area of a drawing, without colours."
 
 
@@ -177,16 +185,22 @@ def conversion_options(command: Callable[..., None]) -> Callable[..., None]:
         "--split", type=click.Choice(["paint"]), help="paint: show each colour as a layer, one over the other."
     )
     silhouette = click.option("--silhouette", is_flag=True, help=f"Show {SILHOUETTE_HELP}")
-    return split(silhouette(select(precision(tolerance_option(command)))))
+    return split(silhouette(select(trace_images_option(precision(tolerance_option(command))))))
 
 
 def viewer_parameters(
-    tolerance: Any, precision: float | None, select: str | None, split: str | None, silhouette: bool
+    tolerance: Any,
+    precision: float | None,
+    select: str | None,
+    split: str | None,
+    silhouette: bool,
+    trace_images: bool,
 ) -> "Parameters":
     """The viewer's parameters, with those that are given as options."""
     from vexture.live.documents import VIEWER_PARAMETERS
 
-    given: dict[str, Any] = {"tolerance": tolerance, "select": select, **split_of(split, silhouette)}
+    given: dict[str, Any] = {"tolerance": tolerance, "select": select, "trace_images": trace_images}
+    given |= split_of(split, silhouette)
     if precision is not None:
         given["precision"] = precision
     return replace(VIEWER_PARAMETERS, **given)

@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from vexture.cli.messages import one_line, say_notes
-from vexture.cli.options import PATH, STANDARD, Colour, Rectangle, drawing_kind, standard_input, strict_option
+from vexture.cli.options import (
+    PATH,
+    STANDARD,
+    Colour,
+    Rectangle,
+    drawing_kind,
+    standard_input,
+    strict_option,
+    trace_images_option,
+)
 from vexture.errors import DeviceError, ParameterError
 
 if TYPE_CHECKING:
@@ -42,6 +51,7 @@ Examples:
 @click.option("--rotate", metavar="DEG", type=float, default=0.0, help="Turn the picture counter-clockwise.")
 @click.option("--root", metavar="NAME_OR_INDEX", help="Shape of a texture, or drawing of an atlas.")
 @click.option("--select", metavar="SELECTOR", help="Draw only the elements of an SVG that a CSS selector matches.")
+@trace_images_option
 @strict_option
 @click.option(
     "--renderer",
@@ -61,6 +71,7 @@ def render(
     rotate: float,
     root: str | None,
     select: str | None,
+    trace_images: bool,
     strict: bool,
     **options: Any,
 ) -> None:
@@ -74,7 +85,7 @@ def render(
         if output != Path(STANDARD) and output.suffix.lower() != ".png":
             raise ParameterError(f"`output` {output}: pictures are PNG files; name one that ends in .png")
         pixels = _pixels(size, width, height, view)
-        shown = _shown(source, select, strict)
+        shown = _shown(source, strict, select=select, trace_images=trace_images)
         picture = _picture(shown, pixels, window(*view, rotate), root=_root_of(shown, root), **options)
         _write_png(_over(picture, background), output)
 
@@ -138,7 +149,7 @@ def _root_of(shown: "Shown", root: str | None) -> str | int | None:
     return int(root) if root not in names and root.isdecimal() else root
 
 
-def _shown(path: Path, select: str | None, strict: bool) -> "Shown":
+def _shown(path: Path, strict: bool, *, select: str | None, trace_images: bool) -> "Shown":
     """Read a drawing, or load a texture by one of its files or what their names have in common."""
     from vexture.content import FileKind, kind_of, start_of
     from vexture.notes import check_losses
@@ -149,7 +160,7 @@ def _shown(path: Path, select: str | None, strict: bool) -> "Shown":
     name = str(path) if data is None else "standard input"
     kind = drawing_kind(path) if data is None else kind_of(start_of(data))
     if kind not in (None, FileKind.TEXTURE):
-        drawing = read_drawing(path if data is None else data, name=name, select=select)
+        drawing = read_drawing(path if data is None else data, name=name, select=select, trace_images=trace_images)
         check_losses(name, drawing.notes, is_empty=not drawing.paths, strict=strict)
         say_notes(name, drawing.notes)
         return drawing

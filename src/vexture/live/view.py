@@ -104,7 +104,7 @@ def _published(shelf: Shelf, sources: Sequence[Source], parameters: Parameters, 
 
 
 def _converted(source: Source, data: bytes, parameters: Parameters, say: Say) -> Shape:
-    shape = shape_of(data, str(source.path), source.name, parameters)
+    shape = shape_of(data, str(source.path), source.name, parameters, source.path.parent)
     for warning in shape.facts["warnings"]:
         say(f"warning: {warning}")
     return shape

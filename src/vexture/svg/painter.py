@@ -1,6 +1,7 @@
 """Painting one shape: its fill and its stroke become paths in the drawing's coordinates."""
 
 from collections.abc import Callable, Iterable
+from copy import copy
 from dataclasses import replace
 from math import inf
 
@@ -81,6 +82,12 @@ class Painter:
             elif part == "markers":
                 for marker in markers:
                     self.walk(marker, self)
+
+    def for_document(self, servers: PaintServers, walk: "Callable[[list[Placed], Painter], None]") -> "Painter":
+        """Return a painter of another document onto the same drawing."""
+        own = copy(self)
+        own.servers, own.walk = servers, walk
+        return own
 
     def fill(self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | Tiling | None) -> None:
         """Paint the inside of the outlines."""
@@ -190,7 +197,11 @@ class Ruler(Painter):
     def paint(self, element: etree._Element, place: Place, markers: Iterable[list[Placed]] = ()) -> None:
         """Add the outlines of a shape, in the units of the outermost place; markers do not count."""
         shape = Shape(element, place.style, place.viewport, inf, self.report)
-        self.corners.extend(mapped(outline.cubics, place.space.whole) for outline in shape_outlines(shape))
+        self.measure(place, *shape_outlines(shape))
+
+    def measure(self, place: Place, *outlines: Outline) -> None:
+        """Add outlines."""
+        self.corners.extend(mapped(outline.cubics, place.space.whole) for outline in outlines)
 
 
 def stroke_of(shape: Shape, outlines: list[Outline]) -> Stroke | None:

@@ -15,6 +15,7 @@ from vexture.errors import SourceError
 from vexture.notes import warn_of
 from vexture.svg.compositing import occupied
 from vexture.svg.document import parse_svg
+from vexture.svg.images import Images
 from vexture.svg.report import Report
 from vexture.svg.scene import Scene
 from vexture.svg.select import chosen, nothing_painted
@@ -38,7 +39,8 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None, names: str
     Shapes, paths, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as browsers
     draw them. Opacity, blend modes, clips and masks that need several paths together become `Drawing.groups`. Gradients
     are read in full (`Paint.gradient`), patterns as the paths of their tiles, markers as the paths of their content.
-    What is not supported is left out and named. Paths are named (`Path.element`) by the ``id`` of their element or of
+    Drawings that are embedded as images are read, too; `vexture.read` also traces pictures, if asked to. What is not
+    supported is left out and named. Paths are named (`Path.element`) by the ``id`` of their element or of
     the nearest one around it, and all that a `use`, a marker or a pattern shows by that of the `use` or the shape; a
     stroke is ``id/stroke``.
 
@@ -96,21 +98,24 @@ def read_svg(path: str | os.PathLike[str], select: str | None = None, names: str
     return drawing
 
 
-def svg_drawing(content: bytes, source: str, select: str | None = None, names: str | None = None) -> Drawing:
+def svg_drawing(
+    content: bytes, source: str, select: str | None = None, names: str | None = None, images: Images | None = None
+) -> Drawing:
     """Read the content of an SVG file, plain or gzipped, as `read_svg` does, but without a warning.
 
-    `source` is the name of the file: it names the drawing and stands in messages, and is not opened.
+    `source` is the name of the file: it names the drawing and stands in messages, and is not opened. Of its images only
+    embedded drawings are shown, unless `images` says more.
 
     Examples
     --------
     >>> svg_drawing(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "half.svg").name
     'half'
     """
-    return framed_drawing(content, source, select, names)[0]
+    return framed_drawing(content, source, select, names, images)[0]
 
 
 def framed_drawing(
-    content: bytes, source: str, select: str | None = None, names: str | None = None
+    content: bytes, source: str, select: str | None = None, names: str | None = None, images: Images | None = None
 ) -> tuple[Drawing, Frame | None]:
     """Read as `svg_drawing` does, and return the frame of the whole drawing too."""
     report = Report()
@@ -118,7 +123,7 @@ def framed_drawing(
         try:
             root = parse_svg(decompressed(content))
             part = None if select is None else chosen(root, select)
-            scene = Scene(root, report, part, "id" if names is None else names)
+            scene = Scene(root, report, images or Images(), part, "id" if names is None else names)
             framed = frame(scene)
             drawing, to_pixels = drawing_of(scene, framed, Path(source).stem)
         except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
@@ -144,7 +149,9 @@ def drawing_of(scene: Scene, framed: Frame | None, name: str) -> tuple[Drawing, 
         box: Rectangle = (0.0, 0.0, *size)
     else:
         viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
-        paths, _ = Scene(scene.root, Report()).paint(viewport, matrix, None)  # all of it, to measure; notes come later
+        paths, _ = Scene(scene.root, Report(), scene.images).paint(
+            viewport, matrix, None
+        )  # all of it, to measure; notes come later
         if not paths:
             scene.paint(viewport, matrix, None)  # for its notes
             return nothing

@@ -19,6 +19,7 @@ from vexture.group import Group
 from vexture.svg.compositing import Veil, grouped, veil_of
 from vexture.svg.document import local_name
 from vexture.svg.filters import HIDING, filter_named
+from vexture.svg.images import Images, image_sides, paint_image
 from vexture.svg.markers import has_markers, markers
 from vexture.svg.masks import MASKING, add_masks
 from vexture.svg.names import ElementNames
@@ -76,12 +77,18 @@ class Scene:
     """A document that can be painted: all of it, or the elements in `chosen` with all their content."""
 
     def __init__(
-        self, root: etree._Element, report: Report, chosen: set[etree._Element] | None = None, names: str = "id"
+        self,
+        root: etree._Element,
+        report: Report,
+        images: Images,
+        chosen: set[etree._Element] | None = None,
+        names: str = "id",
     ) -> None:
         self.root = root
         self.chosen = chosen
         self.names = ElementNames(root, names)
         self.report = report
+        self.images = images
         self.cascade: Cascade = Cascade(root, report)
         self.servers: PaintServers = PaintServers(root, self.cascade, report)
         self.style: Style = self.cascade.style(root, INITIAL)
@@ -96,24 +103,43 @@ class Scene:
         Percentages at the root refer to `viewport`, and `matrix` maps user units to the drawing. `frame` is what of the
         drawing is visible, None while it is unknown. Raises a `SourceError` if a limit is exceeded.
         """
-        name_unseen(self.root, self.servers, self.report, self.chosen)
         canvas = Canvas(frame, inf if frame is None else max(frame[2:]))
         painter = Painter(self.servers, self.report, canvas, self.walk)
-        opacity = self.style.opacity("opacity")
-        if self.style["display"].lower() == "none" or opacity == 0.0 or not self.note_effects(self.root, self.style):
-            return [], ()
-        if "transform" in self.style.own:
-            self.report.left_out("transform of the outermost <svg>", self.root)
         chosen = self.chosen is None or self.root in self.chosen
         called = self.names.of(self.root)
         place = Place(viewport, Space().moved(matrix), self.style, self.root, chosen=chosen, name=called)
-        if opacity < 1.0 or not MASKING.keys().isdisjoint(self.style.own):  # a blend mode has nothing to mix with here
-            place = replace(place, veil=Veil(None, opacity))
-        place, stack = add_masks(self, self.root, place)
-        stack.extend((child, place) for child in reversed(self.root))
-        self.walk(stack, painter)
+        self.walk(self.inside_root(place), painter)
         self.boxes = boxes_of(self.report.elements, painter.paths, painter.places)
         return grouped(painter.paths, painter.veils)
+
+    def inside_root(self, place: Place) -> list[Placed]:
+        """What the outermost element shows at a place inside it."""
+        name_unseen(self.root, self.servers, self.report, self.chosen)
+        opacity = self.style.opacity("opacity")
+        if self.style["display"].lower() == "none" or opacity == 0.0 or not self.note_effects(self.root, self.style):
+            return []
+        if "transform" in self.style.own:
+            self.report.left_out("transform of the outermost <svg>", self.root)
+        if opacity < 1.0 or place.outer is not None or not MASKING.keys().isdisjoint(self.style.own):
+            place = replace(place, veil=Veil(place.veil, opacity))  # a blend mode has nothing to mix with here
+        place, stack = add_masks(self, self.root, place)
+        return [*stack, *((child, place) for child in reversed(self.root))]
+
+    def paint_embedded(self, root: etree._Element, place: Place, painter: Painter) -> None:
+        """Paint another document at a place inside its viewport; nothing of this one applies in it."""
+        scene = Scene(root, self.report, self.images.inside)
+        scene.used = self.used
+        size = place.viewport.width, place.viewport.height
+        box = scene.view(root)
+        if box is not None and min(box[2:]) < THINNEST:
+            return
+        if box is not None:
+            place = Window(None, scene.fit(root, box, *size), box[2:]).within(place)
+        viewport = replace(place.viewport, root_font_size=scene.style.font_size)
+        place = replace(place, viewport=viewport, style=scene.style, element=root, outer=place, depth=place.depth + 1)
+        own = painter.for_document(scene.servers, scene.walk)
+        scene.walk(scene.inside_root(replace(place, chosen=True, is_instance=True, context=None)), own)
+        painter.segments, self.used = own.segments, scene.used
 
     def walk(self, stack: list[Placed], painter: Painter) -> None:
         """Paint all elements of a stack, the last one first, with what they show."""
@@ -151,11 +177,11 @@ class Scene:
             return []
         if place.is_clip and name in CONTAINERS:
             return []  # a clip shows shapes, and uses of them
-        if name not in SHAPES and name not in CONTAINERS and name != "use":
+        if name not in SHAPES and name not in CONTAINERS and name not in ("image", "use"):
             if chosen:
                 self.report.left_out(f"<{name[:40]}>", element)
             return []
-        if name in SHAPES and not chosen:
+        if (name in SHAPES or name == "image") and not chosen:
             return []
         if not place.is_clip and not self.note_effects(element, style):
             return []
@@ -180,6 +206,12 @@ class Scene:
         if name in SHAPES:
             marked = not inner.is_clip and has_markers(name, inner.style)
             painter.paint(element, inner, markers(self, element, inner) if marked else ())
+            return []
+        if name == "image":
+            if isinstance(painter, Ruler):
+                painter.measure(inner, Outline.rectangle(*image_sides(inner, (0.0, 0.0))))
+            elif not inner.is_clip:
+                paint_image(self, element, inner, painter)
             return []
         if name == "use":
             return self.use_target(element, inner)
@@ -212,9 +244,7 @@ class Scene:
     def box(self, place: Place) -> Outline:
         """Outline of the bounding box of what the element at a place shows; a point if it has no area."""
         assert place.element is not None
-        left, top, width, height = self.extent(place.element, place) or (0.0, 0.0, 0.0, 0.0)
-        right, bottom = left + width, top + height
-        return Outline.polygon(np.array([(left, top), (right, top), (right, bottom), (left, bottom)]), closed=True)
+        return Outline.rectangle(*(self.extent(place.element, place) or (0.0, 0.0, 0.0, 0.0)))
 
     def use_target(self, element: etree._Element, place: Place) -> list[Placed]:
         """Return the element that a `use` shows."""
