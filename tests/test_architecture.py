@@ -54,12 +54,15 @@ MAY_IMPORT: dict[str, set[str]] = {
     "renderers": BASE | {"drawing", "group", "layout", "paint"},
     "encodings": {"drawing", "errors", "renderers"},
     "texture": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "svg", "tree"},
-    "pipeline": BASE | {"drawing", "encodings", "notes", "reading", "texture", "tree"},
+    "parameters": {"deadline", "drawing", "errors"},
+    "pipeline": BASE | {"drawing", "encodings", "notes", "parameters", "reading", "texture", "tree"},
     "images": BASE | {"drawing", "encodings", "group", "paint", "pipeline", "renderers"},
     "thesis": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "texture", "tree"},
     "fold": BASE | {"drawing", "layout", "notes", "renderers", "texture"},
     "flood": BASE | {"content", "drawing", "geo", "notes", "renderers"},
-    "live": SOURCES | {"encodings", "flood", "fold", "geo", "layout", "pipeline", "reading", "svg", "texture", "tree"},
+    "live": SOURCES
+    | {"encodings", "flood", "fold", "geo", "layout", "parameters", "pipeline", "reading"}
+    | {"svg", "texture", "tree"},
 }
 """What each part may import besides itself, wherever in a module; `cli` and the public face stand above all."""
 

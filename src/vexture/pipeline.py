@@ -6,12 +6,13 @@ import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Generic, Literal, TypeAlias, TypeVar, get_args, overload
+from typing import TYPE_CHECKING, Any, Generic, Literal, TypeAlias, TypeVar, overload
 
 from vexture.deadline import DEFAULT_SECONDS, within
 from vexture.encodings import DEFAULT, EncodedTexture, find_encoding
 from vexture.errors import ParameterError
 from vexture.notes import Note, warn_of
+from vexture.parameters import Parameters, Split
 from vexture.tolerance import UNSEEN
 
 if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take long
@@ -19,9 +20,7 @@ if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take 
     from vexture.texture.texture import Root, Texture
 
 __all__ = [
-    "READING",
     "Conversion",
-    "Parameters",
     "Source",
     "atlas",
     "combine",
@@ -34,59 +33,7 @@ __all__ = [
 Source: TypeAlias = "Drawing | str | os.PathLike[str]"
 """A drawing, or the path of a file that `vexture.read` reads."""
 
-Split: TypeAlias = Literal["auto", "faces", "paint"] | None
-"""How a drawing becomes shapes; see `vexture.convert`."""
-
-SPLITS = get_args(get_args(Split)[0])
-
-READING: Final = ("select", "names", "snap", "trace_images")
-"""Parameters of the source's reader."""
-
 AnyTexture = TypeVar("AnyTexture", bound=EncodedTexture, covariant=True)
-
-
-@dataclass(frozen=True, slots=True)
-class Parameters:
-    """Parameters of a conversion, as `vexture.convert` describes them; None is the default.
-
-    Examples
-    --------
-    >>> Parameters(split="colour")
-    Traceback (most recent call last):
-    vexture.errors.ParameterError: `split` is 'colour'; it must be 'auto', 'faces', 'paint' or None
-    """
-
-    split: Split = "auto"
-    select: str | None = None
-    tolerance: float | Literal["auto"] = "auto"
-    max_depth: int | None = None
-    capacity: int | None = None
-    precision: float | None = None
-    max_seconds: float = DEFAULT_SECONDS
-    names: str | None = None
-    snap: float | None = None
-    restyle: bool = False
-    trace_images: bool = False
-
-    def __post_init__(self) -> None:
-        if self.split is not None and self.split not in SPLITS:
-            raise ParameterError(f"`split` is {self.split!r}; it must be {', '.join(map(repr, SPLITS))} or None")
-        if self.restyle and self.split not in ("auto", "faces"):
-            raise ParameterError(
-                f"`split` is {self.split!r}, but `restyle` is for a whole drawing in its colours: 'faces'"
-            )
-
-    @property
-    def reading(self) -> dict[str, Any]:
-        """Those of the source's reader that are given."""
-        values = ((name, getattr(self, name)) for name in READING)
-        return {name: value for name, value in values if value is not None and value is not False}
-
-    def split_of(self, drawing: "Drawing") -> Split:
-        """How a drawing becomes shapes: "auto" decided."""
-        if self.split != "auto":
-            return self.split
-        return "faces" if self.restyle or drawing.is_coloured else None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

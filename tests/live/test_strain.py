@@ -24,7 +24,7 @@ from vexture.live.converter import Converter
 from vexture.live.limits import Limits
 from vexture.live.listen import bind, listen
 from vexture.live.routes import application
-from vexture.pipeline import Parameters
+from vexture.parameters import Parameters
 
 PROGRAM = """
 import json, resource, sys

@@ -186,8 +186,6 @@ def convert(
 def _checked(encoding: str, options: dict[str, Any]) -> dict[str, Any]:
     """Parameters of the conversion, without those that were not given."""
     parameters = {name: value for name, value in options.items() if value is not None}
-    if not parameters["trace_images"]:
-        del parameters["trace_images"]
     for name, owner in BELONGS_TO.items():
         if name in parameters and owner != encoding:
             value = parameters[name]
@@ -254,7 +252,8 @@ def _convert_one(
     `stored` are the parameters of the texture's `files`.
     """
     from vexture.notes import check_losses, line_of
-    from vexture.pipeline import READING, Parameters, run, trees_of
+    from vexture.parameters import READING, Parameters
+    from vexture.pipeline import run, trees_of
     from vexture.reading import read_drawing
     from vexture.texture.ktx2 import TEXEL_BYTES
 
@@ -397,7 +396,5 @@ def _line(facts: dict[str, Any]) -> str:
 
 def _facts_of(outcome: Outcome) -> dict[str, Any]:
     """Facts of a source for JSON, its error or warning included."""
-    facts: dict[str, Any] = {"source": str(outcome.source)}
-    if outcome.error:
-        return facts | {"error": as_options(outcome.error)}
-    return facts | outcome.facts | ({"warning": outcome.warning} if outcome.warning else {})
+    said = {"error": as_options(outcome.error)} if outcome.error else outcome.facts | {"warning": outcome.warning}
+    return {"source": str(outcome.source), **{name: value for name, value in said.items() if value != ""}}

@@ -31,7 +31,7 @@ __all__ = [
 
 if TYPE_CHECKING:
     from vexture.content import FileKind
-    from vexture.pipeline import Parameters
+    from vexture.parameters import Parameters
 
     ParamType = click.ParamType[Any]
 else:  # generic since click 8.4
@@ -161,6 +161,7 @@ strict_option = click.option(
 trace_images_option = click.option(
     "--trace-images",
     is_flag=True,
+    default=None,
     help="Trace the pictures in an SVG, and those in files beside it or below.",
 )
 
@@ -194,12 +195,12 @@ def viewer_parameters(
     select: str | None,
     split: str | None,
     silhouette: bool,
-    trace_images: bool,
+    trace_images: bool | None,
 ) -> "Parameters":
     """The viewer's parameters, with those that are given as options."""
     from vexture.live.documents import VIEWER_PARAMETERS
 
-    given: dict[str, Any] = {"tolerance": tolerance, "select": select, "trace_images": trace_images}
+    given: dict[str, Any] = {"tolerance": tolerance, "select": select, "trace_images": bool(trace_images)}
     given |= split_of(split, silhouette)
     if precision is not None:
         given["precision"] = precision

@@ -71,7 +71,7 @@ def render(
     rotate: float,
     root: str | None,
     select: str | None,
-    trace_images: bool,
+    trace_images: bool | None,
     strict: bool,
     **options: Any,
 ) -> None:
@@ -85,7 +85,7 @@ def render(
         if output != Path(STANDARD) and output.suffix.lower() != ".png":
             raise ParameterError(f"`output` {output}: pictures are PNG files; name one that ends in .png")
         pixels = _pixels(size, width, height, view)
-        shown = _shown(source, strict, select=select, trace_images=trace_images)
+        shown = _shown(source, strict, select=select, trace_images=bool(trace_images))
         picture = _picture(shown, pixels, window(*view, rotate), root=_root_of(shown, root), **options)
         _write_png(_over(picture, background), output)
 

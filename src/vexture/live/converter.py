@@ -22,7 +22,7 @@ from vexture.live.documents import PUBLISHED_PARAMETERS, SMALL, shape_of
 from vexture.live.flood_conversion import FloodConversion
 from vexture.live.limits import Limits
 from vexture.live.shelf import Shape
-from vexture.pipeline import Parameters
+from vexture.parameters import Parameters
 
 __all__ = ["BusyError", "Converter"]
 

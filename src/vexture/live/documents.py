@@ -10,7 +10,7 @@ from vexture.content import FileKind, about, decompressed, kind_of, known_kind, 
 from vexture.errors import SourceError
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
 from vexture.notes import line_of
-from vexture.pipeline import Parameters
+from vexture.parameters import Parameters
 
 if TYPE_CHECKING:
     import numpy as np

@@ -15,7 +15,7 @@ from vexture.flood.scene import PREFIX, labels
 from vexture.geo.extent import Extent, Frame, Step
 from vexture.live.documents import converted, load_kernels, texture_shape
 from vexture.live.shelf import File, Shape
-from vexture.pipeline import Parameters
+from vexture.parameters import Parameters
 
 __all__ = ["WATER_PARAMETERS", "FloodConversion"]
 

@@ -18,7 +18,7 @@ from vexture.live.page import PNG_TYPE, SERVED_POLICY, VIEWER, Bundle, built, se
 from vexture.live.publishing import received
 from vexture.live.routes import FOREVER, NO_SNIFFING, fixed, refusal
 from vexture.live.shelf import Shape, Shelf, manifest
-from vexture.pipeline import Parameters
+from vexture.parameters import Parameters
 
 __all__ = ["DROPPED", "dropping_routes", "page_routes", "thesis_addresses", "thesis_routes"]
 

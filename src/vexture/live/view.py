@@ -13,7 +13,7 @@ from vexture.live.documents import shape_of
 from vexture.live.shelf import Shape, Shelf
 from vexture.live.watch import Source, named, watch
 from vexture.notes import Note, check_losses
-from vexture.pipeline import Parameters
+from vexture.parameters import Parameters
 from vexture.reading import content_of
 
 __all__ = ["export", "view"]

@@ -10,7 +10,7 @@ from typing import Any
 from vexture.errors import EXPECTED
 from vexture.live.documents import shape_of
 from vexture.live.shelf import Shelf
-from vexture.pipeline import Parameters
+from vexture.parameters import Parameters
 from vexture.reading import content_of
 
 __all__ = ["Source", "named", "watch"]
