@@ -8,6 +8,9 @@ ROOF_UPRIGHT = ((20, 80, 0), (50, 20, 0), (80, 80, 0))
 ROOF_TURNED = ((20, 80, -63.4349), (50, 20, 0), (80, 80, 63.4349))
 TRIANGLE = '<path d="M20 25L80 25L50 80z" fill="none" stroke="blue" stroke-width="3"/>'
 TRIANGULAR = ((20, 25, -59.3052), (80, 25, 59.3052), (50, 80, 180))
+DOT = '<circle cx="8" cy="8" r="7" fill="#208040"/><path d="M0 0h9v9z" fill="#e0c020"/>'
+FIELD = '<rect x="10" y="20" width="80" height="60" fill="url(#{})"/>'
+BALL = '<circle cx="50" cy="50" r="30" fill="#204080"/>'
 RAMP = '<stop stop-color="#e02020"/><stop offset="0.4" stop-color="#f0d020"/><stop offset="1" stop-color="#2040e0"/>'
 
 
@@ -18,6 +21,20 @@ def marked(under: str, *places: tuple[float, float, float], scale: float = 0.9, 
 
 
 PLAINER = {
+    # "transform" is a property of gradients and patterns, too, over their attributes (CSS Transforms 1, 8)
+    "transform/css-of-gradient": '<linearGradient id="g" gradientUnits="userSpaceOnUse" x1="20" x2="80"'
+    f' gradientTransform="rotate(30)">{RAMP}</linearGradient>{FIELD.format("g")}',
+    "transform/css-of-pattern": '<pattern id="p" width="20" height="20" patternUnits="userSpaceOnUse"'
+    f' patternTransform="rotate(30)">{DOT}</pattern>{FIELD.format("p")}',
+    # as browsers have it: the clips and masks of a viewport are in the units of its content
+    "masks/clip-of-svg-in-its-units": '<clipPath id="c"><circle cx="60" cy="36.6667" r="26.6667"/></clipPath>'
+    '<path clip-path="url(#c)" d="M20 10H100V90H20z"/>',
+    "masks/mask-image": '<circle cx="50" cy="50" r="30"/>',
+    "background/shorthand": f'<path fill="#fc8" d="M0 0h100v100h-100z"/>{BALL}',
+    "background/is-no-attribute": BALL,
+    "background/fades": f'<g opacity="0.5"><path fill="#fc8" d="M0 0h100v100h-100z"/>{BALL}</g>',
+    "background/of-current-color": f'<path fill="#8cf" d="M0 0h100v100h-100z"/>{BALL}',
+    "images/background": '<path fill="#fc8" d="M10 35h60v30h-60z"/><circle cx="37" cy="50" r="12" fill="#208040"/>',
     # "A reference to a non-existent object is considered ... the whole filter chain is ignored" (Filter Effects 1, 5)
     "filters/missing": '<rect x="10" y="10" width="30" height="30"/><rect x="50" y="50" width="30" height="30"/>',
     "gradients/attributes-by-reference": '<linearGradient id="g" x1="0.1" x2="0.3" gradientTransform="rotate(20)"'

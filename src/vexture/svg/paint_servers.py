@@ -159,10 +159,10 @@ class PaintServers:
         if gradient not in self.ramps:
             chain = self.chain(gradient, GRADIENTS)
             stops = next(filter(None, map(self.stops, chain)), None)
-            size = self.style_of(gradient).font_size
-            if self.style_of(gradient)["color-interpolation"].lower() == "linearrgb":
+            style = self.style_of(gradient)
+            if style["color-interpolation"].lower() == "linearrgb":
                 self.report.simplified("gradient in linear light (color-interpolation) read as one in sRGB", gradient)
-            self.ramps[gradient] = None if stops is None else read_ramp(chain, stops, size, self.report)
+            self.ramps[gradient] = None if stops is None else read_ramp(chain, stops, style, self.report)
         return self.ramps[gradient]
 
     def stops(self, gradient: etree._Element) -> tuple[Stop, ...]:

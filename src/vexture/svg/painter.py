@@ -16,6 +16,7 @@ from vexture.svg.compositing import Veil
 from vexture.svg.outline import Outline
 from vexture.svg.paint_servers import PaintServers
 from vexture.svg.patterns import Tiling
+from vexture.svg.properties import PARTS
 from vexture.svg.report import Report
 from vexture.svg.shapes import Shape, shape_outlines
 from vexture.svg.space import Place, Placed
@@ -26,9 +27,6 @@ from vexture.svg.values import number
 from vexture.tolerance import ROUND
 
 __all__ = ["Painter", "Ruler"]
-
-PARTS = ("fill", "stroke", "markers")
-"""What is painted of a shape, one after another, if `paint-order` does not say otherwise."""
 
 MOST_SEGMENTS = 5_000_000
 """Cubics in one drawing."""

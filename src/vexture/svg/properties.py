@@ -6,7 +6,7 @@ To add a property, add it to `PROPERTIES` and use ``style["name"]`` where it tak
 
 import re
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from vexture.group import Blend
 from vexture.svg.colors import parse_color, parse_paint
@@ -42,6 +42,16 @@ def matching(pattern: str) -> Callable[[str], object]:
     return re.compile(rf"\s*(?:{pattern})\s*", re.IGNORECASE).fullmatch
 
 
+PARTS: Final = ("fill", "stroke", "markers")
+"""What is painted of a shape, one after another, if `paint-order` does not say otherwise."""
+
+
+def is_order(value: str) -> bool:
+    """Accept parts of a shape, each once, or "normal" (SVG 2, 13.8)."""
+    words = value.lower().split()
+    return words == ["normal"] or (set(words) <= {*PARTS} and len({*words}) == len(words) > 0)
+
+
 UNIT = r"(?:px|pt|pc|in|cm|mm|q|em|ex|ch|rem|%)?"
 POSITIVE = rf"(?!-){NUMBER}"
 LENGTH = f"{NUMBER}{UNIT}"
@@ -61,7 +71,7 @@ PROPERTIES: dict[str, Property] = {
     "marker-end": Property("none", True, anything),
     "marker-mid": Property("none", True, anything),
     "marker-start": Property("none", True, anything),
-    "paint-order": Property("normal", True, anything),
+    "paint-order": Property("normal", True, is_order),
     "stroke": Property("none", True, parse_paint),
     "stroke-dasharray": Property("none", True, matching(rf"none|{SIZE}(?:(?:\s*,\s*|\s+){SIZE})*+")),
     "stroke-dashoffset": Property("0", True, matching(LENGTH)),
@@ -71,6 +81,7 @@ PROPERTIES: dict[str, Property] = {
     "stroke-opacity": Property("1", True, matching(OPACITY)),
     "stroke-width": Property("1", True, matching(SIZE)),
     "visibility": Property("visible", True, one_of("visible", "hidden", "collapse")),
+    "background-color": Property("transparent", False, parse_color),
     "clip-path": Property("none", False, anything),
     "cx": Property("0", False, matching(LENGTH)),
     "cy": Property("0", False, matching(LENGTH)),
@@ -103,5 +114,5 @@ PROPERTIES: dict[str, Property] = {
     "y": Property("0", False, matching(LENGTH)),
 }
 
-CSS_ONLY = frozenset({"isolation", "mix-blend-mode", "rotate", "scale", "translate"})
+CSS_ONLY = frozenset({"background-color", "isolation", "mix-blend-mode", "rotate", "scale", "translate"})
 """Properties that are no presentation attributes (SVG 2, 6.6); some names have another meaning as attributes."""

@@ -13,9 +13,10 @@ from lxml import etree
 
 from vexture.bezier.bounds import bounds
 from vexture.deadline import check_time
-from vexture.drawing import Path
+from vexture.drawing import FillRule, Path
 from vexture.errors import SourceError
 from vexture.group import Group
+from vexture.svg.colors import parse_color
 from vexture.svg.compositing import Veil, grouped, veil_of
 from vexture.svg.document import local_name
 from vexture.svg.filters import HIDING, filter_named
@@ -108,12 +109,12 @@ class Scene:
         chosen = self.chosen is None or self.root in self.chosen
         called = self.names.of(self.root)
         place = Place(viewport, Space().moved(matrix), self.style, self.root, chosen=chosen, name=called)
-        self.walk(self.inside_root(place), painter)
+        self.walk(self.inside_root(place, painter, Space(), frame), painter)
         self.boxes = boxes_of(self.report.elements, painter.paths, painter.places)
         return grouped(painter.paths, painter.veils)
 
-    def inside_root(self, place: Place) -> list[Placed]:
-        """What the outermost element shows at a place inside it."""
+    def inside_root(self, place: Place, painter: Painter, around: Space, frame: Rectangle | None) -> list[Placed]:
+        """What the outermost element shows at a place inside it; its background fills `frame` in the space around."""
         name_unseen(self.root, self.servers, self.report, self.chosen)
         opacity = self.style.opacity("opacity")
         if self.style["display"].lower() == "none" or opacity == 0.0 or not self.note_effects(self.root, self.style):
@@ -123,13 +124,18 @@ class Scene:
         if opacity < 1.0 or place.outer is not None or not MASKING.keys().isdisjoint(self.style.own):
             place = replace(place, veil=Veil(place.veil, opacity))  # a blend mode has nothing to mix with here
         place, stack = add_masks(self, self.root, place)
+        color = parse_color(self.style["background-color"])
+        background = self.servers.flat(color, self.style)
+        if background is not None and background.opacity > 0.0 and place.chosen and frame is not None:
+            whole = [Outline.rectangle(*frame).loop]
+            painter.add(whole, replace(place, space=around), FillRule.NONZERO, background, place.name)
         return [*stack, *((child, place) for child in reversed(self.root))]
 
     def paint_embedded(self, root: etree._Element, place: Place, painter: Painter) -> None:
         """Paint another document at a place inside its viewport; nothing of this one applies in it."""
         scene = Scene(root, self.report, self.images.inside)
         scene.used = self.used
-        size = place.viewport.width, place.viewport.height
+        around, size = place.space, (place.viewport.width, place.viewport.height)
         box = scene.view(root)
         if box is not None and min(box[2:]) < THINNEST:
             return
@@ -138,7 +144,8 @@ class Scene:
         viewport = replace(place.viewport, root_font_size=scene.style.font_size)
         place = replace(place, viewport=viewport, style=scene.style, element=root, outer=place, depth=place.depth + 1)
         own = painter.for_document(scene.servers, scene.walk)
-        scene.walk(scene.inside_root(replace(place, chosen=True, is_instance=True, context=None)), own)
+        place = replace(place, chosen=True, is_instance=True, context=None)
+        scene.walk(scene.inside_root(place, own, around, (0.0, 0.0, *size)), own)
         painter.segments, self.used = own.segments, scene.used
 
     def walk(self, stack: list[Placed], painter: Painter) -> None:
@@ -196,8 +203,13 @@ class Scene:
         shown = list[Placed]()
         if name == "use":  # its clips and masks move along
             inner = replace(inner, space=space.moved(Identity.translate(*position(inner))))
+        if name in ("svg", "symbol"):  # as in browsers, its clips and masks are in the units of its content
+            window = self.window(element, style, self.sides(inner, place.use))
+            if window is None:
+                return []
+            inner = window.within(inner)
         if not isinstance(painter, Ruler):
-            inner, shown = add_masks(self, element, inner)
+            inner, shown = add_masks(self, element, inner, ("clip-path",) if inner.is_clip else tuple(MASKING))
         return [*shown, *self.content(element, inner, painter)]
 
     def content(self, element: etree._Element, inner: Place, painter: Painter) -> list[Placed]:
@@ -215,11 +227,6 @@ class Scene:
             return []
         if name == "use":
             return self.use_target(element, inner)
-        if name in ("svg", "symbol"):
-            sides = self.sides(inner, inner.outer.use if inner.outer is not None else None)
-            window = self.window(element, inner.style, sides)
-            within = None if window is None else window.within(inner)
-            return [] if within is None else [(child, within) for child in element]
         if name == "switch":
             return [(child, inner) for child in switched(element)]
         return [(child, inner) for child in element]
