@@ -1,6 +1,6 @@
 """One-issue fixtures that PyPI's resvg does not know, in words that it and we understand alike."""
 
-__all__ = ["PLAINER"]
+__all__ = ["PLAINER", "plainer"]
 
 ARROW = '<path d="M0 0L10 5L0 10z" fill="red"/>'
 ROOF = '<path d="M20 80L50 20L80 80" fill="none" stroke="blue" stroke-width="4"/>'
@@ -9,6 +9,7 @@ ROOF_TURNED = ((20, 80, -63.4349), (50, 20, 0), (80, 80, 63.4349))
 TRIANGLE = '<path d="M20 25L80 25L50 80z" fill="none" stroke="blue" stroke-width="3"/>'
 TRIANGULAR = ((20, 25, -59.3052), (80, 25, 59.3052), (50, 80, 180))
 DOT = '<circle cx="8" cy="8" r="7" fill="#208040"/><path d="M0 0h9v9z" fill="#e0c020"/>'
+LAST = '<rect x="60" y="60" width="30" height="30" fill="green"/>'
 FIELD = '<rect x="10" y="20" width="80" height="60" fill="url(#{})"/>'
 BALL = '<circle cx="50" cy="50" r="30" fill="#204080"/>'
 RAMP = '<stop stop-color="#e02020"/><stop offset="0.4" stop-color="#f0d020"/><stop offset="1" stop-color="#2040e0"/>'
@@ -21,6 +22,9 @@ def marked(under: str, *places: tuple[float, float, float], scale: float = 0.9, 
 
 
 PLAINER = {
+    # "A value of zero disables rendering of the element" (SVG 2, 8.6), which is nothing where it fills a shape
+    "errors/view-box-nested-zero": LAST,
+    "errors/view-box-of-pattern": LAST,
     # "transform" is a property of gradients and patterns, too, over their attributes (CSS Transforms 1, 8)
     "transform/css-of-gradient": '<linearGradient id="g" gradientUnits="userSpaceOnUse" x1="20" x2="80"'
     f' gradientTransform="rotate(30)">{RAMP}</linearGradient>{FIELD.format("g")}',
@@ -107,3 +111,10 @@ PLAINER = {
     "viewport/height-only": '<circle cx="50" cy="50" r="45"/>',
     "viewport/width-only": '<circle cx="50" cy="50" r="45"/>',
 }
+
+
+def plainer(name: str) -> str | None:
+    """The file that says the same as a fixture, TOPIC/NAME; None if resvg knows the fixture itself."""
+    box = "0 0 200 100" if name.endswith("/height-only") else "0 0 100 100"
+    body = PLAINER.get(name)
+    return body and f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}">{body}</svg>'
