@@ -94,8 +94,8 @@ class Notes:
     --------
     >>> notes = Notes()
     >>> notes.left_out("Point"); notes.left_out("Point"); notes.remark("it has 3 bands, of which the first is read")
-    >>> notes.listed[0]
-    Note(kind='left out', message='Point', count=2)
+    >>> str(notes.listed[0])
+    'Point (2)'
     >>> line_of("a.gpkg", notes.listed)
     'a.gpkg: left out: Point (2); it has 3 bands, of which the first is read'
     """
