@@ -7,7 +7,7 @@ from vexture.cli.messages import as_options
 from vexture.content import about, known_kind
 from vexture.errors import SourceError
 from vexture.machine_code import described
-from vexture.notes import Note
+from vexture.notes import Note, Subject
 from vexture.reading import read_drawing
 
 
@@ -23,7 +23,8 @@ def test_errors_begin_with_the_name_of_their_source() -> None:
 
 def test_what_is_left_out_is_noted() -> None:
     drawing = read_drawing(b'<svg viewBox="0 0 9 9"><foreignObject/><path d="M0 0h9v9z"/></svg>')
-    assert drawing.notes == (Note(kind="left out", message="<foreignObject>", count=1),)
+    (note,) = drawing.notes
+    assert note == Note("left out", "<foreignObject>", 1, (Subject("<foreignObject> in line 1", None),))
 
 
 def test_types_of_arguments_are_described() -> None:

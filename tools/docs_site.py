@@ -17,7 +17,7 @@ import click
 from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
 
-__all__ = ["HOMES", "command_line", "figures", "modules", "on_config", "on_files", "relinked"]
+__all__ = ["HOMES", "command_line", "figures", "modules", "on_config", "on_files", "on_page_markdown", "relinked"]
 
 ROOT: Final = Path(__file__).parents[1]
 
@@ -35,8 +35,13 @@ HOMES: Final = {
 """Pages by the files that they are, both as paths from the root of the repository or of the documentation."""
 
 COMMAND_LINE: Final = "reference/command-line.md"
+CONFORMANCE: Final = "reference/conformance.md"
+PICTURES: Final = "reference/conformance-pictures.html"
 FIGURES: Final = "reference/figures.md"
 MODULES: Final = "project/modules.md"
+
+GALLERY: Final = ROOT / "evidence" / "benchmarks" / "results" / "conformance.html"
+"""Page of all pictures, if `make conformance` has made it."""
 
 EVIDENCE: Final = ROOT / "evidence" / "src" / "vexture_evidence"
 PACKAGES: Final = (ROOT / "src" / "vexture", EVIDENCE)
@@ -66,9 +71,20 @@ def on_files(files: Files, *, config: Any) -> Files:
         files.append(File.generated(config, f"files/{path}", abs_src_path=str(ROOT / path)))
     files.append(File.generated(config, COMMAND_LINE, content=command_line()))
     files.append(File.generated(config, MODULES, content=modules()))
+    if GALLERY.is_file():
+        files.append(File.generated(config, PICTURES, abs_src_path=str(GALLERY)))
     if figures():
         files.append(File.generated(config, FIGURES, content=figures_page()))
     return files
+
+
+def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
+    """Link the page of all pictures, if it is there."""
+    if page.file.src_uri != CONFORMANCE or not GALLERY.is_file():
+        return markdown
+    return markdown.replace(
+        "## What is named", f"[The pictures]({posixpath.basename(PICTURES)})\n\n## What is named", 1
+    )
 
 
 def relinked(home: str) -> tuple[str, set[str]]:

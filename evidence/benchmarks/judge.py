@@ -12,7 +12,7 @@ import tempfile
 import time
 import traceback
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from multiprocessing.connection import Connection
@@ -35,7 +35,7 @@ from vexture.svg.document import parse_svg
 from vexture.svg.read import framed_drawing
 from vexture_evidence.measures.peers import paint_with_skia
 
-__all__ = ["READING_LIMIT", "TEXTURE_LIMIT", "Case", "Child", "Facts"]
+__all__ = ["FIRST", "READING_LIMIT", "TEXTURE_LIMIT", "Case", "Child", "Facts", "enlarged", "stages"]
 
 SIZE: Final = 100
 """Pixels across a compared picture."""
@@ -72,12 +72,12 @@ class Case:
 
 
 class Child:
-    """A process that judges cases, one at a time."""
+    """A process that judges cases, one at a time: `find` says what it finds of one, a stage at a time."""
 
-    def __init__(self) -> None:
+    def __init__(self, find: Callable[[Case], Iterator[Facts]]) -> None:
         context = multiprocessing.get_context("spawn")  # a fork would share the threads of the parent
         self.pipe, theirs = context.Pipe()
-        self.process = context.Process(target=serve, args=(theirs,), daemon=True)
+        self.process = context.Process(target=serve, args=(theirs, find), daemon=True)
         self.process.start()
         theirs.close()
 
@@ -104,18 +104,18 @@ class Child:
         self.pipe.close()
 
 
-def serve(pipe: Connection) -> None:
+def serve(pipe: Connection, find: Callable[[Case], Iterator[Facts]]) -> None:
     """Judge what comes through a pipe; send the facts of each stage as soon as they are known."""
     warnings.simplefilter("ignore", SourceWarning)
     os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # of libraries that say what they think of a file
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    list(stages(Case("", "first.svg", FIRST)))
+    list(find(Case("", "first.svg", FIRST)))
     while True:
         try:
             case = pipe.recv()
         except EOFError:
             return
-        for facts in stages(case):
+        for facts in find(case):
             pipe.send(facts)
         pipe.send(None)
 

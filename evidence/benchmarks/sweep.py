@@ -11,7 +11,7 @@ import argparse
 import sys
 import tomllib
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from importlib.metadata import version
 from pathlib import Path
@@ -21,7 +21,7 @@ from typing import Final
 from rich.console import Console
 from rich.progress import track
 
-from judge import READING_LIMIT, TEXTURE_LIMIT, Case, Child, Facts
+from judge import READING_LIMIT, TEXTURE_LIMIT, Case, Child, Facts, stages
 from report import table, write_json
 from sweep_corpora import CORPORA
 from vexture.errors import VextureError
@@ -59,19 +59,19 @@ def outcome_of(facts: Facts) -> str:
     return "warned" if facts["notes"] else "silent"
 
 
-def judged(cases: Sequence[Case]) -> Iterator[Facts]:
-    """Facts of each case, from child processes; a new one takes the place of one that died."""
+def judged(cases: Sequence[Case], find: Callable[[Case], Iterator[Facts]] = stages) -> Iterator[Facts]:
+    """Facts that are found of each case, in child processes; a new one takes the place of one that died."""
     spare: SimpleQueue[Child] = SimpleQueue()
 
     def judge(case: Case) -> Facts:
         child = spare.get()
         facts = child.judge(case)
-        spare.put(Child() if "died" in facts else child)
+        spare.put(Child(find) if "died" in facts else child)
         return facts
 
     try:
         for _ in range(PROCESSES):
-            spare.put(Child())
+            spare.put(Child(find))
         with ThreadPoolExecutor(PROCESSES) as pool:
             yield from pool.map(judge, cases)
     finally:

@@ -1,16 +1,17 @@
 """Notes of a reader: what it left out, simplified or found invalid, as data of the drawing or fold.
 
-Public functions turn notes into a `SourceWarning`, commands print them, servers and pages show them.
+Public functions turn notes into a `SourceWarning`, commands print them, servers and pages show them. All notes but
+remarks are losses: the result differs from the source.
 """
 
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final, Literal
+from typing import Any, Final, Literal, NamedTuple
 
-from vexture.errors import SourceWarning, printable
+from vexture.errors import SourceError, SourceWarning, printable
 
-__all__ = ["Kind", "Note", "Notes", "line_of", "warn_of"]
+__all__ = ["MOST_SUBJECTS", "Box", "Kind", "Note", "Notes", "Subject", "check_losses", "line_of", "warn_of"]
 
 Kind = Literal["left out", "simplified", "invalid", "remark"]
 
@@ -24,6 +25,19 @@ HEADINGS: Final[dict[Kind, str]] = {
 
 MOST_NAMED: Final = 8
 """Notes of one kind that a line names; the others are counted."""
+
+MOST_SUBJECTS: Final = 32
+"""Elements that a note names; the others are counted."""
+
+Box = tuple[float, float, float, float]
+"""Least x and y, largest x and y, in the unit square, y up."""
+
+
+class Subject(NamedTuple):
+    """An element of the source that a note is about."""
+
+    name: str  # as `Path.element`; of an element without a name, what it is and in which line
+    box: Box | None  # of what is drawn of it; None if nothing is
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +53,8 @@ class Note:
         Such as ``<text>`` or ``pattern shown as solid``.
     count : int
         How often.
+    elements : tuple of Subject
+        The first 32 elements that it is about, where the reader knows them.
 
     Examples
     --------
@@ -49,9 +65,26 @@ class Note:
     kind: Kind
     message: str
     count: int = 1
+    elements: tuple[Subject, ...] = ()
 
     def __str__(self) -> str:
         return f"{self.message} ({self.count})" if self.count > 1 else self.message
+
+    @property
+    def is_loss(self) -> bool:
+        """Whether the result differs from the source."""
+        return self.kind != "remark"
+
+    def facts(self) -> dict[str, Any]:
+        """The note ready for JSON.
+
+        Examples
+        --------
+        >>> Note("left out", "filter", 1, (Subject("sun", None),)).facts()["elements"]
+        [{'name': 'sun', 'box': None}]
+        """
+        elements = [subject._asdict() for subject in self.elements]
+        return {"kind": self.kind, "message": self.message, "count": self.count, "elements": elements}
 
 
 class Notes:
@@ -61,8 +94,8 @@ class Notes:
     --------
     >>> notes = Notes()
     >>> notes.left_out("Point"); notes.left_out("Point"); notes.remark("it has 3 bands, of which the first is read")
-    >>> notes.listed[0]
-    Note(kind='left out', message='Point', count=2)
+    >>> str(notes.listed[0])
+    'Point (2)'
     >>> line_of("a.gpkg", notes.listed)
     'a.gpkg: left out: Point (2); it has 3 bands, of which the first is read'
     """
@@ -112,3 +145,19 @@ def warn_of(source: str, notes: Sequence[Note], *, stacklevel: int = 2) -> None:
     """Issue one `SourceWarning` of all notes about a source; `stacklevel` 2 is the caller of the calling function."""
     if line := line_of(source, notes):
         warnings.warn(line, SourceWarning, stacklevel=stacklevel + 1)
+
+
+def check_losses(source: str, notes: Sequence[Note], *, is_empty: bool, strict: bool = False) -> None:
+    """Raise a `SourceError` if notes lose anything of a drawing and it is empty, or `strict` is set.
+
+    Examples
+    --------
+    >>> check_losses("a.svg", [Note("left out", "<text>", 2)], is_empty=True)
+    Traceback (most recent call last):
+    vexture.errors.SourceError: a.svg: left out: <text> (2); nothing else is in it; correct it, or draw it as paths
+    """
+    line = line_of(source, [note for note in notes if note.is_loss])
+    if line and is_empty:
+        raise SourceError(f"{line}; nothing else is in it; correct it, or draw it as paths")
+    if line and strict:
+        raise SourceError(f"{line}; `strict` accepts no such note; correct the drawing, or leave it out")

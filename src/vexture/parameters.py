@@ -18,7 +18,7 @@ Split: TypeAlias = Literal["auto", "faces", "paint"] | None
 
 SPLITS = get_args(get_args(Split)[0])
 
-READING: Final = ("select", "names", "snap", "fonts")
+READING: Final = ("select", "names", "snap", "fonts", "trace_images")
 """Parameters of the source's reader."""
 
 Fonts: TypeAlias = "Sequence[str | os.PathLike[str]] | None"
@@ -47,6 +47,7 @@ class Parameters:
     snap: float | None = None
     restyle: bool = False
     fonts: "Fonts" = None
+    trace_images: bool = False
 
     def __post_init__(self) -> None:
         if self.split is not None and self.split not in SPLITS:
@@ -59,7 +60,8 @@ class Parameters:
     @property
     def reading(self) -> dict[str, Any]:
         """Those of the source's reader that are given."""
-        return {name: value for name in READING if (value := getattr(self, name)) is not None}
+        values = ((name, getattr(self, name)) for name in READING)
+        return {name: value for name, value in values if value is not None and value is not False}
 
     def split_of(self, drawing: "Drawing") -> Split:
         """How a drawing becomes shapes: "auto" decided."""

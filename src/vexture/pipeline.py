@@ -177,6 +177,7 @@ def convert(
     snap: float | None = ...,
     restyle: bool = ...,
     fonts: Fonts = ...,
+    trace_images: bool = ...,
 ) -> "Texture": ...
 
 
@@ -199,6 +200,7 @@ def convert(
     snap: float | None = None,
     restyle: bool = False,
     fonts: Fonts = None,
+    trace_images: bool = False,
     **others: Any,
 ) -> EncodedTexture:
     """Convert a drawing into a texture.
@@ -238,6 +240,8 @@ def convert(
         tells which element is at a point (`Texture.element_at`). Elements of one colour keep their borders.
     fonts : sequence of path, optional
         Font files, and folders of them, for the texts of an SVG; see `vexture.read_svg`.
+    trace_images : bool
+        Trace the pictures in an SVG; see `vexture.read`.
     **others
         Parameters of another encoding.
 
@@ -270,7 +274,7 @@ def convert(
     ['drawing']
     """
     named = Parameters(
-        split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts
+        split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts, trace_images
     )
     values = ((field.name, getattr(named, field.name)) for field in fields(named))
     given = {name: value for name, value in values if (value is not None and value is not False) or name == "split"}
@@ -305,6 +309,7 @@ def atlas(
     snap: float | None = None,
     restyle: bool = False,
     fonts: Fonts = None,
+    trace_images: bool = False,
 ) -> "Texture":
     """Convert many drawings into one texture: a shape for each, or if `split` is ``"paint"`` for each layer of each.
 
@@ -315,7 +320,7 @@ def atlas(
         ``name/layer``.
     name : str
         Names the texture.
-    split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts
+    split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts, trace_images
         As in `vexture.convert`, for each source.
 
     Returns
@@ -337,7 +342,7 @@ def atlas(
     ['a', 'b']
     """
     parameters = Parameters(
-        split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts
+        split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts, trace_images
     )
     if isinstance(sources, str | bytes | os.PathLike) or not isinstance(sources, Iterable):
         sources = [sources]

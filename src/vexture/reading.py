@@ -24,8 +24,19 @@ from vexture.tolerance import HMIN
 if TYPE_CHECKING:  # at run time a reader is imported when it is needed
     from vexture.drawing import Drawing
     from vexture.geo.extent import Extent, Frame
+    from vexture.svg.images import Images
 
-__all__ = ["Source", "content_of", "drawing_of", "extent_of", "name_of", "read", "read_drawing", "read_extent"]
+__all__ = [
+    "Source",
+    "content_of",
+    "drawing_of",
+    "extent_of",
+    "images_of",
+    "name_of",
+    "read",
+    "read_drawing",
+    "read_extent",
+]
 
 Place: TypeAlias = str | os.PathLike[str]
 Source: TypeAlias = Place | bytes | bytearray | memoryview | IO[bytes]
@@ -42,6 +53,7 @@ def read(
     names: str | None = None,
     snap: float | None = None,
     fonts: Sequence[Place] = (),
+    trace_images: bool = False,
 ) -> "Drawing":
     """Read a drawing from a file of any supported kind; its content decides, not its suffix.
 
@@ -66,6 +78,9 @@ def read(
         How far borders of polygons that become one may differ, of maps only; see `vexture.read_geojson`.
     fonts : sequence of path
         Font files, and folders of them, for the texts of an SVG; see `vexture.read_svg`.
+    trace_images : bool
+        Trace the pictures in an SVG (PNG, JPEG, WebP, GIF, BMP; needs ``vexture[trace]``): those in it, and those in
+        files beside it or in folders below, if `source` is a path. Other files and addresses are never read.
 
     Returns
     -------
@@ -77,8 +92,8 @@ def read(
     SourceError
         If it cannot be read, or is a texture.
     ParameterError
-        If `select` is given for anything but an SVG, `names` for neither GeoJSON nor SVG, `snap` for anything but a
-        map, `fonts` for anything but an SVG, or `source` is the text of a file.
+        If `select`, `fonts` or `trace_images` is given for anything but an SVG, `names` for neither GeoJSON nor SVG,
+        `snap` for anything but a map, or `source` is the text of a file.
     TypeError
         If `source` is something else, such as a file that is open in text mode.
     LimitError
@@ -98,7 +113,9 @@ def read(
     >>> read(b'{"type": "Polygon", "coordinates": [[[4, 52], [6, 52], [6, 53], [4, 53]]]}').crs
     'OGC:CRS84'
     """
-    drawing = read_drawing(source, name=name, select=select, names=names, snap=snap, fonts=fonts)
+    drawing = read_drawing(
+        source, name=name, select=select, names=names, snap=snap, fonts=fonts, trace_images=trace_images
+    )
     warn_of(name_of(source, name), drawing.notes)
     return drawing
 
@@ -111,6 +128,7 @@ def read_drawing(
     names: str | None = None,
     snap: float | None = None,
     fonts: Sequence[Place] = (),
+    trace_images: bool = False,
 ) -> "Drawing":
     """Read a drawing as `read` does, but without a warning."""
     source, shown = _checked(source), name_of(source, name)
@@ -123,12 +141,23 @@ def read_drawing(
             raise ParameterError(f"`snap` {snap} is for the borders of polygons in a map; leave it out")
         if fonts and kind is not FileKind.SVG:
             raise ParameterError(f"`fonts` {os.fspath(fonts[0])!r} is for the texts of an SVG; leave it out")
+        if trace_images and kind is not FileKind.SVG:
+            raise ParameterError("`trace_images` is for the images in an SVG; leave it out")
         if kind is not FileKind.SVG:
             return _read_other(kind, given, shown, select, names, snap)
         content = read_bytes(given)
     from vexture.svg.read import svg_drawing
 
-    return svg_drawing(content, shown, select, names, fonts)
+    folder = Path(source).parent if isinstance(source, str | os.PathLike) else None
+    return svg_drawing(content, shown, select, names, fonts, images_of(folder) if trace_images else None)
+
+
+def images_of(folder: Path | None) -> "Images":
+    """Images that are traced: those in an SVG, and those in a folder, if there is one."""
+    from vexture.svg.images import Images
+    from vexture.tracing.trace import embedded_image
+
+    return Images(embedded_image, folder)
 
 
 def drawing_of(source: "Drawing | Place", reading: dict[str, Any]) -> "Drawing":

@@ -59,7 +59,7 @@ def test_an_exception_that_is_no_error_of_ours_is_a_finding():
 
 
 def test_a_child_that_dies_is_a_finding():
-    with closing(Child()) as child:
+    with closing(Child(stages)) as child:
         assert outcome_of(child.judge(Case("", "a.svg", SQUARE))) == "right"
         child.process.kill()
         assert outcome_of(child.judge(Case("", "a.svg", SQUARE))) == "died"

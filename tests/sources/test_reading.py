@@ -17,12 +17,12 @@ from vexture.cli.messages import as_options
 from vexture.content import SHAPEFILE
 from vexture.drawing import Drawing
 from vexture.errors import ParameterError, SourceError, SourceWarning
-from vexture.notes import Note, line_of
+from vexture.notes import Note, Subject, line_of
 from vexture.reading import content_of, read_drawing
 
 NOTED = {
-    "packed.svgz": (Note("left out", "<foreignObject>"),),
-    "plain.svg": (Note("left out", "<foreignObject>"),),
+    "packed.svgz": (Note("left out", "<foreignObject>", 1, (Subject("<foreignObject> in line 1", None),)),),
+    "plain.svg": (Note("left out", "<foreignObject>", 1, (Subject("<foreignObject> in line 1", None),)),),
     "raster.tif": (
         Note(
             "remark",

@@ -12,7 +12,7 @@ FIXTURES = Path(__file__).parent / "fixtures" / "errors"
 GREEN, RED, BLACK = "#008000", "#ff0000", "#000000"
 LARGE = "the number 1e300 is too large; the limit is 1e+12"
 FAR = "it has a coordinate of {}; the limit is 1e+12; correct it"
-FLAT = ["<svg> in line 1, whose width or height is zero", "nothing in it is painted"]
+FLAT = ["its width or height is zero, at which nothing is shown", "nothing in it is painted"]
 
 SHOWN = {
     "arc-1e300": ([GREEN], ["<path> in line 2: " + FAR.format("1e+200")]),

@@ -9,17 +9,26 @@ import pytest
 from vexture import atlas, convert, coverage, read, render
 from vexture.drawing import Drawing
 from vexture.errors import SourceWarning
+from vexture.notes import MOST_SUBJECTS
 from vexture.svg.read import read_svg
 
 FIXTURES = Path(__file__).parent / "fixtures"
 
 SAID = {
     "animation": "left out: animation",
+    "animation-in-gradient": "left out: animation (2)",
     "clip-path": "left out: clip-path 'circle(9px at 20px 20px)'",
     "css-rotate": "left out: rotate",
     "css-variables": "left out: CSS variables",
     "external-use": "left out: <use> of 'other.svg#a'",
-    "filter": "left out: filter",
+    "event-attribute": "left out: script (2)",
+    "filter": "left out: filter of blur",
+    "filter-functions": "left out: filter of drop shadow and blur",
+    "filter-missing": "invalid and ignored: filter='url(#none)' of <rect> in line 2",
+    "filter-steps": "left out: filter of flood, offset, blur, color matrix and more (2)",
+    "gradient-mesh": "left out: gradient mesh",
+    "hatch": "left out: hatch",
+    "html": "left out: <p> in line 2, of another namespace",
     "linear-light": "simplified: gradient in linear light (color-interpolation) read as one in sRGB, "
     "mask in linear light (color-interpolation) read as one in sRGB",
     "foreign-object": "left out: <foreignObject>; nothing in it is painted",
@@ -35,6 +44,8 @@ SAID = {
     " all patterns of a drawing may have 400,000",
     "script": "left out: script",
     "unknown-element": "left out: <flowRoot>",
+    "view-and-cursor": "its cursors are left out, which no picture shows; "
+    "its views are not followed; all of it is shown",
     "vector-effect": "left out: vector-effect 'fixed-position'",
 }
 
@@ -45,6 +56,52 @@ def test_unsupported_features_are_named_once(path: Path) -> None:
         read_svg(path)
     assert [str(warning.message) for warning in caught] == [f"{path}: {SAID[path.stem]}"]
     assert caught[0].filename == __file__
+
+
+def read_quietly(file: Path) -> Drawing:
+    with warnings.catch_warnings(action="ignore", category=SourceWarning):
+        return read(file)
+
+
+ABOUT = {
+    "animation-in-gradient": [("left out", "animation", [("<stop> in line 2", None), ("sun", (0, 0.91, 0.09, 1))])],
+    "filter-steps": [
+        ("left out", SAID["filter-steps"][10:-4], [("card", (0, 0.91, 0.09, 1)), ("badge", (0.2, 0.91, 0.29, 1))])
+    ],
+    "image": [("left out", "<image>", [("<image> in line 2", None)]), ("remark", "nothing in it is painted", [])],
+}
+
+
+@pytest.mark.parametrize("name", ABOUT)
+def test_notes_name_their_elements_and_where_those_are(name: str) -> None:
+    notes = read_quietly(FIXTURES / "unsupported" / f"{name}.svg").notes
+    said = [(note.kind, note.message, [subject.name for subject in note.elements]) for note in notes]
+    assert said == [(kind, message, [element for element, _ in about]) for kind, message, about in ABOUT[name]]
+    boxes = [box for _, _, about in ABOUT[name] for _, box in about]
+    for subject, box in zip([subject for note in notes for subject in note.elements], boxes, strict=True):
+        assert subject.box == (box and pytest.approx(box))
+
+
+def test_the_box_of_an_element_holds_all_its_uses_and_strokes_but_not_what_it_masks(tmp_path: Path) -> None:
+    file = tmp_path / "a.svg"
+    file.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><defs><g id="a" rotate="1" scale="2">'
+        '<path d="M10 10h10" stroke="red" stroke-width="2"/></g></defs>'
+        '<use id="b" style="rotate: 1deg" href="#a"/><use href="#a" y="80"/>'
+        '<mask id="m" style="rotate: 1deg"><path id="c" style="rotate: 1deg" d="M0 0h100v100h-100z"/></mask>'
+        '<path style="rotate: 1deg" d="M40 40h10v10h-10z" mask="url(#m)"/></svg>'
+    )
+    (note,) = read_quietly(file).notes
+    boxes = dict(note.elements)
+    assert boxes["b"] == pytest.approx((0.1, 0.89, 0.2, 0.91))
+    assert boxes["c"] is None
+    assert boxes["<path> in line 1"] == pytest.approx((0.4, 0.5, 0.5, 0.6))
+
+
+def test_a_note_names_so_many_elements_and_counts_the_others(tmp_path: Path) -> None:
+    file = tmp_path / "a.svg"
+    file.write_text(f'<svg viewBox="0 0 9 9">{"<foreignObject/>" * 40}</svg>')
+    assert [(note.count, len(note.elements)) for note in read_quietly(file).notes] == [(40, MOST_SUBJECTS), (1, 0)]
 
 
 GROUP = "opacity of a group, which each of its shapes has by itself"
@@ -104,7 +161,7 @@ def test_what_layers_lose_is_warned_of_where_a_drawing_is_stacked(tmp_path: Path
     assert warned(lambda: convert(file)) == [unread]
     assert warned(lambda: convert(file, split="paint")) == [f"{unread}; {lost}"]
     assert warned(lambda: atlas([file], split="paint")) == [f"{unread}; {lost}"]
-    drawing = file_drawing(file)
+    drawing = read_quietly(file)
     assert warned(lambda: coverage(drawing, 4)) == []
     assert warned(lambda: render(drawing, 4)) == []
     assert warned(lambda: render(drawing, 4, renderer="exact")) == []
@@ -113,11 +170,6 @@ def test_what_layers_lose_is_warned_of_where_a_drawing_is_stacked(tmp_path: Path
         lambda: atlas([drawing], split="paint"),
     ):
         assert warned(stacked) == [f"a: {lost}"]
-
-
-def file_drawing(file: Path) -> Drawing:
-    with warnings.catch_warnings(action="ignore", category=SourceWarning):
-        return read(file)
 
 
 @pytest.mark.parametrize(

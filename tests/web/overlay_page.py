@@ -15,12 +15,21 @@ from viewer_page import manifest, thesis_view, view_matrix, write_page
 
 import vexture
 from cells import Cells, finest_level
+from vexture.notes import Note, Subject
 from vexture.texture.texture import Texture
 
 SHAPES = ROOT / "examples" / "shapes"
 WINDOW = (800, 480)
 
-FACTS = {"segments": 31, "bytes": 12345, "milliseconds": 8.25, "distance": 1e-5, "warnings": ["a gradient is flat"]}
+NOTES = [
+    Note(
+        "left out", "filter of blur", 2, (Subject("bill", (0.1, 0.5, 0.3, 0.7)), Subject("eye", (0.25, 0.6, 0.3, 0.7)))
+    ),
+    Note("simplified", "gradient mesh", 1, (Subject("water", None),)),
+    Note("remark", "it swims"),
+]
+FACTS = {"segments": 31, "bytes": 12345, "milliseconds": 8.25, "distance": 1e-5}
+FACTS |= {"notes": [note.facts() for note in NOTES]}
 
 BOAT = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><rect width="100" height="100" fill="#bfe3ff"/>
 <circle cx="72" cy="28" r="15" fill="#ffd23f"/>
@@ -52,7 +61,9 @@ class Shown(NamedTuple):
           engine.render();
           await new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next)));
         }""")
-        png = self.page.screenshot(style=".tools, .fold, .notes, .svg-layer { display: none !important; }")
+        png = self.page.screenshot(
+            style=".tools, .fold, .notes, .differences, .svg-layer { display: none !important; }"
+        )
         box = self.box
         left, top = int(box["x"]), int(box["y"])
         image = Image.open(io.BytesIO(png)).convert("RGB")

@@ -213,7 +213,7 @@ def test_facts_are_the_textures(show: Callable[..., Shown]) -> None:
     assert facts["GPU memory"] == f"{shown.texture.texels.nbytes:,} B"
     assert facts["Conversion"] == "8.25 ms"
     assert facts["Deviation, of side"] == "1/100,000"
-    assert region.get_by_role("list", name="Warnings").inner_text() == "a gradient is flat"
+    assert region.get_by_role("list", name="Remarks").inner_text() == "it swims"
     assert region.get_by_role("status").inner_text() == "not measured"
     shown.press("Measure")
     shown.page.wait_for_function("/^[\\d.]+ ms$/.test(document.querySelector('.measured output').value)")

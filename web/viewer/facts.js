@@ -36,7 +36,7 @@ function distance(value) {
  */
 export function create(engine, _state) {
   const list = element('dl', { class: 'facts' });
-  const warnings = element('ul', { class: 'warnings', 'aria-label': 'Warnings' });
+  const remarks = element('ul', { class: 'remarks', 'aria-label': 'Remarks' });
   const frame = element('output', { class: 'value', 'aria-live': 'off' }, 'not measured');
   const button = element('button', {
     type: 'button', title: `Draw ${FRAMES} frames and say how long one takes`,
@@ -70,9 +70,9 @@ export function create(engine, _state) {
       ['Deviation, of side', distance(facts.distance)],
     ];
     list.replaceChildren(...rows.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
-    const said = facts.warnings ?? [];
-    warnings.hidden = said.length === 0;
-    warnings.replaceChildren(...said.map((line) => element('li', {}, line)));
+    const said = (facts.notes ?? []).filter(({ kind }) => kind === 'remark'); // the badge says the others
+    remarks.hidden = said.length === 0;
+    remarks.replaceChildren(...said.map(({ message }) => element('li', {}, message)));
   }
 
   engine.addEventListener('shape', () => {
@@ -81,7 +81,7 @@ export function create(engine, _state) {
   });
   update();
   const made = section('Facts', list, element('div', { class: 'row measure' }, element('span', {}, 'Frame time'),
-    element('span', { class: 'measured' }, frame, button)), warnings);
+    element('span', { class: 'measured' }, frame, button)), remarks);
   made.setAttribute('role', 'region');
   return made;
 }

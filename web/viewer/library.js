@@ -10,7 +10,17 @@
  * @property {number | null} [milliseconds]
  * @property {number | null} [distance]
  * @property {[number, number, number, number] | null} [box] window of the SVG in the unit square
- * @property {string[]} [warnings]
+ * @property {Note[]} [notes] what the reader left out, simplified or found invalid, and its remarks
+ *
+ * @typedef {object} Note
+ * @property {'left out' | 'simplified' | 'invalid' | 'remark'} kind
+ * @property {string} message
+ * @property {number} count
+ * @property {Subject[]} elements the first that it is about
+ *
+ * @typedef {object} Subject
+ * @property {string} name
+ * @property {[number, number, number, number] | null} box what is drawn of it, in the unit square
  *
  * @typedef {object} Manifest as the server and the exported page write it
  * @property {string} name

@@ -1,6 +1,7 @@
 /** Entry of the page: makes and connects its elements, and starts. */
 import { createCompare } from './compare.js';
 import { copyPicture, copyText, pictureOf } from './copy.js';
+import { create as createDifferences } from './differences.js';
 import { element } from './dom.js';
 import { acceptDrops, fileButton } from './drop.js';
 import { Engine } from './engine.js';
@@ -75,7 +76,7 @@ function build(engine, state, library) {
   });
   app.classList.toggle('folded', NARROW.matches);
   if (bare) return panel;
-  scene.append(tools.zoom, tools.fold);
+  scene.append(createDifferences(engine, state), tools.zoom, tools.fold);
   app.append(panel.panel);
   return panel;
 }

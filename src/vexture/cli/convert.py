@@ -23,7 +23,9 @@ from vexture.cli.options import (
     font_option,
     split_of,
     standard_input,
+    strict_option,
     tolerance_option,
+    trace_images_option,
 )
 from vexture.cli.outcome import (
     NORMAL,
@@ -52,6 +54,7 @@ BELONGS_TO: Final = {
     "names": DEFAULT,
     "snap": DEFAULT,
     "fonts": DEFAULT,
+    "trace_images": DEFAULT,
     "capacity": DEFAULT,
     "precision": DEFAULT,
     "deflate": DEFAULT,
@@ -105,6 +108,7 @@ Examples:
     "side; 0 leaves them.  [default: 3e-6]",
 )
 @font_option
+@trace_images_option
 @tolerance_option
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
 @click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 8, in colours 12]")
@@ -122,6 +126,7 @@ Examples:
 @click.option(
     "-j", "--jobs", metavar="N", type=click.IntRange(1), default=1, show_default=True, help="Processes to use."
 )
+@strict_option
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON list with the facts of each source.")
 @click.option("-q", "--quiet", is_flag=True, help="Print errors only.")
 @click.option("-v", "--verbose", is_flag=True, help="Print each shape, too.")
@@ -140,6 +145,7 @@ def convert(
     atlas: Path | None,
     encoding: str,
     jobs: int,
+    strict: bool,
     as_json: bool,
     quiet: bool,
     verbose: bool,
@@ -157,7 +163,7 @@ def convert(
         check_places(sources, output, atlas, encoding, to_pipe)
         stored = {name: parameters.pop(name) for name in ("deflate",) if name in parameters}
         work = partial(_convert_one, encoding=encoding, parameters=parameters, stored=stored)
-        work = partial(work, for_atlas=atlas is not None, quiet=quiet)
+        work = partial(work, for_atlas=atlas is not None, strict=strict, quiet=quiet)
         outcomes: list[Outcome] = []
         owners: dict[str, Path | str] = {}
         for found in _outcomes(work, sources, jobs, level):
@@ -248,13 +254,14 @@ def _convert_one(
     parameters: dict[str, Any],
     stored: dict[str, Any],
     for_atlas: bool,
+    strict: bool,
     quiet: bool,
 ) -> Outcome:
     """Convert one source, in this process or another; an error is returned as its line.
 
     `stored` are the parameters of the texture's `files`.
     """
-    from vexture.notes import line_of
+    from vexture.notes import check_losses, line_of
     from vexture.parameters import READING, Parameters
     from vexture.pipeline import run, trees_of
     from vexture.reading import read_drawing
@@ -276,6 +283,7 @@ def _convert_one(
             done = run(given, encoding=encoding, **parameters)
             files = done.texture.files(**stored)
             size = sum(map(len, files.values()))
+        check_losses(str(source), done.notes, is_empty=not done.drawing.paths, strict=strict)
     except EXPECTED as error:
         return Outcome(source, {}, error=str(error))
     warning = line_of(str(source), done.notes)

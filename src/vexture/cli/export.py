@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from vexture.cli.messages import one_line, say
-from vexture.cli.options import PATH, conversion_options, viewer_parameters
+from vexture.cli.options import PATH, conversion_options, strict_option, viewer_parameters
 
 __all__ = ["export"]
 
@@ -20,11 +20,12 @@ Example:
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=PATH)
 @click.option("-o", "--output", metavar="PAGE.html", required=True, type=PATH, help="File to write.")
 @click.option("--title", metavar="TEXT", help="Title of the page.  [default: the names of the files]")
+@strict_option
 @conversion_options
-def export(files: tuple[Path, ...], output: Path, title: str | None, **conversion: Any) -> None:
+def export(files: tuple[Path, ...], output: Path, title: str | None, strict: bool, **conversion: Any) -> None:
     """Write one page that shows drawings, with everything in it."""
     with one_line():
         from vexture.live.view import export as write
 
-        size = write(files, output, title, viewer_parameters(**conversion), say)
+        size = write(files, output, title, viewer_parameters(**conversion), say, strict=strict)
         click.echo(f"{output}: {len(files)} file{'s' * (len(files) > 1)}, {size} bytes")

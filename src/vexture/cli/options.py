@@ -24,7 +24,9 @@ __all__ = [
     "font_option",
     "split_of",
     "standard_input",
+    "strict_option",
     "tolerance_option",
+    "trace_images_option",
     "viewer_parameters",
 ]
 
@@ -162,6 +164,21 @@ font_option = click.option(
 )
 
 
+strict_option = click.option(
+    "--strict",
+    is_flag=True,
+    help="Fail, and write nothing, where anything of a drawing is left out, simplified or invalid; remarks do no harm.",
+)
+
+
+trace_images_option = click.option(
+    "--trace-images",
+    is_flag=True,
+    default=None,
+    help="Trace the pictures in an SVG, and those in files beside it or below.",
+)
+
+
 SILHOUETTE_HELP: Final = "the covered area of a drawing, without colours."
 
 
@@ -182,7 +199,7 @@ def conversion_options(command: Callable[..., None]) -> Callable[..., None]:
         "--split", type=click.Choice(["paint"]), help="paint: show each colour as a layer, one over the other."
     )
     silhouette = click.option("--silhouette", is_flag=True, help=f"Show {SILHOUETTE_HELP}")
-    return split(silhouette(select(font_option(precision(tolerance_option(command))))))
+    return split(silhouette(select(font_option(trace_images_option(precision(tolerance_option(command)))))))
 
 
 def viewer_parameters(
@@ -192,11 +209,13 @@ def viewer_parameters(
     split: str | None,
     silhouette: bool,
     fonts: tuple[Path, ...] | None,
+    trace_images: bool | None,
 ) -> "Parameters":
     """The viewer's parameters, with those that are given as options."""
     from vexture.live.documents import VIEWER_PARAMETERS
 
-    given: dict[str, Any] = {"tolerance": tolerance, "select": select, "fonts": fonts, **split_of(split, silhouette)}
+    given: dict[str, Any] = {"tolerance": tolerance, "select": select, "fonts": fonts}
+    given |= {"trace_images": bool(trace_images), **split_of(split, silhouette)}
     if precision is not None:
         given["precision"] = precision
     return replace(VIEWER_PARAMETERS, **given)

@@ -60,6 +60,7 @@ def shape_facts(done: "Conversion[Any]") -> dict[str, Any]:
         "rounding": done.rounding,
         "unresolved": sum(shape["unresolved"] for shape in shapes),
         "shapes": shapes,
+        "notes": [note.facts() for note in done.notes],
     }
 
 

@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from vexture.cli.messages import one_line, say_notes
-from vexture.cli.options import PATH, STANDARD, Colour, Rectangle, drawing_kind, font_option, standard_input
+from vexture.cli.options import (
+    PATH,
+    STANDARD,
+    Colour,
+    Rectangle,
+    drawing_kind,
+    font_option,
+    standard_input,
+    strict_option,
+    trace_images_option,
+)
 from vexture.errors import DeviceError, ParameterError
 
 if TYPE_CHECKING:
@@ -43,6 +53,8 @@ Examples:
 @click.option("--root", metavar="NAME_OR_INDEX", help="Shape of a texture, or drawing of an atlas.")
 @click.option("--select", metavar="SELECTOR", help="Draw only the elements of an SVG that a CSS selector matches.")
 @font_option
+@trace_images_option
+@strict_option
 @click.option(
     "--renderer",
     type=click.Choice(["cpu", "gpu", "exact"]),
@@ -62,6 +74,8 @@ def render(
     root: str | None,
     select: str | None,
     fonts: tuple[Path, ...] | None,
+    trace_images: bool | None,
+    strict: bool,
     **options: Any,
 ) -> None:
     """Draw a drawing, a picture as it is traced, or a texture as a PNG, in its colours.
@@ -74,7 +88,7 @@ def render(
         if output != Path(STANDARD) and output.suffix.lower() != ".png":
             raise ParameterError(f"`output` {output}: pictures are PNG files; name one that ends in .png")
         pixels = _pixels(size, width, height, view)
-        shown = _shown(source, select, fonts)
+        shown = _shown(source, select, fonts or (), trace_images=bool(trace_images), strict=strict)
         picture = _picture(shown, pixels, window(*view, rotate), root=_root_of(shown, root), **options)
         _write_png(_over(picture, background), output)
 
@@ -138,9 +152,10 @@ def _root_of(shown: "Shown", root: str | None) -> str | int | None:
     return int(root) if root not in names and root.isdecimal() else root
 
 
-def _shown(path: Path, select: str | None, fonts: tuple[Path, ...] | None) -> "Shown":
+def _shown(path: Path, select: str | None, fonts: tuple[Path, ...], *, trace_images: bool, strict: bool) -> "Shown":
     """Read a drawing, or load a texture by one of its files or what their names have in common."""
     from vexture.content import FileKind, kind_of, start_of
+    from vexture.notes import check_losses
     from vexture.reading import read_drawing
     from vexture.texture.load import load_any, texture_from
 
@@ -148,7 +163,9 @@ def _shown(path: Path, select: str | None, fonts: tuple[Path, ...] | None) -> "S
     name = str(path) if data is None else "standard input"
     kind = drawing_kind(path) if data is None else kind_of(start_of(data))
     if kind not in (None, FileKind.TEXTURE):
-        drawing = read_drawing(path if data is None else data, name=name, select=select, fonts=fonts or ())
+        given = path if data is None else data
+        drawing = read_drawing(given, name=name, select=select, fonts=fonts, trace_images=trace_images)
+        check_losses(name, drawing.notes, is_empty=not drawing.paths, strict=strict)
         say_notes(name, drawing.notes)
         return drawing
     if select is not None:

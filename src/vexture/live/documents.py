@@ -3,7 +3,7 @@
 import time
 from dataclasses import replace
 from functools import cache
-from pathlib import PurePath
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
 
 from vexture.content import FileKind, about, decompressed, kind_of, known_kind, start_of
@@ -51,10 +51,11 @@ SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
 """Uses all kernels: corners, curves, crossings, two colours, parts outside of the box."""
 
 
-def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters) -> Shape:
+def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters, folder: Path | None = None) -> Shape:
     """Convert the content of a file, or check and keep that of a packed texture, into a shape that can be published.
 
-    The file's name, which stands in messages, is never opened. The facts of the shape hold the notes as text; its
+    The file's name, which stands in messages, is never opened; only files in `folder` are, if its images are to be
+    traced. The facts of the shape hold the notes as text; its
     views hold the source of an SVG, to compare with.
 
     Examples
@@ -63,7 +64,7 @@ def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters) -> 
     >>> shape.facts["segments"], shape.facts["box"]
     (4, [0.0, 0.0, 1.0, 1.0])
     """
-    from vexture.reading import read_drawing
+    from vexture.reading import images_of, read_drawing
     from vexture.svg.read import framed_drawing
 
     with about(file_name):
@@ -76,7 +77,9 @@ def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters) -> 
     start = time.perf_counter()
     framed = None
     if kind is FileKind.SVG:
-        drawing, framed = framed_drawing(plain, file_name, parameters.select, fonts=parameters.fonts or ())
+        images = images_of(folder) if parameters.trace_images else None
+        fonts = parameters.fonts or ()
+        drawing, framed = framed_drawing(plain, file_name, parameters.select, fonts=fonts, images=images)
     else:
         drawing = read_drawing(plain, name=file_name, select=parameters.select)
     shape = converted(replace(drawing, name=name), file_name, parameters, start)
@@ -112,7 +115,8 @@ def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start:
     """Shape of a drawing, with the facts of its conversion; its notes are one line, if there are any."""
     from vexture.pipeline import combine, trees_of
 
-    part = trees_of(drawing, replace(parameters, select=None, fonts=None))  # what was selected is the drawing already
+    reading = replace(parameters, select=None, fonts=None, trace_images=False)  # the drawing is read already
+    part = trees_of(drawing, reading)
     texture = combine([part], drawing.name, PurePath(file_name).name)
     milliseconds = 1000.0 * (time.perf_counter() - start)
     data = texture.to_ktx2()
@@ -128,6 +132,7 @@ def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start:
         "to_source": drawing.to_source.ravel().tolist(),
         "box": None,
         "warnings": [line] if line else [],
+        "notes": [note.facts() for note in part.notes],
     }
     return Shape(drawing.name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
 
@@ -149,6 +154,7 @@ def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
         "to_source": texture.roots[0].to_source.ravel().tolist(),
         "box": None,
         "warnings": [],
+        "notes": [],
     }
     return Shape(name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
 

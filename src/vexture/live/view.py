@@ -12,6 +12,7 @@ from vexture.errors import EXPECTED, LimitError
 from vexture.live.documents import shape_of
 from vexture.live.shelf import Shape, Shelf
 from vexture.live.watch import Source, named, watch
+from vexture.notes import Note, check_losses
 from vexture.parameters import Parameters
 from vexture.reading import content_of
 
@@ -21,13 +22,21 @@ Say = Callable[[str], None]
 """Takes a line for the user."""
 
 
-def export(paths: Sequence[Path], output: Path, title: str | None, parameters: Parameters, say: Say) -> int:
-    """Write one page that shows files and needs nothing else; return its size."""
+def export(
+    paths: Sequence[Path], output: Path, title: str | None, parameters: Parameters, say: Say, *, strict: bool = False
+) -> int:
+    """Write one page that shows files and needs nothing else; return its size.
+
+    Raise a `SourceError` if nothing can be drawn of a file, or with `strict` if anything cannot.
+    """
     from vexture.live.page import VIEWER, check_output, exported_page
     from vexture.texture.files import write_together
 
     check_output(output, VIEWER)
     shapes = [_converted(source, content_of(source.path), parameters, say) for source in named(paths)]
+    for path, shape in zip(paths, shapes, strict=True):
+        notes = [Note(note["kind"], note["message"], note["count"]) for note in shape.facts["notes"]]
+        check_losses(str(path), notes, is_empty=shape.facts["segments"] == 0, strict=strict)
     page = exported_page(shapes, title or ", ".join(shape.name for shape in shapes))
     write_together({output: page})
     return len(page)
@@ -95,7 +104,7 @@ def _published(shelf: Shelf, sources: Sequence[Source], parameters: Parameters, 
 
 
 def _converted(source: Source, data: bytes, parameters: Parameters, say: Say) -> Shape:
-    shape = shape_of(data, str(source.path), source.name, parameters)
+    shape = shape_of(data, str(source.path), source.name, parameters, source.path.parent)
     for warning in shape.facts["warnings"]:
         say(f"warning: {warning}")
     return shape

@@ -120,7 +120,8 @@ async def _publish(shelf: Shelf, source: Source, parameters: Parameters, content
             data = await asyncio.to_thread(content_of, source.path)
             if data == content[source.name]:
                 return
-            shape = await asyncio.to_thread(shape_of, data, str(source.path), source.name, parameters)
+            path = source.path
+            shape = await asyncio.to_thread(shape_of, data, str(path), source.name, parameters, path.parent)
         except EXPECTED as error:
             line = str(error)
             if delay is not None:

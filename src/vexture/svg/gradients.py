@@ -14,10 +14,11 @@ from vexture.svg.outline import Outline
 from vexture.svg.properties import PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.space import SMALLEST, Place
-from vexture.svg.transform import Identity, Transform, parse_transform
+from vexture.svg.style import Style
+from vexture.svg.transform import Identity, Transform, about_origin, parse_transform
 from vexture.svg.values import LARGEST, Viewport, fraction, number
 
-__all__ = ["BOXED", "GRADIENTS", "SHORTEST", "WHOLE", "Ramp", "read_ramp", "stop_offsets"]
+__all__ = ["BOXED", "GRADIENTS", "SHORTEST", "WHOLE", "Ramp", "read_ramp", "stop_offsets", "transform_of"]
 
 LENGTHS: Final = {
     "linearGradient": {"x1": "0%", "y1": "0%", "x2": "100%", "y2": "0%"},
@@ -47,6 +48,7 @@ class Ramp:
     lengths: dict[str, str]  # all of `LENGTHS`
     boxed: bool  # whether in parts of the bounding box
     moved: Transform  # `gradientTransform`
+    origin: str  # about which it is
     spread: Spread
     stops: tuple[Stop, ...]  # one or more
     font_size: float  # of the element
@@ -57,11 +59,12 @@ class Ramp:
         if self.boxed:
             left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in outlines]))
             whole = whole.transform(Transform(right - left, 0.0, 0.0, bottom - top, left, top))
-        whole = whole.transform(self.moved)
+        view = WHOLE if self.boxed else place.viewport
+        whole = whole.transform(about_origin(self.moved, self.origin, view.along(self.font_size)))
         a, b, c, d = whole[:4]
         if not SMALLEST <= abs(a * d - b * c) <= 1.0 / SMALLEST:
             return None
-        gradient = self.along(WHOLE if self.boxed else place.viewport)
+        gradient = self.along(view)
         if gradient is None:
             last = self.stops[-1]
             return Paint(last.color, last.opacity)
@@ -116,22 +119,35 @@ def rows(matrix: Transform) -> Affine:
     return (a, c, e), (b, d, f)
 
 
-def read_ramp(chain: list[etree._Element], stops: tuple[Stop, ...], font_size: float, report: Report) -> Ramp:
-    """Ramp of the first of some gradient elements, each of which refers to the next; invalid values are noted."""
+def read_ramp(chain: list[etree._Element], stops: tuple[Stop, ...], style: Style, report: Report) -> Ramp:
+    """Ramp of the first of some gradient elements, which has a style, and each of which refers to the next."""
     name = local_name(chain[0]) or ""
     lengths = dict(LENGTHS[name])
     words = dict.fromkeys(("gradientUnits", "spreadMethod", "gradientTransform"), "")
     for element in reversed(chain):
         lengths.update(own_lengths(element, name, report))
         words.update({key: text for key in words if (text := element.get(key)) is not None})
-    moved = parse_transform(words["gradientTransform"], lambda text, axis: number(text))
+    words["gradientTransform"], moved = transform_of(words["gradientTransform"], chain[0], style)
     found = BOXED.get(words["gradientUnits"].strip()), SPREADS.get(words["spreadMethod"].strip()), moved
     for (key, text), value in zip(words.items(), found, strict=True):
         if text and value is None:
             report.invalid(key, text, chain[0])
     boxed, spread, _ = found
     radial = name == "radialGradient"
-    return Ramp(radial, lengths, boxed is not False, moved or Identity, spread or Spread.PAD, stops, font_size)
+    moved, spread = moved or Identity, spread or Spread.PAD
+    origin = style["transform-origin"]
+    return Ramp(radial, lengths, boxed is not False, moved, origin, spread, stops, style.font_size)
+
+
+def transform_of(text: str, element: etree._Element, style: Style) -> tuple[str, Transform | None]:
+    """Text and value of the transform of a paint server: the CSS property, or else the text of its attribute.
+
+    An attribute `transform` means nothing here, though the cascade takes it for the property.
+    """
+    css = style["transform"]
+    if css.lower() != "none" and element.get("transform") is None:
+        return css, parse_transform(css, WHOLE.along(style.font_size))
+    return text, parse_transform(text, lambda part, axis: number(part))
 
 
 def own_lengths(element: etree._Element, name: str, report: Report) -> dict[str, str]:

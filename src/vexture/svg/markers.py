@@ -35,8 +35,8 @@ class Marking(Measured, Protocol):
     def window(self, element: etree._Element, style: Style, sides: Rectangle) -> Window | None:
         """How an element with sides shows its content; None if it shows nothing."""
 
-    def note_effects(self, style: Style) -> None:
-        """Note effects that are not supported."""
+    def note_effects(self, element: etree._Element, style: Style) -> bool:
+        """Note effects that are not supported; return whether anything is seen of an element with its filter."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -104,7 +104,8 @@ def read_marker(scene: Marking, name: str, shape: Shape, place: Place) -> Marker
     if element is None:
         return None
     style = scene.servers.style_of(element)
-    scene.note_effects(style)
+    if not scene.note_effects(element, style):
+        return None
     scale = 1.0 if element.get("markerUnits") == "userSpaceOnUse" else shape.length("stroke-width") or 0.0
     own = Shape(element, style, place.viewport, shape.tolerance, shape.report)
     width, height = side(own, "markerWidth", place.viewport.width), side(own, "markerHeight", place.viewport.height)

@@ -3,6 +3,7 @@
 A clip by one rectangle cuts outlines instead, so that silhouettes and layers have it, too.
 """
 
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Final, Protocol
 
@@ -46,14 +47,17 @@ class Measured(Protocol):
         """Bounding box of what an element shows, in the units of the place inside it; None if it has no area."""
 
 
-def add_masks(scene: Measured, element: etree._Element, place: Place) -> tuple[Place, list[Placed]]:
+def add_masks(
+    scene: Measured, element: etree._Element, place: Place, names: Iterable[str] = MASKING
+) -> tuple[Place, list[Placed]]:
     """The place inside an element, cut by its clips, and what is to be shown to mask it.
 
-    The element has a veil of its own if it has a clip or a mask.
+    The element has a veil of its own if it has a clip or a mask. `names` are the properties that have an effect: in a
+    clip, of which only outlines count, a mask has none.
     """
     shown: list[Placed] = []
-    for name, kind in MASKING.items():
-        target = scene.servers.referred(name, kind, place)
+    for name in names:
+        target = scene.servers.referred(name, MASKING[name], place)
         if target is not None:
             place, more = add_mask(scene, element, target, place)
             shown += more
@@ -76,7 +80,7 @@ def add_mask(
             return replace(place, space=space.window(rectangle, matrix.inverse())), []
     if not is_clip:
         if style["color-interpolation"].lower() == "linearrgb":
-            scene.report.simplified("mask in linear light (color-interpolation) read as one in sRGB")
+            scene.report.simplified("mask in linear light (color-interpolation) read as one in sRGB", element)
         space = region(scene, element, target, place, matrix)
     assert place.veil is not None
     by_opacity = is_clip or style["mask-type"].lower() == "alpha"
@@ -95,7 +99,7 @@ def add_mask(
         masks=masks,
         is_instance=True,
     )
-    content, shown = add_masks(scene, target, content)
+    content, shown = add_masks(scene, target, content, ("clip-path",) if is_clip else tuple(MASKING))
     return place, [*shown, *((child, content) for child in target)]
 
 

@@ -27,6 +27,12 @@ class Outline:
             points = np.concatenate([points, points[:1]])
         return cls(line_cubics(points[:-1], points[1:]), closed)
 
+    @classmethod
+    def rectangle(cls, x: float, y: float, width: float, height: float) -> "Outline":
+        """Sides of an upright rectangle."""
+        right, bottom = x + width, y + height
+        return cls.polygon(np.array([(x, y), (right, y), (right, bottom), (x, bottom)]), closed=True)
+
     @property
     def loop(self) -> NDArray[np.float64]:
         """Contour to fill, (n, 4, 2), closed by a straight line if necessary."""

@@ -20,6 +20,9 @@ __all__ = ["PaintServers", "reference"]
 
 HREF = ("href", "{http://www.w3.org/1999/xlink}href", "xlink:href")
 """Attributes that link, the last one in files that do not declare its prefix, as HTML allows."""
+UNKNOWN = {"meshgradient": "gradient mesh", "meshGradient": "gradient mesh", "hatch": "hatch"}
+"""Paint servers that are not drawn, and what notes call them."""
+
 GREY = Color((0.5, 0.5, 0.5), 1.0)
 PATTERNS = frozenset({"pattern"})
 MOST_STOPS = 128
@@ -66,9 +69,9 @@ class PaintServers:
         link = LINK.fullmatch(value)
         target = self.target(link[2]) if link is not None else None
         if target is None or local_name(target) != kind:
-            self.report.left_out(f"{name} '{value[:40]}'")
+            self.report.left_out(f"{name} '{value[:40]}'", place.element)
         elif place.inside(target):
-            self.report.left_out(f"{name} that refers to itself, of {described(target)}")
+            self.report.left_out(f"{name} that refers to itself, of {described(target)}", place.element)
         else:
             return target
         return None
@@ -119,7 +122,7 @@ class PaintServers:
         elif server is not None and name in PATTERNS:
             found = self.tiling(server, text.color, place, outlines)
         else:
-            self.report.left_out(f"paint '{link[:40]}'")
+            self.report.left_out(UNKNOWN.get(name or "", f"paint '{link[:40]}'"), place.element)
         return self.flat(text.color, place.style) if found is None else found
 
     def tiling(
@@ -130,7 +133,7 @@ class PaintServers:
         if pattern is None:
             return None
         if place.inside(pattern.holder):
-            self.report.left_out(f"pattern that refers to itself, of {described(pattern.holder)}")
+            self.report.left_out(f"pattern that refers to itself, of {described(pattern.holder)}", place.element)
             return None
         solid = self.flat(fallback or GREY, place.style)
         return None if solid is None else pattern.tiling(place, outlines, solid)
@@ -156,10 +159,10 @@ class PaintServers:
         if gradient not in self.ramps:
             chain = self.chain(gradient, GRADIENTS)
             stops = next(filter(None, map(self.stops, chain)), None)
-            size = self.style_of(gradient).font_size
-            if self.style_of(gradient)["color-interpolation"].lower() == "linearrgb":
-                self.report.simplified("gradient in linear light (color-interpolation) read as one in sRGB")
-            self.ramps[gradient] = None if stops is None else read_ramp(chain, stops, size, self.report)
+            style = self.style_of(gradient)
+            if style["color-interpolation"].lower() == "linearrgb":
+                self.report.simplified("gradient in linear light (color-interpolation) read as one in sRGB", gradient)
+            self.ramps[gradient] = None if stops is None else read_ramp(chain, stops, style, self.report)
         return self.ramps[gradient]
 
     def stops(self, gradient: etree._Element) -> tuple[Stop, ...]:
@@ -169,7 +172,7 @@ class PaintServers:
         stops = tuple(self.stop(element, offset) for element, offset in zip(elements, offsets, strict=True))
         if len(stops) <= MOST_STOPS:
             return stops
-        self.report.simplified(f"gradient of more than {MOST_STOPS} stops, of which as many are kept")
+        self.report.simplified(f"gradient of more than {MOST_STOPS} stops, of which as many are kept", gradient)
         return tuple(stops[(len(stops) - 1) * k // (MOST_STOPS - 1)] for k in range(MOST_STOPS))
 
     def stop(self, element: etree._Element, offset: float) -> Stop:

@@ -1,6 +1,7 @@
 """Painting one shape: its fill and its stroke become paths in the drawing's coordinates."""
 
 from collections.abc import Callable, Iterable
+from copy import copy
 from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING
@@ -16,6 +17,7 @@ from vexture.svg.compositing import Veil
 from vexture.svg.outline import Outline
 from vexture.svg.paint_servers import PaintServers
 from vexture.svg.patterns import Tiling
+from vexture.svg.properties import PARTS
 from vexture.svg.report import Report
 from vexture.svg.shapes import Shape, check, shape_outlines
 from vexture.svg.space import Place, Placed
@@ -31,9 +33,6 @@ if TYPE_CHECKING:  # imported at run time for drawings with texts only
 
 __all__ = ["Painter", "Ruler"]
 
-PARTS = ("fill", "stroke", "markers")
-"""What is painted of a shape, one after another, if `paint-order` does not say otherwise."""
-
 MOST_SEGMENTS = 5_000_000
 """Cubics in one drawing."""
 
@@ -42,7 +41,7 @@ STROKE = "/stroke"
 
 
 class Painter:
-    """Collects the paths of what is painted, in order, and the innermost veil around each.
+    """Collects the paths of what is painted, in order, with the innermost veil around each, and its place.
 
     `walk` paints what markers and patterns show.
     """
@@ -60,6 +59,7 @@ class Painter:
         self.walk = walk
         self.paths: list[Path] = []
         self.veils: list[Veil | None] = []
+        self.places: list[Place] = []
         self.segments: int = 0
 
     def paint(self, element: etree._Element, place: Place, markers: Iterable[list[Placed]] = ()) -> None:
@@ -137,6 +137,12 @@ class Painter:
         for note in layers.notes:
             self.report.count(note.kind, note.message)
 
+    def for_document(self, servers: PaintServers, walk: "Callable[[list[Placed], Painter], None]") -> "Painter":
+        """Return a painter of another document onto the same drawing."""
+        own = copy(self)
+        own.servers, own.walk = servers, walk
+        return own
+
     def stroke(
         self, shape: Shape, outlines: list[Outline], place: Place, paint: Paint | Tiling | None, size: float
     ) -> None:
@@ -151,7 +157,7 @@ class Painter:
             outlines = [replace(outline, cubics=mapped(outline.cubics, screen)) for outline in outlines]
             size *= scale_of(screen)
         elif effect != "none":
-            self.report.left_out(f"vector-effect '{effect[:40]}'")
+            self.report.left_out(f"vector-effect '{effect[:40]}'", shape.element)
         if size == inf:
             size = max(stroke.width, *(float(np.ptp(outline.cubics, axis=(0, 1)).max()) for outline in outlines))
         contours = stroke_contours(outlines, stroke, size)
@@ -176,6 +182,7 @@ class Painter:
             paint = paint.solid
         self.paths.append(Path(tuple(shown), rule, paint, element=element))
         self.veils.append(place.veil)
+        self.places.append(place)
         if place.veil is not None:
             ends = np.concatenate([contour.reshape(-1, 2) for contour in shown])
             place.veil.add((*ends.min(axis=0), *ends.max(axis=0)))
@@ -206,10 +213,12 @@ class Painter:
         elif first.painted:
             self.paths.append(Path(tuple(shape), rule, Paint(tiling.solid.color)))
             self.veils.append(first.veil.masked(tiling.opacity))
+            self.places.append(place)
         for path, veil in first.painted:
             repeated = [replace(made, element=element) for made in tiles.repeated(path)]
             self.paths += repeated
             self.veils += [veil] * len(repeated)
+            self.places += [place] * len(repeated)
         return True
 
     def first_tile(self, place: Place, tiling: Tiling) -> FirstTile | None:
@@ -236,7 +245,11 @@ class Ruler(Painter):
     def paint(self, element: etree._Element, place: Place, markers: Iterable[list[Placed]] = ()) -> None:
         """Add the outlines of a shape, in the units of the outermost place; markers do not count."""
         shape = Shape(element, place.style, place.viewport, inf, self.report)
-        self.corners.extend(mapped(outline.cubics, place.space.whole) for outline in shape_outlines(shape))
+        self.measure(place, *shape_outlines(shape))
+
+    def measure(self, place: Place, *outlines: Outline) -> None:
+        """Add outlines."""
+        self.corners.extend(mapped(outline.cubics, place.space.whole) for outline in outlines)
 
     def paint_text(self, text: Text, place: Place) -> None:
         """Add the box of a text."""
@@ -252,7 +265,7 @@ def stroke_of(shape: Shape, outlines: list[Outline]) -> Stroke | None:
         return None
     join = style["stroke-linejoin"].lower()
     if join in ("miter-clip", "arcs"):
-        shape.report.simplified(f"stroke-linejoin {join} drawn as miter")
+        shape.report.simplified(f"stroke-linejoin {join} drawn as miter", shape.element)
         join = "miter"
     dashes = dashes_of(shape)
     offset = shape.length("stroke-dashoffset") or 0.0

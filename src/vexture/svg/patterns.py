@@ -11,13 +11,13 @@ from vexture.bezier.bounds import bounds
 from vexture.paint import Paint
 from vexture.svg.compositing import Veil
 from vexture.svg.document import local_name
-from vexture.svg.gradients import BOXED, SHORTEST, WHOLE
+from vexture.svg.gradients import BOXED, SHORTEST, WHOLE, transform_of
 from vexture.svg.outline import Outline
 from vexture.svg.report import Report
 from vexture.svg.space import SMALLEST, Place, Placed, Space
 from vexture.svg.style import Style
-from vexture.svg.transform import Identity, Transform, parse_transform
-from vexture.svg.values import Viewport, number
+from vexture.svg.transform import Identity, Transform, about_origin
+from vexture.svg.values import Viewport
 from vexture.svg.viewport import CENTRED, THINNEST, Fit, Rectangle, parse_fit, view_box, view_transform
 
 __all__ = ["Pattern", "Tiling", "read_pattern"]
@@ -38,6 +38,7 @@ class Pattern:
     boxed: bool  # whether the lengths are parts of the bounding box
     box_is_unit: bool  # whether the content is in parts of the bounding box
     moved: Transform  # `patternTransform`
+    origin: str  # about which it is
     view: Rectangle | None
     fit: Fit
 
@@ -45,11 +46,12 @@ class Pattern:
         """The tiles on outlines at a place; None if they have no area there."""
         left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in outlines]))
         width, height = right - left, bottom - top
-        whole = place.space.whole.transform(self.moved)
+        view = WHOLE if self.boxed else place.viewport
+        whole = place.space.whole.transform(about_origin(self.moved, self.origin, place.viewport.along(self.font_size)))
         a, b, c, d = whole[:4]
         if not SMALLEST <= abs(a * d - b * c) <= 1.0 / SMALLEST:
             return None
-        tile = self.in_view(WHOLE if self.boxed else place.viewport)
+        tile = self.in_view(view)
         if self.boxed:
             tile = left + tile[0] * width, top + tile[1] * height, tile[2] * width, tile[3] * height
         if min(tile[2:]) < SHORTEST or (self.view is not None and min(self.view[2:]) < THINNEST):
@@ -127,6 +129,10 @@ def read_pattern(chain: list[etree._Element], styles: list[Style], report: Repor
     holder = next(holders, None)
     if holder is None:
         return None
+    words = (text for element in chain if (text := element.get("patternTransform")) is not None)
+    text, moved = transform_of(next(words, ""), chain[0], styles[0])
+    if moved is None:
+        report.invalid("patternTransform", text, chain[0])
     return Pattern(
         chain[0],
         chain[holder],
@@ -135,7 +141,8 @@ def read_pattern(chain: list[etree._Element], styles: list[Style], report: Repor
         styles[0].font_size,
         said("patternUnits", lambda text: BOXED.get(text.strip()), True),
         said("patternContentUnits", lambda text: BOXED.get(text.strip()), False),
-        said("patternTransform", lambda text: parse_transform(text, lambda part, axis: number(part)), Identity),
+        moved or Identity,
+        styles[0]["transform-origin"],
         said("viewBox", view_box, None),
         said("preserveAspectRatio", parse_fit, CENTRED),
     )

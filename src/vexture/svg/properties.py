@@ -6,7 +6,7 @@ To add a property, add it to `PROPERTIES` and use ``style["name"]`` where it tak
 
 import re
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from vexture.group import Blend
 from vexture.svg.colors import parse_color, parse_paint
@@ -40,6 +40,16 @@ def one_of(*words: str) -> Callable[[str], object]:
 def matching(pattern: str) -> Callable[[str], object]:
     """Accept the matches of a regular expression."""
     return re.compile(rf"\s*(?:{pattern})\s*", re.IGNORECASE).fullmatch
+
+
+PARTS: Final = ("fill", "stroke", "markers")
+"""What is painted of a shape, one after another, if `paint-order` does not say otherwise."""
+
+
+def is_order(value: str) -> bool:
+    """Accept parts of a shape, each once, or "normal" (SVG 2, 13.8)."""
+    words = value.lower().split()
+    return words == ["normal"] or (set(words) <= {*PARTS} and len({*words}) == len(words) > 0)
 
 
 UNIT = r"(?:px|pt|pc|in|cm|mm|q|em|ex|ch|rem|%)?"
@@ -86,7 +96,7 @@ PROPERTIES: dict[str, Property] = {
     "marker-end": Property("none", True, anything),
     "marker-mid": Property("none", True, anything),
     "marker-start": Property("none", True, anything),
-    "paint-order": Property("normal", True, anything),
+    "paint-order": Property("normal", True, is_order),
     "stroke": Property("none", True, parse_paint),
     "stroke-dasharray": Property("none", True, matching(rf"none|{SIZE}(?:(?:\s*,\s*|\s+){SIZE})*+")),
     "stroke-dashoffset": Property("0", True, matching(LENGTH)),
@@ -110,6 +120,7 @@ PROPERTIES: dict[str, Property] = {
     ),
     "visibility": Property("visible", True, one_of("visible", "hidden", "collapse")),
     "alignment-baseline": Property("baseline", False, one_of(*BASELINES, "baseline", "before-edge", "after-edge")),
+    "background-color": Property("transparent", False, parse_color),
     "baseline-shift": Property("baseline", False, matching(rf"{LENGTH}|baseline|sub|super|top|center|bottom")),
     "clip-path": Property("none", False, anything),
     "cx": Property("0", False, matching(LENGTH)),
@@ -152,9 +163,10 @@ PROPERTIES: dict[str, Property] = {
 
 CSS_ONLY = frozenset(
     {
-        *("font-feature-settings", "font-kerning", "font-synthesis", "font-variant-caps", "font-variant-ligatures"),
-        *("font-variant-numeric", "font-variant-position", "font-variation-settings", "isolation", "mix-blend-mode"),
-        *("rotate", "scale", "text-decoration-line", "text-orientation", "text-transform", "translate"),
+        *("background-color", "font-feature-settings", "font-kerning", "font-synthesis", "font-variant-caps"),
+        *("font-variant-ligatures", "font-variant-numeric", "font-variant-position", "font-variation-settings"),
+        *("isolation", "mix-blend-mode", "rotate", "scale", "text-decoration-line", "text-orientation"),
+        *("text-transform", "translate"),
     }
 )
 """Properties that are no presentation attributes (SVG 2, 6.6); some names have another meaning as attributes."""

@@ -16,9 +16,11 @@ from vexture.errors import SourceError
 from vexture.notes import warn_of
 from vexture.svg.compositing import occupied
 from vexture.svg.document import parse_svg
-from vexture.svg.report import Report, described
+from vexture.svg.images import Images
+from vexture.svg.report import Report
 from vexture.svg.scene import Scene
 from vexture.svg.select import chosen, nothing_painted
+from vexture.svg.subjects import subject_of
 from vexture.svg.transform import Identity, Transform
 from vexture.svg.values import Viewport
 from vexture.svg.viewport import THINNEST, Rectangle
@@ -43,7 +45,8 @@ def read_svg(
     Shapes, paths, texts, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as
     browsers draw them. Opacity, blend modes, clips and masks that need several paths together become
     `Drawing.groups`. Gradients are read in full (`Paint.gradient`), patterns as the paths of their tiles, markers
-    as the paths of their content. What is not supported is left out and named. Paths are named (`Path.element`) by
+    as the paths of their content. Drawings that are embedded as images are read, too; `vexture.read` also traces
+    pictures, if asked to. What is not supported is left out and named. Paths are named (`Path.element`) by
     the ``id`` of their element or of the nearest one around it, and all that a `use`, a marker or a pattern shows
     by that of the `use` or the shape; a stroke is ``id/stroke``.
 
@@ -109,17 +112,19 @@ def svg_drawing(
     select: str | None = None,
     names: str | None = None,
     fonts: Sequence[str | os.PathLike[str]] = (),
+    images: Images | None = None,
 ) -> Drawing:
     """Read the content of an SVG file, plain or gzipped, as `read_svg` does, but without a warning.
 
-    `source` is the name of the file: it names the drawing and stands in messages, and is not opened.
+    `source` is the name of the file: it names the drawing and stands in messages, and is not opened. Of its images only
+    embedded drawings are shown, unless `images` says more.
 
     Examples
     --------
     >>> svg_drawing(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', "half.svg").name
     'half'
     """
-    return framed_drawing(content, source, select, names, fonts)[0]
+    return framed_drawing(content, source, select, names, fonts, images)[0]
 
 
 def framed_drawing(
@@ -128,6 +133,7 @@ def framed_drawing(
     select: str | None = None,
     names: str | None = None,
     fonts: Sequence[str | os.PathLike[str]] = (),
+    images: Images | None = None,
 ) -> tuple[Drawing, Frame | None]:
     """Read as `svg_drawing` does, and return the frame of the whole drawing too."""
     report = Report()
@@ -135,40 +141,46 @@ def framed_drawing(
         try:
             root = parse_svg(decompressed(content))
             part = None if select is None else chosen(root, select)
-            scene = Scene(root, report, part, "id" if names is None else names, fonts)
+            scene = Scene(root, report, images or Images(), part, "id" if names is None else names, fonts)
             framed = frame(scene)
-            drawing = drawing_of(scene, framed, Path(source).stem)
+            drawing, to_pixels = drawing_of(scene, framed, Path(source).stem)
         except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
             raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
         if select is not None and part is not None and not drawing.paths:
             raise nothing_painted(select, len(part))
     if not drawing.paths:
         report.remark("nothing in it is painted")
-    return replace(drawing, notes=report.listed), None if framed is EMPTY else framed
+    notes = report.about(lambda element: subject_of(element, scene.names, scene.boxes, to_pixels))
+    return replace(drawing, notes=notes), None if framed is EMPTY else framed
 
 
-def drawing_of(scene: Scene, framed: Frame | None, name: str) -> Drawing:
-    """Paint a scene into the frame that its outermost element sets, or around what it paints."""
+def drawing_of(scene: Scene, framed: Frame | None, name: str) -> tuple[Drawing, NDArray[np.float64] | None]:
+    """Paint a scene into the frame that its outermost element sets, or around what it paints.
+
+    Return the map from the unit square to pixels, too, if there is one.
+    """
+    nothing = Drawing((), name=name), None
     if framed is EMPTY:
-        return Drawing((), name=name)
+        return nothing
     if framed is not None:
         size, viewport, matrix = framed
         box: Rectangle = (0.0, 0.0, *size)
     else:
         viewport, matrix = Viewport(100.0, 100.0, scene.style.font_size), Identity
-        whole = Scene(scene.root, Report(), fonts=scene.typesetter.files)  # to measure; notes come later
+        whole = Scene(scene.root, Report(), scene.images, fonts=scene.typesetter.files)  # to measure; notes come later
         paths, _ = whole.paint(viewport, matrix, None)
         if not paths:
             scene.paint(viewport, matrix, None)  # for its notes
-            return Drawing((), name=name)
+            return nothing
         left, top, right, bottom = bounds(np.concatenate([contour for path in paths for contour in path.contours]))
         box = (left, top, right - left, bottom - top)
         if box[2] == 0.0 or box[3] == 0.0:
-            return Drawing((), name=name)
+            return nothing
     paths, groups = scene.paint(viewport, matrix, box)
     drawing = Drawing.from_source(paths, box, name, groups)
     shown, groups = occupied(drawing.paths, groups)
-    return replace(drawing, paths=shown, groups=groups, to_source=after(drawing.to_source, matrix.inverse()))
+    to_source = after(drawing.to_source, matrix.inverse())
+    return replace(drawing, paths=shown, groups=groups, to_source=to_source), drawing.to_source
 
 
 def frame(scene: Scene) -> Frame | None:
@@ -183,7 +195,7 @@ def frame(scene: Scene) -> Frame | None:
         sides.append(None if relative else absolute.length(text, 0.0, style.font_size))
     width, height = sides
     if any(side is not None and side < THINNEST for side in (*sides, *(box or ())[2:])):
-        scene.report.left_out(f"{described(root)}, whose width or height is zero")
+        scene.report.remark("its width or height is zero, at which nothing is shown")
         return EMPTY
     if box is not None:
         ratio = box[2] / box[3]

@@ -15,11 +15,14 @@ from lxml import etree
 
 from vexture.bezier.bounds import bounds
 from vexture.deadline import check_time
-from vexture.drawing import Path
+from vexture.drawing import FillRule, Path
 from vexture.errors import SourceError
 from vexture.group import Group
+from vexture.svg.colors import parse_color
 from vexture.svg.compositing import Veil, grouped, veil_of
 from vexture.svg.document import applies, local_name
+from vexture.svg.filters import HIDING, filter_named
+from vexture.svg.images import Images, image_sides, paint_image
 from vexture.svg.markers import has_markers, markers
 from vexture.svg.masks import MASKING, add_masks
 from vexture.svg.names import ElementNames
@@ -30,9 +33,11 @@ from vexture.svg.report import Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
 from vexture.svg.space import Context, Place, Placed, Space, Window
 from vexture.svg.style import INITIAL, Cascade, Style
+from vexture.svg.subjects import Boxes, boxes_of
 from vexture.svg.text.typesetter import Typesetter
 from vexture.svg.tiles import Canvas
 from vexture.svg.transform import Identity, Transform, parse_origin, parse_transform
+from vexture.svg.unseen import ANIMATIONS, name_unseen
 from vexture.svg.values import TooLargeError, Viewport
 from vexture.svg.viewport import CENTRED, THINNEST, Rectangle, parse_fit, view_box, view_transform
 
@@ -48,20 +53,18 @@ CONTAINERS = frozenset({"a", "g", "svg", "switch", "symbol"})
 UNPAINTED = frozenset(
     {
         *("clipPath", "color-profile", "cursor", "defs", "desc", "filter", "font", "font-face", "hatch"),
-        *("linearGradient", "marker", "mask", "meshgradient", "metadata", "pattern", "radialGradient"),
+        *("linearGradient", "marker", "mask", "meshgradient", "metadata", "pattern", "radialGradient", "script"),
+        *ANIMATIONS,
         *("solidcolor", "style", "title", "view"),
     }
 )
 """Elements that paint nothing themselves."""
 
-ANIMATIONS = frozenset({"animate", "animateColor", "animateMotion", "animateTransform", "discard", "set"})
-EFFECTS = {
-    "filter": "none",
-    "rotate": "none",
-    "scale": "none",
-    "translate": "none",
-}
-"""Properties that are not supported, and the value of each without effect."""
+EFFECTS = ("rotate", "scale", "translate")
+"""Properties that are not supported."""
+
+
+HTML = "{http://www.w3.org/1999/xhtml}"
 
 DRAWN = frozenset({*SHAPES, *CONTAINERS, "image", "text", "use"})
 """Elements that a `switch` may choose before those that are not known."""
@@ -78,6 +81,7 @@ class Scene:
         self,
         root: etree._Element,
         report: Report,
+        images: Images,
         chosen: set[etree._Element] | None = None,
         names: str = "id",
         fonts: Sequence[str | PathLike[str]] = (),
@@ -86,11 +90,13 @@ class Scene:
         self.chosen = chosen
         self.names = ElementNames(root, names)
         self.report = report
+        self.images = images
         self.cascade: Cascade = Cascade(root, report)
         self.servers: PaintServers = PaintServers(root, self.cascade, report)
         self.style: Style = self.cascade.style(root, INITIAL)
         self.used: int = 0
         self.typesetter: Typesetter = Typesetter(fonts, self.cascade.font_faces, report)
+        self.boxes: Boxes = {}  # of what the notes are about, once it is painted
 
     def paint(
         self, viewport: Viewport, matrix: Transform, frame: Rectangle | None
@@ -102,21 +108,47 @@ class Scene:
         """
         canvas = Canvas(frame, inf if frame is None else max(frame[2:]))
         painter = Painter(self.servers, self.report, canvas, self.walk)
-        opacity = self.style.opacity("opacity")
-        if self.style["display"].lower() == "none" or opacity == 0.0:
-            return [], ()
-        self.note_effects(self.style)
-        if "transform" in self.style.own:
-            self.report.left_out("transform of the outermost <svg>")
         chosen = self.chosen is None or self.root in self.chosen
         called = self.names.of(self.root)
         place = Place(viewport, Space().moved(matrix), self.style, self.root, chosen=chosen, name=called)
-        if opacity < 1.0 or not MASKING.keys().isdisjoint(self.style.own):  # a blend mode has nothing to mix with here
-            place = replace(place, veil=Veil(None, opacity))
-        place, stack = add_masks(self, self.root, place)
-        stack.extend((child, place) for child in reversed(self.root))
-        self.walk(stack, painter)
+        self.walk(self.inside_root(place, painter, Space(), frame), painter)
+        self.boxes = boxes_of(self.report.elements, painter.paths, painter.places)
         return grouped(painter.paths, painter.veils)
+
+    def inside_root(self, place: Place, painter: Painter, around: Space, frame: Rectangle | None) -> list[Placed]:
+        """What the outermost element shows at a place inside it; its background fills `frame` in the space around."""
+        name_unseen(self.root, self.servers, self.report, self.chosen)
+        opacity = self.style.opacity("opacity")
+        if self.style["display"].lower() == "none" or opacity == 0.0 or not self.note_effects(self.root, self.style):
+            return []
+        if "transform" in self.style.own:
+            self.report.left_out("transform of the outermost <svg>", self.root)
+        if opacity < 1.0 or place.outer is not None or not MASKING.keys().isdisjoint(self.style.own):
+            place = replace(place, veil=Veil(place.veil, opacity))  # a blend mode has nothing to mix with here
+        place, stack = add_masks(self, self.root, place)
+        color = parse_color(self.style["background-color"])
+        background = self.servers.flat(color, self.style)
+        if background is not None and background.opacity > 0.0 and place.chosen and frame is not None:
+            whole = [Outline.rectangle(*frame).loop]
+            painter.add(whole, replace(place, space=around), FillRule.NONZERO, background, place.name)
+        return [*stack, *((child, place) for child in reversed(self.root))]
+
+    def paint_embedded(self, root: etree._Element, place: Place, painter: Painter) -> None:
+        """Paint another document at a place inside its viewport; nothing of this one applies in it."""
+        scene = Scene(root, self.report, self.images.inside, fonts=self.typesetter.files)
+        scene.used = self.used
+        around, size = place.space, (place.viewport.width, place.viewport.height)
+        box = scene.view(root)
+        if box is not None and min(box[2:]) < THINNEST:
+            return
+        if box is not None:
+            place = Window(None, scene.fit(root, box, *size), box[2:]).within(place)
+        viewport = replace(place.viewport, root_font_size=scene.style.font_size)
+        place = replace(place, viewport=viewport, style=scene.style, element=root, outer=place, depth=place.depth + 1)
+        own = painter.for_document(scene.servers, scene.walk)
+        place = replace(place, chosen=True, is_instance=True, context=None)
+        scene.walk(scene.inside_root(place, own, around, (0.0, 0.0, *size)), own)
+        painter.segments, self.used = own.segments, scene.used
 
     def walk(self, stack: list[Placed], painter: Painter) -> None:
         """Paint all elements of a stack, the last one first, with what they show."""
@@ -131,7 +163,7 @@ class Scene:
             except LocatedError:
                 raise
             except TooLargeError as error:
-                self.report.left_out(f"{described(element)}: {error}")
+                self.report.left_out(f"{described(element)}: {error}", element)
             except SourceError as error:
                 raise LocatedError(f"{described(element)}: {error}") from None
 
@@ -144,27 +176,24 @@ class Scene:
     def visit(self, element: etree._Element, place: Place, painter: Painter) -> list[Placed]:
         """Paint an element, or return the elements that it shows."""
         name = local_name(element)
-        if name is None and str(element.tag).rpartition("}")[2] in DRAWN:
-            self.report.left_out(f"{described(element)}, of another namespace")
+        if name is None and (str(element.tag).rpartition("}")[2] in DRAWN or str(element.tag).startswith(HTML)):
+            self.report.left_out(f"{described(element)}, of another namespace", element)
         if name is None or name in UNPAINTED or (name == "symbol" and place.use is None) or not applies(element):
             return []
         chosen = place.chosen or (self.chosen is not None and element in self.chosen)
-        if name in ANIMATIONS or name == "script":
-            if chosen:
-                self.report.left_out("script" if name == "script" else "animation")
-            return []
         style = self.cascade.style(element, place.style)
         if style["display"].lower() == "none" or (style.opacity("opacity") == 0.0 and not place.is_clip):
             return []
         if place.is_clip and name in CONTAINERS:
             return []  # a clip shows shapes, and uses of them
-        if name not in SHAPES and name not in CONTAINERS and name not in ("text", "use"):
+        if name not in SHAPES and name not in CONTAINERS and name not in ("image", "text", "use"):
             if chosen:
-                self.report.left_out(f"<{name[:40]}>")
+                self.report.left_out(f"<{name[:40]}>", element)
             return []
-        if name in SHAPES and not chosen:
+        if (name in SHAPES or name == "image") and not chosen:
             return []
-        self.note_effects(style)
+        if not place.is_clip and not self.note_effects(element, style):
+            return []
         matrix = self.transform(element, style, place)
         if place.depth >= DEEPEST:
             raise SourceError(f"it stands inside {DEEPEST:,} others; flatten the groups or the uses")
@@ -176,29 +205,33 @@ class Scene:
         shown = list[Placed]()
         if name == "use":  # its clips and masks move along
             inner = replace(inner, space=space.moved(Identity.translate(*position(inner))))
+        if name in ("svg", "symbol"):  # as in browsers, its clips and masks are in the units of its content
+            window = self.window(element, style, self.sides(inner, place.use))
+            if window is None:
+                return []
+            inner = window.within(inner)
         if not isinstance(painter, Ruler):
-            inner, shown = add_masks(self, element, inner)
+            inner, shown = add_masks(self, element, inner, ("clip-path",) if inner.is_clip else tuple(MASKING))
         return [*shown, *self.content(element, inner, painter)]
 
     def content(self, element: etree._Element, inner: Place, painter: Painter) -> list[Placed]:
         """Paint a shape, or return the elements that another one shows; `inner` is the place inside."""
         name = local_name(element) or ""
         if name in SHAPES:
-            if any(local_name(child) in ANIMATIONS for child in element):
-                self.report.left_out("animation")
             marked = not inner.is_clip and has_markers(name, inner.style)
             painter.paint(element, inner, markers(self, element, inner) if marked else ())
             return []
         if name == "text":
             painter.paint_text(self.typesetter.text(self, element, inner), inner)
             return []
+        if name == "image":
+            if isinstance(painter, Ruler):
+                painter.measure(inner, Outline.rectangle(*image_sides(inner, (0.0, 0.0))))
+            elif not inner.is_clip:
+                paint_image(self, element, inner, painter)
+            return []
         if name == "use":
             return self.use_target(element, inner)
-        if name in ("svg", "symbol"):
-            sides = self.sides(inner, inner.outer.use if inner.outer is not None else None)
-            window = self.window(element, inner.style, sides)
-            within = None if window is None else window.within(inner)
-            return [] if within is None else [(child, within) for child in element]
         if name == "switch":
             return [(child, inner) for child in switched(element)]
         return [(child, inner) for child in element]
@@ -223,19 +256,17 @@ class Scene:
     def box(self, place: Place) -> Outline:
         """Outline of the bounding box of what the element at a place shows; a point if it has no area."""
         assert place.element is not None
-        left, top, width, height = self.extent(place.element, place) or (0.0, 0.0, 0.0, 0.0)
-        right, bottom = left + width, top + height
-        return Outline.polygon(np.array([(left, top), (right, top), (right, bottom), (left, bottom)]), closed=True)
+        return Outline.rectangle(*(self.extent(place.element, place) or (0.0, 0.0, 0.0, 0.0)))
 
     def use_target(self, element: etree._Element, place: Place) -> list[Placed]:
         """Return the element that a `use` shows."""
         link = reference(element) or ""
         target = self.servers.target(link)
         if target is None:
-            self.report.left_out(f"<use> of '{link[:40]}'")
+            self.report.left_out(f"<use> of '{link[:40]}'", element)
             return []
         if place.inside(target):
-            self.report.left_out(f"{described(element)} that shows itself")
+            self.report.left_out(f"{described(element)} that shows itself", element)
             return []
         context = Context(place, cache(lambda: [self.box(place)]))
         return [(target, replace(place, used=True, use=place.style, context=context))]
@@ -293,7 +324,7 @@ class Scene:
                 left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in outlines]))
                 width, height = right - left, bottom - top
             else:
-                self.report.simplified("transform-box of a group read as view-box")
+                self.report.simplified("transform-box of a group read as view-box", element)
 
         def length(value: str, axis: int) -> float | None:
             return place.viewport.length(value, (width, height)[axis], style.font_size)
@@ -307,12 +338,20 @@ class Scene:
         x, y = left + origin[0], top + origin[1]
         return Identity.translate(x, y).transform(matrix).translate(-x, -y) if x or y else matrix
 
-    def note_effects(self, style: Style) -> None:
-        """Note effects that are not supported."""
-        if style.own:
-            for name, nothing in EFFECTS.items():
-                if style.own.get(name, nothing).lower() != nothing:
-                    self.report.left_out(name)
+    def note_effects(self, element: etree._Element, style: Style) -> bool:
+        """Note effects that are not supported; return whether anything is seen of an element with its filter."""
+        for name in EFFECTS if style.own else ():
+            if style.own.get(name, "none").lower() != "none":
+                self.report.left_out(name, element)
+        value = style["filter"]
+        if value.lower() == "none":
+            return True
+        named = filter_named(value, self.servers)
+        if named is None:
+            self.report.invalid("filter", value, element)
+        elif named != HIDING:
+            self.report.left_out(named, element)
+        return named != HIDING
 
 
 def position(place: Place) -> tuple[float, float]:

@@ -98,7 +98,7 @@ def rect(shape: Shape) -> list[Outline]:
     rx, ry = min(rx, width / 2.0), min(ry, height / 2.0)
     right, bottom = x + width, y + height
     if rx <= 0.0 or ry <= 0.0:
-        return [Outline.polygon(np.array([(x, y), (right, y), (right, bottom), (x, bottom)]), closed=True)]
+        return [Outline.rectangle(x, y, width, height)]
     at = (x + rx, y)
     cubics = []
     for side, corner in (

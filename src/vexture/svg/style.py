@@ -221,6 +221,11 @@ def expanded(name: str, value: str, important: bool) -> Iterator[Declaration]:
     """Yield the declaration of a known property; a shorthand becomes its longhands."""
     if name in PROPERTIES and value:
         yield name, value, important
+    elif name == "background":
+        words = [value, *reversed(value.split())]
+        yield "background-color", next(filter(parse_color, words), "transparent"), important
+    elif name == "mask-image" and value:
+        yield "mask", value, important
     elif name == "marker" and value:
         for marker in MARKERS:
             yield marker, value, important

@@ -123,7 +123,8 @@ class Budget:
             if self.spent[what] + count > MOST[what]:
                 self.report.simplified(
                     f"{described(pattern)} read as solid: here it has {count:,} {what} in its tiles; all patterns of a"
-                    f" drawing may have {MOST[what]:,}"
+                    f" drawing may have {MOST[what]:,}",
+                    pattern,
                 )
                 return False
         self.spent.update(counts)

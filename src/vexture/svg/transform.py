@@ -11,7 +11,17 @@ from numpy.typing import NDArray
 from vexture.svg.path_data import GAP, NUMBER, SPACE
 from vexture.svg.values import number
 
-__all__ = ["KEYWORDS", "Identity", "Transform", "angle", "mapped", "parse_origin", "parse_transform", "scale_of"]
+__all__ = [
+    "KEYWORDS",
+    "Identity",
+    "Transform",
+    "about_origin",
+    "angle",
+    "mapped",
+    "parse_origin",
+    "parse_transform",
+    "scale_of",
+]
 
 if TYPE_CHECKING:
 
@@ -146,6 +156,18 @@ def parse_origin(text: str, length: Length) -> tuple[float, float] | None:
         words.reverse()
     x, y = (length(KEYWORDS.get(word, word), axis) for axis, word in enumerate(words))
     return None if x is None or y is None else (x, y)
+
+
+def about_origin(matrix: Transform, text: str, length: Length) -> Transform:
+    """A transform about the point that `transform-origin` gives; as it is if that is not valid.
+
+    Examples
+    --------
+    >>> about_origin(Identity.scale(2.0), "3 0", lambda text, axis: float(text)).transformPoint((4, 1))
+    (5.0, 2.0)
+    """
+    x, y = parse_origin(text, length) or (0.0, 0.0)
+    return Identity.translate(x, y).transform(matrix).translate(-x, -y) if x or y else matrix
 
 
 def mapped(cubics: NDArray[np.float64], matrix: Transform) -> NDArray[np.float64]:

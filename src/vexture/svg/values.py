@@ -1,6 +1,7 @@
 """Numbers and lengths of SVG: syntax, units, and limits."""
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import hypot
 from typing import Final
@@ -91,6 +92,10 @@ class Viewport:
     def diagonal(self) -> float:
         """Reference of percentages of neither width nor height (SVG 2, 8.9)."""
         return hypot(self.width, self.height) / 2**0.5
+
+    def along(self, font_size: float) -> Callable[[str, int], float | None]:
+        """Return the function of a text and an axis, 0 across and 1 down, that is `length` along it."""
+        return lambda text, axis: self.length(text, (self.width, self.height)[axis], font_size)
 
     def length(self, text: str, whole: float, font_size: float) -> float | None:
         """Length in user units; None if the text is no length. `whole` is 100%, `font_size` is 1em.

@@ -19,7 +19,7 @@ from vexture.svg.read import svg_drawing
 from vexture.tracing.colours import background_of, flat_colours, mixture, widened
 from vexture.tracing.images import MOST_PIXELS, pixels_of
 
-__all__ = ["image_drawing", "read_image", "trace"]
+__all__ = ["embedded_image", "image_drawing", "read_image", "trace"]
 
 LONGEST: Final = 2048
 """Most pixels on the longer side; a larger picture is reduced first."""
@@ -116,6 +116,11 @@ def image_drawing(source: str | os.PathLike[str] | bytes, name: str) -> Drawing:
     return _traced(pixels_of(source), name)
 
 
+def embedded_image(content: bytes) -> Drawing:
+    """Drawing of a picture in another drawing: as `image_drawing`, with its background, unless that is transparent."""
+    return _traced(pixels_of(content), "image", whole=True)
+
+
 def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
     """Trace a picture of pixels.
 
@@ -173,8 +178,8 @@ def _as_pixels(image: NDArray[Any]) -> NDArray[np.uint8]:
     return np.concatenate([image, opaque], axis=2) if image.shape[2] == 3 else image
 
 
-def _traced(pixels: NDArray[np.uint8], name: str) -> Drawing:
-    """Trace 8-bit sRGB and opacity, (height, width, 4)."""
+def _traced(pixels: NDArray[np.uint8], name: str, *, whole: bool = False) -> Drawing:
+    """Trace 8-bit sRGB and opacity, (height, width, 4); `whole` with an opaque background."""
     height, width = pixels.shape[:2]
     image = _reduced(pixels, LONGEST)
     background = background_of(image)
@@ -182,7 +187,7 @@ def _traced(pixels: NDArray[np.uint8], name: str) -> Drawing:
     if background is None and colours is not None and len(colours) == 2:
         background = colours[int(colours.sum(axis=1).argmax())]  # the lighter one, for ink that reaches the border
         colours = np.concatenate([background[None], colours[(colours != background).any(axis=1)]])
-    first = 0 if background is None else 1
+    first = 0 if background is None or (whole and background[3] > 0.0) else 1
     notes = Notes()
     try:
         if colours is None:

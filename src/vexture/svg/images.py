@@ -1,0 +1,194 @@
+"""Images in an SVG (SVG 2, 12.3): embedded drawings are drawn, pictures are traced if that is asked for.
+
+Nothing but data: URLs is read, unless a folder is given: then files in it and below it, never by a link that leads out.
+"""
+
+import binascii
+import re
+from base64 import b64decode
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Final, Protocol, TypeAlias
+from urllib.parse import unquote, unquote_to_bytes
+
+from lxml import etree
+
+from vexture.content import FileKind, decompressed, kind_of, read_bytes, start_of
+from vexture.drawing import Drawing
+from vexture.errors import LimitError, SourceError
+from vexture.svg.document import parse_svg
+from vexture.svg.paint_servers import reference
+from vexture.svg.painter import Painter
+from vexture.svg.report import Report
+from vexture.svg.space import Place, Window
+from vexture.svg.style import INITIAL
+from vexture.svg.transform import Identity, Transform, mapped
+from vexture.svg.values import Viewport
+from vexture.svg.viewport import THINNEST, Rectangle, view_box
+
+__all__ = ["Images", "image_sides", "paint_image"]
+
+DEEPEST: Final = 4
+"""Drawings in images of one another."""
+
+MOST_IMAGES: Final = 256
+"""Different images of a drawing, those in its images included."""
+
+BESIDE: Final = re.compile(r"(?![a-z][a-z0-9+.-]*:|[/\\])[^\0]+", re.IGNORECASE)
+"""A link that can lead to a file in the folder: neither an address with a scheme or a host, nor an absolute path."""
+
+ANONYMOUS: Final = (300.0, 150.0)
+"""Pixels: the size of an embedded drawing without one (CSS 2.1, 10.3.2)."""
+
+
+Found: TypeAlias = etree._Element | Drawing
+"""Root of a drawing, or a picture as it is traced."""
+
+
+@dataclass(frozen=True, slots=True)
+class Images:
+    """What of the images of a drawing is read."""
+
+    trace: Callable[[bytes], Drawing] | None = None  # a picture's content; None leaves pictures and files out
+    folder: Path | None = None  # of files that may be read
+    depth: int = 0
+    known: dict[tuple[int, str], Found | SourceError | LimitError] = field(default_factory=dict)  # by depth and link
+
+    @property
+    def inside(self) -> "Images":
+        """Those of a drawing in an image: it may hold others, and refers to no file."""
+        return replace(self, folder=None, depth=self.depth + 1)
+
+    def read(self, link: str) -> Found:
+        """Root of the drawing that a link leads to, or the picture traced; a `SourceError` or `LimitError` if none."""
+        key = self.depth, link
+        if key not in self.known:
+            if len(self.known) >= MOST_IMAGES:
+                raise LimitError(f"the drawing has more than {MOST_IMAGES} images")
+            try:
+                self.known[key] = self.opened(link)
+            except (SourceError, LimitError) as error:
+                self.known[key] = error
+        found = self.known[key]
+        if isinstance(found, SourceError | LimitError):
+            raise found
+        return found
+
+    def opened(self, link: str) -> Found:
+        """As `read`, without looking whether it is known."""
+        content = embedded(link) if link[:5].lower() == "data:" else self.beside(link)
+        kind = kind_of(start_of(content))
+        if kind is FileKind.SVG:
+            if self.depth >= DEEPEST:
+                raise LimitError(f"drawings in it are nested more than {DEEPEST} deep")
+            return parse_svg(decompressed(content))
+        if kind is not FileKind.PICTURE:
+            raise SourceError("it is neither a drawing nor a picture")
+        if self.trace is None:
+            raise SourceError("")
+        return self.trace(content)
+
+    def beside(self, link: str) -> bytes:
+        """Content of a file in the folder or below it."""
+        if self.trace is None:
+            raise SourceError("")
+        path = unquote(link.partition("#")[0])
+        if self.folder is None or not BESIDE.fullmatch(path):
+            raise SourceError("only files beside a drawing that is a file are read")
+        folder = self.folder.resolve()
+        file = (folder / path).resolve()
+        if ".." in Path(path).parts or not file.is_relative_to(folder):
+            raise SourceError("it is outside of the drawing's folder")
+        if not file.is_file():
+            raise SourceError("there is no such file beside the drawing")
+        return read_bytes(file)
+
+
+class Imaging(Protocol):
+    """What is needed of a scene."""
+
+    report: Report
+    images: Images
+
+    def fit(self, element: etree._Element, box: Rectangle, width: float, height: float) -> Transform:
+        """Map from a view box to a viewport, by the element's `preserveAspectRatio`."""
+
+    def paint_embedded(self, root: etree._Element, place: Place, painter: Painter) -> None:
+        """Paint another document at a place inside its viewport."""
+
+
+def embedded(link: str) -> bytes:
+    """Content of a data: URL (RFC 2397).
+
+    Examples
+    --------
+    >>> embedded("data:image/svg+xml,%3Csvg/%3E"), embedded("data:;base64,PHN2 Zy8+")
+    (b'<svg/>', b'<svg/>')
+    """
+    head, comma, body = link.partition("#")[0].partition(",")
+    if not comma:
+        raise SourceError("its data: URL has no data")
+    content = unquote_to_bytes(body)
+    if not head.lower().endswith(";base64"):
+        return content
+    try:
+        return b64decode(b"".join(content.split()))
+    except binascii.Error:
+        raise SourceError("its data is no base64") from None
+
+
+def paint_image(scene: Imaging, element: etree._Element, place: Place, painter: Painter) -> None:
+    """Paint an image at a place with its own style, or name it."""
+    link = (reference(element) or "").strip()
+    if not link or place.style["visibility"].lower() != "visible" or place.space.flat:
+        return
+    try:
+        found = scene.images.read(link)
+    except (SourceError, LimitError) as error:
+        scene.report.left_out(f"<image> of '{link[:40]}': {error}" if str(error) else "<image>", element)
+        return
+    width, height = size_of(found)
+    sides = image_sides(place, (width, height))
+    if min(*sides[2:], width, height) < THINNEST:
+        return
+    content = Identity.translate(*sides[:2]).transform(scene.fit(element, (0.0, 0.0, width, height), *sides[2:]))
+    visible = None if place.style["overflow"].lower() in ("visible", "auto") else sides
+    inner = Window(visible, content, (width, height)).within(place)
+    if not isinstance(found, Drawing):
+        scene.paint_embedded(found, inner, painter)
+        return
+    scene.report.simplified("<image> traced", element)
+    (a, b, c), (d, e, f) = found.to_source.tolist()
+    to_pixels = Transform(a, d, b, e, c, f)
+    for path in found.paths:
+        contours = [mapped(contour, to_pixels) for contour in path.contours]
+        painter.add(contours, inner, path.fill_rule, path.paint, place.name)
+
+
+def size_of(found: Found) -> tuple[float, float]:
+    """Width and height of a picture, or of a drawing in its own pixels."""
+    if isinstance(found, Drawing):  # whose pixels begin at 0, 0, in the middle of the unit square
+        (side, _, left), (_, _, bottom) = found.to_source.tolist()
+        return side + 2.0 * left, 2.0 * bottom - side
+    box = view_box(found.get("viewBox", ""))
+    texts = (found.get(name, "100%").strip() for name in ("width", "height"))
+    absolute = Viewport(0.0, 0.0)
+    width, height = (None if text[-1:] == "%" else absolute.length(text, 0.0, INITIAL.font_size) for text in texts)
+    if width is not None and height is not None:
+        return width, height
+    if box is None or min(box[2:]) < THINNEST:
+        return width or ANONYMOUS[0], height or ANONYMOUS[1]
+    ratio = box[2] / box[3]
+    return width or (height or box[3]) * ratio, height or (width or box[2]) / ratio
+
+
+def image_sides(place: Place, size: tuple[float, float]) -> Rectangle:
+    """Place and size of an image; what it leaves to the picture follows from the size of that."""
+    style, view = place.style, place.viewport
+    wholes = {"x": view.width, "y": view.height, "width": view.width, "height": view.height}
+    x, y, width, height = (view.length(style[name], whole, style.font_size) for name, whole in wholes.items())
+    ratio = size[0] / size[1] if min(size) >= THINNEST else 1.0
+    if width is None:
+        width = size[0] if height is None else height * ratio
+    return x or 0.0, y or 0.0, width, width / ratio if height is None else height

@@ -1,0 +1,41 @@
+"""What an SVG holds beside shapes, wherever it stands: animation, scripts, views and cursors, each named once.
+
+The first frame is drawn, as it is before anything moves.
+"""
+
+from typing import Final
+
+from lxml import etree
+
+from vexture.svg.document import local_name
+from vexture.svg.paint_servers import PaintServers, reference
+from vexture.svg.report import Report
+
+__all__ = ["ANIMATIONS", "name_unseen"]
+
+ANIMATIONS: Final = frozenset({"animate", "animateColor", "animateMotion", "animateTransform", "discard", "set"})
+
+REMARKS: Final = {
+    "cursor": "its cursors are left out, which no picture shows",
+    "view": "its views are not followed; all of it is shown",
+}
+"""Sentences about elements that change no picture."""
+
+
+def name_unseen(
+    root: etree._Element, servers: PaintServers, report: Report, chosen: set[etree._Element] | None
+) -> None:
+    """Note what is not seen of a document, or of the elements in `chosen` with all their content."""
+    remarks = set[str]()
+    for top in [root] if chosen is None else chosen:
+        for element in top.iter("*"):
+            name = local_name(element)
+            if name in ANIMATIONS:
+                moved = servers.target(reference(element) or "")
+                report.left_out("animation", element.getparent() if moved is None else moved)
+            elif name == "script" or any(str(key).startswith("on") for key in element.attrib):
+                report.left_out("script", element)
+            elif name in REMARKS:
+                remarks.add(name)
+    for name in sorted(remarks):
+        report.remark(REMARKS[name])

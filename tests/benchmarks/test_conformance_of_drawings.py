@@ -1,0 +1,49 @@
+"""What the page of conformance says of a drawing."""
+
+import io
+
+import pytest
+from PIL import Image
+
+from conformance import complete, figure, found
+from judge import Case, Facts
+
+SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{}</svg>'
+SQUARE = '<path d="M20 20h60v60h-60z" fill="#c03020"/>'
+OTHER = '<path d="M10 10h60v60h-60z" fill="#c03020"/>'
+
+
+def picture(side: int, left: int) -> bytes:
+    image = Image.new("RGB", (side, side), "white")
+    image.paste((192, 48, 32), (left, left, left + 6 * side // 10, left + 6 * side // 10))
+    file = io.BytesIO()
+    image.save(file, "PNG")
+    return file.getvalue()
+
+
+def facts_of(body: str, same: bytes | None = None) -> Facts:
+    case = Case("fixtures", "a.svg", SVG.format(body).encode(), same)
+    facts: Facts = {}
+    for part in found(case):
+        facts |= part
+    facts = complete(case, facts)
+    assert facts["outcome"] in figure(case, facts)
+    return facts
+
+
+@pytest.mark.parametrize(
+    ("body", "same", "outcome"),
+    [
+        (SQUARE, None, "right"),
+        (SQUARE, SVG.format(SQUARE).encode(), "right"),
+        (SQUARE, SVG.format(OTHER).encode(), "silent"),
+        (SQUARE + "<text/>", None, "but text"),
+        (SQUARE + "<text/>", SVG.format(OTHER).encode(), "named"),
+        (SQUARE + "<text/>", picture(200, 40), "right"),
+        (SQUARE + "<text/>", picture(50, 10), "right"),
+        (SQUARE, picture(200, 0), "right"),
+        ("<g", None, "refused"),
+    ],
+)
+def test_outcomes(body: str, same: bytes | None, outcome: str) -> None:
+    assert facts_of(body, same)["outcome"] == outcome

@@ -1,0 +1,219 @@
+"""Images in an SVG: pictures traced where they stand, files only from beside the drawing, everything else named."""
+
+import base64
+import io
+import os
+import struct
+import warnings
+import zlib
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from PIL import Image, ImageDraw
+from svg_reference import difference
+
+import vexture
+from vexture.cli.main import main
+from vexture.drawing import Drawing
+from vexture.errors import ParameterError, SourceWarning
+from vexture.svg.images import DEEPEST, MOST_IMAGES
+
+SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{}</svg>'
+TRACED = "<image> traced"
+
+
+def picture(kind: str = "PNG", mode: str = "RGB", **options: object) -> bytes:
+    """Three flat colours on a white or transparent ground, 300 x 200 pixels."""
+    image = Image.new(mode, (300, 200), (255, 255, 255, 0) if mode == "RGBA" else (255, 255, 255))
+    draw = ImageDraw.Draw(image)
+    draw.rectangle((40, 50, 139, 149), fill=(200, 30, 40))
+    draw.ellipse((170, 20, 269, 119), fill=(20, 60, 200))
+    draw.rectangle((180, 150, 279, 179), fill=(30, 140, 70))
+    file = io.BytesIO()
+    image.save(file, kind, **options)
+    return file.getvalue()
+
+
+def data_url(content: bytes, media_type: str = "image/png") -> str:
+    return f"data:{media_type};base64,{base64.b64encode(content).decode()}"
+
+
+def read(text: str, folder: Path | None = None, trace_images: bool = True) -> Drawing:
+    """Read a text, as a file in a folder if one is given."""
+    source: Path | bytes = text.encode()
+    if folder is not None:
+        source = folder / "drawing.svg"
+        source.write_text(text)
+    with warnings.catch_warnings(action="ignore", category=SourceWarning):
+        return vexture.read(source, trace_images=trace_images)
+
+
+def notes(drawing: Drawing) -> list[str]:
+    return [str(note) for note in drawing.notes if note.kind != "remark"]
+
+
+PLACED = {
+    "fitted": '<image x="5" y="10" width="80" height="80" href="{}"/>',
+    "sliced": '<image x="5" y="10" width="50" height="80" preserveAspectRatio="xMaxYMid slice" href="{}"/>',
+    "stretched": '<image x="5" y="10" width="50" height="80" preserveAspectRatio="none" href="{}"/>',
+    "one side": '<image x="5" y="10" width="60" href="{}"/>',
+    "turned": '<image width="60" height="40" transform="translate(30 10) rotate(20)" href="{}"/>',
+    "translucent": '<image x="5" y="10" width="80" height="80" opacity="0.5" href="{}"/>',
+    "clipped": '<clipPath id="c"><circle cx="40" cy="50" r="25"/></clipPath>'
+    '<image x="5" y="10" width="80" height="80" clip-path="url(#c)" href="{}"/>',
+}
+
+
+@pytest.mark.parametrize("case", PLACED)
+def test_a_picture_is_traced_where_it_stands(case: str, tmp_path: Path) -> None:
+    text = SVG.format('<path fill="#fe8" d="M0 0h100v100z"/>' + PLACED[case].format(data_url(picture())))
+    drawing = read(text)
+    assert notes(drawing) == [TRACED]
+    mean, _ = difference(tmp_path / "unread.svg", drawing, text)
+    assert mean < 0.01
+
+
+@pytest.mark.parametrize(
+    ("kind", "mode", "options"),
+    [
+        ("JPEG", "RGB", {"quality": 95}),
+        ("GIF", "P", {}),
+        ("WEBP", "RGB", {"lossless": True}),
+        ("PNG", "RGBA", {}),
+        ("PNG", "L", {}),
+    ],
+)
+def test_pictures_of_each_kind(kind: str, mode: str, options: dict[str, object], tmp_path: Path) -> None:
+    image = Image.open(io.BytesIO(picture(mode="RGBA" if mode == "RGBA" else "RGB")))
+    image = image.quantize(8) if mode == "P" else image.convert(mode)
+    file = io.BytesIO()
+    image.save(file, kind, **options)
+    text = SVG.format(f'<image width="100" height="100" href="{data_url(file.getvalue(), "text/plain")}"/>')
+    drawing = read(text)
+    assert notes(drawing) == [TRACED]
+    mean, _ = difference(tmp_path / "unread.svg", drawing, text.replace("text/plain", f"image/{kind.lower()}"))
+    assert mean < 0.03
+
+
+def test_a_picture_is_named_unless_it_is_asked_for(tmp_path: Path) -> None:
+    (tmp_path / "a.png").write_bytes(picture())
+    (tmp_path / "a.svg").write_text(SVG.format('<path d="M0 0h9v9z"/>'))
+    for link in ("a.png", "a.svg", data_url(picture())):
+        drawing = read(SVG.format(f'<image width="9" height="9" href="{link}"/>'), tmp_path, trace_images=False)
+        assert (notes(drawing), drawing.paths) == (["<image>"], ())
+
+
+def test_files_beside_a_drawing_and_below(tmp_path: Path) -> None:
+    (tmp_path / "in it").mkdir()
+    for name in ("a.png", "in it/b.png"):
+        (tmp_path / name).write_bytes(picture())
+    (tmp_path / "c.svg").write_text(SVG.format('<image id="inner" href="a.png" width="9"/><path d="M0 0h9v9z"/>'))
+    for link in ("a.png", "./a.png", "in%20it/b.png"):
+        assert notes(read(SVG.format(f'<image width="9" href="{link}"/>'), tmp_path)) == [TRACED]
+    drawing = read(SVG.format('<image width="9" href="c.svg#top"/>'), tmp_path)
+    assert len(drawing.paths) == 1
+    assert notes(drawing) == ["<image> of 'a.png': only files beside a drawing that is a file are read"]
+
+
+OUTSIDE = "it is outside of the drawing's folder"
+NOT_BESIDE = "only files beside a drawing that is a file are read"
+
+
+@pytest.mark.parametrize(
+    ("link", "why"),
+    [
+        ("../secret.png", OUTSIDE),
+        ("%2e%2e/secret.png", OUTSIDE),
+        ("sub/../../secret.png", OUTSIDE),
+        ("sub/../a.png", OUTSIDE),
+        ("out.png", OUTSIDE),
+        ("outside/secret.png", OUTSIDE),
+        ("{}/secret.png", NOT_BESIDE),
+        ("file://{}/secret.png", NOT_BESIDE),
+        ("file:a.png", NOT_BESIDE),
+        ("http://localhost/a.png", NOT_BESIDE),
+        ("//localhost/a.png", NOT_BESIDE),
+        ("a%00.png", NOT_BESIDE),
+        ("none.png", "there is no such file beside the drawing"),
+        ("pipe", "there is no such file beside the drawing"),
+        ("sub", "there is no such file beside the drawing"),
+        ("text.txt", "it is neither a drawing nor a picture"),
+        ("data:image/png;base64,A", "its data is no base64"),
+        ("data:image/png", "its data: URL has no data"),
+    ],
+)
+def test_what_is_not_read_is_named(link: str, why: str, tmp_path: Path) -> None:
+    folder = tmp_path / "folder"
+    (folder / "sub").mkdir(parents=True)
+    for name in ("secret.png", "folder/a.png"):
+        (tmp_path / name).write_bytes(picture())
+    (folder / "out.png").symlink_to(tmp_path / "secret.png")
+    (folder / "outside").symlink_to(tmp_path)
+    (folder / "text.txt").write_text('{"type": "Polygon"}')
+    os.mkfifo(folder / "pipe")
+    link = link.format(tmp_path)
+    drawing = read(SVG.format(f'<image width="9" href="{link}"/>'), folder)
+    assert (notes(drawing), drawing.paths) == ([f"<image> of '{link[:40]}': {why}"], ())
+
+
+def test_a_drawing_that_is_no_file_reads_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a.png").write_bytes(picture())
+    monkeypatch.chdir(tmp_path)
+    assert notes(read(SVG.format('<image width="9" href="a.png"/>'))) == [f"<image> of 'a.png': {NOT_BESIDE}"]
+
+
+def bomb(side: int) -> bytes:
+    """PNG of a few bytes that declares many pixels."""
+    chunks = (
+        (b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)),
+        (b"IDAT", zlib.compress(b"")),
+        (b"IEND", b""),
+    )
+    packed = (
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks
+    )
+    return b"\x89PNG\r\n\x1a\n" + b"".join(packed)
+
+
+@pytest.mark.parametrize(("side", "why"), [(30_000, "limit"), (8_000, "50,000,000"), (9, "damaged")])
+def test_a_picture_that_is_too_large_or_damaged_is_named(side: int, why: str) -> None:
+    (note,) = notes(read(SVG.format(f'<image width="9" href="{data_url(bomb(side))}"/><path d="M0 0h9v9z"/>')))
+    assert why in note
+
+
+def test_drawings_in_one_another_end(tmp_path: Path) -> None:
+    text = SVG.format('<path d="M0 0h9v9z"/>')
+    for _ in range(DEEPEST + 2):
+        text = SVG.format(f'<path d="M0 0h9v9z"/><image width="9" href="{data_url(text.encode())}"/>')
+    drawing = read(text, trace_images=False)
+    assert len(drawing.paths) == DEEPEST + 1
+    assert notes(drawing)[0].endswith(f"drawings in it are nested more than {DEEPEST} deep")
+    (tmp_path / "drawing.svg").write_text("")
+    itself = read(SVG.format('<image width="9" href="drawing.svg"/><path d="M0 0h9v9z"/>'), tmp_path)
+    assert len(itself.paths) == 2
+    assert NOT_BESIDE in notes(itself)[0]
+
+
+def test_very_many_images_are_named() -> None:
+    links = (data_url(SVG.format(f'<path d="M0 0h{k}v9z"/>').encode()) for k in range(1, MOST_IMAGES + 2))
+    drawing = read(SVG.format("".join(f'<image width="9" href="{link}"/>' for link in links)))
+    assert len(drawing.paths) == MOST_IMAGES
+    assert notes(drawing)[0].endswith(f"the drawing has more than {MOST_IMAGES} images")
+
+
+def test_only_images_of_an_svg_are_traced() -> None:
+    with pytest.raises(ParameterError, match="`trace_images` is for the images in an SVG; leave it out"):
+        vexture.read(picture(), trace_images=True)
+
+
+@pytest.mark.parametrize("command", ["convert", "render", "export"])
+def test_commands_trace_images(command: str, tmp_path: Path) -> None:
+    (tmp_path / "a.png").write_bytes(picture())
+    file = tmp_path / "drawing.svg"
+    file.write_text(SVG.format('<image width="90" href="a.png"/>'))
+    out = tmp_path / {"convert": "out.ktx2", "render": "out.png", "export": "out.html"}[command]
+    result = CliRunner().invoke(main, [command, str(file), "-o", str(out), "--trace-images"])
+    assert result.exit_code == 0, result.output
+    assert f"{file}: simplified: <image> traced\n" in result.output
+    assert out.exists()
