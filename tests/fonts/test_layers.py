@@ -107,6 +107,15 @@ def test_linear_gradient_is_straightened_and_goes_on_beyond_its_stops(extend, pa
     close(beyond, ramp(RED, BLUE, part))
 
 
+@pytest.mark.parametrize("extend", ["repeat", "reflect"])
+def test_a_ramp_without_length_that_repeats_is_its_last_colour(extend):
+    colors = line((0.5, RED, 1), (0.5, BLUE, 1), extend=extend)
+    for gradient in (linear(colors, 100, 0, 500, 0, 100, 500), radial(colors, 300, 300, 50, 300, 300, 200)):
+        (path,) = layers_of(filled("square", gradient)).paths
+        assert path.paint.gradient is None
+        close(path.paint.color, PALETTE[BLUE][:3])
+
+
 def test_radial_gradient_between_two_circles():
     colors = line((0, GREEN, 1), (1, BLUE, 1))
     found = layers_of(filled("square", radial(colors, 405, 305, 100, 405, 305, 300)))
