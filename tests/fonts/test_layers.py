@@ -107,6 +107,15 @@ def test_linear_gradient_is_straightened_and_goes_on_beyond_its_stops(extend, pa
     close(beyond, ramp(RED, BLUE, part))
 
 
+@pytest.mark.parametrize("extend", ["repeat", "reflect"])
+def test_a_ramp_without_length_that_repeats_is_its_last_colour(extend):
+    colors = line((0.5, RED, 1), (0.5, BLUE, 1), extend=extend)
+    for gradient in (linear(colors, 100, 0, 500, 0, 100, 500), radial(colors, 300, 300, 50, 300, 300, 200)):
+        (path,) = layers_of(filled("square", gradient)).paths
+        assert path.paint.gradient is None
+        close(path.paint.color, PALETTE[BLUE][:3])
+
+
 def test_radial_gradient_between_two_circles():
     colors = line((0, GREEN, 1), (1, BLUE, 1))
     found = layers_of(filled("square", radial(colors, 405, 305, 100, 405, 305, 300)))
@@ -116,10 +125,10 @@ def test_radial_gradient_between_two_circles():
 
 
 def test_radial_gradient_from_below_radius_zero_and_to_zero():
-    below = line((-1, GREEN, 1), (1, BLUE, 1))  # radius 0 is halfway between the stops
-    found = layers_of(filled("square", radial(below, 405, 305, 150, 405, 305, 300)))
+    below = line((-1, GREEN, 1), (1, BLUE, 1))  # radius 0 is a quarter of the way between the stops
+    found = layers_of(filled("square", radial(below, 405, 305, 100, 405, 305, 300)))
     close(colour_at(found, (705, 305))[0], premultiplied(BLUE))
-    close(colour_at(found, (555, 305))[0], ramp(GREEN, BLUE, 0.5))
+    close(colour_at(found, (605, 305))[0], ramp(GREEN, BLUE, 0.75))
     inwards = layers_of(filled("square", radial(line((0, GREEN, 1), (1, BLUE, 1)), 405, 305, 300, 405, 305, 0)))
     close(
         colour_at(inwards, (405, 305))[0], ramp(GREEN, BLUE, 1.0 - 3.8 / 300)
@@ -207,6 +216,13 @@ def hue_of(source, backdrop):
     if colour.max() > 1:
         colour = light + (colour - light) * (1 - light) / (colour.max() - light)
     return colour
+
+
+def test_a_glyph_clips_what_is_within_its_box():
+    found = layers_of(filled("disc", transformed(filled("square", solid(RED)), 0.2, 0, 0, 0.2, 190, 105)))
+    corner, inside = colour_at(found, (225, 125), (345, 235))
+    assert not corner.any()
+    close(inside, premultiplied(RED))
 
 
 def test_a_paint_without_a_glyph_is_within_what_it_is_combined_with():

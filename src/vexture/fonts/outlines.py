@@ -21,15 +21,15 @@ def glyph_outline(font: Any, glyph: int) -> Contours:
 
 
 class Pen:
-    """Collects cubics: P0 to P3 of each in turn, as one flat list for each contour."""
+    """Collects cubics: P0 to P3 of each in turn, one flat list for each contour. HarfBuzz closes contours by lines."""
 
     def __init__(self) -> None:
         self.contours: list[list[float]] = []
-        self.start = self.at = (0.0, 0.0)
+        self.at = (0.0, 0.0)
 
     def move(self, x: float, y: float) -> None:
         self.contours.append([])
-        self.start = self.at = (x, y)
+        self.at = (x, y)
 
     def line(self, x: float, y: float) -> None:
         (a, b), dx, dy = self.at, x - self.at[0], y - self.at[1]
@@ -45,9 +45,6 @@ class Pen:
         self.contours[-1] += (*self.at, *points)
         self.at = points[4], points[5]
 
-    def close(self) -> None:
-        self.line(*self.start)
-
 
 @cache
 def draw_funcs() -> Any:
@@ -57,5 +54,4 @@ def draw_funcs() -> Any:
     funcs.set_line_to_func(lambda x, y, pen: pen.line(x, y))
     funcs.set_quadratic_to_func(lambda u, v, x, y, pen: pen.quadratic(u, v, x, y))
     funcs.set_cubic_to_func(lambda a, b, c, d, x, y, pen: pen.cubic(a, b, c, d, x, y))
-    funcs.set_close_path_func(lambda pen: pen.close())
     return funcs
