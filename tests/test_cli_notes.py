@@ -29,7 +29,7 @@ def square(tmp_path):
 ZERO = SQUARE.replace("0 0 10 10", "0 0 0 10")
 EMPTY = "; nothing else is in it; correct it, or draw it as paths"
 NOTHING = {
-    "only text": (SVG.format("<text>hi</text>"), "left out: <text>" + EMPTY),
+    "only HTML": (SVG.format("<foreignObject/>"), "left out: <foreignObject>" + EMPTY),
     "only wrong": (
         SVG.format('<rect width="x" height="3"/>'),
         r"invalid and ignored: width='x' of <rect> in line 1; n.*",
@@ -58,7 +58,7 @@ def test_a_size_of_zero_is_an_empty_drawing(tmp_path):
     assert "a.svg: its width or height is zero, at which nothing is shown; nothing in it is painted" in result.stderr
 
 
-STRICT = SVG.format('<g id="card" style="rotate: 3deg"><path d="M2 2h6v5h-6z"/></g><text/><text id="t"/>')
+STRICT = SVG.format('<g id="card" style="rotate: 3deg"><path d="M2 2h6v5h-6z"/></g><foreignObject/><foreignObject id="t"/>')
 
 
 @pytest.mark.parametrize("command", ["convert", "render", "export"])
@@ -69,7 +69,7 @@ def test_strict_accepts_no_loss(square, tmp_path, command):
     result = run(command, file, "-o", out, "--strict")
     assert result.exit_code == 1
     assert result.output.splitlines()[-1] == (
-        f"vexture: {file}: left out: rotate, <text> (2); --strict accepts no such note; "
+        f"vexture: {file}: left out: rotate, <foreignObject> (2); --strict accepts no such note; "
         "correct the drawing, or leave it out"
     )
     assert not out.exists()
@@ -90,5 +90,5 @@ def test_json_has_the_notes(tmp_path):
     (facts,) = json.loads(run("convert", file, "-o", tmp_path, "--json").stdout)
     rotate, text = facts["notes"]
     assert rotate["elements"] == [{"name": "card", "box": pytest.approx([0.2, 0.3, 0.8, 0.8])}]
-    elements = [{"name": "<text> in line 1", "box": None}, {"name": "t", "box": None}]
-    assert text == {"kind": "left out", "message": "<text>", "count": 2, "elements": elements}
+    elements = [{"name": "<foreignObject> in line 1", "box": None}, {"name": "t", "box": None}]
+    assert text == {"kind": "left out", "message": "<foreignObject>", "count": 2, "elements": elements}
