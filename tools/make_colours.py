@@ -1,7 +1,7 @@
 """Draw the README's picture of colours: `python tools/make_colours.py` writes docs/pictures/colours.png.
 
 Above what vexture draws from one texture each, below what Chromium makes of the same SVG: an icon of twenty gradients,
-whole and magnified, a coat of arms and a map of 2,000 polygons in 24 pixels. Needs Chromium, npm and apt.
+whole and magnified, another of Tango, a coat of arms and a map of 2,000 polygons in 24 pixels. Needs Chromium, npm and apt.
 """
 
 import io
@@ -30,6 +30,8 @@ __all__ = ["main"]
 TARGET: Final = ROOT / "docs" / "pictures" / "colours.png"
 FIREFOX: Final = Path("computer", "icons", "firefox.svg")
 """Of openclipart."""
+ICON: Final = Path("apps", "internet-web-browser.svg")
+"""Of Tango."""
 POLYGONS: Final = 2_000
 SMALL: Final = 24
 """Pixels of the small pictures, which are enlarged."""
@@ -89,12 +91,14 @@ def main() -> None:
     """Write the picture."""
     (arms,) = (path for path in corpora.FLAG_ICONS.all() if path.name == "mx.svg")
     firefox = corpora.OPENCLIPART.home / FIREFOX
+    tango = corpora.TANGO.home / ICON
     with tempfile.TemporaryDirectory() as folder, chromium() as browser:
         polygons = Path(folder) / "map.svg"
         polygons.write_text(svg_of(choropleth(POLYGONS, 1)))
         looks = (
             Look("twenty gradients", firefox, PANEL),
             Look("30 times", firefox, PANEL, 0.37, 0.56, 1 / 30),
+            Look("a Tango icon", tango, PANEL),
             Look(f"{SMALL} pixels", arms, SMALL, 0.25, 0.25, 0.5),
             Look(f"{POLYGONS:,} polygons, {SMALL} pixels", polygons, SMALL),
         )
