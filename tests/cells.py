@@ -39,7 +39,8 @@ class Cells:
             self.depth[now] += 1
             self.coverage[now] = level.coverages[at, k] / 255
             if shape.is_map:
-                words = flat[flat[shape.quad - 1, 1] + 2 * (level.quads[at] - shape.quad), k]
+                place = level.quads[at] - shape.quad  # four quads have their base paints in one texel
+                words = flat[flat[shape.quad - 1, 1] + 1 + place + place // 4, k]
                 self.mean[now] = (words[:, None] >> np.array([0, 8, 16, 24], np.uint32) & 255) / 255
             self.border[now] = np.maximum(self.border, self._border_of(side, matrix))[now]
             self.clear &= ~now | (self._distance(side, matrix) > 1e-3)
