@@ -58,7 +58,8 @@ def test_a_size_of_zero_is_an_empty_drawing(tmp_path):
     assert "a.svg: its width or height is zero, at which nothing is shown; nothing in it is painted" in result.stderr
 
 
-STRICT = SVG.format('<g id="card" style="rotate: 3deg"><path d="M2 2h6v5h-6z"/></g><foreignObject/><foreignObject id="t"/>')
+CARD = '<g id="card" style="rotate: 3deg"><path d="M2 2h6v5h-6z"/></g>'
+STRICT = SVG.format(f'{CARD}<foreignObject/><foreignObject id="t"/>')
 
 
 @pytest.mark.parametrize("command", ["convert", "render", "export"])

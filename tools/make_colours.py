@@ -1,7 +1,8 @@
 """Draw the README's picture of colours: `python tools/make_colours.py` writes docs/pictures/colours.png.
 
 Above what vexture draws from one texture each, below what Chromium makes of the same SVG: an icon of twenty gradients,
-whole and magnified, another of Tango, a coat of arms and a map of 2,000 polygons in 24 pixels. Needs Chromium, npm and apt.
+whole and magnified, another of Tango, a coat of arms and a map of 2,000 polygons in 24 pixels. Needs Chromium, npm and
+apt.
 """
 
 import io

@@ -16,10 +16,10 @@ def test_glyphs_in_colour_are_painted_where_they_stand(tmp_path):
     file = tmp_path / "made.ttf"
     layers = stacked(filled("square", solid(RED)), filled("disc", solid(OWN)))
     file.write_bytes(made_font({"a": "square", "b": "left"}, {"a": layers}))
-    body = '<text id="t" x="10" y="50" font-size="20" font-family="Made" color="blue" fill-opacity="0.5">ba</text>'
+    body = '<text id="t" x="10" y="50" font-size="20" font-family="Made" fill="blue" fill-opacity="0.5">ba</text>'
     drawing = drawn(body, file)
     assert [path.element for path in drawing.paths] == ["t", "t", "t"]
-    assert [path.paint.hex for path in drawing.paths] == ["#00000080", "#ff0000", "#0000ff"]
+    assert [path.paint.hex for path in drawing.paths] == ["#0000ff80", "#ff0000", "#0000ff"]
     assert [path.group for path in drawing.paths] == [-1, 0, 0]
     assert [group.opacity for group in drawing.groups] == [0.5]
     sides = [100 * side for side in drawing.paths[1].box.ravel()]

@@ -1,5 +1,6 @@
 """Which face a text gets: CSS Fonts 4, 5.2, and the order of the sources."""
 
+import os
 import sys
 
 import pytest
@@ -85,13 +86,16 @@ def test_font_of_a_drawing_has_the_name_and_style_of_its_rule(folder):
     assert next(iter(fonts.faces(["own"], 700))).family == "Quay"
     bold, slanted = fonts._embedded
     assert (bold.traits.weights, slanted.traits.styles) == ((600, 600), ("italic",))
+    assert "Quay" not in {face.family for face in fonts.faces(["Nowhere"])}  # it stands in for no other family
 
 
 def test_a_given_file_that_is_no_font_is_named(folder):
     with pytest.raises(SourceError, match=r"broken.ttf: the font is damaged: it has no"):
         next(Fonts([folder / "broken.ttf"]).faces(["Harbour"]))
-    with pytest.raises(SourceError, match=r"none.ttf: cannot be read"):
-        next(Fonts([folder / "none.ttf"]).faces(["Harbour"]))
+    os.mkfifo(folder / "pipe.ttf")
+    for name in ("none.ttf", "pipe.ttf"):
+        with pytest.raises(SourceError, match=rf"{name}: it is no file; give a font file or a folder"):
+            next(Fonts([folder / name]).faces(["Harbour"]))
 
 
 def test_system_fonts_come_from_fontconfig_or_the_usual_folders(folder, monkeypatch):

@@ -82,7 +82,10 @@ def test_what_stands_in_for_a_font_or_character_is_named(folder):
     assert "character 'B' (U+0042), which Made lacks, and such in Colours" in told
     assert places(found)[1][0] == "B"
     other = drawn(folder, "A", family="Nowhere", style="italic")
-    assert [str(note) for note in other.notes] == ["font 'Nowhere' in Made", "italic style, which Made lacks, upright"]
+    assert [str(note) for note in other.notes] == [
+        "font 'Nowhere' drawn in Made",
+        "italic style, which Made lacks, drawn upright",
+    ]
 
 
 def test_joiners_and_variation_selectors_stay_with_their_character(folder):

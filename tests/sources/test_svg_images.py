@@ -138,6 +138,7 @@ NOT_BESIDE = "only files beside a drawing that is a file are read"
         ("none.png", "there is no such file beside the drawing"),
         ("pipe", "there is no such file beside the drawing"),
         ("sub", "there is no such file beside the drawing"),
+        ("a" * 5000, "its name is too long for a file"),
         ("text.txt", "it is neither a drawing nor a picture"),
         ("data:image/png;base64,A", "its data is no base64"),
         ("data:image/png", "its data: URL has no data"),

@@ -210,6 +210,8 @@ def faces_in(content: bytes) -> list[Face]:
 
 def faces_of(path: Path) -> list[Face]:
     """All faces of a font file, of which only those parts are read that are used; raises as `faces_in` does."""
+    if not path.is_file():  # a pipe would be waited for
+        raise SourceError("it is no file; give a font file or a folder of fonts")
     start = start_of(path)
     if not is_sfnt(start):
         return faces_in(read_bytes(path))

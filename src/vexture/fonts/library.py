@@ -121,8 +121,10 @@ class Fonts:
                 return
 
     def _others(self, weight: float, style: str, stretch: float) -> Iterator[Listed]:
-        """The best face of each family of each source."""
+        """The best face of each family of each source; a font of the drawing stands in for no other one."""
         for source in self._sources():
+            if source is self._embedded:
+                continue
             families: dict[str, list[Listed]] = {}
             for listed in source:
                 families.setdefault(listed.face.family, []).append(listed)

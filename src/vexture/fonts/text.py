@@ -79,9 +79,9 @@ class TextOptions:
         face = choice.first
         first = next(iter(self.families), face.family)
         if first.lower() not in GENERIC and first.casefold() not in {name.casefold() for name in face.names}:
-            notes.simplified(f"font {first!r} in {face.family}")
+            notes.simplified(f"font {first!r} drawn in {face.family}")
         if self.style != "normal" and face.style == "normal":
-            notes.simplified(f"{self.style} style, which {face.family} lacks, upright")
+            notes.simplified(f"{self.style} style, which {face.family} lacks, drawn upright")
         return choice
 
 

@@ -97,10 +97,14 @@ class Images:
         if self.folder is None or not BESIDE.fullmatch(path):
             raise SourceError("only files beside a drawing that is a file are read")
         folder = self.folder.resolve()
-        file = (folder / path).resolve()
+        try:
+            file = (folder / path).resolve()
+            is_there = file.is_file()
+        except OSError:
+            raise SourceError("its name is too long for a file") from None
         if ".." in Path(path).parts or not file.is_relative_to(folder):
             raise SourceError("it is outside of the drawing's folder")
-        if not file.is_file():
+        if not is_there:
             raise SourceError("there is no such file beside the drawing")
         return read_bytes(file)
 

@@ -27,7 +27,7 @@ def embedded_fonts(rules: Sequence[dict[str, str]], report: Report) -> Iterator[
         names = families(rule.get("font-family", ""))
         content = next(filter(None, map(content_of, URL.findall(rule.get("src", "")))), None)
         if not names or content is None:
-            if "url(" in rule.get("src", ""):
+            if rule.get("src", "").strip():
                 report.left_out(f"font {''.join(names[:1])[:40]!r}, which is not in the file; give it by `fonts`")
             continue
         try:
@@ -35,6 +35,8 @@ def embedded_fonts(rules: Sequence[dict[str, str]], report: Report) -> Iterator[
         except (DeviceError, SourceError) as error:
             report.left_out(f"font {names[0][:40]!r}: {error}")
             continue
+        if "unicode-range" in rule:
+            report.simplified(f"unicode-range of font {names[0][:40]!r}, which is used for all characters")
         yield EmbeddedFont(
             names[0],
             content,
