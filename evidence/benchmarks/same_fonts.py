@@ -1,0 +1,55 @@
+"""The fonts that vexture and resvg both get, so that their pictures of texts differ by nothing that fonts cause."""
+
+from functools import cache
+from pathlib import Path
+from typing import Final
+
+import matplotlib
+import resvg
+from fontTools.ttLib import TTFont
+
+from vexture.fonts.system import default_files
+
+__all__ = ["FONTS", "only_these", "options_of_resvg", "stand_ins"]
+
+FONTS: Final = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
+"""Fonts with Latin, Greek, Arabic and Hebrew letters; our fixtures ask for no others."""
+
+FACES: Final = ("DejaVuSans", "DejaVuSans-Bold", "DejaVuSans-Oblique", "DejaVuSans-BoldOblique")
+
+STOOD_FOR: Final = ("Times New Roman", "Arial", "Courier New", "Comic Sans MS", "Impact")
+"""Families that resvg takes for the generic ones; the first also for each that is missing, as vexture takes the first
+that it is given."""
+
+FAMILY_NAMES: Final = (1, 16)
+"""Name records of a family (OpenType, name)."""
+
+
+def stand_ins(folder: Path) -> list[Path]:
+    """Folders of fonts for vexture; the first has copies of one font for all generic families, and is made."""
+    for rank, family in enumerate(STOOD_FOR):
+        for face in FACES:
+            with TTFont(FONTS / f"{face}.ttf", lazy=True, recalcTimestamp=False) as font:
+                for record in font["name"].names:
+                    if record.nameID in FAMILY_NAMES:
+                        record.string = family
+                font.save(folder / f"{rank}-{face}.ttf")
+    return [folder, FONTS]
+
+
+def only_these(folder: Path) -> Path:
+    """A file for the environment variable FONTCONFIG_FILE, by which the system has no fonts but `FONTS`."""
+    file = folder / "fonts.conf"
+    file.write_text(f"<fontconfig><dir>{FONTS}</dir><cachedir>{folder}</cachedir></fontconfig>")
+    return file
+
+
+@cache
+def options_of_resvg(*folders: Path) -> resvg.usvg.Options:
+    """Options of resvg with the fonts of folders, and the default font of vexture."""
+    options = resvg.usvg.Options.default()
+    for folder in folders:
+        options.load_fonts_dir(str(folder))
+    for file in default_files():
+        options.load_font_file(str(file))
+    return options
