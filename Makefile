@@ -39,7 +39,7 @@ help:
 	@echo 'make sweep   the tests that take long and find little that those do not, and 24,000 drawings of others'
 	@echo 'make docs    build the documentation into site/, to be read from the disk'
 	@echo 'make report  measure the tables and figures of the thesis again; the page is demo/report/index.html'
-	@echo 'make conformance  compare 1,100 files with what resvg and librsvg draw; a page of all pictures, a table in docs/'
+	@echo 'make conformance  compare 1,400 files with what resvg and librsvg draw; a page of all pictures, a table in docs/'
 	@echo 'make fuzz    read damaged files for some minutes; what breaks a reader comes into fuzz-findings/'
 	@echo 'make bench   measure fidelity, speed and size; the figures come into evidence/benchmarks/results/'
 	@echo 'make dist    build the wheels, the sdist and the npm tarball into dist/; make dist-check tries them'

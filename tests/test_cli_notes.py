@@ -58,8 +58,9 @@ def test_a_size_of_zero_is_an_empty_drawing(tmp_path):
     assert "a.svg: its width or height is zero, at which nothing is shown; nothing in it is painted" in result.stderr
 
 
-CARD = '<g id="card" style="rotate: 3deg"><path d="M2 2h6v5h-6z"/></g>'
-STRICT = SVG.format(f'{CARD}<foreignObject/><foreignObject id="t"/>')
+STRICT = SVG.format(
+    '<g id="card" style="rotate: 3deg"><path d="M2 2h6v5h-6z"/></g><foreignObject/><foreignObject id="t"/>'
+)
 
 
 @pytest.mark.parametrize("command", ["convert", "render", "export"])
@@ -71,7 +72,7 @@ def test_strict_accepts_no_loss(square, tmp_path, command):
     assert result.exit_code == 1
     assert result.output.splitlines()[-1] == (
         f"vexture: {file}: left out: rotate, <foreignObject> (2); --strict accepts no such note; "
-        "correct the drawing, or leave it out"
+        "correct the source, or leave it out"
     )
     assert not out.exists()
     assert run(command, square, "-o", out, "--strict").exit_code == 0

@@ -4,6 +4,7 @@
 
 Each is drawn from its texture, and compared on white with what resvg draws, four times as large and reduced. It is
 right if fewer than `MOST_OFF` of the pixels are off by more than `FAR`, or if it is as near to librsvg's own picture.
+Both draw texts with the same fonts (`same_fonts.py`).
 All pictures, side by side, become one page; the table of `docs/reference/conformance.md` is written again.
 """
 
@@ -11,11 +12,15 @@ import argparse
 import base64
 import html
 import io
+import os
 import re
 import runpy
 import sys
+import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
+from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -28,6 +33,7 @@ import vexture
 from chromium import ROOT
 from judge import FIRST, Case, Facts, enlarged
 from report import RESULTS
+from same_fonts import gather, only_these, options_of_resvg
 from sweep import judged, known_issues
 from vexture.errors import VextureError
 from vexture.notes import line_of
@@ -50,13 +56,17 @@ MOST_OFF: Final = 0.005
 THUMBNAIL: Final = 96
 """Pixels across a picture on the page."""
 
-OUTCOMES: Final = ("right", "but text", "named", "silent", "refused", "unjudged")
-"""Right; right but for text, which is named, and for which resvg has no fonts; wrong, and a note says what differs;
-wrong without one; an error in one line; no reference draws it."""
+OUTCOMES: Final = ("right", "named", "silent", "refused", "unjudged")
+"""Right; wrong, and a note says what differs; wrong without one; an error in one line; no reference draws it."""
 
 FIXTURES: Final = ROOT / "tests" / "sources" / "fixtures"
+OTHER_FONT: Final = re.compile(r"font '.*' drawn in ")
+"""Begin of a note that excuses nothing here, as the references have the same other font."""
+
 HOSTILE: Final = "bad"
 """The fixtures that every reader must refuse."""
+
+TEXTS: Final = "text"
 
 PAGE: Final = ROOT / "docs" / "reference" / "conformance.md"
 TABLE: Final = re.compile(r"(?<=<!-- table -->\n).*(?=<!-- end of table -->)", re.DOTALL)
@@ -87,8 +97,8 @@ def outcome_of(facts: Facts) -> str:
 
     Examples
     --------
-    >>> outcome_of({"off": 0.001, "notes": "left out: <text>"}), outcome_of({"off": 0.1, "notes": "left out: <text>"})
-    ('but text', 'named')
+    >>> outcome_of({"off": 0.001, "notes": "left out: filter"}), outcome_of({"off": 0.1, "notes": "left out: filter"})
+    ('right', 'named')
     """
     if "refused" in facts:
         return "refused"
@@ -96,24 +106,25 @@ def outcome_of(facts: Facts) -> str:
         return "unjudged"
     if facts["off"] >= MOST_OFF:
         return "named" if facts["notes"] else "silent"
-    return "but text" if "<text>" in facts["notes"] and facts.get("own_off", 1.0) >= MOST_OFF else "right"
+    return "right"
 
 
-def found(case: Case) -> Iterator[Facts]:
+def found(case: Case, fonts: Path) -> Iterator[Facts]:
     """What is found of a case, in a child process; `case.same` is a picture of librsvg, or a plainer SVG."""
     try:
-        drawing = read_drawing(case.content, name=case.name)
-        yield {"notes": line_of(case.name, [note for note in drawing.notes if note.is_loss])}
+        drawing = read_drawing(case.content, name=case.name, fonts=[fonts])
+        losses = [note for note in drawing.notes if note.is_loss and not OTHER_FONT.match(note.message)]
+        yield {"notes": line_of(case.name, losses)}
     except VextureError as error:
         yield {"refused": str(error)}
         return
     try:
-        yield from compared(case, drawing)
+        yield from compared(case, drawing, fonts)
     except Exception as error:  # of the references, which refuse what we read
         yield {"unjudged": str(error) or type(error).__name__}
 
 
-def compared(case: Case, drawing: vexture.Drawing) -> Iterator[Facts]:
+def compared(case: Case, drawing: vexture.Drawing, fonts: Path) -> Iterator[Facts]:
     """Pictures of a case, and how far they are from one another."""
     picture = case.same is not None and case.same.startswith(b"\x89PNG")
     source = case.content if picture or case.same is None else case.same
@@ -123,7 +134,7 @@ def compared(case: Case, drawing: vexture.Drawing) -> Iterator[Facts]:
     yield {"ours": shown(ours)}
     if picture:
         yield from against_picture(drawing, case.same or b"")
-    tree = resvg.usvg.Tree.from_str(text.decode(), resvg.usvg.Options.default())
+    tree = resvg.usvg.Tree.from_str(text.decode(), options_of_resvg(fonts))
     image = Image.open(io.BytesIO(bytes(resvg.render(tree, (1, 0, 0, 0, 1, 0)))))
     theirs = on_white(image).resize(sides, Image.Resampling.BOX)
     off = share_off(ours, np.asarray(theirs, np.int16))
@@ -167,11 +178,19 @@ def shown(pixels: Pixels) -> str:
 
 def fixtures() -> Iterator[tuple[str, Case]]:
     """Our fixtures by topic, that of their folder."""
-    plainer: Callable[[str], str | None] = runpy.run_path(str(FIXTURES.parent / "plainer.py"))["plainer"]
+    plainer = sayer("plainer.py", "plainer")
+    of_text = sayer("plainer_texts.py", "plainer_text")
     for path in sorted(FIXTURES.glob("*/*.svg")):
-        topic, said = path.parent.name, plainer(f"{path.parent.name}/{path.stem}")
+        topic = path.parent.name
+        said = of_text(path.stem) if topic == TEXTS else plainer(f"{topic}/{path.stem}")
         if topic != HOSTILE:
             yield topic, Case("fixtures", path.name, path.read_bytes(), said and said.encode())
+
+
+def sayer(file: str, name: str) -> Callable[[str], str | None]:
+    """A function of the tests, which says a fixture in plainer words."""
+    function: Callable[[str], str | None] = runpy.run_path(str(FIXTURES.parent / file))[name]
+    return function
 
 
 def tests_of_librsvg() -> Iterator[tuple[str, Case]]:
@@ -221,9 +240,7 @@ def figure(case: Case, facts: Facts) -> str:
     )
     outcome = facts["outcome"]
     off = f", {100 * facts['off']:.1f}% off" if "off" in facts else ""
-    caption = (
-        f'<b class="{outcome.split()[0]}">{outcome}</b>{off}: {html.escape(case.name)}<br>{html.escape(said[:300])}'
-    )
+    caption = f'<b class="{outcome}">{outcome}</b>{off}: {html.escape(case.name)}<br>{html.escape(said[:300])}'
     return f"<figure>{pictures}<figcaption>{caption}</figcaption></figure>"
 
 
@@ -240,10 +257,13 @@ def main() -> None:
     parser.add_argument("--only", default="", help="cases of which the topic and name have this text; writes nothing")
     only = parser.parse_args().only
     sources: Iterable[tuple[str, Case]] = [*fixtures(), *tests_of_librsvg()]
-    list(found(Case("", "first.svg", FIRST)))  # compiles the kernels, which the time of no case includes
     chosen = [(topic, case) for topic, case in sources if only in f"{topic}/{case.name}"]
-    facts = judged([case for _, case in chosen], found)
-    every = [(topic, case, complete(case, one)) for (topic, case), one in zip(chosen, facts, strict=True)]
+    with tempfile.TemporaryDirectory() as folder:
+        os.environ["FONTCONFIG_FILE"] = str(only_these(Path(folder)))
+        find = partial(found, fonts=gather(Path(folder)))
+        list(find(Case("", "first.svg", FIRST)))  # compiles the kernels, which the time of no case includes
+        facts = judged([case for _, case in chosen], find)
+        every = [(topic, case, complete(case, one)) for (topic, case), one in zip(chosen, facts, strict=True)]
     for topic, case, one in every:
         if only or one["outcome"] == "silent":
             print(

@@ -160,4 +160,4 @@ def check_losses(source: str, notes: Sequence[Note], *, is_empty: bool, strict: 
     if line and is_empty:
         raise SourceError(f"{line}; nothing else is in it; correct it, or draw it as paths")
     if line and strict:
-        raise SourceError(f"{line}; `strict` accepts no such note; correct the drawing, or leave it out")
+        raise SourceError(f"{line}; `strict` accepts no such note; correct the source, or leave it out")

@@ -1,16 +1,19 @@
 """What the page of conformance says of a drawing."""
 
 import io
+from pathlib import Path
 
 import pytest
 from PIL import Image
 
 from conformance import complete, figure, found
 from judge import Case, Facts
+from same_fonts import gather
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{}</svg>'
 SQUARE = '<path d="M20 20h60v60h-60z" fill="#c03020"/>'
 OTHER = '<path d="M10 10h60v60h-60z" fill="#c03020"/>'
+WORD = '<text x="5" y="60" font-size="30" font-weight="bold" font-family="{}">Ships</text>'
 
 
 def picture(side: int, left: int) -> bytes:
@@ -21,10 +24,15 @@ def picture(side: int, left: int) -> bytes:
     return file.getvalue()
 
 
-def facts_of(body: str, same: bytes | None = None) -> Facts:
+@pytest.fixture(scope="module")
+def fonts(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return gather(tmp_path_factory.mktemp("fonts"))
+
+
+def facts_of(fonts: Path, body: str, same: bytes | None = None) -> Facts:
     case = Case("fixtures", "a.svg", SVG.format(body).encode(), same)
     facts: Facts = {}
-    for part in found(case):
+    for part in found(case, fonts):
         facts |= part
     facts = complete(case, facts)
     assert facts["outcome"] in figure(case, facts)
@@ -37,13 +45,15 @@ def facts_of(body: str, same: bytes | None = None) -> Facts:
         (SQUARE, None, "right"),
         (SQUARE, SVG.format(SQUARE).encode(), "right"),
         (SQUARE, SVG.format(OTHER).encode(), "silent"),
-        (SQUARE + "<text/>", None, "but text"),
-        (SQUARE + "<text/>", SVG.format(OTHER).encode(), "named"),
-        (SQUARE + "<text/>", picture(200, 40), "right"),
-        (SQUARE + "<text/>", picture(50, 10), "right"),
+        (SQUARE + "<foreignObject/>", SVG.format(OTHER).encode(), "named"),
+        (SQUARE, picture(200, 40), "right"),
+        (SQUARE, picture(50, 10), "right"),
+        (WORD.format("sans-serif"), None, "right"),
+        (WORD.format("No Such Font"), None, "right"),
+        (WORD.format("No Such Font"), SVG.format(WORD.format("DejaVu Serif")).encode(), "silent"),
         (SQUARE, picture(200, 0), "right"),
         ("<g", None, "refused"),
     ],
 )
-def test_outcomes(body: str, same: bytes | None, outcome: str) -> None:
-    assert facts_of(body, same)["outcome"] == outcome
+def test_outcomes(fonts: Path, body: str, same: bytes | None, outcome: str) -> None:
+    assert facts_of(fonts, body, same)["outcome"] == outcome

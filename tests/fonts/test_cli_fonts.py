@@ -79,3 +79,20 @@ def test_characters_of_a_font_become_an_atlas(font, tmp_path):
         f"{target}: 3 characters, 3 shapes, {target.stat().st_size} bytes; {target.with_suffix('.json')}\n"
     )
     assert [*json.loads(target.with_suffix(".json").read_text(encoding="utf-8"))["glyphs"]] == ["A", "V", "é"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "lost"),
+    [
+        (("text", "A", "--family", "No Such Font"), "simplified: font 'No Such Font' in "),
+        (("font", "FONT", "--chars", "Ax"), "left out: character 'x' (U+0078), which Made lacks"),
+    ],
+)
+def test_strict_accepts_no_loss(font, tmp_path, arguments, lost):
+    given = [font if argument == "FONT" else argument for argument in arguments]
+    result = run(*given, "-o", tmp_path / "new.ktx2", "--strict")
+    assert result.exit_code == 1
+    assert lost in result.stderr
+    assert "; --strict accepts no such note; correct the source, or leave it out" in result.stderr
+    assert not [*tmp_path.iterdir()]
+    assert run(*given, "-o", tmp_path / "new.ktx2").exit_code == 0

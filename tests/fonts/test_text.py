@@ -94,7 +94,7 @@ def test_joiners_and_variation_selectors_stay_with_their_character(folder):
 
 
 def test_a_character_that_no_font_has_is_left_out_by_name(folder):
-    with pytest.warns(vexture.SourceWarning, match=r"left out: character \(U\+10FFFF\), which no font has"):
+    with pytest.warns(vexture.SourceWarning, match=r"simplified: character \(U\+10FFFF\), which no font has"):
         vexture.text("A\U0010ffff", font=folder / "plain.ttf")
 
 

@@ -7,20 +7,16 @@ import io
 from functools import cache
 from pathlib import Path
 
-import matplotlib
 import numpy as np
 import resvg
 import skia
 from PIL import Image
 
+from same_fonts import FONTS
 from vexture.drawing import Drawing
 from vexture_evidence.measures.peers import paint_with_skia
 
-__all__ = ["FONTS", "difference", "different_part", "render_drawing", "render_file"]
-
-
-FONTS = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
-"""Fonts with Latin, Greek, Arabic and Hebrew letters, of which resvg and the tests of texts use no others."""
+__all__ = ["difference", "different_part", "render_drawing", "render_file"]
 
 
 SIDE, FINER = 100, 4

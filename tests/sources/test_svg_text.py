@@ -4,115 +4,21 @@ import base64
 import subprocess
 import sys
 import warnings
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
-from fontTools.ttLib import TTFont
-from svg_reference import FONTS, different_part
+from plainer_texts import HEBREW, PLAINER, ROOT, advance, plainer_text
+from svg_reference import different_part
 
 import vexture
+from same_fonts import FONTS
 from vexture.deadline import within
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, ParameterError, SourceError, SourceWarning
 from vexture.svg.read import read_svg
 
 FOLDER = Path(__file__).parent / "fixtures" / "text"
-ROOT = 'xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100" font-family="DejaVu Sans" font-size="16"'
-SIZE = 16.0
-HEBREW = "\u05e1\u05e4\u05d9\u05e0\u05d4"
-SHIPS = '<text x="5" y="60" font-size="30">Ships</text>'
-
-
-@cache
-def font() -> TTFont:
-    return TTFont(FONTS / "DejaVuSans.ttf")
-
-
-def advance(text: str, size: float = SIZE) -> float:
-    glyphs = [font().getBestCmap()[ord(character)] for character in text]
-    return sum(font()["hmtx"][glyph][0] for glyph in glyphs) * size / font()["head"].unitsPerEm
-
-
-def top_and_bottom(character: str) -> tuple[float, float]:
-    glyph = font()["glyf"][font().getBestCmap()[ord(character)]]
-    return glyph.yMax / font()["head"].unitsPerEm, glyph.yMin / font()["head"].unitsPerEm
-
-
-def letters(text: str, x: float, y: float, size: float = SIZE, gap: float = 0.0) -> str:
-    """Letters in places of their own, so that nothing but their advances matters."""
-    places = []
-    for character in text:
-        places.append(f"{x:.6f}")
-        x += advance(character, size) + gap
-    return f'<text x="{" ".join(places)}" y="{y}" font-size="{size}">{text}</text>'
-
-
-def bolder(size: float) -> float:
-    """Width of the stroke by which Skia makes letters bolder."""
-    return size * (1 / 24 + (1 / 32 - 1 / 24) * (size - 9) / (36 - 9))
-
-
-def upright() -> str:
-    """Letters that lie on their side, and symbols upright in the middle of lines as high as the font's."""
-    over, under = (getattr(font()["hhea"], name) * SIZE / 2048 for name in ("ascent", "descent"))
-    down, drawn = 10.0, ""
-    for character in "a\u2605b\u2660":
-        if character.isalpha():
-            turned = f"translate({50 - (over + under) / 2} {down}) rotate(90)"
-            drawn += f'<text transform="{turned}">{character}</text>'
-            down += advance(character)
-            continue
-        baseline = down + (over - under) / 2 + sum(top_and_bottom(character)) * SIZE / 2
-        drawn += f'<text x="{50 - advance(character) / 2}" y="{baseline}">{character}</text>'
-        down += over - under
-    return drawn
-
-
-# what PyPI's resvg does not know, or draws otherwise than the specification says, in words that it and we know alike
-PLAINER = {
-    # "a collapsible space following another collapsible space is collapsed", also of another element, and no other
-    "between-spaces": '<text x="5" y="50">a b c</text>',
-    "spaces-default-in-preserved": '<text x="5" y="50" xml:space="preserve">a  b c d  e</text>',
-    "tspan-not-displayed": '<text x="10" y="50">one six</text>',
-    "white-space-pre": '<text x="10" y="50" xml:space="preserve">  a  b </text>',
-    "bidi-override": '<text x="10" y="50">a pihs one</text>',
-    "direction-rtl-latin": '<text x="90" y="50" text-anchor="end">!ship</text>',
-    "direction-rtl": f'<text x="90" y="50" text-anchor="end">ship {HEBREW}</text>',
-    "dominant-middle": f'<text x="10" y="{50 + top_and_bottom("x")[0] * SIZE / 2}">Harbour</text>',
-    "alignment-middle": '<text x="10" y="50">one</text>'
-    f'<text x="{10 + advance("one")}" y="{50 + top_and_bottom("x")[0] * SIZE / 2}">two</text>',
-    "feature-settings": letters("office", 10, 50, 24),
-    "font-shorthand": '<text x="5" y="50" font-style="italic" font-weight="bold" font-size="20">Harbour</text>',
-    "font-size-adjust": f'<text x="5" y="50" font-size="{SIZE * 0.4 / top_and_bottom("x")[0]}">Ship</text>',
-    "font-size-words": '<text x="5" y="30" font-size="13">small</text>'
-    '<text x="5" y="60" font-size="19.2">larger</text>',
-    "font-weight-bolder": '<text x="5" y="50"><tspan font-weight="bold">a</tspan>b<tspan font-weight="bold">c</tspan>'
-    "</text>",
-    # "user agents should not apply optional ligatures when letter-spacing is not zero" (CSS Text 3, 8.2)
-    "letter-spacing-no-ligature": letters("office", 5, 50, 20, 1.0),
-    "path-data": '<path id="p" d="M10 50H90" fill="none"/><text><textPath href="#p">ship</textPath></text>',
-    # "effectively reverses the path direction" (SVG 2, 11.8.2)
-    "path-side": '<path id="p" d="M90 50H10" fill="none"/><text><textPath href="#p">ship</textPath></text>',
-    # what follows goes on from the end of the path (SVG 2, 11.5, "Position on path")
-    "path-text-after": '<path id="p" d="M10 70C10 10 90 10 90 70" fill="none"/>'
-    '<text><textPath href="#p">path</textPath></text>'
-    f'<text x="{90 + advance(" ")}" y="70">b</text>',
-    "pattern-fill": f'<clipPath id="c">{SHIPS}</clipPath><g clip-path="url(#c)" fill="red">'
-    + "".join(f'<rect x="{x}" width="3" height="100"/>' for x in range(0, 100, 6))
-    + "</g>",
-    "small-caps": f'<text x="5" y="50">H<tspan font-size="{0.7 * SIZE}">ARBOUR</tspan></text>',
-    "synthetic-bold": '<text x="5" y="50" font-family="cmr10" font-size="24" stroke="black" '
-    f'stroke-width="{bolder(24)}">Ship</text>',
-    "synthetic-oblique": '<text transform="translate(5 50) skewX(-14)" font-family="cmr10" font-size="24">Ship</text>',
-    # the last gap does not count for the anchor, as in browsers
-    "text-length-middle": letters("ship", 10, 50, SIZE, (80 - advance("ship")) / 3),
-    "text-length-with-tspans": f'<text x="10" y="50" letter-spacing="{(80 - advance("abcdef")) / 5}">'
-    'ab<tspan fill="red">cd</tspan>ef</text>',
-    "text-transform": '<text x="5" y="50">SHIPS</text>',
-    "vertical-upright-symbols": upright(),
-}
 
 
 def read(path: Path, **options: Any) -> Drawing:
@@ -124,8 +30,7 @@ def read(path: Path, **options: Any) -> Drawing:
 @pytest.mark.parametrize("name", sorted(path.stem for path in FOLDER.glob("*.svg")))
 def test_looks_like_the_reference(name: str) -> None:
     path = FOLDER / f"{name}.svg"
-    plainer = PLAINER.get(name)
-    assert different_part(path, read(path), plainer and f"<svg {ROOT}>{plainer}</svg>") < 0.001
+    assert different_part(path, read(path), plainer_text(name)) < 0.001
 
 
 def test_fixtures_are_all_there() -> None:
@@ -200,6 +105,51 @@ def test_missing_fonts_and_characters_are_named_with_what_is_used(tmp_path: Path
 )
 def test_notes(tmp_path: Path, body: str, note: str) -> None:
     assert note in notes(drawn(tmp_path, body))
+
+
+@pytest.mark.parametrize(
+    ("body", "message", "elements"),
+    [
+        ("<text id='t' y='9' font-family='Nope'>a<tspan id='s'>b</tspan></text>", "font 'Nope' drawn in ", ["t", "s"]),
+        (
+            "<text id='t' y='9'>a<tspan id='s'>\uebad</tspan></text>",
+            "character (U+EBAD), which 'DejaVu Sans' lacks, ",
+            ["s"],
+        ),
+        ("<text>a<tref id='r'/></text>", "<tref> in a text", ["r"]),
+        ("<text><textPath id='p'>b</textPath></text>", '<textPath id="p"> in line 1 without a path', ["p"]),
+        ("<text id='t'><animate/></text>", "animation", ["t"]),
+        ("<g kerning='8'><text id='t' y='9'>a<tspan>b</tspan></text></g>", "kerning 8", ["t"]),
+        (
+            "<text id='t' style='writing-mode: sideways-lr'>a</text>",
+            "writing-mode sideways-lr drawn as sideways-rl",
+            ["t"],
+        ),
+        (
+            "<text y='9'>a<tspan id='s' text-decoration='underline red 3px'>b</tspan></text>",
+            "text-decoration red 3px drawn in ",
+            ["s"],
+        ),
+        (
+            "<text id='t' y='9' style='text-decoration-line: underline; text-decoration-style: wavy'>b</text>",
+            "text-decoration wavy drawn as a solid line",
+            ["t"],
+        ),
+    ],
+)
+def test_notes_name_their_elements_once(tmp_path: Path, body: str, message: str, elements: list[str]) -> None:
+    (note,) = (note for note in drawn(tmp_path, body).notes if note.is_loss)
+    assert note.message.startswith(message)
+    assert [element.name for element in note.elements] == elements
+    assert note.count == len(elements)
+
+
+def test_selectors_stay_with_their_character(tmp_path: Path) -> None:
+    plain, chosen = (
+        drawn(tmp_path, f'<text y="50" font-family="cmr10">a{selector}</text>') for selector in ("", "\U000e0101")
+    )
+    assert not chosen.notes
+    assert (plain.paths[0].box == chosen.paths[0].box).all()
 
 
 def test_a_font_in_the_drawing(tmp_path: Path) -> None:

@@ -21,7 +21,7 @@ Examples:
 """
 
 
-@options_of_convert("tolerance", "max_depth", "capacity", "precision", "deflate", "max_seconds", "quiet")
+@options_of_convert("tolerance", "max_depth", "capacity", "precision", "deflate", "max_seconds", "strict", "quiet")
 @click.command(epilog=EXAMPLE)
 @click.argument("font", metavar="[FONT]", required=False, type=PATH)
 @click.option("-o", "--output", metavar="FILE.ktx2", required=True, type=PATH, help="File to write, or a folder.")
@@ -46,6 +46,7 @@ def font(
     style: str,
     stretch: float,
     name: str | None,
+    strict: bool,
     quiet: bool,
     **options: Any,
 ) -> None:
@@ -56,6 +57,7 @@ def font(
     with one_line():
         from vexture.fonts.text import TextOptions
         from vexture.glyph_atlas import PRINTABLE, made_atlas
+        from vexture.notes import check_losses
         from vexture.texture.files import target_of, write_together
 
         check_places((), output, None, DEFAULT, False)
@@ -66,6 +68,7 @@ def font(
         parameters = given_options(options)
         stored = {name: parameters.pop(name) for name in ("deflate",) if name in parameters}
         made = made_atlas(styled, wanted, ranged, **parameters)
+        check_losses(str(font or made.texture.name), made.notes, is_empty=False, strict=strict)
         files = made.files(target_of(output, made.texture.name), **stored)
         write_together(files)
         if not quiet:

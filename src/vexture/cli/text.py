@@ -48,7 +48,7 @@ def face_options(command: Any) -> Any:
 
 @options_of_convert(
     *("split", "silhouette", "restyle", "tolerance", "max_depth", "capacity", "precision", "deflate", "max_seconds"),
-    *("as_json", "quiet", "verbose"),
+    *("strict", "as_json", "quiet", "verbose"),
 )
 @click.command(epilog=EXAMPLE)
 @click.argument("text", metavar="TEXT")
@@ -94,6 +94,7 @@ def text(
     output: Path | None,
     font: tuple[Path, ...],
     color: tuple[float, float, float, float] | None,
+    strict: bool,
     as_json: bool,
     quiet: bool,
     verbose: bool,
@@ -106,7 +107,7 @@ def text(
     """
     with one_line():
         from vexture.fonts.text import TextOptions, text_drawing
-        from vexture.notes import line_of
+        from vexture.notes import check_losses, line_of
         from vexture.pipeline import run
 
         to_pipe = output == Path(STANDARD)
@@ -122,6 +123,7 @@ def text(
         if not drawing.paths:
             raise SourceError(f"{drawing.name}: nothing of the text is painted; give characters that a font has")
         done = run(drawing, encoding=DEFAULT, **parameters)
+        check_losses(drawing.name, done.notes, is_empty=False, strict=strict)
         files = done.texture.files(**stored)
         facts = shape_facts(done) | {"bytes": sum(map(len, files.values()))}
         outcome = Outcome(drawing.name, facts, files, warning=line_of(drawing.name, done.notes))

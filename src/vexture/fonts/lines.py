@@ -13,8 +13,7 @@ from vexture.fonts.levels import levels, reordered, scripts
 from vexture.fonts.shaping import Glyph, shape
 from vexture.notes import Notes
 
-__all__ = ["Choice", "Placed", "Typesetting", "line_of_glyphs"]
-
+__all__ = ["Choice", "Placed", "Typesetting", "belongs", "is_seen", "line_of_glyphs", "named"]
 
 SELECTORS: Final = frozenset(map(chr, (*range(0xFE00, 0xFE10), *range(0xE0100, 0xE01F0))))
 """Variation selectors, which choose a form of the character before them."""
@@ -66,9 +65,7 @@ class Choice:
 
     def of(self, character: str, last: Face | None) -> Face:
         """The face of a character; `last` is that of the one before, with which it may have to go."""
-        kind = category(character)
-        selects = kind == "Cf" or character in SELECTORS
-        if last is not None and (selects or (kind[0] == "M" and last.has(ord(character)))):
+        if last is not None and belongs(character, last):
             return last
         for face in self._all():
             check_time()
@@ -77,8 +74,8 @@ class Choice:
                     example = self.others.setdefault(face.family, named(character))
                     self.notes.simplified(f"{example}, which {self.first.family} lacks, and such in {face.family}")
                 return face
-        if kind not in ("Cc", "Zs") and not selects:
-            self.notes.left_out(f"{named(character)}, which no font has")
+        if is_seen(character):
+            self.notes.simplified(f"{named(character)}, which no font has, drawn as a box")
         return last or self.first
 
     def _all(self) -> Iterator[Face]:
@@ -91,6 +88,17 @@ class Choice:
                 self.tried.append(face)
             yield self.tried[at]
             at += 1
+
+
+def belongs(character: str, last: Face) -> bool:
+    """Whether a character goes with the one before it, which has a face: selectors do, and marks that the face has."""
+    kind = category(character)
+    return kind == "Cf" or character in SELECTORS or (kind[0] == "M" and last.has(ord(character)))
+
+
+def is_seen(character: str) -> bool:
+    """Whether a character shows anything by itself."""
+    return category(character) not in ("Cc", "Cf", "Zs") and character not in SELECTORS
 
 
 def named(character: str) -> str:

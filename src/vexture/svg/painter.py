@@ -135,7 +135,7 @@ class Painter:
             paint = path.paint.after(((a, c, e), (b, d, f)))
             self.add([*path.contours], inner, path.fill_rule, paint, place.name)
         for note in layers.notes:
-            self.report.count(note.kind, note.message)
+            self.report.count(note.kind, note.message, place.element)
 
     def for_document(self, servers: PaintServers, walk: "Callable[[list[Placed], Painter], None]") -> "Painter":
         """Return a painter of another document onto the same drawing."""

@@ -93,6 +93,7 @@ PROPERTIES: dict[str, Property] = {
     "font-weight": Property("normal", True, matching(f"normal|bold|bolder|lighter|{POSITIVE}")),
     "glyph-orientation-vertical": Property("auto", True, matching(f"auto|{NUMBER}(?:deg|grad|rad|turn)?")),
     "letter-spacing": Property("normal", True, matching(SPACING)),
+    "kerning": Property("auto", True, matching(f"auto|{LENGTH}")),
     "marker-end": Property("none", True, anything),
     "marker-mid": Property("none", True, anything),
     "marker-start": Property("none", True, anything),
@@ -107,6 +108,7 @@ PROPERTIES: dict[str, Property] = {
     "stroke-width": Property("1", True, matching(SIZE)),
     "text-anchor": Property("start", True, one_of("start", "middle", "end")),
     "text-orientation": Property("mixed", True, one_of("mixed", "upright", "sideways", "sideways-right")),
+    "text-underline-offset": Property("auto", True, anything),
     "text-transform": Property("none", True, one_of("none", "uppercase", "lowercase", "capitalize", "full-width")),
     "white-space": Property("normal", True, one_of("normal", "nowrap", "pre", "pre-wrap", "pre-line", "break-spaces")),
     "word-spacing": Property("normal", True, matching(SPACING)),
@@ -143,7 +145,10 @@ PROPERTIES: dict[str, Property] = {
     "stop-color": Property("black", False, parse_color),
     "stop-opacity": Property("1", False, matching(OPACITY)),
     "text-decoration": Property("none", False, anything),
+    "text-decoration-color": Property("currentcolor", False, anything),
     "text-decoration-line": Property("none", False, anything),
+    "text-decoration-style": Property("solid", False, anything),
+    "text-decoration-thickness": Property("auto", False, anything),
     "transform": Property("none", False, anything),
     "transform-box": Property(
         "view-box", False, one_of("view-box", "fill-box", "stroke-box", "content-box", "border-box")
@@ -165,8 +170,9 @@ CSS_ONLY = frozenset(
     {
         *("background-color", "font-feature-settings", "font-kerning", "font-synthesis", "font-variant-caps"),
         *("font-variant-ligatures", "font-variant-numeric", "font-variant-position", "font-variation-settings"),
-        *("isolation", "mix-blend-mode", "rotate", "scale", "text-decoration-line", "text-orientation"),
-        *("text-transform", "translate"),
+        *("isolation", "mix-blend-mode", "rotate", "scale", "text-decoration-color", "text-decoration-line"),
+        *("text-decoration-style", "text-decoration-thickness", "text-orientation", "text-transform"),
+        *("text-underline-offset", "translate"),
     }
 )
 """Properties that are no presentation attributes (SVG 2, 6.6); some names have another meaning as attributes."""

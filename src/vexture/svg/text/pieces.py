@@ -29,6 +29,11 @@ Line = tuple[float, float]
 WORDS: Final = ("underline", "overline", "line-through")
 STYLES: Final = frozenset({"dashed", "dotted", "double", "wavy"})
 
+DECORATION: Final = ("text-decoration", "text-decoration-line", "text-decoration-style")
+LOOK: Final = ("text-decoration-color", "text-decoration-thickness", "text-underline-offset")
+USUAL: Final = frozenset({*WORDS, *STYLES, "none", "solid", "blink", "auto", "from-font", "currentcolor"})
+"""Words that name a line, its style, or what is drawn: in the text's paint, as in browsers, a line as the font says."""
+
 EMBOLDENING: Final = ((9.0, 1 / 24), (36.0, 1 / 32))
 """Font sizes, and of each the width by which a face is made bolder as a part of it: what Skia does."""
 
@@ -131,14 +136,28 @@ def decoration(span: Span, word: str, report: Report) -> Place | None:
     text = next(each for each in span.around if each.outer is None).place
     inside = True
     while place is not None:
-        words = f"{place.style['text-decoration']} {place.style['text-decoration-line']}".lower().split()
-        if word in words:
-            for style in STYLES.intersection(words):
-                report.simplified(f"text-decoration {style} drawn as a solid line")
+        if word in words_of(place, DECORATION):
+            note_look(place, report)
             return replace(place if inside else text, name=span.place.name, chosen=True)
         inside = inside and place is not text
         place = place.outer
     return None
+
+
+def words_of(place: Place, properties: Sequence[str]) -> list[str]:
+    """Words of some properties at a place."""
+    return " ".join(place.style[name] for name in properties).lower().split()
+
+
+def note_look(place: Place, report: Report) -> None:
+    """Note how the lines that a place declares are to look, and do not."""
+    words = words_of(place, DECORATION)
+    for style in sorted(STYLES.intersection(words)):
+        report.simplified(f"text-decoration {style} drawn as a solid line", place.element)
+    other = [word for word in words + words_of(place, LOOK) if word not in USUAL]
+    if other:
+        what = f"text-decoration {' '.join(other)[:40]}"
+        report.simplified(f"{what} drawn in the text's paint, where and as thick as the font says", place.element)
 
 
 def decorated(held: Sequence[Member], word: str, place: Place | None, vertical: bool) -> Iterator[Piece]:

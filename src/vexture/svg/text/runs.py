@@ -5,12 +5,14 @@ from dataclasses import dataclass, replace
 from itertools import islice, pairwise
 from math import radians, tan
 from typing import Final
-from unicodedata import category
+
+from lxml import etree
 
 from vexture.deadline import check_time
 from vexture.fonts.face import Face
 from vexture.fonts.levels import is_upright, levels, scripts
 from vexture.fonts.library import Fonts
+from vexture.fonts.lines import belongs, is_seen, named
 from vexture.fonts.shaping import Glyph, shape
 from vexture.svg.report import Report
 from vexture.svg.text.tree import Characters, Span
@@ -26,9 +28,6 @@ SLANT: Final = tan(radians(14.0))
 
 BOLD: Final = 600.0
 """Weight from which a face that is lighter is made bolder (CSS Fonts 4, 8.1)."""
-
-VARIATIONS: Final = frozenset(map(chr, range(0xFE00, 0xFE10)))
-"""Characters that choose among shapes of the one before them, whether a font knows them or not."""
 
 EMBEDS: Final = {"embed": "\u202a\u202b", "isolate": "\u202a\u202b", "plaintext": "\u202a\u202b"}
 OVERRIDES: Final = {"bidi-override": "\u202d\u202e", "isolate-override": "\u202d\u202e"}
@@ -80,7 +79,7 @@ class Faces:
         self.found: dict[tuple[object, ...], Face | None] = {}
         self.counts: dict[tuple[object, ...], int] = {}  # of faces that are of the families that are asked for
         self.small: dict[Face, bool] = {}
-        self.noted: set[str] = set()  # for the text that is set now
+        self.noted: set[tuple[str, etree._Element]] = set()  # for the text that is set now
 
     def of(self, want: Wanted) -> Iterator[Face]:
         """Faces in the order in which a text tries them."""
@@ -119,24 +118,24 @@ class Faces:
             self.small[face] = plain != small
         return self.small[face]
 
-    def note(self, want: Wanted, face: Face, character: str) -> None:
-        """Note once for a text a family that is not there, or lacks a character."""
-        named = [family for family in want.families if family not in GENERIC]
+    def note(self, want: Wanted, face: Face, character: str, element: etree._Element) -> None:
+        """Note once for an element a family that is not there, or lacks a character."""
+        families = [family for family in want.families if family not in GENERIC]
         if asked(want) not in self.counts:
             self.counts[asked(want)] = self.fonts.count_named(*asked(want))
-        if not named or face in islice(self.of(want), self.counts[asked(want)]):
+        if not families or face in islice(self.of(want), self.counts[asked(want)]):
             return
-        if self.fonts.count_named(named, *asked(want)[1:]):
-            what = f"{described(character)}, which {named[0][:40]!r} lacks,"
+        if self.fonts.count_named(families, *asked(want)[1:]):
+            what = f"{named(character)}, which {families[0][:40]!r} lacks,"
         else:
-            what = f"font {named[0][:40]!r}"
-        self.note_once(self.report.simplified, f"{what} drawn in {face.family}")
+            what = f"font {families[0][:40]!r}"
+        self.note_once(self.report.simplified, f"{what} drawn in {face.family}", element)
 
-    def note_once(self, how: Callable[[str], None], what: str) -> None:
-        """Note something once for a text."""
-        if what not in self.noted:
-            self.noted.add(what)
-            how(what)
+    def note_once(self, how: Callable[[str, etree._Element], None], what: str, element: etree._Element) -> None:
+        """Note something once for an element of a text."""
+        if (what, element) not in self.noted:
+            self.noted.add((what, element))
+            how(what, element)
 
 
 def asked(want: Wanted) -> tuple[tuple[str, ...], int, str, float]:
@@ -149,12 +148,6 @@ def varied(face: Face, variations: tuple[tuple[str, float], ...]) -> Face:
     axes = face.axes
     places = {tag: min(max(value, axes[tag][0]), axes[tag][1]) for tag, value in variations if tag in axes}
     return replace(face, variations=tuple(sorted((dict(face.variations) | places).items()))) if places else face
-
-
-def described(character: str) -> str:
-    """A character as a message names it."""
-    shown = f"'{character}' " if character.isprintable() else ""
-    return f"character {shown}(U+{ord(character):04X})"
 
 
 def clusters(found: Characters, faces: Faces, vertical: bool) -> list[Cluster]:
@@ -189,7 +182,8 @@ def kinds_of(found: Characters, wants: list[Wanted], faces: Faces, vertical: boo
     last: Face | None = None
     for at, (character, script) in enumerate(zip(found.text, scripts(found.text), strict=True)):
         want = wants[at]
-        face = face_of(want, character, faces, last if at and wants[at - 1] is want else None)
+        before = last if at and wants[at - 1] is want else None
+        face = face_of(want, character, faces, before, found.holders[at].element)
         last = face
         if face is None or want.size <= 0.0:
             kinds.append(None)
@@ -207,6 +201,8 @@ def kinds_of(found: Characters, wants: list[Wanted], faces: Faces, vertical: boo
 
 def stands(character: str, style: object) -> bool:
     """Whether a character stands upright in vertical text with a style."""
+    if style["writing-mode"].lower().startswith("sideways"):  # type: ignore[index]
+        return False
     orientation = style["text-orientation"].lower()  # type: ignore[index]
     older = style["glyph-orientation-vertical"].lower()  # type: ignore[index]
     if orientation == "upright" or older in ("0", "0deg"):
@@ -216,22 +212,18 @@ def stands(character: str, style: object) -> bool:
     return is_upright(character)
 
 
-def face_of(want: Wanted, character: str, faces: Faces, last: Face | None) -> Face | None:
-    """Face of a character; `last` is that of the one before it, if both want the same."""
-    kind = category(character)
-    joins = (
-        kind == "Cf" or character in VARIATIONS or (kind in ("Mn", "Me", "Mc") and last and last.has(ord(character)))
-    )
-    if last is not None and joins:
+def face_of(want: Wanted, character: str, faces: Faces, last: Face | None, element: etree._Element) -> Face | None:
+    """Face of a character in an element; `last` is that of the one before it, if both want the same."""
+    if last is not None and belongs(character, last):
         return last
     face = faces.choose(want, character)
     if face is not None:
         if not character.isspace():
-            faces.note(want, face, character)
+            faces.note(want, face, character, element)
         return face
     face = last or faces.first(want)
-    if face is not None and kind not in ("Cc", "Cf", "Zs"):
-        faces.note_once(faces.report.left_out, f"{described(character)}, which no font has")
+    if face is not None and is_seen(character):
+        faces.note_once(faces.report.simplified, f"{named(character)}, which no font has, drawn as a box", element)
     return face
 
 

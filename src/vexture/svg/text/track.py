@@ -84,16 +84,18 @@ def read_track(scene: Measured, element: etree._Element, place: Place) -> Track 
     check_time()
     outlines, whole = outlines_of(scene, element, place)
     if not outlines:
-        scene.report.left_out(f"{described(element)} without a path")
+        scene.report.left_out(f"{described(element)} without a path", element)
         return None
     count = sum(len(outline.cubics) for outline in outlines)
     if count > MOST_CUBICS:
-        scene.report.left_out(f"{described(element)}, of a path of {count:,} cubics; the limit is {MOST_CUBICS:,}")
+        scene.report.left_out(
+            f"{described(element)}, of a path of {count:,} cubics; the limit is {MOST_CUBICS:,}", element
+        )
         return None
     for name, usual in (("method", "align"), ("spacing", "exact")):
         value = element.get(name, usual).strip()
         if value not in (usual, "auto"):
-            scene.report.simplified(f"textPath with {name} {value[:40]} drawn with {usual}")
+            scene.report.simplified(f"textPath with {name} {value[:40]} drawn with {usual}", element)
     track = track_of(outlines)
     if track is None:
         return None

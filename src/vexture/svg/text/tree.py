@@ -14,6 +14,7 @@ from vexture.svg.names import ElementNames
 from vexture.svg.report import described
 from vexture.svg.space import Place
 from vexture.svg.text.track import Track, read_track
+from vexture.svg.unseen import ANIMATIONS
 from vexture.svg.values import SEPARATOR, number
 
 __all__ = ["Characters", "Setting", "Span", "characters"]
@@ -21,10 +22,8 @@ __all__ = ["Characters", "Setting", "Span", "characters"]
 PARTS: Final = frozenset({"a", "textPath", "tspan"})
 """Elements in a text that have characters of it."""
 
-SILENT: Final = frozenset({"desc", "metadata", "script", "style", "title"})
-"""Elements in a text that show nothing and change nothing."""
-
-ANIMATIONS: Final = frozenset({"animate", "animateColor", "animateMotion", "animateTransform", "discard", "set"})
+SILENT: Final = ANIMATIONS | {"desc", "metadata", "script", "style", "title"}
+"""Elements in a text that show nothing; what moves or runs is named for the whole document."""
 
 MOST_CHARACTERS: Final = 200_000
 """Characters and elements of texts that are set; each time counts that `use`, a clip or the measuring of a box shows
@@ -147,6 +146,7 @@ def read(scene: Setting, found: Characters, span: Span) -> None:
     """Add the characters of a span."""
     check_time()
     element = span.element
+    note_ignored(scene, span)
     found.spans.append(span)
     found.add_one()
     found.add(element.text or "", span)
@@ -156,12 +156,20 @@ def read(scene: Setting, found: Characters, span: Span) -> None:
             inner = part(scene, child, span, len(found.text))
             if inner is not None:
                 read(scene, found, inner)
-        elif name in ANIMATIONS:
-            scene.report.left_out("animation")
         elif name is not None and name not in SILENT and applies(child):
-            scene.report.left_out(f"<{name[:40]}> in a text")
+            scene.report.left_out(f"<{name[:40]}> in a text", child)
         found.add(child.tail or "", span)
     span.end = len(found.text)
+
+
+def note_ignored(scene: Setting, span: Span) -> None:
+    """Note what an element asks of its characters that they do not get."""
+    style, outer = span.place.style, None if span.outer is None else span.outer.place.style
+    kerning = style["kerning"]
+    if kerning.lower() != "auto" and (outer is None or outer["kerning"] != kerning):
+        scene.report.left_out(f"kerning {kerning[:40]}", span.element)
+    if outer is None and style["writing-mode"].lower() == "sideways-lr":
+        scene.report.simplified("writing-mode sideways-lr drawn as sideways-rl", span.element)
 
 
 def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Span | None:
@@ -184,7 +192,7 @@ def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Sp
     track = outer.track
     if local_name(element) == "textPath":
         if any(local_name(span.element) not in ("a", "text") for span in outer.around):
-            scene.report.left_out(f"{described(element)}, which is not a child of <text>")
+            scene.report.left_out(f"{described(element)}, which is not a child of <text>", element)
             return None
         track = read_track(scene, element, place)
         if track is None:

@@ -64,7 +64,7 @@ class Typesetter:
             faces.report, faces.noted = scene.report, set()
             made = clusters(found, faces, vertical)
         except DeviceError as error:
-            scene.report.left_out(f"<text>: {error}")
+            scene.report.left_out(f"<text>: {error}", element)
             return Text()
         chunks = laid_out(found, made, vertical, scene.report)
         return Text(tuple(pieces(chunks, vertical, scene.report)), cells(chunks))

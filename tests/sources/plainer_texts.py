@@ -1,0 +1,110 @@
+"""One-issue fixtures of texts that PyPI's resvg does not know, or draws otherwise than the specification says, in words
+that it and we know alike."""
+
+from functools import cache
+
+from fontTools.ttLib import TTFont
+
+from same_fonts import FONTS
+
+__all__ = ["HEBREW", "PLAINER", "ROOT", "advance", "plainer_text"]
+
+ROOT = 'xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100" font-family="DejaVu Sans" font-size="16"'
+SIZE = 16.0
+HEBREW = "\u05e1\u05e4\u05d9\u05e0\u05d4"
+SHIPS = '<text x="5" y="60" font-size="30">Ships</text>'
+
+
+@cache
+def font() -> TTFont:
+    return TTFont(FONTS / "DejaVuSans.ttf")
+
+
+def advance(text: str, size: float = SIZE) -> float:
+    glyphs = [font().getBestCmap()[ord(character)] for character in text]
+    return sum(font()["hmtx"][glyph][0] for glyph in glyphs) * size / font()["head"].unitsPerEm
+
+
+def top_and_bottom(character: str) -> tuple[float, float]:
+    glyph = font()["glyf"][font().getBestCmap()[ord(character)]]
+    return glyph.yMax / font()["head"].unitsPerEm, glyph.yMin / font()["head"].unitsPerEm
+
+
+def letters(text: str, x: float, y: float, size: float = SIZE, gap: float = 0.0) -> str:
+    """Letters in places of their own, so that nothing but their advances matters."""
+    places = []
+    for character in text:
+        places.append(f"{x:.6f}")
+        x += advance(character, size) + gap
+    return f'<text x="{" ".join(places)}" y="{y}" font-size="{size}">{text}</text>'
+
+
+def bolder(size: float) -> float:
+    """Width of the stroke by which Skia makes letters bolder."""
+    return size * (1 / 24 + (1 / 32 - 1 / 24) * (size - 9) / (36 - 9))
+
+
+def upright() -> str:
+    """Letters that lie on their side, and symbols upright in the middle of lines as high as the font's."""
+    over, under = (getattr(font()["hhea"], name) * SIZE / 2048 for name in ("ascent", "descent"))
+    down, drawn = 10.0, ""
+    for character in "a\u2605b\u2660":
+        if character.isalpha():
+            turned = f"translate({50 - (over + under) / 2} {down}) rotate(90)"
+            drawn += f'<text transform="{turned}">{character}</text>'
+            down += advance(character)
+            continue
+        baseline = down + (over - under) / 2 + sum(top_and_bottom(character)) * SIZE / 2
+        drawn += f'<text x="{50 - advance(character) / 2}" y="{baseline}">{character}</text>'
+        down += over - under
+    return drawn
+
+
+PLAINER = {
+    # "a collapsible space following another collapsible space is collapsed", also of another element, and no other
+    "between-spaces": '<text x="5" y="50">a b c</text>',
+    "spaces-default-in-preserved": '<text x="5" y="50" xml:space="preserve">a  b c d  e</text>',
+    "tspan-not-displayed": '<text x="10" y="50">one six</text>',
+    "white-space-pre": '<text x="10" y="50" xml:space="preserve">  a  b </text>',
+    "bidi-override": '<text x="10" y="50">a pihs one</text>',
+    "direction-rtl-latin": '<text x="90" y="50" text-anchor="end">!ship</text>',
+    "direction-rtl": f'<text x="90" y="50" text-anchor="end">ship {HEBREW}</text>',
+    "dominant-middle": f'<text x="10" y="{50 + top_and_bottom("x")[0] * SIZE / 2}">Harbour</text>',
+    "alignment-middle": '<text x="10" y="50">one</text>'
+    f'<text x="{10 + advance("one")}" y="{50 + top_and_bottom("x")[0] * SIZE / 2}">two</text>',
+    "feature-settings": letters("office", 10, 50, 24),
+    "font-shorthand": '<text x="5" y="50" font-style="italic" font-weight="bold" font-size="20">Harbour</text>',
+    "font-size-adjust": f'<text x="5" y="50" font-size="{SIZE * 0.4 / top_and_bottom("x")[0]}">Ship</text>',
+    "font-size-words": '<text x="5" y="30" font-size="13">small</text>'
+    '<text x="5" y="60" font-size="19.2">larger</text>',
+    "font-weight-bolder": '<text x="5" y="50"><tspan font-weight="bold">a</tspan>b<tspan font-weight="bold">c</tspan>'
+    "</text>",
+    # "user agents should not apply optional ligatures when letter-spacing is not zero" (CSS Text 3, 8.2)
+    "letter-spacing-no-ligature": letters("office", 5, 50, 20, 1.0),
+    "path-data": '<path id="p" d="M10 50H90" fill="none"/><text><textPath href="#p">ship</textPath></text>',
+    # "effectively reverses the path direction" (SVG 2, 11.8.2)
+    "path-side": '<path id="p" d="M90 50H10" fill="none"/><text><textPath href="#p">ship</textPath></text>',
+    # what follows goes on from the end of the path (SVG 2, 11.5, "Position on path")
+    "path-text-after": '<path id="p" d="M10 70C10 10 90 10 90 70" fill="none"/>'
+    '<text><textPath href="#p">path</textPath></text>'
+    f'<text x="{90 + advance(" ")}" y="70">b</text>',
+    "pattern-fill": f'<clipPath id="c">{SHIPS}</clipPath><g clip-path="url(#c)" fill="red">'
+    + "".join(f'<rect x="{x}" width="3" height="100"/>' for x in range(0, 100, 6))
+    + "</g>",
+    "small-caps": f'<text x="5" y="50">H<tspan font-size="{0.7 * SIZE}">ARBOUR</tspan></text>',
+    "synthetic-bold": '<text x="5" y="50" font-family="cmr10" font-size="24" stroke="black" '
+    f'stroke-width="{bolder(24)}">Ship</text>',
+    "synthetic-oblique": '<text transform="translate(5 50) skewX(-14)" font-family="cmr10" font-size="24">Ship</text>',
+    # the last gap does not count for the anchor, as in browsers
+    "text-length-middle": letters("ship", 10, 50, SIZE, (80 - advance("ship")) / 3),
+    "text-length-with-tspans": f'<text x="10" y="50" letter-spacing="{(80 - advance("abcdef")) / 5}">'
+    'ab<tspan fill="red">cd</tspan>ef</text>',
+    "text-transform": '<text x="5" y="50">SHIPS</text>',
+    "vertical-upright-symbols": upright(),
+}
+
+
+def plainer_text(name: str) -> str | None:
+    """The file that says the same as a fixture of a text; None if resvg knows the fixture itself."""
+    body = PLAINER.get(name)
+    return body and f"<svg {ROOT}>{body}</svg>"
