@@ -84,7 +84,7 @@ def test_characters_of_a_font_become_an_atlas(font, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "lost"),
     [
-        (("text", "A", "--family", "No Such Font"), "simplified: font 'No Such Font' in "),
+        (("text", "A", "--family", "No Such Font"), "simplified: font 'No Such Font' drawn in "),
         (("font", "FONT", "--chars", "Ax"), "left out: character 'x' (U+0078), which Made lacks"),
     ],
 )
