@@ -119,6 +119,7 @@ def test_notes(tmp_path: Path, body: str, note: str) -> None:
         ("<text>a<tref id='r'/></text>", "<tref> in a text", ["r"]),
         ("<text><textPath id='p'>b</textPath></text>", '<textPath id="p"> in line 1 without a path', ["p"]),
         ("<text id='t'><animate/></text>", "animation", ["t"]),
+        ("<text y='9'>a<tspan id='s' opacity='0.5'>b</tspan></text>", "opacity of a <tspan>", ["s"]),
         ("<g kerning='8'><text id='t' y='9'>a<tspan>b</tspan></text></g>", "kerning 8", ["t"]),
         (
             "<text id='t' style='writing-mode: sideways-lr'>a</text>",

@@ -170,6 +170,8 @@ def note_ignored(scene: Setting, span: Span) -> None:
         scene.report.left_out(f"kerning {kerning[:40]}", span.element)
     if outer is None and style["writing-mode"].lower() == "sideways-lr":
         scene.report.simplified("writing-mode sideways-lr drawn as sideways-rl", span.element)
+    if outer is not None and style.opacity("opacity") < 1.0:  # which graphics elements and groups have
+        scene.report.left_out(f"opacity of a <{local_name(span.element)}>", span.element)
 
 
 def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Span | None:
