@@ -116,8 +116,12 @@ def test_an_empty_text_is_an_empty_drawing(folder):
         ({"align": "left"}, "`align` is 'left'; it must be start, center, end"),
         ({"direction": "up"}, "`direction` is 'up'; it must be auto, ltr, rtl"),
         ({"weight": 0}, "`weight` is 0; it must be 1 to 1000"),
-        ({"size": float("inf")}, "`size` is inf; it must be above 0"),
+        ({"weight": "bold"}, "`weight` is 'bold'; it must be 1 to 1000"),
+        ({"size": float("inf")}, "`size` is inf; it must be above 0 and below 1e"),
+        ({"size": 1e300}, "`size` is 1e"),
         ({"stretch": 0.0}, "`stretch` is 0; it must be above 0"),
+        ({"line_height": -1}, "`line_height` is -1; it must be above 0"),
+        ({"paint": "red"}, "`paint` is 'red'; it must be a Paint"),
     ],
 )
 def test_options_out_of_range_are_named(option, message):
@@ -125,3 +129,5 @@ def test_options_out_of_range_are_named(option, message):
         vexture.text("A", **option)
     with pytest.raises(vexture.LimitError, match="`text` has 100,001 characters"):
         vexture.text("A" * 100_001)
+    with pytest.raises(vexture.ParameterError, match="`text` is 5; it must be text"):
+        vexture.text(5)

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import inf, isfinite
+from math import inf
 from typing import Final, Literal, TypeAlias
 
 import numpy as np
@@ -26,6 +26,9 @@ Places: TypeAlias = "str | os.PathLike[str] | Sequence[str | os.PathLike[str]]"
 Box: TypeAlias = tuple[float, float, float, float]
 
 MOST_CHARACTERS: Final = 100_000
+
+LARGEST: Final = 1e9
+"""Of a size, a width in percent and a distance of lines; beyond it float64 has no digits left for curves."""
 
 ALIGN: Final = {"start": 0.0, "center": 0.5, "end": 1.0}
 """Part of a line's free space that is before its start."""
@@ -60,11 +63,16 @@ class TextOptions:
         ):
             if getattr(self, name) not in known:
                 raise ParameterError(f"`{name}` is {getattr(self, name)!r}; it must be {', '.join(known)}")
-        if not 1.0 <= self.weight <= 1000.0:
-            raise ParameterError(f"`weight` is {self.weight:g}; it must be 1 to 1000")
-        for name, value in (("size", self.size), ("stretch", self.stretch)):
-            if not (value > 0.0 and isfinite(value)):
-                raise ParameterError(f"`{name}` is {value:g}; it must be above 0")
+        if not (isinstance(self.weight, int | float) and 1.0 <= self.weight <= 1000.0):
+            raise ParameterError(f"`weight` is {shown(self.weight)}; it must be 1 to 1000")
+        given = {"size": self.size, "stretch": self.stretch}
+        if self.line_height is not None:
+            given["line_height"] = self.line_height
+        for name, value in given.items():
+            if not (isinstance(value, int | float) and 0.0 < value < LARGEST):
+                raise ParameterError(f"`{name}` is {shown(value)}; it must be above 0 and below {LARGEST:g}")
+        if not isinstance(self.paint, Paint):
+            raise ParameterError(f"`paint` is {self.paint!r}; it must be a Paint, such as Paint((1.0, 0.0, 0.0))")
 
     @property
     def families(self) -> list[str]:
@@ -83,6 +91,11 @@ class TextOptions:
         if self.style != "normal" and face.style == "normal":
             notes.simplified(f"{self.style} style, which {face.family} lacks, drawn upright")
         return choice
+
+
+def shown(value: object) -> str:
+    """A value as a message shows it."""
+    return f"{value:g}" if isinstance(value, int | float) else repr(value)
 
 
 def text(
@@ -173,6 +186,8 @@ def text(
 
 def text_drawing(text: str, options: TextOptions) -> Drawing:
     """Draw as `text` does, but without a warning."""
+    if not isinstance(text, str):
+        raise ParameterError(f"`text` is {text!r}; it must be text")
     if len(text) > MOST_CHARACTERS:
         raise LimitError(f"`text` has {len(text):,} characters, of at most {MOST_CHARACTERS:,}; draw it in parts")
     notes = Notes()
