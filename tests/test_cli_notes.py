@@ -2,21 +2,10 @@
 
 import json
 import re
-import warnings
 
 import pytest
-from click.testing import CliRunner
 
-from vexture.cli.main import main
-
-SQUARE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><path d="M2 2h6v5h-6z"/></svg>'
-SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10">{}</svg>'
-
-
-def run(*arguments):
-    with warnings.catch_warnings():
-        warnings.simplefilter("default")
-        return CliRunner().invoke(main, [str(argument) for argument in arguments])
+from test_cli import SQUARE, SVG, run
 
 
 @pytest.fixture
