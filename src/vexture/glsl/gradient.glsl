@@ -77,33 +77,50 @@ VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion r
     return VextureRamp(t, e.x * across.xy + e.y * up.xy, exists ? share : 0.0);
 }
 
-// Integral of a ramp over a part of it, with weights that run straight from its begin to its end. Between two stops Simpson's
-// rule is exact: a premultiplied colour is a quadratic.
-vec4 vexture_ramp_sum(uint stops, uint number, vec2 part, vec2 weights) {
+// Integral of a stretch of a ramp between two stops, given by its colour and slope at its begin, over the weights of a
+// trapezoid: places count more and more from the first of its edges to the second, fully up to the third, and less and less
+// up to the fourth. In each of these parts Simpson's rule is exact: a premultiplied colour is a quadratic, its weight straight.
+vec4 vexture_stretch_sum(vec4 color, vec4 slope, vec2 stretch, vec4 edges) {
+    vec4 sum = vec4(0.0);
+    for (int k = 0; k < 3; k++) {
+        vec2 part = clamp(k == 0 ? edges.xy : k == 1 ? edges.yz : edges.zw, stretch.x, stretch.y);
+        if (part.y > part.x) {
+            vec2 weights = vec2(1.0);
+            weights = k == 0 ? (part - edges.x) / (edges.y - edges.x) : weights;
+            weights = k == 2 ? (edges.w - part) / (edges.w - edges.z) : weights;
+            vec4 c0 = color + slope * (part.x - stretch.x);
+            vec4 c2 = color + slope * (part.y - stretch.x);
+            vec4 c1 = 0.5 * (c0 + c2);
+            c0 = weights.x * vec4(c0.rgb * c0.a, c0.a);
+            c1 = 2.0 * (weights.x + weights.y) * vec4(c1.rgb * c1.a, c1.a);
+            c2 = weights.y * vec4(c2.rgb * c2.a, c2.a);
+            sum += (part.y - part.x) / 6.0 * (c0 + c1 + c2);
+        }
+    }
+    return sum;
+}
+
+// The same of a ramp between bounds; it goes on in the colours of its first stop and its last.
+vec4 vexture_ramp_sum(uint stops, uint number, vec4 edges, vec2 bounds) {
     vec4 sum = vec4(0.0);
     vec4 before = vec4(0.0);
-    float begin = part.x;
-    float growth = (weights.y - weights.x) / (part.y - part.x);
+    float begin = bounds.x;
     for (uint k = 0u; k <= number; k++) {
-        uvec4 stop = vexture_texel(stops + min(k, number - 1u));
-        vec4 after = vexture_halves(stop.yz) / float(VEXTURE_PAINT_ONE);
-        float end = k < number ? uintBitsToFloat(stop.x) : part.y;
+        vec4 after = before;
+        float end = bounds.y;
+        if (k < number) {
+            uvec4 stop = vexture_texel(stops + k);
+            after = vexture_halves(stop.yz) / float(VEXTURE_PAINT_ONE);
+            end = uintBitsToFloat(stop.x);
+        }
         before = k == 0u ? after : before;
-        float a = clamp(begin, part.x, part.y);
-        float b = clamp(end, a, part.y);
+        float a = clamp(begin, bounds.x, bounds.y);
+        float b = clamp(end, a, bounds.y);
         if (b > a) {
             vec4 slope = k == 0u || k == number ? vec4(0.0) : (after - before) / (end - begin);
-            vec4 c0 = before + slope * (a - begin);
-            vec4 c2 = before + slope * (b - begin);
-            vec4 c1 = 0.5 * (c0 + c2);
-            float w0 = weights.x + growth * (a - part.x);
-            float w2 = weights.x + growth * (b - part.x);
-            c0 = w0 * vec4(c0.rgb * c0.a, c0.a);
-            c1 = 2.0 * (w0 + w2) * vec4(c1.rgb * c1.a, c1.a);
-            c2 = w2 * vec4(c2.rgb * c2.a, c2.a);
-            sum += (b - a) / 6.0 * (c0 + c1 + c2);
+            sum += vexture_stretch_sum(before + slope * (a - begin), slope, vec2(a, b), edges);
         }
-        if (end >= part.y) {
+        if (end >= bounds.y) {
             break;
         }
         begin = end;
@@ -112,31 +129,25 @@ vec4 vexture_ramp_sum(uint stops, uint number, vec2 part, vec2 weights) {
     return sum;
 }
 
-// The same of a ramp that goes on beyond 0..1, over a part no longer than that, if it is not padded.
-vec4 vexture_spread_sum(uint stops, uint number, uint spread, vec2 part, vec2 weights) {
+// The same of a ramp that goes on beyond 0..1 as its spread says, over no more than two periods if it is not padded.
+vec4 vexture_spread_sum(uint stops, uint number, uint spread, vec4 edges) {
     if (spread == uint(VEXTURE_SPREAD_PAD)) {
-        return vexture_ramp_sum(stops, number, part, weights);
+        return vexture_ramp_sum(stops, number, edges, edges.xw);
     }
-    float whole = floor(part.x);
-    vec2 held = part - whole;
-    float middle = mix(weights.x, weights.y, clamp((1.0 - held.x) / (held.y - held.x), 0.0, 1.0));
-    bool reflects = spread == uint(VEXTURE_SPREAD_REFLECT);
-    bool goes_back = reflects && mod(whole, 2.0) != 0.0;
     vec4 sum = vec4(0.0);
-    for (int k = 0; k < 2; k++) {
-        vec2 here = k == 0 ? vec2(held.x, min(held.y, 1.0)) : vec2(0.0, held.y - 1.0);
-        vec2 by = k == 0 ? vec2(weights.x, middle) : vec2(middle, weights.y);
-        if (here.y > here.x) {
-            sum += vexture_ramp_sum(stops, number, goes_back ? 1.0 - here.yx : here, goes_back ? by.yx : by);
-        }
-        goes_back = reflects && !goes_back;
+    float whole = floor(edges.x);
+    for (int k = 0; k < 3 && whole < edges.w; k++) {
+        vec4 here = edges - whole;
+        here = spread == uint(VEXTURE_SPREAD_REFLECT) && mod(whole, 2.0) != 0.0 ? 1.0 - here.wzyx : here;
+        sum += vexture_ramp_sum(stops, number, here, clamp(here.xw, 0.0, 1.0));
+        whole += 1.0;
     }
     return sum;
 }
 
-// Mean of a ramp about a place over a parallelogram along whose sides it goes this far: the weights of its places rise, stay
-// and fall. Of one that goes on, whole periods of a side have its mean; what a side is longer or shorter than those counts
-// for that share of it, half of them away.
+// Mean of a ramp about a place over a parallelogram along whose sides it goes this far: the weights of its places are those
+// of a trapezoid. Of one that goes on, whole periods of a side have its mean; what a side is longer or shorter than those
+// counts for that share of it, half of them away.
 vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 spans) {
     bool pads = spread == uint(VEXTURE_SPREAD_PAD);
     spans = clamp(spans, pads ? 0.0 : VEXTURE_SHORTEST_RAMP, VEXTURE_LONGEST_RAMP);
@@ -145,7 +156,7 @@ vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 
     vec4 mean = vec4(0.0);
     float share = 1.0;
     if (whole != vec2(0.0)) {
-        mean = vexture_ramp_sum(stops, number, vec2(0.0, 1.0), vec2(1.0));
+        mean = vexture_ramp_sum(stops, number, vec4(0.0, 0.0, 1.0, 1.0), vec2(0.0, 1.0));
         share = (1.0 - whole.x / spans.x) * (1.0 - whole.y / spans.y);
         middle = mod(middle, 2.0) - 0.5 * mod(whole.x + whole.y, 4.0);
         spans = abs(spans - whole);
@@ -157,19 +168,9 @@ vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 
     float narrow = min(spans.x, spans.y);
     // what goes on is the same after 2, and finer there
     middle = pads ? clamp(middle, -wide - narrow, 1.0 + wide + narrow) : mod(middle, 2.0);
-    vec4 sum = vec4(0.0);
-    float size = 0.0;
-    float low = middle - 0.5 * (wide + narrow);
-    for (int k = 0; k < 3; k++) {
-        float high = middle + 0.5 * (k == 0 ? narrow - wide : k == 1 ? wide - narrow : wide + narrow);
-        vec2 weights = vec2(k == 0 ? 0.0 : 1.0, k == 2 ? 0.0 : 1.0);
-        if (high > low) {
-            sum += vexture_spread_sum(stops, number, spread, vec2(low, high), weights);
-            size += 0.5 * (high - low) * (weights.x + weights.y);
-            low = high;
-        }
-    }
-    return mix(mean, sum / size, share);
+    vec4 edges = middle + 0.5 * vec4(-wide - narrow, narrow - wide, wide - narrow, wide + narrow);
+    float size = 0.5 * (edges.w - edges.x + edges.z - edges.y);
+    return mix(mean, vexture_spread_sum(stops, number, spread, edges) / size, share);
 }
 
 // Premultiplied colour of a gradient, whose first texel is given with its index, and its number of stops. A region in which

@@ -207,47 +207,60 @@ def premultiplied(color: Vec4, weight: float) -> Vec4:
 
 
 @kernel(allocates=False)
-def ramp_sum(texels: Texels, stops: int, number: int, part: Vec2, weights: Vec2) -> Vec4:
-    total, before = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
-    begin, growth = part[0], (weights[1] - weights[0]) / (part[1] - part[0])
-    for k in range(number + 1):
-        stop = texel(texels, stops + min(k, number - 1))
-        after = times(halves((stop[1], stop[2])), 1.0 / PAINT_ONE)
-        end = as_float(stop[0]) if k < number else part[1]
-        before = after if k == 0 else before
-        a = clamp(begin, part[0], part[1])
-        b = clamp(end, a, part[1])
-        if b > a:
-            scale = 0.0 if k in (0, number) else 1.0 / (end - begin)
-            slope = times(plus(after, before, -1.0), scale)
-            c0, c2 = plus(before, slope, a - begin), plus(before, slope, b - begin)
-            w0, w2 = weights[0] + growth * (a - part[0]), weights[0] + growth * (b - part[0])
+def stretch_sum(color: Vec4, slope: Vec4, stretch: Vec2, edges: Vec4) -> Vec4:
+    total = (0.0, 0.0, 0.0, 0.0)
+    for k in range(3):
+        first = edges[0] if k == 0 else edges[1] if k == 1 else edges[2]
+        last = edges[1] if k == 0 else edges[2] if k == 1 else edges[3]
+        low, high = clamp(first, stretch[0], stretch[1]), clamp(last, stretch[0], stretch[1])
+        if high > low:
+            w0, w2 = 1.0, 1.0
+            if k == 0:
+                w0, w2 = (low - first) / (last - first), (high - first) / (last - first)
+            if k == 2:
+                w0, w2 = (last - low) / (last - first), (last - high) / (last - first)
+            c0, c2 = plus(color, slope, low - stretch[0]), plus(color, slope, high - stretch[0])
             c1 = premultiplied(times(plus(c0, c2, 1.0), 0.5), 2.0 * (w0 + w2))
             both = plus(premultiplied(c0, w0), premultiplied(c2, w2), 1.0)
-            total = plus(total, plus(both, c1, 1.0), (b - a) / 6.0)
-        if end >= part[1]:
+            total = plus(total, plus(both, c1, 1.0), (high - low) / 6.0)
+    return total
+
+
+@kernel(allocates=False)
+def ramp_sum(texels: Texels, stops: int, number: int, edges: Vec4, bounds: Vec2) -> Vec4:
+    total, before = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
+    begin = bounds[0]
+    for k in range(number + 1):
+        after, end = before, bounds[1]
+        if k < number:
+            stop = texel(texels, stops + k)
+            after, end = times(halves((stop[1], stop[2])), 1.0 / PAINT_ONE), as_float(stop[0])
+        before = after if k == 0 else before
+        a = clamp(begin, bounds[0], bounds[1])
+        b = clamp(end, a, bounds[1])
+        if b > a:
+            slope = times(plus(after, before, -1.0), 0.0 if k in (0, number) else 1.0 / (end - begin))
+            total = plus(total, stretch_sum(plus(before, slope, a - begin), slope, (a, b), edges), 1.0)
+        if end >= bounds[1]:
             break
         begin, before = end, after
     return total
 
 
 @kernel(allocates=False)
-def spread_sum(texels: Texels, stops: int, number: int, spread: int, part: Vec2, weights: Vec2) -> Vec4:
+def spread_sum(texels: Texels, stops: int, number: int, spread: int, edges: Vec4) -> Vec4:
     if spread == PAD:
-        return ramp_sum(texels, stops, number, part, weights)
-    whole = math.floor(part[0])
-    low, high = part[0] - whole, part[1] - whole
-    middle = weights[0] + (weights[1] - weights[0]) * clamp((1.0 - low) / (high - low), 0.0, 1.0)
-    goes_back = spread == REFLECT and whole % 2.0 != 0.0
-    total = (0.0, 0.0, 0.0, 0.0)
-    for k in range(2):
-        here = (low, min(high, 1.0)) if k == 0 else (0.0, high - 1.0)
-        by = (weights[0], middle) if k == 0 else (middle, weights[1])
-        if here[1] > here[0]:
-            here = (1.0 - here[1], 1.0 - here[0]) if goes_back else here
-            by = (by[1], by[0]) if goes_back else by
-            total = plus(total, ramp_sum(texels, stops, number, here, by), 1.0)
-        goes_back = spread == REFLECT and not goes_back
+        return ramp_sum(texels, stops, number, edges, (edges[0], edges[3]))
+    total, whole = (0.0, 0.0, 0.0, 0.0), float(math.floor(edges[0]))
+    for _ in range(3):
+        if whole >= edges[3]:
+            break
+        here = (edges[0] - whole, edges[1] - whole, edges[2] - whole, edges[3] - whole)
+        if spread == REFLECT and whole % 2.0 != 0.0:
+            here = (1.0 - here[3], 1.0 - here[2], 1.0 - here[1], 1.0 - here[0])
+        bounds = (clamp(here[0], 0.0, 1.0), clamp(here[3], 0.0, 1.0))
+        total = plus(total, ramp_sum(texels, stops, number, here, bounds), 1.0)
+        whole += 1.0
     return total
 
 
@@ -260,7 +273,7 @@ def ramp_mean(texels: Texels, stops: int, number: int, spread: int, middle: floa
     whole_second = 0.0 if spread == PAD else period * math.floor(second / period + 0.5)
     mean, share = (0.0, 0.0, 0.0, 0.0), 1.0
     if whole_first != 0.0 or whole_second != 0.0:
-        mean = ramp_sum(texels, stops, number, (0.0, 1.0), (1.0, 1.0))
+        mean = ramp_sum(texels, stops, number, (0.0, 0.0, 1.0, 1.0), (0.0, 1.0))
         share = (1.0 - whole_first / first) * (1.0 - whole_second / second)
         middle = middle % 2.0 - 0.5 * ((whole_first + whole_second) % 4.0)
         first, second = abs(first - whole_first), abs(second - whole_second)
@@ -268,14 +281,10 @@ def ramp_mean(texels: Texels, stops: int, number: int, spread: int, middle: floa
         return mean
     wide, narrow = max(max(first, second), SHORTEST_RAMP), min(first, second)
     middle = clamp(middle, -wide - narrow, 1.0 + wide + narrow) if spread == PAD else middle % 2.0
-    total, size, low = (0.0, 0.0, 0.0, 0.0), 0.0, middle - 0.5 * (wide + narrow)
-    for k in range(3):
-        high = middle + 0.5 * (narrow - wide if k == 0 else wide - narrow if k == 1 else wide + narrow)
-        weights = (0.0 if k == 0 else 1.0, 0.0 if k == 2 else 1.0)
-        if high > low:
-            total = plus(total, spread_sum(texels, stops, number, spread, (low, high), weights), 1.0)
-            size += 0.5 * (high - low) * (weights[0] + weights[1])
-            low = high
+    outer, inner = 0.5 * (wide + narrow), 0.5 * (wide - narrow)
+    edges = (middle - outer, middle - inner, middle + inner, middle + outer)
+    size = 0.5 * (edges[3] - edges[0] + edges[2] - edges[1])
+    total = spread_sum(texels, stops, number, spread, edges)
     return plus(times(mean, 1.0 - share), total, share / size)
 
 
