@@ -77,11 +77,11 @@ VextureRamp vexture_round_ramp(vec3 across, vec3 up, vec2 focus, VextureRegion r
     return VextureRamp(t, e.x * across.xy + e.y * up.xy, exists ? share : 0.0);
 }
 
-// Integral of a stretch of a ramp between two stops, given by its colour and slope at its begin, over the weights of a
-// trapezoid: places count more and more from the first of its edges to the second, fully up to the third, and less and less
-// up to the fourth. In each of these parts Simpson's rule is exact: a premultiplied colour is a quadratic, its weight straight.
-vec4 vexture_stretch_sum(vec4 color, vec4 slope, vec2 stretch, vec4 edges) {
-    vec4 sum = vec4(0.0);
+// A sum, to which is added the integral of a stretch of a ramp between two stops, given by its colour and slope at its begin.
+// The weights are a trapezoid: places count more and more from the first of its edges to the second, fully up to the third,
+// less and less up to the fourth. In each of these parts Simpson's rule is exact, of a quadratic, a premultiplied colour,
+// times a straight weight.
+vec4 vexture_add_stretch(vec4 total, vec4 color, vec4 slope, vec2 stretch, vec4 edges) {
     for (int k = 0; k < 3; k++) {
         vec2 part = clamp(k == 0 ? edges.xy : k == 1 ? edges.yz : edges.zw, stretch.x, stretch.y);
         if (part.y > part.x) {
@@ -94,15 +94,14 @@ vec4 vexture_stretch_sum(vec4 color, vec4 slope, vec2 stretch, vec4 edges) {
             c0 = weights.x * vec4(c0.rgb * c0.a, c0.a);
             c1 = 2.0 * (weights.x + weights.y) * vec4(c1.rgb * c1.a, c1.a);
             c2 = weights.y * vec4(c2.rgb * c2.a, c2.a);
-            sum += (part.y - part.x) / 6.0 * (c0 + c1 + c2);
+            total += (part.y - part.x) / 6.0 * (c0 + c1 + c2);
         }
     }
-    return sum;
+    return total;
 }
 
-// The same of a ramp between bounds; it goes on in the colours of its first stop and its last.
-vec4 vexture_ramp_sum(uint stops, uint number, vec4 edges, vec2 bounds) {
-    vec4 sum = vec4(0.0);
+// A sum with the same of a ramp between bounds; it goes on in the colours of its first stop and its last.
+vec4 vexture_add_ramp(vec4 total, uint stops, uint number, vec4 edges, vec2 bounds) {
     vec4 before = vec4(0.0);
     float begin = bounds.x;
     for (uint k = 0u; k <= number; k++) {
@@ -118,7 +117,7 @@ vec4 vexture_ramp_sum(uint stops, uint number, vec4 edges, vec2 bounds) {
         float b = clamp(end, a, bounds.y);
         if (b > a) {
             vec4 slope = k == 0u || k == number ? vec4(0.0) : (after - before) / (end - begin);
-            sum += vexture_stretch_sum(before + slope * (a - begin), slope, vec2(a, b), edges);
+            total = vexture_add_stretch(total, before + slope * (a - begin), slope, vec2(a, b), edges);
         }
         if (end >= bounds.y) {
             break;
@@ -126,21 +125,22 @@ vec4 vexture_ramp_sum(uint stops, uint number, vec4 edges, vec2 bounds) {
         begin = end;
         before = after;
     }
-    return sum;
+    return total;
 }
 
-// The same of a ramp that goes on beyond 0..1 as its spread says, over no more than two periods if it is not padded.
+// The integral of a ramp that goes on as its spread says; over no more than two periods, if it is not padded.
 vec4 vexture_spread_sum(uint stops, uint number, uint spread, vec4 edges) {
-    if (spread == uint(VEXTURE_SPREAD_PAD)) {
-        return vexture_ramp_sum(stops, number, edges, edges.xw);
-    }
+    bool pads = spread == uint(VEXTURE_SPREAD_PAD);
     vec4 sum = vec4(0.0);
-    float whole = floor(edges.x);
-    for (int k = 0; k < 3 && whole < edges.w; k++) {
+    float whole = pads ? 0.0 : floor(edges.x);
+    for (int k = 0; k < 3; k++) {
         vec4 here = edges - whole;
         here = spread == uint(VEXTURE_SPREAD_REFLECT) && mod(whole, 2.0) != 0.0 ? 1.0 - here.wzyx : here;
-        sum += vexture_ramp_sum(stops, number, here, clamp(here.xw, 0.0, 1.0));
+        sum = vexture_add_ramp(sum, stops, number, here, pads ? here.xw : clamp(here.xw, 0.0, 1.0));
         whole += 1.0;
+        if (pads || whole >= edges.w) {
+            break;
+        }
     }
     return sum;
 }
@@ -153,24 +153,23 @@ vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 
     spans = clamp(spans, pads ? 0.0 : VEXTURE_SHORTEST_RAMP, VEXTURE_LONGEST_RAMP);
     float period = spread == uint(VEXTURE_SPREAD_REFLECT) ? 2.0 : 1.0;
     vec2 whole = pads ? vec2(0.0) : period * floor(spans / period + 0.5);
+    vec2 rest = abs(spans - whole);
+    float share = (1.0 - whole.x / max(spans.x, VEXTURE_NOTHING)) * (1.0 - whole.y / max(spans.y, VEXTURE_NOTHING));
     vec4 mean = vec4(0.0);
-    float share = 1.0;
+    if (abs(share) >= 1.0 - VEXTURE_NEARLY_WHOLE) {
+        float wide = max(max(rest.x, rest.y), VEXTURE_SHORTEST_RAMP);
+        float narrow = min(rest.x, rest.y);
+        // what goes on is the same after 2, and finer there
+        middle = pads ? clamp(middle, -wide - narrow, 1.0 + wide + narrow) : mod(mod(middle, 2.0) - 0.5 * mod(whole.x + whole.y, 4.0), 2.0);
+        vec4 edges = middle + 0.5 * vec4(-wide - narrow, narrow - wide, wide - narrow, wide + narrow);
+        float size = 0.5 * (edges.w - edges.x + edges.z - edges.y);
+        mean = vexture_spread_sum(stops, number, spread, edges) / size;
+    }
     if (whole != vec2(0.0)) {
-        mean = vexture_ramp_sum(stops, number, vec4(0.0, 0.0, 1.0, 1.0), vec2(0.0, 1.0));
-        share = (1.0 - whole.x / spans.x) * (1.0 - whole.y / spans.y);
-        middle = mod(middle, 2.0) - 0.5 * mod(whole.x + whole.y, 4.0);
-        spans = abs(spans - whole);
+        vec4 full = vexture_add_ramp(vec4(0.0), stops, number, vec4(0.0, 0.0, 1.0, 1.0), vec2(0.0, 1.0));
+        mean = mix(full, mean, share);
     }
-    if (abs(share) < 1.0 - VEXTURE_NEARLY_WHOLE) {
-        return mean;
-    }
-    float wide = max(max(spans.x, spans.y), VEXTURE_SHORTEST_RAMP);
-    float narrow = min(spans.x, spans.y);
-    // what goes on is the same after 2, and finer there
-    middle = pads ? clamp(middle, -wide - narrow, 1.0 + wide + narrow) : mod(middle, 2.0);
-    vec4 edges = middle + 0.5 * vec4(-wide - narrow, narrow - wide, wide - narrow, wide + narrow);
-    float size = 0.5 * (edges.w - edges.x + edges.z - edges.y);
-    return mix(mean, vexture_spread_sum(stops, number, spread, edges) / size, share);
+    return mean;
 }
 
 // Premultiplied colour of a gradient, whose first texel is given with its index, and its number of stops. A region in which

@@ -207,8 +207,7 @@ def premultiplied(color: Vec4, weight: float) -> Vec4:
 
 
 @kernel(allocates=False)
-def stretch_sum(color: Vec4, slope: Vec4, stretch: Vec2, edges: Vec4) -> Vec4:
-    total = (0.0, 0.0, 0.0, 0.0)
+def add_stretch(total: Vec4, color: Vec4, slope: Vec4, stretch: Vec2, edges: Vec4) -> Vec4:
     for k in range(3):
         first = edges[0] if k == 0 else edges[1] if k == 1 else edges[2]
         last = edges[1] if k == 0 else edges[2] if k == 1 else edges[3]
@@ -227,9 +226,8 @@ def stretch_sum(color: Vec4, slope: Vec4, stretch: Vec2, edges: Vec4) -> Vec4:
 
 
 @kernel(allocates=False)
-def ramp_sum(texels: Texels, stops: int, number: int, edges: Vec4, bounds: Vec2) -> Vec4:
-    total, before = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
-    begin = bounds[0]
+def add_ramp(texels: Texels, total: Vec4, stops: int, number: int, edges: Vec4, bounds: Vec2) -> Vec4:
+    before, begin = (0.0, 0.0, 0.0, 0.0), bounds[0]
     for k in range(number + 1):
         after, end = before, bounds[1]
         if k < number:
@@ -240,7 +238,7 @@ def ramp_sum(texels: Texels, stops: int, number: int, edges: Vec4, bounds: Vec2)
         b = clamp(end, a, bounds[1])
         if b > a:
             slope = times(plus(after, before, -1.0), 0.0 if k in (0, number) else 1.0 / (end - begin))
-            total = plus(total, stretch_sum(plus(before, slope, a - begin), slope, (a, b), edges), 1.0)
+            total = add_stretch(total, plus(before, slope, a - begin), slope, (a, b), edges)
         if end >= bounds[1]:
             break
         begin, before = end, after
@@ -249,43 +247,43 @@ def ramp_sum(texels: Texels, stops: int, number: int, edges: Vec4, bounds: Vec2)
 
 @kernel(allocates=False)
 def spread_sum(texels: Texels, stops: int, number: int, spread: int, edges: Vec4) -> Vec4:
-    if spread == PAD:
-        return ramp_sum(texels, stops, number, edges, (edges[0], edges[3]))
-    total, whole = (0.0, 0.0, 0.0, 0.0), float(math.floor(edges[0]))
+    pads = spread == PAD
+    total, whole = (0.0, 0.0, 0.0, 0.0), 0.0 if pads else float(math.floor(edges[0]))
     for _ in range(3):
-        if whole >= edges[3]:
-            break
         here = (edges[0] - whole, edges[1] - whole, edges[2] - whole, edges[3] - whole)
         if spread == REFLECT and whole % 2.0 != 0.0:
             here = (1.0 - here[3], 1.0 - here[2], 1.0 - here[1], 1.0 - here[0])
-        bounds = (clamp(here[0], 0.0, 1.0), clamp(here[3], 0.0, 1.0))
-        total = plus(total, ramp_sum(texels, stops, number, here, bounds), 1.0)
+        bounds = (here[0], here[3]) if pads else (clamp(here[0], 0.0, 1.0), clamp(here[3], 0.0, 1.0))
+        total = add_ramp(texels, total, stops, number, here, bounds)
         whole += 1.0
+        if pads or whole >= edges[3]:
+            break
     return total
 
 
 @kernel(allocates=False)
 def ramp_mean(texels: Texels, stops: int, number: int, spread: int, middle: float, spans: Vec2) -> Vec4:
-    least = 0.0 if spread == PAD else SHORTEST_RAMP
+    pads, least = spread == PAD, 0.0 if spread == PAD else SHORTEST_RAMP
     first, second = clamp(spans[0], least, LONGEST_RAMP), clamp(spans[1], least, LONGEST_RAMP)
     period = 2.0 if spread == REFLECT else 1.0
-    whole_first = 0.0 if spread == PAD else period * math.floor(first / period + 0.5)
-    whole_second = 0.0 if spread == PAD else period * math.floor(second / period + 0.5)
-    mean, share = (0.0, 0.0, 0.0, 0.0), 1.0
+    whole_first = 0.0 if pads else period * math.floor(first / period + 0.5)
+    whole_second = 0.0 if pads else period * math.floor(second / period + 0.5)
+    share = (1.0 - whole_first / max(first, NOTHING)) * (1.0 - whole_second / max(second, NOTHING))
+    first, second = abs(first - whole_first), abs(second - whole_second)
+    mean = (0.0, 0.0, 0.0, 0.0)
+    if abs(share) >= 1.0 - NEARLY_WHOLE:
+        wide, narrow = max(max(first, second), SHORTEST_RAMP), min(first, second)
+        place = clamp(middle, -wide - narrow, 1.0 + wide + narrow)
+        if not pads:
+            place = (middle % 2.0 - 0.5 * ((whole_first + whole_second) % 4.0)) % 2.0
+        outer, inner = 0.5 * (wide + narrow), 0.5 * (wide - narrow)
+        edges = (place - outer, place - inner, place + inner, place + outer)
+        size = 0.5 * (edges[3] - edges[0] + edges[2] - edges[1])
+        mean = times(spread_sum(texels, stops, number, spread, edges), 1.0 / size)
     if whole_first != 0.0 or whole_second != 0.0:
-        mean = ramp_sum(texels, stops, number, (0.0, 0.0, 1.0, 1.0), (0.0, 1.0))
-        share = (1.0 - whole_first / first) * (1.0 - whole_second / second)
-        middle = middle % 2.0 - 0.5 * ((whole_first + whole_second) % 4.0)
-        first, second = abs(first - whole_first), abs(second - whole_second)
-    if abs(share) < 1.0 - NEARLY_WHOLE:
-        return mean
-    wide, narrow = max(max(first, second), SHORTEST_RAMP), min(first, second)
-    middle = clamp(middle, -wide - narrow, 1.0 + wide + narrow) if spread == PAD else middle % 2.0
-    outer, inner = 0.5 * (wide + narrow), 0.5 * (wide - narrow)
-    edges = (middle - outer, middle - inner, middle + inner, middle + outer)
-    size = 0.5 * (edges[3] - edges[0] + edges[2] - edges[1])
-    total = spread_sum(texels, stops, number, spread, edges)
-    return plus(times(mean, 1.0 - share), total, share / size)
+        full = add_ramp(texels, (0.0, 0.0, 0.0, 0.0), stops, number, (0.0, 0.0, 1.0, 1.0), (0.0, 1.0))
+        mean = plus(times(full, 1.0 - share), mean, share)
+    return mean
 
 
 @kernel(allocates=False)
