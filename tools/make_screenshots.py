@@ -62,7 +62,7 @@ def looks(page: Any) -> list[Image.Image]:
     return taken
 
 
-FLOOD_LOOKS: Final = (("Bird", 4, ""), ("Coast", 16, "?bare"), ("Shore", 16, "?bare"), ("Beach", 0, "?bare"))
+FLOOD_LOOKS: Final = (("Overview", 4, ""), ("Coast", 16, "?bare"), ("Shore", 16, "?bare"), ("Beach", 0, "?bare"))
 """View, step, and what stands behind the address: the panels are seen once."""
 
 

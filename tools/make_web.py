@@ -125,7 +125,7 @@ def thesis_module() -> str:
 def water_module() -> str:
     """Text of the module with the water's shaders: apart, since most pages have no use for them."""
     parts = [HEADER.format(owner="src/vexture/glsl/")]
-    for name in ("water", "shore"):
+    for name in ("water", "shore", "depths"):
         comment = f"{name}.glsl; VEXTURE_WRAP and VEXTURE_FLAT may be defined before it."
         parts.append(module_text(name, bare(inlined(shader_text(f"{name}.glsl"))), comment))
     return "".join(parts)

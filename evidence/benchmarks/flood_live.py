@@ -49,7 +49,7 @@ WATCHED: Final = """
   });
   vexture.flood.relief(0);
   vexture.flood.flat(true);
-  vexture.flood.view('Sky', { fly: false });
+  vexture.flood.view('Plan', { fly: false });
   vexture.flood.freeze(0);
 }
 """

@@ -24,7 +24,7 @@ __all__ = [
 ]  # fmt: skip
 
 SIZE: Final = (960, 540)
-PRESETS: Final = ("Sky", "Bird", "Coast", "Shore", "Beach")
+PRESETS: Final = ("Plan", "Overview", "Coast", "Shore", "Beach")
 MASK: Final = 1024
 """Pixels along each side of the raster that is compared."""
 

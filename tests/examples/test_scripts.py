@@ -93,6 +93,18 @@ def test_choropleth(tmp_path):
     assert np.abs(np.diff([picture[200, 200].astype(int) for picture in pictures], axis=0)).max(axis=1).min() > 20
 
 
+def test_four_floods(tmp_path):
+    netcdf = pytest.importorskip("netCDF4")
+    lines = run(ROOT / "examples" / "08_four_floods.py", tmp_path, folder=tmp_path).splitlines()
+    assert "synthetic" in lines[0].lower()
+    for name in ("coast", "river", "polder", "streets"):
+        with netcdf.Dataset(tmp_path / f"{name}.nc") as file:
+            assert "synthetic" in file.comment.lower()
+            wet = (np.asarray(file["depth"][:]) >= 0.05).mean(axis=(1, 2))
+        assert 0.01 < wet[0] < wet.max() - 0.1 < 0.9, name
+    assert sum("under water" in line for line in lines) == 4
+
+
 def test_every_example_is_tested():
     names = {path.name for path in (ROOT / "examples").glob("*.py")}
     assert names == set(re.findall(r"\d\d_\w+\.py", Path(__file__).read_text(encoding="utf-8")))

@@ -54,8 +54,9 @@ def test_shore_is_where_land_and_water_meet(tmp_path):
         flood("--extent", sea(tmp_path / "s.json"), "--bounds", ",".join(map(str, BOUNDS)), "-o", page).returncode == 0
     )
     told = scene_of(page)["flood"]
-    np.testing.assert_allclose(told["shore"]["place"][0], 0.5, atol=1e-5)
-    np.testing.assert_allclose(told["shore"]["seaward"], [-1.0, 0.0], atol=1e-3)
+    assert [view["name"] for view in told["views"]] == ["Coast", "Shore", "Beach"]
+    np.testing.assert_allclose(told["views"][0]["place"][0], 0.5, atol=1e-5)
+    np.testing.assert_allclose(told["views"][0]["toward"], [-1.0, 0.0], atol=1e-3)
 
 
 def test_page_of_a_series(tmp_path):
@@ -87,8 +88,8 @@ def test_relief_is_above_the_still_water(tmp_path):
     told = scene_of(page)["flood"]["relief"]
     numbers = np.frombuffer(content(told["heights"])[1], "<i2").reshape(told["rows"], told["columns"])
     measured = told["unit"] * numbers
-    assert measured.shape == (64, 129)
-    np.testing.assert_allclose(measured[32, [0, 64, 128]], [-4.0, 0.0, 4.0], atol=0.1)
+    assert measured.shape == (128, 257)
+    np.testing.assert_allclose(measured[64, [0, 128, 256]], [-4.0, 0.0, 4.0], atol=0.1)
     assert not told["invented"]
 
 
@@ -99,7 +100,7 @@ def test_dry_flood_is_a_page_that_says_so(tmp_path):
     assert "nothing under water" in outcome.stdout
     told = scene_of(page)["flood"]
     assert told["steps"][0]["facts"]["dry"]
-    assert (told["shore"], told["fold"]) == (None, None)
+    assert (told["views"], told["fold"]) == ([], None)
     assert "Nothing is under water." in told["notes"]
 
 

@@ -47,6 +47,7 @@ MIRROR = dict.fromkeys(FILES, cpu) | {
 # only the web's, judged by its pixels (tests/web) and by decoded trees (test_packed_overlay.py)
 WITHOUT_MIRROR = {
     "around.glsl",
+    "depths.glsl",
     "layers.glsl",
     "overlay.glsl",
     "sheets.glsl",

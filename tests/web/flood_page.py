@@ -20,6 +20,8 @@ from PIL import Image
 
 from vexture import convert
 from vexture.drawing import Drawing
+from vexture.flood.open_water import open_water, openness_png
+from vexture.flood.surface import WaterSurface
 from vexture.geo.extent import Frame
 from vexture.live.page import EXPORTED_POLICY
 
@@ -90,8 +92,8 @@ def over_frame(columns: int, rows: int) -> NDArray[np.float64]:
     return height(*np.meshgrid(np.linspace(u0, u1, columns), np.linspace(v1, v0, rows)))
 
 
-def shore(u: float) -> dict[str, list[float]]:
-    """Place on the shore, and the way down from it to the sea."""
+def views(u: float) -> list[dict[str, Any]]:
+    """Views of a place on the shore."""
     column = np.linspace(0.3, 0.9, 6001)
     v = float(column[np.argmin(np.abs(height(np.full_like(column, u), column)))])
     step = 0.02
@@ -99,7 +101,9 @@ def shore(u: float) -> dict[str, list[float]]:
         float(height(np.array(u + du), np.array(v + dv))) for du, dv in ((step, 0), (-step, 0), (0, step), (0, -step))
     )
     down = np.array([west - east, south - north])
-    return {"place": [u, v], "seaward": (down / np.hypot(*down)).tolist()}
+    place = {"place": [u, v], "toward": (down / np.hypot(*down)).tolist(), "above": LEVELS[-1]}
+    kinds = (("Coast", "far", 1600.0), ("Shore", "near", 500.0), ("Beach", "eye", 0.0))
+    return [{"name": name, "kind": kind, "reach": reach, **place} for name, kind, reach in kinds]
 
 
 def data_url(media_type: str, content: bytes) -> str:
@@ -145,6 +149,8 @@ def manifest(name: str, level: float, label: str, time: str | None) -> dict[str,
     content = convert(drawing).to_ktx2()
     depths = np.maximum(0.0, level - over_frame(COLUMNS, ROWS))
     deepest = float(depths.max())
+    surface = WaterSurface(np.where(depths > 0.0, level, np.nan))
+    levels, level_facts = surface.encoded()
     shares = np.round(depths / deepest * 255) if deepest > 0 else depths
     return {
         "name": name,
@@ -152,8 +158,17 @@ def manifest(name: str, level: float, label: str, time: str | None) -> dict[str,
         "texture": data_url("image/ktx2", content),
         "bytes": len(content),
         "events": None,
-        "facts": {"time": time, "label": label, "dry": not drawing.paths, "deepest": deepest or None},
-        "views": {"depth": image_url(shares.astype(np.uint8), "PNG")},
+        "facts": {
+            "time": time,
+            "label": label,
+            "dry": not drawing.paths,
+            "deepest": deepest or None,
+            "level": level_facts,
+        },
+        "views": {
+            "depth": image_url(shares.astype(np.uint8), "PNG"),
+            "level": data_url("image/png", levels),
+        },
         "note": None,
     }
 
@@ -194,7 +209,8 @@ def scene(steps: int = 3, **more: Any) -> dict[str, Any]:
                 "heights": data_url("application/octet-stream", np.round(heights / unit).astype("<i2").tobytes()),
             },
             "fold": None,
-            "shore": shore(0.52),
+            "openness": openness_png(open_water(wet(LEVELS[0]), FRAME)),
+            "views": views(0.52),
             "notes": ["The bay is made of formulas."],
         }
         | more

@@ -19,7 +19,7 @@ def settle(page):
     """A still picture from above, in two flat colours: the ground's and the water's."""
     page.evaluate("() => window.vexture.flood.ready")
     page.evaluate("() => { const { flood } = window.vexture; flood.freeze(0); flood.flat(true); "
-                  "flood.view('Sky', { fly: false }); flood.render(); }")  # fmt: skip
+                  "flood.view('Plan', { fly: false }); flood.render(); }")  # fmt: skip
 
 
 def white(page):

@@ -19,17 +19,17 @@ export const LEAST_RISE = 1e-6;
  * A grid over the box, x east, y north, z up in metres; uv are 0..1 over the box.
  *
  * @param {Surface} surface
- * @param {(height: number) => number} raised height of a sample in metres
+ * @param {Float32Array} raised height of each sample in metres
  */
 export function gridGeometry({ relief, places }, raised) {
-  const { columns, rows, heights } = relief;
+  const { columns, rows } = relief;
   const positions = new Float32Array(columns * rows * 3);
   const uvs = new Float32Array(columns * rows * 2);
   for (let row = 0, at = 0; row < rows; row++) {
     for (let column = 0; column < columns; column++, at++) {
       const [s, t] = [column / (columns - 1), 1 - row / (rows - 1)];
       const [x, z] = places.toWorld(s, t);
-      positions.set([x, -z, raised(heights[at])], 3 * at);
+      positions.set([x, -z, raised[at]], 3 * at);
       uvs.set([s, t], 2 * at);
     }
   }
@@ -53,11 +53,12 @@ export function gridGeometry({ relief, places }, raised) {
  * Samples of the relief along the border, counter-clockwise as seen from above, from the south-west.
  *
  * @param {import('./relief.js').Relief} relief
- * @returns {{s: number, t: number, height: number, side: number}[]} four sides, each with both its corners
+ * @returns {{s: number, t: number, height: number, side: number, at: number}[]} four sides, each with both its corners
  */
 export function border({ columns, rows, heights }) {
   const sample = (/** @type {number} */ column, /** @type {number} */ row, /** @type {number} */ side) => ({
     s: column / (columns - 1), t: 1 - row / (rows - 1), height: heights[row * columns + column], side,
+    at: row * columns + column,
   });
   const across = [...Array(columns).keys()];
   const down = [...Array(rows).keys()];
@@ -119,7 +120,7 @@ export class Land {
     this.#surface = surface;
     this.#material = new MeshLambertMaterial(picture ? { map: picture } : { color: 0xcbb58a });
     /** @type {Mesh<BufferGeometry, import('three').Material>} */
-    this.mesh = new Mesh(gridGeometry(surface, (height) => height), this.#material);
+    this.mesh = new Mesh(gridGeometry(surface, surface.relief.heights), this.#material);
     this.mesh.rotation.x = -Math.PI / 2;
     this.sides = new Mesh(new BufferGeometry(), this.#earth);
     this.group = new Group().add(this.mesh, this.sides);

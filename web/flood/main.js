@@ -5,20 +5,22 @@ import { SimpleWater, chooseWater } from '../src/water/index.js';
 import { element } from '../viewer/dom.js';
 import { Notes } from '../viewer/notes.js';
 import { bytesOf } from '../viewer/library.js';
+import { readLevels } from './levels.js';
+import { opennessOver } from './openness.js';
 import { createPanel } from './panel.js';
 import { Places } from './place.js';
 import { Player } from './player.js';
-import { PRESETS } from './presets.js';
+import { wholes } from './presets.js';
 import { createReadout } from './readout.js';
 import { Relief, Surface } from './relief.js';
 import { readScene } from './page-data.js';
 import { Sea } from './sea.js';
 import { Stage } from './stage.js';
-import { Steps } from './steps.js';
+import { Steps, levelsOf } from './steps.js';
 import { createTimeBar } from './time-bar.js';
 import { Tray } from './tray.js';
 
-/** @typedef {import('./presets.js').Preset} Preset */
+/** @typedef {import('./presets.js').View} View */
 
 const DRY = 'Nothing is under water at this time.';
 
@@ -29,7 +31,7 @@ const bare = new URLSearchParams(location.search).has('bare');
 const app = /** @type {HTMLElement} */ (document.getElementById('app'));
 const canvas = element('canvas', {
   tabindex: 0, role: 'application', 'aria-label':
-    'Picture of the flood. Drag to turn it, drag with the right button to move, wheel to zoom; keys 1 to 5 are the '
+    'Picture of the flood. Drag to turn it, drag with the right button to move, wheel to zoom; keys 1 to 9 are the '
     + 'views, [ and ] go through the steps.',
 });
 const notes = new Notes();
@@ -47,15 +49,24 @@ async function pictureOf(url) {
   return texture;
 }
 
-/** The scene's dimensions for the presets. @param {import('./page-data.js').Flood} flood @param {Surface} surface */
-function standOf({ shore }, surface) {
+/** How far the camera is from what it looks at, in halves of its size. */
+const DISTANCE = 2.2;
+
+/** The page's views. @param {import('./page-data.js').Flood} flood @param {Surface} surface @returns {View[]} */
+function viewsOf({ views }, surface) {
   const { places } = surface;
-  const [x, y] = shore?.seaward ?? [0, -1];
-  const long = Math.hypot(x, y) || 1;
+  const found = views.map(({ name, kind, place, toward: [x, y], reach, above }) => ({
+    name, kind, place: places.toWorld(...places.fromUnit(...place)), toward: /** @type {[number, number]} */ ([x, -y]),
+    away: DISTANCE * reach * places.scale, above: () => above * surface.rise,
+  }));
+  return [...wholes(found.at(-1)?.toward ?? [0, 1]), ...found];
+}
+
+/** The scene's dimensions for the views. @param {Surface} surface */
+function standOf(surface) {
+  const { places } = surface;
   return {
     width: places.width + 2 * Tray.around, depth: places.depth + 2 * Tray.around,
-    place: places.toWorld(...(shore ? places.fromUnit(...shore.place) : /** @type {[number, number]} */ ([0.5, 0.5]))),
-    seaward: /** @type {[number, number]} */ ([x / long, -y / long]),
     height: (/** @type {number} */ px, /** @type {number} */ pz) => surface.height(px, pz),
   };
 }
@@ -94,12 +105,12 @@ function listener() {
   };
 }
 
-/** @param {(preset: Preset) => void} viewed @param {Player} player */
-function listenToKeys(viewed, player) {
+/** @param {View[]} views @param {(view: View) => void} viewed @param {Player} player */
+function listenToKeys(views, viewed, player) {
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target instanceof HTMLSelectElement) return;
-    const preset = PRESETS[Number(event.key) - 1];
-    if (preset) viewed(preset);
+    const view = views[Number(event.key) - 1];
+    if (view) viewed(view);
     else if (event.key === '[' || event.key === ']') {
       player.pause();
       void player.go(player.index + (event.key === ']' ? 1 : -1));
@@ -122,13 +133,20 @@ async function start() {
   const surface = new Surface(Relief.read(flood.relief, await bytesOf(flood.relief.heights, document.baseURI)), places);
   const picture = await pictureOf(flood.ground);
   const fold = flood.fold ? await FoldTexture.parse(await bytesOf(flood.fold, document.baseURI)) : null;
+  const openness = opennessOver(
+    surface.relief, flood.openness ? new Uint8Array(await bytesOf(flood.openness, document.baseURI)) : null,
+  );
   const Water = matchMedia('(max-width: 720px)').matches ? SimpleWater : chooseWater();
+  const views = viewsOf(flood, surface);
   let stage;
   try {
     stage = new Stage(canvas, surface, {
       picture,
-      stand: standOf(flood, surface),
-      sea: (sun) => new Sea(Water, surface, { transform: boxTransform(flood.frame), fold, sun, mirror: MIRROR }),
+      stand: standOf(surface),
+      lit: /** @type {View} */ (views.at(-1)),
+      sea: (sun) => new Sea(Water, surface, {
+        transform: boxTransform(flood.frame), fold, sun, mirror: MIRROR, openness,
+      }),
     });
   } catch (error) {
     console.warn(error);
@@ -137,55 +155,65 @@ async function start() {
       + 'acceleration in its settings.'));
     return;
   }
-  await run(stage, scene, surface, fold);
+  await run(stage, scene, views, fold);
 }
 
 /**
- * @param {Stage} stage @param {import('./page-data.js').Scene} scene @param {Surface} surface
+ * @param {Stage} stage @param {import('./page-data.js').Scene} scene @param {View[]} views
  * @param {FoldTexture | null} fold
  */
-async function run(stage, scene, surface, fold) {
+async function run(stage, scene, views, fold) {
   const { flood } = scene;
+  const { surface } = stage;
   const steps = new Steps(scene);
   const heard = listener();
+  /** @type {WeakMap<import('./steps.js').Step, Float32Array | null>} */
+  const levels = new WeakMap();
   const player = new Player(steps, {
-    show: ({ texture }, fading) => {
-      stage.sea.show(texture, fading);
+    show: (step, fading) => {
+      stage.sea.show(step.texture, levels.get(step) ?? null, fading);
       stage.requestFrame();
     },
-    prepare: (step) => {
+    prepare: async (step) => {
       heard(step);
+      const found = await levelsOf(step);
+      levels.set(step, found && readLevels(found.png, found.facts, surface.relief));
       for (const texture of Object.values(step.texture.textures)) stage.renderer.initTexture(texture);
     },
   });
   follow(stage, player);
-  const viewed = (/** @type {Preset} */ preset, how = {}) => {
-    stage.view(preset, how);
-    panel.mark(preset);
+  const viewed = (/** @type {View} */ view, how = {}) => {
+    stage.view(view, how);
+    panel.mark(view);
   };
+  const named = (/** @type {string} */ name) => /** @type {View} */ (views.find((view) => view.name === name));
   const readout = createReadout(stage, player, surface, fold);
-  const panel = createPanel(stage, surface, { title: flood.title, notes: flood.notes, readout, viewed });
+  const panel = createPanel(stage, surface, { title: flood.title, notes: flood.notes, readout, all: views, viewed });
   stage.controls.addEventListener('start', () => panel.mark(null));
-  listenToKeys(viewed, player);
+  listenToKeys(views, viewed, player);
   const bar = createTimeBar(player);
   if (!bare) {
     app.append(panel.panel, bar, notes.element);
     stage.inset = () => insetOf(panel.panel, bar);
   }
   stage.resize();
-  viewed('Bird', { fly: false });
-  Object.assign(page, {
-    camera: stage.camera,
+  viewed(views[1], { fly: false });
+  Object.defineProperties(page, Object.getOwnPropertyDescriptors({
+    get camera() {
+      return stage.camera;
+    },
+    views: views.map(({ name }) => name),
     water: stage.sea.water,
     stage,
     player,
-    view: viewed,
+    view: (/** @type {string} */ name, how = {}) => viewed(named(name), how),
+    pose: (/** @type {string} */ name) => stage.pose(named(name)),
     step: (/** @type {number} */ at) => player.go(at),
     freeze: (/** @type {number | null} */ seconds) => stage.freeze(seconds),
     flat: (/** @type {boolean} */ on) => stage.flat(on),
     relief: (/** @type {number} */ times) => stage.relief(times),
     render: () => stage.render(),
-  });
+  }));
   await player.start();
   stage.render();
   steps.follow();

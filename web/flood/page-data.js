@@ -6,12 +6,14 @@
  * @property {string} [label] short text for people
  * @property {boolean} [dry] nothing is under water
  * @property {number | null} [deepest] metres
+ * @property {{lowest: number, unit: number}} [level] metres, of the picture of levels
  *
  * @typedef {object} Manifest
  * @property {string} name
  * @property {string} texture URL
  * @property {Facts} [facts]
- * @property {{depth?: string}} [views] depth: 8-bit gray PNG over the box, 255 is the deepest
+ * @property {{depth?: string, level?: string}} [views] depth: 8-bit gray PNG over the box, 255 is the deepest; level:
+ *   16-bit gray PNG on the grid of the relief, 0 is no water, 1 the lowest
  * @property {string | null} [note]
  *
  * @typedef {object} FrameFacts
@@ -36,7 +38,9 @@
  * @property {string | null} ground URL of a picture of the box
  * @property {ReliefFacts} relief
  * @property {string | null} fold URL
- * @property {{place: [number, number], seaward: [number, number]} | null} shore in the unit square
+ * @property {string | null} openness URL of an 8-bit gray PNG over the box: 255 where waves meet a shore of open water
+ * @property {{name: string, kind: 'over' | 'far' | 'near' | 'eye', place: [number, number], toward: [number, number],
+ *   reach: number, above: number}[]} views places and directions in the unit square, metres
  * @property {string[]} notes
  *
  * @typedef {{server?: string, flood: Flood}} Scene

@@ -1,21 +1,20 @@
 /** The panel over the canvas: title, views, relief, waves, notes. */
 import { element } from '../viewer/dom.js';
-import { PRESETS } from './presets.js';
 
-/** @typedef {import('./presets.js').Preset} Preset */
+/** @typedef {import('./presets.js').View} View */
 
 const NARROW = matchMedia('(max-width: 720px), (max-height: 480px)');
 
 /**
  * @param {import('./stage.js').Stage} stage
  * @param {import('./relief.js').Surface} surface
- * @param {{title: string, notes: string[], readout: Element, viewed: (preset: Preset) => void}} what
+ * @param {{title: string, notes: string[], readout: Element, all: View[], viewed: (view: View) => void}} what
  */
-export function createPanel(stage, surface, { title, notes, readout, viewed }) {
+export function createPanel(stage, surface, { title, notes, readout, all, viewed }) {
   const views = element('div', { class: 'views', role: 'group', 'aria-label': 'Views' },
-    ...PRESETS.map((preset, at) => element('button', {
-      type: 'button', title: `${preset} (${at + 1})`, onclick: () => viewed(preset),
-    }, preset)));
+    ...all.map((view, at) => element('button', {
+      type: 'button', title: `${view.name} (${at + 1})`, onclick: () => viewed(view),
+    }, view.name)));
   const panel = element('aside', { class: 'panel', 'aria-label': 'Controls' });
   const body = element('div', { class: 'body', id: 'panel-body' },
     reliefRow(stage, surface), wavesRow(stage), ...(notes.length ? [element('div', { class: 'about' },
@@ -30,8 +29,8 @@ export function createPanel(stage, surface, { title, notes, readout, viewed }) {
   };
   folded(NARROW.matches);
   panel.append(element('header', {}, element('h1', {}, title), fold), views, body, readout);
-  return { panel, mark: (/** @type {Preset | null} */ preset) => {
-    for (const button of views.children) button.setAttribute('aria-pressed', String(button.textContent === preset));
+  return { panel, mark: (/** @type {View | null} */ shown) => {
+    for (const button of views.children) button.setAttribute('aria-pressed', String(button.textContent === shown?.name));
   } };
 }
 

@@ -26,8 +26,8 @@ export class Player extends EventTarget {
 
   /**
    * @param {import('./steps.js').Steps} steps
-   * @param {{show: (step: Step, fading: boolean) => void, prepare: (step: Step) => void}} how shows a step; prepares
-   *   one for showing
+   * @param {{show: (step: Step, fading: boolean) => void, prepare: (step: Step) => Promise<void>}} how shows a step;
+   *   prepares one for showing, also when its water has changed
    */
   constructor(steps, { show, prepare }) {
     super();
@@ -113,9 +113,17 @@ export class Player extends EventTarget {
     if (next !== undefined) this.#ready(next).catch(() => {}); // reported when it is to be shown
   }
 
-  #changed = () => {
-    if (!this.step) return;
-    this.#labels.set(this.step.name, labelOf(this.step.manifest, this.step.name));
+  #changed = async () => {
+    const { step } = this;
+    if (!step) return;
+    this.#labels.set(step.name, labelOf(step.manifest, step.name));
+    try {
+      await this.#prepare(step);
+    } catch (error) {
+      this.dispatchEvent(new CustomEvent('failed', { detail: error }));
+    }
+    if (this.step !== step) return;
+    this.#show(step, false);
     this.dispatchEvent(new Event('step'));
   };
 
@@ -123,7 +131,7 @@ export class Player extends EventTarget {
   async #ready(name) {
     const step = await this.steps.open(name);
     this.#labels.set(name, labelOf(step.manifest, name));
-    this.#prepare(step);
+    await this.#prepare(step);
     return step;
   }
 

@@ -1,17 +1,23 @@
-/** Camera presets, from high in the sky to the beach. */
+/** Poses of the camera for the page's views, from a plan to the one who stands at the water. */
 
 /**
  * @typedef {{x: number, y: number, z: number}} Vector
  * @typedef {{from: Vector, to: Vector}} Pose position of the camera, and its target
- * @typedef {'Sky' | 'Bird' | 'Coast' | 'Shore' | 'Beach'} Preset
+ *
+ * @typedef {object} View
+ * @property {string} name
+ * @property {'plan' | 'whole' | 'over' | 'far' | 'near' | 'eye'} kind of view: the whole box from above, or from the side;
+ *   from the air, lower and lower; or from the ground
+ * @property {[number, number]} place that is looked at, or where one stands: x and z
+ * @property {[number, number]} toward direction of the water there: x and z, of length 1
+ * @property {number} away distance of the camera
+ * @property {() => number} above height of the highest water there, of all times
  *
  * @typedef {object} Stand the scene's dimensions that the presets depend on
  * @property {number} width of the box in the world
  * @property {number} depth
  * @property {number} low the box's lower end
  * @property {number} high its highest ground
- * @property {[number, number]} place on the shore: x and z
- * @property {[number, number]} seaward direction of open water there: x and z, of length 1
  * @property {(x: number, z: number) => number} height of the surface
  * @property {number} aspect of what is free of the picture: width over height
  * @property {number} share of the picture's height that is free
@@ -19,22 +25,25 @@
 
 /** @typedef {Omit<Stand, 'aspect' | 'share' | 'low' | 'high'>} Fixed what of it does not change */
 
-export const PRESETS = Object.freeze(/** @type {Preset[]} */ (['Sky', 'Bird', 'Coast', 'Shore', 'Beach']));
+/** The views that every page has, toward the water. @param {[number, number]} toward @returns {View[]} */
+export const wholes = (toward) => [
+  { name: 'Plan', kind: 'plan', place: [0, 0], toward, away: 0, above: () => 0 },
+  { name: 'Overview', kind: 'whole', place: [0, 0], toward, away: 0, above: () => 0 },
+];
 
 /** Degrees, of the camera, from the lower to the upper border of the picture. */
 export const FIELD = 42;
 
-/**
- * Degrees above the horizon, degrees to the side of the sea's direction, distance, and how far out at sea the middle
- * is.
- */
-const NEAR = Object.freeze({ Coast: [23, 56, 44, 7], Shore: [11, 72, 14, 2.5] });
-/** Of the one who stands on the beach: height of the eyes, how far inland, degrees to the side, how far down. */
-const BEACH = Object.freeze({ eyes: 0.62, inland: 1.3, side: 32, down: 7 });
+/** Degrees above the horizon, degrees to the side of the water's direction, and how far out the middle is. */
+const ABOVE = Object.freeze({ over: [36, 28, 0], far: [23, 56, 0.16], near: [11, 72, 0.18] });
+/** Of the one who stands at the water: height of the eyes, how far from it, degrees to the side, how far down. */
+const EYE = Object.freeze({ eyes: 0.62, inland: 1.3, side: 32, down: 7 });
 /** The same for a picture that is higher than wide: along the shore, so that there is land in it. */
 const TALL = Object.freeze({ side: 60, down: 9 });
 /** Degrees: height of the sun, and how far to the side of the sea's direction. */
 const SUN = Object.freeze({ up: 34, side: 14 });
+/** Degrees above the horizon of the plan: at 90 no direction would be up. */
+const STEEPEST = 89.99;
 /** How much more than the box is seen where all of it is. */
 const AROUND = 1.06;
 /** How far ahead one looks at from there, and what is turned around. */
@@ -72,60 +81,70 @@ function whole({ width, depth, low, high, aspect, share }, angle, above) {
 }
 
 /**
- * @param {Preset} preset
+ * @param {View} view
  * @param {Stand} stand
  * @returns {Pose}
  */
-export function pose(preset, stand) {
+export function pose(view, stand) {
   const { aspect, height } = stand;
-  const [sx, sz] = stand.seaward;
-  if (preset === 'Sky') return whole(stand, 0, radians(76));
-  if (preset === 'Bird') return whole(stand, Math.atan2(sx, sz) + radians(28), radians(30));
-  const [px, pz] = stand.place;
+  const { kind, place: [px, pz], toward: [sx, sz], above } = view;
   const sea = Math.atan2(sx, sz);
-  if (preset === 'Beach') {
-    const [x, z] = [px - sx * BEACH.inland, pz - sz * BEACH.inland];
-    const eyes = Math.max(height(x, z), 0) + BEACH.eyes;
-    const { side, down } = aspect < 0.9 ? TALL : BEACH;
-    const angle = sea + landSide(stand, BEACH.side) * radians(side);
+  if (kind === 'plan') return whole(stand, 0, radians(STEEPEST)); // and then without perspective
+  if (kind === 'whole') return whole(stand, sea + radians(28), radians(30));
+  if (kind === 'eye') {
+    const [x, z] = [px - sx * EYE.inland, pz - sz * EYE.inland];
+    const eyes = Math.max(height(x, z), height(px, pz), above()) + EYE.eyes;
+    const { side, down } = aspect < 0.9 ? TALL : EYE;
+    const angle = sea + landSide(view, stand, EYE.side) * radians(side);
     const lower = eyes - AHEAD * Math.tan(radians(down));
     const to = { x: x + AHEAD * Math.sin(angle), y: lower, z: z + AHEAD * Math.cos(angle) };
     return { from: { x, y: eyes, z }, to };
   }
-  const [up, side, away, out] = NEAR[preset];
-  const [mx, mz] = [px + sx * out, pz + sz * out];
-  const angle = sea - landSide(stand, side) * radians(side); // it looks back to where the land is
-  const wide = away * Math.max(1, Math.min(1.5, 1 / aspect));
+  const [up, side, out] = ABOVE[kind];
+  const [mx, mz] = [px + sx * out * view.away, pz + sz * out * view.away];
+  const angle = sea - landSide(view, stand, side) * radians(side); // it looks back to where the land is
+  const wide = view.away * Math.max(1, Math.min(1.5, 1 / aspect));
   const flat = wide * Math.cos(radians(up));
-  const from = { x: mx + flat * Math.sin(angle), y: wide * Math.sin(radians(up)), z: mz + flat * Math.cos(angle) };
-  from.y = Math.max(from.y, height(from.x, from.z) + BEACH.eyes);
-  return { from, to: { x: mx, y: 0, z: mz } };
+  const level = Math.max(height(mx, mz), above());
+  const [x, z] = [mx + flat * Math.sin(angle), mz + flat * Math.cos(angle)];
+  const y = Math.max(level + wide * Math.sin(radians(up)), height(x, z) + EYE.eyes);
+  return { from: { x, y, z }, to: { x: mx, y: level, z: mz } };
 }
 
 /**
- * Where the sun is, to glitter on the water that one sees from the beach.
+ * Half the height of a plan of the box, in world units, from the middle of what is free of the picture.
  *
+ * @param {Stand} stand
+ */
+export function planHeight({ width, depth, aspect, share }) {
+  return (AROUND / 2) * Math.max(depth, width / aspect) / share;
+}
+
+/**
+ * Where the sun is, to glitter on the water that one sees in a view.
+ *
+ * @param {View} view
  * @param {Fixed} stand
  * @returns {Vector} of length 1
  */
-export function sunOver(stand) {
-  const [sx, sz] = stand.seaward;
-  const angle = Math.atan2(sx, sz) + landSide(stand, BEACH.side) * radians(SUN.side);
+export function sunOver(view, stand) {
+  const [sx, sz] = view.toward;
+  const angle = Math.atan2(sx, sz) + landSide(view, stand, EYE.side) * radians(SUN.side);
   const flat = Math.cos(radians(SUN.up));
   return { x: flat * Math.sin(angle), y: Math.sin(radians(SUN.up)), z: flat * Math.cos(angle) };
 }
 
 /**
- * To which side of the sea's direction more land is seen: 1 or -1.
+ * To which side of the water's direction more land is seen: 1 or -1.
  *
- * @param {Fixed} stand @param {number} degrees
+ * @param {View} view @param {Fixed} stand @param {number} degrees
  */
-function landSide({ place: [px, pz], seaward: [sx, sz], height, width }, degrees) {
+function landSide({ place: [px, pz], toward: [sx, sz], above }, { height, width }, degrees) {
   const land = [1, -1].map((sign) => {
     const angle = Math.atan2(sx, sz) + sign * radians(degrees);
     const tenth = width / 20;
     return [1, 2, 3, 4, 5, 6].reduce((sum, k) =>
-      sum + Math.max(0, height(px + k * tenth * Math.sin(angle), pz + k * tenth * Math.cos(angle))), 0);
+      sum + Math.max(0, height(px + k * tenth * Math.sin(angle), pz + k * tenth * Math.cos(angle)) - above()), 0);
   });
   return land[0] >= land[1] ? 1 : -1;
 }

@@ -14,8 +14,10 @@ export class Relief {
   /**
    * @param {{columns: number, rows: number}} size
    * @param {Float32Array} heights metres above the water level, northernmost row first
+   * @param {boolean} [invented]
    */
-  constructor({ columns, rows }, heights) {
+  constructor({ columns, rows }, heights, invented = false) {
+    this.invented = invented;
     this.columns = columns;
     this.rows = rows;
     this.heights = heights;
@@ -29,14 +31,14 @@ export class Relief {
    * @param {import('./page-data.js').ReliefFacts} facts
    * @param {ArrayBuffer} bytes
    */
-  static read({ columns, rows, unit }, bytes) {
+  static read({ columns, rows, unit, invented }, bytes) {
     if (bytes.byteLength !== columns * rows * 2) {
       const wanted = columns * rows * 2;
       throw new Error(`The relief has ${bytes.byteLength} bytes; ${columns} x ${rows} heights have ${wanted}.`);
     }
     const view = new DataView(bytes);
     const heights = Float32Array.from({ length: columns * rows }, (_, at) => view.getInt16(2 * at, true) * unit);
-    return new Relief({ columns, rows }, heights);
+    return new Relief({ columns, rows }, heights, invented);
   }
 
   /**
@@ -46,32 +48,47 @@ export class Relief {
    * @param {number} t northwards, 0..1
    */
   at(s, t) {
+    return this.of(this.heights, s, t);
+  }
+
+  /**
+   * The same of other values on this grid.
+   *
+   * @param {Float32Array} values
+   * @param {number} s @param {number} t
+   */
+  of(values, s, t) {
     const x = Math.min(Math.max(s, 0), 1) * (this.columns - 1);
     const y = (1 - Math.min(Math.max(t, 0), 1)) * (this.rows - 1);
     const column = Math.min(Math.floor(x), this.columns - 2);
     const row = Math.min(Math.floor(y), this.rows - 2);
     const [right, down] = [x - column, y - row];
     const first = row * this.columns + column;
-    const { heights, columns } = this;
-    const upper = heights[first] * (1 - right) + heights[first + 1] * right;
-    const lower = heights[first + columns] * (1 - right) + heights[first + columns + 1] * right;
+    const { columns } = this;
+    const upper = values[first] * (1 - right) + values[first + 1] * right;
+    const lower = values[first + columns] * (1 - right) + values[first + columns + 1] * right;
     return upper * (1 - down) + lower * down;
   }
 
   /**
-   * Vertical exaggeration at which the relief is visible from high above.
+   * Vertical exaggeration at first: that at which invented heights are visible from high above.
    *
    * @param {number} scale world units to a metre
    */
   exaggeration(scale) {
     const range = (this.highest - this.lowest) * scale;
-    if (range === 0) return 1;
+    if (range === 0 || !this.invented) return 1; // real heights are shown as they are
     return Math.min(Math.max(STANDING / range, 1), MOST_EXAGGERATION);
   }
 }
 
 /** The visible surface: the ground, and the water where the ground is below its level. */
 export class Surface {
+  /** Heights of the surface in metres above the still water, on the relief's grid. @type {Float32Array} */
+  tops;
+  /** Levels of the water, NaN where there is none; null: it is still everywhere. @type {Float32Array | null} */
+  #levels = null;
+
   /**
    * @param {Relief} relief
    * @param {import('./place.js').Places} places
@@ -80,6 +97,51 @@ export class Surface {
     this.relief = relief;
     this.places = places;
     this.exaggeration = relief.exaggeration(places.scale);
+    this.tops = this.#raised();
+  }
+
+  get levels() {
+    return this.#levels;
+  }
+
+  set levels(/** @type {Float32Array | null} */ levels) {
+    this.#levels = levels;
+    this.tops = this.#raised();
+  }
+
+  /** The water stands on the ground, and is as high as it where it has no level. */
+  #raised() {
+    const { heights } = this.relief;
+    const levels = this.#levels;
+    if (!levels) return heights.map((height) => Math.max(height, 0));
+    return heights.map((height, at) => (levels[at] > height ? levels[at] : height));
+  }
+
+  /**
+   * Level of the water at a place of the box or, where there is none, of the nearest water; metres above the still water.
+   *
+   * @param {number} s @param {number} t
+   */
+  levelNear(s, t) {
+    const { columns, rows } = this.relief;
+    const levels = this.#levels;
+    if (!levels) return 0;
+    const column = Math.round(Math.min(Math.max(s, 0), 1) * (columns - 1));
+    const row = Math.round((1 - Math.min(Math.max(t, 0), 1)) * (rows - 1));
+    let [nearest, found] = [Infinity, 0];
+    for (let at = 0; at < levels.length; at++) {
+      if (Number.isNaN(levels[at])) continue;
+      const away = (at % columns - column) ** 2 + (Math.floor(at / columns) - row) ** 2;
+      if (away < nearest) [nearest, found] = [away, levels[at]];
+    }
+    return found;
+  }
+
+  /** The lowest and the highest top, in metres above the still water. */
+  get range() {
+    let [low, high] = [Infinity, -Infinity];
+    for (const top of this.tops) [low, high] = [Math.min(low, top), Math.max(high, top)];
+    return { low, high };
   }
 
   /** World units to a metre of height. */
@@ -89,7 +151,7 @@ export class Surface {
 
   /** Height of the surface in the world. @param {number} x @param {number} z */
   height(x, z) {
-    return Math.max(0, this.relief.at(...this.places.toBox(x, z))) * this.rise;
+    return this.relief.of(this.tops, ...this.places.toBox(x, z)) * this.rise;
   }
 
   /**
@@ -107,7 +169,8 @@ export class Surface {
       const ends = step === 0 ? [0, Infinity] : [(-half - start) / step, (half - start) / step].sort((a, b) => a - b);
       [near, far] = [Math.max(near, ends[0]), Math.min(far, ends[1])];
     }
-    if (along.y < 0) far = Math.min(far, -from.y / along.y + 1e-6); // no surface is lower than the water
+    const lowest = this.range.low * this.rise;
+    if (along.y < 0) far = Math.min(far, (lowest - from.y) / along.y + 1e-6); // no surface is lower
     if (!(near < far) || far === Infinity) return null;
     const above = (/** @type {number} */ at) =>
       from.y + at * along.y - this.height(from.x + at * along.x, from.z + at * along.z);

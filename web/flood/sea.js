@@ -1,7 +1,10 @@
 /** The water: its surface over the ground, and its cross-section along the sides of the box. */
-import { BufferGeometry, Group, Mesh, MeshBasicMaterial } from 'three';
+import {
+  BufferGeometry, DataTexture, DataUtils, Group, HalfFloatType, LinearFilter, Mesh, MeshBasicMaterial, RGFormat,
+} from 'three';
 import { applyVectorMask } from '../src/vector-mask.js';
 import { gridGeometry, LEAST_RISE, wallGeometry } from './land.js';
+import { mixedLevels } from './levels.js';
 
 /** @typedef {import('../src/vector-texture.js').VectorTexture} VectorTexture */
 /** @typedef {import('../src/vector-mask.js').VectorMask} VectorMask */
@@ -26,23 +29,29 @@ export class Sea {
   #fold;
   /** @type {VectorMask | null} */
   #mask = null;
-  /** @type {{to: VectorTexture, begin: number} | null} */
+  /** @type {{to: VectorTexture, begin: number, levels: [Float32Array | null, Float32Array | null]} | null} */
   #fading = null;
+  #openness;
+  #fields;
   #isFlat = false;
 
   /**
    * @param {Kind} Water
    * @param {import('./relief.js').Surface} surface
    * @param {{transform: import('three').Matrix3, fold: FoldTexture | null, sun: import('three').Vector3,
-   *   mirror: number}} how from the box to the unit square; the fold of the shore; direction of the sun; side of
-   *   the mirror's image in pixels
+   *   mirror: number, openness: Float32Array}} how from the box to the unit square; the fold of the shore; direction of the
+   *   sun; side of the mirror's image in pixels; where waves are, 0..1 on the relief's grid
    */
-  constructor(Water, surface, { transform, fold, sun, mirror }) {
+  constructor(Water, surface, { transform, fold, sun, mirror, openness }) {
     this.#surface = surface;
     this.#transform = transform;
     this.#fold = fold;
-    this.water = new Water(gridGeometry(surface, (height) => Math.max(0, height)), null, {
-      ...LOOK, root: WATER, transform, fold, foam: FOAM, sunDirection: sun, textureWidth: mirror, textureHeight: mirror,
+    this.#openness = openness;
+    const { columns, rows } = surface.relief;
+    this.#fields = new DataTexture(new Uint16Array(2 * columns * rows), columns, rows, RGFormat, HalfFloatType);
+    this.#fields.magFilter = this.#fields.minFilter = LinearFilter;
+    this.water = new Water(gridGeometry(surface, surface.tops), null, {
+      ...LOOK, fields: this.#fields, root: WATER, transform, fold, foam: FOAM, sunDirection: sun, textureWidth: mirror, textureHeight: mirror,
     });
     const { material } = this.water;
     material.polygonOffset = true; // above the ground that it lies on, despite rounding
@@ -62,29 +71,53 @@ export class Sea {
    * Show the water of a texture.
    *
    * @param {VectorTexture} texture
+   * @param {Float32Array | null} levels of its water
    * @param {boolean} fading over a while, from what is shown now
    */
-  show(texture, fading) {
+  show(texture, levels, fading) {
     if (this.#fading) this.#arrive();
     if (fading && this.water.texture) {
       this.water.fadeTo(texture);
-      this.#fading = { to: texture, begin: performance.now() };
+      this.#fading = { to: texture, begin: performance.now(), levels: [this.#surface.levels, levels] };
     } else {
       this.water.texture = texture;
+      this.#level(levels);
       this.#wall(texture);
     }
   }
 
+  /** Let the water stand at these levels. @param {Float32Array | null} levels */
+  #level(levels) {
+    this.#surface.levels = levels;
+    const { tops, relief: { columns, rows, heights } } = this.#surface;
+    const { position } = this.water.geometry.attributes;
+    const data = /** @type {Uint16Array} */ (this.#fields.image.data);
+    for (let row = 0, at = 0; row < rows; row++) {
+      for (let column = 0; column < columns; column++, at++) {
+        position.setZ(at, tops[at]);
+        const to = 2 * ((rows - 1 - row) * columns + column); // a texture's first row is the southernmost
+        const level = levels ? levels[at] : 0;
+        data[to] = DataUtils.toHalfFloat(level > heights[at] ? level - heights[at] : 0);
+        data[to + 1] = DataUtils.toHalfFloat(this.#openness[at]);
+      }
+    }
+    position.needsUpdate = true;
+    this.#fields.needsUpdate = true;
+  }
+
   #arrive() {
-    const to = this.#fading?.to;
+    const fading = this.#fading;
     this.#fading = null;
-    if (!to) return;
+    if (!fading) return;
+    const { to, levels } = fading;
     this.water.texture = to;
+    this.#level(levels[1]);
     this.#wall(to);
   }
 
   /** @param {VectorTexture} texture */
   #wall(texture) {
+    this.#raiseWalls();
     if (this.#mask) this.#mask.texture = texture;
     else {
       const [transform, fold] = [this.#transform, this.#fold];
@@ -102,18 +135,31 @@ export class Sea {
     if (!this.#fading) return false;
     const share = (performance.now() - this.#fading.begin) / FADE;
     if (share >= 1) this.#arrive();
-    else this.water.fade = share;
+    else {
+      this.water.fade = share;
+      const [from, to] = this.#fading.levels;
+      if (from && to) this.#level(mixedLevels(from, to, share));
+    }
     return true;
   }
 
   /** Follow the surface's exaggeration. */
   raise() {
-    const { rise } = this.#surface;
-    this.water.scale.z = Math.max(rise, LEAST_RISE);
+    this.water.scale.z = Math.max(this.#surface.rise, LEAST_RISE);
+    this.#raiseWalls();
+  }
+
+  #raiseWalls() {
+    const { rise, tops } = this.#surface;
     this.walls.geometry.dispose();
-    this.walls.geometry = wallGeometry(this.#surface, ({ s, t, height }) => ({
-      low: Math.min(0, height) * rise, high: 0, uvLow: [s + (0.5 - s) * INWARD, t + (0.5 - t) * INWARD], uvHigh: [s, t],
+    this.walls.geometry = wallGeometry(this.#surface, ({ s, t, height, at }) => ({
+      low: height * rise, high: tops[at] * rise, uvLow: [s + (0.5 - s) * INWARD, t + (0.5 - t) * INWARD], uvHigh: [s, t],
     }));
+  }
+
+  /** Mirror at the level of the water at a place of the box or near it. @param {number} s @param {number} t */
+  mirrorAt(s, t) {
+    this.water.mirrorHeight = this.#surface.levelNear(s, t) * this.#surface.rise;
   }
 
   /** Time of waves and folds, in seconds. */

@@ -1,16 +1,16 @@
 /** The rendered scene, its camera and its frames. */
 import {
-  BackSide, Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene,
-  SphereGeometry, Vector3, WebGLRenderer,
+  BackSide, Color, DirectionalLight, HemisphereLight, MOUSE, Mesh, MeshBasicMaterial, OrthographicCamera,
+  PerspectiveCamera, Scene, SphereGeometry, TOUCH, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { skyTexture } from './canvas-textures.js';
 import { Land } from './land.js';
-import { FIELD, between, pose, sunOver } from './presets.js';
+import { FIELD, between, planHeight, pose, sunOver } from './presets.js';
 import { mostSamples, sharpen } from './sharpness.js';
 import { Tray } from './tray.js';
 
-/** @typedef {import('./presets.js').Preset} Preset @typedef {import('./presets.js').Pose} Pose */
+/** @typedef {import('./presets.js').View} View @typedef {import('./presets.js').Pose} Pose */
 
 const MOST_RATIO = 2;
 const FLIGHT = 2600; // ms
@@ -18,6 +18,8 @@ const SKY = 900;
 /** Least height of the camera above the surface, in world units. */
 const CLEARANCE = 0.25;
 const MOST_DISTANCE = 420;
+/** Height of the camera of a plan. */
+const ALOFT = 2000;
 /** Colours of the flat picture, for measurements: the ground and all around it, the water. */
 const FLAT = Object.freeze({ ground: 0x000000, water: 0xffffff });
 
@@ -32,8 +34,10 @@ export class Stage extends EventTarget {
   #background = new Color(FLAT.ground);
   #wanted = false;
   #isFlat = false;
-  /** @type {{start: Pose, end: Pose, begin: number} | null} */
+  /** @type {{start: Pose, end: Pose, begin: number, isPlan: boolean} | null} */
   #flight = null;
+  #perspective = new PerspectiveCamera(FIELD, 1, 0.05, 2 * SKY);
+  #plan = new OrthographicCamera(-1, 1, 1, -1, 1, 2 * ALOFT);
   /** @type {number | null} */
   #frozen = null;
   #seconds = 0;
@@ -46,17 +50,18 @@ export class Stage extends EventTarget {
    * @param {HTMLCanvasElement} canvas
    * @param {import('./relief.js').Surface} surface
    * @param {{picture: import('three').Texture | null, sea: (sun: Vector3) => import('./sea.js').Sea,
-   *   stand: import('./presets.js').Fixed}} parts
+   *   stand: import('./presets.js').Fixed, lit: View}} parts the view in which the sun glitters on the water
    */
-  constructor(canvas, surface, { picture, sea, stand }) {
+  constructor(canvas, surface, { picture, sea, stand, lit }) {
     super();
     this.canvas = canvas;
     this.surface = surface;
     this.#stand = stand;
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
-    this.camera = new PerspectiveCamera(FIELD, 1, 0.05, 2 * SKY);
+    /** @type {PerspectiveCamera | OrthographicCamera} */
+    this.camera = this.#perspective;
     this.scene = new Scene();
-    const { x, y, z } = sunOver(stand);
+    const { x, y, z } = sunOver(lit, stand);
     const sun = new Vector3(x, y, z);
     this.#sky = new Mesh(
       new SphereGeometry(SKY, 32, 24),
@@ -112,10 +117,40 @@ export class Stage extends EventTarget {
     this.size = { width, height };
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_RATIO));
     this.renderer.setSize(width, height);
-    this.camera.aspect = width / height;
+    this.#perspective.aspect = width / height;
     const { left = 0, top = 0, right = 0, bottom = 0 } = this.inset();
-    this.camera.setViewOffset(width, height, (right - left) / 2, (bottom - top) / 2, width, height);
+    for (const camera of [this.#perspective, this.#plan]) {
+      camera.setViewOffset(width, height, (right - left) / 2, (bottom - top) / 2, width, height);
+    }
+    this.#spread();
     this.render();
+  }
+
+  /** Let the plan show the box. */
+  #spread() {
+    const { width, height } = this.size;
+    const half = planHeight(this.#dimensions());
+    const sides = { left: (-half * width) / height, right: (half * width) / height, top: half, bottom: -half };
+    Object.assign(this.#plan, sides).updateProjectionMatrix();
+  }
+
+  /** Look through one of the two cameras. @param {boolean} isPlan */
+  #look(isPlan) {
+    const camera = isPlan ? this.#plan : this.#perspective;
+    if (this.camera === camera) return;
+    this.camera = this.controls.object = camera;
+    const { controls } = this;
+    controls.enableRotate = !isPlan;
+    controls.mouseButtons.LEFT = isPlan ? MOUSE.PAN : MOUSE.ROTATE; // a plan is moved, not turned
+    controls.touches.ONE = isPlan ? TOUCH.PAN : TOUCH.ROTATE;
+    if (isPlan) {
+      this.#plan.position.set(0, ALOFT, 0);
+      this.#plan.up.set(0, 0, -1);
+      this.#plan.zoom = 1;
+      this.controls.target.set(0, 0, 0);
+      this.#plan.lookAt(0, 0, 0);
+      this.#spread();
+    }
   }
 
   /** Pixels at the borders that something stands over: the middle of the picture is between. */
@@ -136,30 +171,42 @@ export class Stage extends EventTarget {
     this.requestFrame();
   }
 
-  /** @param {Preset} preset */
-  pose(preset) {
+  /** @returns {import('./presets.js').Stand} */
+  #dimensions() {
     const { width, height } = this.size;
     const { left = 0, top = 0, right = 0, bottom = 0 } = this.inset();
     const free = Math.max(height - top - bottom, 1);
     const low = this.land.floor - Tray.down;
-    const high = this.surface.relief.highest * this.surface.rise;
+    const high = this.surface.range.high * this.surface.rise;
     const aspect = Math.max(width - left - right, 1) / free;
-    return pose(preset, { ...this.#stand, low, high, aspect, share: free / height });
+    return { ...this.#stand, low, high, aspect, share: free / height };
   }
 
-  /** @param {Preset} preset @param {{fly?: boolean}} [how] */
-  view(preset, { fly = true } = {}) {
-    const end = this.pose(preset);
+  /** @param {View} view */
+  pose(view) {
+    return pose(view, this.#dimensions());
+  }
+
+  /** @param {View} view @param {{fly?: boolean}} [how] */
+  view(view, { fly = true } = {}) {
+    const end = this.pose(view);
+    const isPlan = view.kind === 'plan';
+    if (this.camera === this.#plan) {
+      if (isPlan) fly = false;
+      this.#look(false);
+      this.#place(this.pose({ ...view, kind: 'plan' }));
+    }
     this.controls.enableDamping = false; // leftover inertia would change the view
     this.controls.update();
     this.controls.enableDamping = !STILL.matches;
     if (fly && !STILL.matches) {
       const start = { from: { ...this.camera.position }, to: { ...this.controls.target } };
-      this.#flight = { start, end, begin: performance.now() };
+      this.#flight = { start, end, begin: performance.now(), isPlan };
       return this.requestFrame();
     }
     this.#flight = null;
     this.#place(end);
+    this.#look(isPlan);
     this.render();
   }
 
@@ -176,19 +223,27 @@ export class Stage extends EventTarget {
     if (flight) {
       const share = (performance.now() - flight.begin) / FLIGHT;
       this.#place(between(flight.start, flight.end, share));
-      if (share >= 1) this.#flight = null;
+      if (share >= 1) {
+        this.#flight = null;
+        this.#look(flight.isPlan);
+      }
     } else this.controls.update();
-    const { position, near } = this.camera;
+    if (this.camera === this.#perspective) this.#clear();
+    this.camera.updateMatrixWorld();
+  }
+
+  /** Keep the camera off the ground, and its nearest plane as far away as it can be. */
+  #clear() {
+    const { position, near } = this.#perspective;
     const { width, depth } = this.surface.places;
     const isOver = Math.abs(position.x) <= width / 2 + 3 && Math.abs(position.z) <= depth / 2 + 3;
     const below = isOver ? this.surface.height(position.x, position.z) : this.land.floor;
     if (position.y < below + CLEARANCE) position.y = below + CLEARANCE;
     const wanted = Math.min(Math.max((position.y - below) / 6, 0.04), 4);
     if (Math.abs(wanted / near - 1) > 0.01) {
-      this.camera.near = wanted;
-      this.camera.updateProjectionMatrix();
+      this.#perspective.near = wanted;
+      this.#perspective.updateProjectionMatrix();
     }
-    this.camera.updateMatrixWorld();
   }
 
   /** Stop or start the waves. @param {boolean} moving */
@@ -248,6 +303,7 @@ export class Stage extends EventTarget {
   render() {
     this.#move();
     if (this.sea.advance()) this.requestFrame();
+    this.sea.mirrorAt(...this.surface.places.toBox(this.controls.target.x, this.controls.target.z));
     this.sea.time = this.seconds;
     this.renderer.render(this.scene, this.camera);
     this.dispatchEvent(new Event('frame'));

@@ -16,6 +16,16 @@ import { bytesOf } from '../viewer/library.js';
  * @property {string} base what its addresses are relative to
  */
 
+/**
+ * The picture of levels of a step and the facts to read it; null if it has none.
+ *
+ * @param {Step} step
+ */
+export async function levelsOf({ manifest, base }) {
+  const [url, facts] = [manifest.views?.level, manifest.facts?.level];
+  return url && facts ? { png: new Uint8Array(await bytesOf(url, base)), facts } : null;
+}
+
 /** Names are sorted by the numbers in them. The prefix alone is the name of the newest step. */
 const IN_ORDER = new Intl.Collator('en', { numeric: true });
 

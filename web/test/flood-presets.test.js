@@ -1,11 +1,18 @@
 import { describe, expect, it } from 'vitest';
-import { FIELD, PRESETS, between, pose, sunOver } from '../flood/presets.js';
+import { FIELD, between, planHeight, pose, sunOver, wholes } from '../flood/presets.js';
 
 /** Land in the north, a shore along the middle, the sea in the south. @type {import('../flood/presets.js').Stand} */
 const STAND = {
-  width: 100, depth: 75, low: -12, high: 8, place: [5, 0], seaward: [0, 1], aspect: 1.6, share: 0.9,
+  width: 100, depth: 75, low: -12, high: 8, aspect: 1.6, share: 0.9,
   height: (_, z) => Math.max(0, -z / 5),
 };
+
+/** A view of that shore. @param {'far' | 'near' | 'eye'} kind @param {number} away */
+const at = (kind, away, above = 0) => /** @type {import('../flood/presets.js').View} */ (
+  { name: kind, kind, place: [5, 0], toward: [0, 1], away, above: () => above });
+const [PLAN, OVERVIEW] = wholes([0, 1]);
+const BEACH = at('eye', 0);
+const VIEWS = [PLAN, OVERVIEW, at('far', 44), at('near', 14), BEACH];
 
 /** Where a place is in the picture, -1..1. @param {import('../flood/presets.js').Pose} seen @param {number[]} place */
 function projected({ from, to }, place, aspect = STAND.aspect) {
@@ -26,11 +33,11 @@ function projected({ from, to }, place, aspect = STAND.aspect) {
 const corners = [-50, 50].flatMap((x) => [-12, 8].flatMap((y) => [-37.5, 37.5].map((z) => [x, y, z])));
 
 describe('pose', () => {
-  it.each(/** @type {const} */ (['Sky', 'Bird']))('%s shows the whole box, as large as it can be', (preset) => {
+  it.each([PLAN, OVERVIEW])('$name shows the whole box, as large as it can be', (view) => {
     for (const aspect of [0.5, 1.6]) {
       const stand = { ...STAND, aspect };
       // the free part of the picture is as much lower as it is narrower: its shape is the aspect
-      const seen = corners.map((corner) => projected(pose(preset, stand), corner, aspect));
+      const seen = corners.map((corner) => projected(pose(view, stand), corner, aspect));
       const most = Math.max(...seen.flat().map(Math.abs)) / STAND.share;
       expect(most).toBeLessThan(1);
       expect(most).toBeGreaterThan(0.9);
@@ -38,17 +45,17 @@ describe('pose', () => {
   });
 
   it('comes nearer from each to the next', () => {
-    const away = PRESETS.map((preset) => {
-      const { from } = pose(preset, STAND);
+    const away = VIEWS.map((view) => {
+      const { from } = pose(view, STAND);
       return Math.hypot(from.x - 5, from.y, from.z);
     });
-    const [sky, ...others] = away;
+    const [plan, ...others] = away;
     expect(others).toEqual([...others].sort((a, b) => b - a));
-    expect(sky).toBeGreaterThan(others[1]);
+    expect(plan).toBeGreaterThan(others[1]);
   });
 
   it('stands on the beach, and looks over the water', () => {
-    const { from, to } = pose('Beach', STAND);
+    const { from, to } = pose(BEACH, STAND);
     expect(from.z).toBeLessThan(0);
     expect(from.y).toBeGreaterThan(STAND.height(from.x, from.z));
     expect(from.y - STAND.height(from.x, from.z)).toBeLessThan(1);
@@ -57,11 +64,26 @@ describe('pose', () => {
 
   it('never stands in a hill', () => {
     const steep = { ...STAND, height: () => 9 };
-    for (const preset of PRESETS) expect(pose(preset, steep).from.y).toBeGreaterThan(9);
+    for (const view of VIEWS) expect(pose(view, steep).from.y).toBeGreaterThan(9);
+  });
+
+  it('stands above the highest water of all times', () => {
+    for (const kind of /** @type {const} */ (['far', 'near', 'eye'])) {
+      expect(pose(at(kind, 5, 30), STAND).from.y).toBeGreaterThan(30);
+    }
+  });
+
+  it('has a plan in which the box fits, and is as large as it can be', () => {
+    for (const aspect of [0.5, 1.6]) {
+      const half = planHeight({ ...STAND, aspect });
+      const filled = Math.max(37.5 / half, 50 / half / aspect) / STAND.share;
+      expect(filled).toBeLessThan(1);
+      expect(filled).toBeGreaterThan(0.9);
+    }
   });
 
   it('has the sun over the water that the beach looks at', () => {
-    const sun = sunOver(STAND);
+    const sun = sunOver(BEACH, STAND);
     expect(Math.hypot(sun.x, sun.y, sun.z)).toBeCloseTo(1);
     expect(sun.z).toBeGreaterThan(0.5);
     expect(sun.y).toBeGreaterThan(0.3);
@@ -69,7 +91,7 @@ describe('pose', () => {
 });
 
 describe('between', () => {
-  const [start, end] = [pose('Sky', STAND), pose('Beach', STAND)];
+  const [start, end] = [pose(PLAN, STAND), pose(BEACH, STAND)];
 
   it('begins and ends where it should', () => {
     for (const [share, wanted] of /** @type {const} */ ([[0, start], [1, end], [2, end]])) {

@@ -24,10 +24,15 @@ describe('Relief', () => {
     expect(() => Relief.read({ ...FACTS, rows: 3 }, BYTES)).toThrow('12 bytes; 3 x 3 heights have 18');
   });
 
-  it('is exaggerated so that it can be seen, and never made lower', () => {
-    expect(relief.exaggeration(0.01) * 220 * 0.01).toBeCloseTo(10);
-    expect(relief.exaggeration(10)).toBe(1);
-    expect(new Relief(FACTS, new Float32Array(6)).exaggeration(1)).toBe(1);
+  it('is exaggerated so that it can be seen, and never made lower, if it is invented', () => {
+    const invented = Relief.read({ ...FACTS, invented: true }, BYTES);
+    expect(invented.exaggeration(0.01) * 220 * 0.01).toBeCloseTo(10);
+    expect(invented.exaggeration(10)).toBe(1);
+    expect(new Relief(FACTS, new Float32Array(6), true).exaggeration(1)).toBe(1);
+  });
+
+  it('is shown as it is, if it is real', () => {
+    expect(relief.exaggeration(0.01)).toBe(1);
   });
 });
 
@@ -38,6 +43,15 @@ describe('Surface', () => {
   it('is the water where the ground is below it', () => {
     expect(surface.height(50, 0)).toBe(0);
     expect(surface.height(-50, -50)).toBe(10);
+  });
+
+  it('is the water at its own level, and never below the ground', () => {
+    const levelled = new Surface(Relief.read(FACTS, BYTES), PLACES);
+    levelled.levels = Float32Array.from([NaN, 3, 3, NaN, NaN, -30]);
+    expect([...levelled.tops]).toEqual([100, 3, 3, 200, 0, -20]);
+    expect([levelled.levelNear(0, 1), levelled.levelNear(1, 0), levelled.levelNear(0.5, 1)]).toEqual([3, -30, 3]);
+    expect(levelled.range).toEqual({ low: -20, high: 200 });
+    expect(levelled.meets({ x: 50, y: 80, z: 50 }, { x: 0, y: -1, z: 0 })).not.toBeNull(); // below the still water
   });
 
   it('is met by a look from above', () => {

@@ -19,9 +19,9 @@ from vexture.errors import SourceError, reason_of
 from vexture.flood.grids import coverage_over, filled, noise, pixels_to, sampled, shore_distance, size_for
 from vexture.geo.extent import Extent, Frame, Step
 
-__all__ = ["Relief", "first_wet", "relief_of", "widest"]
+__all__ = ["Relief", "first_wet", "relief_of", "wet_samples", "widest"]
 
-SAMPLES: Final = 129
+SAMPLES: Final = 257
 """Samples on the longer side."""
 
 FINEST_UNIT: Final = 1e-3
@@ -49,12 +49,14 @@ class Relief:
     """Heights of the ground.
 
     `heights` are metres above the still water, the northernmost row first, on a regular grid from corner to corner of
-    the frame. `known` is the share of them that is measured or under water, unless all are invented.
+    the frame. `known` is the share of them that is measured or under water, unless all are invented. `still` is the
+    still water in metres above the zero of their source.
     """
 
     heights: NDArray[np.float64]
     invented: bool
     known: float = 1.0
+    still: float = 0.0
 
     def as_json(self) -> dict[str, Any]:
         """Heights for the page: 16-bit numbers and their unit in metres, in a data URL."""
@@ -92,16 +94,17 @@ def relief_of(extent: Extent, path: Path | None = None, crs: str | None = None) 
         return Relief(made_up, True)
     known = np.isfinite(measured)
     heights = filled(measured)
-    wet = np.zeros(known.shape, bool) if first is None else _wet(first, extent.frame, size)
-    if first is not None:
-        heights -= _shore_level(heights, wet, known)
-        heights[wet & ~known] = np.minimum(heights, made_up)[wet & ~known]
-    else:
-        heights -= heights.min()
-    return Relief(heights, False, float((known | wet).mean()))
+    if first is None:
+        still = float(heights.min())
+        return Relief(heights - still, False, float(known.mean()), still)
+    wet = wet_samples(first, extent.frame, size)
+    still = _shore_level(heights, wet, known)
+    heights -= still
+    heights[wet & ~known] = np.minimum(heights, made_up)[wet & ~known]
+    return Relief(heights, False, float((known | wet).mean()), still)
 
 
-def _wet(step: Step, frame: Frame, size: tuple[int, int]) -> NDArray[np.bool_]:
+def wet_samples(step: Step, frame: Frame, size: tuple[int, int]) -> NDArray[np.bool_]:
     """Samples under water; each stands for the cell around it."""
     x0, y0, x1, y1 = frame.box
     half_x, half_y = (x1 - x0) / (size[0] - 1) / 2, (y1 - y0) / (size[1] - 1) / 2
@@ -129,9 +132,9 @@ def _invented(extent: Extent, size: tuple[int, int]) -> NDArray[np.float64]:
     rough = noise(size)
     if first is None or most is None:
         return LAND_RISE * longest * (0.2 + 0.1 * rough)
-    wet = _wet(first, frame, size)
+    wet = wet_samples(first, frame, size)
     to_first = shore_distance(wet, cell)
-    to_most = shore_distance(wet | _wet(most, frame, size), cell)
+    to_most = shore_distance(wet | wet_samples(most, frame, size), cell)
     rise, fall = (
         _risen(np.maximum(far, 0.0) / longest, reach) for far, reach in ((to_most, LAND_REACH), (-to_first, SEA_REACH))
     )

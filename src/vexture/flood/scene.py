@@ -5,8 +5,12 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any, Final, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.flood.open_water import openness_png
 from vexture.flood.relief import Relief
-from vexture.flood.viewpoint import Shore
+from vexture.flood.views import View
 from vexture.geo.crs import system
 from vexture.geo.extent import Frame
 
@@ -30,7 +34,9 @@ class PageNote(NamedTuple):
 class Flood:
     """All of a page but its water.
 
-    `ground` is an encoded picture of the frame; `fold` is a file that moves the shoreline; `shore` is the viewpoint.
+    `ground` is an encoded picture of the frame; `fold` is a file that moves the shoreline; `openness` says where
+    waves are (`vexture.flood.open_water`); `views` are what to look at beside
+    the whole box.
     """
 
     title: str
@@ -38,7 +44,8 @@ class Flood:
     ground: bytes
     relief: Relief
     fold: bytes | None
-    shore: Shore | None
+    openness: NDArray[np.float64] | None
+    views: tuple[View, ...]
     notes: tuple[PageNote, ...]
 
 
@@ -48,7 +55,7 @@ def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, f
     `steps` are names of shapes on a server, or manifests that contain the shapes. On a server, shapes named `PREFIX`,
     or with names that begin with it and a slash, become further steps. `ground` and `fold` are addresses of files.
     """
-    frame, shore = flood.frame, flood.shore
+    frame = flood.frame
     return {
         "title": flood.title,
         "steps": list(steps),
@@ -64,7 +71,8 @@ def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, f
         "ground": ground,
         "relief": flood.relief.as_json(),
         "fold": fold,
-        "shore": None if shore is None else {"place": list(shore.place), "seaward": list(shore.seaward)},
+        "openness": None if flood.openness is None else openness_png(flood.openness),
+        "views": [view.as_json() for view in flood.views],
         "notes": [note.text for note in flood.notes],
     }
 

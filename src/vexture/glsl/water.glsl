@@ -1,5 +1,5 @@
 // Water along a shore: its coverage, the distance of the shore, and the shallows and foam near it.
-// Exports: VextureWater, vextureWater, vextureShallows, vextureFoam, vextureInshore, VextureLight, vextureSea.
+// Exports: VextureWater, vextureWater, vextureShallows, vextureFoam, vextureInshore, VextureLight, vextureSkyOf, vextureSea.
 //
 // The distance follows from the rasters that shore.glsl draws: beside a straight shore, the filled share of the box around
 // a position grows linearly from 1/2 on the shore to 1 at half the box's width from it.
@@ -92,6 +92,11 @@ struct VextureLight {
     vec3 horizon; // and at its edge
 };
 
+// Light of the sky in a direction that is so steep: the sine of its height.
+vec3 vextureSkyOf(VextureLight light, float steep) {
+    return mix(light.horizon, light.zenith, smoothstep(0.0, 0.6, abs(steep)));
+}
+
 // Light of the open sea under a sky of two colours with the sun; y is up. Waves smaller than a pixel vanish from the mean
 // of the normals, but still spread the sun's reflection.
 vec3 vextureSea(VextureLight light, vec3 eye, vec3 place, float size, sampler2D normals, float seconds) {
@@ -103,7 +108,7 @@ vec3 vextureSea(VextureLight light, vec3 eye, vec3 place, float size, sampler2D 
     float facing = max(dot(toEye, normal), 0.0);
     float reflectance = 0.02 + 0.98 * pow(1.0 - facing, 5.0);
     vec3 mirrored = reflect(-toEye, normal);
-    vec3 sky = mix(light.horizon, light.zenith, smoothstep(0.0, 0.6, abs(mirrored.y)));
+    vec3 sky = vextureSkyOf(light, mirrored.y);
     float glint = pow(max(dot(mirrored, light.toSun), 0.0), 120.0);
     float lit = max(dot(light.toSun, normal), 0.0);
     vec3 below = light.water * (facing + 0.15 * lit);

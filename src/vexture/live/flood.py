@@ -2,17 +2,19 @@
 
 from collections.abc import Callable, Sequence
 from contextlib import closing, suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vexture.content import about
 from vexture.drawing import Drawing
 from vexture.errors import SourceError
 from vexture.flood.options import FloodOptions
 from vexture.flood.scene import PREFIX, Flood, PageNote, labels, scene, step_names
-from vexture.geo.extent import Extent
+from vexture.geo.extent import Extent, Frame
 from vexture.live.flood_conversion import FloodConversion
 from vexture.live.limits import LimitedShelf, Limits
 from vexture.live.page import FLOOD, built, check_output, data_address, served_page, whole_page
@@ -26,6 +28,7 @@ GROUND_NAME, FOLD_NAME = "ground.webp", "shore.fold.ktx2"
 INVENTED: Final = PageNote("The relief is invented.", "--relief takes a file of heights.")
 DRAWN: Final = PageNote("The ground is drawn, not photographed.", "--ground takes a picture.")
 DRY: Final = PageNote("Nothing is under water.", "")
+SHELTERED: Final = PageNote("No shore is open to waves, so none run up it.", "")
 
 LESS: Final = 0.95
 """Share of the given amplitude: users are told if waves reach less."""
@@ -62,16 +65,18 @@ def make(asked: FloodOptions, say: Say) -> Made:
     """Read all files of a flood and convert them; `say` gets warnings and notes for the user."""
     from vexture.flood.drawn_ground import drawn_ground
     from vexture.flood.ground import encoded, ground_of
+    from vexture.flood.open_water import open_water
     from vexture.flood.relief import first_wet, relief_of
-    from vexture.flood.viewpoint import viewpoint
+    from vexture.flood.surface import highest_of, surface_of
+    from vexture.flood.views import views_of
 
     extent = _read(asked)
     if line := line_of(str(asked.extent), extent.notes):
         say(f"warning: {line}")
     frame = extent.frame
     amplitude = asked.amplitude_in(max(frame.metres))
-    conversion = FloodConversion(frame, asked.hmin, asked.reading)
     relief = relief_of(extent, asked.relief, asked.crs)
+    conversion = FloodConversion(frame, asked.hmin, asked.reading, relief, extent.bed)
     drawn = drawn_ground(extent, relief)
     notes = [INVENTED] if relief.invented else []
     picture = drawn
@@ -82,15 +87,22 @@ def make(asked: FloodOptions, say: Say) -> Made:
         notes += told
     first = first_wet(extent)
     steps = extent.steps
-    named = zip(steps, step_names(len(steps)), labels([step.time for step in steps]), strict=True)
-    shapes = [conversion.step(step, name, label) for step, name, label in named]
-    fold = None
+    surfaces = [surface_of(step, frame, relief, extent.bed, asked.hmin) for step in steps]
+    named = zip(steps, surfaces, step_names(len(steps)), labels([step.time for step in steps]), strict=True)
+    shapes = [conversion.step(step, surface, name, label) for step, surface, name, label in named]
+    fold, openness = None, None
     if first is None:
         notes.append(DRY)
-    elif amplitude:
-        fold, reached = _fold(first.drawing, amplitude, asked.period, frame.metres)
-        if asked.amplitude is not None and reached < LESS * amplitude:
-            notes.append(PageNote(f"Waves run up {reached:.3g} m: {amplitude:.3g} m would turn the shore over.", ""))
+    else:
+        openness = open_water(first.drawing, frame)
+        if amplitude and openness.any():
+            fold, reached = _fold(first.drawing, openness, amplitude, asked.period, frame)
+            if asked.amplitude is not None and reached < LESS * amplitude:
+                notes.append(
+                    PageNote(f"Waves run up {reached:.3g} m: {amplitude:.3g} m would turn the shore over.", "")
+                )
+        elif asked.amplitude:
+            notes.append(SHELTERED)
     if relief.known < WHOLE:
         notes.append(PageNote(f"{relief.known:.0%} of the ground has a height; the rest goes on as its border.", ""))
     flood = Flood(
@@ -99,7 +111,8 @@ def make(asked: FloodOptions, say: Say) -> Made:
         ground=encoded(picture),
         relief=relief,
         fold=fold,
-        shore=None if first is None else viewpoint(first.drawing, frame),
+        openness=openness,
+        views=views_of(extent, openness, highest_of(surfaces)),
         notes=tuple(notes),
     )
     for note in notes:
@@ -119,13 +132,20 @@ def _read(asked: FloodOptions) -> Extent:
         return extent_of(asked.extent, named, bounds=asked.bounds, crs=asked.crs, hmin=asked.hmin, **asked.reading)
 
 
-def _fold(drawing: Drawing, amplitude: float, period: float, metres: tuple[float, float]) -> tuple[bytes, float]:
-    """File that moves the shoreline up and down the beach, and its largest shift in metres."""
+def _fold(
+    drawing: Drawing, openness: NDArray[np.float64], amplitude: float, period: float, frame: Frame
+) -> tuple[bytes, float]:
+    """File that moves the shore of open water up and down the beach, and its largest shift in metres."""
+    from vexture.flood.open_water import openness_at
     from vexture.fold.shore import fold_of_shore
     from vexture.geo.extent import MARGIN
 
-    share = (1.0 - 2.0 * MARGIN) / max(metres)
+    share = (1.0 - 2.0 * MARGIN) / max(frame.metres)
     fold = fold_of_shore(drawing, amplitude=amplitude * share, period=period)
+    rows, columns, _ = fold.displacement.shape
+    x, y = np.meshgrid((np.arange(columns) + 0.5) / columns, 1.0 - (np.arange(rows) + 0.5) / rows)
+    moved = openness_at(openness, frame, np.stack([x, y], axis=-1))
+    fold = replace(fold, displacement=(fold.displacement * moved[..., None]).astype(np.float32))
     return fold.to_ktx2(), float(np.hypot(fold.displacement[..., 0], fold.displacement[..., 1]).max()) / share
 
 

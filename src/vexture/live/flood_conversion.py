@@ -8,10 +8,13 @@ from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vexture.content import FileKind, kind_of, start_of, unpacked
 from vexture.errors import LimitError, ParameterError, SourceError, VextureError
+from vexture.flood.relief import Relief
 from vexture.flood.scene import PREFIX, labels
+from vexture.flood.surface import WaterSurface
 from vexture.geo.extent import Extent, Frame, Step
 from vexture.live.documents import converted, load_kernels, texture_shape
 from vexture.live.shelf import File, Shape
@@ -42,9 +45,11 @@ class FloodConversion:
     frame: Frame  # of all steps
     hmin: float  # metres: depth from which a place is wet
     options: Mapping[str, Any]  # further parameters of vexture.read_extent
+    relief: Relief  # the ground
+    bed: NDArray[np.float32] | None = None  # over the frame, if the data have it
 
-    def step(self, step: Step, name: str, label: str) -> Shape:
-        """Shape of one step that is in this frame; `label` is its time as people read it."""
+    def step(self, step: Step, surface: WaterSurface, name: str, label: str) -> Shape:
+        """Shape of one step that is in this frame, with its surface; `label` is its time as people read it."""
         from vexture.flood.grids import deepest, depth_png
 
         load_kernels()
@@ -53,8 +58,11 @@ class FloodConversion:
         views = {}
         if step.depth is not None and most:
             views["depth"] = File(depth_png(step.depth, most), "image/png", ".png")
+        level, level_facts = surface.encoded()
+        views["level"] = File(level, "image/png", ".png")
         facts = {
             **shape.facts,
+            "level": level_facts,
             "time": None if step.time is None else step.time.isoformat(),
             "label": label,
             "dry": self._is_dry(step),
@@ -76,8 +84,11 @@ class FloodConversion:
         extent = self._read(data, name, OPTIONS[kind])
         if len(extent.steps) != 1:
             raise LimitError(f"{name}: holds {len(extent.steps)} times; send one at a time, each under its name")
+        from vexture.flood.surface import surface_of
+
         step = extent.steps[0]
-        return self.step(step, name, labels([step.time])[0])
+        surface = surface_of(step, self.frame, self.relief, self.bed if extent.bed is None else extent.bed, self.hmin)
+        return self.step(step, surface, name, labels([step.time])[0])
 
     def _read(self, data: bytes, name: str, possible: tuple[str, ...]) -> Extent:
         from vexture.geo.crs import MissingReferenceError

@@ -1,5 +1,6 @@
 // Common to all kinds of water: a mesh with a shape that changes with time.
 import { VextureError, line } from '../errors.js';
+import { FIELDS, WaterFields } from './fields.js';
 import { FOLD } from './shader.js';
 
 /** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
@@ -7,6 +8,14 @@ import { FOLD } from './shader.js';
 /** @typedef {import('../fold-texture.js').FoldTexture} FoldTexture */
 /** @typedef {import('three').ColorRepresentation} ColorRepresentation */
 /** @typedef {import('three').Mesh<import('three').BufferGeometry, import('three').ShaderMaterial>} WaterMesh */
+
+/**
+ * @typedef {object} WaterOptions what all kinds of water take
+ * @property {FoldTexture | null} [fold]
+ * @property {import('three').Texture | null} [fields] over the mesh's uv; red: metres of depth, green: how open it is
+ * @property {import('./fields.js').Calm} [calm] colours and clearness of calm water
+ * @property {import('./fields.js').DepthColors | null} [depthColors]
+ */
 
 /** Colours of the sea by day; three.js's defaults are grey. */
 export const SEA = Object.freeze({ waterColor: 0x0b5068, sunColor: 0x9fb0b8 });
@@ -24,6 +33,21 @@ export function checkGeometry(geometry) {
 }
 
 /**
+ * Do something while a mesh stands at the height that it mirrors at.
+ *
+ * @param {import('three').Object3D & {mirrorHeight: number}} mesh
+ * @param {() => void} act
+ */
+function raised({ matrixWorld: { elements }, mirrorHeight }, act) {
+  const normal = elements.slice(8, 11);
+  const length = Math.hypot(...normal) || 1;
+  const before = elements.slice(12, 15);
+  before.forEach((place, at) => (elements[12 + at] = place + (normal[at] / length) * mirrorHeight));
+  act();
+  before.forEach((place, at) => (elements[12 + at] = place));
+}
+
+/**
  * Extend a class of meshes with the properties of water.
  *
  * @template {new (...args: any[]) => WaterMesh} Base
@@ -37,6 +61,10 @@ export function watered(base) {
     ownNormals = null;
     /** @type {FoldTexture | null} */
     ownFold = null;
+    /** @type {WaterFields} */
+    ownFields = new WaterFields();
+    /** Distance from the mesh's plane of the plane that it mirrors, in world units along its normal. */
+    mirrorHeight = 0;
 
     /** The texture with the water's shape; null: no water. Setting it ends a fade. */
     get texture() {
@@ -89,6 +117,41 @@ export function watered(base) {
       this.time = this.time;
     }
 
+    /**
+     * Texture over the mesh's uv, or null. Red: metres of depth. Green: how open the water is, from 1 where there are waves
+     * and foam to 0 where it is calm. Water with and without fields are different programs.
+     */
+    get fields() {
+      return this.ownFields.uniforms.vextureFields.value;
+    }
+
+    set fields(/** @type {import('three').Texture | null} */ fields) {
+      if (fields && !fields.isTexture) throw new VextureError(`fields is ${line(fields)}; it must be a Texture`, 'fields');
+      const { defines } = this.material;
+      if (Boolean(fields) !== FIELDS in defines) this.material.needsUpdate = true;
+      if (fields) defines[FIELDS] = '';
+      else delete defines[FIELDS];
+      this.ownFields.uniforms.vextureFields.value = fields;
+    }
+
+    /** Colours and clearness of calm water, where fields say that it is calm. */
+    get calm() {
+      return this.ownFields.calm;
+    }
+
+    set calm(/** @type {import('./fields.js').Calm} */ calm) {
+      this.ownFields.calm = calm;
+    }
+
+    /** Colours of depths instead of the look of water, where fields give depths; null: none. */
+    get depthColors() {
+      return this.ownFields.colors;
+    }
+
+    set depthColors(/** @type {import('./fields.js').DepthColors | null} */ colors) {
+      this.ownFields.colors = colors;
+    }
+
     /** Time of the waves and the fold, in seconds. */
     get time() {
       return this.material.uniforms.time.value;
@@ -126,15 +189,22 @@ export function watered(base) {
       this.shape.flat = color;
     }
 
-    /** Update the shape's rasters before each frame. The subclass calls this once `shape` is set. */
-    follow() {
+    /**
+     * Take the options that all kinds of water have, and update the shape's rasters before each frame. The subclass calls
+     * this once `shape` is set.
+     *
+     * @param {WaterOptions} options
+     */
+    follow({ fold = null, fields = null, calm = {}, depthColors = null }) {
+      Object.assign(this.material.uniforms, this.ownFields.uniforms);
+      Object.assign(this, { fold, fields, calm, depthColors });
       const before = this.onBeforeRender;
       /** @type {typeof before} */
       this.onBeforeRender = (renderer, scene, camera, ...others) => {
         this.shape.prepare(renderer);
         const { viewport } = /** @type {import('three').PerspectiveCamera} */ (camera);
         if (viewport) renderer.state.viewport(viewport);
-        before.call(this, renderer, scene, camera, ...others);
+        raised(this, () => before.call(this, renderer, scene, camera, ...others));
       };
     }
 

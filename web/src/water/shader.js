@@ -1,13 +1,14 @@
 // Text that water inserts into a shader: declarations, and calls of the functions of src/vexture/glsl/water.glsl.
 import { fold } from '../../generated/fold-shader.js';
 import { WRAPS, steps } from '../../generated/shaders.js';
-import { shore, water } from '../../generated/water-shader.js';
+import { depths, shore, water } from '../../generated/water-shader.js';
 import { foldLines, footprint } from '../mask-shader.js';
+import { FIELDS } from './fields.js';
 
 /** Macro of programs with a fold. */
 export const FOLD = 'VEXTURE_FOLD';
 
-const VARYINGS = 'varying vec2 vextureUv;\n';
+const VARYINGS = 'varying vec2 vextureUv;\nvarying vec2 vextureMeshUv;\n';
 
 /** Beyond the unit square, water continues as on its border. */
 const CLAMPED = `#define VEXTURE_WRAP ${WRAPS.clamp}\n`;
@@ -18,6 +19,8 @@ uniform vec4 vextureFoamColor;
 uniform vec4 vextureFlatColor;
 ${steps}${CLAMPED}${water}#ifdef ${FOLD}
 ${fold}#endif
+#ifdef ${FIELDS}
+${depths}#endif
 `;
 
 const COVER = 'void main() { gl_Position = vec4(position.xy, 1.0, 1.0); }';
@@ -44,21 +47,53 @@ void main() { gl_FragColor = vec4(vextureSpread(vextureRaster, ivec2(gl_FragCoor
 export const VERTEX_DECLARE = `uniform mat3 vextureTransform;\n${VARYINGS}`;
 
 /** Text at vertexUv. */
-export const VERTEX_UV = 'vextureUv = (vextureTransform * vec3(uv, 1.0)).xy;';
+export const VERTEX_UV = 'vextureMeshUv = uv;\nvextureUv = (vextureTransform * vec3(uv, 1.0)).xy;';
 
-/** Text at fragmentLight, where gl_FragColor is in linear colour: shallows and foam. */
-export const LIGHT = `#ifdef ${FOLD}
+/**
+ * Text at fragmentLight, where gl_FragColor is in linear colour: shallows and foam; and where fields are known, calm water.
+ *
+ * @param {{mirrored: string, facing: string}} calm expressions of what calm water mirrors, and of the cosine to the eye
+ */
+const light = ({ mirrored, facing }) => `#ifdef ${FOLD}
 ${foldLines({ fold })}VextureWater vextureHere = vextureWater(${footprint({ fold })});
 #else
 VextureWater vextureHere = vextureWater(${footprint({ fold: '' })});
 #endif
-gl_FragColor.rgb = vextureInshore(gl_FragColor.rgb, vextureHere, normalSampler, time, vextureShallow, vextureFoamColor);`;
+vec4 vextureStrip = vextureShallow;
+#ifdef ${FIELDS}
+VextureField vextureKnown = vextureField(vextureMeshUv);
+vextureHere.openness *= vextureKnown.openness;
+vextureStrip.a *= vextureKnown.openness;
+#endif
+gl_FragColor.rgb = vextureInshore(gl_FragColor.rgb, vextureHere, normalSampler, time, vextureStrip, vextureFoamColor);
+#ifdef ${FIELDS}
+vec4 vextureStill = vextureCalm(vextureKnown.depth, ${mirrored}, ${facing});
+gl_FragColor = vextureJoined(vextureStill, gl_FragColor, vextureKnown.openness);
+#endif`;
+
+/** For three.js's Water: its mirror, less distorted than by waves. */
+const MIRROR = Object.freeze({
+  mirrored: 'texture2D(mirrorSampler, mirrorCoord.xy / mirrorCoord.w + 0.12 * distortion).rgb',
+  facing: 'max(eyeDirection.y, 0.0)',
+});
+
+/** For the simple water: its sky. */
+const SKY = Object.freeze({
+  mirrored: 'vextureSkyOf(vextureSun, max(normalize(cameraPosition - vextureWorld).y, 0.0))',
+  facing: 'max(normalize(cameraPosition - vextureWorld).y, 0.0)',
+});
 
 /**
  * Text at fragmentLast, where gl_FragColor is in the colour space of the canvas: the flat colour, and the coverage,
  * which changes only alpha. Blending is colour * alpha + ground * (1 - alpha) of encoded (sRGB) values.
  */
-export const LAST = `vec4 vexturePlain = linearToOutputTexel(vec4(vextureFlatColor.rgb, 1.0));
+export const LAST = `#ifdef ${FIELDS}
+if (vextureClasses > 0) {
+  vec4 vextureShown = vextureDepthColor(vextureKnown);
+  gl_FragColor = linearToOutputTexel(vextureShown);
+}
+#endif
+vec4 vexturePlain = linearToOutputTexel(vec4(vextureFlatColor.rgb, 1.0));
 gl_FragColor = mix(gl_FragColor, vexturePlain, vextureFlatColor.a);
 gl_FragColor.a *= vextureHere.coverage;
 if (vextureHere.coverage == 0.0) discard;`;
@@ -72,7 +107,7 @@ export const WATER_TEXTS = Object.freeze({
   vertexDeclare: VERTEX_DECLARE,
   vertexUv: VERTEX_UV,
   fragmentDeclare: DECLARATIONS,
-  fragmentLight: LIGHT,
+  fragmentLight: light(MIRROR),
   fragmentLast: LAST,
 });
 
@@ -105,7 +140,7 @@ void main() {
   #include <logdepthbuf_fragment>
   VextureLight vextureSun = VextureLight(sunDirection, sunColor, waterColor, vextureZenith, vextureHorizon);
   gl_FragColor = vec4(vextureSea(vextureSun, cameraPosition, vextureWorld, size, normalSampler, time), alpha);
-  ${LIGHT}
+  ${light(SKY)}
   #include <tonemapping_fragment>
   #include <colorspace_fragment>
   #include <fog_fragment>

@@ -20,8 +20,7 @@ import { WaterShape } from './shape.js';
  *   time?: number,
  *   side?: import('three').Side,
  *   fog?: boolean,
- *   fold?: import('../fold-texture.js').FoldTexture | null,
- * }} SimpleWaterOptions those of `VectorWater`, except for its mirror; and the colours of the sky at the zenith and at
+ * } & import('./mesh.js').WaterOptions} SimpleWaterOptions those of `VectorWater`, except for its mirror; and the colours of the sky at the zenith and at
  *   the horizon, which this water mirrors instead of the scene
  */
 
@@ -62,7 +61,6 @@ export class SimpleWater extends watered(
       alpha: { value: alpha },
       time: { value: time },
     });
-    this.fold = options.fold ?? null;
-    this.follow();
+    this.follow(options);
   }
 }

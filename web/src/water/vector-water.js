@@ -9,7 +9,7 @@ import { WaterShape } from './shape.js';
 
 /**
  * @typedef {import('./shape.js').WaterShapeOptions & import('three/addons/objects/Water.js').WaterOptions
- *   & { size?: number, fold?: import('../fold-texture.js').FoldTexture | null }} VectorWaterOptions
+ *   & import('./mesh.js').WaterOptions & { size?: number }} VectorWaterOptions
  *   `size` is the uniform of three.js's Water: larger values give smaller waves
  */
 
@@ -33,7 +33,6 @@ export class VectorWater extends watered(Water) {
     Object.assign(material.uniforms, this.shape.uniforms);
     material.uniforms.size.value = size;
     material.transparent = true;
-    this.fold = options.fold ?? null;
-    this.follow();
+    this.follow(options);
   }
 }

@@ -1,0 +1,176 @@
+"""The surface of the water, where waves are, and what the page looks at."""
+
+import importlib.util
+import sys
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+from floods import BOUNDS, CRS
+from PIL import Image
+
+from vexture.drawing import Drawing
+from vexture.flood.grids import coverage_over
+from vexture.flood.open_water import open_water, openness_at
+from vexture.flood.relief import Relief, relief_of
+from vexture.flood.surface import WaterSurface, highest_of, surface_of
+from vexture.flood.views import viewpoint, views_of
+from vexture.geo.extent import Extent, Frame, Step
+from vexture.reading import extent_of
+
+FRAME = Frame(BOUNDS, CRS, (4000.0, 2000.0))
+HMIN = 0.05
+EXAMPLE = Path(__file__).parents[2] / "examples" / "four_floods" / "make_floods.py"
+
+
+@pytest.fixture(scope="module")
+def floods(tmp_path_factory):
+    """Extents of the four floods of the example, by name."""
+    found = importlib.util.spec_from_file_location("four_floods", EXAMPLE)
+    module = sys.modules["four_floods"] = importlib.util.module_from_spec(found)
+    found.loader.exec_module(module)
+    folder = tmp_path_factory.mktemp("floods")
+    paths = [module.write(make(), folder) for make in module.SCENES]
+    return {path.stem: extent_of(path, str(path)) for path in paths}
+
+
+def surfaces(extent):
+    relief = relief_of(extent)
+    return relief, [surface_of(step, extent.frame, relief, extent.bed, HMIN) for step in extent.steps]
+
+
+def middles(grid, size):
+    """Values of a grid of cells at the samples of the relief, of the nearest cell."""
+    rows, columns = grid.shape
+    row = np.clip(np.rint(np.linspace(0, rows, size[0]) - 0.5), 0, rows - 1).astype(int)
+    column = np.clip(np.rint(np.linspace(0, columns, size[1]) - 0.5), 0, columns - 1).astype(int)
+    return grid[np.ix_(row, column)]
+
+
+@pytest.mark.parametrize("name", ["coast", "river", "polder", "streets"])
+def test_water_stands_at_its_own_level_everywhere(floods, name):
+    """Bed plus depth of the file, wherever it is wet: on the slope of a river, in ponds, behind a dike."""
+    extent = floods[name]
+    relief, found = surfaces(extent)
+    for step, surface in zip(extent.steps[::4], found[::4], strict=True):
+        depth = middles(step.depth, relief.heights.shape)
+        wet = depth >= 0.3
+        wanted = middles(extent.bed, relief.heights.shape) + depth - relief.still
+        off = np.abs(surface.levels - wanted)[wet]
+        assert np.isfinite(off).all()
+        assert np.quantile(off, 0.98) < 0.06  # metres: between the middles of cells the level goes on
+
+
+def test_levels_come_back_from_their_picture():
+    levels = np.array([[np.nan, -1.5, 2.0], [0.25, np.nan, 20.0]])
+    png, facts = WaterSurface(levels).encoded()
+    numbers = np.asarray(Image.open(BytesIO(png))).astype(float)
+    back = np.where(numbers == 0, np.nan, facts["lowest"] + (numbers - 1) * facts["unit"])
+    np.testing.assert_allclose(back, levels, atol=facts["unit"] / 2 + 1e-12)
+    assert facts["unit"] < 0.01
+
+
+def test_a_dry_step_has_no_levels():
+    relief = Relief(np.zeros((5, 9)), False)
+    surface = surface_of(Step(Drawing(())), FRAME, relief, None, HMIN)
+    assert np.isnan(surface.levels).all()
+    assert highest_of([surface]) is None
+    assert surface.encoded()[1]["lowest"] == 0.0
+
+
+def test_without_depths_water_is_as_high_as_its_shore():
+    """A lake in a bowl of which the rim is 7 m high."""
+    y, x = np.mgrid[1:-1:33j, -1:1:65j]
+    relief = Relief(28.0 * (x**2 + y**2), False)
+    turn = np.linspace(0, 2 * np.pi, 90, endpoint=False)
+    x0, y0, x1, y1 = FRAME.box
+    lake = Drawing.polygon(
+        [(0.5 + 0.25 * (x1 - x0) * np.cos(a), 0.5 + 0.25 * (y1 - y0) * np.sin(a)) for a in turn.tolist()]
+    )
+    levels = surface_of(Step(lake), FRAME, relief, None, HMIN).levels
+    assert levels[16, 32] == pytest.approx(7.0, abs=0.8)
+    assert np.isnan(levels[0, 0])
+
+
+def test_the_surface_goes_on_a_little_into_the_land():
+    """Where it is cut at the shore, it must not end before it."""
+    relief = Relief(np.tile(np.linspace(-4.0, 4.0, 65), (33, 1)), False)
+    x0, y0, _, y1 = FRAME.box
+    sea = Drawing.polygon([(x0, y0), (0.5, y0), (0.5, y1), (x0, y1)])
+    known = np.isfinite(surface_of(Step(sea), FRAME, relief, None, HMIN).levels[16])
+    assert known[:35].all()
+    assert not known[40:].any()
+
+
+@pytest.mark.parametrize(("name", "open_share"), [("coast", 0.3), ("river", 0.0), ("streets", 0.0)])
+def test_waves_are_in_open_water_only(floods, name, open_share):
+    extent = floods[name]
+    openness = open_water(extent.steps[0].drawing, extent.frame)
+    assert (openness > 0.5).mean() == pytest.approx(open_share, abs=0.06)
+
+
+def test_open_water_ends_softly_and_leaves_corners_and_channels():
+    """A sea in the south, with a channel of 100 m and an acute bay in its shore."""
+    x0, y0, x1, _ = FRAME.box
+    metre = (x1 - x0) / 4000.0
+    shore = y0 + 1000 * metre
+    sea = [
+        (x0, y0), (x1, y0), (x1, shore), (0.75, shore), (0.72, shore + 600 * metre), (0.69, shore),
+        (0.5 + 50 * metre, shore), (0.5 + 50 * metre, shore + 800 * metre), (0.5 - 50 * metre, shore + 800 * metre),
+        (0.5 - 50 * metre, shore), (x0, shore),
+    ]  # fmt: skip
+    openness = open_water(Drawing.polygon(sea), FRAME)
+    at = openness_at(
+        openness, FRAME, np.array([(0.3, shore - 20 * metre), (0.5, shore + 400 * metre), (0.72, shore + 450 * metre)])
+    )
+    assert at[0] > 0.9
+    assert at[1] == 0.0
+    assert at[2] == 0.0
+    assert np.abs(np.diff(openness, axis=0)).max() < 0.5
+
+
+@pytest.mark.parametrize(
+    ("name", "names"),
+    [
+        ("coast", ["Flooded land", "Coast", "Shore", "Beach"]),
+        ("river", ["Flooded land", "Riverside", "Waterline"]),
+        ("polder", ["Flooded land", "Coast", "Shore", "Beach"]),
+        ("streets", ["Town", "Riverside", "Waterline"]),
+    ],
+)
+def test_views_are_named_by_what_is_there_and_stand_on_dry_ground(floods, name, names):
+    extent = floods[name]
+    _, found = surfaces(extent)
+    highest = highest_of(found)
+    openness = open_water(extent.steps[0].drawing, extent.frame)
+    views = views_of(extent, openness, highest)
+    assert [view.name for view in views] == names
+    for view in views:
+        assert np.hypot(*view.toward) == pytest.approx(1.0)
+        assert np.isfinite(view.above)
+    stands = next(view for view in views if view.kind == "eye")
+    x, y = stands.place
+    near = 1e-3
+    for step in extent.steps:  # the water is before it, never behind it
+        behind = np.array(stands.place) - 3.0 * near * np.array(stands.toward)
+        box = (behind[0] - near, behind[1] - near, behind[0] + near, behind[1] + near)
+        assert coverage_over(step.drawing, box, (2, 2)).max() < 0.01
+    box = (x - near, y - near, x + near, y + near)
+    assert max(coverage_over(step.drawing, box, (2, 2)).max() for step in extent.steps) > 0.1
+
+
+def test_nothing_under_water_has_no_views():
+    assert views_of(Extent(FRAME, (Step(Drawing(())),)), None, None) == ()
+
+
+def test_a_pond_is_no_coast():
+    """With a sea in the frame, its shore is looked at, and not that of a pond in the middle."""
+    x0, y0, x1, _ = FRAME.box
+    turn = np.linspace(0, 2 * np.pi, 60, endpoint=False)
+    pond = [(0.5 + 0.05 * np.cos(a), 0.5 + 0.05 * np.sin(a)) for a in turn.tolist()]
+    sea = [(x0, y0), (x1, y0), (x1, y0 + 0.12), (x0, y0 + 0.12)]
+    both = Drawing.polygon(sea, pond)
+    shore = viewpoint(both, FRAME, openness=open_water(both, FRAME))
+    assert shore.place[1] == pytest.approx(y0 + 0.12, abs=0.01)
+    assert shore.seaward[1] < -0.9
