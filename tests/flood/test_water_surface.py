@@ -64,9 +64,11 @@ def test_water_stands_at_its_own_level_everywhere(floods, name):
 
 def test_levels_come_back_from_their_picture():
     levels = np.array([[np.nan, -1.5, 2.0], [0.25, np.nan, 20.0]])
-    png, facts = WaterSurface(levels).encoded()
+    wet = np.array([[False, True, True], [True, False, False]])
+    png, facts = WaterSurface(levels, wet).encoded()
     numbers = np.asarray(Image.open(BytesIO(png))).astype(float)
-    back = np.where(numbers == 0, np.nan, facts["lowest"] + (numbers - 1) * facts["unit"])
+    np.testing.assert_array_equal((numbers > 0) & (numbers < 32768), wet)
+    back = np.where(numbers == 0, np.nan, facts["lowest"] + (numbers % 32768 - 1) * facts["unit"])
     np.testing.assert_allclose(back, levels, atol=facts["unit"] / 2 + 1e-12)
     assert facts["unit"] < 0.01
 

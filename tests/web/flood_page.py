@@ -20,6 +20,7 @@ from PIL import Image
 
 from vexture import convert
 from vexture.drawing import Drawing
+from vexture.flood.credits import Credits
 from vexture.flood.open_water import open_water, openness_png
 from vexture.flood.surface import WaterSurface
 from vexture.geo.extent import Frame
@@ -149,7 +150,7 @@ def manifest(name: str, level: float, label: str, time: str | None) -> dict[str,
     content = convert(drawing).to_ktx2()
     depths = np.maximum(0.0, level - over_frame(COLUMNS, ROWS))
     deepest = float(depths.max())
-    surface = WaterSurface(np.where(depths > 0.0, level, np.nan))
+    surface = WaterSurface(np.where(depths > 0.0, level, np.nan), depths > 0.0)
     levels, level_facts = surface.encoded()
     shares = np.round(depths / deepest * 255) if deepest > 0 else depths
     return {
@@ -164,6 +165,7 @@ def manifest(name: str, level: float, label: str, time: str | None) -> dict[str,
             "dry": not drawing.paths,
             "deepest": deepest or None,
             "level": level_facts,
+            "area": float((depths > 0.0).mean() * FRAME.metres[0] * FRAME.metres[1]),
         },
         "views": {
             "depth": image_url(shares.astype(np.uint8), "PNG"),
@@ -182,6 +184,8 @@ def scene(steps: int = 3, **more: Any) -> dict[str, Any]:
     return {
         "flood": {
             "title": "A bay of formulas",
+            "credits": Credits(title="A bay of formulas", source="formulas").as_json(),
+            "depths": [0.0, 2.0, 20.0],
             "steps": [
                 manifest(
                     f"flood/{k:02}" if not one else "flood",
@@ -199,6 +203,7 @@ def scene(steps: int = 3, **more: Any) -> dict[str, Any]:
                 "crs": FRAME.crs,
                 "bounds": list(FRAME.bounds),
                 "geographic": False,
+                "geodetic": None,
             },
             "ground": ground(),
             "relief": {
@@ -206,6 +211,7 @@ def scene(steps: int = 3, **more: Any) -> dict[str, Any]:
                 "rows": ROWS,
                 "unit": unit,
                 "invented": False,
+                "still": 0.0,
                 "heights": data_url("application/octet-stream", np.round(heights / unit).astype("<i2").tobytes()),
             },
             "fold": None,

@@ -3,11 +3,14 @@ import { Matrix3, SRGBColorSpace, TextureLoader } from 'three';
 import { FoldTexture } from '../src/fold-texture.js';
 import { SimpleWater, chooseWater } from '../src/water/index.js';
 import { element } from '../viewer/dom.js';
+import { createBearings } from './bearings.js';
+import { createChart } from './chart.js';
 import { Notes } from '../viewer/notes.js';
 import { bytesOf } from '../viewer/library.js';
 import { readLevels } from './levels.js';
 import { opennessOver } from './openness.js';
-import { createPanel } from './panel.js';
+import { hashOf, lookOf } from './link.js';
+import { createPanel, creditLines } from './panel.js';
 import { Places } from './place.js';
 import { Player } from './player.js';
 import { wholes } from './presets.js';
@@ -16,8 +19,10 @@ import { Relief, Surface } from './relief.js';
 import { readScene } from './page-data.js';
 import { Sea } from './sea.js';
 import { Stage } from './stage.js';
+import { createShades } from './shade-row.js';
 import { Steps, levelsOf } from './steps.js';
 import { createTimeBar } from './time-bar.js';
+import { createTakeaway } from './takeaway.js';
 import { Tray } from './tray.js';
 
 /** @typedef {import('./presets.js').View} View */
@@ -167,33 +172,61 @@ async function run(stage, scene, views, fold) {
   const { surface } = stage;
   const steps = new Steps(scene);
   const heard = listener();
-  /** @type {WeakMap<import('./steps.js').Step, Float32Array | null>} */
-  const levels = new WeakMap();
+  /** @type {WeakMap<import('./steps.js').Step, import('./levels.js').Levels | null>} */
+  const surfaces = new WeakMap();
   const player = new Player(steps, {
     show: (step, fading) => {
-      stage.sea.show(step.texture, levels.get(step) ?? null, fading);
+      stage.sea.show(step.texture, surfaces.get(step)?.levels ?? null, fading);
       stage.requestFrame();
     },
     prepare: async (step) => {
       heard(step);
       const found = await levelsOf(step);
-      levels.set(step, found && readLevels(found.png, found.facts, surface.relief));
+      surfaces.set(step, found && readLevels(found.png, found.facts, surface.relief));
       for (const texture of Object.values(step.texture.textures)) stage.renderer.initTexture(texture);
     },
   });
   follow(stage, player);
   const viewed = (/** @type {View} */ view, how = {}) => {
     stage.view(view, how);
+    shown = view;
     panel.mark(view);
   };
   const named = (/** @type {string} */ name) => /** @type {View} */ (views.find((view) => view.name === name));
-  const readout = createReadout(stage, player, surface, fold);
-  const panel = createPanel(stage, surface, { title: flood.title, notes: flood.notes, readout, all: views, viewed });
-  stage.controls.addEventListener('start', () => panel.mark(null));
+  const { region: readout, placeAt } = createReadout(stage, player, surface, fold);
+  const levelsAt = async (/** @type {string} */ name) => {
+    const step = await steps.open(name);
+    const found = await levelsOf(step);
+    return { step, surface: found && readLevels(found.png, found.facts, surface.relief) };
+  };
+  const shades = createShades(stage, player, flood, levelsAt);
+  let shown = /** @type {View | null} */ (null);
+  const takeaway = createTakeaway(stage, player, {
+    name: flood.title.replace(/[^\p{L}\p{N}]+/gu, '-'),
+    say: (message) => notes.say(message),
+    caption: () => ({
+      title: flood.title, when: player.count > 1 ? player.label(player.index) : '', shade: shades.shade,
+      credits: creditLines(flood.credits).join(' '),
+    }),
+    link: () => {
+      const { camera, controls } = stage;
+      const pose = [camera.position, controls.target].flatMap(({ x, y, z }) => [x, y, z]);
+      const hash = hashOf({ step: player.index, view: shown?.name, camera: pose, colours: shades.value });
+      return hash || location.pathname + location.search;
+    },
+  });
+  const panel = createPanel(stage, surface, {
+    title: flood.title, credits: flood.credits, notes: flood.notes, readout, shades: shades.row, takeaway, all: views, viewed,
+  });
+  stage.controls.addEventListener('start', () => {
+    shown = null;
+    panel.mark(null);
+  });
   listenToKeys(views, viewed, player);
   const bar = createTimeBar(player);
+  bar.append(createChart(stage, player, placeAt, levelsAt));
   if (!bare) {
-    app.append(panel.panel, bar, notes.element);
+    app.append(panel.panel, bar, shades.legend, createBearings(stage), notes.element);
     stage.inset = () => insetOf(panel.panel, bar);
   }
   stage.resize();
@@ -214,7 +247,16 @@ async function run(stage, scene, views, fold) {
     relief: (/** @type {number} */ times) => stage.relief(times),
     render: () => stage.render(),
   }));
-  await player.start();
+  const look = lookOf(location.hash);
+  await player.start(look.step);
+  if (look.colours) shades.choose(look.colours);
+  const wanted = views.find(({ name }) => name === look.view);
+  if (wanted) viewed(wanted, { fly: false });
+  else if (look.camera) {
+    stage.stand(look.camera);
+    shown = null;
+    panel.mark(null);
+  }
   stage.render();
   steps.follow();
 }

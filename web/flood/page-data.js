@@ -6,6 +6,7 @@
  * @property {string} [label] short text for people
  * @property {boolean} [dry] nothing is under water
  * @property {number | null} [deepest] metres
+ * @property {number} [area] square metres under water
  * @property {{lowest: number, unit: number}} [level] metres, of the picture of levels
  *
  * @typedef {object} Manifest
@@ -13,7 +14,7 @@
  * @property {string} texture URL
  * @property {Facts} [facts]
  * @property {{depth?: string, level?: string}} [views] depth: 8-bit gray PNG over the box, 255 is the deepest; level:
- *   16-bit gray PNG on the grid of the relief, 0 is no water, 1 the lowest
+ *   16-bit gray PNG on the grid of the relief (levels.js)
  * @property {string | null} [note]
  *
  * @typedef {object} FrameFacts
@@ -22,6 +23,8 @@
  * @property {[number, number]} metres width and height on the ground
  * @property {string} crs
  * @property {boolean} geographic
+ * @property {{columns: number, rows: number, places: number[]} | null} geodetic longitudes and latitudes on a grid over the
+ *   box, northernmost row first, from corner to corner
  *
  * @typedef {object} ReliefFacts
  * @property {number} columns
@@ -29,9 +32,21 @@
  * @property {number} unit metres
  * @property {string} heights data: URI of little-endian int16
  * @property {boolean} invented
+ * @property {number} still metres of the still water above the zero of the heights' source
+ *
+ * @typedef {object} Credits
+ * @property {string} title
+ * @property {string} source
+ * @property {string} institution
+ * @property {string} references
+ * @property {string} licence
+ * @property {string} comment
+ * @property {boolean} synthetic
  *
  * @typedef {object} Flood
  * @property {string} title
+ * @property {Credits} credits
+ * @property {number[]} depths metres from which the classes of the map of depths begin
  * @property {(string | Manifest)[]} steps names on the server, or all of each
  * @property {string} prefix of the names of later steps
  * @property {FrameFacts} frame

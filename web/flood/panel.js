@@ -8,17 +8,18 @@ const NARROW = matchMedia('(max-width: 720px), (max-height: 480px)');
 /**
  * @param {import('./stage.js').Stage} stage
  * @param {import('./relief.js').Surface} surface
- * @param {{title: string, notes: string[], readout: Element, all: View[], viewed: (view: View) => void}} what
+ * @param {{title: string, credits: import('./page-data.js').Credits, notes: string[], readout: Element, shades: Element, takeaway: Element,
+ *   all: View[], viewed: (view: View) => void}} what
  */
-export function createPanel(stage, surface, { title, notes, readout, all, viewed }) {
+export function createPanel(stage, surface, { title, credits, notes, readout, shades, takeaway, all, viewed }) {
   const views = element('div', { class: 'views', role: 'group', 'aria-label': 'Views' },
     ...all.map((view, at) => element('button', {
       type: 'button', title: `${view.name} (${at + 1})`, onclick: () => viewed(view),
     }, view.name)));
   const panel = element('aside', { class: 'panel', 'aria-label': 'Controls' });
   const body = element('div', { class: 'body', id: 'panel-body' },
-    reliefRow(stage, surface), wavesRow(stage), ...(notes.length ? [element('div', { class: 'about' },
-      ...notes.map((note) => element('p', {}, note)))] : []));
+    shades, reliefRow(stage, surface), wavesRow(stage), takeaway,
+    element('div', { class: 'about' }, ...[...creditLines(credits), ...notes].map((note) => element('p', {}, note))));
   const fold = element('button', {
     type: 'button', class: 'fold', 'aria-label': 'Settings', title: 'Settings', 'aria-controls': 'panel-body',
     onclick: () => folded(!body.hidden),
@@ -28,10 +29,19 @@ export function createPanel(stage, surface, { title, notes, readout, all, viewed
     fold.setAttribute('aria-expanded', String(!wanted));
   };
   folded(NARROW.matches);
-  panel.append(element('header', {}, element('h1', {}, title), fold), views, body, readout);
+  panel.append(element('header', {}, element('h1', {}, title, ...badge(credits)), fold), views, body, readout);
   return { panel, mark: (/** @type {View | null} */ shown) => {
     for (const button of views.children) button.setAttribute('aria-pressed', String(button.textContent === shown?.name));
   } };
+}
+
+/** @param {import('./page-data.js').Credits} credits */
+const badge = ({ synthetic }) => (synthetic ? [' ', element('span', { class: 'badge' }, 'synthetic')] : []);
+
+/** What the data say of themselves. @param {import('./page-data.js').Credits} credits */
+export function creditLines({ source, institution, licence, references, comment }) {
+  const from = [source, institution].filter(Boolean).join(', ');
+  return [comment, from && `Source: ${from}.`, licence && `Licence: ${licence}.`, references].filter(Boolean);
 }
 
 /** @param {import('./stage.js').Stage} stage @param {import('./relief.js').Surface} surface */

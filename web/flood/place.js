@@ -63,6 +63,26 @@ export class Places {
     return `${whole(x)} E, ${whole(y)} N`;
   }
 
+  /**
+   * Longitude and latitude for people; null where they are unknown, or are the coordinates themselves.
+   *
+   * @param {number} s @param {number} t
+   */
+  geodetic(s, t) {
+    const { geodetic } = this.#frame;
+    if (!geodetic) return null;
+    const { columns, rows, places } = geodetic;
+    const [x, y] = [Math.min(Math.max(s, 0), 1) * (columns - 1), (1 - Math.min(Math.max(t, 0), 1)) * (rows - 1)];
+    const [column, row] = [Math.min(Math.floor(x), columns - 2), Math.min(Math.floor(y), rows - 2)];
+    const at = (/** @type {number} */ right, /** @type {number} */ down, /** @type {number} */ part) =>
+      places[2 * ((row + down) * columns + column + right) + part];
+    const [east, south] = [x - column, y - row];
+    const [longitude, latitude] = [0, 1].map((part) =>
+      (at(0, 0, part) * (1 - east) + at(1, 0, part) * east) * (1 - south)
+      + (at(0, 1, part) * (1 - east) + at(1, 1, part) * east) * south);
+    return `${degrees(latitude, 'N', 'S')}, ${degrees(longitude, 'E', 'W')}`;
+  }
+
   /** The reference system's name. */
   get crs() {
     const { crs } = this.#frame;

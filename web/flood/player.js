@@ -82,10 +82,11 @@ export class Player extends EventTarget {
     await this.#go(index);
   }
 
-  /** Show the first step, and newer ones as they arrive. */
-  async start() {
+  /** Show a step, the first unless another is wanted, and newer ones as they arrive. */
+  async start(index = 0) {
     this.#newest = this.names[this.count - 1];
-    await this.#go(0);
+    if (index > 0) await this.go(index);
+    else await this.#go(0);
   }
 
   /** @param {number} index */

@@ -53,10 +53,17 @@ export function createReadout(stage, player, surface, fold) {
     const [s, t] = place;
     const [u, v] = places.toUnit(s, t);
     const moved = fold ? fold.at(u, v, stage.seconds) : { u, v };
+    const ground = surface.relief.at(s, t);
+    const level = surface.levels ? surface.levelNear(s, t) : 0;
     const isWet = player.step.texture.contains(moved.u, moved.v, WATER);
     const depth = isWet ? known.depths?.at(s, t) : undefined;
     state.textContent = isWet ? (depth ? `Wet, ${metres(depth)} deep` : 'Wet') : 'Dry';
-    where.textContent = `${places.text(u, v)} · ${places.crs}`;
+    const still = surface.relief.still;
+    const heights = surface.relief.invented ? [] : [
+      `ground ${signed(ground + still)}`, ...(isWet && depth ? [`water ${signed(level + still)}`] : []),
+    ];
+    const texts = [heights.join(', '), `${places.text(u, v)} · ${places.crs}`, places.geodetic(s, t)];
+    where.replaceChildren(...texts.filter((text) => text).map((text) => element('span', {}, /** @type {string} */ (text))));
   }
 
   /** @param {number} px @param {number} py CSS pixels of the canvas */
@@ -86,8 +93,11 @@ export function createReadout(stage, player, surface, fold) {
     if (pointed) show(); // the waves or the camera may have moved
   });
   show();
-  return region;
+  return { region, placeAt };
 }
+
+/** Metres above the zero of the heights. @param {number} height */
+const signed = (height) => `${height < 0 ? '−' : '+'}${Math.abs(height).toFixed(2)} m`;
 
 /** @param {number} depth */
 const metres = (depth) => `${depth < 10 ? depth.toFixed(1) : Math.round(depth).toLocaleString('en')} m`;

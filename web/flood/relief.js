@@ -14,10 +14,11 @@ export class Relief {
   /**
    * @param {{columns: number, rows: number}} size
    * @param {Float32Array} heights metres above the water level, northernmost row first
-   * @param {boolean} [invented]
+   * @param {{invented?: boolean, still?: number}} [facts] still: metres of the still water above the zero of their source
    */
-  constructor({ columns, rows }, heights, invented = false) {
+  constructor({ columns, rows }, heights, { invented = false, still = 0 } = {}) {
     this.invented = invented;
+    this.still = still;
     this.columns = columns;
     this.rows = rows;
     this.heights = heights;
@@ -31,14 +32,14 @@ export class Relief {
    * @param {import('./page-data.js').ReliefFacts} facts
    * @param {ArrayBuffer} bytes
    */
-  static read({ columns, rows, unit, invented }, bytes) {
+  static read({ columns, rows, unit, invented, still }, bytes) {
     if (bytes.byteLength !== columns * rows * 2) {
       const wanted = columns * rows * 2;
       throw new Error(`The relief has ${bytes.byteLength} bytes; ${columns} x ${rows} heights have ${wanted}.`);
     }
     const view = new DataView(bytes);
     const heights = Float32Array.from({ length: columns * rows }, (_, at) => view.getInt16(2 * at, true) * unit);
-    return new Relief({ columns, rows }, heights, invented);
+    return new Relief({ columns, rows }, heights, { invented, still });
   }
 
   /**

@@ -33,6 +33,8 @@ export class Sea {
   #fading = null;
   #openness;
   #fields;
+  /** What the colours of the water are of; null: its depth. @type {Float32Array | null} */
+  #values = null;
   #isFlat = false;
 
   /**
@@ -86,6 +88,18 @@ export class Sea {
     }
   }
 
+  /**
+   * Colour the water by its depth or by other values on the relief's grid; null: as water looks.
+   *
+   * @param {import('../src/water/fields.js').DepthColors | null} colors
+   * @param {Float32Array | null} [values]
+   */
+  color(colors, values = null) {
+    this.#values = values;
+    this.water.depthColors = colors;
+    this.#level(this.#surface.levels);
+  }
+
   /** Let the water stand at these levels. @param {Float32Array | null} levels */
   #level(levels) {
     this.#surface.levels = levels;
@@ -97,7 +111,8 @@ export class Sea {
         position.setZ(at, tops[at]);
         const to = 2 * ((rows - 1 - row) * columns + column); // a texture's first row is the southernmost
         const level = levels ? levels[at] : 0;
-        data[to] = DataUtils.toHalfFloat(level > heights[at] ? level - heights[at] : 0);
+        const depth = Number.isNaN(level) ? 0 : level - heights[at]; // below 0 in walls, so that no shallows are at them
+        data[to] = DataUtils.toHalfFloat(this.#values ? this.#values[at] || 0 : depth);
         data[to + 1] = DataUtils.toHalfFloat(this.#openness[at]);
       }
     }

@@ -114,9 +114,13 @@ export class Stage extends EventTarget {
   resize() {
     const { clientWidth: width, clientHeight: height } = /** @type {Element} */ (this.canvas.parentElement);
     if (width === 0 || height === 0) return;
-    this.size = { width, height };
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_RATIO));
-    this.renderer.setSize(width, height);
+    Object.assign(this.canvas.style, { width: '100%', height: '100%' });
+    this.#shape(width, height, Math.min(devicePixelRatio, MOST_RATIO));
+  }
+
+  /** Give the cameras the shape of the picture, and render. */
+  #frame() {
+    const { width, height } = this.size;
     this.#perspective.aspect = width / height;
     const { left = 0, top = 0, right = 0, bottom = 0 } = this.inset();
     for (const camera of [this.#perspective, this.#plan]) {
@@ -124,6 +128,30 @@ export class Stage extends EventTarget {
     }
     this.#spread();
     this.render();
+  }
+
+  /**
+   * Render at another size, with nothing before it, act, and render as before.
+   *
+   * @param {[number, number]} size in pixels
+   * @param {() => void} act
+   */
+  renderedAt([width, height], act) {
+    const [before, inset] = [{ ...this.size }, this.inset];
+    const ratio = this.renderer.getPixelRatio();
+    this.inset = () => ({});
+    this.#shape(width, height, 1);
+    act();
+    this.inset = inset;
+    this.#shape(before.width, before.height, ratio);
+  }
+
+  /** @param {number} width @param {number} height @param {number} ratio of pixels to those of the page */
+  #shape(width, height, ratio) {
+    this.size = { width, height };
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    this.#frame();
   }
 
   /** Let the plan show the box. */
@@ -208,6 +236,13 @@ export class Stage extends EventTarget {
     this.#place(end);
     this.#look(isPlan);
     this.render();
+  }
+
+  /** Stand somewhere and look somewhere, in the world. @param {number[]} numbers position and target of the camera */
+  stand([x, y, z, toX, toY, toZ]) {
+    this.#flight = null;
+    this.#look(false);
+    this.#place({ from: { x, y, z }, to: { x: toX, y: toY, z: toZ } });
   }
 
   /** @param {Pose} pose */

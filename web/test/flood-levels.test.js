@@ -13,7 +13,9 @@ const png = (/** @type {number[]} */ numbers, width = 3, depth = 16) => encode({
 
 describe('levels', () => {
   it('are the lowest and so many units, and none where there is no water', () => {
-    expect([...readLevels(png([0, 1, 2, 65535, 0, 11]), FACTS, SIZE)]).toEqual([NaN, -2.5, -2, 32764.5, NaN, 2.5]);
+    const { levels, wet } = readLevels(png([0, 1, 2, 32767, 32768 + 3, 11]), FACTS, SIZE);
+    expect([...levels]).toEqual([NaN, -2.5, -2, 16380.5, -1.5, 2.5]);
+    expect([...wet]).toEqual([0, 1, 1, 1, 0, 1]);
   });
 
   it('are refused in another size or depth', () => {

@@ -28,7 +28,7 @@ describe('Relief', () => {
     const invented = Relief.read({ ...FACTS, invented: true }, BYTES);
     expect(invented.exaggeration(0.01) * 220 * 0.01).toBeCloseTo(10);
     expect(invented.exaggeration(10)).toBe(1);
-    expect(new Relief(FACTS, new Float32Array(6), true).exaggeration(1)).toBe(1);
+    expect(new Relief(FACTS, new Float32Array(6), { invented: true }).exaggeration(1)).toBe(1);
   });
 
   it('is shown as it is, if it is real', () => {

@@ -8,10 +8,12 @@ import click
 from vexture.cli.messages import one_line, say
 from vexture.cli.options import PATH
 from vexture.errors import ParameterError
-from vexture.flood.options import PERIOD, FloodOptions, bounds_of
+from vexture.flood.options import DEPTHS, PERIOD, FloodOptions, bounds_of, depths_of
 from vexture.tolerance import HMIN
 
 __all__ = ["flood"]
+
+CLASSES = ",".join(f"{depth:g}" for depth in DEPTHS[1:])
 
 EXAMPLE = """\b
 Examples:
@@ -34,7 +36,10 @@ Examples:
     "--amplitude", metavar="M", type=float, help="How far waves run up the beach.  [default: 0.2% of the box]"
 )
 @click.option("--period", metavar="S", type=float, default=PERIOD, show_default=True, help="Seconds between waves.")
-@click.option("--title", metavar="TEXT", help="Title of the page.  [default: the name of the extent]")
+@click.option("--title", metavar="TEXT", help="Title of the page.  [default: the file's own, or its name]")
+@click.option("--source", metavar="TEXT", help="Where the data are from.  [default: what the file says]")
+@click.option("--licence", "--license", metavar="TEXT", help="Terms of the data.  [default: what the file says]")
+@click.option("--depths", metavar="M,M,...", help=f"Classes of the map of depths.  [default: {CLASSES}]")
 @click.option("-o", "--output", metavar="PAGE.html", type=PATH, help="Write one page with everything in it.")
 @click.option("--serve", "serving", is_flag=True, help="Show the page on a server, until Ctrl-C.")
 @click.option("--token-file", metavar="F", type=PATH, help="With --serve: token of those who may push newer water.")
@@ -47,6 +52,7 @@ def flood(
     host: str,
     port: int,
     bounds: str | None,
+    depths: str | None,
     **parameters: Any,
 ) -> None:
     """Show a flood as a living sea, on one page or on a server.
@@ -61,7 +67,8 @@ def flood(
             raise ParameterError(f"vexture flood needs to know where to show it; give {both}")
         if token_file is not None and not serving:
             raise ParameterError(f"`token_file` {token_file}: one page takes no uploads; use it with `serve`")
-        asked = FloodOptions(bounds=None if bounds is None else bounds_of(bounds), **parameters)
+        classes = DEPTHS if depths is None else depths_of(depths)
+        asked = FloodOptions(bounds=None if bounds is None else bounds_of(bounds), depths=classes, **parameters)
         from vexture.live.flood import Made, export, serve
 
         if output is not None:

@@ -1,6 +1,7 @@
 """Parameters of `vexture flood`, checked before any file is read."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import isfinite
 from pathlib import Path
 from typing import Any, Final
@@ -8,10 +9,15 @@ from typing import Any, Final
 from vexture.errors import ParameterError
 from vexture.tolerance import HMIN
 
-__all__ = ["PERIOD", "FloodOptions", "bounds_of"]
+__all__ = ["DEPTHS", "PERIOD", "FloodOptions", "bounds_of", "depths_of"]
 
 PERIOD: Final = 8.0
 """Default seconds between two waves on a beach."""
+
+DEPTHS: Final = (0.0, 0.2, 0.5, 1.0, 2.0, 5.0)
+"""Metres from which the classes of the map of depths begin."""
+
+MOST_CLASSES: Final = 8
 
 SHORTEST_PERIOD, LONGEST_PERIOD = 0.1, 600.0
 MOST_AMPLITUDE: Final = 0.05
@@ -37,12 +43,22 @@ class FloodOptions:
     amplitude: float | None = None
     period: float = PERIOD
     title: str | None = None
+    source: str | None = None
+    licence: str | None = None
+    depths: tuple[float, ...] = DEPTHS
 
     def __post_init__(self) -> None:
         if not (isfinite(self.hmin) and self.hmin > 0.0):
             raise ParameterError(f"`hmin` {self.hmin:g}: it is a depth in metres, above 0")
         if self.amplitude is not None and not (isfinite(self.amplitude) and self.amplitude >= 0.0):
             raise ParameterError(f"`amplitude` {self.amplitude:g}: it is a length in metres, 0 or more")
+        if not (1 <= len(self.depths) <= MOST_CLASSES):
+            raise ParameterError(f"`depths`: {len(self.depths)} classes; give 1 to {MOST_CLASSES} depths")
+        if not all(isfinite(depth) and depth >= 0.0 for depth in self.depths) or any(
+            below >= above for below, above in pairwise(self.depths)
+        ):
+            listed = ",".join(f"{depth:g}" for depth in self.depths)
+            raise ParameterError(f"`depths` {listed}: they are metres, 0 or more, and each above the one before")
         if not SHORTEST_PERIOD <= self.period <= LONGEST_PERIOD:
             raise ParameterError(
                 f"`period` {self.period:g}: it must be {SHORTEST_PERIOD:g} to {LONGEST_PERIOD:g} seconds"
@@ -64,6 +80,24 @@ class FloodOptions:
                 f"longer side of {longest:.3g} m; choose a smaller one"
             )
         return self.amplitude
+
+
+def depths_of(text: str) -> tuple[float, ...]:
+    """Depths that a user has written as 0.2,0.5,1; the first class begins at 0.
+
+    Examples
+    --------
+    >>> depths_of("0.5,1,2")
+    (0.0, 0.5, 1.0, 2.0)
+    >>> depths_of("deep")
+    Traceback (most recent call last):
+    vexture.errors.ParameterError: `depths` deep: give metres with commas between them, as in 0.2,0.5,1,2
+    """
+    try:
+        depths = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        raise ParameterError(f"`depths` {text}: give metres with commas between them, as in 0.2,0.5,1,2") from None
+    return depths if depths[0] == 0.0 else (0.0, *depths)
 
 
 def bounds_of(text: str) -> tuple[float, float, float, float]:

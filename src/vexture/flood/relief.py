@@ -64,7 +64,10 @@ class Relief:
         numbers = np.rint(self.heights / unit).astype("<i2")
         address = f"data:application/octet-stream;base64,{base64.b64encode(numbers.tobytes()).decode()}"
         rows, columns = numbers.shape
-        return {"columns": columns, "rows": rows, "unit": unit, "heights": address, "invented": self.invented}
+        return {
+            "columns": columns, "rows": rows, "unit": unit, "heights": address, "invented": self.invented,
+            "still": self.still,
+        }  # fmt: skip
 
 
 def first_wet(extent: Extent) -> Step | None:

@@ -8,16 +8,20 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.flood.credits import Credits
 from vexture.flood.open_water import openness_png
 from vexture.flood.relief import Relief
 from vexture.flood.views import View
-from vexture.geo.crs import system
+from vexture.geo.crs import UNPLACED, system, transformed
 from vexture.geo.extent import Frame
 
 __all__ = ["PREFIX", "Flood", "PageNote", "labels", "scene", "step_names"]
 
 PREFIX: Final = "flood"
 """Name of a flood's shape on a server, or with a slash the start of it."""
+
+GEODETIC: Final = 9
+"""Places along each side at which longitude and latitude are computed: between them they are interpolated."""
 
 MONTHS: Final = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
 """In English, whatever the locale."""
@@ -34,12 +38,15 @@ class PageNote(NamedTuple):
 class Flood:
     """All of a page but its water.
 
-    `ground` is an encoded picture of the frame; `fold` is a file that moves the shoreline; `openness` says where
+    `credits` is what the data say of themselves, and `depths` the metres from which the classes of the map of depths
+    begin. `ground` is an encoded picture of the frame; `fold` is a file that moves the shoreline; `openness` says where
     waves are (`vexture.flood.open_water`); `views` are what to look at beside
     the whole box.
     """
 
     title: str
+    credits: Credits
+    depths: tuple[float, ...]
     frame: Frame
     ground: bytes
     relief: Relief
@@ -58,6 +65,8 @@ def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, f
     frame = flood.frame
     return {
         "title": flood.title,
+        "credits": flood.credits.as_json(),
+        "depths": list(flood.depths),
         "steps": list(steps),
         "prefix": PREFIX,
         "frame": {
@@ -67,6 +76,7 @@ def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, f
             "crs": frame.crs,
             "bounds": list(frame.bounds),
             "geographic": system(frame.crs).is_geographic,
+            "geodetic": _geodetic(frame),
         },
         "ground": ground,
         "relief": flood.relief.as_json(),
@@ -75,6 +85,21 @@ def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, f
         "views": [view.as_json() for view in flood.views],
         "notes": [note.text for note in flood.notes],
     }
+
+
+def _geodetic(frame: Frame) -> dict[str, Any] | None:
+    """Longitude and latitude (WGS 84) on a grid over the frame from its north-west, from corner to corner.
+
+    None if the frame is in degrees itself, or in no known place.
+    """
+    if frame.crs == UNPLACED or system(frame.crs).is_geographic:
+        return None
+    west, south, east, north = frame.bounds
+    x, y = np.meshgrid(np.linspace(west, east, GEODETIC), np.linspace(north, south, GEODETIC))
+    places = transformed(np.stack([x.ravel(), y.ravel()], axis=1), frame.crs, "EPSG:4326")
+    if not np.isfinite(places).all():
+        return None
+    return {"columns": GEODETIC, "rows": GEODETIC, "places": np.round(places, 8).ravel().tolist()}
 
 
 def step_names(count: int) -> list[str]:

@@ -17,8 +17,8 @@ __all__ = ["WaterSurface", "highest_of", "surface_of"]
 FINEST_UNIT: Final = 0.005
 """Metres. The smallest unit of levels on the page: finer ones would not be seen, and would not compress."""
 
-HIGHEST: Final = 65_535
-"""Largest number in a picture of levels; 0 says that there is no water."""
+BESIDE: Final = 32_768
+"""In a picture of levels, what is added where there is no water, but beside it; 0 says that there is none near."""
 
 BEYOND: Final = 3
 """Samples around the water that have its level too: there the surface runs into the ground, and is cut at the shore."""
@@ -29,21 +29,28 @@ SMOOTH: Final = 4
 
 @dataclass(frozen=True, slots=True, eq=False)
 class WaterSurface:
-    """Levels of the water in metres above the still water, NaN where there is none.
+    """Levels of the water in metres above the still water, NaN where there is none near.
 
-    The northernmost row comes first, on the grid of the heights of the ground.
+    The northernmost row comes first, on the grid of the heights of the ground. `wet` says where there is water: the
+    levels go on a little beside it.
     """
 
     levels: NDArray[np.float64]
+    wet: NDArray[np.bool_]
 
     def encoded(self) -> tuple[bytes, dict[str, float]]:
-        """16-bit gray PNG, and the facts to read it: 1 is `lowest`, each further step is `unit`; 0 is no water."""
+        """16-bit gray PNG, and the facts to read it.
+
+        1 is `lowest`, each further step is `unit`. Beside the water the same numbers are raised by `BESIDE`; 0 is no
+        water near.
+        """
         from PIL import Image
 
         known = self.levels[np.isfinite(self.levels)]
         lowest, range_of = (float(known.min()), float(np.ptp(known))) if known.size else (0.0, 0.0)
-        unit = max(FINEST_UNIT, range_of / (HIGHEST - 1))
-        numbers = np.nan_to_num(np.rint((self.levels - lowest) / unit) + 1.0, nan=0.0)
+        unit = max(FINEST_UNIT, range_of / (BESIDE - 2))
+        numbers = np.rint((self.levels - lowest) / unit) + np.where(self.wet, 1.0, 1.0 + BESIDE)
+        numbers = np.nan_to_num(numbers, nan=0.0)
         out = BytesIO()
         Image.fromarray(numbers.astype(np.uint16)).save(out, format="PNG", optimize=True)
         return out.getvalue(), {"lowest": lowest, "unit": unit}
@@ -66,7 +73,8 @@ def surface_of(step: Step, frame: Frame, relief: Relief, bed: NDArray[np.float32
         levels = _smoothed(np.where(wet, levels, np.nan), SMOOTH)
     else:
         levels = _from_shores(relief.heights, wet)
-    return WaterSurface(_widened(np.where(wet | np.isfinite(levels), _filled_at(levels, wet), np.nan), BEYOND))
+    levels = np.where(wet | np.isfinite(levels), _filled_at(levels, wet), np.nan)
+    return WaterSurface(_widened(levels, BEYOND), wet)
 
 
 def highest_of(surfaces: Sequence[WaterSurface]) -> NDArray[np.float64] | None:

@@ -63,6 +63,7 @@ class Made(NamedTuple):
 
 def make(asked: FloodOptions, say: Say) -> Made:
     """Read all files of a flood and convert them; `say` gets warnings and notes for the user."""
+    from vexture.flood.credits import credits_of
     from vexture.flood.drawn_ground import drawn_ground
     from vexture.flood.ground import encoded, ground_of
     from vexture.flood.open_water import open_water
@@ -105,8 +106,11 @@ def make(asked: FloodOptions, say: Say) -> Made:
             notes.append(SHELTERED)
     if relief.known < WHOLE:
         notes.append(PageNote(f"{relief.known:.0%} of the ground has a height; the rest goes on as its border.", ""))
+    credits = credits_of(asked.extent).with_given(title=asked.title, source=asked.source, licence=asked.licence)
     flood = Flood(
-        title=asked.title or asked.extent.name.partition(".")[0] or PREFIX,
+        title=credits.title or asked.extent.name.partition(".")[0] or PREFIX,
+        credits=credits,
+        depths=asked.depths,
         frame=frame,
         ground=encoded(picture),
         relief=relief,

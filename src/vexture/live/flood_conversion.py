@@ -28,6 +28,9 @@ WATER_PARAMETERS: Final = Parameters(split=None, precision=2e-6)
 SAME_PLACE: Final = 1e-6
 """Share of the frame by which a texture's place may differ from it, by rounding when it was written."""
 
+AREA_CELLS: Final = 64
+"""Cells on the longer side over which the area under water is summed; each is exact."""
+
 OPTIONS: Final[dict[FileKind, tuple[str, ...]]] = {
     FileKind.DEPTHS: ("time_dim", "variable"),
     FileKind.AREAS: ("layer",),
@@ -67,6 +70,7 @@ class FloodConversion:
             "label": label,
             "dry": self._is_dry(step),
             "deepest": None if most is None else round(most, 3),
+            "area": self._area(step),
         }
         return replace(shape, facts=facts, views=views)
 
@@ -138,6 +142,13 @@ class FloodConversion:
         shape = texture_shape(data, name, name)
         facts = {**shape.facts, "time": None, "label": "", "dry": shape.facts["curves"] == 0, "deepest": None}
         return replace(shape, facts=facts)
+
+    def _area(self, step: Step) -> float:
+        """Square metres under water within the frame."""
+        from vexture.flood.grids import coverage_over, size_for
+
+        covered = coverage_over(step.drawing, self.frame.box, size_for(self.frame, AREA_CELLS))
+        return round(float(covered.mean(dtype=np.float64)) * self.frame.metres[0] * self.frame.metres[1], 1)
 
     def _is_dry(self, step: Step) -> bool:
         """Whether no water of a step is in the frame."""

@@ -1,0 +1,81 @@
+import { describe, expect, it } from 'vitest';
+import { lengthText, roundLength } from '../flood/bearings.js';
+import { areaText, lineOf } from '../flood/chart.js';
+import { entries } from '../flood/legend.js';
+import { hashOf, lookOf } from '../flood/link.js';
+import { Places } from '../flood/place.js';
+import { arrivals, colorsOf, shadeOf } from '../flood/shades.js';
+
+/** Brightness of a colour as sRGB is weighed. @param {string} color */
+const brightness = (color) => [1, 3, 5].reduce((sum, at, k) =>
+  sum + [0.2126, 0.7152, 0.0722][k] * (parseInt(color.slice(at, at + 2), 16) / 255) ** 2.2, 0);
+
+describe('shades', () => {
+  it('have colours that grow darker, so that their order is seen in gray', () => {
+    for (const count of [2, 3, 6, 8]) {
+      const bright = colorsOf(count).map(brightness);
+      expect(bright).toHaveLength(count);
+      expect(bright).toEqual([...bright].sort((a, b) => b - a));
+      expect(new Set(bright).size).toBe(count);
+    }
+    expect(colorsOf(1)).toHaveLength(1);
+  });
+
+  it('are none for water, classes of depths, and the first to come the darkest', () => {
+    expect(shadeOf('water', [0, 1], 0)).toBeNull();
+    const depth = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('depth', [0, 0.5, 2], 0));
+    expect(entries(depth).map(({ text }) => text)).toEqual(['0 to 0.5 m', '0.5 to 2 m', 'over 2 m']);
+    const smooth = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('smooth', [0, 0.5, 2], 0));
+    expect(entries(smooth).map(({ text }) => text)).toEqual(['0 m', '0.5 m', '2 m']);
+    const late = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('arrival', [0], 12));
+    expect(entries(late)[1].text).toBe('2 to 4 h');
+    expect(brightness(entries(late)[0].color)).toBeLessThan(brightness(entries(late)[5].color));
+  });
+
+  it('of arrival are of the first step that is wet, and go on a little beside the water', () => {
+    const steps = [{ hours: 0, wet: [1, 0, 0, 0, 0, 0, 0] }, { hours: 3, wet: [1, 1, 0, 0, 0, 0, 0] }]
+      .map(({ hours, wet }) => ({ hours, wet: Uint8Array.from(wet) }));
+    expect([...arrivals(steps, { columns: 7, rows: 1 })]).toEqual([0, 3, 3, 3, 3, NaN, NaN]);
+  });
+});
+
+describe('scale', () => {
+  it.each([[99, 50, '50 m'], [100, 100, '100 m'], [4999, 2000, '2 km'], [0.3, 0.2, '0.2 m']])('%f m: %f', (most, length, text) => {
+    expect(roundLength(most)).toBeCloseTo(length);
+    expect(lengthText(roundLength(most))).toBe(text);
+  });
+});
+
+describe('chart', () => {
+  it('is a line from the least to the greatest, with gaps where there is no water', () => {
+    expect(lineOf([1, 3, NaN, 2])).toEqual({ path: 'M0.0 41.0L200.0 3.0M600.0 22.0', low: 1, high: 3 });
+    expect(lineOf([5, 5]).path).toBe('M0.0 41.0L600.0 41.0');
+    expect([areaText(2_345_000), areaText(12_000)]).toEqual(['2.35 km²', '1.2 ha']);
+  });
+});
+
+describe('link', () => {
+  it('keeps step, view or camera, and colours', () => {
+    const looks = [
+      { step: 5, view: 'Flooded land', colours: 'depth' }, { camera: [1, 2.5, -3, 0, 0, 0] }, {}, { step: 1 },
+    ];
+    for (const look of looks) expect(lookOf(hashOf(look))).toEqual(look);
+    expect(hashOf({ step: 0, colours: 'water' })).toBe('');
+  });
+
+  it('takes nothing that makes no sense', () => {
+    for (const hash of ['#step=-3', '#step=a', '#camera=1,2,3', '#camera=1,2,3,4,5,x', '#camera=,,,,,', '#camera=1e9,0,0,0,0,0', '#=&&']) {
+      expect(lookOf(hash), hash).toEqual({});
+    }
+  });
+});
+
+describe('coordinates', () => {
+  it('are longitude and latitude too, interpolated', () => {
+    const geodetic = { columns: 2, rows: 2, places: [4, 52, 6, 52.2, 4, 51, 6, 51.2] };
+    const frame = /** @type {any} */ ({ box: [0, 0, 1, 1], metres: [1000, 1000], to_source: [1, 0, 0, 0, 1, 0], geodetic });
+    expect(new Places(frame).geodetic(0.5, 0.5)).toBe('51.60000° N, 5.00000° E');
+    expect(new Places(frame).geodetic(0, 1)).toBe('52.00000° N, 4.00000° E');
+    expect(new Places({ ...frame, geodetic: null }).geodetic(0, 0)).toBeNull();
+  });
+});
