@@ -43,6 +43,7 @@ SAID = {
     "pattern": 'simplified: <pattern id="c"> in line 2 read as solid: here it has 12,500,000,000 segments in its tiles;'
     " all patterns of a drawing may have 400,000",
     "script": "left out: script",
+    "transform-without-size": "left out: transform of the outermost <svg>, which has no size",
     "unknown-element": "left out: <flowRoot>",
     "view-and-cursor": "its cursors are left out, which no picture shows; "
     "its views are not followed; all of it is shown",
