@@ -20,6 +20,14 @@ PARTS = (
 )
 
 
+EDGED = '<rect x="20" y="30" width="60" height="40" fill="#fc8" stroke="#2040e0" stroke-width="10"/>'
+
+
+def clipped(clip: str, shown: str) -> str:
+    """What a clip leaves of what is shown."""
+    return f'<clipPath id="c">{clip}</clipPath><g clip-path="url(#c)">{shown}</g>'
+
+
 def marked(under: str, *places: tuple[float, float, float], scale: float = 0.9, arrow: str = ARROW) -> str:
     """A shape, and over it what its markers show at places, each x, y and degrees."""
     turned = (f"translate({x} {y}) rotate({turn}) scale({scale}) translate(-5 -5)" for x, y, turn in places)
@@ -38,6 +46,27 @@ PLAINER = {
     # as browsers have it: the clips and masks of a viewport are in the units of its content
     "masks/clip-of-svg-in-its-units": '<clipPath id="c"><circle cx="60" cy="36.6667" r="26.6667"/></clipPath>'
     '<path clip-path="url(#c)" d="M20 10H100V90H20z"/>',
+    # basic shapes of CSS, in the box around the stroke unless another is named (CSS Masking 1, 5; CSS Shapes 1, 3)
+    "masks/clip-by-css-circle": clipped(
+        '<circle cx="50" cy="50" r="25"/>', EDGED.replace("/>", ' stroke-dasharray="9"/>')
+    ),
+    "masks/clip-by-css-circle-in-box": clipped('<circle cx="70" cy="40" r="25.4951"/>', EDGED),
+    "masks/clip-by-css-ellipse": clipped(
+        '<ellipse cx="10" cy="44" rx="60" ry="20"/>', '<rect x="10" y="20" width="60" height="60" fill="#208040"/>'
+    ),
+    # radii that overlap become less in one proportion (CSS Backgrounds 3, 4.5)
+    "masks/clip-by-css-inset": '<path fill="#208040" d="M62.3636 18H66.7273A7.2727 7.2727 0 0 1 74 25.2727V66H37.6364'
+    'A11.6364 11.6364 0 0 1 26 54.3636A36.3636 36.3636 0 0 1 62.3636 18Z"/>',
+    "masks/clip-by-css-rect": '<g fill="#208040"><rect x="18" y="15" width="52" height="35" rx="8"/>'
+    '<rect x="20" y="65" width="40" height="15"/></g>',
+    "masks/clip-by-css-polygon": clipped(
+        '<path clip-rule="evenodd" d="M50 0L80 100L0 35L100 35L20 100z"/>',
+        '<path fill="#208040" d="M10 10H90V90H10z"/>',
+    ),
+    "masks/clip-by-css-path": clipped('<path d="M35 10H85V70z"/>', '<circle cx="55" cy="40" r="30" fill="#208040"/>'),
+    "masks/clip-by-css-box": clipped('<path d="M20 30h60v40h-60z"/>', EDGED),
+    "masks/clip-by-css-of-line": '<path d="M30 46h40v8h-40z" fill="#208040"/>',
+    "masks/clip-by-css-under-rules": '<circle cx="50" cy="45" r="30" fill="#208040"/>',
     "masks/mask-image": '<circle cx="50" cy="50" r="30"/>',
     "background/shorthand": f'<path fill="#fc8" d="M0 0h100v100h-100z"/>{BALL}',
     "background/is-no-attribute": BALL,

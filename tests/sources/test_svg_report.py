@@ -17,7 +17,8 @@ FIXTURES = Path(__file__).parent / "fixtures"
 SAID = {
     "animation": "left out: animation",
     "animation-in-gradient": "left out: animation (2)",
-    "clip-path": "left out: clip-path 'circle(9px at 20px 20px)'",
+    "clip-path": "left out: clip-path 'shape(from 0 0, line to 9px 9px)'",
+    "clip-path-elsewhere": "left out: clip-path 'circle(9px)', clip-path 'inset(5px)', clip-path 'inset(4px)'",
     "css-rotate": "left out: rotate",
     "css-variables": "left out: CSS variables",
     "external-use": "left out: <use> of 'other.svg#a'",

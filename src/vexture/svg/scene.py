@@ -236,7 +236,7 @@ class Scene:
         inner = replace(inner, use=None, chosen=chosen, veil=veil, name=called, is_instance=is_instance)
         shown = list[Placed]()
         if name == "use":  # its clips and masks move along
-            inner = replace(inner, space=space.moved(Identity.translate(*position(inner))))
+            inner = replace(inner, space=space.moved(Identity.translate(*inner.position)))
         if name in ("svg", "symbol"):  # as in browsers, its clips and masks are in the units of its content
             window = self.window(element, style, self.sides(inner, place.use))
             if window is None:
@@ -269,21 +269,23 @@ class Scene:
         return [(child, inner) for child in element]
 
     def extent(self, element: etree._Element, place: Place) -> Rectangle | None:
-        """Bounding box of what an element shows, without strokes and masks, in the units of the place inside it.
+        """As `around`, without strokes; None if the box has no area."""
+        box = self.around(element, place)
+        return box if box is not None and min(box[2:]) > 0.0 else None
 
-        It is None if the box has no area.
-        """
+    def around(self, element: etree._Element, place: Place, stroked: bool = False) -> Rectangle | None:
+        """Bounding box of what an element shows, without masks, in the units of the place inside it; None if empty."""
         silent = copy(self)
         silent.report = Report()
         silent.cascade = copy(self.cascade)
         silent.cascade.report = silent.report
-        ruler = Ruler(self.servers, silent.report, self.walk)
+        ruler = Ruler(self.servers, silent.report, self.walk, stroked)
         stack = silent.content(element, replace(place, space=Space()), ruler)
         silent.walk(stack, ruler)
         if not ruler.corners:
             return None
         left, top, right, bottom = bounds(np.concatenate(ruler.corners))
-        return (left, top, right - left, bottom - top) if right > left and bottom > top else None
+        return left, top, right - left, bottom - top
 
     def box(self, place: Place) -> Outline:
         """Outline of the bounding box of what the element at a place shows; a point if it has no area."""
@@ -311,7 +313,7 @@ class Scene:
             text = style[name] if use is None or use[name].lower() == "auto" else use[name]
             auto = text.lower() == "auto"
             sides.append(whole if auto else place.viewport.length(text, whole, style.font_size) or 0.0)
-        return *position(place), sides[0], sides[1]
+        return *place.position, sides[0], sides[1]
 
     def window(self, element: etree._Element, style: Style, sides: Rectangle) -> Window | None:
         """How an element with sides shows its content; None if it shows nothing."""
@@ -384,13 +386,6 @@ class Scene:
         elif named != HIDING:
             self.report.left_out(named, element)
         return named != HIDING
-
-
-def position(place: Place) -> tuple[float, float]:
-    """Values of `x` and `y` of the element at a place."""
-    x, y = place.style["x"], place.style["y"]
-    view, font_size = place.viewport, place.style.font_size
-    return view.length(x, view.width, font_size) or 0.0, view.length(y, view.height, font_size) or 0.0
 
 
 def switched(switch: etree._Element) -> list[etree._Element]:
