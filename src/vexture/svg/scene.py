@@ -156,13 +156,17 @@ class Scene:
         """
         if self.style["transform"].lower() == "none":
             return around.moved(content)
-        if size is None:
-            self.report.left_out("transform of the outermost <svg>, which has no size", self.root)
-            return around.moved(content)
-        own = {"transform-origin": "center", **self.style.own, "transform-box": "view-box"}
-        box = Place(Viewport(*size, self.style.font_size), around)
-        matrix = self.transform(self.root, replace(self.style, own=own), box)
-        return around.moved(matrix).window((0.0, 0.0, *size), content)
+        reason = ", which has no size"
+        if size is not None:
+            own = {"transform-origin": "center", **self.style.own, "transform-box": "view-box"}
+            box = Place(Viewport(*size, self.style.font_size), around)
+            try:
+                matrix = self.transform(self.root, replace(self.style, own=own), box)
+                return around.moved(matrix).window((0.0, 0.0, *size), content)
+            except TooLargeError as error:
+                reason = f": {error}"
+        self.report.left_out(f"transform of the outermost <svg>{reason}", self.root)
+        return around.moved(content)
 
     def paint_embedded(self, root: etree._Element, place: Place, painter: Painter) -> None:
         """Paint another document at a place inside its viewport; nothing of this one applies in it."""
