@@ -1,11 +1,12 @@
 """What of SVG is right: one-issue fixtures of this repository, and the tests of librsvg, W3C's of SVG 1.1 among them.
 
-    python evidence/benchmarks/conformance.py [--only TEXT]
+    python evidence/benchmarks/conformance.py [--only TEXT] [--folder FOLDER]
 
 Each is drawn from its texture, and compared on white with what resvg draws, four times as large and reduced. It is
 right if fewer than `MOST_OFF` of the pixels are off by more than `FAR`, or if it is as near to librsvg's own picture.
 Both draw texts with the same fonts (`same_fonts.py`).
-All pictures, side by side, become one page; the table of `docs/reference/conformance.md` is written again.
+All pictures, side by side, become one page; the table of `docs/reference/conformance.md` is written again. With
+`--folder`, the files of that folder are judged instead, such as a checkout of another project's tests.
 """
 
 import argparse
@@ -209,8 +210,15 @@ def tests_of_librsvg() -> Iterator[tuple[str, Case]]:
             )
 
 
-def written(found_of: Sequence[tuple[str, Case, Facts]]) -> None:
-    """Write the table into the documentation, and the page of all pictures."""
+def files_in(folder: Path) -> Iterator[tuple[str, Case]]:
+    """Files of a folder by topic, the folder in it that holds them."""
+    for path in sorted(folder.glob("*/**/*.svg")):
+        topic, _, name = path.relative_to(folder).as_posix().partition("/")
+        yield topic, Case(folder.name, name, path.read_bytes())
+
+
+def table_of(found_of: Sequence[tuple[str, Case, Facts]]) -> str:
+    """How many cases of each topic have each outcome, as a table of Markdown."""
     topics = dict.fromkeys(topic for topic, _, _ in found_of)
     head = ("topic", "tests", *OUTCOMES)
     rows = []
@@ -218,9 +226,13 @@ def written(found_of: Sequence[tuple[str, Case, Facts]]) -> None:
         counts = Counter(facts["outcome"] for one, _, facts in found_of if one == topic)
         rows.append([topic, counts.total(), *(counts[outcome] for outcome in OUTCOMES)])
     rows.append(["all", *(sum(column) for column in list(zip(*rows, strict=True))[1:])])
-    lines = ["| " + " | ".join(map(str, row)) + " |" for row in (head, ["---"] * len(head), *rows)]
-    PAGE.write_text(TABLE.sub("\n".join(["", *lines, "", ""]), PAGE.read_text()))
-    print("\n".join(lines))
+    return "\n".join("| " + " | ".join(map(str, row)) + " |" for row in (head, ["---"] * len(head), *rows))
+
+
+def written(found_of: Sequence[tuple[str, Case, Facts]]) -> None:
+    """Write the table into the documentation, and the page of all pictures."""
+    topics = dict.fromkeys(topic for topic, _, _ in found_of)
+    PAGE.write_text(TABLE.sub(f"\n{table_of(found_of)}\n\n", PAGE.read_text()))
     RESULTS.mkdir(exist_ok=True)
     parts = [f'<!doctype html><html lang="en"><meta charset="utf-8"><title>Conformance</title><style>{STYLE}</style>']
     parts.append("<h1>Conformance</h1><p>Of each pair, ours is on the left.</p>")
@@ -255,8 +267,12 @@ def complete(case: Case, facts: Facts) -> Facts:
 def main() -> None:
     parser = argparse.ArgumentParser(description="What of SVG is right.")
     parser.add_argument("--only", default="", help="cases of which the topic and name have this text; writes nothing")
-    only = parser.parse_args().only
-    sources: Iterable[tuple[str, Case]] = [*fixtures(), *tests_of_librsvg()]
+    parser.add_argument("--folder", type=Path, help="the files in its folders, each a topic, instead; writes nothing")
+    options = parser.parse_args()
+    only, folder_of_files = options.only, options.folder
+    sources: Iterable[tuple[str, Case]] = (
+        files_in(folder_of_files) if folder_of_files else [*fixtures(), *tests_of_librsvg()]
+    )
     chosen = [(topic, case) for topic, case in sources if only in f"{topic}/{case.name}"]
     with tempfile.TemporaryDirectory() as folder:
         os.environ["FONTCONFIG_FILE"] = str(only_these(Path(folder)))
@@ -265,13 +281,15 @@ def main() -> None:
         facts = judged([case for _, case in chosen], find)
         every = [(topic, case, complete(case, one)) for (topic, case), one in zip(chosen, facts, strict=True)]
     for topic, case, one in every:
-        if only or one["outcome"] == "silent":
+        if only or one["outcome"] == "silent" or (folder_of_files and one["outcome"] != "right"):
             print(
                 f"{one['outcome']:9} {one.get('off', 1.0):.4f} {topic}/{case.name} {one.get('died', '')}",
                 file=sys.stderr,
             )
     if not only:
-        written(every)
+        print(table_of(every))
+        if not folder_of_files:
+            written(every)
 
 
 if __name__ == "__main__":

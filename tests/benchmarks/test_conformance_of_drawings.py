@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from conformance import complete, figure, found
+from conformance import complete, figure, files_in, found, table_of
 from judge import Case, Facts
 from same_fonts import gather
 
@@ -57,3 +57,23 @@ def facts_of(fonts: Path, body: str, same: bytes | None = None) -> Facts:
 )
 def test_outcomes(fonts: Path, body: str, same: bytes | None, outcome: str) -> None:
     assert facts_of(fonts, body, same)["outcome"] == outcome
+
+
+def test_files_of_a_folder_are_judged_by_topic(tmp_path: Path) -> None:
+    for name in ("masks/clip/a", "masks/b", "shapes/c"):
+        file = (tmp_path / name).with_suffix(".svg")
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(SVG.format(SQUARE))
+    files = list(files_in(tmp_path))
+    assert [(topic, case.name) for topic, case in files] == [
+        ("masks", "b.svg"),
+        ("masks", "clip/a.svg"),
+        ("shapes", "c.svg"),
+    ]
+    outcomes = ("right", "silent", "right")
+    every = [(topic, case, {"outcome": outcome}) for (topic, case), outcome in zip(files, outcomes, strict=True)]
+    assert [line.split(" | ")[:5] for line in table_of(every).splitlines()[2:]] == [
+        ["| masks", "2", "1", "0", "1"],
+        ["| shapes", "1", "1", "0", "0"],
+        ["| all", "3", "2", "0", "1"],
+    ]

@@ -25,6 +25,7 @@ from vexture.fonts.shaping import shape
 from vexture.pipeline import convert
 from vexture.reading import read_drawing
 from vexture.renderers.exact import render_exact
+from vexture.svg.clip_shapes import clip_element
 from vexture.svg.colors import parse_color, parse_paint
 from vexture.svg.path_data import path_outlines
 from vexture.svg.select import chosen
@@ -57,6 +58,7 @@ PARSERS = (
     parse_paint,
     lambda text: parse_transform(text, lambda part, axis: VIEWPORT.length(part, 100.0, 16.0)),
     lambda text: parse_origin(text, lambda part, axis: VIEWPORT.length(part, 100.0, 16.0)),
+    lambda text: clip_element(text, lambda name: (1.0, 2.0, 40.0, 30.0), 16.0, 16.0),
     view_box,
     parse_fit,
     lambda text: chosen(ELEMENT, text),

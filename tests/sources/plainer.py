@@ -13,6 +13,19 @@ LAST = '<rect x="60" y="60" width="30" height="30" fill="green"/>'
 FIELD = '<rect x="10" y="20" width="80" height="60" fill="url(#{})"/>'
 BALL = '<circle cx="50" cy="50" r="30" fill="#204080"/>'
 RAMP = '<stop stop-color="#e02020"/><stop offset="0.4" stop-color="#f0d020"/><stop offset="1" stop-color="#2040e0"/>'
+PAGE = '<clipPath id="page"><path d="M0 0h100v100h-100z"/></clipPath>'
+PARTS = (
+    '<g clip-path="url(#page)"><circle cx="90" cy="40" r="30" fill="#208040"/>'
+    '<path d="M10 10h40v20h-40z" fill="#2040e0"/></g>'
+)
+
+
+EDGED = '<rect x="20" y="30" width="60" height="40" fill="#fc8" stroke="#2040e0" stroke-width="10"/>'
+
+
+def clipped(clip: str, shown: str) -> str:
+    """What a clip leaves of what is shown."""
+    return f'<clipPath id="c">{clip}</clipPath><g clip-path="url(#c)">{shown}</g>'
 
 
 def marked(under: str, *places: tuple[float, float, float], scale: float = 0.9, arrow: str = ARROW) -> str:
@@ -33,6 +46,27 @@ PLAINER = {
     # as browsers have it: the clips and masks of a viewport are in the units of its content
     "masks/clip-of-svg-in-its-units": '<clipPath id="c"><circle cx="60" cy="36.6667" r="26.6667"/></clipPath>'
     '<path clip-path="url(#c)" d="M20 10H100V90H20z"/>',
+    # basic shapes of CSS, in the box around the stroke unless another is named (CSS Masking 1, 5; CSS Shapes 1, 3)
+    "masks/clip-by-css-circle": clipped(
+        '<circle cx="50" cy="50" r="25"/>', EDGED.replace("/>", ' stroke-dasharray="9"/>')
+    ),
+    "masks/clip-by-css-circle-in-box": clipped('<circle cx="70" cy="40" r="25.4951"/>', EDGED),
+    "masks/clip-by-css-ellipse": clipped(
+        '<ellipse cx="10" cy="44" rx="60" ry="20"/>', '<rect x="10" y="20" width="60" height="60" fill="#208040"/>'
+    ),
+    # radii that overlap become less in one proportion (CSS Backgrounds 3, 4.5)
+    "masks/clip-by-css-inset": '<path fill="#208040" d="M62.3636 18H66.7273A7.2727 7.2727 0 0 1 74 25.2727V66H37.6364'
+    'A11.6364 11.6364 0 0 1 26 54.3636A36.3636 36.3636 0 0 1 62.3636 18Z"/>',
+    "masks/clip-by-css-rect": '<g fill="#208040"><rect x="18" y="15" width="52" height="35" rx="8"/>'
+    '<rect x="20" y="65" width="40" height="15"/></g>',
+    "masks/clip-by-css-polygon": clipped(
+        '<path clip-rule="evenodd" d="M50 0L80 100L0 35L100 35L20 100z"/>',
+        '<path fill="#208040" d="M10 10H90V90H10z"/>',
+    ),
+    "masks/clip-by-css-path": clipped('<path d="M35 10H85V70z"/>', '<circle cx="55" cy="40" r="30" fill="#208040"/>'),
+    "masks/clip-by-css-box": clipped('<path d="M20 30h60v40h-60z"/>', EDGED),
+    "masks/clip-by-css-of-line": '<path d="M30 46h40v8h-40z" fill="#208040"/>',
+    "masks/clip-by-css-under-rules": '<circle cx="50" cy="45" r="30" fill="#208040"/>',
     "masks/mask-image": '<circle cx="50" cy="50" r="30"/>',
     "background/shorthand": f'<path fill="#fc8" d="M0 0h100v100h-100z"/>{BALL}',
     "background/is-no-attribute": BALL,
@@ -43,6 +77,9 @@ PLAINER = {
     "filters/missing": '<rect x="10" y="10" width="30" height="30"/><rect x="50" y="50" width="30" height="30"/>',
     "gradients/attributes-by-reference": '<linearGradient id="g" x1="0.1" x2="0.3" gradientTransform="rotate(20)"'
     f' spreadMethod="reflect">{RAMP}</linearGradient><rect x="10" y="20" width="80" height="60" fill="url(#g)"/>',
+    # a template gives only attributes that it knows itself (SVG 2, 14.1.1); browsers look further, in its own template
+    "gradients/lengths-of-the-other-kind": f'<radialGradient id="g" cx="0.3" spreadMethod="reflect">{RAMP}'
+    f"</radialGradient>{FIELD.format('g')}",
     "gradients/stroke-not-scaling": f'<linearGradient id="g" gradientUnits="userSpaceOnUse" x1="20" x2="80">{RAMP}'
     '</linearGradient><path d="M20 15H80V60" fill="none" stroke="url(#g)" stroke-width="10"/>',
     "groups/blend-upper-case": '<path fill="#c08040" d="M0 20h100v40h-100z"/>'
@@ -108,6 +145,14 @@ PLAINER = {
     "transform/css-over-attribute": '<rect x="20" y="40" width="30" height="30"/>',
     "transform/css-percent": '<rect x="30" y="50" width="40" height="20"/>',
     "transform/css-units": '<rect x="10" y="10" width="30" height="30" transform="translate(20 10) rotate(36)"/>',
+    # the outermost element is a box of CSS, of which the initial origin is the middle (CSS Transforms 1, 5)
+    "transform/of-outermost": f'{PAGE}<g transform="translate(35 25) scale(0.5)">{PARTS}</g>',
+    "transform/of-outermost-about-its-origin": f'{PAGE}<g transform="rotate(30 30 70)">{PARTS}</g>',
+    "transform/of-outermost-under-background": '<path fill="#fc8" d="M0 0h100v100h-100z"/>'
+    f'<g transform="translate(50 10)">{BALL}</g>',
+    "images/turned-by-itself": '<clipPath id="c"><path d="M10 10h60v60h-60z"/></clipPath><g clip-path="url(#c)">'
+    '<g transform="rotate(30 40 40)"><path fill="#fc8" d="M10 10h60v60h-60z"/>'
+    '<path fill="#208040" d="M22 16h36v18h-36z"/></g></g>',
     "viewport/height-only": '<circle cx="50" cy="50" r="45"/>',
     "viewport/width-only": '<circle cx="50" cy="50" r="45"/>',
 }

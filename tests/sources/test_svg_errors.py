@@ -30,6 +30,7 @@ SHOWN = {
     "switch-only-unknown": ([GREEN], ["<foreignObject>"]),
     "switch-unknown": ([GREEN], []),
     "transform-1e300": ([GREEN], ["<rect> in line 2: the transforms multiply to 1e+22; the limit is 1e+12"]),
+    "transform-of-outermost-1e300": ([GREEN], ["transform of the outermost <svg>: " + LARGE]),
     "use-ancestor": ([GREEN], ["<use> in line 2 that shows itself"]),
     "use-cycle": ([RED, RED, GREEN], ["<use> in line 3 that shows itself", "<use> in line 2 that shows itself"]),
     "use-itself": ([GREEN], ['<use id="a"> in line 2 that shows itself']),

@@ -17,7 +17,8 @@ FIXTURES = Path(__file__).parent / "fixtures"
 SAID = {
     "animation": "left out: animation",
     "animation-in-gradient": "left out: animation (2)",
-    "clip-path": "left out: clip-path 'circle(9px at 20px 20px)'",
+    "clip-path": "left out: clip-path 'shape(from 0 0, line to 9px 9px)'",
+    "clip-path-elsewhere": "left out: clip-path 'circle(9px)', clip-path 'inset(5px)', clip-path 'inset(4px)'",
     "css-rotate": "left out: rotate",
     "css-variables": "left out: CSS variables",
     "external-use": "left out: <use> of 'other.svg#a'",
@@ -43,6 +44,7 @@ SAID = {
     "pattern": 'simplified: <pattern id="c"> in line 2 read as solid: here it has 12,500,000,000 segments in its tiles;'
     " all patterns of a drawing may have 400,000",
     "script": "left out: script",
+    "transform-without-size": "left out: transform of the outermost <svg>, which has no size",
     "unknown-element": "left out: <flowRoot>",
     "view-and-cursor": "its cursors are left out, which no picture shows; "
     "its views are not followed; all of it is shown",

@@ -125,7 +125,8 @@ def read_ramp(chain: list[etree._Element], stops: tuple[Stop, ...], style: Style
     lengths = dict(LENGTHS[name])
     words = dict.fromkeys(("gradientUnits", "spreadMethod", "gradientTransform"), "")
     for element in reversed(chain):
-        lengths.update(own_lengths(element, name, report))
+        if local_name(element) == name:  # of one of the other kind, only what both kinds have counts (SVG 2, 14.1.1)
+            lengths.update(own_lengths(element, name, report))
         words.update({key: text for key in words if (text := element.get(key)) is not None})
     words["gradientTransform"], moved = transform_of(words["gradientTransform"], chain[0], style)
     found = BOXED.get(words["gradientUnits"].strip()), SPREADS.get(words["spreadMethod"].strip()), moved

@@ -11,6 +11,7 @@ import numpy as np
 from lxml import etree
 
 from vexture.group import Mask
+from vexture.svg.clip_shapes import STROKED, VIEWED, clip_element
 from vexture.svg.compositing import Veil
 from vexture.svg.document import local_name
 from vexture.svg.paint_servers import PaintServers
@@ -44,7 +45,10 @@ class Measured(Protocol):
         """Transform of an element, about its origin."""
 
     def extent(self, element: etree._Element, place: Place) -> Rectangle | None:
-        """Bounding box of what an element shows, in the units of the place inside it; None if it has no area."""
+        """As `around`, without strokes; None if the box has no area."""
+
+    def around(self, element: etree._Element, place: Place, stroked: bool) -> Rectangle | None:
+        """Bounding box of what an element shows, in the units of the place inside it; None if that is nothing."""
 
 
 def add_masks(
@@ -57,11 +61,31 @@ def add_masks(
     """
     shown: list[Placed] = []
     for name in names:
-        target = scene.servers.referred(name, MASKING[name], place)
+        target = shape_of(scene, element, place) if name == "clip-path" else None
+        if target is None:
+            target = scene.servers.referred(name, MASKING[name], place)
         if target is not None:
             place, more = add_mask(scene, element, target, place)
             shown += more
     return place, shown
+
+
+def shape_of(scene: Measured, element: etree._Element, place: Place) -> etree._Element | None:
+    """The clip that an element has by a basic shape, as an element; None if it has none.
+
+    Two kinds are left out: those of an outermost element, which are in the units around it, and those of clips and
+    masks themselves, whose reference box is another element's.
+    """
+    value = place.style["clip-path"]
+    if value.lower() == "none" or element.getparent() is None or local_name(element) in MASKING.values():
+        return None
+
+    def box(name: str) -> Rectangle | None:
+        if name == VIEWED:
+            return 0.0, 0.0, place.viewport.width, place.viewport.height
+        return scene.around(element, place, name == STROKED)
+
+    return clip_element(value, box, place.viewport.root_font_size, place.style.font_size)
 
 
 def add_mask(

@@ -236,16 +236,29 @@ class Painter:
 
 
 class Ruler(Painter):
-    """Collects the outlines of shapes, whatever their paints, to measure them."""
+    """Collects the outlines of shapes, and of strokes if asked to, whatever their paints, to measure them."""
 
-    def __init__(self, servers: PaintServers, report: Report, walk: "Callable[[list[Placed], Painter], None]") -> None:
+    def __init__(
+        self,
+        servers: PaintServers,
+        report: Report,
+        walk: "Callable[[list[Placed], Painter], None]",
+        stroked: bool = False,
+    ) -> None:
         super().__init__(servers, report, Canvas(None, inf), walk)
+        self.stroked = stroked
         self.corners: list[NDArray[np.float64]] = []
 
     def paint(self, element: etree._Element, place: Place, markers: Iterable[list[Placed]] = ()) -> None:
         """Add the outlines of a shape, in the units of the outermost place; markers do not count."""
         shape = Shape(element, place.style, place.viewport, inf, self.report)
-        self.measure(place, *shape_outlines(shape))
+        outlines = shape_outlines(shape)
+        self.measure(place, *outlines)
+        stroke = stroke_of(shape, outlines) if self.stroked and outlines else None
+        if stroke is not None and place.style["stroke"].lower() != "none":
+            size = max(stroke.width, *(float(np.ptp(outline.cubics, axis=(0, 1)).max()) for outline in outlines))
+            contours = stroke_contours(outlines, replace(stroke, dashes=()), size)  # dashes do not count (SVG 2, 8.10)
+            self.corners.extend(mapped(contour, place.space.whole) for contour in contours)
 
     def measure(self, place: Place, *outlines: Outline) -> None:
         """Add outlines."""

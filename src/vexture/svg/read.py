@@ -69,8 +69,9 @@ def read_svg(
     Returns
     -------
     Drawing
-        In the unit square, y up; `to_source` maps it to the user units of the outermost `<svg>`. It has no paths if
-        nothing is painted. Its `notes` say this, and what was left out, simplified or invalid.
+        In the unit square, y up; `to_source` maps it to the user units of the outermost `<svg>`, before its `transform`
+        if it has one. It has no paths if nothing is painted. Its `notes` say this, and what was left out, simplified or
+        invalid.
 
     Raises
     ------
@@ -176,7 +177,7 @@ def drawing_of(scene: Scene, framed: Frame | None, name: str) -> tuple[Drawing, 
         box = (left, top, right - left, bottom - top)
         if box[2] == 0.0 or box[3] == 0.0:
             return nothing
-    paths, groups = scene.paint(viewport, matrix, box)
+    paths, groups = scene.paint(viewport, matrix, box, None if framed is None else framed[0])
     drawing = Drawing.from_source(paths, box, name, groups)
     shown, groups = occupied(drawing.paths, groups)
     to_source = after(drawing.to_source, matrix.inverse())

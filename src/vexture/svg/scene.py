@@ -99,30 +99,45 @@ class Scene:
         self.boxes: Boxes = {}  # of what the notes are about, once it is painted
 
     def paint(
-        self, viewport: Viewport, matrix: Transform, frame: Rectangle | None
+        self,
+        viewport: Viewport,
+        matrix: Transform,
+        frame: Rectangle | None,
+        size: tuple[float, float] | None = None,
     ) -> tuple[list[Path], tuple[Group, ...]]:
         """Paint everything, and find the groups.
 
         Percentages at the root refer to `viewport`, and `matrix` maps user units to the drawing. `frame` is what of the
-        drawing is visible, None while it is unknown. Raises a `SourceError` if a limit is exceeded.
+        drawing is visible, None while it is unknown, and `size` that of the outermost viewport, if it has one. Raises a
+        `SourceError` if a limit is exceeded.
         """
         canvas = Canvas(frame, inf if frame is None else max(frame[2:]))
         painter = Painter(self.servers, self.report, canvas, self.walk)
         chosen = self.chosen is None or self.root in self.chosen
         called = self.names.of(self.root)
-        place = Place(viewport, Space().moved(matrix), self.style, self.root, chosen=chosen, name=called)
-        self.walk(self.inside_root(place, painter, Space(), frame), painter)
+        place = Place(viewport, Space(), self.style, self.root, chosen=chosen, name=called)
+        self.walk(self.inside_root(place, painter, matrix, frame, size), painter)
         self.boxes = boxes_of(self.report.elements, painter.paths, painter.places)
         return grouped(painter.paths, painter.veils)
 
-    def inside_root(self, place: Place, painter: Painter, around: Space, frame: Rectangle | None) -> list[Placed]:
-        """What the outermost element shows at a place inside it; its background fills `frame` in the space around."""
+    def inside_root(
+        self,
+        place: Place,
+        painter: Painter,
+        content: Transform,
+        frame: Rectangle | None,
+        size: tuple[float, float] | None,
+    ) -> list[Placed]:
+        """What the outermost element shows at a place, in whose space its background fills `frame`.
+
+        `content` maps the user units inside it to those of the place, and `size` is that of its viewport there.
+        """
         name_unseen(self.root, self.servers, self.report, self.chosen)
         opacity = self.style.opacity("opacity")
         if self.style["display"].lower() == "none" or opacity == 0.0 or not self.note_effects(self.root, self.style):
             return []
-        if "transform" in self.style.own:
-            self.report.left_out("transform of the outermost <svg>", self.root)
+        around = place.space
+        place = replace(place, space=self.space_inside(around, content, size))
         if opacity < 1.0 or place.outer is not None or not MASKING.keys().isdisjoint(self.style.own):
             place = replace(place, veil=Veil(place.veil, opacity))  # a blend mode has nothing to mix with here
         place, stack = add_masks(self, self.root, place)
@@ -133,21 +148,42 @@ class Scene:
             painter.add(whole, replace(place, space=around), FillRule.NONZERO, background, place.name)
         return [*stack, *((child, place) for child in reversed(self.root))]
 
+    def space_inside(self, around: Space, content: Transform, size: tuple[float, float] | None) -> Space:
+        """The space inside the outermost element, as in `inside_root`.
+
+        It is a box of CSS, which its transform moves as a whole, about its middle if nothing else is said (CSS
+        Transforms 1, 5).
+        """
+        if self.style["transform"].lower() == "none":
+            return around.moved(content)
+        reason = ", which has no size"
+        if size is not None:
+            own = {"transform-origin": "center", **self.style.own, "transform-box": "view-box"}
+            box = Place(Viewport(*size, self.style.font_size), around)
+            try:
+                matrix = self.transform(self.root, replace(self.style, own=own), box)
+                return around.moved(matrix).window((0.0, 0.0, *size), content)
+            except TooLargeError as error:
+                reason = f": {error}"
+        self.report.left_out(f"transform of the outermost <svg>{reason}", self.root)
+        return around.moved(content)
+
     def paint_embedded(self, root: etree._Element, place: Place, painter: Painter) -> None:
         """Paint another document at a place inside its viewport; nothing of this one applies in it."""
         scene = Scene(root, self.report, self.images.inside, fonts=self.typesetter.files)
         scene.used = self.used
-        around, size = place.space, (place.viewport.width, place.viewport.height)
+        size, content = (place.viewport.width, place.viewport.height), Identity
         box = scene.view(root)
         if box is not None and min(box[2:]) < THINNEST:
             return
         if box is not None:
-            place = Window(None, scene.fit(root, box, *size), box[2:]).within(place)
-        viewport = replace(place.viewport, root_font_size=scene.style.font_size)
+            content = scene.fit(root, box, *size)
+        width, height = size if box is None else box[2:]
+        viewport = Viewport(width, height, scene.style.font_size)
         place = replace(place, viewport=viewport, style=scene.style, element=root, outer=place, depth=place.depth + 1)
         own = painter.for_document(scene.servers, scene.walk)
         place = replace(place, chosen=True, is_instance=True, context=None)
-        scene.walk(scene.inside_root(place, own, around, (0.0, 0.0, *size)), own)
+        scene.walk(scene.inside_root(place, own, content, (0.0, 0.0, *size), size), own)
         painter.segments, self.used = own.segments, scene.used
 
     def walk(self, stack: list[Placed], painter: Painter) -> None:
@@ -204,7 +240,7 @@ class Scene:
         inner = replace(inner, use=None, chosen=chosen, veil=veil, name=called, is_instance=is_instance)
         shown = list[Placed]()
         if name == "use":  # its clips and masks move along
-            inner = replace(inner, space=space.moved(Identity.translate(*position(inner))))
+            inner = replace(inner, space=space.moved(Identity.translate(*inner.position)))
         if name in ("svg", "symbol"):  # as in browsers, its clips and masks are in the units of its content
             window = self.window(element, style, self.sides(inner, place.use))
             if window is None:
@@ -237,21 +273,23 @@ class Scene:
         return [(child, inner) for child in element]
 
     def extent(self, element: etree._Element, place: Place) -> Rectangle | None:
-        """Bounding box of what an element shows, without strokes and masks, in the units of the place inside it.
+        """As `around`, without strokes; None if the box has no area."""
+        box = self.around(element, place)
+        return box if box is not None and min(box[2:]) > 0.0 else None
 
-        It is None if the box has no area.
-        """
+    def around(self, element: etree._Element, place: Place, stroked: bool = False) -> Rectangle | None:
+        """Bounding box of what an element shows, without masks, in the units of the place inside it; None if empty."""
         silent = copy(self)
         silent.report = Report()
         silent.cascade = copy(self.cascade)
         silent.cascade.report = silent.report
-        ruler = Ruler(self.servers, silent.report, self.walk)
+        ruler = Ruler(self.servers, silent.report, self.walk, stroked)
         stack = silent.content(element, replace(place, space=Space()), ruler)
         silent.walk(stack, ruler)
         if not ruler.corners:
             return None
         left, top, right, bottom = bounds(np.concatenate(ruler.corners))
-        return (left, top, right - left, bottom - top) if right > left and bottom > top else None
+        return left, top, right - left, bottom - top
 
     def box(self, place: Place) -> Outline:
         """Outline of the bounding box of what the element at a place shows; a point if it has no area."""
@@ -279,7 +317,7 @@ class Scene:
             text = style[name] if use is None or use[name].lower() == "auto" else use[name]
             auto = text.lower() == "auto"
             sides.append(whole if auto else place.viewport.length(text, whole, style.font_size) or 0.0)
-        return *position(place), sides[0], sides[1]
+        return *place.position, sides[0], sides[1]
 
     def window(self, element: etree._Element, style: Style, sides: Rectangle) -> Window | None:
         """How an element with sides shows its content; None if it shows nothing."""
@@ -352,13 +390,6 @@ class Scene:
         elif named != HIDING:
             self.report.left_out(named, element)
         return named != HIDING
-
-
-def position(place: Place) -> tuple[float, float]:
-    """Values of `x` and `y` of the element at a place."""
-    x, y = place.style["x"], place.style["y"]
-    view, font_size = place.viewport, place.style.font_size
-    return view.length(x, view.width, font_size) or 0.0, view.length(y, view.height, font_size) or 0.0
 
 
 def switched(switch: etree._Element) -> list[etree._Element]:

@@ -84,6 +84,13 @@ class Place:
     is_instance: bool = False  # whether the name is that of a `use`
     context: "Context | None" = None  # the element whose paints `context-fill` and `context-stroke` are
 
+    @property
+    def position(self) -> tuple[float, float]:
+        """Values of `x` and `y` of the element here."""
+        x, y = self.style["x"], self.style["y"]
+        view, font_size = self.viewport, self.style.font_size
+        return view.length(x, view.width, font_size) or 0.0, view.length(y, view.height, font_size) or 0.0
+
     def deeper(self) -> int:
         """Number of clips, markers, masks and patterns around what is in one more; a `SourceError` if too many."""
         if self.masks >= MOST_MASKS:

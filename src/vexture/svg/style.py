@@ -177,7 +177,7 @@ class Cascade:
 
     def declared(self, element: etree._Element) -> Iterator[Declaration]:
         """Yield the declarations of the style sheets and then of the `style` attribute, in rising precedence."""
-        if self.matcher is not None:
+        if self.matcher is not None and element in self.wrappers:  # not one that stands for a shape of CSS
             for _, _, pseudo, declarations in self.matcher.match(self.wrappers[element]):
                 if pseudo is None:
                     yield from declarations

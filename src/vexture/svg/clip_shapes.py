@@ -1,0 +1,267 @@
+"""Clips by the basic shapes of CSS, as elements of SVG that say the same (CSS Masking 1, 5.1; CSS Shapes 1, 3)."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final, TypeAlias
+
+from lxml import etree
+
+from vexture.svg.transform import parse_origin
+from vexture.svg.values import Viewport
+from vexture.svg.viewport import Rectangle
+
+__all__ = ["FILLED", "STROKED", "VIEWED", "clip_element"]
+
+FILLED, STROKED, VIEWED = "fill-box", "stroke-box", "view-box"
+
+BOXES: Final = {
+    **dict.fromkeys(("content-box", "padding-box", FILLED), FILLED),
+    **dict.fromkeys(("border-box", "margin-box", STROKED), STROKED),
+    VIEWED: VIEWED,
+}
+"""Reference boxes, and those that they are for elements of SVG."""
+
+RULE = r"\s*(?:(nonzero|evenodd)\s*,)?\s*"
+POLYGON = re.compile(RULE + r"(.*)", re.IGNORECASE | re.DOTALL)
+PATH = re.compile(RULE + r"(['\"])(.*)\2\s*", re.IGNORECASE | re.DOTALL)
+ROUND = re.compile(r"\bround\b")
+SIDES_OF: Final = {1: (0, 0, 0), 2: (1, 0, 1), 3: (1, 2, 1), 4: (1, 2, 3)}
+"""Of so many values, the second to fourth of four."""
+
+AT = re.compile(r"\bat\b")
+FAR = frozenset({"right", "bottom"})
+
+Element: TypeAlias = tuple[str, dict[str, str]]
+"""Name and attributes of a shape of SVG."""
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A reference box, and what lengths in it depend on."""
+
+    left: float
+    top: float
+    view: Viewport  # its sides
+    font_size: float
+
+    def along(self, text: str, axis: int) -> float | None:
+        """A length across (0) or down (1); None if it is none."""
+        return self.view.length(text, (self.view.width, self.view.height)[axis], self.font_size)
+
+    def four(self, text: str, axes: tuple[int, int, int, int]) -> list[float] | None:
+        """One to four lengths as four, as for margins, along axes; None if they are not valid."""
+        words = text.split()
+        if not 1 <= len(words) <= 4:
+            return None
+        words = [words[0], *(words[k] for k in SIDES_OF[len(words)])]
+        return known([self.along(word, axis) for word, axis in zip(words, axes, strict=True)])
+
+
+def known(values: list[float | None]) -> list[float] | None:
+    """Values, if all of them are known."""
+    found = [value for value in values if value is not None]
+    return found if len(found) == len(values) else None
+
+
+def clip_element(
+    value: str, box_of: Callable[[str], Rectangle | None], root_font_size: float, font_size: float
+) -> etree._Element | None:
+    """A `clipPath` in user units that says what a value of `clip-path` does; None if that is no shape that we know.
+
+    `box_of` gives the reference box of a name, None where nothing is to be clipped.
+
+    Examples
+    --------
+    >>> clip = clip_element("circle(25% at left 10px) view-box", lambda name: (0.0, 0.0, 40.0, 40.0), 16.0, 16.0)
+    >>> etree.tostring(clip)
+    b'<clipPath><circle cx="0.0" cy="10.0" r="10.0"/></clipPath>'
+    """
+    head, opened, rest = value.partition("(")
+    arguments, closed, tail = rest.rpartition(")")
+    name = head.lower().split()[-1] if opened and head and not head[-1].isspace() else ""
+    names = f"{head[: len(head) - len(name)]} {tail}".lower().split()
+    make = MAKERS.get(name if closed else "", unknown) if opened else whole
+    if len(names) > 1 or not {*names} <= BOXES.keys() or not (names or opened):
+        return None
+    left, top, width, height = box_of(BOXES[names[0]] if names else STROKED) or (0.0, 0.0, 0.0, 0.0)
+    box = Box(left, top, Viewport(width, height, root_font_size), font_size)
+    found = make(arguments, box)
+    if found is None:
+        return None
+    clip = etree.Element("clipPath")
+    etree.SubElement(clip, found[0], found[1])
+    return clip
+
+
+def numbered(name: str, **values: float) -> Element:
+    """An element with attributes that are numbers."""
+    return name, {key: repr(float(value)) for key, value in values.items()}
+
+
+def unknown(_: str, __: Box) -> None:
+    """No shape that we know."""
+
+
+def whole(_: str, box: Box) -> Element | None:
+    """All of the reference box."""
+    return numbered("rect", x=box.left, y=box.top, width=box.view.width, height=box.view.height)
+
+
+def position(text: str, box: Box) -> tuple[float, float] | None:
+    """A position in a box, from its corner: two lengths or keywords, one of them, or two edges with distances."""
+    words = text.split() or ["center"]
+    if len(words) != 4:
+        return parse_origin(text or "center", box.along) if len(words) < 3 else None
+    found: list[float | None] = [None, None]
+    for edge, distance in (words[:2], words[2:]):
+        axis = 1 if edge in ("top", "bottom") else 0
+        length = box.along(distance, axis)
+        if length is None or edge not in ("top", "bottom", "left", "right"):
+            return None
+        found[axis] = (box.view.width, box.view.height)[axis] - length if edge in FAR else length
+    x, y = found
+    return None if x is None or y is None else (x, y)
+
+
+def centred(text: str, box: Box, most: int) -> tuple[list[str], tuple[float, float]] | None:
+    """The radii that a circle or an ellipse names, at most so many, and its centre from the corner of the box."""
+    radii, *places = AT.split(text.lower())
+    words = radii.split()
+    centre = position(places[0].strip(), box) if len(places) == 1 else position("", box)
+    if centre is None or len(places) > 1 or len(words) not in (0, most) or (places and not places[0].strip()):
+        return None
+    return words or ["closest-side"] * most, centre
+
+
+def radius(word: str, distances: tuple[float, ...], length: float | None) -> float | None:
+    """A radius: the least or largest distance to a side, or a length, which is not negative."""
+    if word in ("closest-side", "farthest-side"):
+        return (min if word == "closest-side" else max)(map(abs, distances))
+    return None if length is None or length < 0.0 else length
+
+
+def circle(text: str, box: Box) -> Element | None:
+    """`circle()`."""
+    found = centred(text, box, 1)
+    if found is None:
+        return None
+    (word,), (x, y) = found
+    distances = (x, box.view.width - x, y, box.view.height - y)
+    r = radius(word, distances, box.view.length(word, box.view.diagonal, box.font_size))
+    return None if r is None else numbered("circle", cx=box.left + x, cy=box.top + y, r=r)
+
+
+def ellipse(text: str, box: Box) -> Element | None:
+    """`ellipse()`."""
+    found = centred(text, box, 2)
+    if found is None:
+        return None
+    (across, down), (x, y) = found
+    rx = radius(across, (x, box.view.width - x), box.along(across, 0))
+    ry = radius(down, (y, box.view.height - y), box.along(down, 1))
+    if rx is None or ry is None:
+        return None
+    return numbered("ellipse", cx=box.left + x, cy=box.top + y, rx=rx, ry=ry)
+
+
+def inset(text: str, box: Box) -> Element | None:
+    """`inset()`: distances from the sides."""
+    sides, corners = in_two(text)
+    found = box.four(sides, (1, 0, 1, 0))
+    if found is None:
+        return None
+    top, right, bottom, left = found
+    return rounded((left, top, box.view.width - right, box.view.height - bottom), corners, box)
+
+
+def rect(text: str, box: Box) -> Element | None:
+    """`rect()`: places of the sides from the top and the left."""
+    sides, corners = in_two(text)
+    words = sides.split()
+    if len(words) != 4:
+        return None
+    edges = ("0%", "100%", "100%", "0%")
+    words = [edge if word == "auto" else word for word, edge in zip(words, edges, strict=True)]
+    found = box.four(" ".join(words), (1, 0, 1, 0))
+    if found is None:
+        return None
+    top, right, bottom, left = found
+    return rounded((left, top, max(left, right), max(top, bottom)), corners, box)
+
+
+def xywh(text: str, box: Box) -> Element | None:
+    """`xywh()`: a corner and two sides."""
+    sides, corners = in_two(text)
+    found = box.four(sides, (0, 1, 0, 1)) if len(sides.split()) == 4 else None
+    if found is None or min(found[2:]) < 0.0:
+        return None
+    x, y, width, height = found
+    return rounded((x, y, x + width, y + height), corners, box)
+
+
+def in_two(text: str) -> tuple[str, str]:
+    """What stands before and after "round"; radii of zero without it."""
+    sides, *corners = ROUND.split(text.lower(), maxsplit=1)
+    return sides, corners[0] if corners else "0"
+
+
+def rounded(edges: Rectangle, corners: str, box: Box) -> Element | None:
+    """A rectangle, by its edges from the corner of the box, with radii as those of `border-radius`."""
+    left, top, right, bottom = edges
+    width, height = max(right - left, 0.0), max(bottom - top, 0.0)
+    across, slash, down = corners.partition("/")
+    rx, ry = box.four(across, (0, 0, 0, 0)), box.four(down if slash else across, (1, 1, 1, 1))
+    if rx is None or ry is None or min(*rx, *ry) < 0.0:
+        return None
+    left, top = box.left + left, box.top + top
+    pairs = (width, rx[0] + rx[1]), (width, rx[2] + rx[3]), (height, ry[0] + ry[3]), (height, ry[1] + ry[2])
+    factor = min([1.0, *(side / radii for side, radii in pairs if radii > 0.0)])
+    rounds = [(factor * x, factor * y) if x > 0.0 and y > 0.0 else (0.0, 0.0) for x, y in zip(rx, ry, strict=True)]
+    if width == 0.0 or height == 0.0 or len({*rounds}) == 1:
+        x, y = rounds[0]
+        return numbered("rect", x=left, y=top, width=width, height=height, rx=x, ry=y)
+    right, bottom = left + width, top + height
+    (ax, ay), (bx, by), (cx, cy), (dx, dy) = rounds
+    data = (
+        f"M{left + ax!r} {top!r}H{right - bx!r}A{bx!r} {by!r} 0 0 1 {right!r} {top + by!r}"
+        f"V{bottom - cy!r}A{cx!r} {cy!r} 0 0 1 {right - cx!r} {bottom!r}"
+        f"H{left + dx!r}A{dx!r} {dy!r} 0 0 1 {left!r} {bottom - dy!r}"
+        f"V{top + ay!r}A{ax!r} {ay!r} 0 0 1 {left + ax!r} {top!r}Z"
+    )
+    return "path", {"d": data}
+
+
+def polygon(text: str, box: Box) -> Element | None:
+    """`polygon()`."""
+    match = POLYGON.fullmatch(text)
+    assert match is not None  # the rule is optional, and points may be anything
+    corners = []
+    for point in match[2].lower().split(","):
+        words = point.split()
+        found = known([box.along(word, axis) for axis, word in enumerate(words)]) if len(words) == 2 else None
+        if found is None:
+            return None
+        corners.append(f"{box.left + found[0]!r},{box.top + found[1]!r}")
+    return "polygon", {"points": " ".join(corners), "clip-rule": (match[1] or "nonzero").lower()}
+
+
+def path(text: str, box: Box) -> Element | None:
+    """`path()`."""
+    match = PATH.fullmatch(text)
+    data = " ".join(match[3].split()) if match else ""
+    if match is None or not (data.isascii() and data.isprintable()):  # escapes of CSS give any character
+        return None
+    moved = f"translate({box.left!r} {box.top!r})"
+    return "path", {"d": data, "clip-rule": (match[1] or "nonzero").lower(), "transform": moved}
+
+
+MAKERS: Final[dict[str, Callable[[str, Box], Element | None]]] = {
+    "circle": circle,
+    "ellipse": ellipse,
+    "inset": inset,
+    "rect": rect,
+    "xywh": xywh,
+    "polygon": polygon,
+    "path": path,
+}
