@@ -22,6 +22,9 @@ __all__ = ["Face", "faces_in", "faces_of"]
 FAMILY_NAMES: Final = (16, 21, 1)
 """Name IDs of families: typographic, of weights and widths and slopes only, and the legacy one."""
 
+VERTICAL: Final = frozenset({"vmtx", "VORG"})
+"""Tables of origins of glyphs in vertical text."""
+
 MOST_FACES: Final = 1000
 """Of a collection."""
 
@@ -162,6 +165,21 @@ class Face:
     def has(self, codepoint: int) -> bool:
         """Whether it has a glyph of a character."""
         return self._font.get_nominal_glyph(codepoint) is not None
+
+    def lowered(self, glyph: int) -> float:
+        """How far a glyph of vertical text is to be moved from where HarfBuzz puts it.
+
+        HarfBuzz centres each glyph of a font without vertical metrics in its cell. Browsers put all of a font on the
+        baseline, at the ascent below the top, so that letters have even steps.
+        """
+        if self._has_vertical:
+            return 0.0
+        return float(self._font.get_glyph_v_origin(glyph)[1]) - self.ascender
+
+    @cached_property
+    def _has_vertical(self) -> bool:
+        """Whether the font says where the glyphs of vertical text are."""
+        return not VERTICAL.isdisjoint(self._font.face.table_tags)
 
     @property
     def glyph_count(self) -> int:

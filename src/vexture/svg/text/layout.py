@@ -25,7 +25,7 @@ SEPARATORS: Final = frozenset(" \u00a0\u1361\U00010100\U00010101\U0001039f\U0001
 VERTICAL: Final = frozenset({"vertical-rl", "vertical-lr", "sideways-rl", "sideways-lr", "tb", "tb-rl", "tb-lr"})
 
 FLATTEST: Final = 1e-3
-"""Width of squeezed glyphs as a part of their own; a smaller `textLength` is ignored, as 0 is by browsers."""
+"""Width of squeezed glyphs as a part of their own; a smaller `textLength` is ignored."""
 
 ANCHORS: Final = {"start": 0.0, "middle": 0.5, "end": 1.0}
 
@@ -106,6 +106,8 @@ def fit_span(span: Span, inside: Sequence[Cluster], length: float) -> None:
     The last one has a gap behind it too, as in browsers; an anchor does not see it.
     """
     width = sum(cluster.advance for cluster in inside)
+    if length == 0.0:  # which browsers take for none
+        return
     if span.element.get("lengthAdjust", "").strip() == "spacingAndGlyphs":
         factor = length / width if length > FLATTEST * width > 0.0 else 1.0
         for cluster in inside:

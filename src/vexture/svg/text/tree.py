@@ -8,11 +8,13 @@ from lxml import etree
 
 from vexture.deadline import check_time
 from vexture.errors import SourceError
+from vexture.svg.compositing import Veil
 from vexture.svg.document import applies, local_name
 from vexture.svg.masks import Measured
 from vexture.svg.names import ElementNames
 from vexture.svg.report import described
 from vexture.svg.space import Place
+from vexture.svg.style import Style
 from vexture.svg.text.track import Track, read_track
 from vexture.svg.unseen import ANIMATIONS
 from vexture.svg.values import SEPARATOR, number
@@ -170,8 +172,6 @@ def note_ignored(scene: Setting, span: Span) -> None:
         scene.report.left_out(f"kerning {kerning[:40]}", span.element)
     if outer is None and style["writing-mode"].lower() == "sideways-lr":
         scene.report.simplified("writing-mode sideways-lr drawn as sideways-rl", span.element)
-    if outer is not None and style.opacity("opacity") < 1.0:  # which graphics elements and groups have
-        scene.report.left_out(f"opacity of a <{local_name(span.element)}>", span.element)
 
 
 def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Span | None:
@@ -190,6 +190,7 @@ def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Sp
         name=called,
         is_instance=is_instance,
         chosen=chosen,
+        veil=faded(style, outer.place),
     )
     track = outer.track
     if local_name(element) == "textPath":
@@ -200,6 +201,12 @@ def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Sp
         if track is None:
             return None
     return Span(place, outer, start, track=track)
+
+
+def faded(style: Style, around: Place) -> Veil | None:
+    """The veil of a part of a text: browsers composite one with an opacity by itself, as they do any element."""
+    opacity = style.opacity("opacity")
+    return around.veil if around.is_clip or opacity == 1.0 else Veil(around.veil, opacity)
 
 
 def position(scene: Setting, found: Characters, span: Span) -> None:
