@@ -140,6 +140,10 @@ PLAINER = {
     "text-length-middle": letters("ship", 10, 50, SIZE, (80 - advance("ship")) / 3),
     "text-length-with-tspans": f'<text x="10" y="50" letter-spacing="{(80 - advance("abcdef")) / 5}">'
     'ab<tspan fill="red">cd</tspan>ef</text>',
+    # lists of positions are for the characters of the document
+    "text-transform-longer": '<text y="30" x="5">ASSB</text><text y="60" x="5 32" rotate="0 20 20">ASS</text>'
+    '<text y="60" x="60 80">BC</text><text y="90" x="5">\u01c5ep A\u00df</text>'
+    '<text y="14" x="5">Don\'t O\u0308f</text>',
     "text-transform": '<text x="5" y="50">SHIPS</text>',
     "vertical-upright-symbols": upright("a\u2605b\u2660", "ab"),
     "vertical-upright-letters": upright("Ship"),

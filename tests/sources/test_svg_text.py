@@ -80,7 +80,7 @@ def test_missing_fonts_and_characters_are_named_with_what_is_used(tmp_path: Path
     ("body", "note"),
     [
         ("<text>a<textPath href='#x'>b</textPath></text>", "left out: <textPath> in line 1 without a path"),
-        ("<text>a<tref href='#x'/></text>", "left out: <tref> in a text"),
+        ("<text>a<tref href='#x'/></text>", "left out: <tref> of '#x'"),
         ("<text x='1 b'>abc</text>", "invalid: x='1 b' of <text> in line 1"),
         ("<text rotate='1turn'>abc</text>", "invalid: rotate='1turn' of <text> in line 1"),
         ("<text textLength='-1'>abc</text>", "invalid: textLength='-1' of <text> in line 1"),
@@ -116,9 +116,15 @@ def test_notes(tmp_path: Path, body: str, note: str) -> None:
             "character (U+EBAD), which 'DejaVu Sans' lacks, ",
             ["s"],
         ),
-        ("<text>a<tref id='r'/></text>", "<tref> in a text", ["r"]),
+        ("<text>a<tref id='r'/></text>", "<tref> of ''", ["r"]),
         ("<text><textPath id='p'>b</textPath></text>", '<textPath id="p"> in line 1 without a path', ["p"]),
         ("<text id='t'><animate/></text>", "animation", ["t"]),
+        ("<g style='text-shadow: 1px 1px red'><text id='t' y='9'>a<tspan>b</tspan></text></g>", "text-shadow", ["t"]),
+        (
+            "<text y='9'>a<tspan id='s' style='text-transform: full-width'>b</tspan></text>",
+            "text-transform full-width",
+            ["s"],
+        ),
         ("<g kerning='8'><text id='t' y='9'>a<tspan>b</tspan></text></g>", "kerning 8", ["t"]),
         (
             "<text id='t' style='writing-mode: sideways-lr'>a</text>",

@@ -53,7 +53,7 @@ def laid_out(found: Characters, made: list[Cluster], vertical: bool, report: Rep
     edges = {at for at in range(len(found.text)) if found.starts_chunk(at)}
     groups: list[list[Cluster]] = []
     for cluster in made:
-        if not groups or cluster.start in edges:
+        if not groups or (cluster.start in edges and cluster.start != groups[-1][-1].start):
             groups.append([])
         groups[-1].append(cluster)
     for group in groups:

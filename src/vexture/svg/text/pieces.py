@@ -48,7 +48,7 @@ def pieces(chunks: Sequence[Chunk], vertical: bool, report: Report) -> Iterator[
             lines = {word: decoration(span, word, report) for word in WORDS}
             for word in WORDS[:2]:
                 yield from lined(held, word, lines[word], vertical)
-            yield from painted(span, held)
+            yield from painted(span, held, report)
             yield from lined(held, WORDS[2], lines[WORDS[2]], vertical)
 
 
@@ -83,7 +83,7 @@ def members(chunk: Chunk) -> list[tuple[Span, list[Member]]]:
     return stretches
 
 
-def painted(span: Span, held: Sequence[Member]) -> Iterator[Piece]:
+def painted(span: Span, held: Sequence[Member], report: Report) -> Iterator[Piece]:
     """The glyphs of a span: outlines together, and each in colour by itself."""
     together: list[Outline] = []
     for cluster, matrix, _ in held:
@@ -104,6 +104,8 @@ def painted(span: Span, held: Sequence[Member]) -> Iterator[Piece]:
                 yield Piece(span.place, layers=layers, matrix=units)
                 continue
             contours = list(cluster.face.outline(glyph.glyph))
+            if not contours and (missing := cluster.face.missing(glyph.glyph)):
+                report.left_out(missing, span.element)
             if cluster.bolder and contours:
                 contours += emboldened(contours, cluster)
             together += [Outline(mapped(contour, units), closed=True) for contour in contours]

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import Final, Protocol
+from unicodedata import category
 
 from lxml import etree
 
@@ -12,6 +13,7 @@ from vexture.svg.compositing import Veil
 from vexture.svg.document import applies, local_name
 from vexture.svg.masks import Measured
 from vexture.svg.names import ElementNames
+from vexture.svg.paint_servers import reference
 from vexture.svg.report import described
 from vexture.svg.space import Place
 from vexture.svg.style import Style
@@ -21,7 +23,7 @@ from vexture.svg.values import SEPARATOR, number
 
 __all__ = ["Characters", "Setting", "Span", "characters"]
 
-PARTS: Final = frozenset({"a", "textPath", "tspan"})
+PARTS: Final = frozenset({"a", "textPath", "tref", "tspan"})
 """Elements in a text that have characters of it."""
 
 SILENT: Final = ANIMATIONS | {"desc", "metadata", "script", "style", "title"}
@@ -31,10 +33,13 @@ MOST_CHARACTERS: Final = 200_000
 """Characters and elements of texts that are set; each time counts that `use`, a clip or the measuring of a box shows
 them."""
 
+APOSTROPHES: Final = "'\u2019"
+"""Do not end a word."""
+
 PRESERVED: Final = frozenset({"pre", "pre-wrap", "break-spaces"})
 """Values of `white-space` that keep spaces."""
 
-POSITIONED: Final = frozenset({"text", "tspan"})
+POSITIONED: Final = frozenset({"text", "tref", "tspan"})
 """Elements that place single characters."""
 
 
@@ -75,7 +80,7 @@ class Span:
 class Characters:
     """The characters of a text that attributes can address; the spans are in the order of the document."""
 
-    text: list[str] = field(default_factory=list)
+    text: list[str] = field(default_factory=list)  # each as `text-transform` makes it: one character or more
     holders: list[Span] = field(default_factory=list)  # the innermost span of each
     spans: list[Span] = field(default_factory=list)
     x: dict[int, float] = field(default_factory=dict)
@@ -98,11 +103,18 @@ class Characters:
                 self.after_space = not preserved
                 character = " "
             else:
-                character = transformed(character, transform, self.text[-1] if self.text else " ")
+                character = transformed(character, transform, self.in_word())
                 self.after_space = False
             self.text.append(character)
             self.holders.append(span)
             self.add_one()
+
+    def in_word(self) -> bool:
+        """Whether a letter that comes next goes on with a word; an apostrophe and marks in a word are of it."""
+        before = [characters[-1] for characters in self.text[-2:]]
+        if before and before[-1] in APOSTROPHES:
+            before.pop()
+        return bool(before) and (before[-1].isalnum() or category(before[-1])[0] == "M")
 
     def add_one(self) -> None:
         """Count a character or an element; a `SourceError` if they are too many."""
@@ -122,15 +134,19 @@ class Characters:
         return at == 0 or at in self.x or at in self.y or (self.holders[at].track is not self.holders[at - 1].track)
 
 
-def transformed(character: str, how: str, before: str) -> str:
-    """Character by `text-transform`, which is not to change their number; `before` is the one before it."""
-    if how == "uppercase" or (how == "capitalize" and not before.isalnum()):
-        changed = character.upper()
-    elif how == "lowercase":
-        changed = character.lower()
-    else:
-        return character
-    return changed if len(changed) == 1 else character
+def transformed(character: str, how: str, in_word: bool) -> str:
+    """What `text-transform` makes of a character, such as SS of ß; `in_word` tells whether a word goes on with it.
+
+    Examples
+    --------
+    >>> transformed("ß", "uppercase", True), transformed("ǆ", "capitalize", False), transformed("ß", "capitalize", True)
+    ('SS', 'ǅ', 'ß')
+    """
+    if how == "uppercase":
+        return character.upper()
+    if how == "lowercase":
+        return character.lower()
+    return character.title() if how == "capitalize" and not in_word else character
 
 
 def characters(scene: Setting, element: etree._Element, place: Place, count: int) -> Characters:
@@ -151,8 +167,9 @@ def read(scene: Setting, found: Characters, span: Span) -> None:
     note_ignored(scene, span)
     found.spans.append(span)
     found.add_one()
-    found.add(element.text or "", span)
-    for child in element:
+    is_reference = local_name(element) == "tref"
+    found.add(referenced(scene, element) if is_reference else element.text or "", span)
+    for child in () if is_reference else element:
         name = local_name(child)
         if name in PARTS and applies(child):
             inner = part(scene, child, span, len(found.text))
@@ -164,12 +181,27 @@ def read(scene: Setting, found: Characters, span: Span) -> None:
     span.end = len(found.text)
 
 
+def referenced(scene: Setting, element: etree._Element) -> str:
+    """All characters of the element that a `tref` refers to (SVG 1.1, 10.6)."""
+    link = reference(element) or ""
+    target = scene.servers.target(link)
+    if target is None:
+        scene.report.left_out(f"<tref> of '{link[:40]}'", element)
+        return ""
+    return str(target.xpath("string()"))
+
+
 def note_ignored(scene: Setting, span: Span) -> None:
     """Note what an element asks of its characters that they do not get."""
     style, outer = span.place.style, None if span.outer is None else span.outer.place.style
     kerning = style["kerning"]
     if kerning.lower() != "auto" and (outer is None or outer["kerning"] != kerning):
         scene.report.left_out(f"kerning {kerning[:40]}", span.element)
+    shadow = style["text-shadow"]
+    if shadow.lower() != "none" and (outer is None or outer["text-shadow"] != shadow):
+        scene.report.left_out("text-shadow", span.element)
+    if style["text-transform"].lower() == "full-width" and (outer is None or outer["text-transform"] != "full-width"):
+        scene.report.left_out("text-transform full-width", span.element)
     if outer is None and style["writing-mode"].lower() == "sideways-lr":
         scene.report.simplified("writing-mode sideways-lr drawn as sideways-rl", span.element)
 
