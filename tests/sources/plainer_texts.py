@@ -99,9 +99,40 @@ def waves(count: int, width: float) -> str:
     return "M0 0" + "".join(f"c{half / 2} {down} {half / 2} {down} {half} 0" for down in ((4, -4) * count)[:count])
 
 
+def lowered() -> float:
+    """How far subscripts are below the baseline, in ems."""
+    return font()["OS/2"].ySubscriptYOffset / 2048
+
+
+def raised() -> float:
+    return font()["OS/2"].ySuperscriptYOffset / 2048
+
+
+def spread(text: str, shift: float, length: float) -> str:
+    """Letters in a length that begins at (5, 30), with a shift before the third one."""
+    gap = (length - shift - advance(text)) / (len(text) - 1)
+    return letters(text[:2], 5, 30, gap=gap) + letters(text[2:], 5 + shift + advance(text[:2]) + 2 * gap, 30, gap=gap)
+
+
 SIDEWAYS = '<text x="50" y="10" writing-mode="tb">ship</text>'
 
 PLAINER = {
+    # shifts within a chunk are of its length (SVG 2, 11.5, "Resolve text length" and "Adjust positions: anchoring")
+    "anchor-with-dx": f'<text x="{40 - advance("ship") / 2}" y="30" dx="0 10 10">ship</text>'
+    f'<text x="{80 - advance("ship")}" y="60" dx="0 5">ship</text>',
+    "text-length-with-dx": spread("ship", 10, 80)
+    + f'<g transform="translate(10 60) scale({80 / (advance("ship") + 10)} 1)">'
+    '<text>sh<tspan dx="10">ip</tspan></text></g>',
+    "tspan-blend-mode": '<rect width="100" height="100" fill="yellow"/><text x="10" y="50" font-size="30">a</text>'
+    f'<text x="{10 + advance("a", 30)}" y="50" font-size="30" fill="red" style="mix-blend-mode: difference">bc</text>',
+    # by the size of what is around (CSS Inline 3, 4.2.2)
+    "baseline-shift-sub": '<text x="10" y="50">one</text>'
+    + letters("two", 10 + advance("one"), 50 + SIZE * lowered(), 10),
+    "baseline-shift-super": '<text x="10" y="50">one</text>'
+    + letters("two", 10 + advance("one"), 50 - SIZE * raised(), 10),
+    "baseline-shift-smaller": '<text x="10" y="50">a</text>'
+    + letters("b", 10 + advance("a"), 50 + SIZE * lowered(), 10)
+    + letters("c", 10 + advance("a") + advance("b", 10), 50 + SIZE * lowered() - 10 * raised(), 20),
     # "a collapsible space following another collapsible space is collapsed", also of another element, and no other
     "between-spaces": '<text x="5" y="50">a b c</text>',
     "spaces-default-in-preserved": '<text x="5" y="50" xml:space="preserve">a  b c d  e</text>',
@@ -143,7 +174,7 @@ PLAINER = {
     # lists of positions are for the characters of the document
     "text-transform-longer": '<text y="30" x="5">ASSB</text><text y="60" x="5 32" rotate="0 20 20">ASS</text>'
     '<text y="60" x="60 80">BC</text><text y="90" x="5">\u01c5ep A\u00df</text>'
-    '<text y="14" x="5">Don\'t O\u0308f</text>',
+    '<text y="14" x="5">Don\'t O\u0308f A_b</text>',
     "text-transform": '<text x="5" y="50">SHIPS</text>',
     "vertical-upright-symbols": upright("a\u2605b\u2660", "ab"),
     "vertical-upright-letters": upright("Ship"),

@@ -30,6 +30,9 @@ USUAL: Final = frozenset({*WORDS, *STYLES, "none", "blink", "auto", "from-font",
 
 WORD = re.compile(r"[^\s(]+(?:\([^)]*\))?")
 
+LONGEST: Final = 200
+"""Characters of a property that are read."""
+
 DASHES: Final = {"dashed": (3.0, 2.0), "dotted": (0.0, 2.0)}
 """Lengths of dashes and gaps in thicknesses of the line; those of no length have round caps."""
 
@@ -77,7 +80,7 @@ def decoration(span: Span, word: str, report: Report) -> Decoration | None:
 
 def words_of(place: Place, properties: Sequence[str]) -> list[str]:
     """Words of some properties at a place; a function with its arguments is one."""
-    return WORD.findall(" ".join(place.style[name] for name in properties).lower())
+    return WORD.findall(" ".join(place.style[name][:LONGEST] for name in properties).lower())
 
 
 def looking(own: Place, place: Place, report: Report) -> Decoration:

@@ -58,7 +58,7 @@ def laid_out(found: Characters, made: list[Cluster], vertical: bool, report: Rep
         groups[-1].append(cluster)
     for group in groups:
         space(found, group)
-    fit(found.spans, made, report)
+    fit(found, made, vertical, report)
     chunks, at = [], (0.0, 0.0)
     for group in groups:
         visual = [group[k] for k in reordered([cluster.level for cluster in group])]
@@ -83,10 +83,10 @@ def pixels(spacing: str) -> float:
     return 0.0 if spacing == "normal" else float(spacing)
 
 
-def fit(spans: Sequence[Span], made: Sequence[Cluster], report: Report) -> None:
+def fit(found: Characters, made: Sequence[Cluster], vertical: bool, report: Report) -> None:
     """Fit the clusters of each element with a `textLength` into that, the innermost elements first (SVG 2, 11.5)."""
     starts = [cluster.start for cluster in made]
-    for span in reversed(spans):
+    for span in reversed(found.spans):
         text = span.element.get("textLength")
         if text is None or local_name(span.element) == "a":
             continue
@@ -97,15 +97,17 @@ def fit(spans: Sequence[Span], made: Sequence[Cluster], report: Report) -> None:
             report.invalid("textLength", text, span.element)
             continue
         if inside:
-            fit_span(span, inside, length)
+            fit_span(span, inside, length, found.dy if vertical else found.dx)
 
 
-def fit_span(span: Span, inside: Sequence[Cluster], length: float) -> None:
+def fit_span(span: Span, inside: Sequence[Cluster], length: float, shifts: dict[int, float]) -> None:
     """Fit clusters into a length; those that are fitted into that of an element inside already move together.
 
-    The last one has a gap behind it too, as in browsers; an anchor does not see it.
+    The last one has a gap behind it too, as in browsers; an anchor does not see it. `shifts` are those along the text
+    by characters, which count for the length, but for that of the first cluster.
     """
-    width = sum(cluster.advance for cluster in inside)
+    later = [at for at in range(inside[0].end, inside[-1].end) if at in shifts]
+    width = sum(cluster.advance for cluster in inside) + sum(shifts[at] for at in later)
     if length == 0.0:  # which browsers take for none
         return
     if span.element.get("lengthAdjust", "").strip() == "spacingAndGlyphs":
@@ -114,6 +116,8 @@ def fit_span(span: Span, inside: Sequence[Cluster], length: float) -> None:
             cluster.stretch *= factor
             cluster.advance *= factor
             cluster.width *= factor
+        for at in later:
+            shifts[at] *= factor
         return
     loose = [
         cluster for cluster, after in pairwise(inside) if cluster.fitted is None or cluster.fitted is not after.fitted
@@ -131,6 +135,7 @@ def chunk_of(
     """Chunk of clusters in visual order that begins at a character, and where what follows it goes on from `at`."""
     style, track = found.holders[first].place.style, found.holders[first].track
     length = sum(cluster.advance for cluster in visual) - visual[-1].gap
+    length += sum(shifts(found, cluster)[vertical] for cluster in visual[1:])
     part = ANCHORS[style["text-anchor"].lower()]
     if style["direction"].lower() == "rtl":
         part = 1.0 - part

@@ -9,11 +9,13 @@ from lxml import etree
 
 from vexture.deadline import check_time
 from vexture.errors import SourceError
+from vexture.group import Blend
 from vexture.svg.compositing import Veil
 from vexture.svg.document import applies, local_name
 from vexture.svg.masks import Measured
 from vexture.svg.names import ElementNames
 from vexture.svg.paint_servers import reference
+from vexture.svg.properties import BLENDS
 from vexture.svg.report import described
 from vexture.svg.space import Place
 from vexture.svg.style import Style
@@ -35,6 +37,9 @@ them."""
 
 APOSTROPHES: Final = "'\u2019"
 """Do not end a word."""
+
+JOINING: Final = frozenset({"Mn", "Mc", "Me", "Pc"})
+"""Categories of characters beside letters and digits of which a word is made (Unicode Annex 29): marks, and _."""
 
 PRESERVED: Final = frozenset({"pre", "pre-wrap", "break-spaces"})
 """Values of `white-space` that keep spaces."""
@@ -114,7 +119,7 @@ class Characters:
         before = [characters[-1] for characters in self.text[-2:]]
         if before and before[-1] in APOSTROPHES:
             before.pop()
-        return bool(before) and (before[-1].isalnum() or category(before[-1])[0] == "M")
+        return bool(before) and (before[-1].isalnum() or category(before[-1]) in JOINING)
 
     def add_one(self) -> None:
         """Count a character or an element; a `SourceError` if they are too many."""
@@ -236,9 +241,11 @@ def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Sp
 
 
 def faded(style: Style, around: Place) -> Veil | None:
-    """The veil of a part of a text: browsers composite one with an opacity by itself, as they do any element."""
-    opacity = style.opacity("opacity")
-    return around.veil if around.is_clip or opacity == 1.0 else Veil(around.veil, opacity)
+    """The veil of a part of a text: browsers composite one as they do any element, but for clips, masks and filters."""
+    opacity, blend = style.opacity("opacity"), BLENDS[style["mix-blend-mode"].lower()]
+    if around.is_clip or (opacity == 1.0 and blend is Blend.NORMAL):
+        return around.veil
+    return Veil(around.veil, opacity, blend)
 
 
 def position(scene: Setting, found: Characters, span: Span) -> None:
