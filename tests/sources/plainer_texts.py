@@ -152,6 +152,8 @@ PLAINER = {
     "font-weight-bolder": '<text x="5" y="50"><tspan font-weight="bold">a</tspan>b<tspan font-weight="bold">c</tspan>'
     "</text>",
     # "user agents should not apply optional ligatures when letter-spacing is not zero" (CSS Text 3, 8.2)
+    # a ligature has the shift of its first character, and what follows that of the others
+    "ligature-dx": '<text x="5" y="50" text-decoration="underline">offi<tspan dx="5" dy="3">ce</tspan></text>',
     "letter-spacing-no-ligature": letters("office", 5, 50, 20, 1.0),
     "path-data": '<path id="p" d="M10 50H90" fill="none"/><text><textPath href="#p">ship</textPath></text>',
     # "effectively reverses the path direction" (SVG 2, 11.8.2)

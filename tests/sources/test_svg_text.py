@@ -125,6 +125,8 @@ def test_notes(tmp_path: Path, body: str, note: str) -> None:
             "text-transform full-width",
             ["s"],
         ),
+        ("<text y='9'>a<tspan id='s' clip-path='url(#c)'>b</tspan></text>", "clip-path of a <tspan>", ["s"]),
+        ("<text y='9'>a<tspan id='s' mask='url(#m)'>b</tspan></text>", "mask of a <tspan>", ["s"]),
         ("<g kerning='8'><text id='t' y='9'>a<tspan>b</tspan></text></g>", "kerning 8", ["t"]),
         (
             "<text id='t' style='writing-mode: sideways-lr'>a</text>",

@@ -106,7 +106,7 @@ def fit_span(span: Span, inside: Sequence[Cluster], length: float, shifts: dict[
     The last one has a gap behind it too, as in browsers; an anchor does not see it. `shifts` are those along the text
     by characters, which count for the length, but for that of the first cluster.
     """
-    later = [at for at in range(inside[0].end, inside[-1].end) if at in shifts]
+    later = [at for at in range(inside[0].start + 1, inside[-1].start + 1) if at in shifts]
     width = sum(cluster.advance for cluster in inside) + sum(shifts[at] for at in later)
     if length == 0.0:  # which browsers take for none
         return
@@ -134,8 +134,8 @@ def chunk_of(
 ) -> tuple[Chunk, tuple[float, float]]:
     """Chunk of clusters in visual order that begins at a character, and where what follows it goes on from `at`."""
     style, track = found.holders[first].place.style, found.holders[first].track
-    length = sum(cluster.advance for cluster in visual) - visual[-1].gap
-    length += sum(shifts(found, cluster)[vertical] for cluster in visual[1:])
+    steps = shifts(found, visual)
+    length = sum(cluster.advance for cluster in visual) - visual[-1].gap + sum(step[vertical] for step in steps[1:-1])
     part = ANCHORS[style["text-anchor"].lower()]
     if style["direction"].lower() == "rtl":
         part = 1.0 - part
@@ -146,14 +146,15 @@ def chunk_of(
     flow = Identity.translate(*origin).rotate(pi / 2.0 if vertical else 0.0)
     along, across = -part * length, 0.0
     matrices, moved = [], []
-    for cluster in visual:
-        dx, dy = shifts(found, cluster)
+    for cluster, (dx, dy) in zip(visual, steps, strict=False):
         along, across = (along + dy, across - dx) if vertical else (along + dx, across + dy)
         turn = radians(found.rotate.get(cluster.start, 0.0))
         matrix = flow.translate(along, across + baseline(cluster, vertical))
         matrices.append(matrix.rotate(turn).transform(own(cluster)))
         moved.append(bool(dx or dy or turn))
         along += cluster.advance
+    dx, dy = steps[-1]
+    along, across = (along + dy, across - dx) if vertical else (along + dx, across + dy)
     end = flow.transformPoint((along, across))  # type: ignore[attr-defined]
     return Chunk(tuple(visual), tuple(matrices), tuple(moved)), end
 
@@ -166,8 +167,7 @@ def on_track(
     What follows a path goes on from its end (SVG 2, 11.5, "Position on path").
     """
     matrices, across = [], 0.0
-    for cluster in visual:
-        dx, dy = shifts(found, cluster)
+    for cluster, (dx, dy) in zip(visual, shifts(found, visual), strict=False):
         along, across = (along + dy, across - dx) if vertical else (along + dx, across + dy)
         half = cluster.width / 2.0
         point = track.at(along + half)
@@ -189,7 +189,18 @@ def own(cluster: Cluster) -> Transform:
     return matrix.rotate(-pi / 2.0) if cluster.upright else matrix
 
 
-def shifts(found: Characters, cluster: Cluster) -> tuple[float, float]:
-    """Sums of `dx` and `dy` of a cluster's characters."""
-    places = range(cluster.start, cluster.end)
-    return sum(found.dx.get(at, 0.0) for at in places), sum(found.dy.get(at, 0.0) for at in places)
+def shifts(found: Characters, visual: Sequence[Cluster]) -> list[tuple[float, float]]:
+    """What `dx` and `dy` add before each cluster, and behind the last one.
+
+    A cluster has the shift of its first character; those of its others come behind it (SVG 2, 11.5, "Adjust
+    positions: dx, dy"). Of clusters that one character became, the first has its shift.
+    """
+    steps, behind = [], (0.0, 0.0)
+    for cluster in visual:
+        first, *others = range(cluster.start, cluster.end) or (
+            -1,
+        )  # where one character became two, one of them has it
+        dx, dy = found.dx.get(first, 0.0), found.dy.get(first, 0.0)
+        steps.append((behind[0] + dx, behind[1] + dy))
+        behind = sum(found.dx.get(at, 0.0) for at in others), sum(found.dy.get(at, 0.0) for at in others)
+    return [*steps, behind]

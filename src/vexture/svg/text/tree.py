@@ -44,6 +44,9 @@ JOINING: Final = frozenset({"Mn", "Mc", "Me", "Pc"})
 PRESERVED: Final = frozenset({"pre", "pre-wrap", "break-spaces"})
 """Values of `white-space` that keep spaces."""
 
+WHOLE: Final = ("clip-path", "filter", "mask")
+"""Properties of whole texts, which some browsers draw for parts of them, too."""
+
 POSITIONED: Final = frozenset({"text", "tref", "tspan"})
 """Elements that place single characters."""
 
@@ -207,6 +210,9 @@ def note_ignored(scene: Setting, span: Span) -> None:
         scene.report.left_out("text-shadow", span.element)
     if style["text-transform"].lower() == "full-width" and (outer is None or outer["text-transform"] != "full-width"):
         scene.report.left_out("text-transform full-width", span.element)
+    for name in WHOLE if outer is not None else ():
+        if style[name].lower() != "none":
+            scene.report.left_out(f"{name} of a <{local_name(span.element)}>", span.element)
     if outer is None and style["writing-mode"].lower() == "sideways-lr":
         scene.report.simplified("writing-mode sideways-lr drawn as sideways-rl", span.element)
 
