@@ -152,6 +152,11 @@ PLAINER = {
     "font-weight-bolder": '<text x="5" y="50"><tspan font-weight="bold">a</tspan>b<tspan font-weight="bold">c</tspan>'
     "</text>",
     # "user agents should not apply optional ligatures when letter-spacing is not zero" (CSS Text 3, 8.2)
+    # shifts add up in logical order
+    "hebrew-dx": "".join(
+        f'<text x="{92 - advance(HEBREW[: k + 1]) + shift}" y="{50 + 5 * (k > 0)}">{letter}</text>'
+        for k, (letter, shift) in enumerate(zip(HEBREW, (0, -5, -10, -7, -7), strict=True))
+    ),
     # a ligature has the shift of its first character, and what follows that of the others
     "ligature-dx": '<text x="5" y="50" text-decoration="underline">offi<tspan dx="5" dy="3">ce</tspan></text>',
     "letter-spacing-no-ligature": letters("office", 5, 50, 20, 1.0),

@@ -3,7 +3,7 @@
 from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from math import pi, radians
 from typing import Final
 
@@ -134,7 +134,7 @@ def chunk_of(
 ) -> tuple[Chunk, tuple[float, float]]:
     """Chunk of clusters in visual order that begins at a character, and where what follows it goes on from `at`."""
     style, track = found.holders[first].place.style, found.holders[first].track
-    steps = shifts(found, visual)
+    steps = shifts(found, visual, vertical)
     length = sum(cluster.advance for cluster in visual) - visual[-1].gap + sum(step[vertical] for step in steps[1:-1])
     part = ANCHORS[style["text-anchor"].lower()]
     if style["direction"].lower() == "rtl":
@@ -167,7 +167,7 @@ def on_track(
     What follows a path goes on from its end (SVG 2, 11.5, "Position on path").
     """
     matrices, across = [], 0.0
-    for cluster, (dx, dy) in zip(visual, shifts(found, visual), strict=False):
+    for cluster, (dx, dy) in zip(visual, shifts(found, visual, vertical), strict=False):
         along, across = (along + dy, across - dx) if vertical else (along + dx, across + dy)
         half = cluster.width / 2.0
         point = track.at(along + half)
@@ -189,18 +189,19 @@ def own(cluster: Cluster) -> Transform:
     return matrix.rotate(-pi / 2.0) if cluster.upright else matrix
 
 
-def shifts(found: Characters, visual: Sequence[Cluster]) -> list[tuple[float, float]]:
-    """What `dx` and `dy` add before each cluster, and behind the last one.
+def shifts(found: Characters, visual: Sequence[Cluster], vertical: bool) -> list[tuple[float, float]]:
+    """What `dx` and `dy` add before each cluster of a chunk, and behind the last one.
 
-    A cluster has the shift of its first character; those of its others come behind it (SVG 2, 11.5, "Adjust
-    positions: dx, dy"). Of clusters that one character became, the first has its shift.
+    Each character is shifted by the sum of those up to it in logical order, whatever its direction, and a cluster as
+    its first one (SVG 2, 11.5, "Adjust positions: dx, dy"). The chunk starts where its first character is shifted to.
     """
-    steps, behind = [], (0.0, 0.0)
-    for cluster in visual:
-        first, *others = range(cluster.start, cluster.end) or (
-            -1,
-        )  # where one character became two, one of them has it
-        dx, dy = found.dx.get(first, 0.0), found.dy.get(first, 0.0)
-        steps.append((behind[0] + dx, behind[1] + dy))
-        behind = sum(found.dx.get(at, 0.0) for at in others), sum(found.dy.get(at, 0.0) for at in others)
-    return [*steps, behind]
+    start, end = min(cluster.start for cluster in visual), max(cluster.end for cluster in visual)
+    end = max(end, start + 1)  # a font may have no glyph for the first of what a character became
+    sums = [list(accumulate(places.get(at, 0.0) for at in range(start, end))) for places in (found.dx, found.dy)]
+    both = []
+    for along, total in zip((not vertical, vertical), sums, strict=True):
+        places = [total[cluster.start - start] for cluster in visual]
+        begin = total[0] if along else places[0]
+        steps = [begin, *(after - before for before, after in pairwise(places))]
+        both.append([*steps, total[-1] - places[-1] + places[0] - begin])
+    return list(zip(*both, strict=True))
