@@ -181,7 +181,8 @@ PLAINER = {
     # lists of positions are for the characters of the document
     "text-transform-longer": '<text y="30" x="5">ASSB</text><text y="60" x="5 32" rotate="0 20 20">ASS</text>'
     '<text y="60" x="60 80">BC</text><text y="90" x="5">\u01c5ep A\u00df</text>'
-    '<text y="14" x="5">Don\'t O\u0308f A_b</text>',
+    '<text y="14" x="5">Don\'t O\u0308f A_b</text>'
+    '<text y="76" x="5">\u03c3\u03b1\u03c2 \u03c3\u03b1 \u03c3</text>',
     "text-transform": '<text x="5" y="50">SHIPS</text>',
     "vertical-upright-symbols": upright("a\u2605b\u2660", "ab"),
     "vertical-upright-letters": upright("Ship"),

@@ -38,6 +38,9 @@ them."""
 APOSTROPHES: Final = "'\u2019"
 """Do not end a word."""
 
+SIGMA, FINAL_SIGMA = "\u03a3", "\u03c2"
+"""The only letter that is another one at the end of a word (Unicode, SpecialCasing)."""
+
 JOINING: Final = frozenset({"Mn", "Mc", "Me", "Pc"})
 """Categories of characters beside letters and digits of which a word is made (Unicode Annex 29): marks, and _."""
 
@@ -104,14 +107,14 @@ class Characters:
         style = span.place.style
         preserved = style["white-space"].lower() in PRESERVED
         transform = style["text-transform"].lower()
-        for character in text:
+        for at, character in enumerate(text):
             if character in " \t\n\r":
                 if self.after_space and not preserved:
                     continue
                 self.after_space = not preserved
                 character = " "
             else:
-                character = transformed(character, transform, self.in_word())
+                character = transformed(character, transform, self.in_word(), text[at + 1 : at + 2].isalpha())
                 self.after_space = False
             self.text.append(character)
             self.holders.append(span)
@@ -142,18 +145,22 @@ class Characters:
         return at == 0 or at in self.x or at in self.y or (self.holders[at].track is not self.holders[at - 1].track)
 
 
-def transformed(character: str, how: str, in_word: bool) -> str:
-    """What `text-transform` makes of a character, such as SS of ß; `in_word` tells whether a word goes on with it.
+def transformed(character: str, how: str, in_word: bool, goes_on: bool) -> str:
+    """What `text-transform` makes of a character, such as SS of ß.
+
+    `in_word` tells whether a word goes on with it, and `goes_on` whether a letter comes next.
 
     Examples
     --------
-    >>> transformed("ß", "uppercase", True), transformed("ǆ", "capitalize", False), transformed("ß", "capitalize", True)
-    ('SS', 'ǅ', 'ß')
+    >>> transformed("ß", "uppercase", True, True), transformed("ǆ", "capitalize", False, True)
+    ('SS', 'ǅ')
+    >>> transformed("Σ", "lowercase", True, False), transformed("Σ", "lowercase", True, True)
+    ('ς', 'σ')
     """
     if how == "uppercase":
         return character.upper()
     if how == "lowercase":
-        return character.lower()
+        return FINAL_SIGMA if character == SIGMA and in_word and not goes_on else character.lower()
     return character.title() if how == "capitalize" and not in_word else character
 
 
