@@ -4,6 +4,8 @@ import io
 
 from fontTools.fontBuilder import FontBuilder
 from fontTools.pens.ttGlyphPen import TTGlyphPen
+from fontTools.ttLib import TTFont
+from fontTools.ttLib.tables._g_l_y_f import ROUND_XY_TO_GRID, Glyph, GlyphComponent
 from fontTools.ttLib.tables.otTables import CompositeMode, PaintFormat
 
 UNITS = 1000
@@ -35,6 +37,29 @@ def disc(x, y, radius):
     return pen.glyph()
 
 
+def composed(*names):
+    """A glyph of others, each where it is in its own."""
+    glyph = Glyph()
+    glyph.numberOfContours = -1
+    glyph.xMin, glyph.yMin, glyph.xMax, glyph.yMax = 0, 0, 700, 700
+    glyph.components = []
+    for name in names:
+        part = GlyphComponent()
+        part.glyphName, part.x, part.y, part.flags = name, 0, 0, ROUND_XY_TO_GRID
+        glyph.components.append(part)
+    return glyph
+
+
+def recomposed(content, glyphs):
+    """Bytes of a font with other glyphs of some characters, which may be damaged."""
+    font = TTFont(io.BytesIO(content), recalcBBoxes=False)
+    for character, glyph in glyphs.items():
+        font["glyf"].glyphs[f"u{ord(character):04X}"] = glyph
+    file = io.BytesIO()
+    font.save(file)
+    return file.getvalue()
+
+
 SHAPES = {
     "square": box(100, 0, 800, 700),
     "disc": disc(550, 450, 350),
@@ -60,7 +85,8 @@ def made_font(characters, paints=None, family="Made", weight=400, advance=900, k
     builder.setupGlyf(glyphs)
     builder.setupHorizontalMetrics({name: (advance, getattr(glyph, "xMin", 0)) for name, glyph in glyphs.items()})
     builder.setupHorizontalHeader(ascent=800, descent=-200)
-    builder.setupNameTable({"familyName": family, "styleName": "Regular"})
+    own = {"fullName": f"{family} Regular", "psName": f"{family}-Regular"}
+    builder.setupNameTable({"familyName": family, "styleName": "Regular", **own})
     builder.setupOS2(usWeightClass=weight, sxHeight=500, sCapHeight=700, **info)
     builder.setupPost(underlinePosition=-100, underlineThickness=50)
     if kerning:

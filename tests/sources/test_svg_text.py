@@ -80,14 +80,14 @@ def test_missing_fonts_and_characters_are_named_with_what_is_used(tmp_path: Path
     ("body", "note"),
     [
         ("<text>a<textPath href='#x'>b</textPath></text>", "left out: <textPath> in line 1 without a path"),
-        ("<text>a<tref href='#x'/></text>", "left out: <tref> in a text"),
+        ("<text>a<tref href='#x'/></text>", "left out: <tref> of '#x'"),
         ("<text x='1 b'>abc</text>", "invalid: x='1 b' of <text> in line 1"),
         ("<text rotate='1turn'>abc</text>", "invalid: rotate='1turn' of <text> in line 1"),
         ("<text textLength='-1'>abc</text>", "invalid: textLength='-1' of <text> in line 1"),
         ("<text y='1e13'>abc</text>", "left out: <text> in line 1: the number 1e13 is too large; the limit is 1e+12"),
         (
-            "<text y='9' text-decoration='wavy underline'>a</text>",
-            "simplified: text-decoration wavy drawn as a solid line",
+            "<text y='9' style='text-decoration: underline; text-underline-offset: 3px'>a</text>",
+            "simplified: text-decoration 3px drawn where and as the font says",
         ),
         (
             "<text><textPath path='M0 9H99' method='stretch'>b</textPath></text>",
@@ -116,10 +116,17 @@ def test_notes(tmp_path: Path, body: str, note: str) -> None:
             "character (U+EBAD), which 'DejaVu Sans' lacks, ",
             ["s"],
         ),
-        ("<text>a<tref id='r'/></text>", "<tref> in a text", ["r"]),
+        ("<text>a<tref id='r'/></text>", "<tref> of ''", ["r"]),
         ("<text><textPath id='p'>b</textPath></text>", '<textPath id="p"> in line 1 without a path', ["p"]),
         ("<text id='t'><animate/></text>", "animation", ["t"]),
-        ("<text y='9'>a<tspan id='s' opacity='0.5'>b</tspan></text>", "opacity of a <tspan>", ["s"]),
+        ("<g style='text-shadow: 1px 1px red'><text id='t' y='9'>a<tspan>b</tspan></text></g>", "text-shadow", ["t"]),
+        (
+            "<text y='9'>a<tspan id='s' style='text-transform: full-width'>b</tspan></text>",
+            "text-transform full-width",
+            ["s"],
+        ),
+        ("<text y='9'>a<tspan id='s' clip-path='url(#c)'>b</tspan></text>", "clip-path of a <tspan>", ["s"]),
+        ("<text y='9'>a<tspan id='s' mask='url(#m)'>b</tspan></text>", "mask of a <tspan>", ["s"]),
         ("<g kerning='8'><text id='t' y='9'>a<tspan>b</tspan></text></g>", "kerning 8", ["t"]),
         (
             "<text id='t' style='writing-mode: sideways-lr'>a</text>",
@@ -127,14 +134,9 @@ def test_notes(tmp_path: Path, body: str, note: str) -> None:
             ["t"],
         ),
         (
-            "<text y='9'>a<tspan id='s' text-decoration='underline red 3px'>b</tspan></text>",
-            "text-decoration red 3px drawn in ",
+            "<text y='9'>a<tspan id='s' text-decoration='underline zigzag'>b</tspan></text>",
+            "text-decoration zigzag drawn where and as the font says",
             ["s"],
-        ),
-        (
-            "<text id='t' y='9' style='text-decoration-line: underline; text-decoration-style: wavy'>b</text>",
-            "text-decoration wavy drawn as a solid line",
-            ["t"],
         ),
     ],
 )
@@ -179,6 +181,24 @@ def test_hostile_texts_end_in_one_line(tmp_path: Path) -> None:
         drawn(tmp_path, paths)
     far = drawn(tmp_path, '<text y="50" font-size="1e11">a</text><text y="50" letter-spacing="1e12">ab</text>')
     assert far.paths or far.notes
+
+
+def test_parts_with_an_opacity_are_groups_of_their_own(tmp_path: Path) -> None:
+    body = '<text y="50">a<tspan opacity="0.5" stroke="red">b<tspan opacity="0.5" stroke="red">c</tspan></tspan></text>'
+    drawing = drawn(tmp_path, body)
+    assert not drawing.notes
+    assert [(group.outer, group.opacity) for group in drawing.groups] == [(-1, 0.5), (0, 0.5)]
+    assert [path.group for path in drawing.paths] == [-1, 0, 0, 1, 1]
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["dashed 1e-9px", "wavy 1e-9px", "dotted -3px", "double 0", "red blue", "wavy 1e9px", "x(" * 200_000],
+)
+def test_any_decoration_leaves_the_letters(tmp_path: Path, words: str) -> None:
+    drawing = drawn(tmp_path, f'<text y="50" text-decoration="underline {words}">ship</text>')
+    assert len(drawing.paths) == 2
+    assert sum(len(contour) for path in drawing.paths for contour in path.contours) < 1_000
 
 
 def test_a_length_of_zero_does_not_squeeze(tmp_path: Path) -> None:

@@ -1,7 +1,7 @@
 """One face of a font: its names, metrics and outlines, in font units."""
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Final
@@ -22,6 +22,12 @@ __all__ = ["Face", "faces_in", "faces_of"]
 FAMILY_NAMES: Final = (16, 21, 1)
 """Name IDs of families: typographic, of weights and widths and slopes only, and the legacy one."""
 
+VERTICAL: Final = frozenset({"vmtx", "VORG"})
+"""Tables of origins of glyphs in vertical text."""
+
+OWN: Final = frozenset({4, 6})
+"""Name IDs of a face itself: full and PostScript."""
+
 MOST_FACES: Final = 1000
 """Of a collection."""
 
@@ -40,6 +46,8 @@ class Face:
         Which of a collection.
     variations : tuple of (str, float)
         Places on the axes of a variable font, such as ``("wght", 700)``; the others have their defaults.
+    ranges : tuple of (int, int)
+        First and last characters of ranges that it is to be used for; all of its characters without any.
 
     Raises
     ------
@@ -52,6 +60,7 @@ class Face:
     blob: Any
     index: int = 0
     variations: tuple[tuple[str, float], ...] = ()
+    ranges: tuple[tuple[int, int], ...] = ()
 
     def __post_init__(self) -> None:
         if not self._font.face.glyph_count:
@@ -73,6 +82,13 @@ class Face:
         english = [face.get_name(number) for number in FAMILY_NAMES if any(number == known for known, _ in entries)]
         others = [face.get_name(number, language) for number, language in sorted(entries) if number in FAMILY_NAMES]
         return tuple(dict.fromkeys(name for name in (*english, *others) if name))
+
+    @cached_property
+    def full_names(self) -> frozenset[str]:
+        """Its own names, of which no other face of its family has one: in words, and as PostScript knows it."""
+        face = self._font.face
+        found = (face.get_name(entry.name_id, entry.language) for entry in face.list_names() if entry.name_id in OWN)
+        return frozenset(name.casefold() for name in found if name)
 
     @property
     def family(self) -> str:
@@ -160,8 +176,25 @@ class Face:
         return float(self._font.get_metric_position_with_fallback(tag))
 
     def has(self, codepoint: int) -> bool:
-        """Whether it has a glyph of a character."""
+        """Whether it has a glyph of a character, and is to be used for it."""
+        if self.ranges and not any(first <= codepoint <= last for first, last in self.ranges):
+            return False
         return self._font.get_nominal_glyph(codepoint) is not None
+
+    def lowered(self, glyph: int) -> float:
+        """How far a glyph of vertical text is to be moved from where HarfBuzz puts it.
+
+        HarfBuzz centres each glyph of a font without vertical metrics in its cell. Browsers put all of a font on the
+        baseline, at the ascent below the top, so that letters have even steps.
+        """
+        if self._has_vertical:
+            return 0.0
+        return float(self._font.get_glyph_v_origin(glyph)[1]) - self.ascender
+
+    @cached_property
+    def _has_vertical(self) -> bool:
+        """Whether the font says where the glyphs of vertical text are."""
+        return not VERTICAL.isdisjoint(self._font.face.table_tags)
 
     @property
     def glyph_count(self) -> int:
@@ -177,6 +210,18 @@ class Face:
     @cached_property
     def _outlines(self) -> dict[int, tuple[NDArray[np.float64], ...]]:
         return {}
+
+    def missing(self, glyph: int) -> str:
+        """What a note says of a glyph that has a box and no outline; empty for any other.
+
+        HarfBuzz draws none that is composed of itself, or of more than its limits allow.
+        """
+        if self.outline(glyph) or self._in_colour:
+            return ""
+        box = self._font.get_glyph_extents(glyph)
+        if box is None or not (box.width and box.height):
+            return ""
+        return f"glyph {glyph} of font {self.family[:40]!r}, which is composed of itself or of too many others"
 
     def layers(self, glyph: int, foreground: Color = (0.0, 0.0, 0.0)) -> Layers | None:
         """What a glyph in colour paints, with the text's own colour where the font says so; None of any other."""
@@ -200,7 +245,7 @@ class Face:
             for low, high in [self.axes.get(tag, (None, None))]
             if low is not None and high is not None
         }
-        return Face(self.blob, self.index, tuple(sorted(places.items()))) if places else self
+        return replace(self, variations=tuple(sorted(places.items()))) if places else self
 
 
 def faces_in(content: bytes) -> list[Face]:

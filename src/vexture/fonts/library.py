@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from itertools import chain
 from pathlib import Path
@@ -34,13 +34,14 @@ GENERIC: Final = {
 
 @dataclass(frozen=True, slots=True)
 class EmbeddedFont:
-    """A font in a drawing, as an ``@font-face`` rule describes it; where it says nothing, the font itself does."""
+    """A font of a drawing, as an ``@font-face`` rule describes it; where it says nothing, the font itself does."""
 
     family: str
-    content: bytes
+    content: bytes | Face
     weights: tuple[float, float] | None = None
     stretches: tuple[float, float] | None = None
     style: str | None = None
+    ranges: tuple[tuple[int, int], ...] = ()  # first and last characters that it is used for; all without any
 
 
 @dataclass(frozen=True)
@@ -112,12 +113,33 @@ class Fonts:
                 yield from filter(None, [generic_family(family.lower()) if self.system else ""])
                 yield from GENERIC[family.lower()]
 
+    def local(self, name: str) -> Face | None:
+        """The face of a full or PostScript name among the given fonts and those of the system; None without it."""
+        found = (
+            listed.face
+            for source in self._sources()
+            if source is not self._embedded
+            for listed in source
+            if name.casefold() in listed.face.full_names
+        )
+        return next(found, None)
+
     def _chosen(self, name: str, weight: float, style: str, stretch: float) -> Iterator[Listed]:
-        """The best face of a family in the first source that has the family."""
+        """The best face of a family in the first source that has the family.
+
+        Of a family of the drawing all that are as good come, the last one first: each is for characters of its own
+        (CSS Fonts 4, 5.3).
+        """
+
+        def rank(listed: Listed) -> tuple[float, ...]:
+            return preference(listed.traits, weight, style, stretch)
+
         for source in self._sources():
             named = [listed for listed in source if name.casefold() in listed.names]
             if named:
-                yield min(named, key=lambda listed: preference(listed.traits, weight, style, stretch))
+                best = min(named, key=rank)
+                is_own = source is self._embedded
+                yield from [one for one in reversed(named) if rank(one) == rank(best)] if is_own else [best]
                 return
 
     def _others(self, weight: float, style: str, stretch: float) -> Iterator[Listed]:
@@ -154,7 +176,8 @@ class Fonts:
         found = []
         for font in self.embedded:
             with about(f"the font {font.family!r} of the drawing"):
-                own = listed_of(next(iter(faces_in(font.content))))
+                face = font.content if isinstance(font.content, Face) else faces_in(font.content)[0]
+                own = listed_of(replace(face, ranges=font.ranges))
             traits = Traits(
                 font.weights or own.traits.weights,
                 font.stretches or own.traits.stretches,

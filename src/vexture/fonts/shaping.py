@@ -70,8 +70,15 @@ def shape(
         buffer.language = language
     buffer.guess_segment_properties()
     hb.shape(face._font, buffer, dict(feature_of(feature) for feature in features))
+    is_vertical = buffer.direction in ("ttb", "btt")
     return [
-        Glyph(face, info.codepoint, info.cluster, place.position[2:], place.position[:2])
+        Glyph(
+            face,
+            info.codepoint,
+            info.cluster,
+            place.position[2:],
+            (place.position[0], place.position[1] + (face.lowered(info.codepoint) if is_vertical else 0.0)),
+        )
         for info, place in zip(buffer.glyph_infos, buffer.glyph_positions or (), strict=True)
     ]
 

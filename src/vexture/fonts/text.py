@@ -235,6 +235,8 @@ class Canvas:
         to_font: Affine = ((1.0 / scale, 0.0, -left / scale), (0.0, -1.0 / scale, down / scale))
         layers = face.layers(glyph, self.paint.color)
         paths = (Path(face.outline(glyph)),) if layers is None else layers.paths
+        if layers is None and (missing := face.missing(glyph)):
+            self.notes.left_out(missing)
         outer, start = (-1, 0) if layers is None else self._opened(layers)
         for path in paths:
             contours = tuple(contour * (scale, -scale) + (left, down) for contour in path.contours)

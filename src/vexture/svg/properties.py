@@ -108,6 +108,7 @@ PROPERTIES: dict[str, Property] = {
     "stroke-width": Property("1", True, matching(SIZE)),
     "text-anchor": Property("start", True, one_of("start", "middle", "end")),
     "text-orientation": Property("mixed", True, one_of("mixed", "upright", "sideways", "sideways-right")),
+    "text-shadow": Property("none", True, anything),
     "text-underline-offset": Property("auto", True, anything),
     "text-transform": Property("none", True, one_of("none", "uppercase", "lowercase", "capitalize", "full-width")),
     "white-space": Property("normal", True, one_of("normal", "nowrap", "pre", "pre-wrap", "pre-line", "break-spaces")),
@@ -172,7 +173,7 @@ CSS_ONLY = frozenset(
         *("font-variant-ligatures", "font-variant-numeric", "font-variant-position", "font-variation-settings"),
         *("isolation", "mix-blend-mode", "rotate", "scale", "text-decoration-color", "text-decoration-line"),
         *("text-decoration-style", "text-decoration-thickness", "text-orientation", "text-transform"),
-        *("text-underline-offset", "translate"),
+        *("text-shadow", "text-underline-offset", "translate"),
     }
 )
 """Properties that are no presentation attributes (SVG 2, 6.6); some names have another meaning as attributes."""

@@ -62,7 +62,9 @@ def shifted(span: Span, cluster: Cluster) -> float:
     text = span.place.style["baseline-shift"].lower()
     if text in ("baseline", "top", "center", "bottom") or local_name(span.element) == "text":
         return 0.0
-    if text in ("sub", "super"):
-        return cluster.face.shifts[0 if text == "sub" else 1] * cluster.scale
+    if text in ("sub", "super"):  # in the size of what is around it (CSS Inline 3, 4.2.2)
+        around = span.place.style if span.outer is None else span.outer.place.style
+        part = around.font_size / cluster.face.units_per_em
+        return cluster.face.shifts[0 if text == "sub" else 1] * part
     size = span.place.style.font_size
     return span.place.viewport.length(text, size, size) or 0.0

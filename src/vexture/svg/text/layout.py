@@ -3,7 +3,7 @@
 from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from math import pi, radians
 from typing import Final
 
@@ -25,7 +25,7 @@ SEPARATORS: Final = frozenset(" \u00a0\u1361\U00010100\U00010101\U0001039f\U0001
 VERTICAL: Final = frozenset({"vertical-rl", "vertical-lr", "sideways-rl", "sideways-lr", "tb", "tb-rl", "tb-lr"})
 
 FLATTEST: Final = 1e-3
-"""Width of squeezed glyphs as a part of their own; a smaller `textLength` is ignored, as 0 is by browsers."""
+"""Width of squeezed glyphs as a part of their own; a smaller `textLength` is ignored."""
 
 ANCHORS: Final = {"start": 0.0, "middle": 0.5, "end": 1.0}
 
@@ -53,12 +53,12 @@ def laid_out(found: Characters, made: list[Cluster], vertical: bool, report: Rep
     edges = {at for at in range(len(found.text)) if found.starts_chunk(at)}
     groups: list[list[Cluster]] = []
     for cluster in made:
-        if not groups or cluster.start in edges:
+        if not groups or (cluster.start in edges and cluster.start != groups[-1][-1].start):
             groups.append([])
         groups[-1].append(cluster)
     for group in groups:
         space(found, group)
-    fit(found.spans, made, report)
+    fit(found, made, vertical, report)
     chunks, at = [], (0.0, 0.0)
     for group in groups:
         visual = [group[k] for k in reordered([cluster.level for cluster in group])]
@@ -83,10 +83,10 @@ def pixels(spacing: str) -> float:
     return 0.0 if spacing == "normal" else float(spacing)
 
 
-def fit(spans: Sequence[Span], made: Sequence[Cluster], report: Report) -> None:
+def fit(found: Characters, made: Sequence[Cluster], vertical: bool, report: Report) -> None:
     """Fit the clusters of each element with a `textLength` into that, the innermost elements first (SVG 2, 11.5)."""
     starts = [cluster.start for cluster in made]
-    for span in reversed(spans):
+    for span in reversed(found.spans):
         text = span.element.get("textLength")
         if text is None or local_name(span.element) == "a":
             continue
@@ -97,21 +97,27 @@ def fit(spans: Sequence[Span], made: Sequence[Cluster], report: Report) -> None:
             report.invalid("textLength", text, span.element)
             continue
         if inside:
-            fit_span(span, inside, length)
+            fit_span(span, inside, length, found.dy if vertical else found.dx)
 
 
-def fit_span(span: Span, inside: Sequence[Cluster], length: float) -> None:
+def fit_span(span: Span, inside: Sequence[Cluster], length: float, shifts: dict[int, float]) -> None:
     """Fit clusters into a length; those that are fitted into that of an element inside already move together.
 
-    The last one has a gap behind it too, as in browsers; an anchor does not see it.
+    The last one has a gap behind it too, as in browsers; an anchor does not see it. `shifts` are those along the text
+    by characters, which count for the length, but for that of the first cluster.
     """
-    width = sum(cluster.advance for cluster in inside)
+    later = [at for at in range(inside[0].start + 1, inside[-1].start + 1) if at in shifts]
+    width = sum(cluster.advance for cluster in inside) + sum(shifts[at] for at in later)
+    if length == 0.0:  # which browsers take for none
+        return
     if span.element.get("lengthAdjust", "").strip() == "spacingAndGlyphs":
         factor = length / width if length > FLATTEST * width > 0.0 else 1.0
         for cluster in inside:
             cluster.stretch *= factor
             cluster.advance *= factor
             cluster.width *= factor
+        for at in later:
+            shifts[at] *= factor
         return
     loose = [
         cluster for cluster, after in pairwise(inside) if cluster.fitted is None or cluster.fitted is not after.fitted
@@ -128,7 +134,8 @@ def chunk_of(
 ) -> tuple[Chunk, tuple[float, float]]:
     """Chunk of clusters in visual order that begins at a character, and where what follows it goes on from `at`."""
     style, track = found.holders[first].place.style, found.holders[first].track
-    length = sum(cluster.advance for cluster in visual) - visual[-1].gap
+    steps = shifts(found, visual, vertical)
+    length = sum(cluster.advance for cluster in visual) - visual[-1].gap + sum(step[vertical] for step in steps[1:-1])
     part = ANCHORS[style["text-anchor"].lower()]
     if style["direction"].lower() == "rtl":
         part = 1.0 - part
@@ -139,14 +146,15 @@ def chunk_of(
     flow = Identity.translate(*origin).rotate(pi / 2.0 if vertical else 0.0)
     along, across = -part * length, 0.0
     matrices, moved = [], []
-    for cluster in visual:
-        dx, dy = shifts(found, cluster)
+    for cluster, (dx, dy) in zip(visual, steps, strict=False):
         along, across = (along + dy, across - dx) if vertical else (along + dx, across + dy)
         turn = radians(found.rotate.get(cluster.start, 0.0))
         matrix = flow.translate(along, across + baseline(cluster, vertical))
         matrices.append(matrix.rotate(turn).transform(own(cluster)))
         moved.append(bool(dx or dy or turn))
         along += cluster.advance
+    dx, dy = steps[-1]
+    along, across = (along + dy, across - dx) if vertical else (along + dx, across + dy)
     end = flow.transformPoint((along, across))  # type: ignore[attr-defined]
     return Chunk(tuple(visual), tuple(matrices), tuple(moved)), end
 
@@ -159,8 +167,7 @@ def on_track(
     What follows a path goes on from its end (SVG 2, 11.5, "Position on path").
     """
     matrices, across = [], 0.0
-    for cluster in visual:
-        dx, dy = shifts(found, cluster)
+    for cluster, (dx, dy) in zip(visual, shifts(found, visual, vertical), strict=False):
         along, across = (along + dy, across - dx) if vertical else (along + dx, across + dy)
         half = cluster.width / 2.0
         point = track.at(along + half)
@@ -182,7 +189,19 @@ def own(cluster: Cluster) -> Transform:
     return matrix.rotate(-pi / 2.0) if cluster.upright else matrix
 
 
-def shifts(found: Characters, cluster: Cluster) -> tuple[float, float]:
-    """Sums of `dx` and `dy` of a cluster's characters."""
-    places = range(cluster.start, cluster.end)
-    return sum(found.dx.get(at, 0.0) for at in places), sum(found.dy.get(at, 0.0) for at in places)
+def shifts(found: Characters, visual: Sequence[Cluster], vertical: bool) -> list[tuple[float, float]]:
+    """What `dx` and `dy` add before each cluster of a chunk, and behind the last one.
+
+    Each character is shifted by the sum of those up to it in logical order, whatever its direction, and a cluster as
+    its first one (SVG 2, 11.5, "Adjust positions: dx, dy"). The chunk starts where its first character is shifted to.
+    """
+    start, end = min(cluster.start for cluster in visual), max(cluster.end for cluster in visual)
+    end = max(end, start + 1)  # a font may have no glyph for the first of what a character became
+    sums = [list(accumulate(places.get(at, 0.0) for at in range(start, end))) for places in (found.dx, found.dy)]
+    both = []
+    for along, total in zip((not vertical, vertical), sums, strict=True):
+        places = [total[cluster.start - start] for cluster in visual]
+        begin = total[0] if along else places[0]
+        steps = [begin, *(after - before for before, after in pairwise(places))]
+        both.append([*steps, total[-1] - places[-1] + places[0] - begin])
+    return list(zip(*both, strict=True))

@@ -1,7 +1,7 @@
 """What a text paints: outlines and glyphs in colour, each with the style that paints it."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -16,23 +16,13 @@ from vexture.svg.report import Report
 from vexture.svg.space import Place
 from vexture.svg.strokes import Stroke, stroke_contours
 from vexture.svg.text.baselines import extent
+from vexture.svg.text.decorations import WORDS, Decoration, Member, decorated, decoration
 from vexture.svg.text.layout import Chunk
 from vexture.svg.text.runs import Cluster
 from vexture.svg.text.tree import Span
 from vexture.svg.transform import Identity, Transform, mapped
 
 __all__ = ["Piece", "cells", "pieces"]
-
-Line = tuple[float, float]
-"""Position above the baseline, and thickness."""
-
-WORDS: Final = ("underline", "overline", "line-through")
-STYLES: Final = frozenset({"dashed", "dotted", "double", "wavy"})
-
-DECORATION: Final = ("text-decoration", "text-decoration-line", "text-decoration-style")
-LOOK: Final = ("text-decoration-color", "text-decoration-thickness", "text-underline-offset")
-USUAL: Final = frozenset({*WORDS, *STYLES, "none", "solid", "blink", "auto", "from-font", "currentcolor"})
-"""Words that name a line, its style, or what is drawn: in the text's paint, as in browsers, a line as the font says."""
 
 EMBOLDENING: Final = ((9.0, 1 / 24), (36.0, 1 / 32))
 """Font sizes, and of each the width by which a face is made bolder as a part of it: what Skia does."""
@@ -53,17 +43,28 @@ def pieces(chunks: Sequence[Chunk], vertical: bool, report: Report) -> Iterator[
     for chunk in chunks:
         for span, held in members(chunk):
             check_time()
-            if span.place.style["visibility"].lower() != "visible" or not span.place.chosen:
+            if is_hidden(span):
                 continue
             lines = {word: decoration(span, word, report) for word in WORDS}
             for word in WORDS[:2]:
-                yield from decorated(held, word, lines[word], vertical)
-            yield from painted(span, held)
-            yield from decorated(held, WORDS[2], lines[WORDS[2]], vertical)
+                yield from lined(held, word, lines[word], vertical)
+            yield from painted(span, held, report)
+            yield from lined(held, WORDS[2], lines[WORDS[2]], vertical)
 
 
-Member = tuple[Cluster, Transform, bool]
-"""A cluster that is shown, its matrix, and whether a line begins at it."""
+def is_hidden(span: Span) -> bool:
+    """Whether a span paints nothing; a clip has outlines only, whatever their opacity."""
+    place = span.place
+    if place.style["visibility"].lower() != "visible" or not place.chosen:
+        return True
+    return not place.is_clip and any(around.place.style.opacity("opacity") == 0.0 for around in span.around)
+
+
+def lined(held: Sequence[Member], word: str, decor: Decoration | None, vertical: bool) -> Iterator[Piece]:
+    """The lines of a kind along the clusters of a span."""
+    outlines = decorated(held, word, decor, vertical) if decor is not None else ()
+    if decor is not None and outlines:
+        yield Piece(decor.place, outlines)
 
 
 def members(chunk: Chunk) -> list[tuple[Span, list[Member]]]:
@@ -82,7 +83,7 @@ def members(chunk: Chunk) -> list[tuple[Span, list[Member]]]:
     return stretches
 
 
-def painted(span: Span, held: Sequence[Member]) -> Iterator[Piece]:
+def painted(span: Span, held: Sequence[Member], report: Report) -> Iterator[Piece]:
     """The glyphs of a span: outlines together, and each in colour by itself."""
     together: list[Outline] = []
     for cluster, matrix, _ in held:
@@ -103,6 +104,8 @@ def painted(span: Span, held: Sequence[Member]) -> Iterator[Piece]:
                 yield Piece(span.place, layers=layers, matrix=units)
                 continue
             contours = list(cluster.face.outline(glyph.glyph))
+            if not contours and (missing := cluster.face.missing(glyph.glyph)):
+                report.left_out(missing, span.element)
             if cluster.bolder and contours:
                 contours += emboldened(contours, cluster)
             together += [Outline(mapped(contour, units), closed=True) for contour in contours]
@@ -125,74 +128,6 @@ def turning(contour: NDArray[np.float64]) -> float:
     """Area of the polygon of a contour's control points; its sign tells how the contour winds."""
     (x0, y0), (x1, y1) = contour[:, :3].reshape(-1, 2).T, contour[:, 1:].reshape(-1, 2).T
     return float((x0 * y1 - x1 * y0).sum())
-
-
-def decoration(span: Span, word: str, report: Report) -> Place | None:
-    """Place whose style paints a line of a span: that of the nearest element that declares it; None without one.
-
-    A line that is declared outside the text is painted as the text is.
-    """
-    place: Place | None = span.place
-    text = next(each for each in span.around if each.outer is None).place
-    inside = True
-    while place is not None:
-        if word in words_of(place, DECORATION):
-            note_look(place, report)
-            return replace(place if inside else text, name=span.place.name, chosen=True)
-        inside = inside and place is not text
-        place = place.outer
-    return None
-
-
-def words_of(place: Place, properties: Sequence[str]) -> list[str]:
-    """Words of some properties at a place."""
-    return " ".join(place.style[name] for name in properties).lower().split()
-
-
-def note_look(place: Place, report: Report) -> None:
-    """Note how the lines that a place declares are to look, and do not."""
-    words = words_of(place, DECORATION)
-    for style in sorted(STYLES.intersection(words)):
-        report.simplified(f"text-decoration {style} drawn as a solid line", place.element)
-    other = [word for word in words + words_of(place, LOOK) if word not in USUAL]
-    if other:
-        what = f"text-decoration {' '.join(other)[:40]}"
-        report.simplified(f"{what} drawn in the text's paint, where and as thick as the font says", place.element)
-
-
-def decorated(held: Sequence[Member], word: str, place: Place | None, vertical: bool) -> Iterator[Piece]:
-    """The lines of a kind along the clusters of a span."""
-    if place is None:
-        return
-    outlines = []
-    begin: tuple[Cluster, Transform] | None = None
-    width = 0.0
-    for cluster, matrix, begins in [*held, (None, None, True)]:
-        if begins and begin is not None:
-            outlines.append(line(begin[0], begin[1], width, word, vertical))
-        if cluster is None or matrix is None:
-            break
-        if begins:
-            begin, width = (cluster, matrix), 0.0
-        width += cluster.advance
-    if outlines:
-        yield Piece(place, tuple(outlines))
-
-
-def line(cluster: Cluster, matrix: Transform, width: float, word: str, vertical: bool) -> Outline:
-    """A line of a width that begins at a cluster."""
-    over, under = extent(cluster)
-    position, thickness = (part * cluster.scale for part in cluster.face.underline)
-    if vertical:
-        position = {"underline": -(over + under) / 2.0, "overline": (over + under) / 2.0}.get(word, 0.0)
-    elif word == "overline":
-        position = over
-    elif word == "line-through":
-        position = cluster.face.strikeout[0] * cluster.scale
-    top, bottom = -position - thickness / 2.0, -position + thickness / 2.0
-    right = width / cluster.stretch
-    corners = np.array([(0.0, top), (right, top), (right, bottom), (0.0, bottom)])
-    return Outline(mapped(Outline.polygon(corners, closed=True).cubics, matrix), closed=True)
 
 
 def cells(chunks: Sequence[Chunk]) -> Outline | None:

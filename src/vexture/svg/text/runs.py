@@ -177,10 +177,11 @@ def wants_of(spans: Sequence[Span]) -> dict[Span, Wanted]:
 
 def kinds_of(found: Characters, wants: list[Wanted], faces: Faces, vertical: bool) -> list[Kind | None]:
     """Kind of each character; None of those that show nothing: of no size, or without any font."""
-    embedding = levels(found.text, base_level(found.spans[0]), controls(found.spans))
+    heads = [characters[0] for characters in found.text]  # one of each, after which all that it becomes goes
+    embedding = levels(heads, base_level(found.spans[0]), controls(found.spans))
     kinds: list[Kind | None] = []
     last: Face | None = None
-    for at, (character, script) in enumerate(zip(found.text, scripts(found.text), strict=True)):
+    for at, (character, script) in enumerate(zip(heads, scripts(heads), strict=True)):
         want = wants[at]
         before = last if at and wants[at - 1] is want else None
         face = face_of(want, character, faces, before, found.holders[at].element)
@@ -245,6 +246,21 @@ def controls(spans: Sequence[Span]) -> list[tuple[int, str]]:
     return [(at, control) for at, _, control in sorted(opened, key=lambda one: (one[0], one[2] != POP, one[1]))]
 
 
+def ends_of(starts: Sequence[int], places: Sequence[int], end: int) -> dict[int, int]:
+    """Behind which character of the text each cluster ends, by where it starts in what is shaped.
+
+    `places` are the characters of the text that each one which is shaped stands for. Where one became several, the
+    first cluster has it, and the others end where they start.
+    """
+    ends: dict[int, int] = {}
+    for at in reversed(starts):
+        if at and places[at] == places[at - 1]:
+            ends[at] = places[at]
+        else:
+            ends[at], end = end, places[at]
+    return ends
+
+
 def shaped(found: Characters, kind: Kind, start: int, end: int, faces: Faces, vertical: bool) -> Iterator[Cluster]:
     """Clusters of characters of one kind, in logical order."""
     check_time()
@@ -261,8 +277,7 @@ def shaped(found: Characters, kind: Kind, start: int, end: int, faces: Faces, ve
     direction = "ttb" if kind.upright else "rtl" if kind.level % 2 else "ltr"
     features = [feature for feature in want.features if not (kind.small and feature in (SMALL, "c2sc"))]
     glyphs = shape(face, text, direction=direction, script=kind.script, language=want.language, features=features)
-    starts = sorted({glyph.cluster for glyph in glyphs})
-    ends = dict(zip(starts, [*(places[at] for at in starts[1:]), end], strict=True))
+    ends = ends_of(sorted({glyph.cluster for glyph in glyphs}), places, end)
     together: dict[int, list[Glyph]] = {}
     for glyph in glyphs:
         together.setdefault(glyph.cluster, []).append(glyph)

@@ -3,23 +3,29 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import Final, Protocol
+from unicodedata import category
 
 from lxml import etree
 
 from vexture.deadline import check_time
 from vexture.errors import SourceError
+from vexture.group import Blend
+from vexture.svg.compositing import Veil
 from vexture.svg.document import applies, local_name
 from vexture.svg.masks import Measured
 from vexture.svg.names import ElementNames
+from vexture.svg.paint_servers import reference
+from vexture.svg.properties import BLENDS
 from vexture.svg.report import described
 from vexture.svg.space import Place
+from vexture.svg.style import Style
 from vexture.svg.text.track import Track, read_track
 from vexture.svg.unseen import ANIMATIONS
 from vexture.svg.values import SEPARATOR, number
 
 __all__ = ["Characters", "Setting", "Span", "characters"]
 
-PARTS: Final = frozenset({"a", "textPath", "tspan"})
+PARTS: Final = frozenset({"a", "textPath", "tref", "tspan"})
 """Elements in a text that have characters of it."""
 
 SILENT: Final = ANIMATIONS | {"desc", "metadata", "script", "style", "title"}
@@ -29,10 +35,22 @@ MOST_CHARACTERS: Final = 200_000
 """Characters and elements of texts that are set; each time counts that `use`, a clip or the measuring of a box shows
 them."""
 
+APOSTROPHES: Final = "'\u2019"
+"""Do not end a word."""
+
+SIGMA, FINAL_SIGMA = "\u03a3", "\u03c2"
+"""The only letter that is another one at the end of a word (Unicode, SpecialCasing)."""
+
+JOINING: Final = frozenset({"Mn", "Mc", "Me", "Pc"})
+"""Categories of characters beside letters and digits of which a word is made (Unicode Annex 29): marks, and _."""
+
 PRESERVED: Final = frozenset({"pre", "pre-wrap", "break-spaces"})
 """Values of `white-space` that keep spaces."""
 
-POSITIONED: Final = frozenset({"text", "tspan"})
+WHOLE: Final = ("clip-path", "filter", "mask")
+"""Properties of whole texts, which some browsers draw for parts of them, too."""
+
+POSITIONED: Final = frozenset({"text", "tref", "tspan"})
 """Elements that place single characters."""
 
 
@@ -73,7 +91,7 @@ class Span:
 class Characters:
     """The characters of a text that attributes can address; the spans are in the order of the document."""
 
-    text: list[str] = field(default_factory=list)
+    text: list[str] = field(default_factory=list)  # each as `text-transform` makes it: one character or more
     holders: list[Span] = field(default_factory=list)  # the innermost span of each
     spans: list[Span] = field(default_factory=list)
     x: dict[int, float] = field(default_factory=dict)
@@ -89,18 +107,25 @@ class Characters:
         style = span.place.style
         preserved = style["white-space"].lower() in PRESERVED
         transform = style["text-transform"].lower()
-        for character in text:
+        for at, character in enumerate(text):
             if character in " \t\n\r":
                 if self.after_space and not preserved:
                     continue
                 self.after_space = not preserved
                 character = " "
             else:
-                character = transformed(character, transform, self.text[-1] if self.text else " ")
+                character = transformed(character, transform, self.in_word(), text[at + 1 : at + 2].isalpha())
                 self.after_space = False
             self.text.append(character)
             self.holders.append(span)
             self.add_one()
+
+    def in_word(self) -> bool:
+        """Whether a letter that comes next goes on with a word; an apostrophe and marks in a word are of it."""
+        before = [characters[-1] for characters in self.text[-2:]]
+        if before and before[-1] in APOSTROPHES:
+            before.pop()
+        return bool(before) and (before[-1].isalnum() or category(before[-1]) in JOINING)
 
     def add_one(self) -> None:
         """Count a character or an element; a `SourceError` if they are too many."""
@@ -120,15 +145,23 @@ class Characters:
         return at == 0 or at in self.x or at in self.y or (self.holders[at].track is not self.holders[at - 1].track)
 
 
-def transformed(character: str, how: str, before: str) -> str:
-    """Character by `text-transform`, which is not to change their number; `before` is the one before it."""
-    if how == "uppercase" or (how == "capitalize" and not before.isalnum()):
-        changed = character.upper()
-    elif how == "lowercase":
-        changed = character.lower()
-    else:
-        return character
-    return changed if len(changed) == 1 else character
+def transformed(character: str, how: str, in_word: bool, goes_on: bool) -> str:
+    """What `text-transform` makes of a character, such as SS of ß.
+
+    `in_word` tells whether a word goes on with it, and `goes_on` whether a letter comes next.
+
+    Examples
+    --------
+    >>> transformed("ß", "uppercase", True, True), transformed("ǆ", "capitalize", False, True)
+    ('SS', 'ǅ')
+    >>> transformed("Σ", "lowercase", True, False), transformed("Σ", "lowercase", True, True)
+    ('ς', 'σ')
+    """
+    if how == "uppercase":
+        return character.upper()
+    if how == "lowercase":
+        return FINAL_SIGMA if character == SIGMA and in_word and not goes_on else character.lower()
+    return character.title() if how == "capitalize" and not in_word else character
 
 
 def characters(scene: Setting, element: etree._Element, place: Place, count: int) -> Characters:
@@ -149,8 +182,9 @@ def read(scene: Setting, found: Characters, span: Span) -> None:
     note_ignored(scene, span)
     found.spans.append(span)
     found.add_one()
-    found.add(element.text or "", span)
-    for child in element:
+    is_reference = local_name(element) == "tref"
+    found.add(referenced(scene, element) if is_reference else element.text or "", span)
+    for child in () if is_reference else element:
         name = local_name(child)
         if name in PARTS and applies(child):
             inner = part(scene, child, span, len(found.text))
@@ -162,16 +196,32 @@ def read(scene: Setting, found: Characters, span: Span) -> None:
     span.end = len(found.text)
 
 
+def referenced(scene: Setting, element: etree._Element) -> str:
+    """All characters of the element that a `tref` refers to (SVG 1.1, 10.6)."""
+    link = reference(element) or ""
+    target = scene.servers.target(link)
+    if target is None:
+        scene.report.left_out(f"<tref> of '{link[:40]}'", element)
+        return ""
+    return str(target.xpath("string()"))
+
+
 def note_ignored(scene: Setting, span: Span) -> None:
     """Note what an element asks of its characters that they do not get."""
     style, outer = span.place.style, None if span.outer is None else span.outer.place.style
     kerning = style["kerning"]
     if kerning.lower() != "auto" and (outer is None or outer["kerning"] != kerning):
         scene.report.left_out(f"kerning {kerning[:40]}", span.element)
+    shadow = style["text-shadow"]
+    if shadow.lower() != "none" and (outer is None or outer["text-shadow"] != shadow):
+        scene.report.left_out("text-shadow", span.element)
+    if style["text-transform"].lower() == "full-width" and (outer is None or outer["text-transform"] != "full-width"):
+        scene.report.left_out("text-transform full-width", span.element)
+    for name in WHOLE if outer is not None else ():
+        if style[name].lower() != "none":
+            scene.report.left_out(f"{name} of a <{local_name(span.element)}>", span.element)
     if outer is None and style["writing-mode"].lower() == "sideways-lr":
         scene.report.simplified("writing-mode sideways-lr drawn as sideways-rl", span.element)
-    if outer is not None and style.opacity("opacity") < 1.0:  # which graphics elements and groups have
-        scene.report.left_out(f"opacity of a <{local_name(span.element)}>", span.element)
 
 
 def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Span | None:
@@ -190,6 +240,7 @@ def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Sp
         name=called,
         is_instance=is_instance,
         chosen=chosen,
+        veil=faded(style, outer.place),
     )
     track = outer.track
     if local_name(element) == "textPath":
@@ -200,6 +251,14 @@ def part(scene: Setting, element: etree._Element, outer: Span, start: int) -> Sp
         if track is None:
             return None
     return Span(place, outer, start, track=track)
+
+
+def faded(style: Style, around: Place) -> Veil | None:
+    """The veil of a part of a text: browsers composite one as they do any element, but for clips, masks and filters."""
+    opacity, blend = style.opacity("opacity"), BLENDS[style["mix-blend-mode"].lower()]
+    if around.is_clip or (opacity == 1.0 and blend is Blend.NORMAL):
+        return around.veil
+    return Veil(around.veil, opacity, blend)
 
 
 def position(scene: Setting, found: Characters, span: Span) -> None:

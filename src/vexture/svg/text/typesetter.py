@@ -47,7 +47,8 @@ class Typesetter:
         from vexture.svg.text.embedded import embedded_fonts
         from vexture.svg.text.runs import Faces
 
-        return Faces(Fonts(self.files, embedded_fonts(self.font_faces, self.report)), self.report)
+        embedded = embedded_fonts(self.font_faces, Fonts(self.files), self.report)
+        return Faces(Fonts(self.files, embedded), self.report)
 
     def text(self, scene: "Setting", element: etree._Element, place: Place) -> Text:
         """What a text element paints at a place with its style."""
