@@ -319,7 +319,7 @@ import sys
 sys.modules["vtracer"] = None
 import numpy, vexture
 try:
-    vexture.trace(numpy.eye(40), "eye")
+    vexture.trace(numpy.eye(80), "eye")
 except vexture.DeviceError as error:
     print(error)
 """

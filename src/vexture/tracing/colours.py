@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vexture.errors import LimitError
 
-__all__ = ["Mixture", "background_of", "flat_colours", "mixture", "widened"]
+__all__ = ["LEVEL", "Mixture", "background_of", "flat_colours", "mixture", "widened"]
 
 MOST_COLOURS: Final = 24
 """Most colours besides the background."""

@@ -18,6 +18,7 @@ from vexture.paint import Paint
 from vexture.svg.read import svg_drawing
 from vexture.tracing.colours import background_of, flat_colours, mixture, widened
 from vexture.tracing.images import MOST_PIXELS, pixels_of
+from vexture.tracing.squares import cells_of, squares_document
 
 __all__ = ["embedded_image", "image_drawing", "read_image", "trace"]
 
@@ -133,7 +134,9 @@ def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
     - any other picture: all of it.
 
     Flat colours become paths of that paint, each of which extends slightly under those painted after it. A picture of
-    many colours, such as a photograph, is traced coarsely.
+    many colours, such as a photograph, is traced coarsely. Pixel art, which has up to 64 colours, none of them on
+    smooth edges, and up to 64 pixels on its longer side, becomes the exact outlines of its pixels, also if it is
+    enlarged.
 
     Parameters
     ----------
@@ -180,7 +183,24 @@ def _as_pixels(image: NDArray[Any]) -> NDArray[np.uint8]:
 
 def _traced(pixels: NDArray[np.uint8], name: str, *, whole: bool = False) -> Drawing:
     """Trace 8-bit sRGB and opacity, (height, width, 4); `whole` with an opaque background."""
-    height, width = pixels.shape[:2]
+    notes = Notes()
+    cells = cells_of(pixels)
+    if cells is None:
+        document, size, has_background = _smooth_document(pixels, whole, notes)
+    else:
+        document, has_background = squares_document(cells, background_of(_reduced(cells, LONGEST)), whole)
+        size = (cells.shape[1], cells.shape[0])
+    drawing = svg_drawing(document, f"{name}.svg")
+    if not drawing.paths:
+        notes.remark("is all background, so that nothing of it is painted")
+    elif not has_background:
+        notes.remark("has no background, since its border has several colours: its silhouette is the whole picture")
+    scale = np.array([[pixels.shape[1]], [pixels.shape[0]]]) / np.array([[size[0]], [size[1]]])
+    return replace(drawing, to_source=drawing.to_source * scale, name=name, notes=notes.listed)
+
+
+def _smooth_document(pixels: NDArray[np.uint8], whole: bool, notes: Notes) -> tuple[bytes, tuple[int, int], bool]:
+    """SVG of a picture with smooth edges, its size, and whether it has a background."""
     image = _reduced(pixels, LONGEST)
     background = background_of(image)
     colours = flat_colours(image, background)
@@ -188,7 +208,6 @@ def _traced(pixels: NDArray[np.uint8], name: str, *, whole: bool = False) -> Dra
         background = colours[int(colours.sum(axis=1).argmax())]  # the lighter one, for ink that reaches the border
         colours = np.concatenate([background[None], colours[(colours != background).any(axis=1)]])
     first = 0 if background is None or (whole and background[3] > 0.0) else 1
-    notes = Notes()
     try:
         if colours is None:
             raise LimitError("it has too many colours")
@@ -197,13 +216,7 @@ def _traced(pixels: NDArray[np.uint8], name: str, *, whole: bool = False) -> Dra
         image, colours = _posterised(_reduced(pixels, PHOTO_LONGEST), background)
         document, size = _document(image, colours, first, PHOTO_SPECKLE)
         notes.remark(f"is no drawing of a few flat colours, so it is traced coarsely, in {len(colours) - first}")
-    drawing = svg_drawing(document, f"{name}.svg")
-    if not drawing.paths:
-        notes.remark("is all background, so that nothing of it is painted")
-    elif background is None:
-        notes.remark("has no background, since its border has several colours: its silhouette is the whole picture")
-    scale = np.array([[width], [height]]) / np.array([[size[0]], [size[1]]])
-    return replace(drawing, to_source=drawing.to_source * scale, name=name, notes=notes.listed)
+    return document, size, background is not None
 
 
 def _reduced(pixels: NDArray[np.uint8], longest: int) -> NDArray[np.float32]:
