@@ -98,7 +98,8 @@ def hues() -> Pixels:
     y, x = np.mgrid[:160, :160] / 79.5 - 1.0
     turn, far = np.arctan2(y, x) / (2.0 * np.pi), np.minimum(np.hypot(x, y), 1.0)
     hsv = np.dstack([255.0 * (turn % 1.0), 255.0 * far, np.full_like(far, 255.0)])
-    return np.asarray(Image.fromarray(np.rint(hsv).astype(np.uint8), "HSV").convert("RGBA"))
+    bands = [Image.fromarray(np.rint(channel).astype(np.uint8)) for channel in hsv.transpose(2, 0, 1)]
+    return np.asarray(Image.merge("HSV", bands).convert("RGBA"))
 
 
 def disc_of_light() -> Pixels:

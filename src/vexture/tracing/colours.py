@@ -49,6 +49,9 @@ MOST_UNEXPLAINED: Final = 0.1
 """A picture is a photograph if less than `MOSTLY` of its pixels are shaded or have a flat colour, or if no mixture of
 these describes more than `MOST_UNEXPLAINED` of them."""
 
+NOISE_ROWS: Final = 64
+"""Rows above and below the middle of an area from which its noise is taken."""
+
 Image = NDArray[np.float32]
 Colours = NDArray[np.float32]
 
@@ -169,9 +172,10 @@ def smoothed(image: Image, area: NDArray[np.bool_]) -> Image:
 
 
 def noise(image: Image, area: NDArray[np.bool_]) -> float:
-    """Mean difference of an area's pixels from the means of their neighbours."""
-    rows, columns = np.flatnonzero(area.any(axis=1)), np.flatnonzero(area.any(axis=0))
-    box = (slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1))
+    """Mean difference of an area's pixels from the means of their neighbours, in some rows around its middle."""
+    rows = np.flatnonzero(area.any(axis=1))
+    middle = int(rows[len(rows) // 2])
+    box = slice(max(middle - NOISE_ROWS, 0), middle + NOISE_ROWS + 1)
     off = np.abs(smoothed(image[box], area[box]) - image[box])[area[box]]
     return float(off.max(axis=1).mean())
 

@@ -24,10 +24,18 @@ SMALL: Final = 256
 TOP: Final = 1_000
 """Depth of what is opaque, above everything translucent."""
 
+MEETING: Final = 0.2
+"""Share from which a tone extends under others where tones pass into one another: of several, none may have a half."""
+
 LEAST_OPACITY: Final = 2.0
 BEYOND: Final = 3.0
 """Levels. A colour is painted over another one if what makes one of the other has at least this opacity, and would need
 channels out of their range by no more than this."""
+
+
+MOSTLY: Final = 0.6
+"""Share of the borders with less opaque colours that is with the one that a colour is painted over. Where colours meet
+in all directions, outlines that almost coincide would cross one another."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +63,7 @@ def document_of(tones: Sequence[Tone], parts: Mixture, first: int, speckle: int)
     above = np.zeros((height, width), np.float32)
     for one in reversed(order):
         own = parts.of(one.number)
-        mask = parts.of(one.number, *one.above) + above * widened(own >= 0.5)
+        mask = parts.of(one.number, *one.above) + above * widened(own >= np.where(parts.soft, MEETING, 0.5))
         if tones[one.number].is_opaque:
             above += own  # nothing extends under a translucent colour, which would show it
         paths = outline(mask, factor, factor * speckle)
@@ -90,11 +98,10 @@ def over_one_another(tones: Sequence[Tone], parts: Mixture, first: int) -> list[
     paint = {n: tones[n] for n in kinds}
     for place, number in enumerate(soft):
         beside = [n for n in soft[:place] if contact[n, number]]
-        for below in sorted(beside, key=lambda n: -contact[n, number]):
-            over = _over(tones[number].colour, tones[below].colour)
-            if over is not None:
-                lower[number], paint[number] = below, Tone(over)
-                break
+        below = max(beside, key=lambda n: contact[n, number], default=number)
+        over = _over(tones[number].colour, tones[below].colour)
+        if over is not None and contact[below, number] > MOSTLY * contact[beside, number].sum():
+            lower[number], paint[number] = below, Tone(over)
     above: dict[int, set[int]] = {n: set() for n in kinds}
     depth = {n: TOP if tones[n].is_opaque else 0 for n in kinds}
     for number in soft:

@@ -19,8 +19,9 @@ BINS: Final = 64
 
 OFF: Final = 1.0
 NOISES: Final = 3.0
+MOST_NOISE: Final = 2.5
 """Levels of 255 by which the pixels of a gradient may differ from it on average: as many, and so many times the noise,
-which is by how much they differ from the means of their neighbours."""
+which is by how much they differ from the means of their neighbours, and of which no more than the last counts."""
 
 FAR: Final = 3.0
 FAR_SHARE: Final = 0.98
@@ -36,7 +37,9 @@ FEWEST: Final = 32
 """Fewest slopes that tell a gradient's direction."""
 
 REACH: Final = 2
-"""Pixels before and behind between which a slope is taken."""
+PART: Final = 1 / 30
+"""Pixels before and behind between which a slope is taken, and the same as a share of the area's size: over few pixels
+the rounding to 8 bits is more than the slope."""
 
 MOST: Final = 40_000
 """Most pixels by which a gradient is fitted; of more, each so many-th is taken."""
@@ -101,10 +104,10 @@ def fade_of(image: Levels, area: NDArray[np.bool_]) -> Fade | None:
     every = -(-len(rows) // MOST)
     rows, columns = rows[::every], columns[::every]
     x, y, own = columns + 0.5, rows + 0.5, image[rows, columns].astype(np.float64)
-    points, slopes = _slopes(image, area, rows, columns)
+    points, slopes = _slopes(image, area, rows, columns, round(PART * float(area.sum()) ** 0.5))
     if len(points) < FEWEST:
         return None
-    most = OFF + NOISES * noise(image, area)
+    most = OFF + NOISES * min(noise(image, area), MOST_NOISE)
     middle, size = points.mean(axis=0), max(float(points.std()), 1.0)
     for shape in (_line, _circle, _ellipse):
         found = shape((points - middle) / size, slopes)
@@ -119,13 +122,14 @@ def fade_of(image: Levels, area: NDArray[np.bool_]) -> Fade | None:
 
 
 def _slopes(
-    image: Levels, area: NDArray[np.bool_], rows: NDArray[np.intp], columns: NDArray[np.intp]
+    image: Levels, area: NDArray[np.bool_], rows: NDArray[np.intp], columns: NDArray[np.intp], reach: int
 ) -> tuple[Floats, Floats]:
     """Points of an area around which it reaches far enough, and the slopes there, of each channel: (n, 2) both."""
     height, width = area.shape
-    inside = (rows >= REACH) & (rows < height - REACH) & (columns >= REACH) & (columns < width - REACH)
+    reach = max(reach, REACH)
+    inside = (rows >= reach) & (rows < height - reach) & (columns >= reach) & (columns < width - reach)
     rows, columns = rows[inside], columns[inside]
-    around = [(rows + down, columns + right) for down, right in ((0, REACH), (0, -REACH), (REACH, 0), (-REACH, 0))]
+    around = [(rows + down, columns + right) for down, right in ((0, reach), (0, -reach), (reach, 0), (-reach, 0))]
     known = np.logical_and.reduce([area[place] for place in around])
     after, before, below, above = (image[place].astype(np.float64)[known] for place in around)
     slopes = np.stack([after - before, below - above], axis=2).reshape(-1, 2)

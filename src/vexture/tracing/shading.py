@@ -21,19 +21,22 @@ USUAL: Final = (0.04, 0.96)
 """Levels of 255 by which the colours of a shaded area differ at least, between these two quantiles: as many, and so
 many times the noise, which at the edges of a JPEG is large."""
 
-STEEP: Final = 40.0
+STEEP: Final = 64.0
 BENT: Final = 5.0
 """Levels by which the neighbours of a pixel of a shaded area may differ, and by which it may differ from their mean,
 twice. At an edge, also a blurred one, either is exceeded."""
 
 LEAST_AREA: Final = 64
-"""Fewest pixels of a shaded area."""
+LEAST_PART: Final = 0.004
+"""Fewest pixels of a shaded area, and smallest share of the picture: smaller ones are noise of a JPEG, or unseen."""
 
 MOST_AREAS: Final = 64
 """Most gradients of a picture, of its largest shaded areas; the others are drawn in steps."""
 
 GROWTH: Final = 12
-"""Pixels around a gradient's area to which it may extend, such as over the noise of a JPEG at edges."""
+ALIKE: Final = 8.0
+"""Pixels around a shaded area to which it may extend, such as over the noise of a JPEG at edges, and the levels within
+which they must have a colour of its steps."""
 
 LIKE_BACKGROUND: Final = 1.0
 NEAR_BACKGROUND: Final = 2.5
@@ -42,7 +45,9 @@ in the background, pixels do so along a ragged line; the gradient that was found
 
 STEP: Final = 2.5
 MOST_STEPS: Final = 64
-"""Levels by which colours drawn in steps may be off (root mean square), and most steps for it."""
+MOST_SOFT_STEPS: Final = 24
+"""Levels by which colours drawn in steps may be off (root mean square), and most steps for it; fewer where they are
+translucent, since each is seen through all that are painted over it."""
 
 ROUNDS: Final = 4
 """Of moving each colour to the mean of what is nearest to it."""
@@ -86,29 +91,56 @@ class Shading(NamedTuple):
 
 
 def shading_of(image: Image, background: Colours | None) -> Shading:
-    """Shaded areas of a premultiplied picture."""
-    even = is_flat(image) | _is_even(image)
-    piece = pieces(even if background is None else even & _differs(image, background, LIKE_BACKGROUND))
+    """Shaded areas of a premultiplied picture: gradients where colours change evenly, then what changes slowly."""
+    flat = is_flat(image)
+    even = flat | _is_even(image)
+    own = even if background is None else even & _differs(image, background, LIKE_BACKGROUND)
     number = np.full(even.shape, NONE_HERE, np.int16)
     tones: list[Tone] = []
     left = np.zeros_like(even)
-    for area in _shaded(image, piece):
-        area &= number == NONE_HERE
-        if area.sum() < LEAST_AREA:
-            continue
-        fade = fade_of(image, area) if len(tones) < MOST_AREAS else None
-        if fade is None:
-            left |= area
-            continue
-        _number(number, len(tones), image, area, fade, background)
-        tones.append(Tone(image[area].mean(axis=0), fade))
+    wide = pieces(own)
+    for piece in (wide, pieces(own & flat)):
+        for area in _shaded(image, piece):
+            area &= number == NONE_HERE
+            fade = fade_of(image, area) if len(tones) < MOST_AREAS and area.sum() >= LEAST_AREA else None
+            if fade is not None:
+                _number(number, len(tones), image, area, fade, background)
+                tones.append(Tone(image[area].mean(axis=0), fade))
+            elif piece is not wide:
+                left |= np.isin(wide, np.unique(wide[area]))
+    left &= own & (number == NONE_HERE)
     if left.any():
-        steps = steps_of(image[left], MOST_STEPS)
+        steps = steps_of(image[left], MOST_STEPS if (image[left, 3] >= TRANSLUCENT).all() else MOST_SOFT_STEPS)
+        free = number == NONE_HERE
         if background is not None:
+            free &= _differs(image, background, NEAR_BACKGROUND)
             steps = steps[_differs(steps, background, NEAR_BACKGROUND)]
-        number[left] = len(tones) + nearest(smoothed(image, left)[left], steps)
+        if len(steps):
+            _number_steps(
+                number, len(tones), np.where(left[..., None], smoothed(image, left), image), left, free, steps
+            )
         tones += [Tone(colour) for colour in steps]
     return Shading(tuple(tones), number, even)
+
+
+def _number_steps(
+    number: NDArray[np.int16],
+    first: int,
+    image: Image,
+    area: NDArray[np.bool_],
+    free: NDArray[np.bool_],
+    steps: Colours,
+) -> None:
+    """Number the pixels of an area that is drawn in steps, and around it those of nearly the same colours."""
+    around = area | (widened(area, GROWTH) & free)
+    values = image[around]
+    which = nearest(values, steps)
+    alike = np.zeros_like(area)
+    alike[around] = np.linalg.norm(values - steps[which], axis=1) <= ALIKE
+    grown = area
+    for _ in range(GROWTH):
+        grown = area | (widened(grown) & alike)
+    number[around] = np.where(grown[around], first + which, number[around])
 
 
 def _number(
@@ -178,7 +210,7 @@ def _shaded(image: Image, piece: NDArray[np.intp]) -> Iterator[NDArray[np.bool_]
     starts = np.cumsum(np.concatenate([[0], np.bincount(piece.ravel())]))
     pixels = image.reshape(-1, 4)
     for number in np.argsort(-count, kind="stable").tolist():
-        if count[number] < LEAST_AREA:
+        if count[number] < max(LEAST_AREA, LEAST_PART * piece.size):
             break
         places = order[starts[number] : starts[number + 1]]
         low, high = np.quantile(pixels[places], USUAL, axis=0)

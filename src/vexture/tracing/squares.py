@@ -40,11 +40,21 @@ def cells_of(pixels: Pixels) -> Pixels | None:
     pixels = np.where(pixels[..., 3:] > 0, pixels, np.uint8(0))  # what is not seen has no colour
     times = _times(pixels)
     cells = pixels[::times, ::times]
+    if _is_gradual(cells):
+        return None
     if max(cells.shape[:2]) > (MOST_CELLS if times == 1 else 4 * MOST_CELLS):
         return None
     if len(np.unique(cells.reshape(-1, 4), axis=0)) > MOST_INKS:
         return None
     return cells if times > 1 or not _has_smooth_edges(cells) else None
+
+
+def _is_gradual(cells: Pixels) -> bool:
+    """Whether most squares that differ from a neighbour hardly do so."""
+    levels = cells.astype(np.int16)
+    steps = [np.abs(levels[1:] - levels[:-1]), np.abs(levels[:, 1:] - levels[:, :-1])]
+    largest = np.concatenate([step.max(axis=2).ravel() for step in steps])
+    return bool(largest.any() and np.median(largest[largest > 0]) <= LEVEL)
 
 
 def _times(pixels: Pixels) -> int:

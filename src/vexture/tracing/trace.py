@@ -103,8 +103,10 @@ def trace(image: ArrayLike, name: str = "drawing") -> Drawing:
     - two colours: the darker one;
     - any other picture: all of it.
 
-    Flat colours become paths of that paint, each of which extends slightly under those painted after it. A picture of
-    many colours, such as a photograph, is traced coarsely. Pixel art, which has up to 64 colours, none of them on
+    Flat colours become paths of that paint, each of which extends slightly under those painted after it. Linear and
+    radial gradients, also elliptic ones, become paths of such a gradient. Other areas whose colour changes smoothly are
+    drawn in up to 64 steps, translucent ones in up to 24, each over the less opaque one beside it. A picture of many
+    colours, such as a photograph, is traced coarsely. Pixel art, which has up to 64 colours, none of them on
     smooth edges, and up to 64 pixels on its longer side, becomes the exact outlines of its pixels, also if it is
     enlarged.
 
