@@ -189,8 +189,10 @@ def pieces(mask: NDArray[np.bool_]) -> NDArray[np.intp]:
     begins = padded[:, 1:] & ~padded[:, :-1]
     run = np.where(mask, np.cumsum(begins.ravel()).reshape(mask.shape), 0)
     both = mask[1:] & mask[:-1]
-    touching = np.unique(np.stack([run[:-1][both], run[1:][both]]), axis=1)
-    above, below = touching[0], touching[1]
+    above, below = run[:-1][both], run[1:][both]
+    again = (above[1:] == above[:-1]) & (below[1:] == below[:-1])
+    once = np.concatenate([np.ones(min(1, len(above)), np.bool_), ~again])
+    above, below = above[once], below[once]
     parent = np.arange(int(run.max()) + 1 if run.size else 1)
     while True:
         least = np.minimum(parent[above], parent[below])
