@@ -66,6 +66,7 @@ def read_image(source: str | os.PathLike[str] | bytes, file_name: str | None = N
 
     Examples
     --------
+    >>> from io import BytesIO
     >>> from PIL import Image
     >>> file = BytesIO()
     >>> picture = Image.new("L", (64, 64), 255)
