@@ -96,6 +96,22 @@ def test_pictures_of_each_kind(kind: str, mode: str, options: dict[str, object],
     assert mean < 0.03
 
 
+@pytest.mark.parametrize("case", PLACED)
+def test_gradients_of_a_picture_stay_where_they_are(case: str, tmp_path: Path) -> None:
+    image = Image.new("RGB", (300, 200), (240, 240, 240))
+    ramp = Image.linear_gradient("L")  # from black above to white below
+    image.paste(
+        Image.merge("RGB", (ramp, ramp.rotate(180), Image.new("L", ramp.size, 90))).resize((200, 160)), (20, 20)
+    )
+    file = io.BytesIO()
+    image.save(file, "PNG")
+    text = SVG.format(PLACED[case].format(data_url(file.getvalue())))
+    drawing = read(text)
+    assert sum(path.paint.gradient is not None for path in drawing.paths) == 1
+    mean, _ = difference(tmp_path / "unread.svg", drawing, text)
+    assert mean < 0.02
+
+
 def test_a_picture_is_named_unless_it_is_asked_for(tmp_path: Path) -> None:
     (tmp_path / "a.png").write_bytes(picture())
     (tmp_path / "a.svg").write_text(SVG.format('<path d="M0 0h9v9z"/>'))

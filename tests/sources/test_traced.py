@@ -19,8 +19,9 @@ from vexture.live.documents import VIEWER_PARAMETERS, shape_of
 from vexture.renderers.exact import render_exact
 from vexture.svg.read import svg_drawing
 from vexture.texture.load import texture_from
+from vexture.tracing.document import MOST_CURVES
 from vexture.tracing.images import MOST_PIXELS
-from vexture.tracing.trace import MOST_CURVES, MOST_PIECES, _outline
+from vexture.tracing.outline import MOST_PIECES, _traced
 
 SHAPES = Path(__file__).parents[2] / "examples" / "shapes"
 
@@ -178,7 +179,7 @@ def test_photograph_is_traced_coarsely_and_said_so():
     y, x = np.mgrid[:300, :400]
     waves = np.stack([np.sin(x / 40), np.cos(y / 33), np.sin((x + y) / 50)], axis=2)
     photo = np.clip(128 + 90 * waves + np.random.default_rng(0).normal(0, 12, (300, 400, 3)), 0, 255).astype(np.uint8)
-    with pytest.warns(SourceWarning, match="no drawing of a few flat colours.*no background"):
+    with pytest.warns(SourceWarning, match="no drawing of a few colours.*no background"):
         traced = vexture.trace(photo, "photo")
     assert len(traced.layers()) <= 16
     assert area(traced) == pytest.approx(0.75, abs=0.01)  # all of it, and no cracks between the colours
@@ -286,17 +287,10 @@ def test_the_smallest_pictures_are_drawings(shape):
         vexture.trace(rng.integers(0, 256, shape, np.uint8))
 
 
-@pytest.mark.parametrize(
-    "image",
-    [
-        np.zeros((0, 5)),
-        np.zeros(5),
-        np.zeros((2, 2, 2)),
-        np.full((2, 2), 2.0),
-        np.full((2, 2), np.nan),
-        np.zeros((2, 2), int),
-    ],
-)
+NO_PICTURES = [np.zeros((0, 5)), np.zeros(5), np.zeros((2, 2, 2)), np.full((2, 2), np.nan), np.zeros((2, 2), int)]
+
+
+@pytest.mark.parametrize("image", [*NO_PICTURES, np.full((2, 2), 2.0)])
 def test_array_that_is_no_picture_is_refused(image):
     with pytest.raises(SourceError, match="must be"):
         vexture.trace(image)
@@ -310,7 +304,7 @@ def test_picture_of_nothing_is_a_drawing_of_nothing():
 def test_mask_with_more_pieces_than_vtracer_counts_never_reaches_it():
     mask = np.add.outer(np.arange(400), np.arange(400)) % 2 == 0
     with pytest.raises(LimitError, match=f"80,000 pieces; the limit is {MOST_PIECES:,}"):
-        _outline(mask, 1)
+        _traced(mask, 1)
 
 
 def test_without_vtracer_it_is_said_what_to_install():
@@ -319,7 +313,7 @@ import sys
 sys.modules["vtracer"] = None
 import numpy, vexture
 try:
-    vexture.trace(numpy.eye(40), "eye")
+    vexture.trace(numpy.eye(80), "eye")
 except vexture.DeviceError as error:
     print(error)
 """

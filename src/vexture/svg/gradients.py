@@ -18,7 +18,7 @@ from vexture.svg.style import Style
 from vexture.svg.transform import Identity, Transform, about_origin, parse_transform
 from vexture.svg.values import LARGEST, Viewport, fraction, number
 
-__all__ = ["BOXED", "GRADIENTS", "SHORTEST", "WHOLE", "Ramp", "read_ramp", "stop_offsets", "transform_of"]
+__all__ = ["BOXED", "GRADIENTS", "SHORTEST", "WHOLE", "Ramp", "read_ramp", "rows", "stop_offsets", "transform_of"]
 
 LENGTHS: Final = {
     "linearGradient": {"x1": "0%", "y1": "0%", "x2": "100%", "y2": "0%"},

@@ -18,6 +18,7 @@ from vexture.content import FileKind, decompressed, kind_of, read_bytes, start_o
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
 from vexture.svg.document import parse_svg
+from vexture.svg.gradients import rows
 from vexture.svg.paint_servers import reference
 from vexture.svg.painter import Painter
 from vexture.svg.report import Report
@@ -165,9 +166,10 @@ def paint_image(scene: Imaging, element: etree._Element, place: Place, painter: 
     scene.report.simplified("<image> traced", element)
     (a, b, c), (d, e, f) = found.to_source.tolist()
     to_pixels = Transform(a, d, b, e, c, f)
+    to_unit = rows(inner.space.whole.transform(to_pixels).inverse())
     for path in found.paths:
         contours = [mapped(contour, to_pixels) for contour in path.contours]
-        painter.add(contours, inner, path.fill_rule, path.paint, place.name)
+        painter.add(contours, inner, path.fill_rule, path.paint.after(to_unit), place.name)
 
 
 def size_of(found: Found) -> tuple[float, float]:
