@@ -32,10 +32,11 @@ SAID = {
     "linear-light": "simplified: gradient in linear light (color-interpolation) read as one in sRGB, "
     "mask in linear light (color-interpolation) read as one in sRGB",
     "foreign-object": "left out: <foreignObject>; nothing in it is painted",
-    "image": "left out: <image>; nothing in it is painted",
+    "image": "left out: image 'x.png' (there is no such file beside the drawing); nothing in it is painted",
     "import": "left out: @import",
     "lab-color": "simplified: colour of a space other than sRGB read as black",
-    "many": "left out: <foreignObject> (2), <image>; invalid and ignored: r='x' of <rect> in line 5",
+    "many": "left out: <foreignObject> (2), image 'x' (there is no such file beside the drawing); "
+    "invalid and ignored: r='x' of <rect> in line 5",
     "marker": "left out: marker-start 'url(#none)', marker-start that refers to itself, of <marker id=\"c\"> in line 2;"
     " invalid and ignored: markerWidth='-3' of <marker id=\"c\"> in line 2",
     "mask": "left out: mask 'url(stars.svg#m)'",
@@ -68,7 +69,10 @@ ABOUT = {
     "filter-steps": [
         ("left out", SAID["filter-steps"][10:-4], [("card", (0, 0.91, 0.09, 1)), ("badge", (0.2, 0.91, 0.29, 1))])
     ],
-    "image": [("left out", "<image>", [("<image> in line 2", None)]), ("remark", "nothing in it is painted", [])],
+    "image": [
+        ("left out", "image 'x.png' (there is no such file beside the drawing)", [("<image> in line 2", None)]),
+        ("remark", "nothing in it is painted", []),
+    ],
 }
 
 
