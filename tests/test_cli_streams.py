@@ -172,8 +172,8 @@ def test_quiet_says_errors_only_and_verbose_each_shape(logo, tmp_path):
     assert "left out: <foreignObject>" in plain.stderr
     assert len(plain.stdout.splitlines()) == 1
     assert told.stdout.splitlines()[1:] == [
-        "  shape 0: 1 quads, 4 curves",
-        "  shape 1: 1 quads, 2 curves",
+        "  shape 0: 1 quad, 4 curves",
+        "  shape 1: 1 quad, 2 curves",
         f"  {tmp_path / 'logo.ktx2'}",
     ]
 

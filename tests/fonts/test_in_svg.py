@@ -3,6 +3,7 @@
 import pytest
 from made import OWN, RED, filled, made_font, solid, stacked
 
+from vexture.errors import SourceError
 from vexture.svg.read import svg_drawing
 
 ROOT = 'xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"'
@@ -32,3 +33,15 @@ def test_generic_families_are_those_of_the_given_fonts_first(tmp_path):
         (tmp_path / name).write_bytes(made_font({"a": shape}, family=family))
     drawing = drawn('<text y="50" font-family="serif" font-size="10">a</text>', tmp_path)
     assert 100 * drawing.paths[0].box.ravel()[2] == pytest.approx(5)
+
+
+def test_a_missing_character_is_one_that_the_font_in_use_lacks(tmp_path):
+    for name, family, shapes in (("a.ttf", "Made", {"a": "square"}), ("b.ttf", "Other", {"b": "left"})):
+        (tmp_path / name).write_bytes(made_font(shapes, family=family))
+    drawing = drawn('<text y="50" font-family="No Such Font, Made">ab</text>', tmp_path)
+    assert [str(note) for note in drawing.notes] == ["character 'b' (U+0062), which 'Made' lacks, drawn in Other"]
+
+
+def test_a_folder_without_fonts_is_named(tmp_path):
+    with pytest.raises(SourceError, match=f"{tmp_path}: the folder holds no font that can be read; give one with .ttf"):
+        drawn('<text y="50">a</text>', tmp_path)

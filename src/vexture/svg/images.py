@@ -16,7 +16,7 @@ from lxml import etree
 
 from vexture.content import BEFORE_MARKUP, FileKind, kind_of, picture_size, read_bytes, start_of, unpacked
 from vexture.drawing import Drawing
-from vexture.errors import LimitError, SourceError
+from vexture.errors import LimitError, SourceError, shortened
 from vexture.svg.document import parse_svg
 from vexture.svg.paint_servers import reference
 from vexture.svg.painter import Painter
@@ -140,7 +140,7 @@ def called(link: str) -> str:
     if not is_embedded(link):
         place = re.split("[?#]", link, maxsplit=1)[0]
         name = re.split(r"[/\\:]", unquote(place).rstrip("/\\"))[-1] or place
-        return f"image '{name if len(name) <= SHOWN else name[: SHOWN - 3] + '...'}'"
+        return f"image '{shortened(name, SHOWN)}'"
     try:
         content = embedded(link)
     except SourceError:
