@@ -35,7 +35,7 @@ def test_a_drawing_of_which_nothing_can_be_drawn_fails(case, command, tmp_path):
     places = {"convert": out, "render": tmp_path / "out.png", "export": tmp_path / "out.html"}
     result = run(*command, file, "-o", places[command[0]])
     assert result.exit_code == 1
-    assert re.fullmatch(rf"vexture: (warning: .*\nvexture: )?{re.escape(str(file))}: {said}\n", result.output)
+    assert re.fullmatch(rf"vexture: {re.escape(str(file))}: {said}\n", result.output)
     assert [*tmp_path.iterdir()] == [file]
 
 
@@ -59,9 +59,9 @@ def test_strict_accepts_no_loss(square, tmp_path, command):
     out = tmp_path / {"convert": "out", "render": "out.png", "export": "out.html"}[command]
     result = run(command, file, "-o", out, "--strict")
     assert result.exit_code == 1
-    assert result.output.splitlines()[-1] == (
+    assert result.output == (
         f"vexture: {file}: left out: rotate, <foreignObject> (2); --strict accepts no such note; "
-        "correct the source, or leave it out"
+        "correct the source, or leave it out\n"
     )
     assert not out.exists()
     assert run(command, square, "-o", out, "--strict").exit_code == 0
