@@ -48,7 +48,7 @@ def test_a_size_of_zero_is_an_empty_drawing(tmp_path):
 
 
 STRICT = SVG.format(
-    '<g id="card" style="rotate: 3deg"><path d="M2 2h6v5h-6z"/></g><foreignObject/><foreignObject id="t"/>'
+    '<g id="card" style="filter: blur(3px)"><path d="M2 2h6v5h-6z"/></g><foreignObject/><foreignObject id="t"/>'
 )
 
 
@@ -60,7 +60,7 @@ def test_strict_accepts_no_loss(square, tmp_path, command):
     result = run(command, file, "-o", out, "--strict")
     assert result.exit_code == 1
     assert result.output == (
-        f"vexture: {file}: left out: rotate, <foreignObject> (2); --strict accepts no such note; "
+        f"vexture: {file}: left out: filter of blur, <foreignObject> (2); --strict accepts no such note; "
         "correct the source, or leave it out\n"
     )
     assert not out.exists()
@@ -79,7 +79,7 @@ def test_json_has_the_notes(tmp_path):
     file = tmp_path / "a.svg"
     file.write_text(STRICT)
     (facts,) = json.loads(run("convert", file, "-o", tmp_path, "--json").stdout)
-    rotate, text = facts["notes"]
-    assert rotate["elements"] == [{"name": "card", "box": pytest.approx([0.2, 0.3, 0.8, 0.8])}]
+    blur, text = facts["notes"]
+    assert blur["elements"] == [{"name": "card", "box": pytest.approx([0.2, 0.3, 0.8, 0.8])}]
     elements = [{"name": "<foreignObject> in line 1", "box": None}, {"name": "t", "box": None}]
     assert text == {"kind": "left out", "message": "<foreignObject>", "count": 2, "elements": elements}

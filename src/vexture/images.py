@@ -82,7 +82,7 @@ def coverage(
     if not isinstance(thing, Drawing):
         return thing.coverage(size, view, renderer=renderer, root=root)
     shown, view, precision = close_up(thing, size, view)
-    texture = convert(shown, split=None, **_accuracy(precision))
+    texture: EncodedTexture = convert(shown, split=None, **_accuracy(precision))
     return texture.coverage(size, view, renderer=renderer)
 
 

@@ -18,7 +18,6 @@ SAID = {
     "animation": "left out: animation",
     "animation-in-gradient": "left out: animation (2)",
     "clip-path": "left out: clip-path 'circle(9px at 20px 20px)'",
-    "css-rotate": "left out: rotate",
     "css-variables": "left out: CSS variables",
     "external-use": "left out: <use> of 'other.svg#a'",
     "event-attribute": "left out: script (2)",
@@ -86,14 +85,26 @@ def test_notes_name_their_elements_and_where_those_are(name: str) -> None:
         assert subject.box == (box and pytest.approx(box))
 
 
+def test_transforms_that_are_not_valid_or_move_the_outermost_element_are_named(tmp_path: Path) -> None:
+    file = tmp_path / "a.svg"
+    body = '<path id="p" d="M0 0h9v9z" style="rotate: 1 1 30deg; scale: 2px; translate: red"/>'
+    file.write_text(f'<svg viewBox="0 0 9 9" style="rotate: 9deg; scale: none">{body}</svg>')
+    assert [f"{note.kind}: {note}" for note in read_quietly(file).notes] == [
+        "left out: rotate of the outermost <svg>",
+        "invalid: translate='red' of <path id=\"p\"> in line 1",
+        "invalid: rotate='1 1 30deg' of <path id=\"p\"> in line 1",
+        "invalid: scale='2px' of <path id=\"p\"> in line 1",
+    ]
+
+
 def test_the_box_of_an_element_holds_all_its_uses_and_strokes_but_not_what_it_masks(tmp_path: Path) -> None:
     file = tmp_path / "a.svg"
     file.write_text(
         '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><defs><g id="a" rotate="1" scale="2">'
         '<path d="M10 10h10" stroke="red" stroke-width="2"/></g></defs>'
-        '<use id="b" style="rotate: 1deg" href="#a"/><use href="#a" y="80"/>'
-        '<mask id="m" style="rotate: 1deg"><path id="c" style="rotate: 1deg" d="M0 0h100v100h-100z"/></mask>'
-        '<path style="rotate: 1deg" d="M40 40h10v10h-10z" mask="url(#m)"/></svg>'
+        '<use id="b" style="filter: blur(1px)" href="#a"/><use href="#a" y="80"/>'
+        '<mask id="m" style="filter: blur(1px)"><path id="c" style="filter: blur(1px)" d="M0 0h100v100h-100z"/></mask>'
+        '<path style="filter: blur(1px)" d="M40 40h10v10h-10z" mask="url(#m)"/></svg>'
     )
     (note,) = read_quietly(file).notes
     boxes = dict(note.elements)
