@@ -19,7 +19,7 @@ SAID = {
     "animation-in-gradient": "left out: animation (2)",
     "clip-path": "left out: clip-path 'circle(9px at 20px 20px)'",
     "css-variables": "left out: CSS variables",
-    "external-use": "left out: <use> of 'other.svg#a'",
+    "external-use": "left out: <use> of 'other.svg#a', which is not in the drawing",
     "event-attribute": "left out: script (2)",
     "filter": "left out: filter of blur",
     "filter-functions": "left out: filter of drop shadow and blur",
@@ -39,7 +39,7 @@ SAID = {
     "marker": "left out: marker-start 'url(#none)', marker-start that refers to itself, of <marker id=\"c\"> in line 2;"
     " invalid and ignored: markerWidth='-3' of <marker id=\"c\"> in line 2",
     "mask": "left out: mask 'url(stars.svg#m)'",
-    "missing-paint": "left out: paint '#none' (2)",
+    "missing-paint": "left out: paint '#none', which is not in the drawing (2)",
     "pattern": 'simplified: <pattern id="c"> in line 2 read as solid: here it has 12,500,000,000 segments in its tiles;'
     " all patterns of a drawing may have 400,000",
     "script": "left out: script",

@@ -263,7 +263,7 @@ class Scene:
         link = reference(element) or ""
         target = self.servers.target(link)
         if target is None:
-            self.report.left_out(f"<use> of '{link[:40]}'", element)
+            self.report.left_out(f"<use> of '{link[:40]}', which is not in the drawing", element)
             return []
         if place.inside(target):
             self.report.left_out(f"{described(element)} that shows itself", element)
