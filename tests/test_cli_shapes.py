@@ -74,6 +74,15 @@ def test_elements_are_named_and_get_other_colours(tmp_path):
         assert result.exit_code == 1
         assert says in result.stderr
         assert len(result.stderr.splitlines()) == 1
+    folder = tmp_path / "other"
+    folder.mkdir()
+    said = run("restyle", blue, "word=red", "-o", folder).stdout
+    assert said.startswith(f"{folder / blue.name}: 1 element in other ")
+    assert [file.name for file in folder.iterdir()] == [blue.name], "not the drawing's name, which is in the texture"
+    before = blue.read_bytes()
+    result = run("restyle", blue, "word=red", "-o", tmp_path)
+    assert f"--output {tmp_path}: it holds {blue.name} itself; name a file, or another folder" in result.stderr
+    assert (blue.read_bytes(), result.exit_code) == (before, 1)
     result = run("convert", logo, "-o", plain, "--restyle", "--silhouette")
     assert "`restyle`" not in result.stderr
     assert "--restyle is for a whole drawing in its colours" in result.stderr

@@ -54,7 +54,7 @@ def test_a_picture_goes_through_a_pipe(logo):
     result = run("render", "-", "-o", "-", "--width", 40, given=logo.read_bytes())
     assert result.exit_code == 0
     with Image.open(io.BytesIO(result.stdout_bytes)) as image:
-        assert (image.mode, image.size) == ("RGB", (40, 40))
+        assert (image.mode, image.size) == ("RGB", (40, 20))
 
 
 def test_a_texture_goes_through_a_pipe_into_a_picture(logo):
@@ -172,8 +172,8 @@ def test_quiet_says_errors_only_and_verbose_each_shape(logo, tmp_path):
     assert "left out: <foreignObject>" in plain.stderr
     assert len(plain.stdout.splitlines()) == 1
     assert told.stdout.splitlines()[1:] == [
-        "  shape 0: 1 quads, 4 curves",
-        "  shape 1: 1 quads, 2 curves",
+        "  shape 0: 1 quad, 4 curves",
+        "  shape 1: 1 quad, 2 curves",
         f"  {tmp_path / 'logo.ktx2'}",
     ]
 
@@ -181,7 +181,8 @@ def test_quiet_says_errors_only_and_verbose_each_shape(logo, tmp_path):
 @pytest.mark.parametrize(
     ("options", "size"),
     [
-        (("--width", 40), (40, 40)),
+        (("--width", 40), (40, 20)),
+        (("--width", 40, "--view", "0,0,1,1"), (40, 40)),
         (("--height", 30, "--view", "0,0,1,0.5"), (60, 30)),
         (("--width", 40, "--height", 10), (40, 10)),
         (("--size", 24, "--view", "0,0,0.5,1"), (12, 24)),
@@ -199,9 +200,12 @@ def test_size_does_not_stand_beside_width(logo, tmp_path):
     assert "--size 8 sets the longer side; leave it out beside --width or --height" in result.stderr
 
 
+SQUARE = ("--size", 20, "--view", "0,0,1,1")
+
+
 def test_background(logo, tmp_path):
     def drawn(background):
-        result = run("render", logo, "-o", tmp_path / "x.png", "--size", 20, "--background", background)
+        result = run("render", logo, "-o", tmp_path / "x.png", *SQUARE, "--background", background)
         assert result.exit_code == 0
         with Image.open(tmp_path / "x.png") as image:
             return np.asarray(image).astype(int)

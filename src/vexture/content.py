@@ -1,20 +1,24 @@
 """The content of a source file: its bytes, and the kind of file that they are."""
 
 import os
+import warnings
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from enum import StrEnum
+from io import BytesIO
 from pathlib import Path
 from typing import Final
 
 from vexture.errors import DeviceError, LimitError, ParameterError, SourceError
 
 __all__ = [
+    "BEFORE_MARKUP",
     "BYTE_ORDER_MARK",
     "FLATGEOBUF",
     "LARGEST_FILE",
     "NETCDF",
+    "PICTURE_FORMATS",
     "PNG",
     "READABLE",
     "SHAPEFILE",
@@ -26,6 +30,7 @@ __all__ = [
     "decompressed",
     "kind_of",
     "known_kind",
+    "picture_size",
     "read_bytes",
     "start_of",
     "unpacked",
@@ -50,6 +55,9 @@ NETCDF: Final = (b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n")
 PNG: Final = b"\x89PNG"
 PICTURES: Final = (PNG, b"\xff\xd8\xff", b"GIF87a", b"GIF89a")
 """First bytes of PNG, JPEG and GIF; `kind_of` knows WebP and BMP, whose marks have gaps."""
+
+PICTURE_FORMATS: Final = ("PNG", "JPEG", "WEBP", "GIF", "BMP")
+"""Pictures that are read, as Pillow names them."""
 
 READABLE: Final = (
     "give an SVG, GeoJSON, a picture (PNG, JPEG, WebP, GIF, BMP) or geographic data "
@@ -122,6 +130,19 @@ def known_kind(start: bytes, file_name: str | os.PathLike[str] = "") -> FileKind
     if no_texture or (kind is FileKind.SVG and not start.lstrip(BEFORE_MARKUP).startswith(b"<")):
         raise SourceError(f"holds nothing that can be read; {READABLE}")
     return kind
+
+
+def picture_size(content: bytes) -> tuple[str, int, int] | None:
+    """What a picture is, its width and its height in pixels, as it declares them; None if it is no picture."""
+    if kind_of(start_of(content)) is not FileKind.PICTURE:
+        return None
+    from PIL import Image
+
+    try:
+        with warnings.catch_warnings(action="ignore"), Image.open(BytesIO(content), formats=PICTURE_FORMATS) as picture:
+            return str(picture.format), picture.width, picture.height
+    except (Image.DecompressionBombError, OSError, SyntaxError, ValueError, EOFError, IndexError, TypeError, KeyError):
+        return None  # too large or damaged; who reads it says so
 
 
 def start_of(source: str | os.PathLike[str] | bytes) -> bytes:

@@ -124,6 +124,8 @@ class Drawing:
         What was left out, simplified or invalid when it was read.
     groups : tuple of Group
         Each after the group around it. The paths of a group, with those of the groups in it, follow one another.
+    sides : tuple of float
+        Width and height of the source's box, which is in the middle of the unit square; the longer one is 1.
 
     Examples
     --------
@@ -138,6 +140,7 @@ class Drawing:
     crs: str | None = None
     notes: tuple[Note, ...] = ()
     groups: tuple[Group, ...] = ()
+    sides: tuple[float, float] = (1.0, 1.0)
 
     def __post_init__(self) -> None:
         self._check_groups()
@@ -338,11 +341,12 @@ class Drawing:
         if not (min(width, height) > 0.0 and np.isfinite(size) and np.isfinite(1.0 / size)):
             raise SourceError(f"the drawing's box is {width:g} x {height:g}; both must be above 0")
         to_source = np.array([[size, 0.0, x - (size - width) / 2], [0.0, -size, y + height + (size - height) / 2]])
-        low = np.array([(1.0 - width / size) / 2, (1.0 - height / size) / 2])
+        sides = (width / size, height / size)
+        low = np.array([(1.0 - side) / 2 for side in sides])
         listed = list(paths)
         contours = [contour for path in listed for contour in path.contours]
         if not contours:
-            return cls((), to_source, name, groups=groups)
+            return cls((), to_source, name, groups=groups, sides=sides)
         joined = (np.concatenate(contours) - (x, y)) / size + low
         joined[..., 1] = 1.0 - joined[..., 1]
         ends = np.cumsum([len(contour) for contour in contours])
@@ -357,4 +361,4 @@ class Drawing:
             at = after
             if inside:
                 normal.append(Path._sound(inside, path, rows))
-        return cls(tuple(normal), to_source, name, groups=groups)
+        return cls(tuple(normal), to_source, name, groups=groups, sides=sides)

@@ -18,8 +18,10 @@ __all__ = [
     "SourceError",
     "SourceWarning",
     "VextureError",
+    "counted",
     "printable",
     "reason_of",
+    "shortened",
 ]
 
 
@@ -69,10 +71,32 @@ def printable(text: str) -> str:
     return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
+def counted(count: int, noun: str) -> str:
+    """A number of things, in the plural unless it is one.
+
+    Examples
+    --------
+    >>> counted(1, "shape"), counted(0, "shape"), counted(2, "shape")
+    ('1 shape', '0 shapes', '2 shapes')
+    """
+    return f"{count} {noun}{'s' * (count != 1)}"
+
+
+def shortened(text: str, most: int) -> str:
+    """Text of at most so many characters, as a line shows it.
+
+    Examples
+    --------
+    >>> shortened("a long name", 8), shortened("a name", 8)
+    ('a lon...', 'a name')
+    """
+    return text if len(text) <= most else text[: most - 3] + "..."
+
+
 def reason_of(error: Exception, most: int = 120, hidden: str = "") -> str:
     """Text of another library's exception in one short line, or the exception's type if it has no text.
 
     `hidden` is the name of a temporary file, which means nothing to the user.
     """
     text = " ".join((str(error).replace(hidden, "the file") if hidden else str(error)).split())
-    return (text if len(text) <= most else text[: most - 3] + "...") or type(error).__name__
+    return shortened(text, most) or type(error).__name__

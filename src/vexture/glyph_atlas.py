@@ -11,7 +11,7 @@ import numpy as np
 
 from vexture.deadline import DEFAULT_SECONDS, check_time, within
 from vexture.drawing import Drawing
-from vexture.errors import LimitError, SourceError
+from vexture.errors import LimitError, ParameterError, SourceError, counted
 from vexture.fonts.face import Face
 from vexture.fonts.levels import LATIN, scripts
 from vexture.fonts.lines import Placed, named
@@ -108,6 +108,8 @@ def font_atlas(
     ------
     SourceError
         If the font cannot be read, or has none of the characters.
+    ParameterError
+        If `characters` is empty, or holds more than one character in an entry.
     LimitError
         If there are too many characters.
     DeviceError
@@ -140,7 +142,13 @@ def made_atlas(
     """
     notes = Notes()
     face = options.choice(notes).first
-    wanted = [*dict.fromkeys([*characters, *(chr(code) for code in optional if face.has(code))])]
+    given, ranged = [*characters], [*optional]
+    if not given and not ranged:
+        raise ParameterError("`characters` is empty; give some, such as a text that holds them")
+    for each in given:
+        if not (isinstance(each, str) and len(each) == 1):
+            raise ParameterError(f"`characters` holds {each!r}, which is not one character; give them one by one")
+    wanted = [*dict.fromkeys([*given, *(chr(code) for code in ranged if face.has(code))])]
     if len(wanted) > MOST_CHARACTERS:
         raise LimitError(f"{len(wanted):,} characters, of at most {MOST_CHARACTERS:,}; make several atlases")
     known = [character for character in wanted if face.has(ord(character))]
@@ -148,12 +156,13 @@ def made_atlas(
     for character in missing:
         notes.left_out(f"{named(character)}, which {face.family} lacks")
     if not known:
-        raise SourceError(f"{face.family} has none of the {len(wanted)} characters; give others with `chars`")
+        asked = counted(len(given) + len(ranged), "character")
+        raise SourceError(f"{face.family} has none of what is asked for ({asked}); give others as `characters`")
     with within(parameters.get("max_seconds", DEFAULT_SECONDS)):
         glyphs = {character: shape(face, character, features=PLAIN)[0] for character in known}
         shapes = drawn(glyphs, notes)
         if not shapes:
-            raise SourceError(f"the characters of {face.family} show nothing; give others with `chars`")
+            raise SourceError(f"the characters of {face.family} show nothing; give others as `characters`")
         texture = atlas([each.drawing for each in shapes.values()], name=options.name or face.family, **parameters)
         entries = {character: entry(glyph, shapes) for character, glyph in glyphs.items()}
         pairs = kerning(glyphs) if len(known) <= MOST_KERNED else {}

@@ -1,7 +1,8 @@
 """Rendering of a drawing or a texture: the covered part of each pixel, or the picture in colours."""
 
-from typing import TYPE_CHECKING, Final, Literal, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias, cast
 
+from vexture.close_up import close_up
 from vexture.encodings import EncodedTexture
 from vexture.errors import ParameterError
 from vexture.pipeline import convert
@@ -36,7 +37,8 @@ def coverage(
     ----------
     thing : Drawing or Texture
         ``"exact"`` renders a drawing; ``"cpu"`` and ``"gpu"`` render a texture, and convert the silhouette of a
-        drawing first, with the defaults of `vexture.convert`.
+        drawing first, with the defaults of `vexture.convert`; of views from nearby, only what they show, as exactly as
+        they need it.
     size : int or tuple of int
         Width and height of the image in pixels, or the side of a square one.
     view : (2, 3) or (3, 3) array, View or None
@@ -77,8 +79,11 @@ def coverage(
         from vexture.renderers.exact import render_exact
 
         return render_exact(cast("Drawing", thing).unmasked(), size, view)
-    texture = convert(thing, split=None) if isinstance(thing, Drawing) else thing
-    return texture.coverage(size, view, renderer=renderer, root=root)
+    if not isinstance(thing, Drawing):
+        return thing.coverage(size, view, renderer=renderer, root=root)
+    shown, view, precision = close_up(thing, size, view)
+    texture: EncodedTexture = convert(shown, split=None, **_accuracy(precision))
+    return texture.coverage(size, view, renderer=renderer)
 
 
 def render(
@@ -126,13 +131,21 @@ def render(
     from vexture.drawing import Drawing
 
     _check(thing, renderer, root)
+    precision = None
+    if isinstance(thing, Drawing) and renderer != "exact":
+        thing, view, precision = close_up(thing, size, view)
     empty = isinstance(thing, Drawing) and not thing.paths
     if renderer != "exact" and not empty:
-        texture = convert(thing, split="faces") if isinstance(thing, Drawing) else thing
+        texture = convert(thing, split="faces", **_accuracy(precision)) if isinstance(thing, Drawing) else thing
         return texture.render(size, view, renderer=renderer, root=root)
     from vexture.renderers.exact import render_exact_colours
 
     return render_exact_colours(cast("Drawing", thing), size, view)
+
+
+def _accuracy(precision: float | None) -> dict[str, Any]:
+    """Parameters of a conversion whose distances are those of a close-up."""
+    return {} if precision is None else {"precision": precision, "tolerance": precision}
 
 
 def _check(thing: Shown, renderer: Renderer, root: str | int | None) -> None:

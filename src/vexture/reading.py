@@ -80,7 +80,8 @@ def read(
         Font files, and folders of them, for the texts of an SVG; see `vexture.read_svg`.
     trace_images : bool
         Trace the pictures in an SVG (PNG, JPEG, WebP, GIF, BMP; needs ``vexture[trace]``): those in it, and those in
-        files beside it or in folders below, if `source` is a path. Other files and addresses are never read.
+        files beside it or in folders below, if `source` is a path. Drawings in both places are always drawn. Other
+        files and addresses are never read.
 
     Returns
     -------
@@ -149,12 +150,15 @@ def read_drawing(
     from vexture.svg.read import svg_drawing
 
     folder = Path(source).parent if isinstance(source, str | os.PathLike) else None
-    return svg_drawing(content, shown, select, names, fonts, images_of(folder) if trace_images else None)
+    return svg_drawing(content, shown, select, names, fonts, images_of(folder, traced=trace_images))
 
 
-def images_of(folder: Path | None) -> "Images":
-    """Images that are traced: those in an SVG, and those in a folder, if there is one."""
+def images_of(folder: Path | None, *, traced: bool) -> "Images":
+    """Images that are read: those in an SVG, and those in a folder, if there is one; pictures if they are `traced`."""
     from vexture.svg.images import Images
+
+    if not traced:
+        return Images(folder=folder)
     from vexture.tracing.trace import embedded_image
 
     return Images(embedded_image, folder)

@@ -1,6 +1,7 @@
 """The commands `text` and `font`."""
 
 import json
+import os
 
 import pytest
 from click.testing import CliRunner
@@ -57,16 +58,46 @@ def test_text_of_a_pipe_in_colours_to_a_pipe(font):
         (("text", "A", "--features", "x"), "--features 'x' is no OpenType feature"),
         (("text", "A", "-o", "a.svg"), "name FILE.ktx2 or a folder"),
         (("font", "FONT", "--range", "U+5-4", "-o", "a.ktx2"), "--range 'U+5-4' is no range of characters"),
-        (("font", "FONT", "--chars", "xyz", "-o", "a.ktx2"), "Made has none of the 3 characters; give others"),
+        (
+            ("font", "FONT", "--chars", "xyz", "-o", "a.ktx2"),
+            "Made has none of what is asked for (3 characters); give others as --chars",
+        ),
+        (("font", "FONT", "--chars", "", "-o", "a.ktx2"), "--chars is empty; give some"),
+        (("font", "FONT", "--chars-file", os.devnull, "-o", "a.ktx2"), "--chars is empty; give some"),
+        (
+            ("font", "FONT", "--range", "U+400-40F", "-o", "a.ktx2"),
+            "Made has none of what is asked for (16 characters); give",
+        ),
         (("font", __file__, "-o", "a.ktx2"), "holds no font; give a TrueType"),
+        (("font", "EMPTY", "-o", "a.ktx2"), "empty: the folder holds no font that can be read; give one with .ttf,"),
+        (("text", "A", "--font", "EMPTY"), "empty: the folder holds no font that can be read; give one with .ttf,"),
     ],
 )
-def test_what_cannot_be_is_said_in_one_line(font, arguments, message):
-    given = [font if part == "FONT" else part for part in arguments]
+def test_what_cannot_be_is_said_in_one_line(font, arguments, message, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "empty" / "damaged.ttf").write_bytes(b"no font")
+    given = [{"FONT": font, "EMPTY": tmp_path / "empty"}.get(part, part) for part in arguments]
     result = run(*given, *(("--font", font) if given[0] == "text" else ()))
     assert result.exit_code == 1
     assert message in result.output
     assert result.output.count("\n") == 1
+    assert [*tmp_path.iterdir()] == [tmp_path / "empty"]
+
+
+def test_a_name_without_the_ending_of_a_texture_is_a_folder(font, tmp_path):
+    for command in (("font", font, "--chars", "A"), ("text", "A", "--font", font, "--name", "Made")):
+        assert run(*command, "-o", tmp_path / "new").exit_code == 0
+        assert (tmp_path / "new" / "Made.ktx2").is_file()
+    assert (tmp_path / "new" / "Made.json").is_file()
+
+
+def test_a_long_text_is_named_by_its_start(font, tmp_path):
+    result = run("text", "AV" * 15_000, "--font", font, "-o", tmp_path)
+    name = ("AV" * 30)[:57] + "..."
+    assert result.stdout.startswith(f"{name}: ")
+    (file,) = tmp_path.iterdir()
+    assert (file.stem, vexture.load(file).name) == (name.rstrip("."), name)
 
 
 def test_characters_of_a_font_become_an_atlas(font, tmp_path):

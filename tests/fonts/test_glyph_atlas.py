@@ -68,7 +68,7 @@ def test_missing_characters_are_named(font):
     with pytest.warns(vexture.SourceWarning, match=r"left out: character 'Z' \(U\+005A\), which Made lacks"):
         made = vexture.font_atlas(font, "AZ")
     assert made.metrics["missing"] == ["Z"]
-    with pytest.raises(vexture.SourceError, match="Made has none of the 2 characters"):
+    with pytest.raises(vexture.SourceError, match=r"Made has none of what is asked for \(2 characters\)"):
         vexture.font_atlas(font, "XY")
     with pytest.raises(vexture.SourceError, match="show nothing"):
         vexture.font_atlas(font, " ")
@@ -80,3 +80,24 @@ def test_both_files_are_written(font, tmp_path):
     target = vexture.font_atlas(font, "AV", tolerance=0.0).save(tmp_path / "a.ktx2")
     assert [root.name for root in vexture.load(target).roots] == ["A", "V"]
     assert json.loads((tmp_path / "a.json").read_text())["glyphs"]["V"]["shape"] == 1
+
+
+@pytest.mark.parametrize(
+    ("characters", "message"),
+    [
+        ("", "`characters` is empty; give some, such as a text that holds them"),
+        (["A", "AV"], "`characters` holds 'AV', which is not one character; give them one by one"),
+        ([65], "`characters` holds 65, which is not one character; give them one by one"),
+    ],
+)
+def test_characters_that_are_none_are_refused(characters, message):
+    with pytest.raises(vexture.errors.ParameterError) as caught:
+        vexture.font_atlas(characters=characters)
+    assert str(caught.value) == message
+
+
+def test_characters_that_a_font_lacks_are_named_by_the_parameter():
+    with pytest.raises(
+        vexture.errors.SourceError, match=r"has none of what is asked for .1 character.; give others as `characters`$"
+    ):
+        vexture.font_atlas(characters="\ue000")

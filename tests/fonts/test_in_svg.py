@@ -6,7 +6,7 @@ import pytest
 from made import OWN, RED, composed, filled, made_font, recomposed, solid, stacked
 
 import vexture
-from vexture.errors import SourceWarning
+from vexture.errors import SourceError, SourceWarning
 from vexture.svg.read import svg_drawing
 
 ROOT = 'xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"'
@@ -97,3 +97,15 @@ def test_a_font_of_a_rule_can_be_one_that_is_given(tmp_path):
         assert not drawing.notes
     drawing = drawn("<style>@font-face { font-family: Own; src: local(Made Bold) }</style>" + text, file)
     assert "font 'Own', which is not in the file; give it by `fonts`" in [note.message for note in drawing.notes]
+
+
+def test_a_missing_character_is_one_that_the_font_in_use_lacks(tmp_path):
+    for name, family, shapes in (("a.ttf", "Made", {"a": "square"}), ("b.ttf", "Other", {"b": "left"})):
+        (tmp_path / name).write_bytes(made_font(shapes, family=family))
+    drawing = drawn('<text y="50" font-family="No Such Font, Made">ab</text>', tmp_path)
+    assert [str(note) for note in drawing.notes] == ["character 'b' (U+0062), which 'Made' lacks, drawn in Other"]
+
+
+def test_a_folder_without_fonts_is_named(tmp_path):
+    with pytest.raises(SourceError, match=f"{tmp_path}: the folder holds no font that can be read; give one with .ttf"):
+        drawn('<text y="50">a</text>', tmp_path)

@@ -262,6 +262,19 @@ def test_a_folder_that_is_created_is_mentioned(tmp_path):
         assert server.stop() == (0, "", ""), "the folder is there"
 
 
+def test_it_says_what_it_reads_and_then_what_it_serves(tmp_path):
+    folder = tmp_path / "shapes"
+    folder.mkdir()
+    (folder / "square.svg").write_bytes(square())
+    with serving(folder) as server:
+        assert server.said == f"serving {folder}, with 1 file to read, at {server.url}\n"
+        assert server.process.stdout.readline() == f"{folder}: 1 shape\n"
+        assert server.put("logo", square())[0] == 201
+    with serving(folder) as server:
+        assert server.said == f"serving 1 shape of {folder}, with 1 file to read, at {server.url}\n"
+        assert server.process.stdout.readline() == f"{folder}: 2 shapes\n"
+
+
 def test_an_upload_is_kept_though_a_drawing_of_the_folder_holds_the_same_files(tmp_path):
     folder = tmp_path / "shapes"
     folder.mkdir()

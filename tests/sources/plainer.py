@@ -144,6 +144,15 @@ PLAINER = {
     "transform/css-origin-keywords": '<rect x="20" y="30" width="40" height="20" transform="rotate(30 50 50)"/>',
     "transform/css-over-attribute": '<rect x="20" y="40" width="30" height="30"/>',
     "transform/css-percent": '<rect x="30" y="50" width="40" height="20"/>',
+    "transform/css-all-four": '<rect x="20" y="30" width="40" height="20"'
+    ' transform="translate(50 45) rotate(30) scale(1.5) skewX(20) translate(-40 -40)"/>',
+    "transform/css-rotate": '<rect x="20" y="5" width="40" height="20" transform="rotate(20)"/>',
+    "transform/css-rotate-axis": '<rect x="30" y="20" width="20" height="40"/>',
+    "transform/css-rotate-invalid": '<rect x="20" y="30" width="40" height="20"/>',
+    "transform/css-rotate-x": '<rect x="20" y="35" width="40" height="20"/>',
+    "transform/css-scale": '<rect x="40" y="7.5" width="40" height="15"/>',
+    "transform/css-scale-group": '<rect x="50" y="50" width="30" height="20"/>',
+    "transform/css-translate": '<rect x="30" y="25" width="40" height="20"/>',
     "transform/css-units": '<rect x="10" y="10" width="30" height="30" transform="translate(20 10) rotate(36)"/>',
     # the outermost element is a box of CSS, of which the initial origin is the middle (CSS Transforms 1, 5)
     "transform/of-outermost": f'{PAGE}<g transform="translate(35 25) scale(0.5)">{PARTS}</g>',

@@ -24,7 +24,7 @@ SHOWN = {
     "marker-1e300": (["#0000ff", GREEN], ["<path> in line 3: " + LARGE]),
     "mask-1e300": ([RED, "#ffffff", GREEN], ["<circle> in line 2: " + LARGE]),
     "namespace-of-element": ([GREEN], ["<rect> in line 2, of another namespace"]),
-    "paint-missing": ([GREEN], ["paint '#none' (2)"]),
+    "paint-missing": ([GREEN], ["paint '#none', which is not in the drawing (2)"]),
     "prefix-of-element": ([GREEN], ["<a:rect>"]),
     "prefix-of-link": ([GREEN, GREEN], []),
     "switch-only-unknown": ([GREEN], ["<foreignObject>"]),

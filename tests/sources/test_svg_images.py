@@ -1,6 +1,7 @@
 """Images in an SVG: pictures traced where they stand, files only from beside the drawing, everything else named."""
 
 import base64
+import gzip
 import io
 import os
 import struct
@@ -114,10 +115,29 @@ def test_gradients_of_a_picture_stay_where_they_are(case: str, tmp_path: Path) -
 
 def test_a_picture_is_named_unless_it_is_asked_for(tmp_path: Path) -> None:
     (tmp_path / "a.png").write_bytes(picture())
-    (tmp_path / "a.svg").write_text(SVG.format('<path d="M0 0h9v9z"/>'))
-    for link in ("a.png", "a.svg", data_url(picture())):
+    images = {"a.png": "image 'a.png'", data_url(picture()): "an embedded PNG of 300 x 200"}
+    for link, called in images.items():
         drawing = read(SVG.format(f'<image width="9" height="9" href="{link}"/>'), tmp_path, trace_images=False)
-        assert (notes(drawing), drawing.paths) == (["<image>"], ())
+        assert (notes(drawing), drawing.paths) == ([f"{called} (`trace_images` traces it)"], ())
+
+
+def test_a_drawing_beside_a_drawing_needs_no_option(tmp_path: Path) -> None:
+    (tmp_path / "a.svg").write_text(SVG.format('<path d="M0 0h50v100h-50z"/>'))
+    (tmp_path / "b.svgz").write_bytes(gzip.compress((tmp_path / "a.svg").read_bytes()))
+    for link in ("a.svg", "b.svgz"):
+        text = SVG.format(f'<image width="100" height="100" href="{link}"/>')
+        (path,) = read(text, tmp_path, trace_images=False).paths
+        assert path.box.tolist() == [[0.0, 0.0], [0.5, 1.0]]
+        assert len(vexture.read_svg(tmp_path / "drawing.svg").paths) == 1
+
+
+@pytest.mark.parametrize("traced", [False, True])
+@pytest.mark.parametrize("content", [b"", b"II*\0 of a TIFF", b"%PDF-1.7", b"<html/>", b'{"type": "Point"}'])
+def test_a_file_that_is_no_picture_is_named_with_what_is_read(content: bytes, traced: bool, tmp_path: Path) -> None:
+    (tmp_path / "a.tif").write_bytes(content)
+    (note,) = notes(read(SVG.format('<image width="9" href="a.tif"/>'), tmp_path, trace_images=traced))
+    why = {b"": "it is empty", b"<html/>": "the root element is <html>, not <svg>; this is not an SVG file"}
+    assert note == f"image 'a.tif' ({why.get(content, 'it is no SVG, PNG, JPEG, WebP, GIF or BMP')})"
 
 
 def test_files_beside_a_drawing_and_below(tmp_path: Path) -> None:
@@ -129,55 +149,58 @@ def test_files_beside_a_drawing_and_below(tmp_path: Path) -> None:
         assert notes(read(SVG.format(f'<image width="9" href="{link}"/>'), tmp_path)) == [TRACED]
     drawing = read(SVG.format('<image width="9" href="c.svg#top"/>'), tmp_path)
     assert len(drawing.paths) == 1
-    assert notes(drawing) == ["<image> of 'a.png': only files beside a drawing that is a file are read"]
+    assert notes(drawing) == ["image 'a.png' (an image of another drawing shows no files)"]
 
 
-OUTSIDE = "it is outside of the drawing's folder"
-NOT_BESIDE = "only files beside a drawing that is a file are read"
+OUTSIDE = "only files beside the drawing and in folders below are read"
+FETCHED = "nothing is fetched from an address"
 
 
 @pytest.mark.parametrize(
-    ("link", "why"),
+    ("link", "called", "why"),
     [
-        ("../secret.png", OUTSIDE),
-        ("%2e%2e/secret.png", OUTSIDE),
-        ("sub/../../secret.png", OUTSIDE),
-        ("sub/../a.png", OUTSIDE),
-        ("out.png", OUTSIDE),
-        ("outside/secret.png", OUTSIDE),
-        ("{}/secret.png", NOT_BESIDE),
-        ("file://{}/secret.png", NOT_BESIDE),
-        ("file:a.png", NOT_BESIDE),
-        ("http://localhost/a.png", NOT_BESIDE),
-        ("//localhost/a.png", NOT_BESIDE),
-        ("a%00.png", NOT_BESIDE),
-        ("none.png", "there is no such file beside the drawing"),
-        ("pipe", "there is no such file beside the drawing"),
-        ("sub", "there is no such file beside the drawing"),
-        ("a" * 5000, "its name is too long for a file"),
-        ("text.txt", "it is neither a drawing nor a picture"),
-        ("data:image/png;base64,A", "its data is no base64"),
-        ("data:image/png", "its data: URL has no data"),
+        ("../secret.png", "image 'secret.png'", OUTSIDE),
+        ("%2e%2e/secret.png", "image 'secret.png'", OUTSIDE),
+        ("sub/../../secret.png", "image 'secret.png'", OUTSIDE),
+        ("sub/../a.png", "image 'a.png'", OUTSIDE),
+        ("out.png", "image 'out.png'", OUTSIDE),
+        ("outside/secret.png", "image 'secret.png'", OUTSIDE),
+        ("{}/secret.png", "image 'secret.png'", OUTSIDE),
+        ("C:\\pictures\\a.png", "image 'a.png'", OUTSIDE),
+        ("file://{}/secret.png", "image 'secret.png'", OUTSIDE),
+        ("file:a.png", "image 'a.png'", OUTSIDE),
+        ("http://localhost/b/a.png?c=/d.png#e", "image 'a.png'", FETCHED),
+        ("//localhost/a.png", "image 'a.png'", FETCHED),
+        ("a%00.png", "image 'a\ufffd.png'", OUTSIDE),
+        ("none.png", "image 'none.png'", "there is no such file beside the drawing"),
+        ("pipe", "image 'pipe'", "there is no such file beside the drawing"),
+        ("sub", "image 'sub'", "there is no such file beside the drawing"),
+        ("a" * 5000, f"image '{'a' * 37}...'", "its name is too long for a file"),
+        ("data:image/png;base64,A", "an embedded image", "its data is no base64"),
+        ("data:image/png", "an embedded image", "its data: URL has no data"),
+        ("data:image/png,", "an embedded image", "it is empty"),
     ],
 )
-def test_what_is_not_read_is_named(link: str, why: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("traced", [False, True])
+def test_what_is_not_read_is_named(link: str, called: str, why: str, traced: bool, tmp_path: Path) -> None:
     folder = tmp_path / "folder"
     (folder / "sub").mkdir(parents=True)
     for name in ("secret.png", "folder/a.png"):
         (tmp_path / name).write_bytes(picture())
     (folder / "out.png").symlink_to(tmp_path / "secret.png")
     (folder / "outside").symlink_to(tmp_path)
-    (folder / "text.txt").write_text('{"type": "Polygon"}')
     os.mkfifo(folder / "pipe")
     link = link.format(tmp_path)
-    drawing = read(SVG.format(f'<image width="9" href="{link}"/>'), folder)
-    assert (notes(drawing), drawing.paths) == ([f"<image> of '{link[:40]}': {why}"], ())
+    drawing = read(SVG.format(f'<image width="9" href="{link}"/>'), folder, traced)
+    assert (notes(drawing), drawing.paths) == ([f"{called} ({why})"], ())
 
 
 def test_a_drawing_that_is_no_file_reads_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "a.png").write_bytes(picture())
     monkeypatch.chdir(tmp_path)
-    assert notes(read(SVG.format('<image width="9" href="a.png"/>'))) == [f"<image> of 'a.png': {NOT_BESIDE}"]
+    for traced in (False, True):
+        drawing = read(SVG.format('<image width="9" href="a.png"/>'), trace_images=traced)
+        assert notes(drawing) == ["image 'a.png' (a drawing that is no file itself shows no files)"]
 
 
 def bomb(side: int) -> bytes:
@@ -205,23 +228,32 @@ def test_drawings_in_one_another_end(tmp_path: Path) -> None:
         text = SVG.format(f'<path d="M0 0h9v9z"/><image width="9" href="{data_url(text.encode())}"/>')
     drawing = read(text, trace_images=False)
     assert len(drawing.paths) == DEEPEST + 1
-    assert notes(drawing)[0].endswith(f"drawings in it are nested more than {DEEPEST} deep")
+    assert notes(drawing)[0] == f"an embedded image (drawings in it are nested more than {DEEPEST} deep)"
     (tmp_path / "drawing.svg").write_text("")
     itself = read(SVG.format('<image width="9" href="drawing.svg"/><path d="M0 0h9v9z"/>'), tmp_path)
     assert len(itself.paths) == 2
-    assert NOT_BESIDE in notes(itself)[0]
+    assert notes(itself) == ["image 'drawing.svg' (an image of another drawing shows no files)"]
 
 
 def test_very_many_images_are_named() -> None:
     links = (data_url(SVG.format(f'<path d="M0 0h{k}v9z"/>').encode()) for k in range(1, MOST_IMAGES + 2))
     drawing = read(SVG.format("".join(f'<image width="9" href="{link}"/>' for link in links)))
     assert len(drawing.paths) == MOST_IMAGES
-    assert notes(drawing)[0].endswith(f"the drawing has more than {MOST_IMAGES} images")
+    assert notes(drawing)[0] == f"an embedded image (the drawing has more than {MOST_IMAGES} images)"
 
 
 def test_only_images_of_an_svg_are_traced() -> None:
     with pytest.raises(ParameterError, match="`trace_images` is for the images in an SVG; leave it out"):
         vexture.read(picture(), trace_images=True)
+
+
+@pytest.mark.parametrize("command", ["convert", "render", "export"])
+def test_commands_say_how_an_image_is_traced(command: str, tmp_path: Path) -> None:
+    file = tmp_path / "drawing.svg"
+    file.write_text(SVG.format(f'<path d="M0 0h9v9z"/><image width="90" href="{data_url(picture())}"/>'))
+    out = tmp_path / {"convert": "out.ktx2", "render": "out.png", "export": "out.html"}[command]
+    result = CliRunner().invoke(main, [command, str(file), "-o", str(out)])
+    assert f"{file}: left out: an embedded PNG of 300 x 200 (--trace-images traces it)\n" in result.output
 
 
 @pytest.mark.parametrize("command", ["convert", "render", "export"])

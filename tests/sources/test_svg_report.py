@@ -19,9 +19,8 @@ SAID = {
     "animation-in-gradient": "left out: animation (2)",
     "clip-path": "left out: clip-path 'shape(from 0 0, line to 9px 9px)'",
     "clip-path-elsewhere": "left out: clip-path 'circle(9px)', clip-path 'inset(5px)', clip-path 'inset(4px)'",
-    "css-rotate": "left out: rotate",
     "css-variables": "left out: CSS variables",
-    "external-use": "left out: <use> of 'other.svg#a'",
+    "external-use": "left out: <use> of 'other.svg#a', which is not in the drawing",
     "event-attribute": "left out: script (2)",
     "filter": "left out: filter of blur",
     "filter-functions": "left out: filter of drop shadow and blur",
@@ -33,14 +32,15 @@ SAID = {
     "linear-light": "simplified: gradient in linear light (color-interpolation) read as one in sRGB, "
     "mask in linear light (color-interpolation) read as one in sRGB",
     "foreign-object": "left out: <foreignObject>; nothing in it is painted",
-    "image": "left out: <image>; nothing in it is painted",
+    "image": "left out: image 'x.png' (there is no such file beside the drawing); nothing in it is painted",
     "import": "left out: @import",
     "lab-color": "simplified: colour of a space other than sRGB read as black",
-    "many": "left out: <foreignObject> (2), <image>; invalid and ignored: r='x' of <rect> in line 5",
+    "many": "left out: <foreignObject> (2), image 'x' (there is no such file beside the drawing); "
+    "invalid and ignored: r='x' of <rect> in line 5",
     "marker": "left out: marker-start 'url(#none)', marker-start that refers to itself, of <marker id=\"c\"> in line 2;"
     " invalid and ignored: markerWidth='-3' of <marker id=\"c\"> in line 2",
     "mask": "left out: mask 'url(stars.svg#m)'",
-    "missing-paint": "left out: paint '#none' (2)",
+    "missing-paint": "left out: paint '#none', which is not in the drawing (2)",
     "pattern": 'simplified: <pattern id="c"> in line 2 read as solid: here it has 12,500,000,000 segments in its tiles;'
     " all patterns of a drawing may have 400,000",
     "script": "left out: script",
@@ -70,7 +70,10 @@ ABOUT = {
     "filter-steps": [
         ("left out", SAID["filter-steps"][10:-4], [("card", (0, 0.91, 0.09, 1)), ("badge", (0.2, 0.91, 0.29, 1))])
     ],
-    "image": [("left out", "<image>", [("<image> in line 2", None)]), ("remark", "nothing in it is painted", [])],
+    "image": [
+        ("left out", "image 'x.png' (there is no such file beside the drawing)", [("<image> in line 2", None)]),
+        ("remark", "nothing in it is painted", []),
+    ],
 }
 
 
@@ -84,14 +87,25 @@ def test_notes_name_their_elements_and_where_those_are(name: str) -> None:
         assert subject.box == (box and pytest.approx(box))
 
 
+def test_transforms_that_are_not_valid_are_named(tmp_path: Path) -> None:
+    file = tmp_path / "a.svg"
+    body = '<path id="p" d="M0 0h9v9z" style="rotate: 1 1 30deg; scale: 2px; translate: red"/>'
+    file.write_text(f'<svg viewBox="0 0 9 9" style="scale: none">{body}</svg>')
+    assert [f"{note.kind}: {note}" for note in read_quietly(file).notes] == [
+        "invalid: translate='red' of <path id=\"p\"> in line 1",
+        "invalid: rotate='1 1 30deg' of <path id=\"p\"> in line 1",
+        "invalid: scale='2px' of <path id=\"p\"> in line 1",
+    ]
+
+
 def test_the_box_of_an_element_holds_all_its_uses_and_strokes_but_not_what_it_masks(tmp_path: Path) -> None:
     file = tmp_path / "a.svg"
     file.write_text(
         '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><defs><g id="a" rotate="1" scale="2">'
         '<path d="M10 10h10" stroke="red" stroke-width="2"/></g></defs>'
-        '<use id="b" style="rotate: 1deg" href="#a"/><use href="#a" y="80"/>'
-        '<mask id="m" style="rotate: 1deg"><path id="c" style="rotate: 1deg" d="M0 0h100v100h-100z"/></mask>'
-        '<path style="rotate: 1deg" d="M40 40h10v10h-10z" mask="url(#m)"/></svg>'
+        '<use id="b" style="filter: blur(1px)" href="#a"/><use href="#a" y="80"/>'
+        '<mask id="m" style="filter: blur(1px)"><path id="c" style="filter: blur(1px)" d="M0 0h100v100h-100z"/></mask>'
+        '<path style="filter: blur(1px)" d="M40 40h10v10h-10z" mask="url(#m)"/></svg>'
     )
     (note,) = read_quietly(file).notes
     boxes = dict(note.elements)

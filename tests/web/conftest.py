@@ -111,3 +111,33 @@ def mask_folder(made_once: Callable[..., Path]) -> Path:
     from mask_page import prepare
 
     return made_once("mask", prepare)
+
+
+@pytest.fixture(scope="session")
+def flood_pages(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """Addresses of pages of floods on disk: in three steps, in one, and with a step at which all is dry."""
+    import flood_page
+
+    folder = tmp_path_factory.mktemp("flood")
+    dry = flood_page.scene(2)
+    dry["flood"]["steps"][1] = flood_page.manifest("flood/01", -1e5, "07:00", "2026-01-05T07:00:00Z")
+    scenes = {"series": flood_page.scene(3), "single": flood_page.scene(1), "dry": dry}
+    return {name: flood_page.write_page(folder / f"{name}.html", scene).as_uri() for name, scene in scenes.items()}
+
+
+@pytest.fixture
+def opened_flood(open_page: Callable[..., Any], flood_pages: dict[str, str]) -> Callable[..., Any]:
+    """Open a page of `flood_pages`, and wait until it is there."""
+    import flood_seen
+
+    def opener(
+        name: str, size: tuple[int, int] = flood_seen.SMALL, query: str = "", *, bypass_csp: bool = True, **options: Any
+    ) -> Any:
+        # playwright's waits use eval
+        page = open_page(flood_pages[name] + query, size, bypass_csp=bypass_csp, **options)
+        page.set_default_timeout(flood_seen.PATIENCE)
+        page.evaluate("vexture.flood.ready")
+        page.evaluate("vexture.flood.freeze(2)")
+        return page
+
+    return opener

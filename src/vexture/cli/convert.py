@@ -40,7 +40,7 @@ from vexture.cli.outcome import (
 )
 from vexture.deadline import DEFAULT_SECONDS
 from vexture.encodings import DEFAULT, REGISTERED
-from vexture.errors import EXPECTED, ParameterError
+from vexture.errors import EXPECTED, ParameterError, counted
 from vexture.layout import PACKED_SUFFIX
 
 if TYPE_CHECKING:
@@ -328,4 +328,4 @@ def _write_atlas(outcomes: list[Outcome], atlas: Path, stored: dict[str, Any], *
     else:
         texture.save(atlas, **stored)
     if not silent:
-        click.echo(f"{atlas}: {len(texture.roots)} shapes, {len(data)} bytes", err=to_pipe)
+        click.echo(f"{atlas}: {counted(len(texture.roots), 'shape')}, {len(data)} bytes", err=to_pipe)

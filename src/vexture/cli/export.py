@@ -7,6 +7,7 @@ import click
 
 from vexture.cli.messages import one_line, say
 from vexture.cli.options import PATH, conversion_options, strict_option, viewer_parameters
+from vexture.errors import counted
 
 __all__ = ["export"]
 
@@ -28,4 +29,4 @@ def export(files: tuple[Path, ...], output: Path, title: str | None, strict: boo
         from vexture.live.view import export as write
 
         size = write(files, output, title, viewer_parameters(**conversion), say, strict=strict)
-        click.echo(f"{output}: {len(files)} file{'s' * (len(files) > 1)}, {size} bytes")
+        click.echo(f"{output}: {counted(len(files), 'file')}, {size} bytes")

@@ -8,9 +8,11 @@ import click
 from vexture.cli.convert import check_places, given_options, options_of_convert
 from vexture.cli.messages import one_line, say_notes
 from vexture.cli.options import PATH
+from vexture.cli.outcome import is_texture_file
 from vexture.cli.text import face_options
 from vexture.encodings import DEFAULT
-from vexture.errors import ParameterError
+from vexture.errors import ParameterError, counted
+from vexture.layout import PACKED_SUFFIX
 
 __all__ = ["font"]
 
@@ -58,25 +60,26 @@ def font(
         from vexture.fonts.text import TextOptions
         from vexture.glyph_atlas import PRINTABLE, made_atlas
         from vexture.notes import check_losses
-        from vexture.texture.files import target_of, write_together
+        from vexture.texture.files import file_name, write_together
 
         check_places((), output, None, DEFAULT, False)
         asked = (chars or "") + ("" if chars_file is None else read_text(chars_file))
         styled = TextOptions(font or (), (), weight, style, stretch, name=name)
         ranged = [code for text in ranges for code in codes_of(text)]
-        wanted = asked if asked or ranges else PRINTABLE
+        wanted = PRINTABLE if chars is None and chars_file is None and not ranges else asked
         parameters = given_options(options)
         stored = {name: parameters.pop(name) for name in ("deflate",) if name in parameters}
         made = made_atlas(styled, wanted, ranged, **parameters)
         check_losses(str(font or made.texture.name), made.notes, is_empty=False, strict=strict)
-        files = made.files(target_of(output, made.texture.name), **stored)
+        place = output if is_texture_file(output, DEFAULT) else output / (file_name(made.texture.name) + PACKED_SUFFIX)
+        files = made.files(place, **stored)
         write_together(files)
         if not quiet:
             say_notes(font or made.texture.name, made.notes)
             target, metrics = files
-            count = len(made.metrics["glyphs"])
-            shapes = len(made.texture.roots)
-            click.echo(f"{target}: {count} characters, {shapes} shapes, {len(files[target])} bytes; {metrics}")
+            characters = counted(len(made.metrics["glyphs"]), "character")
+            shapes = counted(len(made.texture.roots), "shape")
+            click.echo(f"{target}: {characters}, {shapes}, {len(files[target])} bytes; {metrics}")
 
 
 def read_text(file: Path) -> str:

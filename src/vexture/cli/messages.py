@@ -16,8 +16,8 @@ __all__ = ["as_options", "one_line", "say", "say_notes"]
 PARAMETER = re.compile(r"`([a-z_]+)`")
 """A parameter in a message of the library."""
 
-REPEATED = {"fonts": "font"}
-"""Parameters that are lists, and the options that are given once for each entry."""
+NAMED_OTHERWISE = {"fonts": "font", "characters": "chars"}
+"""Parameters whose options have other names: lists, whose options are given once for each entry, and long ones."""
 
 
 def say(message: str) -> None:
@@ -27,7 +27,7 @@ def say(message: str) -> None:
 
 def as_options(message: str) -> str:
     """Return a message of the library with options in place of the parameters that it names in backticks."""
-    return PARAMETER.sub(lambda found: "--" + REPEATED.get(found[1], found[1]).replace("_", "-"), message)
+    return PARAMETER.sub(lambda found: "--" + NAMED_OTHERWISE.get(found[1], found[1]).replace("_", "-"), message)
 
 
 def say_notes(source: object, notes: Sequence[Note]) -> None:

@@ -10,7 +10,7 @@ import click
 from vexture.cli.messages import as_options, say
 from vexture.cli.options import STANDARD
 from vexture.encodings import DEFAULT
-from vexture.errors import VextureError
+from vexture.errors import VextureError, counted
 from vexture.layout import PACKED_SUFFIX
 
 if TYPE_CHECKING:
@@ -105,20 +105,21 @@ def say_outcome(outcome: Outcome, level: int, *, quiet: bool, to_pipe: bool) -> 
         click.echo(line_of_facts(outcome.facts), err=to_pipe)
     if level == VERBOSE and not quiet:
         for place, shape in enumerate(outcome.facts["shapes"]):
-            click.echo(f"  shape {place}: {shape['quads']} quads, {shape['curves']} curves", err=to_pipe)
+            parts = ", ".join(counted(shape[name], name[:-1]) for name in ("quads", "curves"))
+            click.echo(f"  shape {place}: {parts}", err=to_pipe)
         for file in outcome.facts.get("files", ()):
             click.echo(f"  {file}", err=to_pipe)
 
 
 def line_of_facts(facts: dict[str, Any]) -> str:
     """One line about a source."""
-    layers = f"{facts['layers']} layers, " if facts["layers"] > 1 else ""
+    named = [name for name in ("segments", "layers", "quads", "curves", "bytes") if name != "layers" or facts[name] > 1]
+    counts = ", ".join(counted(facts[name], name.removesuffix("s")) for name in named)
     line = (
-        f"{facts['name']}: {facts['segments']} segments, {layers}{facts['quads']} quads, {facts['curves']} curves, "
-        f"{facts['bytes']} bytes, {facts['milliseconds']:.1f} ms, "
+        f"{facts['name']}: {counts}, {facts['milliseconds']:.1f} ms, "
         f"distance {facts['deviation']:.1e} + {facts['rounding']:.1e}"
     )
-    return line + (f", {facts['unresolved']} cells at the depth limit" if facts["unresolved"] else "")
+    return line + (f", {counted(facts['unresolved'], 'cell')} at the depth limit" if facts["unresolved"] else "")
 
 
 def facts_of(outcome: Outcome) -> dict[str, Any]:

@@ -44,11 +44,20 @@ Examples:
 @click.argument("source", metavar="SOURCE_OR_TEXTURE", type=PATH)
 @click.option("-o", "--output", metavar="PNG|-", required=True, type=PATH, help="File to write; - is standard output.")
 @click.option("--size", metavar="N", type=int, help=f"Longer side in pixels.  [default: {DEFAULT_SIZE}]")
-@click.option("--width", metavar="W", type=int, help="Width in pixels; the height follows from the view.")
-@click.option("--height", metavar="H", type=int, help="Height in pixels; the width follows from the view.")
+@click.option(
+    "--width", metavar="W", type=int, help="Width in pixels; the height follows from the view, so from the drawing."
+)
+@click.option(
+    "--height", metavar="H", type=int, help="Height in pixels; the width follows from the view, so from the drawing."
+)
 @click.option("--background", type=Colour(), default="white", show_default=True, help="Colour below the drawing.")
 @click.option("--silhouette", is_flag=True, help="Draw the covered part of each pixel in black, without colours.")
-@click.option("--view", type=Rectangle(), default="0,0,1,1", show_default=True, help="Part of the unit square, y up.")
+@click.option(
+    "--view",
+    type=Rectangle(),
+    help="Part of the unit square, y up.  [default: the drawing's box, which is as wide or as high as the square; "
+    "of a texture, all of it]",
+)
 @click.option("--rotate", metavar="DEG", type=float, default=0.0, help="Turn the picture counter-clockwise.")
 @click.option("--root", metavar="NAME_OR_INDEX", help="Shape of a texture, or drawing of an atlas.")
 @click.option("--select", metavar="SELECTOR", help="Draw only the elements of an SVG that a CSS selector matches.")
@@ -69,7 +78,7 @@ def render(
     width: int | None,
     height: int | None,
     background: tuple[float, float, float, float],
-    view: tuple[float, float, float, float],
+    view: tuple[float, float, float, float] | None,
     rotate: float,
     root: str | None,
     select: str | None,
@@ -87,16 +96,17 @@ def render(
 
         if output != Path(STANDARD) and output.suffix.lower() != ".png":
             raise ParameterError(f"`output` {output}: pictures are PNG files; name one that ends in .png")
-        pixels = _pixels(size, width, height, view)
+        _check_sides(size, width, height)
+        seen = None if view is None else window(*view, rotate)  # refused before anything is read
         shown = _shown(source, select, fonts or (), trace_images=bool(trace_images), strict=strict)
-        picture = _picture(shown, pixels, window(*view, rotate), root=_root_of(shown, root), **options)
+        view = view or _box_of(shown)
+        pixels = _pixels(size, width, height, view)
+        picture = _picture(shown, pixels, seen or window(*view, rotate), root=_root_of(shown, root), **options)
         _write_png(_over(picture, background), output)
 
 
-def _pixels(
-    size: int | None, width: int | None, height: int | None, view: tuple[float, float, float, float]
-) -> tuple[int, int]:
-    """Width and height of the picture; a side that is not given follows from the view."""
+def _check_sides(size: int | None, width: int | None, height: int | None) -> None:
+    """Refuse sides of a picture that cannot be, or that say one thing twice."""
     from vexture.renderers.view import SIZE_LIMIT
 
     if size is not None and (width is not None or height is not None):
@@ -104,6 +114,20 @@ def _pixels(
     for name, side in (("size", size), ("width", width), ("height", height)):
         if side is not None and not 1 <= side <= SIZE_LIMIT:
             raise ParameterError(f"`{name}` is {side}; it must be 1 to {SIZE_LIMIT}")
+
+
+def _box_of(shown: "Shown") -> tuple[float, float, float, float]:
+    """The part of the unit square that a drawing's box fills; of a texture, which does not know it, all."""
+    from vexture.drawing import Drawing
+
+    width, height = shown.sides if isinstance(shown, Drawing) else (1.0, 1.0)
+    return (1.0 - width) / 2, (1.0 - height) / 2, width, height
+
+
+def _pixels(
+    size: int | None, width: int | None, height: int | None, view: tuple[float, float, float, float]
+) -> tuple[int, int]:
+    """Width and height of the picture; a side that is not given follows from the view."""
     _, _, w, h = view
     ratio = w / h if w > 0.0 and h > 0.0 else 1.0
     if width is None and height is None:

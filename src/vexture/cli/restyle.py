@@ -6,7 +6,7 @@ import click
 
 from vexture.cli.messages import one_line
 from vexture.cli.options import PATH
-from vexture.errors import ParameterError
+from vexture.errors import ParameterError, counted
 from vexture.layout import PACKED_SUFFIX
 
 __all__ = ["restyle"]
@@ -21,7 +21,14 @@ Example:
 @click.command(epilog=EXAMPLE)
 @click.argument("texture", metavar="TEXTURE", type=PATH)
 @click.argument("paints", metavar="NAME=COLOUR...", nargs=-1, required=True)
-@click.option("-o", "--output", metavar="FILE.ktx2", required=True, type=PATH, help="File to write, or a folder.")
+@click.option(
+    "-o",
+    "--output",
+    metavar="FILE.ktx2",
+    required=True,
+    type=PATH,
+    help="File to write, or another folder.",
+)
 @click.option("--root", metavar="NAME", help="The drawing, in a texture of several.")
 def restyle(texture: Path, paints: tuple[str, ...], output: Path, root: str | None) -> None:
     """Give elements of a planar map other colours.
@@ -34,8 +41,11 @@ def restyle(texture: Path, paints: tuple[str, ...], output: Path, root: str | No
         for text in paints:
             if "=" not in text:
                 raise ParameterError(f"{text!r} names no colour; give NAME=COLOUR")
-        if not output.is_dir() and output.suffix.lower() != PACKED_SUFFIX:
+        place = output / texture.name if output.is_dir() else output
+        if place.suffix.lower() != PACKED_SUFFIX:
             raise ParameterError(f"`output` {output}: textures are KTX2 files; name one that ends in {PACKED_SUFFIX}")
+        if place != output and place.exists() and place.samefile(texture):
+            raise ParameterError(f"`output` {output}: it holds {texture.name} itself; name a file, or another folder")
         wanted = {name: colour for name, _, colour in (text.rpartition("=") for text in paints)}
-        target = load(texture).with_paints(wanted, root=root).save(output)
-        click.echo(f"{target}: {len(wanted)} elements in other colours, {target.stat().st_size} bytes")
+        target = load(texture).with_paints(wanted, root=root).save(place)
+        click.echo(f"{target}: {counted(len(wanted), 'element')} in other colours, {target.stat().st_size} bytes")

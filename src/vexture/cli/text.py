@@ -88,7 +88,7 @@ def face_options(command: Any) -> Any:
 )
 @click.option("--line-height", metavar="EM", type=float, help="Distance of baselines.  [default: the font's]")
 @click.option("--color", type=Colour(), help="A CSS colour, which the texture then has.  [default: none of its own]")
-@click.option("--name", help="Name of the shape.  [default: the text]")
+@click.option("--name", help="Name of the shape.  [default: the text, or its start]")
 def text(
     text: str,
     output: Path | None,

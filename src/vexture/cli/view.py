@@ -7,6 +7,7 @@ import click
 
 from vexture.cli.messages import one_line, say
 from vexture.cli.options import PATH, conversion_options, viewer_parameters
+from vexture.errors import counted
 
 __all__ = ["view"]
 
@@ -30,7 +31,7 @@ def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening:
         from vexture.live.view import view as serve
 
         def show(where: str, shapes: int) -> None:
-            click.echo(f"vexture: {where} shows {shapes} shape{'s' * (shapes != 1)}; Ctrl-C ends it")
+            click.echo(f"vexture: {where} shows {counted(shapes, 'shape')}; Ctrl-C ends it")
 
         serve(
             files,

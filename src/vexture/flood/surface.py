@@ -17,7 +17,7 @@ __all__ = ["WaterSurface", "highest_of", "surface_of"]
 FINEST_UNIT: Final = 0.005
 """Metres. The smallest unit of levels on the page: finer ones would not be seen, and would not compress."""
 
-BESIDE: Final = 32_768
+BESIDE: Final = 1 << 15
 """In a picture of levels, what is added where there is no water, but beside it; 0 says that there is none near."""
 
 BEYOND: Final = 3

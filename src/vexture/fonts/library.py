@@ -11,6 +11,7 @@ from typing import Final, TypeAlias
 from vexture.content import about
 from vexture.errors import SourceError
 from vexture.fonts.face import Face, faces_in, faces_of
+from vexture.fonts.files import SUFFIXES
 from vexture.fonts.matching import Traits, preference
 from vexture.fonts.system import default_files, font_files, generic_family, system_files
 
@@ -68,7 +69,7 @@ class Fonts:
     Raises
     ------
     SourceError
-        If a file cannot be read or is no font.
+        If a file cannot be read or is no font, or a folder holds none.
     DeviceError
         If uharfbuzz is not installed.
     """
@@ -165,7 +166,11 @@ class Fonts:
         found: list[Listed] = []
         for path in self.files:
             if path.is_dir():
-                found += of_files(tuple(font_files(path)))
+                in_it = of_files(tuple(font_files(path)))
+                if not in_it:
+                    kinds = ", ".join(SUFFIXES)
+                    raise SourceError(f"{path}: the folder holds no font that can be read; give one with {kinds}")
+                found += in_it
                 continue
             with about(os.fspath(path)):
                 found += map(listed_of, faces_of(path))

@@ -10,7 +10,7 @@ import numpy as np
 
 from vexture.bezier.bounds import bounds
 from vexture.drawing import Drawing, Path
-from vexture.errors import LimitError, ParameterError
+from vexture.errors import LimitError, ParameterError, shortened
 from vexture.fonts.layers import Layers
 from vexture.fonts.library import GENERIC, Fonts
 from vexture.fonts.lines import Choice, Placed, Typesetting, line_of_glyphs
@@ -29,6 +29,9 @@ MOST_CHARACTERS: Final = 100_000
 
 LARGEST: Final = 1e9
 """Of a size, a width in percent and a distance of lines; beyond it float64 has no digits left for curves."""
+
+LONGEST_NAME: Final = 60
+"""Characters of the name that a text gives to its drawing."""
 
 ALIGN: Final = {"start": 0.0, "center": 0.5, "end": 1.0}
 """Part of a line's free space that is before its start."""
@@ -145,7 +148,7 @@ def text(
     paint : Paint
         Of all but the colours of a colour font.
     name : str, optional
-        By default the text.
+        By default the text, or its start if it has more than 60 characters.
 
     Returns
     -------
@@ -204,7 +207,7 @@ def text_drawing(text: str, options: TextOptions) -> Drawing:
         for placed in glyphs:
             canvas.draw(placed, part * (widest - width), -row * leading)
     box = (0.0, -high * options.size, widest * options.size, ((len(lines) - 1) * leading - low) * options.size)
-    return canvas.drawing(box, options.name or " ".join(text.split()) or "text")
+    return canvas.drawing(box, options.name or shortened(" ".join(text.split()), LONGEST_NAME) or "text")
 
 
 def base_level(text: str, direction: str) -> int:

@@ -54,9 +54,8 @@ SMALL = b"""<svg viewBox="0 0 9 9"><path d="M1 1L5 8 8 1 1 6 8 6z"/>
 def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters, folder: Path | None = None) -> Shape:
     """Convert the content of a file, or check and keep that of a packed texture, into a shape that can be published.
 
-    The file's name, which stands in messages, is never opened; only files in `folder` are, if its images are to be
-    traced. The facts of the shape hold the notes as text; its
-    views hold the source of an SVG, to compare with.
+    The file's name, which stands in messages, is never opened; only the images of an SVG in `folder` are. The facts of
+    the shape hold the notes as text; its views hold the source of an SVG, to compare with.
 
     Examples
     --------
@@ -77,7 +76,7 @@ def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters, fol
     start = time.perf_counter()
     framed = None
     if kind is FileKind.SVG:
-        images = images_of(folder) if parameters.trace_images else None
+        images = images_of(folder, traced=parameters.trace_images)
         fonts = parameters.fonts or ()
         drawing, framed = framed_drawing(plain, file_name, parameters.select, fonts=fonts, images=images)
     else:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vexture.content import about
 from vexture.drawing import Drawing
-from vexture.errors import SourceError
+from vexture.errors import SourceError, counted
 from vexture.flood.options import FloodOptions
 from vexture.flood.scene import PREFIX, Flood, PageNote, labels, scene, step_names
 from vexture.geo.extent import Extent, Frame
@@ -57,7 +57,7 @@ class Made(NamedTuple):
         """One line about it."""
         count = len(self.shapes)
         dry = sum(bool(shape.facts["dry"]) for shape in self.shapes)
-        told = f"{count} step{'s' * (count != 1)}, {self.texture_bytes} bytes of textures"
+        told = f"{counted(count, 'step')}, {self.texture_bytes} bytes of textures"
         return told + (f", {'nothing' if dry == count else f'in {dry} nothing'} under water" if dry else "")
 
 

@@ -77,10 +77,15 @@ class Folder(LimitedShelf):
             self._kept.difference_update(stale)
             await asyncio.to_thread(self._remove, stale)
 
+    @property
+    def drawings(self) -> list[Path]:
+        """Files that users have put into the folder, in the order in which they are read."""
+        found = [path for path in sorted(self._path.iterdir()) if not path.name.startswith(".") and path.is_file()]
+        return [path for suffixes in TAKEN for path in found if path.suffix.lower() in suffixes]
+
     async def take_drawings(self, converter: Converter) -> None:
         """Serve the drawings and textures that users have put into the folder."""
-        found = [path for path in sorted(self._path.iterdir()) if not path.name.startswith(".") and path.is_file()]
-        for path in (path for suffixes in TAKEN for path in found if path.suffix.lower() in suffixes):
+        for path in self.drawings:
             try:
                 await self._take(path, converter)
             except EXPECTED as error:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from starlette.routing import Route
 
-from vexture.errors import DeviceError
+from vexture.errors import DeviceError, counted
 from vexture.live.converter import BusyError, Converter
 from vexture.live.documents import PUBLISHED_PARAMETERS
 from vexture.live.folder import Folder
@@ -39,12 +39,15 @@ def serve(
     with closing(bind(host, port)) as taken:
         is_new = not path.exists()
         folder = Folder(path, limits, say)
+        waiting = len(folder.drawings)
         converter = Converter(limits, replace(PUBLISHED_PARAMETERS, precision=precision, fonts=fonts))
 
         async def start() -> None:
             with suppress(BusyError):
                 await converter.warm()
                 await folder.take_drawings(converter)
+                if waiting:
+                    say(f"{path}: {counted(len(folder.names), 'shape')}")
 
         app = application(
             [*routes(folder), *publishing_routes(folder, converter, limits, token), *_page()],
@@ -56,7 +59,9 @@ def serve(
             folder.close()
             converter.close()
 
-        say(f"serving {len(folder.names)} shapes of {path} at {listen(taken)}")
+        shapes = f"{counted(len(folder.names), 'shape')} of " if folder.names or not waiting else ""
+        to_read = f", with {counted(waiting, 'file')} to read," if waiting else ""
+        say(f"serving {shapes}{path}{to_read} at {listen(taken)}")
         if is_new:
             say(f"{path}: there was no such folder, so it was created")
         try:

@@ -33,10 +33,13 @@ def export(
     from vexture.texture.files import write_together
 
     check_output(output, VIEWER)
-    shapes = [_converted(source, content_of(source.path), parameters, say) for source in named(paths)]
-    for path, shape in zip(paths, shapes, strict=True):
+    shapes = []
+    for source in named(paths):
+        shape = _converted(source, content_of(source.path), parameters)
         notes = [Note(note["kind"], note["message"], note["count"]) for note in shape.facts["notes"]]
-        check_losses(str(path), notes, is_empty=shape.facts["segments"] == 0, strict=strict)
+        check_losses(str(source.path), notes, is_empty=shape.facts["segments"] == 0, strict=strict)
+        _say_warnings(shape, say)  # an error says them itself
+        shapes.append(shape)
     page = exported_page(shapes, title or ", ".join(shape.name for shape in shapes))
     write_together({output: page})
     return len(page)
@@ -90,7 +93,9 @@ def _published(shelf: Shelf, sources: Sequence[Source], parameters: Parameters, 
     for source in sources:
         try:
             data = content_of(source.path)
-            shelf.put(_converted(source, data, parameters, say))
+            shape = _converted(source, data, parameters)
+            _say_warnings(shape, say)
+            shelf.put(shape)
             seen[source.name] = data
         except EXPECTED as error:
             if len(sources) == 1:
@@ -103,11 +108,13 @@ def _published(shelf: Shelf, sources: Sequence[Source], parameters: Parameters, 
     return seen
 
 
-def _converted(source: Source, data: bytes, parameters: Parameters, say: Say) -> Shape:
-    shape = shape_of(data, str(source.path), source.name, parameters, source.path.parent)
+def _converted(source: Source, data: bytes, parameters: Parameters) -> Shape:
+    return shape_of(data, str(source.path), source.name, parameters, source.path.parent)
+
+
+def _say_warnings(shape: Shape, say: Say) -> None:
     for warning in shape.facts["warnings"]:
         say(f"warning: {warning}")
-    return shape
 
 
 def _has_display() -> bool:

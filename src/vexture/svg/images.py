@@ -1,4 +1,4 @@
-"""Images in an SVG (SVG 2, 12.3): embedded drawings are drawn, pictures are traced if that is asked for.
+"""Images in an SVG (SVG 2, 12.3): drawings are drawn, pictures are traced if that is asked for.
 
 Nothing but data: URLs is read, unless a folder is given: then files in it and below it, never by a link that leads out.
 """
@@ -14,9 +14,9 @@ from urllib.parse import unquote, unquote_to_bytes
 
 from lxml import etree
 
-from vexture.content import FileKind, decompressed, kind_of, read_bytes, start_of
+from vexture.content import BEFORE_MARKUP, FileKind, kind_of, picture_size, read_bytes, start_of, unpacked
 from vexture.drawing import Drawing
-from vexture.errors import LimitError, SourceError
+from vexture.errors import LimitError, SourceError, shortened
 from vexture.svg.document import parse_svg
 from vexture.svg.gradients import rows
 from vexture.svg.paint_servers import reference
@@ -36,8 +36,16 @@ DEEPEST: Final = 4
 MOST_IMAGES: Final = 256
 """Different images of a drawing, those in its images included."""
 
+OUTSIDE: Final = "only files beside the drawing and in folders below are read"
+
 BESIDE: Final = re.compile(r"(?![a-z][a-z0-9+.-]*:|[/\\])[^\0]+", re.IGNORECASE)
 """A link that can lead to a file in the folder: neither an address with a scheme or a host, nor an absolute path."""
+
+ADDRESS: Final = re.compile(r"(?!file:)[a-z][a-z0-9+.-]+:|//", re.IGNORECASE)
+"""A link that leads to a server; a single letter before a colon is that of a drive."""
+
+SHOWN: Final = 40
+"""Characters of a file's name in a message."""
 
 ANONYMOUS: Final = (300.0, 150.0)
 """Pixels: the size of an embedded drawing without one (CSS 2.1, 10.3.2)."""
@@ -62,52 +70,87 @@ class Images:
         return replace(self, folder=None, depth=self.depth + 1)
 
     def read(self, link: str) -> Found:
-        """Root of the drawing that a link leads to, or the picture traced; a `SourceError` or `LimitError` if none."""
+        """Root of the drawing that a link leads to, or the picture traced; a `SourceError` or `LimitError` if none.
+
+        The error is what a note says: it names the image, and why it is left out.
+        """
         key = self.depth, link
         if key not in self.known:
             if len(self.known) >= MOST_IMAGES:
-                raise LimitError(f"the drawing has more than {MOST_IMAGES} images")
+                raise LimitError(f"{called(link)} (the drawing has more than {MOST_IMAGES} images)")
             try:
                 self.known[key] = self.opened(link)
             except (SourceError, LimitError) as error:
-                self.known[key] = error
+                self.known[key] = type(error)(f"{called(link)} ({error})")
         found = self.known[key]
         if isinstance(found, SourceError | LimitError):
             raise found
         return found
 
     def opened(self, link: str) -> Found:
-        """As `read`, without looking whether it is known."""
-        content = embedded(link) if link[:5].lower() == "data:" else self.beside(link)
-        kind = kind_of(start_of(content))
-        if kind is FileKind.SVG:
-            if self.depth >= DEEPEST:
-                raise LimitError(f"drawings in it are nested more than {DEEPEST} deep")
-            return parse_svg(decompressed(content))
-        if kind is not FileKind.PICTURE:
-            raise SourceError("it is neither a drawing nor a picture")
-        if self.trace is None:
-            raise SourceError("")
-        return self.trace(content)
+        """As `read`, without looking whether it is known, and with errors that do not name the image."""
+        content = unpacked(embedded(link) if is_embedded(link) else self.beside(link))
+        start = start_of(content) or read_bytes(content)
+        kind = kind_of(start)
+        if kind is FileKind.PICTURE:
+            if self.trace is None:
+                raise SourceError("`trace_images` traces it")
+            return self.trace(read_bytes(content))
+        if kind is not FileKind.SVG or not start.lstrip(BEFORE_MARKUP).startswith(b"<"):
+            raise SourceError("it is empty" if not start else "it is no SVG, PNG, JPEG, WebP, GIF or BMP")
+        if self.depth >= DEEPEST:
+            raise LimitError(f"drawings in it are nested more than {DEEPEST} deep")
+        return parse_svg(read_bytes(content))
 
-    def beside(self, link: str) -> bytes:
-        """Content of a file in the folder or below it."""
-        if self.trace is None:
-            raise SourceError("")
+    def beside(self, link: str) -> Path:
+        """A file in the folder or below it."""
         path = unquote(link.partition("#")[0])
-        if self.folder is None or not BESIDE.fullmatch(path):
-            raise SourceError("only files beside a drawing that is a file are read")
+        if ADDRESS.match(path):
+            raise SourceError("nothing is fetched from an address")
+        if self.folder is None:
+            owner = "an image of another drawing" if self.depth else "a drawing that is no file itself"
+            raise SourceError(f"{owner} shows no files")
+        if not BESIDE.fullmatch(path) or ".." in Path(path).parts:
+            raise SourceError(OUTSIDE)
         folder = self.folder.resolve()
         try:
             file = (folder / path).resolve()
             is_there = file.is_file()
         except OSError:
             raise SourceError("its name is too long for a file") from None
-        if ".." in Path(path).parts or not file.is_relative_to(folder):
-            raise SourceError("it is outside of the drawing's folder")
+        if not file.is_relative_to(folder):
+            raise SourceError(OUTSIDE)
         if not is_there:
             raise SourceError("there is no such file beside the drawing")
-        return read_bytes(file)
+        return file
+
+
+def is_embedded(link: str) -> bool:
+    """Whether a link is a data: URL."""
+    return link[:5].lower() == "data:"
+
+
+def called(link: str) -> str:
+    """An image as a message names it: by its file's name, or by what is embedded.
+
+    Examples
+    --------
+    >>> called("pictures/a%20b.png#top"), called("https://example.org/a.png?x=/1"), called("data:,x")
+    ("image 'a b.png'", "image 'a.png'", 'an embedded image')
+    """
+    if not is_embedded(link):
+        place = re.split("[?#]", link, maxsplit=1)[0]
+        name = re.split(r"[/\\:]", unquote(place).rstrip("/\\"))[-1] or place
+        return f"image '{shortened(name, SHOWN)}'"
+    try:
+        content = embedded(link)
+    except SourceError:
+        return "an embedded image"
+    size = picture_size(content)
+    if size is not None:
+        kind, width, height = size
+        return f"an embedded {kind} of {width} x {height}"
+    return "an embedded image"
 
 
 class Imaging(Protocol):
@@ -151,7 +194,7 @@ def paint_image(scene: Imaging, element: etree._Element, place: Place, painter: 
     try:
         found = scene.images.read(link)
     except (SourceError, LimitError) as error:
-        scene.report.left_out(f"<image> of '{link[:40]}': {error}" if str(error) else "<image>", element)
+        scene.report.left_out(str(error), element)
         return
     width, height = size_of(found)
     sides = image_sides(place, (width, height))

@@ -122,7 +122,8 @@ class PaintServers:
         elif server is not None and name in PATTERNS:
             found = self.tiling(server, text.color, place, outlines)
         else:
-            self.report.left_out(UNKNOWN.get(name or "", f"paint '{link[:40]}'"), place.element)
+            where = "which is not in the drawing" if server is None else "which is no gradient or pattern"
+            self.report.left_out(UNKNOWN.get(name or "", f"paint '{link[:40]}', {where}"), place.element)
         return self.flat(text.color, place.style) if found is None else found
 
     def tiling(

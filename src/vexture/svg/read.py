@@ -44,11 +44,11 @@ def read_svg(
 
     Shapes, paths, texts, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as
     browsers draw them. Opacity, blend modes, clips and masks that need several paths together become
-    `Drawing.groups`. Gradients are read in full (`Paint.gradient`), patterns as the paths of their tiles, markers
-    as the paths of their content. Drawings that are embedded as images are read, too; `vexture.read` also traces
-    pictures, if asked to. What is not supported is left out and named. Paths are named (`Path.element`) by
-    the ``id`` of their element or of the nearest one around it, and all that a `use`, a marker or a pattern shows
-    by that of the `use` or the shape; a stroke is ``id/stroke``.
+    `Drawing.groups`. Gradients are read in full (`Paint.gradient`), patterns as the paths of their tiles, markers as
+    the paths of their content. Drawings that are images are read, too, embedded or as files beside the drawing and in
+    folders below; `vexture.read` also traces pictures, if asked to. What is not supported is left out and named.
+    Paths are named (`Path.element`) by the ``id`` of their element or of the nearest one around it, and all that a
+    `use`, a marker or a pattern shows by that of the `use` or the shape; a stroke is ``id/stroke``.
 
     The box of the drawing is the outermost viewport: `width` and `height`, or the size in `viewBox` where one of them
     is missing or a percentage. A drawing without any of them is as large as what it paints.
@@ -102,7 +102,8 @@ def read_svg(
     """
     with about(os.fspath(path)):
         content = read_bytes(path)
-    drawing = svg_drawing(content, os.fspath(path), select, names, fonts)
+    images = Images(folder=Path(path).parent)
+    drawing = svg_drawing(content, os.fspath(path), select, names, fonts, images)
     warn_of(os.fspath(path), drawing.notes)
     return drawing
 

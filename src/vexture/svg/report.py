@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from lxml import etree
 
-from vexture.errors import printable
+from vexture.errors import printable, shortened
 from vexture.notes import MOST_SUBJECTS, Kind, Note, Notes, Subject
 
 __all__ = ["Report", "described"]
@@ -50,8 +50,7 @@ class Report(Notes):
 
     def invalid(self, name: str, value: str, element: etree._Element) -> None:
         """Note a value that the standard does not allow."""
-        shown = value if len(value) <= 40 else value[:37] + "..."
-        self.count("invalid", f"{name}='{' '.join(shown.split())}' of {described(element)}", element)
+        self.count("invalid", f"{name}='{' '.join(shortened(value, 40).split())}' of {described(element)}", element)
 
     def count(self, kind: Kind, what: str, element: etree._Element | None = None) -> None:
         """Note something once more, of an element if it is about one."""

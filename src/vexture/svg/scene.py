@@ -36,7 +36,7 @@ from vexture.svg.style import INITIAL, Cascade, Style
 from vexture.svg.subjects import Boxes, boxes_of
 from vexture.svg.text.typesetter import Typesetter
 from vexture.svg.tiles import Canvas
-from vexture.svg.transform import Identity, Transform, parse_origin, parse_transform
+from vexture.svg.transform import Identity, Transform, parse_origin, property_transform
 from vexture.svg.unseen import ANIMATIONS, name_unseen
 from vexture.svg.values import TooLargeError, Viewport
 from vexture.svg.viewport import CENTRED, THINNEST, Rectangle, parse_fit, view_box, view_transform
@@ -60,9 +60,8 @@ UNPAINTED = frozenset(
 )
 """Elements that paint nothing themselves."""
 
-EFFECTS = ("rotate", "scale", "translate")
-"""Properties that are not supported."""
-
+TRANSFORMS = ("translate", "rotate", "scale", "transform")
+"""Properties that move an element, in the order in which they do (CSS Transforms 2, 6)."""
 
 HTML = "{http://www.w3.org/1999/xhtml}"
 
@@ -154,7 +153,7 @@ class Scene:
         It is a box of CSS, which its transform moves as a whole, about its middle if nothing else is said (CSS
         Transforms 1, 5).
         """
-        if self.style["transform"].lower() == "none":
+        if self.style.own.keys().isdisjoint(TRANSFORMS):
             return around.moved(content)
         reason = ", which has no size"
         if size is not None:
@@ -301,7 +300,7 @@ class Scene:
         link = reference(element) or ""
         target = self.servers.target(link)
         if target is None:
-            self.report.left_out(f"<use> of '{link[:40]}'", element)
+            self.report.left_out(f"<use> of '{link[:40]}', which is not in the drawing", element)
             return []
         if place.inside(target):
             self.report.left_out(f"{described(element)} that shows itself", element)
@@ -350,9 +349,8 @@ class Scene:
         return view_transform(box, fit, width, height)
 
     def transform(self, element: etree._Element, style: Style, place: Place) -> Transform:
-        """Transform of an element, about its origin."""
-        text = style["transform"]
-        if text == "none":
+        """Transform of an element by its properties, about its origin."""
+        if style.own.keys().isdisjoint(TRANSFORMS):
             return Identity
         left, top, width, height = 0.0, 0.0, place.viewport.width, place.viewport.height
         if style["transform-box"].lower() != "view-box":
@@ -367,20 +365,24 @@ class Scene:
         def length(value: str, axis: int) -> float | None:
             return place.viewport.length(value, (width, height)[axis], style.font_size)
 
-        matrix = parse_transform(text, length)
+        matrix = Identity
+        for name in TRANSFORMS:
+            one = property_transform(name, style[name], length)
+            if one is None:
+                self.report.invalid(name, style[name], element)
+            else:
+                matrix = matrix.transform(one)
         origin = parse_origin(style["transform-origin"], length)
-        if matrix is None or origin is None:
-            name = "transform" if matrix is None else "transform-origin"
-            self.report.invalid(name, style[name], element)
-            return Identity if matrix is None else matrix
+        if origin is None:
+            self.report.invalid("transform-origin", style["transform-origin"], element)
+            return matrix
+        if matrix == Identity:
+            return matrix
         x, y = left + origin[0], top + origin[1]
         return Identity.translate(x, y).transform(matrix).translate(-x, -y) if x or y else matrix
 
     def note_effects(self, element: etree._Element, style: Style) -> bool:
-        """Note effects that are not supported; return whether anything is seen of an element with its filter."""
-        for name in EFFECTS if style.own else ():
-            if style.own.get(name, "none").lower() != "none":
-                self.report.left_out(name, element)
+        """Note a filter, which is not supported; return whether anything is seen of an element with its filter."""
         value = style["filter"]
         if value.lower() == "none":
             return True

@@ -8,7 +8,7 @@ import cssselect2
 from lxml import etree
 
 from vexture.deadline import check_time
-from vexture.errors import LimitError
+from vexture.errors import LimitError, shortened
 
 __all__ = ["Node", "chosen", "nothing_painted"]
 
@@ -94,4 +94,4 @@ def nothing_painted(select: str, count: int) -> LimitError:
 def named(select: str) -> str:
     """Selector as a message names it."""
     text = " ".join(select.split())
-    return repr(text if len(text) <= LONGEST_NAMED else text[: LONGEST_NAMED - 3] + "...")
+    return repr(shortened(text, LONGEST_NAMED))

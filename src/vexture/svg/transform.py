@@ -1,8 +1,8 @@
-"""Affine maps, and transforms by the attribute's grammar and by the CSS property's, read as one (CSS Transforms 1)."""
+"""Affine maps, and transforms by the attribute's grammar and by the CSS properties', read as one (CSS Transforms 2)."""
 
 import re
 from collections.abc import Callable
-from math import pi, radians, sqrt, tan
+from math import cos, pi, radians, sin, sqrt, tan
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
@@ -20,6 +20,7 @@ __all__ = [
     "mapped",
     "parse_origin",
     "parse_transform",
+    "property_transform",
     "scale_of",
 ]
 
@@ -58,6 +59,9 @@ TURN = {"": pi / 180, "deg": pi / 180, "grad": pi / 200, "rad": 1.0, "turn": 2 *
 """Radians of each unit of angle; in attributes, degrees have no unit."""
 
 KEYWORDS: Final = {"left": "0%", "top": "0%", "center": "50%", "right": "100%", "bottom": "100%"}
+
+AXES: Final = {"": (0.0, 0.0, 1.0), "x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+"""Axes by their names; without one, things turn in the plane."""
 
 WITH_UNIT = rf"{NUMBER}(?:[a-zA-Z]++|%)?+"
 ARGUMENT = re.compile(WITH_UNIT)
@@ -136,6 +140,60 @@ def single_transform(name: str, arguments: list[str], length: Length) -> Transfo
             return Transform(1.0, tan(y), tan(x), 1.0, 0.0, 0.0)
         case "skewy", [float(y)]:
             return Transform(1.0, tan(y), 0.0, 1.0, 0.0, 0.0)
+    return None
+
+
+def property_transform(name: str, text: str, length: Length) -> Transform | None:
+    """Transform by the property `translate`, `rotate` or `scale` (CSS Transforms 2, 5), or `transform`.
+
+    None if the value is not valid. What leaves the plane is seen straight from above: there is no perspective.
+
+    Examples
+    --------
+    >>> property_transform("scale", "200% 3", lambda text, axis: number(text)).transformPoint((1, 1))
+    (2.0, 3.0)
+    """
+    if name == "transform":
+        return parse_transform(text, length)
+    words = text.lower().split()
+    if words == ["none"]:
+        return Identity
+    if name == "rotate":
+        return turned(words)
+    values = [length(word, min(axis, 1)) if name == "translate" else factor(word) for axis, word in enumerate(words)]
+    match name, values[:2]:
+        case "translate", [float(x)]:
+            return Identity.translate(x, 0.0)
+        case "translate", [float(x), float(y)] if len(words) <= 3 and None not in values:
+            return Identity.translate(x, y)
+        case "scale", [float(x)]:
+            return Identity.scale(x, x)
+        case "scale", [float(x), float(y)] if len(words) <= 3 and None not in values:
+            return Identity.scale(x, y)
+    return None
+
+
+def factor(text: str) -> float | None:
+    """Number or percentage; None if the text is neither."""
+    value = number(text.removesuffix("%"))
+    return value / 100.0 if value is not None and text.endswith("%") else value
+
+
+def turned(words: list[str]) -> Transform | None:
+    """Turn by an angle, which may be before or after its axis, by the formula of Rodrigues."""
+    if not words:
+        return None
+    first = angle(words[0]) if ANGLE.fullmatch(words[0]) and words[0][-1].isalpha() else None
+    axis, turn = (words[1:], first) if first is not None else (words[:-1], angle(words[-1]))
+    numbers = AXES.get(" ".join(axis)) or [*map(number, axis)]
+    match numbers:
+        case [float(x), float(y), float(z)] if turn is not None:
+            length = sqrt(x * x + y * y + z * z) or 1.0
+            x, y, z = x / length, y / length, z / length
+            rest, up = 1.0 - cos(turn), z * sin(turn)
+            if not (x or y or z):
+                return Identity
+            return Transform(cos(turn) + rest * x * x, rest * x * y + up, rest * x * y - up, cos(turn) + rest * y * y)
     return None
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.content import FileKind, kind_of, read_bytes, start_of
+from vexture.content import PICTURE_FORMATS, FileKind, kind_of, read_bytes, start_of
 from vexture.errors import LimitError, SourceError, reason_of
 
 if TYPE_CHECKING:
@@ -18,8 +18,6 @@ __all__ = ["MOST_PIXELS", "pixels_of"]
 
 MOST_PIXELS: Final = 50_000_000
 """Most pixels of a picture: a file of a few kilobytes can declare a huge size."""
-
-FORMATS: Final = ("PNG", "JPEG", "WEBP", "GIF", "BMP")
 
 TEXTS: Final = "vexture."
 """Prefix of the PNG keywords in images of the encoding thesis (FORMAT.md)."""
@@ -42,7 +40,7 @@ def pixels_of(source: str | os.PathLike[str] | bytes) -> NDArray[np.uint8]:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about sizes, which are checked here, and about damaged metadata
-            with Image.open(BytesIO(content), formats=FORMATS) as picture:
+            with Image.open(BytesIO(content), formats=PICTURE_FORMATS) as picture:
                 if any(isinstance(key, str) and key.startswith(TEXTS) for key in picture.info):
                     raise SourceError(TEXTURE)
                 if picture.width * picture.height > MOST_PIXELS:

@@ -126,7 +126,8 @@ class Faces:
         if not families or face in islice(self.of(want), self.counts[asked(want)]):
             return
         if self.fonts.count_named(families, *asked(want)[1:]):
-            what = f"{named(character)}, which {families[0][:40]!r} lacks,"
+            used = self.first(want)
+            what = f"{named(character)}, which {families[0][:40] if used is None else used.family!r} lacks,"
         else:
             what = f"font {families[0][:40]!r}"
         self.note_once(self.report.simplified, f"{what} drawn in {face.family}", element)

@@ -1,0 +1,83 @@
+"""The page of a flood as a map: colours of depths, charts, links, pictures."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from flood_seen import DEEP, WIDE, on_screen, view
+from PIL import Image
+from playwright.sync_api import Page, expect
+from waiting import drawn
+
+import flood_page
+
+
+def test_depths_as_colours_with_a_legend(opened_flood: Callable[..., Page], screenshot: Callable[..., Path]) -> None:
+    page = opened_flood("series", WIDE)
+    view(page, "Plan")
+    page.get_by_label("Colours").select_option("depth")
+    legend = page.get_by_label("Legend", exact=True)
+    expect(legend.get_by_role("listitem")).to_have_text(["0 to 2 m", "2 to 20 m", "over 20 m"])
+    drawn(page)
+    x, y = on_screen(page, *DEEP)
+    pixel = np.asarray(Image.open(screenshot(page)).convert("RGB"))[int(y), int(x)].astype(int)
+    named = legend.locator(".swatch").nth(2).evaluate("(one) => getComputedStyle(one).backgroundColor")
+    wanted = [int(part) for part in named.removeprefix("rgb(").removesuffix(")").split(",")]
+    assert np.abs(pixel - wanted).max() < 40  # it is not quite opaque
+    page.get_by_label("Colours").select_option("water")
+    expect(legend).to_be_hidden()
+
+
+def test_times_of_arrival(opened_flood: Callable[..., Page]) -> None:
+    page = opened_flood("series", WIDE)
+    page.get_by_label("Colours").select_option("arrival")
+    expect(page.get_by_label("Legend", exact=True)).to_contain_text("First under water after")
+    values = page.evaluate("vexture.flood.water.depthColors.classes.map(({ from }) => from)")
+    assert values == pytest.approx([k / 3 for k in range(6)])
+
+
+def test_a_chart_of_the_area_and_of_a_clicked_place(opened_flood: Callable[..., Page]) -> None:
+    page = opened_flood("series", (900, 640))
+    expect(page.locator(".chart .of")).to_contain_text("Area under water")
+    page.evaluate("vexture.flood.relief(0)")
+    view(page, "Plan")
+    page.mouse.click(*on_screen(page, *DEEP))
+    expect(page.locator(".chart .of")).to_have_text(
+        f"Water level at the marked place: 0.00 m to {flood_page.LEVELS[-1]:.2f} m"
+    )
+    page.get_by_role("button", name="Chart of the area").click()
+    expect(page.locator(".chart .of")).to_contain_text("Area under water")
+
+
+def test_a_link_opens_the_same_view(opened_flood: Callable[..., Page]) -> None:
+    page = opened_flood("series", WIDE)
+    page.evaluate("vexture.flood.step(2)")
+    view(page, "Coast")
+    page.get_by_label("Colours").select_option("smooth")
+    page.get_by_role("button", name="Link").click()
+    page.wait_for_function("location.hash !== ''")
+    hash_ = page.evaluate("location.hash")
+    again = opened_flood("series", WIDE, hash_)
+    again.wait_for_function("vexture.flood.player.index === 2")
+    expect(again.get_by_role("button", name="Coast")).to_have_attribute("aria-pressed", "true")
+    expect(again.get_by_label("Colours")).to_have_value("smooth")
+
+
+def test_a_picture_has_its_size_and_what_is_written_on_it(opened_flood: Callable[..., Page], tmp_path: Path) -> None:
+    page = opened_flood("series", WIDE)
+    page.get_by_label("Size of pictures").select_option("1920 × 1080")
+    found = {}
+    for name in ("decorated", "plain"):
+        page.get_by_label("with title, legend and source").set_checked(name == "decorated")
+        with page.expect_download() as download:
+            page.get_by_role("button", name="Picture").click()
+        assert download.value.suggested_filename == "A-bay-of-formulas.png"
+        download.value.save_as(tmp_path / f"{name}.png")
+        found[name] = np.asarray(Image.open(tmp_path / f"{name}.png").convert("RGB")).astype(int)
+    assert found["plain"].shape == (1080, 1920, 3)
+    off = np.abs(found["decorated"] - found["plain"]).max(axis=2) > 30
+    assert off[:100, :400].any()
+    assert off[-120:, -300:].any()
+    assert not off[300:800, 500:1500].any()
+    assert page.evaluate("[vexture.flood.stage.size.width, vexture.flood.stage.size.height]") == list(WIDE)
