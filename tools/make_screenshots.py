@@ -16,6 +16,7 @@ from PIL import Image
 ROOT: Final = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "evidence" / "benchmarks"), str(ROOT / "examples")]
 
+from four_floods.make_floods import SCENES, write  # noqa: E402
 from santa_cruz.make_flood import make_flood  # noqa: E402
 
 from chromium import chromium  # noqa: E402 - the browser of the tests
@@ -81,6 +82,36 @@ def flood_looks(browser: Any, address: str) -> list[Image.Image]:
         page.wait_for_timeout(1500)
         picture = Image.open(io.BytesIO(page.screenshot(timeout=120_000))).convert("RGB")
         taken.append(picture.resize((SHOWN, SHOWN * SIZE[1] // SIZE[0]), Image.Resampling.LANCZOS))
+        page.close()
+    return taken
+
+
+FOUR_LOOKS: Final = {
+    "coast": ("Flooded land", 6, "water"),
+    "river": ("Riverside", 6, "water"),
+    "polder": ("Overview", 6, "arrival"),
+    "streets": ("Town", 5, "depth"),
+}
+"""Of each synthetic flood: the view, the step and the colours."""
+
+
+def flood_kinds(browser: Any, folder: Path) -> list[Image.Image]:
+    """One picture of each kind of flood, as the page itself writes it."""
+    taken = []
+    for make in SCENES:
+        depths = write(make(), folder)
+        target = depths.with_suffix(".html")
+        export_flood(FloodOptions(depths, time_dim="time"), target, print)
+        view, step, colours = FOUR_LOOKS[depths.stem]
+        page = browser.new_page(viewport={"width": SIZE[0], "height": SIZE[1]}, color_scheme="light")
+        page.goto(f"{target.as_uri()}#step={step + 1}&view={view}&colours={colours}")
+        page.evaluate("window.vexture.flood.ready")
+        page.evaluate("window.vexture.flood.freeze(3)")
+        page.wait_for_timeout(2500)
+        with page.expect_download(timeout=120_000) as download:
+            page.get_by_role("button", name="Picture").click()
+        with Image.open(download.value.path()) as picture:
+            taken.append(picture.convert("RGB").resize((SHOWN, SHOWN * SIZE[1] // SIZE[0]), Image.Resampling.LANCZOS))
         page.close()
     return taken
 
@@ -162,6 +193,7 @@ MAKERS: Final[dict[str, Callable[[Any, Path], Image.Image]]] = {
     "guide.png": lambda browser, folder: row_of_guide(),
     "viewer.png": viewer,
     "flood.jpg": flood,
+    "floods.jpg": lambda browser, folder: sheet_of(flood_kinds(browser, folder)),
     "counties.jpg": lambda browser, folder: sheet_of(county_looks(browser)),
 }
 

@@ -18,6 +18,7 @@ from importlib.metadata import packages_distributions
 from io import BytesIO
 from pathlib import Path
 
+import numpy as np
 import pytest
 from installed import Installed
 from packaging.metadata import Metadata
@@ -291,9 +292,10 @@ def test_it_shows_a_flood(vexture: Installed) -> None:
 
 
 def picture() -> bytes:
-    """A black square on white, as PNG."""
-    image, file = Image.new("L", (8, 8), 255), BytesIO()
-    image.paste(0, (2, 2, 6, 6))
+    """A gray disc on white with a soft edge, as PNG: squares alone need no tracing."""
+    file = BytesIO()
+    y, x = np.mgrid[-1:1:64j, -1:1:64j]
+    image = Image.fromarray(np.uint8(np.clip(128 + 1000 * (np.hypot(x, y) - 0.7), 90, 255)))
     image.save(file, "PNG")
     return file.getvalue()
 
@@ -303,7 +305,7 @@ def picture() -> bytes:
     [
         ("depths.tif", b"II*\0", ["flood", "-o", "x.html", "--extent"], "gis"),
         ("wet.gpkg", b"SQLite format 3\0" + bytes(52) + b"GPKG", ["convert"], "gis"),
-        ("square.png", picture, ["convert"], "trace"),
+        ("disc.png", picture, ["convert"], "trace"),
     ],
     ids=["depths", "areas", "picture"],
 )

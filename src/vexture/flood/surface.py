@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.flood.grids import filled, sampled
+from vexture.flood.grids import sampled
 from vexture.flood.relief import Relief, wet_samples
 from vexture.geo.extent import Frame, Step
 
@@ -60,7 +60,7 @@ def surface_of(step: Step, frame: Frame, relief: Relief, bed: NDArray[np.float32
     """Surface of the water of a step.
 
     It is the bed and the depth upon it where the source has both, else the heights and the depth. Where depths are not
-    known, the water is as high as the ground along its shore, and between shores as `vexture.flood.grids.filled` says.
+    known, the water is as high as the ground along its shore, and in between as the shores around.
     """
     rows, columns = relief.heights.shape
     size = columns, rows
@@ -127,8 +127,19 @@ def _smoothed(levels: NDArray[np.float64], passes: int) -> NDArray[np.float64]:
 
 
 def _filled_at(levels: NDArray[np.float64], wet: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Levels, and where it is wet without one, those of the nearest."""
-    return filled(levels) if (wet & ~np.isfinite(levels)).any() else levels
+    """Levels, and where it is wet without one, those around it."""
+    return _filled(levels) if (wet & ~np.isfinite(levels)).any() else levels
+
+
+def _filled(levels: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Levels, and where there are none, means of those around, over larger and larger blocks (a push-pull pyramid)."""
+    rows, columns = levels.shape
+    if np.isfinite(levels).all() or rows * columns == 1:
+        return levels
+    even = np.pad(levels, [(0, rows % 2), (0, columns % 2)], constant_values=np.nan)
+    blocks = even.reshape(even.shape[0] // 2, 2, even.shape[1] // 2, 2)
+    coarse = _filled(_mean(blocks, (1, 3)))
+    return np.where(np.isfinite(levels), levels, _around(np.kron(coarse, np.ones((2, 2))))[:rows, :columns])
 
 
 def _from_shores(heights: NDArray[np.float64], wet: NDArray[np.bool_]) -> NDArray[np.float64]:
