@@ -31,9 +31,10 @@ MASK: Final = 1024
 PATIENCE: Final = 60_000  # ms
 
 LOOK: Final = """([preset, seconds]) => {
-    const { camera, water, stage, freeze, view } = window.vexture.flood;
+    const { water, stage, freeze, view } = window.vexture.flood;
     freeze(seconds);
     view(preset, { fly: false });
+    const { camera } = window.vexture.flood;  // a plan has another one
     stage.render();
     const picture = stage.canvas.toDataURL('image/png');  // in the task of the render: later it is gone
     camera.updateMatrixWorld();

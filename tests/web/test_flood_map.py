@@ -81,3 +81,24 @@ def test_a_picture_has_its_size_and_what_is_written_on_it(opened_flood: Callable
     assert off[-120:, -300:].any()
     assert not off[300:800, 500:1500].any()
     assert page.evaluate("[vexture.flood.stage.size.width, vexture.flood.stage.size.height]") == list(WIDE)
+
+
+def test_no_surf_on_flooded_land(opened_flood: Callable[..., Page], screenshot: Callable[..., Path]) -> None:
+    """At the height of the flood, next to no place that it has flooded is white with foam or a dark speck."""
+    page = opened_flood("series", (740, 560), "?bare")
+    page.evaluate("vexture.flood.step(2)")
+    page.evaluate("vexture.flood.relief(0)")
+    view(page, "Plan")
+    drawn(page)
+    picture = np.asarray(Image.open(screenshot(page)).convert("RGB")).astype(int)
+    u0, v0, u1, v1 = flood_page.FRAME.box
+    u, v = np.random.default_rng(2).uniform((u0, v0), (u1, v1), (40_000, 2)).T
+    height = flood_page.height(u, v)
+    (x0, y0), (x1, y1) = on_screen(page, u0, v0), on_screen(page, u1, v1)  # a plan is a straight map
+    seen = picture[
+        (y0 + (v - v0) / (v1 - v0) * (y1 - y0)).astype(int), (x0 + (u - u0) / (u1 - u0) * (x1 - x0)).astype(int)
+    ]
+    flooded = seen[(height > 0.5) & (height < flood_page.LEVELS[2] - 0.5)]
+    assert len(flooded) > 500
+    assert (flooded.min(axis=1) > 190).mean() < 0.005
+    assert (flooded.max(axis=1) < 40).mean() < 0.005

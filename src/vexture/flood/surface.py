@@ -139,7 +139,9 @@ def _filled(levels: NDArray[np.float64]) -> NDArray[np.float64]:
     even = np.pad(levels, [(0, rows % 2), (0, columns % 2)], constant_values=np.nan)
     blocks = even.reshape(even.shape[0] // 2, 2, even.shape[1] // 2, 2)
     coarse = _filled(_mean(blocks, (1, 3)))
-    return np.where(np.isfinite(levels), levels, _around(np.kron(coarse, np.ones((2, 2))))[:rows, :columns])
+    return np.where(
+        np.isfinite(levels), levels, _around(np.kron(coarse, np.ones((2, 2))).astype(np.float64))[:rows, :columns]
+    )
 
 
 def _from_shores(heights: NDArray[np.float64], wet: NDArray[np.bool_]) -> NDArray[np.float64]:
