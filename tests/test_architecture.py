@@ -115,7 +115,6 @@ HEAVY = {
     "vtracer",
     "watchfiles",
     "xarray",
-    "xugrid",
 }
 
 

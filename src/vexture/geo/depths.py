@@ -59,8 +59,8 @@ def _opened(
         with open_geotiff(source, time_dim, variable, notes) as series:
             yield series
     elif start.startswith(NETCDF):
-        from vexture.geo.mesh import holds_mesh, mesh_series
         from vexture.geo.netcdf import opened, series_of
+        from vexture.geo.ugrid import holds_mesh, mesh_series
 
         with opened(source, time_dim) as dataset:
             found = mesh_series if holds_mesh(dataset) else series_of

@@ -1,30 +1,28 @@
-"""Depths on the faces or on the nodes of a UGRID mesh, and their contours and grids in a frame.
+"""Depths on the faces or on the nodes of a mesh: their contours and grids in a frame.
 
 A mesh is contoured directly, not resampled to a raster first. Each face is divided into triangles around its middle,
 and values are linear in each triangle. The middle has the value of the face, and a node the mean of the faces around.
+Only faces near a shore are looked at in each step: of a million, some ten thousand.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Any, Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
-from vexture.errors import LimitError, SourceError, reason_of
 from vexture.geo.contours import Ring, above_dry, fitted_drawing
 from vexture.geo.crs import period, transformed
 from vexture.geo.extent import Bounds, Frame
-from vexture.geo.netcdf import crs_of, depths_of, listed, refuse_layers, time_axis, times_of
+from vexture.geo.patch import Faces, Patch, border_of, touched, touching
 from vexture.geo.raster import grid_places, outside
 from vexture.geo.series import Values, box_around
-from vexture.geo.triangles import Outline, outlines_above
+from vexture.geo.triangles import Outline, grid_ranges, located, outlines_above
 
-__all__ = ["MeshInFrame", "MeshSeries", "holds_mesh", "mesh_series"]
-
-MOST_FACES: Final = 2_000_000
+__all__ = ["MeshInFrame", "MeshSeries"]
 
 NEAR: Final = 1.5
 """Edges. Parts of the mesh's border this near to the frame's border, or beyond it, move outside the square."""
@@ -42,7 +40,7 @@ class MeshSeries:
     """
 
     nodes: NDArray[np.float64]
-    faces: NDArray[np.int64]
+    faces: Faces
     on_faces: bool
     crs: str | None
     variable: str
@@ -55,161 +53,95 @@ class MeshSeries:
         return box_around(self.nodes)
 
 
-def holds_mesh(dataset: Any) -> bool:
-    """Whether an open dataset has a mesh by the UGRID conventions."""
-    return any(_is_mesh(dataset[name]) for name in dataset.variables)
+class Sampled(NamedTuple):
+    """Samples of the frame's grid that lie in the mesh; the face of each, and its triangle in a patch of those faces.
 
+    `nodes` are the numbers of the patch's nodes, `corners` those of the triangle's corners in the patch, and `shares`
+    what each corner contributes to the sample.
+    """
 
-def _is_mesh(variable: Any) -> bool:
-    return bool(variable.attrs.get("cf_role") == "mesh_topology")
-
-
-def mesh_series(dataset: Any, time_dim: str | None, variable: str | None) -> MeshSeries:
-    """Depths on the mesh of an open dataset; errors as of `netcdf.series_of`."""
-    grid = _grid(dataset)
-    nodes = np.column_stack([grid.node_x, grid.node_y]).astype(np.float64)
-    faces = np.asarray(grid.face_node_connectivity).astype(np.int64)
-    if not np.isfinite(nodes).all() or faces.max(initial=-1) >= len(nodes) or not len(faces):
-        raise SourceError("its mesh has no faces, or names nodes that do not exist; write it again")
-    if len(faces) > MOST_FACES:
-        raise LimitError(f"its mesh has {len(faces):,} faces; the limit is {MOST_FACES:,}; cut out a part of it")
-    places = (grid.face_dimension, grid.node_dimension)
-    candidates = [
-        str(name)
-        for name in dataset.data_vars
-        if dataset[name].dtype.kind in "iuf"
-        and any(place in dataset[name].dims for place in places)
-        and not str(name).endswith(("_x", "_y", "_nodes", "_faces", "_links"))
-        and "start_index" not in dataset[name].attrs
-    ]
-    name = depths_of(dataset, candidates, variable)[0]
-    place = places[0] if places[0] in dataset[name].dims else places[1]
-    # the bed must be where the depths are
-    _, depth, bed = depths_of(dataset, [other for other in candidates if place in dataset[other].dims], name)
-    time = time_axis(dataset, dataset[name].dims, time_dim)
-    refuse_layers(dataset, name, (time, place))
-    times = times_of(dataset, time)
-
-    def read(step: int) -> tuple[Values, Values | None]:
-        return depth({time: step}, (place,)), bed({time: step}, (place,)) if bed else None
-
-    keys = dataset[grid.name].attrs.get("node_coordinates", "") if grid.name in dataset.variables else ""
-    coordinates = [dataset[key] for key in str(keys).split() if key in dataset.variables]
-    crs = crs_of(dataset, name, coordinates if len(coordinates) == 2 else [None, None])
-    return MeshSeries(nodes, _counter_clockwise(nodes, faces), place == places[0], crs, name, times, read)
-
-
-def _grid(dataset: Any) -> Any:
-    """Mesh of a dataset, by xugrid."""
-    import xugrid
-
-    names = [
-        str(name)
-        for name in dataset.variables
-        if _is_mesh(dataset[name]) and dataset[name].attrs.get("topology_dimension", 2) == 2
-    ]
-    if len(names) != 1:
-        raise SourceError(f"it has {len(names)} meshes of faces ({listed(names)}); write a file with one")
-    try:
-        return xugrid.Ugrid2d.from_dataset(dataset, names[0])
-    except Exception as error:  # xugrid raises any type of exception for an invalid mesh
-        raise SourceError(f"its mesh {names[0]!r} cannot be read ({reason_of(error)}); write it again") from None
-
-
-def _with_next(faces: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-    """Node after each node of a face, and which entries are nodes."""
-    count, columns = (faces >= 0).sum(axis=1)[:, None], np.arange(faces.shape[1])
-    return np.take_along_axis(faces, np.where(columns + 1 < count, columns + 1, 0), axis=1), columns < count
-
-
-def _counter_clockwise(nodes: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Faces with their nodes in counter-clockwise order."""
-    after, used = _with_next(faces)
-    here, there = nodes[faces], nodes[after]
-    twice = ((here[..., 0] * there[..., 1] - here[..., 1] * there[..., 0]) * used).sum(axis=1)
-    columns = np.arange(faces.shape[1])
-    back = np.where(used, used.sum(axis=1)[:, None] - 1 - columns, columns)
-    return np.where((twice < 0.0)[:, None], np.take_along_axis(faces, back, axis=1), faces)
+    samples: NDArray[np.int64]
+    faces: NDArray[np.intp]
+    patch: Patch
+    nodes: NDArray[np.intp]
+    corners: NDArray[np.int64]
+    shares: NDArray[np.float64]
 
 
 class MeshInFrame:
-    """A series on a mesh that is placed in the unit square of a frame: its triangles and their contours."""
+    """A series on a mesh that is placed in the unit square of a frame: its faces near it, and their contours."""
 
     def __init__(self, series: MeshSeries, system: str, frame: Frame) -> None:
-        self._frame, self._on_faces, self.read = frame, series.on_faces, series.read
-        self._face, column = np.nonzero(series.faces >= 0)
-        self._node = series.faces[self._face, column]
-        self._sizes = (len(series.faces), len(series.nodes))
-        nodes = transformed(series.nodes, system, frame.crs)
-        turn = period(frame.crs)
-        if turn:
-            middle = (frame.bounds[0] + frame.bounds[2]) / 2
-            nodes = nodes + np.array([np.round((middle - np.median(nodes[:, 0])) / turn) * turn, 0.0])
-        nodes = (nodes - frame.to_source[:, 2]) / frame.to_source[:, :2].diagonal()
-        fans = self._fans(series.faces)
-        self._points = np.concatenate([nodes, self._mean(nodes, self._node, self._face, len(series.faces))])
-        inside = np.isfinite(self._points[fans]).all(axis=(1, 2))
-        low, high = self._points[fans].min(axis=1), self._points[fans].max(axis=1)
-        inside &= (high > -OUTSIDE).all(axis=1) & (low < 1.0 + OUTSIDE).all(axis=1)
-        self._triangles = fans[inside]
+        self._frame, self._on_faces, self._series = frame, series.on_faces, series
+        nodes = _in_square(series.nodes, system, frame)
+        low, high = _boxes(nodes, series.faces)
+        near = (high > -OUTSIDE).all(axis=1) & (low < 1.0 + OUTSIDE).all(axis=1)
         x0, y0, x1, y1 = frame.box
-        seen = (high > (x0, y0)).all(axis=1) & (low < (x1, y1)).all(axis=1)
-        if not (seen & inside).any():
+        if not (near & (high > (x0, y0)).all(axis=1) & (low < (x1, y1)).all(axis=1)).any():
             raise outside(frame, series.box, system)
-        self._found = self._located()
+        kept = np.flatnonzero(near)
+        self._patch, numbers = Patch.of(series.faces[kept], len(nodes))
+        self._nodes = nodes[numbers]
+        self._chosen = kept if series.on_faces else numbers
+        self._border = border_of(self._patch.faces, self._patch.count)
+        self._sampled = self._located(low[kept], high[kept])
 
-    def _fans(self, faces: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Triangles from the middle of each face to each of its sides; the middles are numbered after the nodes."""
-        after, used = _with_next(faces)
-        middle = np.broadcast_to(self._sizes[1] + np.arange(len(faces))[:, None], faces.shape)
-        fans: NDArray[np.int64] = np.stack([middle, faces, after], axis=-1)[used]
-        return fans
-
-    def _mean(
-        self, values: NDArray[np.float64], source: NDArray[np.int64], target: NDArray[np.int64], count: int
-    ) -> NDArray[np.float64]:
-        """Mean, at each of `count` targets, of the known values at the sources beside it."""
-        flat = values.reshape(len(values), -1)
-        known = np.isfinite(flat[source]).all(axis=1)
-        times = np.bincount(target[known], minlength=count)
-        sums = [np.bincount(target[known], flat[source[known], k], count) for k in range(flat.shape[1])]
-        with np.errstate(invalid="ignore", divide="ignore"):
-            found: NDArray[np.float64] = np.stack(sums, axis=1) / times[:, None]
-        return found.reshape(count, *values.shape[1:])
+    def read(self, step: int) -> tuple[Values, Values | None]:
+        """Depth and height of the bed at a step, of the faces or nodes near the square."""
+        depth, bed = self._series.read(step)
+        return depth[self._chosen], None if bed is None else bed[self._chosen]
 
     def drawing(self, depth: Values, bed: Values | None, hmin: float) -> Drawing:
         """The area under water."""
-        values = self._everywhere(self._shored(depth, bed, hmin))
-        found = [one for one in outlines_above(self._points, self._triangles, values) if len(one.points) > 2]
-        return fitted_drawing(_grouped([self._ring(outline) for outline in found]))
+        known, above = above_dry(depth, hmin)
+        crossed, around = self._crossed(known & (above > 0.0))
+        part, numbers = Patch.of(self._patch.faces[around], self._patch.count)
+        chosen = around if self._on_faces else numbers
+        values = self._everywhere(part, self._shored(part, depth[chosen], None if bed is None else bed[chosen], hmin))
+        corners, face, column = part.fans()
+        inner = crossed[around][face]
+        sides = np.zeros((int(inner.sum()), 3), np.bool_)
+        sides[:, 1] = self._border[around][face[inner], column[inner]]
+        points = np.concatenate([self._nodes[numbers], part.on_faces(self._nodes[numbers])])
+        found = outlines_above(points, corners[inner], values, sides)
+        return fitted_drawing(_grouped([self._ring(outline) for outline in found if len(outline.points) > 2]))
 
-    def _shored(self, depth: Values, bed: Values | None, hmin: float) -> Values:
+    def _crossed(self, wet: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+        """Which faces an outline can cross or follow, and the numbers of all faces that their values depend on."""
+        faces, count = self._patch.faces, self._patch.count
+        if self._on_faces:
+            crossed = touching(faces, touched(faces, wet, count) & touched(faces, ~wet, count))
+        else:
+            crossed = touching(faces, np.append(wet, False)) & touching(faces, np.append(~wet, False))
+        crossed |= self._border.any(axis=1)
+        around = touching(faces, touched(faces, crossed, count))
+        if self._on_faces:  # values at nodes are of the faces around, and those of dry faces of the faces around them
+            around = touching(faces, touched(faces, around, count))
+        return crossed, np.flatnonzero(around)
+
+    def _shored(self, part: Patch, depth: Values, bed: Values | None, hmin: float) -> Values:
         """Depths less `hmin`, negative on dry faces or nodes beside wet ones; see `contours.shored`.
 
         Where the bed is known, from the mean water level around; else, and at walls, the shore is halfway.
         """
         known, above = above_dry(depth, hmin)
         wet = np.where(known & (above >= 0.0), above, np.nan)
-        estimate = -self._around(wet)
+        estimate = -self._around(part, wet)
         if bed is not None:
-            reached = self._around(wet + bed) - bed
+            reached = self._around(part, wet + bed) - bed
             estimate = np.where(reached < 0.0, reached, estimate)
         estimate = np.where(np.isfinite(estimate), np.minimum(estimate, -1e-6), -1.0)
         return np.where(known, above, estimate)
 
-    def _around(self, values: Values) -> Values:
+    def _around(self, part: Patch, values: Values) -> Values:
         """Mean of the values of faces that share nodes with each face, or of nodes that share faces."""
-        here, there = (self._face, self._node) if self._on_faces else (self._node, self._face)
-        faces, nodes = self._sizes
-        own, other = (faces, nodes) if self._on_faces else (nodes, faces)
-        return self._mean(self._mean(values, here, there, other), there, here, own)
+        return part.on_faces(part.on_nodes(values)) if self._on_faces else part.on_nodes(part.on_faces(values))
 
-    def _everywhere(self, values: Values) -> Values:
+    def _everywhere(self, part: Patch, values: Values) -> Values:
         """Values at all nodes and, after them, at the middles of all faces."""
-        faces, nodes = self._sizes
         if self._on_faces:
-            return np.concatenate([np.nan_to_num(self._mean(values, self._face, self._node, nodes), nan=-1.0), values])
-        return np.concatenate([values, self._mean(values, self._node, self._face, faces)])
+            return np.concatenate([np.nan_to_num(part.on_nodes(values), nan=-1.0), values])
+        return np.concatenate([values, part.on_faces(values)])
 
     def _ring(self, outline: Outline) -> Ring:
         """Ring of an outline; where the mesh's border is that of the frame, the ring extends outside the square."""
@@ -225,35 +157,53 @@ class MeshInFrame:
         bent = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) > 1e-3 * np.hypot(*a.T) * np.hypot(*b.T)
         return Ring(points, outline.cell, ends | (outline.border & bent))
 
-    def _located(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Samples of the frame's grid that lie in the mesh, and the triangle of each."""
-        import shapely
-
-        places, _ = grid_places(self._frame)
-        tree = shapely.STRtree(shapely.polygons(self._points[self._triangles[:, [0, 1, 2, 0]]]))
-        sample, triangle = tree.query(shapely.points(places), predicate="intersects")
-        sample, first = np.unique(sample, return_index=True)
-        return sample, triangle[first]
+    def _located(self, low: NDArray[np.float64], high: NDArray[np.float64]) -> Sampled:
+        """Samples of the frame's grid in the mesh; the faces are in boxes from `low` to `high`."""
+        places, (_, columns) = grid_places(self._frame)
+        x, y = places[:columns, 0], places[::columns, 1]
+        first, last = grid_ranges(low, high, x, y)
+        some = np.flatnonzero((last >= first).all(axis=1))
+        part, numbers = Patch.of(self._patch.faces[some], self._patch.count)
+        corners, face, _ = part.fans()
+        points = np.concatenate([self._nodes[numbers], part.on_faces(self._nodes[numbers])])
+        samples, triangle, shares = located(points[corners], x, y)
+        return Sampled(samples, some[face[triangle]], part, numbers, corners[triangle], shares)
 
     def grid(self, values: Values) -> NDArray[np.float32]:
         """Values over the frame, the northernmost row first: of the face, or linear between nodes; NaN beyond."""
         places, shape = grid_places(self._frame)
-        sample, triangle = self._found
-        corners = self._triangles[triangle]
-        out = np.full(len(places), np.nan)
+        out = np.full(len(places), np.nan, np.float32)
+        found = self._sampled
         if self._on_faces:
-            out[sample] = values[corners[:, 0] - self._sizes[1]]
+            out[found.samples] = values[found.faces]
         else:
-            everywhere = self._everywhere(values)
-            a, b, c = (self._points[corners[:, k]] for k in range(3))
-            ab, ac, ap = b - a, c - a, places[sample] - a
-            size = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
-            size = np.where(size == 0.0, 1.0, size)
-            v = (ap[:, 0] * ac[:, 1] - ap[:, 1] * ac[:, 0]) / size
-            w = (ab[:, 0] * ap[:, 1] - ab[:, 1] * ap[:, 0]) / size
-            shares = np.stack([1.0 - v - w, v, w], axis=1)
-            out[sample] = (shares * everywhere[corners]).sum(axis=1)
-        return out.reshape(shape).astype(np.float32)
+            everywhere = self._everywhere(found.patch, values[found.nodes])
+            out[found.samples] = (found.shares * everywhere[found.corners]).sum(axis=1)
+        return out.reshape(shape)
+
+
+def _in_square(places: NDArray[np.float64], system: str, frame: Frame) -> NDArray[np.float64]:
+    """Places, (n, 2), of a reference system in the unit square of a frame."""
+    nodes = transformed(places, system, frame.crs)
+    turn = period(frame.crs)
+    if turn:
+        middle = (frame.bounds[0] + frame.bounds[2]) / 2
+        nodes = nodes + np.array([np.round((middle - np.median(nodes[:, 0])) / turn) * turn, 0.0])
+    unit: NDArray[np.float64] = (nodes - frame.to_source[:, 2]) / frame.to_source[:, :2].diagonal()
+    return unit
+
+
+def _boxes(nodes: NDArray[np.float64], faces: Faces) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Lower and upper corners of boxes around faces, (m, 2); NaN where a node has no place."""
+    low = nodes[faces[:, 0]]
+    high = low.copy()
+    for column in faces.T[1:]:
+        place = nodes[np.where(column >= 0, column, faces[:, 0])]
+        np.minimum(low, place, out=low)
+        np.maximum(high, place, out=high)
+    unknown = ~np.isfinite(high).all(axis=1)
+    low[unknown] = high[unknown] = np.nan
+    return low, high
 
 
 def _grouped(rings: list[Ring]) -> list[list[Ring]]:

@@ -1,0 +1,112 @@
+"""Depths on a mesh of a NetCDF file by the UGRID conventions, as D-Flow FM and the quadtrees of SFINCS have them."""
+
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.errors import LimitError, SourceError, reason_of
+from vexture.geo.mesh import MeshSeries
+from vexture.geo.netcdf import crs_of, points_east, times_of
+from vexture.geo.patch import Faces, counter_clockwise
+from vexture.geo.series import Values
+from vexture.geo.variables import depths_of, has_depths, listed, loaded, refuse_layers, time_axis
+
+__all__ = ["MOST_FACES", "holds_mesh", "mesh_series", "name_of_mesh"]
+
+MOST_FACES: Final = 10_000_000
+"""For a mesh of a million faces, reading needs about 0.3 GB."""
+
+MOST_CORNERS: Final = 64
+"""Nodes of a face, for memory: tables of nodes have as many columns as the largest face has nodes."""
+
+
+def holds_mesh(dataset: Any) -> bool:
+    """Whether an open dataset has a mesh by the UGRID conventions."""
+    return any(_is_mesh(dataset[name]) for name in dataset.variables)
+
+
+def _is_mesh(variable: Any) -> bool:
+    return bool(variable.attrs.get("cf_role") == "mesh_topology")
+
+
+def name_of_mesh(dataset: Any) -> str:
+    """Name of the only mesh of faces."""
+    names = [
+        str(name)
+        for name in dataset.variables
+        if _is_mesh(dataset[name]) and dataset[name].attrs.get("topology_dimension", 2) == 2
+    ]
+    if len(names) != 1:
+        raise SourceError(f"it has {len(names)} meshes of faces ({listed(names)}); write a file with one")
+    return names[0]
+
+
+def mesh_series(dataset: Any, time_dim: str | None, variable: str | None) -> MeshSeries:
+    """Depths on the mesh of an open dataset; errors as of `netcdf.series_of`."""
+    mesh = name_of_mesh(dataset)
+    try:
+        axes, connections, places = _parts(dataset, mesh)
+        nodes = np.column_stack([loaded(axis) for axis in axes]).astype(np.float64)
+        faces = _faces(connections, len(nodes))
+    except (SourceError, LimitError):
+        raise
+    except Exception as error:  # an invalid mesh can be anything
+        raise SourceError(f"its mesh {mesh!r} cannot be read ({reason_of(error)}); write it again") from None
+    if not len(faces) or not np.isfinite(nodes).all() or faces[:, 0].min() < 0 or faces.max() >= len(nodes):
+        raise SourceError("its mesh has no faces, or names nodes that do not exist; write it again")
+    candidates = [
+        str(name)
+        for name in dataset.data_vars
+        if dataset[name].dtype.kind in "iuf"
+        and any(place in dataset[name].dims for place in places)
+        and not str(name).endswith(("_x", "_y", "_nodes", "_faces", "_links", "_domain", "_globalnr"))
+        and "start_index" not in dataset[name].attrs
+    ]
+    # the bed must be where the depths are
+    here = {place: [name for name in candidates if place in dataset[name].dims] for place in places}
+    on = [place for place in places if has_depths(dataset, here[place])]
+    name = depths_of(dataset, here[on[0]] if len(on) == 1 and variable is None else candidates, variable)[0]
+    place = places[0] if places[0] in dataset[name].dims else places[1]
+    _, depth, bed = depths_of(dataset, here[place], name)
+    time = time_axis(dataset, dataset[name].dims, time_dim)
+    refuse_layers(dataset, name, (time, place))
+    times = times_of(dataset, time)
+
+    def read(step: int) -> tuple[Values, Values | None]:
+        return depth({time: step}, (place,)), bed({time: step}, (place,)) if bed else None
+
+    crs = crs_of(dataset, name, axes)
+    return MeshSeries(nodes, counter_clockwise(nodes, faces), place == places[0], crs, name, times, read)
+
+
+def _parts(dataset: Any, mesh: str) -> tuple[list[Any], Any, tuple[str, str]]:
+    """Coordinates of the nodes, east and north; the table of nodes of faces; the dimensions of faces and of nodes."""
+    about = dataset[mesh].attrs
+    axes = [dataset[key] for key in str(about["node_coordinates"]).split()][:2]
+    if points_east(axes[1]) and not points_east(axes[0]):
+        axes.reverse()
+    connections = dataset[about["face_node_connectivity"]]
+    if about.get("face_dimension") == connections.dims[1]:
+        connections = connections.transpose()
+    size, corners = connections.shape
+    if size > MOST_FACES or corners > MOST_CORNERS:
+        raise LimitError(
+            f"its mesh {mesh!r} has {size:,} faces of up to {corners} nodes; "
+            f"the limit is {MOST_FACES:,} of {MOST_CORNERS}; cut out a part of it"
+        )
+    return axes, connections, (str(connections.dims[0]), str(axes[0].dims[0]))
+
+
+def _faces(connections: Any, count: int) -> Faces:
+    """Numbers of the nodes of faces, from 0, and -1 where a face has fewer."""
+    numbers: NDArray[Any] = loaded(connections)
+    with np.errstate(invalid="ignore"):
+        known = np.isfinite(numbers) & (numbers >= 0)
+    used = numbers[known]
+    # without `start_index` numbers are from 0; those of a file that names the number of nodes, but not 0, are from 1
+    start = connections.attrs.get("start_index", int(used.size > 0 and used.min() == 1 and used.max() == count))
+    faces = np.where(known, numbers, start - 1).astype(np.int64) - int(start)
+    if (faces[:, :-1] < 0).any() and ((faces[:, :-1] < 0) & (faces[:, 1:] >= 0)).any():
+        faces = np.take_along_axis(faces, np.argsort(faces < 0, axis=1, kind="stable"), axis=1)
+    return np.clip(faces, -1, count).astype(np.int32)

@@ -1,0 +1,183 @@
+"""Variables of a NetCDF file: which of them holds depths, and how they are read."""
+
+import re
+import warnings
+from collections.abc import Callable
+from typing import Any, Final
+
+import numpy as np
+
+from vexture.errors import LimitError, ParameterError, SourceError, reason_of
+from vexture.geo.series import Values
+
+__all__ = ["depths_of", "has_depths", "listed", "loaded", "refuse_layers", "time_axis"]
+
+# fmt: off
+DEPTHS: Final = (
+    {"depth", "waterdepth", "wd", "h", "hs", "hh", "flooddepth", "inundationdepth", "hmax"},
+    {"water_depth", "sea_floor_depth_below_sea_surface", "flood_water_thickness", "depth",
+     "water_depth_at_cell_center"},
+)
+"""Names of water depths, in lower case without ``_``, ``-`` and the name of a mesh, and their CF standard names."""
+
+LEVELS: Final = (
+    {"waterlevel", "wl", "level", "zs", "s1", "wse", "watersurface", "watersurfaceelevation", "ssh",
+     "zeta"},
+    {"sea_surface_height", "sea_surface_height_above_geoid", "sea_surface_height_above_mean_sea_level",
+     "sea_surface_height_above_reference_ellipsoid", "water_surface_height_above_reference_datum",
+     "water_surface_reference_datum_altitude"},
+)
+"""Those of water levels."""
+
+BEDS: Final = (
+    {"bed", "bedlevel", "zb", "bl", "altitude", "elevation", "dem", "topography", "topo", "ground", "groundlevel",
+     "flowelembl", "nodez"},
+    {"altitude", "surface_altitude", "ground_level_altitude", "height_above_mean_sea_level", "bed_level"},
+)
+"""Those of heights of the bed."""
+# fmt: on
+
+UNITS: Final = {"cm": 0.01, "mm": 0.001, "centimetre": 0.01, "ft": 0.3048, "feet": 0.3048, "foot": 0.3048}
+"""Length in metres of units other than the metre."""
+
+TIMES: Final = {"time", "t", "times", "datetime"}
+
+MESH: Final = re.compile(r"^mesh(2d?)?_", re.IGNORECASE)
+"""What models put in front of the names of variables on a mesh."""
+
+
+def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tuple[str, Any, Any]:
+    """Name of the variable of depths, a function that reads it, and one that reads the bed's height, or None.
+
+    Where the variable holds water levels, the function subtracts the bed's height from them.
+    """
+
+    def reader(name: str) -> Any:
+        down = str(dataset[name].attrs.get("positive", "up")).lower() == "down"
+        sign = -1.0 if down and name == bed else 1.0
+        return _kept(dataset[name], lambda places, order: sign * _read(dataset[name], places, order))
+
+    bed, level = (_only(dataset, candidates, names) for names in (BEDS, LEVELS))
+    read_bed = reader(bed) if bed is not None else None
+    if variable is not None and variable not in candidates:
+        raise ParameterError(f"there are no depths in {variable!r}; `variable` may be {listed(candidates)}")
+    chosen = _chosen(dataset, candidates, bed, level) if variable is None else variable
+    if chosen == bed or (chosen == level and read_bed is None):
+        what = "heights of the bed" if chosen == bed else "water levels, and no variable holds heights of the bed"
+        others = [name for name in candidates if name not in (bed, level)]
+        remedy = f"`variable` may be {listed(others)}" if others else "write depths into the file"
+        raise (SourceError if variable is None else ParameterError)(f"{chosen!r} holds {what}; {remedy}")
+    read = reader(chosen)
+    if chosen == level and read_bed is not None:
+        return chosen, lambda places, order: read(places, order) - read_bed(places, order), read_bed
+    return chosen, read, read_bed
+
+
+def has_depths(dataset: Any, candidates: list[str]) -> bool:
+    """Whether variables hold depths by their names, or a water level and the bed."""
+    both = _only(dataset, candidates, BEDS) is not None and _only(dataset, candidates, LEVELS) is not None
+    return both or any(_is(dataset, name, DEPTHS) for name in candidates)
+
+
+def _chosen(dataset: Any, candidates: list[str], bed: str | None, level: str | None) -> str:
+    """Variable that holds depths, or the water level above a known bed.
+
+    The one with the most times: models write the largest depth of a run beside the levels of all its times.
+    """
+    depths = [name for name in candidates if _is(dataset, name, DEPTHS)]
+    levels = [level] if level is not None and bed is not None else []
+    steps = {name: _steps(dataset, name) for name in depths + levels}
+    most = max(steps.values(), default=0)
+    choice = [name for name in depths if steps[name] == most] or levels
+    choice = choice or [name for name in candidates if name not in (bed, level)]
+    if not choice and level is None:
+        raise SourceError(f"no variable is on rows and columns; it has {listed(dataset.data_vars)}")
+    choice = choice or [level or ""]
+    if len(choice) > 1:
+        raise LimitError(f"depths may be in {listed(choice)}; choose one by `variable`")
+    return choice[0]
+
+
+def _steps(dataset: Any, name: str) -> int:
+    time = time_axis(dataset, dataset[name].dims, None)
+    return 1 if time is None else int(dataset.sizes[time])
+
+
+def _kept(variable: Any, read: Callable[..., Values]) -> Callable[..., Values]:
+    """Function that reads a variable, and keeps what it read last: a bed without times is the same at all steps."""
+    last: list[tuple[Any, Values]] = []
+
+    def again(places: dict[Any, Any], order: tuple[str, ...]) -> Values:
+        key = ({dim: place for dim, place in places.items() if dim in variable.dims}, order)
+        if not last or last[0][0] != key:
+            last[:] = [(key, read(places, order))]
+        return last[0][1]
+
+    return again
+
+
+def _is(dataset: Any, name: str, known: tuple[set[str], set[str]]) -> bool:
+    return _named(name, known) or _standard(dataset, name) in known[1]
+
+
+def _named(name: str, known: tuple[set[str], set[str]]) -> bool:
+    return MESH.sub("", name).lower().replace("_", "").replace("-", "") in known[0]
+
+
+def _standard(dataset: Any, name: str) -> str:
+    return str(dataset[name].attrs.get("standard_name", "")).lower()
+
+
+def _only(dataset: Any, candidates: list[str], known: tuple[set[str], set[str]]) -> str | None:
+    """The only variable with a usual name, or else with a standard name, which that of the step before may have too."""
+    found = [name for name in candidates if _named(name, known)]
+    found = found or [name for name in candidates if _standard(dataset, name) in known[1]]
+    return found[0] if len(found) == 1 else None
+
+
+def time_axis(dataset: Any, dims: Any, time_dim: str | None) -> str | None:
+    """Dimension of time among some: the one that the user names, else one with the name or the units of a time."""
+    if time_dim is not None:
+        return time_dim if time_dim in dims else None
+    for dim in map(str, dims):
+        axis = dataset.variables.get(dim)
+        about = {} if axis is None else axis.attrs
+        if dim.lower() in TIMES or about.get("standard_name") == "time" or " since " in str(about.get("units", "")):
+            return dim
+    return None
+
+
+def refuse_layers(dataset: Any, name: str, known: tuple[str | None, ...]) -> None:
+    """Refuse a variable with a further dimension, such as layers of water."""
+    extra = [dim for dim in dataset[name].dims if dim not in known and dataset.sizes[dim] > 1]
+    if extra:
+        raise SourceError(
+            f"variable {name!r} also has the dimension {listed(extra)} ({dataset.sizes[extra[0]]} long); "
+            "write a file with one layer, or name another `variable`"
+        )
+
+
+def loaded(variable: Any) -> Any:
+    """Values of a variable."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return np.asarray(variable.values)
+    except Exception as error:  # HDF5 and its codecs raise any type of exception for damaged data
+        why = reason_of(error)
+        raise SourceError(f"variable {variable.name!r} cannot be read ({why}); write the file again") from None
+
+
+def _read(variable: Any, places: dict[Any, Any], order: tuple[str, ...]) -> Values:
+    """Values of a variable in metres, at the given places along its dimensions, with the dimensions in an order."""
+    taken = variable.isel({dim: place for dim, place in places.items() if dim in variable.dims})
+    taken = taken.squeeze([dim for dim in taken.dims if dim not in order])
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is no depth
+        values: Values = loaded(taken.transpose(*order)).astype(np.float64)
+        return values * UNITS.get(str(variable.attrs.get("units", "m")).strip().lower(), 1.0)
+
+
+def listed(names: Any) -> str:
+    """The first eight names, for a message."""
+    shown = [repr(str(name)) for name in names]
+    return ", ".join(shown[:8]) + (f" and {len(shown) - 8} more" if len(shown) > 8 else "") or "none"
