@@ -35,6 +35,7 @@ def read_depths(
 ) -> Extent:
     """Read where water is from a GeoTIFF, or from a NetCDF file of rows and columns or of a UGRID mesh.
 
+    A file named as a partition of D-Flow FM, ``run_0000_map.nc``, is read with all others of its run beside it.
     Parameters and errors as in `vexture.read_extent`.
     """
     if not hmin > 0.0 or not np.isfinite(hmin):
@@ -60,8 +61,14 @@ def _opened(
             yield series
     elif start.startswith(NETCDF):
         from vexture.geo.netcdf import opened, series_of
+        from vexture.geo.partitions import merged_partitions, partitions_beside
         from vexture.geo.ugrid import holds_mesh, mesh_series
 
+        partitions = [] if isinstance(source, bytes) else partitions_beside(Path(source))
+        if partitions:
+            with merged_partitions(partitions, time_dim, variable) as run:
+                yield run
+            return
         with opened(source, time_dim) as dataset:
             found = mesh_series if holds_mesh(dataset) else series_of
             yield found(dataset, time_dim, variable)
