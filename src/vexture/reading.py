@@ -259,6 +259,7 @@ def read_extent(
     variable: str | None = None,
     layer: str | None = None,
     snap: float | None = None,
+    depths: Sequence[float] = (),
 ) -> "Extent":
     """Read wet areas from geographic data of any supported kind.
 
@@ -286,6 +287,8 @@ def read_extent(
     snap : float, optional
         Borders of two polygons that differ by no more than this become one, in parts of the frame's larger side; 3e-6
         by default, 0 leaves all as it is.
+    depths : sequence of float
+        Depths in metres above `hmin`: each step also holds the areas under at least so much water. Polygons have none.
 
     Returns
     -------
@@ -316,9 +319,16 @@ def read_extent(
     ('OGC:CRS84', 'lake')
     """
     shown = file_name or ("the data" if isinstance(source, bytes) else os.fspath(source))
-    options = {"frame": frame, "bounds": bounds, "crs": crs, "time_dim": time_dim, "variable": variable, "layer": layer}
+    options: dict[str, Any] = {
+        "frame": frame,
+        "bounds": bounds,
+        "crs": crs,
+        "time_dim": time_dim,
+        "variable": variable,
+        "layer": layer,
+    }
     try:
-        extent = extent_of(source, shown, hmin=hmin, snap=snap, **options)  # type: ignore[arg-type]
+        extent = extent_of(source, shown, hmin=hmin, snap=snap, depths=depths, **options)
     except (SourceError, LimitError, ParameterError) as error:
         if isinstance(source, bytes):
             raise
@@ -339,6 +349,7 @@ def extent_of(
     variable: str | None = None,
     layer: str | None = None,
     snap: float | None = None,
+    depths: Sequence[float] = (),
 ) -> "Extent":
     """Read wet areas as `read_extent` does, but without a warning, and without the file's name in errors."""
     source = unpacked(source)
@@ -347,8 +358,9 @@ def extent_of(
 
         _refuse({"`layer`": layer, "`snap`": snap}, "polygons, and this file holds depths")
         return read_depths(
-            source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable
-        )
+            source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable,
+            depths=depths,
+        )  # fmt: skip
     from vexture.geo.polygons import read_polygons
 
     _refuse({"`time_dim`": time_dim, "`variable`": variable}, "depths, and this file holds polygons")

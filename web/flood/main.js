@@ -242,6 +242,7 @@ async function run(stage, scene, views, fold) {
     view: (/** @type {string} */ name, how = {}) => viewed(named(name), how),
     pose: (/** @type {string} */ name) => stage.pose(named(name)),
     step: (/** @type {number} */ at) => player.go(at),
+    colours: (/** @type {string} */ shade) => shades.choose(shade),
     freeze: (/** @type {number | null} */ seconds) => stage.freeze(seconds),
     flat: (/** @type {boolean} */ on) => stage.flat(on),
     relief: (/** @type {number} */ times) => stage.relief(times),

@@ -2,6 +2,7 @@
 import { select } from '../viewer/dom.js';
 import { Legend } from './legend.js';
 import { arrivals, shadeOf } from './shades.js';
+import { classesOf } from './steps.js';
 
 /** @typedef {import('./shades.js').Shade} Shade */
 
@@ -19,10 +20,22 @@ const hoursBetween = (from, to) => (from && to ? (Date.parse(to) - Date.parse(fr
  * @param {(name: string) => Promise<{step: import('./steps.js').Step, surface: import('./levels.js').Levels | null}>}
  *   levelsAt
  */
-export function createShades(stage, player, { depths }, levelsAt) {
+export function createShades(stage, player, flood, levelsAt) {
   const legend = new Legend();
   let turn = 0;
   let current = /** @type {ReturnType<typeof shadeOf>} */ (null);
+
+  /** Show the map of the classes of the shown step, if that is how the water is coloured. */
+  async function map() {
+    const { step } = player;
+    const [mine, classes] = [turn, current?.mapped && step ? await classesOf(step) : null];
+    if (mine === turn && step === player.step) stage.sea.classes = classes;
+    stage.requestFrame();
+  }
+  player.addEventListener('step', () => void map().catch(failed));
+
+  /** @param {unknown} error */
+  const failed = (error) => player.dispatchEvent(new CustomEvent('failed', { detail: error }));
 
   /** Of all steps: the hours from the first to the last, and when each place was first under water. */
   async function arrived() {
@@ -40,13 +53,13 @@ export function createShades(stage, player, { depths }, levelsAt) {
     try {
       const { hours, values } = value === 'arrival' ? await arrived() : { hours: 0, values: null };
       if (mine !== turn) return;
-      const shade = shadeOf(/** @type {Shade} */ (value), depths, hours);
+      const shade = shadeOf(/** @type {Shade} */ (value), flood, hours);
       stage.sea.color(shade?.colors ?? null, values);
       current = shade;
       legend.show(shade);
-      stage.requestFrame();
+      await map();
     } catch (error) {
-      player.dispatchEvent(new CustomEvent('failed', { detail: error }));
+      failed(error);
       list.value = 'water';
       void chosen('water');
     }

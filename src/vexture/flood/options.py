@@ -68,7 +68,13 @@ class FloodOptions:
     def reading(self) -> dict[str, Any]:
         """Parameters of the reader that also apply to files uploaded later."""
         named = {"time_dim": self.time_dim, "variable": self.variable, "layer": self.layer}
-        return {name: value for name, value in named.items() if value is not None}
+        given: dict[str, Any] = {name: value for name, value in named.items() if value is not None}
+        return {**given, "depths": self.contours}
+
+    @property
+    def contours(self) -> tuple[float, ...]:
+        """Metres at which one class of the map of depths ends and the next one begins."""
+        return tuple(depth for depth in self.depths[1:] if depth > self.hmin)
 
     def amplitude_in(self, longest: float) -> float:
         """Amplitude of the shoreline in metres, in a frame whose longer side has this many metres."""

@@ -1,7 +1,7 @@
 """Rasters and meshes of water depths as `Extent`."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -32,6 +32,7 @@ def read_depths(
     time_dim: str | None = None,
     hmin: float = HMIN,
     variable: str | None = None,
+    depths: Sequence[float] = (),
 ) -> Extent:
     """Read where water is from a GeoTIFF, or from a NetCDF file of rows and columns or of a UGRID mesh.
 
@@ -40,12 +41,15 @@ def read_depths(
     """
     if not hmin > 0.0 or not np.isfinite(hmin):
         raise ParameterError(f"`hmin` is {hmin:g} m; it must be above 0")
+    for depth in depths:
+        if not depth > hmin or not np.isfinite(depth):
+            raise ParameterError(f"`depths` holds {depth:g} m; all must be above `hmin`, {hmin:g} m")
     notes = Notes()
     with _opened(unpacked(source), time_dim, variable, notes) as series:
         system = chosen_crs(crs, series.crs)
         if frame is None:
             frame = frame_of(bounds, _whole(series.box, system), system)
-        return _extent(series, Path(file_name).stem or "flood", system, frame, hmin, notes)
+        return _extent(series, Path(file_name).stem or "flood", system, frame, (hmin, *depths), notes)
 
 
 @contextmanager
@@ -78,8 +82,10 @@ def _opened(
         raise SourceError("it is neither GeoTIFF nor NetCDF; write it as one of them")
 
 
-def _extent(series: Series | MeshSeries, name: str, system: str, frame: Frame, hmin: float, notes: Notes) -> Extent:
-    """All steps of a series in one frame."""
+def _extent(
+    series: Series | MeshSeries, name: str, system: str, frame: Frame, depths: tuple[float, ...], notes: Notes
+) -> Extent:
+    """All steps of a series in one frame; the first of the depths is that from which it is wet."""
     placed: MeshInFrame | RasterInFrame
     if isinstance(series, MeshSeries):
         placed = MeshInFrame(series, system, frame)
@@ -90,9 +96,11 @@ def _extent(series: Series | MeshSeries, name: str, system: str, frame: Frame, h
     for number, time in enumerate(series.times):
         read, ground = placed.read(number)
         depth, ground = plausible(read), None if ground is None else plausible(ground)
-        drawing = placed.drawing(depth, ground, hmin)
-        drawing = replace(drawing, to_source=frame.to_source, name=name, crs=frame.crs, notes=notes.listed)
-        steps.append(Step(drawing, time, placed.grid(np.where(depth < 0.0, 0.0, depth))))
+        drawing, *deeper = (
+            replace(found, to_source=frame.to_source, name=name, crs=frame.crs, notes=notes.listed)
+            for found in placed.drawings(depth, ground, depths[0], depths[1:])
+        )
+        steps.append(Step(drawing, time, placed.grid(np.where(depth < 0.0, 0.0, depth)), tuple(deeper)))
         if bed is None and ground is not None:
             bed = placed.grid(ground)
         seen = seen or bool(np.isfinite(depth).any())

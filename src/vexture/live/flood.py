@@ -77,7 +77,7 @@ def make(asked: FloodOptions, say: Say) -> Made:
     frame = extent.frame
     amplitude = asked.amplitude_in(max(frame.metres))
     relief = relief_of(extent, asked.relief, asked.crs)
-    conversion = FloodConversion(frame, asked.hmin, asked.reading, relief, extent.bed)
+    conversion = FloodConversion(frame, asked.hmin, asked.reading, relief, asked.depths, extent.bed)
     drawn = drawn_ground(extent, relief)
     notes = [INVENTED] if relief.invented else []
     picture = drawn
