@@ -76,7 +76,12 @@ def test_a_chart_of_the_area_and_of_a_clicked_place(opened_flood: Callable[..., 
     expect(page.locator(".chart .of")).to_have_text(
         f"Water level at the marked place: 0.00 m to {flood_page.LEVELS[-1]:.2f} m"
     )
+    pin = page.get_by_role("img", name="The marked place", exact=True)
+    expect(pin).to_be_visible()
+    at = pin.evaluate("(pin) => { const { x, y } = pin.getBoundingClientRect(); return [x, y]; }")
+    assert at == pytest.approx(on_screen(page, *DEEP), abs=2)
     page.get_by_role("button", name="Chart of the area").click()
+    expect(pin).to_be_hidden()
     expect(page.locator(".chart .of")).to_contain_text("Area under water")
 
 

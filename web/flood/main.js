@@ -11,6 +11,7 @@ import { readLevels } from './levels.js';
 import { opennessOver } from './openness.js';
 import { hashOf, lookOf } from './link.js';
 import { createPanel, creditLines } from './panel.js';
+import { createPin } from './pin.js';
 import { Places } from './place.js';
 import { Player } from './player.js';
 import { wholes } from './presets.js';
@@ -224,9 +225,10 @@ async function run(stage, scene, views, fold) {
   });
   listenToKeys(views, viewed, player);
   const bar = createTimeBar(player);
-  bar.append(createChart(stage, player, placeAt, levelsAt));
+  const pin = createPin(stage);
+  bar.append(createChart(stage, player, placeAt, levelsAt, pin.mark));
   if (!bare) {
-    app.append(panel.panel, bar, shades.legend, createBearings(stage), notes.element);
+    app.append(pin.element, panel.panel, bar, shades.legend, createBearings(stage), notes.element);
     stage.inset = () => insetOf(panel.panel, bar);
   }
   stage.resize();

@@ -1,14 +1,18 @@
 /** The choice of what the water is coloured by, and its legend. */
 import { select } from '../viewer/dom.js';
 import { Legend } from './legend.js';
-import { arrivals, shadeOf } from './shades.js';
+import { arrivals, greatestDepths, shadeOf } from './shades.js';
 import { classesOf } from './steps.js';
 
 /** @typedef {import('./shades.js').Shade} Shade */
 
 const NAMES = Object.freeze(/** @type {const} */ ([
-  ['water', 'Water'], ['depth', 'Depth, in classes'], ['smooth', 'Depth'], ['arrival', 'Time of arrival'],
+  ['water', 'Water'], ['depth', 'Depth, in classes'], ['smooth', 'Depth'], ['greatest', 'Greatest depth'],
+  ['arrival', 'Time of arrival'],
 ]));
+
+/** @type {Set<Shade>} */
+const OF_SERIES = new Set(['greatest', 'arrival']);
 
 /** Hours between two times of the file. @param {string | null | undefined} from @param {string | null | undefined} to */
 const hoursBetween = (from, to) => (from && to ? (Date.parse(to) - Date.parse(from)) / 3_600_000 : NaN);
@@ -48,10 +52,19 @@ export function createShades(stage, player, flood, levelsAt) {
     return { hours, values: arrivals(steps, stage.surface.relief) };
   }
 
+  /** What the colours are of, if not of the depth now. @param {string} shade */
+  async function valuesOf(shade) {
+    if (shade === 'arrival') return arrived();
+    if (shade !== 'greatest') return { hours: 0, values: null };
+    const all = await Promise.all(player.names.map(levelsAt));
+    const { heights } = stage.surface.relief;
+    return { hours: 0, values: greatestDepths(all.flatMap(({ surface }) => surface?.levels ?? []), heights) };
+  }
+
   const chosen = async (/** @type {string} */ value) => {
     const mine = ++turn;
     try {
-      const { hours, values } = value === 'arrival' ? await arrived() : { hours: 0, values: null };
+      const { hours, values } = await valuesOf(value);
       if (mine !== turn) return;
       const shade = shadeOf(/** @type {Shade} */ (value), flood, hours);
       stage.sea.color(shade?.colors ?? null, values);
@@ -64,7 +77,7 @@ export function createShades(stage, player, flood, levelsAt) {
       void chosen('water');
     }
   };
-  const { row, list } = select('Colours', NAMES.filter(([shade]) => shade !== 'arrival' || player.count > 1), chosen);
+  const { row, list } = select('Colours', NAMES.filter(([shade]) => !OF_SERIES.has(shade) || player.count > 1), chosen);
   return {
     row,
     legend: legend.element,

@@ -1,7 +1,7 @@
-/** What the water is coloured by: its look, its depth, or the time at which it came. */
+/** What the water is coloured by: its look, its depth now or at its greatest, or the time at which it came. */
 
 /** @typedef {import('../src/water/fields.js').DepthColors} DepthColors */
-/** @typedef {'water' | 'depth' | 'smooth' | 'arrival'} Shade */
+/** @typedef {'water' | 'depth' | 'smooth' | 'greatest' | 'arrival'} Shade */
 
 /** Of the colours. */
 export const OPACITY = 0.9;
@@ -30,7 +30,7 @@ export function shadeOf(shade, { depths, arrivals: colors }, hours) {
   }
   const from = depths.map((one) => one.from);
   const found = colored(from, depths.map(({ color }) => color), shade === 'smooth');
-  return { colors: found, title: 'Depth', unit: 'm', mapped: shade === 'depth' };
+  return { colors: found, title: shade === 'greatest' ? 'Greatest depth' : 'Depth', unit: 'm', mapped: shade === 'depth' };
 }
 
 /**
@@ -55,6 +55,19 @@ export function arrivals(steps, { columns, rows }) {
     });
   }
   return found;
+}
+
+/**
+ * Greatest depth of all steps at each place, NaN where it is never under water or beside it.
+ *
+ * @param {Float32Array[]} levels
+ * @param {ArrayLike<number>} heights
+ */
+export function greatestDepths(levels, heights) {
+  return Float32Array.from(heights, (height, at) => {
+    const known = levels.map((one) => one[at]).filter((level) => !Number.isNaN(level));
+    return known.length > 0 ? Math.max(...known) - height : NaN;
+  });
 }
 
 /** A number for people: as short as it can be. @param {number} value */

@@ -4,7 +4,7 @@ import { areaText, lineOf } from '../flood/chart.js';
 import { entries } from '../flood/legend.js';
 import { hashOf, lookOf } from '../flood/link.js';
 import { Places } from '../flood/place.js';
-import { arrivals, shadeOf } from '../flood/shades.js';
+import { arrivals, greatestDepths, shadeOf } from '../flood/shades.js';
 
 describe('shades', () => {
   it('are none for water, classes of depths, and times of arrival', () => {
@@ -22,6 +22,11 @@ describe('shades', () => {
     expect(smooth.mapped).toBe(false);
     const late = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('arrival', flood, 12));
     expect(entries(late)).toEqual([{ color: '#000000', text: '0 to 6 h' }, { color: '#ffffff', text: 'over 6 h' }]);
+  });
+
+  it('of the greatest depth are of all steps', () => {
+    const levels = [[1, 2, NaN], [1.5, NaN, NaN]].map((one) => Float32Array.from(one));
+    expect([...greatestDepths(levels, [1, 0, 0])]).toEqual([0.5, 2, NaN]);
   });
 
   it('of arrival are of the first step that is wet, and go on a little beside the water', () => {
