@@ -78,7 +78,7 @@ def test_a_chart_of_the_area_and_of_a_clicked_place(opened_flood: Callable[..., 
     )
     pin = page.get_by_role("img", name="The marked place", exact=True)
     expect(pin).to_be_visible()
-    at = pin.evaluate("(pin) => { const { x, y } = pin.getBoundingClientRect(); return [x, y]; }")
+    at = pin.evaluate("(pin) => [pin.getBoundingClientRect()].map((box) => [box.x + box.width / 2, box.bottom])[0]")
     assert at == pytest.approx(on_screen(page, *DEEP), abs=2)
     page.get_by_role("button", name="Chart of the area").click()
     expect(pin).to_be_hidden()
