@@ -51,7 +51,14 @@ export function createShades(stage, player, { depths }, levelsAt) {
       void chosen('water');
     }
   };
-  const { row, list } = select('Colours', NAMES.filter(([shade]) => shade !== 'arrival' || player.count > 1), chosen);
+  const { row, list } = select('Colours', NAMES, chosen);
+  const arrival = /** @type {HTMLOptionElement} */ ([...list.options].find(({ value }) => value === 'arrival'));
+  const follow = () => {
+    arrival.hidden = arrival.disabled = player.count < 2;
+    if (list.value === 'arrival') void chosen('arrival');
+  };
+  player.addEventListener('steps', follow);
+  follow();
   return {
     row,
     legend: legend.element,
@@ -62,7 +69,7 @@ export function createShades(stage, player, { depths }, levelsAt) {
       return list.value;
     },
     choose: (/** @type {string} */ value) => {
-      if (![...list.options].some((option) => option.value === value)) return;
+      if (![...list.options].some((option) => option.value === value && !option.disabled)) return;
       list.value = value;
       void chosen(value);
     },

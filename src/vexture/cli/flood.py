@@ -15,15 +15,24 @@ __all__ = ["flood"]
 
 CLASSES = ",".join(f"{depth:g}" for depth in DEPTHS[1:])
 
+STAYS = {
+    "token_file": "takes no uploads",
+    "follow": "shows one state of a run",
+    "keep": "takes no water to keep",
+}
+"""Why options are of no use without a server."""
+
 EXAMPLE = """\b
 Examples:
   vexture flood --extent depth.nc --time-dim time --ground aerial.tif -o flood.html
   vexture flood --extent flood.gpkg --serve --token-file token
+  vexture flood --follow run_map.nc --serve --keep water
 """
 
 
 @click.command(epilog=EXAMPLE)
-@click.option("--extent", metavar="FILE", required=True, type=PATH, help="Where water is: polygons, or depths.")
+@click.option("--extent", metavar="FILE", type=PATH, help="Where water is: polygons, or depths.")
+@click.option("--follow", metavar="FILE", type=PATH, help="With --serve: NetCDF that a model writes, step by step.")
 @click.option("--crs", metavar="EPSG:N", help="Reference system of the extent, if its file does not say it.")
 @click.option("--bounds", metavar="W,S,E,N", help="Box to show, in units of the extent.  [default: all of the extent]")
 @click.option("--time-dim", metavar="NAME", help="Dimension of time: show each of its steps.")
@@ -43,12 +52,18 @@ Examples:
 @click.option("-o", "--output", metavar="PAGE.html", type=PATH, help="Write one page with everything in it.")
 @click.option("--serve", "serving", is_flag=True, help="Show the page on a server, until Ctrl-C.")
 @click.option("--token-file", metavar="F", type=PATH, help="With --serve: token of those who may push newer water.")
+@click.option(
+    "--keep", metavar="DIR", type=PATH, help="With --serve: keep what is pushed or followed for the next start."
+)
 @click.option("--host", default="127.0.0.1", show_default=True, help="With --serve: address to listen on.")
 @click.option("--port", type=int, default=8000, show_default=True, help="With --serve: port to listen on; 0 takes any.")
 def flood(
+    extent: Path | None,
+    follow: Path | None,
     output: Path | None,
     serving: bool,
     token_file: Path | None,
+    keep: Path | None,
     host: str,
     port: int,
     bounds: str | None,
@@ -65,11 +80,17 @@ def flood(
         if (output is None) == (not serving):
             both = "either -o PAGE.html or --serve" if serving else "-o PAGE.html for one page, or --serve for a server"
             raise ParameterError(f"vexture flood needs to know where to show it; give {both}")
-        if token_file is not None and not serving:
-            raise ParameterError(f"`token_file` {token_file}: one page takes no uploads; use it with `serve`")
+        if (extent is None) == (follow is None):
+            raise ParameterError("vexture flood shows one file; give either `extent` FILE or `follow` FILE")
+        for option, value in {"token_file": token_file, "follow": follow, "keep": keep}.items():
+            if value is not None and not serving:
+                raise ParameterError(f"`{option}` {value}: one page {STAYS[option]}; use it with `serve`")
         classes = DEPTHS if depths is None else depths_of(depths)
-        asked = FloodOptions(bounds=None if bounds is None else bounds_of(bounds), depths=classes, **parameters)
-        from vexture.live.flood import Made, export, serve
+        box = None if bounds is None else bounds_of(bounds)
+        source = follow if extent is None else extent
+        assert source is not None
+        asked = FloodOptions(source, bounds=box, depths=classes, **parameters)
+        from vexture.live.flood import Made, Serving, export, serve
 
         if output is not None:
             made, size = export(asked, output, say)
@@ -79,4 +100,8 @@ def flood(
         def show(where: str, made: Made) -> None:
             click.echo(f"vexture: {where} shows {made.described}; Ctrl-C ends it")
 
-        serve(asked, token_file, host, port, say=say, show=show)
+        if follow is not None:
+            from vexture.geo.growing import share_files
+
+            share_files()
+        serve(asked, Serving(host, port, token_file, follow is not None, keep), say=say, show=show)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vexture.content import NETCDF, TIFF, start_of, unpacked
 from vexture.errors import ParameterError, SourceError
@@ -14,11 +15,11 @@ from vexture.geo.crs import chosen_crs, frame_of, gis_packages, period
 from vexture.geo.extent import Bounds, Extent, Frame, Step
 from vexture.geo.mesh import MeshInFrame, MeshSeries
 from vexture.geo.raster import RasterInFrame
-from vexture.geo.series import Series, plausible
-from vexture.notes import Notes
+from vexture.geo.series import Series, Values, plausible
+from vexture.notes import Note, Notes
 from vexture.tolerance import HMIN
 
-__all__ = ["read_depths"]
+__all__ = ["DepthsInFrame", "depths_in_frame", "read_depths"]
 
 
 @gis_packages()
@@ -38,6 +39,68 @@ def read_depths(
     A file named as a partition of D-Flow FM, ``run_0000_map.nc``, is read with all others of its run beside it.
     Parameters and errors as in `vexture.read_extent`.
     """
+    with depths_in_frame(
+        source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable
+    ) as placed:
+        return _extent(placed)
+
+
+class DepthsInFrame:
+    """An open file of depths in a frame: the values at each of its times, and the steps that they make."""
+
+    def __init__(
+        self, series: Series | MeshSeries, name: str, system: str, frame: Frame, hmin: float, notes: Notes
+    ) -> None:
+        self._placed: MeshInFrame | RasterInFrame
+        if isinstance(series, MeshSeries):
+            self._placed = MeshInFrame(series, system, frame)
+        else:
+            self._placed = RasterInFrame(series, system, frame, notes)
+        self.frame, self.times, self.variable = frame, series.times, series.variable
+        self._name, self._hmin, self._notes = name, hmin, notes
+
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """What was left out, simplified or chosen until now."""
+        return self._notes.listed
+
+    def values(self, number: int) -> tuple[Values, Values | None]:
+        """Depth and, if the file has it, height of the bed at a time, near the frame."""
+        depth, bed = self._placed.read(number)
+        return plausible(depth), None if bed is None else plausible(bed)
+
+    def step(self, number: int, depth: Values, bed: Values | None) -> Step:
+        """The step of these values."""
+        drawing = self._placed.drawing(depth, bed, self._hmin)
+        frame = self.frame
+        drawing = replace(drawing, to_source=frame.to_source, name=self._name, crs=frame.crs, notes=self.notes)
+        return Step(drawing, self.times[number], self.grid(np.where(depth < 0.0, 0.0, depth)))
+
+    def grid(self, values: Values) -> NDArray[np.float32]:
+        """Values over the frame, the northernmost row first."""
+        return self._placed.grid(values)
+
+    def without_numbers(self) -> SourceError:
+        """The error of a file that holds no number at any time."""
+        when = "" if len(self.times) == 1 else f" at any of {len(self.times)} steps"
+        return SourceError(
+            f"variable {self.variable!r} holds no number within the bounds{when}; write depths, 0 where it is dry"
+        )
+
+
+@contextmanager
+def depths_in_frame(
+    source: bytes | str | os.PathLike[str],
+    file_name: str,
+    *,
+    frame: Frame | None,
+    bounds: Bounds | None,
+    crs: str | None,
+    time_dim: str | None,
+    hmin: float,
+    variable: str | None,
+) -> Iterator[DepthsInFrame]:
+    """Open a file of depths in a frame, by default a new one around `bounds`; see `read_depths`."""
     if not hmin > 0.0 or not np.isfinite(hmin):
         raise ParameterError(f"`hmin` is {hmin:g} m; it must be above 0")
     notes = Notes()
@@ -45,7 +108,7 @@ def read_depths(
         system = chosen_crs(crs, series.crs)
         if frame is None:
             frame = frame_of(bounds, _whole(series.box, system), system)
-        return _extent(series, Path(file_name).stem or "flood", system, frame, hmin, notes)
+        yield DepthsInFrame(series, Path(file_name).stem or "flood", system, frame, hmin, notes)
 
 
 @contextmanager
@@ -78,30 +141,19 @@ def _opened(
         raise SourceError("it is neither GeoTIFF nor NetCDF; write it as one of them")
 
 
-def _extent(series: Series | MeshSeries, name: str, system: str, frame: Frame, hmin: float, notes: Notes) -> Extent:
-    """All steps of a series in one frame."""
-    placed: MeshInFrame | RasterInFrame
-    if isinstance(series, MeshSeries):
-        placed = MeshInFrame(series, system, frame)
-    else:
-        placed = RasterInFrame(series, system, frame, notes)
+def _extent(placed: DepthsInFrame) -> Extent:
+    """All steps of a file."""
     steps: list[Step] = []
     bed, seen = None, False
-    for number, time in enumerate(series.times):
-        read, ground = placed.read(number)
-        depth, ground = plausible(read), None if ground is None else plausible(ground)
-        drawing = placed.drawing(depth, ground, hmin)
-        drawing = replace(drawing, to_source=frame.to_source, name=name, crs=frame.crs, notes=notes.listed)
-        steps.append(Step(drawing, time, placed.grid(np.where(depth < 0.0, 0.0, depth))))
+    for number in range(len(placed.times)):
+        depth, ground = placed.values(number)
+        steps.append(placed.step(number, depth, ground))
         if bed is None and ground is not None:
             bed = placed.grid(ground)
         seen = seen or bool(np.isfinite(depth).any())
     if not seen:
-        when = "" if len(steps) == 1 else f" at any of {len(steps)} steps"
-        raise SourceError(
-            f"variable {series.variable!r} holds no number within the bounds{when}; write depths, 0 where it is dry"
-        )
-    return Extent(frame, tuple(steps), bed, notes.listed)
+        raise placed.without_numbers()
+    return Extent(placed.frame, tuple(steps), bed, placed.notes)
 
 
 def _whole(box: Bounds, system: str) -> Bounds:
