@@ -27,10 +27,12 @@ if TYPE_CHECKING:  # at run time only what a flood needs is imported
 
     from vexture.flood.relief import Relief
     from vexture.flood.surface import WaterSurface
+    from vexture.flood.video import VideoOptions
     from vexture.live.follow import Start
     from vexture.live.kept import KeptWater
+    from vexture.live.video import Track
 
-__all__ = ["Made", "Serving", "export", "make", "serve"]
+__all__ = ["Made", "Serving", "Written", "export", "make", "serve"]
 
 GROUND_NAME, FOLD_NAME = "ground.webp", "shore.fold.ktx2"
 
@@ -68,6 +70,13 @@ class Made(NamedTuple):
         dry = sum(bool(shape.facts["dry"]) for shape in self.shapes)
         told = f"{counted(count, 'step')}, {self.texture_bytes} bytes of textures"
         return told + (f", {'nothing' if dry == count else f'in {dry} nothing'} under water" if dry else "")
+
+
+class Written(NamedTuple):
+    """A flood that was written into files, and their sizes in bytes."""
+
+    made: Made
+    sizes: dict[Path, int]
 
 
 def make(asked: FloodOptions, say: Say, start: "Start | None" = None, kept: "KeptWater | None" = None) -> Made:
@@ -199,12 +208,21 @@ def _fold(
     return fold.to_ktx2(), float(np.hypot(fold.displacement[..., 0], fold.displacement[..., 1]).max()) / share
 
 
-def export(asked: FloodOptions, output: Path, say: Say) -> tuple[Made, int]:
-    """Write one page that needs nothing else; return what it shows, and its size."""
-    from vexture.flood.ground import GROUND_TYPE
-    from vexture.texture.files import write_together
+def export(asked: FloodOptions, output: Path | None, video: "VideoOptions | None", say: Say, track: "Track") -> Written:
+    """Write one page that needs nothing else, a video of it, or both.
 
-    check_output(output, FLOOD)
+    `track` goes through the frames of the video, and may show how far it is.
+    """
+    from vexture.flood.ground import GROUND_TYPE
+    from vexture.texture.files import writable, write_together
+
+    built(FLOOD.script)
+    if output is not None:
+        check_output(output, FLOOD)
+    if video is not None:
+        from vexture.live.video import film
+
+        writable(video.path.parent)
     made = make(asked, say)
     flood = made.flood
     told = scene(
@@ -214,8 +232,11 @@ def export(asked: FloodOptions, output: Path, say: Say) -> tuple[Made, int]:
         None if flood.fold is None else data_address(File(flood.fold, TEXTURE_TYPE, "")),
     )
     page = whole_page(FLOOD, {"flood": told}, flood.title)
-    write_together({output: page})
-    return made, len(page)
+    files = {} if output is None else {output: page}
+    if video is not None:
+        files[video.path] = film(page, video, flood.title, track)
+    write_together(files)
+    return Written(made, {path: len(data) for path, data in files.items()})
 
 
 @dataclass(frozen=True, slots=True)
