@@ -99,10 +99,12 @@ HEAVY = {
     "scipy",
     "tinycss2",
 } | {
+    "av",
     "contourpy",
     "matplotlib",
     "netCDF4",
     "pandas",
+    "playwright",
     "pyogrio",
     "pyproj",
     "rasterio",

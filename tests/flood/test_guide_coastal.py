@@ -62,7 +62,8 @@ def test_the_guide_for_coastal_data_does_what_it_says(tmp_path: Path) -> None:
     geotiff(folder / "now.tif", depths(0.5))
     geotiff(folder / "next.tif", depths(0.7))
     geotiff(folder / "aerial.tif", np.full((3, 20, 40), 90, np.uint8))
-    with Reader(folder, {"8000": free_port()}) as reader:
+    series(folder / "run_map.nc", [0.4, 0.5])
+    with Reader(folder, {"8000": free_port(), "8001": free_port()}) as reader:
         for block in blocks_of("coastal-data"):
             reader.take(block)
             if "vexture push" in block.text:

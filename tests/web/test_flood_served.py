@@ -4,8 +4,11 @@ import io
 
 import numpy as np
 import pytest
+from flood_seen import PATIENCE
 from floods import BOUNDS, flood, flooding, sea
 from PIL import Image
+from playwright.sync_api import expect
+from runs import following, model
 
 from viewing import until
 
@@ -52,3 +55,30 @@ def test_what_is_pushed_is_seen(open_page, screenshot, tmp_path):
         after = white(page)
         screenshot(page, "after")
         assert 1.8 * before < after < 2.3 * before
+
+
+def test_the_slider_grows_with_a_run(open_page, screenshot, tmp_path):
+    path = tmp_path / "run_map.nc"
+    with model(path) as writer:
+        writer.does("open 6", "step 0.3")
+        with following(path, "--amplitude", "0") as server:
+            server.shows()
+            page = open_page(server.url, (740, 420))
+            page.evaluate("() => window.vexture.flood.ready")
+            page.evaluate("vexture.flood.freeze(0)")  # waves would take the time of what is waited for
+            slider = page.get_by_role("slider", name="Time")
+
+            def shown(text):
+                expect(slider).to_have_attribute("aria-valuetext", text, timeout=PATIENCE)
+
+            writer.does("step 0.4", "step 0.5")
+            shown("14 Feb 2026 08:00 UTC, step 3 of 3")
+            assert slider.get_attribute("max") == "2"
+            expect(page.locator(".chart .of")).to_contain_text("Area under water")
+            screenshot(page, "grown")
+            page.get_by_role("button", name="Previous step").click()
+            shown("14 Feb 2026 07:00 UTC, step 2 of 3")
+            writer.does("step 0.6")
+            shown("14 Feb 2026 07:00 UTC, step 2 of 4")
+            writer.does("close", "open 12", "step 0.2")
+            expect(page.locator(".when")).to_have_text("14 Feb 2026 12:00 UTC", timeout=PATIENCE)

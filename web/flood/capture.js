@@ -129,6 +129,19 @@ export function picture(stage, caption, size) {
 }
 
 /**
+ * The stage at a time of its waves, as a PNG in a data: URL.
+ *
+ * @param {import('./stage.js').Stage} stage @param {Caption | null} caption @param {number} seconds
+ */
+export function still(stage, caption, seconds) {
+  const canvas = document.createElement('canvas');
+  [canvas.width, canvas.height] = [stage.canvas.width, stage.canvas.height];
+  stage.freeze(seconds);
+  compose(/** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d')), stage, caption);
+  return canvas.toDataURL();
+}
+
+/**
  * Records what the stage shows until it is stopped.
  *
  * @param {import('./stage.js').Stage} stage

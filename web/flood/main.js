@@ -4,6 +4,7 @@ import { FoldTexture } from '../src/fold-texture.js';
 import { SimpleWater, chooseWater } from '../src/water/index.js';
 import { element } from '../viewer/dom.js';
 import { createBearings } from './bearings.js';
+import { still } from './capture.js';
 import { createChart } from './chart.js';
 import { Notes } from '../viewer/notes.js';
 import { bytesOf } from '../viewer/library.js';
@@ -202,13 +203,14 @@ async function run(stage, scene, views, fold) {
   };
   const shades = createShades(stage, player, flood, levelsAt);
   let shown = /** @type {View | null} */ (null);
+  const caption = () => ({
+    title: flood.title, when: player.count > 1 ? player.label(player.index) : '', shade: shades.shade,
+    credits: creditLines(flood.credits).join(' '),
+  });
   const takeaway = createTakeaway(stage, player, {
     name: flood.title.replace(/[^\p{L}\p{N}]+/gu, '-'),
     say: (message) => notes.say(message),
-    caption: () => ({
-      title: flood.title, when: player.count > 1 ? player.label(player.index) : '', shade: shades.shade,
-      credits: creditLines(flood.credits).join(' '),
-    }),
+    caption,
     link: () => {
       const { camera, controls } = stage;
       const pose = [camera.position, controls.target].flatMap(({ x, y, z }) => [x, y, z]);
@@ -245,6 +247,11 @@ async function run(stage, scene, views, fold) {
     pose: (/** @type {string} */ name) => stage.pose(named(name)),
     step: (/** @type {number} */ at) => player.go(at),
     colours: (/** @type {string} */ shade) => shades.choose(shade),
+    frame: async (/** @type {number} */ at, /** @type {number} */ seconds, /** @type {boolean} */ plain) => {
+      if (player.index !== at) await player.go(at);
+      if (player.index !== at) throw new Error(`Step ${at + 1} cannot be shown.`);
+      return still(stage, plain ? null : caption(), seconds);
+    },
     freeze: (/** @type {number | null} */ seconds) => stage.freeze(seconds),
     flat: (/** @type {boolean} */ on) => stage.flat(on),
     relief: (/** @type {number} */ times) => stage.relief(times),

@@ -7,8 +7,9 @@ import { labelOf } from './steps.js';
 const PACE = 1000;
 
 /**
- * Events: `step` when another step is shown or its water has changed, `steps` when the list of steps changes, `play`
- * when playback starts or stops, `newer` when there is a newer step that is not shown, `failed` with the error in `detail`.
+ * Events: `step` when another step is shown or its water has changed, `steps` when the list of steps changes or the water
+ * of any, `play` when playback starts or stops, `newer` when there is a newer step that is not shown, `failed` with the
+ * error in `detail`.
  */
 export class Player extends EventTarget {
   #show;
@@ -35,6 +36,7 @@ export class Player extends EventTarget {
     this.#show = show;
     this.#prepare = prepare;
     steps.addEventListener('names', () => this.#renamed());
+    steps.addEventListener('changed', () => this.dispatchEvent(new Event('steps')));
   }
 
   get names() {

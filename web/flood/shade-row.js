@@ -11,7 +11,7 @@ const NAMES = Object.freeze(/** @type {const} */ ([
   ['arrival', 'Time of arrival'],
 ]));
 
-/** @type {Set<Shade>} */
+/** @type {Set<string>} */
 const OF_SERIES = new Set(['greatest', 'arrival']);
 
 /** Hours between two times of the file. @param {string | null | undefined} from @param {string | null | undefined} to */
@@ -77,7 +77,14 @@ export function createShades(stage, player, flood, levelsAt) {
       void chosen('water');
     }
   };
-  const { row, list } = select('Colours', NAMES.filter(([shade]) => !OF_SERIES.has(shade) || player.count > 1), chosen);
+  const { row, list } = select('Colours', NAMES, chosen);
+  const ofSeries = [...list.options].filter(({ value }) => OF_SERIES.has(value));
+  const follow = () => {
+    for (const option of ofSeries) option.hidden = option.disabled = player.count < 2;
+    if (OF_SERIES.has(list.value)) void chosen(list.value);
+  };
+  player.addEventListener('steps', follow);
+  follow();
   return {
     row,
     legend: legend.element,
@@ -88,7 +95,7 @@ export function createShades(stage, player, flood, levelsAt) {
       return list.value;
     },
     choose: (/** @type {string} */ value) => {
-      if (![...list.options].some((option) => option.value === value)) return;
+      if (![...list.options].some((option) => option.value === value && !option.disabled)) return;
       list.value = value;
       void chosen(value);
     },

@@ -62,7 +62,7 @@ export function stepsAmong(names, prefix) {
     .sort((one, other) => newest(one) - newest(other) || IN_ORDER.compare(one, other));
 }
 
-/** Dispatches `names` when the list changes. */
+/** Dispatches `names` when the list changes, and `changed` when the water of a step that is loaded does. */
 export class Steps extends EventTarget {
   /** @type {Map<string, Manifest>} */
   #embedded = new Map();
@@ -152,6 +152,7 @@ export class Steps extends EventTarget {
     if (!this.#server) throw new Error(`There is no step ${name}.`);
     const base = new URL(`shapes/${encodeURIComponent(name)}`, this.#server).href;
     const texture = await LiveVectorTexture.connect(base);
+    texture.addEventListener('change', () => this.dispatchEvent(new Event('changed')));
     const current = () => /** @type {Manifest} */ (/** @type {unknown} */ (texture.manifest));
     return { name, texture, base, get manifest() { return current(); } };
   }

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vexture.content import NETCDF, TIFF, start_of, unpacked
 from vexture.errors import ParameterError, SourceError
@@ -14,11 +15,11 @@ from vexture.geo.crs import chosen_crs, frame_of, gis_packages, period
 from vexture.geo.extent import Bounds, Extent, Frame, Step
 from vexture.geo.mesh import MeshInFrame, MeshSeries
 from vexture.geo.raster import RasterInFrame
-from vexture.geo.series import Series, plausible
-from vexture.notes import Notes
+from vexture.geo.series import Series, Values, plausible
+from vexture.notes import Note, Notes
 from vexture.tolerance import HMIN
 
-__all__ = ["read_depths"]
+__all__ = ["DepthsInFrame", "depths_in_frame", "read_depths"]
 
 
 @gis_packages()
@@ -39,6 +40,78 @@ def read_depths(
     A file named as a partition of D-Flow FM, ``run_0000_map.nc``, is read with all others of its run beside it.
     Parameters and errors as in `vexture.read_extent`.
     """
+    with depths_in_frame(
+        source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable,
+        depths=depths,
+    ) as placed:  # fmt: skip
+        return _extent(placed)
+
+
+class DepthsInFrame:
+    """An open file of depths in a frame: the values at each of its times, and the steps that they make."""
+
+    def __init__(
+        self,
+        series: Series | MeshSeries,
+        name: str,
+        system: str,
+        frame: Frame,
+        hmin: float,
+        depths: tuple[float, ...],
+        notes: Notes,
+    ) -> None:
+        self._placed: MeshInFrame | RasterInFrame
+        if isinstance(series, MeshSeries):
+            self._placed = MeshInFrame(series, system, frame)
+        else:
+            self._placed = RasterInFrame(series, system, frame, notes)
+        self.frame, self.times, self.variable = frame, series.times, series.variable
+        self._name, self._hmin, self._depths, self._notes = name, hmin, depths, notes
+
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """What was left out, simplified or chosen until now."""
+        return self._notes.listed
+
+    def values(self, number: int) -> tuple[Values, Values | None]:
+        """Depth and, if the file has it, height of the bed at a time, near the frame."""
+        depth, bed = self._placed.read(number)
+        return plausible(depth), None if bed is None else plausible(bed)
+
+    def step(self, number: int, depth: Values, bed: Values | None) -> Step:
+        """The step of these values."""
+        drawing, *deeper = (
+            replace(area, to_source=self.frame.to_source, name=self._name, crs=self.frame.crs, notes=self.notes)
+            for area in self._placed.drawings(depth, bed, self._hmin, self._depths)
+        )
+        return Step(drawing, self.times[number], self.grid(np.where(depth < 0.0, 0.0, depth)), tuple(deeper))
+
+    def grid(self, values: Values) -> NDArray[np.float32]:
+        """Values over the frame, the northernmost row first."""
+        return self._placed.grid(values)
+
+    def without_numbers(self) -> SourceError:
+        """The error of a file that holds no number at any time."""
+        when = "" if len(self.times) == 1 else f" at any of {len(self.times)} steps"
+        return SourceError(
+            f"variable {self.variable!r} holds no number within the bounds{when}; write depths, 0 where it is dry"
+        )
+
+
+@contextmanager
+def depths_in_frame(
+    source: bytes | str | os.PathLike[str],
+    file_name: str,
+    *,
+    frame: Frame | None,
+    bounds: Bounds | None,
+    crs: str | None,
+    time_dim: str | None,
+    hmin: float,
+    variable: str | None,
+    depths: Sequence[float] = (),
+) -> Iterator[DepthsInFrame]:
+    """Open a file of depths in a frame, by default a new one around `bounds`; see `read_depths`."""
     if not hmin > 0.0 or not np.isfinite(hmin):
         raise ParameterError(f"`hmin` is {hmin:g} m; it must be above 0")
     for depth in depths:
@@ -49,7 +122,7 @@ def read_depths(
         system = chosen_crs(crs, series.crs)
         if frame is None:
             frame = frame_of(bounds, _whole(series.box, system), system)
-        return _extent(series, Path(file_name).stem or "flood", system, frame, (hmin, *depths), notes)
+        yield DepthsInFrame(series, Path(file_name).stem or "flood", system, frame, hmin, tuple(depths), notes)
 
 
 @contextmanager
@@ -82,34 +155,19 @@ def _opened(
         raise SourceError("it is neither GeoTIFF nor NetCDF; write it as one of them")
 
 
-def _extent(
-    series: Series | MeshSeries, name: str, system: str, frame: Frame, depths: tuple[float, ...], notes: Notes
-) -> Extent:
-    """All steps of a series in one frame; the first of the depths is that from which it is wet."""
-    placed: MeshInFrame | RasterInFrame
-    if isinstance(series, MeshSeries):
-        placed = MeshInFrame(series, system, frame)
-    else:
-        placed = RasterInFrame(series, system, frame, notes)
+def _extent(placed: DepthsInFrame) -> Extent:
+    """All steps of a file."""
     steps: list[Step] = []
     bed, seen = None, False
-    for number, time in enumerate(series.times):
-        read, ground = placed.read(number)
-        depth, ground = plausible(read), None if ground is None else plausible(ground)
-        drawing, *deeper = (
-            replace(found, to_source=frame.to_source, name=name, crs=frame.crs, notes=notes.listed)
-            for found in placed.drawings(depth, ground, depths[0], depths[1:])
-        )
-        steps.append(Step(drawing, time, placed.grid(np.where(depth < 0.0, 0.0, depth)), tuple(deeper)))
+    for number in range(len(placed.times)):
+        depth, ground = placed.values(number)
+        steps.append(placed.step(number, depth, ground))
         if bed is None and ground is not None:
             bed = placed.grid(ground)
         seen = seen or bool(np.isfinite(depth).any())
     if not seen:
-        when = "" if len(steps) == 1 else f" at any of {len(steps)} steps"
-        raise SourceError(
-            f"variable {series.variable!r} holds no number within the bounds{when}; write depths, 0 where it is dry"
-        )
-    return Extent(frame, tuple(steps), bed, notes.listed)
+        raise placed.without_numbers()
+    return Extent(placed.frame, tuple(steps), bed, placed.notes)
 
 
 def _whole(box: Bounds, system: str) -> Bounds:

@@ -1,20 +1,10 @@
 """Conversion in processes of their own, so that one that takes too long or too much memory cannot harm the server."""
 
 import asyncio
-import multiprocessing
-import os
-import resource
-import secrets
-import shutil
-import signal
-import tempfile
-import threading
-from collections.abc import AsyncIterator, Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import AsyncIterator, Iterator
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import AsyncExitStack, asynccontextmanager, contextmanager, suppress
-from multiprocessing.connection import wait
-from typing import Any, Final, TypeVar
+from typing import Final
 
 from vexture.content import FileKind, kind_of, start_of
 from vexture.errors import LimitError, VextureError
@@ -22,11 +12,10 @@ from vexture.live.documents import PUBLISHED_PARAMETERS, SMALL, shape_of
 from vexture.live.flood_conversion import FloodConversion
 from vexture.live.limits import Limits
 from vexture.live.shelf import Shape
+from vexture.live.worker import Worker
 from vexture.parameters import Parameters
 
 __all__ = ["BusyError", "Converter"]
-
-T = TypeVar("T")
 
 SIDE_BY_SIDE: Final = 2
 """Conversions at one time: a slow one does not keep all others waiting."""
@@ -49,14 +38,14 @@ class Converter:
         self._limits = limits
         self._how = how
         self._waiting = 0
-        self._workers = [_Worker() for _ in range(SIDE_BY_SIDE)]
-        self._idle: asyncio.LifoQueue[_Worker] = asyncio.LifoQueue()  # the last used is warm; others start when needed
+        self._workers = [Worker(MEMORY_BYTES) for _ in range(SIDE_BY_SIDE)]
+        self._idle: asyncio.LifoQueue[Worker] = asyncio.LifoQueue()  # the last used is warm; others start when needed
         for worker in self._workers:
             self._idle.put_nowait(worker)
         self._ended = False
 
     @asynccontextmanager
-    async def _worker(self) -> AsyncIterator["_Worker"]:
+    async def _worker(self) -> AsyncIterator[Worker]:
         """Wait for a worker that is idle."""
         worker = await self._idle.get()
         try:
@@ -108,52 +97,6 @@ class Converter:
         self._ended = True
         for worker in self._workers:
             worker.kill()
-
-
-class _Worker:
-    """A process, which is started when it is needed and can be killed alone."""
-
-    def __init__(self) -> None:
-        self._pool: ProcessPoolExecutor | None = None
-        self._folder = os.path.join(tempfile.gettempdir(), f"vexture-{secrets.token_hex(8)}")
-
-    def run(self, work: Callable[..., T], *given: Any) -> asyncio.Future[T]:
-        """Do one piece of work."""
-        if self._pool is None:
-            clean = multiprocessing.get_context("spawn")  # inherits nothing of the server, above all no sockets
-            self._pool = ProcessPoolExecutor(1, clean, _prepare, (self._folder,))
-        return asyncio.get_running_loop().run_in_executor(self._pool, work, *given)
-
-    def kill(self) -> None:
-        """End the process, whatever it does."""
-        pool, self._pool = self._pool, None
-        if pool is not None:
-            for process in list(pool._processes.values()):  # before Python 3.14 there is no kill_workers
-                process.kill()
-            pool.shutdown(wait=False, cancel_futures=True)
-            shutil.rmtree(self._folder, ignore_errors=True)
-
-
-def _prepare(folder: str) -> None:
-    """Set up the process: it ends with the server, ignores Ctrl-C, and has limited memory.
-
-    Its temporary files are in a folder of its own, which is removed whichever of the two is killed.
-    """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, resource.getrlimit(resource.RLIMIT_AS)[1]))
-    parent = multiprocessing.parent_process()
-    assert parent is not None
-    sentinel = parent.sentinel
-    os.makedirs(folder, mode=0o700, exist_ok=True)
-    tempfile.tempdir = folder
-
-    def end_with_the_server() -> None:
-        wait([sentinel])
-        shutil.rmtree(folder, ignore_errors=True)
-        os._exit(1)
-
-    threading.Thread(target=end_with_the_server, daemon=True).start()
 
 
 def _warm(how: Parameters | FloodConversion) -> None:

@@ -1,17 +1,18 @@
 """`vexture flood`: the user's files as one page, or on a server that accepts newer ones."""
 
 from collections.abc import Callable, Sequence
-from contextlib import closing, suppress
-from dataclasses import replace
+from contextlib import ExitStack, closing, suppress
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.content import about
 from vexture.drawing import Drawing
-from vexture.errors import SourceError, counted
+from vexture.errors import ParameterError, SourceError, counted
 from vexture.flood.options import FloodOptions
 from vexture.flood.scene import PREFIX, Flood, PageNote, labels, scene, step_names
 from vexture.geo.extent import Extent, Frame
@@ -21,7 +22,17 @@ from vexture.live.page import FLOOD, built, check_output, data_address, served_p
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape, manifest
 from vexture.notes import line_of
 
-__all__ = ["Made", "export", "make", "serve"]
+if TYPE_CHECKING:  # at run time only what a flood needs is imported
+    from socket import socket
+
+    from vexture.flood.relief import Relief
+    from vexture.flood.surface import WaterSurface
+    from vexture.flood.video import VideoOptions
+    from vexture.live.follow import Start
+    from vexture.live.kept import KeptWater
+    from vexture.live.video import Track
+
+__all__ = ["Made", "Serving", "Written", "export", "make", "serve"]
 
 GROUND_NAME, FOLD_NAME = "ground.webp", "shore.fold.ktx2"
 
@@ -61,22 +72,35 @@ class Made(NamedTuple):
         return told + (f", {'nothing' if dry == count else f'in {dry} nothing'} under water" if dry else "")
 
 
-def make(asked: FloodOptions, say: Say) -> Made:
-    """Read all files of a flood and convert them; `say` gets warnings and notes for the user."""
+class Written(NamedTuple):
+    """A flood that was written into files, and their sizes in bytes."""
+
+    made: Made
+    sizes: dict[Path, int]
+
+
+def make(asked: FloodOptions, say: Say, start: "Start | None" = None, kept: "KeptWater | None" = None) -> Made:
+    """Read all files of a flood and convert them; `say` gets warnings and notes for the user.
+
+    Of a followed run, `start` are its first steps. What of them is `kept` already is not converted again.
+    """
     from vexture.flood.credits import credits_of
     from vexture.flood.drawn_ground import drawn_ground
     from vexture.flood.ground import encoded, ground_of
-    from vexture.flood.open_water import open_water
-    from vexture.flood.relief import first_wet, relief_of
+    from vexture.flood.relief import relief_of
     from vexture.flood.surface import highest_of, surface_of
     from vexture.flood.views import views_of
 
-    extent = _read(asked)
+    extent = _read(asked) if start is None else start.extent
     if line := line_of(str(asked.extent), extent.notes):
         say(f"warning: {line}")
     frame = extent.frame
     amplitude = asked.amplitude_in(max(frame.metres))
-    relief = relief_of(extent, asked.relief, asked.crs)
+
+    def heights() -> "Relief":
+        return relief_of(extent, asked.relief, asked.crs)
+
+    relief = heights() if kept is None else kept.relief(asked, extent, heights)
     conversion = FloodConversion(frame, asked.hmin, asked.reading, relief, asked.depths, extent.bed)
     drawn = drawn_ground(extent, relief)
     notes = [INVENTED] if relief.invented else []
@@ -86,27 +110,15 @@ def make(asked: FloodOptions, say: Say) -> Made:
     else:
         picture, told = ground_of(asked.ground, frame, drawn, bounds_given=asked.bounds is not None)
         notes += told
-    first = first_wet(extent)
-    steps = extent.steps
-    surfaces = [surface_of(step, frame, relief, extent.bed, asked.hmin) for step in steps]
-    named = zip(steps, surfaces, step_names(len(steps)), labels([step.time for step in steps]), strict=True)
-    shapes = [conversion.step(step, surface, name, label) for step, surface, name, label in named]
-    fold, openness = None, None
-    if first is None:
-        notes.append(DRY)
-    else:
-        openness = open_water(first.drawing, frame)
-        if amplitude and openness.any():
-            fold, reached = _fold(first.drawing, openness, amplitude, asked.period, frame)
-            if asked.amplitude is not None and reached < LESS * amplitude:
-                notes.append(
-                    PageNote(f"Waves run up {reached:.3g} m: {amplitude:.3g} m would turn the shore over.", "")
-                )
-        elif asked.amplitude:
-            notes.append(SHELTERED)
+    surfaces = [surface_of(step, frame, relief, extent.bed, asked.hmin) for step in extent.steps]
+    shapes = _shapes(conversion, extent, surfaces, start, kept)
+    fold, openness, told = _shore(asked, extent, amplitude)
+    notes += told if start is None else [note for note in told if note is not DRY]  # water may come
     if relief.known < WHOLE:
         notes.append(PageNote(f"{relief.known:.0%} of the ground has a height; the rest goes on as its border.", ""))
-    credits = credits_of(asked.extent).with_given(title=asked.title, source=asked.source, licence=asked.licence)
+    credits = (credits_of(asked.extent) if start is None else start.credits).with_given(
+        title=asked.title, source=asked.source, licence=asked.licence
+    )
     flood = Flood(
         title=credits.title or asked.extent.name.partition(".")[0] or PREFIX,
         credits=credits,
@@ -122,6 +134,49 @@ def make(asked: FloodOptions, say: Say) -> Made:
     for note in notes:
         say(" ".join(("note:", *filter(None, note))))
     return Made(flood, conversion, shapes)
+
+
+def _shapes(
+    conversion: FloodConversion,
+    extent: Extent,
+    surfaces: "Sequence[WaterSurface]",
+    start: "Start | None",
+    kept: "KeptWater | None",
+) -> list[Shape]:
+    """Shapes of the steps; of a followed run those are not converted that are kept and have not changed."""
+    from vexture.live.follow import NAMES, is_made_of, marked
+
+    steps, told = extent.steps, labels([step.time for step in extent.steps])
+    if start is None:
+        named = zip(steps, surfaces, step_names(len(steps)), told, strict=True)
+        return [conversion.step(step, surface, name, label) for step, surface, name, label in named]
+    shapes = []
+    for step, surface, name, label, known in zip(steps, surfaces, NAMES, told, start.known, strict=False):
+        before = None if kept is None else kept.shape(name)
+        if before is None or not is_made_of(before, known):
+            before = marked(conversion.step(step, surface, name, label), known)
+        shapes.append(before)
+    return shapes
+
+
+def _shore(
+    asked: FloodOptions, extent: Extent, amplitude: float
+) -> tuple[bytes | None, NDArray[np.float64] | None, list[PageNote]]:
+    """File that moves the shore, where there are waves, and remarks about both."""
+    from vexture.flood.open_water import open_water
+    from vexture.flood.relief import first_wet
+
+    first = first_wet(extent)
+    if first is None:
+        return None, None, [DRY]
+    openness = open_water(first.drawing, extent.frame)
+    if amplitude and openness.any():
+        fold, reached = _fold(first.drawing, openness, amplitude, asked.period, extent.frame)
+        if asked.amplitude is None or reached >= LESS * amplitude:
+            return fold, openness, []
+        told = f"Waves run up {reached:.3g} m: {amplitude:.3g} m would turn the shore over."
+        return fold, openness, [PageNote(told, "")]
+    return None, openness, [SHELTERED] if asked.amplitude else []
 
 
 def _read(asked: FloodOptions) -> Extent:
@@ -153,12 +208,21 @@ def _fold(
     return fold.to_ktx2(), float(np.hypot(fold.displacement[..., 0], fold.displacement[..., 1]).max()) / share
 
 
-def export(asked: FloodOptions, output: Path, say: Say) -> tuple[Made, int]:
-    """Write one page that needs nothing else; return what it shows, and its size."""
-    from vexture.flood.ground import GROUND_TYPE
-    from vexture.texture.files import write_together
+def export(asked: FloodOptions, output: Path | None, video: "VideoOptions | None", say: Say, track: "Track") -> Written:
+    """Write one page that needs nothing else, a video of it, or both.
 
-    check_output(output, FLOOD)
+    `track` goes through the frames of the video, and may show how far it is.
+    """
+    from vexture.flood.ground import GROUND_TYPE
+    from vexture.texture.files import writable, write_together
+
+    built(FLOOD.script)
+    if output is not None:
+        check_output(output, FLOOD)
+    if video is not None:
+        from vexture.live.video import film
+
+        writable(video.path.parent)
     made = make(asked, say)
     flood = made.flood
     told = scene(
@@ -168,57 +232,112 @@ def export(asked: FloodOptions, output: Path, say: Say) -> tuple[Made, int]:
         None if flood.fold is None else data_address(File(flood.fold, TEXTURE_TYPE, "")),
     )
     page = whole_page(FLOOD, {"flood": told}, flood.title)
-    write_together({output: page})
-    return made, len(page)
+    files = {} if output is None else {output: page}
+    if video is not None:
+        files[video.path] = film(page, video, flood.title, track)
+    write_together(files)
+    return Written(made, {path: len(data) for path, data in files.items()})
 
 
-def serve(
-    asked: FloodOptions, token_file: Path | None, host: str, port: int, *, say: Say, show: Callable[[str, Made], None]
-) -> None:
+@dataclass(frozen=True, slots=True)
+class Serving:
+    """How a flood is served.
+
+    Without a token nothing can be pushed, and only requests to the server's own address are answered. With `follows`
+    the extent is a file that a model writes. In the folder `keep` are pushed and followed steps, for the next start.
+    """
+
+    host: str
+    port: int
+    token_file: Path | None = None
+    follows: bool = False
+    keep: Path | None = None
+
+    def __post_init__(self) -> None:
+        if self.keep is not None and self.token_file is None and not self.follows:
+            raise ParameterError(
+                f"`keep` {self.keep}: no water comes that could be kept; give `token_file` or `follow`"
+            )
+
+
+def serve(asked: FloodOptions, how: Serving, *, say: Say, show: Callable[[str, Made], None]) -> None:
     """Serve a flood until Ctrl-C or SIGTERM.
 
-    Without a token nothing can be published, and only requests to the server's own address are answered. `say` takes
-    warnings and notes for the user, `show` the address and what is shown there.
+    `say` takes warnings and notes for the user, `show` the address and what is shown there.
     """
-    from vexture.flood.ground import GROUND_TYPE
-    from vexture.live.converter import BusyError, Converter
-    from vexture.live.listen import background, bind, listen, serve_until_stopped
-    from vexture.live.page_routes import page_routes
-    from vexture.live.publishing import publishing_routes
-    from vexture.live.routes import NO_SNIFFING, application, fixed, routes
+    from vexture.live.kept import KeptWater
+    from vexture.live.listen import bind
     from vexture.live.tokens import read_token
 
     built(FLOOD.script)
-    token = None if token_file is None else read_token(token_file)
-    with closing(bind(host, port)) as taken:
-        made = make(asked, say)
-        limits = Limits()
-        shelf = LimitedShelf(limits)
-        for shape in made.shapes:
-            shelf.put(shape)
-        flood, converter = made.flood, Converter(limits, made.conversion)
-        told = scene(flood, shelf.names, GROUND_NAME, FOLD_NAME if flood.fold else None)
-        fresh = {"Cache-Control": "no-cache", **NO_SNIFFING}
+    token = None if how.token_file is None else read_token(how.token_file)
+    limits = Limits()
+    with closing(bind(how.host, how.port)) as taken, ExitStack() as stack:
+        kept = None
+        if how.keep is not None:
+            kept = KeptWater(how.keep, limits, say)
+            stack.callback(kept.release)
+        _serve(asked, how, token, taken, LimitedShelf(limits) if kept is None else kept, kept, say, show)
 
-        async def warm() -> None:
+
+def _serve(
+    asked: FloodOptions,
+    how: Serving,
+    token: str | None,
+    taken: "socket",
+    shelf: LimitedShelf,
+    kept: "KeptWater | None",
+    say: Say,
+    show: Callable[[str, Made], None],
+) -> None:
+    from vexture.flood.ground import GROUND_TYPE
+    from vexture.live.converter import BusyError, Converter
+    from vexture.live.follow import FollowedRun, first_steps, follow
+    from vexture.live.listen import background, listen, serve_until_stopped
+    from vexture.live.page_routes import page_routes
+    from vexture.live.publishing import publishing_routes
+    from vexture.live.routes import NO_SNIFFING, application, fixed, routes
+
+    run = FollowedRun(asked.extent, {"crs": asked.crs, "hmin": asked.hmin, **asked.reading})
+    start = first_steps(run, asked.bounds, say) if how.follows else None
+    made = make(asked, say, start, kept)
+    if shelf.names:
+        say(f"{how.keep}: {counted(len(shelf.names), 'step')} from before")
+    fresh = [shape for shape in made.shapes if shelf.shape(shape.name) is not shape]
+    for shape in fresh:
+        if start is not None or shelf.shape(shape.name) is None:  # what was pushed is newer
+            shelf.put(shape)
+    flood, limits = made.flood, Limits()
+    converter = Converter(limits, made.conversion)
+
+    async def work() -> None:
+        if token:
             with suppress(BusyError):
                 await converter.warm()
+        if start is not None:
+            await follow(run, start, fresh, made.conversion, shelf, say)
 
-        def stop() -> None:
-            shelf.close()
-            converter.close()
+    def stop() -> None:
+        shelf.close()
+        converter.close()
 
-        app = application(
-            [
-                *page_routes(FLOOD, served_page(FLOOD, {"server": "./", "flood": told}, flood.title)),
-                fixed(f"/{GROUND_NAME}", flood.ground, GROUND_TYPE, fresh),
-                *([fixed(f"/{FOLD_NAME}", flood.fold, TEXTURE_TYPE, fresh)] if flood.fold else []),
-                *routes(shelf),
-                *publishing_routes(shelf, converter, limits, token),
-            ],
-            limits,
-            only_at=None if token else host,
-            lifespan=background(warm) if token else None,
-        )
-        show(listen(taken), made)
-        serve_until_stopped(app, taken, stop, limits)
+    @lru_cache(1)
+    def page(names: tuple[str, ...]) -> bytes:
+        told = scene(flood, names, GROUND_NAME, FOLD_NAME if flood.fold else None)
+        return served_page(FLOOD, {"server": "./", "flood": told}, flood.title)
+
+    plain = {"Cache-Control": "no-cache", **NO_SNIFFING}
+    app = application(
+        [
+            *page_routes(FLOOD, lambda: page(tuple(shelf.names))),
+            fixed(f"/{GROUND_NAME}", flood.ground, GROUND_TYPE, plain),
+            *([fixed(f"/{FOLD_NAME}", flood.fold, TEXTURE_TYPE, plain)] if flood.fold else []),
+            *routes(shelf),
+            *publishing_routes(shelf, converter, limits, token),
+        ],
+        limits,
+        only_at=None if token else how.host,
+        lifespan=background(work) if token or start else None,
+    )
+    show(listen(taken), made)
+    serve_until_stopped(app, taken, stop, limits)

@@ -96,11 +96,15 @@ class FloodConversion:
         extent = self._read(data, name, OPTIONS[kind])
         if len(extent.steps) != 1:
             raise LimitError(f"{name}: holds {len(extent.steps)} times; send one at a time, each under its name")
+        step = extent.steps[0]
+        return self.later(step, extent.bed, name, labels([step.time])[0])
+
+    def later(self, step: Step, bed: NDArray[np.float32] | None, name: str, label: str) -> Shape:
+        """Shape of a step that came later, in this frame; `bed` is its own bed over the frame, if it has one."""
         from vexture.flood.surface import surface_of
 
-        step = extent.steps[0]
-        surface = surface_of(step, self.frame, self.relief, self.bed if extent.bed is None else extent.bed, self.hmin)
-        return self.step(step, surface, name, labels([step.time])[0])
+        surface = surface_of(step, self.frame, self.relief, self.bed if bed is None else bed, self.hmin)
+        return self.step(step, surface, name, label)
 
     def _read(self, data: bytes, name: str, possible: tuple[str, ...]) -> Extent:
         from vexture.geo.crs import MissingReferenceError

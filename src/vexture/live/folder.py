@@ -17,7 +17,7 @@ from vexture.live.shelf import File, Shape
 from vexture.reading import content_of
 from vexture.texture.files import TEMPORARY, make_folder, replace_files
 
-__all__ = ["Folder"]
+__all__ = ["STATE", "Folder"]
 
 STATE: Final = ".vexture"
 DRAWINGS: Final = (".svg", ".svgz", ".geojson", ".ktx2")
@@ -74,6 +74,21 @@ class Folder(LimitedShelf):
             self.put(shape)
             stale = [file.name for file in (before.files if before else ()) if not self.owners(file.name)]
             self._kept.update(file.name for file in fresh)
+            self._kept.difference_update(stale)
+            await asyncio.to_thread(self._remove, stale)
+
+    async def withdraw(self, name: str) -> None:
+        """Remove a shape from the disk, and tell all clients; raises a `DeviceError` if the disk refuses."""
+        async with self._turn:
+            before = self.shape(name)
+            if before is None:
+                return
+            try:
+                await asyncio.to_thread((self._shapes_folder / manifest_name(name)).unlink, missing_ok=True)
+            except OSError as error:
+                raise DeviceError(f"{name}: cannot be removed ({error.strerror}); correct its permissions") from None
+            self.remove(name)
+            stale = [file.name for file in before.files if not self.owners(file.name)]
             self._kept.difference_update(stale)
             await asyncio.to_thread(self._remove, stale)
 

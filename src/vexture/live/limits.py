@@ -81,6 +81,10 @@ class LimitedShelf(Shelf):
         self.check_room(shape)
         self.put(shape)
 
+    async def withdraw(self, name: str) -> None:
+        """Keep the shape of a name no longer, and tell all clients."""
+        self.remove(name)
+
     def check_room(self, shape: Shape) -> None:
         """Raise a `FullError` if there would be too many shapes, or too many bytes."""
         before = self.shape(shape.name)

@@ -3,7 +3,8 @@
 import asyncio
 import unicodedata
 from collections import OrderedDict
-from collections.abc import Collection
+from collections.abc import Callable, Collection
+from functools import cache
 from urllib.parse import quote, urlsplit
 
 from starlette.requests import ClientDisconnect, Request
@@ -16,7 +17,7 @@ from vexture.live.documents import THESIS_BITS, shape_of, thesis_pair
 from vexture.live.limits import Limits
 from vexture.live.page import PNG_TYPE, SERVED_POLICY, VIEWER, Bundle, built, served_page
 from vexture.live.publishing import received
-from vexture.live.routes import FOREVER, NO_SNIFFING, fixed, refusal
+from vexture.live.routes import FOREVER, NO_SNIFFING, current, fixed, refusal
 from vexture.live.shelf import Shape, Shelf, manifest
 from vexture.parameters import Parameters
 
@@ -34,12 +35,12 @@ MOST_PAIRS = 32
 MOST_NAME_LENGTH = 200
 
 
-def page_routes(bundle: Bundle = VIEWER, page: bytes | None = None) -> list[Route]:
-    """Routes of a page (from `served_page`; by default the viewer's), its script and its style."""
+def page_routes(bundle: Bundle = VIEWER, page: Callable[[], bytes] | None = None) -> list[Route]:
+    """Routes of a page (made by `served_page`; by default the viewer's), its script and its style."""
     common = {"Cache-Control": "no-cache", **NO_SNIFFING, "Referrer-Policy": "no-referrer"}
     policy = {"Content-Security-Policy": SERVED_POLICY}
     return [
-        fixed("/", served_page(bundle) if page is None else page, "text/html", common | policy),
+        current("/", page or cache(lambda: served_page(bundle)), "text/html", common | policy),
         fixed(f"/{bundle.script}", built(bundle.script), "text/javascript", common),
         fixed(f"/{bundle.style}", built(bundle.style), "text/css", common),
     ]

@@ -30,6 +30,7 @@ __all__ = [
     "NO_SNIFFING",
     "KnownHosts",
     "application",
+    "current",
     "entity_tag",
     "fixed",
     "levels_below",
@@ -149,10 +150,17 @@ async def _failed(request: Request, error: Exception) -> Response:
 
 def fixed(path: str, content: bytes, media_type: str, headers: Mapping[str, str]) -> Route:
     """Route of content that never changes while the server runs."""
-    tagged = {"ETag": f'"{hashlib.sha256(content).hexdigest()[:32]}"', **headers}
+    return current(path, lambda: content, media_type, headers)
+
+
+def current(path: str, content: Callable[[], bytes], media_type: str, headers: Mapping[str, str]) -> Route:
+    """Route of content as it is now; the same object is digested once."""
+    digest = lru_cache(1)(lambda found: hashlib.sha256(found).hexdigest()[:32])
 
     async def answer(request: Request) -> Response:
-        return _unchanged(request, tagged) or Response(content, media_type=media_type, headers=tagged)
+        found = content()
+        tagged = {"ETag": f'"{digest(found)}"', **headers}
+        return _unchanged(request, tagged) or Response(found, media_type=media_type, headers=tagged)
 
     return Route(path, answer)
 

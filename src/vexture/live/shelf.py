@@ -51,8 +51,9 @@ class Shape:
 
     @cached_property
     def version(self) -> str:
-        """Digest of all that clients see."""
-        seen = [self.name, self.texture.name, {what: file.name for what, file in self.views.items()}]
+        """Digest of all that clients see, but for how long the conversion took."""
+        facts = {what: fact for what, fact in self.facts.items() if what != "milliseconds"}
+        seen = [self.name, self.texture.name, {what: file.name for what, file in self.views.items()}, facts]
         return hashlib.sha256(json.dumps(seen, sort_keys=True).encode()).hexdigest()[:DIGEST_LENGTH]
 
     @property
