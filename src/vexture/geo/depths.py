@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -33,7 +34,7 @@ def read_depths(
     hmin: float = HMIN,
     variable: str | None = None,
 ) -> Extent:
-    """Read where water is from a GeoTIFF, or from a NetCDF file of rows and columns or of a UGRID mesh.
+    """Read where water is from a GeoTIFF, or from a NetCDF file of rows and columns, straight or not, or of a mesh.
 
     A file named as a partition of D-Flow FM, ``run_0000_map.nc``, is read with all others of its run beside it.
     Parameters and errors as in `vexture.read_extent`.
@@ -60,9 +61,8 @@ def _opened(
         with open_geotiff(source, time_dim, variable, notes) as series:
             yield series
     elif start.startswith(NETCDF):
-        from vexture.geo.netcdf import opened, series_of
+        from vexture.geo.netcdf import opened
         from vexture.geo.partitions import merged_partitions, partitions_beside
-        from vexture.geo.ugrid import holds_mesh, mesh_series
 
         partitions = [] if isinstance(source, bytes) else partitions_beside(Path(source))
         if partitions:
@@ -70,12 +70,23 @@ def _opened(
                 yield run
             return
         with opened(source, time_dim) as dataset:
-            found = mesh_series if holds_mesh(dataset) else series_of
-            yield found(dataset, time_dim, variable)
+            yield _series_of(dataset, time_dim, variable)
     elif not start:
         raise SourceError("it cannot be opened or is empty; choose another file")
     else:
         raise SourceError("it is neither GeoTIFF nor NetCDF; write it as one of them")
+
+
+def _series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Series | MeshSeries:
+    """Depths of an open dataset, on whatever it has them."""
+    from vexture.geo.curvilinear import grid_series, places_of_grid
+    from vexture.geo.netcdf import series_of
+    from vexture.geo.ugrid import holds_mesh, mesh_series
+
+    if holds_mesh(dataset):
+        return mesh_series(dataset, time_dim, variable)
+    grids = places_of_grid(dataset, time_dim)
+    return grid_series(dataset, grids, time_dim, variable) if grids else series_of(dataset, time_dim, variable)
 
 
 def _extent(series: Series | MeshSeries, name: str, system: str, frame: Frame, hmin: float, notes: Notes) -> Extent:
