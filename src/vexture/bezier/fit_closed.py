@@ -199,8 +199,8 @@ def fit_closed(
     length = float(np.hypot(*(points - np.roll(points, 1, axis=0)).T).sum())
     radius = float(np.sqrt(size / np.pi))
     tolerance = min(tolerance, radius / 2.0, size / length)
-    most = MOST_ALONE + MOST_BETWEEN * len(points)
-    samples, sharp = _sampled(points, kept, max(min(tolerance, length / FEWEST), length / most))
+    allowed = MOST_ALONE + MOST_BETWEEN * len(points)
+    samples, sharp = _sampled(points, kept, max(min(tolerance, length / FEWEST), length / allowed))
     if len(samples) < 3:
         return line_cubics(points, np.roll(points, -1, axis=0))
     samples, sharp = _cornered(samples, sharp, tolerance, corner)

@@ -1,6 +1,5 @@
 """Rasters and meshes of water depths as `Extent`."""
 
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -12,6 +11,7 @@ import numpy as np
 from vexture.content import NETCDF, TIFF, start_of, unpacked
 from vexture.errors import ParameterError, SourceError
 from vexture.geo.crs import chosen_crs, frame_of, gis_packages, period
+from vexture.geo.datasets import is_dataset
 from vexture.geo.extent import Bounds, Extent, Frame, Step
 from vexture.geo.mesh import MeshInFrame, MeshSeries
 from vexture.geo.raster import RasterInFrame
@@ -24,7 +24,7 @@ __all__ = ["read_depths"]
 
 @gis_packages()
 def read_depths(
-    source: bytes | str | os.PathLike[str],
+    source: Any,
     file_name: str,
     *,
     frame: Frame | None = None,
@@ -34,7 +34,7 @@ def read_depths(
     hmin: float = HMIN,
     variable: str | None = None,
 ) -> Extent:
-    """Read where water is from a GeoTIFF, or from a NetCDF file of rows and columns, straight or not, or of a mesh.
+    """Read where water is from a GeoTIFF, or from NetCDF or xarray: on rows and columns, straight or not, or on a mesh.
 
     A file named as a partition of D-Flow FM, ``run_0000_map.nc``, is read with all others of its run beside it.
     Parameters and errors as in `vexture.read_extent`.
@@ -42,7 +42,7 @@ def read_depths(
     if not hmin > 0.0 or not np.isfinite(hmin):
         raise ParameterError(f"`hmin` is {hmin:g} m; it must be above 0")
     notes = Notes()
-    with _opened(unpacked(source), time_dim, variable, notes) as series:
+    with _opened(source if is_dataset(source) else unpacked(source), time_dim, variable, notes) as series:
         system = chosen_crs(crs, series.crs)
         if frame is None:
             frame = frame_of(bounds, _whole(series.box, system), system)
@@ -50,12 +50,15 @@ def read_depths(
 
 
 @contextmanager
-def _opened(
-    source: bytes | str | os.PathLike[str], time_dim: str | None, variable: str | None, notes: Notes
-) -> Iterator[Series | MeshSeries]:
-    """Open a file of the format that its first bytes show."""
-    start = start_of(source)
-    if start.startswith(TIFF):
+def _opened(source: Any, time_dim: str | None, variable: str | None, notes: Notes) -> Iterator[Series | MeshSeries]:
+    """Open a file of the format that its first bytes show, or a dataset of xarray."""
+    start = b"" if is_dataset(source) else start_of(source)
+    if is_dataset(source):
+        from vexture.geo.netcdf import opened
+
+        with opened(source, time_dim) as dataset:
+            yield _series_of(dataset, time_dim, variable)
+    elif start.startswith(TIFF):
         from vexture.geo.geotiff import open_geotiff
 
         with open_geotiff(source, time_dim, variable, notes) as series:

@@ -13,6 +13,7 @@ from typing import Any, Final
 import numpy as np
 
 from vexture.errors import LimitError, ParameterError, SourceError, reason_of
+from vexture.geo.datasets import dataset_of, is_dataset
 from vexture.geo.series import Lattice, Series, Values
 from vexture.geo.variables import depths_of, listed, loaded, refuse_layers, time_axis
 
@@ -33,28 +34,32 @@ LEAST_CODE: Final = 1024
 
 
 @contextmanager
-def opened(source: bytes | str | os.PathLike[str], time_dim: str | None) -> Iterator[Any]:
-    """Dataset of a file or of its content, by xarray, with times not decoded."""
-    import xarray
-
+def opened(source: Any, time_dim: str | None) -> Iterator[Any]:
+    """Dataset of a file or of its content, by xarray, with times not decoded; one that is open stays so."""
     with ExitStack() as stack:
-        place = os.path.abspath(source) if not isinstance(source, bytes) else ""
-        if isinstance(source, bytes):
-            place = os.path.join(stack.enter_context(TemporaryDirectory(prefix="vexture-")), "depths.nc")
-            Path(place).write_bytes(source)
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                dataset = xarray.open_dataset(place, engine="netcdf4", decode_times=False, cache=False)
-        except Exception as error:  # xarray and netCDF4 raise any type of exception for a damaged file
-            why = reason_of(error, hidden=place)
-            raise SourceError(f"it cannot be read as NetCDF ({why}); write it again") from None
-        stack.enter_context(dataset)
+        dataset = dataset_of(source) if is_dataset(source) else stack.enter_context(_file(source, stack))
         if time_dim is not None and time_dim not in dataset.dims:
             raise ParameterError(
                 f"there is no dimension {time_dim!r}; it has {listed(dataset.dims)}; choose another `time_dim`"
             )
         yield dataset
+
+
+def _file(source: bytes | str | os.PathLike[str], stack: ExitStack) -> Any:
+    """Dataset of a file, or of content that is a file for as long as the stack is open."""
+    import xarray
+
+    place = os.path.abspath(source) if not isinstance(source, bytes) else ""
+    if isinstance(source, bytes):
+        place = os.path.join(stack.enter_context(TemporaryDirectory(prefix="vexture-")), "depths.nc")
+        Path(place).write_bytes(source)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return xarray.open_dataset(place, engine="netcdf4", decode_times=False, cache=False)
+    except Exception as error:  # xarray and netCDF4 raise any type of exception for a damaged file
+        why = reason_of(error, hidden=place)
+        raise SourceError(f"it cannot be read as NetCDF ({why}); write it again") from None
 
 
 def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Series:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vexture.content import about
 from vexture.drawing import Drawing
 from vexture.errors import SourceError, counted
+from vexture.flood.credits import Credits
 from vexture.flood.options import FloodOptions
 from vexture.flood.scene import PREFIX, Flood, PageNote, labels, scene, step_names
 from vexture.geo.extent import Extent, Frame
@@ -21,7 +22,7 @@ from vexture.live.page import FLOOD, built, check_output, data_address, served_p
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape, manifest
 from vexture.notes import line_of
 
-__all__ = ["Made", "export", "make", "serve"]
+__all__ = ["Made", "export", "make", "page_of", "serve"]
 
 GROUND_NAME, FOLD_NAME = "ground.webp", "shore.fold.ktx2"
 
@@ -61,8 +62,11 @@ class Made(NamedTuple):
         return told + (f", {'nothing' if dry == count else f'in {dry} nothing'} under water" if dry else "")
 
 
-def make(asked: FloodOptions, say: Say) -> Made:
-    """Read all files of a flood and convert them; `say` gets warnings and notes for the user."""
+def make(asked: FloodOptions, say: Say, given: tuple[Extent, Credits] | None = None) -> Made:
+    """Read all files of a flood and convert them; `say` gets warnings and notes for the user.
+
+    What is `given`, an extent and its credits, is not read.
+    """
     from vexture.flood.credits import credits_of
     from vexture.flood.drawn_ground import drawn_ground
     from vexture.flood.ground import encoded, ground_of
@@ -71,7 +75,7 @@ def make(asked: FloodOptions, say: Say) -> Made:
     from vexture.flood.surface import highest_of, surface_of
     from vexture.flood.views import views_of
 
-    extent = _read(asked)
+    extent, credits = given or (_read(asked), credits_of(asked.extent))
     if line := line_of(str(asked.extent), extent.notes):
         say(f"warning: {line}")
     frame = extent.frame
@@ -106,7 +110,7 @@ def make(asked: FloodOptions, say: Say) -> Made:
             notes.append(SHELTERED)
     if relief.known < WHOLE:
         notes.append(PageNote(f"{relief.known:.0%} of the ground has a height; the rest goes on as its border.", ""))
-    credits = credits_of(asked.extent).with_given(title=asked.title, source=asked.source, licence=asked.licence)
+    credits = credits.with_given(title=asked.title, source=asked.source, licence=asked.licence)
     flood = Flood(
         title=credits.title or asked.extent.name.partition(".")[0] or PREFIX,
         credits=credits,
@@ -155,11 +159,19 @@ def _fold(
 
 def export(asked: FloodOptions, output: Path, say: Say) -> tuple[Made, int]:
     """Write one page that needs nothing else; return what it shows, and its size."""
-    from vexture.flood.ground import GROUND_TYPE
     from vexture.texture.files import write_together
 
     check_output(output, FLOOD)
     made = make(asked, say)
+    page = page_of(made)
+    write_together({output: page})
+    return made, len(page)
+
+
+def page_of(made: Made) -> bytes:
+    """One page that needs nothing else."""
+    from vexture.flood.ground import GROUND_TYPE
+
     flood = made.flood
     told = scene(
         flood,
@@ -167,9 +179,7 @@ def export(asked: FloodOptions, output: Path, say: Say) -> tuple[Made, int]:
         data_address(File(flood.ground, GROUND_TYPE, "")),
         None if flood.fold is None else data_address(File(flood.fold, TEXTURE_TYPE, "")),
     )
-    page = whole_page(FLOOD, {"flood": told}, flood.title)
-    write_together({output: page})
-    return made, len(page)
+    return whole_page(FLOOD, {"flood": told}, flood.title)
 
 
 def serve(
