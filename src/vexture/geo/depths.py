@@ -1,10 +1,10 @@
 """Rasters and meshes of water depths as `Extent`."""
 
-import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vexture.content import NETCDF, TIFF, start_of, unpacked
 from vexture.errors import ParameterError, SourceError
 from vexture.geo.crs import chosen_crs, frame_of, gis_packages, period
+from vexture.geo.datasets import is_dataset
 from vexture.geo.extent import Bounds, Extent, Frame, Step
 from vexture.geo.mesh import MeshInFrame, MeshSeries
 from vexture.geo.raster import RasterInFrame
@@ -24,7 +25,7 @@ __all__ = ["DepthsInFrame", "depths_in_frame", "read_depths"]
 
 @gis_packages()
 def read_depths(
-    source: bytes | str | os.PathLike[str],
+    source: Any,
     file_name: str,
     *,
     frame: Frame | None = None,
@@ -35,7 +36,7 @@ def read_depths(
     variable: str | None = None,
     depths: Sequence[float] = (),
 ) -> Extent:
-    """Read where water is from a GeoTIFF, or from a NetCDF file of rows and columns or of a UGRID mesh.
+    """Read where water is from a GeoTIFF, or from NetCDF or xarray: on rows and columns, straight or not, or on a mesh.
 
     A file named as a partition of D-Flow FM, ``run_0000_map.nc``, is read with all others of its run beside it.
     Parameters and errors as in `vexture.read_extent`.
@@ -100,7 +101,7 @@ class DepthsInFrame:
 
 @contextmanager
 def depths_in_frame(
-    source: bytes | str | os.PathLike[str],
+    source: Any,
     file_name: str,
     *,
     frame: Frame | None,
@@ -118,7 +119,7 @@ def depths_in_frame(
         if not depth > hmin or not np.isfinite(depth):
             raise ParameterError(f"`depths` holds {depth:g} m; all must be above `hmin`, {hmin:g} m")
     notes = Notes()
-    with _opened(unpacked(source), time_dim, variable, notes) as series:
+    with _opened(source if is_dataset(source) else unpacked(source), time_dim, variable, notes) as series:
         system = chosen_crs(crs, series.crs)
         if frame is None:
             frame = frame_of(bounds, _whole(series.box, system), system)
@@ -126,20 +127,22 @@ def depths_in_frame(
 
 
 @contextmanager
-def _opened(
-    source: bytes | str | os.PathLike[str], time_dim: str | None, variable: str | None, notes: Notes
-) -> Iterator[Series | MeshSeries]:
-    """Open a file of the format that its first bytes show."""
-    start = start_of(source)
-    if start.startswith(TIFF):
+def _opened(source: Any, time_dim: str | None, variable: str | None, notes: Notes) -> Iterator[Series | MeshSeries]:
+    """Open a file of the format that its first bytes show, or a dataset of xarray."""
+    start = b"" if is_dataset(source) else start_of(source)
+    if is_dataset(source):
+        from vexture.geo.netcdf import opened
+
+        with opened(source, time_dim) as dataset:
+            yield _series_of(dataset, time_dim, variable)
+    elif start.startswith(TIFF):
         from vexture.geo.geotiff import open_geotiff
 
         with open_geotiff(source, time_dim, variable, notes) as series:
             yield series
     elif start.startswith(NETCDF):
-        from vexture.geo.netcdf import opened, series_of
+        from vexture.geo.netcdf import opened
         from vexture.geo.partitions import merged_partitions, partitions_beside
-        from vexture.geo.ugrid import holds_mesh, mesh_series
 
         partitions = [] if isinstance(source, bytes) else partitions_beside(Path(source))
         if partitions:
@@ -147,12 +150,23 @@ def _opened(
                 yield run
             return
         with opened(source, time_dim) as dataset:
-            found = mesh_series if holds_mesh(dataset) else series_of
-            yield found(dataset, time_dim, variable)
+            yield _series_of(dataset, time_dim, variable)
     elif not start:
         raise SourceError("it cannot be opened or is empty; choose another file")
     else:
         raise SourceError("it is neither GeoTIFF nor NetCDF; write it as one of them")
+
+
+def _series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Series | MeshSeries:
+    """Depths of an open dataset, on whatever it has them."""
+    from vexture.geo.curvilinear import grid_series, places_of_grid
+    from vexture.geo.netcdf import series_of
+    from vexture.geo.ugrid import holds_mesh, mesh_series
+
+    if holds_mesh(dataset):
+        return mesh_series(dataset, time_dim, variable)
+    grids = places_of_grid(dataset, time_dim)
+    return grid_series(dataset, grids, time_dim, variable) if grids else series_of(dataset, time_dim, variable)
 
 
 def _extent(placed: DepthsInFrame) -> Extent:
