@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from vexture.geo.geojson import read_geojson
     from vexture.glyph_atlas import FontAtlas, font_atlas
     from vexture.images import coverage, render
+    from vexture.live.flood_page import FloodPage, flood_page
     from vexture.notes import Note
     from vexture.paint import Paint
     from vexture.pipeline import atlas, convert
@@ -41,6 +42,7 @@ __all__ = [
     "Drawing",
     "Extent",
     "FillRule",
+    "FloodPage",
     "Fold",
     "FontAtlas",
     "FormatError",
@@ -59,6 +61,7 @@ __all__ = [
     "atlas",
     "convert",
     "coverage",
+    "flood_page",
     "fold_from",
     "fold_picture",
     "font_atlas",
@@ -87,6 +90,7 @@ _HOMES = {
     "vexture.geo.geojson": ("read_geojson",),
     "vexture.glyph_atlas": ("FontAtlas", "font_atlas"),
     "vexture.images": ("coverage", "render"),
+    "vexture.live.flood_page": ("FloodPage", "flood_page"),
     "vexture.notes": ("Note",),
     "vexture.pipeline": ("atlas", "convert"),
     "vexture.reading": ("read", "read_extent"),

@@ -22,6 +22,8 @@ from vexture.notes import Note, warn_of
 from vexture.tolerance import HMIN
 
 if TYPE_CHECKING:  # at run time a reader is imported when it is needed
+    from xarray import DataArray, Dataset
+
     from vexture.drawing import Drawing
     from vexture.geo.extent import Extent, Frame
     from vexture.svg.images import Images
@@ -248,7 +250,7 @@ def _read_first_step(source: Place | bytes, shown: str, snap: float | None) -> "
 
 
 def read_extent(
-    source: Place | bytes,
+    source: "Place | bytes | Dataset | DataArray",
     file_name: str | None = None,
     *,
     frame: "Frame | None" = None,
@@ -259,13 +261,15 @@ def read_extent(
     variable: str | None = None,
     layer: str | None = None,
     snap: float | None = None,
+    depths: Sequence[float] = (),
 ) -> "Extent":
     """Read wet areas from geographic data of any supported kind.
 
     Parameters
     ----------
-    source : path or bytes
-        Polygons (GeoJSON, GeoPackage, FlatGeobuf, shapefile) or depths (GeoTIFF, NetCDF, UGRID).
+    source : path, bytes, Dataset or DataArray
+        Polygons (GeoJSON, GeoPackage, FlatGeobuf, shapefile) or depths (GeoTIFF, NetCDF: on rows and columns, a
+        curvilinear grid or a mesh); or depths as xarray holds them, read one step at a time.
     file_name : str, optional
         Name of the file and of the drawings; by default the path.
     frame : Frame, optional
@@ -286,6 +290,8 @@ def read_extent(
     snap : float, optional
         Borders of two polygons that differ by no more than this become one, in parts of the frame's larger side; 3e-6
         by default, 0 leaves all as it is.
+    depths : sequence of float
+        Depths in metres above `hmin`: each step also holds the areas under at least so much water. Polygons have none.
 
     Returns
     -------
@@ -315,20 +321,28 @@ def read_extent(
     >>> extent.frame.crs, extent.steps[0].drawing.name
     ('OGC:CRS84', 'lake')
     """
-    shown = file_name or ("the data" if isinstance(source, bytes) else os.fspath(source))
-    options = {"frame": frame, "bounds": bounds, "crs": crs, "time_dim": time_dim, "variable": variable, "layer": layer}
+    from vexture.geo.datasets import is_dataset
+
+    path = "" if isinstance(source, bytes) or is_dataset(source) else str(os.fspath(source))
+    shown = file_name or path or "the data"
+    options: dict[str, Any] = {
+        "frame": frame,
+        "bounds": bounds,
+        "crs": crs,
+        "time_dim": time_dim,
+        "variable": variable,
+        "layer": layer,
+    }
     try:
-        extent = extent_of(source, shown, hmin=hmin, snap=snap, **options)  # type: ignore[arg-type]
+        extent = extent_of(source, shown, hmin=hmin, snap=snap, depths=depths, **options)
     except (SourceError, LimitError, ParameterError) as error:
-        if isinstance(source, bytes):
-            raise
-        raise type(error)(f"{os.fspath(source)}: {error}") from None
+        raise type(error)(f"{path}: {error}" if path else str(error)) from None
     warn_of(shown, extent.notes)
     return extent
 
 
 def extent_of(
-    source: Place | bytes,
+    source: "Place | bytes | Dataset | DataArray",
     file_name: str,
     *,
     frame: "Frame | None" = None,
@@ -339,16 +353,20 @@ def extent_of(
     variable: str | None = None,
     layer: str | None = None,
     snap: float | None = None,
+    depths: Sequence[float] = (),
 ) -> "Extent":
     """Read wet areas as `read_extent` does, but without a warning, and without the file's name in errors."""
-    source = unpacked(source)
-    if kind_of(start_of(source), file_name) is FileKind.DEPTHS:
+    from vexture.geo.datasets import is_dataset
+
+    source = source if is_dataset(source) else unpacked(source)
+    if is_dataset(source) or kind_of(start_of(source), file_name) is FileKind.DEPTHS:
         from vexture.geo.depths import read_depths
 
         _refuse({"`layer`": layer, "`snap`": snap}, "polygons, and this file holds depths")
         return read_depths(
-            source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable
-        )
+            source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable,
+            depths=depths,
+        )  # fmt: skip
     from vexture.geo.polygons import read_polygons
 
     _refuse({"`time_dim`": time_dim, "`variable`": variable}, "depths, and this file holds polygons")

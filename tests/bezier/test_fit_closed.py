@@ -1,5 +1,7 @@
 """Rings fitted by cubics, against the shapes that were rasterised."""
 
+import tracemalloc
+
 import contourpy
 import numpy as np
 import pytest
@@ -143,3 +145,17 @@ def test_any_ring_is_followed_within_the_tolerance(shares, size, rounded):
     # samples are a tolerance apart, so that a corner between them may be cut by half of that again
     assert shapely.distance(shapely.points(fitted), shapely.LinearRing(ring)).max() <= 1.5 * CELL_SHARE
     assert shapely.distance(shapely.points(ring), shapely.LinearRing(fitted)).max() <= 2.0 * CELL_SHARE
+
+
+def test_a_needle_takes_little_memory():
+    """The thinner a chain, the finer it is sampled, within a limit: a damaged mesh has needles around the world."""
+    needle = np.array([[0.0, 0.0], [0.5, 1e-7], [1.0, 0.0], [0.5, -1e-7]])
+    tracemalloc.start()
+    try:
+        cubics = fit_closed(needle, 0.1)
+        most = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert most < 100e6
+    assert len(cubics)
+    assert np.abs(along(cubics)[:, 1]).max() < 1e-5

@@ -40,7 +40,7 @@ def test_options_go_before_what_the_file_says(run, tmp_path):
     told = scene_of(page)["flood"]
     assert (told["title"], told["credits"]["source"], told["credits"]["licence"]) == ("Mine", "A synthetic run", "CC0")
     assert told["credits"]["synthetic"]
-    assert told["depths"] == [0.0, 0.3, 1.5]
+    assert [one["from"] for one in told["depths"]] == [0.0, 0.3, 1.5]
 
 
 @pytest.mark.parametrize("depths", ["1,0.5", "deep", "-1,2", "0,1,2,3,4,5,6,7,8", "nan"])

@@ -132,6 +132,39 @@ def test_open_water_ends_softly_and_leaves_corners_and_channels():
     assert np.abs(np.diff(openness, axis=0)).max() < 0.5
 
 
+@pytest.mark.parametrize(("across", "open_to_waves"), [(600, False), (1800, False), (2400, True)])
+@pytest.mark.parametrize("leaves", [False, True])
+def test_neither_a_pond_nor_a_wide_river_is_open(across, open_to_waves, leaves):
+    """Water of a width, as a round lake in a frame of 6 km, and as a river from border to border."""
+    frame = Frame(BOUNDS, CRS, (6000.0, 3000.0))
+    x0, _, x1, _ = frame.box
+    half = 0.5 * across / 6000.0 * (x1 - x0)
+    turn = np.linspace(0.0, 2.0 * np.pi, 90, endpoint=False)
+    lake = [(0.5 + half * np.cos(a), 0.5 + half * np.sin(a)) for a in turn.tolist()]
+    river = [(x0, 0.5 - half), (x1, 0.5 - half), (x1, 0.5 + half), (x0, 0.5 + half)]
+    openness = open_water(Drawing.polygon(river if leaves else lake), frame)
+    assert (openness.max() > 0.9) == open_to_waves
+    drawn = coverage_over(Drawing.polygon(river if leaves else lake), frame.box, openness.shape[::-1])
+    if open_to_waves:  # all of it, and nothing far from it
+        assert openness[drawn > 0.5].min() > 0.5
+        assert openness[0, 0] == 0.0
+
+
+def test_a_pond_stays_calm_beside_the_sea():
+    """The sea is open and so is its arm of 700 m, but not a pond of 600 m, which they do not touch."""
+    frame = Frame(BOUNDS, CRS, (6000.0, 3000.0))
+    x0, y0, x1, y1 = frame.box
+    metre = (x1 - x0) / 6000.0
+    pond = [(0.5 - 300 * metre, y1 - 700 * metre), (0.5 + 300 * metre, y1 - 700 * metre),
+            (0.5 + 300 * metre, y1 - 100 * metre), (0.5 - 300 * metre, y1 - 100 * metre)]  # fmt: skip
+    shore, arm = y0 + 1100 * metre, x1 - 1500 * metre
+    sea = [(x0, y0), (x1, y0), (x1, shore), (arm + 350 * metre, shore), (arm + 350 * metre, y1 - 200 * metre),
+           (arm - 350 * metre, y1 - 200 * metre), (arm - 350 * metre, shore), (x0, shore)]  # fmt: skip
+    openness = open_water(Drawing.polygon(sea, pond), frame)
+    places = [(0.5, y1 - 400 * metre), (0.5, y0 + 500 * metre), (arm, y1 - 500 * metre)]
+    assert openness_at(openness, frame, np.array(places)).tolist() == [0.0, 1.0, 1.0]
+
+
 @pytest.mark.parametrize(
     ("name", "names"),
     [

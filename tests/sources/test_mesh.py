@@ -78,6 +78,16 @@ def test_meshes(tmp_path, on, bed, quads):
     assert (extent.bed is not None) == bed
 
 
+@pytest.mark.parametrize("on", ["face", "node"])
+def test_contours_of_depth_on_a_mesh(tmp_path, on):
+    """Each is the circle at whose places the lake is so deep."""
+    extent = read(mesh(tmp_path / "mesh.nc", on), depths=(0.4, 1.0, 5.0))
+    for step, level in zip(extent.steps, (-1.0, -0.5), strict=True):
+        for depth, area in zip((0.4, 1.0), step.deeper[:2], strict=True):
+            assert off_shore(area, level=level - (depth - 0.05)) < 0.25
+        assert step.deeper[2].paths == ()  # no place is so deep
+
+
 def test_a_mesh_that_ends_with_the_frame_goes_on_beyond(tmp_path):
     extent = read(mesh(tmp_path / "mesh.nc"), bounds=(MIDDLE[0] - 30, MIDDLE[1] - 30, MIDDLE[0] + 30, MIDDLE[1] + 30))
     assert render_exact(extent.steps[0].drawing, (16, 16)).min() > 1.0 - 1e-6

@@ -7,6 +7,7 @@ import io
 import json
 import subprocess
 import tempfile
+from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -25,11 +26,15 @@ from vexture.flood.open_water import open_water, openness_png
 from vexture.flood.surface import WaterSurface
 from vexture.geo.extent import Frame
 from vexture.live.page import EXPORTED_POLICY
+from vexture.paint import Paint
 
 FRAME = Frame((600_000.0, 4_080_000.0, 608_000.0, 4_086_000.0), "EPSG:32610", (8000.0, 6000.0))
 
 LEVELS = (0.0, 4.0, 9.0)
 """Metres of the water above its mean, step by step."""
+
+CLASSES = {0.0: "#fde725", 2.0: "#21918c", 20.0: "#440154"}
+"""Colours of the classes of depth, in metres."""
 
 CELLS = 513
 COLUMNS, ROWS = 193, 145
@@ -144,6 +149,15 @@ def ground() -> str:
     return image_url(np.clip(pixels + rough[..., None] * 3, 0, 255).astype(np.uint8), "JPEG")
 
 
+def classes(level: float) -> bytes:
+    """Planar map of the classes of depth."""
+    paths = []
+    for depth, color in CLASSES.items():
+        red, green, blue = (int(color[k : k + 2], 16) / 255 for k in (1, 3, 5))
+        paths += [replace(path, paint=Paint((red, green, blue))) for path in wet(level - depth).paths]
+    return convert(Drawing(tuple(paths)), split="faces").to_ktx2()
+
+
 def manifest(name: str, level: float, label: str, time: str | None) -> dict[str, Any]:
     """What the page is told of one step."""
     drawing = wet(level)
@@ -170,6 +184,7 @@ def manifest(name: str, level: float, label: str, time: str | None) -> dict[str,
         "views": {
             "depth": image_url(shares.astype(np.uint8), "PNG"),
             "level": data_url("image/png", levels),
+            "classes": data_url("image/ktx2", classes(level)),
         },
         "note": None,
     }
@@ -185,7 +200,8 @@ def scene(steps: int = 3, **more: Any) -> dict[str, Any]:
         "flood": {
             "title": "A bay of formulas",
             "credits": Credits(title="A bay of formulas", source="formulas").as_json(),
-            "depths": [0.0, 2.0, 20.0],
+            "depths": [{"from": depth, "color": color} for depth, color in CLASSES.items()],
+            "arrivals": list(CLASSES.values()),
             "steps": [
                 manifest(
                     f"flood/{k:02}" if not one else "flood",

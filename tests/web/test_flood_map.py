@@ -29,12 +29,42 @@ def test_depths_as_colours_with_a_legend(opened_flood: Callable[..., Page], scre
     expect(legend).to_be_hidden()
 
 
+def test_contours_of_depth_are_as_sharp_as_the_shore(
+    opened_flood: Callable[..., Page], screenshot: Callable[..., Path]
+) -> None:
+    """Each pixel of a plan of classes has the colour of its depth, by the formula, but those on a contour."""
+    page = opened_flood("series", (740, 560), "?bare")
+    page.evaluate("vexture.flood.relief(0)")
+    page.evaluate("vexture.flood.step(2)")
+    view(page, "Plan")
+    page.evaluate("vexture.flood.colours('depth')")
+    page.wait_for_function("vexture.flood.stage.sea.classes !== null")
+    drawn(page)
+    seen = np.asarray(Image.open(screenshot(page)).convert("RGB")).astype(int)
+    corners = [on_screen(page, *corner) for corner in (flood_page.FRAME.box[:2], flood_page.FRAME.box[2:])]
+    (x0, y1), (x1, y0) = corners
+    rows, columns = np.mgrid[round(y0) + 2 : round(y1) - 2, round(x0) + 2 : round(x1) - 2]
+    u0, v0, u1, v1 = flood_page.FRAME.box
+    across, down = (columns + 0.5 - x0) / (x1 - x0), (rows + 0.5 - y0) / (y1 - y0)
+    depth = flood_page.LEVELS[2] - flood_page.height(u0 + (u1 - u0) * across, v1 + (v0 - v1) * down)
+    classes = np.digitize(depth, list(flood_page.CLASSES))  # 0: dry
+    clear = np.ones(depth.shape, bool)  # of pixels with others around them
+    for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
+        clear &= np.roll(classes, step, axis) == classes
+    for at, color in enumerate(flood_page.CLASSES.values(), start=1):
+        wanted = np.array([int(color[k : k + 2], 16) for k in (1, 3, 5)])
+        off = np.abs(seen[rows, columns] - wanted).max(axis=-1)[clear & (classes == at)]
+        assert (off < 40).mean() > 0.999, f"{color}: {(off >= 40).sum()} of {off.size}"  # it is not quite opaque
+    page.evaluate("vexture.flood.colours('water')")
+    page.wait_for_function("vexture.flood.stage.sea.classes === null && vexture.flood.water.visible")
+
+
 def test_times_of_arrival(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series", WIDE)
     page.get_by_label("Colours").select_option("arrival")
     expect(page.get_by_label("Legend", exact=True)).to_contain_text("First under water after")
     values = page.evaluate("vexture.flood.water.depthColors.classes.map(({ from }) => from)")
-    assert values == pytest.approx([k / 3 for k in range(6)])
+    assert values == pytest.approx([k * 2 / 3 for k in range(3)])
 
 
 def test_a_chart_of_the_area_and_of_a_clicked_place(opened_flood: Callable[..., Page]) -> None:
@@ -46,7 +76,12 @@ def test_a_chart_of_the_area_and_of_a_clicked_place(opened_flood: Callable[..., 
     expect(page.locator(".chart .of")).to_have_text(
         f"Water level at the marked place: 0.00 m to {flood_page.LEVELS[-1]:.2f} m"
     )
+    pin = page.get_by_role("img", name="The marked place", exact=True)
+    expect(pin).to_be_visible()
+    at = pin.evaluate("(pin) => [pin.getBoundingClientRect()].map((box) => [box.x + box.width / 2, box.bottom])[0]")
+    assert at == pytest.approx(on_screen(page, *DEEP), abs=2)
     page.get_by_role("button", name="Chart of the area").click()
+    expect(pin).to_be_hidden()
     expect(page.locator(".chart .of")).to_contain_text("Area under water")
 
 

@@ -35,8 +35,9 @@ export function lineOf(values) {
  * @param {(px: number, py: number) => [number, number] | null} placeAt place of the box under a pixel of the canvas
  * @param {(name: string) => Promise<{step: import('./steps.js').Step, surface: import('./levels.js').Levels | null}>}
  *   levelsAt
+ * @param {(place: [number, number] | null) => void} marked
  */
-export function createChart(stage, player, placeAt, levelsAt) {
+export function createChart(stage, player, placeAt, levelsAt, marked) {
   const made = (/** @type {string} */ tag, /** @type {Record<string, string | number>} */ attributes) => {
     const one = document.createElementNS(SVG, tag);
     for (const [name, value] of Object.entries(attributes)) one.setAttribute(name, String(value));
@@ -57,6 +58,7 @@ export function createChart(stage, player, placeAt, levelsAt) {
   /** @param {[number, number] | null} picked */
   function pick(picked) {
     place = picked;
+    marked(place);
     void fill();
   }
 

@@ -12,6 +12,7 @@ import { readLevels } from './levels.js';
 import { opennessOver } from './openness.js';
 import { hashOf, lookOf } from './link.js';
 import { createPanel, creditLines } from './panel.js';
+import { createPin } from './pin.js';
 import { Places } from './place.js';
 import { Player } from './player.js';
 import { wholes } from './presets.js';
@@ -226,9 +227,10 @@ async function run(stage, scene, views, fold) {
   });
   listenToKeys(views, viewed, player);
   const bar = createTimeBar(player);
-  bar.append(createChart(stage, player, placeAt, levelsAt));
+  const pin = createPin(stage);
+  bar.append(createChart(stage, player, placeAt, levelsAt, pin.mark));
   if (!bare) {
-    app.append(panel.panel, bar, shades.legend, createBearings(stage), notes.element);
+    app.append(pin.element, panel.panel, bar, shades.legend, createBearings(stage), notes.element);
     stage.inset = () => insetOf(panel.panel, bar);
   }
   stage.resize();
@@ -244,6 +246,7 @@ async function run(stage, scene, views, fold) {
     view: (/** @type {string} */ name, how = {}) => viewed(named(name), how),
     pose: (/** @type {string} */ name) => stage.pose(named(name)),
     step: (/** @type {number} */ at) => player.go(at),
+    colours: (/** @type {string} */ shade) => shades.choose(shade),
     frame: async (/** @type {number} */ at, /** @type {number} */ seconds, /** @type {boolean} */ plain) => {
       if (player.index !== at) await player.go(at);
       if (player.index !== at) throw new Error(`Step ${at + 1} cannot be shown.`);

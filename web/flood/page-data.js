@@ -13,8 +13,8 @@
  * @property {string} name
  * @property {string} texture URL
  * @property {Facts} [facts]
- * @property {{depth?: string, level?: string}} [views] depth: 8-bit gray PNG over the box, 255 is the deepest; level:
- *   16-bit gray PNG on the grid of the relief (levels.js)
+ * @property {{depth?: string, level?: string, classes?: string}} [views] depth: 8-bit gray PNG over the box, 255 is the
+ *   deepest; level: 16-bit gray PNG on the grid of the relief (levels.js); classes: planar map of the classes of depth
  * @property {string | null} [note]
  *
  * @typedef {object} FrameFacts
@@ -46,7 +46,8 @@
  * @typedef {object} Flood
  * @property {string} title
  * @property {Credits} credits
- * @property {number[]} depths metres from which the classes of the map of depths begin
+ * @property {{from: number, color: string}[]} depths metres from which the classes of the map of depths begin
+ * @property {string[]} arrivals colours of as many times of arrival, the first to come first
  * @property {(string | Manifest)[]} steps names on the server, or all of each
  * @property {string} prefix of the names of later steps
  * @property {FrameFacts} frame

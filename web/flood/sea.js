@@ -2,9 +2,11 @@
 import {
   BufferGeometry, DataTexture, DataUtils, Group, HalfFloatType, LinearFilter, Mesh, MeshBasicMaterial, RGFormat,
 } from 'three';
+import { VectorMaterial } from '../src/vector-material.js';
 import { applyVectorMask } from '../src/vector-mask.js';
 import { gridGeometry, LEAST_RISE, wallGeometry } from './land.js';
 import { mixedLevels } from './levels.js';
+import { OPACITY } from './shades.js';
 
 /** @typedef {import('../src/vector-texture.js').VectorTexture} VectorTexture */
 /** @typedef {import('../src/vector-mask.js').VectorMask} VectorMask */
@@ -33,6 +35,8 @@ export class Sea {
   #fading = null;
   #openness;
   #fields;
+  /** @type {Mesh<BufferGeometry, VectorMaterial>} */
+  #map;
   /** What the colours of the water are of; null: its depth. @type {Float32Array | null} */
   #values = null;
   #isFlat = false;
@@ -55,17 +59,23 @@ export class Sea {
     this.water = new Water(gridGeometry(surface, surface.tops), null, {
       ...LOOK, fields: this.#fields, root: WATER, transform, fold, foam: FOAM, sunDirection: sun, textureWidth: mirror, textureHeight: mirror,
     });
-    const { material } = this.water;
-    material.polygonOffset = true; // above the ground that it lies on, despite rounding
-    material.polygonOffsetFactor = -1;
-    material.polygonOffsetUnits = -4;
-    this.water.rotation.x = -Math.PI / 2;
+    this.#map = new Mesh(this.water.geometry, new VectorMaterial({
+      mode: 'paint', root: WATER, transform, wrap: 'clamp', transparent: true, opacity: OPACITY, depthWrite: false,
+      toneMapped: false,
+    }));
+    for (const { material, rotation } of [this.water, this.#map]) {
+      material.polygonOffset = true; // above the ground that it lies on, despite rounding
+      material.polygonOffsetFactor = -1;
+      material.polygonOffsetUnits = -4;
+      rotation.x = -Math.PI / 2;
+    }
+    this.#map.visible = false;
     this.walls = new Mesh(
       new BufferGeometry(),
       new MeshBasicMaterial({ color: 0x2f8199, transparent: true, opacity: 0.62, depthWrite: false }),
     );
     this.walls.visible = false;
-    this.group = new Group().add(this.water, this.walls);
+    this.group = new Group().add(this.water, this.#map, this.walls);
     this.raise();
   }
 
@@ -98,6 +108,24 @@ export class Sea {
     this.#values = values;
     this.water.depthColors = colors;
     this.#level(this.#surface.levels);
+  }
+
+  /** Show a planar map of the classes of its depth in place of the water; null: the water. */
+  set classes(/** @type {VectorTexture | null} */ texture) {
+    const { material } = this.#map;
+    if (material.texture !== texture) material.texture?.dispose(); // what is shown again is uploaded again
+    material.texture = texture;
+    this.#choose();
+  }
+
+  get classes() {
+    return /** @type {VectorTexture | null} */ (this.#map.material.texture);
+  }
+
+  /** Show the map, if there is one, or the water. */
+  #choose() {
+    this.#map.visible = this.#map.material.texture !== null && !this.#isFlat;
+    this.water.visible = !this.#map.visible;
   }
 
   /** Let the water stand at these levels. @param {Float32Array | null} levels */
@@ -160,7 +188,7 @@ export class Sea {
 
   /** Follow the surface's exaggeration. */
   raise() {
-    this.water.scale.z = Math.max(this.#surface.rise, LEAST_RISE);
+    this.water.scale.z = this.#map.scale.z = Math.max(this.#surface.rise, LEAST_RISE);
     this.#raiseWalls();
   }
 
@@ -188,5 +216,6 @@ export class Sea {
     this.#isFlat = color !== null;
     this.water.flat = color;
     this.walls.visible = color === null && this.#mask !== null;
+    this.#choose();
   }
 }

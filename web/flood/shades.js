@@ -1,60 +1,36 @@
-/** What the water is coloured by: its look, its depth, or the time at which it came. */
+/** What the water is coloured by: its look, its depth now or at its greatest, or the time at which it came. */
 
 /** @typedef {import('../src/water/fields.js').DepthColors} DepthColors */
-/** @typedef {'water' | 'depth' | 'smooth' | 'arrival'} Shade */
+/** @typedef {'water' | 'depth' | 'smooth' | 'greatest' | 'arrival'} Shade */
 
-/** ColorBrewer's YlGnBu (C. Brewer, 2002): it stays in order for those who are blind to some colours, and in gray. */
-const SEQUENCE = ['#ffffd9', '#edf8b1', '#c7e9b4', '#7fcdbb', '#41b6c4', '#1d91c0', '#225ea8', '#253494', '#081d58'];
-/** The palest of them is left out, since it would not be seen on sand. */
-const PALEST = 1;
-const OPACITY = 0.9;
+/** Of the colours. */
+export const OPACITY = 0.9;
 /** Samples beside the water that have its values: the shore is between them. */
 const BESIDE = 3;
-/** Classes of arrival times. */
-const ARRIVALS = 6;
 
-/** @param {string} color @returns {number[]} */
-const parts = (color) => [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16));
-
-/** So many colours of the sequence, from pale to dark. @param {number} count @returns {string[]} */
-export function colorsOf(count) {
-  return Array.from({ length: count }, (_, at) => {
-    const place = count === 1 ? SEQUENCE.length / 2 : PALEST + ((SEQUENCE.length - 1 - PALEST) * at) / (count - 1);
-    const below = Math.min(Math.floor(place), SEQUENCE.length - 2);
-    const [one, other] = [parts(SEQUENCE[below]), parts(SEQUENCE[below + 1])];
-    const mixed = one.map((part, k) => Math.round(part + (other[k] - part) * (place - below)));
-    return `#${mixed.map((part) => part.toString(16).padStart(2, '0')).join('')}`;
-  });
-}
-
-/**
- * Colours of values from these on.
- *
- * @param {readonly number[]} from ascending
- * @param {{smooth?: boolean, reversed?: boolean}} [how]
- * @returns {DepthColors}
- */
-function colored(from, { smooth = false, reversed = false } = {}) {
-  const colors = colorsOf(from.length);
-  if (reversed) colors.reverse();
-  return { classes: from.map((value, at) => ({ from: value, color: colors[at], opacity: OPACITY })), smooth };
-}
+/** @param {number[]} from ascending @param {string[]} colors @param {boolean} smooth @returns {DepthColors} */
+const colored = (from, colors, smooth) => ({
+  classes: from.map((value, at) => ({ from: value, color: colors[at], opacity: OPACITY })), smooth,
+});
 
 /**
  * Colours and legend of a shade; null for the look of water.
  *
  * @param {Shade} shade
- * @param {readonly number[]} depths metres from which classes begin
+ * @param {Pick<import('./page-data.js').Flood, 'depths' | 'arrivals'>} colors
  * @param {number} hours from the first step to the last
- * @returns {{colors: DepthColors, title: string, unit: string} | null}
+ * @returns {{colors: DepthColors, title: string, unit: string, mapped: boolean} | null} mapped: by a map of the classes,
+ *   where there is one
  */
-export function shadeOf(shade, depths, hours) {
+export function shadeOf(shade, { depths, arrivals: colors }, hours) {
   if (shade === 'water') return null;
   if (shade === 'arrival') {
-    const from = Array.from({ length: ARRIVALS }, (_, at) => (hours * at) / ARRIVALS);
-    return { colors: colored(from, { reversed: true }), title: 'First under water after', unit: 'h' };
+    const from = colors.map((_, at) => (hours * at) / colors.length);
+    return { colors: colored(from, colors, false), title: 'First under water after', unit: 'h', mapped: false };
   }
-  return { colors: colored(depths, { smooth: shade === 'smooth' }), title: 'Depth', unit: 'm' };
+  const from = depths.map((one) => one.from);
+  const found = colored(from, depths.map(({ color }) => color), shade === 'smooth');
+  return { colors: found, title: shade === 'greatest' ? 'Greatest depth' : 'Depth', unit: 'm', mapped: shade === 'depth' };
 }
 
 /**
@@ -79,6 +55,19 @@ export function arrivals(steps, { columns, rows }) {
     });
   }
   return found;
+}
+
+/**
+ * Greatest depth of all steps at each place, NaN where it is never under water or beside it.
+ *
+ * @param {Float32Array[]} levels
+ * @param {ArrayLike<number>} heights
+ */
+export function greatestDepths(levels, heights) {
+  return Float32Array.from(heights, (height, at) => {
+    const known = levels.map((one) => one[at]).filter((level) => !Number.isNaN(level));
+    return known.length > 0 ? Math.max(...known) - height : NaN;
+  });
 }
 
 /** A number for people: as short as it can be. @param {number} value */

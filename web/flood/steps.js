@@ -26,6 +26,21 @@ export async function levelsOf({ manifest, base }) {
   return url && facts ? { png: new Uint8Array(await bytesOf(url, base)), facts } : null;
 }
 
+/** @type {WeakMap<Manifest, Promise<VectorTexture | null>>} */
+const maps = new WeakMap();
+
+/**
+ * The planar map of the classes of depth of a step, loaded once; null if it has none.
+ *
+ * @param {Step} step
+ */
+export function classesOf({ name, manifest, base }) {
+  const load = async (/** @type {string} */ url) => new VectorTexture(await readPacked(await bytesOf(url, base), name));
+  const found = maps.get(manifest) ?? (manifest.views?.classes ? load(manifest.views.classes) : Promise.resolve(null));
+  maps.set(manifest, found);
+  return found;
+}
+
 /** Names are sorted by the numbers in them. The prefix alone is the name of the newest step. */
 const IN_ORDER = new Intl.Collator('en', { numeric: true });
 

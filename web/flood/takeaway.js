@@ -27,6 +27,9 @@ export function createTakeaway(stage, player, { caption, link, say, name }) {
   }, text);
 
   async function copy() {
+    if (location.protocol === 'about:') {
+      throw new Error('A page in a notebook has no address of its own; save it as a file, which has.');
+    }
     const address = link();
     history.replaceState(null, '', address);
     try {

@@ -4,32 +4,29 @@ import { areaText, lineOf } from '../flood/chart.js';
 import { entries } from '../flood/legend.js';
 import { hashOf, lookOf } from '../flood/link.js';
 import { Places } from '../flood/place.js';
-import { arrivals, colorsOf, shadeOf } from '../flood/shades.js';
-
-/** Brightness of a colour as sRGB is weighed. @param {string} color */
-const brightness = (color) => [1, 3, 5].reduce((sum, at, k) =>
-  sum + [0.2126, 0.7152, 0.0722][k] * (parseInt(color.slice(at, at + 2), 16) / 255) ** 2.2, 0);
+import { arrivals, greatestDepths, shadeOf } from '../flood/shades.js';
 
 describe('shades', () => {
-  it('have colours that grow darker, so that their order is seen in gray', () => {
-    for (const count of [2, 3, 6, 8]) {
-      const bright = colorsOf(count).map(brightness);
-      expect(bright).toHaveLength(count);
-      expect(bright).toEqual([...bright].sort((a, b) => b - a));
-      expect(new Set(bright).size).toBe(count);
-    }
-    expect(colorsOf(1)).toHaveLength(1);
+  it('are none for water, classes of depths, and times of arrival', () => {
+    const flood = {
+      depths: [0, 0.5, 2].map((from, at) => ({ from, color: `#${at}0${at}0${at}0` })), arrivals: ['#000000', '#ffffff'],
+    };
+    expect(shadeOf('water', flood, 0)).toBeNull();
+    const depth = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('depth', flood, 0));
+    expect(entries(depth)).toEqual([
+      { color: '#000000', text: '0 to 0.5 m' }, { color: '#101010', text: '0.5 to 2 m' }, { color: '#202020', text: 'over 2 m' },
+    ]);
+    expect(depth.mapped).toBe(true);
+    const smooth = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('smooth', flood, 0));
+    expect(entries(smooth).map(({ text }) => text)).toEqual(['0 m', '0.5 m', '2 m']);
+    expect(smooth.mapped).toBe(false);
+    const late = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('arrival', flood, 12));
+    expect(entries(late)).toEqual([{ color: '#000000', text: '0 to 6 h' }, { color: '#ffffff', text: 'over 6 h' }]);
   });
 
-  it('are none for water, classes of depths, and the first to come the darkest', () => {
-    expect(shadeOf('water', [0, 1], 0)).toBeNull();
-    const depth = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('depth', [0, 0.5, 2], 0));
-    expect(entries(depth).map(({ text }) => text)).toEqual(['0 to 0.5 m', '0.5 to 2 m', 'over 2 m']);
-    const smooth = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('smooth', [0, 0.5, 2], 0));
-    expect(entries(smooth).map(({ text }) => text)).toEqual(['0 m', '0.5 m', '2 m']);
-    const late = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('arrival', [0], 12));
-    expect(entries(late)[1].text).toBe('2 to 4 h');
-    expect(brightness(entries(late)[0].color)).toBeLessThan(brightness(entries(late)[5].color));
+  it('of the greatest depth are of all steps', () => {
+    const levels = [[1, 2, NaN], [1.5, NaN, NaN]].map((one) => Float32Array.from(one));
+    expect([...greatestDepths(levels, [1, 0, 0])]).toEqual([0.5, 2, NaN]);
   });
 
   it('of arrival are of the first step that is wet, and go on a little beside the water', () => {

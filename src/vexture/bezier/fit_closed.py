@@ -52,6 +52,9 @@ FITTING = 0.2
 FEWEST = 16
 """Samples of the smallest chain."""
 
+MOST_ALONE, MOST_BETWEEN = 2**16, 256
+"""Most samples of a chain: a number of them, and as many between two points. Only needles would have more."""
+
 MOST = 256
 """Samples that one cubic may replace."""
 
@@ -196,7 +199,8 @@ def fit_closed(
     length = float(np.hypot(*(points - np.roll(points, 1, axis=0)).T).sum())
     radius = float(np.sqrt(size / np.pi))
     tolerance = min(tolerance, radius / 2.0, size / length)
-    samples, sharp = _sampled(points, kept, min(tolerance, length / FEWEST))
+    allowed = MOST_ALONE + MOST_BETWEEN * len(points)
+    samples, sharp = _sampled(points, kept, max(min(tolerance, length / FEWEST), length / allowed))
     if len(samples) < 3:
         return line_cubics(points, np.roll(points, -1, axis=0))
     samples, sharp = _cornered(samples, sharp, tolerance, corner)

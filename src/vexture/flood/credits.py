@@ -9,7 +9,7 @@ from typing import Any, Final
 
 from vexture.content import NETCDF, TIFF
 
-__all__ = ["Credits", "credits_of"]
+__all__ = ["Credits", "credits_among", "credits_of"]
 
 MOST_LETTERS: Final = 600
 """Letters of one of them that are kept: attributes can hold the history of a run."""
@@ -63,9 +63,9 @@ def credits_of(path: Path) -> Credits:
     with path.open("rb") as file:
         start = file.read(8)
     if start.startswith(NETCDF):
-        return _among(_attributes(path))
+        return credits_among(_attributes(path))
     if start.startswith(TIFF):
-        return _among(_tags(path))
+        return credits_among(_tags(path))
     return Credits()
 
 
@@ -86,9 +86,9 @@ def _tags(path: Path) -> Mapping[str, Any]:
             return tags
 
 
-def _among(attributes: Mapping[str, Any]) -> Credits:
+def credits_among(attributes: Mapping[Any, Any]) -> Credits:
     """Those of attributes that are known, whatever the case of their names."""
-    texts = {name.lower(): _text(value) for name, value in attributes.items() if isinstance(value, str)}
+    texts = {str(name).lower(): _text(value) for name, value in attributes.items() if isinstance(value, str)}
     return Credits(
         **{
             name: next((texts[one.lower()] for one in names if texts.get(one.lower())), "")

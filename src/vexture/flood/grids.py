@@ -10,7 +10,8 @@ from vexture.drawing import Drawing
 from vexture.geo.extent import Bounds, Frame
 
 __all__ = [
-    "coverage_over", "deepest", "depth_png", "filled", "noise", "pixels_to", "sampled", "shore_distance", "size_for",
+    "coverage_over", "deepest", "depth_png", "distance_to", "filled", "noise", "pixels_to", "sampled", "shore_distance",
+    "size_for",
 ]  # fmt: skip
 
 SEED: Final = 4626
@@ -71,18 +72,21 @@ def shore_distance(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray
     """
     rows, columns = wet.shape
     farthest = float(np.hypot(columns * cell[0], rows * cell[1]))
-    to_water, to_land = (np.minimum(np.sqrt(_squared(kind, cell)), farthest) for kind in (wet, ~wet))
+    to_water, to_land = (np.minimum(distance_to(kind, cell), farthest) for kind in (wet, ~wet))
     return np.where(wet, -to_land, to_water)
 
 
-def _squared(marked: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.float64]:
-    """Squared distance to the nearest marked cell: the minimum along the columns, then along the rows."""
+def distance_to(marked: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.float64]:
+    """Distance of each cell's middle to the nearest marked cell, infinite without any.
+
+    The minimum of squares along the columns, then along the rows.
+    """
     squares = np.where(marked, 0.0, np.inf)
     for step in cell[::-1]:
         places = step * np.arange(squares.shape[0])
         apart = (places[:, None] - places) ** 2
         squares = np.stack([(line + apart).min(axis=1) for line in squares.T])
-    return squares
+    return np.sqrt(squares)
 
 
 def sampled(grid: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np.float64]:

@@ -8,19 +8,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
-from vexture.flood.grids import coverage_over, shore_distance, size_for
+from vexture.flood.grids import coverage_over, distance_to, size_for
 from vexture.geo.extent import Frame
 
 __all__ = ["open_water", "openness_at", "openness_png"]
 
 SAMPLES: Final = 256
-"""Samples on the longer side."""
+"""Most samples on the longer side."""
 
 RADIUS: Final = 250.0
 """Metres. Water is open as far as a disc of this radius fits into it: twice that is the fetch of the smallest surf."""
 
+WIDE: Final = 1000.0
+"""Metres. And only of water into which a disc of this radius fits somewhere: neither of a pond nor of a wide river."""
+
 LEAST_CELLS: Final = 2.0
-"""And in cells, where these are larger."""
+"""Least of these radii in cells, where these are larger."""
+
+MOST_CELLS: Final = 32.0
+"""Most of these radii in cells, whatever is finer."""
 
 FADE: Final = (0.004, 0.02)
 """Distance from open water at which waves begin to fade, and at which they have ended; shares of the longer side."""
@@ -29,22 +35,48 @@ FADE: Final = (0.004, 0.02)
 def open_water(drawing: Drawing, frame: Frame) -> NDArray[np.float64]:
     """Openness of the water at rest, 1 in open water and 0 far from it, on a grid over the frame.
 
-    The northernmost row comes first. Water is open where a disc fits into it (a morphological opening); it goes on
-    beyond the frame as at its border.
+    The northernmost row comes first. Water is open where a disc fits into it (a morphological opening), if it is wide
+    somewhere; it goes on beyond the frame as at its border.
     """
-    size = size_for(frame, SAMPLES)
     longest = max(frame.metres)
+    size = size_for(frame, min(SAMPLES, int(np.ceil(longest * MOST_CELLS / RADIUS))))
     cell = (frame.metres[0] / size[0], frame.metres[1] / size[1])
     wet = coverage_over(drawing, frame.box, size) >= 0.5
-    radius = max(RADIUS, LEAST_CELLS * max(cell))
-    margin = int(np.ceil(2.0 * radius / min(cell)))
-    around = np.pad(wet, margin, mode="edge")
-    core = shore_distance(around, cell) <= -radius
+    radius, margin, core = _middles(wet, cell, RADIUS)
+    core = _joined(np.pad(_wide(wet, cell), margin, mode="edge") & core, core)
     if not core.any():
         return np.zeros(wet.shape)
-    away = (shore_distance(core, cell) - radius)[margin:-margin, margin:-margin] / longest
+    away = (distance_to(core, cell) - radius)[margin:-margin, margin:-margin] / longest
     share = np.clip((FADE[1] - away) / (FADE[1] - FADE[0]), 0.0, 1.0)
     return np.asarray(share * share * (3.0 - 2.0 * share))
+
+
+def _middles(wet: NDArray[np.bool_], cell: tuple[float, float], radius: float) -> tuple[float, int, NDArray[np.bool_]]:
+    """Where discs in the water may have their middles, with a margin around the grid; their radius and the margin."""
+    radius = max(radius, LEAST_CELLS * max(cell))
+    margin = int(np.ceil(2.0 * radius / min(cell)))
+    return radius, margin, distance_to(~np.pad(wet, margin, mode="edge"), cell) >= radius
+
+
+def _wide(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.bool_]:
+    """Where the widest disc fits into the water."""
+    every = max(1, int(WIDE / (MOST_CELLS * max(cell))))
+    coarse = (every * cell[0], every * cell[1])
+    radius, margin, middles = _middles(wet[::every, ::every], coarse, WIDE)
+    inside = (distance_to(middles, coarse) <= radius)[margin:-margin, margin:-margin]
+    return np.asarray(inside.repeat(every, axis=0).repeat(every, axis=1)[: wet.shape[0], : wet.shape[1]])
+
+
+def _joined(seeds: NDArray[np.bool_], inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Cells that seeds reach without leaving `inside` (morphological reconstruction, Vincent 1993)."""
+    while True:
+        grown = seeds.copy()
+        for way in (grown, grown[::-1], grown.T, grown.T[::-1]):
+            way[1:] |= way[:-1]
+            grown &= inside
+        if (grown == seeds).all():
+            return seeds
+        seeds = grown
 
 
 def openness_at(openness: NDArray[np.float64], frame: Frame, places: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -1,5 +1,6 @@
 """Parameters of `vexture flood`, checked before any file is read."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import isfinite
@@ -9,7 +10,7 @@ from typing import Any, Final
 from vexture.errors import ParameterError
 from vexture.tolerance import HMIN
 
-__all__ = ["DEPTHS", "PERIOD", "FloodOptions", "bounds_of", "depths_of"]
+__all__ = ["DEPTHS", "PERIOD", "FloodOptions", "bounds_of", "classes_of", "depths_of"]
 
 PERIOD: Final = 8.0
 """Default seconds between two waves on a beach."""
@@ -68,7 +69,13 @@ class FloodOptions:
     def reading(self) -> dict[str, Any]:
         """Parameters of the reader that also apply to files uploaded later."""
         named = {"time_dim": self.time_dim, "variable": self.variable, "layer": self.layer}
-        return {name: value for name, value in named.items() if value is not None}
+        given: dict[str, Any] = {name: value for name, value in named.items() if value is not None}
+        return {**given, "depths": self.contours}
+
+    @property
+    def contours(self) -> tuple[float, ...]:
+        """Metres at which one class of the map of depths ends and the next one begins."""
+        return tuple(depth for depth in self.depths[1:] if depth > self.hmin)
 
     def amplitude_in(self, longest: float) -> float:
         """Amplitude of the shoreline in metres, in a frame whose longer side has this many metres."""
@@ -97,7 +104,18 @@ def depths_of(text: str) -> tuple[float, ...]:
         depths = tuple(float(part) for part in text.split(","))
     except ValueError:
         raise ParameterError(f"`depths` {text}: give metres with commas between them, as in 0.2,0.5,1,2") from None
-    return depths if depths[0] == 0.0 else (0.0, *depths)
+    return classes_of(depths)
+
+
+def classes_of(depths: Sequence[float]) -> tuple[float, ...]:
+    """Depths at which classes begin; the first class begins at 0.
+
+    Examples
+    --------
+    >>> classes_of([0.5, 2.0])
+    (0.0, 0.5, 2.0)
+    """
+    return tuple(depths) if tuple(depths[:1]) == (0.0,) else (0.0, *depths)
 
 
 def bounds_of(text: str) -> tuple[float, float, float, float]:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.flood.credits import Credits
+from vexture.flood.depth_classes import colors_of
 from vexture.flood.open_water import openness_png
 from vexture.flood.relief import Relief
 from vexture.flood.views import View
@@ -22,6 +23,9 @@ PREFIX: Final = "flood"
 
 GEODETIC: Final = 9
 """Places along each side at which longitude and latitude are computed: between them they are interpolated."""
+
+ARRIVALS: Final = 6
+"""Classes of times of arrival; the first to come is the darkest."""
 
 MONTHS: Final = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
 """In English, whatever the locale."""
@@ -66,7 +70,8 @@ def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, f
     return {
         "title": flood.title,
         "credits": flood.credits.as_json(),
-        "depths": list(flood.depths),
+        "depths": _colored(flood.depths),
+        "arrivals": colors_of(ARRIVALS)[::-1],
         "steps": list(steps),
         "prefix": PREFIX,
         "frame": {
@@ -85,6 +90,11 @@ def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, f
         "views": [view.as_json() for view in flood.views],
         "notes": [note.text for note in flood.notes],
     }
+
+
+def _colored(depths: tuple[float, ...]) -> list[dict[str, Any]]:
+    """Classes of depth, in metres from which they begin, with their colours."""
+    return [{"from": depth, "color": color} for depth, color in zip(depths, colors_of(len(depths)), strict=True)]
 
 
 def _geodetic(frame: Frame) -> dict[str, Any] | None:

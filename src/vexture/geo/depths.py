@@ -1,10 +1,10 @@
 """Rasters and meshes of water depths as `Extent`."""
 
-import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vexture.content import NETCDF, TIFF, start_of, unpacked
 from vexture.errors import ParameterError, SourceError
 from vexture.geo.crs import chosen_crs, frame_of, gis_packages, period
+from vexture.geo.datasets import is_dataset
 from vexture.geo.extent import Bounds, Extent, Frame, Step
 from vexture.geo.mesh import MeshInFrame, MeshSeries
 from vexture.geo.raster import RasterInFrame
@@ -24,7 +25,7 @@ __all__ = ["DepthsInFrame", "depths_in_frame", "read_depths"]
 
 @gis_packages()
 def read_depths(
-    source: bytes | str | os.PathLike[str],
+    source: Any,
     file_name: str,
     *,
     frame: Frame | None = None,
@@ -33,15 +34,17 @@ def read_depths(
     time_dim: str | None = None,
     hmin: float = HMIN,
     variable: str | None = None,
+    depths: Sequence[float] = (),
 ) -> Extent:
-    """Read where water is from a GeoTIFF, or from a NetCDF file of rows and columns or of a UGRID mesh.
+    """Read where water is from a GeoTIFF, or from NetCDF or xarray: on rows and columns, straight or not, or on a mesh.
 
     A file named as a partition of D-Flow FM, ``run_0000_map.nc``, is read with all others of its run beside it.
     Parameters and errors as in `vexture.read_extent`.
     """
     with depths_in_frame(
-        source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable
-    ) as placed:
+        source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable,
+        depths=depths,
+    ) as placed:  # fmt: skip
         return _extent(placed)
 
 
@@ -49,7 +52,14 @@ class DepthsInFrame:
     """An open file of depths in a frame: the values at each of its times, and the steps that they make."""
 
     def __init__(
-        self, series: Series | MeshSeries, name: str, system: str, frame: Frame, hmin: float, notes: Notes
+        self,
+        series: Series | MeshSeries,
+        name: str,
+        system: str,
+        frame: Frame,
+        hmin: float,
+        depths: tuple[float, ...],
+        notes: Notes,
     ) -> None:
         self._placed: MeshInFrame | RasterInFrame
         if isinstance(series, MeshSeries):
@@ -57,7 +67,7 @@ class DepthsInFrame:
         else:
             self._placed = RasterInFrame(series, system, frame, notes)
         self.frame, self.times, self.variable = frame, series.times, series.variable
-        self._name, self._hmin, self._notes = name, hmin, notes
+        self._name, self._hmin, self._depths, self._notes = name, hmin, depths, notes
 
     @property
     def notes(self) -> tuple[Note, ...]:
@@ -71,10 +81,11 @@ class DepthsInFrame:
 
     def step(self, number: int, depth: Values, bed: Values | None) -> Step:
         """The step of these values."""
-        drawing = self._placed.drawing(depth, bed, self._hmin)
-        frame = self.frame
-        drawing = replace(drawing, to_source=frame.to_source, name=self._name, crs=frame.crs, notes=self.notes)
-        return Step(drawing, self.times[number], self.grid(np.where(depth < 0.0, 0.0, depth)))
+        drawing, *deeper = (
+            replace(area, to_source=self.frame.to_source, name=self._name, crs=self.frame.crs, notes=self.notes)
+            for area in self._placed.drawings(depth, bed, self._hmin, self._depths)
+        )
+        return Step(drawing, self.times[number], self.grid(np.where(depth < 0.0, 0.0, depth)), tuple(deeper))
 
     def grid(self, values: Values) -> NDArray[np.float32]:
         """Values over the frame, the northernmost row first."""
@@ -90,7 +101,7 @@ class DepthsInFrame:
 
 @contextmanager
 def depths_in_frame(
-    source: bytes | str | os.PathLike[str],
+    source: Any,
     file_name: str,
     *,
     frame: Frame | None,
@@ -99,33 +110,39 @@ def depths_in_frame(
     time_dim: str | None,
     hmin: float,
     variable: str | None,
+    depths: Sequence[float] = (),
 ) -> Iterator[DepthsInFrame]:
     """Open a file of depths in a frame, by default a new one around `bounds`; see `read_depths`."""
     if not hmin > 0.0 or not np.isfinite(hmin):
         raise ParameterError(f"`hmin` is {hmin:g} m; it must be above 0")
+    for depth in depths:
+        if not depth > hmin or not np.isfinite(depth):
+            raise ParameterError(f"`depths` holds {depth:g} m; all must be above `hmin`, {hmin:g} m")
     notes = Notes()
-    with _opened(unpacked(source), time_dim, variable, notes) as series:
+    with _opened(source if is_dataset(source) else unpacked(source), time_dim, variable, notes) as series:
         system = chosen_crs(crs, series.crs)
         if frame is None:
             frame = frame_of(bounds, _whole(series.box, system), system)
-        yield DepthsInFrame(series, Path(file_name).stem or "flood", system, frame, hmin, notes)
+        yield DepthsInFrame(series, Path(file_name).stem or "flood", system, frame, hmin, tuple(depths), notes)
 
 
 @contextmanager
-def _opened(
-    source: bytes | str | os.PathLike[str], time_dim: str | None, variable: str | None, notes: Notes
-) -> Iterator[Series | MeshSeries]:
-    """Open a file of the format that its first bytes show."""
-    start = start_of(source)
-    if start.startswith(TIFF):
+def _opened(source: Any, time_dim: str | None, variable: str | None, notes: Notes) -> Iterator[Series | MeshSeries]:
+    """Open a file of the format that its first bytes show, or a dataset of xarray."""
+    start = b"" if is_dataset(source) else start_of(source)
+    if is_dataset(source):
+        from vexture.geo.netcdf import opened
+
+        with opened(source, time_dim) as dataset:
+            yield _series_of(dataset, time_dim, variable)
+    elif start.startswith(TIFF):
         from vexture.geo.geotiff import open_geotiff
 
         with open_geotiff(source, time_dim, variable, notes) as series:
             yield series
     elif start.startswith(NETCDF):
-        from vexture.geo.netcdf import opened, series_of
+        from vexture.geo.netcdf import opened
         from vexture.geo.partitions import merged_partitions, partitions_beside
-        from vexture.geo.ugrid import holds_mesh, mesh_series
 
         partitions = [] if isinstance(source, bytes) else partitions_beside(Path(source))
         if partitions:
@@ -133,12 +150,23 @@ def _opened(
                 yield run
             return
         with opened(source, time_dim) as dataset:
-            found = mesh_series if holds_mesh(dataset) else series_of
-            yield found(dataset, time_dim, variable)
+            yield _series_of(dataset, time_dim, variable)
     elif not start:
         raise SourceError("it cannot be opened or is empty; choose another file")
     else:
         raise SourceError("it is neither GeoTIFF nor NetCDF; write it as one of them")
+
+
+def _series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Series | MeshSeries:
+    """Depths of an open dataset, on whatever it has them."""
+    from vexture.geo.curvilinear import grid_series, places_of_grid
+    from vexture.geo.netcdf import series_of
+    from vexture.geo.ugrid import holds_mesh, mesh_series
+
+    if holds_mesh(dataset):
+        return mesh_series(dataset, time_dim, variable)
+    grids = places_of_grid(dataset, time_dim)
+    return grid_series(dataset, grids, time_dim, variable) if grids else series_of(dataset, time_dim, variable)
 
 
 def _extent(placed: DepthsInFrame) -> Extent:

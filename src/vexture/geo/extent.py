@@ -84,11 +84,15 @@ class Step:
     depth : (rows, columns) float32 array or None
         Depth in metres over the frame, the northernmost row first, NaN where nothing is known; None where the source
         has none.
+    deeper : tuple of Drawing
+        For each of the depths that were asked for, the area under at least so much water; empty where the source has no
+        depths.
     """
 
     drawing: Drawing
     time: datetime | None = None
     depth: NDArray[np.float32] | None = None
+    deeper: tuple[Drawing, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -5,7 +5,7 @@ and values are linear in each triangle. The middle has the value of the face, an
 Only faces near a shore are looked at in each step: of a million, some ten thousand.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Final, NamedTuple
@@ -91,13 +91,19 @@ class MeshInFrame:
         depth, bed = self._series.read(step)
         return depth[self._chosen], None if bed is None else bed[self._chosen]
 
-    def drawing(self, depth: Values, bed: Values | None, hmin: float) -> Drawing:
-        """The area under water."""
+    def drawings(self, depth: Values, bed: Values | None, hmin: float, depths: Sequence[float]) -> list[Drawing]:
+        """The area under water, and those under at least so much."""
+        return [self._deeper(depth, bed, hmin, least) for least in (hmin, *depths)]
+
+    def _deeper(self, depth: Values, bed: Values | None, hmin: float, least: float) -> Drawing:
+        """The area under at least so much water."""
         known, above = above_dry(depth, hmin)
-        crossed, around = self._crossed(known & (above > 0.0))
+        more = least - hmin
+        crossed, around = self._crossed(known & (above > more))
         part, numbers = Patch.of(self._patch.faces[around], self._patch.count)
         chosen = around if self._on_faces else numbers
-        values = self._everywhere(part, self._shored(part, depth[chosen], None if bed is None else bed[chosen], hmin))
+        shored = self._shored(part, depth[chosen], None if bed is None else bed[chosen], hmin)
+        values = self._everywhere(part, shored - more)
         corners, face, column = part.fans()
         inner = crossed[around][face]
         sides = np.zeros((int(inner.sum()), 3), np.bool_)

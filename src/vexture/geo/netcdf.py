@@ -1,6 +1,7 @@
 """Depths on the rows and columns of a NetCDF file, at one time or at several."""
 
 import os
+import re
 import warnings
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -12,10 +13,11 @@ from typing import Any, Final
 import numpy as np
 
 from vexture.errors import LimitError, ParameterError, SourceError, reason_of
+from vexture.geo.datasets import dataset_of, is_dataset
 from vexture.geo.series import Lattice, Series, Values
 from vexture.geo.variables import depths_of, listed, loaded, refuse_layers, time_axis
 
-__all__ = ["crs_of", "opened", "points_east", "series_of", "times_of"]
+__all__ = ["axes_of", "crs_of", "opened", "points_east", "points_north", "series_of", "times_of"]
 
 EAST: Final = {"x", "lon", "longitude", "easting", "xc", "mx", "m", "column", "columns", "col"}
 NORTH: Final = {"y", "lat", "latitude", "northing", "yc", "my", "n", "row", "rows"}
@@ -24,25 +26,18 @@ LONGITUDES: Final = {"degrees_east", "degree_east", "degrees_e", "degree_e"}
 
 MOST_STEPS: Final = 1000
 
+UNSAID: Final = re.compile(r"-|(EPSG:)?(nan|none|0)?", re.IGNORECASE)
+"""What models write for a reference system that they have not been told."""
+
+LEAST_CODE: Final = 1024
+"""No code of EPSG is smaller: a variable of a reference system is its code, or only there for its attributes."""
+
 
 @contextmanager
-def opened(source: bytes | str | os.PathLike[str], time_dim: str | None) -> Iterator[Any]:
-    """Dataset of a file or of its content, by xarray, with times not decoded."""
-    import xarray
-
+def opened(source: Any, time_dim: str | None) -> Iterator[Any]:
+    """Dataset of a file or of its content, by xarray, with times not decoded; one that is open stays so."""
     with ExitStack() as stack:
-        place = os.path.abspath(source) if not isinstance(source, bytes) else ""
-        if isinstance(source, bytes):
-            place = os.path.join(stack.enter_context(TemporaryDirectory(prefix="vexture-")), "depths.nc")
-            Path(place).write_bytes(source)
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                dataset = xarray.open_dataset(place, engine="netcdf4", decode_times=False, cache=False)
-        except Exception as error:  # xarray and netCDF4 raise any type of exception for a damaged file
-            why = reason_of(error, hidden=place)
-            raise SourceError(f"it cannot be read as NetCDF ({why}); write it again") from None
-        stack.enter_context(dataset)
+        dataset = dataset_of(source) if is_dataset(source) else stack.enter_context(_file(source, stack))
         if time_dim is not None and time_dim not in dataset.dims:
             raise ParameterError(
                 f"there is no dimension {time_dim!r}; it has {listed(dataset.dims)}; choose another `time_dim`"
@@ -50,9 +45,26 @@ def opened(source: bytes | str | os.PathLike[str], time_dim: str | None) -> Iter
         yield dataset
 
 
+def _file(source: bytes | str | os.PathLike[str], stack: ExitStack) -> Any:
+    """Dataset of a file, or of content that is a file for as long as the stack is open."""
+    import xarray
+
+    place = os.path.abspath(source) if not isinstance(source, bytes) else ""
+    if isinstance(source, bytes):
+        place = os.path.join(stack.enter_context(TemporaryDirectory(prefix="vexture-")), "depths.nc")
+        Path(place).write_bytes(source)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return xarray.open_dataset(place, engine="netcdf4", decode_times=False, cache=False)
+    except Exception as error:  # xarray and netCDF4 raise any type of exception for a damaged file
+        why = reason_of(error, hidden=place)
+        raise SourceError(f"it cannot be read as NetCDF ({why}); write it again") from None
+
+
 def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Series:
     """Depths of an open dataset on rows and columns; `ParameterError` if `variable` holds none."""
-    grids = {str(name): axes for name in dataset.data_vars if (axes := _axes_of(dataset, name, time_dim))}
+    grids = {str(name): axes for name in dataset.data_vars if (axes := axes_of(dataset, name, time_dim))}
     name, depth, bed = depths_of(dataset, list(grids), variable)
     time, north, east = grids[name]
     x, y = (_axis(dataset, dim) for dim in (east, north))
@@ -67,7 +79,7 @@ def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Serie
     return Series(Lattice(x, y, np.eye(2, 3)), crs, name, times, read)
 
 
-def _axes_of(dataset: Any, name: Any, time_dim: str | None) -> tuple[str | None, str, str] | None:
+def axes_of(dataset: Any, name: Any, time_dim: str | None) -> tuple[str | None, str, str] | None:
     """Dimensions of time, north and east of a variable; None if it cannot hold depths."""
     variable = dataset[name]
     if variable.dtype.kind not in "iuf":
@@ -86,6 +98,11 @@ def _axes_of(dataset: Any, name: Any, time_dim: str | None) -> tuple[str | None,
 def points_east(coordinate: Any) -> bool:
     """Whether a coordinate runs along the axis x."""
     return _says(coordinate.attrs, "x", LONGITUDES)
+
+
+def points_north(coordinate: Any) -> bool:
+    """Whether a coordinate runs along the axis y."""
+    return _says(coordinate.attrs, "y", LATITUDES)
 
 
 def _points(dataset: Any, dim: str, names: set[str], axis: str, units: set[str]) -> bool:
@@ -119,7 +136,7 @@ def _axis(dataset: Any, dim: str) -> Values:
     along = _along(dataset, dim)
     if along is None or along.ndim != 1:
         raise SourceError(
-            f"dimension {dim!r} has no coordinates of its own (a curvilinear grid?); write it on rows and columns"
+            f"dimension {dim!r} has no coordinates; write them into the file: along it, or two for each cell"
         )
     places: Values = loaded(along).astype(np.float64)
     if not np.isfinite(places).all():
@@ -184,16 +201,20 @@ def crs_of(dataset: Any, name: str, coordinates: list[Any]) -> str | None:
     mappings = [dataset[name].attrs.get("grid_mapping"), dataset[name].encoding.get("grid_mapping")]
     named = [str(text).split(":")[0].split()[0] for text in mappings if text]
     named += ["spatial_ref", "crs", "projected_coordinate_system", "wgs84"]
-    for about in [dataset[key].attrs for key in named if key in dataset.variables] + [dataset.attrs]:
-        for key in ("crs_wkt", "spatial_ref", "epsg_code", "EPSG_code", "epsg", "proj4_params", "proj4", "crs"):
-            if about.get(key) not in (None, "", 0):
-                text = str(about[key])
+    known = [dataset[key] for key in named if key in dataset.variables]
+    for about in [variable.attrs for variable in known] + [dataset.attrs]:
+        for key in ("crs_wkt", "spatial_ref", "epsg_code", "EPSG_code", "epsg", "proj4_params", "proj4", "crs", "EPSG"):
+            text = str(about.get(key, ""))
+            if text not in ("", "0") and UNSAID.fullmatch(text) is None:
                 return f"EPSG:{text}" if text.isdigit() else text
         if about.get("grid_mapping_name"):
             try:
                 return str(CRS.from_cf(dict(about)).to_wkt())
             except Exception as error:  # pyproj raises any type of exception for invalid attributes
                 raise SourceError(f"its grid mapping is unknown ({reason_of(error)}); give `crs` EPSG:...") from None
+    numbers = [int(loaded(one)) for one in known if one.ndim == 0 and one.dtype.kind in "iu"]
+    if any(number >= LEAST_CODE for number in numbers):
+        return f"EPSG:{max(numbers)}"
     degrees = [
         about is not None
         and (about.attrs.get("standard_name") == kind or str(about.attrs.get("units", "")).lower() in units)

@@ -1,5 +1,6 @@
 """A raster of depths in a frame: reads the part that the frame needs, contours it and resamples it."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -41,9 +42,10 @@ class RasterInFrame:
         """Depth and height of the bed at a step."""
         return self._series.read(step, self._rows, self._columns)
 
-    def drawing(self, depth: Values, bed: Values | None, hmin: float) -> Drawing:
-        """The area under water."""
-        return wet_drawing(shored(depth, hmin, bed), self._to_unit, self._beyond)
+    def drawings(self, depth: Values, bed: Values | None, hmin: float, depths: Sequence[float]) -> list[Drawing]:
+        """The area under water, and those under at least so much."""
+        above = shored(depth, hmin, bed)
+        return [wet_drawing(above + hmin - least, self._to_unit, self._beyond) for least in (hmin, *depths)]
 
     def grid(self, values: Values) -> NDArray[np.float32]:
         """Nearest values over the frame, the northernmost row first; NaN beyond the raster."""

@@ -96,6 +96,7 @@ def located(
     some = np.flatnonzero(count)
     ends = np.cumsum(count[some])
     samples, triangles, shares = [], [], []
+    free = np.ones(len(x) * len(y), np.bool_)
     at = 0
     while at < len(some):
         check_time()
@@ -107,8 +108,12 @@ def located(
         column = first[triangle, 0] + within % size[triangle, 0]
         row = first[triangle, 1] + within // size[triangle, 0]
         share = _shares(corners[triangle], np.stack([x[column], y[row]], axis=1))
-        inside = (share >= -ON_SIDE).all(axis=1)
-        samples.append((row * len(x) + column)[inside])
+        sample = row * len(x) + column
+        inside = (share >= -ON_SIDE).all(axis=1) & free[
+            sample
+        ]  # triangles may lie over one another, any number of them
+        free[sample[inside]] = False
+        samples.append(sample[inside])
         triangles.append(triangle[inside])
         shares.append(share[inside])
         at = stop

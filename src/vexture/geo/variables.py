@@ -10,7 +10,7 @@ import numpy as np
 from vexture.errors import LimitError, ParameterError, SourceError, reason_of
 from vexture.geo.series import Values
 
-__all__ = ["depths_of", "has_depths", "listed", "loaded", "refuse_layers", "time_axis"]
+__all__ = ["depths_of", "has_depths", "listed", "loaded", "reader_of", "refuse_layers", "time_axis"]
 
 # fmt: off
 DEPTHS: Final = (
@@ -35,7 +35,17 @@ BEDS: Final = (
     {"altitude", "surface_altitude", "ground_level_altitude", "height_above_mean_sea_level", "bed_level"},
 )
 """Those of heights of the bed."""
+
+SOUNDINGS: Final = (
+    {"dps", "dps0", "bathymetry", "bathy"},
+    {"sea_floor_depth", "sea_floor_depth_below_geoid", "sea_floor_depth_below_mean_sea_level",
+     "sea_floor_depth_below_reference_ellipsoid", "depth_below_geoid"},
+)
+"""Those of depths of the bed below the zero of the heights, which count downwards."""
 # fmt: on
+
+SOUNDED: Final = re.compile(r"bathymetr|below (the )?(geoid|datum|mean sea level)", re.IGNORECASE)
+"""What descriptions say of such depths whose names are those of water depths, as ``h`` of ROMS."""
 
 UNITS: Final = {"cm": 0.01, "mm": 0.001, "centimetre": 0.01, "ft": 0.3048, "feet": 0.3048, "foot": 0.3048}
 """Length in metres of units other than the metre."""
@@ -51,32 +61,29 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tupl
 
     Where the variable holds water levels, the function subtracts the bed's height from them.
     """
-
-    def reader(name: str) -> Any:
-        down = str(dataset[name].attrs.get("positive", "up")).lower() == "down"
-        sign = -1.0 if down and name == bed else 1.0
-        return _kept(dataset[name], lambda places, order: sign * _read(dataset[name], places, order))
-
-    bed, level = (_only(dataset, candidates, names) for names in (BEDS, LEVELS))
-    read_bed = reader(bed) if bed is not None else None
+    bed = _bed(dataset, candidates)
+    read_bed = reader_of(dataset[bed], _sign(dataset, bed)) if bed is not None else None
     if variable is not None and variable not in candidates:
         raise ParameterError(f"there are no depths in {variable!r}; `variable` may be {listed(candidates)}")
+    level = _only(dataset, candidates, LEVELS)
     chosen = _chosen(dataset, candidates, bed, level) if variable is None else variable
-    if chosen == bed or (chosen == level and read_bed is None):
+    is_level = chosen == level or (_is(dataset, chosen, LEVELS) and not _named(chosen, DEPTHS))
+    if chosen == bed or (is_level and read_bed is None):
         what = "heights of the bed" if chosen == bed else "water levels, and no variable holds heights of the bed"
         others = [name for name in candidates if name not in (bed, level)]
         remedy = f"`variable` may be {listed(others)}" if others else "write depths into the file"
         raise (SourceError if variable is None else ParameterError)(f"{chosen!r} holds {what}; {remedy}")
-    read = reader(chosen)
-    if chosen == level and read_bed is not None:
+    read = reader_of(dataset[chosen])
+    if is_level and read_bed is not None:
         return chosen, lambda places, order: read(places, order) - read_bed(places, order), read_bed
     return chosen, read, read_bed
 
 
 def has_depths(dataset: Any, candidates: list[str]) -> bool:
     """Whether variables hold depths by their names, or a water level and the bed."""
-    both = _only(dataset, candidates, BEDS) is not None and _only(dataset, candidates, LEVELS) is not None
-    return both or any(_is(dataset, name, DEPTHS) for name in candidates)
+    bed = _bed(dataset, candidates)
+    both = bed is not None and _only(dataset, candidates, LEVELS) is not None
+    return both or any(_is(dataset, name, DEPTHS) for name in candidates if name != bed)
 
 
 def _chosen(dataset: Any, candidates: list[str], bed: str | None, level: str | None) -> str:
@@ -84,11 +91,10 @@ def _chosen(dataset: Any, candidates: list[str], bed: str | None, level: str | N
 
     The one with the most times: models write the largest depth of a run beside the levels of all its times.
     """
-    depths = [name for name in candidates if _is(dataset, name, DEPTHS)]
+    depths = [name for name in candidates if _is(dataset, name, DEPTHS) and name != bed]
     levels = [level] if level is not None and bed is not None else []
-    steps = {name: _steps(dataset, name) for name in depths + levels}
-    most = max(steps.values(), default=0)
-    choice = [name for name in depths if steps[name] == most] or levels
+    best = _longest(dataset, depths + levels)
+    choice = [name for name in best if name in depths] or best
     choice = choice or [name for name in candidates if name not in (bed, level)]
     if not choice and level is None:
         raise SourceError(f"no variable is on rows and columns; it has {listed(dataset.data_vars)}")
@@ -98,22 +104,47 @@ def _chosen(dataset: Any, candidates: list[str], bed: str | None, level: str | N
     return choice[0]
 
 
-def _steps(dataset: Any, name: str) -> int:
-    time = time_axis(dataset, dataset[name].dims, None)
-    return 1 if time is None else int(dataset.sizes[time])
+def _longest(dataset: Any, names: list[str]) -> list[str]:
+    """Those of the variables with the most times; largest values of a run only if there is nothing else."""
+
+    def steps(name: str) -> int:
+        time = time_axis(dataset, dataset[name].dims, None)
+        return 1 if time is None else int(dataset.sizes[time])
+
+    most = max(map(steps, names), default=0)
+    found = [name for name in names if steps(name) == most]
+    return [name for name in found if not name.lower().endswith("max")] or found
 
 
-def _kept(variable: Any, read: Callable[..., Values]) -> Callable[..., Values]:
-    """Function that reads a variable, and keeps what it read last: a bed without times is the same at all steps."""
+def reader_of(variable: Any, sign: float = 1.0) -> Callable[..., Values]:
+    """Function that reads a variable, times a sign, and keeps what it read last: a bed without times stays."""
     last: list[tuple[Any, Values]] = []
 
     def again(places: dict[Any, Any], order: tuple[str, ...]) -> Values:
         key = ({dim: place for dim, place in places.items() if dim in variable.dims}, order)
         if not last or last[0][0] != key:
-            last[:] = [(key, read(places, order))]
+            last[:] = [(key, sign * _read(variable, places, order))]
         return last[0][1]
 
     return again
+
+
+def _bed(dataset: Any, candidates: list[str]) -> str | None:
+    """Variable of the heights of the bed, or of its depths below their zero."""
+    described = [name for name in candidates if _is(dataset, name, DEPTHS) and _sounded(dataset, name)]
+    known = BEDS[0] | SOUNDINGS[0], BEDS[1] | SOUNDINGS[1]
+    found = _only(dataset, candidates, known)
+    return described[0] if found is None and len(described) == 1 else found
+
+
+def _sign(dataset: Any, bed: str) -> float:
+    """What makes heights of the values of a bed: -1 where they count downwards."""
+    sounded = _is(dataset, bed, SOUNDINGS) or (_is(dataset, bed, DEPTHS) and _sounded(dataset, bed))
+    return -1.0 if str(dataset[bed].attrs.get("positive", "down" if sounded else "up")).lower() == "down" else 1.0
+
+
+def _sounded(dataset: Any, name: str) -> bool:
+    return SOUNDED.search(str(dataset[name].attrs.get("long_name", ""))) is not None
 
 
 def _is(dataset: Any, name: str, known: tuple[set[str], set[str]]) -> bool:
@@ -125,13 +156,17 @@ def _named(name: str, known: tuple[set[str], set[str]]) -> bool:
 
 
 def _standard(dataset: Any, name: str) -> str:
-    return str(dataset[name].attrs.get("standard_name", "")).lower()
+    """Standard name, also that of what SFINCS calls the maximum of it."""
+    return str(dataset[name].attrs.get("standard_name", "")).lower().removeprefix("maximum of ").replace(" ", "_")
 
 
 def _only(dataset: Any, candidates: list[str], known: tuple[set[str], set[str]]) -> str | None:
-    """The only variable with a usual name, or else with a standard name, which that of the step before may have too."""
-    found = [name for name in candidates if _named(name, known)]
-    found = found or [name for name in candidates if _standard(dataset, name) in known[1]]
+    """The variable with a usual name and the most times, or else with a standard name; None if several have.
+
+    That of the level at the step before has the same standard name.
+    """
+    found = _longest(dataset, [name for name in candidates if _named(name, known)])
+    found = found or _longest(dataset, [name for name in candidates if _standard(dataset, name) in known[1]])
     return found[0] if len(found) == 1 else None
 
 

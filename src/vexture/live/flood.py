@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from vexture.content import about
 from vexture.drawing import Drawing
 from vexture.errors import ParameterError, SourceError, counted
+from vexture.flood.credits import Credits
 from vexture.flood.options import FloodOptions
 from vexture.flood.scene import PREFIX, Flood, PageNote, labels, scene, step_names
 from vexture.geo.extent import Extent, Frame
@@ -32,7 +33,7 @@ if TYPE_CHECKING:  # at run time only what a flood needs is imported
     from vexture.live.kept import KeptWater
     from vexture.live.video import Track
 
-__all__ = ["Made", "Serving", "Written", "export", "make", "serve"]
+__all__ = ["Made", "Serving", "Written", "export", "make", "page_of", "serve"]
 
 GROUND_NAME, FOLD_NAME = "ground.webp", "shore.fold.ktx2"
 
@@ -79,10 +80,17 @@ class Written(NamedTuple):
     sizes: dict[Path, int]
 
 
-def make(asked: FloodOptions, say: Say, start: "Start | None" = None, kept: "KeptWater | None" = None) -> Made:
+def make(
+    asked: FloodOptions,
+    say: Say,
+    start: "Start | None" = None,
+    kept: "KeptWater | None" = None,
+    given: tuple[Extent, Credits] | None = None,
+) -> Made:
     """Read all files of a flood and convert them; `say` gets warnings and notes for the user.
 
-    Of a followed run, `start` are its first steps. What of them is `kept` already is not converted again.
+    Of a followed run, `start` are its first steps. What of them is `kept` already is not converted again. What is
+    `given`, an extent and its credits, is not read.
     """
     from vexture.flood.credits import credits_of
     from vexture.flood.drawn_ground import drawn_ground
@@ -91,7 +99,9 @@ def make(asked: FloodOptions, say: Say, start: "Start | None" = None, kept: "Kep
     from vexture.flood.surface import highest_of, surface_of
     from vexture.flood.views import views_of
 
-    extent = _read(asked) if start is None else start.extent
+    if start is not None:
+        given = start.extent, start.credits
+    extent, credits = given or (_read(asked), credits_of(asked.extent))
     if line := line_of(str(asked.extent), extent.notes):
         say(f"warning: {line}")
     frame = extent.frame
@@ -101,7 +111,7 @@ def make(asked: FloodOptions, say: Say, start: "Start | None" = None, kept: "Kep
         return relief_of(extent, asked.relief, asked.crs)
 
     relief = heights() if kept is None else kept.relief(asked, extent, heights)
-    conversion = FloodConversion(frame, asked.hmin, asked.reading, relief, extent.bed)
+    conversion = FloodConversion(frame, asked.hmin, asked.reading, relief, asked.depths, extent.bed)
     drawn = drawn_ground(extent, relief)
     notes = [INVENTED] if relief.invented else []
     picture = drawn
@@ -116,9 +126,7 @@ def make(asked: FloodOptions, say: Say, start: "Start | None" = None, kept: "Kep
     notes += told if start is None else [note for note in told if note is not DRY]  # water may come
     if relief.known < WHOLE:
         notes.append(PageNote(f"{relief.known:.0%} of the ground has a height; the rest goes on as its border.", ""))
-    credits = (credits_of(asked.extent) if start is None else start.credits).with_given(
-        title=asked.title, source=asked.source, licence=asked.licence
-    )
+    credits = credits.with_given(title=asked.title, source=asked.source, licence=asked.licence)
     flood = Flood(
         title=credits.title or asked.extent.name.partition(".")[0] or PREFIX,
         credits=credits,
@@ -213,7 +221,6 @@ def export(asked: FloodOptions, output: Path | None, video: "VideoOptions | None
 
     `track` goes through the frames of the video, and may show how far it is.
     """
-    from vexture.flood.ground import GROUND_TYPE
     from vexture.texture.files import writable, write_together
 
     built(FLOOD.script)
@@ -224,6 +231,18 @@ def export(asked: FloodOptions, output: Path | None, video: "VideoOptions | None
 
         writable(video.path.parent)
     made = make(asked, say)
+    page = page_of(made)
+    files = {} if output is None else {output: page}
+    if video is not None:
+        files[video.path] = film(page, video, made.flood.title, track)
+    write_together(files)
+    return Written(made, {path: len(data) for path, data in files.items()})
+
+
+def page_of(made: Made) -> bytes:
+    """One page that needs nothing else."""
+    from vexture.flood.ground import GROUND_TYPE
+
     flood = made.flood
     told = scene(
         flood,
@@ -231,12 +250,7 @@ def export(asked: FloodOptions, output: Path | None, video: "VideoOptions | None
         data_address(File(flood.ground, GROUND_TYPE, "")),
         None if flood.fold is None else data_address(File(flood.fold, TEXTURE_TYPE, "")),
     )
-    page = whole_page(FLOOD, {"flood": told}, flood.title)
-    files = {} if output is None else {output: page}
-    if video is not None:
-        files[video.path] = film(page, video, flood.title, track)
-    write_together(files)
-    return Written(made, {path: len(data) for path, data in files.items()})
+    return whole_page(FLOOD, {"flood": told}, flood.title)
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,6 +25,9 @@ __all__ = ["WATER_PARAMETERS", "FloodConversion"]
 WATER_PARAMETERS: Final = Parameters(split=None, precision=2e-6)
 """Seen from the beach, a pixel is about 1e-5 of the frame: the outline shifts by a fifth of one."""
 
+CLASS_PARAMETERS: Final = Parameters(split="faces")
+"""The map of depths is looked at from above, where the default precision does."""
+
 SAME_PLACE: Final = 1e-6
 """Share of the frame by which a texture's place may differ from it, by rounding when it was written."""
 
@@ -32,7 +35,7 @@ AREA_CELLS: Final = 64
 """Cells on the longer side over which the area under water is summed; each is exact."""
 
 OPTIONS: Final[dict[FileKind, tuple[str, ...]]] = {
-    FileKind.DEPTHS: ("time_dim", "variable"),
+    FileKind.DEPTHS: ("time_dim", "variable", "depths"),
     FileKind.AREAS: ("layer",),
     FileKind.GEOJSON: ("layer",),
 }
@@ -49,10 +52,12 @@ class FloodConversion:
     hmin: float  # metres: depth from which a place is wet
     options: Mapping[str, Any]  # further parameters of vexture.read_extent
     relief: Relief  # the ground
+    depths: tuple[float, ...]  # metres from which the classes of depth begin
     bed: NDArray[np.float32] | None = None  # over the frame, if the data have it
 
     def step(self, step: Step, surface: WaterSurface, name: str, label: str) -> Shape:
         """Shape of one step that is in this frame, with its surface; `label` is its time as people read it."""
+        from vexture.flood.depth_classes import class_drawing
         from vexture.flood.grids import deepest, depth_png
 
         load_kernels()
@@ -61,6 +66,9 @@ class FloodConversion:
         views = {}
         if step.depth is not None and most:
             views["depth"] = File(depth_png(step.depth, most), "image/png", ".png")
+        classes = class_drawing(step, self.depths, name)
+        if classes is not None:
+            views["classes"] = converted(classes, name, CLASS_PARAMETERS, time.perf_counter()).texture
         level, level_facts = surface.encoded()
         views["level"] = File(level, "image/png", ".png")
         facts = {
