@@ -40,7 +40,12 @@ def depths(edge):
 
 
 def run(path, lines):
-    """Do what the lines say: `open HOUR`, `time`, `depth EDGE` (of the last time), `step EDGE` (both), `close`."""
+    """Do what the lines say, at once."""
+    list(obeyed(path, lines))
+
+
+def obeyed(path, lines):
+    """Each line after it is done: `open HOUR`, `time`, `depth EDGE` (of the last time), `step EDGE` (both), `close`."""
     file = None
     for line in lines:
         command, *given = line.split()
@@ -54,8 +59,9 @@ def run(path, lines):
             file["depth"][len(file["time"]) - 1] = depths(float(given[0]))
         if command != "close":
             file.sync()
-        print(line, end="", flush=True)
+        yield line
 
 
 if __name__ == "__main__":
-    run(sys.argv[1], sys.stdin)
+    for done in obeyed(sys.argv[1], sys.stdin):
+        print(done, end="", flush=True)

@@ -25,7 +25,7 @@ class Model:
 
 
 @contextmanager
-def model(path):
+def writing(path):
     one = Model(path)
     try:
         yield one

@@ -1,12 +1,15 @@
 """A run that is followed: what a model writes is on the page a moment later, and is there again if it is kept."""
 
+import resource
 from contextlib import closing
 
+import model
 import pytest
 from floods import depths, flood, flooding, geotiff, scene_of, sea, series
-from runs import following, model
+from runs import following, writing
 from server import Stream
 
+from vexture.errors import SourceError
 from vexture.geo.growing import growing, whole_run
 from vexture.live.folder import STATE
 from vexture.live.names import manifest_name
@@ -20,7 +23,7 @@ HOURS = "14 Feb 2026 {:02}:00 UTC"
 def followed(tmp_path_factory):
     """A server that was started before the file, the model that writes it, and the server's events."""
     path = tmp_path_factory.mktemp("run") / "run_map.nc"
-    with following(path) as server, model(path) as writer:
+    with following(path) as server, writing(path) as writer:
         line = server.process.stderr.readline()
         assert (line.count("run_map.nc: waiting for its first step"), line.count("there is no such file")) == (1, 1)
         writer.does("open 6", "step 0.3")
@@ -67,6 +70,7 @@ def test_steps_come_while_the_model_has_the_file_open_and_a_new_run_starts_over(
         assert server.labels() == [HOURS.format(hour) for hour in (12, 13)]
 
 
+@pytest.mark.slow
 def test_a_file_that_is_replaced_as_a_whole(tmp_path):
     path, newer = tmp_path / "run.nc", tmp_path / "newer.nc"
     series(path, [0.3, 0.4])
@@ -96,8 +100,32 @@ def test_known_steps_are_not_made_again(tmp_path):
         assert [change.number for change in run.changes()] == [2]
     with growing(path, frame=extent.frame, known=known, rewritten=True, hmin=0.05) as run:
         assert list(run.changes()) == []
+    series(path, [0.3, 0.6, 0.5])
+    with growing(path, frame=extent.frame, known=known, hmin=0.05) as run:
+        assert [change.number for change in run.changes()] == [1]
+    series(path, [0.3, 0.6, 0.5, 0.7])
+    with growing(path, frame=extent.frame, known=known, rewritten=True, hmin=0.05) as run:
+        assert [change.number for change in run.changes()] == [1, 3]
     with growing(path, frame=extent.frame, known=known[1:], hmin=0.05) as run:
-        assert (run.started_over, [change.number for change in run.changes()]) == (True, [0, 1, 2])
+        assert (run.started_over, [change.number for change in run.changes()]) == (True, [0, 1, 2, 3])
+
+
+def test_half_of_a_step_is_none_and_a_dry_step_is_one(tmp_path):
+    path = tmp_path / "run.nc"
+    model.run(path, ["open 6", "step 0.3", "time", "close"])  # as it is while the model writes the second
+    extent, known = whole_run(path, bounds=None, hmin=0.05)
+    assert len(extent.steps) == len(known) == 1
+    model.run(path, ["open 6", "step 0.3", "time", "step 0.4", "close"])  # NaN where it is dry, as some models write
+    with growing(path, frame=extent.frame, known=known, hmin=0.05) as run:
+        assert [(change.number, bool(change.step.drawing.paths)) for change in run.changes()] == [(1, False), (2, True)]
+    model.run(path, ["open 6", "time", "close"])
+    with pytest.raises(SourceError, match="no number"):
+        whole_run(path, bounds=None, hmin=0.05)
+    with (
+        growing(path, frame=extent.frame, known=known, hmin=0.05) as run,
+        pytest.raises(SourceError, match="step 1 holds no number any more"),
+    ):
+        list(run.changes())
 
 
 @pytest.mark.parametrize(
@@ -134,6 +162,14 @@ def test_what_was_pushed_and_followed_survives_a_kill(tmp_path):
         for name in ("flood/observed", "flood/spoilt"):
             assert server.put(name, sea(tmp_path / "sea.geojson", 0.7).read_bytes())[0] == 201
         before = {name: server.manifest(name) for name in server.steps}
+        limits = resource.prlimit(server.process.pid, resource.RLIMIT_FSIZE, (100, resource.RLIM_INFINITY))
+        status, refused = server.put("flood/observed", sea(tmp_path / "sea.geojson", 0.3).read_bytes())
+        resource.prlimit(server.process.pid, resource.RLIMIT_FSIZE, limits)
+        assert (status, refused["error"]) == (
+            507,
+            "flood/observed: cannot be kept (File too large); make room on the disk",
+        )
+        assert {name: server.manifest(name) for name in server.steps} == before
         server.process.kill()
         server.process.wait()
     assert len(before) == 5
@@ -152,6 +188,7 @@ def test_what_was_pushed_and_followed_survives_a_kill(tmp_path):
     assert outcome.stderr.endswith("; choose another folder\n")
 
 
+@pytest.mark.slow
 def test_pushed_water_comes_before_the_extent_after_a_start(tmp_path):
     extent, keep = sea(tmp_path / "sea.geojson", 0.5), tmp_path / "water"
     options = ["--extent", extent, "--bounds", "500000,4000000,504000,4002000", "--keep", keep]

@@ -8,7 +8,7 @@ from flood_seen import PATIENCE
 from floods import BOUNDS, flood, flooding, sea
 from PIL import Image
 from playwright.sync_api import expect
-from runs import following, model
+from runs import following, writing
 
 from viewing import until
 
@@ -59,7 +59,7 @@ def test_what_is_pushed_is_seen(open_page, screenshot, tmp_path):
 
 def test_the_slider_grows_with_a_run(open_page, screenshot, tmp_path):
     path = tmp_path / "run_map.nc"
-    with model(path) as writer:
+    with writing(path) as writer:
         writer.does("open 6", "step 0.3")
         with following(path, "--amplitude", "0") as server:
             server.shows()
@@ -71,14 +71,21 @@ def test_the_slider_grows_with_a_run(open_page, screenshot, tmp_path):
             def shown(text):
                 expect(slider).to_have_attribute("aria-valuetext", text, timeout=PATIENCE)
 
+            arrival = page.locator("option[value=arrival]")
+            expect(arrival).to_be_disabled()
             writer.does("step 0.4", "step 0.5")
             shown("14 Feb 2026 08:00 UTC, step 3 of 3")
             assert slider.get_attribute("max") == "2"
-            expect(page.locator(".chart .of")).to_contain_text("Area under water")
+            expect(arrival).to_be_enabled()
+            chart = page.locator(".chart .of")
+            expect(chart).to_contain_text("Area under water")
             screenshot(page, "grown")
             page.get_by_role("button", name="Previous step").click()
             shown("14 Feb 2026 07:00 UTC, step 2 of 3")
             writer.does("step 0.6")
             shown("14 Feb 2026 07:00 UTC, step 2 of 4")
-            writer.does("close", "open 12", "step 0.2")
+            expect(chart).to_contain_text(" to 4.6", timeout=PATIENCE)
+            writer.does("depth 0.9")
+            expect(chart).to_contain_text(" to 7.0", timeout=PATIENCE)
+            writer.does("close", "open 12", "step 0.3")  # the same water as before, at another time
             expect(page.locator(".when")).to_have_text("14 Feb 2026 12:00 UTC", timeout=PATIENCE)

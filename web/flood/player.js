@@ -133,8 +133,12 @@ export class Player extends EventTarget {
   /** @param {string} name */
   async #ready(name) {
     const step = await this.steps.open(name);
-    this.#labels.set(name, labelOf(step.manifest, name));
-    await this.#prepare(step);
+    let manifest;
+    do { // its water may change meanwhile
+      ({ manifest } = step);
+      this.#labels.set(name, labelOf(manifest, name));
+      await this.#prepare(step);
+    } while (manifest !== step.manifest);
     return step;
   }
 

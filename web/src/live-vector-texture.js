@@ -18,7 +18,8 @@ const OPENING = 10000;
 /**
  * A texture that follows a server. An update replaces all data at once. After an error the last valid data stay.
  *
- * Events: `change` (new data are in place), `note` (why an update is not shown), `offline`, `online`.
+ * Events: `change` (new data are in place, or another manifest of the same data), `note` (why an update is not shown),
+ * `offline`, `online`.
  */
 export class LiveVectorTexture extends VectorTexture {
   #source;
@@ -206,6 +207,9 @@ export class LiveVectorTexture extends VectorTexture {
       this.#manifest = source.manifest;
       this.#note = null;
       guarded(() => this.replace(data));
+    } else if (source.manifest.version !== this.#manifest.version) {
+      this.#manifest = source.manifest;
+      guarded(() => this.dispatchEvent({ type: 'change' }));
     }
     this.#manifest = source.manifest;
     this.#tell(source.manifest.note ?? null);

@@ -140,7 +140,7 @@ class _Follower:
     async def run(self) -> None:
         """Look at the file again and again; the first time it is read in any case, and the process is warm then."""
         pause = RETRY_SECONDS
-        is_first = True
+        is_first, has_failed = True, False
         while True:
             await asyncio.sleep(LOOK_SECONDS)
             if self._run.stamp == self._stamp and not is_first:
@@ -152,11 +152,13 @@ class _Follower:
             except (*EXPECTED, BrokenProcessPool, MemoryError) as error:
                 if isinstance(error, BrokenProcessPool):
                     self._worker.kill()
-                self._tell(f"{self._run.path}: no newer steps for now ({_reason(error)}); it is tried again")
+                if has_failed:  # once is no trouble: the model may have been writing
+                    self._tell(f"{self._run.path}: no newer steps for now ({_reason(error)}); it is tried again")
+                has_failed = True
                 await asyncio.sleep(pause)
                 pause = min(2.0 * pause, LONGEST_RETRY)
             else:
-                self._stamp, pause = stamp, RETRY_SECONDS
+                self._stamp, pause, has_failed = stamp, RETRY_SECONDS, False
 
     def _tell(self, line: str) -> None:
         """Say a line once."""
