@@ -46,7 +46,7 @@ def test_depths_of_no_class_are_refused(tmp_path, wrong):
 
 def test_a_map_has_the_color_of_the_deepest_class_at_each_place(extent):
     classes = (0.0, *CONTOURS)
-    drawing = class_drawing(extent.steps[0], classes, "classes")
+    drawing = class_drawing(extent.steps[0], classes, 0.05, "classes")
     picture = vexture.convert(drawing, split="faces").render(64)
     x0, y0, x1, y1 = extent.frame.box
     row = round(64 * (1.0 - 0.5 * (y0 + y1)))
@@ -59,9 +59,10 @@ def test_a_map_has_the_color_of_the_deepest_class_at_each_place(extent):
 
 def test_nothing_wet_or_of_no_known_depth_has_no_map(extent):
     (step,) = extent.steps
-    assert class_drawing(Step(step.drawing), (0.0,), "none") is None
+    assert class_drawing(Step(step.drawing), (0.0,), 0.05, "none") is None
+    assert class_drawing(step, (0.0, 0.5), 0.05, "other contours") is None
     dry = Step(vexture.Drawing(()), depth=step.depth)
-    assert class_drawing(dry, (0.0,), "dry") is None
+    assert class_drawing(dry, (0.0,), 0.05, "dry") is None
 
 
 def test_colors_grow_darker_so_that_their_order_is_seen_in_gray():

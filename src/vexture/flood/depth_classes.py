@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import Final
 
 from vexture.drawing import Drawing
+from vexture.flood.options import contours_of
 from vexture.geo.extent import Step
 from vexture.paint import Paint
 
@@ -44,12 +45,13 @@ def _between(one: str, other: str | None = None, *, share: float) -> str:
     return "#" + "".join(f"{round(a + (b - a) * share):02x}" for a, b in parts)
 
 
-def class_drawing(step: Step, depths: tuple[float, ...], name: str) -> Drawing | None:
+def class_drawing(step: Step, depths: tuple[float, ...], hmin: float, name: str) -> Drawing | None:
     """Areas of the classes of a step, each over the shallower ones, in their colours.
 
-    None if its depth is unknown, or all is dry.
+    None if all is dry, or the contours between the classes are unknown: of polygons, and of an extent that was read
+    with others.
     """
-    if step.depth is None or not step.drawing.paths:
+    if not step.drawing.paths or len(step.deeper) != len(contours_of(depths, hmin)) or step.depth is None:
         return None
     areas = (step.drawing, *step.deeper)
     colors = colors_of(len(depths))[-len(areas) :]

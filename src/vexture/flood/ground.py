@@ -12,6 +12,7 @@ from vexture.errors import LimitError, SourceError, reason_of
 from vexture.flood.grids import pixels_to, size_for
 from vexture.flood.scene import PageNote
 from vexture.geo.extent import Frame
+from vexture.geo.gdal import gdal
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -105,7 +106,7 @@ def _warped(path: Path, frame: Frame, drawn: "Image.Image") -> tuple["Image.Imag
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about a missing reference system, which is refused below
-            with rasterio.open(path) as raster:
+            with gdal(), rasterio.open(path) as raster:
                 if raster.crs is None:
                     raise SourceError(
                         f"`ground` {path}: says no reference system; write it into the file (gdal_edit.py -a_srs "

@@ -10,7 +10,7 @@ from typing import Any, Final
 from vexture.errors import ParameterError
 from vexture.tolerance import HMIN
 
-__all__ = ["DEPTHS", "PERIOD", "FloodOptions", "bounds_of", "classes_of", "depths_of"]
+__all__ = ["DEPTHS", "PERIOD", "FloodOptions", "bounds_of", "classes_of", "contours_of", "depths_of"]
 
 PERIOD: Final = 8.0
 """Default seconds between two waves on a beach."""
@@ -75,7 +75,7 @@ class FloodOptions:
     @property
     def contours(self) -> tuple[float, ...]:
         """Metres at which one class of the map of depths ends and the next one begins."""
-        return tuple(depth for depth in self.depths[1:] if depth > self.hmin)
+        return contours_of(self.depths, self.hmin)
 
     def amplitude_in(self, longest: float) -> float:
         """Amplitude of the shoreline in metres, in a frame whose longer side has this many metres."""
@@ -87,6 +87,17 @@ class FloodOptions:
                 f"longer side of {longest:.3g} m; choose a smaller one"
             )
         return self.amplitude
+
+
+def contours_of(depths: tuple[float, ...], hmin: float) -> tuple[float, ...]:
+    """Metres at which one class ends and the next one begins, of classes that begin at `depths`.
+
+    Examples
+    --------
+    >>> contours_of((0.0, 0.2, 1.0), 0.05), contours_of((0.0, 0.2, 1.0), 0.5)
+    ((0.2, 1.0), (1.0,))
+    """
+    return tuple(depth for depth in depths[1:] if depth > hmin)
 
 
 def depths_of(text: str) -> tuple[float, ...]:

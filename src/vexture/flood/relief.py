@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from vexture.errors import SourceError, reason_of
 from vexture.flood.grids import coverage_over, filled, noise, pixels_to, sampled, shore_distance, size_for
 from vexture.geo.extent import Extent, Frame, Step
+from vexture.geo.gdal import gdal
 
 __all__ = ["Relief", "first_wet", "relief_of", "wet_samples", "widest"]
 
@@ -169,7 +170,7 @@ def _heights_of(path: Path, frame: Frame, size: tuple[int, int], crs: str | None
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about a missing reference system, which is refused below
-            with rasterio.open(path) as raster:
+            with gdal(), rasterio.open(path) as raster:
                 if not raster.count:
                     choices = ", ".join(one.rpartition(":")[2] for one in raster.subdatasets[:8])
                     raise SourceError(f"`relief` {path}: holds several grids ({choices}); give one that holds one")

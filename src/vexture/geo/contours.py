@@ -23,6 +23,9 @@ THIN: Final = 0.1
 RETRY: Final = (1.0, 0.3, 0.05)
 """Shares of the tolerance, tried in turn until the fitted rings of a polygon do not intersect."""
 
+REACH, STRIP = 2, 256
+"""Cells whose depths a value at the shore depends on, on each side; rows that are looked at together."""
+
 STRAIGHT: Final = ((0, 1), (0, -1), (1, 0), (-1, 0))
 DIAGONAL: Final = ((1, 1), (1, -1), (-1, 1), (-1, -1))
 
@@ -61,14 +64,24 @@ def shored(
     >>> shored(np.array([[2.0, 1.0, 0.0], [2.0, 1.0, 0.0]]), 0.4)[0]  # a beach that falls by 1 in a cell
     array([ 1.6,  0.6, -0.4])
     """
+    strips = []
+    for first in range(0, max(1, len(depth)), STRIP):  # in strips, for little memory
+        part = slice(max(0, first - REACH), first + STRIP + REACH)
+        strip = _shored(depth[part], hmin, None if bed is None else bed[part])
+        strips.append(strip[first - part.start :][:STRIP])
+    return np.concatenate(strips)
+
+
+def _shored(depth: NDArray[np.float64], hmin: float, bed: NDArray[np.float64] | None) -> NDArray[np.float64]:
+    """Values of `shored`, of which each depends on cells of at most `REACH` rows away."""
     known, above = above_dry(depth, hmin)
     wet = known & (above >= 0.0)
     rows, columns = depth.shape
-    wet_padded, above_padded = np.pad(wet, 2, mode="edge"), np.pad(above, 2, mode="edge")
-    bed_padded = None if bed is None else np.pad(bed, 2, mode="edge")
+    wet_padded, above_padded = np.pad(wet, REACH, mode="edge"), np.pad(above, REACH, mode="edge")
+    bed_padded = None if bed is None else np.pad(bed, REACH, mode="edge")
 
     def beside(grid: NDArray[Any], down: int, across: int) -> NDArray[Any]:
-        return grid[2 + down : 2 + down + rows, 2 + across : 2 + across + columns]
+        return grid[REACH + down : REACH + down + rows, REACH + across : REACH + across + columns]
 
     total, count = np.zeros(depth.shape), np.zeros(depth.shape)
     for neighbours in (STRAIGHT, DIAGONAL):  # diagonal ones only where there are no others

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from vexture.errors import ParameterError, SourceError, reason_of
+from vexture.geo.gdal import gdal
 from vexture.geo.series import Lattice, Series, Values
 from vexture.notes import Notes
 
@@ -32,7 +33,7 @@ def open_geotiff(
 
     memory = MemoryFile(source) if isinstance(source, bytes) else None
     try:
-        with rasterio.Env(CPL_LOG=os.devnull):
+        with gdal():
             try:
                 with warnings.catch_warnings():
                     warnings.simplefilter("ignore")

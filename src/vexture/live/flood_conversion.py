@@ -66,7 +66,7 @@ class FloodConversion:
         views = {}
         if step.depth is not None and most:
             views["depth"] = File(depth_png(step.depth, most), "image/png", ".png")
-        classes = class_drawing(step, self.depths, name)
+        classes = class_drawing(step, self.depths, self.hmin, name)
         if classes is not None:
             views["classes"] = converted(classes, name, CLASS_PARAMETERS, time.perf_counter()).texture
         level, level_facts = surface.encoded()
