@@ -110,6 +110,17 @@ describe('following', () => {
     expect(disposedAfterChange).toBe(true);
   });
 
+  test('another manifest of the same texture is news, and the texture is not sent again', async () => {
+    const { texture } = await connect();
+    const changed = next(texture, 'change');
+    const before = texture.textures;
+    manifest = { ...manifest, version: '2', facts: { time: '2026-02-14T07:00:00Z' } };
+    await changed;
+    expect(texture.manifest.facts).toEqual(manifest.facts);
+    expect(texture.textures).toBe(before);
+    expect(server.log.filter((line) => JSON.stringify(line).includes('.ktx2'))).toHaveLength(1);
+  });
+
   test('what has not changed is not sent again', async () => {
     await connect();
     await answered(3);

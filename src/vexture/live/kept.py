@@ -26,6 +26,7 @@ NAMED: Final = {
     "crs": "reference system",
     "metres": "size on the ground",
     "hmin": "depth from which it is wet",
+    "depths": "classes of depth",
     "ground": "ground",
 }
 """What kept water belongs to, as people call it."""
@@ -106,7 +107,8 @@ def _facts(asked: FloodOptions, extent: Extent) -> dict[str, Any]:
         ground = f"the bed of the data ({hashlib.sha256(extent.bed.tobytes()).hexdigest()[:8]})"
     else:
         ground = "invented"
-    return {"bounds": frame.bounds, "crs": frame.crs, "metres": frame.metres, "hmin": asked.hmin, "ground": ground}
+    place = {"bounds": frame.bounds, "crs": frame.crs, "metres": frame.metres}
+    return {**place, "hmin": asked.hmin, "depths": asked.depths, "ground": ground}
 
 
 def _shown(value: Any) -> str:
