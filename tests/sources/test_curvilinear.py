@@ -6,6 +6,7 @@ import shapely
 import xarray
 
 from vexture.errors import SourceError
+from vexture.geo.crs import transformed
 from vexture.geo.curvilinear import grid_series, places_of_grid
 from vexture.geo.depths import read_depths
 from vexture.geo.netcdf import opened
@@ -52,12 +53,12 @@ def judge(extent, share=0.01):
         assert np.nanmax(step.depth) == pytest.approx(SLOPE * RADIUS + level, abs=0.2)
 
 
-def places(turn=0.0, bend=0.0, count=COUNT):
+def places(turn=0.0, bend=0.0, count=COUNT, cell=CELL):
     """Middles of cells around the lake, (n, m), turned by degrees, and bent by a share of a cell in a cell."""
     n, m = np.mgrid[0:count, 0:count] - (count - 1) / 2
     n, m = n + bend * np.sin(m / 9.0) * count / 8, m + bend * np.cos(n / 7.0) * count / 8
     cos, sin = np.cos(np.radians(turn)), np.sin(np.radians(turn))
-    return MIDDLE[0] + CELL * (cos * m - sin * n), MIDDLE[1] + CELL * (sin * m + cos * n)
+    return MIDDLE[0] + cell * (cos * m - sin * n), MIDDLE[1] + cell * (sin * m + cos * n)
 
 
 def levels_above(bed):
@@ -66,9 +67,9 @@ def levels_above(bed):
     return np.where(levels - bed > 0.01, levels, np.nan)
 
 
-def sfincs(path, turn=0.0, crs=None, inactive=None, **more):
+def sfincs(path, turn=0.0, crs=None, inactive=None, cell=CELL, **more):
     """A regular grid as SFINCS writes it: coordinates in 32 bits, corners, levels, a mask and the largest values."""
-    x, y = places(turn)
+    x, y = places(turn, cell=cell)
     bed = cone(x, y)
     zs = levels_above(bed)
     mask = np.ones(x.shape, np.float32)
@@ -111,14 +112,14 @@ def test_sfincs(tmp_path, turn):
     assert side == pytest.approx(cos + sin, rel=0.01)
 
 
-@pytest.mark.parametrize("turn", [0.0, 30.0])
-def test_a_regular_grid_is_rows_and_columns_however_it_is_turned(tmp_path, turn):
-    """It is read as a raster, for a fraction of a mesh's cost, with each cell where the file has it."""
-    with opened(sfincs(tmp_path / "map.nc", turn), None) as dataset:
+@pytest.mark.parametrize(("turn", "cell"), [(0.0, CELL), (30.0, CELL), (30.0, 2.0)])
+def test_a_regular_grid_is_rows_and_columns_however_it_is_turned(tmp_path, turn, cell):
+    """It is read as a raster, for a fraction of a mesh's cost, and the rounding to a quarter of a metre is undone."""
+    with opened(sfincs(tmp_path / "map.nc", turn, cell=cell), None) as dataset:
         series = grid_series(dataset, places_of_grid(dataset, None), None, None)
     n, m = np.mgrid[0:COUNT, 0:COUNT]
     found = series.lattice.place(np.column_stack([m.ravel(), n.ravel()]).astype(float))
-    np.testing.assert_allclose(found, np.column_stack([one.ravel() for one in places(turn)]), atol=0.05)
+    np.testing.assert_allclose(found, np.column_stack([one.ravel() for one in places(turn, cell=cell)]), atol=0.05)
 
 
 def test_sfincs_with_depths_reads_them_and_not_the_largest(tmp_path):
@@ -234,11 +235,9 @@ def test_delft3d_flow_without_a_reference_system_asks_for_it(tmp_path):
         read(delft3d(tmp_path / "trim.nc"))
 
 
-def roms(path, wet=True, around=0.0):
+def roms(path, wet=True, around=0.0, bend=0.25):
     """A grid as ROMS writes it: longitude and latitude, bathymetry, and masks of land and of what is wet now."""
-    from vexture.geo.crs import transformed
-
-    x, y = places(turn=20.0, bend=0.25)
+    x, y = places(turn=20.0, bend=bend)
     bed = cone(x, y)
     lon, lat = transformed(np.column_stack([x.ravel(), y.ravel()]), "EPSG:32610", "EPSG:4326").T
     lon, lat = (one.reshape(x.shape) for one in (lon + around, lat))
@@ -276,6 +275,15 @@ def test_roms(tmp_path):
         assert drawn.mean() * width * height == pytest.approx(true_area(level, 0.1), rel=0.01)
         assert np.nanmax(step.depth) == pytest.approx(SLOPE * RADIUS + level, abs=0.2)
         assert np.nanmax(extent.bed) < SLOPE * 400.0
+
+
+def test_a_slightly_bent_grid_in_degrees_keeps_its_places(tmp_path):
+    """Cells are off by a fifteenth of one: of degrees in 64 bits that is no rounding."""
+    with opened(roms(tmp_path / "ocean_his.nc", bend=0.01), None) as dataset:
+        series = grid_series(dataset, places_of_grid(dataset, None), None, None)
+        middles = series.nodes[series.faces].mean(axis=1)
+        true = np.column_stack([dataset[name].values.ravel() for name in ("lon_rho", "lat_rho")])
+    np.testing.assert_allclose(middles, true, atol=0.02 * CELL / 111_000)
 
 
 def test_a_grid_across_the_antimeridian_is_whole(tmp_path):
@@ -380,3 +388,11 @@ def test_coordinates_without_a_place_are_refused_in_one_line(tmp_path):
         dataset.load().assign(x=dataset["x"] * np.nan).to_netcdf(tmp_path / "lost.nc")
     with pytest.raises(SourceError, match="coordinates 'x' and 'y' hold no place"):
         read(tmp_path / "lost.nc")
+
+
+def test_a_bed_with_a_time_of_its_own_is_refused_in_one_line(tmp_path):
+    with xarray.open_dataset(sfincs(tmp_path / "map.nc"), decode_times=False) as dataset:
+        later = dataset["zb"].expand_dims({"later": 3})
+        dataset.load().assign(zb=later).to_netcdf(tmp_path / "later.nc")
+    with pytest.raises(SourceError, match="variable 'zb' also has the dimension 'later', which the depths have not"):
+        read(tmp_path / "later.nc")

@@ -114,3 +114,16 @@ def test_a_mesh_with_layers_or_without_faces_is_refused(tmp_path):
         read(mesh(tmp_path / "mesh.nc"), time_dim="hour")
     with pytest.raises(SourceError, match=r"within the bounds 0,0,9,9 .*covers"):
         read(tmp_path / "mesh.nc", bounds=(0.0, 0.0, 9.0, 9.0))
+
+
+def test_a_mesh_that_is_tiny_in_its_frame_is_read(tmp_path):
+    """One far node makes a frame so large that no sample of its grid is in a face: the outline still is there."""
+    with xarray.open_dataset(mesh(tmp_path / "mesh.nc"), decode_times=False) as dataset:
+        dataset = dataset.load()
+    far = dataset["node_x"].isel(nodes=0) + 1e7
+    x = xarray.concat([dataset["node_x"], far], "nodes")
+    y = xarray.concat([dataset["node_y"], dataset["node_y"][0]], "nodes")
+    dataset.drop_vars(["node_x", "node_y"]).assign(node_x=x, node_y=y).to_netcdf(tmp_path / "far.nc")
+    extent = read(tmp_path / "far.nc", bounds=(4e5, 3.9e6, 1.1e7, 1.5e7))
+    assert np.isnan(extent.steps[0].depth).all()
+    assert extent.steps[0].drawing.paths

@@ -30,7 +30,7 @@ MASKS: Final = {"msk", "mask_rho", "wetdry_mask_rho", "kcs"}
 """Variables, in lower case, that are 0 where a model has no cell, or no water: SFINCS, ROMS, Delft3D-FLOW."""
 
 OFF_LATTICE: Final = 0.02
-"""Cells by which the places of a lattice may differ from even ones, besides the rounding of 32 bits."""
+"""Cells by which the places of a lattice may differ from even ones, besides the rounding of those of 32 bits."""
 
 HALF_TURN: Final = 180.0
 
@@ -91,7 +91,8 @@ def grid_series(
         return values, bed(where, order) if bed else None
 
     crs = crs_of(dataset, name, [dataset[places.x], dataset[places.y]])
-    lattice = _lattice(x, y, known, stride, tuple(int(dataset.sizes[dim]) for dim in order))
+    rounding = float(np.finfo(np.float32).eps) if dataset[places.x].dtype == np.float32 else 0.0
+    lattice = _lattice(x, y, known, stride, tuple(int(dataset.sizes[dim]) for dim in order), rounding)
     if lattice is not None:
         return Series(lattice, crs, name, times, read)
     if stride > 1:
@@ -160,14 +161,24 @@ def _coordinates(dataset: Any, places: GridPlaces) -> tuple[Values, Values, int]
         for key in (places.x, places.y)
     )
     x, y = without_fill(x, y)
-    if "degree" in str(dataset[places.x].attrs.get("units", "")):
+    if "degree" in str(dataset[places.x].attrs.get("units", "")) and _width(x) > HALF_TURN:
         turned = np.mod(x, 2.0 * HALF_TURN)  # a grid across the antimeridian, in degrees of up to half a turn
-        x = turned if np.nanmax(turned, initial=0.0) - np.nanmin(turned, initial=720.0) < HALF_TURN else x
+        x = turned if _width(turned) < HALF_TURN else x
     return x, y, stride
 
 
-def _lattice(x: Values, y: Values, known: NDArray[np.bool_], stride: int, shape: tuple[int, ...]) -> Lattice | None:
-    """Lattice of `shape` whose samples, one in `stride`, are at places; None if they are not straight or not even."""
+def _width(places: Values) -> float:
+    known = places[np.isfinite(places)]
+    return float(np.ptp(known)) if known.size else 0.0
+
+
+def _lattice(
+    x: Values, y: Values, known: NDArray[np.bool_], stride: int, shape: tuple[int, ...], rounding: float
+) -> Lattice | None:
+    """Lattice of `shape` whose samples, one in `stride`, are at places; None if they are not straight or not even.
+
+    `rounding` is the share of a coordinate by which it may be rounded.
+    """
     if min(x.shape) < 2 or known.sum() < 3:
         return None
     rows, columns = np.nonzero(known)
@@ -180,7 +191,7 @@ def _lattice(x: Values, y: Values, known: NDArray[np.bool_], stride: int, shape:
     turn = np.linalg.solve(moved.T @ moved, moved.T @ (places - origin)).T
     side = float(np.hypot(*turn).min())
     off = np.abs(moved @ turn.T + origin - places).max()
-    if off > OFF_LATTICE * side + 2.0 * np.finfo(np.float32).eps * float(np.abs(places).max()):
+    if off > OFF_LATTICE * side + rounding * float(np.abs(places).max()):
         return _rectilinear(x, y) if stride == 1 else None
     if abs(np.linalg.det(turn)) < OFF_LATTICE * side**2:
         return None

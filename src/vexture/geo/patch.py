@@ -1,5 +1,6 @@
 """Faces of a mesh: their sides and triangles, which of them are near others, and means over neighbours."""
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -120,7 +121,7 @@ def _mean(
     values: NDArray[np.float64], source: NDArray[np.integer], target: NDArray[np.integer], count: int
 ) -> NDArray[np.float64]:
     """Mean, at each of `count` targets, of the known values at the sources beside it; NaN of none."""
-    flat = values.reshape(len(values), -1)
+    flat = values.reshape(len(values), math.prod(values.shape[1:]))
     known = np.isfinite(flat[source]).all(axis=1)
     source, target = source[known], target[known]
     times = np.bincount(target, minlength=count)

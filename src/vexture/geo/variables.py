@@ -206,7 +206,13 @@ def loaded(variable: Any) -> Any:
 def _read(variable: Any, places: dict[Any, Any], order: tuple[str, ...]) -> Values:
     """Values of a variable in metres, at the given places along its dimensions, with the dimensions in an order."""
     taken = variable.isel({dim: place for dim, place in places.items() if dim in variable.dims})
-    taken = taken.squeeze([dim for dim in taken.dims if dim not in order])
+    extra = [dim for dim in taken.dims if dim not in order]
+    if any(taken.sizes[dim] > 1 for dim in extra):
+        raise SourceError(
+            f"variable {variable.name!r} also has the dimension {listed(extra)}, which the depths have not; "
+            "write one that has none but theirs"
+        )
+    taken = taken.squeeze(extra)
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is no depth
         values: Values = loaded(taken.transpose(*order)).astype(np.float64)
         return values * UNITS.get(str(variable.attrs.get("units", "m")).strip().lower(), 1.0)
