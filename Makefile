@@ -58,7 +58,7 @@ help:
 
 .venv/for-test: pyproject.toml evidence/pyproject.toml | .venv/made
 	@echo 'installing vexture, its libraries and the tools of its tests into .venv (a minute or two) ...'
-	@$(INSTALL) --editable '.[docs,gis,gpu,trace,test]' --editable ./evidence
+	@$(INSTALL) --editable '.[docs,gis,gpu,scale,trace,test]' --editable ./evidence
 	@touch .venv/for-demo .venv/for-docs .venv/for-report $@
 
 .venv/for-report: pyproject.toml evidence/pyproject.toml | .venv/made

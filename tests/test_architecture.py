@@ -40,6 +40,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "layout": set(),
     "tolerance": set(),
     "content": {"errors"},
+    "workers": {"errors"},
     "notes": {"errors"},
     "group": {"errors"},
     "paint": {"errors"},
@@ -48,9 +49,9 @@ MAY_IMPORT: dict[str, set[str]] = {
     "drawing": BASE | {"bezier", "group", "notes", "paint", "unit_square"},
     "fonts": {"bezier", "content", "deadline", "drawing", "errors", "group", "notes", "paint"},
     "svg": SOURCES | {"fonts"},
-    "geo": SOURCES,
+    "geo": SOURCES | {"workers"},
     "tracing": SOURCES | {"svg"},
-    "reading": SOURCES | {"geo", "svg", "tracing"},
+    "reading": SOURCES | {"geo", "svg", "tracing", "workers"},
     "tree": BASE | {"bezier", "drawing", "group", "layout", "notes", "paint"},
     "renderers": BASE | {"drawing", "group", "layout", "paint"},
     "encodings": {"drawing", "errors", "renderers"},
@@ -62,10 +63,10 @@ MAY_IMPORT: dict[str, set[str]] = {
     "images": BASE | {"close_up", "drawing", "encodings", "group", "paint", "pipeline", "renderers"},
     "thesis": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "texture", "tree"},
     "fold": BASE | {"drawing", "layout", "notes", "renderers", "texture"},
-    "flood": BASE | {"content", "drawing", "geo", "notes", "paint", "renderers"},
+    "flood": BASE | {"content", "drawing", "geo", "notes", "paint", "renderers", "workers"},
     "live": SOURCES
     | {"encodings", "flood", "fold", "geo", "layout", "parameters", "pipeline", "reading"}
-    | {"svg", "texture", "tree"},
+    | {"svg", "texture", "tree", "workers"},
 }
 """What each part may import besides itself, wherever in a module; `cli` and the public face stand above all."""
 

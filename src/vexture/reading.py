@@ -27,6 +27,7 @@ if TYPE_CHECKING:  # at run time a reader is imported when it is needed
     from vexture.drawing import Drawing
     from vexture.geo.extent import Extent, Frame
     from vexture.svg.images import Images
+    from vexture.workers import Workers
 
 __all__ = [
     "Source",
@@ -354,6 +355,7 @@ def extent_of(
     layer: str | None = None,
     snap: float | None = None,
     depths: Sequence[float] = (),
+    workers: "Workers | None" = None,
 ) -> "Extent":
     """Read wet areas as `read_extent` does, but without a warning, and without the file's name in errors."""
     from vexture.geo.datasets import is_dataset
@@ -361,11 +363,12 @@ def extent_of(
     source = source if is_dataset(source) else unpacked(source)
     if is_dataset(source) or kind_of(start_of(source), file_name) is FileKind.DEPTHS:
         from vexture.geo.depths import read_depths
+        from vexture.workers import Here
 
         _refuse({"`layer`": layer, "`snap`": snap}, "polygons, and this file holds depths")
         return read_depths(
             source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable,
-            depths=depths,
+            depths=depths, workers=workers or Here(),
         )  # fmt: skip
     from vexture.geo.polygons import read_polygons
 

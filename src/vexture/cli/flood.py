@@ -1,5 +1,6 @@
 """The command `flood`."""
 
+import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -51,6 +52,8 @@ Examples:
 @click.option("--source", metavar="TEXT", help="Where the data are from.  [default: what the file says]")
 @click.option("--licence", "--license", metavar="TEXT", help="Terms of the data.  [default: what the file says]")
 @click.option("--depths", metavar="M,M,...", help=f"Classes of the map of depths.  [default: {CLASSES}]")
+@click.option("--workers", metavar="N", type=int, help="Processes that convert the steps.  [default: one a core]")
+@click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler whose workers convert the steps.")
 @click.option("-o", "--output", metavar="PAGE.html", type=PATH, help="Write one page with everything in it.")
 @click.option("--video", metavar="FILE", type=PATH, help="Write all steps as a video (.webm, .mp4) or a GIF.")
 @click.option("--size", metavar="WxH", help=f"With --video: its pixels.  [default: {SIZE[0]}x{SIZE[1]}]")
@@ -84,6 +87,7 @@ def flood(
     port: int,
     bounds: str | None,
     depths: str | None,
+    workers: int | None,
     **parameters: Any,
 ) -> None:
     """Show a flood as a living sea, on one page or on a server.
@@ -108,7 +112,8 @@ def flood(
         box = None if bounds is None else bounds_of(bounds)
         source = follow if extent is None else extent
         assert source is not None
-        asked = FloodOptions(source, bounds=box, depths=classes, **parameters)
+        many = (os.cpu_count() or 1) if workers is None else workers
+        asked = FloodOptions(source, bounds=box, depths=classes, workers=many, **parameters)
         from vexture.live.flood import Made, Serving, export, serve
 
         if not serving:

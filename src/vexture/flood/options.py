@@ -5,10 +5,13 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import isfinite
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from vexture.errors import ParameterError
 from vexture.tolerance import HMIN
+
+if TYPE_CHECKING:
+    from vexture.workers import Workers
 
 __all__ = ["DEPTHS", "PERIOD", "FloodOptions", "bounds_of", "classes_of", "contours_of", "depths_of"]
 
@@ -47,6 +50,8 @@ class FloodOptions:
     source: str | None = None
     licence: str | None = None
     depths: tuple[float, ...] = DEPTHS
+    workers: int = 1
+    scheduler: str | None = None
 
     def __post_init__(self) -> None:
         if not (isfinite(self.hmin) and self.hmin > 0.0):
@@ -64,6 +69,17 @@ class FloodOptions:
             raise ParameterError(
                 f"`period` {self.period:g}: it must be {SHORTEST_PERIOD:g} to {LONGEST_PERIOD:g} seconds"
             )
+
+        if self.workers < 1:
+            raise ParameterError(f"`workers` {self.workers}: it is a number of processes, 1 or more")
+
+    def who(self) -> "Workers":
+        """Who converts the steps: the workers of a scheduler, several processes, or this one."""
+        from vexture.workers import Cluster, Here, Processes
+
+        if self.scheduler is not None:
+            return Cluster(self.scheduler)
+        return Processes(self.workers) if self.workers > 1 else Here()
 
     @property
     def reading(self) -> dict[str, Any]:

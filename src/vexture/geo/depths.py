@@ -19,6 +19,7 @@ from vexture.geo.raster import RasterInFrame
 from vexture.geo.series import Series, Values, plausible
 from vexture.notes import Note, Notes
 from vexture.tolerance import HMIN
+from vexture.workers import Workers
 
 __all__ = ["DepthsInFrame", "depths_in_frame", "read_depths"]
 
@@ -35,6 +36,7 @@ def read_depths(
     hmin: float = HMIN,
     variable: str | None = None,
     depths: Sequence[float] = (),
+    workers: Workers,
 ) -> Extent:
     """Read where water is from a GeoTIFF, or from NetCDF or xarray: on rows and columns, straight or not, or on a mesh.
 
@@ -45,7 +47,7 @@ def read_depths(
         source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable,
         depths=depths,
     ) as placed:  # fmt: skip
-        return _extent(placed)
+        return _extent(placed, workers)
 
 
 class DepthsInFrame:
@@ -169,19 +171,27 @@ def _series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Seri
     return grid_series(dataset, grids, time_dim, variable) if grids else series_of(dataset, time_dim, variable)
 
 
-def _extent(placed: DepthsInFrame) -> Extent:
-    """All steps of a file."""
-    steps: list[Step] = []
+def _extent(placed: DepthsInFrame, workers: Workers) -> Extent:
+    """All steps of a file, which is read here; workers make steps of the values."""
     bed, seen = None, False
-    for number in range(len(placed.times)):
-        depth, ground = placed.values(number)
-        steps.append(placed.step(number, depth, ground))
-        if bed is None and ground is not None:
-            bed = placed.grid(ground)
-        seen = seen or bool(np.isfinite(depth).any())
+
+    def values() -> Iterator[tuple[int, Values, Values | None]]:
+        nonlocal bed, seen
+        for number in range(len(placed.times)):
+            depth, ground = placed.values(number)
+            if bed is None and ground is not None:
+                bed = placed.grid(ground)
+            seen = seen or bool(np.isfinite(depth).any())
+            yield number, depth, ground
+
+    steps = tuple(workers.map(_step, placed, values(), len(placed.times)))
     if not seen:
         raise placed.without_numbers()
-    return Extent(placed.frame, tuple(steps), bed, placed.notes)
+    return Extent(placed.frame, steps, bed, placed.notes)
+
+
+def _step(placed: DepthsInFrame, values: tuple[int, Values, Values | None]) -> Step:
+    return placed.step(*values)
 
 
 def _whole(box: Bounds, system: str) -> Bounds:

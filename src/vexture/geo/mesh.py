@@ -8,7 +8,7 @@ Only faces near a shore are looked at in each step: of a million, some ten thous
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,6 +85,9 @@ class MeshInFrame:
         self._chosen = kept if series.on_faces else numbers
         self._border = border_of(self._patch.faces, self._patch.count)
         self._sampled = self._located(low[kept], high[kept])
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_series": None}  # a copy in another process reads nothing
 
     def read(self, step: int) -> tuple[Values, Values | None]:
         """Depth and height of the bed at a step, of the faces or nodes near the square."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +37,9 @@ class RasterInFrame:
         self._rows, self._columns = _window(whole, system, frame, notes)
         self._lattice = replace(whole, x=whole.x[self._columns], y=whole.y[self._rows])
         self._beyond = self._cells_beyond()
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_series": None}  # a copy in another process reads nothing
 
     def read(self, step: int) -> tuple[Values, Values | None]:
         """Depth and height of the bed at a step."""

@@ -22,6 +22,7 @@ from vexture.live.limits import LimitedShelf, Limits
 from vexture.live.page import FLOOD, built, check_output, data_address, served_page, whole_page
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape, manifest
 from vexture.notes import line_of
+from vexture.workers import Workers
 
 if TYPE_CHECKING:  # at run time only what a flood needs is imported
     from socket import socket
@@ -121,7 +122,7 @@ def make(
         picture, told = ground_of(asked.ground, frame, drawn, bounds_given=asked.bounds is not None)
         notes += told
     surfaces = [surface_of(step, frame, relief, extent.bed, asked.hmin) for step in extent.steps]
-    shapes = _shapes(conversion, extent, surfaces, start, kept)
+    shapes = _shapes(conversion, extent, surfaces, start, kept, asked.who())
     fold, openness, told = _shore(asked, extent, amplitude)
     notes += told if start is None else [note for note in told if note is not DRY]  # water may come
     if relief.known < WHOLE:
@@ -150,6 +151,7 @@ def _shapes(
     surfaces: "Sequence[WaterSurface]",
     start: "Start | None",
     kept: "KeptWater | None",
+    workers: Workers,
 ) -> list[Shape]:
     """Shapes of the steps; of a followed run those are not converted that are kept and have not changed."""
     from vexture.live.follow import NAMES, is_made_of, marked
@@ -157,7 +159,7 @@ def _shapes(
     steps, told = extent.steps, labels([step.time for step in extent.steps])
     if start is None:
         named = zip(steps, surfaces, step_names(len(steps)), told, strict=True)
-        return [conversion.step(step, surface, name, label) for step, surface, name, label in named]
+        return list(workers.map(FloodConversion.converted, conversion, named, len(steps)))
     shapes = []
     for step, surface, name, label, known in zip(steps, surfaces, NAMES, told, start.known, strict=False):
         before = None if kept is None else kept.shape(name)
@@ -196,7 +198,15 @@ def _read(asked: FloodOptions) -> Extent:
         raise SourceError(f"`extent` {asked.extent}: there is no such file; name one that says where water is")
     named = str(asked.extent)
     with about(named):
-        return extent_of(asked.extent, named, bounds=asked.bounds, crs=asked.crs, hmin=asked.hmin, **asked.reading)
+        return extent_of(
+            asked.extent,
+            named,
+            bounds=asked.bounds,
+            crs=asked.crs,
+            hmin=asked.hmin,
+            workers=asked.who(),
+            **asked.reading,
+        )
 
 
 def _fold(

@@ -73,6 +73,7 @@ class FloodConversion:
         views["level"] = File(level, "image/png", ".png")
         facts = {
             **shape.facts,
+            "milliseconds": None,  # else two pages of one flood would differ
             "level": level_facts,
             "time": None if step.time is None else step.time.isoformat(),
             "label": label,
@@ -81,6 +82,10 @@ class FloodConversion:
             "area": self._area(step),
         }
         return replace(shape, facts=facts, views=views)
+
+    def converted(self, given: tuple[Step, WaterSurface, str, str]) -> Shape:
+        """Shape of one step, as `step` makes it."""
+        return self.step(*given)
 
     def shape_of(self, data: bytes, name: str) -> Shape:
         """Shape of an upload: a step in any format, or a texture that was made in this frame."""

@@ -1,0 +1,198 @@
+"""Work that is shared: by this process alone, by several on this machine, or by the workers of a Dask cluster.
+
+Results come in the order of the work, and are the same wherever it was done. What a worker had in hand when it died is
+done again.
+"""
+
+import multiprocessing
+import sys
+import time
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from typing import Any, Final, Protocol, TypeVar
+
+from vexture.errors import DeviceError
+
+__all__ = ["Cluster", "Here", "Processes", "Workers"]
+
+Shared = TypeVar("Shared")
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+WORTH: Final = 3.0
+"""Seconds of work from which other processes are started: what they need to start."""
+
+AHEAD: Final = 2
+"""Pieces of work at each worker: one is done while the next one arrives."""
+
+MOST_DEATHS: Final = 3
+"""Of workers, at one piece of work: after that it is the work that kills them."""
+
+PATIENCE: Final = "5s"
+"""For a scheduler's first answer."""
+
+
+class Workers(Protocol):
+    """Who does the work."""
+
+    def map(
+        self, work: Callable[[Shared, Item], Result], shared: Shared, items: Iterable[Item], count: int
+    ) -> Iterator[Result]:
+        """Results of ``work(shared, item)``, in order, of `count` items; few of them are in memory at a time.
+
+        Elsewhere `work` is found by its name, and `shared` and the items are copies.
+        """
+        ...
+
+
+class Here:
+    """One piece of work after the other, in the process that asks.
+
+    Examples
+    --------
+    >>> list(Here().map(max, 2, [1, 3], 2))
+    [2, 3]
+    """
+
+    def map(
+        self, work: Callable[[Shared, Item], Result], shared: Shared, items: Iterable[Item], count: int
+    ) -> Iterator[Result]:
+        """Results, each when it is wanted."""
+        return (work(shared, item) for item in items)
+
+
+class Processes:
+    """So many processes on this machine, if the work is long enough that starting them pays."""
+
+    def __init__(self, processes: int) -> None:
+        self._processes = processes
+
+    def map(
+        self, work: Callable[[Shared, Item], Result], shared: Shared, items: Iterable[Item], count: int
+    ) -> Iterator[Result]:
+        """Results; the first is made here, to see how long the work takes."""
+        rest = iter(items)
+        for item in rest:
+            start = time.perf_counter()
+            yield work(shared, item)
+            if self._processes > 1 and (time.perf_counter() - start) * (count - 1) >= WORTH:
+                break
+        else:
+            return
+        yield from self._elsewhere(work, shared, rest)
+
+    def _elsewhere(
+        self, work: Callable[[Shared, Item], Result], shared: Shared, items: Iterator[Item]
+    ) -> Iterator[Result]:
+        waiting: deque[tuple[Item, Future[Result]]] = deque()
+        deaths = 0
+        pool = self._pool(work, shared)
+        try:
+            while True:
+                while len(waiting) < AHEAD * self._processes:
+                    try:
+                        item = next(items)
+                    except StopIteration:
+                        break
+                    waiting.append((item, _submitted(pool, item)))
+                if not waiting:
+                    return
+                try:
+                    result = waiting[0][1].result()
+                except BrokenProcessPool:
+                    deaths += 1
+                    if deaths == MOST_DEATHS:
+                        raise DeviceError(
+                            f"{deaths} processes died at the same work, as they do without memory; "
+                            "let fewer share the work"
+                        ) from None
+                    pool.shutdown(wait=False)
+                    pool = self._pool(work, shared)
+                    waiting = deque((item, _submitted(pool, item)) for item, _ in waiting)
+                    continue
+                deaths = 0
+                waiting.popleft()
+                yield result
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+
+    def _pool(self, work: Callable[..., Any], shared: Any) -> ProcessPoolExecutor:
+        # a fork shares memory, so that nothing is copied; elsewhere it is not safe
+        context = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
+        return ProcessPoolExecutor(self._processes, context, _share, (work, shared))
+
+
+def _submitted(pool: ProcessPoolExecutor, item: Any) -> "Future[Any]":
+    """Future of a piece of work; broken if the pool is."""
+    try:
+        return pool.submit(_work, item)
+    except BrokenProcessPool as error:
+        broken: Future[Any] = Future()
+        broken.set_exception(error)
+        return broken
+
+
+_given: list[Any] = []
+"""In a process of a pool: what is done, and what all of it shares."""
+
+
+def _share(work: Callable[..., Any], shared: Any) -> None:
+    _given[:] = [work, shared]
+
+
+def _work(item: Any) -> Any:
+    work, shared = _given
+    return work(shared, item)
+
+
+class Cluster:
+    """The workers of a Dask scheduler, at an address such as ``tcp://10.0.0.7:8786``; they need vexture, too."""
+
+    def __init__(self, address: str) -> None:
+        self._address = address
+
+    def map(
+        self, work: Callable[[Shared, Item], Result], shared: Shared, items: Iterable[Item], count: int
+    ) -> Iterator[Result]:
+        """Results; Dask does the work of a worker that dies again."""
+        with self._client() as client:
+            held = client.scatter(shared, broadcast=True, hash=False)
+            waiting: deque[Any] = deque()
+            for item in items:
+                waiting.append(client.submit(work, held, item, pure=False))
+                if len(waiting) >= AHEAD * max(1, sum(client.nthreads().values())):
+                    yield _result(waiting.popleft(), self._address)
+            while waiting:
+                yield _result(waiting.popleft(), self._address)
+
+    def _client(self) -> Any:
+        try:
+            from distributed import Client
+        except ImportError:
+            raise DeviceError("`scheduler` needs Dask; type: pip install 'vexture[scale]'") from None
+        try:
+            client = Client(self._address, timeout=PATIENCE, set_as_default=False)
+        except (OSError, ValueError) as error:
+            raise DeviceError(
+                f"`scheduler` {self._address}: no Dask scheduler answers there ({error}); start one, or correct it"
+            ) from None
+        if not client.nthreads():
+            client.close()
+            raise DeviceError(
+                f"`scheduler` {self._address}: it has no workers; start some: dask worker {self._address}"
+            )
+        return client
+
+
+def _result(future: Any, address: str) -> Any:
+    from distributed import KilledWorker
+
+    try:
+        return future.result()
+    except KilledWorker as error:
+        raise DeviceError(
+            f"`scheduler` {address}: workers died at the same work, as they do without memory ({error}); "
+            "start workers with more"
+        ) from None

@@ -1,0 +1,117 @@
+"""Work that is shared: the same results in the same order, whoever does it, and whoever dies over it."""
+
+import hashlib
+import os
+import subprocess
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from floods import flood, series
+
+from vexture import DeviceError
+from vexture.flood.options import FloodOptions
+from vexture.workers import Cluster, Here, Processes
+from work import dies, slow
+
+SECONDS = 60
+
+
+def test_results_are_in_order_from_several_processes():
+    found = list(Processes(2).map(slow, (os.getpid(), 3), iter(range(12)), 12))
+    assert [value for _, value in found] == [3**k for k in range(12)]
+    workers = {number for number, _ in found}
+    assert os.getpid() in workers
+    assert 1 < len(workers) <= 3
+
+
+def test_short_work_is_done_here():
+    found = list(Processes(2).map(slow, (0, 3), range(12), 12))
+    assert found == [(os.getpid(), 3**k) for k in range(12)]
+
+
+def test_few_items_are_taken_before_their_results():
+    taken = []
+    items = (taken.append(k) or k for k in range(1000))
+    found = Processes(2).map(slow, (os.getpid(), 1), items, 1000)
+    for _ in range(10):
+        next(found)
+    assert len(taken) < 20
+    found.close()
+
+
+def test_what_a_process_had_in_hand_when_it_died_is_done_again(tmp_path):
+    assert list(Processes(2).map(dies, (tmp_path / "died", False), range(12), 12)) == [k * k for k in range(12)]
+    assert (tmp_path / "died").exists()
+
+
+def test_work_that_kills_every_process_ends(tmp_path):
+    with pytest.raises(DeviceError, match="3 processes died at the same work"):
+        list(Processes(2).map(dies, (tmp_path / "died", True), range(12), 12))
+
+
+def test_errors_of_the_work_arrive():
+    with pytest.raises(ZeroDivisionError):
+        list(Processes(2).map(divmod, 3, iter([1, 0]), 2))
+
+
+@contextmanager
+def running(*words, says):
+    """A part of Dask in a process of its own, once it says something."""
+    command = [sys.executable, "-m", "distributed.cli." + words[0], *words[1:]]
+    found = {**os.environ, "PYTHONPATH": str(Path(__file__).parent)}
+    with subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True, env=found) as process:
+        try:
+            for line in process.stderr:
+                if says in line:
+                    yield process, line
+                    break
+            else:
+                pytest.fail(f"{words} ended with {process.wait(SECONDS)}")
+        finally:
+            process.kill()
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    """Address of a scheduler with two workers."""
+    here = ("--host", "127.0.0.1")
+    with running("dask_scheduler", *here, "--port", "0", "--no-dashboard", says="Scheduler at:") as (_, line):
+        address = line.split()[-1]
+        worker = ("dask_worker", address, *here, "--nthreads", "1", "--no-dashboard", "--no-nanny")
+        with running(*worker, says="Registered to:"), running(*worker, says="Registered to:"):
+            yield address
+
+
+def test_a_cluster_makes_the_same_page(cluster, tmp_path):
+    run = series(tmp_path / "run.nc", [0.2, 0.4, 0.6])
+    pages = {}
+    for name, more in {"here": ("--workers", "1"), "there": ("--scheduler", cluster)}.items():
+        outcome = flood("--extent", run, "--variable", "depth", *more, "-o", tmp_path / f"{name}.html")
+        assert outcome.returncode == 0, outcome.stderr
+        pages[name] = (tmp_path / f"{name}.html").read_bytes()
+    assert hashlib.sha256(pages["here"]).digest() == hashlib.sha256(pages["there"]).digest()
+
+
+def test_what_a_worker_of_a_cluster_had_in_hand_when_it_died_is_done_again(cluster, tmp_path):
+    """The last test with these workers: one of them dies."""
+    assert list(Cluster(cluster).map(dies, (tmp_path / "died", False), range(12), 12)) == [k * k for k in range(12)]
+    assert (tmp_path / "died").exists()
+
+
+def test_a_scheduler_that_is_not_there_is_named(tmp_path):
+    run = series(tmp_path / "run.nc", [0.2])
+    address = "tcp://127.0.0.1:1"
+    outcome = flood("--extent", run, "--variable", "depth", "--scheduler", address, "-o", tmp_path / "page.html")
+    assert outcome.returncode == 1
+    assert f"--scheduler {address}: no Dask scheduler answers there" in outcome.stderr
+    assert len(outcome.stderr.strip().splitlines()) == 1
+    assert not (tmp_path / "page.html").exists()
+
+
+def test_who_does_the_work_is_as_asked(tmp_path):
+    path = tmp_path / "run.nc"
+    assert isinstance(FloodOptions(path).who(), Here)
+    assert isinstance(FloodOptions(path, workers=2).who(), Processes)
+    assert isinstance(FloodOptions(path, scheduler="tcp://x:1").who(), Cluster)
