@@ -123,6 +123,13 @@ PROPERTIES: dict[str, Property] = {
     ),
     "visibility": Property("visible", True, one_of("visible", "hidden", "collapse")),
     "alignment-baseline": Property("baseline", False, one_of(*BASELINES, "baseline", "before-edge", "after-edge")),
+    "animation-delay": Property("0s", False, anything),
+    "animation-direction": Property("normal", False, anything),
+    "animation-duration": Property("0s", False, anything),
+    "animation-fill-mode": Property("none", False, anything),
+    "animation-iteration-count": Property("1", False, anything),
+    "animation-name": Property("none", False, anything),
+    "animation-timing-function": Property("ease", False, anything),
     "background-color": Property("transparent", False, parse_color),
     "baseline-shift": Property("baseline", False, matching(rf"{LENGTH}|baseline|sub|super|top|center|bottom")),
     "clip-path": Property("none", False, anything),
@@ -169,6 +176,8 @@ PROPERTIES: dict[str, Property] = {
 
 CSS_ONLY = frozenset(
     {
+        *("animation-delay", "animation-direction", "animation-duration", "animation-fill-mode"),
+        *("animation-iteration-count", "animation-name", "animation-timing-function"),
         *("background-color", "font-feature-settings", "font-kerning", "font-synthesis", "font-variant-caps"),
         *("font-variant-ligatures", "font-variant-numeric", "font-variant-position", "font-variation-settings"),
         *("isolation", "mix-blend-mode", "rotate", "scale", "text-decoration-color", "text-decoration-line"),

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final, TypeAlias
 
@@ -13,7 +13,8 @@ from vexture.bezier.bounds import bounds
 from vexture.content import about, decompressed, read_bytes
 from vexture.drawing import Drawing
 from vexture.errors import SourceError
-from vexture.notes import warn_of
+from vexture.notes import Note, warn_of
+from vexture.svg.animation import Moment, show_moment
 from vexture.svg.compositing import occupied
 from vexture.svg.document import parse_svg
 from vexture.svg.images import Images
@@ -22,6 +23,7 @@ from vexture.svg.scene import Scene
 from vexture.svg.select import chosen, nothing_painted
 from vexture.svg.subjects import subject_of
 from vexture.svg.transform import Identity, Transform
+from vexture.svg.unseen import ANIMATION
 from vexture.svg.values import Viewport
 from vexture.svg.viewport import THINNEST, Rectangle
 
@@ -137,23 +139,76 @@ def framed_drawing(
     fonts: Sequence[str | os.PathLike[str]] = (),
     images: Images | None = None,
 ) -> tuple[Drawing, Frame | None]:
-    """Read as `svg_drawing` does, and return the frame of the whole drawing too."""
-    report = Report()
+    """Read as `svg_drawing` does, and return the frame of the whole drawing too.
+
+    Where the first frame of an animated drawing shows nothing, it is drawn without its animation, or else as that ends.
+    """
     with about(source):
         try:
-            root = parse_svg(decompressed(content))
-            part = None if select is None else chosen(root, select)
-            scene = Scene(root, report, images or Images(), part, "id" if names is None else names, fonts)
-            framed = frame(scene)
-            drawing, to_pixels = drawing_of(scene, framed, Path(source).stem)
+            plain = decompressed(content)
+            whole = Request(
+                plain, Path(source).stem, select, "id" if names is None else names, fonts, images or Images()
+            )
+            first = found = at_moment(whole, Moment.START)
+            for moment in (Moment.REST, Moment.END):
+                if not found.drawing.paths and first.is_animated:
+                    found = at_moment(whole, moment)
         except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
             raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
-        if select is not None and part is not None and not drawing.paths:
-            raise nothing_painted(select, len(part))
+        if select is not None and not found.drawing.paths and found.chosen:
+            raise nothing_painted(select, found.chosen)
+    return found.drawing if found.drawing.paths else first.unseen, found.frame
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What is to be read of a document, as in `svg_drawing`."""
+
+    content: bytes
+    name: str
+    select: str | None
+    names: str
+    fonts: Sequence[str | os.PathLike[str]]
+    images: Images
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What is read of a document at a moment of its animation."""
+
+    drawing: Drawing
+    frame: Frame | None
+    chosen: int  # elements that were chosen
+
+    @property
+    def is_animated(self) -> bool:
+        """Whether anything of it would move."""
+        return any(note.message == ANIMATION for note in self.drawing.notes)
+
+    @property
+    def unseen(self) -> Drawing:
+        """The drawing, whose animation shows nothing in other moments either: then it loses nothing by that."""
+        notes = tuple(note for note in self.drawing.notes if note.message != ANIMATION)
+        told = Note("remark", "its animation shows nothing at its start and at its end")
+        return replace(self.drawing, notes=(*notes, told)) if self.is_animated else self.drawing
+
+
+def at_moment(request: Request, moment: Moment) -> Found:
+    """Read a document at a moment of its animation."""
+    report = Report()
+    root = parse_svg(request.content)
+    for element in show_moment(root, moment):
+        report.simplified("animation whose first frame is not known, drawn without it", element.getparent())
+    part = None if request.select is None else chosen(root, request.select)
+    scene = Scene(root, report, request.images, part, request.names, request.fonts)
+    framed = frame(scene)
+    drawing, to_pixels = drawing_of(scene, framed, request.name)
     if not drawing.paths:
         report.remark("nothing in it is painted")
+    elif moment.remark:
+        report.remark(moment.remark)
     notes = report.about(lambda element: subject_of(element, scene.names, scene.boxes, to_pixels))
-    return replace(drawing, notes=notes), None if framed is EMPTY else framed
+    return Found(replace(drawing, notes=notes), None if framed is EMPTY else framed, len(part or ()))
 
 
 def drawing_of(scene: Scene, framed: Frame | None, name: str) -> tuple[Drawing, NDArray[np.float64] | None]:

@@ -18,16 +18,18 @@ from vexture.deadline import check_time
 from vexture.drawing import FillRule, Path
 from vexture.errors import SourceError
 from vexture.group import Group
+from vexture.svg.animation import ANIMATIONS
 from vexture.svg.colors import parse_color
 from vexture.svg.compositing import Veil, grouped, veil_of
-from vexture.svg.document import applies, local_name
+from vexture.svg.document import HTML, applies, local_name
 from vexture.svg.filters import HIDING, filter_named
 from vexture.svg.images import Images, image_sides, paint_image
+from vexture.svg.links import reference
 from vexture.svg.markers import has_markers, markers
 from vexture.svg.masks import MASKING, add_masks
 from vexture.svg.names import ElementNames
 from vexture.svg.outline import Outline
-from vexture.svg.paint_servers import PaintServers, reference
+from vexture.svg.paint_servers import PaintServers
 from vexture.svg.painter import Painter, Ruler
 from vexture.svg.report import Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
@@ -37,7 +39,7 @@ from vexture.svg.subjects import Boxes, boxes_of
 from vexture.svg.text.typesetter import Typesetter
 from vexture.svg.tiles import Canvas
 from vexture.svg.transform import Identity, Transform, parse_origin, property_transform
-from vexture.svg.unseen import ANIMATIONS, name_unseen
+from vexture.svg.unseen import name_unseen
 from vexture.svg.values import TooLargeError, Viewport
 from vexture.svg.viewport import CENTRED, THINNEST, Rectangle, parse_fit, view_box, view_transform
 
@@ -62,8 +64,6 @@ UNPAINTED = frozenset(
 
 TRANSFORMS = ("translate", "rotate", "scale", "transform")
 """Properties that move an element, in the order in which they do (CSS Transforms 2, 6)."""
-
-HTML = "{http://www.w3.org/1999/xhtml}"
 
 DRAWN = frozenset({*SHAPES, *CONTAINERS, "image", "text", "use"})
 """Elements that a `switch` may choose before those that are not known."""

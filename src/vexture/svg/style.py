@@ -14,12 +14,20 @@ from vexture.errors import SourceError
 from vexture.svg.colors import Color, parse_color
 from vexture.svg.document import XML, local_name
 from vexture.svg.font_values import SPACINGS, font_longhands, font_weight, in_pixels, text_size
+from vexture.svg.keyframes import (
+    KEYFRAMES,
+    Keyframes,
+    animation_longhands,
+    declared_at_start,
+    names_of,
+    read_keyframes,
+)
 from vexture.svg.properties import CSS_ONLY, PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.select import Node
 from vexture.svg.values import fraction
 
-__all__ = ["INITIAL", "MARKERS", "Cascade", "Style"]
+__all__ = ["INITIAL", "LISTING", "MARKERS", "Cascade", "Style", "read_style"]
 
 PLAIN = re.compile(r"[^\"'\\/(){}\[\]@!<&]*")
 """Style attributes that need no tokeniser: they can be split at ; and :."""
@@ -28,6 +36,9 @@ SCREEN = re.compile(r"\s*(?:only\s+)?(?:all|screen)?\s*", re.IGNORECASE)
 """Media queries that hold on every screen."""
 
 OTHER_MEDIUM = re.compile(r"\s*(?:only\s+)?(?:print|speech)\b.*|\s*not\s+(?:all|screen)\s*", re.IGNORECASE | re.DOTALL)
+
+PREFIX = "-webkit-"
+"""Of names under which browsers know many properties, too, as they were before they became standards."""
 
 MARKERS = ("marker-start", "marker-mid", "marker-end")
 
@@ -79,6 +90,7 @@ class Cascade:
         self.report = report
         self.matcher: Any = None
         self.font_faces: list[dict[str, str]] = []  # descriptors of each @font-face rule, by name
+        self.keyframes: dict[str, Keyframes] = {}
         self.wrappers: dict[etree._Element, Any] = {}
         sheets = [element for element in root.iter("{*}style") if element.text]
         if sheets:
@@ -109,6 +121,10 @@ class Cascade:
     def add_at_rule(self, rule: Any) -> None:
         """Add the rules inside an at-rule, if it is a medium that applies."""
         name = rule.lower_at_keyword
+        if name in KEYFRAMES:
+            called, frames = read_keyframes(rule, read_declarations)
+            self.keyframes[called] = frames
+            return
         if name == "font-face":
             self.font_faces.append({key: value for key, value, _ in read_descriptors(rule.content or [])})
         if name in ("charset", "font-face", "namespace"):
@@ -161,9 +177,19 @@ class Cascade:
                 if name in LISTED and local_name(element) in LISTING:
                     continue
                 self.declare(found, name, str(value), element)
-        for name, value, _ in sorted(self.declared(element), key=itemgetter(2)):  # stable; important ones come last
+        declared = sorted(self.declared(element), key=itemgetter(2))  # stable; important ones come last
+        for name, value, _ in declared:
             self.declare(found, name, value, element)
+        if self.is_animated(found):
+            lasting = {name for name, _, important in declared if important}
+            for name, value in declared_at_start(found, self.keyframes):
+                if name not in lasting:
+                    self.declare(found, name, value, element)
         return found
+
+    def is_animated(self, found: dict[str, str]) -> bool:
+        """Whether an element with such declarations is animated by a style sheet."""
+        return "animation-name" in found and not self.keyframes.keys().isdisjoint(names_of(found))
 
     def declare(self, found: dict[str, str], name: str, value: str, element: etree._Element) -> None:
         """Override earlier declarations, unless this one is invalid."""
@@ -219,6 +245,7 @@ def read_declarations(content: Any) -> Iterator[Declaration]:
 
 def expanded(name: str, value: str, important: bool) -> Iterator[Declaration]:
     """Yield the declaration of a known property; a shorthand becomes its longhands."""
+    name = name.removeprefix(PREFIX)
     if name in PROPERTIES and value:
         yield name, value, important
     elif name == "background":
@@ -229,6 +256,9 @@ def expanded(name: str, value: str, important: bool) -> Iterator[Declaration]:
     elif name == "marker" and value:
         for marker in MARKERS:
             yield marker, value, important
+    elif name == "animation":
+        for longhand, part in animation_longhands(value):
+            yield longhand, part, important
     elif name == "font":
         for longhand, part in font_longhands(value):
             yield longhand, part, important

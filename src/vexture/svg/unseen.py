@@ -1,19 +1,23 @@
 """What an SVG holds beside shapes, wherever it stands: animation, scripts, views and cursors, each named once.
 
-The first frame is drawn, as it is before anything moves.
+Of animations the first frame is drawn (`animation.py`).
 """
 
+from copy import copy
 from typing import Final
 
 from lxml import etree
 
+from vexture.svg.animation import ANIMATIONS
 from vexture.svg.document import local_name
-from vexture.svg.paint_servers import PaintServers, reference
+from vexture.svg.links import reference
+from vexture.svg.paint_servers import PaintServers
 from vexture.svg.report import Report
 
-__all__ = ["ANIMATIONS", "name_unseen"]
+__all__ = ["ANIMATION", "name_unseen"]
 
-ANIMATIONS: Final = frozenset({"animate", "animateColor", "animateMotion", "animateTransform", "discard", "set"})
+ANIMATION: Final = "animation"
+"""What a note calls it."""
 
 REMARKS: Final = {
     "cursor": "its cursors are left out, which no picture shows",
@@ -27,14 +31,18 @@ def name_unseen(
 ) -> None:
     """Note what is not seen of a document, or of the elements in `chosen` with all their content."""
     remarks = set[str]()
+    quiet = copy(servers.cascade)
+    quiet.report = Report()
     for top in [root] if chosen is None else chosen:
         for element in top.iter("*"):
             name = local_name(element)
             if name in ANIMATIONS:
                 moved = servers.target(reference(element) or "")
-                report.left_out("animation", element.getparent() if moved is None else moved)
+                report.left_out(ANIMATION, element.getparent() if moved is None else moved)
             elif name == "script" or any(str(key).startswith("on") for key in element.attrib):
                 report.left_out("script", element)
+            elif quiet.keyframes and name is not None and quiet.is_animated(quiet.specified(element)):
+                report.left_out(ANIMATION, element)
             elif name in REMARKS:
                 remarks.add(name)
     for name in sorted(remarks):

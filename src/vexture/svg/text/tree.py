@@ -10,17 +10,17 @@ from lxml import etree
 from vexture.deadline import check_time
 from vexture.errors import SourceError
 from vexture.group import Blend
+from vexture.svg.animation import ANIMATIONS
 from vexture.svg.compositing import Veil
 from vexture.svg.document import applies, local_name
+from vexture.svg.links import reference
 from vexture.svg.masks import Measured
 from vexture.svg.names import ElementNames
-from vexture.svg.paint_servers import reference
 from vexture.svg.properties import BLENDS
 from vexture.svg.report import described
 from vexture.svg.space import Place
 from vexture.svg.style import Style
 from vexture.svg.text.track import Track, read_track
-from vexture.svg.unseen import ANIMATIONS
 from vexture.svg.values import SEPARATOR, number
 
 __all__ = ["Characters", "Setting", "Span", "characters"]
