@@ -58,6 +58,8 @@ LENGTH = f"{NUMBER}{UNIT}"
 SIZE = f"{POSITIVE}{UNIT}"
 OPACITY = f"{NUMBER}%?"
 
+MODE = "alpha|luminance|match-source"
+
 SPACING = rf"normal|{LENGTH}"
 
 FONT_SIZES = "(?:xx?-)?(?:small|large)|medium|smaller|larger"
@@ -141,6 +143,7 @@ PROPERTIES: dict[str, Property] = {
     "height": Property("auto", False, matching(f"auto|{SIZE}")),
     "isolation": Property("auto", False, one_of("auto", "isolate")),
     "mask": Property("none", False, anything),
+    "mask-mode": Property("match-source", False, matching(rf"(?:{MODE})(?:\s*,\s*(?:{MODE}))*+")),
     "mask-type": Property("luminance", False, one_of("luminance", "alpha")),
     "mix-blend-mode": Property("normal", False, one_of(*BLENDS)),
     "opacity": Property("1", False, matching(OPACITY)),
@@ -180,7 +183,15 @@ CSS_ONLY = frozenset(
         *("animation-iteration-count", "animation-name", "animation-timing-function"),
         *("background-color", "font-feature-settings", "font-kerning", "font-synthesis", "font-variant-caps"),
         *("font-variant-ligatures", "font-variant-numeric", "font-variant-position", "font-variation-settings"),
-        *("isolation", "mix-blend-mode", "rotate", "scale", "text-decoration-color", "text-decoration-line"),
+        *(
+            "isolation",
+            "mask-mode",
+            "mix-blend-mode",
+            "rotate",
+            "scale",
+            "text-decoration-color",
+            "text-decoration-line",
+        ),
         *("text-decoration-style", "text-decoration-thickness", "text-orientation", "text-transform"),
         *("text-shadow", "text-underline-offset", "translate"),
     }

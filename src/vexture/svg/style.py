@@ -22,6 +22,7 @@ from vexture.svg.keyframes import (
     names_of,
     read_keyframes,
 )
+from vexture.svg.mask_values import mask_longhands
 from vexture.svg.properties import CSS_ONLY, PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.select import Node
@@ -246,7 +247,10 @@ def read_declarations(content: Any) -> Iterator[Declaration]:
 def expanded(name: str, value: str, important: bool) -> Iterator[Declaration]:
     """Yield the declaration of a known property; a shorthand becomes its longhands."""
     name = name.removeprefix(PREFIX)
-    if name in PROPERTIES and value:
+    if name == "mask" and value:
+        for longhand, part in mask_longhands(value):
+            yield longhand, part, important
+    elif name in PROPERTIES and value:
         yield name, value, important
     elif name == "background":
         words = [value, *reversed(value.split())]
