@@ -1,5 +1,7 @@
 """One-issue fixtures that PyPI's resvg does not know, in words that it and we understand alike."""
 
+from plainer_styles import STYLES
+
 __all__ = ["PLAINER", "plainer"]
 
 ARROW = '<path d="M0 0L10 5L0 10z" fill="red"/>'
@@ -35,6 +37,7 @@ def marked(under: str, *places: tuple[float, float, float], scale: float = 0.9, 
 
 
 PLAINER = {
+    **STYLES,
     # "A value of zero disables rendering of the element" (SVG 2, 8.6), which is nothing where it fills a shape
     "errors/view-box-nested-zero": LAST,
     "errors/view-box-of-pattern": LAST,

@@ -94,7 +94,7 @@ class Scene:
         self.servers: PaintServers = PaintServers(root, self.cascade, report)
         self.style: Style = self.cascade.style(root, INITIAL)
         self.used: int = 0
-        self.typesetter: Typesetter = Typesetter(fonts, self.cascade.font_faces, report)
+        self.typesetter: Typesetter = Typesetter(fonts, self.cascade.sheets.font_faces, report)
         self.boxes: Boxes = {}  # of what the notes are about, once it is painted
 
     def paint(

@@ -9,7 +9,7 @@ from typing import Final
 from vexture.errors import SourceError
 from vexture.svg.path_data import NUMBER
 
-__all__ = ["LARGEST", "SEPARATOR", "TooLargeError", "Viewport", "fraction", "number", "numbers"]
+__all__ = ["INITIAL_SIZE", "LARGEST", "SEPARATOR", "TooLargeError", "Viewport", "fraction", "number", "numbers"]
 
 LARGEST: Final = 1e12
 """User units. An element with larger numbers is lost: the product of two of them and a matrix must stay finite."""
@@ -18,6 +18,9 @@ LARGEST: Final = 1e12
 class TooLargeError(SourceError):
     """A number of an element exceeds `LARGEST`; inside the drawing, only that element is lost."""
 
+
+INITIAL_SIZE: Final = 16.0
+"""Font size that the outermost element inherits, in user units."""
 
 PIXELS: Final = {
     "": 1.0,
@@ -86,7 +89,7 @@ class Viewport:
 
     width: float  # of the nearest viewport
     height: float
-    root_font_size: float = 16.0  # font size of the outermost element
+    root_font_size: float = INITIAL_SIZE  # font size of the outermost element
 
     @property
     def diagonal(self) -> float:
