@@ -32,4 +32,25 @@ STYLES = {
     "style/nesting": squares("red", "green", "blue", "orange"),
     "style/nesting-parent-elsewhere": squares("red", "green", "blue", "orange"),
     "style/nesting-conditions": squares("red", "green", "blue", "orange"),
+    "style/calc": '<rect x="10" y="10" width="30" height="30" rx="5" fill="red"/><circle cx="70"'
+    ' cy="30" r="10" fill="green"/><path d="M10 70H90" stroke="blue"'
+    ' stroke-width="6" stroke-dasharray="5 10 3"/><path d="M10 90H90"'
+    ' stroke="orange" stroke-width="3" stroke-opacity="0.5"/>',
+    "style/calc-functions": squares("red", "green", "blue", "orange"),
+    "style/calc-invalid": '<g fill="green" stroke="red" stroke-width="4"><path d="M20 20h20v20"/><path'
+    ' d="M50 20h20v20"/><path d="M20 50h20v20"/></g>',
+    "style/view-units": '<rect x="10" y="10" width="10" height="15" fill="red"/><rect x="10" y="35"'
+    ' width="10" height="25" fill="green"/><path d="M10 80H90" stroke="blue"'
+    ' stroke-width="4" stroke-dasharray="5"/>',
+    "transform/css-calc": '<rect x="20" y="30" width="40" height="20" transform="translate(10 10) rotate(45 40 40)"/>',
+    "transform/css-in-space": '<rect x="10" y="10" width="20" height="20" fill="red"/><rect x="50" y="10"'
+    ' width="30" height="30" fill="green"/><rect x="10" y="50" width="30"'
+    ' height="30" fill="blue"/>',
+    "transform/css-about-axes": '<rect x="20" y="35" width="40" height="20"/><rect x="70" y="20" width="10"'
+    ' height="60" fill="red"/>',
+    "transform/css-axes-together": '<rect x="20" y="10" width="40" height="10"/><rect x="20" y="60" width="40"'
+    ' height="20" fill="red"/>',
+    "transform/css-without-units": '<rect x="10" y="10" width="30" height="30"/><rect x="50" y="50" width="30"'
+    ' height="30" fill="red"/><rect x="10" y="40" width="30" height="30"'
+    ' fill="green"/>',
 }

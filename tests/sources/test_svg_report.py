@@ -44,6 +44,7 @@ SAID = {
     "missing-paint": "left out: paint '#none', which is not in the drawing (2)",
     "pattern": 'simplified: <pattern id="c"> in line 2 read as solid: here it has 12,500,000,000 segments in its tiles;'
     " all patterns of a drawing may have 400,000",
+    "perspective": "left out: perspective",
     "script": "left out: script",
     "transform-without-size": "left out: transform of the outermost <svg>, which has no size",
     "unknown-element": "left out: <flowRoot>",
@@ -74,6 +75,7 @@ ABOUT = {
         ("left out", "@media (moon: full)", [("t", None)]),
         ("left out", "a CSS selector that cannot be read", [("t", None)]),
     ],
+    "perspective": [("left out", "perspective", [("b", (0, 0.91 + 0.09 * (1 - 0.5**0.5), 0.09, 1))])],
     "variable-missing": [
         ("invalid", SAID["variable-missing"][21:], [("a", (0, 0.91, 0.09, 1))]),
     ],

@@ -202,7 +202,7 @@ def supported(token: Any) -> Answer:
     if name.startswith("--"):
         return True
     pairs = [*expanded(name, value)] if longhands(name) else []
-    return bool(pairs) and all(PROPERTIES[longhand].accepts(part) for longhand, part in pairs)
+    return bool(pairs) and all(PROPERTIES[longhand].allows(part) for longhand, part in pairs)
 
 
 def is_selector(arguments: list[Any]) -> bool:

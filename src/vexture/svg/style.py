@@ -15,6 +15,7 @@ from vexture.svg.media import Medium
 from vexture.svg.properties import CSS_ONLY, PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.sheets import Sheets
+from vexture.svg.spatial import Attribute
 from vexture.svg.values import INITIAL_SIZE, Viewport, fraction
 from vexture.svg.variables import computed, refers, substituted
 from vexture.svg.viewport import own_size
@@ -119,7 +120,10 @@ class Cascade:
             if name in PROPERTIES and name not in CSS_ONLY:
                 if name in LISTED and local_name(element) in LISTING:
                     continue
-                self.declare(found, name, str(value), element, variables)
+                if name == "transform":
+                    found[name] = Attribute(str(value).strip())
+                else:
+                    self.declare(found, name, str(value), element, variables)
         for name, value, _ in declared:
             if not name.startswith("--"):
                 self.declare(found, name, value, element, variables)
@@ -141,7 +145,7 @@ class Cascade:
         else:
             pairs = [(name, value)] if name in PROPERTIES else []
         for longhand, part in pairs:
-            if PROPERTIES[longhand].accepts(part) or part.lower() in KEYWORDS:
+            if PROPERTIES[longhand].allows(part) or part.lower() in KEYWORDS:
                 found[longhand] = part
             else:
                 self.report.invalid(longhand, part, element)

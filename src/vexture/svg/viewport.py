@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 from lxml import etree
 
 from vexture.svg.transform import Transform
-from vexture.svg.values import INITIAL_SIZE, Viewport, numbers
+from vexture.svg.values import INITIAL_SIZE, Viewport, is_relative, numbers
 
 __all__ = ["CENTRED", "THINNEST", "Fit", "Rectangle", "own_size", "parse_fit", "view_box", "view_transform"]
 
@@ -94,7 +94,7 @@ def own_size(root: etree._Element) -> tuple[float, float]:
     box = view_box(root.get("viewBox", ""))
     texts = (root.get(name, "100%").strip() for name in ("width", "height"))
     absolute = Viewport(0.0, 0.0)
-    width, height = (None if text[-1:] == "%" else absolute.length(text, 0.0, INITIAL_SIZE) for text in texts)
+    width, height = (None if is_relative(text) else absolute.length(text, 0.0, INITIAL_SIZE) for text in texts)
     if width is not None and height is not None:
         return width, height
     if box is None or min(box[2:]) < THINNEST:
