@@ -1,5 +1,7 @@
 """One-issue fixtures that PyPI's resvg does not know, in words that it and we understand alike."""
 
+from plainer_styles import STYLES
+
 __all__ = ["PLAINER", "plainer"]
 
 ARROW = '<path d="M0 0L10 5L0 10z" fill="red"/>'
@@ -73,6 +75,7 @@ PLAINER = {
     "structure/no-namespace-in-svg": '<rect x="30" y="30" width="50" height="40" fill="#208040"/>',
     "style/percent-encoded-links": '<path d="M10 10h30v30h-30zM10 50h30v30h-30z" fill="#208040"/>'
     '<path d="M50 10h30v30h-30z" fill="#fc8"/>',
+    **STYLES,
     # "A value of zero disables rendering of the element" (SVG 2, 8.6), which is nothing where it fills a shape
     "errors/view-box-nested-zero": LAST,
     "errors/view-box-of-pattern": LAST,

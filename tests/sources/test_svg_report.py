@@ -19,7 +19,8 @@ SAID = {
     "animation-in-gradient": "left out: animation (2)",
     "clip-path": "left out: clip-path 'shape(from 0 0, line to 9px 9px)'",
     "clip-path-elsewhere": "left out: clip-path 'circle(9px)', clip-path 'inset(5px)', clip-path 'inset(4px)'",
-    "css-variables": "left out: CSS variables",
+    "at-rules": 'left out: media="(depth: 3)" of <style>, @container, @media (moon: full), a CSS selector that'
+    " cannot be read",
     "external-use": "left out: <use> of 'other.svg#a', which is not in the drawing",
     "event-attribute": "left out: script (2)",
     "filter": "left out: filter of blur",
@@ -43,11 +44,13 @@ SAID = {
     "missing-paint": "left out: paint '#none', which is not in the drawing (2)",
     "pattern": 'simplified: <pattern id="c"> in line 2 read as solid: here it has 12,500,000,000 segments in its tiles;'
     " all patterns of a drawing may have 400,000",
+    "perspective": "left out: perspective",
     "script": "left out: script",
     "transform-without-size": "left out: transform of the outermost <svg>, which has no size",
     "unknown-element": "left out: <flowRoot>",
     "view-and-cursor": "its cursors are left out, which no picture shows; "
     "its views are not followed; all of it is shown",
+    "variable-missing": "invalid and ignored: fill='var(--none)' of <rect id=\"a\"> in line 2",
     "vector-effect": "left out: vector-effect 'fixed-position'",
 }
 
@@ -66,6 +69,16 @@ def read_quietly(file: Path) -> Drawing:
 
 
 ABOUT = {
+    "at-rules": [
+        ("left out", 'media="(depth: 3)" of <style>', [("s", None)]),
+        ("left out", "@container", [("t", None)]),
+        ("left out", "@media (moon: full)", [("t", None)]),
+        ("left out", "a CSS selector that cannot be read", [("t", None)]),
+    ],
+    "perspective": [("left out", "perspective", [("b", (0, 0.91 + 0.09 * (1 - 0.5**0.5), 0.09, 1))])],
+    "variable-missing": [
+        ("invalid", SAID["variable-missing"][21:], [("a", (0, 0.91, 0.09, 1))]),
+    ],
     "animation-in-gradient": [("left out", "animation", [("<stop> in line 2", None), ("sun", (0.2, 0.91, 0.29, 1))])],
     "filter-steps": [
         ("left out", SAID["filter-steps"][10:-4], [("card", (0, 0.91, 0.09, 1)), ("badge", (0.2, 0.91, 0.29, 1))])

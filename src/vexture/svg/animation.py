@@ -10,11 +10,12 @@ from lxml import etree
 
 from vexture.svg.between import added
 from vexture.svg.course import UnclearError, along, known, said, values_of
+from vexture.svg.declarations import read_style
 from vexture.svg.document import applies, local_name
 from vexture.svg.links import Links, reference
 from vexture.svg.motion import motion
 from vexture.svg.properties import CSS_ONLY, PROPERTIES
-from vexture.svg.style import LISTING, read_style
+from vexture.svg.style import LISTING
 from vexture.svg.timing import END, Progress, progress
 from vexture.svg.values import TooLargeError
 

@@ -1,7 +1,7 @@
 """Animations by style sheets (CSS Animations 1): what they declare when their document begins."""
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import cycle, islice
 from math import floor, inf
@@ -14,7 +14,15 @@ from vexture.svg.properties import PROPERTIES
 from vexture.svg.timing import SHORTEST, bezier, seconds
 from vexture.svg.values import TooLargeError, number
 
-__all__ = ["KEYFRAMES", "Keyframes", "animation_longhands", "declared_at_start", "names_of", "read_keyframes"]
+__all__ = [
+    "KEYFRAMES",
+    "LONGHANDS",
+    "Keyframes",
+    "animation_longhands",
+    "declared_at_start",
+    "names_of",
+    "read_keyframes",
+]
 
 KEYFRAMES: Final = ("keyframes", "-webkit-keyframes")
 """At-rules that have them."""
@@ -48,14 +56,11 @@ LONGHANDS: Final = (NAMED, *TIMED)
 MOST: Final = 1e9
 """Rounds of an animation."""
 
-Declared = tuple[str, str, bool]
-"""Property, value, and whether it is important."""
-
 Keyframes = list[tuple[float, dict[str, str]]]
 """Declarations at each part of the way, in rising order."""
 
 
-def read_keyframes(rule: Any, read: Callable[[Any], Iterator[Declared]]) -> tuple[str, Keyframes]:
+def read_keyframes(rule: Any, read: Callable[[Any], Iterable[tuple[str, str, bool]]]) -> tuple[str, Keyframes]:
     """Name and frames of a rule; `read` yields the declarations of a block. What is important is ignored in them."""
     name = tinycss2.serialize(rule.prelude).strip().strip("\"'")
     frames = dict[float, dict[str, str]]()

@@ -9,8 +9,11 @@ from collections.abc import Callable
 from typing import Final, NamedTuple
 
 from vexture.group import Blend
+from vexture.svg.calculation import sampled
 from vexture.svg.colors import parse_color, parse_paint
 from vexture.svg.path_data import NUMBER
+from vexture.svg.spatial import css_transform
+from vexture.svg.values import Viewport
 
 __all__ = ["BLENDS", "CSS_ONLY", "PROPERTIES", "Property"]
 
@@ -24,6 +27,10 @@ class Property(NamedTuple):
     initial: str
     inherited: bool
     accepts: Callable[[str], object]
+
+    def allows(self, value: str) -> bool:
+        """Whether a value is valid, calculations by what they give."""
+        return bool(self.accepts(value) or ("(" in value and self.accepts(sampled(value))))
 
 
 def anything(value: str) -> bool:
@@ -42,6 +49,11 @@ def matching(pattern: str) -> Callable[[str], object]:
     return re.compile(rf"\s*(?:{pattern})\s*", re.IGNORECASE).fullmatch
 
 
+def is_transform(value: str) -> bool:
+    """Accept functions with arguments that have units."""
+    return css_transform(value, Viewport(1.0, 1.0).along(1.0)) is not None
+
+
 PARTS: Final = ("fill", "stroke", "markers")
 """What is painted of a shape, one after another, if `paint-order` does not say otherwise."""
 
@@ -52,7 +64,7 @@ def is_order(value: str) -> bool:
     return words == ["normal"] or (set(words) <= {*PARTS} and len({*words}) == len(words) > 0)
 
 
-UNIT = r"(?:px|pt|pc|in|cm|mm|q|em|ex|ch|rem|%)?"
+UNIT = r"(?:px|pt|pc|in|cm|mm|q|em|ex|ch|rem|%|[sld]?v(?:w|h|i|b|min|max))?"
 POSITIVE = rf"(?!-){NUMBER}"
 LENGTH = f"{NUMBER}{UNIT}"
 SIZE = f"{POSITIVE}{UNIT}"
@@ -160,7 +172,7 @@ PROPERTIES: dict[str, Property] = {
     "text-decoration-line": Property("none", False, anything),
     "text-decoration-style": Property("solid", False, anything),
     "text-decoration-thickness": Property("auto", False, anything),
-    "transform": Property("none", False, anything),
+    "transform": Property("none", False, is_transform),
     "transform-box": Property(
         "view-box", False, one_of("view-box", "fill-box", "stroke-box", "content-box", "border-box")
     ),

@@ -24,7 +24,7 @@ from vexture.svg.select import chosen, nothing_painted
 from vexture.svg.subjects import subject_of
 from vexture.svg.transform import Identity, Transform
 from vexture.svg.unseen import ANIMATION
-from vexture.svg.values import Viewport
+from vexture.svg.values import Viewport, is_relative
 from vexture.svg.viewport import THINNEST, Rectangle
 
 __all__ = ["framed_drawing", "read_svg", "svg_drawing"]
@@ -248,7 +248,7 @@ def frame(scene: Scene) -> Frame | None:
     sides = []
     for name in ("width", "height"):
         text = style[name]
-        relative = text.lower() == "auto" or text.endswith("%")
+        relative = text.lower() == "auto" or is_relative(text)
         sides.append(None if relative else absolute.length(text, 0.0, style.font_size))
     width, height = sides
     if any(side is not None and side < THINNEST for side in (*sides, *(box or ())[2:])):
@@ -259,7 +259,7 @@ def frame(scene: Scene) -> Frame | None:
         if width is None and height is None:
             width, height = box[2:]
         size = (width or (height or 0.0) * ratio, height or (width or 0.0) / ratio)
-        return size, replace(absolute, width=box[2], height=box[3]), scene.fit(root, box, *size)
+        return size, replace(absolute, width=box[2], height=box[3], outermost=size), scene.fit(root, box, *size)
     if width is None or height is None:
         return None
     return (width, height), replace(absolute, width=width, height=height), Identity

@@ -3,6 +3,7 @@
 Of animations the first frame is drawn (`animation.py`).
 """
 
+from collections.abc import Callable
 from copy import copy
 from typing import Final
 
@@ -31,8 +32,7 @@ def name_unseen(
 ) -> None:
     """Note what is not seen of a document, or of the elements in `chosen` with all their content."""
     remarks = set[str]()
-    quiet = copy(servers.cascade)
-    quiet.report = Report()
+    moved_by_sheets = animated(servers)
     for top in [root] if chosen is None else chosen:
         for element in top.iter("*"):
             name = local_name(element)
@@ -41,9 +41,19 @@ def name_unseen(
                 report.left_out(ANIMATION, element.getparent() if moved is None else moved)
             elif name == "script" or any(str(key).startswith("on") for key in element.attrib):
                 report.left_out("script", element)
-            elif quiet.keyframes and name is not None and quiet.is_animated(quiet.specified(element)):
+            elif name is not None and moved_by_sheets(element):
                 report.left_out(ANIMATION, element)
             elif name in REMARKS:
                 remarks.add(name)
     for name in sorted(remarks):
         report.remark(REMARKS[name])
+
+
+def animated(servers: PaintServers) -> Callable[[etree._Element], bool]:
+    """Return the function that tells whether an element is animated by a style sheet, and notes nothing."""
+    cascade = copy(servers.cascade)
+    cascade.report = Report()
+    if not cascade.sheets.keyframes:
+        return lambda element: False
+    quiet = PaintServers(servers.root, cascade, cascade.report)
+    return lambda element: cascade.is_animated(quiet.style_of(element).own)
