@@ -13,6 +13,7 @@ from vexture.svg.keyframes import LONGHANDS as ANIMATION_LONGHANDS
 from vexture.svg.keyframes import animation_longhands
 from vexture.svg.mask_values import mask_longhands
 from vexture.svg.properties import PROPERTIES
+from vexture.svg.values import words
 from vexture.svg.variables import refers
 
 __all__ = [
@@ -38,13 +39,23 @@ MARKERS = ("marker-start", "marker-mid", "marker-end")
 UNRESET: Final = frozenset({"direction", "unicode-bidi"})
 """Properties that `all` leaves alone (CSS Cascade 4, 3.2)."""
 
+SIDED: Final = re.compile(
+    "(border|outline)(?:-(?:top|right|bottom|left|inline|block)(?:-(?:start|end))?)?(?:-style)?"
+    "|(padding)-[a-z-]+|(border)-[a-z-]+(-radius)"
+)
+"""Names of properties of one side or corner of a box, which are named as those of all."""
+
+PAINTED: Final = "("
+"""What images have, and most colours have not."""
+
 SHORTHANDS: Final[dict[str, tuple[str, ...]]] = {
     "all": tuple(name for name in PROPERTIES if name not in UNRESET),
     "animation": ANIMATION_LONGHANDS,
-    "background": ("background-color",),
+    "background": ("background-color", "background-image"),
     "font": FONT_LONGHANDS,
     "marker": MARKERS,
     "mask-image": ("mask",),
+    "offset": ("offset-path",),
 }
 """Properties that others set, as far as they are known here."""
 
@@ -107,7 +118,10 @@ def canonical(name: str) -> str:
 
 def longhands(name: str) -> tuple[str, ...]:
     """Properties that a property sets: itself, or what it is a shorthand for; none if it is not known here."""
-    return (name,) if name in PROPERTIES else SHORTHANDS.get(name, ())
+    if name in PROPERTIES:
+        return (name,)
+    match = SIDED.fullmatch(name)
+    return SHORTHANDS.get(name, ()) if match is None else ("".join(filter(None, match.groups())),)
 
 
 def expanded(name: str, value: str) -> Iterator[tuple[str, str]]:
@@ -117,8 +131,11 @@ def expanded(name: str, value: str) -> Iterator[tuple[str, str]]:
     elif name in PROPERTIES and value:
         yield name, value
     elif name == "background":
-        words = [value, *reversed(value.split())]
-        yield "background-color", next(filter(parse_color, words), "transparent")
+        parts = [value, *reversed(words(value))]
+        yield "background-color", next(filter(parse_color, parts), "transparent")
+        yield "background-image", value if PAINTED in value.lower() else "none"
+    elif SIDED.fullmatch(name) and value:
+        yield longhands(name)[0], value
     elif name == "animation":
         yield from animation_longhands(value)
     elif name == "font":

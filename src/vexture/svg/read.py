@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from vexture.bezier.bounds import bounds
 from vexture.content import about, decompressed, read_bytes
 from vexture.drawing import Drawing
-from vexture.errors import SourceError
+from vexture.errors import ParameterError, SourceError
+from vexture.fonts.places import font_places
 from vexture.notes import Note, warn_of
 from vexture.svg.animation import Moment, show_moment
 from vexture.svg.compositing import occupied
@@ -79,8 +80,10 @@ def read_svg(
     ------
     SourceError
         If the file cannot be read, is not SVG or exceeds a limit.
+    ParameterError
+        If `select` is no selector, or a parameter is of the wrong type.
     LimitError
-        If `select` is no selector or matches nothing that is painted.
+        If `select` matches nothing that is painted.
 
     Warns
     -----
@@ -170,6 +173,12 @@ class Request:
     names: str
     fonts: Sequence[str | os.PathLike[str]]
     images: Images
+
+    def __post_init__(self) -> None:
+        for name, value in (("select", self.select), ("names", self.names)):
+            if value is not None and not isinstance(value, str):
+                raise ParameterError(f"`{name}` is {value!r:.80}; it must be text")
+        font_places(self.fonts, "fonts")
 
 
 @dataclass(frozen=True, slots=True)

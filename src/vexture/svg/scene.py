@@ -130,7 +130,7 @@ class Scene:
 
         `content` maps the user units inside it to those of the place, and `size` is that of its viewport there.
         """
-        name_unseen(self.root, self.servers, self.report, self.chosen)
+        name_unseen(self.root, self.style, self.servers, self.report, self.chosen)
         opacity = self.style.opacity("opacity")
         if self.style["display"].lower() == "none" or opacity == 0.0 or not self.note_effects(self.root, self.style):
             return []
@@ -379,7 +379,9 @@ class Scene:
         return Identity.translate(x, y).transform(matrix).translate(-x, -y) if x or y else matrix
 
     def note_effects(self, element: etree._Element, style: Style) -> bool:
-        """Note a filter, which is not supported; return whether anything is seen of an element with its filter."""
+        """Note a filter or a motion, which are not supported; return whether anything is seen with the filter."""
+        if style["offset-path"].lower() != "none":
+            self.report.left_out("offset-path", element)
         value = style["filter"]
         if value.lower() == "none":
             return True

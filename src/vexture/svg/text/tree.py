@@ -47,6 +47,9 @@ JOINING: Final = frozenset({"Mn", "Mc", "Me", "Pc"})
 PRESERVED: Final = frozenset({"pre", "pre-wrap", "break-spaces"})
 """Values of `white-space` that keep spaces."""
 
+FLOWED: Final = ("inline-size", "shape-inside")
+"""Properties that break a text into lines (SVG 2, 11.4), as no browser does."""
+
 WHOLE: Final = ("clip-path", "filter", "mask")
 """Properties of whole texts, which some browsers draw for parts of them, too."""
 
@@ -217,6 +220,9 @@ def note_ignored(scene: Setting, span: Span) -> None:
         scene.report.left_out("text-shadow", span.element)
     if style["text-transform"].lower() == "full-width" and (outer is None or outer["text-transform"] != "full-width"):
         scene.report.left_out("text-transform full-width", span.element)
+    for name in FLOWED if outer is None else ():
+        if style[name].lower() not in ("auto", "none", "0"):
+            scene.report.left_out(f"{name} of a text", span.element)
     for name in WHOLE if outer is not None else ():
         if style[name].lower() != "none":
             scene.report.left_out(f"{name} of a <{local_name(span.element)}>", span.element)
