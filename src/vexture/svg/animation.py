@@ -3,11 +3,13 @@
 So the first frame is drawn. Those by style sheets are in `keyframes.py`.
 """
 
+from collections import Counter
 from enum import Enum
 from typing import Final
 
 from lxml import etree
 
+from vexture.deadline import check_time
 from vexture.svg.between import added
 from vexture.svg.course import UnclearError, along, known, said, values_of
 from vexture.svg.declarations import read_style
@@ -28,6 +30,9 @@ SIZES: Final = frozenset({"cx", "cy", "height", "r", "rx", "ry", "width", "x", "
 
 STYLED: Final = PROPERTIES.keys() - CSS_ONLY - {"d", "transform", *SIZES}
 """Attributes that are properties: their animated values override style sheets."""
+
+MOST: Final = 1_000
+"""Animations of one element, whose values add up."""
 
 TRANSFORMS: Final = frozenset({"translate", "scale", "rotate", "skewX", "skewY"})
 
@@ -60,7 +65,7 @@ def show_moment(root: etree._Element, moment: Moment = Moment.START) -> list[etr
     if moment is Moment.REST:
         return []
     links, unclear = Links(root), list[etree._Element]()
-    found = list[tuple[Progress, etree._Element]]()
+    found, counts = list[tuple[Progress, etree._Element]](), Counter[etree._Element]()
     for element in root.iter("*"):
         if local_name(element) in ANIMATIONS and applies(element):
             try:
@@ -74,7 +79,11 @@ def show_moment(root: etree._Element, moment: Moment = Moment.START) -> list[etr
         target = element.getparent() if link is None else links.target(link)
         if target is None:
             continue
+        check_time()
+        counts[target] += 1
         try:
+            if counts[target] > MOST:
+                raise UnclearError
             animate(target, element, how, links)
         except (TooLargeError, UnclearError):
             unclear.append(element)

@@ -19,7 +19,7 @@ Step: TypeAlias = Callable[[etree._Element], etree._Element | None]
 BOXED: Final = ""
 """For what the note of characters that no font has stands."""
 
-NEAR: Final = 500
+NEAR: Final = 100
 """Elements before and after one among which those of its kind are counted."""
 
 
