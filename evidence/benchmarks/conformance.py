@@ -190,6 +190,7 @@ def fixtures() -> Iterator[tuple[str, Case]]:
 
 def sayer(file: str, name: str) -> Callable[[str], str | None]:
     """A function of the tests, which says a fixture in plainer words."""
+    sys.path.append(str(FIXTURES.parent))  # one of them imports another
     function: Callable[[str], str | None] = runpy.run_path(str(FIXTURES.parent / file))[name]
     return function
 

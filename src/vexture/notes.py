@@ -7,11 +7,12 @@ remarks are losses: the result differs from the source.
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any, Final, Literal, NamedTuple
 
 from vexture.errors import SourceError, SourceWarning, printable
 
-__all__ = ["MOST_SUBJECTS", "Box", "Kind", "Note", "Notes", "Subject", "check_losses", "line_of", "warn_of"]
+__all__ = ["MOST_SUBJECTS", "Box", "Kind", "Note", "Notes", "Subject", "called", "check_losses", "line_of", "warn_of"]
 
 Kind = Literal["left out", "simplified", "invalid", "remark"]
 
@@ -102,6 +103,7 @@ class Notes:
 
     def __init__(self) -> None:
         self._counts: dict[Kind, dict[str, int]] = {kind: {} for kind in HEADINGS}
+        self._boxed: dict[str, int] = {}  # characters that no font has
 
     def left_out(self, what: str) -> None:
         """Note something that is not supported, and so paints nothing or has no effect."""
@@ -115,15 +117,51 @@ class Notes:
         """Note a sentence about the whole."""
         self.count("remark", sentence)
 
+    def boxed(self, character: str) -> None:
+        """Note a character that no font has; all of them become one note."""
+        self._boxed[character] = self._boxed.get(character, 0) + 1
+
     def count(self, kind: Kind, what: str) -> None:
         """Note something once more."""
         what = printable(what)
         self._counts[kind][what] = self._counts[kind].get(what, 0) + 1
 
     @property
+    def boxes(self) -> frozenset[str]:
+        """Characters that no font has."""
+        return frozenset(self._boxed)
+
+    @property
+    def of_boxes(self) -> tuple[Note, ...]:
+        """The note about characters that no font has, if there are any."""
+        shown = [called(character) for character in islice(self._boxed, MOST_NAMED)]
+        if len(self._boxed) > MOST_NAMED:
+            shown.append(f"and {len(self._boxed) - MOST_NAMED} more")
+        if not shown:
+            return ()
+        if len(self._boxed) == 1:
+            said = f"character {shown[0]}, which no font has, drawn as a box"
+            return (Note("simplified", said, sum(self._boxed.values())),)
+        return (Note("simplified", f"{len(self._boxed)} characters that no font has, as boxes: {' '.join(shown)}"),)
+
+    @property
     def listed(self) -> tuple[Note, ...]:
         """All notes by kind, each kind in the order of their first occurrence."""
-        return tuple(Note(kind, what, count) for kind, things in self._counts.items() for what, count in things.items())
+        found = [Note(kind, what, count) for kind, things in self._counts.items() for what, count in things.items()]
+        at = next((k for k, note in enumerate(found) if note.kind in ("invalid", "remark")), len(found))
+        return (*found[:at], *self.of_boxes, *found[at:])
+
+
+def called(character: str) -> str:
+    r"""A character as a message names it.
+
+    Examples
+    --------
+    >>> called("é"), called("\ue000")
+    ("'é' (U+00E9)", '(U+E000)')
+    """
+    shown = f"'{character}' " if character.isprintable() else ""
+    return f"{shown}(U+{ord(character):04X})"
 
 
 def line_of(source: str, notes: Sequence[Note]) -> str:

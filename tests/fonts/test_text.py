@@ -5,6 +5,7 @@ import pytest
 from made import BLUE, RED, composite, filled, made_font, solid, stacked
 
 import vexture
+from vexture.errors import ParameterError, SourceError
 from vexture.fonts.text import TextOptions, text_drawing
 from vexture.paint import Gradient, Paint, Stop
 
@@ -131,3 +132,22 @@ def test_options_out_of_range_are_named(option, message):
         vexture.text("A" * 100_001)
     with pytest.raises(vexture.ParameterError, match="`text` is 5; it must be text"):
         vexture.text(5)
+
+
+def test_characters_that_no_font_has_are_one_note(folder):
+    notes = drawn(folder, "A" + "".join(map(chr, range(0x10FFF0, 0x10FFFC))) + "\U0010fff0").notes
+    assert [str(note) for note in notes] == [
+        "12 characters that no font has, as boxes: "
+        + " ".join(f"(U+{code:X})" for code in range(0x10FFF0, 0x10FFF8))
+        + " and 4 more"
+    ]
+
+
+def test_a_text_of_which_no_font_has_anything_is_an_error(folder):
+    with pytest.raises(SourceError, match=r"no font has any of the characters '.*'; give a `font` that has them"):
+        drawn(folder, "\U0010ffff \U0010fff0")
+
+
+def test_features_are_several(folder):
+    with pytest.raises(ParameterError, match=r"`features` is 'liga'; it must be several, as \['smcp', '-liga'\]"):
+        drawn(folder, "A", features="liga")

@@ -1,5 +1,7 @@
 """One-issue fixtures that PyPI's resvg does not know, in words that it and we understand alike."""
 
+from plainer_styles import STYLES
+
 __all__ = ["PLAINER", "plainer"]
 
 ARROW = '<path d="M0 0L10 5L0 10z" fill="red"/>'
@@ -34,7 +36,46 @@ def marked(under: str, *places: tuple[float, float, float], scale: float = 0.9, 
     return under + "".join(f'<g transform="{transform}">{arrow}</g>' for transform in turned)
 
 
+def box(x: float = 20, width: float = 40, fill: str = "#208040") -> str:
+    """The rectangle of the animated fixtures."""
+    return f'<rect x="{x}" y="30" width="{width}" height="30" fill="{fill}"/>'
+
+
 PLAINER = {
+    # the first frame of animations (SVG Animations 2, CSS Animations 1), which PyPI's resvg does not know
+    "animation/set": box(fill="#fc8"),
+    "animation/from-to": box(50),
+    "animation/values": box(width=70),
+    "animation/by-starts-at-the-base": box(),
+    "animation/sum": box(30),
+    "animation/began-before": box(25),
+    "animation/colour-began-before": box(fill="#bf0040"),
+    "animation/begins-later": box(),
+    "animation/over-before": box(),
+    "animation/last-wins": box(50),
+    "animation/above-style-sheets": box(width=60, fill="#fc8") + '<circle cx="80" cy="80" r="10" fill="blue"/>',
+    "animation/by-reference": '<linearGradient id="g"><stop stop-color="#f0d020"/><stop offset="1" '
+    'stop-color="#2040e0"/></linearGradient><rect x="10" y="10" width="80" height="60" fill="url(#g)"/>',
+    "animation/transform": '<path d="M10 10h40v20h-40z" fill="#208040" transform="rotate(30 20 20)"/>',
+    "animation/transform-sum": '<path d="M0 0h30v20h-30z" fill="#208040"'
+    ' transform="translate(50 20) rotate(40) scale(1.5 1)"/>',
+    # by symmetry, the middle of the curve is that of its length
+    "animation/motion": '<path d="M0 -5h30v10h-30z" fill="#208040" transform="translate(60 50) rotate(63.4349)"/>',
+    "animation/motion-along-a-path": '<circle cx="70" cy="50" r="8" fill="#208040"/>',
+    "animation/path": '<path d="M10 10H70V70z" fill="#208040"/>',
+    "animation/in-an-image": '<path d="M10 10h80v60h-80z" fill="#208040"/>',
+    "animation/css": box(50, fill="#fc8"),
+    "animation/css-waits": box(),
+    "animation/css-waits-in-its-first-frame": box(50),
+    "animation/css-began-before": '<rect x="20" y="30" width="40" height="30" fill="#208040"'
+    ' transform="rotate(45 40 45)"/>',
+    "animation/css-eased": box(20 + 40 * 0.0401),
+    "animation/css-backwards": box(fill="#fc8"),
+    "animation/css-below-important": box(width=60, fill="#fc8"),
+    "structure/no-namespace-in-svg": '<rect x="30" y="30" width="50" height="40" fill="#208040"/>',
+    "style/percent-encoded-links": '<path d="M10 10h30v30h-30zM10 50h30v30h-30z" fill="#208040"/>'
+    '<path d="M50 10h30v30h-30z" fill="#fc8"/>',
+    **STYLES,
     # "A value of zero disables rendering of the element" (SVG 2, 8.6), which is nothing where it fills a shape
     "errors/view-box-nested-zero": LAST,
     "errors/view-box-of-pattern": LAST,
@@ -67,6 +108,11 @@ PLAINER = {
     "masks/clip-by-css-box": clipped('<path d="M20 30h60v40h-60z"/>', EDGED),
     "masks/clip-by-css-of-line": '<path d="M30 46h40v8h-40z" fill="#208040"/>',
     "masks/clip-by-css-under-rules": '<circle cx="50" cy="45" r="30" fill="#208040"/>',
+    "masks/mask-shorthand": '<circle cx="50" cy="50" r="30"/>',
+    "masks/mask-mode": '<circle cx="50" cy="50" r="30"/>',
+    "masks/mask-mode-in-shorthand": '<circle cx="90" cy="90" r="9"/>',
+    "masks/with-prefixes": '<path d="M50 20a30 30 0 0 0 0 60z"/>',
+    "style/escaped-link": '<path d="M10 10h30v30h-30z" fill="#208040"/><path d="M50 10h30v30h-30z" fill="#fc8"/>',
     "masks/mask-image": '<circle cx="50" cy="50" r="30"/>',
     "background/shorthand": f'<path fill="#fc8" d="M0 0h100v100h-100z"/>{BALL}',
     "background/is-no-attribute": BALL,

@@ -191,3 +191,22 @@ def test_a_text_in_place_of_a_path_is_refused(function: Callable[[Any], Any], te
         function(text)
     assert "\n" not in str(caught.value)
     assert len(str(caught.value)) < 200
+
+
+@pytest.mark.parametrize(
+    ("parameters", "said"),
+    [
+        ({"fonts": None}, "`fonts` is None; it must be paths of font files or folders of fonts"),
+        ({"fonts": [3]}, "`fonts` is [3]; it must be paths of font files or folders of fonts"),
+        ({"fonts": [b"abc"]}, "`fonts` is [b'abc']; it must be paths of font files or folders of fonts"),
+        ({"fonts": "no.ttf"}, "no.ttf: it is no file; give a font file or a folder of fonts"),
+        ({"trace_images": "yes"}, "`trace_images` is 'yes'; it must be True or False"),
+        ({"select": 5}, "`select` is 5; it must be text"),
+        ({"names": 5}, "`names` is 5; it must be text"),
+    ],
+    ids=str,
+)
+def test_parameters_of_a_wrong_type_are_named_though_nothing_needs_them(parameters: dict[str, Any], said: str) -> None:
+    with pytest.raises((ParameterError, SourceError)) as caught:
+        vexture.read(b'<svg viewBox="0 0 2 2"><path d="M0 0h2v1h-2z"/></svg>', name="a.svg", **parameters)
+    assert str(caught.value).removeprefix("a.svg: ") == said

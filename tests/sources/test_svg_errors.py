@@ -22,7 +22,7 @@ SHOWN = {
     "hsl-out-of-range": ([GREEN, "#404040", "#ffffff", GREEN], []),
     "length-1e300": ([GREEN], ["<rect> in line 2: " + LARGE]),
     "marker-1e300": (["#0000ff", GREEN], ["<path> in line 3: " + LARGE]),
-    "mask-1e300": ([RED, "#ffffff", GREEN], ["<circle> in line 2: " + LARGE]),
+    "mask-1e300": ([RED, "#ffffff", GREEN], ["the 1st <circle> in line 2: " + LARGE]),
     "namespace-of-element": ([GREEN], ["<rect> in line 2, of another namespace"]),
     "paint-missing": ([GREEN], ["paint '#none', which is not in the drawing (2)"]),
     "prefix-of-element": ([GREEN], ["<a:rect>"]),

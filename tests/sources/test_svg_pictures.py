@@ -15,6 +15,7 @@ from vexture.svg.read import read_svg
 
 FIXTURES = Path(__file__).parent / "fixtures"
 TOPICS = (
+    "animation",
     "background",
     "filters",
     "gradients",

@@ -17,9 +17,12 @@ FIXTURES = Path(__file__).parent / "fixtures"
 SAID = {
     "animation": "left out: animation",
     "animation-in-gradient": "left out: animation (2)",
+    "box-of-outermost": "left out: background-image of the outermost <svg>, border of the outermost <svg>, "
+    "border-radius of the outermost <svg>, box-shadow of the outermost <svg>, padding of the outermost <svg>",
     "clip-path": "left out: clip-path 'shape(from 0 0, line to 9px 9px)'",
     "clip-path-elsewhere": "left out: clip-path 'circle(9px)', clip-path 'inset(5px)', clip-path 'inset(4px)'",
-    "css-variables": "left out: CSS variables",
+    "at-rules": 'left out: media="(depth: 3)" of <style>, @container, @media (moon: full), a CSS selector that'
+    " cannot be read",
     "external-use": "left out: <use> of 'other.svg#a', which is not in the drawing",
     "event-attribute": "left out: script (2)",
     "filter": "left out: filter of blur",
@@ -31,6 +34,7 @@ SAID = {
     "html": "left out: <p> in line 2, of another namespace",
     "linear-light": "simplified: gradient in linear light (color-interpolation) read as one in sRGB, "
     "mask in linear light (color-interpolation) read as one in sRGB",
+    "flowed-text": "left out: shape-inside of a text",
     "foreign-object": "left out: <foreignObject>; nothing in it is painted",
     "image": "left out: image 'x.png' (there is no such file beside the drawing); nothing in it is painted",
     "import": "left out: @import",
@@ -40,15 +44,20 @@ SAID = {
     "marker": "left out: marker-start 'url(#none)', marker-start that refers to itself, of <marker id=\"c\"> in line 2;"
     " invalid and ignored: markerWidth='-3' of <marker id=\"c\"> in line 2",
     "mask": "left out: mask 'url(stars.svg#m)'",
+    "mask-of-layers": "left out: mask 'url(#m), linear-gradient(black, transpar'",
+    "motion-path": "left out: offset-path",
     "missing-paint": "left out: paint '#none', which is not in the drawing (2)",
     "pattern": 'simplified: <pattern id="c"> in line 2 read as solid: here it has 12,500,000,000 segments in its tiles;'
     " all patterns of a drawing may have 400,000",
+    "perspective": "left out: perspective",
     "script": "left out: script",
     "transform-without-size": "left out: transform of the outermost <svg>, which has no size",
     "unknown-element": "left out: <flowRoot>",
     "view-and-cursor": "its cursors are left out, which no picture shows; "
     "its views are not followed; all of it is shown",
+    "variable-missing": "invalid and ignored: fill='var(--none)' of <rect id=\"a\"> in line 2",
     "vector-effect": "left out: vector-effect 'fixed-position'",
+    "xml-stylesheet": "left out: style sheet 'a.css'",
 }
 
 
@@ -66,7 +75,17 @@ def read_quietly(file: Path) -> Drawing:
 
 
 ABOUT = {
-    "animation-in-gradient": [("left out", "animation", [("<stop> in line 2", None), ("sun", (0, 0.91, 0.09, 1))])],
+    "at-rules": [
+        ("left out", 'media="(depth: 3)" of <style>', [("s", None)]),
+        ("left out", "@container", [("t", None)]),
+        ("left out", "@media (moon: full)", [("t", None)]),
+        ("left out", "a CSS selector that cannot be read", [("t", None)]),
+    ],
+    "perspective": [("left out", "perspective", [("b", (0, 0.91 + 0.09 * (1 - 0.5**0.5), 0.09, 1))])],
+    "variable-missing": [
+        ("invalid", SAID["variable-missing"][21:], [("a", (0, 0.91, 0.09, 1))]),
+    ],
+    "animation-in-gradient": [("left out", "animation", [("<stop> in line 2", None), ("sun", (0.2, 0.91, 0.29, 1))])],
     "filter-steps": [
         ("left out", SAID["filter-steps"][10:-4], [("card", (0, 0.91, 0.09, 1)), ("badge", (0.2, 0.91, 0.29, 1))])
     ],
@@ -111,7 +130,7 @@ def test_the_box_of_an_element_holds_all_its_uses_and_strokes_but_not_what_it_ma
     boxes = dict(note.elements)
     assert boxes["b"] == pytest.approx((0.1, 0.89, 0.2, 0.91))
     assert boxes["c"] is None
-    assert boxes["<path> in line 1"] == pytest.approx((0.4, 0.5, 0.5, 0.6))
+    assert boxes["the 3rd <path> in line 1"] == pytest.approx((0.4, 0.5, 0.5, 0.6))
 
 
 def test_a_note_names_so_many_elements_and_counts_the_others(tmp_path: Path) -> None:

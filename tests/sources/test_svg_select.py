@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vexture.drawing import Drawing
-from vexture.errors import LimitError, SourceWarning
+from vexture.errors import LimitError, ParameterError, SourceWarning
 from vexture.svg.read import read_svg
 
 ROOT = 'xmlns="http://www.w3.org/2000/svg" xmlns:map="urn:map" viewBox="0 0 100 100"'
@@ -106,9 +106,10 @@ REFUSED = {
 
 @pytest.mark.parametrize("select", REFUSED, ids=lambda select: repr(select[:12]))
 def test_what_chooses_nothing_gets_one_line(file: Path, select: str) -> None:
-    with pytest.raises(LimitError) as caught:
+    with pytest.raises((LimitError, ParameterError)) as caught:
         read_svg(file, select)
     message = str(caught.value)
+    assert (caught.type is ParameterError) == ("is no CSS selector" in message)
     assert message.startswith(f"{file}: `select` ")
     assert REFUSED[select] in message
     assert "\n" not in message

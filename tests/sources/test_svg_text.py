@@ -118,7 +118,7 @@ def test_notes(tmp_path: Path, body: str, note: str) -> None:
         ),
         ("<text>a<tref id='r'/></text>", "<tref> of ''", ["r"]),
         ("<text><textPath id='p'>b</textPath></text>", '<textPath id="p"> in line 1 without a path', ["p"]),
-        ("<text id='t'><animate/></text>", "animation", ["t"]),
+        ("<text id='t' y='9'>a<animate/></text>", "animation", ["t"]),
         ("<g style='text-shadow: 1px 1px red'><text id='t' y='9'>a<tspan>b</tspan></text></g>", "text-shadow", ["t"]),
         (
             "<text y='9'>a<tspan id='s' style='text-transform: full-width'>b</tspan></text>",

@@ -15,6 +15,7 @@ from vexture.fonts.engine import harfbuzz
 from vexture.fonts.files import is_sfnt, sfnt_of
 from vexture.fonts.layers import Layers, glyph_layers
 from vexture.fonts.outlines import glyph_outline
+from vexture.fonts.places import NO_FILE
 from vexture.paint import Color
 
 __all__ = ["Face", "faces_in", "faces_of"]
@@ -256,7 +257,7 @@ def faces_in(content: bytes) -> list[Face]:
 def faces_of(path: Path) -> list[Face]:
     """All faces of a font file, of which only those parts are read that are used; raises as `faces_in` does."""
     if not path.is_file():  # a pipe would be waited for
-        raise SourceError("it is no file; give a font file or a folder of fonts")
+        raise SourceError(NO_FILE)
     start = start_of(path)
     if not is_sfnt(start):
         return faces_in(read_bytes(path))

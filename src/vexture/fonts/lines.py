@@ -11,7 +11,7 @@ from vexture.errors import SourceError
 from vexture.fonts.face import Face
 from vexture.fonts.levels import levels, reordered, scripts
 from vexture.fonts.shaping import Glyph, shape
-from vexture.notes import Notes
+from vexture.notes import Notes, called
 
 __all__ = ["Choice", "Placed", "Typesetting", "belongs", "is_seen", "line_of_glyphs", "named"]
 
@@ -75,7 +75,7 @@ class Choice:
                     self.notes.simplified(f"{example}, which {self.first.family} lacks, and such in {face.family}")
                 return face
         if is_seen(character):
-            self.notes.simplified(f"{named(character)}, which no font has, drawn as a box")
+            self.notes.boxed(character)
         return last or self.first
 
     def _all(self) -> Iterator[Face]:
@@ -103,8 +103,7 @@ def is_seen(character: str) -> bool:
 
 def named(character: str) -> str:
     """A character as a message names it."""
-    shown = f"'{character}' " if character.isprintable() else ""
-    return f"character {shown}(U+{ord(character):04X})"
+    return f"character {called(character)}"
 
 
 def line_of_glyphs(text: str, choice: Choice, setting: Typesetting) -> tuple[list[Placed], float]:

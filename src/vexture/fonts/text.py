@@ -10,10 +10,11 @@ import numpy as np
 
 from vexture.bezier.bounds import bounds
 from vexture.drawing import Drawing, Path
-from vexture.errors import LimitError, ParameterError, shortened
+from vexture.errors import LimitError, ParameterError, SourceError, shortened
 from vexture.fonts.layers import Layers
 from vexture.fonts.library import GENERIC, Fonts
-from vexture.fonts.lines import Choice, Placed, Typesetting, line_of_glyphs
+from vexture.fonts.lines import Choice, Placed, Typesetting, is_seen, line_of_glyphs
+from vexture.fonts.places import font_places
 from vexture.group import Group
 from vexture.notes import Note, Notes, warn_of
 from vexture.paint import BLACK, Affine, Paint
@@ -59,6 +60,9 @@ class TextOptions:
     name: str | None = None
 
     def __post_init__(self) -> None:
+        font_places(self.font, "font")
+        if isinstance(self.features, str) or not all(isinstance(feature, str) for feature in self.features):
+            raise ParameterError(f"`features` is {self.features!r:.80}; it must be several, as ['smcp', '-liga']")
         for name, known in (
             ("style", ("normal", "italic", "oblique")),
             ("direction", ("auto", "ltr", "rtl")),
@@ -160,7 +164,7 @@ def text(
     Raises
     ------
     SourceError
-        If a font cannot be read, there is no font, or the text shows nothing.
+        If a font cannot be read, there is no font, or none has any character of the text.
     ParameterError
         If a parameter is out of range.
     LimitError
@@ -198,6 +202,9 @@ def text_drawing(text: str, options: TextOptions) -> Drawing:
     base = base_level(text, options.direction)
     setting = Typesetting(base, options.language, options.features)
     lines = [line_of_glyphs(line.translate(BLANKS), choice, setting) for line in text.splitlines() or [""]]
+    if (seen := [*dict.fromkeys(filter(is_seen, text))]) and notes.boxes.issuperset(seen):
+        missing = shortened("".join(seen), LONGEST_NAME)
+        raise SourceError(f"no font has any of the characters {missing!r}; give a `font` that has them")
     face, widest = choice.first, max(width for _, width in lines)
     high, low, gap = (part / face.units_per_em for part in (face.ascender, face.descender, face.line_gap))
     leading = high - low + gap if options.line_height is None else options.line_height

@@ -4,10 +4,15 @@ from lxml import etree
 
 from vexture.errors import SourceError
 
-__all__ = ["SVG", "XML", "applies", "local_name", "parse_svg"]
+__all__ = ["HTML", "SVG", "XML", "applies", "local_name", "parse_svg"]
 
 SVG = "http://www.w3.org/2000/svg"
 XML = "http://www.w3.org/XML/1998/namespace"
+HTML = "{http://www.w3.org/1999/xhtml}"
+"""Begin of the tags of HTML's elements."""
+
+NOWHERE = "about:blank"
+"""Namespace of elements without one, where the outermost element has that of SVG: they are no SVG, as in browsers."""
 
 LANGUAGE = "en"
 """Language for `systemLanguage`: fixed, so that a drawing looks the same on every machine."""
@@ -34,6 +39,10 @@ def parse_svg(content: bytes) -> etree._Element:
         if name == "svg":
             raise SourceError(f"the root element has the namespace {space[1:][:80]!r}; the one of SVG is {SVG!r}")
         raise SourceError(f"the root element is <{name[:40]}>, not <svg>; this is not an SVG file")
+    if str(root.tag).startswith(f"{{{SVG}}}"):
+        for element in root.iter("{}*"):
+            if ":" not in str(element.tag):  # which has a prefix that is not declared
+                element.tag = f"{{{NOWHERE}}}{element.tag}"
     return root
 
 

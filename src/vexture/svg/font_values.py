@@ -7,7 +7,7 @@ from typing import Final
 from vexture.svg.properties import PROPERTIES
 from vexture.svg.values import Viewport, number
 
-__all__ = ["SPACINGS", "font_longhands", "font_weight", "in_pixels", "text_size"]
+__all__ = ["FONT_LONGHANDS", "SPACINGS", "font_longhands", "font_weight", "in_pixels", "text_size"]
 
 TEXT_SIZES: Final = {
     "xx-small": 9.0,
@@ -27,6 +27,9 @@ SYSTEM_FONTS: Final = frozenset({"caption", "icon", "menu", "message-box", "smal
 BEFORE_SIZE: Final = ("font-style", "font-variant", "font-weight", "font-stretch")
 """Parts of the shorthand before the size, in any order."""
 
+FONT_LONGHANDS: Final = (*BEFORE_SIZE, "font-size", "font-family")
+"""Properties that the shorthand sets."""
+
 MOST_BEFORE: Final = 6
 """Words before the size: four parts, of which a style may have an angle."""
 
@@ -35,14 +38,14 @@ LIGHTER_AND_BOLDER: Final = ((350.0, 100.0, 400.0), (550.0, 100.0, 700.0), (750.
 """Below each weight, what is lighter and bolder (CSS Fonts 4, 2.2.1)."""
 
 
-def text_size(text: str, parent: float) -> float:
-    """Font size in user units, from its value and the parent's size."""
+def text_size(text: str, parent: float, view: Viewport) -> float:
+    """Font size in user units, from its value, the parent's size and the outermost viewport."""
     word = text.lower()
     if word in TEXT_SIZES:
         return TEXT_SIZES[word]
     if word in ("smaller", "larger"):
         return parent * (1.2 if word == "larger" else 1 / 1.2)
-    return Viewport(parent, parent).length(text, parent, parent) or 0.0
+    return max(view.length(text, parent, parent) or 0.0, 0.0)
 
 
 def font_weight(text: str, parent: str = "normal") -> float:
@@ -65,9 +68,9 @@ def font_weight(text: str, parent: str = "normal") -> float:
     return min(max(number(text) or 400.0, 1.0), 1000.0)
 
 
-def in_pixels(spacing: str, font_size: float) -> str:
+def in_pixels(spacing: str, font_size: float, view: Viewport) -> str:
     """Spacing as a length that does not depend on a font."""
-    length = Viewport(font_size, font_size).length(spacing, font_size, font_size)
+    length = view.length(spacing, font_size, font_size)
     return "0" if length is None else repr(length)
 
 

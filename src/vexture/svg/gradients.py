@@ -14,6 +14,7 @@ from vexture.svg.outline import Outline
 from vexture.svg.properties import PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.space import SMALLEST, Place
+from vexture.svg.spatial import Attribute, css_transform, seen
 from vexture.svg.style import Style
 from vexture.svg.transform import Identity, Transform, about_origin, parse_transform
 from vexture.svg.values import LARGEST, Viewport, fraction, number
@@ -146,8 +147,9 @@ def transform_of(text: str, element: etree._Element, style: Style) -> tuple[str,
     An attribute `transform` means nothing here, though the cascade takes it for the property.
     """
     css = style["transform"]
-    if css.lower() != "none" and element.get("transform") is None:
-        return css, parse_transform(css, WHOLE.along(style.font_size))
+    if css.lower() != "none" and not isinstance(css, Attribute):
+        matrix = css_transform(css, WHOLE.along(style.font_size))
+        return css, None if matrix is None else seen(matrix)[0]
     return text, parse_transform(text, lambda part, axis: number(part))
 
 

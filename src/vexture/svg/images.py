@@ -17,16 +17,15 @@ from lxml import etree
 from vexture.content import BEFORE_MARKUP, FileKind, kind_of, picture_size, read_bytes, start_of, unpacked
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError, shortened
+from vexture.svg.animation import show_moment
 from vexture.svg.document import parse_svg
 from vexture.svg.gradients import rows
-from vexture.svg.paint_servers import reference
+from vexture.svg.links import reference
 from vexture.svg.painter import Painter
 from vexture.svg.report import Report
 from vexture.svg.space import Place, Window
-from vexture.svg.style import INITIAL
 from vexture.svg.transform import Identity, Transform, mapped
-from vexture.svg.values import Viewport
-from vexture.svg.viewport import THINNEST, Rectangle, view_box
+from vexture.svg.viewport import THINNEST, Rectangle, own_size
 
 __all__ = ["Images", "image_sides", "paint_image"]
 
@@ -46,9 +45,6 @@ ADDRESS: Final = re.compile(r"(?!file:)[a-z][a-z0-9+.-]+:|//", re.IGNORECASE)
 
 SHOWN: Final = 40
 """Characters of a file's name in a message."""
-
-ANONYMOUS: Final = (300.0, 150.0)
-"""Pixels: the size of an embedded drawing without one (CSS 2.1, 10.3.2)."""
 
 
 Found: TypeAlias = etree._Element | Drawing
@@ -100,7 +96,9 @@ class Images:
             raise SourceError("it is empty" if not start else "it is no SVG, PNG, JPEG, WebP, GIF or BMP")
         if self.depth >= DEEPEST:
             raise LimitError(f"drawings in it are nested more than {DEEPEST} deep")
-        return parse_svg(read_bytes(content))
+        root = parse_svg(read_bytes(content))
+        show_moment(root)
+        return root
 
     def beside(self, link: str) -> Path:
         """A file in the folder or below it."""
@@ -220,16 +218,7 @@ def size_of(found: Found) -> tuple[float, float]:
     if isinstance(found, Drawing):  # whose pixels begin at 0, 0, in the middle of the unit square
         (side, _, left), (_, _, bottom) = found.to_source.tolist()
         return side + 2.0 * left, 2.0 * bottom - side
-    box = view_box(found.get("viewBox", ""))
-    texts = (found.get(name, "100%").strip() for name in ("width", "height"))
-    absolute = Viewport(0.0, 0.0)
-    width, height = (None if text[-1:] == "%" else absolute.length(text, 0.0, INITIAL.font_size) for text in texts)
-    if width is not None and height is not None:
-        return width, height
-    if box is None or min(box[2:]) < THINNEST:
-        return width or ANONYMOUS[0], height or ANONYMOUS[1]
-    ratio = box[2] / box[3]
-    return width or (height or box[3]) * ratio, height or (width or box[2]) / ratio
+    return own_size(found)
 
 
 def image_sides(place: Place, size: tuple[float, float]) -> Rectangle:

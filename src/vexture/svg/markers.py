@@ -9,10 +9,11 @@ from typing import Protocol
 from lxml import etree
 
 from vexture.svg.compositing import veil_of
+from vexture.svg.declarations import MARKERS
 from vexture.svg.masks import Measured, add_masks
 from vexture.svg.shapes import Shape, shape_outlines
 from vexture.svg.space import Context, Place, Placed, Window
-from vexture.svg.style import MARKERS, Style
+from vexture.svg.style import Style
 from vexture.svg.transform import KEYWORDS, Identity, angle
 from vexture.svg.values import Viewport
 from vexture.svg.vertices import vertices

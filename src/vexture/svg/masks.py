@@ -107,7 +107,9 @@ def add_mask(
             scene.report.simplified("mask in linear light (color-interpolation) read as one in sRGB", element)
         space = region(scene, element, target, place, matrix)
     assert place.veil is not None
-    by_opacity = is_clip or style["mask-type"].lower() == "alpha"
+    mode = place.style["mask-mode"].lower().partition(",")[0].strip()  # of one layer
+    kind = style["mask-type"].lower() if mode == "match-source" else mode
+    by_opacity = is_clip or kind == "alpha"
     veil = Veil(place.veil, 1.0, mask=Mask.OPACITY if by_opacity else Mask.LUMINANCE)
     place.veil.masks.append(veil)
     content = Place(

@@ -9,6 +9,7 @@ from vexture.paint import Paint, Stop
 from vexture.svg.colors import CONTEXT, Color, PaintText, parse_color, parse_paint
 from vexture.svg.document import local_name
 from vexture.svg.gradients import GRADIENTS, Ramp, read_ramp, stop_offsets
+from vexture.svg.links import Links, reference
 from vexture.svg.outline import Outline
 from vexture.svg.patterns import Pattern, Tiling, read_pattern
 from vexture.svg.report import Report, described
@@ -16,10 +17,8 @@ from vexture.svg.space import Place
 from vexture.svg.style import INITIAL, Cascade, Style
 from vexture.svg.tiles import Budget, FirstTile
 
-__all__ = ["PaintServers", "reference"]
+__all__ = ["PaintServers"]
 
-HREF = ("href", "{http://www.w3.org/1999/xlink}href", "xlink:href")
-"""Attributes that link, the last one in files that do not declare its prefix, as HTML allows."""
 UNKNOWN = {"meshgradient": "gradient mesh", "meshGradient": "gradient mesh", "hatch": "hatch"}
 """Paint servers that are not drawn, and what notes call them."""
 
@@ -29,37 +28,20 @@ MOST_STOPS = 128
 """Of a gradient: half of what a pixel can run through for one paint (FORMAT.md, D.6)."""
 
 LINK = re.compile(r"\s*url\(\s*(['\"]?)(.*?)\1\s*\)\s*", re.DOTALL)
-FRAGMENT = re.compile(r"\s*#(.*?)\s*", re.DOTALL)
 
 
-def reference(element: etree._Element) -> str | None:
-    """Link to another element (`href`), or None."""
-    return next((element.get(name) for name in HREF if element.get(name)), None)
-
-
-class PaintServers:
+class PaintServers(Links):
     """Finds elements by their `id`, and the paints that shapes refer to."""
 
     def __init__(self, root: etree._Element, cascade: Cascade, report: Report) -> None:
-        self.root = root
+        super().__init__(root)
         self.cascade = cascade
         self.report = report
-        self.by_id: dict[str, etree._Element] = {}
         self.ramps: dict[etree._Element, Ramp | None] = {}
         self.patterns: dict[etree._Element, Pattern | None] = {}
         self.styles: dict[etree._Element, Style] = {}
         self.budget: Budget = Budget(report)
         self.tiles: dict[tuple[Hashable, ...], FirstTile] = {}  # of patterns, as painted so far
-
-    def target(self, link: str) -> etree._Element | None:
-        """Element of this document that a link like "#name" refers to, or None."""
-        match = FRAGMENT.fullmatch(link)
-        if match is None:
-            return None
-        if not self.by_id:
-            for element in self.root.iter("{*}*"):
-                self.by_id.setdefault(element.get("id", ""), element)
-        return self.by_id.get(match[1]) if match[1] else None
 
     def referred(self, name: str, kind: str, place: Place) -> etree._Element | None:
         """Element of a kind to which a property at a place refers; None, with a note, if it is none or around it."""

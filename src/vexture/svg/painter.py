@@ -25,7 +25,7 @@ from vexture.svg.strokes import Stroke, arc_length, stroke_contours
 from vexture.svg.text.typesetter import Text
 from vexture.svg.tiles import Canvas, FirstTile, Tiles, is_window, visible
 from vexture.svg.transform import Identity, Transform, mapped, scale_of
-from vexture.svg.values import number
+from vexture.svg.values import number, words
 from vexture.tolerance import ROUND
 
 if TYPE_CHECKING:  # imported at run time for drawings with texts only
@@ -295,7 +295,7 @@ def dashes_of(shape: Shape) -> tuple[float, ...]:
     text = shape.style["stroke-dasharray"]
     if text.lower() == "none":
         return ()
-    lengths = [shape.read_length("stroke-dasharray", part) or 0.0 for part in text.replace(",", " ").split()]
+    lengths = [shape.read_length("stroke-dasharray", part) or 0.0 for part in words(text)]
     if len(lengths) % 2:
         lengths *= 2
     return tuple(lengths) if sum(lengths) > 0.0 else ()

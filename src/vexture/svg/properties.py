@@ -9,8 +9,11 @@ from collections.abc import Callable
 from typing import Final, NamedTuple
 
 from vexture.group import Blend
+from vexture.svg.calculation import sampled
 from vexture.svg.colors import parse_color, parse_paint
 from vexture.svg.path_data import NUMBER
+from vexture.svg.spatial import css_transform
+from vexture.svg.values import Viewport
 
 __all__ = ["BLENDS", "CSS_ONLY", "PROPERTIES", "Property"]
 
@@ -24,6 +27,10 @@ class Property(NamedTuple):
     initial: str
     inherited: bool
     accepts: Callable[[str], object]
+
+    def allows(self, value: str) -> bool:
+        """Whether a value is valid, calculations by what they give."""
+        return bool(self.accepts(value) or ("(" in value and self.accepts(sampled(value))))
 
 
 def anything(value: str) -> bool:
@@ -42,6 +49,11 @@ def matching(pattern: str) -> Callable[[str], object]:
     return re.compile(rf"\s*(?:{pattern})\s*", re.IGNORECASE).fullmatch
 
 
+def is_transform(value: str) -> bool:
+    """Accept functions with arguments that have units."""
+    return css_transform(value, Viewport(1.0, 1.0).along(1.0)) is not None
+
+
 PARTS: Final = ("fill", "stroke", "markers")
 """What is painted of a shape, one after another, if `paint-order` does not say otherwise."""
 
@@ -52,11 +64,13 @@ def is_order(value: str) -> bool:
     return words == ["normal"] or (set(words) <= {*PARTS} and len({*words}) == len(words) > 0)
 
 
-UNIT = r"(?:px|pt|pc|in|cm|mm|q|em|ex|ch|rem|%)?"
+UNIT = r"(?:px|pt|pc|in|cm|mm|q|em|ex|ch|rem|%|[sld]?v(?:w|h|i|b|min|max))?"
 POSITIVE = rf"(?!-){NUMBER}"
 LENGTH = f"{NUMBER}{UNIT}"
 SIZE = f"{POSITIVE}{UNIT}"
 OPACITY = f"{NUMBER}%?"
+
+MODE = "alpha|luminance|match-source"
 
 SPACING = rf"normal|{LENGTH}"
 
@@ -123,7 +137,18 @@ PROPERTIES: dict[str, Property] = {
     ),
     "visibility": Property("visible", True, one_of("visible", "hidden", "collapse")),
     "alignment-baseline": Property("baseline", False, one_of(*BASELINES, "baseline", "before-edge", "after-edge")),
+    "animation-delay": Property("0s", False, anything),
+    "animation-direction": Property("normal", False, anything),
+    "animation-duration": Property("0s", False, anything),
+    "animation-fill-mode": Property("none", False, anything),
+    "animation-iteration-count": Property("1", False, anything),
+    "animation-name": Property("none", False, anything),
+    "animation-timing-function": Property("ease", False, anything),
     "background-color": Property("transparent", False, parse_color),
+    "background-image": Property("none", False, anything),
+    "border": Property("none", False, anything),
+    "border-radius": Property("0", False, anything),
+    "box-shadow": Property("none", False, anything),
     "baseline-shift": Property("baseline", False, matching(rf"{LENGTH}|baseline|sub|super|top|center|bottom")),
     "clip-path": Property("none", False, anything),
     "cx": Property("0", False, matching(LENGTH)),
@@ -132,17 +157,23 @@ PROPERTIES: dict[str, Property] = {
     "display": Property("inline", False, anything),
     "filter": Property("none", False, anything),
     "height": Property("auto", False, matching(f"auto|{SIZE}")),
+    "inline-size": Property("auto", False, anything),
     "isolation": Property("auto", False, one_of("auto", "isolate")),
     "mask": Property("none", False, anything),
+    "mask-mode": Property("match-source", False, matching(rf"(?:{MODE})(?:\s*,\s*(?:{MODE}))*+")),
     "mask-type": Property("luminance", False, one_of("luminance", "alpha")),
     "mix-blend-mode": Property("normal", False, one_of(*BLENDS)),
+    "offset-path": Property("none", False, anything),
     "opacity": Property("1", False, matching(OPACITY)),
+    "outline": Property("none", False, anything),
     "overflow": Property("hidden", False, one_of("visible", "hidden", "scroll", "auto", "clip")),
+    "padding": Property("0", False, anything),
     "r": Property("0", False, matching(SIZE)),
     "rotate": Property("none", False, anything),
     "rx": Property("auto", False, matching(f"auto|{SIZE}")),
     "ry": Property("auto", False, matching(f"auto|{SIZE}")),
     "scale": Property("none", False, anything),
+    "shape-inside": Property("auto", False, anything),
     "stop-color": Property("black", False, parse_color),
     "stop-opacity": Property("1", False, matching(OPACITY)),
     "text-decoration": Property("none", False, anything),
@@ -150,7 +181,7 @@ PROPERTIES: dict[str, Property] = {
     "text-decoration-line": Property("none", False, anything),
     "text-decoration-style": Property("solid", False, anything),
     "text-decoration-thickness": Property("auto", False, anything),
-    "transform": Property("none", False, anything),
+    "transform": Property("none", False, is_transform),
     "transform-box": Property(
         "view-box", False, one_of("view-box", "fill-box", "stroke-box", "content-box", "border-box")
     ),
@@ -169,9 +200,20 @@ PROPERTIES: dict[str, Property] = {
 
 CSS_ONLY = frozenset(
     {
+        *("animation-delay", "animation-direction", "animation-duration", "animation-fill-mode"),
+        *("animation-iteration-count", "animation-name", "animation-timing-function"),
+        *("background-image", "border", "border-radius", "box-shadow", "offset-path", "outline", "padding"),
         *("background-color", "font-feature-settings", "font-kerning", "font-synthesis", "font-variant-caps"),
         *("font-variant-ligatures", "font-variant-numeric", "font-variant-position", "font-variation-settings"),
-        *("isolation", "mix-blend-mode", "rotate", "scale", "text-decoration-color", "text-decoration-line"),
+        *(
+            "isolation",
+            "mask-mode",
+            "mix-blend-mode",
+            "rotate",
+            "scale",
+            "text-decoration-color",
+            "text-decoration-line",
+        ),
         *("text-decoration-style", "text-decoration-thickness", "text-orientation", "text-transform"),
         *("text-shadow", "text-underline-offset", "translate"),
     }

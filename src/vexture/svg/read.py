@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final, TypeAlias
 
@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 from vexture.bezier.bounds import bounds
 from vexture.content import about, decompressed, read_bytes
 from vexture.drawing import Drawing
-from vexture.errors import SourceError
-from vexture.notes import warn_of
+from vexture.errors import ParameterError, SourceError
+from vexture.fonts.places import font_places
+from vexture.notes import Note, warn_of
+from vexture.svg.animation import Moment, show_moment
 from vexture.svg.compositing import occupied
 from vexture.svg.document import parse_svg
 from vexture.svg.images import Images
@@ -22,7 +24,8 @@ from vexture.svg.scene import Scene
 from vexture.svg.select import chosen, nothing_painted
 from vexture.svg.subjects import subject_of
 from vexture.svg.transform import Identity, Transform
-from vexture.svg.values import Viewport
+from vexture.svg.unseen import ANIMATION
+from vexture.svg.values import Viewport, is_relative
 from vexture.svg.viewport import THINNEST, Rectangle
 
 __all__ = ["framed_drawing", "read_svg", "svg_drawing"]
@@ -77,8 +80,10 @@ def read_svg(
     ------
     SourceError
         If the file cannot be read, is not SVG or exceeds a limit.
+    ParameterError
+        If `select` is no selector, or a parameter is of the wrong type.
     LimitError
-        If `select` is no selector or matches nothing that is painted.
+        If `select` matches nothing that is painted.
 
     Warns
     -----
@@ -137,23 +142,82 @@ def framed_drawing(
     fonts: Sequence[str | os.PathLike[str]] = (),
     images: Images | None = None,
 ) -> tuple[Drawing, Frame | None]:
-    """Read as `svg_drawing` does, and return the frame of the whole drawing too."""
-    report = Report()
+    """Read as `svg_drawing` does, and return the frame of the whole drawing too.
+
+    Where the first frame of an animated drawing shows nothing, it is drawn without its animation, or else as that ends.
+    """
     with about(source):
         try:
-            root = parse_svg(decompressed(content))
-            part = None if select is None else chosen(root, select)
-            scene = Scene(root, report, images or Images(), part, "id" if names is None else names, fonts)
-            framed = frame(scene)
-            drawing, to_pixels = drawing_of(scene, framed, Path(source).stem)
+            plain = decompressed(content)
+            whole = Request(
+                plain, Path(source).stem, select, "id" if names is None else names, fonts, images or Images()
+            )
+            first = found = at_moment(whole, Moment.START)
+            for moment in (Moment.REST, Moment.END):
+                if not found.drawing.paths and first.is_animated:
+                    found = at_moment(whole, moment)
         except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
             raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
-        if select is not None and part is not None and not drawing.paths:
-            raise nothing_painted(select, len(part))
+        if select is not None and not found.drawing.paths and found.chosen:
+            raise nothing_painted(select, found.chosen)
+    return found.drawing if found.drawing.paths else first.unseen, found.frame
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What is to be read of a document, as in `svg_drawing`."""
+
+    content: bytes
+    name: str
+    select: str | None
+    names: str
+    fonts: Sequence[str | os.PathLike[str]]
+    images: Images
+
+    def __post_init__(self) -> None:
+        for name, value in (("select", self.select), ("names", self.names)):
+            if value is not None and not isinstance(value, str):
+                raise ParameterError(f"`{name}` is {value!r:.80}; it must be text")
+        font_places(self.fonts, "fonts")
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What is read of a document at a moment of its animation."""
+
+    drawing: Drawing
+    frame: Frame | None
+    chosen: int  # elements that were chosen
+
+    @property
+    def is_animated(self) -> bool:
+        """Whether anything of it would move."""
+        return any(note.message == ANIMATION for note in self.drawing.notes)
+
+    @property
+    def unseen(self) -> Drawing:
+        """The drawing, whose animation shows nothing in other moments either: then it loses nothing by that."""
+        notes = tuple(note for note in self.drawing.notes if note.message != ANIMATION)
+        told = Note("remark", "its animation shows nothing at its start and at its end")
+        return replace(self.drawing, notes=(*notes, told)) if self.is_animated else self.drawing
+
+
+def at_moment(request: Request, moment: Moment) -> Found:
+    """Read a document at a moment of its animation."""
+    report = Report()
+    root = parse_svg(request.content)
+    for element in show_moment(root, moment):
+        report.simplified("animation whose first frame is not known, drawn without it", element.getparent())
+    part = None if request.select is None else chosen(root, request.select)
+    scene = Scene(root, report, request.images, part, request.names, request.fonts)
+    framed = frame(scene)
+    drawing, to_pixels = drawing_of(scene, framed, request.name)
     if not drawing.paths:
         report.remark("nothing in it is painted")
+    elif moment.remark:
+        report.remark(moment.remark)
     notes = report.about(lambda element: subject_of(element, scene.names, scene.boxes, to_pixels))
-    return replace(drawing, notes=notes), None if framed is EMPTY else framed
+    return Found(replace(drawing, notes=notes), None if framed is EMPTY else framed, len(part or ()))
 
 
 def drawing_of(scene: Scene, framed: Frame | None, name: str) -> tuple[Drawing, NDArray[np.float64] | None]:
@@ -193,7 +257,7 @@ def frame(scene: Scene) -> Frame | None:
     sides = []
     for name in ("width", "height"):
         text = style[name]
-        relative = text.lower() == "auto" or text.endswith("%")
+        relative = text.lower() == "auto" or is_relative(text)
         sides.append(None if relative else absolute.length(text, 0.0, style.font_size))
     width, height = sides
     if any(side is not None and side < THINNEST for side in (*sides, *(box or ())[2:])):
@@ -204,7 +268,7 @@ def frame(scene: Scene) -> Frame | None:
         if width is None and height is None:
             width, height = box[2:]
         size = (width or (height or 0.0) * ratio, height or (width or 0.0) / ratio)
-        return size, replace(absolute, width=box[2], height=box[3]), scene.fit(root, box, *size)
+        return size, replace(absolute, width=box[2], height=box[3], outermost=size), scene.fit(root, box, *size)
     if width is None or height is None:
         return None
     return (width, height), replace(absolute, width=width, height=height), Identity

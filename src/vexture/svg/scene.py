@@ -18,26 +18,29 @@ from vexture.deadline import check_time
 from vexture.drawing import FillRule, Path
 from vexture.errors import SourceError
 from vexture.group import Group
+from vexture.svg.animation import ANIMATIONS
 from vexture.svg.colors import parse_color
 from vexture.svg.compositing import Veil, grouped, veil_of
-from vexture.svg.document import applies, local_name
+from vexture.svg.document import HTML, applies, local_name
 from vexture.svg.filters import HIDING, filter_named
 from vexture.svg.images import Images, image_sides, paint_image
+from vexture.svg.links import reference
 from vexture.svg.markers import has_markers, markers
 from vexture.svg.masks import MASKING, add_masks
 from vexture.svg.names import ElementNames
 from vexture.svg.outline import Outline
-from vexture.svg.paint_servers import PaintServers, reference
+from vexture.svg.paint_servers import PaintServers
 from vexture.svg.painter import Painter, Ruler
 from vexture.svg.report import Report, described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
 from vexture.svg.space import Context, Place, Placed, Space, Window
+from vexture.svg.spatial import TRANSFORMS, element_transform
 from vexture.svg.style import INITIAL, Cascade, Style
 from vexture.svg.subjects import Boxes, boxes_of
 from vexture.svg.text.typesetter import Typesetter
 from vexture.svg.tiles import Canvas
-from vexture.svg.transform import Identity, Transform, parse_origin, property_transform
-from vexture.svg.unseen import ANIMATIONS, name_unseen
+from vexture.svg.transform import Identity, Transform, parse_origin
+from vexture.svg.unseen import name_unseen
 from vexture.svg.values import TooLargeError, Viewport
 from vexture.svg.viewport import CENTRED, THINNEST, Rectangle, parse_fit, view_box, view_transform
 
@@ -60,10 +63,6 @@ UNPAINTED = frozenset(
 )
 """Elements that paint nothing themselves."""
 
-TRANSFORMS = ("translate", "rotate", "scale", "transform")
-"""Properties that move an element, in the order in which they do (CSS Transforms 2, 6)."""
-
-HTML = "{http://www.w3.org/1999/xhtml}"
 
 DRAWN = frozenset({*SHAPES, *CONTAINERS, "image", "text", "use"})
 """Elements that a `switch` may choose before those that are not known."""
@@ -94,7 +93,7 @@ class Scene:
         self.servers: PaintServers = PaintServers(root, self.cascade, report)
         self.style: Style = self.cascade.style(root, INITIAL)
         self.used: int = 0
-        self.typesetter: Typesetter = Typesetter(fonts, self.cascade.font_faces, report)
+        self.typesetter: Typesetter = Typesetter(fonts, self.cascade.sheets.font_faces, report)
         self.boxes: Boxes = {}  # of what the notes are about, once it is painted
 
     def paint(
@@ -131,7 +130,7 @@ class Scene:
 
         `content` maps the user units inside it to those of the place, and `size` is that of its viewport there.
         """
-        name_unseen(self.root, self.servers, self.report, self.chosen)
+        name_unseen(self.root, self.style, self.servers, self.report, self.chosen)
         opacity = self.style.opacity("opacity")
         if self.style["display"].lower() == "none" or opacity == 0.0 or not self.note_effects(self.root, self.style):
             return []
@@ -178,7 +177,7 @@ class Scene:
         if box is not None:
             content = scene.fit(root, box, *size)
         width, height = size if box is None else box[2:]
-        viewport = Viewport(width, height, scene.style.font_size)
+        viewport = Viewport(width, height, scene.style.font_size, size)
         place = replace(place, viewport=viewport, style=scene.style, element=root, outer=place, depth=place.depth + 1)
         own = painter.for_document(scene.servers, scene.walk)
         place = replace(place, chosen=True, is_instance=True, context=None)
@@ -365,13 +364,11 @@ class Scene:
         def length(value: str, axis: int) -> float | None:
             return place.viewport.length(value, (width, height)[axis], style.font_size)
 
-        matrix = Identity
-        for name in TRANSFORMS:
-            one = property_transform(name, style[name], length)
-            if one is None:
-                self.report.invalid(name, style[name], element)
-            else:
-                matrix = matrix.transform(one)
+        matrix, invalid, deep = element_transform(style.own, length)
+        for name in invalid:
+            self.report.invalid(name, style[name], element)
+        if deep:
+            self.report.left_out("perspective", element)
         origin = parse_origin(style["transform-origin"], length)
         if origin is None:
             self.report.invalid("transform-origin", style["transform-origin"], element)
@@ -382,7 +379,9 @@ class Scene:
         return Identity.translate(x, y).transform(matrix).translate(-x, -y) if x or y else matrix
 
     def note_effects(self, element: etree._Element, style: Style) -> bool:
-        """Note a filter, which is not supported; return whether anything is seen of an element with its filter."""
+        """Note a filter or a motion, which are not supported; return whether anything is seen with the filter."""
+        if style["offset-path"].lower() != "none":
+            self.report.left_out("offset-path", element)
         value = style["filter"]
         if value.lower() == "none":
             return True

@@ -8,7 +8,7 @@ import cssselect2
 from lxml import etree
 
 from vexture.deadline import check_time
-from vexture.errors import LimitError, shortened
+from vexture.errors import LimitError, ParameterError, shortened
 
 __all__ = ["Node", "chosen", "nothing_painted"]
 
@@ -55,7 +55,9 @@ class Node(cssselect2.ElementWrapper):  # type: ignore[misc]
 
 
 def chosen(root: etree._Element, select: str) -> set[etree._Element]:
-    """Elements that a CSS selector list matches; a `LimitError` if it is no selector or matches nothing.
+    """Elements that a CSS selector list matches; a `ParameterError` if it is no selector.
+
+    Raises a `LimitError` if it matches nothing.
 
     Namespace prefixes are those that the root element declares, as in ``[inkscape|label="Roads"]``.
 
@@ -73,7 +75,7 @@ def chosen(root: etree._Element, select: str) -> set[etree._Element]:
     except (cssselect2.SelectorError, SyntaxError, AttributeError) as error:
         cut = isinstance(error, AttributeError)  # what cssselect2 raises for :nth-child(2n+)
         reason = "it breaks off" if cut else str(error.args[-1] if error.args else error)[:LONGEST_NAMED]
-        raise LimitError(
+        raise ParameterError(
             f"`select` {named(select)} is no CSS selector ({reason}); write it like '#id', '.class' or 'g > path'"
         ) from None
     except (RecursionError, MemoryError):

@@ -1,38 +1,33 @@
 """The CSS cascade: attributes, style sheets, `style`, `!important` and inheritance (CSS Cascade 4)."""
 
-import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import inf
 from operator import itemgetter
-from typing import Any, cast
 
-import cssselect2
-import tinycss2
 from lxml import etree
 
-from vexture.errors import SourceError
 from vexture.svg.colors import Color, parse_color
+from vexture.svg.declarations import Declaration, expanded, longhands, read_style
 from vexture.svg.document import XML, local_name
-from vexture.svg.font_values import SPACINGS, font_longhands, font_weight, in_pixels, text_size
+from vexture.svg.font_values import SPACINGS, font_weight, in_pixels, text_size
+from vexture.svg.keyframes import declared_at_start, names_of
+from vexture.svg.media import Medium
 from vexture.svg.properties import CSS_ONLY, PROPERTIES
 from vexture.svg.report import Report
-from vexture.svg.select import Node
-from vexture.svg.values import fraction
+from vexture.svg.sheets import Sheets
+from vexture.svg.spatial import Attribute
+from vexture.svg.values import INITIAL_SIZE, Viewport, fraction
+from vexture.svg.variables import computed, refers, substituted
+from vexture.svg.viewport import own_size
 
-__all__ = ["INITIAL", "MARKERS", "Cascade", "Style"]
-
-PLAIN = re.compile(r"[^\"'\\/(){}\[\]@!<&]*")
-"""Style attributes that need no tokeniser: they can be split at ; and :."""
-
-SCREEN = re.compile(r"\s*(?:only\s+)?(?:all|screen)?\s*", re.IGNORECASE)
-"""Media queries that hold on every screen."""
-
-OTHER_MEDIUM = re.compile(r"\s*(?:only\s+)?(?:print|speech)\b.*|\s*not\s+(?:all|screen)\s*", re.IGNORECASE | re.DOTALL)
-
-MARKERS = ("marker-start", "marker-mid", "marker-end")
+__all__ = ["INITIAL", "LISTING", "Cascade", "Style"]
 
 UNSET = ("unset", "revert", "revert-layer")
 """Keywords for the inherited value, or else the initial one."""
+
+KEYWORDS = ("inherit", "initial", *UNSET)
+"""Values of every property."""
 
 SPACE_MODES = {"default": "normal", "preserve": "pre"}
 """What `xml:space` says, as the value of `white-space` that browsers give it."""
@@ -40,15 +35,12 @@ SPACE_MODES = {"default": "normal", "preserve": "pre"}
 LISTED, LISTING = frozenset({"x", "y"}), frozenset({"text", "tspan", "textPath", "tref"})
 """Attributes that are lists of these elements, and no properties (SVG 2, 11.2)."""
 
-Declaration = tuple[str, str, bool]
-"""Property, value, and whether it is important."""
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Style:
     """Values of all properties at one element, as text."""
 
-    inherited: dict[str, str]  # inherited properties that differ from their initial values
+    inherited: dict[str, str]  # inherited properties that differ from their initial values, and custom ones
     own: dict[str, str]  # other properties that the element sets
     font_size: float  # in user units
 
@@ -68,7 +60,7 @@ class Style:
         return color if isinstance(color, Color) else Color((0.0, 0.0, 0.0), 1.0)
 
 
-INITIAL = Style({}, {}, 16.0)
+INITIAL = Style({}, {}, INITIAL_SIZE)
 """Style that the outermost element inherits."""
 
 
@@ -76,54 +68,19 @@ class Cascade:
     """Computes the style of an element from its parent's, with the document's `<style>` elements."""
 
     def __init__(self, root: etree._Element, report: Report) -> None:
+        self.root = root
         self.report = report
-        self.matcher: Any = None
-        self.font_faces: list[dict[str, str]] = []  # descriptors of each @font-face rule, by name
-        self.wrappers: dict[etree._Element, Any] = {}
-        sheets = [element for element in root.iter("{*}style") if element.text]
-        if sheets:
-            self.matcher = cssselect2.Matcher()
-            for sheet in sheets:
-                if sheet.get("type", "text/css").strip().lower() in ("", "text/css"):
-                    self.add_rules(
-                        tinycss2.parse_stylesheet(tokens(sheet.text or ""), skip_comments=True, skip_whitespace=True)
-                    )
-            for wrapper in Node.from_xml_root(root).iter_subtree():
-                self.wrappers[wrapper.etree_element] = wrapper
-
-    def add_rules(self, rules: list[Any]) -> None:
-        """Add the rules of a style sheet to the matcher, in order."""
-        for rule in rules:
-            if rule.type == "qualified-rule":
-                declarations = list(read_declarations(rule.content))
-                try:
-                    selectors = cssselect2.compile_selector_list(rule.prelude)
-                except (cssselect2.SelectorError, SyntaxError, AttributeError, RecursionError, MemoryError):
-                    self.report.left_out("a CSS selector that cannot be read")
-                    continue
-                for selector in selectors:
-                    self.matcher.add_selector(selector, declarations)
-            elif rule.type == "at-rule":
-                self.add_at_rule(rule)
-
-    def add_at_rule(self, rule: Any) -> None:
-        """Add the rules inside an at-rule, if it is a medium that applies."""
-        name = rule.lower_at_keyword
-        if name == "font-face":
-            self.font_faces.append({key: value for key, value, _ in read_descriptors(rule.content or [])})
-        if name in ("charset", "font-face", "namespace"):
-            return
-        queries = tinycss2.serialize(rule.prelude).split(",")
-        if name == "media" and any(map(SCREEN.fullmatch, queries)):
-            content = rule.content or []
-            self.add_rules(tinycss2.parse_rule_list(content, skip_comments=True, skip_whitespace=True))
-        elif name != "media" or not all(map(OTHER_MEDIUM.fullmatch, queries)):
-            self.report.left_out(f"@{name[:40]}")
+        size = own_size(root)
+        self.view = Viewport(*size)  # to which fonts refer
+        self.sheets = Sheets(root, report, Medium(*size))
 
     def style(self, element: etree._Element, parent: Style) -> Style:
         """Style of an element; `parent` is the style of its parent, or of the `use` that shows it."""
-        inherited, own = parent.inherited, dict[str, str]()
-        for name, value in self.specified(element).items():
+        declared = self.declared(element)
+        variables = {one.name: one.value for one in declared if one.name.startswith("--")}
+        inherited = computed(variables, parent.inherited) if variables else parent.inherited
+        own = dict[str, str]()
+        for name, value in self.specified(element, declared, inherited).items():
             keyword = value.lower()
             entry = PROPERTIES[name]
             if keyword in UNSET or (keyword == "inherit" and entry.inherited):
@@ -142,15 +99,19 @@ class Cascade:
                 inherited[name] = value
         font_size = parent.font_size
         if inherited is not parent.inherited and "font-size" in inherited:
-            font_size = text_size(inherited.pop("font-size"), parent.font_size)
+            font_size = text_size(inherited.pop("font-size"), parent.font_size, self.view)
+        if element is self.root:
+            self.view = replace(self.view, root_font_size=font_size)
         if inherited is not parent.inherited:
             for name in SPACINGS:
                 if inherited.get(name) != parent.inherited.get(name):
-                    inherited[name] = in_pixels(inherited[name], font_size)
+                    inherited[name] = in_pixels(inherited[name], font_size, self.view)
         return Style(inherited, own, font_size)
 
-    def specified(self, element: etree._Element) -> dict[str, str]:
-        """Winning declaration of each property, in rising precedence: attributes, rules, `style`, `!important`."""
+    def specified(
+        self, element: etree._Element, declared: list[Declaration], variables: Mapping[str, str]
+    ) -> dict[str, str]:
+        """Winning declaration of each property: attributes, and over them what is declared, in rising precedence."""
         found: dict[str, str] = {}
         mode = SPACE_MODES.get(str(element.get(f"{{{XML}}}space")))
         if mode is not None:
@@ -160,75 +121,53 @@ class Cascade:
             if name in PROPERTIES and name not in CSS_ONLY:
                 if name in LISTED and local_name(element) in LISTING:
                     continue
-                self.declare(found, name, str(value), element)
-        for name, value, _ in sorted(self.declared(element), key=itemgetter(2)):  # stable; important ones come last
-            self.declare(found, name, value, element)
+                if name == "transform":
+                    found[name] = Attribute(str(value).strip())
+                else:
+                    self.declare(found, name, str(value), element, variables)
+        for name, value, _ in declared:
+            if not name.startswith("--"):
+                self.declare(found, name, value, element, variables)
+        if self.is_animated(found):
+            lasting = {one.name for one in declared if one.important}
+            for name, value in declared_at_start(found, self.sheets.keyframes):
+                if name not in lasting:
+                    self.declare(found, name, value, element, variables)
         return found
 
-    def declare(self, found: dict[str, str], name: str, value: str, element: etree._Element) -> None:
-        """Override earlier declarations, unless this one is invalid."""
-        value = value.strip()
-        if PROPERTIES[name].accepts(value) or value.lower() in ("inherit", "initial", *UNSET):
-            found[name] = value
-        elif "var(" in value:
-            self.report.left_out("CSS variables")
+    def is_animated(self, found: Mapping[str, str]) -> bool:
+        """Whether an element with such values is animated by a style sheet."""
+        return "animation-name" in found and not self.sheets.keyframes.keys().isdisjoint(names_of(found))
+
+    def declare(
+        self, found: dict[str, str], name: str, value: str, element: etree._Element, variables: Mapping[str, str]
+    ) -> None:
+        """Override earlier declarations, unless this one is invalid.
+
+        Whether one with references is valid is known too late: an invalid one leaves its properties unset, and earlier
+        ones are lost (CSS Variables 1, 3.1).
+        """
+        value, pairs = value.strip(), list[tuple[str, str]]()
+        if refers(value):
+            text = substituted(value, variables.get)
+            found.update(dict.fromkeys(longhands(name), "unset"))
+            pairs = [] if text is None else [*expanded(name, text)]
         else:
+            pairs = [(name, value)] if name in PROPERTIES else []
+        for longhand, part in pairs:
+            if PROPERTIES[longhand].allows(part) or part.lower() in KEYWORDS:
+                found[longhand] = part
+            else:
+                self.report.invalid(longhand, part, element)
+        if not pairs:
             self.report.invalid(name, value, element)
 
-    def declared(self, element: etree._Element) -> Iterator[Declaration]:
-        """Yield the declarations of the style sheets and then of the `style` attribute, in rising precedence."""
-        if self.matcher is not None and element in self.wrappers:  # not one that stands for a shape of CSS
-            for _, _, pseudo, declarations in self.matcher.match(self.wrappers[element]):
-                if pseudo is None:
-                    yield from declarations
+    def declared(self, element: etree._Element) -> list[Declaration]:
+        """What the style sheets and the `style` attribute declare, in rising precedence (CSS Cascade 5, 6.1)."""
+        found: list[tuple[tuple[bool, float], Declaration]] = [
+            ((one.important, -rank if one.important else rank), one) for rank, one in self.sheets.declared(element)
+        ]
         text = element.get("style")
         if text:
-            yield from read_style(text)
-
-
-def read_style(text: str) -> Iterator[Declaration]:
-    """Yield the declarations of a `style` attribute."""
-    if PLAIN.fullmatch(text):
-        for part in text.split(";"):
-            name, _, value = part.partition(":")
-            yield from expanded(name.strip().lower(), value.strip(), False)
-    else:
-        yield from read_declarations(tokens(text))
-
-
-def tokens(text: str) -> list[Any]:
-    """Tokens of a style sheet or of a `style` attribute."""
-    try:
-        return cast(list[Any], tinycss2.parse_component_value_list(text, skip_comments=True))
-    except ValueError:  # of int()
-        raise SourceError("an integer in its styles has more than 4,300 digits; round it") from None
-
-
-def read_descriptors(content: Any) -> Iterator[Declaration]:
-    """Yield what the rules of a style sheet's block say, as written."""
-    for item in tinycss2.parse_blocks_contents(content, skip_comments=True, skip_whitespace=True):
-        if item.type == "declaration":
-            yield item.lower_name, tinycss2.serialize(item.value).strip(), item.important
-
-
-def read_declarations(content: Any) -> Iterator[Declaration]:
-    """Yield the declarations of a style sheet's rule or of a `style` attribute."""
-    for name, value, important in read_descriptors(content):
-        yield from expanded(name, value, important)
-
-
-def expanded(name: str, value: str, important: bool) -> Iterator[Declaration]:
-    """Yield the declaration of a known property; a shorthand becomes its longhands."""
-    if name in PROPERTIES and value:
-        yield name, value, important
-    elif name == "background":
-        words = [value, *reversed(value.split())]
-        yield "background-color", next(filter(parse_color, words), "transparent"), important
-    elif name == "mask-image" and value:
-        yield "mask", value, important
-    elif name == "marker" and value:
-        for marker in MARKERS:
-            yield marker, value, important
-    elif name == "font":
-        for longhand, part in font_longhands(value):
-            yield longhand, part, important
+            found += [((one.important, inf), one) for one in read_style(text)]
+        return [one for _, one in sorted(found, key=itemgetter(0))]  # stable

@@ -1,27 +1,29 @@
-"""Affine maps, and transforms by the attribute's grammar and by the CSS properties', read as one (CSS Transforms 2)."""
+"""Affine maps, and transforms by the grammar of attributes (CSS Transforms 1, 8)."""
 
 import re
 from collections.abc import Callable
-from math import cos, pi, radians, sin, sqrt, tan
+from math import pi, radians, sqrt, tan
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.svg.calculation import ANGLE, calculated
 from vexture.svg.path_data import GAP, NUMBER, SPACE
-from vexture.svg.values import number
+from vexture.svg.values import number, words
 
 __all__ = [
     "KEYWORDS",
     "Identity",
+    "Length",
     "Transform",
     "about_origin",
     "angle",
     "mapped",
     "parse_origin",
     "parse_transform",
-    "property_transform",
     "scale_of",
+    "single_transform",
 ]
 
 if TYPE_CHECKING:
@@ -60,13 +62,10 @@ TURN = {"": pi / 180, "deg": pi / 180, "grad": pi / 200, "rad": 1.0, "turn": 2 *
 
 KEYWORDS: Final = {"left": "0%", "top": "0%", "center": "50%", "right": "100%", "bottom": "100%"}
 
-AXES: Final = {"": (0.0, 0.0, 1.0), "x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
-"""Axes by their names; without one, things turn in the plane."""
-
 WITH_UNIT = rf"{NUMBER}(?:[a-zA-Z]++|%)?+"
 ARGUMENT = re.compile(WITH_UNIT)
 FUNCTION = re.compile(rf"{GAP}([a-zA-Z]++){SPACE}\({SPACE}({WITH_UNIT}(?:{GAP}{WITH_UNIT})*+){SPACE}\){SPACE}")
-ANGLE = re.compile(rf"({NUMBER})([a-zA-Z]*)")
+WRITTEN_ANGLE = re.compile(rf"({NUMBER})([a-zA-Z]*)")
 
 Length = Callable[[str, int], float | None]
 """Converts the text of a length along x (0) or y (1) into user units; None if it is no length."""
@@ -74,14 +73,17 @@ Length = Callable[[str, int], float | None]
 
 def angle(text: str) -> float | None:
     """Angle in radians; None if the text is no angle."""
-    match = ANGLE.fullmatch(text)
+    match = WRITTEN_ANGLE.fullmatch(text)
+    found = calculated(text, lambda value, unit: None) if match is None else None
+    if found is not None:
+        return radians(found.value) if found.kind == ANGLE else None
     unit = TURN.get(match[2].lower()) if match else None
     value = number(match[1]) if match else None
     return None if value is None or unit is None else value * unit
 
 
 def parse_transform(text: str, length: Length) -> Transform | None:
-    """Product of a list of transforms, an attribute's or a CSS property's value; None if the list is not valid.
+    """Product of a list of transforms, the value of an attribute; None if the list is not valid.
 
     Examples
     --------
@@ -143,60 +145,6 @@ def single_transform(name: str, arguments: list[str], length: Length) -> Transfo
     return None
 
 
-def property_transform(name: str, text: str, length: Length) -> Transform | None:
-    """Transform by the property `translate`, `rotate` or `scale` (CSS Transforms 2, 5), or `transform`.
-
-    None if the value is not valid. What leaves the plane is seen straight from above: there is no perspective.
-
-    Examples
-    --------
-    >>> property_transform("scale", "200% 3", lambda text, axis: number(text)).transformPoint((1, 1))
-    (2.0, 3.0)
-    """
-    if name == "transform":
-        return parse_transform(text, length)
-    words = text.lower().split()
-    if words == ["none"]:
-        return Identity
-    if name == "rotate":
-        return turned(words)
-    values = [length(word, min(axis, 1)) if name == "translate" else factor(word) for axis, word in enumerate(words)]
-    match name, values[:2]:
-        case "translate", [float(x)]:
-            return Identity.translate(x, 0.0)
-        case "translate", [float(x), float(y)] if len(words) <= 3 and None not in values:
-            return Identity.translate(x, y)
-        case "scale", [float(x)]:
-            return Identity.scale(x, x)
-        case "scale", [float(x), float(y)] if len(words) <= 3 and None not in values:
-            return Identity.scale(x, y)
-    return None
-
-
-def factor(text: str) -> float | None:
-    """Number or percentage; None if the text is neither."""
-    value = number(text.removesuffix("%"))
-    return value / 100.0 if value is not None and text.endswith("%") else value
-
-
-def turned(words: list[str]) -> Transform | None:
-    """Turn by an angle, which may be before or after its axis, by the formula of Rodrigues."""
-    if not words:
-        return None
-    first = angle(words[0]) if ANGLE.fullmatch(words[0]) and words[0][-1].isalpha() else None
-    axis, turn = (words[1:], first) if first is not None else (words[:-1], angle(words[-1]))
-    numbers = AXES.get(" ".join(axis)) or [*map(number, axis)]
-    match numbers:
-        case [float(x), float(y), float(z)] if turn is not None:
-            length = sqrt(x * x + y * y + z * z) or 1.0
-            x, y, z = x / length, y / length, z / length
-            rest, up = 1.0 - cos(turn), z * sin(turn)
-            if not (x or y or z):
-                return Identity
-            return Transform(cos(turn) + rest * x * x, rest * x * y + up, rest * x * y - up, cos(turn) + rest * y * y)
-    return None
-
-
 def parse_origin(text: str, length: Length) -> tuple[float, float] | None:
     """Point that `transform-origin` gives (CSS Transforms 1, 5); None if it is not valid.
 
@@ -205,14 +153,14 @@ def parse_origin(text: str, length: Length) -> tuple[float, float] | None:
     >>> parse_origin("right 3", lambda text, axis: {"100%": 10.0, "3": 3.0}[text])
     (10.0, 3.0)
     """
-    words = text.lower().split()[:2]
-    if len(words) == 1:
-        words = ["center", words[0]] if words[0] in ("top", "bottom") else [words[0], "center"]
-    if len(words) != 2:
+    parts = words(text.lower())[:2]
+    if len(parts) == 1:
+        parts = ["center", parts[0]] if parts[0] in ("top", "bottom") else [parts[0], "center"]
+    if len(parts) != 2:
         return None
-    if words[0] in ("top", "bottom") or words[1] in ("left", "right"):
-        words.reverse()
-    x, y = (length(KEYWORDS.get(word, word), axis) for axis, word in enumerate(words))
+    if parts[0] in ("top", "bottom") or parts[1] in ("left", "right"):
+        parts.reverse()
+    x, y = (length(KEYWORDS.get(part, part), axis) for axis, part in enumerate(parts))
     return None if x is None or y is None else (x, y)
 
 

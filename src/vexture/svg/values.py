@@ -3,13 +3,26 @@
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import hypot
+from math import hypot, isnan
 from typing import Final
 
 from vexture.errors import SourceError
-from vexture.svg.path_data import NUMBER
+from vexture.svg.calculation import LENGTH, NUMBER, PERCENT, Quantity, calculated
+from vexture.svg.path_data import NUMBER as DIGITS
 
-__all__ = ["LARGEST", "SEPARATOR", "TooLargeError", "Viewport", "fraction", "number", "numbers"]
+__all__ = [
+    "INITIAL_SIZE",
+    "LARGEST",
+    "SEPARATOR",
+    "TooLargeError",
+    "Viewport",
+    "bounded",
+    "fraction",
+    "is_relative",
+    "number",
+    "numbers",
+    "words",
+]
 
 LARGEST: Final = 1e12
 """User units. An element with larger numbers is lost: the product of two of them and a matrix must stay finite."""
@@ -18,6 +31,9 @@ LARGEST: Final = 1e12
 class TooLargeError(SourceError):
     """A number of an element exceeds `LARGEST`; inside the drawing, only that element is lost."""
 
+
+INITIAL_SIZE: Final = 16.0
+"""Font size that the outermost element inherits, in user units."""
 
 PIXELS: Final = {
     "": 1.0,
@@ -34,8 +50,14 @@ PIXELS: Final = {
 FONT_UNITS: Final = {"em": 1.0, "ex": 0.5, "ch": 0.5}
 """Font sizes of each unit that depends on the font; ex and ch as for fonts without such data."""
 
-LENGTH = re.compile(rf"\s*({NUMBER})\s*([a-zA-Z]*|%)\s*")
+VIEW_UNITS: Final = {"w": (1.0, 0.0), "h": (0.0, 1.0), "i": (1.0, 0.0), "b": (0.0, 1.0)}
+"""Parts of the width and height of the outermost viewport that units refer to, by their last letter."""
+
+RELATIVE = re.compile(r"%|\d\.?[sld]?v[whibm]", re.IGNORECASE)
+VIEW_UNIT = re.compile(r"[sld]?v(?:([whib])|(min|max))")
+WRITTEN = re.compile(rf"\s*({DIGITS})\s*([a-zA-Z]*|%)\s*")
 SEPARATOR = re.compile(r"\s*,\s*|\s+")
+IN_BRACKETS = re.compile(r"[()]|[^()]+")
 
 
 def number(text: str) -> float | None:
@@ -46,10 +68,11 @@ def number(text: str) -> float | None:
     >>> number(" -1.5e2 "), number("1 2"), number("nan")
     (-150.0, None, None)
     """
-    match = LENGTH.fullmatch(text)
-    if match is None or match[2]:
-        return None
-    return bounded(match[1])
+    match = WRITTEN.fullmatch(text)
+    if match is None:
+        found = calculated(text, lambda value, unit: None)
+        return bounded(found.value) if found is not None and found.kind == NUMBER else None
+    return None if match[2] else bounded(match[1])
 
 
 def numbers(text: str) -> list[float] | None:
@@ -58,11 +81,37 @@ def numbers(text: str) -> list[float] | None:
     return None if None in found else [value for value in found if value is not None]
 
 
-def bounded(text: str) -> float:
+def words(text: str) -> list[str]:
+    """Parts of a value between commas or spaces that stand in no brackets.
+
+    Examples
+    --------
+    >>> words("1px, calc(2px + min(3px, 4%))  5")
+    ['1px', 'calc(2px + min(3px, 4%))', '5']
+    """
+    if "(" not in text:
+        return SEPARATOR.split(text.strip())
+    found, depth = [""], 0
+    for part in IN_BRACKETS.findall(text.strip()):
+        depth += (part == "(") - (part == ")")
+        first, *others = [part] if depth or part == ")" else SEPARATOR.split(part)
+        found[-1] += first
+        found += others
+    return found
+
+
+def is_relative(text: str) -> bool:
+    """Whether a length refers to what is around the outermost viewport, if it is that of one of its sides."""
+    return RELATIVE.search(text) is not None
+
+
+def bounded(number: str | float) -> float:
     """Value of a number; a `TooLargeError` if it is one."""
-    value = float(text)
+    value = float(number)
+    if isnan(value):  # of a calculation
+        return 0.0
     if not abs(value) <= LARGEST:
-        raise TooLargeError(f"the number {text[:40]} is too large; the limit is {LARGEST:g}")
+        raise TooLargeError(f"the number {str(number)[:40]} is too large; the limit is {LARGEST:g}")
     return value
 
 
@@ -74,10 +123,17 @@ def fraction(text: str) -> float | None:
     >>> fraction("25%"), fraction("7"), fraction("?")
     (0.25, 1.0, None)
     """
-    match = LENGTH.fullmatch(text)
-    if match is None or match[2] not in ("", "%"):
+    match = WRITTEN.fullmatch(text)
+    if match is None:
+        found = calculated(text, lambda value, unit: Quantity(value, PERCENT) if unit == "%" else None)
+        if found is None or found.kind not in (NUMBER, PERCENT):
+            return None
+        value, is_percentage = bounded(found.value), found.kind == PERCENT
+    elif match[2] not in ("", "%"):
         return None
-    return min(max(bounded(match[1]) / (100.0 if match[2] else 1.0), 0.0), 1.0)
+    else:
+        value, is_percentage = bounded(match[1]), bool(match[2])
+    return min(max(value / (100.0 if is_percentage else 1.0), 0.0), 1.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +142,8 @@ class Viewport:
 
     width: float  # of the nearest viewport
     height: float
-    root_font_size: float = 16.0  # font size of the outermost element
+    root_font_size: float = INITIAL_SIZE  # font size of the outermost element
+    outermost: tuple[float, float] | None = None  # width and height of that viewport, if this is another
 
     @property
     def diagonal(self) -> float:
@@ -105,18 +162,33 @@ class Viewport:
         >>> Viewport(200, 100).length("25.4mm", 200, 16), Viewport(200, 100).length("50%", 200, 16)
         (96.0, 100.0)
         """
-        match = LENGTH.fullmatch(text)
+        match = WRITTEN.fullmatch(text)
+        if match is None:
+            found = calculated(text, lambda value, unit: self.quantity(value, unit, whole, font_size))
+            return bounded(found.value) if found is not None and found.kind in (NUMBER, LENGTH) else None
+        factor = self.factor(match[2].lower(), whole, font_size)
+        return None if factor is None else bounded(match[1]) * factor
+
+    def quantity(self, value: float, unit: str, whole: float, font_size: float) -> Quantity | None:
+        """Length of a number and a unit, for a calculation."""
+        factor = self.factor(unit, whole, font_size)
+        return None if factor is None else Quantity(value * factor, LENGTH)
+
+    def factor(self, unit: str, whole: float, font_size: float) -> float | None:
+        """User units of a unit; None if there is no such unit."""
+        if unit in PIXELS:
+            return PIXELS[unit]
+        if unit == "%":
+            return whole / 100.0
+        if unit in FONT_UNITS:
+            return FONT_UNITS[unit] * font_size
+        if unit == "rem":
+            return self.root_font_size
+        match = VIEW_UNIT.fullmatch(unit)
         if match is None:
             return None
-        unit = match[2].lower()
-        if unit in PIXELS:
-            factor = PIXELS[unit]
-        elif unit == "%":
-            factor = whole / 100.0
-        elif unit in FONT_UNITS:
-            factor = FONT_UNITS[unit] * font_size
-        elif unit == "rem":
-            factor = self.root_font_size
-        else:
-            return None
-        return bounded(match[1]) * factor
+        width, height = self.outermost or (self.width, self.height)
+        if match[2]:
+            return (min if match[2] == "min" else max)(width, height) / 100.0
+        across, down = VIEW_UNITS[match[1]]
+        return (across * width + down * height) / 100.0

@@ -3,10 +3,12 @@
 import re
 from typing import Final, NamedTuple
 
-from vexture.svg.transform import Transform
-from vexture.svg.values import numbers
+from lxml import etree
 
-__all__ = ["CENTRED", "THINNEST", "Fit", "Rectangle", "parse_fit", "view_box", "view_transform"]
+from vexture.svg.transform import Transform
+from vexture.svg.values import INITIAL_SIZE, Viewport, is_relative, numbers
+
+__all__ = ["CENTRED", "THINNEST", "Fit", "Rectangle", "own_size", "parse_fit", "view_box", "view_transform"]
 
 Rectangle = tuple[float, float, float, float]
 """Least x, least y, width and height."""
@@ -22,6 +24,9 @@ class Fit(NamedTuple):
 
 THINNEST: Final = 1e-9
 """User units. A drawing that is less wide or high than this has no size."""
+
+ANONYMOUS: Final = (300.0, 150.0)
+"""Pixels: the size of a drawing without one as an image (CSS 2.1, 10.3.2)."""
 
 CENTRED = Fit(0.5, 0.5, "meet")
 """Default of the standard."""
@@ -76,3 +81,23 @@ def view_transform(box: Rectangle, fit: Fit, width: float, height: float) -> Tra
         across = down = min(across, down) if fit.rule == "meet" else max(across, down)
     left, top = (width - box_width * across) * fit.across, (height - box_height * down) * fit.down
     return Transform(across, 0, 0, down, left - x * across, top - y * down)
+
+
+def own_size(root: etree._Element) -> tuple[float, float]:
+    """Width and height of a drawing by the attributes of its outermost element, as an image has them.
+
+    Examples
+    --------
+    >>> own_size(etree.fromstring('<svg viewBox="0 0 40 20" height="5"/>'))
+    (10.0, 5.0)
+    """
+    box = view_box(root.get("viewBox", ""))
+    texts = (root.get(name, "100%").strip() for name in ("width", "height"))
+    absolute = Viewport(0.0, 0.0)
+    width, height = (None if is_relative(text) else absolute.length(text, 0.0, INITIAL_SIZE) for text in texts)
+    if width is not None and height is not None:
+        return width, height
+    if box is None or min(box[2:]) < THINNEST:
+        return width or ANONYMOUS[0], height or ANONYMOUS[1]
+    ratio = box[2] / box[3]
+    return width or (height or box[3]) * ratio, height or (width or box[2]) / ratio

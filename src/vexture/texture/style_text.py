@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from vexture.errors import FormatError, LimitError, SourceError
+from vexture.errors import FormatError, LimitError, SourceError, counted
 from vexture.group import Blend, Group, Mask
 from vexture.paint import Paint
 from vexture.texture.walk import REMEDY
@@ -66,7 +66,7 @@ def read_style(value: Any, what: str) -> Style:
     stacks = [_list(entry, f"{what}: a stack") for entry in _list(value.get("stacks"), f"{what}: stacks")]
     members = list(chain.from_iterable(stacks))
     if not all(type(number) is int and 0 <= number < len(elements) for number in members):
-        raise FormatError(f"{what}: a stack names none of the {len(elements)} elements; {REMEDY}")
+        raise FormatError(f"{what}: a stack names none of {counted(len(elements), 'element')}; {REMEDY}")
     names, rgba, group, hides = zip(*elements, strict=True) if elements else ((), (), (), ())
     style = Style(
         names,

@@ -130,6 +130,9 @@ class Faces:
             what = f"{named(character)}, which {families[0][:40] if used is None else used.family!r} lacks,"
         else:
             what = f"font {families[0][:40]!r}"
+            if (what, element) in self.noted:  # of which other characters are in another font
+                return
+            self.noted.add((what, element))
         self.note_once(self.report.simplified, f"{what} drawn in {face.family}", element)
 
     def note_once(self, how: Callable[[str, etree._Element], None], what: str, element: etree._Element) -> None:
@@ -225,7 +228,7 @@ def face_of(want: Wanted, character: str, faces: Faces, last: Face | None, eleme
         return face
     face = last or faces.first(want)
     if face is not None and is_seen(character):
-        faces.note_once(faces.report.simplified, f"{named(character)}, which no font has, drawn as a box", element)
+        faces.note_once(faces.report.boxed, character, element)
     return face
 
 

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from vexture.bezier.points import points_along
 from vexture.deadline import check_time
 from vexture.svg.document import local_name
+from vexture.svg.links import reference
 from vexture.svg.masks import Measured
 from vexture.svg.outline import Outline
-from vexture.svg.paint_servers import reference
 from vexture.svg.path_data import path_outlines
 from vexture.svg.report import described
 from vexture.svg.shapes import SHAPES, Shape, shape_outlines
@@ -22,7 +22,7 @@ from vexture.svg.transform import mapped
 from vexture.svg.values import number
 from vexture.tolerance import ROUND
 
-__all__ = ["Point", "Track", "read_track"]
+__all__ = ["MOST_CUBICS", "Point", "Track", "read_track", "track_of"]
 
 STEPS: Final = 64
 """Chords for each cubic: they are shorter than their arc by less than 1 / (24 STEPS^2) of it times its turn squared."""

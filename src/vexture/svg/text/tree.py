@@ -10,17 +10,17 @@ from lxml import etree
 from vexture.deadline import check_time
 from vexture.errors import SourceError
 from vexture.group import Blend
+from vexture.svg.animation import ANIMATIONS
 from vexture.svg.compositing import Veil
 from vexture.svg.document import applies, local_name
+from vexture.svg.links import reference
 from vexture.svg.masks import Measured
 from vexture.svg.names import ElementNames
-from vexture.svg.paint_servers import reference
 from vexture.svg.properties import BLENDS
 from vexture.svg.report import described
 from vexture.svg.space import Place
 from vexture.svg.style import Style
 from vexture.svg.text.track import Track, read_track
-from vexture.svg.unseen import ANIMATIONS
 from vexture.svg.values import SEPARATOR, number
 
 __all__ = ["Characters", "Setting", "Span", "characters"]
@@ -46,6 +46,9 @@ JOINING: Final = frozenset({"Mn", "Mc", "Me", "Pc"})
 
 PRESERVED: Final = frozenset({"pre", "pre-wrap", "break-spaces"})
 """Values of `white-space` that keep spaces."""
+
+FLOWED: Final = ("inline-size", "shape-inside")
+"""Properties that break a text into lines (SVG 2, 11.4), as no browser does."""
 
 WHOLE: Final = ("clip-path", "filter", "mask")
 """Properties of whole texts, which some browsers draw for parts of them, too."""
@@ -217,6 +220,9 @@ def note_ignored(scene: Setting, span: Span) -> None:
         scene.report.left_out("text-shadow", span.element)
     if style["text-transform"].lower() == "full-width" and (outer is None or outer["text-transform"] != "full-width"):
         scene.report.left_out("text-transform full-width", span.element)
+    for name in FLOWED if outer is None else ():
+        if style[name].lower() not in ("auto", "none", "0"):
+            scene.report.left_out(f"{name} of a text", span.element)
     for name in WHOLE if outer is not None else ():
         if style[name].lower() != "none":
             scene.report.left_out(f"{name} of a <{local_name(span.element)}>", span.element)

@@ -1,0 +1,316 @@
+"""Functions of CSS that calculate: `calc()`, `min()`, `clamp()` and the others (CSS Values 4, 10)."""
+
+import math
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Any, Final, NamedTuple
+
+import tinycss2
+
+__all__ = [
+    "ANGLE",
+    "LENGTH",
+    "MATH",
+    "NUMBER",
+    "PERCENT",
+    "Quantity",
+    "Resolve",
+    "calculated",
+    "parsed",
+    "sampled",
+]
+
+NUMBER, PERCENT, LENGTH, ANGLE = "number", "percentage", "length", "angle"
+
+LONGEST: Final = 1_000
+"""Characters of a calculation."""
+
+CONSTANTS: Final = {"e": math.e, "pi": math.pi, "infinity": math.inf, "-infinity": -math.inf, "nan": math.nan}
+
+ANGLES: Final = {"deg": 1.0, "grad": 0.9, "rad": 180.0 / math.pi, "turn": 360.0}
+"""Degrees of each unit."""
+
+
+class Quantity(NamedTuple):
+    """A number, and what it counts."""
+
+    value: float
+    kind: str  # NUMBER, PERCENT, LENGTH (in user units) or ANGLE (in degrees)
+
+
+Resolve = Callable[[float, str], Quantity | None]
+"""What a number and its unit, or "%", are; None if they are nothing here."""
+
+Function = Callable[[list[Quantity]], Quantity]
+"""What makes one value of arguments."""
+
+SAMPLES: Final = {NUMBER: "1", PERCENT: "1%", LENGTH: "1px", ANGLE: "1deg"}
+"""A text of each kind."""
+
+
+class InvalidError(Exception):
+    """A calculation is not valid."""
+
+
+def calculated(text: str, resolve: Resolve) -> Quantity | None:
+    """Value of a text that is one of these functions; None if it is not, or not valid.
+
+    Examples
+    --------
+    >>> calculated("max(3, 2 * (1 + 4))", lambda value, unit: None)
+    Quantity(value=10.0, kind='number')
+    """
+    if "(" not in text or len(text) > LONGEST:
+        return None
+    tokens = parsed(text.strip())
+    if len(tokens) != 1 or tokens[0].type != "function" or tokens[0].lower_name not in MATH:
+        return None
+    try:
+        return called(tokens[0], resolve)
+    except (InvalidError, OverflowError):
+        return None
+
+
+@lru_cache(maxsize=512)
+def parsed(text: str) -> tuple[Any, ...]:
+    """Tokens of a text; none if it holds a number that is too long."""
+    try:
+        return tuple(tinycss2.parse_component_value_list(text, skip_comments=True))
+    except ValueError:  # an integer of more than 4,300 digits
+        return ()
+
+
+def sampled(text: str) -> str:
+    """A value with a number or length of the same kind in place of each calculation, to tell whether it is valid.
+
+    Examples
+    --------
+    >>> sampled("translate(calc(1px + 5%), min(1px, 2px)) rotate(calc(1turn / 3))")
+    'translate(1px, 1px) rotate(1deg)'
+    """
+    if "(" not in text or len(text) > LONGEST:
+        return text
+    return "".join(map(sample, parsed(text)))
+
+
+def sample(token: Any) -> str:
+    """Text of a token, as `sampled`."""
+    if token.type != "function":
+        return str(tinycss2.serialize([token]))
+    if token.lower_name not in MATH:
+        return f"{token.name}({''.join(map(sample, token.arguments))})"
+    for kind in (PERCENT, LENGTH):
+        try:
+            return SAMPLES[called(token, lambda value, unit, kind=kind: of_kind(value, unit, kind)).kind]  # type: ignore[misc]
+        except (InvalidError, OverflowError):
+            continue
+    return str(tinycss2.serialize([token]))
+
+
+def of_kind(value: float, unit: str, percentages: str) -> Quantity:
+    """A quantity by its unit, where percentages are of a kind."""
+    if unit in ANGLES:
+        return Quantity(value, ANGLE)
+    return Quantity(value, percentages if unit == "%" else LENGTH)
+
+
+def called(token: Any, resolve: Resolve) -> Quantity:
+    """Value of a function."""
+    name, arguments = token.lower_name, separated(token.arguments)
+    if name == "round" and len(arguments) > 1 and (word := keyword(arguments[0])) in ROUNDINGS:
+        return rounded(ROUNDINGS[word], [total(part, resolve) for part in arguments[1:]])
+    if name == "clamp" and len(arguments) == 3:
+        ends = zip(arguments, ("-infinity", "", "infinity"), strict=True)
+        parts = [None if keyword(part) == "none" and end else total(part, resolve) for part, end in ends]
+        low, middle, high = parts
+        assert middle is not None
+        bounds = [end for end in (low, high) if end is not None]
+        alike([middle, *bounds])
+        value = middle.value if high is None else min(middle.value, high.value)
+        return Quantity(value if low is None else max(value, low.value), middle.kind)
+    found = MATH[name]
+    if found is None:
+        raise InvalidError
+    return found([total(part, resolve) for part in arguments])
+
+
+def separated(tokens: list[Any]) -> list[list[Any]]:
+    """Arguments between commas."""
+    found: list[list[Any]] = [[]]
+    for token in tokens:
+        if token == ",":
+            found.append([])
+        else:
+            found[-1].append(token)
+    return found
+
+
+def keyword(tokens: list[Any]) -> str:
+    """The word that some tokens are, or an empty text."""
+    words = [token for token in tokens if token.type != "whitespace"]
+    return str(words[0].lower_value) if len(words) == 1 and words[0].type == "ident" else ""
+
+
+def total(tokens: list[Any], resolve: Resolve) -> Quantity:
+    """Value of a sum of products. Plus and minus stand between spaces, so that they are no signs."""
+    terms: list[list[Any]] = [[]]
+    signs = [1.0]
+    for at, token in enumerate(tokens):
+        if token in ("+", "-"):  # tokens have no hash
+            if not (0 < at < len(tokens) - 1 and tokens[at - 1].type == tokens[at + 1].type == "whitespace"):
+                raise InvalidError
+            signs.append(1.0 if token == "+" else -1.0)
+            terms.append([])
+        elif token.type != "whitespace":
+            terms[-1].append(token)
+    values = [product(term, resolve) for term in terms]
+    alike(values)
+    return Quantity(sum(sign * one.value for sign, one in zip(signs, values, strict=True)), values[0].kind)
+
+
+def product(tokens: list[Any], resolve: Resolve) -> Quantity:
+    """Value of factors and divisors."""
+    if len(tokens) % 2 == 0:
+        raise InvalidError
+    value, kind = single(tokens[0], resolve)
+    for sign, token in zip(tokens[1::2], tokens[2::2], strict=True):
+        other = single(token, resolve)
+        if sign == "*" and NUMBER in (kind, other.kind):
+            value, kind = value * other.value, other.kind if kind == NUMBER else kind
+        elif sign == "/" and other.kind in (NUMBER, kind):
+            value, kind = divided(value, other.value), kind if other.kind == NUMBER else NUMBER
+        else:
+            raise InvalidError
+    return Quantity(value, kind)
+
+
+def divided(a: float, b: float) -> float:
+    """Quotient, infinite where the divisor is zero."""
+    if b == 0.0:
+        return math.nan if a == 0.0 or math.isnan(a) else math.copysign(math.inf, a) * math.copysign(1.0, b)
+    return a / b
+
+
+def single(token: Any, resolve: Resolve) -> Quantity:
+    """Value of one token."""
+    found: Quantity | None = None
+    if token.type == "number":
+        found = Quantity(token.value, NUMBER)
+    elif token.type == "percentage":
+        found = resolve(token.value, "%")
+    elif token.type == "dimension":
+        unit = token.lower_unit
+        found = resolve(token.value, unit) if unit not in ANGLES else Quantity(token.value * ANGLES[unit], ANGLE)
+    elif token.type == "ident" and token.lower_value in CONSTANTS:
+        found = Quantity(CONSTANTS[token.lower_value], NUMBER)
+    elif token.type == "() block":
+        found = total(token.content, resolve)
+    elif token.type == "function" and token.lower_name in MATH:
+        found = called(token, resolve)
+    if found is None:
+        raise InvalidError
+    return found
+
+
+def alike(values: list[Quantity]) -> str:
+    """The kind of all values."""
+    kinds = {one.kind for one in values}
+    if len(kinds) != 1:
+        raise InvalidError
+    return kinds.pop()
+
+
+def same(function: Callable[..., float], least: int = 1, most: int | None = None) -> Function:
+    """A function of values of one kind that gives one of it."""
+
+    def called(values: list[Quantity]) -> Quantity:
+        if not least <= len(values) <= (most or len(values)):
+            raise InvalidError
+        return Quantity(finite(function, *(one.value for one in values)), alike(values))
+
+    return called
+
+
+def plain(function: Callable[..., float], least: int = 1, most: int = 1) -> Function:
+    """A function of numbers that gives a number."""
+
+    def called(values: list[Quantity]) -> Quantity:
+        found = same(function, least, most)(values)
+        if found.kind != NUMBER:
+            raise InvalidError
+        return found
+
+    return called
+
+
+def turned(function: Callable[[float], float]) -> Function:
+    """A function of an angle, in radians where it is a number."""
+
+    def called(values: list[Quantity]) -> Quantity:
+        if len(values) != 1 or values[0].kind not in (NUMBER, ANGLE):
+            raise InvalidError
+        value, kind = values[0]
+        return Quantity(finite(function, math.radians(value) if kind == ANGLE else value), NUMBER)
+
+    return called
+
+
+def to_angle(function: Callable[..., float], count: int = 1) -> Function:
+    """A function that gives an angle."""
+
+    def called(values: list[Quantity]) -> Quantity:
+        if count == 1 and values[0].kind != NUMBER:
+            raise InvalidError
+        return Quantity(math.degrees(same(function, count, count)(values).value), ANGLE)
+
+    return called
+
+
+def finite(function: Callable[..., float], *values: float) -> float:
+    """Value of a function; not a number where it has none."""
+    try:
+        return float(function(*values))
+    except (ValueError, ZeroDivisionError):
+        return math.nan
+
+
+ROUNDINGS: Final[dict[str, Callable[[float], float]]] = {
+    "nearest": lambda value: math.floor(value + 0.5),
+    "up": math.ceil,
+    "down": math.floor,
+    "to-zero": math.trunc,
+}
+
+
+def rounded(rule: Callable[[float], float], values: list[Quantity]) -> Quantity:
+    """A value rounded to a multiple of another one, or of one."""
+    if len(values) == 1 and values[0].kind == NUMBER:
+        values = [*values, Quantity(1.0, NUMBER)]
+    return same(lambda value, step: rule(value / step) * step, 2, 2)(values)
+
+
+MATH: Final[dict[str, Function | None]] = {
+    "calc": same(lambda value: value, 1, 1),
+    "-webkit-calc": same(lambda value: value, 1, 1),
+    "min": same(min),
+    "max": same(max),
+    "clamp": None,
+    "round": lambda values: rounded(ROUNDINGS["nearest"], values),
+    "mod": same(lambda a, b: a % b, 2, 2),
+    "rem": same(math.fmod, 2, 2),
+    "abs": same(abs, 1, 1),
+    "sign": lambda values: Quantity(math.copysign(1.0, values[0].value) if values[0].value else 0.0, NUMBER),
+    "hypot": same(math.hypot),
+    "sqrt": plain(math.sqrt),
+    "exp": plain(math.exp),
+    "log": plain(math.log, 1, 2),
+    "pow": plain(math.pow, 2, 2),
+    "sin": turned(math.sin),
+    "cos": turned(math.cos),
+    "tan": turned(math.tan),
+    "asin": to_angle(math.asin),
+    "acos": to_angle(math.acos),
+    "atan": to_angle(math.atan),
+    "atan2": to_angle(math.atan2, 2),
+}
+"""Functions of lists of arguments; that of a bounded value, `clamp`, is `called` itself."""

@@ -1,0 +1,58 @@
+"""Links from one element of a document to another."""
+
+import re
+import sys
+from urllib.parse import unquote
+
+from lxml import etree
+
+__all__ = ["Links", "reference"]
+
+HREF = ("href", "{http://www.w3.org/1999/xlink}href", "xlink:href")
+"""Attributes that link, the last one in files that do not declare its prefix, as HTML allows."""
+
+FRAGMENT = re.compile(r"\s*#(.*?)\s*", re.DOTALL)
+
+
+ESCAPE = re.compile(r"\\(?:([0-9a-fA-F]{1,6})\s?|(.))", re.DOTALL)
+
+
+def reference(element: etree._Element) -> str | None:
+    """Link to another element (`href`), or None."""
+    return next((element.get(name) for name in HREF if element.get(name)), None)
+
+
+class Links:
+    """Finds the elements of a document by their `id`."""
+
+    def __init__(self, root: etree._Element) -> None:
+        self.root = root
+        self.by_id: dict[str, etree._Element] = {}
+
+    def target(self, link: str) -> etree._Element | None:
+        r"""Element of this document that a link like "#name" refers to, or None.
+
+        A name that no element has as it is written is decoded, as that of an address or of a style sheet.
+
+        Examples
+        --------
+        >>> links = Links(etree.fromstring('<svg><g id="a b"/></svg>'))
+        >>> links.target("#a%20b") is links.target("#a\\ b") is links.root[0]
+        True
+        """
+        match = FRAGMENT.fullmatch(link)
+        if match is None or not match[1]:
+            return None
+        if not self.by_id:
+            for element in self.root.iter("{*}*"):
+                self.by_id.setdefault(element.get("id", ""), element)
+        decoded = (match[1], unquote(match[1]), ESCAPE.sub(unescaped, match[1]))
+        return next((self.by_id[name] for name in decoded if name in self.by_id), None)
+
+
+def unescaped(match: re.Match[str]) -> str:
+    """The character of an escape (CSS Syntax 3, 4.3.7)."""
+    if not match[1]:
+        return match[2]
+    code = int(match[1], 16)
+    return chr(code) if 0 < code <= sys.maxunicode else "\ufffd"

@@ -1,0 +1,56 @@
+"""Fixtures of styles that PyPI's resvg does not know, in words that it and we understand alike."""
+
+__all__ = ["STYLES"]
+
+
+def squares(*colors: str) -> str:
+    """Up to four squares in two rows, of colours."""
+    corners = ((10, 10), (50, 10), (10, 50), (50, 50))
+    pairs = zip(corners, colors, strict=False)
+    return "".join(f'<rect x="{x}" y="{y}" width="30" height="30" fill="{color}"/>' for (x, y), color in pairs)
+
+
+STYLES = {
+    "style/variables": squares("#e4002b", "#e4002b", "blue", "green"),
+    "style/variables-fallback": squares("red", "green", "blue", "orange"),
+    "style/variables-in-parts": '<rect x="10" y="10" width="30" height="30" fill="rgb(200,80,0)"/><rect x="50"'
+    ' y="10" width="30" height="30" fill="#0000c8" fill-opacity="0.5"/><path'
+    ' d="M10 50h30v30" fill="none" stroke="red" stroke-width="4"'
+    ' stroke-dasharray="4 4"/><rect x="90" y="40" width="10" height="20"/>',
+    "style/variables-invalid-at-last": squares("green", "green", "black", "black"),
+    "style/variables-cycle": squares("green", "blue"),
+    "style/variables-cascade": squares("blue", "green", "teal", "orange"),
+    "style/variables-of-shorthand": '<path d="M20 20H80" stroke="red"/><circle cx="20" cy="20" r="1.5"/><circle'
+    ' cx="80" cy="20" r="1.5"/>',
+    "style/media-of-the-drawing": squares("red", "black", "green", "blue"),
+    "style/media-of-people": squares("red", "green", "blue", "orange"),
+    "style/media-of-kinds": squares("red", "green", "blue", "orange"),
+    "style/media-attribute": squares("red", "green", "black"),
+    "style/supports": squares("red", "green", "blue", "orange"),
+    "style/layers": squares("red", "green", "blue", "orange"),
+    "style/layers-nested": squares("red", "green", "blue"),
+    "style/nesting": squares("red", "green", "blue", "orange"),
+    "style/nesting-parent-elsewhere": squares("red", "green", "blue", "orange"),
+    "style/nesting-conditions": squares("red", "green", "blue", "orange"),
+    "style/calc": '<rect x="10" y="10" width="30" height="30" rx="5" fill="red"/><circle cx="70"'
+    ' cy="30" r="10" fill="green"/><path d="M10 70H90" stroke="blue"'
+    ' stroke-width="6" stroke-dasharray="5 10 3"/><path d="M10 90H90"'
+    ' stroke="orange" stroke-width="3" stroke-opacity="0.5"/>',
+    "style/calc-functions": squares("red", "green", "blue", "orange"),
+    "style/calc-invalid": '<g fill="green" stroke="red" stroke-width="4"><path d="M20 20h20v20"/><path'
+    ' d="M50 20h20v20"/><path d="M20 50h20v20"/></g>',
+    "style/view-units": '<rect x="10" y="10" width="10" height="15" fill="red"/><rect x="10" y="35"'
+    ' width="10" height="25" fill="green"/><path d="M10 80H90" stroke="blue"'
+    ' stroke-width="4" stroke-dasharray="5"/>',
+    "transform/css-calc": '<rect x="20" y="30" width="40" height="20" transform="translate(10 10) rotate(45 40 40)"/>',
+    "transform/css-in-space": '<rect x="10" y="10" width="20" height="20" fill="red"/><rect x="50" y="10"'
+    ' width="30" height="30" fill="green"/><rect x="10" y="50" width="30"'
+    ' height="30" fill="blue"/>',
+    "transform/css-about-axes": '<rect x="20" y="35" width="40" height="20"/><rect x="70" y="20" width="10"'
+    ' height="60" fill="red"/>',
+    "transform/css-axes-together": '<rect x="20" y="10" width="40" height="10"/><rect x="20" y="60" width="40"'
+    ' height="20" fill="red"/>',
+    "transform/css-without-units": '<rect x="10" y="10" width="30" height="30"/><rect x="50" y="50" width="30"'
+    ' height="30" fill="red"/><rect x="10" y="40" width="30" height="30"'
+    ' fill="green"/>',
+}
