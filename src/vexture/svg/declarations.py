@@ -10,6 +10,7 @@ from vexture.errors import SourceError
 from vexture.svg.colors import parse_color
 from vexture.svg.font_values import FONT_LONGHANDS, font_longhands
 from vexture.svg.properties import PROPERTIES
+from vexture.svg.values import words
 from vexture.svg.variables import refers
 
 __all__ = [
@@ -102,8 +103,8 @@ def expanded(name: str, value: str) -> Iterator[tuple[str, str]]:
     if name in PROPERTIES and value:
         yield name, value
     elif name == "background":
-        words = [value, *reversed(value.split())]
-        yield "background-color", next(filter(parse_color, words), "transparent")
+        parts = [value, *reversed(words(value))]
+        yield "background-color", next(filter(parse_color, parts), "transparent")
     elif name == "font":
         yield from font_longhands(value)
     elif name in SHORTHANDS and value:

@@ -1,5 +1,6 @@
 """The CSS cascade: attributes, style sheets, `style`, `!important` and inheritance (CSS Cascade 4)."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import inf
@@ -7,7 +8,7 @@ from operator import itemgetter
 
 from lxml import etree
 
-from vexture.svg.colors import Color, parse_color
+from vexture.svg.colors import BLACK, Color, parse_color
 from vexture.svg.declarations import Declaration, expanded, longhands, read_style
 from vexture.svg.document import XML, local_name
 from vexture.svg.font_values import SPACINGS, font_weight, in_pixels, text_size
@@ -27,6 +28,12 @@ UNSET = ("unset", "revert", "revert-layer")
 
 KEYWORDS = ("inherit", "initial", *UNSET)
 """Values of every property."""
+
+NOT_SUPPORTED = re.compile(
+    r"(?<![\w-])(?:alpha|attr|calc-size|contrast-color|device-cmyk|env|if|progress|random|sibling-(?:count|index))\(",
+    re.IGNORECASE,
+)
+"""Functions of CSS that are not read."""
 
 SPACE_MODES = {"default": "normal", "preserve": "pre"}
 """What `xml:space` says, as the value of `white-space` that browsers give it."""
@@ -56,7 +63,12 @@ class Style:
     def color(self) -> Color:
         """The meaning of `currentcolor` here."""
         color = parse_color(self["color"])
-        return color if isinstance(color, Color) else Color((0.0, 0.0, 0.0), 1.0)
+        return color if isinstance(color, Color) else BLACK
+
+    def solid(self, text: str) -> Color | None:
+        """A colour that may depend on `color`; None if the text is no colour."""
+        color = parse_color(text, self.color)
+        return color if isinstance(color, Color) else None
 
 
 INITIAL = Style({}, {}, INITIAL_SIZE)
@@ -88,6 +100,8 @@ class Cascade:
                 value = parent[name]
             elif keyword == "initial":
                 value = entry.initial
+            elif name == "color" and isinstance(parse_color(value), str):
+                value = absolute(value, parent)
             elif keyword in ("bolder", "lighter"):
                 value = f"{font_weight(value, parent[name]):g}"
             if not entry.inherited:
@@ -148,9 +162,17 @@ class Cascade:
             if PROPERTIES[longhand].allows(part) or part.lower() in KEYWORDS:
                 found[longhand] = part
             else:
-                self.report.invalid(longhand, part, element)
+                self.refuse(longhand, part, element)
         if not pairs:
+            self.refuse(name, value, element)
+
+    def refuse(self, name: str, value: str, element: etree._Element) -> None:
+        """Note a value that has no effect: one that is not valid, or has a function that is not supported."""
+        match = NOT_SUPPORTED.search(value)
+        if match is None:
             self.report.invalid(name, value, element)
+        else:
+            self.report.left_out(f"{match[0].lower()}) in {name}", element)
 
     def declared(self, element: etree._Element) -> list[Declaration]:
         """What the style sheets and the `style` attribute declare, in rising precedence (CSS Cascade 5, 6.1)."""
@@ -161,3 +183,9 @@ class Cascade:
         if text:
             found += [((one.important, inf), one) for one in read_style(text)]
         return [one for _, one in sorted(found, key=itemgetter(0))]  # stable
+
+
+def absolute(color: str, parent: Style) -> str:
+    """Text of a value of `color` that depends on the parent's."""
+    (red, green, blue), alpha = parent.solid(color) or BLACK
+    return f"color(srgb {red!r} {green!r} {blue!r} / {alpha!r})"
