@@ -70,4 +70,10 @@ STYLES = {
     ' y="10" width="30" height="30" fill="#ff8080"/><rect x="10" y="50" width="30"'
     ' height="30" fill="#402010"/><path d="M50 65h30" stroke="#208040"'
     ' stroke-width="10"/>',
+    "style/lang": squares("red", "green", "blue", "red"),
+    "style/display-contents": '<rect x="10" y="10" width="30" height="30" fill="red"/><rect x="10" y="50"'
+    ' width="30" height="30" fill="green"/>',
+    "style/all": '<rect x="10" y="10" width="30" height="30" fill="red"/><rect x="50" y="10"'
+    ' width="30" height="30" fill="red"/><rect x="50" y="50" width="30"'
+    ' height="30" fill="blue"/>',
 }

@@ -9,7 +9,7 @@ import tinycss2
 from vexture.errors import SourceError
 from vexture.svg.colors import parse_color
 from vexture.svg.font_values import FONT_LONGHANDS, font_longhands
-from vexture.svg.properties import PROPERTIES
+from vexture.svg.properties import KEYWORDS, PROPERTIES
 from vexture.svg.values import words
 from vexture.svg.variables import refers
 
@@ -107,6 +107,6 @@ def expanded(name: str, value: str) -> Iterator[tuple[str, str]]:
         yield "background-color", next(filter(parse_color, parts), "transparent")
     elif name == "font":
         yield from font_longhands(value)
-    elif name in SHORTHANDS and value:
+    elif name in SHORTHANDS and value and (name != "all" or value.lower() in KEYWORDS):
         for longhand in SHORTHANDS[name]:
             yield longhand, value

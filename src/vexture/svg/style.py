@@ -11,9 +11,9 @@ from lxml import etree
 from vexture.svg.colors import BLACK, Color, parse_color
 from vexture.svg.declarations import Declaration, expanded, longhands, read_style
 from vexture.svg.document import XML, local_name
-from vexture.svg.font_values import SPACINGS, font_weight, in_pixels, text_size
+from vexture.svg.font_values import SPACINGS, SYSTEM_FONTS, font_weight, in_pixels, text_size
 from vexture.svg.media import Medium
-from vexture.svg.properties import CSS_ONLY, PROPERTIES
+from vexture.svg.properties import CSS_ONLY, KEYWORDS, PROPERTIES, UNSET
 from vexture.svg.report import Report
 from vexture.svg.sheets import Sheets
 from vexture.svg.spatial import Attribute
@@ -23,12 +23,6 @@ from vexture.svg.viewport import own_size
 
 __all__ = ["INITIAL", "Cascade", "Style"]
 
-UNSET = ("unset", "revert", "revert-layer")
-"""Keywords for the inherited value, or else the initial one."""
-
-KEYWORDS = ("inherit", "initial", *UNSET)
-"""Values of every property."""
-
 NOT_SUPPORTED = re.compile(
     r"(?<![\w-])(?:alpha|attr|calc-size|contrast-color|device-cmyk|env|if|progress|random|sibling-(?:count|index))\(",
     re.IGNORECASE,
@@ -37,6 +31,9 @@ NOT_SUPPORTED = re.compile(
 
 SPACE_MODES = {"default": "normal", "preserve": "pre"}
 """What `xml:space` says, as the value of `white-space` that browsers give it."""
+
+STRIPPED = frozenset({"g", "svg", "tspan", "use"})
+"""Elements that show their content as if they were not there, by `display: contents`, which hides others."""
 
 LISTED, LISTING = frozenset({"x", "y"}), frozenset({"text", "tspan", "textPath", "tref"})
 """Attributes that are lists of these elements, and no properties (SVG 2, 11.2)."""
@@ -110,6 +107,8 @@ class Cascade:
                 if inherited is parent.inherited:
                     inherited = dict(inherited)
                 inherited[name] = value
+        if own.get("display", "").lower() == "contents" and element is not self.root:  # (CSS Display 3, B)
+            own = {} if local_name(element) in STRIPPED else {"display": "none"}
         font_size = parent.font_size
         if inherited is not parent.inherited and "font-size" in inherited:
             font_size = text_size(inherited.pop("font-size"), parent.font_size, self.view)
@@ -169,7 +168,9 @@ class Cascade:
     def refuse(self, name: str, value: str, element: etree._Element) -> None:
         """Note a value that has no effect: one that is not valid, or has a function that is not supported."""
         match = NOT_SUPPORTED.search(value)
-        if match is None:
+        if name == "font" and value.lower() in SYSTEM_FONTS:
+            self.report.left_out(f"font {value.lower()} of the system", element)
+        elif match is None:
             self.report.invalid(name, value, element)
         else:
             self.report.left_out(f"{match[0].lower()}) in {name}", element)
