@@ -14,7 +14,7 @@ from vexture.svg.properties import PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.select import Node
 
-__all__ = ["Sheets"]
+__all__ = ["FontFace", "Sheets"]
 
 UNREADABLE = (cssselect2.SelectorError, SyntaxError, AttributeError, NotImplementedError, RecursionError, MemoryError)
 """What cssselect2 raises for selectors that it cannot read."""
@@ -33,6 +33,13 @@ Layer = tuple[str, ...]
 """Names of the layers around a rule, from the outer one."""
 
 
+class FontFace(NamedTuple):
+    """A rule `@font-face`."""
+
+    descriptors: dict[str, str]  # by their names
+    element: etree._Element  # the style sheet
+
+
 class Around(NamedTuple):
     """A style rule around others."""
 
@@ -47,7 +54,7 @@ class Sheets:
         self.report = report
         self.medium = medium
         self.matcher: Any = None
-        self.font_faces: list[dict[str, str]] = []  # descriptors of each @font-face rule, by name
+        self.font_faces: list[FontFace] = []
         self.wrappers: dict[etree._Element, Any] = {}
         self.layers: dict[Layer, int] = {(): 0}  # in order of appearance
         sheets = [element for element in root.iter("{*}style") if element.text]
@@ -63,6 +70,11 @@ class Sheets:
         for wrapper in Node.from_xml_root(root).iter_subtree():
             self.wrappers[wrapper.etree_element] = wrapper
         self.ranks = {layer: rank for rank, layer in enumerate(sorted(self.layers, key=self.standing))}
+
+    @property
+    def has_layers(self) -> bool:
+        """Whether there are layers."""
+        return len(self.layers) > 1
 
     def standing(self, layer: Layer) -> tuple[float, ...]:
         """What layers are sorted by: what is in none comes after all that are in one (CSS Cascade 5, 6.4.3)."""
@@ -124,7 +136,8 @@ class Sheets:
         """Add the rules inside an at-rule, if it is a condition that holds or a layer."""
         name = rule.lower_at_keyword
         if name == "font-face":
-            self.font_faces.append({each.name.lower(): each.value for each in read_descriptors(rule.content or [])})
+            descriptors = {each.name.lower(): each.value for each in read_descriptors(rule.content or [])}
+            self.font_faces.append(FontFace(descriptors, self.element))
         elif name == "layer":
             self.add_layers(rule, layer, around)
         elif name == "media" and rule.content is not None:

@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import inf
-from operator import itemgetter
+from operator import attrgetter, itemgetter
 
 from lxml import etree
 
@@ -150,13 +150,12 @@ class Cascade:
         Whether one with references is valid is known too late: an invalid one leaves its properties unset, and earlier
         ones are lost (CSS Variables 1, 3.1).
         """
-        value, pairs = value.strip(), list[tuple[str, str]]()
+        value = value.strip()
+        pairs = [(name, value)] if name in PROPERTIES else []
         if refers(value):
             text = substituted(value, variables.get)
             found.update(dict.fromkeys(longhands(name), "unset"))
             pairs = [] if text is None else [*expanded(name, text)]
-        else:
-            pairs = [(name, value)] if name in PROPERTIES else []
         for longhand, part in pairs:
             if PROPERTIES[longhand].allows(part) or part.lower() in KEYWORDS:
                 found[longhand] = part
@@ -177,13 +176,16 @@ class Cascade:
 
     def declared(self, element: etree._Element) -> list[Declaration]:
         """What the style sheets and the `style` attribute declare, in rising precedence (CSS Cascade 5, 6.1)."""
-        found: list[tuple[tuple[bool, float], Declaration]] = [
+        text = element.get("style")
+        own = [*read_style(text)] if text else []
+        if not self.sheets.has_layers:
+            found = [one for _, one in self.sheets.declared(element)] + own
+            return sorted(found, key=attrgetter("important")) if any(one.important for one in found) else found
+        ranked = [
             ((one.important, -rank if one.important else rank), one) for rank, one in self.sheets.declared(element)
         ]
-        text = element.get("style")
-        if text:
-            found += [((one.important, inf), one) for one in read_style(text)]
-        return [one for _, one in sorted(found, key=itemgetter(0))]  # stable
+        ranked += [((one.important, inf), one) for one in own]
+        return [one for _, one in sorted(ranked, key=itemgetter(0))]  # stable
 
 
 def absolute(color: str, parent: Style) -> str:
