@@ -80,7 +80,7 @@ class Sheets:
         """What layers are sorted by: what is in none comes after all that are in one (CSS Cascade 5, 6.4.3)."""
         return *(self.layers[layer[:depth]] for depth in range(1, len(layer) + 1)), inf
 
-    def declared(self, element: etree._Element) -> Iterator[tuple[int, Declaration]]:
+    def declared(self, element: etree._Element) -> Iterator[tuple[float, Declaration]]:
         """Yield what the rules say of an element, in rising specificity, each with the rank of its layer."""
         if self.matcher is not None and element in self.wrappers:  # not one that stands for a shape of CSS
             for _, _, pseudo, (declarations, layer) in self.matcher.match(self.wrappers[element]):
