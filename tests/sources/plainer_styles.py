@@ -76,4 +76,7 @@ STYLES = {
     "style/all": '<rect x="10" y="10" width="30" height="30" fill="red"/><rect x="50" y="10"'
     ' width="30" height="30" fill="red"/><rect x="50" y="50" width="30"'
     ' height="30" fill="blue"/>',
+    "masks/clip-by-css-calculated": '<circle cx="20" cy="25" r="6.5" fill="red"/><rect x="53" y="15" width="24"'
+    ' height="20" rx="4" ry="4" fill="green"/><path d="M10 50L70 55L10 90z"'
+    ' fill="blue"/>',
 }
