@@ -19,7 +19,7 @@ __all__ = ["FontFace", "Sheets"]
 UNREADABLE = (cssselect2.SelectorError, SyntaxError, AttributeError, NotImplementedError, RecursionError, MemoryError)
 """What cssselect2 raises for selectors that it cannot read."""
 
-LONGEST: Final = 10_000
+LONGEST: Final = 20_000
 """Characters of a selector with those of the rules around it, which multiply where `&` is nested."""
 
 PARENT: Final = "&"
@@ -101,10 +101,12 @@ class Sheets:
         """Add the declarations and the nested rules of a style rule."""
         try:
             text = tinycss2.serialize(rule.prelude).strip()
-            if around is not None or PARENT in text:
-                text = nested(rule.prelude, ":root" if around is None else around.text, around is not None)
-            if len(text) > LONGEST:
+            parent = ":root" if around is None else around.text
+            copies = text.count(PARENT) + (0 if around is None else text.count(",") + 1)
+            if copies and len(text) + copies * len(parent) > LONGEST:
                 raise SyntaxError
+            if copies:
+                text = nested(rule.prelude, parent, around is not None)
             selectors = cssselect2.compile_selector_list(text)
         except UNREADABLE:
             self.report.left_out("a CSS selector that cannot be read", self.element)
