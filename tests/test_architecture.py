@@ -51,7 +51,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "svg": SOURCES | {"fonts"},
     "geo": SOURCES | {"workers"},
     "tracing": SOURCES | {"svg"},
-    "reading": SOURCES | {"geo", "svg", "tracing", "workers"},
+    "reading": SOURCES | {"fonts", "geo", "svg", "tracing", "workers"},
     "tree": BASE | {"bezier", "drawing", "group", "layout", "notes", "paint"},
     "renderers": BASE | {"drawing", "group", "layout", "paint"},
     "encodings": {"drawing", "errors", "renderers"},
