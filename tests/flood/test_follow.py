@@ -36,6 +36,7 @@ def told(stream, count):
     return [(kind, data["name"]) for kind, data in (stream.next() for _ in range(count))]
 
 
+@pytest.mark.long
 def test_steps_come_while_the_model_has_the_file_open_and_a_new_run_starts_over(followed):
     server, writer = followed
     with closing(Stream(server)) as stream:
@@ -149,6 +150,7 @@ def test_what_cannot_be_followed_is_one_line(tmp_path, monkeypatch, options, sai
     assert said in outcome.stderr
 
 
+@pytest.mark.long
 def test_what_was_pushed_and_followed_survives_a_kill(tmp_path):
     path, keep = series(tmp_path / "run.nc", [0.3, 0.4]), tmp_path / "water"
     (tmp_path / "token").write_text("a-token-of-more-than-16\n")
