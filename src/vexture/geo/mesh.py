@@ -96,37 +96,54 @@ class MeshInFrame:
 
     def drawings(self, depth: Values, bed: Values | None, hmin: float, depths: Sequence[float]) -> list[Drawing]:
         """The area under water, and those under at least so much."""
-        return [self._deeper(depth, bed, hmin, least) for least in (hmin, *depths)]
-
-    def _deeper(self, depth: Values, bed: Values | None, hmin: float, least: float) -> Drawing:
-        """The area under at least so much water."""
         known, above = above_dry(depth, hmin)
-        more = least - hmin
-        crossed, around = self._crossed(known & (above > more))
+        more = [least - hmin for least in (hmin, *depths)]
+        crossed = [self._crossed(known & (above > least)) for least in more]
+        around = self._around_faces(np.logical_or.reduce(crossed))
         part, numbers = Patch.of(self._patch.faces[around], self._patch.count)
         chosen = around if self._on_faces else numbers
         shored = self._shored(part, depth[chosen], None if bed is None else bed[chosen], hmin)
-        values = self._everywhere(part, shored - more)
-        corners, face, column = part.fans()
-        inner = crossed[around][face]
-        sides = np.zeros((int(inner.sum()), 3), np.bool_)
-        sides[:, 1] = self._border[around][face[inner], column[inner]]
+        values = self._everywhere(part, shored)
+        fans = part.fans()
         points = np.concatenate([self._nodes[numbers], part.on_faces(self._nodes[numbers])])
+        border = self._border[around]
+        return [
+            self._outlined(points, values - least, fans, border, inner[around])
+            for least, inner in zip(more, crossed, strict=True)
+        ]
+
+    def _outlined(
+        self,
+        points: NDArray[np.float64],
+        values: Values,
+        fans: tuple[NDArray[np.int64], NDArray[np.intp], NDArray[np.intp]],
+        border: NDArray[np.bool_],
+        crossed: NDArray[np.bool_],
+    ) -> Drawing:
+        """The area where values at points are above 0, in those faces of a patch that its outline can cross."""
+        corners, face, column = fans
+        inner = crossed[face]
+        sides = np.zeros((int(inner.sum()), 3), np.bool_)
+        sides[:, 1] = border[face[inner], column[inner]]
         found = outlines_above(points, corners[inner], values, sides)
         return fitted_drawing(_grouped([self._ring(outline) for outline in found if len(outline.points) > 2]))
 
-    def _crossed(self, wet: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
-        """Which faces an outline can cross or follow, and the numbers of all faces that their values depend on."""
+    def _crossed(self, wet: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Which faces an outline of what is wet can cross or follow."""
         faces, count = self._patch.faces, self._patch.count
         if self._on_faces:
             crossed = touching(faces, touched(faces, wet, count) & touched(faces, ~wet, count))
         else:
             crossed = touching(faces, np.append(wet, False)) & touching(faces, np.append(~wet, False))
-        crossed |= self._border.any(axis=1)
+        return crossed | self._border.any(axis=1)
+
+    def _around_faces(self, crossed: NDArray[np.bool_]) -> NDArray[np.intp]:
+        """Numbers of all faces that the values of some of them depend on."""
+        faces, count = self._patch.faces, self._patch.count
         around = touching(faces, touched(faces, crossed, count))
         if self._on_faces:  # values at nodes are of the faces around, and those of dry faces of the faces around them
             around = touching(faces, touched(faces, around, count))
-        return crossed, np.flatnonzero(around)
+        return np.flatnonzero(around)
 
     def _shored(self, part: Patch, depth: Values, bed: Values | None, hmin: float) -> Values:
         """Depths less `hmin`, negative on dry faces or nodes beside wet ones; see `contours.shored`.
