@@ -368,12 +368,11 @@ def extent_of(
     source = source if is_dataset(source) else unpacked(source)
     if is_dataset(source) or kind_of(start_of(source), file_name) is FileKind.DEPTHS:
         from vexture.geo.depths import read_depths
-        from vexture.workers import Here
 
         _refuse({"`layer`": layer, "`snap`": snap}, "polygons, and this file holds depths")
         return read_depths(
             source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable,
-            depths=depths, workers=workers or Here(),
+            depths=depths, workers=workers,
         )  # fmt: skip
     from vexture.geo.polygons import read_polygons
 

@@ -19,7 +19,7 @@ from vexture.geo.raster import RasterInFrame
 from vexture.geo.series import Series, Values, plausible
 from vexture.notes import Note, Notes
 from vexture.tolerance import HMIN
-from vexture.workers import Workers
+from vexture.workers import Here, Workers
 
 __all__ = ["DepthsInFrame", "depths_in_frame", "read_depths"]
 
@@ -36,7 +36,7 @@ def read_depths(
     hmin: float = HMIN,
     variable: str | None = None,
     depths: Sequence[float] = (),
-    workers: Workers,
+    workers: Workers | None = None,
 ) -> Extent:
     """Read where water is from a GeoTIFF, or from NetCDF or xarray: on rows and columns, straight or not, or on a mesh.
 
@@ -47,7 +47,7 @@ def read_depths(
         source, file_name, frame=frame, bounds=bounds, crs=crs, time_dim=time_dim, hmin=hmin, variable=variable,
         depths=depths,
     ) as placed:  # fmt: skip
-        return _extent(placed, workers)
+        return _extent(placed, workers or Here())
 
 
 class DepthsInFrame:
