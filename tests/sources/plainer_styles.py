@@ -43,7 +43,7 @@ STYLES = {
     ' width="10" height="25" fill="green"/><path d="M10 80H90" stroke="blue"'
     ' stroke-width="4" stroke-dasharray="5"/>',
     "transform/css-calc": '<rect x="20" y="30" width="40" height="20" transform="translate(10 10) rotate(45 40 40)"/>',
-    "transform/css-in-space": '<rect x="10" y="10" width="20" height="20" fill="red"/><rect x="50" y="10"'
+    "transform/css-in-space": '<rect x="10" y="20" width="20" height="20" fill="red"/><rect x="50" y="10"'
     ' width="30" height="30" fill="green"/><rect x="10" y="50" width="30"'
     ' height="30" fill="blue"/>',
     "transform/css-about-axes": '<rect x="20" y="35" width="40" height="20"/><rect x="70" y="20" width="10"'
