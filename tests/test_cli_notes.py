@@ -81,5 +81,5 @@ def test_json_has_the_notes(tmp_path):
     (facts,) = json.loads(run("convert", file, "-o", tmp_path, "--json").stdout)
     blur, text = facts["notes"]
     assert blur["elements"] == [{"name": "card", "box": pytest.approx([0.2, 0.3, 0.8, 0.8])}]
-    elements = [{"name": "<foreignObject> in line 1", "box": None}, {"name": "t", "box": None}]
+    elements = [{"name": "the 1st <foreignObject> in line 1", "box": None}, {"name": "t", "box": None}]
     assert text == {"kind": "left out", "message": "<foreignObject>", "count": 2, "elements": elements}

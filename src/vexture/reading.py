@@ -18,7 +18,6 @@ from vexture.content import (
     unpacked,
 )
 from vexture.errors import LimitError, ParameterError, SourceError
-from vexture.fonts.places import font_places
 from vexture.notes import Note, warn_of
 from vexture.tolerance import HMIN
 
@@ -140,7 +139,6 @@ def read_drawing(
     source, shown = _checked(source), name_of(source, name)
     if not isinstance(trace_images, bool):
         raise ParameterError(f"`trace_images` is {trace_images!r:.80}; it must be True or False")
-    places = font_places(fonts, "fonts")
     with about(shown):
         given = unpacked(source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1))
         kind = known_kind(start_of(given) or read_bytes(given), shown)
@@ -148,8 +146,9 @@ def read_drawing(
             raise ParameterError(f"`names` {names!r} is for the elements of GeoJSON and SVG; leave it out")
         if snap is not None and kind in (FileKind.SVG, FileKind.PICTURE):
             raise ParameterError(f"`snap` {snap} is for the borders of polygons in a map; leave it out")
-        if places and kind is not FileKind.SVG:
-            raise ParameterError(f"`fonts` {os.fspath(places[0])!r} is for the texts of an SVG; leave it out")
+        if fonts and kind is not FileKind.SVG:
+            given = fonts if isinstance(fonts, str | os.PathLike) else fonts[0]
+            raise ParameterError(f"`fonts` {os.fspath(given)!r} is for the texts of an SVG; leave it out")
         if trace_images and kind is not FileKind.SVG:
             raise ParameterError("`trace_images` is for the images in an SVG; leave it out")
         if kind is not FileKind.SVG:
@@ -158,7 +157,7 @@ def read_drawing(
     from vexture.svg.read import svg_drawing
 
     folder = Path(source).parent if isinstance(source, str | os.PathLike) else None
-    return svg_drawing(content, shown, select, names, places, images_of(folder, traced=trace_images))
+    return svg_drawing(content, shown, select, names, fonts, images_of(folder, traced=trace_images))
 
 
 def images_of(folder: Path | None, *, traced: bool) -> "Images":

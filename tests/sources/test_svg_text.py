@@ -111,6 +111,7 @@ def test_notes(tmp_path: Path, body: str, note: str) -> None:
     ("body", "message", "elements"),
     [
         ("<text id='t' y='9' font-family='Nope'>a<tspan id='s'>b</tspan></text>", "font 'Nope' drawn in ", ["t", "s"]),
+        ("<text id='t' y='9' font-family='Nope'>a\uebadb</text>", "font 'Nope' drawn in DejaVu Sans", ["t"]),
         (
             "<text id='t' y='9'>a<tspan id='s'>\uebad</tspan></text>",
             "character (U+EBAD), which 'DejaVu Sans' lacks, ",
