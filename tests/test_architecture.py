@@ -88,6 +88,7 @@ SHADER_WORDS = re.compile(r"\b(texelFetch|gl_\w+|(uniform|varying|highp|mediump)
 HEAVY = {
     "PIL",
     "bidi",
+    "coloraide",
     "cssselect2",
     "fontTools",
     "llvmlite",

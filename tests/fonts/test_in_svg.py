@@ -96,7 +96,8 @@ def test_a_font_of_a_rule_can_be_one_that_is_given(tmp_path):
         assert widths(drawing) == [40]
         assert not drawing.notes
     drawing = drawn("<style>@font-face { font-family: Own; src: local(Made Bold) }</style>" + text, file)
-    assert "font 'Own', which is not in the file; give it by `fonts`" in [note.message for note in drawing.notes]
+    about = {note.message: [subject.name for subject in note.elements] for note in drawing.notes}
+    assert about["font 'Own', which is not in the file; give it by `fonts`"] == ["<style> in line 1"]
 
 
 def test_a_missing_character_is_one_that_the_font_in_use_lacks(tmp_path):

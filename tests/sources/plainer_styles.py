@@ -43,7 +43,7 @@ STYLES = {
     ' width="10" height="25" fill="green"/><path d="M10 80H90" stroke="blue"'
     ' stroke-width="4" stroke-dasharray="5"/>',
     "transform/css-calc": '<rect x="20" y="30" width="40" height="20" transform="translate(10 10) rotate(45 40 40)"/>',
-    "transform/css-in-space": '<rect x="10" y="10" width="20" height="20" fill="red"/><rect x="50" y="10"'
+    "transform/css-in-space": '<rect x="10" y="20" width="20" height="20" fill="red"/><rect x="50" y="10"'
     ' width="30" height="30" fill="green"/><rect x="10" y="50" width="30"'
     ' height="30" fill="blue"/>',
     "transform/css-about-axes": '<rect x="20" y="35" width="40" height="20"/><rect x="70" y="20" width="10"'
@@ -53,4 +53,30 @@ STYLES = {
     "transform/css-without-units": '<rect x="10" y="10" width="30" height="30"/><rect x="50" y="50" width="30"'
     ' height="30" fill="red"/><rect x="10" y="40" width="30" height="30"'
     ' fill="green"/>',
+    "style/colors-lab": squares("#d43d49", "#408700", "#c3602e", "#a9a400"),
+    "style/colors-spaces": squares("#ff7600", "#00e900", "#c65660", "#00e638"),
+    "style/colors-beyond-srgb": squares("#00d600", "#ff0080", "#00ff00", "#7cbcff"),
+    "style/colors-mixed": squares("#800080", "#ba00c2", "#ccff00", "#d1a900"),
+    "style/colors-from-others": squares("#0000ff", "#000080", "#23dc96", "#0000ff"),
+    "style/colors-of-the-system": squares("#0075ff", "#0000ee", "#efefef", "#1967d2"),
+    "style/colors-light": '<rect width="100" height="100" fill="white"/><rect x="10" y="10" width="30"'
+    ' height="30" fill="green"/><rect x="50" y="10" width="30" height="30"'
+    ' fill="blue"/><rect x="10" y="50" width="30" height="30" fill="black"/>',
+    "style/colors-calculated": '<rect x="10" y="10" width="30" height="30" fill="#cc3300"/><rect x="50"'
+    ' y="10" width="30" height="30" fill="#008000"/><rect x="10" y="50" width="30"'
+    ' height="30" fill="blue" fill-opacity="0.25"/><rect x="50" y="50" width="30"'
+    ' height="30" fill="#338040"/>',
+    "style/colors-of-the-own": '<rect x="10" y="10" width="30" height="30" fill="#8080ff"/><rect x="50"'
+    ' y="10" width="30" height="30" fill="#ff8080"/><rect x="10" y="50" width="30"'
+    ' height="30" fill="#402010"/><path d="M50 65h30" stroke="#208040"'
+    ' stroke-width="10"/>',
+    "style/lang": squares("red", "green", "blue", "red"),
+    "style/display-contents": '<rect x="10" y="10" width="30" height="30" fill="red"/><rect x="10" y="50"'
+    ' width="30" height="30" fill="green"/>',
+    "style/all": '<rect x="10" y="10" width="30" height="30" fill="red"/><rect x="50" y="10"'
+    ' width="30" height="30" fill="red"/><rect x="50" y="50" width="30"'
+    ' height="30" fill="blue"/>',
+    "masks/clip-by-css-calculated": '<circle cx="20" cy="25" r="6.5" fill="red"/><rect x="53" y="15" width="24"'
+    ' height="20" rx="4" ry="4" fill="green"/><path d="M10 50L70 55L10 90z"'
+    ' fill="blue"/>',
 }

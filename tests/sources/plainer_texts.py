@@ -117,6 +117,8 @@ def spread(text: str, shift: float, length: float) -> str:
 SIDEWAYS = '<text x="50" y="10" writing-mode="tb">ship</text>'
 
 PLAINER = {
+    "text-transform-dotted": '<text y="20" x="5">DİII</text><text y="45" x="5">dıii</text><text y="70" x="5">İn It'
+    '</text><text y="95" x="5">İI</text>',
     # shifts within a chunk are of its length (SVG 2, 11.5, "Resolve text length" and "Adjust positions: anchoring")
     "anchor-with-dx": f'<text x="{40 - advance("ship") / 2}" y="30" dx="0 10 10">ship</text>'
     f'<text x="{80 - advance("ship")}" y="60" dx="0 5">ship</text>',

@@ -20,8 +20,15 @@ def drawn(value: str, style: str = "") -> vexture.Drawing:
         *("ellipse(1px)", "ellipse(1px -1px)", "ellipse(at one two)", "circle () fill-box", "calc(1px)"),
         *("inset()", "inset(1px 1px 1px 1px 1px)", "inset(1px round)", "inset(1px round -1px)", "inset(a)"),
         *("rect(1px)", "rect(1px 2px 3px b)", "xywh(1px 1px -1px 1px)", "xywh(1px)"),
-        *("polygon()", "polygon(1px)", "polygon(1px a)", "path(M0 0)", "circle() margin", "circle() fill-box view-box"),
-        *("circle(calc(1px + 2px))", "shape(from 0 0, line to 1px 1px)", "fill-box view-box", "box"),
+        *("polygon(1px)", "polygon(1px a)", "path(M0 0)", "circle() margin", "circle() fill-box view-box"),
+        *(
+            "circle(calc(1px + 2))",
+            "polygon()",
+            "inset(1px round 1px / 2px / 3px)",
+            "shape(from 0 0, line to 1px 1px)",
+            "fill-box view-box",
+            "box",
+        ),
     ],
 )
 def test_what_is_no_known_shape_is_named(value: str) -> None:

@@ -35,10 +35,11 @@ SAID = {
     "linear-light": "simplified: gradient in linear light (color-interpolation) read as one in sRGB, "
     "mask in linear light (color-interpolation) read as one in sRGB",
     "flowed-text": "left out: shape-inside of a text",
+    "functions": "left out: device-cmyk() in fill, env() in stroke-width; "
+    "invalid and ignored: opacity='foo(3)' of <rect id=\"a\"> in line 2",
     "foreign-object": "left out: <foreignObject>; nothing in it is painted",
     "image": "left out: image 'x.png' (there is no such file beside the drawing); nothing in it is painted",
     "import": "left out: @import",
-    "lab-color": "simplified: colour of a space other than sRGB read as black",
     "many": "left out: <foreignObject> (2), image 'x' (there is no such file beside the drawing); "
     "invalid and ignored: r='x' of <rect> in line 5",
     "marker": "left out: marker-start 'url(#none)', marker-start that refers to itself, of <marker id=\"c\"> in line 2;"

@@ -72,3 +72,8 @@ def test_a_shorthand_that_is_not_valid_is_named(tmp_path: Path) -> None:
 def test_media_have_the_size_of_the_drawing(tmp_path: Path, root: str, holds: bool) -> None:
     style = "<style>@media (min-width: 287.9px) { path { fill: blue } }</style>"
     assert colors(read_quietly(tmp_path, style + SQUARE, root)) == [(0, 0, 1) if holds else (0, 0, 0)]
+
+
+def test_long_lists_of_selectors_are_read(tmp_path: Path) -> None:
+    style = f"<style>{','.join(f'.cls-{n}' for n in range(5_000))},path {{ fill: blue }}</style>"
+    assert colors(read_quietly(tmp_path, style + SQUARE)) == [(0, 0, 1)]

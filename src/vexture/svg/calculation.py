@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any, Final, NamedTuple
 
 import tinycss2
@@ -16,8 +16,11 @@ __all__ = [
     "Quantity",
     "Resolve",
     "calculated",
+    "keyword",
     "parsed",
+    "reduced",
     "sampled",
+    "separated",
 ]
 
 NUMBER, PERCENT, LENGTH, ANGLE = "number", "percentage", "length", "angle"
@@ -44,7 +47,9 @@ Resolve = Callable[[float, str], Quantity | None]
 Function = Callable[[list[Quantity]], Quantity]
 """What makes one value of arguments."""
 
-SAMPLES: Final = {NUMBER: "1", PERCENT: "1%", LENGTH: "1px", ANGLE: "1deg"}
+UNITS: Final = {NUMBER: "", PERCENT: "%", LENGTH: "px", ANGLE: "deg"}
+
+SAMPLES: Final = {kind: f"1{unit}" for kind, unit in UNITS.items()}
 """A text of each kind."""
 
 
@@ -65,10 +70,7 @@ def calculated(text: str, resolve: Resolve) -> Quantity | None:
     tokens = parsed(text.strip())
     if len(tokens) != 1 or tokens[0].type != "function" or tokens[0].lower_name not in MATH:
         return None
-    try:
-        return called(tokens[0], resolve)
-    except (InvalidError, OverflowError):
-        return None
+    return attempt(tokens[0], resolve)
 
 
 @lru_cache(maxsize=512)
@@ -88,23 +90,58 @@ def sampled(text: str) -> str:
     >>> sampled("translate(calc(1px + 5%), min(1px, 2px)) rotate(calc(1turn / 3))")
     'translate(1px, 1px) rotate(1deg)'
     """
+    return replaced(text, sample)
+
+
+def reduced(text: str) -> str:
+    """A value with what each calculation of numbers, percentages or angles gives in its place.
+
+    Examples
+    --------
+    >>> reduced("rgb(calc(2 * 50) min(7, 8) 0 / calc(50% / 2))")
+    'rgb(100.0 7.0 0 / 25.0%)'
+    """
+    return replaced(text, result)
+
+
+def replaced(text: str, instead: Callable[[Any], str | None]) -> str:
+    """A value with other texts in place of calculations that have one."""
     if "(" not in text or len(text) > LONGEST:
         return text
-    return "".join(map(sample, parsed(text)))
+    return "".join(written(token, instead) for token in parsed(text))
 
 
-def sample(token: Any) -> str:
-    """Text of a token, as `sampled`."""
+def written(token: Any, instead: Callable[[Any], str | None]) -> str:
+    """Text of a token, as in `replaced`."""
     if token.type != "function":
         return str(tinycss2.serialize([token]))
     if token.lower_name not in MATH:
-        return f"{token.name}({''.join(map(sample, token.arguments))})"
+        return f"{token.name}({''.join(written(part, instead) for part in token.arguments)})"
+    text = instead(token)
+    return str(tinycss2.serialize([token])) if text is None else text
+
+
+def sample(token: Any) -> str | None:
+    """Text for a calculation, as in `sampled`; None if it is not valid."""
     for kind in (PERCENT, LENGTH):
-        try:
-            return SAMPLES[called(token, lambda value, unit, kind=kind: of_kind(value, unit, kind)).kind]  # type: ignore[misc]
-        except (InvalidError, OverflowError):
-            continue
-    return str(tinycss2.serialize([token]))
+        found = attempt(token, partial(of_kind, percentages=kind))
+        if found is not None:
+            return SAMPLES[found.kind]
+    return None
+
+
+def result(token: Any) -> str | None:
+    """Text for a calculation, as in `reduced`; None if it is not valid."""
+    found = attempt(token, lambda value, unit: Quantity(value, PERCENT) if unit == "%" else None)
+    return None if found is None else f"{0.0 if math.isnan(found.value) else found.value!r}{UNITS[found.kind]}"
+
+
+def attempt(token: Any, resolve: Resolve) -> Quantity | None:
+    """Value of a function; None if it is not valid."""
+    try:
+        return called(token, resolve)
+    except (InvalidError, OverflowError):
+        return None
 
 
 def of_kind(value: float, unit: str, percentages: str) -> Quantity:

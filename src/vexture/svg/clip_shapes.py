@@ -8,7 +8,7 @@ from typing import Final, TypeAlias
 from lxml import etree
 
 from vexture.svg.transform import parse_origin
-from vexture.svg.values import Viewport
+from vexture.svg.values import Viewport, words
 from vexture.svg.viewport import Rectangle
 
 __all__ = ["FILLED", "STROKED", "VIEWED", "clip_element"]
@@ -25,7 +25,8 @@ BOXES: Final = {
 RULE = r"\s*(?:(nonzero|evenodd)\s*,)?\s*"
 POLYGON = re.compile(RULE + r"(.*)", re.IGNORECASE | re.DOTALL)
 PATH = re.compile(RULE + r"(['\"])(.*)\2\s*", re.IGNORECASE | re.DOTALL)
-ROUND = re.compile(r"\bround\b")
+SPACES, COMMA, SLASH = re.compile(r"\s+"), re.compile(","), re.compile("/")
+ROUND = re.compile(r"\bround\b(?!\()")
 SIDES_OF: Final = {1: (0, 0, 0), 2: (1, 0, 1), 3: (1, 2, 1), 4: (1, 2, 3)}
 """Of so many values, the second to fourth of four."""
 
@@ -51,11 +52,11 @@ class Box:
 
     def four(self, text: str, axes: tuple[int, int, int, int]) -> list[float] | None:
         """One to four lengths as four, as for margins, along axes; None if they are not valid."""
-        words = text.split()
-        if not 1 <= len(words) <= 4:
+        parts = words(text, SPACES)
+        if not 1 <= len(parts) <= 4:
             return None
-        words = [words[0], *(words[k] for k in SIDES_OF[len(words)])]
-        return known([self.along(word, axis) for word, axis in zip(words, axes, strict=True)])
+        parts = [parts[0], *(parts[k] for k in SIDES_OF[len(parts)])]
+        return known([self.along(part, axis) for part, axis in zip(parts, axes, strict=True)])
 
 
 def known(values: list[float | None]) -> list[float] | None:
@@ -110,11 +111,11 @@ def whole(_: str, box: Box) -> Element | None:
 
 def position(text: str, box: Box) -> tuple[float, float] | None:
     """A position in a box, from its corner: two lengths or keywords, one of them, or two edges with distances."""
-    words = text.split() or ["center"]
-    if len(words) != 4:
-        return parse_origin(text or "center", box.along) if len(words) < 3 else None
+    parts = words(text, SPACES) or ["center"]
+    if len(parts) != 4:
+        return parse_origin(text or "center", box.along) if len(parts) < 3 else None
     found: list[float | None] = [None, None]
-    for edge, distance in (words[:2], words[2:]):
+    for edge, distance in (parts[:2], parts[2:]):
         axis = 1 if edge in ("top", "bottom") else 0
         length = box.along(distance, axis)
         if length is None or edge not in ("top", "bottom", "left", "right"):
@@ -127,11 +128,11 @@ def position(text: str, box: Box) -> tuple[float, float] | None:
 def centred(text: str, box: Box, most: int) -> tuple[list[str], tuple[float, float]] | None:
     """The radii that a circle or an ellipse names, at most so many, and its centre from the corner of the box."""
     radii, *places = AT.split(text.lower())
-    words = radii.split()
+    lengths = words(radii, SPACES)
     centre = position(places[0].strip(), box) if len(places) == 1 else position("", box)
-    if centre is None or len(places) > 1 or len(words) not in (0, most) or (places and not places[0].strip()):
+    if centre is None or len(places) > 1 or len(lengths) not in (0, most) or (places and not places[0].strip()):
         return None
-    return words or ["closest-side"] * most, centre
+    return lengths or ["closest-side"] * most, centre
 
 
 def radius(word: str, distances: tuple[float, ...], length: float | None) -> float | None:
@@ -178,12 +179,12 @@ def inset(text: str, box: Box) -> Element | None:
 def rect(text: str, box: Box) -> Element | None:
     """`rect()`: places of the sides from the top and the left."""
     sides, corners = in_two(text)
-    words = sides.split()
-    if len(words) != 4:
+    parts = words(sides, SPACES)
+    if len(parts) != 4:
         return None
     edges = ("0%", "100%", "100%", "0%")
-    words = [edge if word == "auto" else word for word, edge in zip(words, edges, strict=True)]
-    found = box.four(" ".join(words), (1, 0, 1, 0))
+    parts = [edge if part == "auto" else part for part, edge in zip(parts, edges, strict=True)]
+    found = box.four(" ".join(parts), (1, 0, 1, 0))
     if found is None:
         return None
     top, right, bottom, left = found
@@ -193,7 +194,7 @@ def rect(text: str, box: Box) -> Element | None:
 def xywh(text: str, box: Box) -> Element | None:
     """`xywh()`: a corner and two sides."""
     sides, corners = in_two(text)
-    found = box.four(sides, (0, 1, 0, 1)) if len(sides.split()) == 4 else None
+    found = box.four(sides, (0, 1, 0, 1)) if len(words(sides, SPACES)) == 4 else None
     if found is None or min(found[2:]) < 0.0:
         return None
     x, y, width, height = found
@@ -210,8 +211,10 @@ def rounded(edges: Rectangle, corners: str, box: Box) -> Element | None:
     """A rectangle, by its edges from the corner of the box, with radii as those of `border-radius`."""
     left, top, right, bottom = edges
     width, height = max(right - left, 0.0), max(bottom - top, 0.0)
-    across, slash, down = corners.partition("/")
-    rx, ry = box.four(across, (0, 0, 0, 0)), box.four(down if slash else across, (1, 1, 1, 1))
+    parts = words(corners, SLASH)
+    if not 1 <= len(parts) <= 2:
+        return None
+    rx, ry = box.four(parts[0], (0, 0, 0, 0)), box.four(parts[-1], (1, 1, 1, 1))
     if rx is None or ry is None or min(*rx, *ry) < 0.0:
         return None
     left, top = box.left + left, box.top + top
@@ -237,12 +240,14 @@ def polygon(text: str, box: Box) -> Element | None:
     match = POLYGON.fullmatch(text)
     assert match is not None  # the rule is optional, and points may be anything
     corners = []
-    for point in match[2].lower().split(","):
-        words = point.split()
-        found = known([box.along(word, axis) for axis, word in enumerate(words)]) if len(words) == 2 else None
+    for point in words(match[2].lower(), COMMA):
+        parts = words(point, SPACES)
+        found = known([box.along(part, axis) for axis, part in enumerate(parts)]) if len(parts) == 2 else None
         if found is None:
             return None
         corners.append(f"{box.left + found[0]!r},{box.top + found[1]!r}")
+    if not corners:
+        return None
     return "polygon", {"points": " ".join(corners), "clip-rule": (match[1] or "nonzero").lower()}
 
 

@@ -12,7 +12,7 @@ from vexture.svg.font_values import FONT_LONGHANDS, font_longhands
 from vexture.svg.keyframes import LONGHANDS as ANIMATION_LONGHANDS
 from vexture.svg.keyframes import animation_longhands
 from vexture.svg.mask_values import mask_longhands
-from vexture.svg.properties import PROPERTIES
+from vexture.svg.properties import KEYWORDS, PROPERTIES
 from vexture.svg.values import words
 from vexture.svg.variables import refers
 
@@ -140,6 +140,6 @@ def expanded(name: str, value: str) -> Iterator[tuple[str, str]]:
         yield from animation_longhands(value)
     elif name == "font":
         yield from font_longhands(value)
-    elif name in SHORTHANDS and value:
+    elif name in SHORTHANDS and value and (name != "all" or value.lower() in KEYWORDS):
         for longhand in SHORTHANDS[name]:
             yield longhand, value

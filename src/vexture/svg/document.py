@@ -4,7 +4,7 @@ from lxml import etree
 
 from vexture.errors import SourceError
 
-__all__ = ["HTML", "SVG", "XML", "applies", "local_name", "parse_svg"]
+__all__ = ["HTML", "SVG", "XML", "applies", "language", "local_name", "parse_svg"]
 
 SVG = "http://www.w3.org/2000/svg"
 XML = "http://www.w3.org/XML/1998/namespace"
@@ -93,3 +93,19 @@ def applies(element: etree._Element) -> bool:
     if languages is None:
         return True
     return any(tag.strip().lower().split("-")[0] == LANGUAGE for tag in languages.split(","))
+
+
+def language(element: etree._Element) -> str | None:
+    """Language of an element, by `xml:lang` or else `lang` of it or of the nearest element around it.
+
+    Examples
+    --------
+    >>> language(etree.fromstring('<g lang="tr"><text xml:lang="de-AT"/></g>')[0])
+    'de-AT'
+    """
+    for around in (element, *element.iterancestors()):
+        named = around.get(f"{{{XML}}}lang", around.get("lang"))
+        if named is not None:
+            tag = str(named).strip()
+            return tag if tag.replace("-", "").isalnum() and tag.isascii() and len(tag) < 40 else None
+    return None

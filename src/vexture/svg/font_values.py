@@ -4,10 +4,10 @@ import re
 from collections.abc import Iterator
 from typing import Final
 
-from vexture.svg.properties import PROPERTIES
+from vexture.svg.properties import KEYWORDS, PROPERTIES
 from vexture.svg.values import Viewport, number
 
-__all__ = ["FONT_LONGHANDS", "SPACINGS", "font_longhands", "font_weight", "in_pixels", "text_size"]
+__all__ = ["FONT_LONGHANDS", "SPACINGS", "SYSTEM_FONTS", "font_longhands", "font_weight", "in_pixels", "text_size"]
 
 TEXT_SIZES: Final = {
     "xx-small": 9.0,
@@ -92,10 +92,9 @@ def font_longhands(value: str) -> Iterator[tuple[str, str]]:
         word = match[1]
         name = next((name for name in BEFORE_SIZE if word.lower() != "normal" and is_of(name, word)), None)
         if PROPERTIES["font-size"].accepts(word) and name is None:
-            yield from (*found.items(), ("font-size", word))
             family = re.sub(r"^\s*/\s*\S+", "", value[at:]).strip()
-            if family:
-                yield "font-family", family
+            if family and {*KEYWORDS}.isdisjoint(part.strip().lower() for part in family.split(",")):
+                yield from (*found.items(), ("font-size", word), ("font-family", family))
             return
         if name is not None:
             found[name] = word

@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable
 from lxml import etree
 
 from vexture.paint import Paint, Stop
-from vexture.svg.colors import CONTEXT, Color, PaintText, parse_color, parse_paint
+from vexture.svg.colors import CONTEXT, Color, PaintText, parse_paint
 from vexture.svg.document import local_name
 from vexture.svg.gradients import GRADIENTS, Ramp, read_ramp, stop_offsets
 from vexture.svg.links import Links, reference
@@ -79,16 +79,10 @@ class PaintServers(Links):
     def flat(self, color: Color | str | None, style: Style) -> Paint | None:
         """Paint of one colour."""
         if isinstance(color, str):
-            color = style.color
+            color = style.solid(color)
         if color is None:
             return None
-        self.note_space(color)
         return Paint(color.rgb, color.alpha)
-
-    def note_space(self, color: Color) -> None:
-        """Note a colour that could not be converted."""
-        if not color.exact:
-            self.report.simplified("colour of a space other than sRGB read as black")
 
     def served(self, text: PaintText, place: Place, outlines: list[Outline]) -> Paint | Tiling | None:
         """Paint of a reference to a paint server, or its fallback where there is none or it has no area."""
@@ -161,10 +155,7 @@ class PaintServers(Links):
     def stop(self, element: etree._Element, offset: float) -> Stop:
         """A stop at an offset."""
         style = self.style_of(element)
-        color = parse_color(style["stop-color"])
-        if not isinstance(color, Color):
-            color = style.color
-        self.note_space(color)
+        color = style.solid(style["stop-color"]) or style.color
         return Stop(offset, color.rgb, color.alpha * style.opacity("stop-opacity"))
 
     def style_of(self, element: etree._Element) -> Style:

@@ -9,6 +9,7 @@ from lxml import etree
 
 from vexture.deadline import check_time
 from vexture.errors import LimitError, ParameterError, shortened
+from vexture.svg.document import language
 
 __all__ = ["Node", "chosen", "nothing_painted"]
 
@@ -32,6 +33,11 @@ class Node(cssselect2.ElementWrapper):  # type: ignore[misc]
     def previous_siblings(self) -> Iterator["Node"]:
         """Siblings before this one, the nearest first."""
         return self._line("previous")
+
+    @cached_property
+    def lang(self) -> str:
+        """Language in lower case, for `:lang()`; its base knows only `xml:lang`."""
+        return (language(self.etree_element) or "").lower()
 
     def _line(self, step: str) -> Iterator["Node"]:
         check_time()

@@ -23,12 +23,12 @@ from vexture.svg.properties import PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.select import Node
 
-__all__ = ["Sheets"]
+__all__ = ["FontFace", "Sheets"]
 
 UNREADABLE = (cssselect2.SelectorError, SyntaxError, AttributeError, NotImplementedError, RecursionError, MemoryError)
 """What cssselect2 raises for selectors that it cannot read."""
 
-LONGEST: Final = 10_000
+LONGEST: Final = 20_000
 """Characters of a selector with those of the rules around it, which multiply where `&` is nested."""
 
 PARENT: Final = "&"
@@ -40,6 +40,13 @@ SILENT: Final = frozenset({"charset", "namespace"})
 
 Layer = tuple[str, ...]
 """Names of the layers around a rule, from the outer one."""
+
+
+class FontFace(NamedTuple):
+    """A rule `@font-face`."""
+
+    descriptors: dict[str, str]  # by their names
+    element: etree._Element  # the style sheet
 
 
 class Around(NamedTuple):
@@ -56,7 +63,7 @@ class Sheets:
         self.report = report
         self.medium = medium
         self.matcher: Any = None
-        self.font_faces: list[dict[str, str]] = []  # descriptors of each @font-face rule, by name
+        self.font_faces: list[FontFace] = []
         self.keyframes: dict[str, Keyframes] = {}
         self.wrappers: dict[etree._Element, Any] = {}
         self.layers: dict[Layer, int] = {(): 0}  # in order of appearance
@@ -74,11 +81,16 @@ class Sheets:
             self.wrappers[wrapper.etree_element] = wrapper
         self.ranks = {layer: rank for rank, layer in enumerate(sorted(self.layers, key=self.standing))}
 
+    @property
+    def has_layers(self) -> bool:
+        """Whether there are layers."""
+        return len(self.layers) > 1
+
     def standing(self, layer: Layer) -> tuple[float, ...]:
         """What layers are sorted by: what is in none comes after all that are in one (CSS Cascade 5, 6.4.3)."""
         return *(self.layers[layer[:depth]] for depth in range(1, len(layer) + 1)), inf
 
-    def declared(self, element: etree._Element) -> Iterator[tuple[int, Declaration]]:
+    def declared(self, element: etree._Element) -> Iterator[tuple[float, Declaration]]:
         """Yield what the rules say of an element, in rising specificity, each with the rank of its layer."""
         if self.matcher is not None and element in self.wrappers:  # not one that stands for a shape of CSS
             for _, _, pseudo, (declarations, layer) in self.matcher.match(self.wrappers[element]):
@@ -99,10 +111,12 @@ class Sheets:
         """Add the declarations and the nested rules of a style rule."""
         try:
             text = tinycss2.serialize(rule.prelude).strip()
-            if around is not None or PARENT in text:
-                text = nested(rule.prelude, ":root" if around is None else around.text, around is not None)
-            if len(text) > LONGEST:
+            parent = ":root" if around is None else around.text
+            copies = text.count(PARENT) + (0 if around is None else text.count(",") + 1)
+            if copies and len(text) + copies * len(parent) > LONGEST:
                 raise SyntaxError
+            if copies:
+                text = nested(rule.prelude, parent, around is not None)
             selectors = cssselect2.compile_selector_list(text)
         except UNREADABLE:
             self.report.left_out("a CSS selector that cannot be read", self.element)
@@ -134,7 +148,8 @@ class Sheets:
         """Add the rules inside an at-rule, if it is a condition that holds or a layer."""
         name = rule.lower_at_keyword
         if name == "font-face":
-            self.font_faces.append({each.name.lower(): each.value for each in read_descriptors(rule.content or [])})
+            descriptors = {each.name.lower(): each.value for each in read_descriptors(rule.content or [])}
+            self.font_faces.append(FontFace(descriptors, self.element))
         elif name in KEYFRAMES:
             called, frames = read_keyframes(rule, declarations)
             self.keyframes[called] = frames

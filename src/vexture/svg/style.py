@@ -1,19 +1,20 @@
 """The CSS cascade: attributes, style sheets, `style`, `!important` and inheritance (CSS Cascade 4)."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import inf
-from operator import itemgetter
+from operator import attrgetter, itemgetter
 
 from lxml import etree
 
-from vexture.svg.colors import Color, parse_color
+from vexture.svg.colors import BLACK, Color, parse_color
 from vexture.svg.declarations import Declaration, expanded, longhands, read_style
 from vexture.svg.document import XML, local_name
-from vexture.svg.font_values import SPACINGS, font_weight, in_pixels, text_size
+from vexture.svg.font_values import SPACINGS, SYSTEM_FONTS, font_weight, in_pixels, text_size
 from vexture.svg.keyframes import declared_at_start, names_of
 from vexture.svg.media import Medium
-from vexture.svg.properties import CSS_ONLY, PROPERTIES
+from vexture.svg.properties import CSS_ONLY, KEYWORDS, PROPERTIES, UNSET
 from vexture.svg.report import Report
 from vexture.svg.sheets import Sheets
 from vexture.svg.spatial import Attribute
@@ -23,14 +24,17 @@ from vexture.svg.viewport import own_size
 
 __all__ = ["INITIAL", "LISTING", "Cascade", "Style"]
 
-UNSET = ("unset", "revert", "revert-layer")
-"""Keywords for the inherited value, or else the initial one."""
-
-KEYWORDS = ("inherit", "initial", *UNSET)
-"""Values of every property."""
+NOT_SUPPORTED = re.compile(
+    r"(?<![\w-])(?:alpha|attr|calc-size|contrast-color|device-cmyk|env|if|progress|random|sibling-(?:count|index))\(",
+    re.IGNORECASE,
+)
+"""Functions of CSS that are not read."""
 
 SPACE_MODES = {"default": "normal", "preserve": "pre"}
 """What `xml:space` says, as the value of `white-space` that browsers give it."""
+
+STRIPPED = frozenset({"g", "svg", "tspan", "use"})
+"""Elements that show their content as if they were not there, by `display: contents`, which hides others."""
 
 LISTED, LISTING = frozenset({"x", "y"}), frozenset({"text", "tspan", "textPath", "tref"})
 """Attributes that are lists of these elements, and no properties (SVG 2, 11.2)."""
@@ -57,7 +61,12 @@ class Style:
     def color(self) -> Color:
         """The meaning of `currentcolor` here."""
         color = parse_color(self["color"])
-        return color if isinstance(color, Color) else Color((0.0, 0.0, 0.0), 1.0)
+        return color if isinstance(color, Color) else BLACK
+
+    def solid(self, text: str) -> Color | None:
+        """A colour that may depend on `color`; None if the text is no colour."""
+        color = parse_color(text, self.color)
+        return color if isinstance(color, Color) else None
 
 
 INITIAL = Style({}, {}, INITIAL_SIZE)
@@ -89,6 +98,8 @@ class Cascade:
                 value = parent[name]
             elif keyword == "initial":
                 value = entry.initial
+            elif name == "color" and isinstance(parse_color(value), str):
+                value = absolute(value, parent)
             elif keyword in ("bolder", "lighter"):
                 value = f"{font_weight(value, parent[name]):g}"
             if not entry.inherited:
@@ -97,6 +108,8 @@ class Cascade:
                 if inherited is parent.inherited:
                     inherited = dict(inherited)
                 inherited[name] = value
+        if own.get("display", "").lower() == "contents" and element is not self.root:  # (CSS Display 3, B)
+            own = {} if local_name(element) in STRIPPED else {"display": "none"}
         font_size = parent.font_size
         if inherited is not parent.inherited and "font-size" in inherited:
             font_size = text_size(inherited.pop("font-size"), parent.font_size, self.view)
@@ -147,27 +160,45 @@ class Cascade:
         Whether one with references is valid is known too late: an invalid one leaves its properties unset, and earlier
         ones are lost (CSS Variables 1, 3.1).
         """
-        value, pairs = value.strip(), list[tuple[str, str]]()
+        value = value.strip()
+        pairs = [(name, value)] if name in PROPERTIES else []
         if refers(value):
             text = substituted(value, variables.get)
             found.update(dict.fromkeys(longhands(name), "unset"))
             pairs = [] if text is None else [*expanded(name, text)]
-        else:
-            pairs = [(name, value)] if name in PROPERTIES else []
         for longhand, part in pairs:
             if PROPERTIES[longhand].allows(part) or part.lower() in KEYWORDS:
                 found[longhand] = part
             else:
-                self.report.invalid(longhand, part, element)
+                self.refuse(longhand, part, element)
         if not pairs:
+            self.refuse(name, value, element)
+
+    def refuse(self, name: str, value: str, element: etree._Element) -> None:
+        """Note a value that has no effect: one that is not valid, or has a function that is not supported."""
+        match = NOT_SUPPORTED.search(value)
+        if name == "font" and value.lower() in SYSTEM_FONTS:
+            self.report.left_out(f"font {value.lower()} of the system", element)
+        elif match is None:
             self.report.invalid(name, value, element)
+        else:
+            self.report.left_out(f"{match[0].lower()}) in {name}", element)
 
     def declared(self, element: etree._Element) -> list[Declaration]:
         """What the style sheets and the `style` attribute declare, in rising precedence (CSS Cascade 5, 6.1)."""
-        found: list[tuple[tuple[bool, float], Declaration]] = [
+        text = element.get("style")
+        own = [*read_style(text)] if text else []
+        if not self.sheets.has_layers:
+            found = [one for _, one in self.sheets.declared(element)] + own
+            return sorted(found, key=attrgetter("important")) if any(one.important for one in found) else found
+        ranked = [
             ((one.important, -rank if one.important else rank), one) for rank, one in self.sheets.declared(element)
         ]
-        text = element.get("style")
-        if text:
-            found += [((one.important, inf), one) for one in read_style(text)]
-        return [one for _, one in sorted(found, key=itemgetter(0))]  # stable
+        ranked += [((one.important, inf), one) for one in own]
+        return [one for _, one in sorted(ranked, key=itemgetter(0))]  # stable
+
+
+def absolute(color: str, parent: Style) -> str:
+    """Text of a value of `color` that depends on the parent's."""
+    (red, green, blue), alpha = parent.solid(color) or BLACK
+    return f"color(srgb {red!r} {green!r} {blue!r} / {alpha!r})"

@@ -81,20 +81,21 @@ def numbers(text: str) -> list[float] | None:
     return None if None in found else [value for value in found if value is not None]
 
 
-def words(text: str) -> list[str]:
-    """Parts of a value between commas or spaces that stand in no brackets.
+def words(text: str, between: re.Pattern[str] = SEPARATOR) -> list[str]:
+    """Parts of a value between commas or spaces, or what else is said, that stand in no brackets.
 
     Examples
     --------
     >>> words("1px, calc(2px + min(3px, 4%))  5")
     ['1px', 'calc(2px + min(3px, 4%))', '5']
     """
+    text = text.strip()
     if "(" not in text:
-        return SEPARATOR.split(text.strip())
+        return between.split(text) if text else []
     found, depth = [""], 0
-    for part in IN_BRACKETS.findall(text.strip()):
+    for part in IN_BRACKETS.findall(text):
         depth += (part == "(") - (part == ")")
-        first, *others = [part] if depth or part == ")" else SEPARATOR.split(part)
+        first, *others = [part] if depth or part == ")" else between.split(part)
         found[-1] += first
         found += others
     return found

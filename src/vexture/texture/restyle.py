@@ -86,7 +86,7 @@ def _components(name: str, colour: Any) -> tuple[float, ...]:
         from vexture.svg.colors import Color, parse_color  # late: CSS is needed for texts only
 
         parsed = parse_color(colour)
-        if isinstance(parsed, Color) and parsed.exact:
+        if isinstance(parsed, Color):
             return (*parsed.rgb, parsed.alpha)
     elif colour is None or isinstance(colour, str):
         return NOTHING

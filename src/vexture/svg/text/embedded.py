@@ -11,6 +11,7 @@ from vexture.fonts.face import Face, faces_in
 from vexture.fonts.library import EmbeddedFont, Fonts
 from vexture.svg.font_values import font_weight
 from vexture.svg.report import Report
+from vexture.svg.sheets import FontFace
 from vexture.svg.text.wanted import families, stretch
 
 __all__ = ["embedded_fonts"]
@@ -28,25 +29,27 @@ LAST: Final = 0x10FFFF
 """Of all characters."""
 
 
-def embedded_fonts(rules: Sequence[dict[str, str]], fonts: Fonts, report: Report) -> Iterator[EmbeddedFont]:
-    """Fonts of rules, each with its descriptors by name; a note tells what is neither in the drawing nor in `fonts`."""
-    for rule in rules[:MOST_FONTS]:
+def embedded_fonts(rules: Sequence[FontFace], fonts: Fonts, report: Report) -> Iterator[EmbeddedFont]:
+    """Fonts of rules; a note tells what is neither in the drawing nor in `fonts`."""
+    for rule, sheet in rules[:MOST_FONTS]:
         names = families(rule.get("font-family", ""))
         found = (content_of(kind.lower(), text, fonts) for kind, _, text in SOURCE.findall(rule.get("src", "")))
         content = next((content for content in found if content is not None), None)
         if not names or content is None:
             if rule.get("src", "").strip():
-                report.left_out(f"font {''.join(names[:1])[:40]!r}, which is not in the file; give it by `fonts`")
+                report.left_out(
+                    f"font {''.join(names[:1])[:40]!r}, which is not in the file; give it by `fonts`", sheet
+                )
             continue
         try:
             if isinstance(content, bytes):
                 faces_in(content)
         except (DeviceError, SourceError) as error:
-            report.left_out(f"font {names[0][:40]!r}: {error}")
+            report.left_out(f"font {names[0][:40]!r}: {error}", sheet)
             continue
         ranges = ranges_of(rule.get("unicode-range", ""))
         if ranges is None:
-            report.simplified(f"unicode-range of font {names[0][:40]!r}, which is used for all characters")
+            report.simplified(f"unicode-range of font {names[0][:40]!r}, which is used for all characters", sheet)
         yield EmbeddedFont(
             names[0],
             content,

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from vexture.bezier.bounds import bounds
 from vexture.deadline import check_time
 from vexture.fonts.layers import Layers
-from vexture.svg.colors import Color, parse_color
 from vexture.svg.outline import Outline
 from vexture.svg.report import Report
 from vexture.svg.space import Place
@@ -87,8 +86,8 @@ def painted(span: Span, held: Sequence[Member], report: Report) -> Iterator[Piec
     """The glyphs of a span: outlines together, and each in colour by itself."""
     together: list[Outline] = []
     for cluster, matrix, _ in held:
-        fill = parse_color(span.place.style["fill"])  # which a colour font's own colour is, as in browsers
-        color = fill.rgb if isinstance(fill, Color) else span.place.style.color.rgb
+        style = span.place.style
+        color = (style.solid(style["fill"]) or style.color).rgb  # a colour font's own colour, as in browsers
         x = y = 0.0
         for glyph in cluster.glyphs:
             right, down = (x + glyph.offset[0]) * cluster.scale, -(y + glyph.offset[1]) * cluster.scale

@@ -12,7 +12,7 @@ from vexture.errors import SourceError
 from vexture.group import Blend
 from vexture.svg.animation import ANIMATIONS
 from vexture.svg.compositing import Veil
-from vexture.svg.document import applies, local_name
+from vexture.svg.document import applies, language, local_name
 from vexture.svg.links import reference
 from vexture.svg.masks import Measured
 from vexture.svg.names import ElementNames
@@ -24,6 +24,9 @@ from vexture.svg.text.track import Track, read_track
 from vexture.svg.values import SEPARATOR, number
 
 __all__ = ["Characters", "Setting", "Span", "characters"]
+
+DOTTED: Final = ("az", "tr")
+"""Languages in which an i keeps its dot, or its lack of one, as a capital."""
 
 PARTS: Final = frozenset({"a", "textPath", "tref", "tspan"})
 """Elements in a text that have characters of it."""
@@ -110,6 +113,7 @@ class Characters:
         style = span.place.style
         preserved = style["white-space"].lower() in PRESERVED
         transform = style["text-transform"].lower()
+        dotted = transform != "none" and (language(span.element) or "").lower().partition("-")[0] in DOTTED
         for at, character in enumerate(text):
             if character in " \t\n\r":
                 if self.after_space and not preserved:
@@ -117,7 +121,8 @@ class Characters:
                 self.after_space = not preserved
                 character = " "
             else:
-                character = transformed(character, transform, self.in_word(), text[at + 1 : at + 2].isalpha())
+                goes_on = text[at + 1 : at + 2].isalpha()
+                character = transformed(character, transform, self.in_word(), goes_on, dotted)
                 self.after_space = False
             self.text.append(character)
             self.holders.append(span)
@@ -148,10 +153,11 @@ class Characters:
         return at == 0 or at in self.x or at in self.y or (self.holders[at].track is not self.holders[at - 1].track)
 
 
-def transformed(character: str, how: str, in_word: bool, goes_on: bool) -> str:
+def transformed(character: str, how: str, in_word: bool, goes_on: bool, dotted: bool = False) -> str:
     """What `text-transform` makes of a character, such as SS of ß.
 
-    `in_word` tells whether a word goes on with it, and `goes_on` whether a letter comes next.
+    `in_word` tells whether a word goes on with it, `goes_on` whether a letter comes next, and `dotted` whether the text
+    is of a language of `DOTTED`.
 
     Examples
     --------
@@ -160,6 +166,10 @@ def transformed(character: str, how: str, in_word: bool, goes_on: bool) -> str:
     >>> transformed("Σ", "lowercase", True, False), transformed("Σ", "lowercase", True, True)
     ('ς', 'σ')
     """
+    if dotted and (how == "uppercase" or (how == "capitalize" and not in_word)) and character == "i":
+        return "İ"
+    if dotted and how == "lowercase" and character in "Iİ":
+        return "ı" if character == "I" else "i"
     if how == "uppercase":
         return character.upper()
     if how == "lowercase":

@@ -11,6 +11,7 @@ from lxml import etree
 from vexture.errors import DeviceError
 from vexture.svg.outline import Outline
 from vexture.svg.report import Report
+from vexture.svg.sheets import FontFace
 from vexture.svg.space import Place
 
 if TYPE_CHECKING:  # imported at run time for drawings with texts only
@@ -32,9 +33,7 @@ class Text:
 class Typesetter:
     """Sets the texts of a drawing in fonts: of files, of its own, and of the system."""
 
-    def __init__(
-        self, files: Sequence[str | os.PathLike[str]], font_faces: Sequence[dict[str, str]], report: Report
-    ) -> None:
+    def __init__(self, files: Sequence[str | os.PathLike[str]], font_faces: Sequence[FontFace], report: Report) -> None:
         self.files = (files,) if isinstance(files, str | os.PathLike) else files
         self.font_faces = font_faces
         self.report = report

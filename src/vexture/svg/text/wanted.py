@@ -6,7 +6,7 @@ from typing import Final
 
 from lxml import etree
 
-from vexture.svg.document import XML
+from vexture.svg.document import language
 from vexture.svg.font_values import font_weight
 from vexture.svg.style import Style
 from vexture.svg.values import number
@@ -142,13 +142,3 @@ def variations(text: str) -> tuple[tuple[str, float], ...]:
     """Places on the axes of a variable font."""
     found = {tag: number(value) for _, tag, value in SETTING.findall(text[:LONGEST])}
     return tuple(sorted((tag, value) for tag, value in found.items() if value is not None))
-
-
-def language(element: etree._Element) -> str | None:
-    """Language of an element."""
-    for around in (element, *element.iterancestors()):
-        named = around.get(f"{{{XML}}}lang", around.get("lang"))
-        if named is not None:
-            tag = str(named).strip()
-            return tag if tag.replace("-", "").isalnum() and tag.isascii() and len(tag) < 40 else None
-    return None
