@@ -97,6 +97,7 @@ def test_edges_of_the_standard(name: str) -> None:
     ],
 )
 def test_invalid_values_are_named_once(body: str, said: str) -> None:
+    said = said.replace("<stop>", "(the 1st )?<stop>")
     with pytest.warns(SourceWarning, match=f"{said}( in line 1)?$"):
         vexture.read(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{body}{body}</svg>'.encode())
 

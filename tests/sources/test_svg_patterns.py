@@ -280,6 +280,6 @@ def test_patterns_nested_too_deeply_are_an_error() -> None:
     square = '<rect width="5" height="5" fill="url(#p{})"/>'
     chain = "".join(f'<pattern id="p{k}" width="1" height="1">{square.format(k + 1)}</pattern>' for k in range(40))
     with pytest.raises(
-        SourceError, match=r"^[^:]*: <rect> in line 1: its clips, markers, masks and patterns are nested more"
+        SourceError, match=r"^[^:]*: the 32nd <rect> in line 1: its clips, markers, masks and patterns are nested more"
     ):
         drawing_of(chain + square.format(0))

@@ -216,7 +216,7 @@ def two() -> vexture.Texture:
         ({"alpa": "red"}, "two: no element 'alpa'; near names are 'alpha'; there are 2"),
         ({"": "red"}, "two: no element ''; near names are 'alpha', 'beta'; there are 2"),
         ({"beta": "reddish"}, "the colour of 'beta' is 'reddish'; give a CSS colour of sRGB, three or four numbers in"),
-        ({"beta": "oklch(60% 0.15 50)"}, "the colour of 'beta' is 'oklch(60% 0.15 50)'; give a CSS colour of sRGB"),
+        ({"beta": "device-cmyk(0 1 1 0)"}, "the colour of 'beta' is 'device-cmyk(0 1 1 0)'; give a CSS colour of sRGB"),
         ({"beta": (1, 2, 0)}, "the colour of 'beta' is "),
         ({"beta": (1, float("nan"), 0)}, "the colour of 'beta' is "),
         ({"beta": (1, "a", 0)}, "the colour of 'beta' is "),
