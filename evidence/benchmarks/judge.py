@@ -14,7 +14,6 @@ import traceback
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cache
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, Final
@@ -27,6 +26,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 import vexture
+from same_fonts import options_of_resvg
 from vexture.content import decompressed
 from vexture.drawing import Drawing
 from vexture.errors import SourceWarning, VextureError
@@ -158,20 +158,12 @@ def texture_gap(drawing: Drawing, texture: Any) -> float:
     return float(np.abs(texture.coverage(SIZE, renderer="cpu") - exact).max())
 
 
-@cache
-def with_fonts() -> resvg.usvg.Options:
-    """Options of resvg with the fonts of the system, which are ours too."""
-    options = resvg.usvg.Options.default()
-    options.load_system_fonts()
-    return options
-
-
 def reading_gaps(case: Case, drawing: Drawing) -> Facts:
     """Largest differences between the pictures of a drawing and the references' of its file."""
     gaps: Facts = {}
     for finer in FINER:
         text, size = enlarged(case.same or case.content, drawing, SIZE * finer)
-        tree = resvg.usvg.Tree.from_str(text.decode(), with_fonts())
+        tree = resvg.usvg.Tree.from_str(text.decode(), options_of_resvg(Path(os.environ["FONTCONFIG_FILE"]).parent))
         theirs = np.asarray(Image.open(io.BytesIO(bytes(resvg.render(tree, (1, 0, 0, 0, 1, 0))))).convert("RGBA"))
         ours = drawn(drawing, theirs.shape[:2], size)
         gaps = {"resvg": difference(ours, theirs, finer)}

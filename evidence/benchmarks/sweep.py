@@ -8,7 +8,9 @@ for one that is not listed, and for one that is listed and right.
 """
 
 import argparse
+import os
 import sys
+import tempfile
 import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -23,6 +25,7 @@ from rich.progress import track
 
 from judge import READING_LIMIT, TEXTURE_LIMIT, Case, Child, Facts, stages
 from report import table, write_json
+from same_fonts import gather, only_these
 from sweep_corpora import CORPORA
 from vexture.errors import VextureError
 from vexture_evidence.measures.machine import machine_facts, machine_line
@@ -133,11 +136,13 @@ def parsed() -> argparse.Namespace:
 
 def main() -> None:
     arguments, sets, missing = parsed(), {}, []
-    for corpus in arguments.corpus or CORPORA:
-        try:
-            sets[corpus] = swept(corpus, CORPORA[corpus](arguments.seed, arguments.count))
-        except VextureError as error:
-            missing.append(f"{corpus} is missing: {error}")
+    with tempfile.TemporaryDirectory() as folder:
+        os.environ["FONTCONFIG_FILE"] = str(only_these(gather(Path(folder))))  # the fonts of ours and of resvg
+        for corpus in arguments.corpus or CORPORA:
+            try:
+                sets[corpus] = swept(corpus, CORPORA[corpus](arguments.seed, arguments.count))
+            except VextureError as error:
+                missing.append(f"{corpus} is missing: {error}")
     head = ("corpus", "files", *OUTCOMES, f"over {SLOW:g} s", "slowest, s", "its name")
     print(table(head, [row(corpus, found) for corpus, found in sets.items()]))
     wrong = faults(
