@@ -14,6 +14,7 @@ import traceback
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, Final
@@ -158,12 +159,23 @@ def texture_gap(drawing: Drawing, texture: Any) -> float:
     return float(np.abs(texture.coverage(SIZE, renderer="cpu") - exact).max())
 
 
+@cache
+def with_fonts() -> resvg.usvg.Options:
+    """Options of resvg with the fonts that are ours too: those that fontconfig is told of (`same_fonts.py`), or all."""
+    told = os.environ.get("FONTCONFIG_FILE")
+    if told is not None:
+        return options_of_resvg(Path(told).parent)
+    options = resvg.usvg.Options.default()
+    options.load_system_fonts()
+    return options
+
+
 def reading_gaps(case: Case, drawing: Drawing) -> Facts:
     """Largest differences between the pictures of a drawing and the references' of its file."""
     gaps: Facts = {}
     for finer in FINER:
         text, size = enlarged(case.same or case.content, drawing, SIZE * finer)
-        tree = resvg.usvg.Tree.from_str(text.decode(), options_of_resvg(Path(os.environ["FONTCONFIG_FILE"]).parent))
+        tree = resvg.usvg.Tree.from_str(text.decode(), with_fonts())
         theirs = np.asarray(Image.open(io.BytesIO(bytes(resvg.render(tree, (1, 0, 0, 0, 1, 0))))).convert("RGBA"))
         ours = drawn(drawing, theirs.shape[:2], size)
         gaps = {"resvg": difference(ours, theirs, finer)}
