@@ -101,7 +101,7 @@ def flood_kinds(browser: Any, folder: Path) -> list[Image.Image]:
     for make in SCENES:
         depths = write(make(), folder)
         target = depths.with_suffix(".html")
-        export_flood(FloodOptions(depths, time_dim="time"), target, print)
+        export_flood(FloodOptions(depths, time_dim="time"), target, None, print, iter)
         view, step, colours = FOUR_LOOKS[depths.stem]
         page = browser.new_page(viewport={"width": SIZE[0], "height": SIZE[1]}, color_scheme="light")
         page.goto(f"{target.as_uri()}#step={step + 1}&view={view}&colours={colours}")
@@ -185,7 +185,7 @@ def flood(browser: Any, folder: Path) -> Image.Image:
     """The page of `vexture flood`."""
     depths, ground = make_flood(folder)
     target = folder / "flood.html"
-    export_flood(FloodOptions(depths, time_dim="time", ground=ground, title="Santa Cruz"), target, print)
+    export_flood(FloodOptions(depths, time_dim="time", ground=ground, title="Santa Cruz"), target, None, print, iter)
     return sheet_of(flood_looks(browser, target.as_uri()))
 
 

@@ -148,7 +148,7 @@ def made(folder: Path) -> Made:
 
     flood, ground = example()(folder)
     page = folder / "flood.html"
-    export(FloodOptions(flood, time_dim="time", ground=ground, title="Santa Cruz"), page, lambda line: None)
+    export(FloodOptions(flood, time_dim="time", ground=ground, title="Santa Cruz"), page, None, lambda line: None, iter)
     found = re.search(r'<script type="application/json" id="vexture-scene">(.*?)</script>', page.read_text(), re.S)
     assert found is not None
     extent = read_extent(flood, flood.name, time_dim="time")
