@@ -113,14 +113,10 @@ def make(
 
     relief = heights() if kept is None else kept.relief(asked, extent, heights)
     conversion = FloodConversion(frame, asked.hmin, asked.reading, relief, asked.depths, extent.bed)
-    drawn = drawn_ground(extent, relief)
-    notes = [INVENTED] if relief.invented else []
-    picture = drawn
-    if asked.ground is None:
-        notes.append(DRAWN)
-    else:
-        picture, told = ground_of(asked.ground, frame, drawn, bounds_given=asked.bounds is not None)
-        notes += told
+    picture, told = drawn_ground(extent, relief), [DRAWN]
+    if asked.ground is not None:
+        picture, told = ground_of(asked.ground, frame, picture, bounds_given=asked.bounds is not None)
+    notes = [*([INVENTED] if relief.invented else []), *told]
     surfaces = [surface_of(step, frame, relief, extent.bed, asked.hmin) for step in extent.steps]
     shapes = _shapes(conversion, extent, surfaces, start, kept, asked.who())
     fold, openness, told = _shore(asked, extent, amplitude)
@@ -304,6 +300,15 @@ def serve(asked: FloodOptions, how: Serving, *, say: Say, show: Callable[[str, M
         _serve(asked, how, token, taken, LimitedShelf(limits) if kept is None else kept, kept, say, show)
 
 
+def _put(shapes: Sequence[Shape], shelf: LimitedShelf, *, over: bool) -> list[Shape]:
+    """Put shapes on a shelf, over what is there or beside it: what was pushed is newer; those that were not there."""
+    fresh = [shape for shape in shapes if shelf.shape(shape.name) is not shape]
+    for shape in fresh:
+        if over or shelf.shape(shape.name) is None:
+            shelf.put(shape)
+    return fresh
+
+
 def _serve(
     asked: FloodOptions,
     how: Serving,
@@ -327,10 +332,7 @@ def _serve(
     made = make(asked, say, start, kept)
     if shelf.names:
         say(f"{how.keep}: {counted(len(shelf.names), 'step')} from before")
-    fresh = [shape for shape in made.shapes if shelf.shape(shape.name) is not shape]
-    for shape in fresh:
-        if start is not None or shelf.shape(shape.name) is None:  # what was pushed is newer
-            shelf.put(shape)
+    fresh = _put(made.shapes, shelf, over=start is not None)
     flood, limits = made.flood, Limits()
     converter = Converter(limits, made.conversion)
 

@@ -8,9 +8,10 @@ from typing import Any, Final
 
 import tinycss2
 
+from vexture.svg.calculation import separated
 from vexture.svg.values import INITIAL_SIZE, Viewport, number
 
-__all__ = ["Medium", "condition", "parts"]
+__all__ = ["Medium", "condition"]
 
 TYPES: Final = {"all": True, "screen": True, "print": False, "speech": False}
 
@@ -93,17 +94,6 @@ def shown(tokens: list[Any]) -> list[Any]:
     return [token for token in tokens if token.type not in ("whitespace", "comment")]
 
 
-def parts(tokens: list[Any]) -> list[list[Any]]:
-    """Tokens between commas."""
-    found: list[list[Any]] = [[]]
-    for token in tokens:
-        if token == ",":
-            found.append([])
-        else:
-            found[-1].append(token)
-    return found
-
-
 @dataclass(frozen=True, slots=True)
 class Medium:
     """A picture in a page on a screen.
@@ -122,7 +112,7 @@ class Medium:
         """Whether one of some media queries holds; an empty list does."""
         if not shown(queries):
             return True
-        answers = [self.query(shown(query)) for query in parts(queries)]
+        answers = [self.query(shown(query)) for query in separated(queries)]
         return True if True in answers else None if None in answers else False
 
     def query(self, tokens: list[Any]) -> Answer:

@@ -8,6 +8,7 @@ import cssselect2
 import tinycss2
 from lxml import etree
 
+from vexture.svg.calculation import separated
 from vexture.svg.declarations import (
     Declaration,
     canonical,
@@ -18,7 +19,7 @@ from vexture.svg.declarations import (
     tokens,
 )
 from vexture.svg.keyframes import KEYFRAMES, Keyframes, read_keyframes
-from vexture.svg.media import Answer, Medium, condition, parts, shown
+from vexture.svg.media import Answer, Medium, condition, shown
 from vexture.svg.properties import PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.select import Node
@@ -181,7 +182,7 @@ class Sheets:
 
     def add_layers(self, rule: Any, layer: Layer, around: Around | None) -> None:
         """Add the layers that a rule names, in their order, and the rules inside it."""
-        names = [tinycss2.serialize(part).strip() for part in parts(rule.prelude)]
+        names = [tinycss2.serialize(part).strip() for part in separated(rule.prelude)]
         for name in names:
             inner = layer
             for part in name.split(".") if name else [f" {len(self.layers)}"]:  # one without a name is like no other
@@ -200,7 +201,7 @@ def declarations(content: Any) -> Iterator[Declaration]:
 def nested(prelude: list[Any], around: str, is_relative: bool) -> str:
     """Selector of a rule inside another one, whose selector is `around` (CSS Nesting 1)."""
     found = list[str]()
-    for part in parts(prelude):
+    for part in separated(prelude):
         text = with_parent(part, around).strip()
         bare = PARENT not in tinycss2.serialize(part) or text.startswith(COMBINATORS)
         found.append(f":is({around}) {text}" if is_relative and bare else text)
