@@ -15,17 +15,23 @@ NOTE = "Synthetic: invented ground and an invented flood, in no real place."
 START = datetime(2026, 1, 10, 6)
 SOUTH_WEST = 150_000.0, 430_000.0
 SYSTEM = "EPSG:28992"
+ROUGHNESS = 0.035
+"""Manning's, of gravel and grass: the speed is that of a uniform flow."""
 
 
 @dataclass(frozen=True)
 class Scene:
-    """Ground and levels of water, in metres, of a grid of square cells; the southernmost row first."""
+    """Ground and levels of water, in metres, of a grid of square cells; the southernmost row first.
+
+    `fall` is how steep the water's surface is where it flows, metres in a metre.
+    """
 
     name: str
     title: str
     cell: float
     bed: Grid
     levels: list[Grid]
+    fall: float = 0.0
 
 
 def grid(width: float, height: float, cell: float) -> tuple[Grid, Grid]:
@@ -80,7 +86,7 @@ def river() -> Scene:
     for hour in range(13):
         wave = surge(hour - 0.0004 * 6000.0, 2.6, 4.5, 2.4)
         levels.append(valley - 1.7 + wave)
-    return Scene("river", "Flood in a river valley", 12.5, bed, levels)
+    return Scene("river", "Flood in a river valley", 12.5, bed, levels, fall=0.0009)
 
 
 def polder() -> Scene:
@@ -125,7 +131,7 @@ def streets() -> Scene:
     levels = []
     for hour in range(13):
         levels.append(6.0 - 0.004 * x - 0.002 * y - 0.9 + surge(hour, 1.75, 5.0, 2.2))
-    return Scene("streets", "Water in the streets of a town", 2.0, bed, levels)
+    return Scene("streets", "Water in the streets of a town", 2.0, bed, levels, fall=float(np.hypot(0.004, 0.002)))
 
 
 SCENES: tuple[Callable[[], Scene], ...] = (coast, river, polder, streets)
@@ -152,9 +158,14 @@ def write(scene: Scene, folder: Path) -> Path:
         bed = file.createVariable("bed_level", "f4", ("y", "x"), compression="zlib")
         bed.setncatts({"units": "m", "standard_name": "altitude", "grid_mapping": "crs"})
         bed[:] = scene.bed
+        depths = np.maximum(np.array(scene.levels) - scene.bed, 0.0)
         depth = file.createVariable("depth", "f4", ("time", "y", "x"), compression="zlib")
         depth.setncatts({"units": "m", "long_name": "water depth", "grid_mapping": "crs"})
-        depth[:] = [np.maximum(level - scene.bed, 0.0) for level in scene.levels]
+        depth[:] = depths
+        if scene.fall > 0.0:
+            speed = file.createVariable("speed", "f4", ("time", "y", "x"), compression="zlib")
+            speed.setncatts({"units": "m s-1", "standard_name": "sea_water_speed", "grid_mapping": "crs"})
+            speed[:] = depths ** (2.0 / 3.0) * np.sqrt(scene.fall) / ROUGHNESS
     return path
 
 

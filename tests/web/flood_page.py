@@ -22,6 +22,7 @@ from PIL import Image
 from vexture import convert
 from vexture.drawing import Drawing
 from vexture.flood.credits import Credits
+from vexture.flood.hazard import HAZARDS, UNIT
 from vexture.flood.open_water import open_water, openness_png
 from vexture.flood.surface import WaterSurface
 from vexture.geo.extent import Frame
@@ -31,6 +32,8 @@ from vexture.paint import Paint
 FRAME = Frame((600_000.0, 4_080_000.0, 608_000.0, 4_086_000.0), "EPSG:32610", (8000.0, 6000.0))
 
 LEVELS = (0.0, 4.0, 9.0)
+RATING = 2.5
+"""Hazard at the eastern side and the highest level; less to the west and below."""
 """Metres of the water above its mean, step by step."""
 
 CLASSES = {0.0: "#fde725", 2.0: "#21918c", 20.0: "#440154"}
@@ -167,6 +170,8 @@ def manifest(name: str, level: float, label: str, time: str | None) -> dict[str,
     surface = WaterSurface(np.where(depths > 0.0, level, np.nan), depths > 0.0)
     levels, level_facts = surface.encoded()
     shares = np.round(depths / deepest * 255) if deepest > 0 else depths
+    rated = np.linspace(0.0, RATING, COLUMNS) * level / LEVELS[-1]
+    hazards = np.where(depths > 0.0, 1.0 + np.round(rated / UNIT), 0.0)
     return {
         "name": name,
         "version": "1",
@@ -179,12 +184,14 @@ def manifest(name: str, level: float, label: str, time: str | None) -> dict[str,
             "dry": not drawing.paths,
             "deepest": deepest or None,
             "level": level_facts,
+            "hazard": {"unit": UNIT},
             "area": float((depths > 0.0).mean() * FRAME.metres[0] * FRAME.metres[1]),
         },
         "views": {
             "depth": image_url(shares.astype(np.uint8), "PNG"),
             "level": data_url("image/png", levels),
             "classes": data_url("image/ktx2", classes(level)),
+            "hazard": image_url(hazards.astype(np.uint8), "PNG"),
         },
         "note": None,
     }
@@ -202,6 +209,7 @@ def scene(steps: int = 3, **more: Any) -> dict[str, Any]:
             "credits": Credits(title="A bay of formulas", source="formulas").as_json(),
             "depths": [{"from": depth, "color": color} for depth, color in CLASSES.items()],
             "arrivals": list(CLASSES.values()),
+            "hazards": [{"from": least, "color": color, "text": text} for least, color, text in HAZARDS],
             "steps": [
                 manifest(
                     f"flood/{k:02}" if not one else "flood",

@@ -11,6 +11,7 @@ from playwright.sync_api import Page, expect
 from waiting import drawn
 
 import flood_page
+from vexture.flood.hazard import HAZARDS
 
 
 def test_depths_as_colours_with_a_legend(opened_flood: Callable[..., Page], screenshot: Callable[..., Path]) -> None:
@@ -63,8 +64,35 @@ def test_times_of_arrival(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series", WIDE)
     page.get_by_label("Colours").select_option("arrival")
     expect(page.get_by_label("Legend", exact=True)).to_contain_text("First under water after")
+    page.wait_for_function("vexture.flood.player.index === 2")  # where the water is widest
     values = page.evaluate("vexture.flood.water.depthColors.classes.map(({ from }) => from)")
     assert values == pytest.approx([k * 2 / 3 for k in range(3)])
+
+
+def test_hazard_is_the_greatest_of_all_steps(
+    opened_flood: Callable[..., Page], screenshot: Callable[..., Path]
+) -> None:
+    """Seen at the first step, each pixel has the colour of the last, highest one, but those near a border of classes."""
+    page = opened_flood("series", (740, 560), "?bare")
+    page.evaluate("vexture.flood.relief(0)")
+    view(page, "Plan")
+    page.evaluate("vexture.flood.colours('hazard')")
+    page.wait_for_function("vexture.flood.water.depthColors !== null")
+    drawn(page)
+    seen = np.asarray(Image.open(screenshot(page)).convert("RGB")).astype(int)
+    corners = [on_screen(page, *corner) for corner in (flood_page.FRAME.box[:2], flood_page.FRAME.box[2:])]
+    (x0, y1), (x1, y0) = corners
+    rows, columns = np.mgrid[round(y0) + 2 : round(y1) - 2, round(x0) + 2 : round(x1) - 2]
+    u0, v0, u1, v1 = flood_page.FRAME.box
+    across, down = (columns + 0.5 - x0) / (x1 - x0), (rows + 0.5 - y0) / (y1 - y0)
+    wet = flood_page.LEVELS[0] - flood_page.height(u0 + (u1 - u0) * across, v1 + (v0 - v1) * down) > 0.1
+    rated = flood_page.RATING * across
+    for one, above in zip(HAZARDS, [*HAZARDS[1:], HAZARDS[-1]._replace(least=np.inf)], strict=True):
+        clear = wet & (rated > one.least + 0.02) & (rated < above.least - 0.02)
+        wanted = np.array([int(one.color[k : k + 2], 16) for k in (1, 3, 5)])
+        off = np.abs(seen[rows, columns] - wanted).max(axis=-1)[clear]
+        assert off.size > 5_000
+        assert (off < 40).mean() > 0.999, f"{one.text}: {(off >= 40).sum()} of {off.size}"  # it is not quite opaque
 
 
 def test_a_chart_of_the_area_and_of_a_clicked_place(opened_flood: Callable[..., Page]) -> None:

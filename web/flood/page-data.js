@@ -8,13 +8,15 @@
  * @property {number | null} [deepest] metres
  * @property {number} [area] square metres under water
  * @property {{lowest: number, unit: number}} [level] metres, of the picture of levels
+ * @property {{unit: number} | null} [hazard] of the picture of the hazard
  *
  * @typedef {object} Manifest
  * @property {string} name
  * @property {string} texture URL
  * @property {Facts} [facts]
- * @property {{depth?: string, level?: string, classes?: string}} [views] depth: 8-bit gray PNG over the box, 255 is the
- *   deepest; level: 16-bit gray PNG on the grid of the relief (levels.js); classes: planar map of the classes of depth
+ * @property {{depth?: string, level?: string, classes?: string, hazard?: string}} [views] depth: 8-bit gray PNG over the
+ *   box, 255 is the deepest; level and hazard: gray PNGs on the grid of the relief (levels.js, hazard.js); classes: planar
+ *   map of the classes of depth
  * @property {string | null} [note]
  *
  * @typedef {object} FrameFacts
@@ -48,6 +50,7 @@
  * @property {Credits} credits
  * @property {{from: number, color: string}[]} depths metres from which the classes of the map of depths begin
  * @property {string[]} arrivals colours of as many times of arrival, the first to come first
+ * @property {{from: number, color: string, text: string}[]} hazards ratings from which the classes of hazard begin
  * @property {(string | Manifest)[]} steps names on the server, or all of each
  * @property {string} prefix of the names of later steps
  * @property {FrameFacts} frame

@@ -1,18 +1,23 @@
 /** The choice of what the water is coloured by, and its legend. */
 import { select } from '../viewer/dom.js';
 import { Legend } from './legend.js';
-import { arrivals, greatestDepths, shadeOf } from './shades.js';
-import { classesOf } from './steps.js';
+import { readHazard } from './hazard.js';
+import { arrivals, greatestDepths, greatestHazards, shadeOf } from './shades.js';
+import { classesOf, hazardOf } from './steps.js';
 
 /** @typedef {import('./shades.js').Shade} Shade */
 
 const NAMES = Object.freeze(/** @type {const} */ ([
   ['water', 'Water'], ['depth', 'Depth, in classes'], ['smooth', 'Depth'], ['greatest', 'Greatest depth'],
-  ['arrival', 'Time of arrival'],
+  ['hazard', 'Greatest hazard'], ['arrival', 'Time of arrival'],
 ]));
 
 /** @type {Set<string>} */
 const OF_SERIES = new Set(['greatest', 'arrival']);
+/** Those of all steps. @type {Set<string>} */
+const OF_ALL = new Set([...OF_SERIES, 'hazard']);
+
+/** @typedef {{step: import('./steps.js').Step, surface: import('./levels.js').Levels | null}} Known */
 
 /** Hours between two times of the file. @param {string | null | undefined} from @param {string | null | undefined} to */
 const hoursBetween = (from, to) => (from && to ? (Date.parse(to) - Date.parse(from)) / 3_600_000 : NaN);
@@ -21,12 +26,12 @@ const hoursBetween = (from, to) => (from && to ? (Date.parse(to) - Date.parse(fr
  * @param {import('./stage.js').Stage} stage
  * @param {import('./player.js').Player} player
  * @param {import('./page-data.js').Flood} flood
- * @param {(name: string) => Promise<{step: import('./steps.js').Step, surface: import('./levels.js').Levels | null}>}
- *   levelsAt
+ * @param {(name: string) => Promise<Known>} levelsAt
  */
 export function createShades(stage, player, flood, levelsAt) {
   const legend = new Legend();
   let turn = 0;
+  let widest = 0;
   let current = /** @type {ReturnType<typeof shadeOf>} */ (null);
 
   /** Show the map of the classes of the shown step, if that is how the water is coloured. */
@@ -42,8 +47,7 @@ export function createShades(stage, player, flood, levelsAt) {
   const failed = (error) => player.dispatchEvent(new CustomEvent('failed', { detail: error }));
 
   /** Of all steps: the hours from the first to the last, and when each place was first under water. */
-  async function arrived() {
-    const all = await Promise.all(player.names.map(levelsAt));
+  function arrived(/** @type {Known[]} */ all) {
     const first = all[0].step.manifest.facts?.time;
     const steps = all.flatMap(({ step, surface }) =>
       (surface ? [{ hours: hoursBetween(first, step.manifest.facts?.time), wet: surface.wet }] : []));
@@ -52,11 +56,23 @@ export function createShades(stage, player, flood, levelsAt) {
     return { hours, values: arrivals(steps, stage.surface.relief) };
   }
 
+  /** Of all steps whose speeds are known. */
+  async function endangered(/** @type {Known[]} */ all) {
+    const { relief } = stage.surface;
+    const found = await Promise.all(all.map(({ step }) => hazardOf(step)));
+    const ratings = found.flatMap((one) => (one ? [readHazard(one.png, one.facts, relief)] : []));
+    if (ratings.length === 0) throw new Error('No step has speeds of the water, so its hazard is not known.');
+    return { hours: 0, values: greatestHazards(ratings, relief.columns) };
+  }
+
   /** What the colours are of, if not of the depth now. @param {string} shade */
   async function valuesOf(shade) {
-    if (shade === 'arrival') return arrived();
-    if (shade !== 'greatest') return { hours: 0, values: null };
+    if (!OF_ALL.has(shade)) return { hours: 0, values: null };
     const all = await Promise.all(player.names.map(levelsAt));
+    const areas = all.map(({ step }) => step.manifest.facts?.area ?? 0);
+    widest = areas.indexOf(Math.max(...areas));
+    if (shade === 'arrival') return arrived(all);
+    if (shade === 'hazard') return endangered(all);
     const { heights } = stage.surface.relief;
     return { hours: 0, values: greatestDepths(all.flatMap(({ surface }) => surface?.levels ?? []), heights) };
   }
@@ -74,17 +90,30 @@ export function createShades(stage, player, flood, levelsAt) {
     } catch (error) {
       failed(error);
       list.value = 'water';
+      offer();
       void chosen('water');
     }
   };
-  const { row, list } = select('Colours', NAMES, chosen);
-  const ofSeries = [...list.options].filter(({ value }) => OF_SERIES.has(value));
-  const follow = () => {
-    for (const option of ofSeries) option.hidden = option.disabled = player.count < 2;
-    if (OF_SERIES.has(list.value)) void chosen(list.value);
+  const picked = async (/** @type {string} */ value) => {
+    await chosen(value);
+    if (!OF_ALL.has(value) || list.value !== value) return;
+    player.pause();
+    await player.go(widest); // what is of all times is seen where the water is
   };
-  player.addEventListener('steps', follow);
-  follow();
+  const { row, list } = select('Colours', NAMES, picked);
+  const offer = () => {
+    for (const option of list.options) {
+      const { value } = option;
+      const without = value === 'hazard' ? !player.step?.manifest.views?.hazard : OF_SERIES.has(value) && player.count < 2;
+      option.hidden = option.disabled = without && value !== list.value;
+    }
+  };
+  player.addEventListener('steps', () => {
+    offer();
+    if (OF_ALL.has(list.value)) void chosen(list.value);
+  });
+  player.addEventListener('step', offer);
+  offer();
   return {
     row,
     legend: legend.element,

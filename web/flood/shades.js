@@ -1,10 +1,11 @@
-/** What the water is coloured by: its look, its depth now or at its greatest, or the time at which it came. */
+/** What the water is coloured by: its look, its depth now or at its greatest, its hazard, or when it came. */
 
 /** @typedef {import('../src/water/fields.js').DepthColors} DepthColors */
-/** @typedef {'water' | 'depth' | 'smooth' | 'greatest' | 'arrival'} Shade */
+/** @typedef {'water' | 'depth' | 'smooth' | 'greatest' | 'hazard' | 'arrival'} Shade */
 
 /** Of the colours. */
 export const OPACITY = 0.9;
+const HAZARD = 'Greatest hazard: depth × (speed + 0.5)';
 /** Samples beside the water that have its values: the shore is between them. */
 const BESIDE = 3;
 
@@ -17,16 +18,20 @@ const colored = (from, colors, smooth) => ({
  * Colours and legend of a shade; null for the look of water.
  *
  * @param {Shade} shade
- * @param {Pick<import('./page-data.js').Flood, 'depths' | 'arrivals'>} colors
+ * @param {Pick<import('./page-data.js').Flood, 'depths' | 'arrivals' | 'hazards'>} colors
  * @param {number} hours from the first step to the last
- * @returns {{colors: DepthColors, title: string, unit: string, mapped: boolean} | null} mapped: by a map of the classes,
- *   where there is one
+ * @returns {{colors: DepthColors, title: string, unit: string, texts?: string[], mapped: boolean} | null} texts: of the
+ *   classes, in place of where they begin; mapped: by a map of the classes, where there is one
  */
-export function shadeOf(shade, { depths, arrivals: colors }, hours) {
+export function shadeOf(shade, { depths, arrivals: colors, hazards }, hours) {
   if (shade === 'water') return null;
   if (shade === 'arrival') {
     const from = colors.map((_, at) => (hours * at) / colors.length);
     return { colors: colored(from, colors, false), title: 'First under water after', unit: 'h', mapped: false };
+  }
+  if (shade === 'hazard') {
+    const found = colored(hazards.map((one) => one.from), hazards.map(({ color }) => color), false);
+    return { colors: found, title: HAZARD, unit: '', texts: hazards.map(({ text }) => text), mapped: false };
   }
   const from = depths.map((one) => one.from);
   const found = colored(from, depths.map(({ color }) => color), shade === 'smooth');
@@ -40,12 +45,18 @@ export function shadeOf(shade, { depths, arrivals: colors }, hours) {
  * @param {{columns: number, rows: number}} size
  */
 export function arrivals(steps, { columns, rows }) {
-  let found = new Float32Array(columns * rows).fill(NaN);
+  const found = new Float32Array(columns * rows).fill(NaN);
   for (const { hours, wet } of [...steps].sort((one, other) => other.hours - one.hours)) {
     wet.forEach((is, at) => {
       if (is) found[at] = hours;
     });
   }
+  return widened(found, columns);
+}
+
+/** Values, and beside them those of the nearest. @param {Float32Array} values @param {number} columns of the grid */
+function widened(values, columns) {
+  let found = values;
   for (let pass = 0; pass < BESIDE; pass++) {
     const before = found;
     found = before.map((value, at) => {
@@ -68,6 +79,22 @@ export function greatestDepths(levels, heights) {
     const known = levels.map((one) => one[at]).filter((level) => !Number.isNaN(level));
     return known.length > 0 ? Math.max(...known) - height : NaN;
   });
+}
+
+/**
+ * Greatest hazard of all steps at each place, and beside the water that of the nearest; NaN elsewhere.
+ *
+ * @param {Float32Array[]} ratings of the steps
+ * @param {number} columns of the grid
+ */
+export function greatestHazards(ratings, columns) {
+  const found = new Float32Array(ratings[0].length).fill(NaN);
+  for (const one of ratings) {
+    one.forEach((rating, at) => {
+      if (!(rating <= found[at]) && !Number.isNaN(rating)) found[at] = rating;
+    });
+  }
+  return widened(found, columns);
 }
 
 /** A number for people: as short as it can be. @param {number} value */

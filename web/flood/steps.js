@@ -26,6 +26,16 @@ export async function levelsOf({ manifest, base }) {
   return url && facts ? { png: new Uint8Array(await bytesOf(url, base)), facts } : null;
 }
 
+/**
+ * The picture of the hazard of a step and the facts to read it; null if its speeds are not known.
+ *
+ * @param {Step} step
+ */
+export async function hazardOf({ manifest, base }) {
+  const [url, facts] = [manifest.views?.hazard, manifest.facts?.hazard];
+  return url && facts ? { png: new Uint8Array(await bytesOf(url, base)), facts } : null;
+}
+
 /** @type {WeakMap<Manifest, Promise<VectorTexture | null>>} */
 const maps = new WeakMap();
 

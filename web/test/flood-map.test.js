@@ -4,12 +4,13 @@ import { areaText, lineOf } from '../flood/chart.js';
 import { entries } from '../flood/legend.js';
 import { hashOf, lookOf } from '../flood/link.js';
 import { Places } from '../flood/place.js';
-import { arrivals, greatestDepths, shadeOf } from '../flood/shades.js';
+import { arrivals, greatestDepths, greatestHazards, shadeOf } from '../flood/shades.js';
 
 describe('shades', () => {
   it('are none for water, classes of depths, and times of arrival', () => {
     const flood = {
       depths: [0, 0.5, 2].map((from, at) => ({ from, color: `#${at}0${at}0${at}0` })), arrivals: ['#000000', '#ffffff'],
+      hazards: [{ from: 0, color: '#ffff00', text: 'low' }, { from: 0.75, color: '#ff0000', text: 'high' }],
     };
     expect(shadeOf('water', flood, 0)).toBeNull();
     const depth = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('depth', flood, 0));
@@ -22,6 +23,13 @@ describe('shades', () => {
     expect(smooth.mapped).toBe(false);
     const late = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('arrival', flood, 12));
     expect(entries(late)).toEqual([{ color: '#000000', text: '0 to 6 h' }, { color: '#ffffff', text: 'over 6 h' }]);
+    const danger = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('hazard', flood, 12));
+    expect(entries(danger)).toEqual([{ color: '#ffff00', text: 'low' }, { color: '#ff0000', text: 'high' }]);
+  });
+
+  it('of the greatest hazard are of all steps, and go on a little beside the water', () => {
+    const ratings = [[1, 2, NaN, NaN, NaN, NaN, NaN], [1.5, NaN, NaN, NaN, NaN, NaN, NaN]].map((one) => Float32Array.from(one));
+    expect([...greatestHazards(ratings, 7)]).toEqual([1.5, 2, 2, 2, 2, NaN, NaN]);
   });
 
   it('of the greatest depth are of all steps', () => {

@@ -10,8 +10,8 @@ from vexture.drawing import Drawing
 from vexture.geo.extent import Bounds, Frame
 
 __all__ = [
-    "coverage_over", "deepest", "depth_png", "distance_to", "filled", "noise", "pixels_to", "sampled", "shore_distance",
-    "size_for",
+    "coarser", "coverage_over", "deepest", "depth_png", "distance_to", "filled", "mean_of", "noise", "pixels_to",
+    "sampled", "shore_distance", "size_for",
 ]  # fmt: skip
 
 SEED: Final = 4626
@@ -115,6 +115,25 @@ def sampled(grid: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np.flo
         )
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where(weight > 0.0, total / weight, np.nan)
+
+
+def coarser(grid: NDArray[np.floating[Any]], size: tuple[int, int]) -> NDArray[np.float64]:
+    """Means of blocks of cells, ignoring NaN, so that no water between samples is missed."""
+    down, across = (max(1, cells // samples) for cells, samples in zip(grid.shape, size[::-1], strict=True))
+    if down == across == 1:
+        return grid.astype(np.float64)
+    padded = np.pad(
+        grid.astype(np.float64), [(0, -grid.shape[0] % down), (0, -grid.shape[1] % across)], constant_values=np.nan
+    )
+    blocks = padded.reshape(padded.shape[0] // down, down, padded.shape[1] // across, across)
+    return mean_of(blocks, (1, 3))
+
+
+def mean_of(values: NDArray[np.float64], axis: int | tuple[int, ...]) -> NDArray[np.float64]:
+    """Mean without NaN; NaN of nothing."""
+    known = np.isfinite(values)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray(np.where(known, values, 0.0).sum(axis) / known.sum(axis))
 
 
 def filled(grid: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vexture.flood.credits import Credits
 from vexture.flood.depth_classes import colors_of
+from vexture.flood.hazard import HAZARDS
 from vexture.flood.open_water import openness_png
 from vexture.flood.relief import Relief
 from vexture.flood.views import View
@@ -72,6 +73,7 @@ def scene(flood: Flood, steps: Sequence[str | Mapping[str, Any]], ground: str, f
         "credits": flood.credits.as_json(),
         "depths": _colored(flood.depths),
         "arrivals": colors_of(ARRIVALS)[::-1],
+        "hazards": [{"from": least, "color": color, "text": text} for least, color, text in HAZARDS],
         "steps": list(steps),
         "prefix": PREFIX,
         "frame": {

@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from io import BytesIO
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.flood.grids import sampled
+from vexture.flood.grids import coarser, mean_of, sampled
 from vexture.flood.relief import Relief, wet_samples
 from vexture.geo.extent import Frame, Step
 
@@ -67,9 +67,9 @@ def surface_of(step: Step, frame: Frame, relief: Relief, bed: NDArray[np.float32
     wet = wet_samples(step, frame, size)
     depth = None if step.depth is None else np.where(step.depth >= hmin, step.depth, np.nan)
     if depth is not None and bed is not None and not relief.invented:
-        levels = sampled(_coarser(bed + depth, size), size) - relief.still
+        levels = sampled(coarser(bed + depth, size), size) - relief.still
     elif depth is not None and not relief.invented:
-        levels = relief.heights + sampled(_coarser(depth, size), size)
+        levels = relief.heights + sampled(coarser(depth, size), size)
         levels = _smoothed(np.where(wet, levels, np.nan), SMOOTH)
     else:
         levels = _from_shores(relief.heights, wet)
@@ -87,31 +87,12 @@ def highest_of(surfaces: Sequence[WaterSurface]) -> NDArray[np.float64] | None:
     return highest
 
 
-def _coarser(grid: NDArray[np.floating[Any]], size: tuple[int, int]) -> NDArray[np.float64]:
-    """Means of blocks of cells, ignoring NaN, so that no water between samples is missed."""
-    down, across = (max(1, cells // samples) for cells, samples in zip(grid.shape, size[::-1], strict=True))
-    if down == across == 1:
-        return grid.astype(np.float64)
-    padded = np.pad(
-        grid.astype(np.float64), [(0, -grid.shape[0] % down), (0, -grid.shape[1] % across)], constant_values=np.nan
-    )
-    blocks = padded.reshape(padded.shape[0] // down, down, padded.shape[1] // across, across)
-    return _mean(blocks, (1, 3))
-
-
-def _mean(values: NDArray[np.float64], axis: int | tuple[int, ...]) -> NDArray[np.float64]:
-    """Mean without NaN; NaN of nothing."""
-    known = np.isfinite(values)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        return np.asarray(np.where(known, values, 0.0).sum(axis) / known.sum(axis))
-
-
 def _around(levels: NDArray[np.float64]) -> NDArray[np.float64]:
     """Mean of each sample and its eight neighbours, without NaN."""
     rows, columns = levels.shape
     padded = np.pad(levels, 1, constant_values=np.nan)
     shifted = [padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
-    return _mean(np.stack(shifted), 0)
+    return mean_of(np.stack(shifted), 0)
 
 
 def _widened(levels: NDArray[np.float64], samples: int) -> NDArray[np.float64]:
@@ -138,7 +119,7 @@ def _filled(levels: NDArray[np.float64]) -> NDArray[np.float64]:
         return levels
     even = np.pad(levels, [(0, rows % 2), (0, columns % 2)], constant_values=np.nan)
     blocks = even.reshape(even.shape[0] // 2, 2, even.shape[1] // 2, 2)
-    coarse = _filled(_mean(blocks, (1, 3)))
+    coarse = _filled(mean_of(blocks, (1, 3)))
     return np.where(
         np.isfinite(levels), levels, _around(np.kron(coarse, np.ones((2, 2))).astype(np.float64))[:rows, :columns]
     )

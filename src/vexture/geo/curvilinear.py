@@ -15,7 +15,8 @@ from vexture.geo.mesh import MeshSeries
 from vexture.geo.netcdf import axes_of, crs_of, points_east, points_north, times_of
 from vexture.geo.patch import Faces, counter_clockwise
 from vexture.geo.quads import corners_of, without_fill
-from vexture.geo.series import Lattice, Series, Values
+from vexture.geo.series import Lattice, Reading, Series, Values
+from vexture.geo.speeds import speed_of
 from vexture.geo.ugrid import MOST_FACES
 from vexture.geo.variables import depths_of, has_depths, loaded, reader_of, refuse_layers, time_axis
 
@@ -81,14 +82,16 @@ def grid_series(
     if not known.any():
         raise SourceError(f"coordinates {places.x!r} and {places.y!r} hold no place; write them into the file")
 
-    def read(step: int, rows: slice, columns: slice) -> tuple[Values, Values | None]:
+    speed = speed_of(dataset, name, order, time)
+
+    def read(step: int, rows: slice, columns: slice) -> Reading:
         where = {time: step, places.rows: rows, places.columns: columns}
         values = depth(where, order)
         for mask in masks:
             values = np.where(mask(where, order) == 0.0, np.nan, values)
         if stride == 1:
             values = np.where(known[rows, columns], values, np.nan)
-        return values, bed(where, order) if bed else None
+        return Reading(values, *(one(where, order) if one else None for one in (bed, speed)))
 
     crs = crs_of(dataset, name, [dataset[places.x], dataset[places.y]])
     rounding = float(np.finfo(np.float32).eps) if dataset[places.x].dtype == np.float32 else 0.0
@@ -102,9 +105,8 @@ def grid_series(
         )
     nodes, faces = _mesh(dataset, places, np.stack([x, y], axis=-1), known)
 
-    def read_faces(step: int) -> tuple[Values, Values | None]:
-        values, ground = read(step, slice(None), slice(None))
-        return values[known], None if ground is None else ground[known]
+    def read_faces(step: int) -> Reading:
+        return read(step, slice(None), slice(None)).at(known)
 
     return MeshSeries(nodes, counter_clockwise(nodes, faces), True, crs, name, times, read_faces)
 

@@ -16,7 +16,7 @@ from vexture.geo.datasets import is_dataset
 from vexture.geo.extent import Bounds, Extent, Frame, Step
 from vexture.geo.mesh import MeshInFrame, MeshSeries
 from vexture.geo.raster import RasterInFrame
-from vexture.geo.series import Series, Values, plausible
+from vexture.geo.series import Reading, Series, Values
 from vexture.notes import Note, Notes
 from vexture.tolerance import HMIN
 from vexture.workers import Here, Workers
@@ -76,18 +76,19 @@ class DepthsInFrame:
         """What was left out, simplified or chosen until now."""
         return self._notes.listed
 
-    def values(self, number: int) -> tuple[Values, Values | None]:
-        """Depth and, if the file has it, height of the bed at a time, near the frame."""
-        depth, bed = self._placed.read(number)
-        return plausible(depth), None if bed is None else plausible(bed)
+    def values(self, number: int) -> Reading:
+        """What the file says of a time, near the frame."""
+        return self._placed.read(number).plausible
 
-    def step(self, number: int, depth: Values, bed: Values | None) -> Step:
+    def step(self, number: int, reading: Reading) -> Step:
         """The step of these values."""
+        depth, bed, speed = reading
         drawing, *deeper = (
             replace(area, to_source=self.frame.to_source, name=self._name, crs=self.frame.crs, notes=self.notes)
             for area in self._placed.drawings(depth, bed, self._hmin, self._depths)
         )
-        return Step(drawing, self.times[number], self.grid(np.where(depth < 0.0, 0.0, depth)), tuple(deeper))
+        over = self.grid(np.where(depth < 0.0, 0.0, depth))
+        return Step(drawing, self.times[number], over, tuple(deeper), None if speed is None else self.grid(speed))
 
     def grid(self, values: Values) -> NDArray[np.float32]:
         """Values over the frame, the northernmost row first."""
@@ -175,14 +176,14 @@ def _extent(placed: DepthsInFrame, workers: Workers) -> Extent:
     """All steps of a file, which is read here; workers make steps of the values."""
     bed, seen = None, False
 
-    def values() -> Iterator[tuple[int, Values, Values | None]]:
+    def values() -> Iterator[tuple[int, Reading]]:
         nonlocal bed, seen
         for number in range(len(placed.times)):
-            depth, ground = placed.values(number)
-            if bed is None and ground is not None:
-                bed = placed.grid(ground)
-            seen = seen or bool(np.isfinite(depth).any())
-            yield number, depth, ground
+            reading = placed.values(number)
+            if bed is None and reading.bed is not None:
+                bed = placed.grid(reading.bed)
+            seen = seen or bool(np.isfinite(reading.depth).any())
+            yield number, reading
 
     steps = tuple(workers.map(_step, placed, values(), len(placed.times)))
     if not seen:
@@ -190,7 +191,7 @@ def _extent(placed: DepthsInFrame, workers: Workers) -> Extent:
     return Extent(placed.frame, steps, bed, placed.notes)
 
 
-def _step(placed: DepthsInFrame, values: tuple[int, Values, Values | None]) -> Step:
+def _step(placed: DepthsInFrame, values: tuple[int, Reading]) -> Step:
     return placed.step(*values)
 
 

@@ -87,12 +87,15 @@ class Step:
     deeper : tuple of Drawing
         For each of the depths that were asked for, the area under at least so much water; empty where the source has no
         depths.
+    speed : (rows, columns) float32 array or None
+        Of the water, in metres a second, as `depth`; None where the source has none.
     """
 
     drawing: Drawing
     time: datetime | None = None
     depth: NDArray[np.float32] | None = None
     deeper: tuple[Drawing, ...] = ()
+    speed: NDArray[np.float32] | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

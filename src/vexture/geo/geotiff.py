@@ -10,7 +10,7 @@ import numpy as np
 
 from vexture.errors import ParameterError, SourceError, reason_of
 from vexture.geo.gdal import gdal
-from vexture.geo.series import Lattice, Series, Values
+from vexture.geo.series import Lattice, Reading, Series, Values
 from vexture.notes import Notes
 
 if TYPE_CHECKING:
@@ -69,8 +69,8 @@ def _series(file: "DatasetReader", time_dim: str | None, variable: str | None, n
     affine = np.array([[a, b, c], [d, e, f]], np.float64)
     lattice = Lattice(np.arange(file.width) + 0.5, np.arange(file.height) + 0.5, affine)
 
-    def read(step: int, rows: slice, columns: slice) -> tuple[Values, None]:
-        return _band(file, bands[step], rows, columns), None
+    def read(step: int, rows: slice, columns: slice) -> Reading:
+        return Reading(_band(file, bands[step], rows, columns))
 
     crs = file.crs.to_wkt() if file.crs else None
     return Series(lattice, crs, names[bands[0] - 1], (None,) * len(bands), read)

@@ -17,7 +17,7 @@ from vexture.geo.crs import gis_packages
 from vexture.geo.depths import DepthsInFrame, depths_in_frame
 from vexture.geo.extent import Bounds, Extent, Frame, Step
 from vexture.geo.partitions import partitions_beside
-from vexture.geo.series import Values
+from vexture.geo.series import Reading
 
 __all__ = ["Change", "Known", "Run", "files_of", "growing", "share_files", "whole_run"]
 
@@ -65,14 +65,14 @@ class Run:
                 yield change
         empty: list[int] = []
         for number in range(len(self.known), len(self.times)):
-            depth, bed = self._placed.values(number)
-            if not np.isfinite(depth).any():
+            reading = self._placed.values(number)
+            if not np.isfinite(reading.depth).any():
                 empty.append(number)
                 continue
             for before in empty:
-                yield self._made(before, *self._placed.values(before))
+                yield self._made(before, self._placed.values(before))
             empty.clear()
-            yield self._made(number, depth, bed)
+            yield self._made(number, reading)
 
     def _suspects(self) -> range:
         """Known steps that may have changed.
@@ -81,23 +81,23 @@ class Run:
         """
         old = len(self.known)
         has_grown = len(self.times) > old and not self._rewritten
-        if old and has_grown and _digest(*self._placed.values(old - 1)) == self.known[-1].digest:
+        if old and has_grown and _digest(self._placed.values(old - 1)) == self.known[-1].digest:
             return range(0)
         return range(old)
 
     def _change(self, number: int) -> Change | None:
         """A known step, if its values are others."""
-        depth, bed = self._placed.values(number)
-        if _digest(depth, bed) == self.known[number].digest:
+        reading = self._placed.values(number)
+        if _digest(reading) == self.known[number].digest:
             return None
-        if not np.isfinite(depth).any():
+        if not np.isfinite(reading.depth).any():
             raise SourceError(f"step {number + 1} holds no number any more")  # for the moment: it is written again
-        return self._made(number, depth, bed)
+        return self._made(number, reading)
 
-    def _made(self, number: int, depth: Values, bed: Values | None) -> Change:
-        known = Known(self.times[number], _digest(depth, bed))
-        ground = None if bed is None else self._placed.grid(bed)
-        return Change(number, known, self._placed.step(number, depth, bed), ground)
+    def _made(self, number: int, reading: Reading) -> Change:
+        known = Known(self.times[number], _digest(reading))
+        ground = None if reading.bed is None else self._placed.grid(reading.bed)
+        return Change(number, known, self._placed.step(number, reading), ground)
 
 
 def share_files() -> None:
@@ -162,9 +162,10 @@ def _opened(path: Path, frame: Frame | None, options: dict[str, Any]) -> Iterato
         yield placed
 
 
-def _digest(depth: Values, bed: Values | None) -> str:
+def _digest(reading: Reading) -> str:
     """Digest of the values of a step."""
-    digest = hashlib.blake2b(depth.tobytes(), digest_size=16)
-    if bed is not None:
-        digest.update(bed.tobytes())
+    digest = hashlib.blake2b(digest_size=16)
+    for values in reading:
+        if values is not None:
+            digest.update(values.tobytes())
     return digest.hexdigest()

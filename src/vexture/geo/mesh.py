@@ -19,7 +19,7 @@ from vexture.geo.crs import period, transformed
 from vexture.geo.extent import Bounds, Frame
 from vexture.geo.patch import Faces, Patch, border_of, touched, touching
 from vexture.geo.raster import grid_places, outside
-from vexture.geo.series import Values, box_around
+from vexture.geo.series import Reading, Values, box_around
 from vexture.geo.triangles import Outline, grid_ranges, located, outlines_above
 
 __all__ = ["MeshInFrame", "MeshSeries"]
@@ -45,7 +45,7 @@ class MeshSeries:
     crs: str | None
     variable: str
     times: tuple[datetime | None, ...]
-    read: Callable[[int], tuple[Values, Values | None]]
+    read: Callable[[int], Reading]
 
     @property
     def box(self) -> Bounds:
@@ -89,10 +89,9 @@ class MeshInFrame:
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_series": None}  # a copy in another process reads nothing
 
-    def read(self, step: int) -> tuple[Values, Values | None]:
-        """Depth and height of the bed at a step, of the faces or nodes near the square."""
-        depth, bed = self._series.read(step)
-        return depth[self._chosen], None if bed is None else bed[self._chosen]
+    def read(self, step: int) -> Reading:
+        """What the file says of a step, of the faces or nodes near the square."""
+        return self._series.read(step).at(self._chosen)
 
     def drawings(self, depth: Values, bed: Values | None, hmin: float, depths: Sequence[float]) -> list[Drawing]:
         """The area under water, and those under at least so much."""

@@ -14,7 +14,8 @@ import numpy as np
 
 from vexture.errors import LimitError, ParameterError, SourceError, reason_of
 from vexture.geo.datasets import dataset_of, is_dataset
-from vexture.geo.series import Lattice, Series, Values
+from vexture.geo.series import Lattice, Reading, Series, Values
+from vexture.geo.speeds import speed_of
 from vexture.geo.variables import depths_of, listed, loaded, refuse_layers, time_axis
 
 __all__ = ["axes_of", "crs_of", "opened", "points_east", "points_north", "series_of", "times_of"]
@@ -71,9 +72,11 @@ def series_of(dataset: Any, time_dim: str | None, variable: str | None) -> Serie
     times = times_of(dataset, time)
     refuse_layers(dataset, name, (time, north, east))
 
-    def read(step: int, rows: slice, columns: slice) -> tuple[Values, Values | None]:
-        places = {time: step, north: rows, east: columns}
-        return depth(places, (north, east)), bed(places, (north, east)) if bed else None
+    speed = speed_of(dataset, name, (north, east), time)
+
+    def read(step: int, rows: slice, columns: slice) -> Reading:
+        places, order = {time: step, north: rows, east: columns}, (north, east)
+        return Reading(depth(places, order), *(one(places, order) if one else None for one in (bed, speed)))
 
     crs = crs_of(dataset, name, [_along(dataset, dim) for dim in (east, north)])
     return Series(Lattice(x, y, np.eye(2, 3)), crs, name, times, read)

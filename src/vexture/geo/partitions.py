@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vexture.errors import SourceError
 from vexture.geo.mesh import MeshSeries
 from vexture.geo.netcdf import opened
-from vexture.geo.series import Values
+from vexture.geo.series import Reading, Values
 from vexture.geo.ugrid import mesh_series
 from vexture.geo.variables import loaded
 
@@ -77,6 +77,12 @@ def merged_partitions(paths: Sequence[Path], time_dim: str | None, variable: str
         yield _merged(parts, owned)
 
 
+def _joined(values: Sequence[Values | None]) -> Values | None:
+    """Values of all parts; None if one of them has none."""
+    known = [one for one in values if one is not None]
+    return np.concatenate(known) if len(known) == len(values) else None
+
+
 def _number(path: Path) -> int:
     """Number of a partition, by its name."""
     name = NAME.fullmatch(path.name)
@@ -102,11 +108,9 @@ def _merged(parts: Sequence[MeshSeries], owned: Sequence[NDArray[np.bool_]]) -> 
         renumbered = np.where(mine >= 0, numbers.ravel()[np.maximum(mine, 0) + start], -1)
         faces.append(np.pad(renumbered, [(0, 0), (0, corners - mine.shape[1])], constant_values=-1))
 
-    def read(step: int) -> tuple[Values, Values | None]:
-        pairs = [part.read(step) for part in parts]
-        depth = np.concatenate([one[own] for (one, _), own in zip(pairs, owned, strict=True)])
-        beds = [bed[own] for (_, bed), own in zip(pairs, owned, strict=True) if bed is not None]
-        return depth, np.concatenate(beds) if len(beds) == len(parts) else None
+    def read(step: int) -> Reading:
+        read = [part.read(step).at(own) for part, own in zip(parts, owned, strict=True)]
+        return Reading(*map(_joined, zip(*read, strict=True)))  # type: ignore[arg-type]
 
     first = parts[0]
     return MeshSeries(

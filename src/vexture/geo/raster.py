@@ -12,7 +12,7 @@ from vexture.errors import SourceError
 from vexture.geo.contours import shored, wet_drawing
 from vexture.geo.crs import period, shown_bounds, transformed, transformed_bounds
 from vexture.geo.extent import Bounds, Frame, bounds_of_square
-from vexture.geo.series import Lattice, Series, Values
+from vexture.geo.series import Lattice, Reading, Series, Values
 from vexture.notes import Notes
 
 __all__ = ["RasterInFrame", "grid_places", "outside"]
@@ -41,8 +41,8 @@ class RasterInFrame:
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_series": None}  # a copy in another process reads nothing
 
-    def read(self, step: int) -> tuple[Values, Values | None]:
-        """Depth and height of the bed at a step."""
+    def read(self, step: int) -> Reading:
+        """What the file says of a step."""
         return self._series.read(step, self._rows, self._columns)
 
     def drawings(self, depth: Values, bed: Values | None, hmin: float, depths: Sequence[float]) -> list[Drawing]:

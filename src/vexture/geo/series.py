@@ -4,14 +4,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
 from itertools import pairwise
-from typing import Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.geo.extent import Bounds
 
-__all__ = ["Lattice", "Series", "Values", "box_around", "plausible"]
+__all__ = ["Lattice", "Reading", "Series", "Values", "box_around", "plausible"]
 
 Values = NDArray[np.float64]
 
@@ -20,6 +20,26 @@ FARTHEST: Final = 12_000.0
 
 MISSING: Final = (-999.0, -9999.0)
 """Fill values that files use without declaring them."""
+
+
+class Reading(NamedTuple):
+    """What a file says of one step, in metres and seconds: NaN where it is unknown, None what it has not at all.
+
+    `bed` is the height of the bed, `speed` that of the water.
+    """
+
+    depth: Values
+    bed: Values | None = None
+    speed: Values | None = None
+
+    def at(self, places: Any) -> "Reading":
+        """The values at some of the places."""
+        return Reading(*(None if values is None else values[places] for values in self))  # type: ignore[arg-type]
+
+    @property
+    def plausible(self) -> "Reading":
+        """With NaN in place of values that cannot be."""
+        return Reading(*(None if values is None else plausible(values) for values in self))  # type: ignore[arg-type]
 
 
 def plausible(values: Values) -> Values:
@@ -120,15 +140,15 @@ def _index(axis: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[np.
 class Series:
     """An open file of depths on a lattice, at one time or at several.
 
-    `read` gives depth and, if the file has it, height of the bed at a step, for a slice of rows and one of columns;
-    metres, NaN where unknown. `crs` is the reference system that the file names, if it names one.
+    `read` gives what the file says of a step, for a slice of rows and one of columns. `crs` is the reference system
+    that the file names, if it names one.
     """
 
     lattice: Lattice
     crs: str | None
     variable: str
     times: tuple[datetime | None, ...]
-    read: Callable[[int, slice, slice], tuple[Values, Values | None]]
+    read: Callable[[int, slice, slice], Reading]
 
     @property
     def box(self) -> Bounds:

@@ -9,7 +9,8 @@ from vexture.errors import LimitError, SourceError, reason_of
 from vexture.geo.mesh import MeshSeries
 from vexture.geo.netcdf import crs_of, points_east, times_of
 from vexture.geo.patch import Faces, counter_clockwise
-from vexture.geo.series import Values
+from vexture.geo.series import Reading
+from vexture.geo.speeds import speed_of
 from vexture.geo.variables import depths_of, has_depths, listed, loaded, refuse_layers, time_axis
 
 __all__ = ["MOST_FACES", "holds_mesh", "mesh_series", "name_of_mesh"]
@@ -73,8 +74,11 @@ def mesh_series(dataset: Any, time_dim: str | None, variable: str | None) -> Mes
     refuse_layers(dataset, name, (time, place))
     times = times_of(dataset, time)
 
-    def read(step: int) -> tuple[Values, Values | None]:
-        return depth({time: step}, (place,)), bed({time: step}, (place,)) if bed else None
+    speed = speed_of(dataset, name, (place,), time)
+
+    def read(step: int) -> Reading:
+        places, order = {time: step}, (place,)
+        return Reading(depth(places, order), *(one(places, order) if one else None for one in (bed, speed)))
 
     crs = crs_of(dataset, name, axes)
     return MeshSeries(nodes, counter_clockwise(nodes, faces), place == places[0], crs, name, times, read)

@@ -10,7 +10,17 @@ import numpy as np
 from vexture.errors import LimitError, ParameterError, SourceError, reason_of
 from vexture.geo.series import Values
 
-__all__ = ["depths_of", "has_depths", "listed", "loaded", "reader_of", "refuse_layers", "time_axis"]
+__all__ = [
+    "UNITS",
+    "depths_of",
+    "has_depths",
+    "known_as",
+    "listed",
+    "loaded",
+    "reader_of",
+    "refuse_layers",
+    "time_axis",
+]
 
 # fmt: off
 DEPTHS: Final = (
@@ -65,7 +75,7 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tupl
     read_bed = reader_of(dataset[bed], _sign(dataset, bed)) if bed is not None else None
     if variable is not None and variable not in candidates:
         raise ParameterError(f"there are no depths in {variable!r}; `variable` may be {listed(candidates)}")
-    level = _only(dataset, candidates, LEVELS)
+    level = known_as(dataset, candidates, LEVELS)
     chosen = _chosen(dataset, candidates, bed, level) if variable is None else variable
     is_level = chosen == level or (_is(dataset, chosen, LEVELS) and not _named(chosen, DEPTHS))
     if chosen == bed or (is_level and read_bed is None):
@@ -82,7 +92,7 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tupl
 def has_depths(dataset: Any, candidates: list[str]) -> bool:
     """Whether variables hold depths by their names, or a water level and the bed."""
     bed = _bed(dataset, candidates)
-    both = bed is not None and _only(dataset, candidates, LEVELS) is not None
+    both = bed is not None and known_as(dataset, candidates, LEVELS) is not None
     return both or any(_is(dataset, name, DEPTHS) for name in candidates if name != bed)
 
 
@@ -133,7 +143,7 @@ def _bed(dataset: Any, candidates: list[str]) -> str | None:
     """Variable of the heights of the bed, or of its depths below their zero."""
     described = [name for name in candidates if _is(dataset, name, DEPTHS) and _sounded(dataset, name)]
     known = BEDS[0] | SOUNDINGS[0], BEDS[1] | SOUNDINGS[1]
-    found = _only(dataset, candidates, known)
+    found = known_as(dataset, candidates, known)
     return described[0] if found is None and len(described) == 1 else found
 
 
@@ -160,7 +170,7 @@ def _standard(dataset: Any, name: str) -> str:
     return str(dataset[name].attrs.get("standard_name", "")).lower().removeprefix("maximum of ").replace(" ", "_")
 
 
-def _only(dataset: Any, candidates: list[str], known: tuple[set[str], set[str]]) -> str | None:
+def known_as(dataset: Any, candidates: list[str], known: tuple[set[str], set[str]]) -> str | None:
     """The variable with a usual name and the most times, or else with a standard name; None if several have.
 
     That of the level at the step before has the same standard name.

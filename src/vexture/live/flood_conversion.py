@@ -59,6 +59,7 @@ class FloodConversion:
         """Shape of one step that is in this frame, with its surface; `label` is its time as people read it."""
         from vexture.flood.depth_classes import class_drawing
         from vexture.flood.grids import deepest, depth_png
+        from vexture.flood.hazard import UNIT, hazard_png
 
         load_kernels()
         shape = converted(replace(step.drawing, name=name), name, WATER_PARAMETERS, time.perf_counter())
@@ -69,12 +70,16 @@ class FloodConversion:
         classes = class_drawing(step, self.depths, self.hmin, name)
         if classes is not None:
             views["classes"] = converted(classes, name, CLASS_PARAMETERS, time.perf_counter()).texture
+        hazard = hazard_png(step, self.relief.heights.shape[::-1], self.hmin)
+        if hazard is not None:
+            views["hazard"] = File(hazard, "image/png", ".png")
         level, level_facts = surface.encoded()
         views["level"] = File(level, "image/png", ".png")
         facts = {
             **shape.facts,
             "milliseconds": None,  # else two pages of one flood would differ
             "level": level_facts,
+            "hazard": None if hazard is None else {"unit": UNIT},
             "time": None if step.time is None else step.time.isoformat(),
             "label": label,
             "dry": self._is_dry(step),

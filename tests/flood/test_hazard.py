@@ -1,0 +1,99 @@
+"""Hazard of floods: the speeds that files hold beside their depths, and the ratings on the page."""
+
+import base64
+from io import BytesIO
+
+import numpy as np
+import pytest
+import xarray
+from floods import depths, flood, scene_of, series
+from PIL import Image
+
+from vexture.flood.hazard import HAZARDS, UNIT, hazard_png, rating
+from vexture.geo.depths import read_depths
+
+EDGES = (0.4, 0.8)
+DIMS = ("time", "y", "x")
+
+
+def run(path, **speeds):
+    """A file of depths with variables of speeds: dimensions, values that are spread over them, attributes."""
+    with xarray.open_dataset(series(path, EDGES), decode_cf=False) as dataset:
+        data = dataset.load()
+    for name, (dims, values, attributes) in speeds.items():
+        shape = [data.sizes.get(dim, 2) for dim in dims]
+        data[name] = (dims, np.broadcast_to(np.asarray(values, np.float32), shape).copy(), attributes)
+    data.to_netcdf(path)
+    return path
+
+
+def speeds_of(path):
+    return [step.speed for step in read_depths(path, path.name).steps]
+
+
+@pytest.mark.parametrize(
+    "variables",
+    [
+        {"ucmag": (DIMS, 1.5, {"units": "m s-1"})},
+        {"u": (DIMS, 0.9, {"units": "m/s"}), "v": (DIMS, -1.2, {"units": "m/s"})},
+        {"a": (DIMS, 90.0, {"units": "cm s-1", "standard_name": "eastward_sea_water_velocity"}),
+         "b": (DIMS, 120.0, {"units": "cm/s", "standard_name": "northward_sea_water_velocity"})},
+        {"speed": (("y", "time", "x"), -1.5, {})},
+    ],
+)  # fmt: skip
+def test_speeds_are_read_as_such_or_from_their_parts(variables, tmp_path):
+    for speed in speeds_of(run(tmp_path / "run.nc", **variables)):
+        np.testing.assert_allclose(speed, 1.5, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "variables",
+    [
+        {},
+        {"u": (DIMS, 0.9, {})},  # without the other part
+        {"speed": (("y", "x"), 0.9, {})},  # the greatest of all times
+        {"speed": (("time", "layer", "y", "x"), 0.9, {})},
+        {"u": (("time", "y", "edge"), 0.9, {}), "v": (("time", "edge", "x"), 0.9, {})},
+    ],
+)
+def test_speeds_of_other_places_times_and_layers_are_left_out(variables, tmp_path):
+    assert speeds_of(run(tmp_path / "run.nc", **variables)) == [None, None]
+
+
+def test_what_is_no_speed_is_unknown(tmp_path):
+    parts = {"u": (DIMS, -999.0, {}), "v": (DIMS, 1.0, {})}
+    assert not np.isfinite(speeds_of(run(tmp_path / "run.nc", **parts))).any()
+
+
+def test_the_page_has_the_rating_of_each_step(tmp_path):
+    path = run(tmp_path / "run.nc", speed=(DIMS, 1.5, {"units": "m s-1"}))
+    assert flood("--extent", path, "--time-dim", "time", "-o", tmp_path / "page.html").returncode == 0
+    told = scene_of(tmp_path / "page.html")["flood"]
+    assert [(one["from"], one["color"]) for one in told["hazards"]] == [(one.least, one.color) for one in HAZARDS]
+    size = told["relief"]["columns"], told["relief"]["rows"]
+    for step, edge in zip(told["steps"], EDGES, strict=True):
+        assert step["facts"]["hazard"] == {"unit": UNIT}
+        with Image.open(BytesIO(base64.b64decode(step["views"]["hazard"].partition(",")[2]))) as picture:
+            assert picture.size == size
+            numbers = np.asarray(picture).astype(float)
+        row = numbers[size[1] // 2]
+        wanted = rating(depths(edge)[0], np.array(1.5))  # 40 cells to a row
+        for cell in (2, 8, 14):
+            near = row[round(size[0] * (cell + 0.5) / 40)]
+            assert (near - 1.0) * UNIT == pytest.approx(min(wanted[cell], 2.54), abs=0.06)
+        assert row[-10] == 0.0  # dry
+
+
+def test_without_speeds_there_is_no_rating(tmp_path):
+    path = series(tmp_path / "run.nc", EDGES)
+    assert flood("--extent", path, "--time-dim", "time", "-o", tmp_path / "page.html").returncode == 0
+    for step in scene_of(tmp_path / "page.html")["flood"]["steps"]:
+        assert "hazard" not in step["views"]
+        assert step["facts"]["hazard"] is None
+
+
+def test_a_step_that_is_dry_or_has_no_known_speed_has_no_picture(tmp_path):
+    (step, _) = read_depths(run(tmp_path / "run.nc", speed=(DIMS, np.nan, {})), "run.nc").steps
+    assert hazard_png(step, (40, 20), 0.01) is None
+    (step, _) = read_depths(run(tmp_path / "run.nc", speed=(DIMS, 1.0, {})), "run.nc").steps
+    assert hazard_png(step, (40, 20), 50.0) is None
