@@ -72,7 +72,7 @@ def test_times_of_arrival(opened_flood: Callable[..., Page]) -> None:
 def test_hazard_is_the_greatest_of_all_steps(
     opened_flood: Callable[..., Page], screenshot: Callable[..., Path]
 ) -> None:
-    """Seen at the first step, each pixel has the colour of the last, highest one, but those near a border of classes."""
+    """Seen at the first step, each pixel is coloured by the last, highest one, but those near a border of classes."""
     page = opened_flood("series", (740, 560), "?bare")
     page.evaluate("vexture.flood.relief(0)")
     view(page, "Plan")
