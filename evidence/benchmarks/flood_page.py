@@ -20,7 +20,8 @@ from vexture.drawing import Drawing
 from vexture.renderers.exact import render_exact
 
 __all__ = [
-    "PRESETS", "SIZE", "Made", "first_picture", "frame_times", "look", "made", "mask_of", "opened", "rastered",
+    "PATIENCE", "PRESETS", "SIZE", "Made", "content", "first_picture", "frame_times", "look", "made", "mask_of", "opened",
+    "rastered", "scene_of",
 ]  # fmt: skip
 
 SIZE: Final = (960, 540)
@@ -149,10 +150,16 @@ def made(folder: Path) -> Made:
     flood, ground = example()(folder)
     page = folder / "flood.html"
     export(FloodOptions(flood, time_dim="time", ground=ground, title="Santa Cruz"), page, None, lambda line: None, iter)
+    extent = read_extent(flood, flood.name, time_dim="time")
+    return Made(page, scene_of(page), [step.drawing for step in extent.steps])
+
+
+def scene_of(page: Path) -> dict[str, Any]:
+    """Data of the flood in an exported page."""
     found = re.search(r'<script type="application/json" id="vexture-scene">(.*?)</script>', page.read_text(), re.S)
     assert found is not None
-    extent = read_extent(flood, flood.name, time_dim="time")
-    return Made(page, json.loads(found[1])["flood"], [step.drawing for step in extent.steps])
+    scene: dict[str, Any] = json.loads(found[1])["flood"]
+    return scene
 
 
 @contextmanager

@@ -303,3 +303,19 @@ def test_new_steps_of_a_server_become_steps(open_page: Callable[..., Any], tmp_p
         server.put("flood%2F11", texture(9.0))
         expect(slider).to_have_attribute("aria-valuetext", "flood/11, step 4 of 4")  # it follows at the end
         assert flat(page)[..., 0].mean() > 1.02 * before
+
+
+def test_ground_has_a_grain_where_its_picture_has_no_more_to_show(
+    opened_flood: Callable[..., Page], screenshot: Callable[..., Path]
+) -> None:
+    """Next to the eye its colours differ from pixel to pixel; those of the picture alone do so by 0.04."""
+    page = opened_flood("single", WIDE, "?bare")
+    page.evaluate("vexture.flood.freeze(0)")
+    view(page, "Beach")
+    at_rest = np.asarray(Image.open(screenshot(page, "beach")).convert("L")).astype(float)
+    ground = flat(page)[..., 0] == 0
+    page.evaluate("vexture.flood.flat(false)")
+    near = ground & (np.arange(WIDE[1])[:, None] > 0.75 * WIDE[1])
+    assert near.sum() > 10_000
+    change = np.abs(np.diff(at_rest, axis=1))[near[:, 1:] & near[:, :-1]]
+    assert change.mean() > 0.5

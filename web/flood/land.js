@@ -3,6 +3,7 @@ import {
   BufferAttribute, BufferGeometry, FrontSide, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial,
 } from 'three';
 import { earthTexture } from './canvas-textures.js';
+import { addGrain } from './grain.js';
 
 /** @typedef {import('./relief.js').Surface} Surface */
 
@@ -119,6 +120,7 @@ export class Land {
   constructor(surface, picture) {
     this.#surface = surface;
     this.#material = new MeshLambertMaterial(picture ? { map: picture } : { color: 0xcbb58a });
+    if (picture) addGrain(this.#material);
     /** @type {Mesh<BufferGeometry, import('three').Material>} */
     this.mesh = new Mesh(gridGeometry(surface, surface.relief.heights), this.#material);
     this.mesh.rotation.x = -Math.PI / 2;
