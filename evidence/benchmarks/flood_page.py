@@ -20,8 +20,8 @@ from vexture.drawing import Drawing
 from vexture.renderers.exact import render_exact
 
 __all__ = [
-    "PATIENCE", "PRESETS", "SIZE", "Made", "content", "first_picture", "frame_times", "look", "made", "mask_of", "opened",
-    "rastered", "scene_of",
+    "PATIENCE", "PRESETS", "SIZE", "Made", "content", "first_picture", "frame_times", "look", "made", "mask_of",
+    "opened", "rastered", "scene_of",
 ]  # fmt: skip
 
 SIZE: Final = (960, 540)

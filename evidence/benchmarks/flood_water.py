@@ -4,10 +4,10 @@
 
 The four scenes of the examples, from every view of their pages, as the water is at first, at its highest and on the way
 down. What must be water is found without the page: rays of its camera meet the bed and the levels of the data, cell by
-cell; places nearer to a shore than the page's samples of heights are left out, and what is next to them in the picture.
+cell; left out are places nearer to a shore than the page's samples of heights, and what is next to them in the picture.
 There, two pictures must show water. In the flat one, of white water and black ground, all that is not white is bed,
-sky or a hole. In the other, the ground under water is magenta and the water lets nothing through: all that is magenta is
-bed that is seen or mirrored.
+sky or a hole. In the other, the ground under water is magenta and the water lets nothing through: all that is magenta
+is bed that is seen or mirrored.
 """
 
 import argparse
