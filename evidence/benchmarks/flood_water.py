@@ -6,8 +6,8 @@ The four scenes of the examples, from every view of their pages, as the water is
 down. What must be water is found without the page: rays of its camera meet the bed and the levels of the data, cell by
 cell; left out are places nearer to a shore than the page's samples of heights, and what is next to them in the picture.
 There, two pictures must show water. In the flat one, of white water and black ground, all that is not white is bed,
-sky or a hole. In the other, the ground under water is magenta and the water lets nothing through: all that is magenta
-is bed that is seen or mirrored.
+sky or a hole. In the other, the ground well under water is magenta and the water lets nothing through: all that is
+magenta is bed that is seen or mirrored.
 """
 
 import argparse
@@ -213,8 +213,12 @@ def must_be_water(scene: Any, step: int, camera: dict[str, Any]) -> Mask:
         low, high = np.where(over, middle, low), np.where(over, high, middle)
     place = begin + along * high[..., None]
     s, t = place[..., 0] / camera["width"] + 0.5, 0.5 - place[..., 2] / camera["depth"]
-    reach = max(1, round(AWAY * max(bed.shape) / SAMPLES))
-    return eroded(met & (at(eroded(wet, reach).astype(float), s, t) > 0.999), BESIDE)
+    return eroded(met & (at(eroded(wet, reach_of(scene)).astype(float), s, t) > 0.999), BESIDE)
+
+
+def reach_of(scene: Any) -> int:
+    """Cells around each place that must be wet, too."""
+    return max(1, round(AWAY * max(scene.bed.shape) / SAMPLES))
 
 
 def eroded(mask: Mask, reach: int) -> Mask:
@@ -233,8 +237,8 @@ def counts(browser: Any, name: str, folder: Path, keep: Path | None = None) -> I
     views = ["Plan", "Overview", *(view["name"] for view in told["views"])]
     with opened(browser, page) as shown:
         for step, level in enumerate(scene.levels):
-            under = (level - scene.bed > WET)[::-1, :, None]
-            ground = np.where(under, (255, 0, 255, 255), (*DRY, 255)).astype(np.uint8)
+            under = eroded(level - scene.bed > WET, 2 * reach_of(scene))
+            ground = np.where(under[::-1, :, None], (255, 0, 255, 255), (*DRY, 255)).astype(np.uint8)
             rows, columns = ground.shape[:2]
             shown.evaluate("(step) => vexture.flood.step(step)", step)
             shown.evaluate(PAINT, [base64.b64encode(ground.tobytes()).decode(), columns, rows])

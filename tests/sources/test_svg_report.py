@@ -21,8 +21,8 @@ SAID = {
     "border-radius of the outermost <svg>, box-shadow of the outermost <svg>, padding of the outermost <svg>",
     "clip-path": "left out: clip-path 'shape(from 0 0, line to 9px 9px)'",
     "clip-path-elsewhere": "left out: clip-path 'circle(9px)', clip-path 'inset(5px)', clip-path 'inset(4px)'",
-    "at-rules": 'left out: media="(depth: 3)" of <style>, @container, @media (moon: full), a CSS selector that'
-    " cannot be read",
+    "at-rules": "left out: media=\"(depth: 3)\" of <style>, @container, @media (moon: full), CSS selector 'a !! b',"
+    " which cannot be read",
     "external-use": "left out: <use> of 'other.svg#a', which is not in the drawing",
     "event-attribute": "left out: script (2)",
     "filter": "left out: filter of blur",
@@ -45,6 +45,8 @@ SAID = {
     "marker": "left out: marker-start 'url(#none)', marker-start that refers to itself, of <marker id=\"c\"> in line 2;"
     " invalid and ignored: markerWidth='-3' of <marker id=\"c\"> in line 2",
     "mask": "left out: mask 'url(stars.svg#m)'",
+    "mask-of-outermost": "left out: @media (min-width: 1e400px); "
+    "simplified: clip-path of the outermost <svg> read in the units of its content",
     "mask-of-layers": "left out: mask 'url(#m), linear-gradient(black, transpar'",
     "motion-path": "left out: offset-path",
     "missing-paint": "left out: paint '#none', which is not in the drawing (2)",
@@ -80,7 +82,7 @@ ABOUT = {
         ("left out", 'media="(depth: 3)" of <style>', [("s", None)]),
         ("left out", "@container", [("t", None)]),
         ("left out", "@media (moon: full)", [("t", None)]),
-        ("left out", "a CSS selector that cannot be read", [("t", None)]),
+        ("left out", "CSS selector 'a !! b', which cannot be read", [("t", None)]),
     ],
     "perspective": [("left out", "perspective", [("b", (0, 0.91 + 0.09 * (1 - 0.5**0.5), 0.09, 1))])],
     "variable-missing": [

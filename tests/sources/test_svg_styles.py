@@ -49,7 +49,7 @@ def test_rings_that_share_a_property_have_no_value(tmp_path: Path) -> None:
 def test_nested_rules_that_multiply_are_named(tmp_path: Path) -> None:
     style = "<style>path" + " { &amp; + &amp;" * 40 + " { fill: red }" + " }" * 40 + "</style>"
     drawing = read_quietly(tmp_path, style + SQUARE)
-    assert [str(note) for note in drawing.notes] == ["a CSS selector that cannot be read"]
+    assert [str(note) for note in drawing.notes] == ["CSS selector '& + &', which cannot be read"]
 
 
 def test_a_shorthand_that_is_not_valid_is_named(tmp_path: Path) -> None:

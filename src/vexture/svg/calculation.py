@@ -30,6 +30,9 @@ LONGEST: Final = 1_000
 
 CONSTANTS: Final = {"e": math.e, "pi": math.pi, "infinity": math.inf, "-infinity": -math.inf, "nan": math.nan}
 
+INFINITE: Final = 1e9
+"""What is written for infinity, which has no text of its own outside calculations."""
+
 ANGLES: Final = {"deg": 1.0, "grad": 0.9, "rad": 180.0 / math.pi, "turn": 360.0}
 """Degrees of each unit."""
 
@@ -133,7 +136,10 @@ def sample(token: Any) -> str | None:
 def result(token: Any) -> str | None:
     """Text for a calculation, as in `reduced`; None if it is not valid."""
     found = attempt(token, lambda value, unit: Quantity(value, PERCENT) if unit == "%" else None)
-    return None if found is None else f"{0.0 if math.isnan(found.value) else found.value!r}{UNITS[found.kind]}"
+    if found is None:
+        return None
+    value = 0.0 if math.isnan(found.value) else min(max(found.value, -INFINITE), INFINITE)
+    return f"{value!r}{UNITS[found.kind]}"
 
 
 def attempt(token: Any, resolve: Resolve) -> Quantity | None:
@@ -329,8 +335,8 @@ def rounded(rule: Callable[[float], float], values: list[Quantity]) -> Quantity:
 MATH: Final[dict[str, Function | None]] = {
     "calc": same(lambda value: value, 1, 1),
     "-webkit-calc": same(lambda value: value, 1, 1),
-    "min": same(min),
-    "max": same(max),
+    "min": same(lambda *values: min(values)),
+    "max": same(lambda *values: max(values)),
     "clamp": None,
     "round": lambda values: rounded(ROUNDINGS["nearest"], values),
     "mod": same(lambda a, b: a % b, 2, 2),

@@ -72,6 +72,8 @@ def read_color(text: str, current: Color | None) -> Color | str | None:
         return SYSTEM.get(token.lower_value)
     if parsed is None or parsed.space not in ("srgb", "hsl", "hwb"):
         return None if token.type != "function" else read_function(token, text, current)
+    if token.type == "function" and parsed.space == "hsl" and not is_hsl(token):
+        return None
     if parsed.space == "hsl":  # its saturation and lightness are clamped before they are converted, as browsers do
         hue, *parts = parsed.coordinates
         parts = [min(max(part or 0.0, 0.0), 100.0) for part in parts]
@@ -89,6 +91,12 @@ def read_function(token: Any, text: str, current: Color | None) -> Color | str |
     if found is None:
         return None
     return text if current is None and CURRENT in text.lower() else clipped(*found)
+
+
+def is_hsl(token: Any) -> bool:
+    """Whether a function `hsl()` is valid: between commas, its saturation and lightness are percentages."""
+    parts = [part for part in token.arguments if part.type not in ("whitespace", "comment")]
+    return "," not in parts or all(part.type == "percentage" for part in parts[2:5:2])
 
 
 def clipped(red: float | None, green: float | None, blue: float | None, alpha: float) -> Color:

@@ -20,10 +20,10 @@ from vexture.svg.shapes import Shape, shape_outlines
 from vexture.svg.space import Place, Placed, Space
 from vexture.svg.style import Cascade, Style
 from vexture.svg.transform import Identity, Transform
-from vexture.svg.viewport import Rectangle
+from vexture.svg.viewport import Rectangle, view_box
 from vexture.tolerance import ROUND
 
-__all__ = ["MASKING", "Measured", "add_masks"]
+__all__ = ["MASKING", "Measured", "add_masks", "note_outer_units"]
 
 MASKING: Final = {"clip-path": "clipPath", "mask": "mask"}
 """The properties that mask an element, and the elements to which they refer."""
@@ -68,6 +68,16 @@ def add_masks(
             place, more = add_mask(scene, element, target, place)
             shown += more
     return place, shown
+
+
+def note_outer_units(scene: Measured, root: etree._Element, style: Style, size: tuple[float, float] | None) -> None:
+    """Note clips and masks of the outermost element, of a size, whose units browsers take for pixels."""
+    box = view_box(root.get("viewBox", ""))
+    if size is None or box is None or box[2:] == size:
+        return
+    for name in MASKING.keys() & style.own.keys():
+        if style[name].lower() != "none":
+            scene.report.simplified(f"{name} of the outermost <svg> read in the units of its content", root)
 
 
 def shape_of(scene: Measured, element: etree._Element, place: Place) -> etree._Element | None:

@@ -9,9 +9,9 @@ from typing import Any, Final
 import tinycss2
 
 from vexture.svg.calculation import separated
-from vexture.svg.values import INITIAL_SIZE, Viewport, number
+from vexture.svg.values import INITIAL_SIZE, TooLargeError, Viewport, number
 
-__all__ = ["Medium", "condition"]
+__all__ = ["Answer", "Medium", "condition", "shown", "word"]
 
 TYPES: Final = {"all": True, "screen": True, "print": False, "speech": False}
 
@@ -109,10 +109,13 @@ class Medium:
     height: float
 
     def holds(self, queries: list[Any]) -> Answer:
-        """Whether one of some media queries holds; an empty list does."""
+        """Whether one of some media queries holds; an empty list does. A number that is too large is not known."""
         if not shown(queries):
             return True
-        answers = [self.query(shown(query)) for query in separated(queries)]
+        try:
+            answers = [self.query(shown(query)) for query in separated(queries)]
+        except TooLargeError:
+            return None
         return True if True in answers else None if None in answers else False
 
     def query(self, tokens: list[Any]) -> Answer:

@@ -26,7 +26,7 @@ from vexture.svg.filters import HIDING, filter_named
 from vexture.svg.images import Images, image_sides, paint_image
 from vexture.svg.links import reference
 from vexture.svg.markers import has_markers, markers
-from vexture.svg.masks import MASKING, add_masks
+from vexture.svg.masks import MASKING, add_masks, note_outer_units
 from vexture.svg.names import ElementNames
 from vexture.svg.outline import Outline
 from vexture.svg.paint_servers import PaintServers
@@ -138,6 +138,7 @@ class Scene:
         place = replace(place, space=self.space_inside(around, content, size))
         if opacity < 1.0 or place.outer is not None or not MASKING.keys().isdisjoint(self.style.own):
             place = replace(place, veil=Veil(place.veil, opacity))  # a blend mode has nothing to mix with here
+        note_outer_units(self, self.root, self.style, size)
         place, stack = add_masks(self, self.root, place)
         color = parse_color(self.style["background-color"])
         background = self.servers.flat(color, self.style)

@@ -8,7 +8,9 @@ import cssselect2
 import tinycss2
 from lxml import etree
 
+from vexture.errors import shortened
 from vexture.svg.calculation import separated
+from vexture.svg.css_names import is_other_property
 from vexture.svg.declarations import (
     Declaration,
     canonical,
@@ -19,7 +21,7 @@ from vexture.svg.declarations import (
     tokens,
 )
 from vexture.svg.keyframes import KEYFRAMES, Keyframes, read_keyframes
-from vexture.svg.media import Answer, Medium, condition, shown
+from vexture.svg.media import Answer, Medium, condition, shown, word
 from vexture.svg.properties import PROPERTIES
 from vexture.svg.report import Report
 from vexture.svg.select import Node
@@ -32,11 +34,18 @@ UNREADABLE = (cssselect2.SelectorError, SyntaxError, AttributeError, NotImplemen
 LONGEST: Final = 20_000
 """Characters of a selector with those of the rules around it, which multiply where `&` is nested."""
 
+LONGEST_NAMED: Final = 60
+"""Characters of what a note names."""
+
 PARENT: Final = "&"
+
+FORGIVING: Final = frozenset({"is", "where", "matches", "-webkit-any"})
+NOTHING: Final = tinycss2.parse_component_value_list(":not(*)")
+"""A selector that nothing matches."""
 
 COMBINATORS: Final = (">", "+", "~")
 
-SILENT: Final = frozenset({"charset", "namespace"})
+SILENT: Final = frozenset({"charset"})
 """At-rules that change nothing."""
 
 Layer = tuple[str, ...]
@@ -68,6 +77,7 @@ class Sheets:
         self.keyframes: dict[str, Keyframes] = {}
         self.wrappers: dict[etree._Element, Any] = {}
         self.layers: dict[Layer, int] = {(): 0}  # in order of appearance
+        self.prefixes = dict[str, str]()  # of namespaces
         sheets = [element for element in root.iter("{*}style") if element.text]
         if not sheets:
             return
@@ -118,11 +128,19 @@ class Sheets:
                 raise SyntaxError
             if copies:
                 text = nested(rule.prelude, parent, around is not None)
-            selectors = cssselect2.compile_selector_list(text)
+            selectors = self.compiled(text)
         except UNREADABLE:
-            self.report.left_out("a CSS selector that cannot be read", self.element)
+            self.report.left_out(f"CSS selector '{spelled(rule.prelude)}', which cannot be read", self.element)
             return
         self.add_block(rule.content, layer, Around(selectors, text))
+
+    def compiled(self, text: str) -> list[Any]:
+        """Selectors of a list; unknown ones in `:is()` and `:where()` match nothing (Selectors 4, 4.2)."""
+        try:
+            return list(cssselect2.compile_selector_list(text, self.prefixes))
+        except cssselect2.SelectorError:
+            forgiven = forgiving(tinycss2.parse_component_value_list(text), self.prefixes)
+            return list(cssselect2.compile_selector_list(forgiven, self.prefixes))
 
     def add_block(self, content: Any, layer: Layer, around: Around) -> None:
         """Add what a block says of the elements of a style rule, and the rules in it."""
@@ -160,17 +178,28 @@ class Sheets:
             if self.holds(rule.prelude, "@media {}"):
                 self.add_content(rule.content, layer, around)
         elif name == "supports" and rule.content is not None:
-            if condition(shown(rule.prelude), supported):
+            answer = condition(shown(rule.prelude), supported)
+            if answer:
                 self.add_content(rule.content, layer, around)
+            elif answer is None:
+                self.report.left_out(f"@supports {spelled(rule.prelude)}", self.element)
+        elif name == "namespace":
+            self.add_namespace(rule)
         elif name not in SILENT:
             self.report.left_out(f"@{name[:40]}", self.element)
+
+    def add_namespace(self, rule: Any) -> None:
+        """Remember the prefix of a namespace; one without a prefix is that of the drawing, or else of nothing in it."""
+        prefix, *values = shown(rule.prelude) or [None]
+        if values and prefix.type == "ident":
+            value = values[0]
+            self.prefixes[prefix.value] = value.arguments[0].value if value.type == "function" else value.value
 
     def holds(self, queries: list[Any], said: str) -> bool:
         """Whether media queries hold; those that are not known are named."""
         answer = self.medium.holds(queries)
         if answer is None:
-            text = " ".join(tinycss2.serialize(queries).split())
-            self.report.left_out(said.format(text[:60]), self.element)
+            self.report.left_out(said.format(spelled(queries)), self.element)
         return answer is True
 
     def add_content(self, content: list[Any], layer: Layer, around: Around | None) -> None:
@@ -198,6 +227,15 @@ def declarations(content: Any) -> Iterator[Declaration]:
         yield from read_declaration(name, value, important)
 
 
+def spelled(tokens: list[Any]) -> str:
+    """The begin of some tokens, for a note."""
+    try:
+        text = str(tinycss2.serialize(tokens))
+    except RecursionError:
+        text = "..."
+    return shortened(" ".join(text.split()), LONGEST_NAMED)
+
+
 def nested(prelude: list[Any], around: str, is_relative: bool) -> str:
     """Selector of a rule inside another one, whose selector is `around` (CSS Nesting 1)."""
     found = list[str]()
@@ -206,6 +244,20 @@ def nested(prelude: list[Any], around: str, is_relative: bool) -> str:
         bare = PARENT not in tinycss2.serialize(part) or text.startswith(COMBINATORS)
         found.append(f":is({around}) {text}" if is_relative and bare else text)
     return ", ".join(found)
+
+
+def forgiving(tokens: list[Any], prefixes: dict[str, str]) -> list[Any]:
+    """Tokens of a selector without what is unknown in its functions `:is()` and `:where()`."""
+    found = list[Any]()
+    for token in tokens:
+        if token.type == "function" and token.lower_name in FORGIVING:
+            parts = [forgiving(part, prefixes) for part in separated(token.arguments)]
+            known = [part for part in parts if is_selector(part, prefixes)] or [NOTHING]
+            text = ",".join(str(tinycss2.serialize(part)) for part in known)
+            found += tinycss2.parse_component_value_list(f"{token.name}({text})")
+        else:
+            found.append(token)
+    return found
 
 
 def with_parent(prelude: list[Any], around: str) -> str:
@@ -222,27 +274,29 @@ def with_parent(prelude: list[Any], around: str) -> str:
 
 
 def supported(token: Any) -> Answer:
-    """Whether a condition of `@supports` holds: a declaration that is known here, or a selector."""
+    """Whether a condition of `@supports` holds: a declaration or a selector, as browsers know them."""
     if token.type == "function":
-        return token.lower_name == "selector" and is_selector(token.arguments)
+        return is_selector(token.arguments) if token.lower_name == "selector" else None
     if token.type != "() block":
         return None
     inside = shown(token.content)
-    if inside and (inside[0].type in ("() block", "function") or inside[0] == "not"):
+    if inside and (inside[0].type in ("() block", "function") or word(inside[0]) == "not"):
         return condition(inside, supported)
     name, colon, value = (part.strip() for part in tinycss2.serialize(token.content).partition(":"))
     if not colon:
         return None
     if name.startswith("--"):
         return True
-    name = canonical(name)
-    pairs = [*expanded(name, value)] if longhands(name) else []
+    known = canonical(name)
+    if not longhands(known):
+        return is_other_property(name.lower())  # its value is taken for one of those that it may have
+    pairs = [*expanded(known, value)]
     return bool(pairs) and all(PROPERTIES[longhand].allows(part) for longhand, part in pairs)
 
 
-def is_selector(arguments: list[Any]) -> bool:
+def is_selector(arguments: list[Any], prefixes: dict[str, str] | None = None) -> bool:
     """Whether tokens are a selector that is known here."""
     try:
-        return len(cssselect2.compile_selector_list(arguments)) == 1
+        return len(cssselect2.compile_selector_list(arguments, prefixes)) == 1
     except UNREADABLE:
         return False

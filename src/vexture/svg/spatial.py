@@ -50,8 +50,15 @@ def element_transform(values: Mapping[str, str], length: Length) -> tuple[Transf
         else:
             matrix = lifted(one) if isinstance(one, Transform) else one
             product = matrix if product is None else np.einsum("ij,jk->ik", product, matrix)
-    flat, deep = (Identity, False) if product is None else seen(product)
+    flat, deep = (Identity, False) if product is None else seen(about_depth(product, values, length))
     return flat, invalid, deep
+
+
+def about_depth(matrix: Spatial, values: Mapping[str, str], length: Length) -> Spatial:
+    """A map about the third part of `transform-origin`; the other two move what is seen as they move the plane."""
+    parts = words(values.get("transform-origin", ""))
+    depth = length(parts[2], 0) if len(parts) == 3 else None
+    return np.einsum("ij,jk,kl->il", moved(0.0, 0.0, depth), matrix, moved(0.0, 0.0, -depth)) if depth else matrix
 
 
 def property_transform(name: str, text: str, length: Length) -> Spatial | None:

@@ -30,6 +30,8 @@ NOT_SUPPORTED = re.compile(
 )
 """Functions of CSS that are not read."""
 
+BACK = "revert-layer"
+
 SPACE_MODES = {"default": "normal", "preserve": "pre"}
 """What `xml:space` says, as the value of `white-space` that browsers give it."""
 
@@ -186,16 +188,26 @@ class Cascade:
 
     def declared(self, element: etree._Element) -> list[Declaration]:
         """What the style sheets and the `style` attribute declare, in rising precedence (CSS Cascade 5, 6.1)."""
-        text = element.get("style")
+        text = element.get("style", "")
         own = [*read_style(text)] if text else []
-        if not self.sheets.has_layers:
-            found = [one for _, one in self.sheets.declared(element)] + own
+        ruled = [*self.sheets.declared(element)]
+        if not self.sheets.has_layers and not any(one.value.lower() == BACK for _, one in ruled) and BACK not in text:
+            found = [one for _, one in ruled] + own
             return sorted(found, key=attrgetter("important")) if any(one.important for one in found) else found
-        ranked = [
-            ((one.important, -rank if one.important else rank), one) for rank, one in self.sheets.declared(element)
-        ]
+        ranked = [((one.important, -rank if one.important else rank), one) for rank, one in ruled]
         ranked += [((one.important, inf), one) for one in own]
-        return [one for _, one in sorted(ranked, key=itemgetter(0))]  # stable
+        return rolled_back(sorted(ranked, key=itemgetter(0)))  # stable
+
+
+def rolled_back(ranked: list[tuple[tuple[bool, float], Declaration]]) -> list[Declaration]:
+    """Declarations without those that are rolled back to what layers before theirs say (CSS Cascade 5, 7.3.5)."""
+    found = list[tuple[tuple[bool, float], Declaration]]()
+    for key, one in ranked:
+        if one.value.lower() == BACK:
+            found = [(other, each) for other, each in found if other != key or each.name != one.name]
+        else:
+            found.append((key, one))
+    return [one for _, one in found]
 
 
 def absolute(color: str, parent: Style) -> str:

@@ -62,9 +62,9 @@ TURN = {"": pi / 180, "deg": pi / 180, "grad": pi / 200, "rad": 1.0, "turn": 2 *
 
 KEYWORDS: Final = {"left": "0%", "top": "0%", "center": "50%", "right": "100%", "bottom": "100%"}
 
-WITH_UNIT = rf"{NUMBER}(?:[a-zA-Z]++|%)?+"
-ARGUMENT = re.compile(WITH_UNIT)
-FUNCTION = re.compile(rf"{GAP}([a-zA-Z]++){SPACE}\({SPACE}({WITH_UNIT}(?:{GAP}{WITH_UNIT})*+){SPACE}\){SPACE}")
+ARGUMENT = re.compile(NUMBER)
+FUNCTION = re.compile(rf"{GAP}([a-zA-Z]++){SPACE}\({SPACE}({NUMBER}(?:{GAP}{NUMBER})*+){SPACE}\){SPACE}")
+"""In attributes, arguments have no units."""
 WRITTEN_ANGLE = re.compile(rf"({NUMBER})([a-zA-Z]*)")
 
 Length = Callable[[str, int], float | None]
