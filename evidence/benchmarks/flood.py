@@ -74,9 +74,9 @@ def edge_part(browser: Any, made: Made, quick: bool) -> tuple[list[Target], Fact
         rest = edges(page, made, STEP)
         moving = motion(page, made, STEP, presets, frames)
     known = [one for one in moving.values() if one]
-    reached = [Target(f"edge at rest, MAE of {preset}, 1/255", value, 3.0, 1.5) for preset, value in rest.items()]
+    reached = [Target(f"edge at rest, MAE of {preset}, 1/255", value, 1.0, 0.3) for preset, value in rest.items()]
     reached += [
-        Target(f"edge in motion, p99 of {preset}, 1/255", one and one["p99"], 8.0, 4.0)
+        Target(f"edge in motion, p99 of {preset}, 1/255", one and one["p99"], 5.0, 3.0)
         for preset, one in moving.items()
     ]
     rows = [
