@@ -36,6 +36,15 @@ def marked(under: str, *places: tuple[float, float, float], scale: float = 0.9, 
     return under + "".join(f'<g transform="{transform}">{arrow}</g>' for transform in turned)
 
 
+def graded(line: str, *stops: tuple[float, str], kind: str = "linear") -> str:
+    """A page that a gradient fills, and a disc on it."""
+    ramp = "".join(f'<stop offset="{offset}" stop-color="{color}"/>' for offset, color in stops)
+    return (
+        f'<{kind}Gradient id="g" gradientUnits="userSpaceOnUse" {line}>{ramp}</{kind}Gradient>'
+        '<path fill="url(#g)" d="M0 0h100v100h-100z"/><circle cx="50" cy="50" r="20" fill="#204080"/>'
+    )
+
+
 def box(x: float = 20, width: float = 40, fill: str = "#208040") -> str:
     """The rectangle of the animated fixtures."""
     return f'<rect x="{x}" y="30" width="{width}" height="30" fill="{fill}"/>'
@@ -118,6 +127,22 @@ PLAINER = {
     "masks/with-prefixes": '<path d="M50 20a30 30 0 0 0 0 60z"/>',
     "style/escaped-link": '<path d="M10 10h30v30h-30z" fill="#208040"/><path d="M50 10h30v30h-30z" fill="#fc8"/>',
     "masks/mask-image": '<circle cx="50" cy="50" r="30"/>',
+    "background/gradient": graded('y1="0" x2="0" y2="100"', (0, "#fc8"), (1, "#8cf")),
+    "background/gradient-to-side": graded(
+        'x2="100"', (0.2, "#fc8"), (0.6, "#8cf"), (0.6, "#404"), (0.8, "#404"), (1, "#484")
+    ),
+    "background/gradient-repeats": graded(
+        'y1="100" x2="14.142136" y2="85.857864" spreadMethod="repeat"',
+        *((0, "#fc8"), (0.5, "#fc8"), (0.5, "#8cf"), (1, "#8cf")),
+    ),
+    "background/gradient-radial": graded(
+        'cx="40" cy="30" r="30"', (0, "#fc8"), (0.5, "#8cf"), (1, "#404"), kind="radial"
+    ),
+    "background/gradient-of-rings": graded(
+        'cx="0" cy="0" r="36" fr="4" spreadMethod="repeat" gradientTransform="translate(50 50) scale(1 0.5)"',
+        *((0, "#fc8"), (0.625, "#8cf"), (1, "#fc8")),
+        kind="radial",
+    ),
     "background/shorthand": f'<path fill="#fc8" d="M0 0h100v100h-100z"/>{BALL}',
     "background/is-no-attribute": BALL,
     "background/fades": f'<g opacity="0.5"><path fill="#fc8" d="M0 0h100v100h-100z"/>{BALL}</g>',

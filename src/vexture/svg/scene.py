@@ -19,10 +19,11 @@ from vexture.drawing import FillRule, Path
 from vexture.errors import SourceError
 from vexture.group import Group
 from vexture.svg.animation import ANIMATIONS
-from vexture.svg.colors import parse_color
 from vexture.svg.compositing import Veil, grouped, veil_of
+from vexture.svg.css_gradients import background_of
 from vexture.svg.document import HTML, applies, local_name
 from vexture.svg.filters import HIDING, filter_named
+from vexture.svg.gradients import rows
 from vexture.svg.images import Images, image_sides, paint_image
 from vexture.svg.links import reference
 from vexture.svg.markers import has_markers, markers
@@ -140,11 +141,10 @@ class Scene:
             place = replace(place, veil=Veil(place.veil, opacity))  # a blend mode has nothing to mix with here
         note_outer_units(self, self.root, self.style, size)
         place, stack = add_masks(self, self.root, place)
-        color = parse_color(self.style["background-color"])
-        background = self.servers.flat(color, self.style)
-        if background is not None and background.opacity > 0.0 and place.chosen and frame is not None:
-            whole = [Outline.rectangle(*frame).loop]
-            painter.add(whole, replace(place, space=around), FillRule.NONZERO, background, place.name)
+        if place.chosen and frame is not None:
+            whole, into = [Outline.rectangle(*frame).loop], rows(around.whole.inverse())
+            for paint in background_of(self.style, frame):
+                painter.add(whole, replace(place, space=around), FillRule.NONZERO, paint.after(into), place.name)
         return [*stack, *((child, place) for child in reversed(self.root))]
 
     def space_inside(self, around: Space, content: Transform, size: tuple[float, float] | None) -> Space:

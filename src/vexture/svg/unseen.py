@@ -12,6 +12,7 @@ from lxml import etree
 
 from vexture.errors import shortened
 from vexture.svg.animation import ANIMATIONS
+from vexture.svg.css_gradients import own_background
 from vexture.svg.document import local_name
 from vexture.svg.links import reference
 from vexture.svg.paint_servers import PaintServers
@@ -57,7 +58,8 @@ def name_unseen(
     """
     if chosen is None or root in chosen:
         for boxed, shows in BOXED.items():
-            if shows.search(style[boxed]):
+            is_drawn = boxed == "background-image" and own_background(style) is not None
+            if shows.search(style[boxed]) and not is_drawn:
                 report.left_out(f"{boxed} of the outermost <svg>", root)
     for before in root.itersiblings(etree.ProcessingInstruction, preceding=True):
         match = STYLESHEET.match(str(before))
