@@ -148,7 +148,8 @@ def background(tmp_path: Path, value: str, more: str = "") -> tuple[Paint, np.nd
     """Paint of the background of a drawing of 80 x 40, and the map from its pixels to the paint's coordinates."""
     file = tmp_path / "background.svg"
     style = f"background: {value}; {more}"
-    file.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" width="80" height="40" style="{style}"><path d="M0 0h9v9"/></svg>')
+    root = f'xmlns="http://www.w3.org/2000/svg" width="80" height="40" style="{style}"'
+    file.write_text(f'<svg {root}><path d="M0 0h9v9"/></svg>')
     drawing = read_svg(file)
     to_square = np.linalg.inv(np.vstack([drawing.to_source, [0.0, 0.0, 1.0]]))
     return drawing.paths[0].paint, to_square
@@ -167,9 +168,10 @@ def test_halfway_to_a_corner_runs_through_the_two_others(tmp_path: Path) -> None
 
 
 def test_an_angle_turns_from_the_top_and_its_line_ends_at_corners(tmp_path: Path) -> None:
-    paint, to_square = background(tmp_path, "linear-gradient(0.125turn, red, blue 50%)")
-    places = [ramp_at(paint, to_square, *corner)[0] for corner in ((0, 40), (40, 20), (80, 0))]
-    np.testing.assert_allclose(places, [0.0, 1.0, 2.0], atol=1e-9)
+    paint, to_square = background(tmp_path, "linear-gradient(30deg, red, blue 50%)")
+    places = [ramp_at(paint, to_square, *place)[0] for place in ((0, 40), (40, 20), (40, 0), (80, 0))]
+    above = np.cos(np.radians(30)) * 20 / (80 * np.sin(np.radians(30)) + 40 * np.cos(np.radians(30)))
+    np.testing.assert_allclose(places, [0.0, 1.0, 1.0 + 2.0 * above, 2.0], atol=1e-9)
 
 
 def test_a_radial_gradient_ends_in_the_farthest_corner_in_the_ratio_of_its_sides(tmp_path: Path) -> None:
