@@ -11,6 +11,8 @@ from floods import flood, sea, series
 from PIL import Image
 from server import COMMAND
 
+from vexture.flood.depth_classes import colors_of
+
 pytestmark = pytest.mark.usefixtures("page_is_built")
 
 EDGES = [0.3, 0.45, 0.6]
@@ -86,6 +88,24 @@ def test_video_has_its_frames_and_a_browser_plays_it(chromium, open_page, tmp_pa
         check_water(pictures)
 
 
+@pytest.mark.slow
+def test_the_colours_of_a_video_are_chosen(chromium, tmp_path):
+    path, given = tmp_path / "run.gif", series(tmp_path / "run.nc", EDGES)
+    outcome = filmed("--extent", given, "--video", path, *SMALL, "--plain", "--colours", "depth", "--depths", "0,1")
+    assert outcome.returncode == 0, outcome.stderr
+    colors = [[int(color[k : k + 2], 16) for k in (1, 3, 5)] for color in colors_of(2)]
+    with Image.open(path) as film:
+        for number, edge in enumerate(EDGES):
+            film.seek(number)
+            row = np.asarray(film.convert("RGB"))[90].astype(int)
+            found = [np.flatnonzero(np.abs(row - color).max(axis=-1) < 45) for color in colors]
+            assert found[1].max() < found[0].min()  # deep in the west, shallow beside it
+            assert len(found[1]) + len(found[0]) == pytest.approx(edge * 320, rel=0.2)
+    outcome = filmed("--extent", given, "--video", path, *SMALL, "--colours", "hazard")
+    said = "--colours hazard: the page has no such colours; choose water, depth, smooth, greatest, arrival"
+    assert (outcome.returncode, outcome.stderr.splitlines()[-1]) == (1, f"vexture: {said}")
+
+
 @pytest.mark.parametrize(
     ("options", "said"),
     [
@@ -96,6 +116,7 @@ def test_video_has_its_frames_and_a_browser_plays_it(chromium, open_page, tmp_pa
         (["--video", "run.gif", "--fps", "1"], "--fps 1: some steps of 0.5 s have no frame"),
         (["--video", "run.gif", "--step-seconds", "nan"], "--step-seconds nan: it is above 0"),
         (["--video", "run.gif", "--serve"], "give either files (-o, --video) or --serve"),
+        (["-o", "run.html", "--colours", "depth"], "--colours is for a video; give --video FILE, too"),
         (["-o", "run.html", "--view", "Plan"], "--view is for a video; give --video FILE, too"),
         (["--video", "/dev/null/run.gif"], "/dev/null: cannot be written"),
     ],

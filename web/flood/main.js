@@ -247,9 +247,13 @@ async function run(stage, scene, views, fold) {
     pose: (/** @type {string} */ name) => stage.pose(named(name)),
     step: (/** @type {number} */ at) => player.go(at),
     colours: (/** @type {string} */ shade) => shades.choose(shade),
+    get offered() {
+      return shades.offered;
+    },
     frame: async (/** @type {number} */ at, /** @type {number} */ seconds, /** @type {boolean} */ plain) => {
       if (player.index !== at) await player.go(at);
       if (player.index !== at) throw new Error(`Step ${at + 1} cannot be shown.`);
+      await shades.settled();
       return still(stage, plain ? null : caption(), seconds);
     },
     freeze: (/** @type {number | null} */ seconds) => stage.freeze(seconds),
@@ -259,7 +263,7 @@ async function run(stage, scene, views, fold) {
   }));
   const look = lookOf(location.hash);
   await player.start(look.step);
-  if (look.colours) shades.choose(look.colours);
+  if (look.colours) void shades.choose(look.colours);
   const wanted = views.find(({ name }) => name === look.view);
   if (wanted) viewed(wanted, { fly: false });
   else if (look.camera) {

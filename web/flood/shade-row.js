@@ -41,10 +41,15 @@ export function createShades(stage, player, flood, levelsAt) {
     if (mine === turn && step === player.step) stage.sea.classes = classes;
     stage.requestFrame();
   }
-  player.addEventListener('step', () => void map().catch(failed));
+  let mapping = Promise.resolve();
+  player.addEventListener('step', () => {
+    mapping = map().catch(failed);
+  });
 
   /** @param {unknown} error */
-  const failed = (error) => player.dispatchEvent(new CustomEvent('failed', { detail: error }));
+  const failed = (error) => {
+    player.dispatchEvent(new CustomEvent('failed', { detail: error }));
+  };
 
   /** Of all steps: the hours from the first to the last, and when each place was first under water. */
   function arrived(/** @type {Known[]} */ all) {
@@ -123,10 +128,17 @@ export function createShades(stage, player, flood, levelsAt) {
     get value() {
       return list.value;
     },
-    choose: (/** @type {string} */ value) => {
-      if (![...list.options].some((option) => option.value === value && !option.disabled)) return;
+    /** That can be chosen now. */
+    get offered() {
+      return [...list.options].filter(({ disabled }) => !disabled).map(({ value }) => value);
+    },
+    /** Until the shown step is coloured. */
+    settled: () => mapping,
+    /** Those that are not offered change nothing. @param {string} value */
+    choose(value) {
+      if (!this.offered.includes(value)) return Promise.resolve();
       list.value = value;
-      void chosen(value);
+      return chosen(value);
     },
   };
 }

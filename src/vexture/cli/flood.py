@@ -58,6 +58,10 @@ Examples:
 @click.option("--video", metavar="FILE", type=PATH, help="Write all steps as a video (.webm, .mp4) or a GIF.")
 @click.option("--size", metavar="WxH", help=f"With --video: its pixels.  [default: {SIZE[0]}x{SIZE[1]}]")
 @click.option("--view", metavar="NAME", help="With --video: a view of the page.  [default: Overview]")
+@click.option(
+    "--colours", "--colors", metavar="NAME",
+    help="With --video: of the water by its depth, smooth, greatest, hazard or arrival.  [default: water]",
+)  # fmt: skip
 @click.option("--plain", is_flag=True, help="With --video: without title, time, legend, scale and source.")
 @click.option("--step-seconds", metavar="S", type=float, help=f"With --video: of each step.  [default: {STEP_SECONDS}]")
 @click.option(
@@ -77,6 +81,7 @@ def flood(
     video: Path | None,
     size: str | None,
     view: str | None,
+    colours: str | None,
     plain: bool,
     step_seconds: float | None,
     fps: float | None,
@@ -102,7 +107,8 @@ def flood(
             places = "-o PAGE.html for one page, --video FILE, or --serve for a server"
             both = "either files (-o, --video) or --serve" if serving else places
             raise ParameterError(f"vexture flood needs to know where to show it; give {both}")
-        filmed = _video(video, size, view, plain, step_seconds, fps)
+        pictured: dict[str, Any] = {"view": view, "colours": colours, "plain": plain or None}
+        filmed = _video(video, size, **pictured, step_seconds=step_seconds, fps=fps)
         if (extent is None) == (follow is None):
             raise ParameterError("vexture flood shows one file; give either `extent` FILE or `follow` FILE")
         for option, value in {"token_file": token_file, "follow": follow, "keep": keep}.items():
@@ -132,23 +138,10 @@ def flood(
         serve(asked, Serving(host, port, token_file, follow is not None, keep), say=say, show=show)
 
 
-def _video(
-    path: Path | None,
-    size: str | None,
-    view: str | None,
-    plain: bool,
-    step_seconds: float | None,
-    fps: float | None,
-) -> VideoOptions | None:
+def _video(path: Path | None, size: str | None, **given: Any) -> VideoOptions | None:
     """The video that is asked for; options without one are refused."""
-    given = {
-        "size": None if size is None else size_of(size),
-        "view": view,
-        "plain": plain or None,
-        "step_seconds": step_seconds,
-        "fps": fps,
-    }
-    chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    given = {"size": None if size is None else size_of(size), **given}
+    chosen = {name: value for name, value in given.items() if value is not None}
     if path is None:
         if chosen:
             raise ParameterError(f"`{next(iter(chosen))}` is for a video; give `video` FILE, too")

@@ -31,12 +31,14 @@ MOST_FRAMES: Final = 20_000
 class VideoOptions:
     """A video to write; see `vexture flood --help`. Values out of range raise `ParameterError`.
 
-    `view` is a view of the page by its name; with `plain` nothing is written on the picture.
+    `view` is a view of the page by its name, and `colours` are what it colours the water by; with `plain` nothing is
+    written on the picture.
     """
 
     path: Path
     size: tuple[int, int] = SIZE
     view: str | None = None
+    colours: str | None = None
     plain: bool = False
     step_seconds: float = STEP_SECONDS
     fps: float | None = None

@@ -81,7 +81,7 @@ def filming(page: bytes, options: VideoOptions) -> Iterator[Film]:
     DeviceError
         If a package or a browser is missing, or the browser cannot draw the page.
     ParameterError
-        If the page has no view of that name.
+        If the page has no view or no colours of that name.
     """
     from playwright.sync_api import Error, sync_playwright
 
@@ -128,11 +128,18 @@ def _opened(browser: Any, address: str, size: tuple[int, int]) -> tuple[Any, str
 
 
 def _shown(page: Any, options: VideoOptions) -> Film:
-    """Choose the view of a page."""
+    """Choose the view and the colours of a page."""
     if options.view is not None:
         views = page.evaluate("vexture.flood.views")
         named = {view.casefold(): view for view in views}
         if options.view.casefold() not in named:
             raise ParameterError(f"`view` {options.view}: the page has no such view; choose {', '.join(views)}")
         page.evaluate("(name) => vexture.flood.view(name, { fly: false })", named[options.view.casefold()])
+    if options.colours is not None:
+        offered = page.evaluate("vexture.flood.offered")
+        if options.colours.lower() not in offered:
+            raise ParameterError(
+                f"`colours` {options.colours}: the page has no such colours; choose {', '.join(offered)}"
+            )
+        page.evaluate("(name) => vexture.flood.colours(name)", options.colours.lower())
     return Film(page, page.evaluate("vexture.flood.player.count"), options.plain)
