@@ -96,6 +96,28 @@ def test_zeeland_flood(tmp_path):
     assert (tmp_path / "ground.jpg").stat().st_size < 500_000
 
 
+def test_clinch_flood(tmp_path):
+    netcdf = pytest.importorskip("netCDF4")
+    pytest.importorskip("matplotlib")
+    lines = run(ROOT / "examples" / "10_clinch_flood.py", tmp_path, "90", folder=tmp_path).splitlines()
+    assert "synthetic flood" in lines[0].lower()
+    with netcdf.Dataset(tmp_path / "flood.nc") as file:
+        assert "synthetic" in file.comment.lower()
+        depth, bed = (np.asarray(file[name][:]) for name in ("depth", "bed_level"))
+    wet = depth >= 0.05
+    share = wet.mean(axis=(1, 2))
+    assert 0.02 < share[0] < share.max() - 0.02 < 0.2
+    assert 4 < share.argmax() < 18
+    level = bed + depth
+    for here, there in ((np.s_[:, :, :-1], np.s_[:, :, 1:]), (np.s_[:, :-1], np.s_[:, 1:])):
+        both = (depth[here] > 0.5) & (depth[there] > 0.5)
+        assert np.abs(level[here] - level[there])[both].max() < 3  # it slopes, and does not rock
+    assert np.median(np.abs(np.diff(level[12], axis=1))[(depth[12][:, 1:] > 1) & (depth[12][:, :-1] > 1)]) < 0.3
+    with Image.open(tmp_path / "ground.jpg") as image:
+        assert "synthetic" in image.info["comment"].decode().lower()
+        assert image.width / image.height == pytest.approx(bed.shape[1] / bed.shape[0])
+
+
 def test_figures(tmp_path):
     pytest.importorskip("vtracer")
     lines = run(ROOT / "examples" / "06_figures.py", tmp_path, folder=tmp_path).splitlines()
