@@ -12,8 +12,8 @@ from .terrain import CELL, Terrain, terrain
 from .water import simulated
 
 NOTE = (
-    "Synthetic flood: invented discharges over real heights (SRTM, NASA and USGS, public domain) with invented channels; "
-    "not a flood that was, nor one that is expected."
+    "Synthetic flood: invented discharges over real heights (SRTM, NASA and USGS, public domain) with invented "
+    "channels; not a flood that was, nor one that is expected."
 )
 HOURS, WARM = 24, 3
 START = "2026-03-14 00:00:00"
