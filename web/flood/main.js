@@ -75,6 +75,7 @@ function standOf(surface) {
   return {
     width: places.width + 2 * Tray.around, depth: places.depth + 2 * Tray.around,
     height: (/** @type {number} */ px, /** @type {number} */ pz) => surface.height(px, pz),
+    ground: (/** @type {number} */ px, /** @type {number} */ pz) => surface.ground(px, pz),
   };
 }
 
