@@ -165,6 +165,25 @@ def test_a_pond_stays_calm_beside_the_sea():
     assert openness_at(openness, frame, np.array(places)).tolist() == [0.0, 1.0, 1.0]
 
 
+def test_waves_do_not_get_over_a_dike():
+    """A polder of 25 km, which the sea floods through a gap: waves in the gap and before the dike, not behind it."""
+    frame = Frame(BOUNDS, CRS, (24_000.0, 12_000.0))
+    x0, y0, x1, y1 = frame.box
+    metre = (x1 - x0) / 24_000.0
+    shore, gap = y0 + 5000 * metre, 200 * metre
+    sea = [(x0, y0), (x1, y0), (x1, shore), (x0, shore)]
+    inside = shore + 250 * metre
+    flooded = [*sea[:3], (0.5 + gap, shore), (0.5 + gap, inside), (x1, inside), (x1, y1), (x0, y1), (x0, inside),
+               (0.5 - gap, inside), (0.5 - gap, shore), (x0, shore)]  # fmt: skip
+    before, behind = (0.2, shore - 50 * metre), (0.2, inside + 100 * metre)
+    beach = (0.2, shore + 50 * metre)
+    places = np.array([before, beach, behind, (0.5, inside)])
+    alone = openness_at(open_water(Drawing.polygon(sea), frame), frame, places)
+    assert alone.min() > 0.05  # the sea may rise over whatever lies there
+    at = openness_at(open_water(Drawing.polygon(sea), frame, Drawing.polygon(flooded)), frame, places)
+    assert at.tolist() == [alone[0], alone[1], 0.0, alone[3]]
+
+
 @pytest.mark.parametrize(
     ("name", "names"),
     [

@@ -32,11 +32,12 @@ FADE: Final = (0.004, 0.02)
 """Distance from open water at which waves begin to fade, and at which they have ended; shares of the longer side."""
 
 
-def open_water(drawing: Drawing, frame: Frame) -> NDArray[np.float64]:
+def open_water(drawing: Drawing, frame: Frame, most: Drawing | None = None) -> NDArray[np.float64]:
     """Openness of the water at rest, 1 in open water and 0 far from it, on a grid over the frame.
 
     The northernmost row comes first. Water is open where a disc fits into it (a morphological opening), if it is wide
-    somewhere; it goes on beyond the frame as at its border.
+    somewhere; it goes on beyond the frame as at its border. With `most`, the water when there is most of it, waves do
+    not get over land that stays dry: behind a dike the water is calm.
     """
     longest = max(frame.metres)
     size = size_for(frame, min(SAMPLES, int(np.ceil(longest * MOST_CELLS / RADIUS))))
@@ -47,6 +48,8 @@ def open_water(drawing: Drawing, frame: Frame) -> NDArray[np.float64]:
     if not core.any():
         return np.zeros(wet.shape)
     away = (distance_to(core, cell) - radius)[margin:-margin, margin:-margin] / longest
+    if most is not None:
+        away = np.where(_before_land(away, wet | (coverage_over(most, frame.box, size) >= 0.5)), away, np.inf)
     share = np.clip((FADE[1] - away) / (FADE[1] - FADE[0]), 0.0, 1.0)
     return np.asarray(share * share * (3.0 - 2.0 * share))
 
@@ -65,6 +68,24 @@ def _wide(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.bool_
     radius, margin, middles = _middles(wet[::every, ::every], coarse, WIDE)
     inside = (distance_to(middles, coarse) <= radius)[margin:-margin, margin:-margin]
     return np.asarray(inside.repeat(every, axis=0).repeat(every, axis=1)[: wet.shape[0], : wet.shape[1]])
+
+
+def _before_land(away: NDArray[np.float64], wet: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Where waves get to from open water, and the first cell of the land behind: the shore runs between.
+
+    They get no farther on their way around land than where they fade without it.
+    """
+    reached = (away <= 0.0) & wet
+    for _ in range(int(np.ceil(FADE[1] * max(wet.shape)))):
+        reached = _around(reached) & wet
+    return _around(reached)
+
+
+def _around(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Cells, and all that touch one."""
+    rows, columns = cells.shape
+    padded = np.pad(cells, 1)
+    return np.asarray(np.any([padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)], axis=0))
 
 
 def _joined(seeds: NDArray[np.bool_], inside: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -170,12 +170,12 @@ def _shore(
 ) -> tuple[bytes | None, NDArray[np.float64] | None, list[PageNote]]:
     """File that moves the shore, where there are waves, and remarks about both."""
     from vexture.flood.open_water import open_water
-    from vexture.flood.relief import first_wet
+    from vexture.flood.relief import first_wet, widest
 
-    first = first_wet(extent)
-    if first is None:
+    first, most = first_wet(extent), widest(extent)
+    if first is None or most is None:
         return None, None, [DRY]
-    openness = open_water(first.drawing, extent.frame)
+    openness = open_water(first.drawing, extent.frame, most.drawing)
     if amplitude and openness.any():
         fold, reached = _fold(first.drawing, openness, amplitude, asked.period, extent.frame)
         if asked.amplitude is None or reached >= LESS * amplitude:
