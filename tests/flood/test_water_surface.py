@@ -165,6 +165,28 @@ def test_a_pond_stays_calm_beside_the_sea():
     assert openness_at(openness, frame, np.array(places)).tolist() == [0.0, 1.0, 1.0]
 
 
+def test_a_narrow_river_is_not_hidden_by_its_banks():
+    """A ditch one cell wide, turned against the grid, under 1 m of water in ground 4 m above its bed."""
+    rows, columns = 128, 256
+    y, x = np.mgrid[:rows, :columns]
+    middle = 40 + np.rint(0.2 * x)
+    ditch = np.abs(y - middle) < 1
+    bed = np.where(ditch, 0.0, 4.0).astype(np.float32)
+    depth = np.where(ditch, 1.0, 0.0).astype(np.float32)
+    x0, y0, x1, y1 = FRAME.box
+    right, up = (x1 - x0) / columns, (y1 - y0) / rows
+    squares = [[(x0 + c * right, y1 - r * up), (x0 + (c + 1) * right, y1 - r * up),
+                (x0 + (c + 1) * right, y1 - (r + 1) * up), (x0 + c * right, y1 - (r + 1) * up)]
+               for r, c in np.argwhere(ditch).tolist()]  # fmt: skip
+    extent = Extent(FRAME, (Step(Drawing.polygon(*squares), depth=depth),), bed)
+    relief, (surface,) = surfaces(extent)
+    deep = (surface.levels - relief.heights)[surface.wet]
+    assert len(deep) > 200
+    assert np.median(deep) == pytest.approx(1.0, abs=0.02)
+    assert (deep < 0.5).mean() < 0.02
+    assert relief.heights.max() == pytest.approx(relief.heights[~surface.wet].max())  # the banks stay
+
+
 def test_waves_do_not_get_over_a_dike():
     """A polder of 25 km, which the sea floods through a gap: waves in the gap and before the dike, not behind it."""
     frame = Frame(BOUNDS, CRS, (24_000.0, 12_000.0))

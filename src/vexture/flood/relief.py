@@ -105,6 +105,9 @@ def relief_of(extent: Extent, path: Path | None = None, crs: str | None = None) 
     still = _shore_level(heights, wet, known)
     heights -= still
     heights[wet & ~known] = np.minimum(heights, made_up)[wet & ~known]
+    if path is None:
+        for step in (first, widest(extent)):
+            heights = _dug(heights, still, extent, step)
     return Relief(heights, False, float((known | wet).mean()), still)
 
 
@@ -113,6 +116,15 @@ def wet_samples(step: Step, frame: Frame, size: tuple[int, int]) -> NDArray[np.b
     x0, y0, x1, y1 = frame.box
     half_x, half_y = (x1 - x0) / (size[0] - 1) / 2, (y1 - y0) / (size[1] - 1) / 2
     return coverage_over(step.drawing, (x0 - half_x, y0 - half_y, x1 + half_x, y1 + half_y), size) >= 0.5
+
+
+def _dug(heights: NDArray[np.float64], still: float, extent: Extent, step: Step | None) -> NDArray[np.float64]:
+    """Heights with the beds of narrow rivers, which their banks would hide: where it is wet, of wet cells alone."""
+    if step is None or step.depth is None or extent.bed is None:
+        return heights
+    size = (heights.shape[1], heights.shape[0])
+    bottom = sampled(np.where(step.depth > 0.0, extent.bed, np.nan), size) - still
+    return np.where(wet_samples(step, extent.frame, size), np.fmin(heights, bottom), heights)
 
 
 def _shore_level(heights: NDArray[np.float64], wet: NDArray[np.bool_], known: NDArray[np.bool_]) -> float:
