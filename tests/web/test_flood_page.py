@@ -176,6 +176,21 @@ def test_a_finger_reads_the_water_on_a_phone(
     screenshot(page)
 
 
+def test_nothing_stands_over_the_time_on_a_phone(opened_flood: Callable[..., Page]) -> None:
+    page = opened_flood("series", (390, 640), has_touch=True, is_mobile=True)
+    tops = """async () => {
+        await new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)));
+        const box = (name) => document.querySelector(name).getBoundingClientRect();
+        return [box('.bearings').bottom, box('.time').top];
+    }"""
+    bearings, time = page.evaluate(tops)
+    assert 0 < time - bearings < 20
+    page.evaluate("document.querySelector('.when').textContent = 'Wednesday 23 September 2026 09:00 UTC'")
+    lower, higher = page.evaluate(tops)
+    assert higher < time - 10  # in more lines
+    assert lower < higher
+
+
 def test_views_by_key_and_flight(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series")
     page.keyboard.press("5")
