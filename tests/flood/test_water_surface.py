@@ -11,9 +11,10 @@ from floods import BOUNDS, CRS
 from PIL import Image
 
 from vexture.drawing import Drawing
+from vexture.flood.drawn_ground import drawn_ground
 from vexture.flood.grids import coverage_over
-from vexture.flood.open_water import open_water, openness_at
-from vexture.flood.relief import Relief, relief_of
+from vexture.flood.open_water import calmed, open_water, openness_at
+from vexture.flood.relief import Relief, beyond_of, relief_of
 from vexture.flood.surface import WaterSurface, highest_of, surface_of
 from vexture.flood.views import viewpoint, views_of
 from vexture.geo.extent import Extent, Frame, Step
@@ -163,6 +164,37 @@ def test_a_pond_stays_calm_beside_the_sea():
     openness = open_water(Drawing.polygon(sea, pond), frame)
     places = [(0.5, y1 - 400 * metre), (0.5, y0 + 500 * metre), (arm, y1 - 500 * metre)]
     assert openness_at(openness, frame, np.array(places)).tolist() == [0.0, 1.0, 1.0]
+
+
+def test_the_end_of_a_model_in_the_sea_is_no_shore():
+    """A coast in the north, and a model that ends in deep water, in the south and at its sides."""
+    frame = Frame(BOUNDS, CRS, (12_000.0, 6000.0))
+    rows, columns = 128, 256
+    y, x = np.mgrid[:rows, :columns] + 0.5
+    known = (np.abs(x - 128) < 90) & (y < 100)
+    bed = np.where(known, 0.3 * (40.0 - y), np.nan).astype(np.float32)
+    depth = np.maximum(-bed, 0.0)
+    x0, y0, x1, y1 = frame.box
+    right, up = (x1 - x0) / columns, (y1 - y0) / rows
+    west, east, south, shore = x0 + 38 * right, x0 + 218 * right, y1 - 99.5 * up, y1 - 40 * up
+    sea = Drawing.polygon([(west, south), (east, south), (east, shore), (west, shore)])
+    extent = Extent(frame, (Step(sea, depth=depth),), bed)
+    relief, found = surfaces(extent)
+    beyond = beyond_of(extent, relief)
+    assert beyond[-20:].all()
+    assert not beyond[:30].any()
+    openness = open_water(sea, frame, sea, beyond)
+    waves = calmed(openness, frame, beyond)
+    places = np.array([(0.5, shore - up), (0.5, south + up), (east - right, 0.5)])
+    assert openness_at(waves, frame, places).tolist() == [1.0, 0.0, 0.0]
+    views = {view.name: view for view in views_of(extent, openness, highest_of(found), beyond)}
+    for name in ("Coast", "Shore", "Beach"):
+        assert views[name].toward[1] < -0.9, name
+        assert views[name].place[1] == pytest.approx(shore, abs=3 * up), name
+    picture = np.asarray(drawn_ground(extent, relief)).astype(int)
+    end = picture[int(0.73 * len(picture)) :, 300:700]  # from within the water
+    assert (end[..., 2] > end[..., 0] - 12).all()  # the bottom of the sea, no sand and no grass
+    assert (end[..., 1] < 140).all()
 
 
 def test_a_narrow_river_is_not_hidden_by_its_banks():

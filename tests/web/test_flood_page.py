@@ -247,6 +247,31 @@ def test_less_motion(opened_flood: Callable[..., Page]) -> None:
     page.wait_for_function("(before) => vexture.flood.stage.seconds > before", arg=stands)
 
 
+def test_the_mirror_is_smooth(opened_flood: Callable[..., Page]) -> None:
+    """Hills in calm water would have steps: the mirror's image is smaller than the page, and seen at a slant."""
+    page = opened_flood("series", WIDE)
+    view(page, "Shore")
+    softened = page.evaluate("""() => {
+        const { stage, water, render } = vexture.flood;
+        const { renderTarget } = water.material.uniforms.mirrorSampler.value;
+        stage.land.mesh.material.color.set(0x000000);
+        stage.land.mesh.material.map = null;
+        stage.land.mesh.material.needsUpdate = true;
+        render();
+        const { width, height } = renderTarget;
+        const halves = new Uint16Array(4 * width * height);
+        stage.renderer.readRenderTargetPixels(renderTarget, 0, 0, width, height, halves);
+        const counts = [0, 0, 0];
+        for (let at = 0; at < halves.length; at += 4) {
+            counts[halves[at] < 0x211f ? 0 : halves[at] < 0x34cd ? 1 : 2]++; // 0.01 and 0.3, as half floats
+        }
+        return counts;
+    }""")
+    land, between, sky = softened
+    assert min(land, sky) > 500
+    assert between > 50
+
+
 def test_relief_is_raised(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series", WIDE)
     slider = page.get_by_role("slider", name="Relief")
