@@ -171,18 +171,18 @@ def test_the_end_of_a_model_in_the_sea_is_no_shore():
     frame = Frame(BOUNDS, CRS, (12_000.0, 6000.0))
     rows, columns = 128, 256
     y, x = np.mgrid[:rows, :columns] + 0.5
-    known = (np.abs(x - 128) < 90) & (y < 100)
-    bed = np.where(known, 0.3 * (40.0 - y), np.nan).astype(np.float32)
+    known = (np.abs(x - 128) < 90) & (y < 72)
+    bed = np.where(known, 0.3 * (30.0 - y), np.nan).astype(np.float32)
     depth = np.maximum(-bed, 0.0)
     x0, y0, x1, y1 = frame.box
     right, up = (x1 - x0) / columns, (y1 - y0) / rows
-    west, east, south, shore = x0 + 38 * right, x0 + 218 * right, y1 - 99.5 * up, y1 - 40 * up
+    west, east, south, shore = x0 + 38 * right, x0 + 218 * right, y1 - 71.5 * up, y1 - 30 * up
     sea = Drawing.polygon([(west, south), (east, south), (east, shore), (west, shore)])
     extent = Extent(frame, (Step(sea, depth=depth),), bed)
     relief, found = surfaces(extent)
     beyond = beyond_of(extent, relief)
     assert beyond[-20:].all()
-    assert not beyond[:30].any()
+    assert not beyond[:25].any()
     openness = open_water(sea, frame, sea, beyond)
     waves = calmed(openness, frame, beyond)
     places = np.array([(0.5, shore - up), (0.5, south + up), (east - right, 0.5)])
@@ -192,7 +192,7 @@ def test_the_end_of_a_model_in_the_sea_is_no_shore():
         assert views[name].toward[1] < -0.9, name
         assert views[name].place[1] == pytest.approx(shore, abs=3 * up), name
     picture = np.asarray(drawn_ground(extent, relief)).astype(int)
-    end = picture[int(0.73 * len(picture)) :, 300:700]  # from within the water
+    end = picture[int(0.5 * len(picture)) :, 300:700]  # from within the water
     assert (end[..., 2] > end[..., 0] - 12).all()  # the bottom of the sea, no sand and no grass
     assert (end[..., 1] < 140).all()
 
