@@ -11,7 +11,7 @@ from .channels import accumulated, carved, channels, flow, lateral
 CRS = "EPSG:32616"
 BOUNDS = (752070.0, 4005720.0, 761250.0, 4013280.0)
 CELL = 30.0  # metres
-PIXEL = 7.5  # metres
+FINE = 4  # pixels of the picture along a cell
 ABOVE = 7540.0  # square kilometres of the basin above the dam, from which the river comes in
 NORTH = "ymax"  # what the file calls the latitude of its northern border: see README.md
 
@@ -48,7 +48,7 @@ def sampled(grid: Grid) -> Array:
 
 def terrain(cell: float = CELL) -> Terrain:
     """Heights of SRTM, and the channels that they lead to."""
-    grid = Grid(CRS, BOUNDS, cell, round(cell / PIXEL))
+    grid = Grid(CRS, BOUNDS, cell, FINE)
     height = sampled(grid)
     exits = np.zeros(grid.shape, bool)
     exits[-1] = True  # all water goes to the south

@@ -19,7 +19,7 @@ from scenery.paint import (
     town,
 )  # fmt: skip
 
-from .terrain import GRID, SEED, Terrain
+from .terrain import SEED, Terrain
 
 NOTE = "Synthetic picture, computed from the coastline of GSHHG; not a photograph and not a map."
 TOWNS = (  # longitude, latitude, metres
@@ -32,21 +32,21 @@ GREEN = (112, 128, 74)
 def ground(land: Terrain) -> Image.Image:
     """The picture, over the terrain's bounds."""
     rng = np.random.default_rng(SEED + 1)
-    shore, diked, bank, _, height = land
+    grid, shore, diked, bank, _, height = land
     shape = shore.shape
     rough, patches, speckle = noise(rng, shape, 90, 5), noise(rng, shape, 180, 4), rng.normal(size=shape)
     picture = np.empty((*shape, 3))
     picture[:] = MEADOW
     paint(picture, SCRUB, step(-0.2, 0.6, rough) * (1 - diked))
     inland = step(230, 260, shore)
-    crops(rng, picture, GRID.pixel, step(-0.35, -0.25, patches) * diked * inland * step(3.2, 2.4, height))
-    town(rng, picture, GRID.pixel, built_up(GRID, TOWNS, patches) * diked * inland)
+    crops(rng, picture, grid.pixel, step(-0.35, -0.25, patches) * diked * inland * step(3.2, 2.4, height))
+    town(rng, picture, grid.pixel, built_up(grid, TOWNS, patches) * diked * inland)
     paint(picture, GREEN, 0.8 * diked * np.maximum(step(80, 50, np.abs(shore - 110)), step(55, 30, bank) * inland))
     dunes = step(5.9, 6.6, height)
     paint(picture, GRASS, dunes)
     paint(picture, SAND, dunes * step(0.1, 0.5, rough))
     paint(picture, WOOD, dunes * step(500, 700, shore) * step(0.0, 0.4, patches))
-    picture *= hillshade(1.5 * height, GRID.pixel)[..., None]
+    picture *= hillshade(1.5 * height, grid.pixel)[..., None]
     picture *= (1 + 0.05 * speckle * (shore > 0))[..., None]
     edge = shore + 10 * rough
     paint(picture, np.array(SAND) + 5 * speckle[..., None], step(62, 48, edge))

@@ -9,7 +9,7 @@ from scenery.grid import Array
 from scenery.sills import thresholds
 
 from . import ground
-from .terrain import CREST, GRID, RAMP, SILL, Terrain, terrain
+from .terrain import CELL, CREST, RAMP, SILL, Terrain, terrain
 
 NOTE = "Synthetic: an invented surge over an invented terrain on the coastline of GSHHG; no model, no measurement."
 HOURS = 24
@@ -41,7 +41,7 @@ def polder_levels() -> Array:
 
 def depths(land: Terrain, bed: Array) -> NDArray[np.float32]:
     """Metres of water in each hour: 0 where it is dry."""
-    breach, shore = GRID.coarser(land.breach), GRID.coarser(land.shore)
+    breach, shore = land.grid.coarser(land.breach), land.grid.coarser(land.shore)
     at_breach = breach < RAMP
     closed = np.where(at_breach & (shore > 0), np.maximum(bed, CREST), bed)
     sill = thresholds(closed, np.argwhere((shore < 0) & (bed < DEEP)))
@@ -64,10 +64,10 @@ def level_near(polder: float, sea: float, near: Array, level: Array) -> Array:
     return np.asarray(np.maximum(level, polder + (sea - polder) * near))
 
 
-def make_flood(folder: Path) -> tuple[Path, Path]:
+def make_flood(folder: Path, cell: float = CELL) -> tuple[Path, Path]:
     """Write `flood.nc`, `ground.jpg` and `ground.tif`; return the first two."""
-    land = terrain()
-    bed = GRID.coarser(land.height)
+    land = terrain(cell)
+    bed = land.grid.coarser(land.height)
     flood, picture = folder / "flood.nc", folder / "ground.jpg"
     facts = {"title": "Flood at Zierikzee, Zeeland (synthetic)", "comment": NOTE}
     level = sea_levels(np.arange(HOURS))
@@ -76,6 +76,6 @@ def make_flood(folder: Path) -> tuple[Path, Path]:
         "bed_level": (bed, ("y", "x"), {"long_name": "bed level, synthetic", "standard_name": "altitude"}),
         "water_level": (level, ("time",), {"long_name": "level of the sea, synthetic"}),
     }
-    write_flood(flood, GRID, facts, hours(START, HOURS), data)
-    write_ground(ground.ground(land), GRID, ground.NOTE, picture)
+    write_flood(flood, land.grid, facts, hours(START, HOURS), data)
+    write_ground(ground.ground(land), land.grid, ground.NOTE, picture)
     return flood, picture

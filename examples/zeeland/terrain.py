@@ -9,7 +9,10 @@ from numpy.typing import NDArray
 from scenery.files import sea_of
 from scenery.grid import Array, Grid, line_distance, noise, shore_distance, step
 
-GRID = Grid("EPSG:28992", (34200.0, 401400.0, 59400.0, 419400.0), 50.0, 3)
+CRS = "EPSG:28992"
+BOUNDS = (34200.0, 401400.0, 59400.0, 419400.0)
+CELL = 50.0  # metres
+FINE = 3  # pixels of the picture along a cell
 SEED = 1953
 COASTLINE = Path(__file__).parents[1] / "coastlines" / "zeeland.geojson"
 DIKED = 12e6  # square metres of land from which dikes are around it; less is a salt marsh
@@ -23,8 +26,9 @@ RAMP = 150.0  # metres along the dike in which it rises from there to its crest
 
 
 class Terrain(NamedTuple):
-    """Arrays of pixels over `GRID`, the northernmost row first; metres."""
+    """Arrays of pixels over a grid, the northernmost row first; metres."""
 
+    grid: Grid
     shore: Array  # from the coastline, negative at sea
     diked: Array  # 1 on land with dikes around it, 0 on a salt marsh
     bank: Array  # from the nearest dike within the polders
@@ -49,21 +53,22 @@ def land_of(sea: shapely.Geometry, x: Array, y: Array) -> Array:
     return np.asarray(shapely.contains_xy(shapely.union_all(large).buffer(60), x, y), np.float64)
 
 
-def terrain() -> Terrain:
+def terrain(cell: float = CELL) -> Terrain:
     """Heights from the distance to the real shore; everything else about them is invented."""
+    grid = Grid(CRS, BOUNDS, cell, FINE)
     rng = np.random.default_rng(SEED)
-    x, y = GRID.middles()
-    sea = sea_of(COASTLINE, GRID)
+    x, y = grid.middles()
+    sea = sea_of(COASTLINE, grid)
     shore, diked = shore_distance(sea, x, y), land_of(sea, x, y)
     bend = 260 * noise(rng, x.shape, 40, 3)
     number, bank = parcels(rng, x + bend, y + bend[::-1], 2600.0)
-    shore, diked, bank = (GRID.finer(values) for values in (shore, diked, bank))
-    number = number.repeat(GRID.fine, axis=0).repeat(GRID.fine, axis=1)
+    shore, diked, bank = (grid.finer(values) for values in (shore, diked, bank))
+    number = number.repeat(grid.fine, axis=0).repeat(grid.fine, axis=1)
     breach = np.full(shore.shape, np.inf)
     for longitude, latitude, radius in BREACHES:
-        breach = np.minimum(breach, GRID.pixels_from(longitude, latitude) - radius)
+        breach = np.minimum(breach, grid.pixels_from(longitude, latitude) - radius)
     diked = step(0.4, 0.6, diked)
-    east = GRID.bounds[0] + GRID.pixel * (np.arange(shore.shape[1]) + 0.5)
+    east = grid.bounds[0] + grid.pixel * (np.arange(shore.shape[1]) + 0.5)
     dunes = step(DUNES[1], DUNES[0], east + 500 * noise(rng, shore.shape, 130, 3))
     rough = noise(rng, shore.shape, 90, 4)
     floor = rng.uniform(-1.5, 0.1, number.max() + 1)[number] + 0.25 * rough
@@ -74,7 +79,7 @@ def terrain() -> Terrain:
     dune = polder + (dune - polder) * dunes * step(1700, 1100, shore + 300 * rough)
     marsh = 1.3 * (1 - np.exp(-np.maximum(shore, 0) / 90)) + 0.25 * rough + 0.1
     land = marsh + (dune - marsh) * diked
-    return Terrain(shore, diked, bank, breach, np.where(shore > 0, land, bottom(rng, shore)))
+    return Terrain(grid, shore, diked, bank, breach, np.where(shore > 0, land, bottom(rng, shore)))
 
 
 def bottom(rng: np.random.Generator, shore: Array) -> Array:

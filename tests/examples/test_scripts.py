@@ -79,7 +79,7 @@ def test_santa_cruz_flood(tmp_path):
 
 def test_zeeland_flood(tmp_path):
     netcdf = pytest.importorskip("netCDF4")
-    lines = run(ROOT / "examples" / "09_zeeland_flood.py", tmp_path, folder=tmp_path).splitlines()
+    lines = run(ROOT / "examples" / "09_zeeland_flood.py", tmp_path, "100", folder=tmp_path).splitlines()
     assert "synthetic" in lines[0].lower()
     with netcdf.Dataset(tmp_path / "flood.nc") as file:
         assert "synthetic" in file.comment.lower()

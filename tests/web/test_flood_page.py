@@ -254,6 +254,7 @@ def test_the_mirror_is_smooth(opened_flood: Callable[..., Page]) -> None:
     softened = page.evaluate("""() => {
         const { stage, water, render } = vexture.flood;
         const { renderTarget } = water.material.uniforms.mirrorSampler.value;
+        stage.tray.group.visible = stage.land.sides.visible = stage.sea.walls.visible = false;
         stage.land.mesh.material.color.set(0x000000);
         stage.land.mesh.material.map = null;
         stage.land.mesh.material.needsUpdate = true;
