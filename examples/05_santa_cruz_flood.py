@@ -8,6 +8,7 @@ from pathlib import Path
 
 import netCDF4
 from santa_cruz.make_flood import NOTE, make_flood
+from santa_cruz.terrain import COASTLINE
 
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else "demo/05")
 folder.mkdir(parents=True, exist_ok=True)
@@ -21,8 +22,7 @@ for hour in range(0, len(depth), 4):
 for path in (flood, ground):
     print(f"{path}: {path.stat().st_size} bytes, synthetic")
 
-coastline = Path(__file__).parent / "santa_cruz" / "coastline.geojson"
 print("now, for the flood and for the real coastline:")
 print(f"vexture flood --extent {flood} --time-dim time --ground {ground} -o {folder / 'flood.html'}")
-print(f"vexture flood --extent {coastline} --bounds -122.083,36.928,-121.958,36.994", end=" ")
+print(f"vexture flood --extent {COASTLINE} --bounds -122.083,36.928,-121.958,36.994", end=" ")
 print(f"--ground {ground.with_suffix('.tif')} -o {folder / 'coast.html'}")

@@ -77,6 +77,47 @@ def test_santa_cruz_flood(tmp_path):
     assert (tmp_path / "ground.jpg").stat().st_size < 500_000
 
 
+def test_zeeland_flood(tmp_path):
+    netcdf = pytest.importorskip("netCDF4")
+    lines = run(ROOT / "examples" / "09_zeeland_flood.py", tmp_path, "100", folder=tmp_path).splitlines()
+    assert "synthetic" in lines[0].lower()
+    with netcdf.Dataset(tmp_path / "flood.nc") as file:
+        assert "synthetic" in file.comment.lower()
+        depth, bed, sea = (np.asarray(file[name][:]) for name in ("depth", "bed_level", "water_level"))
+    wet = depth >= 0.05
+    assert 0.4 < wet[0].mean() < 0.6 < 0.8 < wet.mean(axis=(1, 2)).max() < 0.95
+    level = np.where(wet, depth + bed, np.nan)
+    assert np.nanmax(np.abs(level[0] - sea[0])) < 2e-3
+    assert np.nanmax(level[-1]) > sea[-1] + 1  # behind the dikes it stays
+    assert (bed[wet[-1] & ~wet[0]] < sea[0]).mean() > 0.5  # which kept the sea out of land below it
+    with Image.open(tmp_path / "ground.jpg") as image:
+        assert "synthetic" in image.info["comment"].decode().lower()
+        assert image.width / image.height == pytest.approx(bed.shape[1] / bed.shape[0])
+    assert (tmp_path / "ground.jpg").stat().st_size < 500_000
+
+
+def test_clinch_flood(tmp_path):
+    netcdf = pytest.importorskip("netCDF4")
+    pytest.importorskip("matplotlib")
+    lines = run(ROOT / "examples" / "10_clinch_flood.py", tmp_path, "90", folder=tmp_path).splitlines()
+    assert "synthetic flood" in lines[0].lower()
+    with netcdf.Dataset(tmp_path / "flood.nc") as file:
+        assert "synthetic" in file.comment.lower()
+        depth, bed = (np.asarray(file[name][:]) for name in ("depth", "bed_level"))
+    wet = depth >= 0.05
+    share = wet.mean(axis=(1, 2))
+    assert 0.02 < share[0] < share.max() - 0.02 < 0.2
+    assert 4 < share.argmax() < 18
+    level = bed + depth
+    for here, there in ((np.s_[:, :, :-1], np.s_[:, :, 1:]), (np.s_[:, :-1], np.s_[:, 1:])):
+        both = (depth[here] > 0.5) & (depth[there] > 0.5)
+        assert np.abs(level[here] - level[there])[both].max() < 3  # it slopes, and does not rock
+    assert np.median(np.abs(np.diff(level[12], axis=1))[(depth[12][:, 1:] > 1) & (depth[12][:, :-1] > 1)]) < 0.3
+    with Image.open(tmp_path / "ground.jpg") as image:
+        assert "synthetic" in image.info["comment"].decode().lower()
+        assert image.width / image.height == pytest.approx(bed.shape[1] / bed.shape[0])
+
+
 def test_figures(tmp_path):
     pytest.importorskip("vtracer")
     lines = run(ROOT / "examples" / "06_figures.py", tmp_path, folder=tmp_path).splitlines()

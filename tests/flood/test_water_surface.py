@@ -11,9 +11,10 @@ from floods import BOUNDS, CRS
 from PIL import Image
 
 from vexture.drawing import Drawing
+from vexture.flood.drawn_ground import drawn_ground
 from vexture.flood.grids import coverage_over
-from vexture.flood.open_water import open_water, openness_at
-from vexture.flood.relief import Relief, relief_of
+from vexture.flood.open_water import calmed, open_water, openness_at
+from vexture.flood.relief import Relief, beyond_of, relief_of
 from vexture.flood.surface import WaterSurface, highest_of, surface_of
 from vexture.flood.views import viewpoint, views_of
 from vexture.geo.extent import Extent, Frame, Step
@@ -163,6 +164,78 @@ def test_a_pond_stays_calm_beside_the_sea():
     openness = open_water(Drawing.polygon(sea, pond), frame)
     places = [(0.5, y1 - 400 * metre), (0.5, y0 + 500 * metre), (arm, y1 - 500 * metre)]
     assert openness_at(openness, frame, np.array(places)).tolist() == [0.0, 1.0, 1.0]
+
+
+def test_the_end_of_a_model_in_the_sea_is_no_shore():
+    """A coast in the north, and a model that ends in deep water, in the south and at its sides."""
+    frame = Frame(BOUNDS, CRS, (12_000.0, 6000.0))
+    rows, columns = 128, 256
+    y, x = np.mgrid[:rows, :columns] + 0.5
+    known = (np.abs(x - 128) < 90) & (y < 72)
+    bed = np.where(known, 0.3 * (30.0 - y), np.nan).astype(np.float32)
+    depth = np.maximum(-bed, 0.0)
+    x0, y0, x1, y1 = frame.box
+    right, up = (x1 - x0) / columns, (y1 - y0) / rows
+    west, east, south, shore = x0 + 38 * right, x0 + 218 * right, y1 - 71.5 * up, y1 - 30 * up
+    sea = Drawing.polygon([(west, south), (east, south), (east, shore), (west, shore)])
+    extent = Extent(frame, (Step(sea, depth=depth),), bed)
+    relief, found = surfaces(extent)
+    beyond = beyond_of(extent, relief)
+    assert beyond[-20:].all()
+    assert not beyond[:25].any()
+    openness = open_water(sea, frame, sea, beyond)
+    waves = calmed(openness, frame, beyond)
+    places = np.array([(0.5, shore - up), (0.5, south + up), (east - right, 0.5)])
+    assert openness_at(waves, frame, places).tolist() == [1.0, 0.0, 0.0]
+    views = {view.name: view for view in views_of(extent, openness, highest_of(found), beyond)}
+    for name in ("Coast", "Shore", "Beach"):
+        assert views[name].toward[1] < -0.9, name
+        assert views[name].place[1] == pytest.approx(shore, abs=3 * up), name
+    picture = np.asarray(drawn_ground(extent, relief)).astype(int)
+    end = picture[int(0.5 * len(picture)) :, 300:700]  # from within the water
+    assert (end[..., 2] > end[..., 0] - 12).all()  # the bottom of the sea, no sand and no grass
+    assert (end[..., 1] < 140).all()
+
+
+def test_a_narrow_river_is_not_hidden_by_its_banks():
+    """A ditch one cell wide, turned against the grid, under 1 m of water in ground 4 m above its bed."""
+    rows, columns = 128, 256
+    y, x = np.mgrid[:rows, :columns]
+    middle = 40 + np.rint(0.2 * x)
+    ditch = np.abs(y - middle) < 1
+    bed = np.where(ditch, 0.0, 4.0).astype(np.float32)
+    depth = np.where(ditch, 1.0, 0.0).astype(np.float32)
+    x0, y0, x1, y1 = FRAME.box
+    right, up = (x1 - x0) / columns, (y1 - y0) / rows
+    squares = [[(x0 + c * right, y1 - r * up), (x0 + (c + 1) * right, y1 - r * up),
+                (x0 + (c + 1) * right, y1 - (r + 1) * up), (x0 + c * right, y1 - (r + 1) * up)]
+               for r, c in np.argwhere(ditch).tolist()]  # fmt: skip
+    extent = Extent(FRAME, (Step(Drawing.polygon(*squares), depth=depth),), bed)
+    relief, (surface,) = surfaces(extent)
+    deep = (surface.levels - relief.heights)[surface.wet]
+    assert len(deep) > 200
+    assert np.median(deep) == pytest.approx(1.0, abs=0.02)
+    assert (deep < 0.5).mean() < 0.02
+    assert relief.heights.max() == pytest.approx(relief.heights[~surface.wet].max())  # the banks stay
+
+
+def test_waves_do_not_get_over_a_dike():
+    """A polder of 25 km, which the sea floods through a gap: waves in the gap and before the dike, not behind it."""
+    frame = Frame(BOUNDS, CRS, (24_000.0, 12_000.0))
+    x0, y0, x1, y1 = frame.box
+    metre = (x1 - x0) / 24_000.0
+    shore, gap = y0 + 5000 * metre, 200 * metre
+    sea = [(x0, y0), (x1, y0), (x1, shore), (x0, shore)]
+    inside = shore + 250 * metre
+    flooded = [*sea[:3], (0.5 + gap, shore), (0.5 + gap, inside), (x1, inside), (x1, y1), (x0, y1), (x0, inside),
+               (0.5 - gap, inside), (0.5 - gap, shore), (x0, shore)]  # fmt: skip
+    before, behind = (0.2, shore - 50 * metre), (0.2, inside + 100 * metre)
+    beach = (0.2, shore + 50 * metre)
+    places = np.array([before, beach, behind, (0.5, inside)])
+    alone = openness_at(open_water(Drawing.polygon(sea), frame), frame, places)
+    assert alone.min() > 0.05  # the sea may rise over whatever lies there
+    at = openness_at(open_water(Drawing.polygon(sea), frame, Drawing.polygon(flooded)), frame, places)
+    assert at.tolist() == [alone[0], alone[1], 0.0, alone[3]]
 
 
 @pytest.mark.parametrize(

@@ -176,6 +176,21 @@ def test_a_finger_reads_the_water_on_a_phone(
     screenshot(page)
 
 
+def test_nothing_stands_over_the_time_on_a_phone(opened_flood: Callable[..., Page]) -> None:
+    page = opened_flood("series", (390, 640), has_touch=True, is_mobile=True)
+    tops = """async () => {
+        await new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)));
+        const box = (name) => document.querySelector(name).getBoundingClientRect();
+        return [box('.bearings').bottom, box('.time').top];
+    }"""
+    bearings, time = page.evaluate(tops)
+    assert 0 < time - bearings < 20
+    page.evaluate("document.querySelector('.when').textContent = 'Wednesday 23 September 2026 09:00 UTC'")
+    lower, higher = page.evaluate(tops)
+    assert higher < time - 10  # in more lines
+    assert lower < higher
+
+
 def test_views_by_key_and_flight(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series")
     page.keyboard.press("5")
@@ -230,6 +245,28 @@ def test_less_motion(opened_flood: Callable[..., Page]) -> None:
     assert page.evaluate("vexture.flood.stage.seconds") == stands
     waves.click()
     page.wait_for_function("(before) => vexture.flood.stage.seconds > before", arg=stands)
+
+
+def test_the_mirror_is_smooth(opened_flood: Callable[..., Page]) -> None:
+    """Hills in calm water would have steps: the mirror's image is smaller than the page, and seen at a slant."""
+    page = opened_flood("series", WIDE)
+    view(page, "Shore")
+    size = page.evaluate("""() => {
+        const { stage, water, render } = vexture.flood;
+        const { renderTarget } = water.material.uniforms.mirrorSampler.value;
+        stage.tray.group.visible = stage.land.sides.visible = stage.sea.walls.visible = false;
+        Object.assign(stage.land.mesh.material, { map: null, needsUpdate: true }).color.set(0x000000);
+        render();
+        const { width, height } = renderTarget;
+        window.halves = new Uint16Array(4 * width * height);
+        stage.renderer.readRenderTargetPixels(renderTarget, 0, 0, width, height, halves);
+        return [height, width, 4];
+    }""")
+    numbers = page.evaluate("Array.from(halves)")
+    seen = np.array(numbers, np.uint16).view(np.float16).reshape(size)[..., 0].astype(float)
+    edges = (seen[:-2] < 1e-3) & (seen[2:] > 0.05)  # black land, and two pixels from it the sky
+    assert edges.sum() > 50
+    assert ((seen[1:-1] > 1e-3) & (seen[1:-1] < 0.9 * seen[2:]))[edges].mean() > 0.3
 
 
 def test_relief_is_raised(opened_flood: Callable[..., Page]) -> None:

@@ -75,6 +75,7 @@ function standOf(surface) {
   return {
     width: places.width + 2 * Tray.around, depth: places.depth + 2 * Tray.around,
     height: (/** @type {number} */ px, /** @type {number} */ pz) => surface.height(px, pz),
+    ground: (/** @type {number} */ px, /** @type {number} */ pz) => surface.ground(px, pz),
   };
 }
 
@@ -232,6 +233,7 @@ async function run(stage, scene, views, fold) {
   if (!bare) {
     app.append(pin.element, panel.panel, bar, shades.legend, createBearings(stage), notes.element);
     stage.inset = () => insetOf(panel.panel, bar);
+    new ResizeObserver(() => app.style.setProperty('--bar', `${bar.offsetHeight}px`)).observe(bar);
   }
   stage.resize();
   viewed(views[1], { fly: false });

@@ -18,7 +18,8 @@
  * @property {number} depth
  * @property {number} low the box's lower end
  * @property {number} high its highest ground
- * @property {(x: number, z: number) => number} height of the surface
+ * @property {(x: number, z: number) => number} height of the surface, which changes with the water
+ * @property {(x: number, z: number) => number} ground height of the ground, which does not
  * @property {number} aspect of what is free of the picture: width over height
  * @property {number} share of the picture's height that is free
  */
@@ -134,17 +135,22 @@ export function sunOver(view, stand) {
   return { x: flat * Math.sin(angle), y: Math.sin(radians(SUN.up)), z: flat * Math.cos(angle) };
 }
 
+/** How much less ground below the highest water counts than land above it: where all land is low, it decides. */
+const DROWNED = 0.01;
+
 /**
- * To which side of the water's direction more land is seen: 1 or -1.
+ * To which side of the water's direction more land is seen, at all times the same: 1 or -1.
  *
  * @param {View} view @param {Fixed} stand @param {number} degrees
  */
-function landSide({ place: [px, pz], toward: [sx, sz], above }, { height, width }, degrees) {
+function landSide({ place: [px, pz], toward: [sx, sz], above }, { ground, width }, degrees) {
   const land = [1, -1].map((sign) => {
     const angle = Math.atan2(sx, sz) + sign * radians(degrees);
     const tenth = width / 20;
-    return [1, 2, 3, 4, 5, 6].reduce((sum, k) =>
-      sum + Math.max(0, height(px + k * tenth * Math.sin(angle), pz + k * tenth * Math.cos(angle)) - above()), 0);
+    return [1, 2, 3, 4, 5, 6].reduce((sum, k) => {
+      const over = ground(px + k * tenth * Math.sin(angle), pz + k * tenth * Math.cos(angle)) - above();
+      return sum + (over > 0 ? over : DROWNED * over);
+    }, 0);
   });
   return land[0] >= land[1] ? 1 : -1;
 }

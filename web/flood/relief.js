@@ -155,6 +155,11 @@ export class Surface {
     return this.relief.of(this.tops, ...this.places.toBox(x, z)) * this.rise;
   }
 
+  /** Height of the ground in the world, under water too. @param {number} x @param {number} z */
+  ground(x, z) {
+    return this.relief.at(...this.places.toBox(x, z)) * this.rise;
+  }
+
   /**
    * Intersection of a ray with the surface, in the box's coordinates; null without one.
    *

@@ -20,6 +20,8 @@ const LOOK = Object.freeze({
 const FOAM = Object.freeze({ width: 0.015, period: 6 });
 /** Place of the water among the shapes of a step's texture, which normally holds no other. */
 export const WATER = 0;
+/** Samples of a pixel of the mirror's image: without them hills have steps in calm water. */
+const SMOOTH = 4;
 /** Milliseconds of a cross-fade. */
 const FADE = 900;
 /** Shift of a wall's lower border into the shape: with equal uv at both borders the footprint would be empty. */
@@ -59,6 +61,8 @@ export class Sea {
     this.water = new Water(gridGeometry(surface, surface.tops), null, {
       ...LOOK, fields: this.#fields, root: WATER, transform, fold, foam: FOAM, sunDirection: sun, textureWidth: mirror, textureHeight: mirror,
     });
+    const mirrored = this.water.material.uniforms.mirrorSampler?.value; // the simple water has none
+    if (mirrored) mirrored.renderTarget.samples = SMOOTH;
     this.#map = new Mesh(this.water.geometry, new VectorMaterial({
       mode: 'paint', root: WATER, transform, wrap: 'clamp', transparent: true, opacity: OPACITY, depthWrite: false,
       toneMapped: false,

@@ -5,6 +5,7 @@ import { FIELD, between, planHeight, pose, sunOver, wholes } from '../flood/pres
 const STAND = {
   width: 100, depth: 75, low: -12, high: 8, aspect: 1.6, share: 0.9,
   height: (_, z) => Math.max(0, -z / 5),
+  ground: (_, z) => -z / 5,
 };
 
 /** A view of that shore. @param {'far' | 'near' | 'eye'} kind @param {number} away */
@@ -70,6 +71,20 @@ describe('pose', () => {
   it('stands above the highest water of all times', () => {
     for (const kind of /** @type {const} */ (['far', 'near', 'eye'])) {
       expect(pose(at(kind, 5, 30), STAND).from.y).toBeGreaterThan(30);
+    }
+  });
+
+  it('looks to the same side at all times, and to the land even where all of it is below the highest water', () => {
+    for (const side of [1, -1]) { // a polder in the east, or in the west
+      const isLand = (/** @type {number} */ x) => side * (x - 5) > 0;
+      const ground = (/** @type {number} */ x) => (isLand(x) ? -1 : -20);
+      const dry = { ...STAND, ground, height: (/** @type {number} */ x) => (isLand(x) ? -1 : 0) };
+      const drowned = { ...STAND, ground, height: (/** @type {number} */ x) => (isLand(x) ? 4 : 4.001) };
+      for (const kind of /** @type {const} */ (['far', 'near'])) {
+        const seen = [dry, drowned].map((stand) => pose(at(kind, 20, 4), stand).from.x - 5);
+        expect(side * seen[0]).toBeLessThan(0); // from over the sea
+        expect(seen[1]).toBeCloseTo(seen[0]);
+      }
     }
   });
 

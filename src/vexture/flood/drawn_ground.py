@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.flood.grids import coverage_over, noise, shore_distance, size_for
-from vexture.flood.relief import Relief, first_wet, widest
+from vexture.flood.open_water import cells_of
+from vexture.flood.relief import Relief, beyond_of, first_wet, widest
 from vexture.geo.extent import Extent
 
 if TYPE_CHECKING:
@@ -52,10 +53,13 @@ def drawn_ground(extent: Extent, relief: Relief) -> "Image.Image":
     if first is None or most is None:
         distance, wet = np.full(size[::-1], 0.05 * longest), np.zeros(size[::-1])
     else:
-        wet = coverage_over(first.drawing, frame.box, size)
+        beyond = beyond_of(extent, relief)  # as its bottom looks, without a beach
+        wet = np.maximum(coverage_over(first.drawing, frame.box, size), cells_of(beyond, size))
         coarse = size_for(frame, FAR)
         cell = (frame.metres[0] / coarse[0], frame.metres[1] / coarse[1])
-        shore = shore_distance(coverage_over(first.drawing, frame.box, coarse) >= 0.5, cell)
+        shore = shore_distance(
+            (coverage_over(first.drawing, frame.box, coarse) >= 0.5) | cells_of(beyond, coarse), cell
+        )
         distance = _enlarged(shore, size)  # metres, positive on land
     away = np.maximum(distance, 0.0) / (BEACH * longest)
     land = _blend(WET_SAND, SAND, away, 0.02, 0.12)

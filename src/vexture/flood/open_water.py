@@ -11,7 +11,7 @@ from vexture.drawing import Drawing
 from vexture.flood.grids import coverage_over, distance_to, size_for
 from vexture.geo.extent import Frame
 
-__all__ = ["open_water", "openness_at", "openness_png"]
+__all__ = ["calmed", "cells_of", "open_water", "openness_at", "openness_png"]
 
 SAMPLES: Final = 256
 """Most samples on the longer side."""
@@ -32,21 +32,31 @@ FADE: Final = (0.004, 0.02)
 """Distance from open water at which waves begin to fade, and at which they have ended; shares of the longer side."""
 
 
-def open_water(drawing: Drawing, frame: Frame) -> NDArray[np.float64]:
+CALM: Final = (0.016, 0.03)
+"""Distance from where the source ends in the sea at which waves have ended, and at which they begin to; the same."""
+
+
+def open_water(
+    drawing: Drawing, frame: Frame, most: Drawing | None = None, beyond: NDArray[np.bool_] | None = None
+) -> NDArray[np.float64]:
     """Openness of the water at rest, 1 in open water and 0 far from it, on a grid over the frame.
 
     The northernmost row comes first. Water is open where a disc fits into it (a morphological opening), if it is wide
-    somewhere; it goes on beyond the frame as at its border.
+    somewhere; it goes on beyond the frame as at its border. With `most`, the water when there is most of it, waves do
+    not get over land that stays dry: behind a dike the water is calm. The sea goes on where it is `beyond` the source
+    (`vexture.flood.relief.beyond_of`).
     """
     longest = max(frame.metres)
     size = size_for(frame, min(SAMPLES, int(np.ceil(longest * MOST_CELLS / RADIUS))))
     cell = (frame.metres[0] / size[0], frame.metres[1] / size[1])
-    wet = coverage_over(drawing, frame.box, size) >= 0.5
+    wet = (coverage_over(drawing, frame.box, size) >= 0.5) | cells_of(beyond, size)
     radius, margin, core = _middles(wet, cell, RADIUS)
     core = _joined(np.pad(_wide(wet, cell), margin, mode="edge") & core, core)
     if not core.any():
         return np.zeros(wet.shape)
     away = (distance_to(core, cell) - radius)[margin:-margin, margin:-margin] / longest
+    if most is not None:
+        away = np.where(_before_land(away, wet | (coverage_over(most, frame.box, size) >= 0.5)), away, np.inf)
     share = np.clip((FADE[1] - away) / (FADE[1] - FADE[0]), 0.0, 1.0)
     return np.asarray(share * share * (3.0 - 2.0 * share))
 
@@ -65,6 +75,45 @@ def _wide(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.bool_
     radius, margin, middles = _middles(wet[::every, ::every], coarse, WIDE)
     inside = (distance_to(middles, coarse) <= radius)[margin:-margin, margin:-margin]
     return np.asarray(inside.repeat(every, axis=0).repeat(every, axis=1)[: wet.shape[0], : wet.shape[1]])
+
+
+def calmed(openness: NDArray[np.float64], frame: Frame, beyond: NDArray[np.bool_] | None) -> NDArray[np.float64]:
+    """Openness without waves where the source ends in the sea: its end is no shore."""
+    if beyond is None:
+        return openness
+    rows, columns = openness.shape
+    cell = (frame.metres[0] / columns, frame.metres[1] / rows)
+    away = distance_to(cells_of(beyond, (columns, rows)), cell) / max(frame.metres)
+    share = np.clip((away - CALM[0]) / (CALM[1] - CALM[0]), 0.0, 1.0)
+    return np.asarray(openness * share * share * (3.0 - 2.0 * share))
+
+
+def cells_of(samples: NDArray[np.bool_] | None, size: tuple[int, int]) -> NDArray[np.bool_]:
+    """Samples from corner to corner as cells: each has the value of the sample that is nearest to its middle."""
+    if samples is None:
+        return np.zeros(size[::-1], bool)
+    at = (
+        np.rint((np.arange(n) + 0.5) / n * (m - 1)).astype(int) for n, m in zip(size[::-1], samples.shape, strict=True)
+    )
+    return np.asarray(samples[np.ix_(*at)])
+
+
+def _before_land(away: NDArray[np.float64], wet: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Where waves get to from open water, and the first cell of the land behind: the shore runs between.
+
+    They get no farther on their way around land than where they fade without it.
+    """
+    reached = (away <= 0.0) & wet
+    for _ in range(int(np.ceil(FADE[1] * max(wet.shape)))):
+        reached = _around(reached) & wet
+    return _around(reached)
+
+
+def _around(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Cells, and all that touch one."""
+    rows, columns = cells.shape
+    padded = np.pad(cells, 1)
+    return np.asarray(np.any([padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)], axis=0))
 
 
 def _joined(seeds: NDArray[np.bool_], inside: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -20,7 +20,7 @@ from vexture.flood.grids import coverage_over, filled, noise, pixels_to, sampled
 from vexture.geo.extent import Extent, Frame, Step
 from vexture.geo.gdal import gdal
 
-__all__ = ["Relief", "first_wet", "relief_of", "wet_samples", "widest"]
+__all__ = ["Relief", "beyond_of", "first_wet", "relief_of", "wet_samples", "widest"]
 
 SAMPLES: Final = 257
 """Samples on the longer side."""
@@ -40,6 +40,9 @@ BEACH: Final = 0.03
 
 PLAIN_RISE: Final = 0.001
 """Invented ground that later steps flood: how far it rises, as a share of the longer side."""
+
+ENDS: Final = 2
+"""Samples around what is beyond the source in which its water ends."""
 
 ROUGHNESS: Final = 0.5
 """Invented ground: amplitude of the noise, as a share of its height."""
@@ -105,7 +108,26 @@ def relief_of(extent: Extent, path: Path | None = None, crs: str | None = None) 
     still = _shore_level(heights, wet, known)
     heights -= still
     heights[wet & ~known] = np.minimum(heights, made_up)[wet & ~known]
+    if path is None:
+        for step in (first, widest(extent)):
+            heights = _dug(heights, still, extent, step)
     return Relief(heights, False, float((known | wet).mean()), still)
+
+
+def beyond_of(extent: Extent, relief: Relief) -> NDArray[np.bool_] | None:
+    """Samples beyond the source's bed where the ground goes on below the still water; None if there are none.
+
+    A model of the sea ends in it: there is no shore there, and no land behind.
+    """
+    if extent.bed is None:
+        return None
+    rows, columns = relief.heights.shape
+    low = relief.heights < 0.0
+    beyond = ~np.isfinite(sampled(extent.bed, (columns, rows))) & low
+    for _ in range(ENDS):
+        padded = np.pad(beyond, 1)
+        beyond |= low & (padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:])
+    return beyond if beyond.any() else None
 
 
 def wet_samples(step: Step, frame: Frame, size: tuple[int, int]) -> NDArray[np.bool_]:
@@ -113,6 +135,15 @@ def wet_samples(step: Step, frame: Frame, size: tuple[int, int]) -> NDArray[np.b
     x0, y0, x1, y1 = frame.box
     half_x, half_y = (x1 - x0) / (size[0] - 1) / 2, (y1 - y0) / (size[1] - 1) / 2
     return coverage_over(step.drawing, (x0 - half_x, y0 - half_y, x1 + half_x, y1 + half_y), size) >= 0.5
+
+
+def _dug(heights: NDArray[np.float64], still: float, extent: Extent, step: Step | None) -> NDArray[np.float64]:
+    """Heights with the beds of narrow rivers, which their banks would hide: where it is wet, of wet cells alone."""
+    if step is None or step.depth is None or extent.bed is None:
+        return heights
+    size = (heights.shape[1], heights.shape[0])
+    bottom = sampled(np.where(step.depth > 0.0, extent.bed, np.nan), size) - still
+    return np.where(wet_samples(step, extent.frame, size), np.fmin(heights, bottom), heights)
 
 
 def _shore_level(heights: NDArray[np.float64], wet: NDArray[np.bool_], known: NDArray[np.bool_]) -> float:

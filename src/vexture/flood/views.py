@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vexture.drawing import Drawing
 from vexture.flood.grids import coverage_over, size_for
-from vexture.flood.open_water import openness_at
+from vexture.flood.open_water import cells_of, openness_at
 from vexture.flood.relief import first_wet, widest
 from vexture.geo.extent import Extent, Frame
 
@@ -76,12 +76,16 @@ class Shore(NamedTuple):
 
 
 def views_of(
-    extent: Extent, openness: NDArray[np.float64] | None, highest: NDArray[np.float64] | None
+    extent: Extent,
+    openness: NDArray[np.float64] | None,
+    highest: NDArray[np.float64] | None,
+    beyond: NDArray[np.bool_] | None = None,
 ) -> tuple[View, ...]:
     """Views beyond those of the whole box, by what is there, the farthest first.
 
     `openness` says where waves are (`vexture.flood.open_water`), `highest` the highest level of all steps, NaN where it
-    is always dry, on the grid of the relief; None without any water.
+    is always dry, on the grid of the relief; None without any water. `beyond` says where the sea goes on beyond the
+    source (`vexture.flood.relief.beyond_of`).
     """
     frame, first, most = extent.frame, first_wet(extent), widest(extent)
     if first is None or most is None or openness is None or highest is None:
@@ -93,17 +97,17 @@ def views_of(
         if shore is not None:
             views.append(View(name, kind, *shore, reach, _level_near(highest, frame, shore.place)))
 
-    at_rest, safe = viewpoint(first.drawing, frame), viewpoint(most.drawing, frame)
+    at_rest, safe = (viewpoint(step.drawing, frame, beyond=beyond) for step in (first, most))
     flooded = _flooded(first.drawing, most.drawing, frame)
     if flooded is not None:
         place, share, is_town = flooded
         toward = at_rest.seaward if at_rest else (0.0, -1.0)
         add("Town" if is_town else "Flooded land", "over", Shore(place, toward), share * longest)
     if openness.any():
-        shore = viewpoint(first.drawing, frame, openness=openness)
+        shore = viewpoint(first.drawing, frame, openness=openness, beyond=beyond)
         add("Coast", "far", shore, FAR_REACH * longest)
         add("Shore", "near", shore, NEAR_REACH * longest)
-        beach = viewpoint(first.drawing, frame, dry=most.drawing, openness=openness)
+        beach = viewpoint(first.drawing, frame, dry=most.drawing, openness=openness, beyond=beyond)
         add("Beach", "eye", beach or safe, 0.0)
     else:
         add(_name_of_bank(first.drawing, frame), "near", at_rest, NEAR_REACH * longest)
@@ -112,21 +116,27 @@ def views_of(
 
 
 def viewpoint(
-    drawing: Drawing, frame: Frame, *, dry: Drawing | None = None, openness: NDArray[np.float64] | None = None
+    drawing: Drawing,
+    frame: Frame,
+    *,
+    dry: Drawing | None = None,
+    openness: NDArray[np.float64] | None = None,
+    beyond: NDArray[np.bool_] | None = None,
 ) -> Shore | None:
     """A place on the shore near the middle of the frame, with open water in front and dry land behind.
 
     With `dry`, a drawing of more water, it is a place behind the shore that stays dry. With `openness`, only water that
-    is open to waves counts. None if the frame is all dry or all wet.
+    is open to waves counts. Where the sea goes on `beyond` the source is water. None if all is dry or all is wet.
     """
     x0, y0, x1, y1 = frame.box
     size = size_for(frame, CELLS)
-    wet = coverage_over(drawing, frame.box, size)
+    sea = cells_of(beyond, size)
+    wet = np.where(sea, np.float32(1.0), coverage_over(drawing, frame.box, size))
     if openness is not None:
         x, y = np.meshgrid(np.linspace(x0, x1, 2 * size[0] + 1)[1::2], np.linspace(y1, y0, 2 * size[1] + 1)[1::2])
         wet = wet * openness_at(openness, frame, np.stack([x, y], axis=-1)).astype(np.float32)
     step = max(x1 - x0, y1 - y0) / CELLS
-    found = _best(wet, None if dry is None else coverage_over(dry, frame.box, size))
+    found = _best(wet, None if dry is None else np.where(sea, np.float32(1.0), coverage_over(dry, frame.box, size)))
     if found is None:
         return None
     row, column, across, up = found

@@ -96,7 +96,8 @@ def make(
     from vexture.flood.credits import credits_of
     from vexture.flood.drawn_ground import drawn_ground
     from vexture.flood.ground import encoded, ground_of
-    from vexture.flood.relief import relief_of
+    from vexture.flood.open_water import calmed
+    from vexture.flood.relief import beyond_of, relief_of
     from vexture.flood.surface import highest_of, surface_of
     from vexture.flood.views import views_of
 
@@ -119,7 +120,8 @@ def make(
     notes = [*([INVENTED] if relief.invented else []), *told]
     surfaces = [surface_of(step, frame, relief, extent.bed, asked.hmin) for step in extent.steps]
     shapes = _shapes(conversion, extent, surfaces, start, kept, asked.who())
-    fold, openness, told = _shore(asked, extent, amplitude)
+    beyond = beyond_of(extent, relief)
+    fold, openness, told = _shore(asked, extent, amplitude, beyond)
     notes += told if start is None else [note for note in told if note is not DRY]  # water may come
     if relief.known < WHOLE:
         notes.append(PageNote(f"{relief.known:.0%} of the ground has a height; the rest goes on as its border.", ""))
@@ -132,8 +134,8 @@ def make(
         ground=encoded(picture),
         relief=relief,
         fold=fold,
-        openness=openness,
-        views=views_of(extent, openness, highest_of(surfaces)),
+        openness=None if openness is None else calmed(openness, frame, beyond),
+        views=views_of(extent, openness, highest_of(surfaces), beyond),
         notes=tuple(notes),
     )
     for note in notes:
@@ -166,18 +168,20 @@ def _shapes(
 
 
 def _shore(
-    asked: FloodOptions, extent: Extent, amplitude: float
+    asked: FloodOptions, extent: Extent, amplitude: float, beyond: NDArray[np.bool_] | None
 ) -> tuple[bytes | None, NDArray[np.float64] | None, list[PageNote]]:
     """File that moves the shore, where there are waves, and remarks about both."""
-    from vexture.flood.open_water import open_water
-    from vexture.flood.relief import first_wet
+    from vexture.flood.open_water import calmed, open_water
+    from vexture.flood.relief import first_wet, widest
 
-    first = first_wet(extent)
-    if first is None:
+    first, most = first_wet(extent), widest(extent)
+    if first is None or most is None:
         return None, None, [DRY]
-    openness = open_water(first.drawing, extent.frame)
+    openness = open_water(first.drawing, extent.frame, most.drawing, beyond)
     if amplitude and openness.any():
-        fold, reached = _fold(first.drawing, openness, amplitude, asked.period, extent.frame)
+        fold, reached = _fold(
+            first.drawing, calmed(openness, extent.frame, beyond), amplitude, asked.period, extent.frame
+        )
         if asked.amplitude is None or reached >= LESS * amplitude:
             return fold, openness, []
         told = f"Waves run up {reached:.3g} m: {amplitude:.3g} m would turn the shore over."

