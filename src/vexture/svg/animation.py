@@ -125,6 +125,8 @@ def value_of(target: etree._Element, element: etree._Element, name: str, how: Pr
     sums = element.get("additive") == "sum" and given not in ({"by"}, {"to"})
     base = bases.value(target, name) if sums or (how.part and "from" not in given) or given == {"by"} else None
     values = values_of(element, base)
+    if how.part:
+        values = [bases.inherited(target, name) if value == "inherit" else value for value in values]
     value = along(element, values, how) if values else None
     return known(added(known(base), value)) if sums and value is not None else value
 

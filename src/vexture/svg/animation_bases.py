@@ -53,11 +53,16 @@ class Bases:
         kind = local_name(element) or ""
         if name in STYLED:
             return self.style(element).computed(name)
-        if name in SIZES and kind not in LISTING and kind not in DEFAULTS:
-            size = self.style(element)[name]
-            return size if size.lower() != AUTO else "0" if kind in SHAPES else None
         own = element.get(name)
+        if own is None and name in SIZES and kind not in (*LISTING, *DEFAULTS):
+            size = PROPERTIES[name].initial  # whatever style sheets say, as browsers have it
+            return size if size != AUTO else "0" if kind in SHAPES else None
         return DEFAULTS.get(kind, {}).get(name) if own is None else own
+
+    def inherited(self, element: etree._Element, name: str) -> str | None:
+        """Value of a property that an element inherits; None if it is not known."""
+        around = element.getparent()
+        return None if around is None or name not in STYLED else self.style(around).computed(name)
 
     def style(self, element: etree._Element) -> Style:
         """Style of an element where it stands in the document."""

@@ -30,7 +30,12 @@ ALIKE: Final = {
 
 DEEPER: Final = {"translate": "translate3d", "scale": "scale3d"}
 AXES: Final = "xyz"
-MATRICES: Final = frozenset({"matrix", "matrix3d", "perspective"})
+MATRIX: Final = "matrix"
+SAME: Final = ("1", "0", "0", "1", "0", "0")
+"""Arguments of a matrix that changes nothing."""
+
+DEEP: Final = frozenset({"matrix3d", "perspective"})
+"""Functions of space that are not mixed."""
 
 HALF_TURN: Final = tau / 2.0
 
@@ -50,21 +55,19 @@ def transforms_between(first: str, second: str, part: float) -> str | None:
     mine, theirs = functions(first), functions(second)
     if mine is None or theirs is None:
         raise UnclearError
-    made, rest = list[str](), (list[Function](), list[Function]())
+    made, rest = list[str | None](), (list[Function](), list[Function]())
     for one, other in zip_longest(mine, theirs):
         pair = None if rest[0] or rest[1] else same_kind(one, other)
         if pair is None:
             for found, place in zip((one, other), rest, strict=True):
                 place.extend([found] if found else [])
+        elif pair[0][0] == MATRIX:
+            made.append(matrices_between([pair[0]], [pair[1]], part))
         else:
             made.append(written((pair[0][0], mixed_arguments(*pair, part))))
     if rest[0] or rest[1]:
-        ends = [flat_matrix(functions) for functions in rest]
-        matrix = matrix_between(ends[0], ends[1], part)
-        if matrix is None:
-            return None
-        made.append(f"matrix({', '.join(map(repr, matrix))})")
-    return " ".join(made) or "none"
+        made.append(matrices_between(*rest, part))
+    return None if None in made else " ".join(filter(None, made)) or "none"
 
 
 def as_property(text: str) -> str:
@@ -132,7 +135,7 @@ def same_kind(one: Function | None, other: Function | None) -> tuple[Function, F
             first, second = deepened(first), deepened(second)
     if first[0] == "rotate3d" == second[0] and first[1][:3] != second[1][:3]:
         raise UnclearError
-    if first[0] != second[0] or first[0] in MATRICES or len(first[1]) != len(second[1]):
+    if first[0] != second[0] or first[0] in DEEP or len(first[1]) != len(second[1]):
         return None
     return first, second
 
@@ -162,10 +165,12 @@ def deepened(function: Function) -> Function:
 def unchanged(function: Function) -> Function | None:
     """A function of the same kind that changes nothing; None if there is none of its kind."""
     name, arguments = function
-    if name in MATRICES:
+    if name in DEEP:
         return None
+    if name == MATRIX:
+        return name, SAME
     if name == "rotate3d":
-        return name, (*arguments[:3], "0deg")
+        return (name, (*arguments[:3], "0deg")) if len(arguments) == len(AXES) + 1 else None
     blank = "1" if name.startswith("scale") else "0px" if name.startswith("translate") else "0deg"
     return name, (blank,) * len(arguments)
 
@@ -225,25 +230,26 @@ class Parts:
     down: float
 
 
+def matrices_between(first: list[Function], second: list[Function], part: float) -> str | None:
+    """The product of a list at a part of the way from that of one to that of another, as a function."""
+    matrix = matrix_between(flat_matrix(first), flat_matrix(second), part)
+    return None if matrix is None else f"{MATRIX}({', '.join(map(repr, matrix))})"
+
+
 def matrix_between(first: Transform, second: Transform, part: float) -> Transform | None:
-    """A map at a part of the way from one to another; None if one of them has no inverse."""
+    """A map at a part of the way from one to another; None if one of them has no inverse.
+
+    Flips stay flips, as browsers have it, where the standard makes a turn of two that differ.
+    """
     one, other = factors(first), factors(second)
     if one is None or other is None:
         return None
-    turn = one.turn
-    across, down = one.across, one.down
-    if (across < 0.0 and other.down < 0.0) or (down < 0.0 and other.across < 0.0):  # flipped both ways is turned
-        across, down, turn = -across, -down, turn + (HALF_TURN if turn < 0.0 else -HALF_TURN)
-    target = other.turn
+    turn, target = one.turn, other.turn
     if abs(turn - target) > HALF_TURN:  # the shorter way around
         target += tau if turn > target else -tau
     way = Way(part)
-    turn = way.number(turn, target)
-    skew, across, down = (
-        way.number(one.skew, other.skew),
-        way.number(across, other.across),
-        way.number(down, other.down),
-    )
+    turn, skew = way.number(turn, target), way.number(one.skew, other.skew)
+    across, down = way.number(one.across, other.across), way.number(one.down, other.down)
     c, s = cos(turn), sin(turn)
     moved = way.number(one.x, other.x), way.number(one.y, other.y)
     return Transform(c * across, s * across, (c * skew - s) * down, (s * skew + c) * down, *moved)

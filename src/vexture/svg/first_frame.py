@@ -122,6 +122,7 @@ def pairs_of(name: str, text: str) -> list[tuple[str, str]]:
 def animate(found: FirstFrame, frames: Keyframes, timing: Timing, part: float, around: Around) -> None:
     """Add what one animation declares over those before it."""
     for name in dict.fromkeys(name for _, frame in frames for name in frame if name not in (EASED, COMPOSED)):
+        check_time()
         under = found.values.get(name, around.base(name))
         try:
             value = value_at(frames, name, part, timing, under)

@@ -105,7 +105,7 @@ def plain(first: str, second: str, part: float) -> str | None:
 def dashes(first: str, second: str, part: float) -> str | None:
     """Lengths of dashes: the shorter list is repeated."""
     lists = words(first), words(second)
-    if "none" in (first.lower(), second.lower()):
+    if "none" in (first.lower(), second.lower()) or not all(lists):
         return None
     count = lcm(*map(len, lists))
     if count > MOST_DASHES:
@@ -152,6 +152,8 @@ def places(first: str, second: str, part: float) -> str | None:
 def placed(text: str) -> str:
     """A point of a box as two lengths."""
     listed = words(text.lower())[:2]
+    if not listed:
+        raise UnclearError
     if len(listed) == 1:
         listed = ["center", *listed] if listed[0] in ("top", "bottom") else [*listed, "center"]
     if listed[0] in ("top", "bottom") or listed[1] in ("left", "right"):
