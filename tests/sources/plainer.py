@@ -41,6 +41,8 @@ def box(x: float = 20, width: float = 40, fill: str = "#208040") -> str:
     return f'<rect x="{x}" y="30" width="{width}" height="30" fill="{fill}"/>'
 
 
+CORNER = '<path d="M80 80h15v15z" fill="#fc8"/>'
+
 PLAINER = {
     # the first frame of animations (SVG Animations 2, CSS Animations 1), which PyPI's resvg does not know
     "animation/set": box(fill="#fc8"),
@@ -94,7 +96,7 @@ PLAINER = {
     "animation/css-named-ease": box(fill="#fc8"),
     # colours are mixed by their opacity (CSS Color 4, 12.3)
     "animation/css-between-colours": box(fill="blue").replace("/>", ' fill-opacity="0.5"/>'),
-    "animation/css-shown": box(),
+    "animation/css-shown": box() + CORNER,
     "animation/transform-lengths": '<g fill="#208040"><path d="M40 40h40v20h-40z" transform="rotate(45 6.25 6.25)"/>'
     '<path d="M15 12.5h30v20h-30z"/><path d="M50 70h20v20h-20z"/></g>',
     "animation/path-relative": '<path d="M20 20H80V80H20z" fill="#208040"/>',
@@ -102,8 +104,8 @@ PLAINER = {
     "animation/own-colour": box(fill="#bf4000"),
     "animation/to-from-the-default": box(10, fill="#008080"),
     "animation/lengths-of-other-units": box(30),
-    "animation/discrete-at-key-times": box(),
-    "animation/invalid-value": box(),
+    "animation/discrete-at-key-times": box() + CORNER,
+    "animation/invalid-value": box() + CORNER,
     "structure/no-namespace-in-svg": '<rect x="30" y="30" width="50" height="40" fill="#208040"/>',
     "style/percent-encoded-links": '<path d="M10 10h30v30h-30zM10 50h30v30h-30z" fill="#208040"/>'
     '<path d="M50 10h30v30h-30z" fill="#fc8"/>',
