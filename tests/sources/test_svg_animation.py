@@ -157,8 +157,9 @@ def test_an_element_with_very_many_animations_is_named() -> None:
 
 
 def test_half_of_a_straight_way_is_half() -> None:
-    rules = "@keyframes k { from { fill: none } to { fill: #f00 } } path { animation: k 2s -1s linear }"
-    assert len(drawn(f"<style>{rules}</style>{SQUARE.format('', '')}").paths) == 1
+    rules = "@keyframes k { from { fill: none } to { fill: #f00 } } .k { animation: k 2s -1s linear }"
+    squares = SQUARE.format("", "") + SQUARE.format(' class="k"', "")
+    assert len(drawn(f"<style>{rules}</style>{squares}").paths) == 2
 
 
 def test_animated_custom_properties_have_no_effect_on_important_ones() -> None:

@@ -26,6 +26,9 @@ CUSTOM: Final = "--"
 
 HALF: Final = 0.5
 
+NO_FRAME: Final[dict[str, str]] = {}
+"""What an animation without a first or a last frame has there."""
+
 DEFAULT: Final = PROPERTIES[EASED].initial
 
 
@@ -135,15 +138,13 @@ def animate(found: FirstFrame, frames: Keyframes, timing: Timing, part: float, a
 
 def value_at(frames: Keyframes, name: str, part: float, timing: Timing, under: str | None) -> str | None:
     """Value of a property at a part of the way; None for the one under it."""
-    stops: list[tuple[float, str | None, str]] = [
-        (offset, stop(frame, name, timing, under), frame.get(EASED, timing.ease))
-        for offset, frame in frames
-        if name in frame
-    ]
-    start, first, how = next((one for one in reversed(stops) if one[0] <= part), (0.0, None, timing.ease))
-    end, last, _ = next((one for one in stops if one[0] > part), (1.0, None, timing.ease))
+    stops = [(offset, frame) for offset, frame in frames if name in frame]
+    start, before = next((one for one in reversed(stops) if one[0] <= part), (0.0, NO_FRAME))
+    end, after = next((one for one in stops if one[0] > part), (1.0, NO_FRAME))
+    first, last = (stop(frame, name, timing, under) for frame in (before, after))
     if start == end:
         return first
+    how = before.get(EASED, timing.ease)
     passed = (part - start) / (end - start)
     way = next(way for text in (how, timing.ease, DEFAULT) if (way := eased(text, passed, timing.waits)) is not None)
     if way in (0.0, 1.0) or first == last or name.startswith(CUSTOM):
@@ -152,7 +153,7 @@ def value_at(frames: Keyframes, name: str, part: float, timing: Timing, under: s
     return (first if way < HALF else last) if value is None else value
 
 
-def stop(frame: Mapping[str, str], name: str, timing: Timing, under: str | None) -> str:
-    """Value of a property in a frame, with the one under it if they are added."""
-    how = frame.get(COMPOSED, timing.composition)
-    return frame[name] if name.startswith(CUSTOM) or under is None else composed(name, under, frame[name], how)
+def stop(frame: Mapping[str, str], name: str, timing: Timing, under: str | None) -> str | None:
+    """Value of a property in a frame, with the one under it if they are added; None where it says none."""
+    value, how = frame.get(name), frame.get(COMPOSED, timing.composition)
+    return value if value is None or under is None or name.startswith(CUSTOM) else composed(name, under, value, how)
