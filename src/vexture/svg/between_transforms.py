@@ -48,7 +48,7 @@ def transforms_between(first: str, second: str, part: float) -> str | None:
     Examples
     --------
     >>> transforms_between("none", "rotate(1turn) translateX(50%)", 0.25)
-    'rotate(90.0deg) translate(12.5%, 0px)'
+    'rotate(90.0deg) translate(12.5%, 0)'
     >>> transforms_between("translate(10px)", "scale(2)", 0.5)
     'matrix(1.5, 0.0, 0.0, 1.5, 5.0, 0.0)'
     """
@@ -128,8 +128,8 @@ def same_kind(one: Function | None, other: Function | None) -> tuple[Function, F
     if first is None or second is None:
         known = first or second
         assert known is not None
-        blank = unchanged(known)
-        return None if blank is None else (blank, known) if first is None else (known, blank)
+        still = unchanged(known)
+        return None if still is None else (still, known) if first is None else (known, still)
     for flat, deep in DEEPER.items():
         if {first[0], second[0]} == {flat, deep}:
             first, second = deepened(first), deepened(second)
@@ -144,7 +144,7 @@ def plain(function: Function) -> Function:
     """A function with all arguments, by the name of its kind."""
     name, arguments = function
     kind = ALIKE.get(name, name)
-    zero = "1" if kind.startswith("scale") else "0px"
+    zero = blank(kind)
     if kind in DEEPER and name in DEEPER:
         second = arguments[0] if name == "scale" and arguments else zero
         return kind, arguments if len(arguments) == 2 else (*arguments, second)
@@ -152,14 +152,14 @@ def plain(function: Function) -> Function:
         count = 3 if kind in DEEPER.values() else 2
         return kind, tuple(arguments[0] if axis == name[-1] else zero for axis in AXES[:count])
     if kind == "skew" and len(arguments) == 1:
-        return kind, (*arguments, "0deg")
+        return kind, (*arguments, zero)
     return kind, arguments
 
 
 def deepened(function: Function) -> Function:
     """A function of space for one of the plane."""
     name, arguments = function
-    return (DEEPER[name], (*arguments, "1" if name == "scale" else "0px")) if name in DEEPER else function
+    return (DEEPER[name], (*arguments, blank(name))) if name in DEEPER else function
 
 
 def unchanged(function: Function) -> Function | None:
@@ -170,9 +170,13 @@ def unchanged(function: Function) -> Function | None:
     if name == MATRIX:
         return name, SAME
     if name == "rotate3d":
-        return (name, (*arguments[:3], "0deg")) if len(arguments) == len(AXES) + 1 else None
-    blank = "1" if name.startswith("scale") else "0px" if name.startswith("translate") else "0deg"
-    return name, (blank,) * len(arguments)
+        return (name, (*arguments[:3], "0")) if len(arguments) == len(AXES) + 1 else None
+    return name, (blank(name),) * len(arguments)
+
+
+def blank(name: str) -> str:
+    """Argument of a function that changes nothing."""
+    return "1" if name.startswith("scale") else "0"
 
 
 def mixed_arguments(one: Function, other: Function, part: float) -> tuple[str, ...]:
