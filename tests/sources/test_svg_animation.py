@@ -108,7 +108,8 @@ def test_broken_animations_are_survived(broken: str) -> None:
         "from { transform: translate(1em) } to { transform: rotate(9deg) }",
         "from { transform: perspective(9px) } to { transform: perspective(90px) }",
         "from { transform: rotate(9deg); animation-composition: accumulate }",
-        "from { scale: 2; animation-composition: add }",
+        "from { scale: 2; animation-composition: accumulate }",
+        "from { fill: currentColor; animation-composition: add }",
         "from { rotate: x 10deg } to { rotate: 40deg }",
         "from { font-weight: bolder } to { font-weight: 100 }",
         "from { filter: none } to { filter: blur(2px) }",
@@ -141,6 +142,18 @@ def test_what_is_between_two_frames_is_named_where_it_is_not_known(declared: str
 def test_attributes_between_two_values(attributes: str, is_known: bool) -> None:
     drawing = drawn(f'<rect width="9" height="9"><animate {attributes} dur="2s" begin="-0.5s"/></rect>')
     assert (UNCLEAR not in [note.message for note in drawing.notes]) == is_known
+
+
+def test_moves_are_added_as_they_are_done() -> None:
+    rules = "@keyframes k { from { scale: 2; translate: 1px; rotate: 20deg; opacity: 50%; x: 10% } }"
+    own = "scale: 1.5 2; translate: 10% 2px; rotate: 25deg; opacity: 0.25; x: 1px"
+    summed = "scale: 3 4; translate: calc(10% + 1px) 2px; rotate: 45deg; opacity: 0.75; x: calc(1px + 10%)"
+    square = '<rect width="1" height="1"/>'
+    moving = drawn(f"<style>{rules} rect {{ {own}; animation: k 2s; animation-composition: add }}</style>{square}")
+    still = drawn(f"<style>rect {{ {summed} }}</style>{square}")
+    for shown, expected in zip(moving.paths, still.paths, strict=True):
+        assert shown.paint == expected.paint
+        assert shown.contours[0] == pytest.approx(expected.contours[0])
 
 
 def test_an_element_with_very_many_animations_is_named() -> None:

@@ -12,7 +12,7 @@ from vexture.svg.colors import Color, parse_color
 from vexture.svg.path_data import NUMBER
 from vexture.svg.transform import TURN
 
-__all__ = ["UnclearError", "Way", "added", "between", "color_mix", "mixed_amounts"]
+__all__ = ["UnclearError", "Way", "added", "between", "color_mix", "mixed", "mixed_amounts"]
 
 TERM: Final = re.compile(rf"(?:(?<![\w#.])|(?<=[\d.])(?=[+.-]))({NUMBER})([a-zA-Z]+|%)?")
 """A number that is not part of a name."""

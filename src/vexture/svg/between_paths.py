@@ -3,6 +3,7 @@
 import re
 from typing import Final
 
+from vexture.svg.between import Way
 from vexture.svg.path_data import ARC, ARGUMENTS, COMMANDS, NUMBERS
 
 __all__ = ["path_between"]
@@ -18,12 +19,12 @@ FLAGS: Final = slice(3, 5)
 HALF: Final = 0.5
 
 
-def path_between(first: str, second: str, part: float) -> str | None:
-    """Path data at a part of the way from one to another; None if their commands are not of the same kinds.
+def path_between(first: str, second: str, way: Way) -> str | None:
+    """Path data made of two; None if their commands are not of the same kinds.
 
     Examples
     --------
-    >>> path_between("M0 0h10v10z", "m10 10H30v20Z", 0.5)
+    >>> path_between("M0 0h10v10z", "m10 10H30v20Z", Way(0.5))
     'M5.0 5.0H20.0V20.0Z'
     """
     css = IN_CSS.fullmatch(first.strip()), IN_CSS.fullmatch(second.strip())
@@ -33,10 +34,10 @@ def path_between(first: str, second: str, part: float) -> str | None:
         return None
     made = list[str]()
     for (letter, mine), (_, theirs) in zip(start, end, strict=True):
-        values = [a + part * (b - a) for a, b in zip(mine, theirs, strict=True)]
+        values = [way.number(a, b) for a, b in zip(mine, theirs, strict=True)]
         texts = [*map(repr, values)]
         if letter == "A":
-            texts[FLAGS] = [f"{flag:.0f}" for flag in (mine if part < HALF else theirs)[FLAGS]]
+            texts[FLAGS] = [f"{flag:.0f}" for flag in (mine if way.part < HALF else theirs)[FLAGS]]
         made.append(letter + " ".join(texts))
     data = "".join(made)
     return f'path("{data}")' if any(css) else data

@@ -64,7 +64,7 @@ def transforms_between(first: str, second: str, part: float) -> str | None:
         elif pair[0][0] == MATRIX:
             made.append(matrices_between([pair[0]], [pair[1]], part))
         else:
-            made.append(written((pair[0][0], mixed_arguments(*pair, part))))
+            made.append(written((pair[0][0], mixed_arguments(*pair, Way(part)))))
     if rest[0] or rest[1]:
         made.append(matrices_between(*rest, part))
     return None if None in made else " ".join(filter(None, made)) or "none"
@@ -179,16 +179,22 @@ def blank(name: str) -> str:
     return "1" if name.startswith("scale") else "0"
 
 
-def mixed_arguments(one: Function, other: Function, part: float) -> tuple[str, ...]:
-    """Arguments of a function at a part of the way from one to another of its kind."""
+def mixed_arguments(one: Function, other: Function, way: Way) -> tuple[str, ...]:
+    """Arguments of a function made of two of its kind."""
     made = list[str]()
     for first, second in zip(one[1], other[1], strict=True):
         ends = (share(first), share(second)) if one[0].startswith("scale") else (first, second)
-        amount = mixed_amounts(*ends, Way(part))
+        amount = scaled(*ends) if one[0].startswith("scale") and way.adds else mixed_amounts(*ends, way)
         if amount is None:
             raise UnclearError
         made.append(amount)
     return tuple(made)
+
+
+def scaled(first: str, second: str) -> str | None:
+    """What two scales make, one after another; None if they are calculations."""
+    factors = number(first), number(second)
+    return None if factors[0] is None or factors[1] is None else repr(factors[0] * factors[1])
 
 
 def share(text: str) -> str:
@@ -272,12 +278,12 @@ def factors(matrix: Transform) -> Parts | None:
     return Parts(x, y, turn, (a * c + b * d) / across / down, across, down)
 
 
-def property_between(name: str, first: str, second: str, part: float) -> str:
-    """The value of the property `translate`, `rotate` or `scale` at a part of the way from one to another.
+def property_between(name: str, first: str, second: str, way: Way) -> str:
+    """The value of the property `translate`, `rotate` or `scale` made of two.
 
     Examples
     --------
-    >>> property_between("scale", "none", "2 4", 0.5)
+    >>> property_between("scale", "none", "2 4", Way(0.5))
     '1.5 2.5'
     """
     ends = [() if text.strip().lower() == "none" else tuple(words(text.lower())) for text in (first, second)]
@@ -286,7 +292,7 @@ def property_between(name: str, first: str, second: str, part: float) -> str:
         raise UnclearError
     one, other = ((DEEPER[name], padded(name, end)) if deep else (name, end) for end in ends)
     pair = same_kind(one if one[1] else None, other if other[1] else None) if one[1] or other[1] else None
-    return "none" if pair is None else " ".join(mixed_arguments(*pair, part))
+    return "none" if pair is None else " ".join(mixed_arguments(*pair, way))
 
 
 def padded(name: str, arguments: tuple[str, ...]) -> tuple[str, ...]:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from math import lcm
 from typing import Final
 
-from vexture.svg.between import UnclearError, Way, added, between, color_mix, mixed_amounts
+from vexture.svg.between import UnclearError, Way, color_mix, mixed, mixed_amounts
 from vexture.svg.between_paths import path_between
 from vexture.svg.between_transforms import as_property, property_between, transforms_between
 from vexture.svg.colors import Color, parse_color
@@ -28,6 +28,9 @@ BY_HALF: Final = frozenset({"clip-path", "d", "mask", "points", "stroke-dasharra
 NAMES: Final = frozenset({"class", "font-family", "href", "id", "in", "in2", "result", "style"})
 """What always jumps: their numbers are none."""
 
+REPLACED: Final = frozenset({*NAMES, *SHOWN, "d", "stroke-dasharray"})
+"""What browsers do not add."""
+
 STACKED: Final = frozenset({"box-shadow", "filter", "text-shadow"})
 """Lists of functions, of which `none` is one that changes nothing."""
 
@@ -37,7 +40,8 @@ MODERN: Final = re.compile(r"(?:ok)?l(?:ab|ch)\(|color(?:-mix)?\(", re.IGNORECAS
 MOST_DASHES: Final = 1_000
 """Lengths of dashes that are between two lists."""
 
-Mix = Callable[[str, str, float], str | None]
+Mix = Callable[[str, str, Way], str | None]
+"""What makes a value of two; None where they have nothing in common."""
 
 
 def value_between(name: str, first: str, second: str, part: float) -> str | None:
@@ -57,7 +61,7 @@ def value_between(name: str, first: str, second: str, part: float) -> str | None
     if name in SHOWN and 0.0 < part < 1.0:
         word, lasts = SHOWN[name]
         return first if (first.lower() == word) == lasts else second
-    value = None if name in NAMES else MIXERS.get(name, plain)(first, second, part)
+    value = None if name in NAMES else MIXERS.get(name, plain)(first, second, Way(part))
     if value is None:
         jump(name, first, second)
         return None
@@ -73,7 +77,7 @@ def attribute_between(name: str, first: str, second: str, part: float) -> str | 
     """The value of an attribute at a part of the way from one to another, as `value_between`."""
     if first == second:
         return first
-    value = None if name in NAMES else (path_between if name == "d" else between)(first, second, part)
+    value = None if name in NAMES else (path_between if name == "d" else mixed)(first, second, Way(part))
     if value is None:
         jump(name, first, second)
     return value
@@ -86,23 +90,24 @@ def jump(name: str, first: str, second: str) -> None:
         raise UnclearError
 
 
-def plain(first: str, second: str, part: float) -> str | None:
+def plain(first: str, second: str, way: Way) -> str | None:
     """A colour, or a value with numbers."""
     colors = parse_color(first), parse_color(second)
     if colors[0] is None or colors[1] is None:
-        return between(first, second, part)
+        return mixed(first, second, way)
+    if way.adds and (MODERN.match(first) or MODERN.match(second) or not all(isinstance(one, Color) for one in colors)):
+        raise UnclearError
     if MODERN.match(first) or MODERN.match(second):
-        return color_mix("oklab", first, second, part)
+        return color_mix("oklab", first, second, way.part)
     if not (isinstance(colors[0], Color) and isinstance(colors[1], Color)):
-        return color_mix("srgb", first, second, part)
-    way = Way(part)
+        return color_mix("srgb", first, second, way.part)
     alpha = min(max(way.number(colors[0].alpha, colors[1].alpha), 0.0), 1.0)
     pairs = zip(colors[0].rgb, colors[1].rgb, strict=True)
-    mixed = [way.number(a * colors[0].alpha, b * colors[1].alpha) / (alpha or 1.0) for a, b in pairs]
-    return f"rgb({' '.join(f'{100.0 * min(max(value, 0.0), 1.0)!r}%' for value in mixed)} / {alpha!r})"
+    rgb = [way.number(a * colors[0].alpha, b * colors[1].alpha) / (alpha or 1.0) for a, b in pairs]
+    return f"rgb({' '.join(f'{100.0 * min(max(value, 0.0), 1.0)!r}%' for value in rgb)} / {alpha!r})"
 
 
-def dashes(first: str, second: str, part: float) -> str | None:
+def dashes(first: str, second: str, way: Way) -> str | None:
     """Lengths of dashes: the shorter list is repeated."""
     lists = words(first), words(second)
     if "none" in (first.lower(), second.lower()) or not all(lists):
@@ -111,42 +116,42 @@ def dashes(first: str, second: str, part: float) -> str | None:
     if count > MOST_DASHES:
         raise UnclearError
     pairs = zip(*(listed * (count // len(listed)) for listed in lists), strict=True)
-    made = [mixed_amounts(one, other, Way(part)) for one, other in pairs]
+    made = [mixed_amounts(one, other, way) for one, other in pairs]
     if None in made:
         raise UnclearError
     return " ".join("0" if (text or "").startswith("-") else text or "" for text in made)
 
 
-def fractions(first: str, second: str, part: float) -> str | None:
+def fractions(first: str, second: str, way: Way) -> str | None:
     """Numbers, which may be percentages."""
     ends = fraction(first), fraction(second)
-    return None if ends[0] is None or ends[1] is None else f"{min(max(Way(part).number(ends[0], ends[1]), 0.0), 1.0)!r}"
+    return None if ends[0] is None or ends[1] is None else f"{min(max(way.number(ends[0], ends[1]), 0.0), 1.0)!r}"
 
 
-def weights(first: str, second: str, part: float) -> str | None:
+def weights(first: str, second: str, way: Way) -> str | None:
     """Weights of fonts."""
     if {first.lower(), second.lower()} & {"bolder", "lighter"}:
         raise UnclearError
-    return f"{min(max(Way(part).number(font_weight(first), font_weight(second)), 1.0), 1000.0)!r}"
+    return f"{min(max(way.number(font_weight(first), font_weight(second)), 1.0), 1000.0)!r}"
 
 
-def sizes(first: str, second: str, part: float) -> str | None:
+def sizes(first: str, second: str, way: Way) -> str | None:
     """Sizes of fonts."""
     if {first.lower(), second.lower()} & {"smaller", "larger"}:
         raise UnclearError
     ends = [f"{TEXT_SIZES[text.lower()]!r}px" if text.lower() in TEXT_SIZES else text for text in (first, second)]
-    return between(ends[0], ends[1], part)
+    return mixed(ends[0], ends[1], way)
 
 
-def spaces(first: str, second: str, part: float) -> str | None:
+def spaces(first: str, second: str, way: Way) -> str | None:
     """Spaces between letters or words."""
     ends = ["0" if text.lower() == "normal" else text for text in (first, second)]
-    return between(ends[0], ends[1], part)
+    return mixed(ends[0], ends[1], way)
 
 
-def places(first: str, second: str, part: float) -> str | None:
+def places(first: str, second: str, way: Way) -> str | None:
     """Points of a box."""
-    return between(placed(first), placed(second), part)
+    return mixed(placed(first), placed(second), way)
 
 
 def placed(text: str) -> str:
@@ -161,14 +166,16 @@ def placed(text: str) -> str:
     return " ".join(PLACES.get(word, "0px" if number(word) == 0.0 else word) for word in listed)
 
 
-def lists(first: str, second: str, part: float) -> str | None:
+def lists(first: str, second: str, way: Way) -> str | None:
     """Lists of transforms."""
-    return transforms_between(as_property(first), as_property(second), part)
+    if not way.adds:
+        return transforms_between(as_property(first), as_property(second), way.part)
+    return " ".join(text for text in (as_property(first), second) if text != "none") or "none"
 
 
 def moves(name: str) -> Mix:
     """Return the function of two values of a property that moves things."""
-    return lambda first, second, part: property_between(name, first, second, part)
+    return lambda first, second, way: property_between(name, first, second, way)
 
 
 MIXERS: Final[dict[str, Mix]] = {
@@ -192,16 +199,11 @@ def composed(name: str, under: str, value: str, how: str) -> str:
     >>> composed("transform", "translate(20px)", "rotate(30deg)", "add"), composed("x", "5px", "10px", "add")
     ('translate(20px) rotate(30deg)', '15.0px')
     """
-    if how not in ("add", "accumulate"):
+    if how not in ("add", "accumulate") or name in REPLACED:
         return value
-    if name == "transform":
-        below = as_property(under)
-        if how == "accumulate" and "none" not in (below, value):
-            raise UnclearError
-        return " ".join(text for text in (below, value) if text != "none") or "none"
-    total = None if name in NAMES or name in MOVED else added(under, value)
-    if total is not None:
-        return total
-    if name in MOVED or not (WORDED.fullmatch(value) or WORDED.fullmatch(under)):
+    if how == "accumulate" and name in (*MOVED, "transform"):
         raise UnclearError
-    return value
+    total = MIXERS.get(name, plain)(under, value, Way(1.0, adds=True))
+    if total is None:
+        jump(name, under, value)
+    return value if total is None else total
