@@ -50,6 +50,8 @@ def box(x: float = 20, width: float = 40, fill: str = "#208040") -> str:
     return f'<rect x="{x}" y="30" width="{width}" height="30" fill="{fill}"/>'
 
 
+CORNER = '<path d="M80 80h15v15z" fill="#fc8"/>'
+
 PLAINER = {
     # the first frame of animations (SVG Animations 2, CSS Animations 1), which PyPI's resvg does not know
     "animation/set": box(fill="#fc8"),
@@ -85,6 +87,34 @@ PLAINER = {
     "animation/css-eased": box(20 + 40 * 0.0401),
     "animation/css-backwards": box(fill="#fc8"),
     "animation/css-below-important": box(width=60, fill="#fc8"),
+    "animation/css-turns-from-nothing": f'<g transform="rotate(60 40 45)">{box()}</g>',
+    "animation/css-unlike-transforms": box(),
+    # the matrix that Chromium gives
+    "animation/css-above-a-transform": '<path d="M20 -30h40v20h-40z" fill="#208040"'
+    ' transform="matrix(0.382683 0.92388 -0.92388 0.382683 35 -10.3553)"/>',
+    "animation/css-units": f'<g transform="rotate(45 50 50)">{box(12.5, 25)}</g>',
+    "animation/css-dashes": '<path d="M10 50H90" stroke="#208040" stroke-width="20" stroke-dasharray="15 10 8"/>',
+    "animation/css-path": '<path d="M10 10H70V70z" fill="#208040"/>',
+    "animation/css-references": box(fill="#00bf40"),
+    "animation/css-inherited": box(fill="#008080").replace("/>", ' stroke="#000" stroke-width="8"/>'),
+    "animation/css-custom-properties": box(50, fill="red"),
+    "animation/css-steps-at-the-start": '<path fill="#208040" d="M40 0h40v20h-40zM0 25h40v20h-40zM20 50h40v20h-40z'
+    'M10 75h40v20h-40z"/>',
+    "animation/css-linear": box(36, fill="#fc8"),
+    "animation/css-added": f'<g transform="translate(30) rotate(30)">{box(30)}</g>',
+    "animation/css-named-ease": box(fill="#fc8"),
+    # colours are mixed by their opacity (CSS Color 4, 12.3)
+    "animation/css-between-colours": box(fill="blue").replace("/>", ' fill-opacity="0.5"/>'),
+    "animation/css-shown": box() + CORNER,
+    "animation/transform-lengths": '<g fill="#208040"><path d="M40 40h40v20h-40z" transform="rotate(45 6.25 6.25)"/>'
+    '<path d="M15 12.5h30v20h-30z"/><path d="M50 70h20v20h-20z"/></g>',
+    "animation/path-relative": '<path d="M20 20H80V80H20z" fill="#208040"/>',
+    "animation/path-of-other-commands": '<path d="M10 10h80v80h-80z" fill="#208040"/>',
+    "animation/own-colour": box(fill="#bf4000"),
+    "animation/to-from-the-default": box(10, fill="#008080"),
+    "animation/lengths-of-other-units": box(30),
+    "animation/discrete-at-key-times": box() + CORNER,
+    "animation/invalid-value": box() + CORNER,
     "structure/no-namespace-in-svg": '<rect x="30" y="30" width="50" height="40" fill="#208040"/>',
     "style/percent-encoded-links": '<path d="M10 10h30v30h-30zM10 50h30v30h-30z" fill="#208040"/>'
     '<path d="M50 10h30v30h-30z" fill="#fc8"/>',

@@ -1,16 +1,21 @@
 """The course of an animation: the values that its attributes say, one after another, and the one at a time."""
 
+from collections.abc import Callable
+from typing import Final
+
 from lxml import etree
 
-from vexture.svg.between import added, between
+from vexture.svg.between import UnclearError, added
+from vexture.svg.mixing import BY_HALF, attribute_between
 from vexture.svg.timing import Progress, bezier
 from vexture.svg.values import number
 
-__all__ = ["UnclearError", "along", "known", "said", "values_of"]
+__all__ = ["Mix", "along", "known", "said", "values_of"]
 
+HALF: Final = 0.5
 
-class UnclearError(Exception):
-    """The value of an animation is not known."""
+Mix = Callable[[str, str, float], str | None]
+"""What makes a value at a part of the way from one to another."""
 
 
 def said(element: etree._Element) -> set[str]:
@@ -36,18 +41,22 @@ def values_of(element: etree._Element, base: str | None) -> list[str | None]:
     return [first_value, first_value and added(first_value, element.get("by", "").strip())]
 
 
-def along(element: etree._Element, values: list[str | None], how: Progress) -> str | None:
-    """The value of an animation as far as it is; None for the base, raises an `UnclearError` if it is not known."""
+def along(element: etree._Element, values: list[str | None], how: Progress, mix: Mix | None = None) -> str | None:
+    """The value of an animation as far as it is; None for the base, raises an `UnclearError` if it is not known.
+
+    `mix` makes the value at a part of the way from one to another, or None where they jump.
+    """
     times = times_of(element, len(values))
     if times is None:
         return None
-    value = at(element, values, times, how.part)
+    name = element.get("attributeName", "").strip()
+    value = at(element, values, times, how.part, mix or (lambda *pair: attribute_between(name, *pair)))
     if how.round and element.get("accumulate") == "sum":
         value = known(added(known(value), known(values[-1]), how.round))
     return value
 
 
-def at(element: etree._Element, values: list[str | None], times: list[float], part: float) -> str | None:
+def at(element: etree._Element, values: list[str | None], times: list[float], part: float, mix: Mix) -> str | None:
     """The value at a part of the simple duration, by the times of the values."""
     mode = element.get("calcMode", "linear")
     if part == 0.0 or len(values) == 1:
@@ -61,8 +70,16 @@ def at(element: etree._Element, values: list[str | None], times: list[float], pa
     k = max(k for k, time in enumerate(times[:-1]) if time <= part)
     way = (part - times[k]) / (times[k + 1] - times[k])
     ease = bezier(element.get("keySplines", "").split(";")[k]) if mode == "spline" else None
-    value = between(known(values[k]), known(values[k + 1]), way if ease is None else ease(way))
-    return values[min(int(part * len(values)), len(values) - 1)] if value is None else value
+    way = way if ease is None else ease(way)
+    first, second = known(values[k]), known(values[k + 1])
+    value = mix(first, second, way)
+    if value is not None:
+        return value
+    if element.get("attributeName") in BY_HALF:
+        return first if way < HALF else second
+    if element.get("keyTimes") is None:
+        return values[min(int(part * len(values)), len(values) - 1)]
+    return values[max(k for k, time in enumerate(times) if time <= part)]
 
 
 def known(value: str | None) -> str:

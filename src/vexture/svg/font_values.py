@@ -7,7 +7,16 @@ from typing import Final
 from vexture.svg.properties import KEYWORDS, PROPERTIES
 from vexture.svg.values import Viewport, number
 
-__all__ = ["FONT_LONGHANDS", "SPACINGS", "SYSTEM_FONTS", "font_longhands", "font_weight", "in_pixels", "text_size"]
+__all__ = [
+    "FONT_LONGHANDS",
+    "SPACINGS",
+    "SYSTEM_FONTS",
+    "TEXT_SIZES",
+    "font_longhands",
+    "font_weight",
+    "in_pixels",
+    "text_size",
+]
 
 TEXT_SIZES: Final = {
     "xx-small": 9.0,

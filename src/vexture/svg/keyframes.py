@@ -1,4 +1,7 @@
-"""Animations by style sheets (CSS Animations 1): what they declare when their document begins."""
+"""Animations by style sheets (CSS Animations 1 and 2): their frames, and how far they are when a document begins.
+
+What they declare then is in `first_frame.py`.
+"""
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -9,37 +12,30 @@ from typing import Any, Final
 
 import tinycss2
 
-from vexture.svg.between import between
+from vexture.svg.easing import EASES, STEPS
 from vexture.svg.properties import PROPERTIES
-from vexture.svg.timing import SHORTEST, bezier, seconds
-from vexture.svg.values import TooLargeError, number
+from vexture.svg.timing import SHORTEST, seconds
+from vexture.svg.values import TooLargeError, number, words
 
 __all__ = [
+    "COMPOSED",
+    "EASED",
     "KEYFRAMES",
     "LONGHANDS",
     "Keyframes",
+    "Timing",
     "animation_longhands",
-    "declared_at_start",
     "names_of",
     "read_keyframes",
+    "timings",
 ]
 
 KEYFRAMES: Final = ("keyframes", "-webkit-keyframes")
 """At-rules that have them."""
 
 OFFSETS: Final = {"from": 0.0, "to": 1.0}
-EASES: Final = {
-    "linear": "0 0 1 1",
-    "ease": "0.25 0.1 0.25 1",
-    "ease-in": "0.42 0 1 1",
-    "ease-out": "0 0 0.58 1",
-    "ease-in-out": "0.42 0 0.58 1",
-}
-STEPS: Final = {"step-start": (1, True), "step-end": (1, False)}
-STEPPING: Final = re.compile(r"steps\(\s*(\d{1,9})\s*(?:,\s*([a-z-]+)\s*)?\)")
-
-LISTED: Final = re.compile(r",(?![^()]*\))")
-PARTED: Final = re.compile(r"\s+(?![^()]*\))")
+COMMA: Final = re.compile(",")
+BLANK: Final = re.compile(r"\s+")
 
 WORDS: Final = {
     "animation-direction": {"normal", "reverse", "alternate", "alternate-reverse"},
@@ -50,6 +46,9 @@ TIMES: Final = ("animation-duration", "animation-delay")
 EASED: Final = "animation-timing-function"
 COUNTED: Final = "animation-iteration-count"
 NAMED: Final = "animation-name"
+COMPOSED: Final = "animation-composition"
+"""Which the shorthand leaves alone."""
+
 TIMED: Final = (*TIMES, COUNTED, "animation-direction", "animation-fill-mode", EASED)
 LONGHANDS: Final = (NAMED, *TIMED)
 
@@ -94,7 +93,7 @@ def animation_longhands(text: str) -> Iterator[tuple[str, str]]:
     >>> dict(animation_longhands("2s spin infinite, fade 1s -0.5s both"))["animation-delay"]
     '0s, -0.5s'
     """
-    listed = [read_animation(part) for part in LISTED.split(text)]
+    listed = [read_animation(part) for part in words(text, COMMA)]
     for name in LONGHANDS:
         yield name, ", ".join(one.get(name, PROPERTIES[name].initial) for one in listed)
 
@@ -102,13 +101,13 @@ def animation_longhands(text: str) -> Iterator[tuple[str, str]]:
 def read_animation(text: str) -> dict[str, str]:
     """What one animation of the shorthand says."""
     found = dict[str, str]()
-    for word in PARTED.split(text.strip()):
+    for word in words(text, BLANK):
         low = word.lower()
         kinds = [name for name, words in WORDS.items() if low in words and name not in found]
         if seconds(low) is not None and low.endswith("s"):
             kinds = [name for name in TIMES if name not in found]
         elif low in EASES or low in STEPS or "(" in low:
-            kinds = [EASED]
+            kinds = [EASED] if EASED not in found else []
         elif low == "infinite" or count(low) is not None:
             kinds = [COUNTED]
         found.setdefault(kinds[0] if kinds else NAMED, word)
@@ -117,7 +116,7 @@ def read_animation(text: str) -> dict[str, str]:
 
 def names_of(style: Mapping[str, str]) -> list[str]:
     """Names of the animations of an element, by its declarations."""
-    return [name.strip().strip("\"'") for name in LISTED.split(style.get(NAMED, "none"))]
+    return [name.strip().strip("\"'") for name in words(style.get(NAMED, "none"), COMMA)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,6 +129,12 @@ class Timing:
     direction: str
     fill: str
     ease: str
+    composition: str
+
+    @property
+    def waits(self) -> bool:
+        """Whether the animation shows its first frame before it begins."""
+        return self.delay > 0.0 and self.direction in ("normal", "alternate")
 
     @property
     def part(self) -> float | None:
@@ -155,10 +160,10 @@ class Timing:
 def timings(style: Mapping[str, str], so_many: int) -> Iterator[Timing]:
     """Yield how each of so many animations of an element runs."""
     columns = [
-        islice(cycle(part.strip().lower() for part in LISTED.split(style.get(name, PROPERTIES[name].initial))), so_many)
-        for name in TIMED
+        islice(cycle(words(style.get(name, PROPERTIES[name].initial).lower(), COMMA) or [""]), so_many)
+        for name in (*TIMED, COMPOSED)
     ]
-    for duration, delay, times, direction, fill, ease in zip(*columns, strict=True):
+    for duration, delay, times, direction, fill, ease, composition in zip(*columns, strict=True):
         length = seconds(duration) or 0.0
         rounds = inf if times == "infinite" else count(times)
         yield Timing(
@@ -168,44 +173,5 @@ def timings(style: Mapping[str, str], so_many: int) -> Iterator[Timing]:
             direction,
             fill,
             ease,
+            composition,
         )
-
-
-def declared_at_start(style: Mapping[str, str], known: Mapping[str, Keyframes]) -> Iterator[tuple[str, str]]:
-    """Yield what the animations of an element declare at the start, by its own declarations, the last one last."""
-    names = names_of(style)
-    for name, timing in zip(names, timings(style, len(names)), strict=True):
-        part = timing.part if name in known else None
-        if part is None:
-            continue
-        for key in dict.fromkeys(key for _, frame in known[name] for key in frame if key != EASED):
-            value = value_at(known[name], key, part, timing.ease, style.get(key))
-            if value is not None:
-                yield key, value
-
-
-def value_at(frames: Keyframes, key: str, part: float, ease: str, base: str | None) -> str | None:
-    """Value of a property at a part of the way; None for the base."""
-    stops = [(offset, frame[key], frame.get(EASED, ease)) for offset, frame in frames if key in frame]
-    before = [stop for stop in stops if stop[0] <= part]
-    after = [stop for stop in stops if stop[0] > part]
-    start, first, how = before[-1] if before else (0.0, None, ease)
-    if start == part:
-        return first
-    stop, last, _ = after[0] if after else (1.0, None, ease)
-    initial = PROPERTIES[key].initial
-    eased = eased_part(how, (part - start) / (stop - start))
-    value = between(first or base or initial, last or base or initial, eased)
-    return value or (first if eased < 0.5 else last)
-
-
-def eased_part(ease: str, part: float) -> float:
-    """Part of the way at a part of the time."""
-    stepping = STEPPING.fullmatch(ease.lower())
-    steps, early = STEPS.get(ease.lower(), (0, False))
-    if stepping is not None:
-        steps, early = int(stepping[1]), stepping[2] in ("start", "jump-start")
-    if steps:
-        return min((floor(part * steps) + early) / steps, 1.0)
-    curve = bezier(EASES.get(ease.lower(), ease.lower().removeprefix("cubic-bezier(").removesuffix(")")))
-    return part if curve is None else curve(part)

@@ -9,7 +9,19 @@ import numpy as np
 from vexture.bezier.convert import arc_cubics
 from vexture.svg.outline import Outline
 
-__all__ = ["GAP", "NUMBER", "POINTS", "SPACE", "Pen", "Point", "path_outlines"]
+__all__ = [
+    "ARC",
+    "ARGUMENTS",
+    "COMMANDS",
+    "GAP",
+    "NUMBER",
+    "NUMBERS",
+    "POINTS",
+    "SPACE",
+    "Pen",
+    "Point",
+    "path_outlines",
+]
 
 # atomic groups: backtracking never splits a number in two
 NUMBER = r"(?>[+-]?(?:[0-9]*\.[0-9]+|[0-9]+)(?:[eE][+-]?[0-9]+)?)"

@@ -144,6 +144,7 @@ PROPERTIES: dict[str, Property] = {
     ),
     "visibility": Property("visible", True, one_of("visible", "hidden", "collapse")),
     "alignment-baseline": Property("baseline", False, one_of(*BASELINES, "baseline", "before-edge", "after-edge")),
+    "animation-composition": Property("replace", False, anything),
     "animation-delay": Property("0s", False, anything),
     "animation-direction": Property("normal", False, anything),
     "animation-duration": Property("0s", False, anything),
@@ -209,7 +210,13 @@ PROPERTIES: dict[str, Property] = {
 
 CSS_ONLY = frozenset(
     {
-        *("animation-delay", "animation-direction", "animation-duration", "animation-fill-mode"),
+        *(
+            "animation-composition",
+            "animation-delay",
+            "animation-direction",
+            "animation-duration",
+            "animation-fill-mode",
+        ),
         *("animation-iteration-count", "animation-name", "animation-timing-function"),
         *("background-image", "border", "border-radius", "box-shadow", "offset-path", "outline", "padding"),
         *("background-blend-mode", "background-color", "background-size"),

@@ -22,6 +22,7 @@ from vexture.svg.images import Images
 from vexture.svg.report import Report
 from vexture.svg.scene import Scene
 from vexture.svg.select import chosen, nothing_painted
+from vexture.svg.style import UNCLEAR
 from vexture.svg.subjects import subject_of
 from vexture.svg.transform import Identity, Transform
 from vexture.svg.unseen import ANIMATION
@@ -207,7 +208,7 @@ def at_moment(request: Request, moment: Moment) -> Found:
     report = Report()
     root = parse_svg(request.content)
     for element in show_moment(root, moment):
-        report.simplified("animation whose first frame is not known, drawn without it", element.getparent())
+        report.simplified(UNCLEAR, element.getparent())
     part = None if request.select is None else chosen(root, request.select)
     scene = Scene(root, report, request.images, part, request.names, request.fonts)
     framed = frame(scene)

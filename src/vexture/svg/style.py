@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass, replace
 from math import inf
 from operator import attrgetter, itemgetter
@@ -11,8 +12,9 @@ from lxml import etree
 from vexture.svg.colors import BLACK, Color, parse_color
 from vexture.svg.declarations import Declaration, expanded, longhands, read_style
 from vexture.svg.document import XML, local_name
+from vexture.svg.first_frame import Around, animated_variables, first_frame
 from vexture.svg.font_values import SPACINGS, SYSTEM_FONTS, font_weight, in_pixels, text_size
-from vexture.svg.keyframes import declared_at_start, names_of
+from vexture.svg.keyframes import names_of
 from vexture.svg.media import Medium
 from vexture.svg.properties import CSS_ONLY, KEYWORDS, PROPERTIES, UNSET
 from vexture.svg.report import Report
@@ -22,7 +24,10 @@ from vexture.svg.values import INITIAL_SIZE, Viewport, fraction
 from vexture.svg.variables import computed, refers, substituted
 from vexture.svg.viewport import own_size
 
-__all__ = ["INITIAL", "LISTING", "Cascade", "Style"]
+__all__ = ["INITIAL", "LISTING", "UNCLEAR", "Cascade", "Style"]
+
+UNCLEAR = "animation whose first frame is not known, drawn without it"
+"""What a note says of an animation of which something is not known."""
 
 NOT_SUPPORTED = re.compile(
     r"(?<![\w-])(?:alpha|attr|calc-size|contrast-color|device-cmyk|env|if|progress|random|sibling-(?:count|index))\(",
@@ -59,6 +64,10 @@ class Style:
         value = fraction(self[name])
         return 1.0 if value is None else value
 
+    def computed(self, name: str) -> str:
+        """Value of a property as it is inherited."""
+        return f"{self.font_size!r}px" if name == "font-size" else self[name]
+
     @property
     def color(self) -> Color:
         """The meaning of `currentcolor` here."""
@@ -84,14 +93,20 @@ class Cascade:
         size = own_size(root)
         self.view = Viewport(*size)  # to which fonts refer
         self.sheets = Sheets(root, report, Medium(*size))
+        self.varied = any(
+            name.startswith("--") for frames in self.sheets.keyframes.values() for _, frame in frames for name in frame
+        )
+        self.unclear = set[etree._Element]()  # which are named
 
     def style(self, element: etree._Element, parent: Style) -> Style:
         """Style of an element; `parent` is the style of its parent, or of the `use` that shows it."""
         declared = self.declared(element)
         variables = {one.name: one.value for one in declared if one.name.startswith("--")}
         inherited = computed(variables, parent.inherited) if variables else parent.inherited
+        if self.sheets.keyframes:
+            inherited = self.with_animated(element, declared, inherited, parent)
         own = dict[str, str]()
-        for name, value in self.specified(element, declared, inherited).items():
+        for name, value in self.specified(element, declared, inherited, parent).items():
             keyword = value.lower()
             entry = PROPERTIES[name]
             if keyword in UNSET or (keyword == "inherit" and entry.inherited):
@@ -124,9 +139,45 @@ class Cascade:
         return Style(inherited, own, font_size)
 
     def specified(
+        self, element: etree._Element, declared: list[Declaration], variables: Mapping[str, str], parent: Style
+    ) -> dict[str, str]:
+        """Winning declaration of each property: what the element says, and over it what animations do."""
+        found = self.said(element, declared, variables)
+        if self.is_animated(found):
+            lasting = {one.name for one in declared if one.important}
+            frame = first_frame(Around(found, variables, parent.computed), self.sheets.keyframes)
+            for name, value in frame.invalid:
+                self.refuse(name, value, element)
+            if frame.is_unclear and element not in self.unclear:
+                self.unclear.add(element)
+                self.report.simplified(UNCLEAR, element)
+            for name, value in frame.values.items():
+                if name not in lasting:
+                    self.declare(found, name, value, element, variables)
+        return found
+
+    def with_animated(
+        self, element: etree._Element, declared: list[Declaration], variables: dict[str, str], parent: Style
+    ) -> dict[str, str]:
+        """Custom properties with those that animations declare."""
+        if not self.varied:
+            return variables
+        quiet = copy(self)
+        quiet.report = Report()
+        found = quiet.said(element, declared, variables)
+        if not self.is_animated(found):
+            return variables
+        lasting = {one.name for one in declared if one.important}
+        animated = animated_variables(Around(found, variables, parent.computed), self.sheets.keyframes)
+        plain = {name: value for name, value in animated.items() if name not in lasting}
+        return computed(
+            {**{one.name: one.value for one in declared if one.name.startswith("--")}, **plain}, parent.inherited
+        )
+
+    def said(
         self, element: etree._Element, declared: list[Declaration], variables: Mapping[str, str]
     ) -> dict[str, str]:
-        """Winning declaration of each property: attributes, and over them what is declared, in rising precedence."""
+        """What an element says: by attributes, and over them what is declared, in rising precedence."""
         found: dict[str, str] = {}
         mode = SPACE_MODES.get(str(element.get(f"{{{XML}}}space")))
         if mode is not None:
@@ -143,11 +194,6 @@ class Cascade:
         for name, value, _ in declared:
             if not name.startswith("--"):
                 self.declare(found, name, value, element, variables)
-        if self.is_animated(found):
-            lasting = {one.name for one in declared if one.important}
-            for name, value in declared_at_start(found, self.sheets.keyframes):
-                if name not in lasting:
-                    self.declare(found, name, value, element, variables)
         return found
 
     def is_animated(self, found: Mapping[str, str]) -> bool:

@@ -18,6 +18,8 @@ SECONDS: Final = {None: 1.0, "h": 3600.0, "min": 60.0, "s": 1.0, "ms": 0.001}
 
 CUBIC: Final = re.compile(rf"\s*({NUMBER})[\s,]+({NUMBER})[\s,]+({NUMBER})[\s,]+({NUMBER})\s*")
 HALVINGS: Final = 40
+DIGITS: Final = 9
+"""Of a part of a way, so that half of one is half."""
 
 SHORTEST: Final = 1e-6
 """Seconds: what is to last less has no duration, and stays as it begins."""
@@ -106,6 +108,10 @@ def bezier(text: str) -> Callable[[float], float] | None:
     if match is None:
         return None
     x1, y1, x2, y2 = map(float, match.groups())
+    if not (0.0 <= x1 <= 1.0 and 0.0 <= x2 <= 1.0):
+        return None
+    if x1 == y1 and x2 == y2:
+        return lambda part: part
 
     def at(first: float, second: float, t: float) -> float:
         return 3.0 * t * (1.0 - t) * ((1.0 - t) * first + t * second) + t**3
@@ -115,6 +121,6 @@ def bezier(text: str) -> Callable[[float], float] | None:
         for _ in range(HALVINGS):
             middle = (low + high) / 2.0
             low, high = (middle, high) if at(x1, x2, middle) < part else (low, middle)
-        return at(y1, y2, (low + high) / 2.0)
+        return round(at(y1, y2, (low + high) / 2.0), DIGITS)
 
-    return ease if 0.0 <= x1 <= 1.0 and 0.0 <= x2 <= 1.0 else None
+    return ease

@@ -86,7 +86,7 @@ def name_unseen(
 def animated(servers: PaintServers) -> Callable[[etree._Element], bool]:
     """Return the function that tells whether an element is animated by a style sheet, and notes nothing."""
     cascade = copy(servers.cascade)
-    cascade.report = Report()
+    cascade.report, cascade.unclear = Report(), set()
     if not cascade.sheets.keyframes:
         return lambda element: False
     quiet = PaintServers(servers.root, cascade, cascade.report)
