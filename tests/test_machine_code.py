@@ -149,3 +149,11 @@ print(code(*arguments)[1:], 'numba' in sys.modules)
     told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     _, total, count = written[0].dispatcher(*ARGUMENTS)
     assert told.stdout.strip() == f"{(total, count)} False"
+
+
+def test_what_is_compared_of_code_tells_trees_that_grow_from_other_tables() -> None:
+    """A table of faces has as many fields as a tree: it is compared as it is."""
+    faces = compile_kernels.new_faces()
+    assert len(faces) == len(compile_kernels.Growth._fields)
+    assert len(compile_kernels.bits(tuple(faces))) == len(faces)
+    assert compile_kernels.bits((faces,)) != compile_kernels.bits((faces._replace(counts=faces.counts + 1),))

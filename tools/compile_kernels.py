@@ -215,9 +215,15 @@ def write(
     print(f"{file}: {file.stat().st_size} bytes, calls {', '.join(symbols)}")
 
 
+def is_growth(values: tuple[Any, ...]) -> bool:
+    """Whether a tuple, which may have lost its name in machine code, is a tree that grows."""
+    fields = Growth._fields
+    return len(values) == len(fields) and np.shape(values[fields.index("counts")]) == (WAITING + 1,)
+
+
 def bits(values: Any) -> Any:
     """What is compared of arguments and results; of a tree that grows, only what it has grown."""
-    if isinstance(values, tuple) and len(values) == len(Growth._fields):
+    if isinstance(values, tuple) and is_growth(values):
         tree = Growth(*values)
         values = (tree.counts,) if tree.counts[WAITING] else astuple(tree_of(tree))
     return tuple(map(bits, values)) if isinstance(values, tuple) else (np.shape(values), np.asarray(values).tobytes())

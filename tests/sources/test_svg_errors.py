@@ -77,6 +77,7 @@ def test_missing_prefixes_excuse_no_other_error() -> None:
         )
 
 
+@pytest.mark.slow  # as the file use-bomb.svg is
 def test_uses_that_show_one_another_too_often_are_an_error() -> None:
     names = "abcdefghij"
     groups = "".join(f'<g id="{a}">' + "".join(f'<use href="#{b}"/>' for b in names) + "</g>" for a in names)

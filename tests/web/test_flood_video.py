@@ -39,7 +39,7 @@ def check_water(pictures):
     assert shares == pytest.approx([wide * edge for edge in EDGES], abs=0.06)  # the last of it is shallow, and clear
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_gif_has_a_frame_for_each_step(chromium, screenshot, tmp_path):
     path = tmp_path / "run.gif"
     outcome = filmed("--extent", series(tmp_path / "run.nc", EDGES), "--video", path, *SMALL, "--step-seconds", 0.75)
