@@ -6,6 +6,8 @@
 /** Of the colours. */
 export const OPACITY = 0.9;
 const HAZARD = 'Greatest hazard: depth × (speed + 0.5)';
+/** Hours of the classes of arrival: minutes, hours, a day. */
+const ROUND = [...[1, 2, 5, 10, 15, 30].map((minutes) => minutes / 60), 1, 2, 3, 4, 6, 12, 24];
 /** Samples beside the water that have its values: the shore is between them. */
 const BESIDE = 3;
 
@@ -13,6 +15,12 @@ const BESIDE = 3;
 const colored = (from, colors, smooth) => ({
   classes: from.map((value, at) => ({ from: value, color: colors[at], opacity: OPACITY })), smooth,
 });
+
+/** The least round time that is at least so long. @param {number} hours */
+export function roundHours(hours) {
+  const days = Math.ceil(hours / 24);
+  return ROUND.find((each) => each >= hours - 1e-9) ?? 24 * days;
+}
 
 /**
  * Colours and legend of a shade; null for the look of water.
@@ -26,7 +34,8 @@ const colored = (from, colors, smooth) => ({
 export function shadeOf(shade, { depths, arrivals: colors, hazards }, hours) {
   if (shade === 'water') return null;
   if (shade === 'arrival') {
-    const from = colors.map((_, at) => (hours * at) / colors.length);
+    const each = roundHours(hours / colors.length);
+    const from = colors.map((_, at) => each * at).filter((value) => value < hours);
     return { colors: colored(from, colors, false), title: 'First under water after', unit: 'h', mapped: false };
   }
   if (shade === 'hazard') {

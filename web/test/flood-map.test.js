@@ -4,7 +4,7 @@ import { areaText, lineOf } from '../flood/chart.js';
 import { entries } from '../flood/legend.js';
 import { hashOf, lookOf } from '../flood/link.js';
 import { Places } from '../flood/place.js';
-import { arrivals, greatestDepths, greatestHazards, shadeOf } from '../flood/shades.js';
+import { arrivals, greatestDepths, greatestHazards, roundHours, shadeOf } from '../flood/shades.js';
 
 describe('shades', () => {
   it('are none for water, classes of depths, and times of arrival', () => {
@@ -23,6 +23,9 @@ describe('shades', () => {
     expect(smooth.mapped).toBe(false);
     const late = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('arrival', flood, 12));
     expect(entries(late)).toEqual([{ color: '#000000', text: '0 to 6 h' }, { color: '#ffffff', text: 'over 6 h' }]);
+    const odd = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('arrival', flood, 7));
+    expect(entries(odd).map(({ text }) => text)).toEqual(['0 to 4 h', 'over 4 h']);
+    expect([0.01, 0.4, 3.83, 12, 30].map(roundHours)).toEqual([1 / 60, 0.5, 4, 12, 48]);
     const danger = /** @type {NonNullable<ReturnType<typeof shadeOf>>} */ (shadeOf('hazard', flood, 12));
     expect(entries(danger)).toEqual([{ color: '#ffff00', text: 'low' }, { color: '#ff0000', text: 'high' }]);
   });
