@@ -39,6 +39,8 @@ def speeds_of(path):
         {"a": (DIMS, 90.0, {"units": "cm s-1", "standard_name": "eastward_sea_water_velocity"}),
          "b": (DIMS, 120.0, {"units": "cm/s", "standard_name": "northward_sea_water_velocity"})},
         {"speed": (("y", "time", "x"), -1.5, {})},
+        {"speed": (DIMS, 5.4, {"units": "km h-1"})},
+        {"speed": (DIMS, 1.5 * 3600 / 1852, {"units": "knots"})},
     ],
 )  # fmt: skip
 def test_speeds_are_read_as_such_or_from_their_parts(variables, tmp_path):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from floods import BOUNDS, CRS
+from floods import BOUNDS, CRS, depths, series
 from PIL import Image
 
 from vexture.drawing import Drawing
@@ -18,7 +18,7 @@ from vexture.flood.relief import Relief, beyond_of, relief_of
 from vexture.flood.surface import WaterSurface, highest_of, surface_of
 from vexture.flood.views import viewpoint, views_of
 from vexture.geo.extent import Extent, Frame, Step
-from vexture.reading import extent_of
+from vexture.reading import extent_of, read_extent
 
 FRAME = Frame(BOUNDS, CRS, (4000.0, 2000.0))
 HMIN = 0.05
@@ -111,6 +111,29 @@ def test_waves_are_in_open_water_only(floods, name, open_share):
     extent = floods[name]
     openness = open_water(extent.steps[0].drawing, extent.frame)
     assert (openness > 0.5).mean() == pytest.approx(open_share, abs=0.06)
+
+
+@pytest.mark.parametrize(("wide", "is_open"), [(20.0, False), (150.0, False), (350.0, True), (900.0, True)])
+def test_a_strip_along_the_border_is_open_only_if_it_is_wide_within_it(wide, is_open):
+    """Water goes on beyond the frame as at its border, but a street there is no sea."""
+    frame = Frame((0.0, 0.0, 4000.0, 3000.0), "EPSG:28992", (4000.0, 3000.0))
+    x0, y0, _, y1 = frame.box
+    east = x0 + wide / 4000.0 * (frame.box[2] - x0)
+    strip = Drawing.polygon([(0.0, y0), (east, y0), (east, y1), (0.0, y1)])
+    assert bool(open_water(strip, frame).any()) == is_open
+
+
+def test_heights_of_wide_cells_are_smooth_below_the_same_level(tmp_path):
+    """A plane of 40 x 20 cells is a plane on the finer grid, but at its border; the water upon it is level."""
+    extent = read_extent(series(tmp_path / "run.nc", [0.6]))
+    bed, depth = extent.bed[100], extent.steps[0].depth[100]
+    inner = slice(8, -8)
+    np.testing.assert_allclose(np.diff(bed)[inner], np.diff(bed)[inner].mean(), rtol=1e-3)
+    raw = np.tile(np.linspace(-2.0, 2.0, 40), (20, 1))
+    coarse = raw[0] + depths(0.6)[0]
+    cells = np.minimum((np.arange(len(bed)) + 0.5) / len(bed) * 40, 39).astype(int)
+    wet = (depth > 0.0) & (depths(0.6)[0][cells] > 0.1)
+    np.testing.assert_allclose((bed + depth)[wet], coarse[cells][wet], atol=1e-5)
 
 
 def test_open_water_ends_softly_and_leaves_corners_and_channels():

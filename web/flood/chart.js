@@ -12,17 +12,30 @@ const STILL = 4;
 export const areaText = (area) => (area >= 1e6 ? `${short(area / 1e6)} km²` : `${short(area / 1e4)} ha`);
 
 /**
+ * Places of steps along the chart, 0..1: by their times, if all have one and each is later than the one before.
+ *
+ * @param {(string | null | undefined)[]} times
+ */
+export function placesOf(times) {
+  const known = times.map((time) => (time ? Date.parse(time) : NaN));
+  const [first, whole] = [known[0], (known.at(-1) ?? NaN) - known[0]];
+  if (whole > 0 && known.every((time, at) => at === 0 || time > known[at - 1])) return known.map((time) => (time - first) / whole);
+  return known.map((_, at) => at / Math.max(known.length - 1, 1));
+}
+
+/**
  * Points of a line through values, a gap where one is NaN; and the least and the greatest.
  *
  * @param {number[]} values
+ * @param {number[]} [places] 0..1
  */
-export function lineOf(values) {
+export function lineOf(values, places = placesOf(values.map(() => null))) {
   const known = values.filter((value) => !Number.isNaN(value));
   const [low, high] = [Math.min(...known), Math.max(...known)];
   let path = '';
   values.forEach((value, at) => {
     if (Number.isNaN(value)) return;
-    const x = (WIDTH * at) / Math.max(values.length - 1, 1);
+    const x = WIDTH * places[at];
     const y = HEIGHT - 3 - ((HEIGHT - 6) * (value - low)) / (high - low || 1);
     path += `${at > 0 && !Number.isNaN(values[at - 1]) ? 'L' : 'M'}${x.toFixed(1)} ${y.toFixed(1)}`;
   });
@@ -54,6 +67,7 @@ export function createChart(stage, player, placeAt, levelsAt, marked) {
   /** @type {[number, number] | null} */
   let place = null;
   let turn = 0;
+  let places = /** @type {number[]} */ ([]);
 
   /** @param {[number, number] | null} picked */
   function pick(picked) {
@@ -73,10 +87,11 @@ export function createChart(stage, player, placeAt, levelsAt, marked) {
 
   async function fill() {
     const mine = ++turn;
-    const steps = await Promise.all(player.names.map(async (name) => (await player.steps.open(name)).manifest.facts?.area));
-    const values = place ? await levelsThere() : steps.map((area) => area ?? NaN);
+    const steps = await Promise.all(player.names.map(async (name) => (await player.steps.open(name)).manifest.facts));
+    const values = place ? await levelsThere() : steps.map((facts) => facts?.area ?? NaN);
     if (mine !== turn) return;
-    const { path, low, high } = lineOf(values);
+    places = placesOf(steps.map((facts) => facts?.time));
+    const { path, low, high } = lineOf(values, places);
     const text = place ? (/** @type {number} */ value) => `${value.toFixed(2)} m` : areaText;
     const what = place ? 'Water level at the marked place' : 'Area under water';
     const range = high >= low ? `${text(low)} to ${text(high)}` : 'always dry';
@@ -89,7 +104,7 @@ export function createChart(stage, player, placeAt, levelsAt, marked) {
   }
 
   function mark() {
-    const x = (WIDTH * player.index) / Math.max(player.count - 1, 1);
+    const x = WIDTH * (places[player.index] ?? 0);
     now.setAttribute('x1', String(x));
     now.setAttribute('x2', String(x));
   }

@@ -44,11 +44,13 @@ const DECLARED = `uniform sampler2D vextureGrain;
 uniform vec2 vextureGrainScale;
 `;
 const APPLIED = `
+#ifdef USE_MAP
 {
   vec2 at = vMapUv * vextureGrainScale;
   float grain = ${FINER.map((finer) => `texture2D(vextureGrain, at * ${finer}.0).r`).join(' + ')};
   diffuseColor.rgb *= 1.0 + ${STRENGTH.toFixed(2)} * (2.0 / ${FINER.length}.0 * grain - 1.0);
-}`;
+}
+#endif`;
 
 /**
  * Give a material with a picture the grain.

@@ -205,7 +205,7 @@ async function run(stage, scene, views, fold) {
   const shades = createShades(stage, player, flood, levelsAt);
   let shown = /** @type {View | null} */ (null);
   const caption = () => ({
-    title: flood.title, when: player.count > 1 ? player.label(player.index) : '', shade: shades.shade,
+    title: flood.title, when: player.count > 1 && !shades.isOfAll ? player.label(player.index) : '', shade: shades.shade,
     credits: creditLines(flood.credits).join(' '),
   });
   const takeaway = createTakeaway(stage, player, {
@@ -215,7 +215,8 @@ async function run(stage, scene, views, fold) {
     link: () => {
       const { camera, controls } = stage;
       const pose = [camera.position, controls.target].flatMap(({ x, y, z }) => [x, y, z]);
-      const hash = hashOf({ step: player.index, view: shown?.name, camera: pose, colours: shades.value });
+      const where = stage.plan ? { plan: stage.plan } : { camera: pose };
+      const hash = hashOf({ step: player.index, view: shown?.name, ...where, colours: shades.value });
       return hash || location.pathname + location.search;
     },
   });
@@ -268,8 +269,9 @@ async function run(stage, scene, views, fold) {
   if (look.colours) void shades.choose(look.colours);
   const wanted = views.find(({ name }) => name === look.view);
   if (wanted) viewed(wanted, { fly: false });
-  else if (look.camera) {
-    stage.stand(look.camera);
+  else if (look.camera || look.plan) {
+    if (look.plan) stage.standAbove(look.plan);
+    else if (look.camera) stage.stand(look.camera);
     shown = null;
     panel.mark(null);
   }

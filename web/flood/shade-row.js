@@ -125,6 +125,10 @@ export function createShades(stage, player, flood, levelsAt) {
     get shade() {
       return current;
     },
+    /** Whether what is shown is of all times. */
+    get isOfAll() {
+      return OF_ALL.has(list.value);
+    },
     get value() {
       return list.value;
     },

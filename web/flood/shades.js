@@ -107,4 +107,4 @@ export function greatestHazards(ratings, columns) {
 }
 
 /** A number for people: as short as it can be. @param {number} value */
-export const short = (value) => (Math.abs(value) >= 10 ? value.toFixed(0) : String(Math.round(value * 100) / 100));
+export const short = (value) => String(Number(value.toFixed(Math.abs(value) >= 100 ? 0 : Math.abs(value) >= 10 ? 1 : 2)));

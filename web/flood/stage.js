@@ -245,6 +245,22 @@ export class Stage extends EventTarget {
     this.#place({ from: { x, y, z }, to: { x: toX, y: toY, z: toZ } });
   }
 
+  /** What is in the middle of a plan, x and z, and how much larger it is; null in perspective. */
+  get plan() {
+    const { x, z } = this.controls.target;
+    return this.camera === this.#plan ? [x, z, this.#plan.zoom] : null;
+  }
+
+  /** Look straight down, as `plan` says. @param {number[]} numbers */
+  standAbove([x, z, zoom]) {
+    this.#flight = null;
+    this.#look(true);
+    this.#plan.position.set(x, ALOFT, z);
+    this.controls.target.set(x, 0, z);
+    this.#plan.zoom = zoom;
+    this.#plan.updateProjectionMatrix();
+  }
+
   /** @param {Pose} pose */
   #place({ from, to }) {
     this.camera.position.set(from.x, from.y, from.z);

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { lengthText, roundLength } from '../flood/bearings.js';
-import { areaText, lineOf } from '../flood/chart.js';
+import { areaText, lineOf, placesOf } from '../flood/chart.js';
 import { entries } from '../flood/legend.js';
 import { hashOf, lookOf } from '../flood/link.js';
 import { Places } from '../flood/place.js';
@@ -85,5 +85,24 @@ describe('coordinates', () => {
     expect(new Places(frame).geodetic(0.5, 0.5)).toBe('51.60000° N, 5.00000° E');
     expect(new Places(frame).geodetic(0, 1)).toBe('52.00000° N, 4.00000° E');
     expect(new Places({ ...frame, geodetic: null }).geodetic(0, 0)).toBeNull();
+  });
+});
+
+describe('places of steps along the chart', () => {
+  it('are by their times, or even without them or out of order', () => {
+    const day = (/** @type {number} */ hour) => `2026-01-05T${String(hour).padStart(2, '0')}:00:00Z`;
+    expect(placesOf([day(0), day(1), day(10)])).toEqual([0, 0.1, 1]);
+    expect(placesOf([day(0), null, day(10)])).toEqual([0, 0.5, 1]);
+    expect(placesOf([day(10), day(1), day(20)])).toEqual([0, 0.5, 1]);
+    expect(placesOf([day(3)])).toEqual([0]);
+  });
+});
+
+describe('a link to a plan', () => {
+  it('has its middle and how much larger it is', () => {
+    const hash = hashOf({ step: 0, plan: [10.5, -3, 4.25] });
+    expect(lookOf(hash)).toEqual({ plan: [10.5, -3, 4.25] });
+    expect(lookOf('#plan=1,2,0')).toEqual({});
+    expect(lookOf('#plan=1,2')).toEqual({});
   });
 });

@@ -26,10 +26,10 @@ class HazardClass(NamedTuple):
 
 
 HAZARDS: Final = (
-    HazardClass(0.0, "#ffffb2", "low"),
-    HazardClass(0.75, "#fecc5c", "danger for some"),
-    HazardClass(1.25, "#fd8d3c", "danger for most"),
-    HazardClass(2.0, "#bd0026", "danger for all"),
+    HazardClass(0.0, "#ffffb2", "below 0.75: low"),
+    HazardClass(0.75, "#fecc5c", "to 1.25: danger for some"),
+    HazardClass(1.25, "#fd8d3c", "to 2: danger for most"),
+    HazardClass(2.0, "#bd0026", "above: danger for all"),
 )
 """Classes of the rating in ColorBrewer's YlOrRd (C. Brewer, 2002), darker from class to class."""
 

@@ -50,8 +50,8 @@ def open_water(
     size = size_for(frame, min(SAMPLES, int(np.ceil(longest * MOST_CELLS / RADIUS))))
     cell = (frame.metres[0] / size[0], frame.metres[1] / size[1])
     wet = (coverage_over(drawing, frame.box, size) >= 0.5) | cells_of(beyond, size)
-    radius, margin, core = _middles(wet, cell, RADIUS)
-    core = _joined(np.pad(_wide(wet, cell), margin, mode="edge") & core, core)
+    radius, margin, core = _middles(_within(wet, cell), cell, RADIUS)
+    core = _joined(np.pad(_wide(_within(wet, cell), cell), margin, mode="edge") & core, core)
     if not core.any():
         return np.zeros(wet.shape)
     away = (distance_to(core, cell) - radius)[margin:-margin, margin:-margin] / longest
@@ -66,6 +66,16 @@ def _middles(wet: NDArray[np.bool_], cell: tuple[float, float], radius: float) -
     radius = max(radius, LEAST_CELLS * max(cell))
     margin = int(np.ceil(2.0 * radius / min(cell)))
     return radius, margin, distance_to(~np.pad(wet, margin, mode="edge"), cell) >= radius
+
+
+def _within(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.bool_]:
+    """Water without what is narrow within the frame: a street along its border goes on beyond it as no sea.
+
+    Half of the wide water may be beyond the border.
+    """
+    radius = max(RADIUS / 2.0, LEAST_CELLS / 2.0 * max(cell))
+    middles = distance_to(~np.pad(wet, 1), cell) >= radius
+    return np.asarray(wet & (distance_to(middles, cell) <= radius + max(cell))[1:-1, 1:-1])
 
 
 def _wide(wet: NDArray[np.bool_], cell: tuple[float, float]) -> NDArray[np.bool_]:

@@ -88,11 +88,17 @@ class DepthsInFrame:
             for area in self._placed.drawings(depth, bed, self._hmin, self._depths)
         )
         over = self.grid(np.where(depth < 0.0, 0.0, depth))
+        if bed is not None:  # the depth upon the heights that the page has, below the same level
+            over = np.where(over > 0.0, np.maximum(over + self.grid(bed) - self.heights(bed), 0.0), over)
         return Step(drawing, self.times[number], over, tuple(deeper), None if speed is None else self.grid(speed))
 
     def grid(self, values: Values) -> NDArray[np.float32]:
         """Values over the frame, the northernmost row first."""
         return self._placed.grid(values)
+
+    def heights(self, bed: Values) -> NDArray[np.float32]:
+        """Heights over the frame, as `grid`, and smooth where cells are wide."""
+        return self._placed.heights(bed)
 
     def without_numbers(self) -> SourceError:
         """The error of a file that holds no number at any time."""
@@ -181,7 +187,7 @@ def _extent(placed: DepthsInFrame, workers: Workers) -> Extent:
         for number in range(len(placed.times)):
             reading = placed.values(number)
             if bed is None and reading.bed is not None:
-                bed = placed.grid(reading.bed)
+                bed = placed.heights(reading.bed)
             seen = seen or bool(np.isfinite(reading.depth).any())
             yield number, reading
 

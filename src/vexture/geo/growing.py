@@ -96,7 +96,7 @@ class Run:
 
     def _made(self, number: int, reading: Reading) -> Change:
         known = Known(self.times[number], _digest(reading))
-        ground = None if reading.bed is None else self._placed.grid(reading.bed)
+        ground = None if reading.bed is None else self._placed.heights(reading.bed)
         return Change(number, known, self._placed.step(number, reading), ground)
 
 

@@ -127,6 +127,10 @@ class MeshInFrame:
         found = outlines_above(points, corners[inner], values, sides)
         return fitted_drawing(_grouped([self._ring(outline) for outline in found if len(outline.points) > 2]))
 
+    def heights(self, values: Values) -> NDArray[np.float32]:
+        """As `grid`, which is linear in each triangle."""
+        return self.grid(values)
+
     def _crossed(self, wet: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Which faces an outline of what is wet can cross or follow."""
         faces, count = self._patch.faces, self._patch.count

@@ -60,6 +60,20 @@ class RasterInFrame:
         taken = values[nearest[:, 1], nearest[:, 0]]
         return np.where(inside, taken, np.nan).reshape(shape).astype(np.float32)
 
+    def heights(self, values: Values) -> NDArray[np.float32]:
+        """As `grid`, but linear between four cells that are known: of cells wider than samples no steps are left."""
+        places, shape = grid_places(self._frame)
+        last = np.array(values.shape[::-1]) - 1
+        found = np.clip(self._positions(places), 0.0, last)
+        low = np.minimum(found.astype(int), np.maximum(last - 1, 0))
+        high = np.minimum(low + 1, last)
+        (x, y), (x0, y0), (x1, y1) = (found - low).T, low.T, high.T
+        upper = values[y0, x0] * (1.0 - x) + values[y0, x1] * x
+        lower = values[y1, x0] * (1.0 - x) + values[y1, x1] * x
+        nearest = self.grid(values)
+        between = (upper * (1.0 - y) + lower * y).reshape(shape).astype(np.float32)
+        return np.where(np.isfinite(between) & np.isfinite(nearest), between, nearest)
+
     def _to_unit(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
         """Positions of the lattice, (n, 2), in the unit square."""
         points = transformed(self._lattice.place(positions), self._system, self._frame.crs)

@@ -35,6 +35,13 @@ EACH_SECOND: Final = re.compile(r"(\w+?)\s*(/\s*s(ec(ond)?)?|[\s.]s(\*\*|\^)?-1)
 """A unit of speed, which begins with a unit of length."""
 
 
+OTHER: Final = {
+    **dict.fromkeys(("km/h", "km h-1", "km/hr", "kph"), 1.0 / 3.6),
+    **dict.fromkeys(("knot", "knots", "kn", "kt", "kts"), 1852.0 / 3600.0),
+}
+"""Metres a second of other units of speed."""
+
+
 def speed_of(dataset: Any, depths: str, order: tuple[str, ...], time: str | None) -> Callable[..., Values] | None:
     """Function that reads the speed where and when a variable of an open dataset holds depths; None if there is none.
 
@@ -63,5 +70,6 @@ def speed_of(dataset: Any, depths: str, order: tuple[str, ...], time: str | None
 
 def _reader(variable: Any) -> Callable[..., Values]:
     """Function that reads a speed in metres a second."""
-    unit = EACH_SECOND.fullmatch(str(variable.attrs.get("units", "")).strip())
-    return reader_of(variable, UNITS.get(unit[1].lower(), 1.0) if unit else 1.0)
+    text = str(variable.attrs.get("units", "")).strip()
+    unit = EACH_SECOND.fullmatch(text)
+    return reader_of(variable, UNITS.get(unit[1].lower(), 1.0) if unit else OTHER.get(text.lower(), 1.0))

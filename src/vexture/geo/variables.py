@@ -57,8 +57,18 @@ SOUNDINGS: Final = (
 SOUNDED: Final = re.compile(r"bathymetr|below (the )?(geoid|datum|mean sea level)", re.IGNORECASE)
 """What descriptions say of such depths whose names are those of water depths, as ``h`` of ROMS."""
 
-UNITS: Final = {"cm": 0.01, "mm": 0.001, "centimetre": 0.01, "ft": 0.3048, "feet": 0.3048, "foot": 0.3048}
+# fmt: off
+UNITS: Final = {
+    **dict.fromkeys(("km", "kilometre", "kilometres", "kilometer", "kilometers"), 1000.0),
+    **dict.fromkeys(("dm", "decimetre", "decimetres", "decimeter", "decimeters"), 0.1),
+    **dict.fromkeys(("cm", "centimetre", "centimetres", "centimeter", "centimeters"), 0.01),
+    **dict.fromkeys(("mm", "millimetre", "millimetres", "millimeter", "millimeters"), 0.001),
+    **dict.fromkeys(("ft", "feet", "foot"), 0.3048),
+    **dict.fromkeys(("us_survey_foot", "us_survey_feet", "ftus"), 1200.0 / 3937.0),
+    **dict.fromkeys(("in", "inch", "inches"), 0.0254),
+}
 """Length in metres of units other than the metre."""
+# fmt: on
 
 TIMES: Final = {"time", "t", "times", "datetime"}
 
