@@ -51,7 +51,7 @@ def open_water(
     cell = (frame.metres[0] / size[0], frame.metres[1] / size[1])
     wet = (coverage_over(drawing, frame.box, size) >= 0.5) | cells_of(beyond, size)
     radius, margin, core = _middles(_within(wet, cell), cell, RADIUS)
-    core = _joined(np.pad(_wide(_within(wet, cell), cell), margin, mode="edge") & core, core)
+    core = _joined(np.pad(_wide(wet, cell), margin, mode="edge") & core, core)
     if not core.any():
         return np.zeros(wet.shape)
     away = (distance_to(core, cell) - radius)[margin:-margin, margin:-margin] / longest
