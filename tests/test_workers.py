@@ -100,9 +100,9 @@ def test_what_a_worker_of_a_cluster_had_in_hand_when_it_died_is_done_again(clust
     assert (tmp_path / "died").exists()
 
 
-def test_a_scheduler_that_is_not_there_is_named(tmp_path):
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", pytest.param("nonsense", marks=pytest.mark.slow)])
+def test_a_scheduler_that_is_not_there_is_named(tmp_path, address):
     run = series(tmp_path / "run.nc", [0.2])
-    address = "tcp://127.0.0.1:1"
     outcome = flood("--extent", run, "--variable", "depth", "--scheduler", address, "-o", tmp_path / "page.html")
     assert outcome.returncode == 1
     assert f"--scheduler {address}: no Dask scheduler answers there" in outcome.stderr

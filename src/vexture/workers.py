@@ -170,9 +170,11 @@ class Cluster:
     def _client(self) -> Any:
         try:
             from distributed import Client
+            from distributed.comm.addressing import parse_address, parse_host_port
         except ImportError:
             raise DeviceError("`scheduler` needs Dask; type: pip install 'vexture[scale]'") from None
         try:
+            parse_host_port(parse_address(self._address)[1])  # a client that was refused would complain at its end
             client = Client(self._address, timeout=PATIENCE, set_as_default=False)
         except (OSError, ValueError) as error:
             raise DeviceError(

@@ -181,6 +181,16 @@ def test_a_radial_gradient_ends_in_the_farthest_corner_in_the_ratio_of_its_sides
     np.testing.assert_allclose([across, down], 0.5**0.5)
 
 
+def test_a_radial_gradient_that_begins_before_its_middle_is_cut_there(tmp_path: Path) -> None:
+    paint, _ = background(tmp_path, "radial-gradient(red -100%, blue 100%)")
+    assert paint.gradient is not None
+    assert [(stop.offset, stop.color) for stop in paint.gradient.stops] == [(0, (0.5, 0, 0.5)), (1, (0, 0, 1))]
+    paint, to_square = background(tmp_path, "repeating-radial-gradient(circle 20px, red -50%, blue 25%)")
+    assert paint.gradient is not None
+    assert paint.gradient.focus == pytest.approx((0.0, 0.25))  # the same, three quarters of the radius farther out
+    np.testing.assert_allclose(np.hypot(*ramp_at(paint, to_square, 60, 20)), 1.0)
+
+
 def test_colours_of_css_are_mixed_premultiplied(tmp_path: Path) -> None:
     paint, _ = background(tmp_path, "linear-gradient(rgb(255 0 0), rgb(0 0 255 / 0))")
     assert paint.gradient is not None
@@ -196,6 +206,7 @@ def test_colours_of_css_are_mixed_premultiplied(tmp_path: Path) -> None:
         ("linear-gradient(red, 30%, blue)", ""),
         ("linear-gradient(in oklab, red, blue)", ""),
         ("conic-gradient(red, blue)", ""),
+        ("radial-gradient(at right 10px bottom 5px, red, blue)", ""),
         ("linear-gradient(red, blue)", "background-size: 9px 9px"),
         ("linear-gradient(red, blue)", "background-blend-mode: multiply; background-color: red"),
     ],

@@ -1,9 +1,10 @@
 """Gradients of CSS, as the background of the outermost element may be one (CSS Images 3, 3)."""
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
-from math import cos, hypot, inf, sin, sqrt
+from math import ceil, cos, hypot, inf, sin, sqrt
 from typing import Any, Final
 
 import tinycss2
@@ -13,7 +14,7 @@ from vexture.svg.calculation import keyword, parsed, separated
 from vexture.svg.colors import Color, parse_color
 from vexture.svg.style import Style
 from vexture.svg.transform import KEYWORDS, Length, angle, parse_origin
-from vexture.svg.values import Viewport
+from vexture.svg.values import Viewport, words
 from vexture.svg.viewport import Rectangle
 
 __all__ = ["CssGradient", "background_gradient", "background_of", "own_background"]
@@ -22,7 +23,10 @@ REPEATING: Final = "repeating-"
 FUNCTIONS: Final = frozenset({"linear-gradient", "radial-gradient"})
 
 HARMLESS: Final = frozenset(
-    {"no-repeat", "repeat", "repeat-x", "repeat-y", "scroll", "fixed", "local", *KEYWORDS, "0", "0%"}
+    {
+        *("no-repeat", "repeat", "repeat-x", "repeat-y", "scroll", "fixed", "local", *KEYWORDS, "0", "0%"),
+        *("/", "auto", "cover", "contain", "100%"),
+    }
 )
 """Words of a background that change nothing where its image fills the box."""
 
@@ -33,6 +37,8 @@ WHOLE: Final = frozenset({"auto", "cover", "contain", "100%", "100% 100%", "auto
 
 SIDES: Final = {"closest-side": (min, False), "farthest-side": (max, False), "closest-corner": (min, True)}
 FARTHEST: Final = (max, True)
+
+SPACE: Final = re.compile(r"\s+")
 
 MIXED: Final = 8
 """Parts of a step between stops of different opacity: CSS mixes premultiplied colours, a paint has straight ones."""
@@ -69,7 +75,10 @@ class CssGradient:
         if not stops:
             return None
         first, last = stops[0].offset, stops[-1].offset
-        if last <= first or (is_radial and first < 0.0):
+        if is_radial and first < 0.0 < last:
+            stops = self.outward(stops)
+            first, last = stops[0].offset, stops[-1].offset
+        if last <= first or (first < 0.0 and is_radial):
             return Paint(stops[-1].color, stops[-1].opacity)
         within = [Stop((one.offset - first) / (last - first), one.color, one.opacity) for one in stops]
         spread = Spread.REPEAT if self.repeats else Spread.PAD
@@ -79,6 +88,18 @@ class CssGradient:
             return Paint.of(Gradient(rows, tuple(mixed(within)), spread, (0.0, first / last)))
         long = last - first
         return Paint.of(Gradient(((a / long, c / long, (e - first) / long), (b, d, f)), tuple(mixed(within)), spread))
+
+    def outward(self, stops: "list[Place]") -> "list[Place]":
+        """Stops of a radial gradient that begins before its middle, from there on."""
+        first, last = stops[0].offset, stops[-1].offset
+        if self.repeats:
+            turns = ceil(-first / (last - first)) * (last - first)
+            return [Place(stop.offset + turns, stop.color, stop.opacity) for stop in stops]
+        at = max(number for number, stop in enumerate(stops) if stop.offset <= 0.0)
+        low, high = stops[at], stops[at + 1]
+        share = -low.offset / (high.offset - low.offset)
+        start = between(Stop(0.0, low.color, low.opacity), Stop(1.0, high.color, high.opacity), share)
+        return [Place(0.0, start.color, start.opacity), *stops[at + 1 :]]
 
     def placed(self, solid: Solid, length: Length, whole: float) -> "list[Place]":
         """Stops in order, in parts of the ramp; none if one is not valid."""
@@ -150,8 +171,9 @@ def read_function(token: Any) -> CssGradient | None:
     """A gradient function; None if it says what is not read: hints between colours, spaces of interpolation."""
     arguments = [tinycss2.serialize(part).strip() for part in separated(token.arguments)]
     shape = "" if parse_color(first_word(arguments[0])) else arguments.pop(0)
-    if len(arguments) < 2 or "in" in shape.lower().split():
-        return None
+    said = words(shape.lower(), SPACE)
+    if len(arguments) < 2 or "in" in said or ("at" in said and len(said) - said.index("at") > 3):
+        return None  # a space of interpolation, or a place counted from other sides
     stops = []
     for argument in arguments:
         parts = [str(tinycss2.serialize([part])) for part in parsed(argument) if part.type != "whitespace"]
@@ -170,11 +192,11 @@ def first_word(text: str) -> str:
 def linear(shape: str, box: Rectangle) -> Line | None:
     """Map of a box to the ramp of a linear gradient, and the length of its line (CSS Images 3, 3.1)."""
     left, top, width, height = box
-    words = shape.lower().split()
-    if not words:
+    said = shape.lower().split()
+    if not said:
         x, y = 0.0, 1.0
-    elif words[0] == "to" and all(word in CORNERS for word in words) and len(words) in (2, 3):
-        sides = [CORNERS[word] for word in words]
+    elif said[0] == "to" and all(word in CORNERS for word in said) and len(said) in (2, 3):
+        sides = [CORNERS[word] for word in said]
         x, y = (sum(side[k] for side in sides) for k in (0, 1))
         if x and y:
             x, y = x * height, y * width  # what is halfway runs through the two other corners
@@ -197,16 +219,16 @@ def radial(shape: str, box: Rectangle, length: Length) -> Line | None:
     left, top, width, height = box
     size, _, place = f" {shape.lower()} ".partition(" at ")
     middle = parse_origin(place.strip() or "center", length)
-    words = size.split()
+    said = size.split()
     if middle is None:
         return None
     x, y = middle
-    is_circle = "circle" in words
-    words = [word for word in words if word not in ("circle", "ellipse")]
-    nearest, to_corner = SIDES.get(words[0], FARTHEST) if words else FARTHEST
+    is_circle = "circle" in said
+    said = [word for word in said if word not in ("circle", "ellipse")]
+    nearest, to_corner = SIDES.get(said[0], FARTHEST) if said else FARTHEST
     radii: list[float | None]
-    if words and words[0] not in SIDES and words != ["farthest-corner"]:
-        radii = [length(word, axis) for axis, word in enumerate(words)]
+    if said and said[0] not in SIDES and said != ["farthest-corner"]:
+        radii = [length(word, axis) for axis, word in enumerate(said)]
         radii = radii * 2 if len(radii) == 1 else radii
     else:
         across, down = nearest(abs(x), abs(width - x)), nearest(abs(y), abs(height - y))
@@ -263,6 +285,8 @@ def mixed(stops: list[Stop]) -> list[Stop]:
 def between(before: Stop, after: Stop, share: float) -> Stop:
     """A stop between two."""
     opacity = before.opacity + (after.opacity - before.opacity) * share
+    if opacity == 0.0:
+        return Stop(before.offset + (after.offset - before.offset) * share, before.color, 0.0)
     ours, theirs = before.opacity * (1.0 - share) / opacity, after.opacity * share / opacity
     red, green, blue = (min(a * ours + b * theirs, 1.0) for a, b in zip(before.color, after.color, strict=True))
     return Stop(before.offset + (after.offset - before.offset) * share, (red, green, blue), opacity)
