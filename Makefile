@@ -9,8 +9,8 @@ PYTHON ?= python3
 BIN := .venv/bin
 # --no-compile: most modules of the packages are never imported, and Python compiles the others when they are
 INSTALL := $(BIN)/python -m pip install --quiet --no-compile
-# two processes of tests more than cores: many tests wait for a browser or a server
-TESTERS := $(shell $(PYTHON) -c 'import os; print(min(4, 2 + (os.cpu_count() or 1)))')
+# one process of tests more than cores: some wait for a browser or a server
+TESTERS := $(shell $(PYTHON) -c 'import os; print(min(4, 1 + (os.cpu_count() or 1)))')
 PYTEST := $(BIN)/python -m pytest --quiet --numprocesses $(TESTERS) --dist worksteal
 SHAPES := examples/shapes
 COLOURS := tests/sources/fixtures/groups/nested.svg

@@ -25,9 +25,9 @@ from chromium import chromium
 from editing import percentile
 from flood_edges import edge_errors, exact_shore, inside, water_to_unit
 from flood_live import VIEWERS, pushed
-from flood_page import PRESETS, SIZE, Made, first_picture, frame_times, look, made, mask_of, opened, rastered
 from flood_reading import VERTICES, island_files, reading_times
 from report import RESULTS, cell, table, write_json
+from santa_cruz_page import PRESETS, SIZE, Made, first_picture, frame_times, look, made, mask_of, opened, rastered
 from targets import Target, judged, judgement
 from vexture_evidence.measures.machine import machine_facts, machine_line
 

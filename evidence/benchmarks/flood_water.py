@@ -26,8 +26,8 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from chromium import ROOT, chromium
-from flood_page import PATIENCE, content, scene_of
 from report import RESULTS, table, write_json
+from santa_cruz_page import PATIENCE, content, scene_of
 from targets import Target, judged, judgement
 from vexture_evidence.measures.machine import machine_facts, machine_line
 

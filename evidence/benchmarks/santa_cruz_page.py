@@ -199,7 +199,9 @@ def rastered(page: Any, mask: NDArray[np.uint8], samples: int) -> None:
     """Let the page's water be where a raster says, by so many samples of it along a footprint."""
     texels = base64.b64encode(np.ascontiguousarray(mask[::-1]).tobytes()).decode()
     if not page.evaluate(RASTER, [texels, MASK, samples]):
-        raise SystemExit("the water's shader has no lookup that a raster could replace; adapt benchmarks/flood_page.py")
+        raise SystemExit(
+            "the water's shader has no lookup that a raster could replace; adapt benchmarks/santa_cruz_page.py"
+        )
 
 
 def frame_times(page: Any, preset: str, frames: int) -> list[float]:
