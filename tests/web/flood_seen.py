@@ -2,11 +2,10 @@
 
 import base64
 
+import flood_page
 import numpy as np
 from numpy.typing import NDArray
 from playwright.sync_api import Page
-
-import flood_page
 
 SMALL = (480, 320)
 WIDE = (740, 500)

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
+import flood_page
 import numpy as np
 import pytest
 from flood_seen import DEEP, WIDE, on_screen, view
@@ -10,7 +11,6 @@ from PIL import Image
 from playwright.sync_api import Page, expect
 from waiting import drawn
 
-import flood_page
 from vexture.flood.hazard import HAZARDS
 
 

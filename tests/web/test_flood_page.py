@@ -5,6 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import flood_page
 import numpy as np
 import pytest
 from browser import served
@@ -12,8 +13,6 @@ from flood_seen import DEEP, PATIENCE, SMALL, WIDE, flat, on_screen, view
 from PIL import Image
 from playwright.sync_api import Page, expect
 from waiting import drawn
-
-import flood_page
 
 PRESETS = ("Plan", "Overview", "Coast", "Shore", "Beach")
 WATER_SEEN = """() => {
