@@ -99,6 +99,23 @@ def test_a_mesh_that_ends_with_the_frame_goes_on_beyond(tmp_path):
     assert render_exact(read(tmp_path / "b.nc").steps[0].drawing, (16, 16)).min() > 1.0 - 1e-6
 
 
+@pytest.mark.parametrize("turned", [0.0, 0.03, 0.5])
+def test_water_ends_where_a_mesh_ends_obliquely(tmp_path, turned):
+    """Where the mesh only touches the frame at a corner, the model ends, and the water; 2 degrees are as along it."""
+    with xarray.open_dataset(mesh(tmp_path / "mesh.nc"), decode_times=False) as dataset:
+        wet = dataset.load().assign(waterdepth=dataset["waterdepth"] * 0 + 3.0, bl=dataset["bl"] * 0)
+    x, y = wet["node_x"] - MIDDLE[0], wet["node_y"] - MIDDLE[1]
+    sheared = {"node_x": x + np.sin(turned) * y + MIDDLE[0], "node_y": y - np.sin(turned) * x + MIDDLE[1]}
+    for name, places in sheared.items():
+        wet[name] = (wet[name].dims, places.values, wet[name].attrs)
+    wet.to_netcdf(tmp_path / "turned.nc")
+    extent = read(tmp_path / "turned.nc")
+    x0, y0, x1, y1 = np.multiply(extent.frame.box, 480.0).round().astype(int)
+    drawn = render_exact(extent.steps[0].drawing, (480, 480))[y0:y1, x0:x1].mean()
+    share = (1.0 + np.sin(turned) ** 2) / (1.0 + np.sin(turned)) ** 2
+    assert drawn == pytest.approx(share, abs=5e-3) if turned != 0.03 else share <= drawn < 1.001
+
+
 def test_a_mesh_with_layers_or_without_faces_is_refused(tmp_path):
     with xarray.open_dataset(mesh(tmp_path / "mesh.nc"), decode_times=False) as dataset:
         dataset = dataset.load()

@@ -25,7 +25,13 @@ from vexture.geo.triangles import Outline, grid_ranges, located, outlines_above
 __all__ = ["MeshInFrame", "MeshSeries"]
 
 NEAR: Final = 1.5
-"""Edges. Parts of the mesh's border this near to the frame's border, or beyond it, move outside the square."""
+"""Edges. Parts of the mesh's border that run along the frame's border, this near to it, move outside the square."""
+
+ALONG: Final = 0.05
+"""Slope. What leaves the frame's border faster does not run along it: it is where the model ends, and stays there."""
+
+ON: Final = 0.01
+"""Edges. A part of the mesh's border that is this near to the frame's border is on it."""
 
 OUTSIDE: Final = 0.25
 """Unit-square units. How far outside the square they move, so that no fitted cubic reaches back in."""
@@ -174,11 +180,13 @@ class MeshInFrame:
 
     def _ring(self, outline: Outline) -> Ring:
         """Ring of an outline; where the mesh's border is that of the frame, the ring extends outside the square."""
-        points, near = outline.points.copy(), NEAR * outline.cell
+        points = outline.points.copy()
         for axis in range(2):
-            low, high = self._frame.box[axis], self._frame.box[2 + axis]
-            points[outline.border & (outline.points[:, axis] <= low + near), axis] = -OUTSIDE
-            points[outline.border & (outline.points[:, axis] >= high - near), axis] = 1.0 + OUTSIDE
+            along = outline.points[:, 1 - axis]
+            from_low = (outline.points[:, axis] - self._frame.box[axis]) / outline.cell
+            from_high = (self._frame.box[2 + axis] - outline.points[:, axis]) / outline.cell
+            points[_beside(from_low, along / outline.cell, outline.border), axis] = -OUTSIDE
+            points[_beside(from_high, along / outline.cell, outline.border), axis] = 1.0 + OUTSIDE
         before, after = np.roll(points, 1, axis=0), np.roll(points, -1, axis=0)
         inner = ~outline.border
         ends = outline.border & (np.roll(inner, 1) | np.roll(inner, -1))
@@ -233,6 +241,27 @@ def _boxes(nodes: NDArray[np.float64], faces: Faces) -> tuple[NDArray[np.float64
     unknown = ~np.isfinite(high).all(axis=1)
     low[unknown] = high[unknown] = np.nan
     return low, high
+
+
+def _beside(across: NDArray[np.float64], along: NDArray[np.float64], border: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which points of a ring are the mesh's border beside one side of the frame.
+
+    `across` is how far they are inside the frame, in edges, and `along` their place along that side.
+    """
+    on = border & (across <= ON)
+    beside = on & (np.roll(on, 1) | np.roll(on, -1))
+    near = border & (across <= NEAR)
+    if near.all():
+        return near
+    turned = np.roll(np.arange(len(near)), -int(np.argmin(near)))  # begins off the side, so that no run is cut in two
+    steps = np.diff(near[turned].astype(np.int8), append=np.int8(0))
+    for first, last in zip(np.flatnonzero(steps == 1) + 1, np.flatnonzero(steps == -1) + 1, strict=True):
+        run = turned[first:last]
+        before, after = np.array_split(run, 2)
+        if len(after):  # medians of both halves: the ends of a run may be the corners of the mesh
+            rise = np.median(across[after]) - np.median(across[before])
+            beside[run] |= abs(rise) <= ALONG * abs(np.median(along[after]) - np.median(along[before]))
+    return beside
 
 
 def _grouped(rings: list[Ring]) -> list[list[Ring]]:
