@@ -146,6 +146,8 @@ def _axis(dataset: Any, dim: str) -> Values:
         raise SourceError(
             f"coordinate {along.name!r} is not finite at position {int(np.argmin(np.isfinite(places))) + 1}"
         )
+    if str(along.attrs.get("units", "")).lower() in LONGITUDES and (np.abs(np.diff(places)) > 180.0).sum() == 1:
+        places = np.unwrap(places, period=360.0)  # it crosses the antimeridian
     sign = np.sign(np.diff(places))
     if len(places) == 0 or (sign == 0).any() or (sign != sign[:1]).any():
         wrong = int(np.argmax(sign != (sign[0] or 1))) + 2 if len(sign) else 1

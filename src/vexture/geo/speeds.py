@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 
 from vexture.geo.series import Values, plausible
-from vexture.geo.variables import UNITS, known_as, reader_of
+from vexture.geo.variables import UNITS, known_as, reader_of, unit_of
 
 __all__ = ["speed_of"]
 
@@ -70,6 +70,6 @@ def speed_of(dataset: Any, depths: str, order: tuple[str, ...], time: str | None
 
 def _reader(variable: Any) -> Callable[..., Values]:
     """Function that reads a speed in metres a second."""
-    text = str(variable.attrs.get("units", "")).strip()
+    text = unit_of(variable)
     unit = EACH_SECOND.fullmatch(text)
     return reader_of(variable, UNITS.get(unit[1].lower(), 1.0) if unit else OTHER.get(text.lower(), 1.0))

@@ -20,6 +20,7 @@ __all__ = [
     "reader_of",
     "refuse_layers",
     "time_axis",
+    "unit_of",
 ]
 
 # fmt: off
@@ -70,6 +71,11 @@ UNITS: Final = {
 """Length in metres of units other than the metre."""
 # fmt: on
 
+NO_LENGTH: Final = re.compile(
+    r".*(/|\bper\b|[a-z][ ^*]*-\d).*|kno?ts?|kn|deg.*|celsius|kelvin|[khm]?pa|%|kg|s|seconds?", re.I
+)
+"""Units of what is neither a depth nor a height: speeds, discharges, temperatures, pressures."""
+
 TIMES: Final = {"time", "t", "times", "datetime"}
 
 MESH: Final = re.compile(r"^mesh(2d?)?_", re.IGNORECASE)
@@ -93,6 +99,11 @@ def depths_of(dataset: Any, candidates: list[str], variable: str | None) -> tupl
         others = [name for name in candidates if name not in (bed, level)]
         remedy = f"`variable` may be {listed(others)}" if others else "write depths into the file"
         raise (SourceError if variable is None else ParameterError)(f"{chosen!r} holds {what}; {remedy}")
+    if NO_LENGTH.fullmatch(unit_of(dataset[chosen])):
+        raise (SourceError if variable is None else ParameterError)(
+            f"{chosen!r} is in {unit_of(dataset[chosen])!r}, no unit of length, so it holds no depths; "
+            "`variable` names another, or write depths into the file"
+        )
     read = reader_of(dataset[chosen])
     if is_level and read_bed is not None:
         return chosen, lambda places, order: read(places, order) - read_bed(places, order), read_bed
@@ -116,6 +127,7 @@ def _chosen(dataset: Any, candidates: list[str], bed: str | None, level: str | N
     best = _longest(dataset, depths + levels)
     choice = [name for name in best if name in depths] or best
     choice = choice or [name for name in candidates if name not in (bed, level)]
+    choice = [name for name in choice if not NO_LENGTH.fullmatch(unit_of(dataset[name]))] or choice
     if not choice and level is None:
         raise SourceError(f"no variable is on rows and columns; it has {listed(dataset.data_vars)}")
     choice = choice or [level or ""]
@@ -235,7 +247,12 @@ def _read(variable: Any, places: dict[Any, Any], order: tuple[str, ...]) -> Valu
     taken = taken.squeeze(extra)
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is no depth
         values: Values = loaded(taken.transpose(*order)).astype(np.float64)
-        return values * UNITS.get(str(variable.attrs.get("units", "m")).strip().lower(), 1.0)
+        return values * UNITS.get(unit_of(variable).lower(), 1.0)
+
+
+def unit_of(variable: Any) -> str:
+    """Unit of a variable, as its file writes it."""
+    return str(variable.attrs.get("units", "")).strip()
 
 
 def listed(names: Any) -> str:

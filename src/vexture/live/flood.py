@@ -1,6 +1,6 @@
 """`vexture flood`: the user's files as one page, or on a server that accepts newer ones."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -21,7 +21,7 @@ from vexture.live.flood_conversion import FloodConversion
 from vexture.live.limits import LimitedShelf, Limits
 from vexture.live.page import FLOOD, built, check_output, data_address, served_page, whole_page
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape, manifest
-from vexture.notes import line_of
+from vexture.notes import HEADINGS, Note, line_of
 from vexture.workers import Workers
 
 if TYPE_CHECKING:  # at run time only what a flood needs is imported
@@ -136,11 +136,19 @@ def make(
         fold=fold,
         openness=None if openness is None else calmed(openness, frame, beyond),
         views=views_of(extent, openness, highest_of(surfaces), beyond),
-        notes=tuple(notes),
+        notes=(*_on_page(asked.extent.name, extent.notes), *notes),
     )
     for note in notes:
         say(" ".join(("note:", *filter(None, note))))
     return Made(flood, conversion, shapes)
+
+
+def _on_page(name: str, notes: Sequence[Note]) -> Iterator[PageNote]:
+    """What was left out or chosen of a file, for those who look at its page: without what its author can do."""
+    for note in notes:
+        text, _, remedy = str(note).partition("; ")
+        heading = HEADINGS[note.kind]
+        yield PageNote(f"{name}: {heading}{text}.", remedy)
 
 
 def _shapes(
