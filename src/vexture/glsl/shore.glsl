@@ -1,4 +1,5 @@
-// The share of a box around each position that a shape fills: the raster that water.glsl reads beside the shape.
+// The share of a wide box around each position that a shape fills, and whether a near one holds an outline: the raster
+// that water.glsl reads beside the shape.
 // Exports: vextureTexelOf, vextureSpread.
 #include "wrap.glsl"
 #include "around.glsl"
@@ -34,17 +35,23 @@ float vextureTexelOf(uint root, vec2 uv, float texel) {
     return vexture_is_clear(root, spot) ? round(share) : vexture_around(share);
 }
 
-// Value after it is spread: the mean over `reach` texels on either side, along one axis after the other.
-float vextureSpread(sampler2D raster, ivec2 at, ivec2 way, int reach) {
+// Values after they are spread, along one axis after the other: the mean over `reach` texels on either side, and over `near`,
+// which are no more.
+vec2 vextureSpread(sampler2D raster, ivec2 at, ivec2 way, int reach, int near) {
     ivec2 last = textureSize(raster, 0) - 1;
-    float lowest = 1.0;
-    float highest = 0.0;
-    float sum = 0.0;
+    vec2 lowest = vec2(1.0);
+    vec2 highest = vec2(0.0);
+    vec2 sum = vec2(0.0);
     for (int k = -reach; k <= reach; k++) {
-        float around = texelFetch(raster, clamp(at + k * way, ivec2(0), last), 0).r;
-        lowest = min(lowest, around);
-        highest = max(highest, around);
-        sum += vexture_share(vec2(around)).x;
+        vec2 around = texelFetch(raster, clamp(at + k * way, ivec2(0), last), 0).rg;
+        vec2 counts = vec2(1.0, abs(k) <= near ? 1.0 : 0.0);
+        lowest = min(lowest, mix(vec2(1.0), around, counts));
+        highest = max(highest, around * counts);
+        sum += counts * vexture_share(around);
     }
-    return highest == 0.0 || lowest == 1.0 ? lowest : vexture_around(sum / float(2 * reach + 1));
+    vec2 mean = sum / vec2(2 * reach + 1, 2 * near + 1);
+    return vec2(
+        highest.x == 0.0 || lowest.x == 1.0 ? lowest.x : vexture_around(mean.x),
+        highest.y == 0.0 || lowest.y == 1.0 ? lowest.y : vexture_around(mean.y)
+    );
 }

@@ -12,7 +12,7 @@ uniform ivec2 vextureRows;    // the first row of each one's texels,
 uniform vec2 vextureShares;   // weight of each in the picture; 0 if there is none
 uniform sampler2D vextureAround;      // the first one's raster
 uniform sampler2D vextureAroundNext;  // and the second's
-uniform vec2 vextureBox;      // half the width of the boxes in them, in the unit square, and that without a texel
+uniform vec3 vextureBox;      // half the width of their wide boxes, in the unit square; that and the near one's less a texel
 uniform float vextureShore;   // width of the strip along the shore, in the unit square; 0: none
 uniform float vextureLapping; // seconds from one line of foam to the next
 
@@ -30,9 +30,11 @@ struct VextureWater {
 VextureWater vextureWater(vec2 uv, vec2 dx, vec2 dy) {
     vec2 reach = abs(dx) + abs(dy);
     float pixel = max(reach.x, reach.y);
-    vec2 raster = vec2(textureLod(vextureAround, uv, 0.0).r, textureLod(vextureAroundNext, uv, 0.0).r);
-    bool is_clear = 0.5 * pixel < vextureBox.y && vextureShares == vextureShares * abs(2.0 * raster - 1.0);
-    float coverage = is_clear ? dot(vextureShares, raster) : 0.0;
+    vec4 around = vec4(textureLod(vextureAround, uv, 0.0).rg, textureLod(vextureAroundNext, uv, 0.0).rg);
+    vec2 raster = around.xz;
+    vec2 told = 0.5 * pixel < vextureBox.z ? around.yw : raster;
+    bool is_clear = 0.5 * pixel < vextureBox.y && vextureShares == vextureShares * abs(2.0 * told - 1.0);
+    float coverage = is_clear ? dot(vextureShares, told) : 0.0;
     int shape = is_clear ? vextureShapes : 0;
     while (shape < vextureShapes) {
         vexture_first_row = vextureRows[shape];

@@ -40,7 +40,11 @@ export const SPREAD_SHADER = Object.freeze({
   fragmentShader: `${shore}uniform sampler2D vextureRaster;
 uniform ivec2 vextureWay;
 uniform int vextureReach;
-void main() { gl_FragColor = vec4(vextureSpread(vextureRaster, ivec2(gl_FragCoord.xy), vextureWay, vextureReach)); }`,
+uniform int vextureNear;
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  gl_FragColor = vec4(vextureSpread(vextureRaster, at, vextureWay, vextureReach, vextureNear), 0.0, 1.0);
+}`,
 });
 
 /** Declarations of the vertex shader. */

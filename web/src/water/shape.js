@@ -1,5 +1,5 @@
 // The shape of water: the textures it is read from, and their uniforms.
-import { Color, Matrix3, Vector2, Vector4 } from 'three';
+import { Color, Matrix3, Vector2, Vector3, Vector4 } from 'three';
 import { VextureError, line } from '../errors.js';
 import { wordTexture } from '../upload.js';
 import { Shores } from './shore.js';
@@ -92,7 +92,7 @@ export class WaterShape {
       vextureTime: { value: 0 },
       vextureAround: { value: null },
       vextureAroundNext: { value: null },
-      vextureBox: { value: new Vector2() },
+      vextureBox: { value: new Vector3() },
       vextureShore: { value: 0 },
       vextureLapping: { value: FOAM.period },
       vextureShallow: { value: new Vector4() },
@@ -173,11 +173,11 @@ export class WaterShape {
   prepare(renderer) {
     const shapes = [...this.#roots].map(([one, quad]) => ({ texels: texelsOf(one), quad }));
     const { vextureAround, vextureAroundNext, vextureBox, vextureShore } = this.uniforms;
-    const { rasters, reach, texel } = this.#shores.drawn(renderer, shapes, vextureShore.value);
+    const { rasters, boxes } = this.#shores.drawn(renderer, shapes, vextureShore.value);
     const isFirst = this.#texture !== null && this.#fade < 1;
     vextureAround.value = rasters[isFirst ? 0 : rasters.length - 1];
     vextureAroundNext.value = rasters[rasters.length - 1];
-    vextureBox.value.set(reach, reach - texel);
+    vextureBox.value.copy(boxes);
   }
 
   /** Stop following textures, and free all GPU memory but theirs. */

@@ -4,10 +4,11 @@ import {
   HalfFloatType,
   LinearFilter,
   NoBlending,
-  RedFormat,
+  RGFormat,
   ShaderMaterial,
   UnsignedByteType,
   Vector2,
+  Vector3,
   WebGLRenderTarget,
 } from 'three';
 import { FullScreenQuad } from 'three/addons/postprocessing/Pass.js';
@@ -18,8 +19,8 @@ import { SHORE_SHADER, SPREAD_SHADER } from './shader.js';
  * @property {import('three').DataTexture} texels
  * @property {number} quad its root
  *
- * @typedef {Shape & { reach: number, target: WebGLRenderTarget }} Raster of a shape; its box filter has 2 `reach` + 1
- *   texels
+ * @typedef {Shape & { reach: number, target: WebGLRenderTarget }} Raster of a shape; its wide box filter has 2 `reach` +
+ *   1 texels
  */
 
 /** Least texels in half a box: with linear interpolation, more would not look smoother. */
@@ -29,7 +30,7 @@ const TEXELS = 4;
 const LEAST_SIDE = 256;
 const MOST_SIDE = 1024;
 
-/** Texels in half a box that is wider than the foam: enough to tell where there is no outline. */
+/** Texels in half a near box, and at least in half a wide one: enough to tell where there is no outline. */
 const LEAST_TEXELS = 2;
 
 /**
@@ -41,7 +42,7 @@ const LEAST_TEXELS = 2;
 function targetOf({ extensions }, side) {
   const halves = ['EXT_color_buffer_float', 'EXT_color_buffer_half_float'].some((name) => extensions.has(name));
   return new WebGLRenderTarget(side, side, {
-    format: RedFormat,
+    format: RGFormat,
     type: halves ? HalfFloatType : UnsignedByteType,
     depthBuffer: false,
     generateMipmaps: false,
@@ -100,7 +101,9 @@ export class Shores {
   /** @type {import('three').WebGLRenderer | null} */
   #renderer = null;
   #texels = pass('VextureShore', SHORE_SHADER, { vextureTexels: null, vextureRoot: 0, vextureTexel: 0 });
-  #spread = pass('VextureSpread', SPREAD_SHADER, { vextureRaster: null, vextureWay: new Vector2(), vextureReach: 0 });
+  #spread = pass('VextureSpread', SPREAD_SHADER, {
+    vextureRaster: null, vextureWay: new Vector2(), vextureReach: 0, vextureNear: LEAST_TEXELS,
+  });
   #onRestored = () => this.#drop(this.#rasters);
 
   /**
@@ -123,7 +126,9 @@ export class Shores {
       this.#rasters.push(before.find(same) ?? this.#rasters.find(same) ?? this.#draw({ ...shape, reach }, texel));
     }
     this.#drop(before.filter((one) => !this.#rasters.includes(one)));
-    return { rasters: this.#rasters.map(({ target }) => target.texture), reach: (reach + 0.5) * texel, texel };
+    const half = (/** @type {number} */ texels) => (texels + 0.5) * texel;
+    const boxes = new Vector3(half(reach), half(reach) - texel, half(LEAST_TEXELS) - texel);
+    return { rasters: this.#rasters.map(({ target }) => target.texture), boxes };
   }
 
   /**
