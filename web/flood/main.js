@@ -126,11 +126,18 @@ function listenToKeys(views, viewed, player) {
   });
 }
 
-/** The part of the canvas that nothing covers. @param {Element} panel @param {Element} bar */
-function insetOf(panel, bar) {
-  const [over, below] = [panel.getBoundingClientRect(), bar.getBoundingClientRect()];
-  const bottom = below.height;
-  return over.width < innerWidth / 2 ? { left: over.right, bottom } : { top: over.bottom, bottom };
+/**
+ * The part of the canvas that nothing covers.
+ *
+ * @param {Element} panel
+ * @param {Element} bar
+ * @param {Element[]} above what stands above the bar, where the panel is as wide as the page
+ */
+function insetOf(panel, bar, above) {
+  const over = panel.getBoundingClientRect();
+  if (over.width < innerWidth / 2) return { left: over.right, bottom: bar.getBoundingClientRect().height };
+  const tops = [bar, ...above].map((one) => one.getBoundingClientRect()).filter(({ height }) => height > 0);
+  return { top: over.bottom, bottom: innerHeight - Math.min(...tops.map(({ top }) => top)) };
 }
 
 async function start() {
@@ -232,9 +239,11 @@ async function run(stage, scene, views, fold) {
   const pin = createPin(stage);
   bar.append(createChart(stage, player, placeAt, levelsAt, pin.mark));
   if (!bare) {
-    app.append(pin.element, panel.panel, bar, shades.legend, createBearings(stage), notes.element);
-    stage.inset = () => insetOf(panel.panel, bar);
+    const above = [shades.legend, createBearings(stage)];
+    app.append(pin.element, panel.panel, bar, ...above, notes.element);
+    stage.inset = () => insetOf(panel.panel, bar, above);
     new ResizeObserver(() => app.style.setProperty('--bar', `${bar.offsetHeight}px`)).observe(bar);
+    new ResizeObserver(() => stage.resize()).observe(shades.legend);
   }
   stage.resize();
   viewed(views[1], { fly: false });

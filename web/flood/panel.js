@@ -29,6 +29,9 @@ export function createPanel(stage, surface, { title, credits, notes, readout, sh
     fold.setAttribute('aria-expanded', String(!wanted));
   };
   folded(NARROW.matches);
+  stage.canvas.addEventListener('pointerdown', () => {
+    if (NARROW.matches) folded(true); // the map is what is looked at
+  });
   panel.append(element('header', {}, element('h1', {}, title, ...badge(credits)), fold), views, body, readout);
   return { panel, mark: (/** @type {View | null} */ shown) => {
     for (const button of views.children) button.setAttribute('aria-pressed', String(button.textContent === shown?.name));
