@@ -173,6 +173,24 @@ def test_a_finger_reads_the_water_on_a_phone(
     page.get_by_role("button", name="Settings").tap()
     expect(page.get_by_role("slider", name="Relief")).to_be_visible()
     screenshot(page)
+    below, above = page.evaluate("""[document.querySelector('.panel').getBoundingClientRect().bottom,
+        document.querySelector('.bearings').getBoundingClientRect().top]""")
+    page.touchscreen.tap(30, (below + above) / 2)  # the map is what is looked at then
+    expect(page.get_by_role("slider", name="Relief")).to_be_hidden()
+
+
+def test_nothing_covers_the_plan_on_a_phone(opened_flood: Callable[..., Page]) -> None:
+    page = opened_flood("series", (390, 844), has_touch=True, is_mobile=True)
+    page.evaluate("vexture.flood.colours('depth')")
+    view(page, "Plan")
+    panel, legend, bearings = page.evaluate("""['.panel', '.legend', '.bearings'].map((name) => {
+        const { top, bottom } = document.querySelector(name).getBoundingClientRect();
+        return { top, bottom };
+    })""")
+    corners = [on_screen(page, east, north) for east in (0.0, 1.0) for north in (0.0, 1.0)]
+    assert legend["bottom"] > legend["top"]
+    for _, y in corners:
+        assert panel["bottom"] < y < min(legend["top"], bearings["top"])
 
 
 def test_nothing_stands_over_the_time_on_a_phone(opened_flood: Callable[..., Page]) -> None:
