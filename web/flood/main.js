@@ -126,18 +126,23 @@ function listenToKeys(views, viewed, player) {
   });
 }
 
+/** Share of the page's height that is left for the picture, even if the legend or the scale then stand over it. */
+const LEAST_FREE = 0.3;
+
 /**
  * The part of the canvas that nothing covers.
  *
  * @param {Element} panel
  * @param {Element} bar
- * @param {Element[]} above what stands above the bar, where the panel is as wide as the page
+ * @param {Element[]} above what stands above the bar, where the panel is as wide as the page and enough is left free
  */
 function insetOf(panel, bar, above) {
   const over = panel.getBoundingClientRect();
-  if (over.width < innerWidth / 2) return { left: over.right, bottom: bar.getBoundingClientRect().height };
-  const tops = [bar, ...above].map((one) => one.getBoundingClientRect()).filter(({ height }) => height > 0);
-  return { top: over.bottom, bottom: innerHeight - Math.min(...tops.map(({ top }) => top)) };
+  const { height: bottom } = bar.getBoundingClientRect();
+  if (over.width < innerWidth / 2) return { left: over.right, bottom };
+  const tops = above.map((one) => one.getBoundingClientRect()).filter(({ height }) => height > 0).map(({ top }) => top);
+  const free = tops.filter((top) => top - over.bottom > LEAST_FREE * innerHeight);
+  return { top: over.bottom, bottom: Math.max(bottom, ...free.map((top) => innerHeight - top)) };
 }
 
 async function start() {
