@@ -54,6 +54,8 @@ def test_a_shape_in_a_colour_is_what_the_exact_renderer_draws(page: Any, screens
     assert distance(inverted, over_white(1.0 - exact("duck"), 0xC03020)) <= HALF_STEP
     copy = draw(page, material="VectorMaterial", parameters={**ink, "root": 2}, texture="atlas", clone=True)
     assert distance(copy, over_white(exact("cake"), 0xC03020)) <= HALF_STEP
+    copy = draw(page, material="MeshBasicMaterial", parameters=ink, mask={"root": 2}, texture="atlas", clone=True)
+    assert distance(copy, over_white(exact("cake"), 0xC03020)) <= HALF_STEP
     thesis = draw(page, parameters=ink, mask={}, texture="thesis")
     assert distance(thesis, over_white(exact("duck"), 0xC03020)) <= 1.0
     turned = {"transform": [0, 0.02, 0.3, -0.02, 0, 0.7, 0, 0, 1]}

@@ -26,6 +26,16 @@ export class VectorMask {
   #options;
   #transparent;
   #takeBack;
+  #clone;
+  /** three.js copies nothing that it does not know to a clone. */
+  #cloned = () => {
+    const copy = this.#clone.call(this.#material);
+    if (MASKS.get(this.#material) === this && !MASKS.has(copy)) { // a VectorMaterial copies its own
+      copy.transparent = this.#transparent;
+      new VectorMask(copy, this.#texture, { ...this.#options, transform: this.#options.transform?.clone() });
+    }
+    return copy;
+  };
   #inside = new Color();
   #isListening = false;
   /** Key of the program since the last refresh: three.js compiles nothing when it goes back to an earlier one. */
@@ -65,6 +75,8 @@ export class VectorMask {
       () => JSON.stringify(this.#variant()),
       (program) => this.#compile(program, this.#variant()),
     );
+    this.#clone = material.clone;
+    material.clone = this.#cloned;
     MASKS.set(material, this);
     this.#refresh();
     this.#listen(true);
@@ -375,6 +387,7 @@ export class VectorMask {
   remove() {
     for (const mesh of [...this.#meshes.keys()]) this.detach(mesh);
     this.#takeBack();
+    if (this.#material.clone === this.#cloned) this.#material.clone = this.#clone;
     this.#listen(false);
     this.#material.removeEventListener('dispose', this.#onDispose);
     this.#material.transparent = this.#transparent;
@@ -388,7 +401,8 @@ export class VectorMask {
 }
 
 /**
- * Mask a built-in mesh material or sprite material with a shape. A clone of the material has no mask.
+ * Mask a built-in mesh material or sprite material with a shape. `material.clone()` has a mask of its own with the same
+ * options; `vectorMaskOf` finds it, to attach it to a mesh or change it.
  *
  * @param {import('three').Material} material its own `onBeforeCompile`, if any, runs first
  * @param {VectorTexture} texture
@@ -399,6 +413,16 @@ export class VectorMask {
  */
 export function applyVectorMask(material, texture, options) {
   return new VectorMask(material, texture, options);
+}
+
+/**
+ * The mask of a material or of a clone of a masked one; undefined if it has none.
+ *
+ * @param {import('three').Material} material
+ * @returns {VectorMask | undefined}
+ */
+export function vectorMaskOf(material) {
+  return MASKS.get(material);
 }
 
 /**

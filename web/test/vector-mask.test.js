@@ -3,7 +3,7 @@ import { describe, expect, test } from 'vitest';
 import { VextureError } from '../src/errors.js';
 import { readPacked } from '../src/packed.js';
 import { texts } from '../src/mask-shader.js';
-import { applyVectorMask, rootAttribute } from '../src/vector-mask.js';
+import { applyVectorMask, rootAttribute, vectorMaskOf } from '../src/vector-mask.js';
 import { VectorMaterial } from '../src/vector-material.js';
 import { VectorTexture } from '../src/vector-texture.js';
 import { fixture } from './files.js';
@@ -33,6 +33,39 @@ describe('several changes at once', () => {
     material.mask?.set({ texture: drawings, root: other });
     expect([material.texture, material.root]).toEqual([drawings, other]);
     expect(material.clone().root).toBe(other);
+  });
+});
+
+describe('a clone', () => {
+  test('has a mask of its own, with the same options', () => {
+    const material = new MeshBasicMaterial({ color: 0x123456 });
+    const mask = applyVectorMask(material, drawings, { root: other, wrap: 'repeat', mode: 'alpha', transform: new Matrix3() });
+    const copy = material.clone();
+    const copied = vectorMaskOf(copy);
+    expect(copied).not.toBe(mask);
+    expect(copied?.options).toEqual(mask.options);
+    expect(copied?.transform).not.toBe(mask.transform);
+    expect([copied?.texture, copied?.material, copied?.ownTransparent]).toEqual([drawings, copy, false]);
+    expect([copy.transparent, copy.color.getHex()]).toEqual([true, 0x123456]);
+    expect(copy.customProgramCacheKey()).toBe(material.customProgramCacheKey());
+    copied?.set({ wrap: 'clamp' });
+    expect(mask.wrap).toBe('repeat');
+    copied?.remove();
+    expect([copy.transparent, vectorMaskOf(copy), vectorMaskOf(material)]).toEqual([false, undefined, mask]);
+  });
+
+  test('of a clone has one, and of a material whose mask was removed none', () => {
+    const material = new MeshBasicMaterial();
+    const mask = applyVectorMask(material, duck);
+    expect(vectorMaskOf(material.clone().clone())?.texture).toBe(duck);
+    mask.remove();
+    expect(material.clone).toBe(MeshBasicMaterial.prototype.clone);
+    expect(vectorMaskOf(material.clone())).toBeUndefined();
+  });
+
+  test('of a material of our own has one mask', () => {
+    const copy = new VectorMaterial({ texture: drawings, root: other }).clone();
+    expect(vectorMaskOf(copy)).toBe(copy.mask);
   });
 });
 

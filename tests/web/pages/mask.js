@@ -1,6 +1,6 @@
 // Scenes with masked materials, drawn one at a time as a test describes them.
 import * as THREE from 'three';
-import { FoldTexture, VectorMaterial, VectorTextureLoader, VextureError, applyVectorMask, rootAttribute } from 'vexture';
+import { FoldTexture, VectorMaterial, VectorTextureLoader, VextureError, applyVectorMask, rootAttribute, vectorMaskOf } from 'vexture';
 import { ThesisLoader } from 'vexture/thesis';
 
 const textures = {};
@@ -109,6 +109,10 @@ async function build(config) {
     material = new THREE[config.material ?? 'MeshBasicMaterial'](completed(config.parameters ?? {}));
     if (config.chain) chain(material);
     if (options) mask = applyVectorMask(material, texture, completed(options));
+    if (options && config.clone) {
+      material = material.clone();
+      mask = vectorMaskOf(material);
+    }
   }
   const mesh = meshOf(config, material, texture);
   if (mask) mask.attach(mesh);
