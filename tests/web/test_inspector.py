@@ -194,7 +194,7 @@ def test_the_thesis_pair_is_shown_while_it_is_compared_with(show: Callable[..., 
     shown.press("Texture contents")
     images = shown.page.get_by_role("region", name="Texture").get_by_role("img")
     assert images.count() == 0
-    shown.page.get_by_role("combobox", name="Compare with").select_option("Thesis 16 bit")
+    shown.page.get_by_role("combobox", name="Compare with").select_option("16-bit original method (2018)")
     images.nth(1).wait_for()
     widths = images.evaluate_all("all => Promise.all(all.map(async (one) => (await one.decode(), one.naturalWidth)))")
     assert widths == [4, 2]

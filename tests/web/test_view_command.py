@@ -180,7 +180,7 @@ def test_thesis_encoding_of_the_server_can_be_compared_with(tmp_path, open_page,
             page.expect_response(re.compile(r"/thesis8\.quads\.png$"), timeout=1000 * PATIENCE) as quads,
             page.expect_response(re.compile(r"/thesis8\.curves\.png$"), timeout=1000 * PATIENCE) as curves,
         ):
-            page.get_by_label("Compare with").select_option("Thesis 8 bit")
+            page.get_by_label("Compare with").select_option("8-bit original method (2018)")
         assert (quads.value.status, curves.value.status) == (200, 200)
         until(lambda: page.get_by_role("slider", name="Divider").is_visible())
         screenshot(page)

@@ -18,7 +18,7 @@ def test_divider_moves_by_keys_and_pointer(viewer_pages: dict[str, Viewed], open
     page = ready(open_page, viewer_pages["duck"].url, (900, 600))
     divider = page.get_by_role("slider", name="Divider")
     assert divider.count() == 0
-    page.get_by_role("combobox", name="Compare with").select_option("Thesis 16 bit")
+    page.get_by_role("combobox", name="Compare with").select_option("16-bit original method (2018)")
     divider.wait_for()
     assert divider.get_attribute("aria-valuenow") == "50"
     divider.press("ArrowRight")
@@ -43,7 +43,7 @@ def test_a_comparison_that_is_not_there_says_why(
 ) -> None:
     page = ready(open_page, viewer_pages["duck"].url, (900, 600))
     choice = page.get_by_role("combobox", name="Compare with")
-    choice.select_option("Thesis 8 bit")
+    choice.select_option("8-bit original method (2018)")
     page.get_by_role("status").filter(has_text="too fine for 8 bits").wait_for()
     assert choice.input_value() == ""
 

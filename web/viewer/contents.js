@@ -1,6 +1,7 @@
 /** The texture's contents: its texels as a picture, the meaning of each, and its place in the drawing. */
 import { chosenLayer } from './chosen-layer.js';
 import { element, section } from './dom.js';
+import { RIVAL_NAMES } from './state.js';
 import { paintTexels } from './texel-image.js';
 import { TexelMap, folded } from './texel-map.js';
 import { cellRect, svgLayer } from './svg.js';
@@ -16,8 +17,6 @@ const MOST_COLUMNS = 256;
 /** Least and largest size of a texel in CSS pixels. */
 const LEAST_TEXEL = 4;
 const MOST_TEXEL = 16;
-
-const RIVAL_NAMES = { thesis16: 'Thesis 16 bit', thesis8: 'Thesis 8 bit' };
 
 /** @type {Record<string, [dx: number, dy: number]>} */
 const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
@@ -103,7 +102,7 @@ export function create(engine, state) {
     const urls = which ? engine.document?.manifest.views?.[which] : null;
     const images = Array.isArray(urls) && which ? urls.map((url, i) => element('figure', {},
       element('img', { src: new URL(url, engine.document?.base ?? document.baseURI).href, alt:
-        `${i ? 'Curves' : 'Quads'} of the ${RIVAL_NAMES[which]} encoding` }),
+        `${i ? 'Curves' : 'Quads'} of the ${RIVAL_NAMES[which]}` }),
       element('figcaption', {}, `${RIVAL_NAMES[which]}: ${i ? 'curves' : 'quads'}`))) : [];
     pair.replaceChildren(...images);
   }

@@ -1,6 +1,7 @@
 /** The side panel: choice of shape, surface and comparison; and the page's buttons. */
 import { element, section, select } from './dom.js';
 import { drawingNames } from './drawing.js';
+import { RIVAL_NAMES } from './state.js';
 
 /**
  * @typedef {import('./state.js').State} State
@@ -11,10 +12,7 @@ import { drawingNames } from './drawing.js';
 const SURFACES = [['flat', 'Flat'], ['plane', 'Plane'], ['sphere', 'Sphere'], ['cube', 'Cube']];
 
 /** @type {[import('./state.js').Rival | '', string][]} */
-const RIVALS = [
-  ['', 'Nothing'], ['thesis16', 'Thesis 16 bit'], ['thesis8', 'Thesis 8 bit'], ['raster', 'Raster of equal bytes'],
-  ['svg', 'Browser SVG'],
-];
+const RIVALS = [['', 'Nothing'], .../** @type {[import('./state.js').Rival, string][]} */ (Object.entries(RIVAL_NAMES))];
 
 /**
  * The list of shapes; hidden while there is only one.

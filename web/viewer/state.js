@@ -31,7 +31,12 @@ import { LEAST_ZOOM, MOST_ZOOM, clamp, held } from './view.js';
 
 export const MODES = Object.freeze(/** @type {Mode[]} */ (['flat', 'plane', 'sphere', 'cube']));
 export const THEMES = Object.freeze(/** @type {Theme[]} */ (['system', 'light', 'dark']));
-export const RIVALS = Object.freeze(/** @type {Rival[]} */ (['thesis16', 'thesis8', 'raster', 'svg']));
+/** What people read of each rival. @type {Readonly<Record<Rival, string>>} */
+export const RIVAL_NAMES = Object.freeze({
+  thesis16: '16-bit original method (2018)', thesis8: '8-bit original method (2018)', raster: 'Raster of equal bytes',
+  svg: 'Browser SVG',
+});
+export const RIVALS = Object.freeze(/** @type {Rival[]} */ (Object.keys(RIVAL_NAMES)));
 
 export const LEAST_DISTANCE = 0.4;
 export const MOST_DISTANCE = 12;

@@ -3,6 +3,7 @@ import { ThesisTexture, readThesis } from '../src/thesis/index.js';
 import { thesisFunctions } from '../src/thesis/shader.js';
 import { Pass } from './pass.js';
 import { HEAD, tintOf, uniforms } from './rivals.js';
+import { RIVAL_NAMES } from './state.js';
 
 const MAIN = `
 uniform sampler2D quads;
@@ -27,8 +28,10 @@ export async function thesisRival([quads, curves], name, drawing) {
     quads: { value: textures.quads }, curves: { value: textures.curves },
     thesis_list_lengths: { value: [data.quadCount, data.curveCount] },
   }));
+  const method = RIVAL_NAMES[data.bits === 16 ? 'thesis16' : 'thesis8'];
+  const isSilhouette = drawing.count > 1 || drawing.maps !== 'none';
   return {
-    pass, tint: tintOf(drawing), label: `Thesis, ${data.bits} bit${drawing.count > 1 || drawing.maps !== 'none' ? ': silhouette' : ''}`, dispose: () => {
+    pass, tint: tintOf(drawing), label: `${method}${isSilhouette ? ': silhouette' : ''}`, dispose: () => {
       pass.dispose();
       texture.dispose();
     },
