@@ -224,6 +224,7 @@ def test_shapes_are_chosen_from_a_list(
     viewer_pages: dict[str, Viewed], open_page: Callable[..., Any], screenshot: Callable[..., Path]
 ) -> None:
     page = ready(open_page, viewer_pages["both"].url, (900, 600))
+    show(page, center=(0.2, 0.3), zoom=30)  # of the first shape; the next is seen whole
     flag = page.get_by_role("list", name="Shapes").get_by_role("button", name="flag")
     flag.focus()
     page.keyboard.press("Enter")

@@ -11,7 +11,7 @@ import { followLink, linkTo, linkedView } from './link.js';
 import { Notes } from './notes.js';
 import { createPanel, createTools } from './panel.js';
 import { Library, readScene } from './library.js';
-import { START, State, THEMES } from './state.js';
+import { HOME, START, State, THEMES } from './state.js';
 import { applyTheme, watchSystemTheme } from './theme.js';
 
 const NARROW = matchMedia('(max-width: 720px)');
@@ -50,8 +50,8 @@ function followTheme(state, engine) {
 function build(engine, state, library) {
   const reset = () => {
     const { mode } = state.value;
-    state.update(mode === 'flat' ? { center: START.center, zoom: START.zoom }
-      : { yaw: START.yaw, pitch: START.pitch, distance: START.distance });
+    const { center, zoom, ...turned } = HOME;
+    state.update(mode === 'flat' ? { center, zoom } : turned);
   };
   listen(stage, {
     drag: (dx, dy) => engine.drag(dx, dy), zoom: (px, py, factor) => engine.zoom(px, py, factor),
@@ -108,7 +108,7 @@ async function openFiles(files, state, library) {
       if (name !== file.name) name = await library.add(await file.arrayBuffer(), name);
       else name = await library.convert(file);
       notes.keep('file', '');
-      state.update({ shape: name, drawing: '', center: START.center, zoom: START.zoom });
+      state.update({ shape: name, drawing: '', ...HOME });
     } catch (error) {
       notes.keep('file', '');
       const { message } = /** @type {Error} */ (error);

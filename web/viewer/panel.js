@@ -1,7 +1,7 @@
 /** The side panel: choice of shape, surface and comparison; and the page's buttons. */
 import { element, section, select } from './dom.js';
 import { drawingNames } from './drawing.js';
-import { RIVAL_NAMES } from './state.js';
+import { HOME, RIVAL_NAMES } from './state.js';
 
 /**
  * @typedef {import('./state.js').State} State
@@ -37,7 +37,7 @@ function shapesSection(state) {
     names = shown;
     box.hidden = names.length < 2;
     list.replaceChildren(...names.map((name) => element('li', {}, element('button', {
-      type: 'button', onclick: () => state.update({ shape: name, drawing: '' }),
+      type: 'button', onclick: () => state.update({ shape: name, drawing: '', ...HOME }),
     }, name))));
     mark();
   };

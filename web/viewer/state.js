@@ -58,6 +58,11 @@ export const START = Object.freeze({
   yaw: -0.4, pitch: 0.3, distance: 1, theme: 'system', compare: null, split: 0.5, overlays: NO_OVERLAYS,
 });
 
+/** Where another shape is seen from first: all of it, from home. */
+export const HOME = Object.freeze({
+  center: START.center, zoom: START.zoom, yaw: START.yaw, pitch: START.pitch, distance: START.distance,
+});
+
 /** @param {ViewState} value @returns {Readonly<ViewState>} */
 function within(value) {
   const view = held(value);
