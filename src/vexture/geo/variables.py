@@ -72,7 +72,9 @@ UNITS: Final = {
 # fmt: on
 
 NO_LENGTH: Final = re.compile(
-    r".*(/|\bper\b|[a-z][ ^*]*-\d).*|kno?ts?|kn|deg.*|celsius|kelvin|[khm]?pa|%|kg|s|seconds?", re.I
+    r".*(/ *|\bper +)(s|sec|seconds?|min|h|hr|hours?|d|days?|k?m\d?)\b.*|.*\b(s|sec|h|hr|d|day|k?m)[ ^*]*-\d.*"
+    r"|kno?ts?|kn|deg.*|celsius|kelvin|[khm]?pa|%|kg|s|seconds?",
+    re.IGNORECASE,
 )
 """Units of what is neither a depth nor a height: speeds, discharges, temperatures, pressures."""
 
