@@ -13,7 +13,7 @@ from floods import flood, series
 from vexture import DeviceError
 from vexture.flood.options import FloodOptions
 from vexture.workers import Cluster, Here, Processes
-from work import dies, slow
+from work import dies, is_forgotten, slow
 
 SECONDS = 60
 
@@ -92,6 +92,12 @@ def test_a_cluster_makes_the_same_page(cluster, tmp_path):
         assert outcome.returncode == 0, outcome.stderr
         pages[name] = (tmp_path / f"{name}.html").read_bytes()
     assert hashlib.sha256(pages["here"]).digest() == hashlib.sha256(pages["there"]).digest()
+
+
+def test_what_a_scheduler_forgot_is_done_again(cluster, tmp_path):
+    """As it does when a worker dies while its result is fetched."""
+    assert list(Cluster(cluster).map(is_forgotten, tmp_path / "once", range(6), 6)) == [k * k for k in range(6)]
+    assert (tmp_path / "once").exists()
 
 
 def test_what_a_worker_of_a_cluster_had_in_hand_when_it_died_is_done_again(cluster, tmp_path):

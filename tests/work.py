@@ -23,3 +23,20 @@ def dies(shared, item):
         mark.touch()
         os.kill(os.getpid(), signal.SIGKILL)
     return item * item
+
+
+def is_forgotten(mark, item):
+    """Work whose piece 3 the scheduler of a cluster forgets once, while it is done."""
+    if item == 3 and not mark.exists():
+        from distributed import get_client, get_worker
+
+        mark.touch()
+        key = get_worker().get_current_task()
+        get_client().run_on_scheduler(forget, key=key)
+    return item * item
+
+
+def forget(dask_scheduler, key):
+    """Let a scheduler tell all who wait for a piece of work that it is cancelled."""
+    for client in {each.client_key for each in dask_scheduler.tasks[key].who_wants}:
+        dask_scheduler.report({"op": "cancelled-keys", "keys": [key], "reason": "already forgotten"}, client=client)

@@ -9,7 +9,7 @@ import sys
 import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures import CancelledError, Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any, Final, Protocol, TypeVar
 
@@ -159,13 +159,21 @@ class Cluster:
         """Results; Dask does the work of a worker that dies again."""
         with self._client() as client:
             held = client.scatter(shared, broadcast=True, hash=False)
-            waiting: deque[Any] = deque()
+
+            def submitted(item: Item) -> Any:
+                return client.submit(work, held, item, pure=False)
+
+            def first() -> Any:
+                item, future = waiting.popleft()
+                return _result(future, lambda: submitted(item), self._address)
+
+            waiting: deque[tuple[Item, Any]] = deque()
             for item in items:
-                waiting.append(client.submit(work, held, item, pure=False))
+                waiting.append((item, submitted(item)))
                 if len(waiting) >= AHEAD * max(1, sum(client.nthreads().values())):
-                    yield _result(waiting.popleft(), self._address)
+                    yield first()
             while waiting:
-                yield _result(waiting.popleft(), self._address)
+                yield first()
 
     def _client(self) -> Any:
         try:
@@ -188,13 +196,20 @@ class Cluster:
         return client
 
 
-def _result(future: Any, address: str) -> Any:
+def _result(future: Any, again: Callable[[], Any], address: str) -> Any:
+    """Result of work; a scheduler may forget that of a worker that dies as it is fetched: then it is done `again`."""
     from distributed import KilledWorker
 
-    try:
-        return future.result()
-    except KilledWorker as error:
-        raise DeviceError(
-            f"`scheduler` {address}: workers died at the same work, as they do without memory ({error}); "
-            "start workers with more"
-        ) from None
+    for _ in range(MOST_DEATHS):
+        try:
+            return future.result()
+        except CancelledError as error:
+            why: Exception = error
+            future = again()
+        except KilledWorker as error:
+            why = error
+            break
+    raise DeviceError(
+        f"`scheduler` {address}: workers died at the same work, as they do without memory ({why}); "
+        "start workers with more"
+    )
