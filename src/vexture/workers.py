@@ -163,9 +163,14 @@ class Cluster:
             def submitted(item: Item) -> Any:
                 return client.submit(work, held, item, pure=False)
 
+            def again(item: Item) -> Any:
+                nonlocal held  # what all share may be lost with the worker, too
+                held = client.scatter(shared, broadcast=True, hash=False)
+                return submitted(item)
+
             def first() -> Any:
                 item, future = waiting.popleft()
-                return _result(future, lambda: submitted(item), self._address)
+                return _result(future, lambda: again(item), self._address)
 
             waiting: deque[tuple[Item, Any]] = deque()
             for item in items:
