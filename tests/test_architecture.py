@@ -53,7 +53,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     "tracing": SOURCES | {"svg"},
     "reading": SOURCES | {"fonts", "geo", "svg", "tracing", "workers"},
     "tree": BASE | {"bezier", "drawing", "group", "layout", "notes", "paint"},
-    "renderers": BASE | {"drawing", "group", "layout", "paint"},
+    "wgsl": {"errors"},
+    "renderers": BASE | {"drawing", "group", "layout", "paint", "wgsl"},
     "encodings": {"drawing", "errors", "renderers"},
     "texture": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "svg", "tree"},
     "parameters": {"deadline", "drawing", "errors"},
@@ -81,9 +82,6 @@ TRUTH_MAY_IMPORT = (
 
 LAYOUT_NUMBERS = {thesis_layout.CONTROL_MIN, thesis_layout.CONTROL_MAX, thesis_layout.LIST_LIMIT[16], layout.LATTICE}
 """Numbers of the textures' layouts that mean nothing else anywhere."""
-
-WITH_SHADER_TEXT = {"renderers/shader.py", "thesis/shader.py"}
-"""Modules that put programs together."""
 
 SHADER_WORDS = re.compile(r"\b(texelFetch|gl_\w+|(uniform|varying|highp|mediump) \w+|[ib]?vec[234]\()|^#version", re.M)
 HEAVY = {
@@ -124,6 +122,12 @@ HEAVY = {
 
 def name_of(path):
     return path.relative_to(PACKAGE).as_posix()
+
+
+WITH_SHADER_TEXT = {"renderers/shader.py", "thesis/shader.py"} | {
+    name_of(path) for path in (PACKAGE / "wgsl").glob("*.py")
+}
+"""Modules that put programs together, and those that know both languages."""
 
 
 @cache

@@ -112,6 +112,12 @@ SYSTEM = (
         "the modelled costs of the shaders",
     ),
     Need(
+        "a Vulkan driver",
+        "import wgpu; assert wgpu.gpu.request_adapter_sync(), 'there is none'",
+        ("mesa-vulkan-drivers",),
+        "the tests of the shader in WGSL",
+    ),
+    Need(
         "the icon sets of npm",
         "import corpora; corpora.mdi(1, 0); corpora.simple_icons(1, 0)",
         (),

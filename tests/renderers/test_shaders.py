@@ -57,7 +57,12 @@ WITHOUT_MIRROR = {
     "water.glsl",
 }
 MIRRORED = {name: text for name, text in FILES.items() if name not in WITHOUT_MIRROR}
-ALONE = {"fetch"}  # functions of the shader for which the mirror has no use
+ALONE = {
+    "fetch",
+    "vexture_add_pieces",
+    "vexture_add_flat_pieces",
+    "vexture_mod",
+}  # functions of the shader for which the mirror has no use
 UNIFORMS = [
     "texels",
     "flat_view",

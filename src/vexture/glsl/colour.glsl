@@ -62,6 +62,29 @@ VextureLook vexture_flat_look(uvec4 texel, VextureBox box) {
     return VextureLook(filled, false, left < 1.0 && y0 != y3);
 }
 
+// Adds those pieces of a leaf in the box of which there is a bit, as long as there is room for their paints.
+void vexture_add_flat_pieces(
+    inout VextureSum sum, inout int counted, inout VextureLeaf leaf, VexturePlanar planar, VextureBox box, float whole,
+    VextureRegion region
+) {
+    while (counted != 0 && vexture_has_room(sum)) {
+        int lowest = counted & -counted;
+        int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
+        counted ^= lowest;
+        uvec4 texel = vexture_leaf_piece(leaf, i);
+        VextureLook look = vexture_flat_look(texel, box);
+        vec3 share = vec3(look.filled, 0.0, vexture_lift(texel, look.crosses, box));
+        if (look.crosses) {
+            VexturePiece piece = vexture_piece(texel, box);
+            VextureEnds ends = vexture_ends(piece);
+            share += vec3(vexture_flat_piece_area(piece, ends), vexture_moment(piece, ends));
+        }
+        uvec2 sides = vexture_leaf_sides(leaf, planar, i);
+        vexture_add_piece(sum, planar, sides, whole * share, region);
+    }
+    vexture_settle(sum, planar, region);
+}
+
 // Adds the colour of the part of a cell in the box, times its share of the pixel, of whose area this is the inverse.
 void vexture_add_flat_cell(
     inout VextureSum sum, VexturePlanar planar, VextureCell cell, ivec2 origin, VextureBox box, float inverse
@@ -81,26 +104,11 @@ void vexture_add_flat_cell(
     }
 #if VEXTURE_GRADIENTS
     while (counted != 0 || vexture_waits(sum)) {
-#else
-    {  // a loop would turn once, which costs a tenth of the time
-#endif
-        while (counted != 0 && vexture_has_room(sum)) {
-            int lowest = counted & -counted;
-            int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
-            counted ^= lowest;
-            uvec4 texel = vexture_leaf_piece(leaf, i);
-            VextureLook look = vexture_flat_look(texel, box);
-            vec3 share = vec3(look.filled, 0.0, vexture_lift(texel, look.crosses, box));
-            if (look.crosses) {
-                VexturePiece piece = vexture_piece(texel, box);
-                VextureEnds ends = vexture_ends(piece);
-                share += vec3(vexture_flat_piece_area(piece, ends), vexture_moment(piece, ends));
-            }
-            uvec2 sides = vexture_leaf_sides(leaf, planar, i);
-            vexture_add_piece(sum, planar, sides, whole * share, region);
-        }
-        vexture_settle(sum, planar, region);
+        vexture_add_flat_pieces(sum, counted, leaf, planar, box, whole, region);
     }
+#else
+    vexture_add_flat_pieces(sum, counted, leaf, planar, box, whole, region);
+#endif
 }
 
 // A premultiplied colour within its range; 0 for what is NaN.
@@ -125,6 +133,30 @@ vec4 vextureFlatColor(uint root, uvec2 base, vec2 offset, VextureFlat view) {
         square = vexture_next_square(square.position, origin + (1 << cell.bit), place);
     }
     return vexture_held(sum.color / float(VEXTURE_PAINT_ONE));
+}
+
+// As vexture_add_flat_pieces, of any footprint. Moments count by the share `turned`.
+void vexture_add_pieces(
+    inout VextureSum sum, inout int counted, inout VextureLeaf leaf, VexturePlanar planar, VextureBox box,
+    VextureFrame frame, float whole, float turned, VextureRegion region
+) {
+    while (counted != 0 && vexture_has_room(sum)) {
+        int lowest = counted & -counted;
+        int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
+        counted ^= lowest;
+        uvec4 texel = vexture_leaf_piece(leaf, i);
+        VextureLook look = vexture_first_look(texel, box);
+        vec3 share = vec3(whole * look.filled, 0.0, turned * vexture_lift(texel, look.crosses, box));
+        if (look.crosses) {
+            VexturePiece piece = vexture_piece(texel, box);
+            VextureEnds ends = vexture_ends(piece);
+            float area = vexture_piece_area(texel, look.turns, piece, ends, box, frame);
+            share += vec3(area, turned * vexture_moment(piece, ends));
+        }
+        uvec2 sides = vexture_leaf_sides(leaf, planar, i);
+        vexture_add_piece(sum, planar, sides, share, region);
+    }
+    vexture_settle(sum, planar, region);
 }
 
 // Adds the colour of the part of a footprint in a cell, times its area.
@@ -159,27 +191,11 @@ void vexture_add_cell(
     }
 #if VEXTURE_GRADIENTS
     while (counted != 0 || vexture_waits(sum)) {
-#else
-    {
-#endif
-        while (counted != 0 && vexture_has_room(sum)) {
-            int lowest = counted & -counted;
-            int i = (floatBitsToInt(float(lowest)) >> 23) - 127;
-            counted ^= lowest;
-            uvec4 texel = vexture_leaf_piece(leaf, i);
-            VextureLook look = vexture_first_look(texel, box);
-            vec3 share = vec3(whole * look.filled, 0.0, turned * vexture_lift(texel, look.crosses, box));
-            if (look.crosses) {
-                VexturePiece piece = vexture_piece(texel, box);
-                VextureEnds ends = vexture_ends(piece);
-                share.x += vexture_piece_area(texel, look.turns, piece, ends, box, frame);
-                share.yz += turned * vexture_moment(piece, ends);
-            }
-            uvec2 sides = vexture_leaf_sides(leaf, planar, i);
-            vexture_add_piece(sum, planar, sides, share, region);
-        }
-        vexture_settle(sum, planar, region);
+        vexture_add_pieces(sum, counted, leaf, planar, box, frame, whole, turned, region);
     }
+#else
+    vexture_add_pieces(sum, counted, leaf, planar, box, frame, whole, turned, region);
+#endif
 }
 
 // Parameters: the map's root quad; the others are those of vextureCoverage.

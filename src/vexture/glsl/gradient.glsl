@@ -30,6 +30,11 @@ struct VextureRamp {
     float share;  // of the region: beside a cone there is no place
 };
 
+// GLSL's mod, which not every language has.
+float vexture_mod(float x, float y) {
+    return x - y * floor(x / y);
+}
+
 // How far a value goes along each side of a region, that changes along x and y like this.
 vec2 vexture_spans(vec2 way, VextureRegion region) {
     return abs(vec2(dot(way, region.right), dot(way, region.up)));
@@ -135,7 +140,7 @@ vec4 vexture_spread_sum(uint stops, uint number, uint spread, vec4 edges) {
     float whole = pads ? 0.0 : floor(edges.x);
     for (int k = 0; k < 3; k++) {
         vec4 here = edges - whole;
-        here = spread == uint(VEXTURE_SPREAD_REFLECT) && mod(whole, 2.0) != 0.0 ? 1.0 - here.wzyx : here;
+        here = spread == uint(VEXTURE_SPREAD_REFLECT) && vexture_mod(whole, 2.0) != 0.0 ? 1.0 - here.wzyx : here;
         sum = vexture_add_ramp(sum, stops, number, here, pads ? here.xw : clamp(here.xw, 0.0, 1.0));
         whole += 1.0;
         if (pads || whole >= edges.w) {
@@ -160,7 +165,8 @@ vec4 vexture_ramp_mean(uint stops, uint number, uint spread, float middle, vec2 
         float wide = max(max(rest.x, rest.y), VEXTURE_SHORTEST_RAMP);
         float narrow = min(rest.x, rest.y);
         // what goes on is the same after 2, and finer there
-        middle = pads ? clamp(middle, -wide - narrow, 1.0 + wide + narrow) : mod(mod(middle, 2.0) - 0.5 * mod(whole.x + whole.y, 4.0), 2.0);
+        float turned = vexture_mod(vexture_mod(middle, 2.0) - 0.5 * vexture_mod(whole.x + whole.y, 4.0), 2.0);
+        middle = pads ? clamp(middle, -wide - narrow, 1.0 + wide + narrow) : turned;
         vec4 edges = middle + 0.5 * vec4(-wide - narrow, narrow - wide, wide - narrow, wide + narrow);
         float size = 0.5 * (edges.w - edges.x + edges.z - edges.y);
         mean = vexture_spread_sum(stops, number, spread, edges) / size;

@@ -12,11 +12,11 @@ float vexture_other(float odd, float step, float more) {
 }
 
 vec2 vextureStepX(vec2 position) {
-    float odd = mod(floor(gl_FragCoord.x), 2.0);
+    float odd = 2.0 * fract(0.5 * floor(gl_FragCoord.x));
     return dFdx(position) * vexture_other(odd, dFdx(odd), dFdx(gl_FragCoord.w));
 }
 
 vec2 vextureStepY(vec2 position) {
-    float odd = mod(floor(gl_FragCoord.y), 2.0);
+    float odd = 2.0 * fract(0.5 * floor(gl_FragCoord.y));
     return dFdy(position) * vexture_other(odd, dFdy(odd), dFdy(gl_FragCoord.w));
 }

@@ -32,7 +32,18 @@ VERSIONS: Final = {
     "330": "#version 330\n",
     "300 es": "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n",
 }
-"""First lines of a shader in each supported dialect."""
+"""First lines of a shader in each supported dialect of GLSL."""
+
+WGSL: Final = "wgsl"
+
+PARTS: Final = {
+    "coverage": "coverage.glsl",
+    "color": "colour.glsl",
+    "sheets": "sheets.glsl",
+    "feature": "feature.glsl",
+    "steps": "steps.glsl",
+}
+"""The file of each part of the shader that an application can ask for."""
 
 PICTURE_MAIN: Final = """
 out float coverage_of_pixel;
@@ -97,33 +108,71 @@ def vertex_source(version: str) -> str:
     return f"{VERSIONS[version]}void main() {{ gl_Position = {corner}; }}\n"
 
 
-def shader_source(version: str = "300 es") -> str:
-    """Text that gives a fragment shader the functions ``vextureCoverage`` and ``vextureFlatCoverage``.
+def shader_source(
+    version: str = "300 es",
+    part: str = "coverage",
+    *,
+    wrap: str = "none",
+    flat: bool = False,
+    gradients: bool = True,
+    linear: bool = False,
+) -> str:
+    """Text that gives a fragment shader the functions of a part of vexture.
 
-    It stands before the shader's own text. It has neither ``#version`` nor a default precision, so that an engine can
-    write them; in ``300 es`` the default precisions of float and int must be highp. It declares ``uniform highp
-    usampler2D vextureTexels``, which must be a `Texture`. All other names begin with ``vexture``, ``Vexture`` or
-    ``VEXTURE``. Both functions integrate over the pixel's footprint: the first one whatever its shape, the second one,
-    which costs less, over upright rectangles that are alike in the whole view.
+    It stands before the shader's own text. All its names begin with ``vexture``, ``Vexture`` or ``VEXTURE``.
+
+    GLSL has neither ``#version`` nor a default precision, so that an engine can write them; in ``300 es`` the default
+    precisions of float and int must be highp. It declares ``uniform highp usampler2D vextureTexels``, which must be a
+    `Texture`. In WGSL a function is given what it reads before all else: ``vextureCoverage(texels, root, uv, dx, dy)``,
+    with ``texels`` a ``texture_2d<u32>``. Of a function's two forms, that with a base in fixed point ends in ``From``.
 
     Parameters
     ----------
     version : str
-        Dialect of the shader, ``"300 es"`` or ``"330"``. The text is the same for both.
+        ``"300 es"`` or ``"330"``, of GLSL, whose text is the same for both, or ``"wgsl"``.
+    part : str
+        ``"coverage"``: one shape, by ``vextureCoverage``, or ``vextureFlatCoverage``, which costs less, where all
+        pixels are upright rectangles and alike. ``"color"``: a drawing in its own colours, by ``vextureColor`` and
+        ``vextureFlatColor``. ``"sheets"``: both anywhere in the plane, by ``vextureWrapped``, ``vextureWrappedColor``
+        and ``vextureSheets``. ``"feature"``: the element at a point, by ``vextureFeature``. ``"steps"``: derivatives
+        of a position, by ``vextureStepX`` and ``vextureStepY``.
+    wrap : str
+        Beyond the unit square, for ``"sheets"``: ``"none"``, ``"clamp"`` or ``"repeat"``.
+    flat : bool
+        Whether the functions of ``"sheets"`` call the flat ones.
+    gradients : bool
+        Whether a drawing may have gradients; without their text it costs less.
+    linear : bool
+        Whether colours are averaged in linear light, or in sRGB as browsers do.
 
     Raises
     ------
     ParameterError
-        If there is no such version.
+        If there is no such version, part or wrap.
 
     Examples
     --------
     >>> "float vextureCoverage(uint root, vec2 uv, vec2 dx, vec2 dy)" in shader_source()
     True
+    >>> "fn vextureCoverage(vextureTexels: texture_2d<u32>, root: u32, uv: vec2f" in shader_source("wgsl")
+    True
     """
-    if version not in VERSIONS:
-        raise ParameterError(f"`version` is {version!r}; there are {', '.join(map(repr, VERSIONS))}")
-    return shader_text("coverage.glsl")
+    for name, value, allowed in (
+        ("version", version, (*VERSIONS, WGSL)),
+        ("part", part, PARTS),
+        ("wrap", wrap, WRAPS),
+    ):
+        if value not in allowed:
+            raise ParameterError(f"`{name}` is {value!r}; there are {', '.join(map(repr, allowed))}")
+    numbers = {"FLAT": int(flat), "GRADIENTS": int(gradients), "LINEAR": int(linear), "WRAP": WRAPS[wrap]}
+    text = shader_text(PARTS[part])
+    asked = {f"VEXTURE_{name}": value for name, value in numbers.items() if f"VEXTURE_{name}" in text}
+    if version != WGSL:
+        return "".join(f"#define {name} {value}\n" for name, value in asked.items()) + text
+    from vexture.wgsl import chosen, to_wgsl
+
+    wraps = {f"VEXTURE_WRAP_{name.upper()}": value for name, value in WRAPS.items()}
+    return chosen(to_wgsl(text), {**asked, **wraps})
 
 
 def shader_text(file: str, *owners: ModuleType) -> str:
