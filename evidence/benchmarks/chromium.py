@@ -74,7 +74,11 @@ def bundle(entry: Path, output: Path, three: str = "three") -> None:
     command += [f"--alias:vexture={WEB / 'src' / 'index.js'}"]
     command += [f"--alias:vexture/thesis={WEB / 'src' / 'thesis' / 'index.js'}"]
     command += [f"--alias:vexture/water={WEB / 'src' / 'water' / 'index.js'}"]
+    command += [f"--alias:vexture/webgpu={WEB / 'src' / 'webgpu' / 'index.js'}"]
     command += [f"--alias:three={WEB / 'node_modules' / three}"]
+    command += [
+        f"--alias:three/{name}={WEB / 'node_modules' / three / 'build'}/three.{name}.js" for name in ("webgpu", "tsl")
+    ]
     command += [f"--alias:three/addons={WEB / 'node_modules' / three / 'examples' / 'jsm'}"]
     outcome = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=False)
     assert outcome.returncode == 0, outcome.stderr

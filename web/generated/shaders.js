@@ -23,5 +23,3 @@ export const overlay = "uniform highp uint vextureOverlayRoot;\nuniform bool vex
  * @type {string}
  */
 export const steps = "float vexture_other(float odd,float step,float more){\nfloat way=(1.0-2.0*odd)*step;\nreturn clamp(1.0+way*more/gl_FragCoord.w,0.5,2.0);\n}\nvec2 vextureStepX(vec2 position){\nfloat odd=2.0*fract(0.5*floor(gl_FragCoord.x));\nreturn dFdx(position)*vexture_other(odd,dFdx(odd),dFdx(gl_FragCoord.w));\n}\nvec2 vextureStepY(vec2 position){\nfloat odd=2.0*fract(0.5*floor(gl_FragCoord.y));\nreturn dFdy(position)*vexture_other(odd,dFdy(odd),dFdy(gl_FragCoord.w));\n}\n";
-/** Values of VEXTURE_WRAP. */
-export const WRAPS = Object.freeze({"none": 0, "clamp": 1, "repeat": 2});

@@ -6,7 +6,8 @@ export { VectorTextureLoader } from './vector-texture-loader.js';
 export { VectorTexture } from './vector-texture.js';
 export { bounds, cellAt, contains, counts } from './walk.js';
 export { paintAt } from './walk-map.js';
-export { VectorMask, applyVectorMask, rootAttribute, vectorMaskOf } from './vector-mask.js';
+export { rootAttribute } from './root-attribute.js';
+export { VectorMask, applyVectorMask, vectorMaskOf } from './vector-mask.js';
 export { VectorMaterial } from './vector-material.js';
 
 /** @typedef {import('./mask-mesh.js').MaskedIntersection} MaskedIntersection */

@@ -1,6 +1,6 @@
 // The options of a mask, their defaults and their validation.
 import { Matrix3 } from 'three';
-import { WRAPS } from '../generated/shaders.js';
+import { WRAPS } from '../generated/wraps.js';
 import { VextureError, line } from './errors.js';
 
 /**

@@ -1,5 +1,7 @@
 // Text that a mask inserts into a material's shader: declarations, and calls of the functions of src/vexture/glsl.
-import { WRAPS, packed, planar, steps } from '../generated/shaders.js';
+import { packed, planar, steps } from '../generated/shaders.js';
+import { WRAPS } from '../generated/wraps.js';
+import { ROOT_ATTRIBUTE } from './root-attribute.js';
 
 /**
  * @typedef {object} Variant All that makes one program differ from another.
@@ -19,9 +21,6 @@ import { WRAPS, packed, planar, steps } from '../generated/shaders.js';
  * @property {boolean} hasMap
  * @property {string} fold GLSL of the fold that moves the shape, or ''
  */
-
-/** Name of the attribute that holds each instance's root. */
-export const ROOT_ATTRIBUTE = 'vextureRoot';
 
 /** Position and derivatives. The position is continuous: wrapping comes later, so that derivatives have no jumps. */
 export const FOOTPRINT = 'vextureUv, vextureStepX(vextureUv), vextureStepY(vextureUv)';

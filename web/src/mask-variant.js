@@ -1,19 +1,8 @@
 // What makes the program of one mask differ from that of another.
 import { FOOTPRINT } from './mask-shader.js';
+import { mapsAmong } from './select-root.js';
 
 /** @typedef {import('./mask-shader.js').Variant} Variant */
-
-/**
- * Which of some shapes are planar maps: `all` only if each is shown alone.
- *
- * @param {Pick<import('./data.js').Root, 'isMap'>[]} shown
- * @param {boolean} isAlone
- * @returns {Variant['maps']}
- */
-export function mapsAmong(shown, isAlone) {
-  if (!shown.some(({ isMap }) => isMap)) return 'none';
-  return isAlone && shown.every(({ isMap }) => isMap) ? 'all' : 'some';
-}
 
 /**
  * @param {import('./vector-texture.js').AnyVectorTexture} texture

@@ -1,14 +1,14 @@
-import { Color, InstancedBufferAttribute } from 'three';
-import { MOST_ROWS } from '../generated/layout.js';
+import { Color } from 'three';
 import { elementAt } from './element-at.js';
 import { VextureError } from './errors.js';
 import { check, insert, takePart } from './hooks.js';
 import { MaskedMesh } from './mask-mesh.js';
 import { lookedUp } from './mask-lookup.js';
 import { checkOptions, complete, isTranslucent } from './mask-options.js';
-import { ROOT_ATTRIBUTE, texts } from './mask-shader.js';
+import { texts } from './mask-shader.js';
 import { mapTransform, uniformValues } from './mask-uniforms.js';
 import { variantOf } from './mask-variant.js';
+import { ROOT_ATTRIBUTE } from './root-attribute.js';
 import { shapeIndex } from './select-root.js';
 
 /** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
@@ -423,20 +423,4 @@ export function applyVectorMask(material, texture, options) {
  */
 export function vectorMaskOf(material) {
   return MASKS.get(material);
-}
-
-/**
- * Attribute `vextureRoot` for the geometry of an `InstancedMesh`: the shape of each instance.
- *
- * @param {VectorTexture} texture
- * @param {readonly (string | number)[]} roots names or places in `texture.roots`, one for each instance
- * @returns {InstancedBufferAttribute}
- */
-export function rootAttribute(texture, roots) {
-  const places = roots.map((root) => texture.index(root));
-  const most = places.findIndex((place) => place >= MOST_ROWS);
-  if (most >= 0) {
-    throw new VextureError(`${texture.name}: root ${places[most]}; instances can show the first ${MOST_ROWS}`, 'root');
-  }
-  return new InstancedBufferAttribute(new Uint32Array(places), 1);
 }

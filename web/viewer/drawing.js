@@ -1,5 +1,5 @@
 // The drawings of a texture, and the one that is shown.
-import { mapsAmong } from '../src/mask-variant.js';
+import { mapsAmong } from '../src/select-root.js';
 import { drawingOf } from '../src/select-root.js';
 
 /**
