@@ -1,7 +1,7 @@
 """One text that holds a shader in two languages: what they share stands once, and a page picks a side of the rest.
 
-Where they differ stands ``@GLSL$WGSL``` ``, signs that neither language has. Both are generated from the same functions,
-so they differ by types, declarations and a few names only.
+Where they differ stands ``@GLSL$WGSL``` ``, signs that neither language has. Both are generated from the same
+functions, so they differ by types, declarations and a few names only.
 """
 
 import re
