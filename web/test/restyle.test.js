@@ -3,7 +3,6 @@ import { describe, expect, test } from 'vitest';
 import { readPacked } from '../src/packed.js';
 import { readStyle } from '../src/style.js';
 import { rootAttribute } from '../src/root-attribute.js';
-import {  } from '../src/vector-mask.js';
 import { VectorMaterial } from '../src/vector-material.js';
 import { VectorTexture } from '../src/vector-texture.js';
 import { fixture } from './files.js';
