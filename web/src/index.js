@@ -9,5 +9,20 @@ export { paintAt } from './walk-map.js';
 export { VectorMask, applyVectorMask, rootAttribute, vectorMaskOf } from './vector-mask.js';
 export { VectorMaterial } from './vector-material.js';
 
-/** @typedef {import('./mask-mesh.js').MaskedIntersection} MaskedIntersection */
+/** @typedef {import('./base-loader.js').Bytes} Bytes */
+/** @typedef {import('./base-loader.js').OnProgress} OnProgress */
+/** @typedef {import('./data.js').PackedData} PackedData */
+/** @typedef {import('./data.js').Root} Root */
+/** @typedef {import('./data.js').RootPaint} RootPaint */
+/** @typedef {import('./data.js').TextureData} TextureData */
 /** @typedef {import('./element-at.js').FoundElement} FoundElement */
+/** @typedef {import('./live-vector-texture.js').LiveOptions} LiveOptions */
+/** @typedef {import('./mask-mesh.js').Masked} Masked */
+/** @typedef {import('./mask-mesh.js').MaskedIntersection} MaskedIntersection */
+/** @typedef {import('./mask-options.js').MaskOptions} MaskOptions */
+/** @typedef {import('./paints.js').Paint} Paint */
+/** @typedef {import('./paints.js').PaintList} PaintList */
+/** @typedef {import('./select-root.js').RootChoice} RootChoice */
+/** @typedef {import('./vector-material.js').VectorMaterialParameters} VectorMaterialParameters */
+/** @typedef {import('./vector-texture.js').AnyVectorTexture} AnyVectorTexture */
+/** @typedef {import('./vector-texture.js').VectorTextureEvents} VectorTextureEvents */
