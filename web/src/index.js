@@ -1,4 +1,5 @@
 export { VextureError } from './errors.js';
+export { FoldLoader } from './fold-loader.js';
 export { FoldTexture } from './fold-texture.js';
 export { LiveVectorTexture } from './live-vector-texture.js';
 export { readPacked } from './packed.js';
