@@ -84,6 +84,7 @@ def test_every_prop_is_live(page: Any) -> None:
     """One element with other props each time; what is gone is the default again."""
     duck = exact("duck", SIZE)
     twice = {"transform": [2, 0, 0, 0, 2, 0, 0, 0, 1], "wrap": "repeat"}
+    star: dict[str, Any] = {"texture": "drawings.ktx2", "root": "badge/1-#1d4ed8"}
     steps: list[tuple[dict[str, Any], Picture]] = [
         ({"color": "#c03020"}, over_white(duck, 0xC03020)),
         ({"color": "#c03020", "invert": True}, over_white(1.0 - duck, 0xC03020)),
@@ -91,10 +92,7 @@ def test_every_prop_is_live(page: Any) -> None:
         ({"color": "black", "opacity": 0.5, "flat": True}, over_white(0.5 * duck)),
         ({"color": "black", "opacity": 1, **twice}, over_white(np.tile(exact("duck", SIZE // 2), (2, 2, 1)))),
         (PAINTED, painted()),
-        (
-            {"color": "black", "invert": True, "texture": "drawings.ktx2", "root": "badge/1-#1d4ed8"},
-            over_white(1 - disc()),
-        ),
+        ({"color": "black", "invert": True, **star}, over_white(1 - disc())),
         ({"color": "black", "background": "own", "fold": "swing.fold.ktx2", "time": 1}, over_white(moved())),
         ({"color": "#c03020"}, over_white(duck, 0xC03020)),
     ]
@@ -171,9 +169,9 @@ def test_a_mask_comes_changes_and_goes(page: Any, *, place: bool) -> None:
     assert (held["masks"], held["cut"]) == ([False], [[False, False]])
 
 
-def test_what_is_unmounted_frees_what_it_had(page: Any) -> None:
-    draw(page)
-    page.evaluate("page.patiently(() => page.held().programs === 0)")
+def test_what_is_unmounted_frees_what_it_had(address: str, open_page: Callable[..., Any]) -> None:
+    page = open_page(f"{address}/index.html", (SIZE, SIZE))
+    page.evaluate("page.ready()")
     draw(page, shared(**PAINTED))
     before = page.evaluate("page.held()")["textures"]
     draw(page, shared(**PAINTED), shared(**PAINTED, colors={"sky": "#ff0000"}))
