@@ -175,6 +175,8 @@ def test_what_is_unmounted_frees_what_it_had(address: str, open_page: Callable[.
     draw(page, shared(**PAINTED))
     before = page.evaluate("page.held()")["textures"]
     draw(page, shared(**PAINTED), shared(**PAINTED, colors={"sky": "#ff0000"}))
+    page.evaluate("page.wait(0)")
+    page.evaluate("page.settled()")  # in strict mode effects end and begin again after the first frame
     held = page.evaluate("page.held()")
     assert (held["textures"], held["masks"], held["cut"]) == (before + 1, [True, True], [[True, True]] * 2)
     draw(page, shared(**PAINTED))
