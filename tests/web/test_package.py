@@ -1,7 +1,7 @@
 """The npm package as a stranger gets it: its tarball, its types, its size in a bundle."""
 
 import gzip
-import json
+import shutil
 import subprocess
 import tarfile
 from pathlib import Path
@@ -13,46 +13,6 @@ MODULES = WEB / "node_modules"
 
 FIRST_LOAD_LIMIT = 34_500
 """Bytes, minified and deflated, of what a page with vector textures loads, without three.js."""
-
-OPTIONS = {
-    "strict": True,
-    "noEmit": True,
-    "target": "es2022",
-    "module": "esnext",
-    "moduleResolution": "bundler",
-    "lib": ["es2022", "dom"],
-    "types": [],
-    "skipLibCheck": True,
-}
-"""What a project of TypeScript is checked by."""
-
-USE = """
-import { Mesh, PlaneGeometry, Raycaster } from 'three';
-import {
-  LiveVectorTexture, VectorMaterial, VectorTextureLoader, VextureError, applyVectorMask, cellAt, readPacked,
-  type MaskedIntersection,
-} from 'vexture';
-import { ThesisLoader, type ThesisTexture } from 'vexture/thesis';
-
-const loader = new VectorTextureLoader().setPath('textures/');
-const texture = await loader.loadAsync('logo.ktx2', (event) => event.loaded);
-const live: LiveVectorTexture = await LiveVectorTexture.connect('shapes/logo', { loader, interval: 1000 });
-live.addEventListener('note', (event) => event.message.length + event.target.name.length);
-const mesh = new Mesh(new PlaneGeometry(), new VectorMaterial({ texture }));
-const inside: boolean = texture.contains(0.5, 0.5, 'logo');
-const data = await readPacked(new Uint8Array()).catch((error: VextureError) => error.field);
-if (typeof data !== 'string') cellAt(data, data.roots[0].quad, 0.5, 0.5)?.curves.length;
-cellAt(texture.data, texture.roots[0].quad, 0.5, 0.5);
-const pair: ThesisTexture = await new ThesisLoader().loadAsync(['logo.quads.png', 'logo.curves.png']);
-const [hit]: MaskedIntersection[] = new Raycaster().intersectObject(mesh);
-const county: string | undefined = hit.element?.name;
-texture.setPaints(new Map([['Delft', '#c00']]));
-texture.setPaints({ Delft: 0xcc0000, Leiden: [0, 0.4, 0.8, 1] });
-applyVectorMask(new VectorMaterial(), pair, { root: null, mode: 'cut' }).texture = texture;
-const bits: 8 | 16 = pair.data.bits;
-// @ts-expect-error there is no such event
-live.addEventListener('changed', () => {});
-"""
 
 
 def _run(*command: str | Path, cwd: Path) -> str:
@@ -90,12 +50,10 @@ def test_the_tarball_has_what_it_needs_and_nothing_else(project: Path) -> None:
         assert types.is_file()
 
 
-def test_its_types_serve_a_strict_project(project: Path) -> None:
-    (project / "use.ts").write_text(USE, encoding="utf-8")
-    (project / "tsconfig.json").write_text(
-        json.dumps({"compilerOptions": OPTIONS, "files": ["use.ts"]}), encoding="utf-8"
-    )
-    _run(MODULES / ".bin" / "tsc", cwd=project)
+def test_a_newcomers_project_of_react_is_checked_with_its_libraries(project: Path) -> None:
+    """All entries and types, checked with `skipLibCheck: false`."""
+    shutil.copytree(Path(__file__).parent / "react", project / "react")
+    _run(MODULES / ".bin" / "tsc", "-p", "react", cwd=project)
 
 
 def test_its_modules_import_nothing_until_they_are_asked(project: Path) -> None:
