@@ -14,6 +14,9 @@ MODULES = WEB / "node_modules"
 FIRST_LOAD_LIMIT = 34_500
 """Bytes, minified and deflated, of what a page with vector textures loads, without three.js."""
 
+REACT_LIMIT = 2_000
+"""And of what the components of React Three Fiber add."""
+
 
 def _run(*command: str | Path, cwd: Path) -> str:
     outcome = subprocess.run([*map(str, command)], cwd=cwd, capture_output=True, text=True, check=False)
@@ -50,10 +53,16 @@ def test_the_tarball_has_what_it_needs_and_nothing_else(project: Path) -> None:
         assert types.is_file()
 
 
-def test_a_newcomers_project_of_react_is_checked_with_its_libraries(project: Path) -> None:
-    """All entries and types, checked with `skipLibCheck: false`."""
+def test_its_types_serve_a_strict_project_of_react(project: Path) -> None:
+    """All entries and types, in the settings of a newcomer, and the package's own declarations."""
     shutil.copytree(Path(__file__).parent / "react", project / "react")
-    _run(MODULES / ".bin" / "tsc", "-p", "react", cwd=project)
+    assert "declarations" in _run("node", Path(__file__).parent / "ours.mjs", "react", cwd=project)
+
+
+@pytest.mark.slow
+def test_a_strict_project_checks_all_libraries(project: Path) -> None:
+    shutil.copytree(Path(__file__).parent / "react", project / "libraries")
+    _run(MODULES / ".bin" / "tsc", "-p", "libraries", cwd=project)
 
 
 def test_its_modules_import_nothing_until_they_are_asked(project: Path) -> None:
@@ -72,6 +81,18 @@ def test_a_page_with_vector_textures_loads_little(project: Path) -> None:
     assert 10_000 < len(gzip.compress(bundle, 9)) <= FIRST_LOAD_LIMIT
 
 
+def test_react_components_cost_little_more(project: Path) -> None:
+    (project / "shared.js").write_text(
+        "export { FoldLoader, VectorMaterial, VectorTextureLoader, applyVectorMask } from 'vexture';\n",
+        encoding="utf-8",
+    )
+    (project / "react.js").write_text(
+        "export * from 'vexture/react';\nexport * from './shared.js';\n", encoding="utf-8"
+    )
+    shared, both = (len(gzip.compress(_bundled(f"{name}.js", project), 9)) for name in ("shared", "react"))
+    assert 500 < both - shared <= REACT_LIMIT
+
+
 def test_only_its_own_entry_brings_the_encoding_of_the_thesis(project: Path) -> None:
     marks = (b"thesis_coverage", b"IHDR")
     for entry, is_expected in (("vexture", False), ("vexture/water", False), ("vexture/thesis", True)):
@@ -82,6 +103,7 @@ def test_only_its_own_entry_brings_the_encoding_of_the_thesis(project: Path) -> 
 
 def _bundled(entry: str, project: Path) -> bytes:
     """One file with all that a module imports, what it would load later included; without three.js."""
-    options = ["--bundle", "--minify", "--format=esm", "--external:three", "--outfile=bundle.js"]
+    others = [f"--external:{name}" for name in ("three", "react", "@react-three/fiber")]
+    options = ["--bundle", "--minify", "--format=esm", *others, "--outfile=bundle.js"]
     _run(MODULES / ".bin" / "esbuild", entry, *options, cwd=project)
     return (project / "bundle.js").read_bytes()
