@@ -201,5 +201,8 @@ def test_a_ray_meets_the_shape_and_its_elements_only(page: Any) -> None:
 def test_a_fold_moves_with_the_clock(page: Any) -> None:
     item = shared(texture="duck.ktx2", color="black", fold="swing.fold.ktx2")
     still = draw(page, item)
-    page.evaluate("page.wait(1)")
-    assert distance(decode(page.evaluate("page.settled()")), still) > 5.0
+    later = []
+    for _ in range(2):  # quarters of its period: in one of them it may stand where it stood
+        page.evaluate("page.wait(1)")
+        later.append(decode(page.evaluate("page.settled()")))
+    assert max(distance(picture, still) for picture in later) > 5.0
