@@ -71,7 +71,7 @@ MAY_IMPORT: dict[str, set[str]] = {
 }
 """What each part may import besides itself, wherever in a module; `cli` and the public face stand above all."""
 
-ABOVE_ALL = {"__init__", "cli"}
+ABOVE_ALL = {"__init__", "__main__", "cli"}
 
 TRUTH_MODULES = ("blend", "exact", "faces", "flatten", "ramps", "regions", "slabs", "varying", "view")
 THE_TRUTH = {f"renderers/{name}.py" for name in TRUTH_MODULES}

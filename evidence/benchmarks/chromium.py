@@ -2,6 +2,7 @@
 
 import functools
 import http.server
+import os
 import shutil
 import subprocess
 import threading
@@ -29,6 +30,9 @@ FLAGS: Final = [
     "--force-color-profile=srgb",
     "--hide-scrollbars",
 ]
+
+ENTRIES: Final = ("react", "thesis", "water", "webgpu")
+"""Entries of the npm package beside the main one."""
 
 
 @contextmanager
@@ -67,18 +71,17 @@ def served(folder: Path) -> Iterator[str]:
 def bundle(entry: Path, output: Path, three: str = "three") -> None:
     """Bundle a module with all that it imports; `three` is the package that stands for three.js.
 
-    The entry's ``import ... from "vexture"`` is the package in web/, and so are its other entries.
+    The entry's ``import ... from "vexture"`` is the package in web/, and so are its other entries. What web/ has
+    installed is found from anywhere.
     """
     esbuild = WEB / "node_modules" / ".bin" / "esbuild"
     command = [str(esbuild), str(entry), "--bundle", "--format=esm", f"--outfile={output}"]
     command += [f"--alias:vexture={WEB / 'src' / 'index.js'}"]
-    command += [f"--alias:vexture/thesis={WEB / 'src' / 'thesis' / 'index.js'}"]
-    command += [f"--alias:vexture/water={WEB / 'src' / 'water' / 'index.js'}"]
-    command += [f"--alias:vexture/webgpu={WEB / 'src' / 'webgpu' / 'index.js'}"]
+    command += [f"--alias:vexture/{name}={WEB / 'src' / name / 'index.js'}" for name in ENTRIES]
     command += [f"--alias:three={WEB / 'node_modules' / three}"]
-    command += [
-        f"--alias:three/{name}={WEB / 'node_modules' / three / 'build'}/three.{name}.js" for name in ("webgpu", "tsl")
-    ]
-    command += [f"--alias:three/addons={WEB / 'node_modules' / three / 'examples' / 'jsm'}"]
-    outcome = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=False)
+    build = WEB / "node_modules" / three / "build"
+    command += [f"--alias:three/{name}={build / f'three.{name}.js'}" for name in ("webgpu", "tsl")]
+    command += [f"--alias:three/addons={WEB / 'node_modules' / three / 'examples' / 'jsm'}", "--jsx=automatic"]
+    found = os.environ | {"NODE_PATH": str(WEB / "node_modules")}
+    outcome = subprocess.run(command, cwd=WEB, env=found, capture_output=True, text=True, check=False)
     assert outcome.returncode == 0, outcome.stderr

@@ -1,4 +1,5 @@
 export { VextureError } from './errors.js';
+export { FoldLoader } from './fold-loader.js';
 export { FoldTexture } from './fold-texture.js';
 export { LiveVectorTexture } from './live-vector-texture.js';
 export { readPacked } from './packed.js';
@@ -10,5 +11,20 @@ export { rootAttribute } from './root-attribute.js';
 export { VectorMask, applyVectorMask, vectorMaskOf } from './vector-mask.js';
 export { VectorMaterial } from './vector-material.js';
 
-/** @typedef {import('./mask-mesh.js').MaskedIntersection} MaskedIntersection */
+/** @typedef {import('./base-loader.js').Bytes} Bytes */
+/** @typedef {import('./base-loader.js').OnProgress} OnProgress */
+/** @typedef {import('./data.js').PackedData} PackedData */
+/** @typedef {import('./data.js').Root} Root */
+/** @typedef {import('./data.js').RootPaint} RootPaint */
+/** @typedef {import('./data.js').TextureData} TextureData */
 /** @typedef {import('./element-at.js').FoundElement} FoundElement */
+/** @typedef {import('./live-vector-texture.js').LiveOptions} LiveOptions */
+/** @typedef {import('./mask-mesh.js').Masked} Masked */
+/** @typedef {import('./mask-mesh.js').MaskedIntersection} MaskedIntersection */
+/** @typedef {import('./mask-options.js').MaskOptions} MaskOptions */
+/** @typedef {import('./paints.js').Paint} Paint */
+/** @typedef {import('./paints.js').PaintList} PaintList */
+/** @typedef {import('./select-root.js').RootChoice} RootChoice */
+/** @typedef {import('./vector-material.js').VectorMaterialParameters} VectorMaterialParameters */
+/** @typedef {import('./vector-texture.js').AnyVectorTexture} AnyVectorTexture */
+/** @typedef {import('./vector-texture.js').VectorTextureEvents} VectorTextureEvents */

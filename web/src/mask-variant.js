@@ -6,7 +6,7 @@ import { mapsAmong } from './select-root.js';
 
 /**
  * @param {import('./vector-texture.js').AnyVectorTexture} texture
- * @param {ReturnType<typeof import('./mask-options.js').complete>} options
+ * @param {import('./mask-options.js').AllOptions} options
  * @param {{ first: number, count: number }} range of the shape or the drawing's layers in the texture's roots
  * @returns {Variant}
  */

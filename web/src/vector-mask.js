@@ -4,7 +4,7 @@ import { VextureError } from './errors.js';
 import { check, insert, takePart } from './hooks.js';
 import { MaskedMesh } from './mask-mesh.js';
 import { lookedUp } from './mask-lookup.js';
-import { checkOptions, complete, isTranslucent } from './mask-options.js';
+import { NAMES, checkOptions, checkTexture, complete, isTranslucent, withOptions } from './mask-options.js';
 import { texts } from './mask-shader.js';
 import { mapTransform, uniformValues } from './mask-uniforms.js';
 import { variantOf } from './mask-variant.js';
@@ -19,8 +19,14 @@ import { shapeIndex } from './select-root.js';
 /** @type {WeakMap<import('three').Material, VectorMask>} */
 const MASKS = new WeakMap();
 
-/** A shape as the mask of a material, made by `applyVectorMask`. Changes take effect in the next frame. */
-export class VectorMask {
+/** @type {new () => import('./mask-options.js').AllOptions} */
+const WithOptions = withOptions(/** @type {any} */ (Object), NAMES, 'set');
+
+/**
+ * A shape as the mask of a material, made by `applyVectorMask`. Each option is a property, too; changes take effect in the
+ * next frame.
+ */
+export class VectorMask extends WithOptions {
   #material;
   #texture;
   #options;
@@ -57,6 +63,7 @@ export class VectorMask {
    * @param {MaskOptions} [options]
    */
   constructor(material, texture, options = {}) {
+    super();
     if (MASKS.has(material)) {
       throw new VextureError(
         `${material.name || material.type} has a vector mask already; change that one, or remove() it first`,
@@ -84,7 +91,8 @@ export class VectorMask {
   }
 
   #check() {
-    checkOptions(this.#options, this.#material.type, this.#texture);
+    checkOptions(this.#options, this.#material.type);
+    checkTexture(this.#texture, this.#options);
   }
 
   /** @returns {Variant} */
@@ -154,6 +162,11 @@ export class VectorMask {
    */
   set({ texture = this.#texture, ...changes }) {
     const [texturedBefore, before] = [this.#texture, this.#options];
+    const changed = Object.entries(changes).filter(([name, value]) => value !== before[/** @type {keyof MaskOptions} */ (name)]);
+    if (texture === texturedBefore && changed.every(([name, value]) => name === 'time' && Number.isFinite(value))) {
+      for (const [, time] of changed) this.#setTime(/** @type {number} */ (time));
+      return;
+    }
     this.#listen(false);
     this.#texture = texture;
     try {
@@ -167,6 +180,12 @@ export class VectorMask {
       this.#listen(true);
       this.#refresh();
     }
+  }
+
+  /** Cheap, as each frame of a fold has its time. @param {number} time */
+  #setTime(time) {
+    this.#options = { ...this.#options, time };
+    this.#uniforms.vextureTime.value = this.#options.fold?.clock(time) ?? 0;
   }
 
   /** The options, as `applyVectorMask` takes them. */
@@ -189,118 +208,6 @@ export class VectorMask {
 
   set texture(texture) {
     this.set({ texture });
-  }
-
-  /** @returns {string | number | null | undefined} */
-  get root() {
-    return this.#options.root;
-  }
-
-  set root(root) {
-    this.set({ root });
-  }
-
-  get transform() {
-    return this.#options.transform;
-  }
-
-  set transform(transform) {
-    this.set({ transform });
-  }
-
-  get mode() {
-    return this.#options.mode;
-  }
-
-  set mode(mode) {
-    this.set({ mode });
-  }
-
-  get wrap() {
-    return this.#options.wrap;
-  }
-
-  set wrap(wrap) {
-    this.set({ wrap });
-  }
-
-  get flat() {
-    return this.#options.flat;
-  }
-
-  set flat(flat) {
-    this.set({ flat });
-  }
-
-  get invert() {
-    return this.#options.invert;
-  }
-
-  set invert(invert) {
-    this.set({ invert });
-  }
-
-  get color() {
-    return this.#options.color;
-  }
-
-  set color(color) {
-    this.set({ color });
-  }
-
-  get map() {
-    return this.#options.map;
-  }
-
-  set map(map) {
-    this.set({ map });
-  }
-
-  get threshold() {
-    return this.#options.threshold;
-  }
-
-  set threshold(threshold) {
-    this.set({ threshold });
-  }
-
-  get background() {
-    return this.#options.background;
-  }
-
-  set background(background) {
-    this.set({ background });
-  }
-
-  get instanced() {
-    return this.#options.instanced;
-  }
-
-  get linear() {
-    return this.#options.linear;
-  }
-
-  set linear(linear) {
-    this.set({ linear });
-  }
-
-  /** @returns {import('./fold-texture.js').FoldTexture | null} */
-  get fold() {
-    return this.#options.fold;
-  }
-
-  set fold(fold) {
-    this.set({ fold });
-  }
-
-  /** Time of the fold in seconds; cheap to set in every frame. */
-  get time() {
-    return this.#options.time;
-  }
-
-  set time(time) {
-    this.#options = { ...this.#options, time };
-    this.#uniforms.vextureTime.value = this.#options.fold?.clock(time) ?? 0;
   }
 
   /**

@@ -32,6 +32,27 @@ describe('new colours', () => {
     expect([...texture.data.texels]).toEqual([...before.data.texels]);
   });
 
+  test('each element has its own colour back', async () => {
+    const [texture, before] = [await read(), await read()];
+    for (const element of [texture, before].flatMap(({ roots }) => roots[0].style?.elements ?? [])) {
+      if (element.name === 'sea') element.name = 'sky'; // two of one name, in two colours
+    }
+    texture.setPaints({ ...PAINTS, hill: null });
+    texture.setPaints(new Map(Object.keys(PAINTS).map((name) => [name, 'own'])));
+    expect([...texture.data.texels]).toEqual([...before.data.texels]);
+    expect(texture.roots[0].style).toEqual(before.roots[0].style);
+  });
+
+  test('a clone has colours of its own', async () => {
+    const [texture, before] = [await read(), await read()];
+    const copy = texture.clone();
+    copy.setPaints(PAINTS);
+    expect([...texture.data.texels]).toEqual([...before.data.texels]);
+    expect(texture.roots[0].style).toEqual(before.roots[0].style);
+    expect([...copy.data.texels]).toEqual([...restyled.texels]);
+    expect([copy.name, copy.textures.texels === texture.textures.texels]).toEqual([texture.name, false]);
+  });
+
   test('one element after another, as all at once', async () => {
     const texture = await read();
     texture.setPaints({});
