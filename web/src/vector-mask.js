@@ -1,15 +1,12 @@
 import { Color } from 'three';
-import { elementAt } from './element-at.js';
 import { VextureError } from './errors.js';
 import { check, insert, takePart } from './hooks.js';
 import { MaskedMesh } from './mask-mesh.js';
-import { lookedUp } from './mask-lookup.js';
-import { NAMES, checkOptions, checkTexture, complete, isTranslucent, withOptions } from './mask-options.js';
+import { NAMES, isTranslucent, withOptions } from './mask-options.js';
 import { texts } from './mask-shader.js';
 import { mapTransform, uniformValues } from './mask-uniforms.js';
 import { variantOf } from './mask-variant.js';
-import { ROOT_ATTRIBUTE } from './root-attribute.js';
-import { shapeIndex } from './select-root.js';
+import { ShownShape, checkMesh } from './shown-shape.js';
 
 /** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
 /** @typedef {import('./mask-shader.js').Variant} Variant */
@@ -28,8 +25,7 @@ const WithOptions = withOptions(/** @type {any} */ (Object), NAMES, 'set');
  */
 export class VectorMask extends WithOptions {
   #material;
-  #texture;
-  #options;
+  #shown;
   #transparent;
   #takeBack;
   #clone;
@@ -38,7 +34,7 @@ export class VectorMask extends WithOptions {
     const copy = this.#clone.call(this.#material);
     if (MASKS.get(this.#material) === this && !MASKS.has(copy)) { // a VectorMaterial copies its own
       copy.transparent = this.#transparent;
-      new VectorMask(copy, this.#texture, { ...this.#options, transform: this.#options.transform?.clone() });
+      new VectorMask(copy, this.texture, { ...this.options, transform: this.options.transform.clone() });
     }
     return copy;
   };
@@ -49,8 +45,7 @@ export class VectorMask extends WithOptions {
   /** @type {Map<import('./mask-mesh.js').Masked, MaskedMesh>} */
   #meshes = new Map();
   /** @type {Record<string, { value: any }>} */
-  #uniforms = { vextureMapTransform: mapTransform(() => this.#options) };
-  #range = { first: 0, count: 1 };
+  #uniforms = { vextureMapTransform: mapTransform(() => this.#shown.options) };
   #onChange = () => this.#refresh();
   #onDispose = () => {
     this.#listen(false);
@@ -71,11 +66,8 @@ export class VectorMask extends WithOptions {
       );
     }
     this.#material = material;
-    this.#texture = texture;
     this.#transparent = material.transparent;
-    this.#options = complete(options, material.type);
-    this.#check();
-    this.#resolve();
+    this.#shown = new ShownShape(texture, options, material.type);
     check(material, texts(this.#variant()));
     this.#takeBack = takePart(
       material,
@@ -90,45 +82,18 @@ export class VectorMask extends WithOptions {
     material.addEventListener('dispose', this.#onDispose);
   }
 
-  #check() {
-    checkOptions(this.#options, this.#material.type);
-    checkTexture(this.#texture, this.#options);
-  }
-
   /** @returns {Variant} */
   #variant() {
-    return variantOf(this.#texture, this.#options, this.#range);
-  }
-
-  /** Whether only the instances have roots. */
-  get #isRootless() {
-    return this.#options.instanced && (this.#options.root ?? null) === null;
-  }
-
-  /** Find the shape or the drawing's layers in the texture. */
-  #resolve() {
-    const { root, mode } = this.#options;
-    const inLayers = mode === 'paint' && this.#texture.encoding === 'packed';
-    if (this.#isRootless) this.#range = { first: 0, count: 1 }; // the shader does not read it
-    else if (inLayers) this.#range = this.#texture.layersOf(root);
-    else {
-      const isPainted = this.#texture.roots.some(({ paint }) => paint);
-      this.#range = { first: shapeIndex(this.#texture, root, isPainted ? ", or use mode: 'paint'" : ''), count: 1 };
-    }
+    return variantOf(this.texture, this.#shown.options, this.#shown.range);
   }
 
   /** Update the uniforms from the texture and the options. */
   #refresh() {
-    try {
-      this.#resolve();
-    } catch (error) {
-      if (!(error instanceof VextureError)) throw error; // new data lack the root: show the first shape, with a note
-      this.#range = { first: 0, count: 1 };
-      this.#texture.dispatchEvent({ type: 'note', message: error.message });
-    }
-    const values = uniformValues(this.#texture, this.#options, this.#range, this.#inside);
+    const { texture, options } = this.#shown;
+    this.#shown.follow();
+    const values = uniformValues(texture, options, this.#shown.range, this.#inside);
     for (const [name, value] of Object.entries(values)) (this.#uniforms[name] ??= { value }).value = value;
-    this.#material.transparent = isTranslucent(this.#options) || this.#transparent;
+    this.#material.transparent = isTranslucent(options) || this.#transparent;
     const key = JSON.stringify(this.#variant());
     if (key !== this.#drawn) this.#material.needsUpdate = true;
     this.#drawn = key;
@@ -149,8 +114,8 @@ export class VectorMask extends WithOptions {
   #listen(wanted) {
     if (wanted === this.#isListening) return;
     this.#isListening = wanted;
-    if (wanted) this.#texture.addEventListener('change', this.#onChange);
-    else this.#texture.removeEventListener('change', this.#onChange);
+    if (wanted) this.texture.addEventListener('change', this.#onChange);
+    else this.texture.removeEventListener('change', this.#onChange);
   }
 
   /**
@@ -160,37 +125,29 @@ export class VectorMask extends WithOptions {
    * @throws {VextureError} if an option is out of range, options exclude each other, or the root is unknown or
    *   ambiguous
    */
-  set({ texture = this.#texture, ...changes }) {
-    const [texturedBefore, before] = [this.#texture, this.#options];
-    const changed = Object.entries(changes).filter(([name, value]) => value !== before[/** @type {keyof MaskOptions} */ (name)]);
-    if (texture === texturedBefore && changed.every(([name, value]) => name === 'time' && Number.isFinite(value))) {
+  set(changes) {
+    const before = /** @type {Record<string, unknown>} */ ({ ...this.#shown.options, texture: this.texture });
+    const changed = Object.entries(changes).filter(([name, value]) => value !== before[name]);
+    if (changed.every(([name, value]) => name === 'time' && Number.isFinite(value))) {
       for (const [, time] of changed) this.#setTime(/** @type {number} */ (time));
       return;
     }
+    const shown = this.#shown.with(changes);
     this.#listen(false);
-    this.#texture = texture;
-    try {
-      this.#options = complete({ ...before, ...changes }, this.#material.type);
-      this.#check();
-      this.#resolve();
-    } catch (error) {
-      [this.#texture, this.#options] = [texturedBefore, before];
-      throw error;
-    } finally {
-      this.#listen(true);
-      this.#refresh();
-    }
+    this.#shown = shown;
+    this.#listen(true);
+    this.#refresh();
   }
 
   /** Cheap, as each frame of a fold has its time. @param {number} time */
   #setTime(time) {
-    this.#options = { ...this.#options, time };
-    this.#uniforms.vextureTime.value = this.#options.fold?.clock(time) ?? 0;
+    this.#shown.options.time = time;
+    this.#uniforms.vextureTime.value = this.#shown.options.fold?.clock(time) ?? 0;
   }
 
   /** The options, as `applyVectorMask` takes them. */
   get options() {
-    return { ...this.#options };
+    return { ...this.#shown.options };
   }
 
   /** Whether the material was transparent before. */
@@ -203,7 +160,7 @@ export class VectorMask extends WithOptions {
   }
 
   get texture() {
-    return this.#texture;
+    return this.#shown.texture;
   }
 
   set texture(texture) {
@@ -219,16 +176,7 @@ export class VectorMask extends WithOptions {
    * @returns {boolean}
    */
   hits(u, v, root) {
-    const { mode, background, invert } = this.#options;
-    if (mode === 'mix' || (mode === 'paint' && background === 'own')) return true;
-    if (this.#isRootless && root === undefined) root = this.#texture.index();
-    const { x, y } = lookedUp(u, v, this.#options);
-    const first = root ?? this.#range.first;
-    const end = root === undefined ? first + this.#range.count : root + 1;
-    for (let shape = first; shape < end; shape++) {
-      if (this.#texture.contains(x, y, shape)) return !invert;
-    }
-    return invert;
+    return this.#shown.hits(u, v, root);
   }
 
   /**
@@ -240,11 +188,7 @@ export class VectorMask extends WithOptions {
    * @returns {import('./element-at.js').FoundElement | null}
    */
   elementAt(u, v, root) {
-    const { data } = this.#texture;
-    if (data.encoding !== 'packed' || (this.#isRootless && root === undefined)) return null;
-    const { first, count } = root === undefined ? this.#range : { first: root, count: 1 };
-    const { x, y } = lookedUp(u, v, this.#options);
-    return elementAt(/** @type {import('./data.js').PackedData} */ (data), first, count, x, y);
+    return this.#shown.elementAt(u, v, root);
   }
 
   /**
@@ -255,24 +199,14 @@ export class VectorMask extends WithOptions {
    */
   attach(mesh) {
     if (this.#meshes.has(mesh)) return this;
-    if (![mesh.material].flat().includes(this.#material)) {
-      throw new VextureError(`${mesh.name || mesh.type} has another material; give it this one first`, 'mesh');
-    }
-    if (this.#options.instanced && !mesh.geometry.getAttribute(ROOT_ATTRIBUTE)) {
-      throw new VextureError(
-        `${mesh.name || mesh.type} has no attribute ${ROOT_ATTRIBUTE}; make it by rootAttribute(texture, names)`,
-        ROOT_ATTRIBUTE,
-      );
-    }
-    const rootOf = (instance = 0) =>
-      this.#options.instanced ? mesh.geometry.getAttribute(ROOT_ATTRIBUTE)?.getX(instance) : undefined;
+    checkMesh(mesh, this.#material, this.#shown.options);
     this.#meshes.set(
       mesh,
       new MaskedMesh(mesh, {
         material: this.#material,
-        cuts: () => this.#options.mode === 'cut' || isTranslucent(this.#options),
-        hits: (u, v, instance) => this.hits(u, v, rootOf(instance)),
-        elementAt: (u, v, instance) => this.elementAt(u, v, rootOf(instance)),
+        cuts: () => this.#shown.cuts,
+        hits: (u, v, instance) => this.hits(u, v, this.#shown.rootOf(mesh, instance)),
+        elementAt: (u, v, instance) => this.elementAt(u, v, this.#shown.rootOf(mesh, instance)),
         key: () => JSON.stringify({ ...this.#variant(), mode: 'cut' }),
         compile: (program, type) => this.#compile(program, { ...this.#variant(), mode: 'cut' }, type),
       }),
