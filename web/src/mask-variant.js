@@ -3,6 +3,9 @@ import { FOOTPRINT } from './mask-shader.js';
 
 /** @typedef {import('./mask-shader.js').Variant} Variant */
 
+/** Names that three.js gives the sets of texture coordinates, in geometries and in what a ray meets. */
+export const UV_ATTRIBUTES = Object.freeze(/** @type {const} */ (['uv', 'uv1']));
+
 /**
  * Which of some shapes are planar maps: `all` only if each is shown alone.
  *
@@ -22,7 +25,7 @@ export function mapsAmong(shown, isAlone) {
  * @returns {Variant}
  */
 export function variantOf(texture, options, range) {
-  const { mode, wrap, flat, invert, background, instanced, map, fold, linear } = options;
+  const { mode, wrap, flat, invert, background, instanced, map, fold, linear, channel } = options;
   const reader = texture.maskReader();
   const isAlone = instanced || range.count === 1;
   const shown = instanced ? texture.roots : texture.roots.slice(range.first, range.first + range.count);
@@ -40,6 +43,7 @@ export function variantOf(texture, options, range) {
     background,
     instanced,
     hasMap: mode === 'mix' && map !== null,
+    uv: UV_ATTRIBUTES[channel],
     fold: fold?.glsl ?? '',
   };
 }

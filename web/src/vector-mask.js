@@ -3,12 +3,12 @@ import { MOST_ROWS } from '../generated/layout.js';
 import { elementAt } from './element-at.js';
 import { VextureError } from './errors.js';
 import { check, insert, takePart } from './hooks.js';
-import { MaskedMesh } from './mask-mesh.js';
+import { MaskedMesh, MaskedMeshes } from './mask-mesh.js';
 import { lookedUp } from './mask-lookup.js';
 import { checkOptions, complete, isTranslucent } from './mask-options.js';
 import { ROOT_ATTRIBUTE, texts } from './mask-shader.js';
 import { mapTransform, uniformValues } from './mask-uniforms.js';
-import { variantOf } from './mask-variant.js';
+import { UV_ATTRIBUTES, variantOf } from './mask-variant.js';
 import { shapeIndex } from './select-root.js';
 
 /** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
@@ -40,15 +40,14 @@ export class VectorMask {
   #isListening = false;
   /** Key of the program since the last refresh: three.js compiles nothing when it goes back to an earlier one. */
   #drawn = '';
-  /** @type {Map<import('./mask-mesh.js').Masked, MaskedMesh>} */
-  #meshes = new Map();
+  #meshes = new MaskedMeshes();
   /** @type {Record<string, { value: any }>} */
   #uniforms = { vextureMapTransform: mapTransform(() => this.#options) };
   #range = { first: 0, count: 1 };
   #onChange = () => this.#refresh();
   #onDispose = () => {
     this.#listen(false);
-    for (const mesh of this.#meshes.values()) mesh.dispose();
+    this.#meshes.forEach((mesh) => mesh.dispose());
   };
 
   /**
@@ -124,7 +123,7 @@ export class VectorMask {
     const key = JSON.stringify(this.#variant());
     if (key !== this.#drawn) this.#material.needsUpdate = true;
     this.#drawn = key;
-    for (const mesh of this.#meshes.values()) mesh.update();
+    this.#meshes.forEach((mesh) => mesh.update());
   }
 
   /**
@@ -214,6 +213,14 @@ export class VectorMask {
 
   set mode(mode) {
     this.set({ mode });
+  }
+
+  get channel() {
+    return this.#options.channel;
+  }
+
+  set channel(channel) {
+    this.set({ channel });
   }
 
   get wrap() {
@@ -340,15 +347,22 @@ export class VectorMask {
     return elementAt(/** @type {import('./data.js').PackedData} */ (data), first, count, x, y);
   }
 
+  /** @param {import('./mask-mesh.js').Masked} mesh */
+  #isOn(mesh) {
+    return [mesh.material].flat().includes(this.#material);
+  }
+
   /**
-   * Let rays and light pass through a mesh outside the shape, and rays find the elements of the drawing.
+   * Let rays and light pass through a mesh outside the shape, and rays find the elements of the drawing. Clones of the
+   * mesh are attached, too, as long as they have this material.
    *
    * @param {import('./mask-mesh.js').Masked} mesh that has this material
+   * @param {{ shadow?: boolean }} [options] without `shadow` light does not pass: several materials share one shadow
    * @returns {this}
    */
-  attach(mesh) {
+  attach(mesh, { shadow = true } = {}) {
     if (this.#meshes.has(mesh)) return this;
-    if (![mesh.material].flat().includes(this.#material)) {
+    if (!this.#isOn(mesh)) {
       throw new VextureError(`${mesh.name || mesh.type} has another material; give it this one first`, 'mesh');
     }
     if (this.#options.instanced && !mesh.geometry.getAttribute(ROOT_ATTRIBUTE)) {
@@ -359,17 +373,20 @@ export class VectorMask {
     }
     const rootOf = (instance = 0) =>
       this.#options.instanced ? mesh.geometry.getAttribute(ROOT_ATTRIBUTE)?.getX(instance) : undefined;
-    this.#meshes.set(
-      mesh,
-      new MaskedMesh(mesh, {
-        material: this.#material,
-        cuts: () => this.#options.mode === 'cut' || isTranslucent(this.#options),
-        hits: (u, v, instance) => this.hits(u, v, rootOf(instance)),
-        elementAt: (u, v, instance) => this.elementAt(u, v, rootOf(instance)),
-        key: () => JSON.stringify({ ...this.#variant(), mode: 'cut' }),
-        compile: (program, type) => this.#compile(program, { ...this.#variant(), mode: 'cut' }, type),
-      }),
-    );
+    /** @type {import('./mask-mesh.js').Cut} */
+    const cut = {
+      material: this.#material,
+      cuts: () => this.#options.mode === 'cut' || isTranslucent(this.#options),
+      hits: (u, v, instance) => this.hits(u, v, rootOf(instance)),
+      elementAt: (u, v, instance) => this.elementAt(u, v, rootOf(instance)),
+      uv: () => UV_ATTRIBUTES[this.#options.channel],
+      key: () => JSON.stringify({ ...this.#variant(), mode: 'cut' }),
+      compile: (program, type) => this.#compile(program, { ...this.#variant(), mode: 'cut' }, type),
+      attach: (copy) => {
+        if (this.#isOn(copy)) this.attach(copy, { shadow });
+      },
+    };
+    this.#meshes.add(mesh, new MaskedMesh(mesh, cut, shadow));
     return this;
   }
 
@@ -379,13 +396,12 @@ export class VectorMask {
    * @param {import('./mask-mesh.js').Masked} mesh
    */
   detach(mesh) {
-    this.#meshes.get(mesh)?.release();
-    this.#meshes.delete(mesh);
+    this.#meshes.release(mesh);
   }
 
   /** Restore the material and all meshes. The texture, which others may use, is not disposed of. */
   remove() {
-    for (const mesh of [...this.#meshes.keys()]) this.detach(mesh);
+    this.#meshes.releaseAll();
     this.#takeBack();
     if (this.#material.clone === this.#cloned) this.#material.clone = this.#clone;
     this.#listen(false);
