@@ -273,11 +273,11 @@ class Model:
         container = self._settled(addresses)
         if container.others:
             raise ParameterError(f"{target}: the model has parts that only a .glb can hold; write a .glb")
-        if container.binary is not None:
+        buffers = listed(container.document, "buffers")
+        if container.binary is not None and buffers and "uri" not in buffers[0]:
             file = target.with_suffix(".bin")
-            first, *rest = listed(container.document, "buffers") or [{}]
             beside[file] = container.binary
-            buffers = [first | {"uri": quote(file.name)}, *rest]
+            buffers = [buffers[0] | {"uri": quote(file.name)}, *buffers[1:]]
             container = replace(container, document=container.document | {"buffers": buffers})
         return {target: to_gltf(container.document, container.indent), **beside}
 
