@@ -131,6 +131,8 @@ def gltf(
 
 def _checked(materials: Sequence[str], drawings: Sequence[Path], output: Path | None) -> Path:
     """The file to write; raises a `ParameterError` if an option is missing."""
+    from vexture.gltf.model import target_of
+
     for name, given in (("material", materials), ("drawing", drawings), ("output", output)):
         if not given:
             raise ParameterError(f"`{name}` is missing; give one, or `list` to print the materials")
@@ -140,7 +142,7 @@ def _checked(materials: Sequence[str], drawings: Sequence[Path], output: Path | 
             "`material`, or one for all"
         )
     assert output is not None
-    return output
+    return target_of(output)
 
 
 def _texture_of(drawing: Path, shown: Any, parameters: dict[str, Any], strict: bool, quiet: bool) -> "Texture":

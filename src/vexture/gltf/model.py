@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from vexture.drawing import Drawing
     from vexture.texture.texture import Texture
 
-__all__ = ["EXTENSION", "GLB", "GLTF", "Model", "read_model"]
+__all__ = ["EXTENSION", "GLB", "GLTF", "Model", "read_model", "target_of", "texture_of"]
 
 EXTENSION: Final = "VEXTURE_vector_texture"
 GLB: Final = ".glb"
@@ -203,14 +203,12 @@ class Model:
 
     def files(self, path: str | os.PathLike[str]) -> dict[Path, bytes]:
         """Contents of the file, and of those that a .gltf needs beside it; parameters and errors as in `save`."""
-        target = Path(path)
+        target = target_of(path)
         with about(self.name):
             if target.suffix.lower() == GLB:
                 return {target: to_glb(self._embedded())}
-            if target.suffix.lower() == GLTF:
-                check_beside(self.container, self.folder, target)
-                return self._beside(target)
-        raise ParameterError(f"`output` {path}: models are files of glTF; name one that ends in {GLB} or {GLTF}")
+            check_beside(self.container, self.folder, target)
+            return self._beside(target)
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write the model.
@@ -288,6 +286,14 @@ class Model:
             source = {"uri": addresses[index]} if index in addresses else {}
             container = _with_source(container, index, source)
         return container
+
+
+def target_of(path: str | os.PathLike[str]) -> Path:
+    """File to write a model to; a `ParameterError` if its suffix is another."""
+    target = Path(path)
+    if target.suffix.lower() not in (GLB, GLTF):
+        raise ParameterError(f"`output` {path}: models are files of glTF; name one that ends in {GLB} or {GLTF}")
+    return target
 
 
 def texture_of(
