@@ -39,14 +39,15 @@ export function meshesIn(scene) {
  * Attach every mesh to the masks of its materials.
  *
  * @param {readonly Masked[]} meshes
- * @param {(mask: VectorMask) => boolean} [isWanted]
+ * @param {readonly VectorMask[]} [masks] to these only, and in their order, so that the reverse one undoes it
  */
-export function attachAll(meshes, isWanted = () => true) {
+export function attachAll(meshes, masks) {
+  const order = new Map(masks?.map((mask, place) => [mask, place]));
+  const rank = (/** @type {VectorMask} */ mask) => order.get(mask) ?? 0;
   for (const mesh of meshes) {
-    for (const material of [mesh.material].flat()) {
-      const mask = vectorMaskOf(material);
-      if (mask && isWanted(mask)) mask.attach(mesh, { shadow: !Array.isArray(mesh.material) });
-    }
+    const own = [mesh.material].flat().flatMap((material) => vectorMaskOf(material) ?? []);
+    const wanted = masks ? own.filter((mask) => order.has(mask)).sort((a, b) => rank(a) - rank(b)) : own;
+    for (const mask of wanted) mask.attach(mesh, { shadow: !Array.isArray(mesh.material) });
   }
 }
 
@@ -105,7 +106,7 @@ export function applyVectorMaskToScene(scene, texture, { materials, ...options }
   const masks = [];
   try {
     for (const material of chosen) masks.push(applyVectorMask(material, texture, options));
-    attachAll(meshes, (mask) => masks.includes(mask));
+    attachAll(meshes, masks);
   } catch (error) {
     for (const mask of masks.reverse()) mask.remove();
     throw error;
