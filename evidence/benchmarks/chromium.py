@@ -72,6 +72,7 @@ def bundle(entry: Path, output: Path, three: str = "three") -> None:
     esbuild = WEB / "node_modules" / ".bin" / "esbuild"
     command = [str(esbuild), str(entry), "--bundle", "--format=esm", f"--outfile={output}"]
     command += [f"--alias:vexture={WEB / 'src' / 'index.js'}"]
+    command += [f"--alias:vexture/gltf={WEB / 'src' / 'gltf' / 'index.js'}"]
     command += [f"--alias:vexture/thesis={WEB / 'src' / 'thesis' / 'index.js'}"]
     command += [f"--alias:vexture/water={WEB / 'src' / 'water' / 'index.js'}"]
     command += [f"--alias:three={WEB / 'node_modules' / three}"]
