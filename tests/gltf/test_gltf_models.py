@@ -158,6 +158,25 @@ def test_a_glb_becomes_a_gltf_with_its_bytes_beside_it(kite, tmp_path):
         extra.files(tmp_path / "extra.gltf")
 
 
+def test_a_glb_with_a_file_beside_it_takes_it_to_another_folder(kite, tmp_path):
+    picture = BytesIO()
+    Image.new("RGB", (2, 2), "red").save(picture, "PNG")
+    (tmp_path / "a.png").write_bytes(picture.getvalue())
+    document, binary = room(images=[{"uri": "a.png"}])
+    (tmp_path / "room.glb").write_bytes(glb(document, binary))
+    model = vexture.read_model(tmp_path / "room.glb").with_drawing("Sign", kite)
+    (same,) = model.files(tmp_path / "new.glb").values()
+    (other,) = model.files(tmp_path / "elsewhere" / "new.glb").values()
+    assert document_of(same)["images"] == document["images"]
+    (image,) = document_of(other)["images"]
+    view = document_of(other)["bufferViews"][image["bufferView"]]
+    start = view["byteOffset"]
+    assert digest(chunks_of(other)[1][1][start : start + view["byteLength"]]) == digest(picture.getvalue())
+    for content in (same, other):
+        assert digest(chunks_of(content)[1][1][: len(binary)]) == digest(binary)
+        assert digest(bytes_of(content)) == digest(kite.to_ktx2())
+
+
 def test_a_model_whose_bytes_are_elsewhere_holds_the_texture_as_an_address(kite):
     for document in (room(buffers=[{"uri": "data:,", "byteLength": 0}])[0], room(buffers=[{"byteLength": 4}])[0]):
         (content,) = vexture.read_model(glb(document)).with_drawing("Sign", kite).files("a.glb").values()

@@ -12,7 +12,7 @@ from vexture.content import FileKind, about, kind_of, read_bytes, start_of
 from vexture.errors import ParameterError, SourceError, SourceWarning, counted
 from vexture.gltf.appearance import HALF, WHITE, Appearance, Background, Mode, Wrap
 from vexture.gltf.container import REMEDY, Container, listed, parse, to_glb, to_gltf
-from vexture.gltf.resources import KTX2_TYPE, check_beside, content_at, data_uri, files_beside, packed, with_view
+from vexture.gltf.resources import KTX2_TYPE, content_at, data_uri, files_beside, missed, packed, with_view
 from vexture.layout import PACKED_SUFFIX
 
 if TYPE_CHECKING:
@@ -205,9 +205,13 @@ class Model:
         """Contents of the file, and of those that a .gltf needs beside it; parameters and errors as in `save`."""
         target = target_of(path)
         with about(self.name):
+            file = missed(self.container, self.folder, target)
             if target.suffix.lower() == GLB:
-                return {target: to_glb(self._embedded())}
-            check_beside(self.container, self.folder, target)
+                return {target: to_glb(self._embedded(bool(file) or not self.container.is_glb))}
+            if file:
+                raise ParameterError(
+                    f"{target}: the model refers to {file} beside it; write it into the same folder, or a {GLB}"
+                )
             return self._beside(target)
 
     def save(self, path: str | os.PathLike[str]) -> Path:
@@ -216,9 +220,9 @@ class Model:
         Parameters
         ----------
         path : path
-            A ``.glb`` holds everything, files that the model has beside it as well. A ``.gltf`` has its textures, and
-            the bytes of a .glb, in files beside it that begin with its own name; it refers to other files as before,
-            so that it must be in the folder of the model if there are any.
+            A ``.glb`` holds everything, files beside a .gltf as well, and those beside a .glb in another folder. A
+            ``.gltf`` has its textures, and the bytes of a .glb, in files beside it that begin with its own name; it
+            refers to other files as before, so that it must be in the folder of the model if there are any.
 
         Returns
         -------
@@ -241,13 +245,15 @@ class Model:
         write_together(files)
         return next(iter(files))
 
-    def _embedded(self) -> Container:
-        """The model as a .glb holds it."""
+    def _embedded(self, whole: bool) -> Container:
+        """The model as a .glb holds it, the `whole` with the files that were beside it."""
         there = enumerate(_textures(self.container))
-        beside = {index: content_at(entry["uri"], self.folder) for index, entry in there if files_beside(entry)}
+        beside = {
+            index: content_at(entry["uri"], self.folder) for index, entry in there if whole and files_beside(entry)
+        }
         textures = beside | dict(self.textures)
         container = replace(self, textures=textures)._settled({})
-        if not container.is_glb:
+        if whole:
             container = packed(container, self.folder)
         for index, content in textures.items():
             container, view = with_view(container, content)

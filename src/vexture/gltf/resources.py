@@ -10,10 +10,10 @@ from typing import Any, Final
 from urllib.parse import unquote
 
 from vexture.content import LARGEST_FILE, picture_size
-from vexture.errors import ParameterError, SourceError, printable, shortened
+from vexture.errors import SourceError, printable, shortened
 from vexture.gltf.container import REMEDY, Container, listed, padded, values
 
-__all__ = ["KTX2_TYPE", "check_beside", "content_at", "data_uri", "files_beside", "packed", "with_view"]
+__all__ = ["KTX2_TYPE", "content_at", "data_uri", "files_beside", "missed", "packed", "with_view"]
 
 KTX2_TYPE: Final = "image/ktx2"
 BYTES_TYPE: Final = "application/octet-stream"
@@ -53,16 +53,16 @@ def with_view(container: Container, content: bytes) -> tuple[Container, int | No
 
 
 def packed(container: Container, folder: Path | None) -> Container:
-    """A model of a .gltf as that of a .glb: with the files in it that are beside it.
+    """A model as that of a .glb: with the files in it that are beside it.
 
     Raises a `SourceError` if one is missing, is not beside it or below, or an extension refers to it that vexture does
     not know.
     """
     document = dict(container.document)
     buffers = [dict(buffer) for buffer in listed(document, "buffers")]
-    binary = None
+    binary = container.binary
     for place, buffer in enumerate(buffers):
-        if place == 0 and isinstance(buffer.get("uri"), str):
+        if place == 0 and binary is None and isinstance(buffer.get("uri"), str):
             binary = content_at(buffer.pop("uri"), folder)
         elif _is_beside(buffer):
             buffer["uri"] = data_uri(content_at(buffer["uri"], folder), BYTES_TYPE)
@@ -128,13 +128,11 @@ def content_at(uri: str, folder: Path | None) -> bytes:
     return content
 
 
-def check_beside(container: Container, folder: Path | None, target: Path) -> None:
-    """Raise a `ParameterError` if a model in another folder would miss files."""
+def missed(container: Container, folder: Path | None, target: Path) -> str:
+    """Name of a file that a model would miss in the folder of a target; empty if there is none."""
     left = files_beside(container.document)
-    if left and (folder is None or folder.resolve() != target.absolute().parent.resolve()):
-        raise ParameterError(
-            f"{target}: the model refers to {_named(left[0])} beside it; write it into the same folder, or a .glb"
-        )
+    is_elsewhere = folder is None or folder.resolve() != target.absolute().parent.resolve()
+    return _named(left[0]) if left and is_elsewhere else ""
 
 
 def _named(uri: str) -> str:
