@@ -79,9 +79,15 @@ def test_a_part_that_is_not_what_it_should_be_is_refused(name):
     assert str(caught.value).startswith(f"m: {message}")
 
 
+OTHERWISE = {
+    "link.bin": "leads out of its folder",
+    "missing.bin": "cannot be read (No such file or directory)",
+    "data:,abc": "is not base64",
+    "data:;base64,***": "is no base64",
+}
 ADDRESSES = (
     *("../secret.bin", "%2e%2e/secret.bin", "..\\secret.bin", "/etc/hostname", "file:///etc/hostname", "C:\\secret"),
-    *("http://a/secret.bin", "//a/b", "a\0b", "link.bin", "missing.bin", "data:,abc", "data:;base64,***"),
+    *("http://a/secret.bin", "//a/b", "a\0b", "parts/../../secret.bin", *OTHERWISE),
 )
 
 
@@ -96,6 +102,7 @@ def test_only_files_beside_a_model_are_read(tmp_path, uri):
     with pytest.raises(vexture.SourceError) as caught:
         model.save(tmp_path / "out.glb")
     assert str(caught.value).startswith(str(folder / "m.gltf"))
+    assert OTHERWISE.get(uri, "and only files beside it or in folders there are read") in str(caught.value)
     assert str(caught.value).isprintable()
     assert not (tmp_path / "out.glb").exists()
 

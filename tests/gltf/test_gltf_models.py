@@ -76,6 +76,7 @@ def test_everything_else_in_a_glb_stays(kite, tmp_path):
     assert written["extensions"][EXTENSION]["textures"] == [
         {"name": "drawing", "mimeType": "image/ktx2", "bufferView": len(document["bufferViews"])}
     ]
+    assert written["extensionsUsed"] == ["VENDOR_a", EXTENSION]
     assert "extensionsRequired" not in written
     cleaned = without_extension(written)
     assert (cleaned["bufferViews"].pop(), cleaned["buffers"].pop()) == (
@@ -272,6 +273,7 @@ def test_the_command_says_in_a_line_what_is_wrong(drawing, tmp_path):
         ((model, *right, "--list"), "--list only prints the materials; leave the other options out"),
         ((model, *right, "--drawing", drawing), "there are 2 drawings for 1 materials; give a --drawing for each"),
         ((model, "--material", "Sing", *right[2:]), f"{model}: no material 'Sing'; its materials are 'Sign', 'Wall'"),
+        ((model, "--material", "Sing", "--drawing", tmp_path / "no.svg", *right[4:]), f"{model}: no material 'Sing'"),
         ((model, *right[:4], "-o", tmp_path / "out.obj"), f"--output {tmp_path / 'out.obj'}: models are files of glTF"),
         ((drawing, *right), f"{drawing}: is no glTF; give a .glb or a .gltf of glTF 2.0"),
         ((tmp_path / "no.glb", *right), f"{tmp_path / 'no.glb'}: cannot be read: No such file or directory"),
