@@ -1,3 +1,5 @@
+import { setFlagsFromString } from 'node:v8';
+import { runInNewContext } from 'node:vm';
 import { BoxGeometry, Group, LineBasicMaterial, Line, Matrix3, Mesh, MeshBasicMaterial, MeshStandardMaterial, PlaneGeometry, Raycaster, ShaderMaterial, SkinnedMesh, Vector3 } from 'three';
 import { describe, expect, test } from 'vitest';
 import { VextureError } from '../src/errors.js';
@@ -120,6 +122,19 @@ describe('a clone of a model', () => {
     expect(Object.hasOwn(other.clone(), 'raycast')).toBe(false);
     all.remove();
     expect([Object.hasOwn(mesh, 'clone'), Object.hasOwn(again, 'raycast')]).toEqual([false, false]);
+  });
+
+  test('is not kept alive by its mask', async () => {
+    const { scene } = made();
+    const all = applyVectorMaskToScene(scene, duck, { mode: 'cut' });
+    const copy = new WeakRef(scene.clone());
+    const kept = scene.clone();
+    await new Promise((resolve) => setTimeout(resolve)); // what is looked at lives until its task ends
+    setFlagsFromString('--expose_gc');
+    runInNewContext('gc')();
+    expect(copy.deref()).toBeUndefined();
+    all.set({ mode: 'mix' });
+    expect(/** @type {Mesh} */ (kept.children[0]).customDepthMaterial).toBeUndefined();
   });
 
   test('a mesh of several masks gives them back in any order', () => {
