@@ -64,6 +64,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "images": BASE | {"close_up", "drawing", "encodings", "group", "paint", "pipeline", "renderers"},
     "thesis": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "texture", "tree"},
     "fold": BASE | {"drawing", "layout", "notes", "renderers", "texture"},
+    "gltf": BASE | {"content", "drawing", "layout", "parameters", "pipeline", "svg", "texture"},
     "flood": BASE | {"content", "drawing", "geo", "notes", "paint", "renderers", "workers"},
     "live": SOURCES
     | {"encodings", "flood", "fold", "geo", "layout", "parameters", "pipeline", "reading"}

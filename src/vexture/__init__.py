@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from vexture.fonts.text import text
     from vexture.geo.extent import Extent, Frame
     from vexture.geo.geojson import read_geojson
+    from vexture.gltf.model import Model, read_model
     from vexture.glyph_atlas import FontAtlas, font_atlas
     from vexture.images import coverage, render
     from vexture.live.flood_page import FloodPage, flood_page
@@ -48,6 +49,7 @@ __all__ = [
     "FormatError",
     "Frame",
     "LimitError",
+    "Model",
     "Note",
     "Paint",
     "ParameterError",
@@ -70,6 +72,7 @@ __all__ = [
     "read_extent",
     "read_geojson",
     "read_image",
+    "read_model",
     "read_svg",
     "render",
     "shader_source",
@@ -89,6 +92,7 @@ _HOMES = {
     "vexture.geo.extent": ("Extent", "Frame"),
     "vexture.geo.geojson": ("read_geojson",),
     "vexture.glyph_atlas": ("FontAtlas", "font_atlas"),
+    "vexture.gltf.model": ("Model", "read_model"),
     "vexture.images": ("coverage", "render"),
     "vexture.live.flood_page": ("FloodPage", "flood_page"),
     "vexture.notes": ("Note",),

@@ -7,6 +7,8 @@ export { VectorTextureLoader } from './vector-texture-loader.js';
 export { VectorTexture } from './vector-texture.js';
 export { bounds, cellAt, contains, counts } from './walk.js';
 export { paintAt } from './walk-map.js';
+export { gltfTransform } from './gltf-transform.js';
+export { SceneMask, applyVectorMaskToScene } from './mask-scene.js';
 export { rootAttribute } from './root-attribute.js';
 export { VectorMask, applyVectorMask, vectorMaskOf } from './vector-mask.js';
 export { VectorMaterial } from './vector-material.js';

@@ -9,6 +9,7 @@ import { VextureError, line } from './errors.js';
  *   `NAME/...`. Needed if the texture holds several shapes, in mode `paint` if it holds several drawings, unless
  *   `instanced` is set.
  * @property {Matrix3} [transform] from the mesh's uv to the unit square; its elements may be changed at any time
+ * @property {0 | 1} [channel] set of texture coordinates: the mesh's `uv`, or its `uv1`
  * @property {'alpha' | 'mix' | 'cut' | 'paint'} [mode] `alpha`: opacity is 0 outside the shape. `mix`: another colour or
  *   map inside the shape. `cut`: nothing is drawn outside the shape, not even depth. `paint`: the drawing's own colours.
  * @property {'none' | 'clamp' | 'repeat'} [wrap] beyond the unit square: nothing, the value at its border, or the shape
@@ -28,7 +29,11 @@ import { VextureError, line } from './errors.js';
  * @property {number} [time] seconds of the fold
  */
 
-const MODES = Object.freeze(['alpha', 'mix', 'cut', 'paint']);
+export const MODES = Object.freeze(['alpha', 'mix', 'cut', 'paint']);
+
+export const BACKGROUNDS = Object.freeze(['own', 'none']);
+
+export const CHANNELS = Object.freeze([0, 1]);
 
 /** Materials without colour, and the modes that they allow. */
 const COLORLESS = Object.freeze({
@@ -76,6 +81,7 @@ const defaults = (type = '') => ({
   fold: null,
   time: 0,
   linear: LIT.includes(type),
+  channel: 0,
 });
 
 /** @type {readonly string[]} */
@@ -132,10 +138,11 @@ export function isTranslucent({ mode, background }) {
  * @throws {VextureError} if an option is out of range, or options exclude each other
  */
 export function checkOptions(options, type) {
-  const { mode, wrap, background, invert, threshold, transform, fold, time } = options;
+  const { mode, wrap, background, invert, threshold, transform, fold, time, channel } = options;
   choose('mode', mode, MODES);
   choose('wrap', wrap, Object.keys(WRAPS));
-  choose('background', background, ['own', 'none']);
+  choose('background', background, BACKGROUNDS);
+  choose('channel', channel, CHANNELS);
   if (!(threshold >= 0 && threshold <= 1)) {
     throw new VextureError(`threshold is ${line(threshold)}; it must be a coverage, 0 to 1`, 'threshold');
   }

@@ -4,6 +4,9 @@ import { mapsAmong } from './select-root.js';
 
 /** @typedef {import('./mask-shader.js').Variant} Variant */
 
+/** Names that three.js gives the sets of texture coordinates, in geometries and in what a ray meets. */
+export const UV_ATTRIBUTES = Object.freeze(/** @type {const} */ (['uv', 'uv1']));
+
 /**
  * @param {import('./vector-texture.js').AnyVectorTexture} texture
  * @param {import('./mask-options.js').AllOptions} options
@@ -11,7 +14,7 @@ import { mapsAmong } from './select-root.js';
  * @returns {Variant}
  */
 export function variantOf(texture, options, range) {
-  const { mode, wrap, flat, invert, background, instanced, map, fold, linear } = options;
+  const { mode, wrap, flat, invert, background, instanced, map, fold, linear, channel } = options;
   const reader = texture.maskReader();
   const isAlone = instanced || range.count === 1;
   const shown = instanced ? texture.roots : texture.roots.slice(range.first, range.first + range.count);
@@ -29,6 +32,7 @@ export function variantOf(texture, options, range) {
     background,
     instanced,
     hasMap: mode === 'mix' && map !== null,
+    uv: UV_ATTRIBUTES[channel],
     fold: fold?.glsl ?? '',
   };
 }

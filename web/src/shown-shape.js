@@ -117,11 +117,17 @@ export class ShownShape {
 /**
  * @param {import('./mask-mesh.js').Masked} mesh
  * @param {import('three').Material} material
+ */
+export const isOn = (mesh, material) => [mesh.material].flat().includes(material);
+
+/**
+ * @param {import('./mask-mesh.js').Masked} mesh
+ * @param {import('three').Material} material
  * @param {AllOptions} options
  * @throws {VextureError} if a mesh cannot be attached to the mask of a material
  */
 export function checkMesh(mesh, material, { instanced }) {
-  if (![mesh.material].flat().includes(material)) {
+  if (!isOn(mesh, material)) {
     throw new VextureError(`${mesh.name || mesh.type} has another material; give it this one first`, 'mesh');
   }
   if (instanced && !mesh.geometry.getAttribute(ROOT_ATTRIBUTE)) {

@@ -1,12 +1,12 @@
 import { Color } from 'three';
 import { VextureError } from './errors.js';
 import { check, insert, takePart } from './hooks.js';
-import { MaskedMesh } from './mask-mesh.js';
+import { MaskedMesh, MaskedMeshes } from './mask-mesh.js';
 import { NAMES, isTranslucent, withOptions } from './mask-options.js';
 import { texts } from './mask-shader.js';
 import { mapTransform, uniformValues } from './mask-uniforms.js';
-import { variantOf } from './mask-variant.js';
-import { ShownShape, checkMesh } from './shown-shape.js';
+import { UV_ATTRIBUTES, variantOf } from './mask-variant.js';
+import { ShownShape, checkMesh, isOn } from './shown-shape.js';
 
 /** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
 /** @typedef {import('./mask-shader.js').Variant} Variant */
@@ -42,14 +42,13 @@ export class VectorMask extends WithOptions {
   #isListening = false;
   /** Key of the program since the last refresh: three.js compiles nothing when it goes back to an earlier one. */
   #drawn = '';
-  /** @type {Map<import('./mask-mesh.js').Masked, MaskedMesh>} */
-  #meshes = new Map();
+  #meshes = new MaskedMeshes();
   /** @type {Record<string, { value: any }>} */
   #uniforms = { vextureMapTransform: mapTransform(() => this.#shown.options) };
   #onChange = () => this.#refresh();
   #onDispose = () => {
     this.#listen(false);
-    for (const mesh of this.#meshes.values()) mesh.dispose();
+    this.#meshes.forEach((mesh) => mesh.dispose());
   };
 
   /**
@@ -97,7 +96,7 @@ export class VectorMask extends WithOptions {
     const key = JSON.stringify(this.#variant());
     if (key !== this.#drawn) this.#material.needsUpdate = true;
     this.#drawn = key;
-    for (const mesh of this.#meshes.values()) mesh.update();
+    this.#meshes.forEach((mesh) => mesh.update());
   }
 
   /**
@@ -192,25 +191,30 @@ export class VectorMask extends WithOptions {
   }
 
   /**
-   * Let rays and light pass through a mesh outside the shape, and rays find the elements of the drawing.
+   * Let rays and light pass through a mesh outside the shape, and rays find the elements of the drawing. Clones of the
+   * mesh are attached, too, as long as they have this material.
    *
    * @param {import('./mask-mesh.js').Masked} mesh that has this material
+   * @param {{ shadow?: boolean }} [options] without `shadow` light does not pass: several materials share one shadow
    * @returns {this}
    */
-  attach(mesh) {
+  attach(mesh, { shadow = true } = {}) {
     if (this.#meshes.has(mesh)) return this;
     checkMesh(mesh, this.#material, this.#shown.options);
-    this.#meshes.set(
-      mesh,
-      new MaskedMesh(mesh, {
-        material: this.#material,
-        cuts: () => this.#shown.cuts,
-        hits: (u, v, instance) => this.hits(u, v, this.#shown.rootOf(mesh, instance)),
-        elementAt: (u, v, instance) => this.elementAt(u, v, this.#shown.rootOf(mesh, instance)),
-        key: () => JSON.stringify({ ...this.#variant(), mode: 'cut' }),
-        compile: (program, type) => this.#compile(program, { ...this.#variant(), mode: 'cut' }, type),
-      }),
-    );
+    /** @type {import('./mask-mesh.js').Cut} */
+    const cut = {
+      material: this.#material,
+      cuts: () => this.#shown.cuts,
+      hits: (u, v, instance) => this.hits(u, v, this.#shown.rootOf(mesh, instance)),
+      elementAt: (u, v, instance) => this.elementAt(u, v, this.#shown.rootOf(mesh, instance)),
+      uv: () => UV_ATTRIBUTES[this.#shown.options.channel],
+      key: () => JSON.stringify({ ...this.#variant(), mode: 'cut' }),
+      compile: (program, type) => this.#compile(program, { ...this.#variant(), mode: 'cut' }, type),
+      attach: (copy) => {
+        if (isOn(copy, this.#material)) this.attach(copy, { shadow });
+      },
+    };
+    this.#meshes.add(mesh, new MaskedMesh(mesh, cut, shadow));
     return this;
   }
 
@@ -220,13 +224,12 @@ export class VectorMask extends WithOptions {
    * @param {import('./mask-mesh.js').Masked} mesh
    */
   detach(mesh) {
-    this.#meshes.get(mesh)?.release();
-    this.#meshes.delete(mesh);
+    this.#meshes.release(mesh);
   }
 
   /** Restore the material and all meshes. The texture, which others may use, is not disposed of. */
   remove() {
-    for (const mesh of [...this.#meshes.keys()]) this.detach(mesh);
+    this.#meshes.releaseAll();
     this.#takeBack();
     if (this.#material.clone === this.#cloned) this.#material.clone = this.#clone;
     this.#listen(false);

@@ -117,7 +117,7 @@ describe('options of a VectorMaterial that are set later', () => {
   const fold = /** @type {any} */ ({ isFoldTexture: true, clock: (/** @type {number} */ time) => time, glsl: 'fold' });
   const values = /** @type {const} */ ({
     root: other, transform: new Matrix3().makeScale(2, 2), mode: 'cut', wrap: 'repeat', flat: true, invert: true,
-    threshold: 0.25, background: 'own', instanced: true, fold, time: 3, linear: true,
+    threshold: 0.25, background: 'own', instanced: true, fold, time: 3, linear: true, channel: 1,
   });
   const seen = (/** @type {any} */ material) => Object.fromEntries(Object.keys(values).map((name) => [name, material[name]]));
 
@@ -172,7 +172,7 @@ describe('options of a VectorMaterial that are set later', () => {
 });
 
 test('flat views have a program of their own, but for a fold', () => {
-  const variant = (/** @type {string} */ fold, flat = true) => /** @type {any} */ ({ wrap: 'none', flat, fold });
+  const variant = (/** @type {string} */ fold, flat = true) => /** @type {any} */ ({ wrap: 'none', uv: 'uv', flat, fold });
   expect(texts(variant('')).fragmentDeclare).toContain('#define VEXTURE_FLAT 1\n');
   expect(texts(variant('', false)).fragmentDeclare).not.toContain('#define VEXTURE_FLAT 1\n');
   expect(texts(variant('fold')).fragmentDeclare).not.toContain('#define VEXTURE_FLAT 1\n');

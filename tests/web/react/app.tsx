@@ -7,6 +7,8 @@ import type {
   AnyVectorTexture, Bytes, FoundElement, LiveOptions, MaskOptions, Masked, MaskedIntersection, OnProgress, PackedData,
   Paint, PaintList, Root, RootChoice, RootPaint, TextureData, VectorMaterialParameters, VectorTextureEvents,
 } from 'vexture';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { VectorTexturePlugin } from 'vexture/gltf';
 import {
   VectorMask, VectorMaterial, useFold, useVectorTexture, type VectorMaskProps, type VectorMaterialProps,
 } from 'vexture/react';
@@ -122,4 +124,13 @@ export async function otherEntries(one: Uint8Array): Promise<void> {
   const bits: 8 | 16 = data.bits;
   const waters = [new VectorWater(new PlaneGeometry(), texture, mirrored), new SimpleWater(new PlaneGeometry(), texture, plain)];
   console.log(bits, waters, chooseWater(), waterNormals(64, 1));
+}
+
+/** A model, and a mask of its materials. */
+export async function model(texture: vexture.VectorTexture): Promise<void> {
+  const { scene } = await new GLTFLoader().register((parser) => new VectorTexturePlugin(parser)).loadAsync('van.glb');
+  const options: vexture.SceneMaskOptions = { materials: ({ name }) => name === 'Sign', transform: vexture.gltfTransform() };
+  const all = vexture.applyVectorMaskToScene(scene, texture, options);
+  all.set({ wrap: 'repeat', root: all.masks[0].root });
+  all.remove();
 }
