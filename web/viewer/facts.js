@@ -2,7 +2,9 @@
 import { headOf } from '../src/planar-map.js';
 import { counts } from '../src/walk.js';
 import { element, section } from './dom.js';
+import { convertedOf } from './converted.js';
 import { median } from './median.js';
+import { UNKNOWN, bytesText, countText } from './numbers.js';
 
 /**
  * @typedef {import('./engine.js').Engine} Engine
@@ -11,23 +13,44 @@ import { median } from './median.js';
 
 const FRAMES = 30;
 
-/** @param {number | null | undefined} value */
-const count = (value) => (value === null || value === undefined ? 'not known' : value.toLocaleString('en'));
+/** What each fact means, as people read it under the pointer. @type {Readonly<Record<string, string>>} */
+const MEANINGS = Object.freeze({
+  Segments: 'Lines and curves of the drawing',
+  Layers: 'Shapes that are drawn one over the other',
+  Paints: 'Different colours and gradients',
+  Quads: 'Squares that are divided into four',
+  Curves: 'Pieces of outline in the texture',
+  'Deepest leaf': 'How often the smallest square comes from dividing the largest',
+  Conversion: 'How long the texture of this page took to make',
+  'Tolerance, of side': 'How far merged curves may be from those of the drawing, as a part of its longer side',
+  'Deviation, of side': 'How far the outline is from the drawing at most, as a part of its longer side',
+});
 
-/** @param {number | null | undefined} value */
-function bytes(value) {
-  if (value === null || value === undefined) return 'not known';
-  return value < 1e4 ? `${count(value)} B` : value < 1e7 ? `${count(Math.round(value / 100) / 10)} kB`
-    : `${count(Math.round(value / 1e5) / 10)} MB`;
+/**
+ * The sizes of what `vexture convert` writes, and of the texture of the page, which is made for deep zoom.
+ *
+ * @param {{bytes: number, texture: {nbytes: number}} | null} converted
+ * @param {number | null | undefined} bytes of the page's file
+ * @param {number} nbytes of its texture
+ */
+function sizesTable(converted, bytes, nbytes) {
+  const row = (/** @type {string} */ what, /** @type {string} */ file, /** @type {string} */ gpu) =>
+    element('tr', {}, element('th', { scope: 'row' }, what), element('td', {}, file), element('td', {}, gpu));
+  return element('table', { class: 'sizes' },
+    element('thead', {}, element('tr', {}, element('th', { scope: 'col' }, 'Size'), element('th', { scope: 'col' }, 'File'),
+      element('th', { scope: 'col' }, 'GPU memory'))),
+    element('tbody', {},
+      ...(converted ? [row('vexture convert', bytesText(converted.bytes), bytesText(converted.texture.nbytes))] : []),
+      row(converted ? 'This page, for deep zoom' : 'This texture', bytesText(bytes), bytesText(nbytes))));
 }
 
 /** @param {number | null | undefined} value */
-const milliseconds = (value) => (value === null || value === undefined ? 'not known' : `${value.toPrecision(3)} ms`);
+const milliseconds = (value) => (value === null || value === undefined ? UNKNOWN : `${value.toPrecision(3)} ms`);
 
 /** @param {number | null | undefined} value parts of the unit square's side */
 function distance(value) {
-  if (value === null || value === undefined) return 'not known';
-  return value === 0 ? 'exact' : `1/${count(Math.round(1 / value))}`;
+  if (value === null || value === undefined) return UNKNOWN;
+  return value === 0 ? 'exact' : `1/${countText(Math.round(1 / value))}`;
 }
 
 /**
@@ -35,6 +58,7 @@ function distance(value) {
  * @param {State} _state
  */
 export function create(engine, _state) {
+  const sizes = element('div', {});
   const list = element('dl', { class: 'facts' });
   const remarks = element('ul', { class: 'remarks', 'aria-label': 'Remarks' });
   const frame = element('output', { class: 'value', 'aria-live': 'off' }, 'not measured');
@@ -48,6 +72,14 @@ export function create(engine, _state) {
     },
   }, 'Measure');
 
+  /** @param {import('./library.js').Document} opened @param {number} nbytes */
+  async function showSizes(opened, nbytes) {
+    const bytes = opened.manifest.facts?.bytes ?? opened.manifest.bytes;
+    sizes.replaceChildren(sizesTable(null, bytes, nbytes));
+    const converted = await convertedOf(opened)?.catch(() => null); // the other facts do not need it
+    if (converted && engine.document === opened) sizes.replaceChildren(sizesTable(converted, bytes, nbytes));
+  }
+
   function update() {
     const { document: opened, drawing } = engine;
     const data = drawing?.texture.data;
@@ -57,19 +89,19 @@ export function create(engine, _state) {
     const maps = layers.filter(({ isMap }) => isMap);
     const found = [...new Set(layers.map(({ quad }) => quad))].map((quad) => counts(data, quad));
     const rows = [
-      ['Segments', count(facts.segments)],
-      ['Layers', count(layers.length)],
-      ...(maps.length ? [['Paints', count(maps.reduce((sum, { quad }) => sum + headOf(data.texels, quad).used, 0))]] : []),
-      ['Quads', count(found.reduce((sum, { quads }) => sum + quads, 0))],
-      ['Curves', count(found.reduce((sum, { curves }) => sum + curves, 0))],
-      ['Deepest leaf', count(Math.max(...found.map(({ depth }) => depth)) + 1)],
-      ['File', bytes(facts.bytes ?? opened.manifest.bytes)],
-      ['GPU memory', bytes(drawing.texture.nbytes)],
+      ['Segments', countText(facts.segments)],
+      ['Layers', countText(layers.length)],
+      ...(maps.length ? [['Paints', countText(maps.reduce((sum, { quad }) => sum + headOf(data.texels, quad).used, 0))]] : []),
+      ['Quads', countText(found.reduce((sum, { quads }) => sum + quads, 0))],
+      ['Curves', countText(found.reduce((sum, { curves }) => sum + curves, 0))],
+      ['Deepest leaf', countText(Math.max(...found.map(({ depth }) => depth)) + 1)],
       ['Conversion', milliseconds(facts.milliseconds)],
       ['Tolerance, of side', distance(Math.max(...layers.map(({ tolerance }) => tolerance)))],
       ['Deviation, of side', distance(facts.distance)],
     ];
-    list.replaceChildren(...rows.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
+    void showSizes(opened, drawing.texture.nbytes);
+    list.replaceChildren(...rows.flatMap(([name, value]) => [
+      element('dt', { title: MEANINGS[name] }, name), element('dd', {}, value)]));
     const said = (facts.notes ?? []).filter(({ kind }) => kind === 'remark'); // the badge says the others
     remarks.hidden = said.length === 0;
     remarks.replaceChildren(...said.map(({ message }) => element('li', {}, message)));
@@ -80,7 +112,7 @@ export function create(engine, _state) {
     update();
   });
   update();
-  const made = section('Facts', list, element('div', { class: 'row measure' }, element('span', {}, 'Frame time'),
+  const made = section('Facts', sizes, list, element('div', { class: 'row measure' }, element('span', {}, 'Frame time'),
     element('span', { class: 'measured' }, frame, button)), remarks);
   made.setAttribute('role', 'region');
   return made;

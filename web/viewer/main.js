@@ -11,7 +11,9 @@ import { followLink, linkTo, linkedView } from './link.js';
 import { Notes } from './notes.js';
 import { createPanel, createTools } from './panel.js';
 import { Library, readScene } from './library.js';
+import { createSave } from './save.js';
 import { HOME, START, State, THEMES } from './state.js';
+import { createSheet } from './sheet.js';
 import { applyTheme, watchSystemTheme } from './theme.js';
 
 const NARROW = matchMedia('(max-width: 720px)');
@@ -66,6 +68,7 @@ function build(engine, state, library) {
   ]);
   panel.foot.append(fileButton(given));
   acceptDrops(given);
+  panel.extras.append(createSave(engine, state, (message) => notes.say(message)));
   for (const { create, place } of EXTRAS) (place === 'stage' ? stage : panel.extras).append(create(engine, state));
   const showNames = () => panel.showShapes(library.names);
   library.addEventListener('names', showNames);
@@ -76,7 +79,8 @@ function build(engine, state, library) {
   });
   app.classList.toggle('folded', NARROW.matches);
   if (bare) return panel;
-  scene.append(createDifferences(engine, state), tools.zoom, tools.fold);
+  scene.append(createDifferences(engine, state), tools.zoom, tools.fold,
+    ...createSheet(engine, state, app, (message) => notes.say(message)));
   app.append(panel.panel);
   return panel;
 }
