@@ -70,7 +70,7 @@ export class Backdrop {
   without(act) {
     const { paper, checks } = this.uniforms;
     const before = [paper.value, checks.value];
-    paper.value = checks.value = new Vector4();
+    paper.value = checks.value = new Vector4(0, 0, 0, 0);
     act();
     [paper.value, checks.value] = before;
   }

@@ -72,6 +72,8 @@ async function equalRaster(shown, engine, drawing) {
   if (!converted) return { ...rival, leftLabel };
   const left = new Flat({ ...overlayUniforms }, backdrop);
   left.setDrawing(shownDrawing(converted.texture, drawing.name));
+  const paint = drawing.count === 1 ? drawing.texture.roots[drawing.first].paint : null;
+  if (paint && !converted.texture.roots[0].paint) left.paintAll(paint); // of one colour a silhouette is written
   await left.plain.compile(renderer);
   return { ...rival, left, leftLabel, dispose: () => {
     rival.dispose();

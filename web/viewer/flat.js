@@ -1,5 +1,5 @@
 /** The flat view of a texture: its layers on the backdrop, in their own colours. */
-import { Vector2 } from 'three';
+import { Vector2, Vector4 } from 'three';
 import { overlay, packed, planar } from '../generated/shaders.js';
 import { BACKDROP } from './backdrop.js';
 import { Pass } from './pass.js';
@@ -29,13 +29,14 @@ uniform float side;
 uniform int first;
 uniform int count;
 uniform uint quad;
-uniform bool coverage;
+uniform bool tinted;
+uniform vec4 tint;
 uniform bool straight;
 out vec4 pixel;
 void main() {
   vec2 offset = start + gl_FragCoord.xy * side;
   vec4 color = ${call};
-  if (coverage) color.rgb = vec3(color.a);
+  if (tinted) color = tint * color.a;
   pixel = color + backdrop() * (1.0 - color.a);
   if (straight) pixel.rgb /= max(pixel.a, exp2(-24.0));
   #ifdef OVERLAY
@@ -68,7 +69,8 @@ export class Flat {
       first: { value: 0 },
       count: { value: 1 },
       quad: { value: 0 },
-      coverage: { value: false },
+      tinted: { value: false },
+      tint: { value: new Vector4(1, 1, 1, 1) },
       straight: { value: false },
     });
   }
@@ -108,6 +110,17 @@ export class Flat {
   }
 
   /**
+   * Draw in one colour from now on.
+   *
+   * @param {import('../src/data.js').RootPaint} paint
+   */
+  paintAll({ color, opacity }) {
+    const [red, green, blue] = color.map((part) => part * opacity);
+    this.uniforms.tint.value.set(red, green, blue, opacity);
+    this.uniforms.tinted.value = true;
+  }
+
+  /**
    * @param {import('./view.js').View} view
    * @param {import('./view.js').Size} size
    * @param {number} ratio device pixels of a CSS pixel
@@ -131,13 +144,13 @@ export class Flat {
    * @param {boolean} asCoverage in white instead of its colours
    */
   drawSquare(renderer, target, asCoverage) {
-    const { base, start, side, coverage } = this.uniforms;
-    coverage.value = asCoverage;
+    const { base, start, side, tinted } = this.uniforms;
+    tinted.value = asCoverage;
     base.value = [0, 0];
     start.value.set(0, 0);
     side.value = 1 / target.width;
     this.drawInto(renderer, target);
-    coverage.value = false;
+    tinted.value = false;
   }
 
   /**

@@ -63,7 +63,7 @@ function build(engine, state, library) {
   const given = (/** @type {File[]} */ files) => void openFiles(files, state, library);
   const panel = createPanel(engine, state, [
     { label: 'Copy link', act: () => void copyLink(state) },
-    { label: 'Copy picture', act: () => void copySeen(engine, compare.image()) },
+    { label: 'Copy picture', ofOne: true, act: () => void copySeen(engine, compare.image()) },
     { label: 'Theme', act: () => nextTheme(state) },
   ]);
   panel.foot.append(fileButton(given));

@@ -9,6 +9,6 @@ export const countText = (value) => (value === null || value === undefined ? UNK
 /** @param {number | null | undefined} value */
 export function bytesText(value) {
   if (value === null || value === undefined) return UNKNOWN;
-  return value < 1e4 ? `${countText(value)} B` : value < 1e7 ? `${countText(Math.round(value / 100) / 10)} kB`
-    : `${countText(Math.round(value / 1e5) / 10)} MB`;
+  return value < 1e4 ? `${countText(value)}\u00a0B` : value < 1e7 ? `${countText(Math.round(value / 100) / 10)}\u00a0kB`
+    : `${countText(Math.round(value / 1e5) / 10)}\u00a0MB`;
 }

@@ -119,6 +119,7 @@ function viewSection(engine, state) {
  * @typedef {object} Action
  * @property {string} label
  * @property {() => void} act
+ * @property {boolean} [ofOne] whether it needs a drawing that is shown
  */
 
 /**
@@ -131,7 +132,8 @@ export function createPanel(engine, state, actions) {
   const shapes = shapesSection(state);
   const view = viewSection(engine, state);
   const extras = element('div', { class: 'extras' });
-  const buttons = actions.map(({ label, act }) => element('button', { type: 'button', onclick: act }, label));
+  const buttons = actions.map(({ label, act, ofOne }) =>
+    element('button', { type: 'button', class: ofOne ? 'of-one' : null, onclick: act }, label));
   const foot = element('div', { class: 'actions' }, ...buttons);
   const panel = element(
     'aside', { id: 'panel', class: 'panel', 'aria-label': 'Controls' }, title, shapes.box, view.box, extras, foot,

@@ -11,10 +11,12 @@ import { Thumbnails } from './thumbnails.js';
  * @typedef {import('./drawing.js').Range} Range
  */
 
-const LEAST_CELL = 116; // CSS pixels
+/** Sizes of a cell in CSS pixels: its least width, and the height of the name below its picture. */
+const FINE = Object.freeze({ least: 132, label: 36 });
+/** Where fingers point. */
+const COARSE = Object.freeze({ least: 160, label: 48 });
 const MARGIN = 8;
-/** Of the name below a picture. */
-const LABEL = 34;
+const TOUCHED = matchMedia('(pointer: coarse), (max-width: 720px)');
 /** Rows beyond what is seen that are there, too. */
 const OVERSCAN = 1;
 const COPY_ICON = 'M5 1h9v10h-2v-8h-7zM2 4h9v11h-9zM3.5 5.5v8h6v-8z';
@@ -25,7 +27,7 @@ const COPY_ICON = 'M5 1h9v10h-2v-8h-7zM2 4h9v11h-9zM3.5 5.5v8h6v-8z';
  * @param {Range[]} all
  * @param {string} search
  */
-export function matching(all, search) {
+function matching(all, search) {
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
   return words.length ? all.filter(({ name }) => words.every((word) => name.toLowerCase().includes(word))) : all;
 }
@@ -35,11 +37,12 @@ export function matching(all, search) {
  *
  * @param {number} width of the sheet, in CSS pixels
  * @param {number} count of cells
+ * @param {{least: number, label: number}} sizes
  */
-export function layoutOf(width, count) {
-  const columns = Math.max(1, Math.floor(width / LEAST_CELL));
+function layoutOf(width, count, sizes) {
+  const columns = Math.max(1, Math.floor(width / sizes.least));
   const cell = Math.floor(width / columns);
-  const row = cell + LABEL;
+  const row = cell + sizes.label;
   return { columns, cell, row, thumb: cell - 2 * MARGIN, height: row * Math.ceil(count / columns) };
 }
 
@@ -54,6 +57,8 @@ class Sheet {
   #blank = new WeakMap();
   #turn = 0;
   #frame = 0;
+  /** For which the cells were made. */
+  #width = 0;
 
   /** @param {Engine} engine @param {State} state @param {(message: string) => void} note */
   constructor(engine, state, note) {
@@ -70,7 +75,7 @@ class Sheet {
     this.scroller = element('div', { class: 'sheet-scroll', onscroll: () => this.#later() }, this.list);
     this.element = element('section', { class: 'sheet', 'aria-label': 'All drawings', hidden: true },
       element('div', { class: 'sheet-head' }, this.search, this.count), this.scroller);
-    new ResizeObserver(() => this.#refill()).observe(this.scroller);
+    new ResizeObserver(() => this.#resized()).observe(this.scroller);
   }
 
   get isOpen() {
@@ -114,6 +119,13 @@ class Sheet {
     this.#refill();
   }
 
+  #resized() {
+    const { clientWidth } = this.list;
+    if (clientWidth === 0 || clientWidth === this.#width) return this.#later();
+    this.#width = clientWidth;
+    this.#refill();
+  }
+
   #refill() {
     for (const cell of this.#cells.values()) cell.remove();
     this.#cells.clear();
@@ -121,7 +133,7 @@ class Sheet {
   }
 
   #layout() {
-    return layoutOf(this.scroller.clientWidth, this.#found.length);
+    return layoutOf(this.list.clientWidth, this.#found.length, TOUCHED.matches ? COARSE : FINE);
   }
 
   #later() {
