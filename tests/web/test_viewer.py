@@ -242,7 +242,7 @@ def test_raster_has_as_many_bytes_as_convert_writes_and_stands_beside_that_textu
     page = ready(open_page, (tmp_path / "page.html").as_uri(), (900, 600))
     own = page.evaluate("vexture.viewer.engine.texture.nbytes")
     assert own > 20 * written.nbytes  # made for deep zoom
-    rows = page.get_by_role("region", name="Facts").get_by_role("row")
+    rows = page.get_by_role("region", name="Size").get_by_role("row")
     rows.nth(2).wait_for()
     assert rows.nth(1).inner_text().split("\t") == ["vexture convert", f"{len(written.to_ktx2())}\xa0B", "1,024\xa0B"]
     assert rows.nth(2).inner_text().split("\t")[1:] == ["79.4\xa0kB", f"{own / 1000:.1f}\xa0kB"]

@@ -110,7 +110,8 @@ BACKGROUNDS = {
 def test_background_is_chosen_and_stays_in_a_link(
     viewer_pages: dict[str, Viewed], open_page: Callable[..., Any], surface: str
 ) -> None:
-    page = ready(open_page, viewer_pages["duck"].url, (900, 600), color_scheme="dark")
+    page = ready(open_page, viewer_pages["duck"].url, (900, 600))
+    page.emulate_media(color_scheme="dark")
     page.get_by_role("combobox", name="Surface").select_option(surface)
     page.wait_for_function("vexture.viewer.engine.toUnit(288, 300) !== null")
     for name, colors in BACKGROUNDS.items():
@@ -133,7 +134,8 @@ def test_background_is_chosen_and_stays_in_a_link(
 def test_what_is_compared_with_stands_on_the_same_background_in_the_same_colour(
     viewer_pages: dict[str, Viewed], open_page: Callable[..., Any], rival: str
 ) -> None:
-    page = ready(open_page, viewer_pages["duck"].url, (900, 600), color_scheme="dark")
+    page = ready(open_page, viewer_pages["duck"].url, (900, 600))
+    page.emulate_media(color_scheme="dark")
     page.get_by_role("combobox", name="Background").select_option("A colour…")
     page.get_by_label("Colour of the background").fill("#3399cc")
     page.get_by_role("combobox", name="Compare with").select_option(rival)

@@ -2,9 +2,8 @@
 import { headOf } from '../src/planar-map.js';
 import { counts } from '../src/walk.js';
 import { element, section } from './dom.js';
-import { convertedOf } from './converted.js';
 import { median } from './median.js';
-import { UNKNOWN, bytesText, countText } from './numbers.js';
+import { UNKNOWN, countText } from './numbers.js';
 
 /**
  * @typedef {import('./engine.js').Engine} Engine
@@ -26,24 +25,6 @@ const MEANINGS = Object.freeze({
   'Deviation, of side': 'How far the outline is from the drawing at most, as a part of its longer side',
 });
 
-/**
- * The sizes of what `vexture convert` writes, and of the texture of the page, which is made for deep zoom.
- *
- * @param {{bytes: number, texture: {nbytes: number}} | null} converted
- * @param {number | null | undefined} bytes of the page's file
- * @param {number} nbytes of its texture
- */
-function sizesTable(converted, bytes, nbytes) {
-  const row = (/** @type {string} */ what, /** @type {string} */ file, /** @type {string} */ gpu) =>
-    element('tr', {}, element('th', { scope: 'row' }, what), element('td', {}, file), element('td', {}, gpu));
-  return element('table', { class: 'sizes' },
-    element('thead', {}, element('tr', {}, element('th', { scope: 'col' }, 'Size'), element('th', { scope: 'col' }, 'File'),
-      element('th', { scope: 'col' }, 'GPU memory'))),
-    element('tbody', {},
-      ...(converted ? [row('vexture convert', bytesText(converted.bytes), bytesText(converted.texture.nbytes))] : []),
-      row(converted ? 'This page, for deep zoom' : 'This texture', bytesText(bytes), bytesText(nbytes))));
-}
-
 /** @param {number | null | undefined} value */
 const milliseconds = (value) => (value === null || value === undefined ? UNKNOWN : `${value.toPrecision(3)} ms`);
 
@@ -58,7 +39,6 @@ function distance(value) {
  * @param {State} _state
  */
 export function create(engine, _state) {
-  const sizes = element('div', {});
   const list = element('dl', { class: 'facts' });
   const remarks = element('ul', { class: 'remarks', 'aria-label': 'Remarks' });
   const frame = element('output', { class: 'value', 'aria-live': 'off' }, 'not measured');
@@ -71,14 +51,6 @@ export function create(engine, _state) {
       button.disabled = false;
     },
   }, 'Measure');
-
-  /** @param {import('./library.js').Document} opened @param {number} nbytes */
-  async function showSizes(opened, nbytes) {
-    const bytes = opened.manifest.facts?.bytes ?? opened.manifest.bytes;
-    sizes.replaceChildren(sizesTable(null, bytes, nbytes));
-    const converted = await convertedOf(opened)?.catch(() => null); // the other facts do not need it
-    if (converted && engine.document === opened) sizes.replaceChildren(sizesTable(converted, bytes, nbytes));
-  }
 
   function update() {
     const { document: opened, drawing } = engine;
@@ -99,7 +71,6 @@ export function create(engine, _state) {
       ['Tolerance, of side', distance(Math.max(...layers.map(({ tolerance }) => tolerance)))],
       ['Deviation, of side', distance(facts.distance)],
     ];
-    void showSizes(opened, drawing.texture.nbytes);
     list.replaceChildren(...rows.flatMap(([name, value]) => [
       element('dt', { title: MEANINGS[name] }, name), element('dd', {}, value)]));
     const said = (facts.notes ?? []).filter(({ kind }) => kind === 'remark'); // the badge says the others
@@ -112,7 +83,7 @@ export function create(engine, _state) {
     update();
   });
   update();
-  const made = section('Facts', sizes, list, element('div', { class: 'row measure' }, element('span', {}, 'Frame time'),
+  const made = section('Facts', list, element('div', { class: 'row measure' }, element('span', {}, 'Frame time'),
     element('span', { class: 'measured' }, frame, button)), remarks);
   made.setAttribute('role', 'region');
   return made;

@@ -90,7 +90,7 @@ function viewSection(engine, state) {
   });
   const why = element('p', { class: 'why', id: 'why-flat', hidden: true }, 'Comparisons are made on the flat surface.');
   rival.list.setAttribute('aria-describedby', 'why-flat');
-  const drawing = select('Drawing', [], (value) => state.update({ drawing: value }));
+  const drawing = select('Drawing', [], (value) => state.update({ drawing: value, ...HOME }));
   const follow = () => {
     surface.list.value = state.value.mode;
     rival.list.value = state.value.compare ?? '';

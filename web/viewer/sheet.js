@@ -2,6 +2,7 @@
 import { copyText } from './copy.js';
 import { element } from './dom.js';
 import { drawingsIn } from './drawing.js';
+import { HOME } from './state.js';
 import { svgElement } from './svg.js';
 import { Thumbnails } from './thumbnails.js';
 
@@ -174,7 +175,7 @@ class Sheet {
     canvas.style.cssText = `width: ${thumb}px; height: ${thumb}px`;
     const icon = svgElement('svg', { viewBox: '0 0 16 16', 'aria-hidden': 'true' }, svgElement('path', { d: COPY_ICON, 'fill-rule': 'evenodd' }));
     const made = element('li', { 'aria-setsize': this.#found.length, 'aria-posinset': place + 1, 'data-place': place },
-      element('button', { type: 'button', class: 'sheet-open', title: name, onclick: () => this.state.update({ drawing: name }) },
+      element('button', { type: 'button', class: 'sheet-open', title: name, onclick: () => this.#choose(name) },
         canvas, element('span', {}, name)),
       element('button', {
         type: 'button', class: 'sheet-copy', 'aria-label': `Copy the name ${name}`, title: 'Copy the name', onclick: () => void this.#copy(name),
@@ -200,6 +201,11 @@ class Sheet {
   }
 
   /** @param {string} name */
+  #choose(name) {
+    this.state.update({ drawing: name, ...HOME });
+  }
+
+  /** @param {string} name */
   async #copy(name) {
     this.note(await copyText(name) ? `${name} is copied.` : `This browser does not let the page copy; the name is ${name}.`);
   }
@@ -217,7 +223,7 @@ class Sheet {
   /** @param {KeyboardEvent} event */
   #searchKey(event) {
     if (event.key === 'ArrowDown' && this.#found.length) this.#go(0);
-    else if (event.key === 'Enter' && this.#found.length) this.state.update({ drawing: this.#found[0].name });
+    else if (event.key === 'Enter' && this.#found.length) this.#choose(this.#found[0].name);
     else return;
     event.preventDefault();
   }
@@ -268,6 +274,7 @@ export function createSheet(engine, state, app, note) {
     last = '';
   };
   engine.addEventListener('shape', follow);
+  engine.addEventListener('restored', () => sheet.redraw());
   state.addEventListener('change', (event) => {
     const { changed } = /** @type {CustomEvent} */ (event).detail;
     if (changed.has('background') || changed.has('theme')) sheet.redraw();
