@@ -50,9 +50,10 @@ def looks(page: Any) -> list[Image.Image]:
         page.evaluate(
             """async ({overlays, ...look}) => {
                 const {state, engine} = window.vexture.viewer;
-                const start = {compare: null, mode: 'flat', theme: 'light', background: 'white', center: [0.5, 0.5], zoom: 1, distance: 1};
+                const start = {compare: null, mode: 'flat', theme: 'light', background: 'white'};
+                const home = {center: [0.5, 0.5], zoom: 1, distance: 1};
                 state.updateOverlays({cells: false, coverage: false, ...overlays});
-                state.update({...start, ...look});
+                state.update({...start, ...home, ...look});
                 engine.requestFrame();
             }""",
             {"overlays": {}, **look},

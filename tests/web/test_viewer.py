@@ -7,12 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 from viewed import PRECISION, SHAPES, SIZE, Viewed, pixels, point_on_outline, ready, show, value
-from viewer_page import FIT, view_matrix
+from viewer_page import FIT, view_matrix, write_page
 from waiting import drawn, quiet
 
 import vexture
 from vexture.live.documents import VIEWER_PARAMETERS, shape_of
-from vexture.live.page import exported_page
+from vexture.live.page import data_address, exported_page
+from vexture.live.shelf import manifest as told
 
 
 @pytest.mark.parametrize("zoom", [1, 100, 1000, 10000])
@@ -238,8 +239,8 @@ def test_raster_has_as_many_bytes_as_convert_writes_and_stands_beside_that_textu
 ) -> None:
     shape = shape_of((SHAPES / "duck.svg").read_bytes(), "duck.svg", "duck", VIEWER_PARAMETERS)
     written = vexture.convert(SHAPES / "duck.svg")
-    (tmp_path / "page.html").write_bytes(exported_page([shape], "duck"))
-    page = ready(open_page, (tmp_path / "page.html").as_uri(), (900, 600))
+    path = write_page(tmp_path / "page.html", told(shape, None, {}, address=data_address))
+    page = ready(open_page, path.as_uri(), (900, 600))
     own = page.evaluate("vexture.viewer.engine.texture.nbytes")
     assert own > 20 * written.nbytes  # made for deep zoom
     rows = page.get_by_role("region", name="Size").get_by_role("row")

@@ -106,46 +106,69 @@ BACKGROUNDS = {
 """Colours of each, in the dark."""
 
 
-@pytest.mark.parametrize("surface", ["Flat", "Plane"])
-def test_background_is_chosen_and_stays_in_a_link(
-    viewer_pages: dict[str, Viewed], open_page: Callable[..., Any], surface: str
+def test_background_is_chosen_on_every_surface_and_stays_in_a_link(
+    viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]
 ) -> None:
     page = ready(open_page, viewer_pages["duck"].url, (900, 600))
     page.emulate_media(color_scheme="dark")
-    page.get_by_role("combobox", name="Surface").select_option(surface)
-    page.wait_for_function("vexture.viewer.engine.toUnit(288, 300) !== null")
-    for name, colors in BACKGROUNDS.items():
+
+    def colors() -> set[tuple[int, ...]]:
+        drawn(page)
+        return {tuple(map(int, color)) for color in pixels(page)[2:40, 2:60].reshape(-1, 3)}
+
+    for name, expected in BACKGROUNDS.items():
         page.get_by_role("combobox", name="Background").select_option(name)
         if name.endswith("…"):
             page.get_by_label("Colour of the background").fill("#3399cc")
-        drawn(page)
-        seen = pixels(page)
-        assert {tuple(map(int, color)) for color in seen[2:40, 2:60].reshape(-1, 3)} == colors
-        if surface == "Flat":
-            assert seen[340, 200].tolist() == [0, 0, 0], "black stays black"
-    chosen = value(page)["background"]
-    assert chosen == "#3399cc"
-    page.wait_for_function("location.hash.endsWith('~%233399cc')")
-    other = ready(open_page, page.evaluate("location.href"), (900, 600))
-    assert value(other)["background"] == chosen
+        assert colors() == expected
+        assert pixels(page)[340, 200].tolist() == [0, 0, 0], "black stays black"
+    page.get_by_role("combobox", name="Surface").select_option("Plane")
+    page.wait_for_function("vexture.viewer.engine.toUnit(288, 300) !== null")
+    assert colors() == BACKGROUNDS["A colour…"]
+    page.get_by_role("combobox", name="Background").select_option("Checkerboard")
+    assert colors() == BACKGROUNDS["Checkerboard"]
+    page.wait_for_function("location.hash.endsWith('~checks')")
+    page.reload()
+    page.evaluate("vexture.viewer.ready")
+    assert value(page)["background"] == "checks"
 
 
-@pytest.mark.parametrize("rival", ["Browser SVG", "16-bit original method (2018)", "Raster of equal bytes"])
 def test_what_is_compared_with_stands_on_the_same_background_in_the_same_colour(
-    viewer_pages: dict[str, Viewed], open_page: Callable[..., Any], rival: str
+    viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]
 ) -> None:
     page = ready(open_page, viewer_pages["duck"].url, (900, 600))
     page.emulate_media(color_scheme="dark")
     page.get_by_role("combobox", name="Background").select_option("A colour…")
     page.get_by_label("Colour of the background").fill("#3399cc")
-    page.get_by_role("combobox", name="Compare with").select_option(rival)
-    page.get_by_role("slider", name="Divider").press("Home")
-    if rival == "Browser SVG":
-        page.locator(".browser-svg img").wait_for()
-    drawn(page)
-    seen = pixels(page)
-    assert seen[340, 250].tolist() == [0, 0, 0]
-    assert seen[560, 300].tolist() == [0x33, 0x99, 0xCC]
+    for rival in ("Raster of equal bytes", "16-bit original method (2018)", "Browser SVG"):
+        page.get_by_role("combobox", name="Compare with").select_option(rival)
+        label = page.locator(".half.right").get_by_text(rival.removesuffix(" of equal bytes"))
+        label.wait_for()
+        page.get_by_role("slider", name="Divider").press("Home")
+        if rival == "Browser SVG":
+            page.locator(".browser-svg img").wait_for()
+        drawn(page)
+        seen = pixels(page)
+        assert seen[340, 250].tolist() == [0, 0, 0]
+        assert seen[560, 300].tolist() == [0x33, 0x99, 0xCC]
+
+
+READ = """() => {
+  const unread = new Set(['class', 'id', 'src', 'href', 'value']);
+  const attributes = (one) => [...one.attributes].filter(({ name }) => !unread.has(name)).map(({ value }) => value);
+  return [...document.querySelectorAll('#app *')].flatMap((one) => [one.textContent, ...attributes(one)]);
+}"""
+"""All that people read on the page, shown or not, or hear."""
+
+
+def test_newcomers_read_what_they_know(viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:
+    page = ready(open_page, viewer_pages["duck"].url, (900, 600))
+    page.get_by_role("combobox", name="Compare with").select_option("16-bit original method (2018)")
+    page.get_by_role("button", name="Texture contents").click()
+    page.get_by_role("img", name="Curves of the 16-bit original method (2018)").wait_for()
+    texts = page.evaluate(READ)
+    assert len(texts) > 100
+    assert [text for text in texts if "thesis" in text.lower()] == []
 
 
 def test_a_link_opens_the_same_view(viewer_pages: dict[str, Viewed], open_page: Callable[..., Any]) -> None:

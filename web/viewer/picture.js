@@ -4,7 +4,7 @@ import { pngOf } from './png.js';
 import { FIT, shaderView } from './view.js';
 
 /** Pixels that are drawn at once: a picture is drawn in bands, so that a large one takes little memory. */
-const BAND = 1 << 21;
+const BAND = 1 << 20;
 
 export const LEAST_SIDE = 16;
 

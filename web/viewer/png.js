@@ -35,6 +35,7 @@ function chunk(kind, data) {
  * @returns {Promise<Blob>}
  */
 export async function pngOf(width, height, bands) {
+  if (!('CompressionStream' in globalThis)) throw new Error('this browser cannot compress it; try a newer one');
   const deflate = new CompressionStream('deflate');
   const writer = deflate.writable.getWriter();
   const deflated = new Response(deflate.readable).arrayBuffer();

@@ -145,7 +145,7 @@ def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start:
 
 
 def _as_written(drawing: "Drawing", file_name: str, parameters: Parameters) -> File:
-    """The file that `vexture convert` writes of a drawing that is read already: what is shown, at the default accuracy."""
+    """The file that `vexture convert` writes, at its own accuracy, of a drawing that is read already."""
     split: Split = "auto" if parameters.split == VIEWER_PARAMETERS.split else parameters.split
     return converted(drawing, file_name, Parameters(split=split, max_seconds=parameters.max_seconds), 0.0).texture
 
