@@ -38,7 +38,7 @@ GAP: Final = 12
 LOOKS: Final[tuple[dict[str, Any], ...]] = (
     {"shape": "duck", "overlays": {"cells": True, "coverage": True, "depth": False, "cutoff": 0}},
     {"shape": "duck", "compare": "raster", "center": [0.886, 0.668], "zoom": 14, "split": 0.5},
-    {"shape": "cake", "mode": "sphere", "theme": "dark", "yaw": -0.5, "pitch": 0.35},
+    {"shape": "cake", "mode": "sphere", "theme": "dark", "background": "theme", "yaw": -0.5, "pitch": 0.35},
     {"shape": "ocean", "mode": "plane", "yaw": 0.0, "pitch": -1.0, "distance": 1.2},
 )
 
@@ -50,9 +50,10 @@ def looks(page: Any) -> list[Image.Image]:
         page.evaluate(
             """async ({overlays, ...look}) => {
                 const {state, engine} = window.vexture.viewer;
-                const start = {compare: null, mode: 'flat', theme: 'light', center: [0.5, 0.5], zoom: 1, distance: 1};
+                const start = {compare: null, mode: 'flat', theme: 'light', background: 'white'};
+                const home = {center: [0.5, 0.5], zoom: 1, distance: 1};
                 state.updateOverlays({cells: false, coverage: false, ...overlays});
-                state.update({...start, ...look});
+                state.update({...start, ...home, ...look});
                 engine.requestFrame();
             }""",
             {"overlays": {}, **look},
