@@ -73,8 +73,9 @@ function Folded({ fold, ...options }) {
 // A mask in a material; `fresh` makes another material, of which the mask is not told.
 function Masked({ color, fresh = 0, ...props }) {
   const mask = useMemo(() => props.src && <VectorMask {...completed(props)} />, [JSON.stringify(props)]);
+  const args = useMemo(() => [{ name: String(fresh) }], [fresh]);
   return (
-    <meshBasicMaterial args={[{ name: String(fresh) }]} color={color} toneMapped={false}>
+    <meshBasicMaterial args={args} color={color} toneMapped={false}>
       {mask}
     </meshBasicMaterial>
   );
