@@ -101,6 +101,17 @@ def test_every_prop_is_live(page: Any) -> None:
         assert distance(picture, expected) <= HALF_STEP, props
 
 
+def test_a_change_of_an_option_alone_asks_for_a_frame(page: Any) -> None:
+    duck = exact("duck", SIZE)
+    black = draw(page, {**shared(texture="duck.ktx2", color="black"), "name": "alone"})
+    assert distance(black, over_white(duck)) <= HALF_STEP
+    inverted = decode(page.evaluate("page.alter({ invert: true })"))
+    assert distance(inverted, over_white(1.0 - duck)) <= HALF_STEP
+    draw(page, {**shared(**PAINTED), "name": "other"})
+    red = decode(page.evaluate("page.alter({ colors: { sky: '#ff0000' } })"))
+    np.testing.assert_array_equal(red[4, 4], [1, 0, 0])
+
+
 def disc() -> Picture:
     """The first layer of the drawing with a star."""
     badge = vexture.read_svg(FIXTURES / "badge.svg")
@@ -136,6 +147,7 @@ def test_elements_have_colours_of_their_own_and_others_keep_theirs(page: Any, sc
 
 
 def test_what_loads_suspends_and_what_is_missing_is_said(page: Any) -> None:
+    draw(page, shared(texture="duck.ktx2"))
     page.evaluate("page.clear('duck.ktx2')")
     before = page.evaluate("page.fallbacks()")
     for waits, source in ((True, "duck.ktx2"), (True, "duck.ktx2?2"), (False, "duck.ktx2")):
@@ -162,9 +174,11 @@ def test_a_mask_comes_changes_and_goes(page: Any, *, place: bool) -> None:
     assert distance(masked(src="duck.ktx2", invert=True), 1.0 - duck) <= HALF_STEP
     if place:
         return
+    assert distance(masked(src="duck.ktx2", invert=True, fresh=1), 1.0 - duck) <= HALF_STEP
+    assert page.evaluate("page.held()")["cut"] == [[True, True]]
     assert distance(masked(src="duck.ktx2", fresh=1), duck) <= HALF_STEP
     assert page.evaluate("page.held()")["cut"] == [[True, True]]
-    assert np.all(masked() == 0.0)
+    assert np.all(masked(fresh=1) == 0.0)
     held = page.evaluate("page.held()")
     assert (held["masks"], held["cut"]) == ([False], [[False, False]])
 

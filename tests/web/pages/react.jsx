@@ -1,6 +1,6 @@
 // A scene of React Three Fiber that shows what a test says, and draws only when something asks for a frame.
 import { Canvas, useFrame, useThree } from '@react-three/fiber';
-import { Component, StrictMode, Suspense, useEffect, useLayoutEffect, useState } from 'react';
+import { Component, StrictMode, Suspense, useEffect, useLayoutEffect, useMemo, useState } from 'react';
 import { createRoot } from 'react-dom/client';
 import * as THREE from 'three';
 import { vectorMaskOf } from 'vexture';
@@ -9,6 +9,8 @@ import { VectorMask, VectorMaterial, useFold, useVectorTexture } from 'vexture/r
 const SIZE = 256;
 const clicks = [];
 const failures = [];
+let change;
+let changed;
 let show;
 let state;
 let fallbacks = 0;
@@ -54,9 +56,13 @@ function completed({ transform, ...props }) {
   return transform ? { ...props, transform: new THREE.Matrix3().fromArray(transform).transpose() } : props;
 }
 
-function Shape({ texture, fold, children, ...props }) {
+// It can change by itself, so that nothing else asks for a frame.
+function Shape({ texture, fold, ...props }) {
   const shared = useVectorTexture(texture);
-  const options = { ...completed(props), texture: shared };
+  const [own, set] = useState({});
+  change = set;
+  useEffect(() => void (changed = own));
+  const options = { ...completed({ ...props, ...own }), texture: shared };
   return fold ? <Folded fold={fold} {...options} /> : <VectorMaterial {...options} />;
 }
 
@@ -64,17 +70,23 @@ function Folded({ fold, ...options }) {
   return <VectorMaterial fold={useFold(fold)} {...options} />;
 }
 
+// A mask in a material; `fresh` makes another material, of which the mask is not told.
+function Masked({ color, fresh = 0, ...props }) {
+  const mask = useMemo(() => props.src && <VectorMask {...completed(props)} />, [JSON.stringify(props)]);
+  const args = useMemo(() => [{ name: String(fresh) }], [fresh]);
+  return (
+    <meshBasicMaterial args={args} color={color} toneMapped={false}>
+      {mask}
+    </meshBasicMaterial>
+  );
+}
+
 const kinds = {
   // a material with a texture that several share
   shared: (props) => <Shape {...props} />,
   // a material that loads its texture
   loading: (props) => <VectorMaterial {...completed(props)} />,
-  // a mask in a material; `fresh` makes another material
-  masked: ({ color, fresh = 0, ...props }) => (
-    <meshBasicMaterial args={[{ name: String(fresh) }]} color={color} toneMapped={false}>
-      {props.src && <VectorMask {...completed(props)} />}
-    </meshBasicMaterial>
-  ),
+  masked: Masked,
 };
 
 function Item({ name, kind, x = 0, width = 2, props, inMesh }) {
@@ -132,6 +144,13 @@ async function draw(items) {
   return settled();
 }
 
+// The picture after a change of nothing but the last material.
+async function alter(props) {
+  change(props);
+  await patiently(() => changed === props);
+  return settled();
+}
+
 const meshes = () => state.scene.children.filter(({ isMesh }) => isMesh);
 
 // What is on the GPU, and which masks there are.
@@ -146,7 +165,7 @@ createRoot(document.body.appendChild(document.createElement('div'))).render(<Str
 document.body.style.margin = '0';
 
 window.page = {
-  draw, held, settled, clicks, failures, patiently,
+  draw, alter, held, settled, clicks, failures, patiently,
   ready: () => patiently(() => shown === wanted),
   fallbacks: () => fallbacks,
   frames: () => frames,

@@ -62,6 +62,7 @@ export function meshOf(material) {
  * Attach a mask to its mesh, and another one when they change.
  *
  * @param {() => { mask: VectorMask | null | undefined, mesh: any }} find
+ * @returns {() => void} does so at once
  */
 export function useMesh(find) {
   const held = useRef(/** @type {{ mask?: VectorMask | null, mesh?: any }} */ ({}));
@@ -69,13 +70,15 @@ export function useMesh(find) {
     held.current.mask?.detach(held.current.mesh);
     held.current = {};
   };
-  useLayoutEffect(() => {
+  const attach = () => {
     const { mask, mesh } = find();
     if (mask === held.current.mask && mesh === held.current.mesh) return;
     release();
     if (mask && mesh?.material === mask.material) held.current = { mask: mask.attach(mesh), mesh };
-  });
+  };
+  useLayoutEffect(attach);
   useLayoutEffect(() => release, []);
+  return attach;
 }
 
 /**

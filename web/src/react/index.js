@@ -129,6 +129,7 @@ function materialOf(parent) {
 function keep(parent, place) {
   place.parent = parent;
   place.follow?.(); // the parent has become another object
+  place.attach?.();
   return () => (place.parent = null);
 }
 
@@ -160,7 +161,7 @@ export const VectorMask = sourced(({ texture = null, colors, ...props }, ref) =>
     };
     place.follow();
   });
-  useMesh(() => ({ mask: mask.current, mesh: place.parent?.isMaterial ? meshOf(place.parent) : place.parent }));
+  place.attach = useMesh(() => ({ mask: mask.current, mesh: place.parent?.isMaterial ? meshOf(place.parent) : place.parent }));
   useLayoutEffect(() => remove, []);
   useTime(props, mask);
   useImperativeHandle(ref, () => mask.current);

@@ -31,23 +31,16 @@ const slashed = (file) => file.replaceAll('\\', '/');
 export default function vexture({ converter, ...common } = {}) {
   parametersOf(common); // a wrong name is said when Vite starts
   let root = process.cwd();
-  /** @type {readonly string[] | null} folders that the development server may show, null: all */
-  let allowed = null;
   const converting = new Conversions(() => findConverter(root, converter));
   return {
     name: 'vexture',
     enforce: 'pre',
     configResolved(config) {
       root = config.root;
-      const { strict, allow } = config.server.fs;
-      allowed = config.command === 'serve' && strict ? allow.map(slashed) : null;
     },
     async load(id) {
       if (!OURS.test(id)) return null;
       const [file, query] = divided(id);
-      if (allowed && !allowed.some((folder) => `${slashed(file)}/`.startsWith(`${folder.replace(/\/$/, '')}/`))) {
-        return this.error(`${file} is in no folder that the server may show; add one to server.fs.allow`);
-      }
       this.addWatchFile(file);
       try {
         const parameters = parametersOf({ ...common, ...optionsOf(query) });
