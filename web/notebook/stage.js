@@ -109,7 +109,8 @@ export class Stage {
   #sized() {
     const width = this.model.get('width');
     this.element.style.width = width === null ? '100%' : `${width}px`;
-    this.element.style.height = `${this.model.get('height')}px`;
+    const height = this.model.get('height');
+    this.element.style.height = height === null ? '100%' : `${height}px`;
     this.element.style.background = this.model.get('background');
   }
 

@@ -87,8 +87,8 @@ class VectorWidget(anywidget.AnyWidget):
     background = traitlets.Unicode("white").tag(sync=True)
     width = traitlets.Int(None, allow_none=True, min=1).tag(sync=True)
     height = traitlets.Int(HEIGHT, min=1).tag(sync=True)
-    picked = traitlets.Dict(None, allow_none=True).tag(sync=True)
-    hovered = traitlets.Dict(None, allow_none=True).tag(sync=True)
+    picked = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
+    hovered = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
 
     def __init__(self, texture: Texture, **traits: Any) -> None:
         self.texture = texture
