@@ -4,6 +4,7 @@ import { panned, toUnit, zoomed } from '../viewer/view.js';
 import { Colored, open, release } from './contents.js';
 import { drawnOf, foundAt } from './drawn.js';
 import { listenTo } from './input.js';
+import { followPixels } from './pixels.js';
 import { rectOf, viewOf } from './rect.js';
 import { screenOfPage } from './screen.js';
 import { STYLE } from './style.js';
@@ -35,7 +36,6 @@ export class Stage {
   #held = false;
   #sending = 0;
   #ended = new AbortController();
-  #watchers;
 
   /** @param {Model} model @param {import('./widget.js').Shared} source */
   constructor(model, source) {
@@ -48,7 +48,8 @@ export class Stage {
       'data-lm-suppress-shortcuts': 'true', // else JupyterLab acts on the keys, too
     }, style, this.canvas, this.#message);
     this.#sized();
-    this.#watchers = [this.#watchPixels(), this.#watchSight()];
+    this.#watchSight();
+    followPixels(this.canvas, () => this.#redraw(), this.#ended.signal);
     this.#follow();
     listenTo(this.element, this, this.#ended.signal);
     void this.#start();
@@ -57,7 +58,6 @@ export class Stage {
   /** Take it out of the page, and free its memory. */
   dispose() {
     this.#ended.abort();
-    for (const watcher of this.#watchers) watcher.disconnect();
     this.#screen?.remove(this);
     this.#own?.texture.dispose();
     if (this.#content) release(this.source);
@@ -141,24 +141,6 @@ export class Stage {
     this.#screen?.request(this);
   }
 
-  /** In the canvas's own pixels the picture is crisp, whatever the ratio of pixels is and becomes. */
-  #watchPixels() {
-    const watcher = new ResizeObserver(([{ devicePixelContentBoxSize: pixels, contentRect }]) => {
-      const { devicePixelRatio: ratio } = window;
-      const width = pixels?.[0].inlineSize ?? Math.round(contentRect.width * ratio);
-      const height = pixels?.[0].blockSize ?? Math.round(contentRect.height * ratio);
-      if (width === this.canvas.width && height === this.canvas.height) return;
-      Object.assign(this.canvas, { width, height });
-      this.#redraw();
-    });
-    try {
-      watcher.observe(this.canvas, { box: 'device-pixel-content-box' });
-    } catch { // a browser that does not know its pixels
-      watcher.observe(this.canvas);
-    }
-    return watcher;
-  }
-
   /** What is far from the window is drawn when it comes near. */
   #watchSight() {
     const watcher = new IntersectionObserver((entries) => {
@@ -166,7 +148,7 @@ export class Stage {
       if (this.isSeen) this.#redraw();
     }, { rootMargin: '200px' });
     watcher.observe(this.element);
-    return watcher;
+    this.#ended.signal.addEventListener('abort', () => watcher.disconnect());
   }
 
   /** The view on the canvas, whose pixels it is drawn in. */

@@ -19,8 +19,8 @@ class FloodWidget(anywidget.AnyWidget):
     Attributes
     ----------
     step : int
-        Number of the step that is shown, from 0; one beyond the last becomes the last. The page's time bar changes it, and
-        so may Python.
+        Number of the step that is shown, from 0; one beyond the last becomes the last. The page's time bar changes it,
+        and so may Python.
     height : int
         CSS pixels.
     """

@@ -90,7 +90,8 @@ def show(source: Any, /, *, height: int | None = None, **options: Any) -> Any:
 
     Examples
     --------
-    >>> kite = vexture.Drawing.polygon([(0.5, 0.1), (0.8, 0.6), (0.5, 0.9), (0.2, 0.6)])
+    >>> from vexture.drawing import Drawing
+    >>> kite = Drawing.polygon([(0.5, 0.1), (0.8, 0.6), (0.5, 0.9), (0.2, 0.6)])
     >>> show(kite, colors={"drawing": "gold"}, height=300)
     <VectorWidget 'drawing': view 0.166719, 0.0653125, 0.666562, 0.869375>
     """
@@ -103,7 +104,7 @@ def show(source: Any, /, *, height: int | None = None, **options: Any) -> Any:
         from vexture.notebook.widget import HEIGHT, VectorWidget
     except ModuleNotFoundError as error:
         raise DeviceError(f"show needs the package {error.name}: pip install 'vexture[notebook]'") from None
-    asked = {} if height is None else {"height": height}
+    asked: dict[str, Any] = {} if height is None else {"height": height}
     if isinstance(source, Extent) or is_dataset(source):
         return FloodWidget(flood_page(source, **asked, **options))
     if isinstance(source, FloodPage):
@@ -131,7 +132,9 @@ def _texture_of(source: Any, options: dict[str, Any]) -> "Texture":
         return source
     if not isinstance(source, str | os.PathLike | Drawing):
         kind = type(source).__name__
-        raise TypeError(f"`source` is of the type {kind}; give a path, a Drawing, a Texture in the encoding packed, or a flood")
+        raise TypeError(
+            f"`source` is of the type {kind}; give a path, a Drawing, a Texture in the encoding packed, or a flood"
+        )
     if not isinstance(source, Drawing):
         reading = {name: options.pop(name) for name in READING if name in options}
         source = read(Path(source), **reading)

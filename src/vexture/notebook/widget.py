@@ -16,7 +16,7 @@ from vexture.errors import ParameterError
 from vexture.live.page import Bundle, built, check_output, data_address, whole_page
 from vexture.live.shelf import TEXTURE_TYPE, File
 from vexture.notebook.colours import coloured, components_of
-from vexture.notebook.picture import MODES, home_of, png_of, seen
+from vexture.notebook.picture import MODES, Mode, home_of, png_of, seen
 from vexture.notebook.shared import Shared, shared
 from vexture.renderers.view import Size, window
 from vexture.svg.colors import Color, parse_color
@@ -122,7 +122,8 @@ class VectorWidget(anywidget.AnyWidget):
             As of `vexture.render`.
         """
         shown = coloured(self.texture, self.colors, self.root)
-        return seen(shown, size or (self.width or PICTURE_WIDTH, self.height), self.view, self.mode, self.root)
+        mode: Mode = self.mode  # type: ignore[assignment]
+        return seen(shown, size or (self.width or PICTURE_WIDTH, self.height), self.view, mode, self.root)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write what the widget shows: ``NAME.png`` is a picture, ``NAME.html`` a page that needs no kernel or network.
@@ -178,6 +179,6 @@ class VectorWidget(anywidget.AnyWidget):
 
     def _repr_mimebundle_(self, **kwargs: Any) -> tuple[dict[str, Any], dict[str, Any]]:
         """The widget, and a picture of it for where there are no widgets: IPython asks by this name."""
-        data, metadata = super()._repr_mimebundle_(**kwargs)
+        data, metadata = super()._repr_mimebundle_(**kwargs) or ({}, {})
         picture = base64.b64encode(png_of(self.render(), self.background)).decode()
         return {**data, "image/png": picture}, metadata

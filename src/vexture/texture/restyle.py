@@ -71,7 +71,7 @@ def restyled(
 def checked_colours(
     roots: Sequence[Root], places: Sequence[int], colours: Mapping[str, Colour], texture: str
 ) -> NDArray[np.float64]:
-    """Components of the colours that elements of some shapes are to have, (n, 4); errors as in `Texture.with_paints`."""
+    """Components of the new colours of elements of some shapes, (n, 4); errors as in `Texture.with_paints`."""
     if not isinstance(colours, Mapping) or not all(isinstance(name, str) for name in colours):
         raise ParameterError("the colours are no mapping of elements' names, such as {'sun': 'red'}")
     names = {name: k for k, name in enumerate(colours)}
