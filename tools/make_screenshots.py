@@ -37,7 +37,7 @@ SHOWN: Final = 700
 """Pixels that a screenshot is wide in the picture."""
 
 GAP: Final = 12
-NOTEBOOK_SIZE: Final = {"width": 900, "height": 980}
+NOTEBOOK_SIZE: Final = {"width": 860, "height": 950}
 SETTLED: Final = 1000
 """Milliseconds until a notebook's messages have gone and the last frame is drawn."""
 
@@ -205,10 +205,11 @@ def notebook(browser: Any, folder: Path) -> Image.Image:
     page = browser.new_context(viewport=NOTEBOOK_SIZE).new_page()
     with jupyter_lab(folder, "harbour.ipynb") as address:
         opened = OpenNotebook(page, address)
+        page.evaluate("jupyterapp.shell.collapseLeft()")
         chart = opened.run(0).locator(".vexture-stage canvas")
         opened.run(1).locator(".vexture-stage canvas").wait_for()
         opened.value("setattr(chart, 'view', (0.25, 0.25, 0.5, 0.4))")
-        chart.click(position={"x": 430, "y": 110})
+        chart.click(position={"x": 350, "y": 110})
         opened.until("chart.picked")
         opened.run(2)
         page.wait_for_timeout(SETTLED)

@@ -26,7 +26,6 @@ QUIET = (
     "--allow-root",
     "--ServerApp.ip=127.0.0.1",
     "--LabApp.expose_app_in_browser=True",
-    "--LabApp.news_url=None",
     "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
     "--LabApp.extension_manager=readonly",
 )
@@ -61,6 +60,9 @@ def jupyter_lab(folder: Path, notebook: str) -> Iterator[str]:
     """Address of a JupyterLab that serves a folder, with a kernel for a notebook in it."""
     own = {f"JUPYTER_{kind}_DIR": str(folder / ".jupyter" / kind.lower()) for kind in ("CONFIG", "DATA", "RUNTIME")}
     token = secrets.token_hex()
+    settings = folder / ".jupyter" / "config" / "lab" / "user-settings" / "@jupyterlab" / "apputils-extension"
+    settings.mkdir(parents=True)
+    (settings / "notification.jupyterlab-settings").write_text('{"fetchNews": "false"}')  # else it asks
     environment = {**os.environ, **own, "IPYTHONDIR": str(folder / ".jupyter" / "ipython"), "JUPYTER_TOKEN": token}
     address = f"http://127.0.0.1:{(port := free_port())}"
     command = [sys.executable, "-m", "jupyterlab", *QUIET, f"--ServerApp.port={port}", f"--ServerApp.root_dir={folder}"]
