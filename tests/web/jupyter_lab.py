@@ -28,8 +28,16 @@ QUIET = (
     "--LabApp.expose_app_in_browser=True",
     "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
     "--LabApp.extension_manager=readonly",
+    "--ServerApp.jpserver_extensions={'jupyter_lsp': False, 'jupyter_server_terminals': False}",
 )
 """No window, no news, no network; and the application where scripts find it."""
+
+WITHOUT = (
+    *("audio", "celltags", "completer", "console", "csvviewer", "debugger", "extensionmanager", "help", "htmlviewer"),
+    *("hub", "imageviewer", "inspector", "javascript", "json", "logconsole", "lsp", "markdownviewer", "mathjax"),
+    *("mermaid", "metadataform", "pdf", "pluginmanager", "running", "terminal", "toc", "tooltip", "vega5", "video"),
+)
+"""Extensions of JupyterLab."""
 
 KERNEL = {"name": "python3", "display_name": "Python 3", "language": "python"}
 
@@ -60,9 +68,7 @@ def jupyter_lab(folder: Path, notebook: str) -> Iterator[str]:
     """Address of a JupyterLab that serves a folder, with a kernel for a notebook in it."""
     own = {f"JUPYTER_{kind}_DIR": str(folder / ".jupyter" / kind.lower()) for kind in ("CONFIG", "DATA", "RUNTIME")}
     token = secrets.token_hex()
-    settings = folder / ".jupyter" / "config" / "lab" / "user-settings" / "@jupyterlab" / "apputils-extension"
-    settings.mkdir(parents=True)
-    (settings / "notification.jupyterlab-settings").write_text('{"fetchNews": "false"}')  # else it asks
+    _configure(folder / ".jupyter" / "config")
     environment = {**os.environ, **own, "IPYTHONDIR": str(folder / ".jupyter" / "ipython"), "JUPYTER_TOKEN": token}
     address = f"http://127.0.0.1:{(port := free_port())}"
     command = [sys.executable, "-m", "jupyterlab", *QUIET, f"--ServerApp.port={port}", f"--ServerApp.root_dir={folder}"]
@@ -77,6 +83,16 @@ def jupyter_lab(folder: Path, notebook: str) -> Iterator[str]:
         finally:
             server.kill()
             server.wait()
+
+
+def _configure(folder: Path) -> None:
+    """No question about news, and no parts that a notebook of widgets does without: they take seconds."""
+    settings = folder / "lab" / "user-settings" / "@jupyterlab" / "apputils-extension"
+    settings.mkdir(parents=True)
+    (settings / "notification.jupyterlab-settings").write_text('{"fetchNews": "false"}')
+    (folder / "labconfig").mkdir()
+    without = {f"@jupyterlab/{name}-extension": True for name in WITHOUT}
+    (folder / "labconfig" / "page_config.json").write_text(json.dumps({"disabledExtensions": without}))
 
 
 def _until_it_answers(address: str, log: Path, server: subprocess.Popen[bytes]) -> None:

@@ -261,6 +261,7 @@ def test_each_pixel_of_a_fine_screen_is_drawn(tmp_path: Path, chromium: Any) -> 
     page.wait_for_function(DRAWN, arg=[stage.element_handle(), 100, 75, [0, 0, 0]])
     assert seen(stage).shape == (150, 200, 3)
     page.set_viewport_size({"width": 120, "height": 60})
+    page.wait_for_function("document.querySelector('canvas').width === 300")
     page.wait_for_function(DRAWN, arg=[stage.element_handle(), 150, 75, [0, 0, 0]])
     assert seen(stage).shape == (150, 300, 3)
     context.close()
