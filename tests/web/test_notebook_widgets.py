@@ -200,8 +200,10 @@ def test_linked_views_move_together_and_never_back(notebook: Any, chart: Any, tw
 
 
 def test_keys_are_the_widgets_and_not_the_notebooks(notebook: Any, chart: Any) -> None:
-    active = "jupyterapp.shell.currentWidget.content.activeCellIndex"
+    active = "[jupyterapp.shell.currentWidget.content.activeCellIndex, jupyterapp.shell.currentWidget.content.widgets.length]"
     notebook.value("setattr(chart, 'view', (0.1, 0.3, 0.2, 0.2))")
+    chart.focus()
+    notebook.page.evaluate("jupyterapp.shell.currentWidget.content.mode = 'command'")
     chart.focus()
     before = notebook.page.evaluate(active)
     notebook.page.keyboard.press("ArrowDown")
@@ -210,6 +212,7 @@ def test_keys_are_the_widgets_and_not_the_notebooks(notebook: Any, chart: Any) -
     notebook.until("chart.view[2] < 0.2")
     notebook.page.keyboard.press("Home")
     notebook.until("chart.view == chart._home")
+    notebook.page.keyboard.press("b")  # which would add a cell
     assert notebook.page.evaluate(active) == before
 
 
