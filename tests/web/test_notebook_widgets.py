@@ -200,7 +200,9 @@ def test_linked_views_move_together_and_never_back(notebook: Any, chart: Any, tw
 
 
 def test_keys_are_the_widgets_and_not_the_notebooks(notebook: Any, chart: Any) -> None:
-    active = "[jupyterapp.shell.currentWidget.content.activeCellIndex, jupyterapp.shell.currentWidget.content.widgets.length]"
+    active = (
+        "(({ activeCellIndex, widgets }) => [activeCellIndex, widgets.length])(jupyterapp.shell.currentWidget.content)"
+    )
     notebook.value("setattr(chart, 'view', (0.1, 0.3, 0.2, 0.2))")
     chart.focus()
     notebook.page.evaluate("jupyterapp.shell.currentWidget.content.mode = 'command'")
