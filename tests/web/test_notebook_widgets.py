@@ -36,6 +36,9 @@ twin""",
 for _ in range(20):
     display(vexture.show(chart.texture, width=150, height=90))""",
     "leaf.colors = {'leaf': 'green'}; leaf.mode = 'paint'",
+    """import vexture, xarray
+flood = vexture.show(xarray.open_dataset('depth.nc'), amplitude=0, height=300)
+flood""",
 )
 
 CONTEXTS = """
@@ -241,6 +244,24 @@ def test_twenty_views_share_one_context_and_leave_nothing_behind(notebook: Any, 
     assert notebook.page.evaluate("window.contexts.size") == 1
     keys = notebook.value("[each.key for each in type(chart).widgets.values() if hasattr(each, 'content')]")
     assert len(keys) == len(set(keys)), "bytes that widgets share are sent once"
+
+
+@pytest.mark.slow
+def test_the_step_of_a_flood_is_that_of_its_page(notebook: Any) -> None:
+    pytest.importorskip("netCDF4", reason="netCDF4 is not installed (pip install 'vexture[gis]')")
+    from floods import series
+
+    series(notebook.folder / "depth.nc", (0.3, 0.6))
+    frame = notebook.run(6).locator("iframe[srcdoc]").element_handle().content_frame()
+    frame.wait_for_function("() => window.vexture?.flood?.ready")
+    frame.evaluate("() => window.vexture.flood.ready")
+    frame.evaluate("() => window.vexture.flood.freeze(2)")  # else its waves take the processor from all others
+    notebook.value("setattr(flood, 'step', 1)")
+    frame.wait_for_function("() => window.vexture.flood.player.index === 1")
+    frame.evaluate("() => window.vexture.flood.step(0)")
+    notebook.until("flood.step == 0")
+    notebook.value("setattr(flood, 'step', 9)")
+    notebook.until("flood.step == 1")
 
 
 def test_a_saved_page_needs_neither_kernel_nor_network(tmp_path: Path, open_page: Any) -> None:
