@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from vexture.glyph_atlas import FontAtlas, font_atlas
     from vexture.images import coverage, render
     from vexture.live.flood_page import FloodPage, flood_page
+    from vexture.notebook.show import show
     from vexture.notes import Note
     from vexture.paint import Paint
     from vexture.pipeline import atlas, convert
@@ -77,6 +78,7 @@ __all__ = [
     "render",
     "shader_source",
     "shore_fold",
+    "show",
     "text",
     "trace",
     "window",
@@ -95,6 +97,7 @@ _HOMES = {
     "vexture.gltf.model": ("Model", "read_model"),
     "vexture.images": ("coverage", "render"),
     "vexture.live.flood_page": ("FloodPage", "flood_page"),
+    "vexture.notebook.show": ("show",),
     "vexture.notes": ("Note",),
     "vexture.pipeline": ("atlas", "convert"),
     "vexture.reading": ("read", "read_extent"),
