@@ -57,8 +57,8 @@ COMPONENTWISE: Final = words_of("""
 TO_FLOAT: Final = frozenset({"dot", "length", "distance"})
 
 RENAMED: Final = {
-    "dFdx": "dpdx",
-    "dFdy": "dpdy",
+    "dFdx": "dpdxFine",  # a pixel's own pair, as GPUs of OpenGL take it: glsl/steps.glsl reckons with that
+    "dFdy": "dpdyFine",
     "inversesqrt": "inverseSqrt",
     "floatBitsToInt": "bitcast<i32>",
     "floatBitsToUint": "bitcast<u32>",

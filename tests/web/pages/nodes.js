@@ -75,8 +75,17 @@ async function node({ backend, texture, what, options = {}, size = [100, 100], p
   return { pixels, complaints: complaints.splice(0) };
 }
 
+function tiltedCamera() {
+  const eye = new THREE.PerspectiveCamera(40, 1, 0.1, 100);
+  eye.position.set(0, -2.97, 0.37); // 8:1
+  eye.lookAt(0, -0.1, 0);
+  eye.updateMatrixWorld();
+  return eye;
+}
+
 // A material over the whole picture, on white; its mask is changed after a first frame, if there are changes.
-async function material({ backend, texture, type, parameters = {}, mask, changes, clone, roots, fold, camera = 'flat', size = [100, 100] }) {
+async function material(scenery) {
+  const { backend, texture, type, parameters = {}, mask, changes, clone, roots, fold, paints, camera = 'flat', size } = scenery;
   const renderer = await rendererOf(backend);
   const shape = texture && (await textureOf(texture));
   if (fold) {
@@ -99,12 +108,13 @@ async function material({ backend, texture, type, parameters = {}, mask, changes
     mesh.setMatrixAt(i, new THREE.Matrix4().makeTranslation((i % 2) - 0.5, 0.5 - Math.floor(i / 2), 0));
   }
   scene.add(thing, new THREE.AmbientLight(0xffffff, Math.PI));
-  const eye = camera === 'flat' ? new THREE.OrthographicCamera(-1, 1, 1, -1, -5, 5) : new THREE.PerspectiveCamera(40, 1, 0.1, 100);
-  if (camera !== 'flat') {
-    eye.position.set(0, -2.97, 0.37);
-    eye.lookAt(0, -0.1, 0);
-  }
+  const eye = camera === 'flat' ? new THREE.OrthographicCamera(-1, 1, 1, -1, -5, 5) : tiltedCamera();
   let pixels = await pixelsOf(renderer, scene, eye, size);
+  if (paints) {
+    shape.setPaints(paints);
+    pixels = await pixelsOf(renderer, scene, eye, size);
+    shape.setPaints(Object.fromEntries(Object.keys(paints).map((name) => [name, 'own'])));
+  }
   if (changes) {
     const target = vexture.vectorMaskOf(made) ?? made;
     for (const [name, value] of Object.entries(changes)) target[name] = name === 'texture' ? await textureOf(value) : value;
@@ -137,6 +147,23 @@ async function shadow({ backend, texture, mask = {}, size = [200, 200] }) {
   return { pixels, complaints: complaints.splice(0) };
 }
 
+// The same tilted plane by WebGLRenderer and its own material.
+async function webglTilted({ texture, size }) {
+  const renderer = new WebGLRenderer({ alpha: true });
+  const scene = new THREE.Scene();
+  scene.background = new THREE.Color(0xffffff);
+  const shape = (await textureOf(texture)).clone();
+  scene.add(new THREE.Mesh(new THREE.PlaneGeometry(2, 2), new VectorMaterial({ texture: shape, color: 0 })));
+  const target = new THREE.WebGLRenderTarget(...size, { type: THREE.FloatType });
+  renderer.setRenderTarget(target);
+  renderer.render(scene, tiltedCamera());
+  const pixels = new Float32Array(4 * size[0] * size[1]);
+  renderer.readRenderTargetPixels(target, 0, 0, ...size, pixels);
+  renderer.dispose();
+  const rows = Array.from({ length: size[1] }, (_, row) => pixels.subarray(4 * size[0] * row, 4 * size[0] * (row + 1)));
+  return { pixels: base64(Float32Array.from(rows.reverse().flatMap((row) => [...row]))), complaints: complaints.splice(0) };
+}
+
 // What is said where a material meets the wrong renderer.
 async function wrong({ backend, texture }) {
   const shape = await textureOf(texture);
@@ -165,4 +192,4 @@ async function wrong({ backend, texture }) {
   return { said, complaints: complaints.splice(0) };
 }
 
-globalThis.drawn = { node, material, shadow, wrong };
+globalThis.drawn = { node, material, shadow, webglTilted, wrong };
