@@ -1,7 +1,7 @@
 // Validates a planar map (FORMAT.md, D.1 to D.6): its parts lie within the texels and apart, and paints are of its table.
 import { CELL_BITS, COORDINATE_BITS, COUNT_SHIFT, IS_MEAN, MAP_HEAD, MOST_PAINTS, QUAD_FLAG } from '../generated/layout.js';
 import { PAIR, PART, checkTree } from './check-tree.js';
-import { REMEDY, VextureError } from './errors.js';
+import { REMEDY, VextureError, line } from './errors.js';
 import { basePaint, headOf, meanBytes, paintSteps, quadsInBlock, sidesInTexel, sidesOf } from './planar-map.js';
 import { checkPrograms, programOf } from './programs.js';
 
@@ -126,4 +126,20 @@ function checkPaints(texels, head, { quads, curves }) {
   if (last >= used) refuse(root, `the map with root ${root} has paint ${last} of ${used}`);
   for (let paint = 0; paint < used; paint++) if (!programOf(texels, head, paint)) see(paintSteps(texels, head, paint));
   if (isBright) refuse(root, `the map with root ${root} has a colour above its opacity`);
+}
+
+/**
+ * Note whether a checked map holds gradients, and check that its style is of its paints.
+ *
+ * @param {import('./data.js').Root} root
+ * @param {Uint32Array} texels
+ */
+export function checkPaintsOf(root, texels) {
+  const { used, operations } = headOf(texels, root.quad);
+  root.hasGradients = operations > 0;
+  const what = `the map ${line(root.name)} has`;
+  if (root.style && root.hasGradients) throw new VextureError(`${what} a style, and paints that are programs; ${REMEDY}`, 'style');
+  if (root.style && root.style.stacks.length !== used) {
+    throw new VextureError(`${what} ${used} paints, and stacks of ${root.style.stacks.length}; ${REMEDY}`, 'style');
+  }
 }

@@ -1,6 +1,6 @@
 // Which element of a drawing is seen at a point. Plain data, without three.js.
-import { topmost } from './style.js';
-import { paintAt } from './walk-map.js';
+import { VextureError } from './errors.js';
+import { mapParts } from './maps.js';
 
 /**
  * @typedef {object} FoundElement
@@ -22,9 +22,23 @@ import { paintAt } from './walk-map.js';
 export function elementAt(data, first, count, u, v) {
   for (let place = first + count - 1; place >= first; place--) {
     const { style, quad } = data.roots[place];
-    const paint = style && paintAt(data, quad, u, v).paint;
-    const element = style && paint !== null ? topmost(style, style.stacks[paint]) : null;
-    if (style && element !== null) return { name: style.elements[element].name, element, root: place };
+    if (!style) continue;
+    const { paintAt, topmost } = mapParts();
+    const { paint } = paintAt(data, quad, u, v);
+    const element = paint !== null ? topmost(style, style.stacks[paint]) : null;
+    if (element !== null) return { name: style.elements[element].name, element, root: place };
   }
   return null;
+}
+
+/**
+ * What of a map can get other colours.
+ *
+ * @param {import('./data.js').Root} root
+ * @returns {import('./style.js').Style}
+ * @throws {VextureError} if it is nothing
+ */
+export function styleOf({ name, style }) {
+  if (!style) throw new VextureError(`"${name}" has no elements; convert the drawing with --restyle`, 'style');
+  return style;
 }

@@ -1,4 +1,5 @@
 // New colours for the elements of a planar map: another table of paints and other means, in place, for the same tree.
+import { styleOf } from './element-at.js';
 import { VextureError, line } from './errors.js';
 import { MapMeans, listed } from './map-means.js';
 import { nearNames } from './select-root.js';
@@ -179,13 +180,4 @@ function repaint({ style, rgba, alone, isStale, means }) {
     appears = means.repaint(paint, at >= 0 ? color : composited(style, style.stacks[paint])) || appears;
   }
   return appears;
-}
-
-/**
- * @param {import('./data.js').Root} root
- * @returns {Style}
- */
-export function styleOf({ name, style }) {
-  if (!style) throw new VextureError(`"${name}" has no elements; convert the drawing with --restyle`, 'style');
-  return style;
 }

@@ -1,8 +1,7 @@
 import { EventDispatcher } from 'three';
-import { elementAt } from './element-at.js';
+import { elementAt, styleOf } from './element-at.js';
 import { layersOf, layersTexture } from './layers.js';
-import { readPaints } from './paints.js';
-import { restyle, styleOf } from './restyle.js';
+import { mapParts } from './maps.js';
 import { shapeIndex } from './select-root.js';
 import { wordTexture } from './upload.js';
 import { colorAt, contains } from './walk.js';
@@ -143,6 +142,8 @@ export class VectorTexture extends EventDispatcher {
     const data = packed(this.#data);
     const { first, count } = this.layersOf(root);
     const places = Array.from({ length: count }, (_, k) => first + k);
+    for (const place of places) styleOf(data.roots[place]); // without a map, what maps need may not be there
+    const { readPaints, restyle } = mapParts();
     const { appears, runs } = restyle(data, places, readPaints(paints));
     if (appears) return this.replace(this.#data); // the bounds, which masks read, have changed
     const texels = /** @type {import('./upload.js').WordTexture} */ (this.#textures.texels);

@@ -113,7 +113,7 @@ describe('a material without its texture', () => {
 });
 
 test('flat views have a program of their own, but for a fold', () => {
-  const variant = (/** @type {string} */ fold, flat = true) => /** @type {any} */ ({ wrap: 'none', flat, fold });
+  const variant = (/** @type {string} */ fold, flat = true) => /** @type {any} */ ({ maps: 'none', wrap: 'none', flat, fold });
   expect(texts(variant('')).fragmentDeclare).toContain('#define VEXTURE_FLAT 1\n');
   expect(texts(variant('', false)).fragmentDeclare).not.toContain('#define VEXTURE_FLAT 1\n');
   expect(texts(variant('fold')).fragmentDeclare).not.toContain('#define VEXTURE_FLAT 1\n');
