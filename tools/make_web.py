@@ -50,6 +50,13 @@ SPACES: Final = re.compile(r"(?<![+-]) +(?=[^\w\s])|(?<=[^\w\s]) +(?![+-])")
 """Those between two words, and between two signs, stay."""
 
 
+WORDS: Final = re.compile(r"\w\w|\+\+|--")
+"""An end and a beginning that must not meet."""
+
+ENDS: Final = re.compile(r"\};?$|\S.*;$")
+"""What ends something outside of functions: nothing stands before it."""
+
+
 def apart(text: str) -> str:
     """Shader text whose global names begin with a prefix, to stand in one program with other people's."""
     names = set(GLOBAL.findall(COMMENT.sub("", text))) | {"LEVELS", "FOLD_HEIGHT"}
@@ -57,13 +64,19 @@ def apart(text: str) -> str:
 
 
 def bare(text: str) -> str:
-    """Shader text without comments, empty lines and spaces that separate nothing: nobody reads it in a bundle."""
-    lines = []
+    """Shader text without comments, and without breaks and spaces that separate nothing: nobody reads it in a bundle.
+
+    A function is one line, since compilers name the line of an error.
+    """
+    bared = ""
     for line in COMMENT.sub("", text).splitlines():
         stripped = line.strip()
-        if stripped:
-            lines.append(stripped if stripped.startswith("#") else SPACES.sub("", stripped))
-    return "\n".join(lines) + "\n"
+        if stripped.startswith("#"):
+            bared += ("" if bared.endswith("\n") else "\n") + f"{stripped}\n"
+        elif stripped:
+            bared += (" " if WORDS.search(f"{bared[-1:]}{stripped[0]}") else "") + SPACES.sub("", stripped)
+            bared += "\n" if ENDS.match(line) else ""
+    return bared.lstrip("\n") + ("" if bared.endswith("\n") else "\n")
 
 
 def inlined(text: str) -> str:

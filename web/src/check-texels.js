@@ -16,7 +16,7 @@ export function checkForest(texels, roots) {
   const met = new Uint8Array(texels.length / 4);
   const quadsOf = (/** @type {boolean} */ ofMap) =>
     new Set(roots.filter(({ isMap }) => isMap === ofMap).map(({ quad }) => quad));
-  checkTree(texels, met, quadsOf(false), false);
+  checkTree(texels, met, quadsOf(false), null);
   for (const quad of quadsOf(true)) mapParts().checkMap(texels, met, quad);
   checkRest(texels, met);
 }

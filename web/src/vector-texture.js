@@ -139,15 +139,9 @@ export class VectorTexture extends EventDispatcher {
    *   one that hides others would not stay opaque
    */
   setPaints(paints, root) {
-    const data = packed(this.#data);
-    const { first, count } = this.layersOf(root);
-    const places = Array.from({ length: count }, (_, k) => first + k);
-    for (const place of places) styleOf(data.roots[place]); // without a map, what maps need may not be there
-    const { readPaints, restyle } = mapParts();
-    const { appears, runs } = restyle(data, places, readPaints(paints));
-    if (appears) return this.replace(this.#data); // the bounds, which masks read, have changed
-    const texels = /** @type {import('./upload.js').WordTexture} */ (this.#textures.texels);
-    for (const [from, end] of runs) texels.sendRows(Math.floor(from / data.width), Math.ceil(end / data.width));
+    const { first, count } = this.#restylable(root);
+    const appears = mapParts().setPaints(packed(this.#data), first, count, paints, this.#textures.texels);
+    if (appears) this.replace(this.#data); // the bounds, which masks read, have changed
   }
 
   /**
@@ -160,10 +154,19 @@ export class VectorTexture extends EventDispatcher {
    * @throws {VextureError} if the texture knows no elements
    */
   elementAt(u, v, root) {
-    const data = packed(this.#data);
-    const { first, count } = this.layersOf(root);
-    for (const root of data.roots.slice(first, first + count)) styleOf(root);
-    return elementAt(data, first, count, u, v);
+    const { first, count } = this.#restylable(root);
+    return elementAt(packed(this.#data), first, count, u, v);
+  }
+
+  /**
+   * As `layersOf`, of a drawing whose elements are known.
+   *
+   * @param {RootChoice} root
+   */
+  #restylable(root) {
+    const range = this.layersOf(root);
+    for (const one of this.roots.slice(range.first, range.first + range.count)) styleOf(one);
+    return range;
   }
 
   /**
@@ -207,8 +210,9 @@ export class VectorTexture extends EventDispatcher {
    * @returns {TextureMap}
    */
   upload(data) {
-    const { texels, width, height } = packed(data);
-    return { texels: wordTexture(texels, width, height), layers: layersTexture(packed(data)) };
+    const { texels, width, height, roots } = packed(data);
+    const Kind = roots.some(({ style }) => style) ? mapParts().RowTexture : undefined;
+    return { texels: wordTexture(texels, width, height, Kind), layers: layersTexture(packed(data)) };
   }
 
   /**
