@@ -20,13 +20,9 @@ import { mapParts } from './maps.js';
  * @returns {FoundElement | null}
  */
 export function elementAt(data, first, count, u, v) {
-  for (let place = first + count - 1; place >= first; place--) {
-    const { style, quad } = data.roots[place];
-    if (!style) continue;
-    const { paintAt, topmost } = mapParts();
-    const { paint } = paintAt(data, quad, u, v);
-    const element = paint !== null ? topmost(style, style.stacks[paint]) : null;
-    if (element !== null) return { name: style.elements[element].name, element, root: place };
+  for (let root = first + count - 1; root >= first; root--) {
+    const element = data.roots[root].style && mapParts().topmostAt(data, data.roots[root], u, v);
+    if (element) return { ...element, root };
   }
   return null;
 }

@@ -3,6 +3,7 @@ import { styleOf } from './element-at.js';
 import { VextureError, line } from './errors.js';
 import { MapMeans, listed } from './map-means.js';
 import { readPaints } from './paints.js';
+import { sendRows } from './rows.js';
 import { nearNames } from './select-root.js';
 import { composited } from './style.js';
 
@@ -34,14 +35,14 @@ const COLORINGS = new WeakMap();
  * @param {number} count of its roots
  * @param {Parameters<typeof readPaints>[0]} paints
  * @param {import('three').DataTexture} texture of the texels
+ * @param {import('./paints.js').Colors} colors
  * @returns {boolean} whether something became visible that was not, or the reverse: then nothing is sent
  * @throws {VextureError} if one is no paint, and as `restyle`
  */
-export function setPaints(data, first, count, paints, texture) {
+export function setPaints(data, first, count, paints, texture, colors) {
   const places = Array.from({ length: count }, (_, k) => first + k);
-  const { appears, runs } = restyle(data, places, readPaints(paints));
-  const texels = /** @type {import('./row-texture.js').RowTexture} */ (texture);
-  for (const [from, end] of appears ? [] : runs) texels.sendRows(Math.floor(from / data.width), Math.ceil(end / data.width));
+  const { appears, runs } = restyle(data, places, readPaints(paints, colors));
+  for (const [from, end] of appears ? [] : runs) sendRows(texture, Math.floor(from / data.width), Math.ceil(end / data.width));
   return appears;
 }
 

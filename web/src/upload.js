@@ -24,10 +24,9 @@ export function unfiltered(texture, internalFormat) {
  * @param {Uint32Array} words
  * @param {number} width
  * @param {number} height
- * @param {typeof DataTexture} [Kind] its class
  * @returns {DataTexture}
  */
-export function wordTexture(words, width, height, Kind = DataTexture) {
+export function wordTexture(words, width, height) {
   const data = /** @type {Uint32Array<ArrayBuffer>} */ (words);
-  return unfiltered(new Kind(data, width, height, RGBAIntegerFormat, UnsignedIntType), 'RGBA32UI');
+  return unfiltered(new DataTexture(data, width, height, RGBAIntegerFormat, UnsignedIntType), 'RGBA32UI');
 }

@@ -1,4 +1,4 @@
-import { EventDispatcher } from 'three';
+import { Color, EventDispatcher, LinearSRGBColorSpace, SRGBColorSpace } from 'three';
 import { elementAt, styleOf } from './element-at.js';
 import { layersOf, layersTexture } from './layers.js';
 import { mapParts } from './maps.js';
@@ -34,6 +34,9 @@ import { colorAt, contains } from './walk.js';
  * @property {{ message: string }} offline a live texture's server cannot be reached; the last data stay in place
  * @property {{}} online the server can be reached again
  */
+
+/** What reading colours needs of three.js, which the module for planar maps does not import. */
+const COLORS = { Color, LinearSRGBColorSpace, SRGBColorSpace };
 
 /**
  * Shapes with random access for shaders. `VectorTextureLoader` makes it from validated data.
@@ -140,7 +143,7 @@ export class VectorTexture extends EventDispatcher {
    */
   setPaints(paints, root) {
     const { first, count } = this.#restylable(root);
-    const appears = mapParts().setPaints(packed(this.#data), first, count, paints, this.#textures.texels);
+    const appears = mapParts().setPaints(packed(this.#data), first, count, paints, this.#textures.texels, COLORS);
     if (appears) this.replace(this.#data); // the bounds, which masks read, have changed
   }
 
@@ -211,8 +214,9 @@ export class VectorTexture extends EventDispatcher {
    */
   upload(data) {
     const { texels, width, height, roots } = packed(data);
-    const Kind = roots.some(({ style }) => style) ? mapParts().RowTexture : undefined;
-    return { texels: wordTexture(texels, width, height, Kind), layers: layersTexture(packed(data)) };
+    const words = wordTexture(texels, width, height);
+    if (roots.some(({ style }) => style)) mapParts().prepareRows(words);
+    return { texels: words, layers: layersTexture(packed(data)) };
   }
 
   /**
