@@ -131,6 +131,8 @@ def test_a_page_with_vector_textures_loads_little(project: Path) -> None:
     assert sum(sizes.values()) <= MAP_LOAD_LIMIT
     texts = [[mark in (project / name).read_text() for name in (*first, *later)] for mark in MAP_MARKS]
     assert texts == [[name in later for name in (*first, *later)]] * len(MAP_MARKS)
+    # a bundler that makes one file wraps what is loaded later with all that it imports: three.js had better not be that
+    assert "three" not in [one["path"] for name in later for one in outputs[name]["imports"]]
 
 
 def test_only_its_own_entry_brings_the_encoding_of_the_thesis(project: Path) -> None:
