@@ -17,7 +17,7 @@ COLOURS := tests/sources/fixtures/groups/nested.svg
 BENCHMARKS := packed_fidelity colours speed gpu_cost packed_conversion size fidelity conversion icons live load
 WEB_BENCHMARKS := page_fidelity web_speed editing flood flood_water
 VIEWER := src/vexture/live/built/viewer.js
-WEB_SOURCES := $(shell find web/src web/viewer web/flood web/generated -name '*.js' -o -name '*.css')
+WEB_SOURCES := $(shell find web/src web/viewer web/flood web/notebook web/generated -name '*.js' -o -name '*.css')
 QUICK ?=
 MINUTES ?= 5
 SEED ?= 1
@@ -33,7 +33,7 @@ unexport PYTHONDONTWRITEBYTECODE
 
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
-	@echo 'make viewer  build the page of `vexture view` and `vexture export`, with node and npm'
+	@echo 'make viewer  build the pages of `vexture view` and `export`, of floods and of notebooks, with node and npm'
 	@echo 'make counties  build a page with a map of all counties of the United States, with node and npm'
 	@echo 'make test    lint, types and tests, with all that they need'
 	@echo 'make sweep   the tests that take long and find little that those do not, and 24,000 drawings of others'
@@ -83,7 +83,7 @@ web/node_modules/made: web/package.json web/package-lock.json
 	@touch $@
 
 $(VIEWER): web/node_modules/made tools/notices.py $(WEB_SOURCES)
-	@npm run --silent viewer --prefix web && npm run --silent flood --prefix web
+	@for page in viewer flood notebook; do npm run --silent $$page --prefix web || exit 1; done
 	@$(PYTHON) tools/notices.py $(@D)
 
 viewer: $(VIEWER)

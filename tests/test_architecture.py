@@ -23,7 +23,9 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 SCRIPTS = sorted(path for folder in ("evidence", "tests", "tools") for path in (ROOT / folder).rglob("*.py"))
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 SHADERS = sorted(PACKAGE.rglob("*.glsl"))
-FOLDERS = sorted({path.parent for path in MODULES} | {ROOT / "web" / name for name in ("src", "viewer", "flood")})
+FOLDERS = sorted(
+    {path.parent for path in MODULES} | {ROOT / "web" / name for name in ("src", "viewer", "flood", "notebook")}
+)
 
 LONGEST_MODULE = 400
 LONGEST_FUNCTION = 60  # without its docstring
@@ -64,14 +66,16 @@ MAY_IMPORT: dict[str, set[str]] = {
     "images": BASE | {"close_up", "drawing", "encodings", "group", "paint", "pipeline", "renderers"},
     "thesis": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "texture", "tree"},
     "fold": BASE | {"drawing", "layout", "notes", "renderers", "texture"},
+    "gltf": BASE | {"content", "drawing", "layout", "parameters", "pipeline", "svg", "texture"},
     "flood": BASE | {"content", "drawing", "geo", "notes", "paint", "renderers", "workers"},
     "live": SOURCES
     | {"encodings", "flood", "fold", "geo", "layout", "parameters", "pipeline", "reading"}
     | {"svg", "texture", "tree", "workers"},
+    "notebook": SOURCES | {"geo", "live", "pipeline", "reading", "renderers", "svg", "texture", "tree"},
 }
 """What each part may import besides itself, wherever in a module; `cli` and the public face stand above all."""
 
-ABOVE_ALL = {"__init__", "cli"}
+ABOVE_ALL = {"__init__", "__main__", "cli"}
 
 TRUTH_MODULES = ("blend", "exact", "faces", "flatten", "ramps", "regions", "slabs", "varying", "view")
 THE_TRUTH = {f"renderers/{name}.py" for name in TRUTH_MODULES}
@@ -86,10 +90,12 @@ LAYOUT_NUMBERS = {thesis_layout.CONTROL_MIN, thesis_layout.CONTROL_MAX, thesis_l
 SHADER_WORDS = re.compile(r"\b(texelFetch|gl_\w+|(uniform|varying|highp|mediump) \w+|[ib]?vec[234]\()|^#version", re.M)
 HEAVY = {
     "PIL",
+    "anywidget",
     "bidi",
     "coloraide",
     "cssselect2",
     "fontTools",
+    "ipywidgets",
     "llvmlite",
     "lxml",
     "moderngl",

@@ -14,12 +14,15 @@ from typing import Any, Final
 from PIL import Image
 
 ROOT: Final = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "evidence" / "benchmarks"), str(ROOT / "examples")]
+NEEDED: Final = ("evidence/benchmarks", "examples", "tests", "tests/web")
+sys.path[:0] = [str(ROOT / folder) for folder in NEEDED]
 
 from four_floods.make_floods import SCENES, write  # noqa: E402
+from jupyter_lab import OpenNotebook, jupyter_lab, write_notebook  # noqa: E402
 from santa_cruz.make_flood import make_flood  # noqa: E402
 
 from chromium import chromium  # noqa: E402 - the browser of the tests
+from guides import blocks_of  # noqa: E402 - as the tests read them
 from vexture.flood.options import FloodOptions  # noqa: E402
 from vexture.live.documents import VIEWER_PARAMETERS  # noqa: E402
 from vexture.live.flood import export as export_flood  # noqa: E402
@@ -34,11 +37,14 @@ SHOWN: Final = 700
 """Pixels that a screenshot is wide in the picture."""
 
 GAP: Final = 12
+NOTEBOOK_SIZE: Final = {"width": 860, "height": 950}
+SETTLED: Final = 1000
+"""Milliseconds until a notebook's messages have gone and the last frame is drawn."""
 
 LOOKS: Final[tuple[dict[str, Any], ...]] = (
     {"shape": "duck", "overlays": {"cells": True, "coverage": True, "depth": False, "cutoff": 0}},
     {"shape": "duck", "compare": "raster", "center": [0.886, 0.668], "zoom": 14, "split": 0.5},
-    {"shape": "cake", "mode": "sphere", "theme": "dark", "yaw": -0.5, "pitch": 0.35},
+    {"shape": "cake", "mode": "sphere", "theme": "dark", "background": "theme", "yaw": -0.5, "pitch": 0.35},
     {"shape": "ocean", "mode": "plane", "yaw": 0.0, "pitch": -1.0, "distance": 1.2},
 )
 
@@ -50,9 +56,10 @@ def looks(page: Any) -> list[Image.Image]:
         page.evaluate(
             """async ({overlays, ...look}) => {
                 const {state, engine} = window.vexture.viewer;
-                const start = {compare: null, mode: 'flat', theme: 'light', center: [0.5, 0.5], zoom: 1, distance: 1};
+                const start = {compare: null, mode: 'flat', theme: 'light', background: 'white'};
+                const home = {center: [0.5, 0.5], zoom: 1, distance: 1};
                 state.updateOverlays({cells: false, coverage: false, ...overlays});
-                state.update({...start, ...look});
+                state.update({...start, ...home, ...look});
                 engine.requestFrame();
             }""",
             {"overlays": {}, **look},
@@ -189,11 +196,35 @@ def flood(browser: Any, folder: Path) -> Image.Image:
     return sheet_of(flood_looks(browser, target.as_uri()))
 
 
+def notebook(browser: Any, folder: Path) -> Image.Image:
+    """Cells of the guide in JupyterLab, with a click on the pier."""
+    (drawing,) = (block for block in blocks_of("notebooks") if block.title)
+    (folder / str(drawing.title)).write_text(drawing.text)
+    texts = {block.section: block.text.strip() for block in blocks_of("notebooks") if block.language == "python"}
+    first, linked = texts["Show"], texts["Linked views"]
+    write_notebook(folder / "harbour.ipynb", (first, linked, "chart.picked"))
+    page = browser.new_context(viewport=NOTEBOOK_SIZE).new_page()
+    with jupyter_lab(folder, "harbour.ipynb") as address:
+        opened = OpenNotebook(page, address)
+        page.evaluate("jupyterapp.shell.collapseLeft()")
+        chart = opened.run(0).locator(".vexture-stage canvas")
+        opened.run(1).locator(".vexture-stage canvas").wait_for()
+        opened.value("setattr(chart, 'view', (0.25, 0.25, 0.5, 0.4))")
+        chart.click(position={"x": 350, "y": 110})
+        opened.until("chart.picked")
+        opened.run(2)
+        page.wait_for_timeout(SETTLED)
+        picture = page.screenshot()
+        page.context.close()
+    return Image.open(io.BytesIO(picture)).convert("RGB").quantize(256)
+
+
 MAKERS: Final[dict[str, Callable[[Any, Path], Image.Image]]] = {
     "guide.png": lambda browser, folder: row_of_guide(),
     "viewer.png": viewer,
     "flood.jpg": flood,
     "floods.jpg": lambda browser, folder: sheet_of(flood_kinds(browser, folder)),
+    "notebook.png": notebook,
     "counties.jpg": lambda browser, folder: sheet_of(county_looks(browser)),
 }
 

@@ -11,12 +11,14 @@ from pathlib import Path
 from types import ModuleType
 from typing import Final
 
+from both_languages import both
 from vexture import layout
 from vexture.fold import layout as fold_layout
 from vexture.renderers.shader import WRAPS, included, shader_text
 from vexture.thesis import layout as thesis_layout
 from vexture.thesis import method as thesis_method
 from vexture.thesis.shader import FOLD_HEIGHT, PACKAGE, constants
+from vexture.wgsl import to_wgsl, with_parameters
 
 __all__ = ["main"]
 
@@ -35,6 +37,9 @@ OVERLAY: Final = "overlay.glsl"
 NUMBERED: Final = "{}; the numbers that it asks for by #ifndef may be defined before it."
 
 COMMENT: Final = re.compile(r"[ \t]*//.*$", re.MULTILINE)
+
+BOTH: Final = ", in GLSL and WGSL: of @GLSL$WGSL` one side is to be picked."
+"""Ends the comments of texts in two languages."""
 
 GLOBAL: Final = re.compile(
     r"^(?:const |uniform |struct )?(?:\w+ )?(\w+)(?=\(.*[,{]$|\[\d+\] = | = .*;$|;| \{$)", re.MULTILINE
@@ -113,8 +118,6 @@ def shaders() -> str:
     parts.append(module_text("overlay", alone, f"{OVERLAY}, to stand after that or after {PLANAR}."))
     comment = "steps.glsl: what the derivatives of a position are, for pixels."
     parts.append(module_text("steps", bare(included("steps.glsl")), comment))
-    parts.append("/** Values of VEXTURE_WRAP. */\n")
-    parts.append(f"export const WRAPS = Object.freeze({json.dumps(WRAPS)});\n")
     return "".join(parts)
 
 
@@ -160,6 +163,21 @@ def fold_module() -> str:
     return HEADER.format(owner="src/vexture/glsl/fold.glsl") + module_text("fold", text, comment)
 
 
+def nodes_module(name: str, comment: str, text: str, before: str = "") -> str:
+    """Text of a module with the shader in both languages, for three.js's nodes: what a text has beyond another."""
+    glsl, wgsl = (
+        translated(text).removeprefix(translated(before)) if before else translated(text)
+        for translated in (with_parameters, to_wgsl)
+    )
+    return HEADER.format(owner="src/vexture/glsl/") + module_text(name, both(glsl, wgsl, bare), comment)
+
+
+def wraps_module() -> str:
+    """Text of the module with the values of ``VEXTURE_WRAP``: apart, since not all that choose one bring the shader."""
+    text = f"/** Values of VEXTURE_WRAP. */\nexport const WRAPS = Object.freeze({json.dumps(WRAPS)});\n"
+    return HEADER.format(owner="src/vexture/renderers/method.py") + text
+
+
 def layout_module(owner: ModuleType, file: str) -> str:
     """Text of the module with a layout."""
     parts = [HEADER.format(owner=f"src/vexture/{file}")]
@@ -174,7 +192,15 @@ def layout_module(owner: ModuleType, file: str) -> str:
 def main() -> int:
     """Write the files, or with --check compare them; the exit code."""
     stale = []
+    layers, sheets = (inlined(shader_text(file)) for file in (PACKED, PLANAR))
+    folded = inlined(shader_text("fold.glsl", fold_layout))
+    steps = included("steps.glsl")
     modules = {
+        "coverage-nodes.js": nodes_module("coverage", f"layers.glsl and steps.glsl{BOTH}", steps + layers),
+        "colour-nodes.js": nodes_module(
+            "colour", f"sheets.glsl, to stand after these{BOTH}", steps + sheets, steps + layers
+        ),
+        "fold-nodes.js": nodes_module("fold", f"fold.glsl{BOTH}", folded),
         "layout.js": layout_module(layout, "layout.py"),
         "thesis-layout.js": layout_module(thesis_layout, "thesis/layout.py"),
         "fold-layout.js": layout_module(fold_layout, "fold/layout.py"),
@@ -182,6 +208,7 @@ def main() -> int:
         "planar-shader.js": planar_module(),
         "thesis-shader.js": thesis_module(),
         "fold-shader.js": fold_module(),
+        "wraps.js": wraps_module(),
         "water-shader.js": water_module(),
     }
     for name, text in modules.items():

@@ -2,6 +2,7 @@
 
 import functools
 import http.server
+import os
 import shutil
 import subprocess
 import threading
@@ -29,6 +30,9 @@ FLAGS: Final = [
     "--force-color-profile=srgb",
     "--hide-scrollbars",
 ]
+
+ENTRIES: Final = ("gltf", "react", "thesis", "water", "webgpu")
+"""Entries of the npm package beside the main one."""
 
 
 @contextmanager
@@ -69,7 +73,8 @@ def bundle(entry: Path, output: Path, three: str = "three", *, is_split: bool = 
 
     What it imports later is part of the one file or, if split, in files of their own beside it.
 
-    The entry's ``import ... from "vexture"`` is the package in web/, and so are its other entries.
+    The entry's ``import ... from "vexture"`` is the package in web/, and so are its other entries. What web/ has
+    installed is found from anywhere.
     """
     esbuild = WEB / "node_modules" / ".bin" / "esbuild"
     command = [str(esbuild), str(entry), "--bundle", "--format=esm"]
@@ -78,9 +83,11 @@ def bundle(entry: Path, output: Path, three: str = "three", *, is_split: bool = 
     else:
         command += [f"--outfile={output}"]
     command += [f"--alias:vexture={WEB / 'src' / 'index.js'}"]
-    command += [f"--alias:vexture/thesis={WEB / 'src' / 'thesis' / 'index.js'}"]
-    command += [f"--alias:vexture/water={WEB / 'src' / 'water' / 'index.js'}"]
+    command += [f"--alias:vexture/{name}={WEB / 'src' / name / 'index.js'}" for name in ENTRIES]
     command += [f"--alias:three={WEB / 'node_modules' / three}"]
-    command += [f"--alias:three/addons={WEB / 'node_modules' / three / 'examples' / 'jsm'}"]
-    outcome = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=False)
+    build = WEB / "node_modules" / three / "build"
+    command += [f"--alias:three/{name}={build / f'three.{name}.js'}" for name in ("webgpu", "tsl")]
+    command += [f"--alias:three/addons={WEB / 'node_modules' / three / 'examples' / 'jsm'}", "--jsx=automatic"]
+    found = os.environ | {"NODE_PATH": str(WEB / "node_modules")}
+    outcome = subprocess.run(command, cwd=WEB, env=found, capture_output=True, text=True, check=False)
     assert outcome.returncode == 0, outcome.stderr

@@ -23,9 +23,11 @@ if TYPE_CHECKING:
     from vexture.fonts.text import text
     from vexture.geo.extent import Extent, Frame
     from vexture.geo.geojson import read_geojson
+    from vexture.gltf.model import Model, read_model
     from vexture.glyph_atlas import FontAtlas, font_atlas
     from vexture.images import coverage, render
     from vexture.live.flood_page import FloodPage, flood_page
+    from vexture.notebook.show import show
     from vexture.notes import Note
     from vexture.paint import Paint
     from vexture.pipeline import atlas, convert
@@ -48,6 +50,7 @@ __all__ = [
     "FormatError",
     "Frame",
     "LimitError",
+    "Model",
     "Note",
     "Paint",
     "ParameterError",
@@ -70,10 +73,12 @@ __all__ = [
     "read_extent",
     "read_geojson",
     "read_image",
+    "read_model",
     "read_svg",
     "render",
     "shader_source",
     "shore_fold",
+    "show",
     "text",
     "trace",
     "window",
@@ -89,8 +94,10 @@ _HOMES = {
     "vexture.geo.extent": ("Extent", "Frame"),
     "vexture.geo.geojson": ("read_geojson",),
     "vexture.glyph_atlas": ("FontAtlas", "font_atlas"),
+    "vexture.gltf.model": ("Model", "read_model"),
     "vexture.images": ("coverage", "render"),
     "vexture.live.flood_page": ("FloodPage", "flood_page"),
+    "vexture.notebook.show": ("show",),
     "vexture.notes": ("Note",),
     "vexture.pipeline": ("atlas", "convert"),
     "vexture.reading": ("read", "read_extent"),

@@ -72,6 +72,21 @@ def test_the_guide_for_the_thesis_does_what_it_says(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("page_is_built")
+def test_the_guide_for_notebooks_does_what_it_says(tmp_path: Path) -> None:
+    pytest.importorskip("anywidget", reason="anywidget is not installed (pip install 'vexture[notebook]')")
+    folder = tmp_path / "run"
+    folder.mkdir()
+    with Reader(folder) as reader:
+        for block in blocks_of("notebooks"):
+            reader.take(block)
+        chart, night = reader.names["chart"], reader.names["night"]
+    assert chart.view == night.view
+    with Image.open(folder / "harbour.png") as image:
+        assert image.size == (640, 260)
+    assert (folder / "harbour.html").read_bytes().startswith(b"<!doctype html>")
+
+
+@pytest.mark.usefixtures("page_is_built")
 def test_the_guide_for_servers_does_what_it_says(tmp_path: Path) -> None:
     folder = tmp_path / "run"
     folder.mkdir()

@@ -6,6 +6,7 @@ A reader returns what it understood, as text that is alike for alike behaviour; 
 
 import tempfile
 import unicodedata
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,10 +19,11 @@ from mutate import png_repaired, zip_repaired
 
 from degenerate import OUTLINES, heap
 from vexture.drawing import Drawing, FillRule
-from vexture.errors import EXPECTED
+from vexture.errors import EXPECTED, SourceWarning
 from vexture.fold.fold import fold_from
 from vexture.fonts.face import faces_in
 from vexture.fonts.shaping import shape
+from vexture.gltf.model import read_model
 from vexture.pipeline import convert
 from vexture.reading import read_drawing
 from vexture.renderers.exact import render_exact
@@ -33,7 +35,7 @@ from vexture.svg.transform import parse_origin, parse_transform
 from vexture.svg.values import Viewport, fraction, number
 from vexture.svg.viewport import parse_fit, view_box
 from vexture.texture.load import texture_from
-from vexture.texture.texture import Texture
+from vexture.texture.texture import Root, Texture
 from vexture.thesis.texture import load as load_thesis
 
 __all__ = ["CORPUS", "TARGETS", "FindingError", "Target"]
@@ -47,6 +49,8 @@ LARGEST_ERROR = 1 / 255
 PNG = b"\x89PNG\r\n\x1a\n"
 PLACES = np.array([((i % 4) / 4 + 0.103, i // 4 / 4 + 0.157) for i in range(16)])
 """Where the loaders of web/src are asked what is inside, too (`reader.mjs`)."""
+
+QUARTER = Texture(np.array([[[0, 0, 0, 0xFF]]], np.uint32), (Root("a quarter"),))
 
 NO_XML = bytes(byte for byte in range(32) if byte not in b"\t\n\r")
 """Characters that XML cannot contain, so that no attribute has them."""
@@ -172,6 +176,21 @@ def read_fold(data: bytes) -> str:
     return f"{fold.size}"
 
 
+def read_gltf(data: bytes) -> str:
+    """A model: what is accepted gets a texture, and has all that it had."""
+    model = read_model(data, name="model")
+    with warnings.catch_warnings(action="ignore", category=SourceWarning):
+        changed = model.with_drawing(0, QUARTER)
+    (written,) = changed.files("model.glb").values()
+    again = read_model(written)
+    before, after = (dict(each.container.document) for each in (model, again))
+    for name in ("buffers", "bufferViews", "images", "materials", "extensions", "extensionsUsed"):
+        before.pop(name, None), after.pop(name, None)
+    if before != after or model.materials != again.materials or again.container.others != model.container.others:
+        raise FindingError("a model changes when it is written and read")
+    return str(model.materials)
+
+
 def read_thesis(data: bytes) -> str:
     """A pair of files, one after the other: what is accepted can be drawn."""
     second = max(data.rfind(PNG), 0)
@@ -289,6 +308,9 @@ JSON = words(
     "[[[0,0],[1,0],[1,1],[0,0]]]"
 )
 KTX = words('"name" "quad" "transform" "paint" "crs" [ ] { } , : null -1 1e999 1.0 0.5 \\ud800 \x80 \xff vexture.roots')
+GLTF = JSON + words(
+    '"uri" "buffer" "bufferView" "byteLength" "byteOffset" "extensions" "data:;base64," "../a" 4294967295'
+)
 BINARY = (b"\0\0\0\0", b"\xff\xff\xff\xff", b"\0\0\x80\x7f", b"\0\0\xc0\x7f", b"\x7f\xf0\0\0\0\0\0\0", b"\x80")
 
 TARGETS = {
@@ -299,6 +321,7 @@ TARGETS = {
     "geojson": Target(drawing(".geojson"), JSON, text=True),
     "packed": Target(read_packed, KTX, in_a_second=2000),
     "fold": Target(read_fold, KTX, in_a_second=2000),
+    "gltf": Target(read_gltf, GLTF, in_a_second=1000),
     "thesis": Target(read_thesis, BINARY, repair=png_repaired),
     "packed-js": Target(in_javascript("packed", read_packed), KTX),
     "fold-js": Target(in_javascript("fold", read_fold), KTX),

@@ -74,6 +74,25 @@ def test_page_holds_textures_sources_and_comparisons(tmp_path):
     assert "the limit is 256" in hairline["views"]["thesis8"]["error"]
 
 
+@pytest.mark.parametrize("options", [(), ("--silhouette", "--select", "circle")])
+def test_page_holds_what_convert_writes(tmp_path, options):
+    """Byte for byte, by default; at the deep zoom of the page, the texture is larger."""
+    drawing = tmp_path / "two.svg"
+    drawing.write_text('<svg viewBox="0 0 9 9"><path fill="red" d="M0 0h9v9z"/><circle cx="4" cy="5" r="3"/></svg>')
+    assert export(drawing, "-o", tmp_path / "page.html", "--tolerance", "1e-3", *options).returncode == 0
+    assert typed("convert", drawing, "-o", tmp_path / "two.ktx2", *options).returncode == 0
+    (shape,) = scene((tmp_path / "page.html").read_text(encoding="utf-8"))["shapes"]
+    ours, theirs = content(shape["views"]["converted"])[1], (tmp_path / "two.ktx2").read_bytes()
+    assert [hashlib.sha256(one).hexdigest() for one in (ours, theirs)] == [hashlib.sha256(theirs).hexdigest()] * 2
+    assert len(ours) < shape["bytes"]
+    assert shape["facts"]["select"] == ("circle" if options else None)
+
+
+@pytest.mark.parametrize("command", ["view", "export"])
+def test_help_needs_no_history(command):
+    assert "thesis" not in typed(command, "--help").stdout.lower()
+
+
 def test_page_fetches_nothing(tmp_path):
     page = tmp_path / "duck.html"
     assert export(SHAPES / "duck.svg", "-o", page).returncode == 0

@@ -22,7 +22,7 @@ def chromium() -> Iterator[Any]:
     if not (WEB / "node_modules" / "three").is_dir():
         pytest.skip("the packages of web/ are not installed (npm ci --prefix web)")
     # what is around a canvas is drawn in software: without a graphics card that takes a quarter less time
-    with started_chromium("--disable-gpu-compositing") as browser:
+    with started_chromium("--disable-gpu-compositing", "--enable-unsafe-webgpu") as browser:
         yield browser
 
 

@@ -110,6 +110,7 @@ SEEN = {
     "Put it on a mesh": _of_a_duck,
     "In its own colours": _in_colours,
     "On lit materials: masks": _lit,
+    "Whole models": _in_colours,
     "Many shapes: atlas and instances": _of_tiles,
     "A shape that changes": _in_colours,
     "Speed, size and precision": _of_a_duck,

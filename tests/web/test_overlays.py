@@ -88,7 +88,7 @@ def test_overlays_combine_and_a_link_keeps_them(show: Callable[..., Shown], scre
     picture = shown.picture()
     assert differs(picture, expected, cells.clear & (cells.border == 0.0)) <= ROUNDING
     screenshot(shown.page)
-    shown.page.wait_for_function("location.hash.endsWith('~7~6')")  # all three overlays, and the cut-off
+    shown.page.wait_for_function("location.hash.endsWith('~7~6~white')")  # all three overlays, and the cut-off
     shown.page.reload()
     shown.page.wait_for_function("window.vexture?.viewer?.ready")
     shown.page.evaluate("vexture.viewer.ready")

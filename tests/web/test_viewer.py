@@ -6,13 +6,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from viewed import PRECISION, SIZE, Viewed, pixels, point_on_outline, ready, show, value
-from viewer_page import FIT, view_matrix
+from viewed import PRECISION, SHAPES, SIZE, Viewed, pixels, point_on_outline, ready, show, value
+from viewer_page import FIT, view_matrix, write_page
 from waiting import drawn, quiet
 
 import vexture
 from vexture.live.documents import VIEWER_PARAMETERS, shape_of
-from vexture.live.page import exported_page
+from vexture.live.page import data_address, exported_page
+from vexture.live.shelf import manifest as told
 
 
 @pytest.mark.parametrize("zoom", [1, 100, 1000, 10000])
@@ -222,7 +223,7 @@ def test_raster_of_equal_bytes(
     nbytes = page.evaluate("vexture.viewer.engine.texture.nbytes")
     side = int(np.sqrt(nbytes * 3 / 4))
     page.get_by_role("combobox", name="Compare with").select_option("Raster of equal bytes")
-    page.locator(".half").get_by_text(f"Raster, {side} × {side}", exact=True).wait_for()
+    page.locator(".half").get_by_text(f"Raster, {side} × {side}: {nbytes / 1000:.1f}\xa0kB", exact=True).wait_for()
     drawn(page)
     screenshot(page)
     width, height = page.evaluate("[vexture.viewer.engine.size.width, vexture.viewer.engine.size.height]")
@@ -231,3 +232,30 @@ def test_raster_of_equal_bytes(
     left, right = error[:, : width // 2 - 30].mean(), error[:, width // 2 + 30 :].mean()
     assert left <= 0.1
     assert 0.3 <= right <= 10  # blurred, but the same shape at the same place
+
+
+def test_raster_has_as_many_bytes_as_convert_writes_and_stands_beside_that_texture(
+    tmp_path: Path, open_page: Callable[..., Any], screenshot: Callable[..., Path]
+) -> None:
+    shape = shape_of((SHAPES / "duck.svg").read_bytes(), "duck.svg", "duck", VIEWER_PARAMETERS)
+    written = vexture.convert(SHAPES / "duck.svg")
+    path = write_page(tmp_path / "page.html", told(shape, None, {}, address=data_address))
+    page = ready(open_page, path.as_uri(), (900, 600))
+    own = page.evaluate("vexture.viewer.engine.texture.nbytes")
+    assert own > 20 * written.nbytes  # made for deep zoom
+    rows = page.get_by_role("region", name="Size").get_by_role("row")
+    rows.nth(2).wait_for()
+    assert rows.nth(1).inner_text().split("\t") == ["vexture convert", f"{len(written.to_ktx2())}\xa0B", "1,024\xa0B"]
+    assert rows.nth(2).inner_text().split("\t")[1:] == ["79.4\xa0kB", f"{own / 1000:.1f}\xa0kB"]
+    page.get_by_role("combobox", name="Compare with").select_option("Raster of equal bytes")
+    side = int(np.sqrt(written.nbytes * 3 / 4))
+    page.locator(".half.right").get_by_text(f"Raster, {side} × {side}: {written.nbytes:,}\xa0B", exact=True).wait_for()
+    assert page.locator(".half.left").inner_text() == f"vexture convert: {written.nbytes:,}\xa0B"
+    page.get_by_role("slider", name="Divider").press("End")
+    place = (0.3, 0.2)  # on the outline, where the difference of the two textures is seen
+    show(page, center=place, zoom=1)
+    width, height = page.evaluate("[vexture.viewer.engine.size.width, vexture.viewer.engine.size.height]")
+    alpha = written.coverage((width, height), view_matrix(place, 1, (width, height)))[..., None]
+    expected = 255 * (1 - alpha) + alpha * np.array([0xE8, 0xB1, 0x00])  # in the drawing's colour
+    screenshot(page)
+    assert np.abs(pixels(page)[60:500, :500] - expected[60:500, :500]).max() <= 2

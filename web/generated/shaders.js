@@ -17,5 +17,3 @@ export const overlay = "uniform highp uint vextureOverlayRoot;\nuniform bool vex
  * @type {string}
  */
 export const steps = "float vexture_other(float odd,float step,float more){float way=(1.0-2.0*odd)*step;return clamp(1.0+way*more/gl_FragCoord.w,0.5,2.0);}\nvec2 vextureStepX(vec2 position){float odd=2.0*fract(0.5*floor(gl_FragCoord.x));return dFdx(position)*vexture_other(odd,dFdx(odd),dFdx(gl_FragCoord.w));}\nvec2 vextureStepY(vec2 position){float odd=2.0*fract(0.5*floor(gl_FragCoord.y));return dFdy(position)*vexture_other(odd,dFdy(odd),dFdy(gl_FragCoord.w));}\n";
-/** Values of VEXTURE_WRAP. */
-export const WRAPS = Object.freeze({"none": 0, "clamp": 1, "repeat": 2});

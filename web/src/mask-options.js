@@ -1,6 +1,6 @@
 // The options of a mask, their defaults and their validation.
 import { Matrix3 } from 'three';
-import { WRAPS } from '../generated/shaders.js';
+import { WRAPS } from '../generated/wraps.js';
 import { VextureError, line } from './errors.js';
 
 /**
@@ -9,6 +9,7 @@ import { VextureError, line } from './errors.js';
  *   `NAME/...`. Needed if the texture holds several shapes, in mode `paint` if it holds several drawings, unless
  *   `instanced` is set.
  * @property {Matrix3} [transform] from the mesh's uv to the unit square; its elements may be changed at any time
+ * @property {0 | 1} [channel] set of texture coordinates: the mesh's `uv`, or its `uv1`
  * @property {'alpha' | 'mix' | 'cut' | 'paint'} [mode] `alpha`: opacity is 0 outside the shape. `mix`: another colour or
  *   map inside the shape. `cut`: nothing is drawn outside the shape, not even depth. `paint`: the drawing's own colours.
  * @property {'none' | 'clamp' | 'repeat'} [wrap] beyond the unit square: nothing, the value at its border, or the shape
@@ -28,12 +29,11 @@ import { VextureError, line } from './errors.js';
  * @property {number} [time] seconds of the fold
  */
 
-const NAMES = Object.freeze([
-  'root', 'transform', 'mode', 'wrap', 'flat', 'invert', 'color', 'map', 'threshold', 'background', 'instanced',
-  'fold', 'time', 'linear',
-]);
+export const MODES = Object.freeze(['alpha', 'mix', 'cut', 'paint']);
 
-const MODES = Object.freeze(['alpha', 'mix', 'cut', 'paint']);
+export const BACKGROUNDS = Object.freeze(['own', 'none']);
+
+export const CHANNELS = Object.freeze([0, 1]);
 
 /** Materials without colour, and the modes that they allow. */
 const COLORLESS = Object.freeze({
@@ -58,31 +58,69 @@ function choose(name, value, allowed) {
   throw new VextureError(`${name} is ${line(value)}; it must be one of ${allowed.join(', ')}`, name);
 }
 
+/** @typedef {Required<Omit<MaskOptions, 'root'>> & Pick<MaskOptions, 'root'>} AllOptions */
+
+/**
+ * Each option and its value where it is not given; the one list of the options.
+ *
+ * @param {string} [type] of the material
+ * @returns {AllOptions}
+ */
+const defaults = (type = '') => ({
+  root: undefined,
+  transform: new Matrix3(),
+  mode: 'alpha',
+  wrap: 'none',
+  flat: false,
+  invert: false,
+  color: 0xffffff,
+  map: null,
+  threshold: 0.5,
+  background: 'own',
+  instanced: false,
+  fold: null,
+  time: 0,
+  linear: LIT.includes(type),
+  channel: 0,
+});
+
+/** @type {readonly string[]} */
+export const NAMES = Object.freeze(Object.keys(defaults()));
+
+/**
+ * A class whose objects have the options as properties, which are those of `options`; `change` takes a new value.
+ *
+ * @template {new (...parameters: any[]) => { options: object }} T
+ * @param {T} base
+ * @param {readonly string[]} names of options
+ * @param {'set' | 'setValues'} change name of the method
+ * @returns {any}
+ */
+export function withOptions(base, names, change) {
+  class Live extends base {}
+  for (const name of names) {
+    Object.defineProperty(Live.prototype, name, {
+      configurable: true,
+      get() {
+        return this.options[name];
+      },
+      set(value) {
+        this[change]({ [name]: value });
+      },
+    });
+  }
+  return Live;
+}
+
 /**
  * @param {MaskOptions} options
  * @param {string} type of the material
- * @returns {Required<Omit<MaskOptions, 'root'>> & { root?: string | number }}
+ * @returns {AllOptions}
  */
 export function complete(options, type) {
   const given = Object.fromEntries(Object.entries(options).filter(([, value]) => value !== undefined));
-  const all = {
-    transform: new Matrix3(),
-    mode: /** @type {const} */ ('alpha'),
-    wrap: /** @type {const} */ ('none'),
-    flat: false,
-    invert: false,
-    color: 0xffffff,
-    map: null,
-    threshold: 0.5,
-    background: /** @type {const} */ ('own'),
-    instanced: false,
-    fold: null,
-    time: 0,
-    linear: LIT.includes(type),
-    ...given,
-  };
-  for (const name of Object.keys(given)) choose('an option', name, [...NAMES]);
-  return all;
+  for (const name of Object.keys(given)) choose('an option', name, NAMES);
+  return { ...defaults(type), ...given };
 }
 
 /**
@@ -95,19 +133,16 @@ export function isTranslucent({ mode, background }) {
 }
 
 /**
- * @param {ReturnType<typeof complete>} options
+ * @param {AllOptions} options
  * @param {string} type of the material
- * @param {import('./vector-texture.js').AnyVectorTexture} texture
  * @throws {VextureError} if an option is out of range, or options exclude each other
  */
-export function checkOptions(options, type, texture) {
-  const { mode, wrap, background, invert, instanced, threshold, transform, fold, time } = options;
+export function checkOptions(options, type) {
+  const { mode, wrap, background, invert, threshold, transform, fold, time, channel } = options;
   choose('mode', mode, MODES);
   choose('wrap', wrap, Object.keys(WRAPS));
-  choose('background', background, ['own', 'none']);
-  if (!texture?.isVectorTexture) {
-    throw new VextureError(`the texture is ${line(texture?.constructor?.name)}; load one by VectorTextureLoader`, 'texture');
-  }
+  choose('background', background, BACKGROUNDS);
+  choose('channel', channel, CHANNELS);
   if (!(threshold >= 0 && threshold <= 1)) {
     throw new VextureError(`threshold is ${line(threshold)}; it must be a coverage, 0 to 1`, 'threshold');
   }
@@ -123,6 +158,17 @@ export function checkOptions(options, type, texture) {
     throw new VextureError(`${type} has no colours for mode ${mode}; use ${possible.join(' or ')}`, 'mode');
   }
   if (invert && mode === 'paint') throw new VextureError('mode paint cannot be inverted; use another mode', 'invert');
+}
+
+/**
+ * @param {import('./vector-texture.js').AnyVectorTexture} texture
+ * @param {AllOptions} options
+ * @throws {VextureError} if it is no texture, or one without what the options ask for
+ */
+export function checkTexture(texture, { wrap, instanced, fold }) {
+  if (!texture?.isVectorTexture) {
+    throw new VextureError(`the texture is ${line(texture?.constructor?.name)}; load one by VectorTextureLoader`, 'texture');
+  }
   if (texture.encoding !== 'packed' && (wrap !== 'none' || instanced || fold)) {
     throw new VextureError(
       `${texture.name}: a ${texture.encoding} texture has one root, no wrap and no fold; convert the drawing to KTX2`,

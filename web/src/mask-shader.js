@@ -1,5 +1,7 @@
 // Text that a mask inserts into a material's shader: declarations, and calls of the functions of src/vexture/glsl.
-import { WRAPS, packed, steps } from '../generated/shaders.js';
+import { packed, steps } from '../generated/shaders.js';
+import { WRAPS } from '../generated/wraps.js';
+import { ROOT_ATTRIBUTE } from './attributes.js';
 import { mapParts } from './maps.js';
 
 /**
@@ -18,11 +20,9 @@ import { mapParts } from './maps.js';
  * @property {'own' | 'none'} background
  * @property {boolean} instanced
  * @property {boolean} hasMap
+ * @property {string} uv attribute with the texture coordinates
  * @property {string} fold GLSL of the fold that moves the shape, or ''
  */
-
-/** Name of the attribute that holds each instance's root. */
-export const ROOT_ATTRIBUTE = 'vextureRoot';
 
 /** Position and derivatives. The position is continuous: wrapping comes later, so that derivatives have no jumps. */
 export const FOOTPRINT = 'vextureUv, vextureStepX(vextureUv), vextureStepY(vextureUv)';
@@ -105,16 +105,18 @@ function colorLines(variant) {
  * @returns {Partial<Record<import('./hooks.js').HookName, string>>}
  */
 export function texts(variant) {
-  const { mode, instanced, hasMap } = variant;
+  const { mode, instanced, hasMap, uv } = variant;
   const inside = mode === 'mix';
   const mapped = inside && hasMap;
   const varyings = `varying vec2 vextureUv;\n${mapped ? 'varying vec2 vextureMapUv;\n' : ''}${
     instanced ? 'flat varying highp uint vextureInstance;\n' : ''
   }`;
-  const vertexDeclare = `uniform mat3 vextureTransform;\n${mapped ? 'uniform mat3 vextureMapTransform;\n' : ''}${
+  // three.js declares the first set, and others if a map of the material needs them
+  const declared = uv === 'uv' ? '' : `#ifndef USE_${uv.toUpperCase()}\nattribute vec2 ${uv};\n#endif\n`;
+  const vertexDeclare = `uniform mat3 vextureTransform;\n${declared}${mapped ? 'uniform mat3 vextureMapTransform;\n' : ''}${
     instanced ? `attribute uint ${ROOT_ATTRIBUTE};\n` : ''
   }${varyings}`;
-  const vertexUv = `vextureUv = (vextureTransform * vec3(uv, 1.0)).xy;\n${
+  const vertexUv = `vextureUv = (vextureTransform * vec3(${uv}, 1.0)).xy;\n${
     mapped ? 'vextureMapUv = (vextureMapTransform * vec3(uv, 1.0)).xy;\n' : ''
   }${instanced ? `vextureInstance = ${ROOT_ATTRIBUTE};\n` : ''}`;
   const fragmentDeclare = `${varyings}${inside ? 'uniform vec3 vextureInside;\n' : ''}${

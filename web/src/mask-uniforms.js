@@ -1,7 +1,7 @@
 // Values of a mask's uniforms.
 import { Color } from 'three';
 
-/** @typedef {ReturnType<typeof import('./mask-options.js').complete>} Options */
+/** @typedef {import('./mask-options.js').AllOptions} Options */
 
 /**
  * @param {import('./vector-texture.js').AnyVectorTexture} texture

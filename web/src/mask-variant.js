@@ -1,28 +1,18 @@
 // What makes the program of one mask differ from that of another.
+import { UV_ATTRIBUTES } from './attributes.js';
 import { FOOTPRINT } from './mask-shader.js';
+import { mapsAmong } from './select-root.js';
 
 /** @typedef {import('./mask-shader.js').Variant} Variant */
 
 /**
- * Which of some shapes are planar maps: `all` only if each is shown alone.
- *
- * @param {Pick<import('./data.js').Root, 'isMap'>[]} shown
- * @param {boolean} isAlone
- * @returns {Variant['maps']}
- */
-export function mapsAmong(shown, isAlone) {
-  if (!shown.some(({ isMap }) => isMap)) return 'none';
-  return isAlone && shown.every(({ isMap }) => isMap) ? 'all' : 'some';
-}
-
-/**
  * @param {import('./vector-texture.js').AnyVectorTexture} texture
- * @param {ReturnType<typeof import('./mask-options.js').complete>} options
+ * @param {import('./mask-options.js').AllOptions} options
  * @param {{ first: number, count: number }} range of the shape or the drawing's layers in the texture's roots
  * @returns {Variant}
  */
 export function variantOf(texture, options, range) {
-  const { mode, wrap, flat, invert, background, instanced, map, fold, linear } = options;
+  const { mode, wrap, flat, invert, background, instanced, map, fold, linear, channel } = options;
   const reader = texture.maskReader();
   const isAlone = instanced || range.count === 1;
   const shown = instanced ? texture.roots : texture.roots.slice(range.first, range.first + range.count);
@@ -40,6 +30,7 @@ export function variantOf(texture, options, range) {
     background,
     instanced,
     hasMap: mode === 'mix' && map !== null,
+    uv: UV_ATTRIBUTES[channel],
     fold: fold?.glsl ?? '',
   };
 }

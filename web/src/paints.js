@@ -4,20 +4,23 @@ import { nearest } from './map-means.js';
 
 /**
  * @typedef {import('three').ColorRepresentation | [number, number, number, number] | null} Paint a colour as `THREE.Color`
- *   reads it, with `#rrggbbaa` and `rgba()`; or sRGB components and opacity, 0..1; null or `none` hides
+ *   reads it, with `#rrggbbaa` and `rgba()`; or sRGB components and opacity, 0..1; null or `none` hides; `own` is what the
+ *   element had at first
+ *
+ * @typedef {Readonly<Record<string, Paint>> | ReadonlyMap<string, Paint>} PaintList by element
  *
  * @typedef {Pick<typeof import('three'), 'Color' | 'LinearSRGBColorSpace' | 'SRGBColorSpace'>} Colors of three.js
  *
  * @typedef {object} Paints
  * @property {string[]} names of elements
- * @property {Float64Array} parts red, green, blue, opacity for each name: sRGB, not premultiplied, 0..1
+ * @property {Float64Array} parts red, green, blue, opacity for each name: sRGB, not premultiplied, 0..1; NaN: its own
  */
 
 /** Colours and opacities of elements are whole numbers of these parts, as in files. */
 const DIGITS = 1e6;
 
 /**
- * @param {Readonly<Record<string, Paint>> | ReadonlyMap<string, Paint>} paints by name
+ * @param {PaintList} paints by name
  * @param {Colors} colors
  * @returns {Paints}
  * @throws {VextureError} if one is no paint
@@ -30,7 +33,8 @@ export function readPaints(paints, colors) {
   const color = new colors.Color();
   let at = 0;
   const read = (/** @type {Paint} */ paint) => {
-    if (Array.isArray(paint)) readParts(paint, parts, at);
+    if (paint === 'own') parts.fill(NaN, at, at + 4);
+    else if (Array.isArray(paint)) readParts(paint, parts, at);
     else if (paint !== null && paint !== 'none') {
       parts[at + 3] = typeof paint === 'string' ? opacityOf(paint) : 1;
       readColor(paint, color, colors).toArray(parts, at);

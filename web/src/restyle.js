@@ -18,6 +18,7 @@ import { composited } from './style.js';
  * @property {Map<string, number>} named place of the first element of each name
  * @property {Int32Array} next of each element, the place of the next one of its name; -1 of the last
  * @property {Float64Array} rgba colours and opacities of the elements
+ * @property {Float64Array} own those that they had at first
  * @property {import('./map-means.js').Lists} paints of each element, those in which it is seen
  * @property {Int32Array} alone of each paint, the element that it shows if that is a single one in no group; else -1
  * @property {Uint8Array} isStale of each paint, whether it is to be composited
@@ -33,7 +34,7 @@ const COLORINGS = new WeakMap();
  * @param {PackedData} data
  * @param {number} first root of the drawing, a map with a style as all of its roots
  * @param {number} count of its roots
- * @param {Parameters<typeof readPaints>[0]} paints
+ * @param {import('./paints.js').PaintList} paints
  * @param {import('three').DataTexture} texture of the texels
  * @param {import('./paints.js').Colors} colors
  * @returns {boolean} whether something became visible that was not, or the reverse: then nothing is sent
@@ -106,7 +107,7 @@ function prepared(texels, quad, style) {
   });
   const alone = Int32Array.from(stacks, (stack) => (stack.length === 1 && elements[stack[0]].group < 0 ? stack[0] : -1));
   const isStale = new Uint8Array(stacks.length);
-  return { quad, style, named, next, rgba, paints, alone, isStale, means: new MapMeans(texels, quad) };
+  return { quad, style, named, next, rgba, own: rgba.slice(), paints, alone, isStale, means: new MapMeans(texels, quad) };
 }
 
 /**
@@ -170,12 +171,15 @@ function checkHiding({ style: { elements }, next }, first, opacity) {
  * @param {Int32Array} found the first element of each name, or -1
  * @param {Float64Array} colors for each name
  */
-function recolor({ style: { elements }, next, rgba, paints: { starts, members }, isStale }, found, colors) {
+function recolor({ style: { elements }, next, rgba, own, paints: { starts, members }, isStale }, found, colors) {
   for (let k = 0; k < found.length; k++) {
+    const isOwn = Number.isNaN(colors[4 * k]);
+    const from = isOwn ? own : colors;
     for (let number = found[k]; number >= 0; number = next[number]) {
       const element = elements[number];
-      for (let c = 0; c < 3; c++) element.color[c] = rgba[4 * number + c] = colors[4 * k + c];
-      element.opacity = rgba[4 * number + 3] = colors[4 * k + 3];
+      const at = isOwn ? 4 * number : 4 * k;
+      for (let c = 0; c < 3; c++) element.color[c] = rgba[4 * number + c] = from[at + c];
+      element.opacity = rgba[4 * number + 3] = from[at + 3];
       for (let i = starts[number]; i < starts[number + 1]; i++) isStale[members[i]] = 1;
     }
   }

@@ -112,3 +112,15 @@ function ambiguous(texture, what, names, otherwise = '') {
   const listed = names.slice(0, MOST_LISTED).map(shortened).join(', ') + more;
   return new VextureError(`${texture} holds ${names.length} ${what} (${listed}); choose one by root${otherwise}`, 'root');
 }
+
+/**
+ * Which of some shapes are planar maps: `all` only if each is shown alone.
+ *
+ * @param {Pick<import('./data.js').Root, 'isMap'>[]} shown
+ * @param {boolean} isAlone
+ * @returns {'none' | 'some' | 'all'}
+ */
+export function mapsAmong(shown, isAlone) {
+  if (!shown.some(({ isMap }) => isMap)) return 'none';
+  return isAlone && shown.every(({ isMap }) => isMap) ? 'all' : 'some';
+}

@@ -1,15 +1,14 @@
-import { Color, InstancedBufferAttribute } from 'three';
-import { MOST_ROWS } from '../generated/layout.js';
-import { elementAt } from './element-at.js';
+import { Color } from 'three';
+import { UV_ATTRIBUTES } from './attributes.js';
 import { VextureError } from './errors.js';
 import { check, insert, takePart } from './hooks.js';
 import { MaskedMesh } from './mask-mesh.js';
-import { lookedUp } from './mask-lookup.js';
-import { checkOptions, complete, isTranslucent } from './mask-options.js';
-import { ROOT_ATTRIBUTE, texts } from './mask-shader.js';
+import { NAMES, isTranslucent, withOptions } from './mask-options.js';
+import { texts } from './mask-shader.js';
 import { mapTransform, uniformValues } from './mask-uniforms.js';
 import { variantOf } from './mask-variant.js';
-import { shapeIndex } from './select-root.js';
+import { MaskedMeshes } from './ray-mesh.js';
+import { ShownShape, checkMesh, isOn } from './shown-shape.js';
 
 /** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
 /** @typedef {import('./mask-shader.js').Variant} Variant */
@@ -19,11 +18,16 @@ import { shapeIndex } from './select-root.js';
 /** @type {WeakMap<import('three').Material, VectorMask>} */
 const MASKS = new WeakMap();
 
-/** A shape as the mask of a material, made by `applyVectorMask`. Changes take effect in the next frame. */
-export class VectorMask {
+/** @type {new () => import('./mask-options.js').AllOptions} */
+const WithOptions = withOptions(/** @type {any} */ (Object), NAMES, 'set');
+
+/**
+ * A shape as the mask of a material, made by `applyVectorMask`. Each option is a property, too; changes take effect in the
+ * next frame.
+ */
+export class VectorMask extends WithOptions {
   #material;
-  #texture;
-  #options;
+  #shown;
   #transparent;
   #takeBack;
   #clone;
@@ -32,7 +36,7 @@ export class VectorMask {
     const copy = this.#clone.call(this.#material);
     if (MASKS.get(this.#material) === this && !MASKS.has(copy)) { // a VectorMaterial copies its own
       copy.transparent = this.#transparent;
-      new VectorMask(copy, this.#texture, { ...this.#options, transform: this.#options.transform?.clone() });
+      new VectorMask(copy, this.texture, { ...this.options, transform: this.options.transform.clone() });
     }
     return copy;
   };
@@ -40,15 +44,13 @@ export class VectorMask {
   #isListening = false;
   /** Key of the program since the last refresh: three.js compiles nothing when it goes back to an earlier one. */
   #drawn = '';
-  /** @type {Map<import('./mask-mesh.js').Masked, MaskedMesh>} */
-  #meshes = new Map();
+  #meshes = new MaskedMeshes();
   /** @type {Record<string, { value: any }>} */
-  #uniforms = { vextureMapTransform: mapTransform(() => this.#options) };
-  #range = { first: 0, count: 1 };
+  #uniforms = { vextureMapTransform: mapTransform(() => this.#shown.options) };
   #onChange = () => this.#refresh();
   #onDispose = () => {
     this.#listen(false);
-    for (const mesh of this.#meshes.values()) mesh.dispose();
+    this.#meshes.forEach((mesh) => mesh.dispose());
   };
 
   /**
@@ -57,6 +59,7 @@ export class VectorMask {
    * @param {MaskOptions} [options]
    */
   constructor(material, texture, options = {}) {
+    super();
     if (MASKS.has(material)) {
       throw new VextureError(
         `${material.name || material.type} has a vector mask already; change that one, or remove() it first`,
@@ -64,11 +67,8 @@ export class VectorMask {
       );
     }
     this.#material = material;
-    this.#texture = texture;
     this.#transparent = material.transparent;
-    this.#options = complete(options, material.type);
-    this.#check();
-    this.#resolve();
+    this.#shown = new ShownShape(texture, options, material.type);
     check(material, texts(this.#variant()));
     this.#takeBack = takePart(
       material,
@@ -83,48 +83,22 @@ export class VectorMask {
     material.addEventListener('dispose', this.#onDispose);
   }
 
-  #check() {
-    checkOptions(this.#options, this.#material.type, this.#texture);
-  }
-
   /** @returns {Variant} */
   #variant() {
-    return variantOf(this.#texture, this.#options, this.#range);
-  }
-
-  /** Whether only the instances have roots. */
-  get #isRootless() {
-    return this.#options.instanced && (this.#options.root ?? null) === null;
-  }
-
-  /** Find the shape or the drawing's layers in the texture. */
-  #resolve() {
-    const { root, mode } = this.#options;
-    const inLayers = mode === 'paint' && this.#texture.encoding === 'packed';
-    if (this.#isRootless) this.#range = { first: 0, count: 1 }; // the shader does not read it
-    else if (inLayers) this.#range = this.#texture.layersOf(root);
-    else {
-      const isPainted = this.#texture.roots.some(({ paint }) => paint);
-      this.#range = { first: shapeIndex(this.#texture, root, isPainted ? ", or use mode: 'paint'" : ''), count: 1 };
-    }
+    return variantOf(this.texture, this.#shown.options, this.#shown.range);
   }
 
   /** Update the uniforms from the texture and the options. */
   #refresh() {
-    try {
-      this.#resolve();
-    } catch (error) {
-      if (!(error instanceof VextureError)) throw error; // new data lack the root: show the first shape, with a note
-      this.#range = { first: 0, count: 1 };
-      this.#texture.dispatchEvent({ type: 'note', message: error.message });
-    }
-    const values = uniformValues(this.#texture, this.#options, this.#range, this.#inside);
+    const { texture, options } = this.#shown;
+    this.#shown.follow();
+    const values = uniformValues(texture, options, this.#shown.range, this.#inside);
     for (const [name, value] of Object.entries(values)) (this.#uniforms[name] ??= { value }).value = value;
-    this.#material.transparent = isTranslucent(this.#options) || this.#transparent;
+    this.#material.transparent = isTranslucent(options) || this.#transparent;
     const key = JSON.stringify(this.#variant());
     if (key !== this.#drawn) this.#material.needsUpdate = true;
     this.#drawn = key;
-    for (const mesh of this.#meshes.values()) mesh.update();
+    this.#meshes.forEach((mesh) => mesh.update());
   }
 
   /**
@@ -141,8 +115,8 @@ export class VectorMask {
   #listen(wanted) {
     if (wanted === this.#isListening) return;
     this.#isListening = wanted;
-    if (wanted) this.#texture.addEventListener('change', this.#onChange);
-    else this.#texture.removeEventListener('change', this.#onChange);
+    if (wanted) this.texture.addEventListener('change', this.#onChange);
+    else this.texture.removeEventListener('change', this.#onChange);
   }
 
   /**
@@ -152,31 +126,38 @@ export class VectorMask {
    * @throws {VextureError} if an option is out of range, options exclude each other, or the root is unknown or
    *   ambiguous
    */
-  set({ texture = this.#texture, ...changes }) {
-    const [texturedBefore, before] = [this.#texture, this.#options];
-    this.#listen(false);
-    this.#texture = texture;
-    try {
-      this.#options = complete({ ...before, ...changes }, this.#material.type);
-      this.#check();
-      this.#resolve();
-    } catch (error) {
-      [this.#texture, this.#options] = [texturedBefore, before];
-      throw error;
-    } finally {
-      this.#listen(true);
-      this.#refresh();
+  set(changes) {
+    const before = /** @type {Record<string, unknown>} */ ({ ...this.#shown.options, texture: this.texture });
+    const changed = Object.entries(changes).filter(([name, value]) => value !== before[name]);
+    if (changed.every(([name, value]) => name === 'time' && Number.isFinite(value))) {
+      for (const [, time] of changed) this.#setTime(/** @type {number} */ (time));
+      return;
     }
+    const shown = this.#shown.with(changes);
+    this.#listen(false);
+    this.#shown = shown;
+    this.#listen(true);
+    this.#refresh();
+  }
+
+  /** Cheap, as each frame of a fold has its time. @param {number} time */
+  #setTime(time) {
+    this.#shown.options.time = time;
+    this.#uniforms.vextureTime.value = this.#shown.options.fold?.clock(time) ?? 0;
   }
 
   /** The options, as `applyVectorMask` takes them. */
   get options() {
-    return { ...this.#options };
+    return { ...this.#shown.options };
   }
 
-  /** Whether the material was transparent before. */
-  get ownTransparent() {
-    return this.#transparent;
+  /**
+   * Give a copy of the material what the material was before, without the mask.
+   *
+   * @param {import('three').Material} copy
+   */
+  restore(copy) {
+    copy.transparent = this.#transparent;
   }
 
   get material() {
@@ -184,123 +165,11 @@ export class VectorMask {
   }
 
   get texture() {
-    return this.#texture;
+    return this.#shown.texture;
   }
 
   set texture(texture) {
     this.set({ texture });
-  }
-
-  /** @returns {string | number | null | undefined} */
-  get root() {
-    return this.#options.root;
-  }
-
-  set root(root) {
-    this.set({ root });
-  }
-
-  get transform() {
-    return this.#options.transform;
-  }
-
-  set transform(transform) {
-    this.set({ transform });
-  }
-
-  get mode() {
-    return this.#options.mode;
-  }
-
-  set mode(mode) {
-    this.set({ mode });
-  }
-
-  get wrap() {
-    return this.#options.wrap;
-  }
-
-  set wrap(wrap) {
-    this.set({ wrap });
-  }
-
-  get flat() {
-    return this.#options.flat;
-  }
-
-  set flat(flat) {
-    this.set({ flat });
-  }
-
-  get invert() {
-    return this.#options.invert;
-  }
-
-  set invert(invert) {
-    this.set({ invert });
-  }
-
-  get color() {
-    return this.#options.color;
-  }
-
-  set color(color) {
-    this.set({ color });
-  }
-
-  get map() {
-    return this.#options.map;
-  }
-
-  set map(map) {
-    this.set({ map });
-  }
-
-  get threshold() {
-    return this.#options.threshold;
-  }
-
-  set threshold(threshold) {
-    this.set({ threshold });
-  }
-
-  get background() {
-    return this.#options.background;
-  }
-
-  set background(background) {
-    this.set({ background });
-  }
-
-  get instanced() {
-    return this.#options.instanced;
-  }
-
-  get linear() {
-    return this.#options.linear;
-  }
-
-  set linear(linear) {
-    this.set({ linear });
-  }
-
-  /** @returns {import('./fold-texture.js').FoldTexture | null} */
-  get fold() {
-    return this.#options.fold;
-  }
-
-  set fold(fold) {
-    this.set({ fold });
-  }
-
-  /** Time of the fold in seconds; cheap to set in every frame. */
-  get time() {
-    return this.#options.time;
-  }
-
-  set time(time) {
-    this.#options = { ...this.#options, time };
-    this.#uniforms.vextureTime.value = this.#options.fold?.clock(time) ?? 0;
   }
 
   /**
@@ -312,16 +181,7 @@ export class VectorMask {
    * @returns {boolean}
    */
   hits(u, v, root) {
-    const { mode, background, invert } = this.#options;
-    if (mode === 'mix' || (mode === 'paint' && background === 'own')) return true;
-    if (this.#isRootless && root === undefined) root = this.#texture.index();
-    const { x, y } = lookedUp(u, v, this.#options);
-    const first = root ?? this.#range.first;
-    const end = root === undefined ? first + this.#range.count : root + 1;
-    for (let shape = first; shape < end; shape++) {
-      if (this.#texture.contains(x, y, shape)) return !invert;
-    }
-    return invert;
+    return this.#shown.hits(u, v, root);
   }
 
   /**
@@ -333,59 +193,49 @@ export class VectorMask {
    * @returns {import('./element-at.js').FoundElement | null}
    */
   elementAt(u, v, root) {
-    const { data } = this.#texture;
-    if (data.encoding !== 'packed' || (this.#isRootless && root === undefined)) return null;
-    const { first, count } = root === undefined ? this.#range : { first: root, count: 1 };
-    const { x, y } = lookedUp(u, v, this.#options);
-    return elementAt(/** @type {import('./data.js').PackedData} */ (data), first, count, x, y);
+    return this.#shown.elementAt(u, v, root);
   }
 
   /**
-   * Let rays and light pass through a mesh outside the shape, and rays find the elements of the drawing.
+   * Let rays and light pass through a mesh outside the shape, and rays find the elements of the drawing. Clones of the
+   * mesh are attached, too, as long as they have this material.
    *
-   * @param {import('./mask-mesh.js').Masked} mesh that has this material
+   * @param {import('./ray-mesh.js').Masked} mesh that has this material
+   * @param {{ shadow?: boolean }} [options] without `shadow` light does not pass: several materials share one shadow
    * @returns {this}
    */
-  attach(mesh) {
+  attach(mesh, { shadow = true } = {}) {
     if (this.#meshes.has(mesh)) return this;
-    if (![mesh.material].flat().includes(this.#material)) {
-      throw new VextureError(`${mesh.name || mesh.type} has another material; give it this one first`, 'mesh');
-    }
-    if (this.#options.instanced && !mesh.geometry.getAttribute(ROOT_ATTRIBUTE)) {
-      throw new VextureError(
-        `${mesh.name || mesh.type} has no attribute ${ROOT_ATTRIBUTE}; make it by rootAttribute(texture, names)`,
-        ROOT_ATTRIBUTE,
-      );
-    }
-    const rootOf = (instance = 0) =>
-      this.#options.instanced ? mesh.geometry.getAttribute(ROOT_ATTRIBUTE)?.getX(instance) : undefined;
-    this.#meshes.set(
-      mesh,
-      new MaskedMesh(mesh, {
-        material: this.#material,
-        cuts: () => this.#options.mode === 'cut' || isTranslucent(this.#options),
-        hits: (u, v, instance) => this.hits(u, v, rootOf(instance)),
-        elementAt: (u, v, instance) => this.elementAt(u, v, rootOf(instance)),
-        key: () => JSON.stringify({ ...this.#variant(), mode: 'cut' }),
-        compile: (program, type) => this.#compile(program, { ...this.#variant(), mode: 'cut' }, type),
-      }),
-    );
+    checkMesh(mesh, this.#material, this.#shown.options);
+    /** @type {import('./mask-mesh.js').Cut} */
+    const cut = {
+      material: this.#material,
+      cuts: () => this.#shown.cuts,
+      hits: (u, v, instance) => this.hits(u, v, this.#shown.rootOf(mesh, instance)),
+      elementAt: (u, v, instance) => this.elementAt(u, v, this.#shown.rootOf(mesh, instance)),
+      uv: () => UV_ATTRIBUTES[this.#shown.options.channel],
+      key: () => JSON.stringify({ ...this.#variant(), mode: 'cut' }),
+      compile: (program, type) => this.#compile(program, { ...this.#variant(), mode: 'cut' }, type),
+      attach: (copy) => {
+        if (isOn(copy, this.#material)) this.attach(copy, { shadow });
+      },
+    };
+    this.#meshes.add(mesh, new MaskedMesh(mesh, cut, shadow));
     return this;
   }
 
   /**
    * Undo `attach`.
    *
-   * @param {import('./mask-mesh.js').Masked} mesh
+   * @param {import('./ray-mesh.js').Masked} mesh
    */
   detach(mesh) {
-    this.#meshes.get(mesh)?.release();
-    this.#meshes.delete(mesh);
+    this.#meshes.release(mesh);
   }
 
   /** Restore the material and all meshes. The texture, which others may use, is not disposed of. */
   remove() {
-    for (const mesh of [...this.#meshes.keys()]) this.detach(mesh);
+    this.#meshes.releaseAll();
     this.#takeBack();
     if (this.#material.clone === this.#cloned) this.#material.clone = this.#clone;
     this.#listen(false);
@@ -423,20 +273,4 @@ export function applyVectorMask(material, texture, options) {
  */
 export function vectorMaskOf(material) {
   return MASKS.get(material);
-}
-
-/**
- * Attribute `vextureRoot` for the geometry of an `InstancedMesh`: the shape of each instance.
- *
- * @param {VectorTexture} texture
- * @param {readonly (string | number)[]} roots names or places in `texture.roots`, one for each instance
- * @returns {InstancedBufferAttribute}
- */
-export function rootAttribute(texture, roots) {
-  const places = roots.map((root) => texture.index(root));
-  const most = places.findIndex((place) => place >= MOST_ROWS);
-  if (most >= 0) {
-    throw new VextureError(`${texture.name}: root ${places[most]}; instances can show the first ${MOST_ROWS}`, 'root');
-  }
-  return new InstancedBufferAttribute(new Uint32Array(places), 1);
 }

@@ -7,7 +7,6 @@ import { wordTexture } from './upload.js';
 import { colorAt, contains } from './walk.js';
 
 /** @typedef {import('three').DataTexture} DataTexture */
-/** @typedef {import('./paints.js').Paint} Paint */
 /** @typedef {import('./data.js').TextureData} TextureData */
 /** @typedef {import('./data.js').PackedData} PackedData */
 /** @typedef {import('./select-root.js').RootChoice} RootChoice */
@@ -135,8 +134,9 @@ export class VectorTexture extends EventDispatcher {
   /**
    * Give elements of a drawing other colours, which the next frame shows: no tree is built, and no program.
    *
-   * @param {Readonly<Record<string, Paint>> | ReadonlyMap<string, Paint>} paints by element: a colour as `THREE.Color`
-   *   reads it, or sRGB components and opacity, 0..1. Of thousands, a `Map` is read faster than an object
+   * @param {import('./paints.js').PaintList} paints by element: a colour as `THREE.Color`
+   *   reads it, or sRGB components and opacity, 0..1, or `own`: what it had at first. Of thousands, a `Map` is read faster
+   *   than an object
    * @param {RootChoice} [root] as in `layersOf`
    * @throws {VextureError} if the texture knows no elements (it was converted without `--restyle`), none has a name, or
    *   one that hides others would not stay opaque
@@ -198,6 +198,15 @@ export class VectorTexture extends EventDispatcher {
     } finally {
       disposeAll(before); // even if a listener throws
     }
+  }
+
+  /**
+   * A texture of its own with the same data, which can have other colours than this one. It does not follow a server.
+   *
+   * @returns {VectorTexture}
+   */
+  clone() {
+    return new VectorTexture(structuredClone(packed(this.#data)));
   }
 
   /** Free the GPU memory. A material that still uses the texture uploads it again. */

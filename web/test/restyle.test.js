@@ -2,7 +2,7 @@ import { Color, DataTexture, InstancedMesh, Matrix4, Mesh, PlaneGeometry, Raycas
 import { describe, expect, test } from 'vitest';
 import { readPacked } from '../src/packed.js';
 import { readStyle } from '../src/style.js';
-import { rootAttribute } from '../src/vector-mask.js';
+import { rootAttribute } from '../src/attributes.js';
 import { VectorMaterial } from '../src/vector-material.js';
 import { VectorTexture } from '../src/vector-texture.js';
 import { fixture } from './files.js';
@@ -30,6 +30,27 @@ describe('new colours', () => {
     texture.setPaints(Object.fromEntries(elements.filter(({ name }) => name)
       .map(({ name, color, opacity }) => [name, [...color, opacity]])));
     expect([...texture.data.texels]).toEqual([...before.data.texels]);
+  });
+
+  test('each element has its own colour back', async () => {
+    const [texture, before] = [await read(), await read()];
+    for (const element of [texture, before].flatMap(({ roots }) => roots[0].style?.elements ?? [])) {
+      if (element.name === 'sea') element.name = 'sky'; // two of one name, in two colours
+    }
+    texture.setPaints({ ...PAINTS, hill: null });
+    texture.setPaints(new Map(Object.keys(PAINTS).map((name) => [name, 'own'])));
+    expect([...texture.data.texels]).toEqual([...before.data.texels]);
+    expect(texture.roots[0].style).toEqual(before.roots[0].style);
+  });
+
+  test('a clone has colours of its own', async () => {
+    const [texture, before] = [await read(), await read()];
+    const copy = texture.clone();
+    copy.setPaints(PAINTS);
+    expect([...texture.data.texels]).toEqual([...before.data.texels]);
+    expect(texture.roots[0].style).toEqual(before.roots[0].style);
+    expect([...copy.data.texels]).toEqual([...restyled.texels]);
+    expect([copy.name, copy.textures.texels === texture.textures.texels]).toEqual([texture.name, false]);
   });
 
   test('one element after another, as all at once', async () => {

@@ -3,7 +3,8 @@ import { describe, expect, test } from 'vitest';
 import { VextureError } from '../src/errors.js';
 import { readPacked } from '../src/packed.js';
 import { texts } from '../src/mask-shader.js';
-import { applyVectorMask, rootAttribute, vectorMaskOf } from '../src/vector-mask.js';
+import { rootAttribute } from '../src/attributes.js';
+import { applyVectorMask, vectorMaskOf } from '../src/vector-mask.js';
 import { VectorMaterial } from '../src/vector-material.js';
 import { VectorTexture } from '../src/vector-texture.js';
 import { fixture } from './files.js';
@@ -45,7 +46,7 @@ describe('a clone', () => {
     expect(copied).not.toBe(mask);
     expect(copied?.options).toEqual(mask.options);
     expect(copied?.transform).not.toBe(mask.transform);
-    expect([copied?.texture, copied?.material, copied?.ownTransparent]).toEqual([drawings, copy, false]);
+    expect([copied?.texture, copied?.material]).toEqual([drawings, copy]);
     expect([copy.transparent, copy.color.getHex()]).toEqual([true, 0x123456]);
     expect(copy.customProgramCacheKey()).toBe(material.customProgramCacheKey());
     copied?.set({ wrap: 'clamp' });
@@ -112,8 +113,69 @@ describe('a material without its texture', () => {
   });
 });
 
+describe('options of a VectorMaterial that are set later', () => {
+  const fold = /** @type {any} */ ({ isFoldTexture: true, clock: (/** @type {number} */ time) => time, glsl: 'fold' });
+  const values = /** @type {const} */ ({
+    root: other, transform: new Matrix3().makeScale(2, 2), mode: 'cut', wrap: 'repeat', flat: true, invert: true,
+    threshold: 0.25, background: 'own', instanced: true, fold, time: 3, linear: true, channel: 1,
+  });
+  const seen = (/** @type {any} */ material) => Object.fromEntries(Object.keys(values).map((name) => [name, material[name]]));
+
+  test('are those of the constructor, before and after there is a texture', () => {
+    const made = new VectorMaterial({ texture: drawings, ...values });
+    const plain = seen(new VectorMaterial());
+    const [early, late] = [new VectorMaterial(), new VectorMaterial({ texture: drawings, root: 0 })];
+    for (const material of [early, late]) for (const [name, value] of Object.entries(values)) {
+      expect(plain[name]).not.toEqual(value); // so each is seen to change
+      Object.assign(material, { [name]: value });
+    }
+    early.texture = drawings;
+    for (const material of [early, late]) {
+      expect(seen(material)).toEqual(values);
+      expect(material.mask?.options).toEqual(made.mask?.options);
+      expect(material.customProgramCacheKey()).toBe(made.customProgramCacheKey());
+    }
+  });
+
+  test('all options of a mask are options of the material, but what three.js has by that name', () => {
+    const { color, map, ...options } = applyVectorMask(new MeshBasicMaterial(), duck).options;
+    expect(Object.keys(options).sort()).toEqual(Object.keys(values).sort());
+    expect(new VectorMaterial({ color: 0xff0000 }).color).toBeInstanceOf(Color);
+  });
+
+  test('change together or not at all, and undefined is the default', () => {
+    const material = new VectorMaterial({ texture: badge, mode: 'paint', color: 0x123456 });
+    expect(() => (material.mode = 'alpha')).toThrow('choose one by root');
+    material.setValues({ mode: 'alpha', root: 1, invert: true, color: 0xff0000 });
+    expect([material.mode, material.root, material.color.getHex()]).toEqual(['alpha', 1, 0xff0000]);
+    expect(() => material.setValues({ wrap: 'clamp', root: 'nobody' })).toThrow(VextureError);
+    expect(() => material.setValues({ texture: undefined })).toThrow(VextureError);
+    expect(() => material.setValues(/** @type {any} */ ({ colour: 1 }))).toThrow(/no option "colour"/);
+    expect(material.wrap).toBe('none');
+    material.setValues({ texture: duck, root: undefined, background: undefined, invert: undefined });
+    expect([material.texture, material.root, material.background, material.invert]).toEqual([duck, undefined, 'none', false]);
+  });
+
+  test('are refused without a texture, too', () => {
+    const material = new VectorMaterial();
+    expect(() => Object.assign(material, { mode: 'alfa' })).toThrow(VextureError);
+    expect(material.mode).toBe('alpha');
+  });
+
+  test('what stays as it is costs no program, nor does the time', () => {
+    const material = new VectorMaterial({ texture: duck, time: 1 });
+    const mesh = new Mesh(undefined, material);
+    material.mask?.attach(mesh);
+    const versions = () => [material.version, mesh.customDepthMaterial?.version];
+    const before = versions();
+    material.setValues({ texture: duck, mode: 'alpha', wrap: 'none', time: 2 });
+    expect([...versions(), material.time]).toEqual([...before, 2]);
+    expect(() => (material.time = NaN)).toThrow(VextureError);
+  });
+});
+
 test('flat views have a program of their own, but for a fold', () => {
-  const variant = (/** @type {string} */ fold, flat = true) => /** @type {any} */ ({ maps: 'none', wrap: 'none', flat, fold });
+  const variant = (/** @type {string} */ fold, flat = true) => /** @type {any} */ ({ maps: 'none', wrap: 'none', uv: 'uv', flat, fold });
   expect(texts(variant('')).fragmentDeclare).toContain('#define VEXTURE_FLAT 1\n');
   expect(texts(variant('', false)).fragmentDeclare).not.toContain('#define VEXTURE_FLAT 1\n');
   expect(texts(variant('fold')).fragmentDeclare).not.toContain('#define VEXTURE_FLAT 1\n');

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { drawingNames, shownDrawing } from '../viewer/drawing.js';
+import { drawingsIn, shownDrawing } from '../viewer/drawing.js';
 
 const RED = { color: [1, 0, 0], opacity: 1 };
 const BLACK = { color: [0, 0, 0], opacity: 1 };
@@ -10,7 +10,10 @@ const ATLAS = { roots: [root('cup/1', RED), root('cup/2', BLACK), root('key'), r
 
 describe('the drawings of a texture', () => {
   it('are its silhouettes and the owners of its layers', () => {
-    expect(drawingNames(ATLAS)).toEqual(['cup', 'key', 'ink', 'a/b']);
+    expect(drawingsIn(ATLAS)).toEqual([
+      { name: 'cup', first: 0, count: 2 }, { name: 'key', first: 2, count: 1 }, { name: 'ink', first: 3, count: 1 },
+      { name: 'a/b', first: 4, count: 1 },
+    ]);
   });
 
   it.each([

@@ -3,7 +3,7 @@ import { START, State, decodeView, encodeView } from '../viewer/state.js';
 
 const SEEN = {
   ...START, shape: 'a~b/ü & %', drawing: 'tea, cup', center: [0.1234567890123456, 1 / 3], zoom: 9876.54321, mode: 'cube',
-  yaw: -1.25, pitch: 0.5, distance: 3, theme: 'dark', compare: 'raster', split: 0.31,
+  yaw: -1.25, pitch: 0.5, distance: 3, theme: 'dark', background: '#12ab9f', compare: 'raster', split: 0.31,
   overlays: { cells: true, coverage: false, depth: true, cutoff: 2.5, inspect: false, contents: true },
 };
 
@@ -11,6 +11,12 @@ describe('a link', () => {
   it('holds all that is seen, to the last bit', () => {
     expect(decodeView(encodeView(SEEN))).toEqual(SEEN);
     expect(decodeView(encodeView(START))).toEqual(START);
+  });
+
+  it('from before backgrounds could be chosen shows the first of them', () => {
+    const { background, ...rest } = SEEN;
+    const old = encodeView(SEEN).replace(`~${encodeURIComponent(background)}`, '');
+    expect(decodeView(old)).toEqual({ ...rest, background: 'white' });
   });
 
   it('needs no escaping in a URL', () => {
@@ -27,6 +33,7 @@ describe('a link', () => {
     ['longer', `${encodeView(START)}~1`],
     ['with an escape that is none', encodeView(START).replace('~~', '~%E0%A4%A~')],
     ['with a surface that there is not', encodeView(START).replace('flat', 'torus')],
+    ['with a background that there is not', encodeView({ ...START, background: '#12ab9' })],
     ['with a number that is none', encodeView(START).replace('0.5~0.5', '0.5~NaN')],
     ['without a number', encodeView(START).replace('0.5~0.5', '0.5~')],
     ['with a zoom beyond the limits', encodeView({ ...START, zoom: 1e9 })],

@@ -1,7 +1,11 @@
 /** The divider: this texture on its left, another representation of the drawing on its right. */
 import { BrowserSvg } from './browser-svg.js';
 import { element } from './dom.js';
-import { rasterRival } from './rivals.js';
+import { convertedOf } from './converted.js';
+import { shownDrawing } from './drawing.js';
+import { Flat } from './flat.js';
+import { bytesText } from './numbers.js';
+import { bareRival, rasterRival } from './rivals.js';
 import { bytesOf } from './library.js';
 import { thesisRival } from './thesis-rival.js';
 
@@ -51,6 +55,34 @@ function createDivider(state, stage) {
 }
 
 /**
+ * A raster of as many bytes as `vexture convert` writes, and that texture beside it; of a texture without its source, as
+ * many as it has itself.
+ *
+ * @param {Document} shown
+ * @param {Engine} engine
+ * @param {import('./drawing.js').ShownDrawing} drawing
+ * @returns {Promise<import('./rivals.js').Rival>}
+ */
+async function equalRaster(shown, engine, drawing) {
+  const { renderer, flat, overlayUniforms, backdrop } = engine;
+  const converted = await convertedOf(shown);
+  const { nbytes } = converted?.texture ?? drawing.texture;
+  const rival = rasterRival(renderer, flat, drawing, nbytes);
+  const leftLabel = `vexture${converted ? ' convert' : ''}: ${bytesText(nbytes)}`;
+  if (!converted) return { ...rival, leftLabel };
+  const left = new Flat({ ...overlayUniforms }, backdrop);
+  left.setDrawing(shownDrawing(converted.texture, drawing.name));
+  const paint = drawing.count === 1 ? drawing.texture.roots[drawing.first].paint : null;
+  if (paint && !converted.texture.roots[0].paint) left.paintAll(paint); // of one colour a silhouette is written
+  await left.plain.compile(renderer);
+  return { ...rival, left, leftLabel, dispose: () => {
+    rival.dispose();
+    left.dispose();
+    converted.texture.dispose();
+  } };
+}
+
+/**
  * @param {import('./state.js').Rival} which
  * @param {Document} shown
  * @param {Engine} engine
@@ -58,7 +90,8 @@ function createDivider(state, stage) {
  */
 async function prepared(which, shown, engine) {
   const drawing = engine.drawing;
-  if (which === 'raster' && drawing) return rasterRival(engine.renderer, engine.flat, drawing);
+  if (!drawing) throw new Error('nothing is shown');
+  if (which === 'raster') return equalRaster(shown, engine, drawing);
   const view = /** @type {any} */ (shown.manifest.views ?? {})[which];
   if (!view) throw new Error(which === 'svg' ? 'the SVG source is not in this file' : 'the source is not in this file');
   if (view.error) throw new Error(view.error);
@@ -66,11 +99,10 @@ async function prepared(which, shown, engine) {
     const text = new TextDecoder().decode(await bytesOf(view, shown.base));
     const box = shown.manifest.facts?.box;
     if (!box) throw new Error('where the SVG stands is not in this file');
-    return new BrowserSvg(text, shown.texture.roots[drawing?.first ?? 0].transform, box);
+    return new BrowserSvg(text, shown.texture.roots[drawing.first].transform, box);
   }
   const pair = await Promise.all(view.map((/** @type {string} */ url) => bytesOf(url, shown.base)));
-  if (!drawing) throw new Error('nothing is shown');
-  const rival = await thesisRival(pair, shown.name, drawing);
+  const rival = await thesisRival(pair, shown.name, drawing, engine.backdrop);
   await rival.pass.compile(engine.renderer);
   return rival;
 }
@@ -92,7 +124,7 @@ export function createCompare(engine, state, stage, note) {
 
   const place = () => {
     const { compare, mode, split } = state.value;
-    const seen = compare !== null && mode === 'flat' && (engine.rival !== null || svg !== null);
+    const seen = compare !== null && mode === 'flat' && engine.rival !== null;
     layer.hidden = divider.hidden = !seen;
     if (!seen) return;
     layer.style.setProperty('--split', `${split * 100}%`);
@@ -117,9 +149,11 @@ export function createCompare(engine, state, stage, note) {
         const made = await prepared(compare, shown, engine);
         if (mine !== turn) return made instanceof BrowserSvg ? undefined : made.dispose();
         clear();
+        const rival = made instanceof BrowserSvg ? bareRival(engine.backdrop, /** @type {any} */ (engine.drawing)) : made;
         if (made instanceof BrowserSvg) layer.prepend((svg = made).element);
-        else engine.setRival(made);
-        right.textContent = made instanceof BrowserSvg ? 'Browser SVG' : made.label;
+        engine.setRival(rival);
+        left.textContent = rival.leftLabel ?? 'vexture';
+        right.textContent = rival.label;
       } catch (error) {
         if (mine !== turn) return;
         clear();

@@ -1,4 +1,7 @@
-/** The picture and the address of the view, copied to the clipboard. */
+/** The picture and the address of the view, copied to the clipboard or saved. */
+
+/** What systems do not take in the name of a file. */
+const NOT_IN_NAMES = /[\\/:*?"<>|\u0000-\u001f]+/g;
 
 /** @param {string} text */
 export async function copyText(text) {
@@ -41,6 +44,21 @@ export async function pictureOf(engine, image) {
 }
 
 /**
+ * Save a file where the browser saves files.
+ *
+ * @param {Blob} content
+ * @param {string} name of what it shows
+ * @param {string} suffix
+ */
+export function saveFile(content, name, suffix) {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(content);
+  link.download = `${name.replace(NOT_IN_NAMES, '-') || 'vexture'}.${suffix}`;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+/**
  * @param {Blob} picture PNG
  * @param {string} name
  * @returns {Promise<'copied' | 'saved'>}
@@ -50,11 +68,7 @@ export async function copyPicture(picture, name) {
     await navigator.clipboard.write([new ClipboardItem({ 'image/png': picture })]);
     return 'copied';
   } catch {
-    const link = document.createElement('a');
-    link.href = URL.createObjectURL(picture);
-    link.download = `${name}.png`;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    saveFile(picture, name, 'png');
     return 'saved';
   }
 }

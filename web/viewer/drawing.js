@@ -1,5 +1,5 @@
 // The drawings of a texture, and the one that is shown.
-import { mapsAmong } from '../src/mask-variant.js';
+import { mapsAmong } from '../src/select-root.js';
 import { drawingOf } from '../src/select-root.js';
 
 /**
@@ -8,7 +8,7 @@ import { drawingOf } from '../src/select-root.js';
  * @property {string} name
  * @property {number} first layer
  * @property {number} count of layers
- * @property {boolean} silhouette whether it is drawn in the theme's ink
+ * @property {boolean} silhouette whether it is one black shape
  * @property {'none' | 'some' | 'all'} maps whether its layers are planar maps; `all`: it is one map
  * @property {boolean} gradients whether a map holds gradients
  */
@@ -16,12 +16,30 @@ import { drawingOf } from '../src/select-root.js';
 /** @typedef {import('../src/data.js').Root} Root */
 
 /**
- * Names of the drawings in a texture, in the order of their first layers.
+ * @typedef {object} Range of layers
+ * @property {string} name of their drawing
+ * @property {number} first
+ * @property {number} count
+ */
+
+/**
+ * The drawings in a texture, in the order of their first layers.
  *
  * @param {{roots: Root[]}} texture
+ * @returns {Range[]}
  */
-export function drawingNames(texture) {
-  return [...new Set(texture.roots.map(drawingOf))];
+export function drawingsIn({ roots }) {
+  /** @type {Map<string, Range>} */
+  const found = new Map();
+  let before = '';
+  roots.forEach((root, place) => {
+    const name = drawingOf(root);
+    const range = found.get(name);
+    if (!range) found.set(name, { name, first: place, count: 1 });
+    else if (name === before) range.count = place - range.first + 1;
+    before = name;
+  });
+  return [...found.values()];
 }
 
 /** @param {Root} root */
@@ -35,14 +53,18 @@ const isBlack = (root) => !root.isMap && (!root.paint || (root.paint.opacity ===
  * @returns {ShownDrawing}
  */
 export function shownDrawing(texture, name) {
-  const names = drawingNames(texture);
-  const wanted = names.includes(name) ? name : names[0];
-  const first = texture.roots.findIndex((root) => drawingOf(root) === wanted);
-  let end = first + 1;
-  while (end < texture.roots.length && drawingOf(texture.roots[end]) === wanted) end++;
-  const count = end - first;
-  const layers = texture.roots.slice(first, end);
+  const all = drawingsIn(texture);
+  return drawingOfRange(texture, all.find((one) => one.name === name) ?? all[0]);
+}
+
+/**
+ * @param {import('../src/vector-texture.js').VectorTexture} texture
+ * @param {Range} range
+ * @returns {ShownDrawing}
+ */
+export function drawingOfRange(texture, { name, first, count }) {
+  const layers = texture.roots.slice(first, first + count);
   const silhouette = count === 1 && isBlack(layers[0]);
   const gradients = layers.some(({ hasGradients }) => hasGradients);
-  return { texture, name: wanted, first, count, silhouette, maps: mapsAmong(layers, count === 1), gradients };
+  return { texture, name, first, count, silhouette, maps: mapsAmong(layers, count === 1), gradients };
 }

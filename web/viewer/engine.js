@@ -1,11 +1,11 @@
 /** The canvas: its contents, and when to draw them. */
 import { SRGBColorSpace, WebGLRenderer } from 'three';
+import { Backdrop } from './backdrop.js';
 import { shownDrawing } from './drawing.js';
 import { Flat } from './flat.js';
 import { FrameClock } from './frame-clock.js';
 import { setRivalView } from './rivals.js';
 import { Solid } from './solid.js';
-import { pictureColors } from './theme.js';
 import { panned, toScreen, toUnit, zoomed } from './view.js';
 
 /**
@@ -31,13 +31,15 @@ export class Engine extends EventTarget {
   /** Device pixels of a CSS pixel. */
   ratio = 1;
   #clock = new FrameClock();
-  #colors = pictureColors();
+  backdrop = new Backdrop();
   /** What is drawn right of the divider. @type {import('./rivals.js').Rival | null} */
   rival = null;
   /** @type {Solid | null} */
   #solid = null;
   #frame = 0;
   #lost = false;
+  /** Whether something else covers the picture, and may use its canvas. */
+  covered = false;
 
   /**
    * @param {HTMLCanvasElement} canvas
@@ -52,7 +54,8 @@ export class Engine extends EventTarget {
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = true;
-    this.flat = new Flat(this.overlayUniforms);
+    this.recolor();
+    this.flat = new Flat(this.overlayUniforms, this.backdrop);
     state.addEventListener('change', (event) => this.#stateChanged(/** @type {CustomEvent} */ (event).detail.changed));
     canvas.addEventListener('webglcontextlost', () => {
       this.#lost = true;
@@ -81,7 +84,7 @@ export class Engine extends EventTarget {
   async show(document) {
     this.document = document;
     this.drawing = shownDrawing(document.texture, this.state.value.drawing);
-    this.flat.setDrawing(this.drawing, this.#colors);
+    this.flat.setDrawing(this.drawing);
     await this.flat.plain.compile(this.renderer);
     await this.#raise();
     this.dispatchEvent(new CustomEvent('shape'));
@@ -115,15 +118,17 @@ export class Engine extends EventTarget {
     this.ratio = window.devicePixelRatio;
     this.size = { width: Math.max(1, width), height: Math.max(1, height) };
     this.renderer.setPixelRatio(this.ratio);
+    this.backdrop.scale(this.ratio);
     this.renderer.setSize(this.size.width, this.size.height);
     this.dispatchEvent(new CustomEvent('view'));
     if (this.drawing && this.flat.plain.ready) this.render(); // a resized canvas is blank until it is drawn
   }
 
-  /** Read the theme's colours again. */
+  /** Set the background again, which may be the theme's. */
   recolor() {
-    this.#colors = pictureColors();
-    if (this.drawing) this.flat.setDrawing(this.drawing, this.#colors);
+    this.backdrop.set(this.state.value.background);
+    const { parentElement } = this.canvas;
+    if (parentElement) parentElement.dataset.theme = this.backdrop.isDark ? 'dark' : 'light'; // of the marks on it
     this.requestFrame();
   }
 
@@ -138,7 +143,7 @@ export class Engine extends EventTarget {
   /** Draw now. */
   render() {
     const { drawing, flat, state } = this;
-    if (!drawing || this.#lost || !flat.plain.ready) return;
+    if (!drawing || this.#lost || this.covered || !flat.plain.ready) return;
     const begin = performance.now();
     if (state.value.mode === 'flat') this.#drawFlat();
     else if (!this.#drawSolid(state.value.mode)) return;
@@ -152,15 +157,16 @@ export class Engine extends EventTarget {
     const { overlays, split, compare } = state.value;
     const wanted = overlays.cells || overlays.coverage || overlays.depth || overlays.cutoff > 0;
     if (wanted && !flat.overlaid.ready) void flat.overlaid.compile(renderer).then(() => this.requestFrame());
-    const pass = wanted && flat.overlaid.ready ? flat.overlaid : flat.plain;
-    flat.setView(state.value, size, this.ratio);
     const halves = compare !== null && rival !== null;
+    const shown = halves && !wanted && rival.left ? rival.left : flat;
+    const pass = wanted && flat.overlaid.ready ? flat.overlaid : shown.plain;
+    shown.setView(state.value, size, this.ratio);
     const at = Math.round(split * size.width * this.ratio) / this.ratio;
     renderer.setScissorTest(halves);
     if (halves) renderer.setScissor(0, 0, at, size.height);
     pass.draw(renderer);
     if (!halves) return;
-    setRivalView(rival, state.value, size, this.ratio, this.#colors);
+    setRivalView(rival, state.value, size, this.ratio);
     renderer.setScissor(at, 0, size.width - at, size.height);
     rival.pass.draw(renderer);
     renderer.setScissorTest(false);
@@ -171,7 +177,7 @@ export class Engine extends EventTarget {
     const solid = this.#solid;
     if (!solid?.ready || solid.surface !== mode || solid.drawing !== this.drawing) return false;
     solid.place(this.state.value, this.size);
-    solid.draw(this.renderer, this.#colors);
+    solid.draw(this.renderer, this.backdrop);
     return true;
   }
 
@@ -218,6 +224,7 @@ export class Engine extends EventTarget {
   /** @param {Set<string>} changed */
   #stateChanged(changed) {
     if (changed.has('mode')) void this.#raise();
+    if (changed.has('background')) this.recolor();
     if (changed.has('drawing') && this.document) void this.show(this.document);
     if (['center', 'zoom', 'mode', 'yaw', 'pitch', 'distance'].some((key) => changed.has(key))) {
       this.dispatchEvent(new CustomEvent('view'));

@@ -2,6 +2,7 @@ import { create as createContents } from './contents.js';
 import { create as createFacts } from './facts.js';
 import { create as createInspector } from './inspector.js';
 import { create as createOverlays } from './overlays.js';
+import { create as createSizes } from './sizes.js';
 
 /**
  * Parts of the page beside its engine, in their order on the page.
@@ -13,6 +14,7 @@ import { create as createOverlays } from './overlays.js';
 
 /** @type {Extra[]} */
 export const EXTRAS = [
+  { create: createSizes, place: 'panel' },
   { create: createOverlays, place: 'panel' },
   { create: createInspector, place: 'panel' },
   { create: createContents, place: 'panel' },

@@ -3,6 +3,7 @@ import { headOf } from '../src/planar-map.js';
 import { counts } from '../src/walk.js';
 import { element, section } from './dom.js';
 import { median } from './median.js';
+import { UNKNOWN, countText } from './numbers.js';
 
 /**
  * @typedef {import('./engine.js').Engine} Engine
@@ -11,23 +12,26 @@ import { median } from './median.js';
 
 const FRAMES = 30;
 
-/** @param {number | null | undefined} value */
-const count = (value) => (value === null || value === undefined ? 'not known' : value.toLocaleString('en'));
+/** What each fact means, as people read it under the pointer. @type {Readonly<Record<string, string>>} */
+const MEANINGS = Object.freeze({
+  Segments: 'Lines and curves of the drawing',
+  Layers: 'Shapes that are drawn one over the other',
+  Paints: 'Different colours and gradients',
+  Quads: 'Squares that are divided into four',
+  Curves: 'Pieces of outline in the texture',
+  'Deepest leaf': 'How often the smallest square comes from dividing the largest',
+  Conversion: 'How long the texture of this page took to make',
+  'Tolerance, of side': 'How far merged curves may be from those of the drawing, as a part of its longer side',
+  'Deviation, of side': 'How far the outline is from the drawing at most, as a part of its longer side',
+});
 
 /** @param {number | null | undefined} value */
-function bytes(value) {
-  if (value === null || value === undefined) return 'not known';
-  return value < 1e4 ? `${count(value)} B` : value < 1e7 ? `${count(Math.round(value / 100) / 10)} kB`
-    : `${count(Math.round(value / 1e5) / 10)} MB`;
-}
-
-/** @param {number | null | undefined} value */
-const milliseconds = (value) => (value === null || value === undefined ? 'not known' : `${value.toPrecision(3)} ms`);
+const milliseconds = (value) => (value === null || value === undefined ? UNKNOWN : `${value.toPrecision(3)} ms`);
 
 /** @param {number | null | undefined} value parts of the unit square's side */
 function distance(value) {
-  if (value === null || value === undefined) return 'not known';
-  return value === 0 ? 'exact' : `1/${count(Math.round(1 / value))}`;
+  if (value === null || value === undefined) return UNKNOWN;
+  return value === 0 ? 'exact' : `1/${countText(Math.round(1 / value))}`;
 }
 
 /**
@@ -57,19 +61,18 @@ export function create(engine, _state) {
     const maps = layers.filter(({ isMap }) => isMap);
     const found = [...new Set(layers.map(({ quad }) => quad))].map((quad) => counts(data, quad));
     const rows = [
-      ['Segments', count(facts.segments)],
-      ['Layers', count(layers.length)],
-      ...(maps.length ? [['Paints', count(maps.reduce((sum, { quad }) => sum + headOf(data.texels, quad).used, 0))]] : []),
-      ['Quads', count(found.reduce((sum, { quads }) => sum + quads, 0))],
-      ['Curves', count(found.reduce((sum, { curves }) => sum + curves, 0))],
-      ['Deepest leaf', count(Math.max(...found.map(({ depth }) => depth)) + 1)],
-      ['File', bytes(facts.bytes ?? opened.manifest.bytes)],
-      ['GPU memory', bytes(drawing.texture.nbytes)],
+      ['Segments', countText(facts.segments)],
+      ['Layers', countText(layers.length)],
+      ...(maps.length ? [['Paints', countText(maps.reduce((sum, { quad }) => sum + headOf(data.texels, quad).used, 0))]] : []),
+      ['Quads', countText(found.reduce((sum, { quads }) => sum + quads, 0))],
+      ['Curves', countText(found.reduce((sum, { curves }) => sum + curves, 0))],
+      ['Deepest leaf', countText(Math.max(...found.map(({ depth }) => depth)) + 1)],
       ['Conversion', milliseconds(facts.milliseconds)],
       ['Tolerance, of side', distance(Math.max(...layers.map(({ tolerance }) => tolerance)))],
       ['Deviation, of side', distance(facts.distance)],
     ];
-    list.replaceChildren(...rows.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
+    list.replaceChildren(...rows.flatMap(([name, value]) => [
+      element('dt', { title: MEANINGS[name] }, name), element('dd', {}, value)]));
     const said = (facts.notes ?? []).filter(({ kind }) => kind === 'remark'); // the badge says the others
     remarks.hidden = said.length === 0;
     remarks.replaceChildren(...said.map(({ message }) => element('li', {}, message)));

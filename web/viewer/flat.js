@@ -1,12 +1,13 @@
-/** The flat view of a texture: its layers on the theme's paper. */
-import { Vector2, Vector3, Vector4 } from 'three';
+/** The flat view of a texture: its layers on the backdrop, in their own colours. */
+import { Vector2, Vector4 } from 'three';
 import { planar } from '../generated/planar-shader.js';
 import { overlay, packed } from '../generated/shaders.js';
+import { BACKDROP } from './backdrop.js';
 import { Pass } from './pass.js';
 import { shaderView } from './view.js';
 
 /**
- * @typedef {import('./theme.js').Colors} Colors
+ * @typedef {import('./backdrop.js').Backdrop} Backdrop
  * @typedef {import('three').Texture} Texture
  * @typedef {import('three').WebGLRenderer} WebGLRenderer
  */
@@ -21,7 +22,7 @@ const DRAWN = Object.freeze({
 });
 
 /** @param {string} call */
-const output = (call) => `
+const output = (call) => `${BACKDROP}
 #define FOOTPRINT base, offset, vec2(side, 0.0), vec2(0.0, side)
 uniform uvec2 base;
 uniform vec2 start;
@@ -29,15 +30,16 @@ uniform float side;
 uniform int first;
 uniform int count;
 uniform uint quad;
-uniform bool silhouette;
-uniform vec3 ink;
-uniform vec4 paper;
+uniform bool tinted;
+uniform vec4 tint;
+uniform bool straight;
 out vec4 pixel;
 void main() {
   vec2 offset = start + gl_FragCoord.xy * side;
   vec4 color = ${call};
-  if (silhouette) color.rgb = ink * color.a;
-  pixel = color + paper * (1.0 - color.a);
+  if (tinted) color = tint * color.a;
+  pixel = color + backdrop() * (1.0 - color.a);
+  if (straight) pixel.rgb /= max(pixel.a, exp2(-24.0));
   #ifdef OVERLAY
     pixel = vextureOverlay(pixel, FOOTPRINT);
   #endif
@@ -52,10 +54,14 @@ export class Flat {
   #maps = 'none';
   #gradients = false;
 
-  /** @param {Record<string, {value: any}>} overlays uniforms of overlay.glsl, set by the module `overlays` */
-  constructor(overlays) {
+  /**
+   * @param {Record<string, {value: any}>} overlays uniforms of overlay.glsl, set by the module `overlays`
+   * @param {Backdrop} backdrop
+   */
+  constructor(overlays, backdrop) {
+    this.backdrop = backdrop;
     const nothing = /** @type {Texture | undefined} */ (undefined);
-    this.uniforms = Object.assign(overlays, {
+    this.uniforms = Object.assign(overlays, backdrop.uniforms, {
       vextureTexels: { value: nothing },
       vexturePaints: { value: nothing },
       base: { value: [0, 0] },
@@ -64,9 +70,9 @@ export class Flat {
       first: { value: 0 },
       count: { value: 1 },
       quad: { value: 0 },
-      silhouette: { value: true },
-      ink: { value: new Vector3() },
-      paper: { value: new Vector4(1, 1, 1, 1) },
+      tinted: { value: false },
+      tint: { value: new Vector4(1, 1, 1, 1) },
+      straight: { value: false },
     });
   }
 
@@ -92,11 +98,8 @@ export class Flat {
     return made;
   }
 
-  /**
-   * @param {import('./drawing.js').ShownDrawing} shown
-   * @param {Colors} colors
-   */
-  setDrawing(shown, colors) {
+  /** @param {import('./drawing.js').ShownDrawing} shown */
+  setDrawing(shown) {
     const { uniforms } = this;
     uniforms.vextureTexels.value = shown.texture.textures.texels;
     uniforms.vexturePaints.value = shown.texture.textures.layers;
@@ -105,9 +108,17 @@ export class Flat {
     uniforms.quad.value = shown.texture.roots[shown.first].quad;
     this.#maps = shown.maps;
     this.#gradients = shown.gradients;
-    uniforms.silhouette.value = shown.silhouette;
-    uniforms.ink.value.fromArray(colors.ink);
-    uniforms.paper.value.set(...colors.paper, 1);
+  }
+
+  /**
+   * Draw in one colour from now on.
+   *
+   * @param {import('../src/data.js').RootPaint} paint
+   */
+  paintAll({ color, opacity }) {
+    const [red, green, blue] = color.map((part) => part * opacity);
+    this.uniforms.tint.value.set(red, green, blue, opacity);
+    this.uniforms.tinted.value = true;
   }
 
   /**
@@ -122,27 +133,36 @@ export class Flat {
     this.uniforms.side.value = step;
   }
 
+  dispose() {
+    for (const pass of this.#passes.values()) pass.dispose();
+  }
+
   /**
    * Draw the unit square into an image of n x n pixels, premultiplied.
    *
    * @param {WebGLRenderer} renderer
    * @param {import('three').WebGLRenderTarget} target
-   * @param {boolean} asSilhouette in white instead of its colours
+   * @param {boolean} asCoverage in white instead of its colours
    */
-  drawSquare(renderer, target, asSilhouette) {
-    const { base, start, side, ink, paper, silhouette } = this.uniforms;
-    const before = { ink: ink.value, paper: paper.value, silhouette: silhouette.value };
-    silhouette.value = asSilhouette;
+  drawSquare(renderer, target, asCoverage) {
+    const { base, start, side, tinted } = this.uniforms;
+    tinted.value = asCoverage;
     base.value = [0, 0];
     start.value.set(0, 0);
     side.value = 1 / target.width;
-    ink.value = new Vector3(1, 1, 1);
-    paper.value = new Vector4(0, 0, 0, 0);
+    this.drawInto(renderer, target);
+    tinted.value = false;
+  }
+
+  /**
+   * Draw into an image as the uniforms say, with nothing below.
+   *
+   * @param {WebGLRenderer} renderer
+   * @param {import('three').WebGLRenderTarget} target
+   */
+  drawInto(renderer, target) {
     renderer.setRenderTarget(target);
-    this.plain.draw(renderer);
+    this.backdrop.without(() => this.plain.draw(renderer));
     renderer.setRenderTarget(null);
-    ink.value = before.ink;
-    paper.value = before.paper;
-    silhouette.value = before.silhouette;
   }
 }

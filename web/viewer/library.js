@@ -10,6 +10,7 @@
  * @property {number | null} [milliseconds]
  * @property {number | null} [distance]
  * @property {[number, number, number, number] | null} [box] window of the SVG in the unit square
+ * @property {string | null} [select] CSS selector of what of the source is shown; null: all
  * @property {Note[]} [notes] what the reader left out, simplified or found invalid, and its remarks
  *
  * @typedef {object} Note
@@ -29,7 +30,7 @@
  * @property {number} [bytes]
  * @property {string} [events] URL
  * @property {Facts} [facts]
- * @property {{svg?: string | Missing, thesis16?: [string, string] | Missing, thesis8?: [string, string] | Missing}} [views]
+ * @property {{svg?: string, converted?: string, thesis16?: [string, string] | Missing, thesis8?: [string, string] | Missing}} [views]
  * @property {string | null} [note]
  *
  * @typedef {{error: string}} Missing why a view is missing

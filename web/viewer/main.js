@@ -11,7 +11,9 @@ import { followLink, linkTo, linkedView } from './link.js';
 import { Notes } from './notes.js';
 import { createPanel, createTools } from './panel.js';
 import { Library, readScene } from './library.js';
+import { createSave } from './save.js';
 import { HOME, START, State, THEMES } from './state.js';
+import { createSheet } from './sheet.js';
 import { applyTheme, watchSystemTheme } from './theme.js';
 
 const NARROW = matchMedia('(max-width: 720px)');
@@ -61,11 +63,12 @@ function build(engine, state, library) {
   const given = (/** @type {File[]} */ files) => void openFiles(files, state, library);
   const panel = createPanel(engine, state, [
     { label: 'Copy link', act: () => void copyLink(state) },
-    { label: 'Copy picture', act: () => void copySeen(engine, compare.image()) },
+    { label: 'Copy picture', ofOne: true, act: () => void copySeen(engine, compare.image()) },
     { label: 'Theme', act: () => nextTheme(state) },
   ]);
   panel.foot.append(fileButton(given));
   acceptDrops(given);
+  panel.extras.append(createSave(engine, state, (message) => notes.say(message)));
   for (const { create, place } of EXTRAS) (place === 'stage' ? stage : panel.extras).append(create(engine, state));
   const showNames = () => panel.showShapes(library.names);
   library.addEventListener('names', showNames);
@@ -76,7 +79,8 @@ function build(engine, state, library) {
   });
   app.classList.toggle('folded', NARROW.matches);
   if (bare) return panel;
-  scene.append(createDifferences(engine, state), tools.zoom, tools.fold);
+  scene.append(createDifferences(engine, state), tools.zoom, tools.fold,
+    ...createSheet(engine, state, app, (message) => notes.say(message)));
   app.append(panel.panel);
   return panel;
 }

@@ -24,7 +24,7 @@ const SWITCHES = [
 
 const FOLLOW = 'follow';
 /** Keys of the state that the switches depend on. */
-const SHOWN = ['overlays', 'mode'];
+const SHOWN = ['overlays', 'mode', 'background'];
 
 const ONLY_FLAT = 'Cells and what is in them are shown in the flat view.';
 
@@ -70,7 +70,7 @@ export function create(engine, state) {
     cutoff.setAttribute('aria-valuetext', overlays.cutoff > 0 ? `pixels ${times} times as large` : 'off');
     layer.list.value = chosen.follows ? FOLLOW : String(chosen.index);
     layerText.textContent = root && chosen.layers.length > 1 ? `Shown: ${root.name}` : '';
-    const theme = document.documentElement.dataset.theme === 'dark' ? 'dark' : 'light';
+    const theme = engine.backdrop.isDark ? 'dark' : 'light';
     setUniforms(uniforms, overlays, theme, deepest);
     setShape(uniforms, chosen.data, root);
     legend.replaceChildren(...legendRows(overlays, theme, deepest, root?.isMap ?? false));
@@ -103,7 +103,8 @@ export function create(engine, state) {
   });
   chosen.addEventListener('change', descend);
   engine.addEventListener('shape', listLayers);
-  new MutationObserver(update).observe(document.documentElement, { attributeFilter: ['data-theme'] });
+  const stage = /** @type {HTMLElement} */ (engine.canvas.parentElement);
+  new MutationObserver(update).observe(stage, { attributeFilter: ['data-theme'] });
   listLayers();
   return section('Overlays', all, reason);
 }

@@ -1,7 +1,7 @@
 /** The side panel: choice of shape, surface and comparison; and the page's buttons. */
 import { element, section, select } from './dom.js';
-import { drawingNames } from './drawing.js';
-import { HOME, RIVAL_NAMES } from './state.js';
+import { drawingsIn } from './drawing.js';
+import { BACKGROUND_NAMES, HOME, RIVAL_NAMES } from './state.js';
 
 /**
  * @typedef {import('./state.js').State} State
@@ -47,6 +47,36 @@ function shapesSection(state) {
 /** Whether a rival is made from the drawing, which not every texture comes with. @param {string} rival */
 const needsSource = (rival) => rival !== '' && rival !== 'raster';
 
+/** What the choice of a colour of one's own is called among the backgrounds. */
+const OWN = 'own';
+
+/**
+ * The choice of what lies below the picture.
+ *
+ * @param {State} state
+ */
+function backgroundRows(state) {
+  const choices = /** @type {[string, string][]} */ ([...Object.entries(BACKGROUND_NAMES), [OWN, 'A colour…']]);
+  const set = (/** @type {string} */ value) => {
+    state.update({ background: /** @type {import('./state.js').Background} */ (value) });
+  };
+  const color = element('input', {
+    type: 'color', 'aria-label': 'Colour of the background', value: '#7fb2e5', oninput: () => set(color.value),
+  });
+  const choice = select('Background', choices, (value) => set(value === OWN ? color.value : value));
+  const own = element('div', { class: 'row', hidden: true }, element('span', {}, 'Its colour'), color);
+  const follow = () => {
+    const { background } = state.value;
+    const isOwn = background.startsWith('#');
+    choice.list.value = isOwn ? OWN : background;
+    if (isOwn) color.value = background;
+    own.hidden = !isOwn;
+  };
+  state.addEventListener('change', follow);
+  follow();
+  return [choice.row, own];
+}
+
 /**
  * @param {Engine} engine
  * @param {State} state
@@ -60,17 +90,18 @@ function viewSection(engine, state) {
   });
   const why = element('p', { class: 'why', id: 'why-flat', hidden: true }, 'Comparisons are made on the flat surface.');
   rival.list.setAttribute('aria-describedby', 'why-flat');
-  const drawing = select('Drawing', [], (value) => state.update({ drawing: value }));
+  const drawing = select('Drawing', [], (value) => state.update({ drawing: value, ...HOME }));
   const follow = () => {
     surface.list.value = state.value.mode;
     rival.list.value = state.value.compare ?? '';
     rival.list.disabled = state.value.mode !== 'flat';
     why.hidden = !rival.list.disabled;
-    drawing.list.value = state.value.drawing || drawing.list.options[0]?.value || '';
+    drawing.list.value = state.value.drawing;
   };
   engine.addEventListener('shape', () => {
-    const names = engine.texture ? drawingNames(engine.texture) : [];
-    drawing.list.replaceChildren(...names.map((name) => element('option', { value: name }, name)));
+    const names = engine.texture ? drawingsIn(engine.texture).map(({ name }) => name) : [];
+    drawing.list.replaceChildren(element('option', { value: '' }, `All ${names.length.toLocaleString('en')}`),
+      ...names.map((name) => element('option', { value: name }, name)));
     drawing.row.hidden = names.length < 2;
     for (const option of rival.list.options) {
       option.disabled = needsSource(option.value) && !(option.value in (engine.document?.manifest.views ?? {}));
@@ -78,15 +109,17 @@ function viewSection(engine, state) {
     follow();
   });
   drawing.row.hidden = true;
+  for (const row of [surface.row, rival.row, why]) row.classList.add('of-one');
   state.addEventListener('change', follow);
   follow();
-  return { box: section('View', drawing.row, surface.row, rival.row, why), rival: rival.list };
+  return { box: section('View', drawing.row, surface.row, ...backgroundRows(state), rival.row, why), rival: rival.list };
 }
 
 /**
  * @typedef {object} Action
  * @property {string} label
  * @property {() => void} act
+ * @property {boolean} [ofOne] whether it needs a drawing that is shown
  */
 
 /**
@@ -99,7 +132,8 @@ export function createPanel(engine, state, actions) {
   const shapes = shapesSection(state);
   const view = viewSection(engine, state);
   const extras = element('div', { class: 'extras' });
-  const buttons = actions.map(({ label, act }) => element('button', { type: 'button', onclick: act }, label));
+  const buttons = actions.map(({ label, act, ofOne }) =>
+    element('button', { type: 'button', class: ofOne ? 'of-one' : null, onclick: act }, label));
   const foot = element('div', { class: 'actions' }, ...buttons);
   const panel = element(
     'aside', { id: 'panel', class: 'panel', 'aria-label': 'Controls' }, title, shapes.box, view.box, extras, foot,

@@ -1,6 +1,6 @@
 /** The drawing on a plane, a sphere or a cube, lit, turned by hand. */
 import {
-  BoxGeometry, Color, DirectionalLight, DoubleSide, FrontSide, HemisphereLight, Matrix3, Mesh, MeshLambertMaterial,
+  BoxGeometry, DirectionalLight, DoubleSide, FrontSide, HemisphereLight, Matrix3, Mesh, MeshLambertMaterial,
   PerspectiveCamera, PlaneGeometry, Raycaster, Scene, SphereGeometry, Vector2,
 } from 'three';
 import { applyVectorMask } from '../src/vector-mask.js';
@@ -11,7 +11,7 @@ import { applyVectorMask } from '../src/vector-mask.js';
  * @typedef {'plane' | 'sphere' | 'cube'} Surface
  */
 
-/** Of the object, in both themes: drawings are made for light paper. */
+/** Of the object, on any backdrop: drawings are made for light paper. */
 const PAPER = '#f3f1ea';
 const FIELD_OF_VIEW = 30;
 const AWAY = 5.2;
@@ -76,11 +76,11 @@ export class Solid {
 
   /**
    * @param {import('three').WebGLRenderer} renderer
-   * @param {import('./theme.js').Colors} colors
+   * @param {import('./backdrop.js').Backdrop} backdrop
    */
-  draw(renderer, colors) {
-    renderer.setClearColor(new Color().setRGB(...colors.paper, 'srgb'), 1);
+  draw(renderer, backdrop) {
     renderer.clear();
+    backdrop.pass.draw(renderer);
     renderer.render(this.scene, this.camera);
   }
 

@@ -3,6 +3,7 @@
  *
  * @typedef {'flat' | 'plane' | 'sphere' | 'cube'} Mode
  * @typedef {'light' | 'dark' | 'system'} Theme
+ * @typedef {'theme' | 'white' | 'black' | 'checks' | `#${string}`} Background what lies below the drawing; #rrggbb: a colour
  * @typedef {'thesis16' | 'thesis8' | 'raster' | 'svg'} Rival what the texture is compared with
  *
  * @typedef {object} Overlays
@@ -22,7 +23,8 @@
  * @property {number} yaw radians, of the mesh
  * @property {number} pitch radians
  * @property {number} distance how near the mesh is: 1 shows it whole, 2 twice as large
- * @property {Theme} theme
+ * @property {Theme} theme of the page around the picture
+ * @property {Background} background of the picture
  * @property {Rival | null} compare
  * @property {number} split where the divider stands, 0..1
  * @property {Overlays} overlays
@@ -31,6 +33,11 @@ import { LEAST_ZOOM, MOST_ZOOM, clamp, held } from './view.js';
 
 export const MODES = Object.freeze(/** @type {Mode[]} */ (['flat', 'plane', 'sphere', 'cube']));
 export const THEMES = Object.freeze(/** @type {Theme[]} */ (['system', 'light', 'dark']));
+/** What people read of each background. @type {Readonly<Record<string, string>>} */
+export const BACKGROUND_NAMES = Object.freeze({
+  white: 'White', black: 'Black', checks: 'Checkerboard', theme: 'As the page',
+});
+const COLOR = /^#[0-9a-f]{6}$/;
 /** What people read of each rival. @type {Readonly<Record<Rival, string>>} */
 export const RIVAL_NAMES = Object.freeze({
   thesis16: '16-bit original method (2018)', thesis8: '8-bit original method (2018)', raster: 'Raster of equal bytes',
@@ -44,6 +51,8 @@ export const MOST_PITCH = Math.PI / 2;
 export const MOST_CUTOFF = 8;
 
 const VERSION = '1';
+/** Of a link from before backgrounds could be chosen. */
+const LAST_FIELDS = 15;
 
 /** @type {Readonly<Overlays>} */
 const NO_OVERLAYS = Object.freeze({
@@ -55,7 +64,7 @@ const SWITCHES = /** @type {const} */ (['cells', 'coverage', 'depth', 'inspect',
 /** @type {Readonly<ViewState>} */
 export const START = Object.freeze({
   shape: '', drawing: '', center: Object.freeze(/** @type {[number, number]} */ ([0.5, 0.5])), zoom: 1, mode: 'flat',
-  yaw: -0.4, pitch: 0.3, distance: 1, theme: 'system', compare: null, split: 0.5, overlays: NO_OVERLAYS,
+  yaw: -0.4, pitch: 0.3, distance: 1, theme: 'system', background: 'white', compare: null, split: 0.5, overlays: NO_OVERLAYS,
 });
 
 /** Where another shape is seen from first: all of it, from home. */
@@ -128,7 +137,7 @@ export function encodeView(value) {
   const bits = SWITCHES.reduce((sum, key, bit) => sum + (value.overlays[key] ? 1 << bit : 0), 0);
   const fields = [
     VERSION, value.shape, value.drawing, value.center[0], value.center[1], value.zoom, value.mode, value.yaw,
-    value.pitch, value.distance, value.theme, value.compare ?? '', value.split, bits, value.overlays.cutoff,
+    value.pitch, value.distance, value.theme, value.compare ?? '', value.split, bits, value.overlays.cutoff, value.background,
   ];
   return fields.map((field) => encodeURIComponent(String(field)).replaceAll('~', '%7E')).join('~');
 }
@@ -146,20 +155,23 @@ export function decodeView(text) {
   } catch {
     return null;
   }
-  if (fields.length !== 15 || fields[0] !== VERSION) return null;
-  const [, shape, drawing, u, v, zoom, mode, yaw, pitch, distance, theme, compare, split, bits, cutoff] = fields;
+  if (fields.length === LAST_FIELDS) fields.push(START.background);
+  if (fields.length !== LAST_FIELDS + 1 || fields[0] !== VERSION) return null;
+  const [, shape, drawing, u, v, zoom, mode, yaw, pitch, distance, theme, compare, split, bits, cutoff, below] = fields;
   const texts = [u, v, zoom, yaw, pitch, distance, split, bits, cutoff];
   const numbers = texts.map((field) => (field.trim() === '' ? NaN : Number(field)));
   if (!numbers.every(Number.isFinite)) return null;
   const [un, vn, zoomn, yawn, pitchn, distancen, splitn, bitsn, cutoffn] = numbers;
   const known = /** @type {string[]} */ ([...MODES]).includes(mode)
     && /** @type {string[]} */ ([...THEMES]).includes(theme)
+    && (below in BACKGROUND_NAMES || COLOR.test(below))
     && (compare === '' || /** @type {string[]} */ ([...RIVALS]).includes(compare));
   if (!known || zoomn < LEAST_ZOOM || zoomn > MOST_ZOOM || bitsn < 0 || bitsn >= 1 << SWITCHES.length) return null;
   const switches = Object.fromEntries(SWITCHES.map((key, bit) => [key, ((bitsn >> bit) & 1) === 1]));
   return within({
     shape, drawing, center: [un, vn], zoom: zoomn, mode: /** @type {Mode} */ (mode), yaw: yawn, pitch: pitchn,
-    distance: distancen, theme: /** @type {Theme} */ (theme), compare: /** @type {Rival | null} */ (compare || null),
+    distance: distancen, theme: /** @type {Theme} */ (theme),
+    background: /** @type {Background} */ (below), compare: /** @type {Rival | null} */ (compare || null),
     split: splitn, overlays: /** @type {Overlays} */ ({ ...NO_OVERLAYS, ...switches, cutoff: cutoffn }),
   });
 }

@@ -1,9 +1,4 @@
-/** Light, dark, or what the system prefers; the stylesheet holds the colours. */
-
-/**
- * @typedef {[number, number, number]} Rgb sRGB, 0..1
- * @typedef {{paper: Rgb, ink: Rgb}} Colors of the picture
- */
+/** Light, dark, or what the system prefers, of the page around the picture; the stylesheet holds the colours. */
 
 const DARK = matchMedia('(prefers-color-scheme: dark)');
 
@@ -19,15 +14,4 @@ export function applyTheme(theme) {
 /** @param {() => void} changed called when the system's preference does */
 export function watchSystemTheme(changed) {
   DARK.addEventListener('change', changed);
-}
-
-/** @returns {Colors} */
-export function pictureColors() {
-  const style = getComputedStyle(document.documentElement);
-  /** @param {string} name @returns {Rgb} */
-  const color = (name) => {
-    const value = parseInt(style.getPropertyValue(name).trim().slice(1), 16);
-    return [(value >> 16) / 255, ((value >> 8) & 255) / 255, (value & 255) / 255];
-  };
-  return { paper: color('--paper'), ink: color('--ink') };
 }

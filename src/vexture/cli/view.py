@@ -26,7 +26,10 @@ Examples:
 @click.option("--no-open", "opening", is_flag=True, flag_value=False, default=True, help="Open no browser.")
 @conversion_options
 def view(files: tuple[Path, ...], watching: bool, port: int, host: str, opening: bool, **conversion: Any) -> None:
-    """Show drawings or packed textures in the browser, until Ctrl-C."""
+    """Show drawings or packed textures in the browser, until Ctrl-C.
+
+    The page's own texture is made for deep zoom; the page tells the smaller size that `vexture convert` writes, too.
+    """
     with one_line():
         from vexture.live.view import view as serve
 

@@ -10,7 +10,7 @@ from vexture.content import FileKind, about, decompressed, kind_of, known_kind, 
 from vexture.errors import SourceError
 from vexture.live.shelf import TEXTURE_TYPE, File, Shape
 from vexture.notes import line_of
-from vexture.parameters import Parameters
+from vexture.parameters import Parameters, Split
 
 if TYPE_CHECKING:
     import numpy as np
@@ -43,6 +43,9 @@ PUBLISHED_PARAMETERS = Parameters(split="faces")
 THESIS_BITS = {"thesis16": 16, "thesis8": 8}
 """Bits per channel of each view in the thesis encoding."""
 
+CONVERTED = "converted"
+"""The view that is what `vexture convert` writes by default: small, where the viewer's own is made for deep zoom."""
+
 ANONYMOUS_WINDOW = (300.0, 150.0)
 """Pixels: the size at which browsers show an SVG without one (CSS 2.1, 10.3.2)."""
 
@@ -55,7 +58,8 @@ def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters, fol
     """Convert the content of a file, or check and keep that of a packed texture, into a shape that can be published.
 
     The file's name, which stands in messages, is never opened; only the images of an SVG in `folder` are. The facts of
-    the shape hold the notes as text; its views hold the source of an SVG, to compare with.
+    the shape hold the notes as text; its views hold what to compare with: the source of an SVG, and, where a precision
+    is asked for, the texture that `vexture convert` writes.
 
     Examples
     --------
@@ -81,11 +85,14 @@ def shape_of(data: bytes, file_name: str, name: str, parameters: Parameters, fol
         drawing, framed = framed_drawing(plain, file_name, parameters.select, fonts=fonts, images=images)
     else:
         drawing = read_drawing(plain, name=file_name, select=parameters.select)
-    shape = converted(replace(drawing, name=name), file_name, parameters, start)
+    named = replace(drawing, name=name)
+    shape = converted(named, file_name, parameters, start)
+    if parameters.precision is not None:
+        shape = replace(shape, views={CONVERTED: _as_written(named, file_name, parameters)})
     if kind is not FileKind.SVG:
         return shape
     facts = {**shape.facts, "box": _box_in_browsers(framed, drawing.to_source)}
-    return replace(shape, facts=facts, views={"svg": File(plain, "image/svg+xml", ".svg")})
+    return replace(shape, facts=facts, views={**shape.views, "svg": File(plain, "image/svg+xml", ".svg")})
 
 
 def thesis_pair(shape: Shape, bits: int) -> tuple[bytes, ...]:
@@ -130,10 +137,17 @@ def converted(drawing: "Drawing", file_name: str, parameters: Parameters, start:
         "distance": max(tree.deviation for tree in part.trees) + part.rounding,
         "to_source": drawing.to_source.ravel().tolist(),
         "box": None,
+        "select": parameters.select,
         "warnings": [line] if line else [],
         "notes": [note.facts() for note in part.notes],
     }
     return Shape(drawing.name, File(data, TEXTURE_TYPE, ".ktx2"), facts)
+
+
+def _as_written(drawing: "Drawing", file_name: str, parameters: Parameters) -> File:
+    """The file that `vexture convert` writes, at its own accuracy, of a drawing that is read already."""
+    split: Split = "auto" if parameters.split == VIEWER_PARAMETERS.split else parameters.split
+    return converted(drawing, file_name, Parameters(split=split, max_seconds=parameters.max_seconds), 0.0).texture
 
 
 def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
@@ -152,6 +166,7 @@ def texture_shape(data: bytes, file_name: str, name: str) -> Shape:
         "distance": max(root["tolerance"] for root in roots),
         "to_source": texture.roots[0].to_source.ravel().tolist(),
         "box": None,
+        "select": None,
         "warnings": [],
         "notes": [],
     }

@@ -31,7 +31,7 @@ from vexture.tree.planar.faces import composite_stacks
 from vexture.tree.planar.layers import solid_layers
 from vexture.tree.planar.style import Style, rounded
 
-__all__ = ["Colour", "renew_means", "restyled"]
+__all__ = ["Colour", "checked_colours", "components", "renew_means", "restyled"]
 
 Colour: TypeAlias = str | Sequence[float] | Paint | None
 """A CSS colour, three or four components in 0..1, a flat paint, or None for nothing."""
@@ -51,27 +51,15 @@ def restyled(
     texture: str,
 ) -> tuple[NDArray[np.uint32], tuple[Root, ...]]:
     """Texels and roots with other colours of elements, in some of the shapes; errors as in `Texture.with_paints`."""
-    if not isinstance(colours, Mapping) or not all(isinstance(name, str) for name in colours):
-        raise ParameterError("the colours are no mapping of elements' names, such as {'sun': 'red'}")
+    rgba = checked_colours(roots, places, colours, texture)
     names = {name: k for k, name in enumerate(colours)}
-    rgba = rounded([_components(name, colour) for name, colour in colours.items()])
-    styles = {place: style_of_root(roots[place]) for place in places}
-    _check_names(names, {name for style in styles.values() for name in style.names} - {""}, texture)
     texels, new = flat.copy(), list(roots)
-    for place, style in styles.items():
-        which = np.array([names.get(name, -1) for name in style.names], np.int64)
-        styled = style.rgba.copy()
-        styled[which >= 0] = rgba[which[which >= 0]]
+    for place in places:
+        style = style_of_root(roots[place])
+        styled = _styled(style, names, rgba)
         changed = (styled != style.rgba).any(axis=1)
         if not changed.any():
             continue
-        faded = changed & style.hides & (styled[:, 3] < 1.0)
-        if faded.any():
-            k = int(faded.argmax())
-            raise ParameterError(
-                f"{style.names[k]!r} gets the opacity {styled[k, 3]:g}, but the texture does not have what it hides; "
-                "make it opaque, or convert the drawing with that colour"
-            )
         restyle = replace(style, rgba=styled)
         _repaint(texels, roots[place].quad, restyle, changed)
         for k, root in enumerate(roots):
@@ -80,7 +68,37 @@ def restyled(
     return texels, tuple(new)
 
 
-def _components(name: str, colour: Any) -> tuple[float, ...]:
+def checked_colours(
+    roots: Sequence[Root], places: Sequence[int], colours: Mapping[str, Colour], texture: str
+) -> NDArray[np.float64]:
+    """Components of the new colours of elements of some shapes, (n, 4); errors as in `Texture.with_paints`."""
+    if not isinstance(colours, Mapping) or not all(isinstance(name, str) for name in colours):
+        raise ParameterError("the colours are no mapping of elements' names, such as {'sun': 'red'}")
+    names = {name: k for k, name in enumerate(colours)}
+    rgba = rounded([components(name, colour) for name, colour in colours.items()])
+    styles = [style_of_root(roots[place]) for place in places]
+    _check_names(names, {name for style in styles for name in style.names} - {""}, texture)
+    for style in styles:
+        styled = _styled(style, names, rgba)
+        faded = (styled != style.rgba).any(axis=1) & style.hides & (styled[:, 3] < 1.0)
+        if faded.any():
+            k = int(faded.argmax())
+            raise ParameterError(
+                f"{style.names[k]!r} gets the opacity {styled[k, 3]:g}, but the texture does not have what it hides; "
+                "make it opaque, or convert the drawing with that colour"
+            )
+    return rgba
+
+
+def _styled(style: Style, names: Mapping[str, int], rgba: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Components of all elements of a style, of which some have new ones."""
+    which = np.array([names.get(name, -1) for name in style.names], np.int64)
+    styled = style.rgba.copy()
+    styled[which >= 0] = rgba[which[which >= 0]]
+    return styled
+
+
+def components(name: str, colour: Any) -> tuple[float, ...]:
     """Red, green, blue and opacity of a colour that a user gives, in 0..1."""
     if isinstance(colour, str) and colour.strip().lower() != "none":
         from vexture.svg.colors import Color, parse_color  # late: CSS is needed for texts only

@@ -2,3 +2,5 @@
 export { ThesisLoader } from './loader.js';
 export { readThesis } from './read.js';
 export { ThesisTexture } from './texture.js';
+
+/** @typedef {import('./read.js').ThesisData} ThesisData */

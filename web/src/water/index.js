@@ -19,3 +19,9 @@ export function chooseWater() {
   const memory = /** @type {{ deviceMemory?: number }} */ (navigator).deviceMemory ?? Infinity;
   return matchMedia('(pointer: coarse)').matches || memory <= LITTLE_MEMORY ? SimpleWater : VectorWater;
 }
+
+/** @typedef {import('./fields.js').Calm} Calm */
+/** @typedef {import('./fields.js').DepthColors} DepthColors */
+/** @typedef {import('./shape.js').Foam} Foam */
+/** @typedef {import('./simple-water.js').SimpleWaterOptions} SimpleWaterOptions */
+/** @typedef {import('./vector-water.js').VectorWaterOptions} VectorWaterOptions */

@@ -193,7 +193,7 @@ export function watered(base) {
      * Take the options that all kinds of water have, and update the shape's rasters before each frame. The subclass calls
      * this once `shape` is set.
      *
-     * @param {WaterOptions} options
+     * @param {import('./mesh.js').WaterOptions} options
      */
     follow({ fold = null, fields = null, calm = {}, depthColors = null }) {
       Object.assign(this.material.uniforms, this.ownFields.uniforms);

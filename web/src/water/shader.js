@@ -1,6 +1,7 @@
 // Text that water inserts into a shader: declarations, and calls of the functions of src/vexture/glsl/water.glsl.
 import { fold } from '../../generated/fold-shader.js';
-import { WRAPS, steps } from '../../generated/shaders.js';
+import { steps } from '../../generated/shaders.js';
+import { WRAPS } from '../../generated/wraps.js';
 import { depths, shore, water } from '../../generated/water-shader.js';
 import { foldLines, footprint } from '../mask-shader.js';
 import { FIELDS } from './fields.js';

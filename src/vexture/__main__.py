@@ -1,0 +1,6 @@
+"""`python -m vexture` is the program `vexture`, also where its folder is not on the PATH."""
+
+from vexture.cli.main import main
+
+if __name__ == "__main__":
+    main(prog_name="vexture")

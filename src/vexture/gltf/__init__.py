@@ -1,0 +1,1 @@
+"""Models of glTF: vector textures on their materials."""

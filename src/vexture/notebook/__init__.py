@@ -1,0 +1,1 @@
+"""Drawings, textures and floods as widgets of notebooks (`vexture[notebook]`)."""

@@ -1,0 +1,121 @@
+"""Models that are damaged or hostile: one line for each, and nothing is written."""
+
+import json
+import struct
+
+import pytest
+
+import vexture
+from room import glb, room
+
+WHOLE = glb(*room())
+KITE = vexture.Drawing.polygon([(0.5, 0.1), (0.8, 0.6), (0.5, 0.9), (0.2, 0.6)])
+
+
+def patched(at, value):
+    return WHOLE[:at] + struct.pack("<I", value) + WHOLE[at + 4 :]
+
+
+def text(**members):
+    return json.dumps({"asset": {"version": "2.0"}, "materials": [{"name": "Sign"}], **members}).encode()
+
+
+DAMAGED = {
+    "empty": (b"", "is no glTF; give a .glb or a .gltf"),
+    "magic": (b"glTf" + WHOLE[4:], "is no glTF; give a .glb or a .gltf"),
+    "head": (WHOLE[:11], "breaks off after 11 bytes"),
+    "version 1": (patched(4, 1), "is glTF 1; vexture reads glTF 2"),
+    "short": (WHOLE[:-1], f"its header says {len(WHOLE)} bytes, and it has {len(WHOLE) - 1}"),
+    "no length": (patched(8, 3), "its header says 3 bytes"),
+    "huge length": (patched(8, 2**32 - 1), "its header says 4294967295 bytes"),
+    "huge chunk": (patched(12, 2**32 - 1), "its chunk at 20 says 4294967295 bytes"),
+    "half a chunk": (
+        glb(*room(), (b"XTRA", b""))[:8] + struct.pack("<I", len(WHOLE) + 4) + WHOLE[12:] + bytes(4),
+        "breaks off in the head of a chunk",
+    ),
+    "no chunk": (struct.pack("<4sII", b"glTF", 2, 12), "its first chunk is not JSON"),
+    "binary first": (glb({}, None)[:16] + b"BIN\0" + glb({}, None)[20:], "its first chunk is not JSON"),
+    "no JSON": (glb({})[:20] + b"{]  ", "its JSON cannot be read"),
+    "no UTF-8": (b'{"asset": "\xff"}', "its JSON cannot be read"),
+    "no object": (glb([1]), "its JSON is no object"),
+    "nested": (b'{"a":' * 200 + b"1" + b"}" * 200, "its JSON is nested deeper than 128 levels"),
+    "nested further": (b'{"a":' + b"[" * 10**6, "its JSON cannot be read"),
+    "no number": (text(a=float("nan")), "its JSON cannot be read (NaN is no number"),
+    "infinite": (text(a=1).replace(b'"a": 1', b'"a": 1e999'), "its JSON has a number that is too large"),
+    "digits": (text(a=1).replace(b'"a": 1', b'"a": ' + b"9" * 5000), "its JSON cannot be read"),
+    "no asset": (b"{}", "asset.version is None; vexture reads glTF 2.0"),
+    "asset 1": (text(asset={"version": "1.0"}), "asset.version is '1.0'"),
+    "asset list": (text(asset=[]), "asset.version is None"),
+    "materials": (text(materials={"a": 1}), "materials is no list of objects"),
+    "material": (text(materials=[1]), "materials is no list of objects"),
+}
+
+
+@pytest.mark.parametrize("name", DAMAGED)
+def test_a_damaged_model_is_refused_in_a_line(name):
+    content, message = DAMAGED[name]
+    with pytest.raises(vexture.SourceError) as caught:
+        vexture.read_model(content, name="m")
+    assert str(caught.value).startswith(f"m: {message}")
+    assert len(str(caught.value)) < 250
+
+
+CHANGED = {
+    "extensions": ({"extensions": []}, "extensions is no object"),
+    "ours": ({"extensions": {"VEXTURE_vector_texture": 1}}, "extensions.VEXTURE_vector_texture is no object"),
+    "textures": ({"extensions": {"VEXTURE_vector_texture": {"textures": 1}}}, "textures is no list of objects"),
+    "used": ({"extensionsUsed": {}}, "extensionsUsed is no list"),
+    "of a material": ({"materials": [{"extensions": 1}]}, "materials[0].extensions is no object"),
+    "primitives": ({"meshes": [{"primitives": 1}]}, "primitives is no list of objects"),
+}
+
+
+@pytest.mark.parametrize("name", CHANGED)
+def test_a_part_that_is_not_what_it_should_be_is_refused(name):
+    members, message = CHANGED[name]
+    model = vexture.read_model(text(**members), name="m")
+    with pytest.raises(vexture.SourceError) as caught:
+        model.with_drawing(0, KITE)
+    assert str(caught.value).startswith(f"m: {message}")
+
+
+OTHERWISE = {
+    "link.bin": "leads out of its folder",
+    "missing.bin": "cannot be read (No such file or directory)",
+    "data:,abc": "is not base64",
+    "data:;base64,***": "is no base64",
+}
+ADDRESSES = (
+    *("../secret.bin", "%2e%2e/secret.bin", "..\\secret.bin", "/etc/hostname", "file:///etc/hostname", "C:\\secret"),
+    *("http://a/secret.bin", "//a/b", "a\0b", "parts/../../secret.bin", *OTHERWISE),
+)
+
+
+@pytest.mark.parametrize("uri", ADDRESSES)
+def test_only_files_beside_a_model_are_read(tmp_path, uri):
+    folder = tmp_path / "models"
+    folder.mkdir()
+    (tmp_path / "secret.bin").write_bytes(b"secret")
+    (folder / "link.bin").symlink_to(tmp_path / "secret.bin")
+    (folder / "m.gltf").write_bytes(text(buffers=[{"uri": uri, "byteLength": 6}]))
+    model = vexture.read_model(folder / "m.gltf").with_drawing("Sign", KITE)
+    with pytest.raises(vexture.SourceError) as caught:
+        model.save(tmp_path / "out.glb")
+    assert str(caught.value).startswith(str(folder / "m.gltf"))
+    assert OTHERWISE.get(uri, "and only files beside it or in folders there are read") in str(caught.value)
+    assert str(caught.value).isprintable()
+    assert not (tmp_path / "out.glb").exists()
+
+
+def test_files_that_only_an_extension_knows_are_not_left_behind(tmp_path):
+    (tmp_path / "m.gltf").write_bytes(text(extensions={"VENDOR_sound": {"audio": [{"uri": "ring.mp3"}]}}))
+    model = vexture.read_model(tmp_path / "m.gltf").with_drawing("Sign", KITE)
+    with pytest.raises(vexture.SourceError, match=r"an extension of it refers to the file ring\.mp3; write a \.gltf"):
+        model.save(tmp_path / "out.glb")
+    assert model.save(tmp_path / "out.gltf").is_file()
+
+
+def test_half_a_character_stays_one(tmp_path):
+    (tmp_path / "m.gltf").write_bytes(text(extras="\ud83d"))
+    model = vexture.read_model(tmp_path / "m.gltf").with_drawing("Sign", KITE)
+    assert json.loads(model.save(tmp_path / "out.gltf").read_bytes())["extras"] == "\ud83d"

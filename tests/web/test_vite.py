@@ -1,0 +1,188 @@
+"""The Vite plugin in projects of real Vite: builds, a development server, and what it says without a converter."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+from browser import ROOT, WEB
+
+import vexture
+from guides import free_port
+from viewing import PATIENCE, until
+
+FIXTURES = WEB / "test" / "fixtures"
+VITE = WEB / "node_modules" / "vite" / "bin" / "vite.js"
+HOSTILE = "a & b's $(touch evil) %41#é"
+"""Name of a drawing, but for its suffix."""
+
+CONFIG = "import vexture from 'vexture/vite';\nexport default {{ plugins: [vexture({options})] }};\n"
+NODE = shutil.which("node") or "node"
+
+
+class Project:
+    """A project of Vite, whose own environment of Python has a converter: that of this checkout."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self.calls = folder, folder / "calls"
+        for name in ("vexture", "vite"):
+            modules = folder / "node_modules"
+            modules.mkdir(exist_ok=True, parents=True)
+            (modules / name).symlink_to(WEB if name == "vexture" else WEB / "node_modules" / "vite")
+        (folder / "package.json").write_text('{"type": "module"}', encoding="utf-8")
+        (folder / "index.html").write_text('<script type="module" src="/main.js"></script>', encoding="utf-8")
+        self.program(folder / ".venv" / "bin" / "vexture", "-m vexture")
+        self.configure()
+
+    def configure(self, options: str = "") -> None:
+        (self.folder / "vite.config.js").write_text(CONFIG.format(options=options), encoding="utf-8")
+
+    def program(self, path: Path, arguments: str) -> None:
+        """Write a program that is this Python, and tells what it is asked for."""
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(f'#!/bin/sh\necho "$@" >> "{self.calls}"\nexec "{sys.executable}" {arguments} "$@"\n')
+        path.chmod(0o755)
+
+    def imports(self, *names: str) -> None:
+        lines = [f"import a{k} from {f'./{name}'!r};\nconsole.log(a{k});" for k, name in enumerate(names)]
+        (self.folder / "main.js").write_text("\n".join(lines), encoding="utf-8")
+
+    def conversions(self) -> int:
+        """How many there were since the last question."""
+        text = self.calls.read_text() if self.calls.exists() else ""
+        self.calls.unlink(missing_ok=True)
+        return len(re.findall(r"^.*convert .*--output", text, re.M))
+
+    def build(self, **environment: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [NODE, VITE, "build", "--logLevel", "warn"],
+            cwd=self.folder,
+            env=os.environ | environment,
+            capture_output=True,
+            text=True,
+        )
+
+    def built(self) -> list[Path]:
+        outcome = self.build()
+        assert outcome.returncode == 0, outcome.stdout + outcome.stderr
+        return sorted((self.folder / "dist" / "assets").glob("*.ktx2"))
+
+    @contextmanager
+    def served(self, **environment: str) -> Any:
+        port = free_port()
+        command = [NODE, VITE, "--port", str(port), "--strictPort", "--host", "127.0.0.1"]
+        into: dict[str, Any] = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        with subprocess.Popen(command, cwd=self.folder, env=os.environ | environment, **into) as server:
+            try:
+                with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE) as client:
+                    yield client
+            finally:
+                server.terminate()
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    if not VITE.is_file():
+        pytest.skip("the packages of web/ are not installed (npm ci --prefix web)")
+    return Project(tmp_path / "project")
+
+
+def answered(client: httpx.Client, path: str) -> httpx.Response | None:
+    try:
+        return client.get(path)
+    except httpx.TransportError:
+        time.sleep(0.05)
+        return None
+
+
+def test_a_build_has_the_textures_under_names_of_their_content(project: Project) -> None:
+    shutil.copy(FIXTURES / "badge.svg", project.folder / f"{HOSTILE}.svg".replace("#", ""))
+    shutil.copy(FIXTURES / "elements.svg", project.folder)
+    name = f"{HOSTILE}.svg".replace("#", "")
+    project.imports(f"{name}?vexture", "elements.svg?restyle&vexture")
+    one, other = project.built()
+    assert project.conversions() == 2
+    script = next((project.folder / "dist" / "assets").glob("*.js")).read_text(encoding="utf-8")
+    for path in (one, other):
+        assert re.fullmatch(r"[\w.-]+-[\w-]{8}\.ktx2", path.name)
+        assert f"/assets/{path.name}" in script
+    assert vexture.load(one).roots[0].name == Path(name).stem
+    assert vexture.load(other).roots[0].style is not None
+    assert not list(project.folder.glob("evil*"))
+    assert project.built() == [one, other]
+    assert project.conversions() == 0, "the cache has them"
+    project.imports(f"{name}?vexture", "elements.svg?restyle&precision=1e-3&vexture")
+    assert other not in project.built()
+    assert project.conversions() == 1, "of what has other options"
+
+
+def test_the_server_shows_the_texture_and_every_save_of_the_drawing(project: Project, tmp_path: Path) -> None:
+    shutil.copy(FIXTURES / "badge.svg", project.folder / "logo.svg")
+    project.imports("logo.svg?vexture")
+
+    def digest(client: httpx.Client) -> str | None:
+        module = answered(client, "/logo.svg?import&vexture")
+        found = module and re.search(r'from "(/[^"]+\.ktx2\?[^"]*)"', module.text)
+        if not found:
+            return None
+        (address,) = re.findall(r'export default "([^"]+)"', client.get(found[1]).text)
+        return sha256(client.get(address).content).hexdigest()
+
+    shutil.rmtree(project.folder / ".venv")
+    project.program(tmp_path / "bin" / "vexture", "-m vexture")
+    with project.served(PATH=f"{tmp_path / 'bin'}:{os.environ['PATH']}") as client:
+        badge = until(lambda: digest(client))
+        assert (
+            badge
+            == sha256(next(project.folder.glob("node_modules/.cache/vexture/*/logo.ktx2")).read_bytes()).hexdigest()
+        )
+        shutil.copy(FIXTURES / "flag.svg", project.folder / "logo.svg")
+        flag = until(lambda: found if (found := digest(client)) != badge else None)
+        assert flag != badge
+        assert project.conversions() == 2
+
+
+@pytest.mark.parametrize(
+    ("query", "message"),
+    [
+        ("logo.svg?vexture&presision=1", "logo.svg: no option is named presision; there are silhouette, restyle"),
+        ("logo.svg?vexture&precision=much", "logo.svg: Invalid value for '--precision'"),
+    ],
+)
+def test_what_is_wrong_is_said(project: Project, query: str, message: str) -> None:
+    shutil.copy(FIXTURES / "badge.svg", project.folder / "logo.svg")
+    project.imports(query)
+    outcome = project.build()
+    assert outcome.returncode == 1
+    assert message in outcome.stderr
+
+
+def test_without_a_converter_one_line_says_what_to_type(project: Project, tmp_path: Path) -> None:
+    shutil.copy(FIXTURES / "badge.svg", project.folder / "logo.svg")
+    project.imports("logo.svg?vexture")
+    shutil.rmtree(project.folder / ".venv")
+    outcome = project.build(PATH=str(tmp_path))
+    assert outcome.returncode == 1
+    (line,) = {line for line in outcome.stderr.splitlines() if "pip install" in line}
+    assert "logo.svg: no converter is in .venv, on the PATH or in Python; type: pip install vexture (or" in line
+    project.configure("{ converter: 'vexturn' }")
+    assert "the converter vexturn does not run; correct the option, or type: pip install" in project.build().stderr
+
+
+def test_a_converter_is_found_in_python(project: Project, tmp_path: Path) -> None:
+    (project.folder / "logo.svg").write_text("nothing")
+    shutil.rmtree(project.folder / ".venv")
+    (project.folder / "vexture").mkdir()  # a module of this name in the project is not the converter
+    project.program(tmp_path / "bin" / "python3", "")
+    project.imports("logo.svg?vexture")
+    outcome = project.build(PATH=f"{tmp_path / 'bin'}:/usr/bin:/bin", PYTHONPATH=str(ROOT / "src"))
+    assert "logo.svg: holds nothing that can be read" in outcome.stderr
+    assert project.calls.read_text().splitlines()[0] == "-P -m vexture --version"

@@ -1,0 +1,25 @@
+import { Matrix3 } from 'three';
+
+/**
+ * @typedef {object} GLTFTransform As in KHR_texture_transform.
+ * @property {readonly [number, number]} [offset]
+ * @property {number} [rotation] in radians
+ * @property {readonly [number, number]} [scale]
+ */
+
+/**
+ * The `transform` of a mask on a model of glTF, whose texture coordinates go down where the unit square goes up.
+ *
+ * The coordinates are scaled, turned, moved and then turned over (FORMAT.md, E.4).
+ *
+ * @param {GLTFTransform} [transform]
+ * @returns {Matrix3} from the mesh's uv to the unit square
+ */
+export function gltfTransform({ offset = [0, 0], rotation = 0, scale = [1, 1] } = {}) {
+  const [c, s] = [Math.cos(rotation), Math.sin(rotation)];
+  return new Matrix3().set(
+    c * scale[0], s * scale[1], offset[0],
+    s * scale[0], -c * scale[1], 1 - offset[1],
+    0, 0, 1,
+  );
+}

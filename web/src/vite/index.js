@@ -1,0 +1,126 @@
+// The Vite plugin: `import logo from './logo.svg?vexture'` is the address of the drawing's texture.
+import { createHash } from 'node:crypto';
+import { access, mkdir, readFile, rename, rm } from 'node:fs/promises';
+import { availableParallelism } from 'node:os';
+import path from 'node:path';
+import { findConverter, run } from './converter.js';
+import { optionsOf, parametersOf } from './options.js';
+
+/**
+ * @typedef {import('./options.js').ConvertOptions} ConvertOptions
+ * @typedef {import('./converter.js').Converter} Converter
+ * @typedef {ConvertOptions & { converter?: string | readonly string[] }} VextureOptions `converter`: the program, and what
+ *   comes before its parameters, if it is not to be looked for; the other options are for all drawings
+ */
+
+const OURS = /\?(?:.*&)?vexture(?:[&=]|$)/;
+
+/** Within Vite's root. */
+const CACHE = 'node_modules/.cache/vexture';
+
+/** As Vite writes paths. @param {string} file */
+const slashed = (file) => file.replaceAll('\\', '/');
+
+/**
+ * Vite's plugin that converts drawings when they are imported with the query `?vexture`. It runs the converter of this
+ * machine, and keeps what it makes until the drawing, an option or the converter is another.
+ *
+ * @param {VextureOptions} [options]
+ * @returns {import('vite').Plugin}
+ */
+export default function vexture({ converter, ...common } = {}) {
+  parametersOf(common); // a wrong name is said when Vite starts
+  let root = process.cwd();
+  const converting = new Conversions(() => findConverter(root, converter));
+  return {
+    name: 'vexture',
+    enforce: 'pre',
+    configResolved(config) {
+      root = config.root;
+    },
+    async load(id) {
+      if (!OURS.test(id)) return null;
+      const [file, query] = divided(id);
+      this.addWatchFile(file);
+      try {
+        const parameters = parametersOf({ ...common, ...optionsOf(query) });
+        const { target, notes } = await converting.converted(file, parameters, path.join(root, CACHE));
+        for (const note of notes) this.warn(`${slashed(path.relative(root, file))}: ${note}`);
+        return { code: `export { default } from ${JSON.stringify(`${slashed(target)}?url&no-inline`)};`, moduleType: 'js' };
+      } catch (error) {
+        return this.error(`${slashed(path.relative(root, file))}: ${error instanceof Error ? error.message : error}`);
+      }
+    },
+  };
+}
+
+/** @param {string} id @returns {[string, string]} file and query */
+function divided(id) {
+  const at = id.indexOf('?');
+  return [id.slice(0, at), id.slice(at + 1)];
+}
+
+/** Conversions, each done once, and no more at a time than there are processors. */
+class Conversions {
+  #find;
+  /** @type {Promise<Converter> | null} */
+  #found = null;
+  /** @type {Map<string, Promise<{ target: string, notes: string[] }>>} */
+  #running = new Map();
+  #free = availableParallelism();
+  /** @type {(() => void)[]} */
+  #waiting = [];
+
+  /** @param {() => Promise<Converter>} find */
+  constructor(find) {
+    this.#find = find;
+  }
+
+  /**
+   * @param {string} file
+   * @param {string[]} parameters
+   * @param {string} cache folder
+   */
+  async converted(file, parameters, cache) {
+    const content = await readFile(file);
+    this.#found ??= this.#find();
+    const { command, version } = await this.#found.catch((error) => {
+      this.#found = null; // somebody may install one meanwhile
+      throw error;
+    });
+    const name = path.parse(file).name;
+    const told = JSON.stringify([version, parameters, name]);
+    const key = createHash('sha256').update(told).update(content).digest('hex').slice(0, 16);
+    const target = path.join(cache, key, `${name.replace(/[^\w.-]/g, '_')}.ktx2`);
+    const work = this.#running.get(target) ?? this.#convert(command, file, parameters, target);
+    this.#running.set(target, work);
+    return work.finally(() => this.#running.delete(target));
+  }
+
+  /**
+   * @param {string[]} command
+   * @param {string} file
+   * @param {string[]} parameters
+   * @param {string} target
+   */
+  async #convert(command, file, parameters, target) {
+    if (await access(target).then(() => true, () => false)) return { target, notes: [] };
+    if (this.#free === 0) await new Promise((/** @type {(value?: unknown) => void} */ go) => this.#waiting.push(go));
+    else this.#free--;
+    const unfinished = path.join(path.dirname(target), `${process.pid}.ktx2`);
+    try {
+      await mkdir(path.dirname(target), { recursive: true });
+      const { code, said } = await run([...command, 'convert', file, ...parameters, '--quiet', `--output=${unfinished}`]);
+      const lines = said.split('\n').filter(Boolean);
+      const notes = lines.map((line) => line.replace(/^(vexture|Error): (warning: )?/, '').replace(`${file}: `, ''));
+      if (code !== 0) throw new Error(notes.at(-1) ?? `the converter ended with ${code}`);
+      await rename(unfinished, target);
+      return { target, notes };
+    } finally {
+      await rm(unfinished, { force: true });
+      const next = this.#waiting.shift();
+      if (next) next();
+      else this.#free++;
+    }
+  }
+}
