@@ -1,6 +1,7 @@
 """The npm package as a stranger gets it: its tarball, its types, its size in a bundle."""
 
 import gzip
+import json
 import shutil
 import subprocess
 import tarfile
