@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 import vexture
 from vexture.renderers.colour import render_cpu_colours
 from vexture.renderers.cpu import render_cpu
-from vexture.renderers.view import fit, window
+from vexture.renderers.view import window
 from vexture.texture.texture import Texture
 
 Picture = NDArray[np.float64]
@@ -63,9 +63,9 @@ def page(address: str, open_page: Callable[..., Any]) -> Any:
     return page
 
 
-def drawn(page: Any, what: str, size: tuple[int, int] = SIZE, **options: Any) -> Picture:
+def drawn(page: Any, scene: str, size: tuple[int, int] = SIZE, **options: Any) -> Picture:
     """A picture in linear light, the top row first."""
-    found = page.evaluate(f"(options) => drawn.{what}(options)", {"size": list(size), **options})
+    found = page.evaluate(f"(options) => drawn.{scene}(options)", {"size": list(size), **options})
     assert found["complaints"] == []
     pixels = np.frombuffer(base64.b64decode(found["pixels"]), np.float32)
     return pixels.reshape(size[1], size[0], 4).astype(float)
@@ -88,8 +88,10 @@ def mirror(name: str, view: Any = None, root: int = 0) -> Picture:
 @pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("name", ["duck", "ring"])
 def test_a_node_of_coverage_is_the_mirrors(page: Any, backend: str, name: str) -> None:
-    views = {(0.0, 0.0, 1.0, 1.0): fit(SIZE), (0.3, 0.25, 0.125, 0.125): window(0.3, 0.25, 0.125, 0.125).matrix(SIZE)}
-    for place, view in views.items():
+    row, column = np.argwhere(np.abs(mirror(name) - 0.5) < 0.2)[20]
+    near = ((column - 5.5) / 100, 1.0 - (row + 6.5) / 100, 0.125, 0.125)
+    for place in ((0.0, 0.0, 1.0, 1.0), near):
+        view = window(*place).matrix(SIZE)
         picture = drawn(page, "node", backend=backend, texture=name, what="vectorCoverage", place=place)
         expected = mirror(name, view)
         assert 0.0 < expected.mean() < 1.0
@@ -154,19 +156,26 @@ def test_a_material_shows_a_shape_and_its_options_are_live(page: Any, backend: s
 def test_every_node_material_can_be_masked(page: Any, backend: str) -> None:
     basic = {"backend": backend, "texture": "duck", "type": "MeshBasicNodeMaterial", "parameters": {"color": 0x2050A0}}
     duck = mirror("duck")
-    ground = over_white(np.ones(SIZE), 0x2050A0)
+    ground, ink = (over_white(np.ones(SIZE), color) for color in (0x2050A0, INK))
     for mask, expected in (
         ({}, over_white(duck, 0x2050A0)),
         ({"mode": "cut", "invert": True}, over_white((duck <= 0.5).astype(float), 0x2050A0)),
-        ({"mode": "mix", "color": INK}, ground + duck[..., None] * (over_white(np.ones(SIZE), INK) - ground)),
-        ({"mode": "mix", "color": INK, "invert": True}, ground + (1 - duck[..., None]) * (over_white(np.ones(SIZE), INK) - ground)),
+        ({"mode": "mix", "color": INK}, ground + duck[..., None] * (ink - ground)),
+        ({"mode": "mix", "color": INK, "invert": True}, ink + duck[..., None] * (ground - ink)),
         ({"transform": [0, 1, 0, 1, 0, 0, 0, 0, 1]}, over_white(duck[::-1, ::-1].T, 0x2050A0)),
     ):
         for clone in (False, True):
             picture = drawn(page, "material", **basic, mask=mask, clone=clone)[..., :3]
             assert np.abs(picture - expected).max() < CLOSE, (mask, clone)
-    for kind in ("MeshLambertNodeMaterial", "MeshStandardNodeMaterial", "MeshPhysicalNodeMaterial", "MeshToonNodeMaterial",
-                 "MeshPhongNodeMaterial", "MeshMatcapNodeMaterial", "SpriteNodeMaterial"):
+    for kind in (
+        "MeshLambertNodeMaterial",
+        "MeshStandardNodeMaterial",
+        "MeshPhysicalNodeMaterial",
+        "MeshToonNodeMaterial",
+        "MeshPhongNodeMaterial",
+        "MeshMatcapNodeMaterial",
+        "SpriteNodeMaterial",
+    ):
         picture = drawn(page, "material", **{**basic, "type": kind}, mask={})[..., :3]
         assert np.abs(picture[duck == 0] - 1.0).max() < CLOSE
         assert (picture[duck == 1].min(axis=1) < 0.9).all()
@@ -204,7 +213,8 @@ def test_a_material_says_when_it_meets_the_wrong_renderer(page: Any) -> None:
     for backend in BACKENDS:
         found = page.evaluate("(options) => drawn.wrong(options)", {"backend": backend, "texture": "duck"})
         every = " | ".join(found["said"] + found["complaints"])
-        assert "'vexture/webgpu'" in every and "WebGPURenderer" in every, every
+        assert "'vexture/webgpu'" in every
+        assert "WebGPURenderer" in every
         assert "MeshStandardMaterial is no node material" in every
         assert "MeshStandardNodeMaterial is a material of WebGPURenderer" in every
     found = page.evaluate("(options) => drawn.wrong(options)", {"backend": "webgl only", "texture": "duck"})

@@ -1,5 +1,5 @@
 /** What of a texture a stage draws, and what is at a point of it. Plain data. */
-import { mapsAmong } from '../src/mask-variant.js';
+import { mapsAmong } from '../src/select-root.js';
 
 /**
  * @typedef {{ first: number, count: number }} Range of roots

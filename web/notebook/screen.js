@@ -3,6 +3,7 @@
  * Each stage has a canvas of its own, to which its picture is copied.
  */
 import { WebGLRenderer } from 'three';
+import { Backdrop } from '../viewer/backdrop.js';
 import { Flat } from '../viewer/flat.js';
 
 /**
@@ -13,8 +14,12 @@ import { Flat } from '../viewer/flat.js';
  * @property {boolean} isSeen whether it is scrolled into the window, or nearly
  */
 
-/** Of silhouettes; what is behind a drawing shines through its canvas. */
-const COLORS = Object.freeze({ ink: /** @type {[number, number, number]} */ ([0, 0, 0]), paper: /** @type {[number, number, number]} */ ([0, 0, 0]) });
+/** Nothing: what is behind a drawing shines through its canvas. */
+function nothing() {
+  const backdrop = new Backdrop();
+  for (const { value } of [backdrop.uniforms.paper, backdrop.uniforms.checks]) value.set(0, 0, 0, 0);
+  return backdrop;
+}
 
 export class Screen {
   /** @type {Set<Drawn>} */
@@ -24,7 +29,7 @@ export class Screen {
   #frame = 0;
   #lost = false;
   /** The programs of all stages. */
-  #flat = new Flat({});
+  #flat = new Flat({}, nothing());
 
   /** @throws {Error} without WebGL 2 */
   constructor() {
@@ -54,8 +59,15 @@ export class Screen {
   /** Compile what draws a stage, if no other stage has needed it. @param {Drawn} stage */
   async prepare({ shown }) {
     if (!shown) return;
-    this.#flat.setDrawing(shown, COLORS);
+    this.#setDrawing(shown);
     await this.#flat.plain.compile(this.renderer);
+  }
+
+  /** @param {import('../viewer/drawing.js').ShownDrawing} shown a silhouette is black */
+  #setDrawing(shown) {
+    this.#flat.setDrawing(shown);
+    this.#flat.uniforms.tint.value.set(0, 0, 0, 1);
+    this.#flat.uniforms.tinted.value = shown.silhouette;
   }
 
   /** Draw a stage in the next frame, or once it is seen. @param {Drawn} stage */
@@ -75,13 +87,12 @@ export class Screen {
     const { renderer } = this;
     const whole = renderer.domElement;
     if (this.#lost || !shown || width === 0 || height === 0) return false;
-    this.#flat.setDrawing(shown, COLORS);
+    this.#setDrawing(shown);
     if (!this.#flat.plain.ready) return false;
     if (whole.width < width || whole.height < height) {
       renderer.setSize(Math.max(whole.width, width), Math.max(whole.height, height), false);
     }
     renderer.setViewport(0, 0, width, height);
-    this.#flat.uniforms.paper.value.set(0, 0, 0, 0);
     this.#flat.setView(view, canvas, 1);
     this.#flat.plain.draw(renderer);
     const picture = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));

@@ -58,6 +58,8 @@ export function shapeMaterial(base, MaskOf, name) {
     /** @type {Mask | null} */
     #mask = null;
     #options = complete(OWN_DEFAULTS, 'MeshBasicMaterial');
+    /** Node materials copy all properties, one after another. */
+    #isCopying = false;
 
     /** @param {VectorMaterialParameters} [parameters] */
     constructor(parameters = {}) {
@@ -88,6 +90,7 @@ export function shapeMaterial(base, MaskOf, name) {
     /** @param {VectorMaterialParameters} [values] */
     setValues(values) {
       if (values === undefined) return; // three.js's constructor calls it, before there are fields
+      if (this.#isCopying) return;
       const own = /** @type {Record<string, unknown>} */ ({});
       const basic = /** @type {Record<string, unknown>} */ ({});
       for (const [key, value] of Object.entries(values)) {
@@ -122,7 +125,9 @@ export function shapeMaterial(base, MaskOf, name) {
 
     /** @param {any} source */
     copy(source) {
+      this.#isCopying = true;
       super.copy(source);
+      this.#isCopying = false;
       if (source.isVectorMaterial) {
         this.#change(null, { ...source.options, transform: source.options.transform.clone() });
         source.mask?.restore(this);

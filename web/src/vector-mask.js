@@ -21,6 +21,15 @@ const MASKS = new WeakMap();
 /** @type {new () => import('./mask-options.js').AllOptions} */
 const WithOptions = withOptions(/** @type {any} */ (Object), NAMES, 'set');
 
+/** WebGPURenderer copies a material to one of nodes, and builds that; what a mask does to a shader would be lost. */
+function refuseWebGPU() {
+  throw new VextureError(
+    "a material with a mask of 'vexture' is drawn by WebGPURenderer; take VectorNodeMaterial or applyVectorMask of " +
+      "'vexture/webgpu'",
+    'renderer',
+  );
+}
+
 /**
  * A shape as the mask of a material, made by `applyVectorMask`. Each option is a property, too; changes take effect in the
  * next frame.
@@ -60,6 +69,12 @@ export class VectorMask extends WithOptions {
    */
   constructor(material, texture, options = {}) {
     super();
+    if ('isNodeMaterial' in material) {
+      throw new VextureError(
+        `${material.type} is a material of WebGPURenderer; take applyVectorMask of 'vexture/webgpu'`,
+        'material',
+      );
+    }
     if (MASKS.has(material)) {
       throw new VextureError(
         `${material.name || material.type} has a vector mask already; change that one, or remove() it first`,
@@ -77,6 +92,7 @@ export class VectorMask extends WithOptions {
     );
     this.#clone = material.clone;
     material.clone = this.#cloned;
+    Object.assign(material, { build: refuseWebGPU });
     MASKS.set(material, this);
     this.#refresh();
     this.#listen(true);
@@ -241,6 +257,7 @@ export class VectorMask extends WithOptions {
     this.#listen(false);
     this.#material.removeEventListener('dispose', this.#onDispose);
     this.#material.transparent = this.#transparent;
+    delete (/** @type {{ build?: unknown }} */ (this.#material).build);
     if (MASKS.get(this.#material) === this) MASKS.delete(this.#material);
   }
 
