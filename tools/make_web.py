@@ -25,11 +25,16 @@ __all__ = ["main"]
 FOLDER: Final = Path(__file__).resolve().parents[1] / "web" / "generated"
 HEADER: Final = "// Made by tools/make_web.py; change {owner} and run it again.\n"
 
-PACKED_FILES: Final = {"packed": "layers.glsl", "planar": "sheets.glsl"}
-"""Exports that read a packed texture, and the file whose functions each offers."""
+PACKED: Final = "layers.glsl"
+"""The file whose functions read packed textures without planar maps."""
+
+PLANAR: Final = "sheets.glsl"
+"""The file whose functions read all of them."""
 
 OVERLAY: Final = "overlay.glsl"
 """Stands after either of them."""
+
+NUMBERED: Final = "{}; the numbers that it asks for by #ifndef may be defined before it."
 
 COMMENT: Final = re.compile(r"[ \t]*//.*$", re.MULTILINE)
 
@@ -50,6 +55,13 @@ SPACES: Final = re.compile(r"(?<![+-]) +(?=[^\w\s])|(?<=[^\w\s]) +(?![+-])")
 """Those between two words, and between two signs, stay."""
 
 
+WORDS: Final = re.compile(r"\w\w|\+\+|--")
+"""An end and a beginning that must not meet."""
+
+ENDS: Final = re.compile(r"\};?$|\S.*;$")
+"""What ends something outside of functions: nothing stands before it."""
+
+
 def apart(text: str) -> str:
     """Shader text whose global names begin with a prefix, to stand in one program with other people's."""
     names = set(GLOBAL.findall(COMMENT.sub("", text))) | {"LEVELS", "FOLD_HEIGHT"}
@@ -57,13 +69,19 @@ def apart(text: str) -> str:
 
 
 def bare(text: str) -> str:
-    """Shader text without comments, empty lines and spaces that separate nothing: nobody reads it in a bundle."""
-    lines = []
+    """Shader text without comments, and without breaks and spaces that separate nothing: nobody reads it in a bundle.
+
+    A function is one line, since compilers name the line of an error.
+    """
+    bared = ""
     for line in COMMENT.sub("", text).splitlines():
         stripped = line.strip()
-        if stripped:
-            lines.append(stripped if stripped.startswith("#") else SPACES.sub("", stripped))
-    return "\n".join(lines) + "\n"
+        if stripped.startswith("#"):
+            bared += ("" if bared.endswith("\n") else "\n") + f"{stripped}\n"
+        elif stripped:
+            bared += (" " if WORDS.search(f"{bared[-1:]}{stripped[0]}") else "") + SPACES.sub("", stripped)
+            bared += "\n" if ENDS.match(line) else ""
+    return bared.lstrip("\n") + ("" if bared.endswith("\n") else "\n")
 
 
 def inlined(text: str) -> str:
@@ -92,19 +110,23 @@ def packed_text(file: str) -> str:
 
 
 def shaders() -> str:
-    """Text of the module with the shaders."""
+    """Text of the module with the shaders, but for those of planar maps."""
     parts = [HEADER.format(owner="src/vexture/glsl/")]
-    packed, planar = (packed_text(file) for file in PACKED_FILES.values())
-    assert planar.startswith(packed), "sheets.glsl must include layers.glsl first: a bundle has its text once"
-    comment = "{}; the numbers that it asks for by #ifndef may be defined before it."
-    parts.append(module_text("packed", packed, comment.format(PACKED_FILES["packed"])))
-    rest = planar.removeprefix(packed)
-    parts.append(module_text("planar", rest, comment.format(PACKED_FILES["planar"]), "packed + "))
+    packed = packed_text(PACKED)
+    parts.append(module_text("packed", packed, NUMBERED.format(PACKED)))
     alone = packed_text(OVERLAY).removeprefix(packed)
-    parts.append(module_text("overlay", alone, f"{OVERLAY}, to stand after one of these."))
+    parts.append(module_text("overlay", alone, f"{OVERLAY}, to stand after that or after {PLANAR}."))
     comment = "steps.glsl: what the derivatives of a position are, for pixels."
     parts.append(module_text("steps", bare(included("steps.glsl")), comment))
     return "".join(parts)
+
+
+def planar_module() -> str:
+    """Text of the module with what planar maps add: apart, since a page without one has no use for it."""
+    packed, planar = packed_text(PACKED), packed_text(PLANAR)
+    assert planar.startswith(packed), f"{PLANAR} must include {PACKED} first: a bundle has its text once"
+    text = module_text("planar", planar.removeprefix(packed), NUMBERED.format(PLANAR), "packed + ")
+    return HEADER.format(owner="src/vexture/glsl/") + "import { packed } from './shaders.js';\n\n" + text
 
 
 def thesis_module() -> str:
@@ -170,7 +192,7 @@ def layout_module(owner: ModuleType, file: str) -> str:
 def main() -> int:
     """Write the files, or with --check compare them; the exit code."""
     stale = []
-    layers, sheets = (inlined(shader_text(file)) for file in PACKED_FILES.values())
+    layers, sheets = (inlined(shader_text(file)) for file in (PACKED, PLANAR))
     folded = inlined(shader_text("fold.glsl", fold_layout))
     steps = included("steps.glsl")
     modules = {
@@ -183,6 +205,7 @@ def main() -> int:
         "thesis-layout.js": layout_module(thesis_layout, "thesis/layout.py"),
         "fold-layout.js": layout_module(fold_layout, "fold/layout.py"),
         "shaders.js": shaders(),
+        "planar-shader.js": planar_module(),
         "thesis-shader.js": thesis_module(),
         "fold-shader.js": fold_module(),
         "wraps.js": wraps_module(),

@@ -68,14 +68,20 @@ def served(folder: Path) -> Iterator[str]:
         server.server_close()
 
 
-def bundle(entry: Path, output: Path, three: str = "three") -> None:
+def bundle(entry: Path, output: Path, three: str = "three", *, is_split: bool = False) -> None:
     """Bundle a module with all that it imports; `three` is the package that stands for three.js.
+
+    What it imports later is part of the one file or, if split, in files of their own beside it.
 
     The entry's ``import ... from "vexture"`` is the package in web/, and so are its other entries. What web/ has
     installed is found from anywhere.
     """
     esbuild = WEB / "node_modules" / ".bin" / "esbuild"
-    command = [str(esbuild), str(entry), "--bundle", "--format=esm", f"--outfile={output}"]
+    command = [str(esbuild), str(entry), "--bundle", "--format=esm"]
+    if is_split:
+        command += ["--splitting", f"--outdir={output.parent}", f"--entry-names={output.stem}"]
+    else:
+        command += [f"--outfile={output}"]
     command += [f"--alias:vexture={WEB / 'src' / 'index.js'}"]
     command += [f"--alias:vexture/{name}={WEB / 'src' / name / 'index.js'}" for name in ENTRIES]
     command += [f"--alias:three={WEB / 'node_modules' / three}"]

@@ -1,12 +1,33 @@
 // Validates a planar map (FORMAT.md, D.1 to D.6): its parts lie within the texels and apart, and paints are of its table.
-import { CELL_BITS, COORDINATE_BITS, COUNT_SHIFT, IS_MEAN, MAP_HEAD, MOST_PAINTS, QUAD_FLAG } from '../generated/layout.js';
-import { PAIR, PART, checkTree } from './check-tree.js';
-import { REMEDY, VextureError } from './errors.js';
+import {
+  CELL_BITS,
+  COORDINATE_BITS,
+  COUNT_SHIFT,
+  HOLDS_PROGRAM,
+  IS_MEAN,
+  MAP_HEAD,
+  MOST_CURVES,
+  MOST_PAINTS,
+  QUAD_FLAG,
+  STRAIGHT,
+} from '../generated/layout.js';
+import { LOW_MASK, PAIR, PART, checkTree } from './check-tree.js';
+import { REMEDY, VextureError, line } from './errors.js';
+import { texelsIn } from './leaf.js';
 import { basePaint, headOf, meanBytes, paintSteps, quadsInBlock, sidesInTexel, sidesOf } from './planar-map.js';
 import { checkPrograms, programOf } from './programs.js';
 
 /** @typedef {import('./planar-map.js').Head} Head */
-/** @typedef {import('./check-tree.js').Found} Found */
+
+/**
+ * @typedef {object} Found What a tree consists of.
+ * @property {number} quads their number
+ * @property {number} lastQuad largest index
+ * @property {number} curves their number
+ * @property {number} curveTexels number of their texels
+ * @property {number} firstCurve smallest index of those; Infinity without any
+ * @property {number} lastCurve
+ */
 
 const CELL_MASK = (1 << CELL_BITS) - 1;
 
@@ -18,7 +39,7 @@ const CELL_MASK = (1 << CELL_BITS) - 1;
  * @param {number} quad index of its root quad
  */
 export function checkMap(texels, met, quad) {
-  const found = checkTree(texels, met, [quad], true);
+  const found = walked(texels, met, quad);
   if (quad < MAP_HEAD) refuse(quad, `the root of a map is quad ${quad}, which has no head before it`);
   const head = headOf(texels, quad);
   if (head.rest || (!head.operations && (head.programs || head.stops))) {
@@ -36,6 +57,61 @@ export function checkMap(texels, met, quad) {
   takeParts(met, head, found);
   checkPrograms(texels, head);
   checkPaints(texels, head, found);
+}
+
+/**
+ * Check the quads and curves of a map.
+ *
+ * @param {Uint32Array} texels
+ * @param {Uint8Array} met
+ * @param {number} root index of its root quad
+ * @returns {Found}
+ */
+function walked(texels, met, root) {
+  const found = { quads: 0, lastQuad: -1, curves: 0, curveTexels: 0, firstCurve: Infinity, lastCurve: -1 };
+  const see = (/** @type {number} */ quad, /** @type {number} */ curve, /** @type {number} */ curveTexels) => {
+    found.quads++;
+    found.lastQuad = Math.max(found.lastQuad, quad);
+    if (!curveTexels) return;
+    const cells = texels[4 * quad + 2];
+    markPairs(texels, met, cells, curve);
+    for (let k = 0; k < 4; k++) {
+      const cell = (cells >>> (CELL_BITS * k)) & CELL_MASK;
+      if (cell !== QUAD_FLAG) found.curves += cell >> COUNT_SHIFT;
+    }
+    found.curveTexels += curveTexels;
+    found.firstCurve = Math.min(found.firstCurve, curve);
+    found.lastCurve = Math.max(found.lastCurve, curve + curveTexels - 1);
+  };
+  checkTree(texels, met, [root], { isLeaf, see });
+  return found;
+}
+
+/** @param {number} cell its byte */
+function isLeaf(cell) {
+  const curves = cell >> COUNT_SHIFT;
+  if (curves > MOST_CURVES) return false;
+  return !(cell & LOW_MASK & ~(HOLDS_PROGRAM | (curves ? STRAIGHT : 0))) || cell === IS_MEAN;
+}
+
+/**
+ * Mark the texels of two curves.
+ *
+ * @param {Uint32Array} texels
+ * @param {Uint8Array} met
+ * @param {number} cells word of a quad
+ * @param {number} first texel of its curves
+ */
+function markPairs(texels, met, cells, first) {
+  for (let k = 0; k < 4; k++) {
+    const cell = (cells >>> (CELL_BITS * k)) & CELL_MASK;
+    const end = first + texelsIn(cell, true);
+    if (cell & STRAIGHT) met.fill(PAIR, first, end);
+    if (cell & STRAIGHT && (cell >> COUNT_SHIFT) % 2 && texels[4 * end - 2] | texels[4 * end - 1]) {
+      throw new VextureError(`texel ${end - 1} of one curve has a second one; ${REMEDY}`, `texel ${end - 1}`);
+    }
+    if (cell !== QUAD_FLAG) first = end;
+  }
 }
 
 /**
@@ -126,4 +202,20 @@ function checkPaints(texels, head, { quads, curves }) {
   if (last >= used) refuse(root, `the map with root ${root} has paint ${last} of ${used}`);
   for (let paint = 0; paint < used; paint++) if (!programOf(texels, head, paint)) see(paintSteps(texels, head, paint));
   if (isBright) refuse(root, `the map with root ${root} has a colour above its opacity`);
+}
+
+/**
+ * Note whether a checked map holds gradients, and check that its style is of its paints.
+ *
+ * @param {import('./data.js').Root} root
+ * @param {Uint32Array} texels
+ */
+export function checkPaintsOf(root, texels) {
+  const { used, operations } = headOf(texels, root.quad);
+  root.hasGradients = operations > 0;
+  const what = `the map ${line(root.name)} has`;
+  if (root.style && root.hasGradients) throw new VextureError(`${what} a style, and paints that are programs; ${REMEDY}`, 'style');
+  if (root.style && root.style.stacks.length !== used) {
+    throw new VextureError(`${what} ${used} paints, and stacks of ${root.style.stacks.length}; ${REMEDY}`, 'style');
+  }
 }

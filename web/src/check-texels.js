@@ -1,8 +1,8 @@
 // Validates texels (FORMAT.md, B.2 to B.4, D.1 to D.5): they form disjoint trees and maps, and all others are zero.
 import { COORDINATE_BITS, LATTICE } from '../generated/layout.js';
-import { checkMap } from './check-map.js';
 import { CURVE, PAIR, checkTree } from './check-tree.js';
 import { REMEDY, VextureError } from './errors.js';
+import { mapParts } from './maps.js';
 
 const COORDINATE_MASK = (1 << COORDINATE_BITS) - 1;
 
@@ -16,8 +16,8 @@ export function checkForest(texels, roots) {
   const met = new Uint8Array(texels.length / 4);
   const quadsOf = (/** @type {boolean} */ ofMap) =>
     new Set(roots.filter(({ isMap }) => isMap === ofMap).map(({ quad }) => quad));
-  checkTree(texels, met, quadsOf(false), false);
-  for (const quad of quadsOf(true)) checkMap(texels, met, quad);
+  checkTree(texels, met, quadsOf(false), null);
+  for (const quad of quadsOf(true)) mapParts().checkMap(texels, met, quad);
   checkRest(texels, met);
 }
 

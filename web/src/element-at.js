@@ -1,6 +1,6 @@
 // Which element of a drawing is seen at a point. Plain data, without three.js.
-import { topmost } from './style.js';
-import { paintAt } from './walk-map.js';
+import { VextureError } from './errors.js';
+import { mapParts } from './maps.js';
 
 /**
  * @typedef {object} FoundElement
@@ -20,11 +20,21 @@ import { paintAt } from './walk-map.js';
  * @returns {FoundElement | null}
  */
 export function elementAt(data, first, count, u, v) {
-  for (let place = first + count - 1; place >= first; place--) {
-    const { style, quad } = data.roots[place];
-    const paint = style && paintAt(data, quad, u, v).paint;
-    const element = style && paint !== null ? topmost(style, style.stacks[paint]) : null;
-    if (style && element !== null) return { name: style.elements[element].name, element, root: place };
+  for (let root = first + count - 1; root >= first; root--) {
+    const element = data.roots[root].style && mapParts().topmostAt(data, data.roots[root], u, v);
+    if (element) return { ...element, root };
   }
   return null;
+}
+
+/**
+ * What of a map can get other colours.
+ *
+ * @param {import('./data.js').Root} root
+ * @returns {import('./style.js').Style}
+ * @throws {VextureError} if it is nothing
+ */
+export function styleOf({ name, style }) {
+  if (!style) throw new VextureError(`"${name}" has no elements; convert the drawing with --restyle`, 'style');
+  return style;
 }

@@ -51,35 +51,15 @@ const REMEDY = 'use a built-in mesh material';
 const REMEDIES = Object.freeze({ Water: 'this three.js is not known to work: use another version of it' });
 
 /**
- * Names of three.js's shaders; the one of distances has had two.
- *
- * @type {Readonly<Record<string, string[]>>}
- */
-const SHADERS = Object.freeze({
-  MeshBasicMaterial: ['basic'],
-  MeshLambertMaterial: ['lambert'],
-  MeshPhongMaterial: ['phong'],
-  MeshStandardMaterial: ['standard'],
-  MeshPhysicalMaterial: ['physical'],
-  MeshToonMaterial: ['toon'],
-  MeshMatcapMaterial: ['matcap'],
-  MeshNormalMaterial: ['normal'],
-  MeshDepthMaterial: ['depth'],
-  MeshDistanceMaterial: ['distance', 'distanceRGBA'],
-  SpriteMaterial: ['sprite'],
-  PointsMaterial: ['points'],
-  ShadowMaterial: ['shadow'],
-});
-
-/**
  * @param {Material} material
  * @returns {Shader | undefined} what it is compiled from, where that can be known before
  */
 function shaderOf(material) {
   if ('isShaderMaterial' in material) return /** @type {import('three').ShaderMaterial} */ (material);
   const library = /** @type {Record<string, Shader>} */ (/** @type {unknown} */ (ShaderLib));
-  const name = SHADERS[material.type]?.find((one) => one in library);
-  return name === undefined ? undefined : library[name];
+  const name = material.type.replace(/^Mesh|Material$/g, '').toLowerCase();
+  const known = [name, `${name}RGBA`].find((one) => Object.hasOwn(library, one)); // that of distances has had two names
+  return known === undefined ? undefined : library[known];
 }
 
 /**

@@ -1,7 +1,8 @@
 // Text that a mask inserts into a material's shader: declarations, and calls of the functions of src/vexture/glsl.
-import { packed, planar, steps } from '../generated/shaders.js';
+import { packed, steps } from '../generated/shaders.js';
 import { WRAPS } from '../generated/wraps.js';
 import { ROOT_ATTRIBUTE } from './attributes.js';
+import { mapParts } from './maps.js';
 
 /**
  * @typedef {object} Variant All that makes one program differ from another.
@@ -75,7 +76,7 @@ function reader({ other, maps, gradients, wrap, flat, fold, linear }) {
   const chosen = `#define VEXTURE_FLAT ${Number(flat && !fold)}\n#define VEXTURE_WRAP ${WRAPS[wrap]}\n`;
   if (maps === 'none') return `${chosen}${packed}${fold}${declared}`;
   const colors = `#define VEXTURE_LINEAR ${Number(linear)}\n#define VEXTURE_GRADIENTS ${Number(gradients)}\n`;
-  return `${chosen}${colors}${planar}${fold}${declared}`;
+  return `${chosen}${colors}${mapParts().planar}${fold}${declared}`;
 }
 
 /** Fully transparent pixels write no depth, so that they hide nothing. */

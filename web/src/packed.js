@@ -12,7 +12,7 @@ import {
 import { checkForest } from './check-texels.js';
 import { REMEDY, VextureError, line } from './errors.js';
 import { readKtx2 } from './ktx2.js';
-import { headOf } from './planar-map.js';
+import { mapParts } from './maps.js';
 import { readRoots } from './read-roots.js';
 
 /**
@@ -32,7 +32,7 @@ export async function readPacked(file, name = 'texture') {
     const { width, height, texels, texts } = await readKtx2(file);
     checkKnown(texts, TEXT_ENCODING, [ENCODING_PACKED]);
     checkKnown(texts, TEXT_VERSION, [PACKED_VERSION, MAP_VERSION]);
-    const roots = readRoots(texts.get(TEXT_ROOTS) ?? '');
+    const roots = await readRoots(texts.get(TEXT_ROOTS) ?? '');
     const version = texts.get(TEXT_VERSION);
     if (version !== (roots.some(({ isMap }) => isMap) ? MAP_VERSION : PACKED_VERSION)) {
       throw new VextureError(
@@ -41,25 +41,10 @@ export async function readPacked(file, name = 'texture') {
       );
     }
     checkForest(texels, roots);
-    for (const root of roots) if (root.isMap) compare(root, headOf(texels, root.quad));
+    for (const root of roots) if (root.isMap) mapParts().checkPaintsOf(root, texels);
     return { encoding: 'packed', name: texts.get(TEXT_NAME) || name, width, height, texels, roots };
   } catch (error) {
     throw error instanceof VextureError ? error.in(name) : error;
-  }
-}
-
-/**
- * Note whether a map holds gradients, and check that its style is of its paints.
- *
- * @param {import('./data.js').Root} root
- * @param {import('./planar-map.js').Head} head
- */
-function compare(root, { used, operations }) {
-  root.hasGradients = operations > 0;
-  const what = `the map ${line(root.name)} has`;
-  if (root.style && root.hasGradients) throw new VextureError(`${what} a style, and paints that are programs; ${REMEDY}`, 'style');
-  if (root.style && root.style.stacks.length !== used) {
-    throw new VextureError(`${what} ${used} paints, and stacks of ${root.style.stacks.length}; ${REMEDY}`, 'style');
   }
 }
 

@@ -1,5 +1,4 @@
 // Colours of elements as users give them.
-import { Color, LinearSRGBColorSpace, SRGBColorSpace } from 'three';
 import { VextureError, line } from './errors.js';
 import { nearest } from './map-means.js';
 
@@ -9,6 +8,8 @@ import { nearest } from './map-means.js';
  *   element had at first
  *
  * @typedef {Readonly<Record<string, Paint>> | ReadonlyMap<string, Paint>} PaintList by element
+ *
+ * @typedef {Pick<typeof import('three'), 'Color' | 'LinearSRGBColorSpace' | 'SRGBColorSpace'>} Colors of three.js
  *
  * @typedef {object} Paints
  * @property {string[]} names of elements
@@ -20,22 +21,23 @@ const DIGITS = 1e6;
 
 /**
  * @param {PaintList} paints by name
+ * @param {Colors} colors
  * @returns {Paints}
  * @throws {VextureError} if one is no paint
  */
-export function readPaints(paints) {
+export function readPaints(paints, colors) {
   if (!(paints instanceof Object)) throw new VextureError(`paints are ${line(paints)}; give an object or a Map`, 'paint');
   const isMap = paints instanceof Map;
   const names = isMap ? [...paints.keys()] : Object.keys(paints);
   const parts = new Float64Array(4 * names.length);
-  const color = new Color();
+  const color = new colors.Color();
   let at = 0;
   const read = (/** @type {Paint} */ paint) => {
     if (paint === 'own') parts.fill(NaN, at, at + 4);
     else if (Array.isArray(paint)) readParts(paint, parts, at);
     else if (paint !== null && paint !== 'none') {
       parts[at + 3] = typeof paint === 'string' ? opacityOf(paint) : 1;
-      readColor(paint, color).toArray(parts, at);
+      readColor(paint, color, colors).toArray(parts, at);
     }
     at += 4;
   };
@@ -78,9 +80,10 @@ const noPaint = (paint) =>
  * The sRGB components of a colour; a text or number is taken as it is, as to linear light and back would cost digits.
  *
  * @param {import('three').ColorRepresentation} paint
- * @param {Color} color receives them
+ * @param {import('three').Color} color receives them
+ * @param {Colors} colors
  */
-function readColor(paint, color) {
+function readColor(paint, color, { Color, LinearSRGBColorSpace, SRGBColorSpace }) {
   if (typeof paint === 'string') {
     const isName = /^[a-z]+$/i.test(paint);
     if (!COLORS.test(paint) || (isName && !(paint.toLowerCase() in Color.NAMES))) throw noPaint(paint);

@@ -1,17 +1,17 @@
 // Reads and validates the list of roots in a packed texture's file (FORMAT.md, B.5).
 import { TEXT_ROOTS } from '../generated/layout.js';
 import { REMEDY, VextureError, line } from './errors.js';
-import { readStyle } from './style.js';
+import { loadMaps, mapParts } from './maps.js';
 
 const MOST_INDEX = 2 ** 32;
 
 /**
- * Roots from their JSON text; unknown members are ignored.
+ * Roots from their JSON text; unknown members are ignored. What maps need is loaded if one is a map.
  *
  * @param {string} text
- * @returns {import('./data.js').Root[]}
+ * @returns {Promise<import('./data.js').Root[]>}
  */
-export function readRoots(text) {
+export async function readRoots(text) {
   let entries;
   try {
     entries = JSON.parse(text);
@@ -21,6 +21,7 @@ export function readRoots(text) {
   if (!Array.isArray(entries) || !entries.length) {
     throw new VextureError(`${TEXT_ROOTS} is ${line(text)}; it must be a list of at least one root; ${REMEDY}`, TEXT_ROOTS);
   }
+  if (entries.some((entry) => entry?.map === true)) await loadMaps();
   return entries.map(readRoot);
 }
 
@@ -45,7 +46,7 @@ function readRoot(entry, place) {
   if (style !== null && !map) refuse(`root ${place}: style`, style, 'of a map', place, 'style');
   return {
     name, quad, transform, tolerance, crs, paint: paint === null ? null : readPaint(paint, place), isMap: map, hasGradients: false,
-    style: style === null ? null : readStyle(style, `root ${place}`),
+    style: style === null ? null : mapParts().readStyle(style, `root ${place}`),
   };
 }
 

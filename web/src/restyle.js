@@ -1,6 +1,9 @@
 // New colours for the elements of a planar map: another table of paints and other means, in place, for the same tree.
+import { styleOf } from './element-at.js';
 import { VextureError, line } from './errors.js';
 import { MapMeans, listed } from './map-means.js';
+import { readPaints } from './paints.js';
+import { sendRows } from './rows.js';
 import { nearNames } from './select-root.js';
 import { composited } from './style.js';
 
@@ -26,6 +29,25 @@ import { composited } from './style.js';
 const COLORINGS = new WeakMap();
 
 /**
+ * Give elements of a drawing other colours, in place, and send what has changed to the GPU.
+ *
+ * @param {PackedData} data
+ * @param {number} first root of the drawing, a map with a style as all of its roots
+ * @param {number} count of its roots
+ * @param {import('./paints.js').PaintList} paints
+ * @param {import('three').DataTexture} texture of the texels
+ * @param {import('./paints.js').Colors} colors
+ * @returns {boolean} whether something became visible that was not, or the reverse: then nothing is sent
+ * @throws {VextureError} if one is no paint, and as `restyle`
+ */
+export function setPaints(data, first, count, paints, texture, colors) {
+  const places = Array.from({ length: count }, (_, k) => first + k);
+  const { appears, runs } = restyle(data, places, readPaints(paints, colors));
+  for (const [from, end] of appears ? [] : runs) sendRows(texture, Math.floor(from / data.width), Math.ceil(end / data.width));
+  return appears;
+}
+
+/**
  * Give elements other colours: texels and the style are changed in place.
  *
  * @param {PackedData} data
@@ -35,7 +57,7 @@ const COLORINGS = new WeakMap();
  *   first and end of each run of texels that may have changed
  * @throws {VextureError} if no element has a name, or one that hides others would not stay opaque
  */
-export function restyle(data, places, { names, parts }) {
+function restyle(data, places, { names, parts }) {
   const colorings = places.map((place) => coloringOf(data, data.roots[place]));
   const found = colorings.map((coloring) => firstElements(coloring, names));
   check(data.name, colorings, found, { names, parts });
@@ -183,13 +205,4 @@ function repaint({ style, rgba, alone, isStale, means }) {
     appears = means.repaint(paint, at >= 0 ? color : composited(style, style.stacks[paint])) || appears;
   }
   return appears;
-}
-
-/**
- * @param {import('./data.js').Root} root
- * @returns {Style}
- */
-export function styleOf({ name, style }) {
-  if (!style) throw new VextureError(`"${name}" has no elements; convert the drawing with --restyle`, 'style');
-  return style;
 }

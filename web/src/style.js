@@ -1,6 +1,7 @@
 // What of a planar map can be restyled (FORMAT.md, D.10): its elements, and which of them each paint is made of.
 import { blended, masking, modeNamed } from './blend.js';
 import { REMEDY, VextureError, line } from './errors.js';
+import { paintAt } from './walk-map.js';
 
 /**
  * @typedef {import('./planar-map.js').Color} Color
@@ -197,10 +198,24 @@ function masksOf(groups, group) {
  * @param {number[]} stack
  * @returns {number | null}
  */
-export function topmost({ elements, groups }, stack) {
+function topmost({ elements, groups }, stack) {
   const met = new Set(stack.flatMap((number) => groupsAround(groups, elements[number].group)));
   const isHidden = (/** @type {number} */ group) =>
     groups[group].mask !== 'none' || groups.some(({ outer, mask }, place) => mask !== 'none' && outer === group && !met.has(place));
   const seen = stack.filter((number) => !groupsAround(groups, elements[number].group).some(isHidden));
   return seen.at(-1) ?? null;
+}
+
+/**
+ * The topmost element of a map at a point of the unit square; null where nothing is.
+ *
+ * @param {import('./data.js').PackedData} data
+ * @param {import('./data.js').Root} root a map with a style
+ * @param {number} u
+ * @param {number} v upwards
+ */
+export function topmostAt(data, { style, quad }, u, v) {
+  const { paint } = paintAt(data, quad, u, v);
+  const element = style && paint !== null ? topmost(style, style.stacks[paint]) : null;
+  return style && element !== null ? { name: style.elements[element].name, element } : null;
 }

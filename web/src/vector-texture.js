@@ -1,8 +1,7 @@
-import { EventDispatcher } from 'three';
-import { elementAt } from './element-at.js';
+import { Color, EventDispatcher, LinearSRGBColorSpace, SRGBColorSpace } from 'three';
+import { elementAt, styleOf } from './element-at.js';
 import { layersOf, layersTexture } from './layers.js';
-import { readPaints } from './paints.js';
-import { restyle, styleOf } from './restyle.js';
+import { mapParts } from './maps.js';
 import { shapeIndex } from './select-root.js';
 import { wordTexture } from './upload.js';
 import { colorAt, contains } from './walk.js';
@@ -34,6 +33,9 @@ import { colorAt, contains } from './walk.js';
  * @property {{ message: string }} offline a live texture's server cannot be reached; the last data stay in place
  * @property {{}} online the server can be reached again
  */
+
+/** What reading colours needs of three.js, which the module for planar maps does not import. */
+const COLORS = { Color, LinearSRGBColorSpace, SRGBColorSpace };
 
 /**
  * Shapes with random access for shaders. `VectorTextureLoader` makes it from validated data.
@@ -140,13 +142,9 @@ export class VectorTexture extends EventDispatcher {
    *   one that hides others would not stay opaque
    */
   setPaints(paints, root) {
-    const data = packed(this.#data);
-    const { first, count } = this.layersOf(root);
-    const places = Array.from({ length: count }, (_, k) => first + k);
-    const { appears, runs } = restyle(data, places, readPaints(paints));
-    if (appears) return this.replace(this.#data); // the bounds, which masks read, have changed
-    const texels = /** @type {import('./upload.js').WordTexture} */ (this.#textures.texels);
-    for (const [from, end] of runs) texels.sendRows(Math.floor(from / data.width), Math.ceil(end / data.width));
+    const { first, count } = this.#restylable(root);
+    const appears = mapParts().setPaints(packed(this.#data), first, count, paints, this.#textures.texels, COLORS);
+    if (appears) this.replace(this.#data); // the bounds, which masks read, have changed
   }
 
   /**
@@ -159,10 +157,19 @@ export class VectorTexture extends EventDispatcher {
    * @throws {VextureError} if the texture knows no elements
    */
   elementAt(u, v, root) {
-    const data = packed(this.#data);
-    const { first, count } = this.layersOf(root);
-    for (const root of data.roots.slice(first, first + count)) styleOf(root);
-    return elementAt(data, first, count, u, v);
+    const { first, count } = this.#restylable(root);
+    return elementAt(packed(this.#data), first, count, u, v);
+  }
+
+  /**
+   * As `layersOf`, of a drawing whose elements are known.
+   *
+   * @param {RootChoice} root
+   */
+  #restylable(root) {
+    const range = this.layersOf(root);
+    for (const one of this.roots.slice(range.first, range.first + range.count)) styleOf(one);
+    return range;
   }
 
   /**
@@ -215,8 +222,10 @@ export class VectorTexture extends EventDispatcher {
    * @returns {TextureMap}
    */
   upload(data) {
-    const { texels, width, height } = packed(data);
-    return { texels: wordTexture(texels, width, height), layers: layersTexture(packed(data)) };
+    const { texels, width, height, roots } = packed(data);
+    const words = wordTexture(texels, width, height);
+    if (roots.some(({ style }) => style)) mapParts().prepareRows(words);
+    return { texels: words, layers: layersTexture(packed(data)) };
   }
 
   /**

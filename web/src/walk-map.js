@@ -4,7 +4,7 @@ import { VextureError } from './errors.js';
 import { curvesOf, leafOf } from './leaf.js';
 import { basePaint, headOf, meanBytes, paintSteps, sidesOf } from './planar-map.js';
 import { programColor, programOf } from './programs.js';
-import { isAtOrLeft } from './winding.js';
+import { WHOLE, filledBox, isAtOrLeft } from './winding.js';
 
 /**
  * @typedef {import('./data.js').PackedData} PackedData
@@ -49,7 +49,7 @@ export function paintColor({ texels }, quad, paint, u, v) {
  * @param {number} quad index of the map's root quad
  * @param {number} paint
  */
-export function isSeen({ texels }, quad, paint) {
+function isSeen({ texels }, quad, paint) {
   const head = headOf(texels, quad);
   return programOf(texels, head, paint) !== null || paintSteps(texels, head, paint)[3] > 0;
 }
@@ -62,8 +62,20 @@ export function isSeen({ texels }, quad, paint) {
  * @param {number} quad that holds the cell
  * @param {number} cell
  */
-export function meanColor({ texels }, root, quad, cell) {
+function meanColor({ texels }, root, quad, cell) {
   return scaled(meanBytes(texels, headOf(texels, root), quad, cell), COVERAGE_ONE);
+}
+
+/**
+ * Mean colour of a map: premultiplied sRGB and opacity, 0..1.
+ *
+ * @param {PackedData} data
+ * @param {number} quad index of its root quad
+ */
+export function meanOfRoot(data, quad) {
+  const mean = /** @type {Color} */ ([0, 0, 0, 0]);
+  for (let k = 0; k < 4; k++) meanColor(data, quad, quad, k).forEach((part, i) => (mean[i] += part / 4));
+  return mean;
 }
 
 /**
@@ -75,7 +87,7 @@ export function meanColor({ texels }, root, quad, cell) {
  * @param {number} cell
  * @returns {MapLeaf}
  */
-export function mapLeaf({ texels }, root, quad, cell) {
+function mapLeaf({ texels }, root, quad, cell) {
   const head = headOf(texels, root);
   const leaf = leafOf(texels, quad, cell, true);
   const sides = Array.from({ length: leaf.byte >> COUNT_SHIFT }, (_, i) => sidesOf(texels, head, leaf.number + i));
@@ -90,7 +102,7 @@ export function mapLeaf({ texels }, root, quad, cell) {
  * @param {number} y in its lattice units
  * @returns {Map<number, number>}
  */
-export function paintCounts({ curves, sides, base }, x, y) {
+function paintCounts({ curves, sides, base }, x, y) {
   const counts = new Map([[base, 1]]);
   const add = (/** @type {number} */ paint, /** @type {number} */ more) => {
     const count = (counts.get(paint) ?? 0) + more;
@@ -108,6 +120,40 @@ export function paintCounts({ curves, sides, base }, x, y) {
     add(sides[i][1], -more);
   });
   return counts;
+}
+
+/**
+ * Paints of a cell.
+ *
+ * @param {PackedData} data
+ * @param {number} root index of the map's root quad
+ * @param {number} quad that holds the cell
+ * @param {number} cell
+ * @param {number} byte of the cell
+ * @returns {import('./walk.js').CellPaints}
+ */
+export function cellPaints(data, root, quad, cell, byte) {
+  const mean = meanColor(data, root, quad, cell);
+  if (byte === QUAD_FLAG || byte === IS_MEAN) return { mean, base: null, sides: [] };
+  const { base, sides } = mapLeaf(data, root, quad, cell);
+  return { mean, base, sides };
+}
+
+/**
+ * Bounding box of the painted part of a leaf, in its own unit square; null if nothing is seen.
+ *
+ * @param {PackedData} data
+ * @param {number} root index of the map's root quad
+ * @param {number} quad that holds the leaf
+ * @param {number} cell
+ */
+export function paintedBox(data, root, quad, cell) {
+  const { byte } = leafOf(data.texels, quad, cell, true);
+  if (byte === IS_MEAN) return meanColor(data, root, quad, cell)[3] > 0 ? WHOLE : null;
+  const leaf = mapLeaf(data, root, quad, cell);
+  const seen = (/** @type {number} */ paint) => isSeen(data, root, paint);
+  if (!(byte >> COUNT_SHIFT)) return seen(leaf.base) ? WHOLE : null;
+  return filledBox(leaf.curves, seen(leaf.base), (x, y) => [...paintCounts(leaf, x, y).keys()].some(seen));
 }
 
 /**

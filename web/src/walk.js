@@ -1,10 +1,10 @@
 // Descends the trees of a validated packed texture on the CPU: the cell at a point, containment, bounds, counts.
 // Plain data, without three.js.
-import { COUNT_SHIFT, COVERAGE_ONE, IS_MEAN, LATTICE, MOST_DEPTH, QUAD_FLAG, WINDING_OFFSET } from '../generated/layout.js';
+import { COUNT_SHIFT, COVERAGE_ONE, LATTICE, MOST_DEPTH, QUAD_FLAG, WINDING_OFFSET } from '../generated/layout.js';
 import { VextureError } from './errors.js';
 import { curvesOf, leafOf } from './leaf.js';
-import { isSeen, mapLeaf, meanColor, paintAt, paintCounts } from './walk-map.js';
-import { filledBox, winding } from './winding.js';
+import { mapParts } from './maps.js';
+import { WHOLE, filledBox, winding } from './winding.js';
 
 /** @typedef {import('./data.js').PackedData} PackedData */
 
@@ -15,8 +15,6 @@ const BOUNDS_DEPTH = 8;
 
 /** Paint of a silhouette. */
 export const BLACK = Object.freeze({ color: Object.freeze([0, 0, 0]), opacity: 1 });
-
-const WHOLE = Object.freeze([0, 0, 1, 1]);
 
 /**
  * @typedef {object} Cell Part of a quad-tree at a point.
@@ -105,25 +103,10 @@ export function cellAt(data, quad, u, v, mostDepth = MOST_DEPTH) {
       ? []
       : curvesOf(texels, leaf).map((curve) => curve.map((at, axis) => at * scale + (axis % 2 ? y : x)));
     const corner = curves.length && !ofMap ? cornerOf(leaf.byte) : 0;
-    const paints = ofMap ? paintsOf(data, root, quad, cell, leaf.byte) : null;
+    const paints = ofMap ? mapParts().cellPaints(data, root, quad, cell, leaf.byte) : null;
     const coverage = paints ? paints.mean[3] : leaf.coverage / COVERAGE_ONE;
     return { depth, x, y, size, isQuad, coverage, winding: corner, curves, quad, cell, paints };
   }
-}
-
-/**
- * @param {PackedData} data
- * @param {number} root
- * @param {number} quad
- * @param {number} cell
- * @param {number} byte of the cell
- * @returns {CellPaints}
- */
-function paintsOf(data, root, quad, cell, byte) {
-  const mean = meanColor(data, root, quad, cell);
-  if (byte === QUAD_FLAG || byte === IS_MEAN) return { mean, base: null, sides: [] };
-  const { base, sides } = mapLeaf(data, root, quad, cell);
-  return { mean, base, sides };
 }
 
 /**
@@ -135,14 +118,9 @@ function paintsOf(data, root, quad, cell, byte) {
  * @returns {Cell}
  */
 function top(data, quad, ofMap) {
-  const mean = /** @type {import('./planar-map.js').Color} */ ([0, 0, 0, 0]);
-  let coverage = 0;
-  for (let k = 0; k < 4; k++) {
-    if (ofMap) meanColor(data, quad, quad, k).forEach((part, i) => (mean[i] += part / 4));
-    else coverage += leafOf(data.texels, quad, k, false).coverage / 4 / COVERAGE_ONE;
-  }
-  const paints = ofMap ? { mean, base: null, sides: [] } : null;
-  if (ofMap) coverage = mean[3];
+  const paints = ofMap ? { mean: mapParts().meanOfRoot(data, quad), base: null, sides: [] } : null;
+  let coverage = paints ? paints.mean[3] : 0;
+  for (let k = 0; k < 4 && !ofMap; k++) coverage += leafOf(data.texels, quad, k, false).coverage / 4 / COVERAGE_ONE;
   return { depth: 0, x: 0, y: 0, size: 1, isQuad: true, coverage, winding: 0, curves: [], quad, cell: -1, paints };
 }
 
@@ -174,6 +152,19 @@ export function contains(data, quad, u, v) {
     return winding(curvesOf(texels, leaf), cornerOf(leaf.byte), LATTICE * u, LATTICE * v) > 0;
   }
   throw new VextureError(`quad ${quad} lies deeper than ${MOST_DEPTH} levels; read the file with readPacked`, `quad ${quad}`);
+}
+
+/**
+ * The paint and colour at a point of the unit square of a planar map (FORMAT.md, D.7).
+ *
+ * @param {PackedData} data
+ * @param {number} quad index of the map's root quad
+ * @param {number} u
+ * @param {number} v upwards
+ * @returns {import('./walk-map.js').Painted}
+ */
+export function paintAt(data, quad, u, v) {
+  return mapParts().paintAt(data, quad, u, v);
 }
 
 /**
@@ -210,7 +201,7 @@ export function colorAt(data, layers, u, v) {
 export function bounds(data, quad) {
   const { texels } = data;
   const ofMap = isMap(data, quad);
-  const boxOf = ofMap ? paintedBox : coveredBox;
+  const boxOf = ofMap ? mapParts().paintedBox : coveredBox;
   /** @type {[number, number, number, number]} */
   const box = [1, 1, 0, 0];
   /** @type {(quad: number, x: number, y: number, size: number, depth: number) => void} */
@@ -249,23 +240,6 @@ function coveredBox({ texels }, _root, quad, cell) {
   if (!leaf.byte) return leaf.coverage ? WHOLE : null;
   const [curves, corner] = [curvesOf(texels, leaf), cornerOf(leaf.byte)];
   return filledBox(curves, corner > 0, (x, y) => winding(curves, corner, x, y) > 0);
-}
-
-/**
- * As `coveredBox`, of a leaf of a planar map.
- *
- * @param {PackedData} data
- * @param {number} root
- * @param {number} quad
- * @param {number} cell
- */
-function paintedBox(data, root, quad, cell) {
-  const { byte } = leafOf(data.texels, quad, cell, true);
-  if (byte === IS_MEAN) return meanColor(data, root, quad, cell)[3] > 0 ? WHOLE : null;
-  const leaf = mapLeaf(data, root, quad, cell);
-  const seen = (/** @type {number} */ paint) => isSeen(data, root, paint);
-  if (!(byte >> COUNT_SHIFT)) return seen(leaf.base) ? WHOLE : null;
-  return filledBox(leaf.curves, seen(leaf.base), (x, y) => [...paintCounts(leaf, x, y).keys()].some(seen));
 }
 
 /**

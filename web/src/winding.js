@@ -4,6 +4,9 @@ import { LATTICE } from '../generated/layout.js';
 /** Bisections of the interval of t, one for each bit of a float64's significand. */
 const HALVINGS = 53;
 
+/** The unit square as a box: x0 y0 x1 y1. */
+export const WHOLE = Object.freeze([0, 0, 1, 1]);
+
 /**
  * @param {number[]} cubic
  * @param {number} axis 0 for x, 1 for y

@@ -130,7 +130,7 @@ describe('what is sent to the GPU', () => {
   const rows = async () => {
     const { data } = await read();
     const texture = new VectorTexture({ ...data, width: 16, height: data.texels.length / 64 });
-    const texels = /** @type {import('../src/upload.js').WordTexture} */ (texture.textures.texels);
+    const { texels } = texture.textures;
     return { texture, texels, sent: texels.image.data.slice() };
   };
   const isRanged = 'updateRanges' in new DataTexture(); // since three.js 0.177

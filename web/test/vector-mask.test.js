@@ -175,7 +175,7 @@ describe('options of a VectorMaterial that are set later', () => {
 });
 
 test('flat views have a program of their own, but for a fold', () => {
-  const variant = (/** @type {string} */ fold, flat = true) => /** @type {any} */ ({ wrap: 'none', uv: 'uv', flat, fold });
+  const variant = (/** @type {string} */ fold, flat = true) => /** @type {any} */ ({ maps: 'none', wrap: 'none', uv: 'uv', flat, fold });
   expect(texts(variant('')).fragmentDeclare).toContain('#define VEXTURE_FLAT 1\n');
   expect(texts(variant('', false)).fragmentDeclare).not.toContain('#define VEXTURE_FLAT 1\n');
   expect(texts(variant('fold')).fragmentDeclare).not.toContain('#define VEXTURE_FLAT 1\n');

@@ -1,6 +1,7 @@
 /** The flat view of a texture: its layers on the backdrop, in their own colours. */
 import { Vector2, Vector4 } from 'three';
-import { overlay, packed, planar } from '../generated/shaders.js';
+import { planar } from '../generated/planar-shader.js';
+import { overlay, packed } from '../generated/shaders.js';
 import { BACKDROP } from './backdrop.js';
 import { Pass } from './pass.js';
 import { shaderView } from './view.js';
