@@ -125,8 +125,8 @@ def planar_module() -> str:
     """Text of the module with what planar maps add: apart, since a page without one has no use for it."""
     packed, planar = packed_text(PACKED), packed_text(PLANAR)
     assert planar.startswith(packed), f"{PLANAR} must include {PACKED} first: a bundle has its text once"
-    text = module_text("planar", planar.removeprefix(packed), NUMBERED.format(PLANAR), "packed + ")
-    return HEADER.format(owner="src/vexture/glsl/") + "import { packed } from './shaders.js';\n\n" + text
+    comment = f"{PLANAR}, to stand after {PACKED}; the numbers that it asks for by #ifndef may be defined before both."
+    return HEADER.format(owner="src/vexture/glsl/") + module_text("planar", planar.removeprefix(packed), comment)
 
 
 def thesis_module() -> str:

@@ -43,7 +43,7 @@ def test_a_map_brings_its_module_before_it_is_handed_out(address: str, open_page
     assert asked == ["plain.ktx2"]
     assert shown == {"pixel": [0, 0, 0, 255], "contains": True, "color": [0, 0, 0], "element": None}
     shown = _show(page, "map.ktx2", {"island": "#ff0000"})
-    assert asked == ["plain.ktx2", "map.ktx2", "map"]
+    assert asked == ["plain.ktx2", "map.ktx2", "map", "planar"]
     assert shown == {"pixel": [255, 0, 0, 255], "contains": True, "color": [1, 0, 0], "element": "island"}
 
 

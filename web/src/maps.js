@@ -4,6 +4,28 @@ import { VextureError, line } from './errors.js';
 /** @type {typeof import('./map-parts.js') | null} */
 let parts = null;
 
+/** What else maps need in this page: the texts of its shaders. @type {Set<() => Promise<void>>} */
+const texts = new Set();
+
+/**
+ * A text that is loaded with the first map.
+ *
+ * @param {() => Promise<string>} load
+ * @returns {() => string}
+ */
+export function withMaps(load) {
+  let text = '';
+  texts.add(async () => {
+    text ||= await load();
+  });
+  return () => text || missing();
+}
+
+/** @returns {never} */
+function missing() {
+  throw new VextureError('the module for planar maps is not loaded; read the file with readPacked, or await loadMaps()', 'maps');
+}
+
 /**
  * Load what planar maps need. `readPacked` and all loaders do so for a file with maps; it is needed before a `VectorTexture`
  * is made of data that another thread has read.
@@ -13,7 +35,7 @@ let parts = null;
  */
 export async function loadMaps() {
   try {
-    parts ??= await import('./map-parts.js');
+    [parts] = await Promise.all([import('./map-parts.js'), ...[...texts].map((load) => load())]);
   } catch (error) {
     throw new VextureError(`the module for planar maps cannot be loaded (${line(error)}); check the network and the site's files`,
       'url', { cause: error });
@@ -26,6 +48,5 @@ export async function loadMaps() {
  * @throws {VextureError} if it has not been called
  */
 export function mapParts() {
-  if (parts) return parts;
-  throw new VextureError('the module for planar maps is not loaded; read the file with readPacked, or await loadMaps()', 'maps');
+  return parts ?? missing();
 }

@@ -2,7 +2,9 @@
 import { packed, steps } from '../generated/shaders.js';
 import { WRAPS } from '../generated/wraps.js';
 import { ROOT_ATTRIBUTE } from './attributes.js';
-import { mapParts } from './maps.js';
+import { withMaps } from './maps.js';
+
+const planar = withMaps(async () => (await import('../generated/planar-shader.js')).planar);
 
 /**
  * @typedef {object} Variant All that makes one program differ from another.
@@ -76,7 +78,7 @@ function reader({ other, maps, gradients, wrap, flat, fold, linear }) {
   const chosen = `#define VEXTURE_FLAT ${Number(flat && !fold)}\n#define VEXTURE_WRAP ${WRAPS[wrap]}\n`;
   if (maps === 'none') return `${chosen}${packed}${fold}${declared}`;
   const colors = `#define VEXTURE_LINEAR ${Number(linear)}\n#define VEXTURE_GRADIENTS ${Number(gradients)}\n`;
-  return `${chosen}${colors}${mapParts().planar}${fold}${declared}`;
+  return `${chosen}${colors}${packed}${planar()}${fold}${declared}`;
 }
 
 /** Fully transparent pixels write no depth, so that they hide nothing. */

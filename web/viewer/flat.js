@@ -17,8 +17,8 @@ const FLAT = '#define VEXTURE_FLAT 1\n';
 /** For each kind of drawing the shader's text, and what colours a pixel with a footprint. */
 const DRAWN = Object.freeze({
   none: { text: packed, call: 'vextureLayers(first, count, FOOTPRINT)' },
-  some: { text: planar, call: 'vextureSheets(first, count, FOOTPRINT)' },
-  all: { text: planar, call: 'vextureWrappedColor(quad, FOOTPRINT)' },
+  some: { text: packed + planar, call: 'vextureSheets(first, count, FOOTPRINT)' },
+  all: { text: packed + planar, call: 'vextureWrappedColor(quad, FOOTPRINT)' },
 });
 
 /** @param {string} call */

@@ -4,6 +4,7 @@ export { FoldLoader } from '../fold-loader.js';
 export { FoldTexture } from '../fold-texture.js';
 export { LiveVectorTexture } from '../live-vector-texture.js';
 export { readPacked } from '../packed.js';
+export { loadMaps } from '../maps.js';
 export { VectorTextureLoader } from '../vector-texture-loader.js';
 export { VectorTexture } from '../vector-texture.js';
 export { VectorNodeMask, applyVectorMask, vectorMaskOf } from './vector-node-mask.js';

@@ -1,8 +1,8 @@
 // The shader in the language of a backend, for one choice of numbers; each choice has names of its own.
-import { colour } from '../../generated/colour-nodes.js';
 import { coverage } from '../../generated/coverage-nodes.js';
 import { fold } from '../../generated/fold-nodes.js';
 import { WRAPS } from '../../generated/wraps.js';
+import { withMaps } from '../maps.js';
 
 /**
  * @typedef {object} NodeVariant All that makes one text differ from another.
@@ -15,6 +15,8 @@ import { WRAPS } from '../../generated/wraps.js';
  *
  * @typedef {'glsl' | 'wgsl'} Language
  */
+
+const colour = withMaps(async () => (await import('../../generated/colour-nodes.js')).colour);
 
 /** What differs between the languages: `@GLSL$WGSL``. */
 const PAIR = /@([^$]*)\$([^`]*)`/g;
@@ -69,7 +71,7 @@ export function shaderText(variant, language) {
     VEXTURE_LINEAR: Number(variant.linear),
     VEXTURE_WRAP: WRAPS[variant.wrap],
   };
-  const both = coverage + (variant.colours ? colour : '') + (variant.fold ? fold : '');
+  const both = coverage + (variant.colours ? colour() : '') + (variant.fold ? fold : '');
   const text = both.replace(PAIR, language === 'glsl' ? '$1' : '$2');
   return chosen(text, numbers).replace(NAME, `$&${endingOf(variant)}`);
 }
