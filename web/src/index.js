@@ -9,7 +9,7 @@ export { bounds, cellAt, contains, counts } from './walk.js';
 export { paintAt } from './walk-map.js';
 export { gltfTransform } from './gltf-transform.js';
 export { SceneMask, applyVectorMaskToScene } from './mask-scene.js';
-export { rootAttribute } from './root-attribute.js';
+export { rootAttribute } from './attributes.js';
 export { VectorMask, applyVectorMask, vectorMaskOf } from './vector-mask.js';
 export { VectorMaterial } from './vector-material.js';
 
@@ -21,8 +21,8 @@ export { VectorMaterial } from './vector-material.js';
 /** @typedef {import('./data.js').TextureData} TextureData */
 /** @typedef {import('./element-at.js').FoundElement} FoundElement */
 /** @typedef {import('./live-vector-texture.js').LiveOptions} LiveOptions */
-/** @typedef {import('./mask-mesh.js').Masked} Masked */
-/** @typedef {import('./mask-mesh.js').MaskedIntersection} MaskedIntersection */
+/** @typedef {import('./ray-mesh.js').Masked} Masked */
+/** @typedef {import('./ray-mesh.js').MaskedIntersection} MaskedIntersection */
 /** @typedef {import('./mask-options.js').MaskOptions} MaskOptions */
 /** @typedef {import('./paints.js').Paint} Paint */
 /** @typedef {import('./paints.js').PaintList} PaintList */

@@ -5,7 +5,7 @@ import { applyVectorMask, vectorMaskOf } from './vector-mask.js';
 /**
  * @typedef {import('three').Material} Material
  * @typedef {import('three').Object3D} Object3D
- * @typedef {import('./mask-mesh.js').Masked} Masked
+ * @typedef {import('./ray-mesh.js').Masked} Masked
  * @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture
  * @typedef {import('./vector-mask.js').VectorMask} VectorMask
  * @typedef {import('./mask-options.js').MaskOptions} MaskOptions

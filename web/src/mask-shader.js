@@ -1,7 +1,7 @@
 // Text that a mask inserts into a material's shader: declarations, and calls of the functions of src/vexture/glsl.
 import { packed, planar, steps } from '../generated/shaders.js';
 import { WRAPS } from '../generated/wraps.js';
-import { ROOT_ATTRIBUTE } from './root-attribute.js';
+import { ROOT_ATTRIBUTE } from './attributes.js';
 
 /**
  * @typedef {object} Variant All that makes one program differ from another.

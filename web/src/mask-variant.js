@@ -1,11 +1,9 @@
 // What makes the program of one mask differ from that of another.
+import { UV_ATTRIBUTES } from './attributes.js';
 import { FOOTPRINT } from './mask-shader.js';
 import { mapsAmong } from './select-root.js';
 
 /** @typedef {import('./mask-shader.js').Variant} Variant */
-
-/** Names that three.js gives the sets of texture coordinates, in geometries and in what a ray meets. */
-export const UV_ATTRIBUTES = Object.freeze(/** @type {const} */ (['uv', 'uv1']));
 
 /**
  * @param {import('./vector-texture.js').AnyVectorTexture} texture

@@ -3,7 +3,7 @@ import { elementAt } from './element-at.js';
 import { VextureError } from './errors.js';
 import { lookedUp } from './mask-lookup.js';
 import { checkOptions, checkTexture, complete, isTranslucent } from './mask-options.js';
-import { ROOT_ATTRIBUTE } from './root-attribute.js';
+import { ROOT_ATTRIBUTE } from './attributes.js';
 import { shapeIndex } from './select-root.js';
 
 /** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
@@ -73,7 +73,7 @@ export class ShownShape {
   /**
    * Place of an instance's root; undefined where instances have none of their own.
    *
-   * @param {import('./mask-mesh.js').Masked} mesh
+   * @param {import('./ray-mesh.js').Masked} mesh
    * @param {number} [instance]
    */
   rootOf(mesh, instance = 0) {
@@ -115,13 +115,13 @@ export class ShownShape {
 }
 
 /**
- * @param {import('./mask-mesh.js').Masked} mesh
+ * @param {import('./ray-mesh.js').Masked} mesh
  * @param {import('three').Material} material
  */
 export const isOn = (mesh, material) => [mesh.material].flat().includes(material);
 
 /**
- * @param {import('./mask-mesh.js').Masked} mesh
+ * @param {import('./ray-mesh.js').Masked} mesh
  * @param {import('three').Material} material
  * @param {AllOptions} options
  * @throws {VextureError} if a mesh cannot be attached to the mask of a material

@@ -1,11 +1,13 @@
 import { Color } from 'three';
+import { UV_ATTRIBUTES } from './attributes.js';
 import { VextureError } from './errors.js';
 import { check, insert, takePart } from './hooks.js';
-import { MaskedMesh, MaskedMeshes } from './mask-mesh.js';
+import { MaskedMesh } from './mask-mesh.js';
 import { NAMES, isTranslucent, withOptions } from './mask-options.js';
 import { texts } from './mask-shader.js';
 import { mapTransform, uniformValues } from './mask-uniforms.js';
-import { UV_ATTRIBUTES, variantOf } from './mask-variant.js';
+import { variantOf } from './mask-variant.js';
+import { MaskedMeshes } from './ray-mesh.js';
 import { ShownShape, checkMesh, isOn } from './shown-shape.js';
 
 /** @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture */
@@ -149,9 +151,13 @@ export class VectorMask extends WithOptions {
     return { ...this.#shown.options };
   }
 
-  /** Whether the material was transparent before. */
-  get ownTransparent() {
-    return this.#transparent;
+  /**
+   * Give a copy of the material what the material was before, without the mask.
+   *
+   * @param {import('three').Material} copy
+   */
+  restore(copy) {
+    copy.transparent = this.#transparent;
   }
 
   get material() {
@@ -194,7 +200,7 @@ export class VectorMask extends WithOptions {
    * Let rays and light pass through a mesh outside the shape, and rays find the elements of the drawing. Clones of the
    * mesh are attached, too, as long as they have this material.
    *
-   * @param {import('./mask-mesh.js').Masked} mesh that has this material
+   * @param {import('./ray-mesh.js').Masked} mesh that has this material
    * @param {{ shadow?: boolean }} [options] without `shadow` light does not pass: several materials share one shadow
    * @returns {this}
    */
@@ -221,7 +227,7 @@ export class VectorMask extends WithOptions {
   /**
    * Undo `attach`.
    *
-   * @param {import('./mask-mesh.js').Masked} mesh
+   * @param {import('./ray-mesh.js').Masked} mesh
    */
   detach(mesh) {
     this.#meshes.release(mesh);

@@ -2,7 +2,7 @@ import { Color, DataTexture, InstancedMesh, Matrix4, Mesh, PlaneGeometry, Raycas
 import { describe, expect, test } from 'vitest';
 import { readPacked } from '../src/packed.js';
 import { readStyle } from '../src/style.js';
-import { rootAttribute } from '../src/root-attribute.js';
+import { rootAttribute } from '../src/attributes.js';
 import { VectorMaterial } from '../src/vector-material.js';
 import { VectorTexture } from '../src/vector-texture.js';
 import { fixture } from './files.js';

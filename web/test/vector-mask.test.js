@@ -3,7 +3,7 @@ import { describe, expect, test } from 'vitest';
 import { VextureError } from '../src/errors.js';
 import { readPacked } from '../src/packed.js';
 import { texts } from '../src/mask-shader.js';
-import { rootAttribute } from '../src/root-attribute.js';
+import { rootAttribute } from '../src/attributes.js';
 import { applyVectorMask, vectorMaskOf } from '../src/vector-mask.js';
 import { VectorMaterial } from '../src/vector-material.js';
 import { VectorTexture } from '../src/vector-texture.js';
@@ -46,7 +46,7 @@ describe('a clone', () => {
     expect(copied).not.toBe(mask);
     expect(copied?.options).toEqual(mask.options);
     expect(copied?.transform).not.toBe(mask.transform);
-    expect([copied?.texture, copied?.material, copied?.ownTransparent]).toEqual([drawings, copy, false]);
+    expect([copied?.texture, copied?.material]).toEqual([drawings, copy]);
     expect([copy.transparent, copy.color.getHex()]).toEqual([true, 0x123456]);
     expect(copy.customProgramCacheKey()).toBe(material.customProgramCacheKey());
     copied?.set({ wrap: 'clamp' });

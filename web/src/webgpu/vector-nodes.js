@@ -1,8 +1,8 @@
-import { attribute, nodeObject, texture as textureNode, uniform, uv as meshUv, varying, vec2 } from 'three/tsl';
+import { attribute, uv as meshUv, varying } from 'three/tsl';
+import { ROOT_ATTRIBUTE } from '../attributes.js';
 import { VextureError } from '../errors.js';
-import { ROOT_ATTRIBUTE } from '../root-attribute.js';
-import { mapsAmong, shapeIndex } from '../select-root.js';
-import { ShapeNode } from './shape-node.js';
+import { shapeIndex } from '../select-root.js';
+import { shapeNode } from './shape-inputs.js';
 
 /** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
 /** @typedef {import('three/webgpu').Node} Node */
@@ -21,89 +21,39 @@ import { ShapeNode } from './shape-node.js';
  * @property {() => number} [time] seconds of the fold, read in every frame
  *
  * @typedef {ShapeOptions & { linear?: boolean }} ColorOptions `linear`: average the colours of a pixel in linear light, as
- *   light mixes, or in sRGB, as browsers do
+ *   light mixes, and not in sRGB, as browsers do
  */
 
-/** The shape of each instance, from its attribute `vextureRoot` (see `rootAttribute`). */
+/** The shape of each instance, from its attribute `vextureRoot` (see `rootAttribute`), as a node. */
 export const instancedRoot = () => varying(/** @type {any} */ (attribute(ROOT_ATTRIBUTE, 'uint')));
-
-/**
- * A node of a texture of words, which follows whatever replaces it. WebGPU takes `internalFormat` for the name of a
- * format of its own.
- *
- * @param {() => import('three').DataTexture} current
- */
-function wordsNode(current) {
-  const plain = () => {
-    const texture = current();
-    texture.internalFormat = null;
-    return texture;
-  };
-  const node = /** @type {any} */ (textureNode(plain()));
-  node.onRenderUpdate(() => {
-    node.value = plain();
-  });
-  return node;
-}
-
-/**
- * A uniform that is read in every frame.
- *
- * @param {() => number} current
- * @param {'uint' | 'int' | 'float'} type
- */
-function uniformNode(current, type) {
-  const node = /** @type {any} */ (uniform)(current(), type);
-  return node.onRenderUpdate(() => current());
-}
 
 /**
  * @param {'coverage' | 'colour'} what
  * @param {VectorTexture} texture
  * @param {ColorOptions} options
  */
-function shapeNode(what, texture, options) {
-  const { root = null, uv = meshUv(), dx = null, dy = null, wrap = 'none', flat = false, fold = null } = options;
+function nodeOf(what, texture, { root = null, uv = meshUv(), time = () => 0, ...options }) {
   if (!texture?.isVectorTexture || texture.encoding !== 'packed') {
     throw new VextureError('the texture must be a VectorTexture; load one by VectorTextureLoader', 'texture');
   }
   const isNode = /** @type {any} */ (root)?.isNode === true;
-  const chosen = /** @type {string | number | null} */ (isNode ? null : root);
-  const found = () => {
+  const chosen = /** @type {string | number | null} */ (root);
+  const find = () => {
     if (isNode) return { first: 0, count: 1 };
     return what === 'colour' ? texture.layersOf(chosen) : { first: shapeIndex(texture, chosen, ''), count: 1 };
   };
-  const range = found();
-  const isAlone = isNode || range.count === 1;
-  const shown = isNode ? texture.roots : texture.roots.slice(range.first, range.first + range.count);
-  const maps = mapsAmong(shown, isAlone);
-  const colours = maps !== 'none';
-  const variant = {
-    colours,
-    gradients: colours && shown.some(({ hasGradients }) => hasGradients),
-    linear: colours && isAlone && options.linear === true,
-    wrap,
-    flat: flat && !fold,
-    fold: fold !== null,
+  let range = find();
+  const follow = () => {
+    try {
+      range = find();
+    } catch (error) { // new data lack the root: what has its place is shown, with a note
+      texture.dispatchEvent({ type: 'note', message: String(/** @type {Error} */ (error).message) });
+      range = { first: 0, count: 1 };
+    }
   };
-  const inputs = {
-    texels: wordsNode(() => texture.textures.texels),
-    paints: wordsNode(() => texture.textures.layers),
-    instance: isNode ? root : null,
-    quad: uniformNode(() => texture.roots[found().first].quad, 'uint'),
-    first: uniformNode(() => found().first, 'int'),
-    count: uniformNode(() => found().count, 'int'),
-    uv: vec2(/** @type {any} */ (uv)).toVar(),
-    dx,
-    dy,
-    fold: fold && {
-      texels: wordsNode(() => fold.texture),
-      time: uniformNode(() => fold.clock(options.time?.() ?? 0), 'float'),
-      cycle: uniformNode(() => fold.cycle, 'float'),
-    },
-  };
-  const node = nodeObject(new ShapeNode(what, variant, maps !== 'all', /** @type {any} */ (inputs)));
-  return /** @type {any} */ (node).toVar();
+  texture.addEventListener('change', follow);
+  const instance = isNode ? /** @type {Node} */ (root) : null;
+  return shapeNode(what, texture, { dx: null, dy: null, ...options, uv, time, instance, range: () => range });
 }
 
 /**
@@ -112,11 +62,11 @@ function shapeNode(what, texture, options) {
  *
  * @param {VectorTexture} texture
  * @param {ShapeOptions} [options]
- * @returns {Node}
+ * @returns {any} a node, of whose methods three.js's types know few
  * @throws {VextureError} if the root is unknown or ambiguous
  */
 export function vectorCoverage(texture, options = {}) {
-  return shapeNode('coverage', texture, options);
+  return nodeOf('coverage', texture, options);
 }
 
 /**
@@ -124,9 +74,9 @@ export function vectorCoverage(texture, options = {}) {
  *
  * @param {VectorTexture} texture
  * @param {ColorOptions} [options]
- * @returns {Node}
+ * @returns {any} a node, of whose methods three.js's types know few
  * @throws {VextureError} if the root is unknown or ambiguous
  */
 export function vectorColor(texture, options = {}) {
-  return shapeNode('colour', texture, options);
+  return nodeOf('colour', texture, options);
 }

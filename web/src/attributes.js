@@ -5,6 +5,9 @@ import { VextureError } from './errors.js';
 /** Name of the attribute that holds each instance's root. */
 export const ROOT_ATTRIBUTE = 'vextureRoot';
 
+/** Names that three.js gives the sets of texture coordinates, in geometries and in what a ray meets. */
+export const UV_ATTRIBUTES = Object.freeze(/** @type {const} */ (['uv', 'uv1']));
+
 /**
  * Attribute `vextureRoot` for the geometry of an `InstancedMesh`: the shape of each instance.
  *

@@ -1,0 +1,105 @@
+// What a node of a shape reads, as nodes that follow what they stand for.
+import { nodeObject, texture as textureNode, uniform, vec2 } from 'three/tsl';
+import { mapsAmong } from '../select-root.js';
+import { ShapeNode } from './shape-node.js';
+
+/** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
+/** @typedef {import('three/webgpu').Node} Node */
+/** @typedef {{ first: number, count: number }} Range */
+
+/**
+ * @typedef {object} Shape
+ * @property {Node} uv
+ * @property {Node | null} dx
+ * @property {Node | null} dy
+ * @property {Node | null} instance place of an instance's root
+ * @property {() => Range} range of the shape or the drawing's layers in the texture's roots
+ * @property {'none' | 'clamp' | 'repeat'} [wrap]
+ * @property {boolean} [flat]
+ * @property {boolean} [linear]
+ * @property {import('../fold-texture.js').FoldTexture | null} [fold]
+ * @property {() => number} time
+ */
+
+/**
+ * A node of a texture of words, which follows whatever replaces it. WebGPU takes `internalFormat` for the name of a
+ * format of its own.
+ *
+ * @param {() => import('three').DataTexture} current
+ */
+function wordsNode(current) {
+  const plain = () => {
+    const texture = current();
+    texture.internalFormat = null;
+    return texture;
+  };
+  const node = /** @type {any} */ (textureNode(plain()));
+  node.onRenderUpdate(() => {
+    node.value = plain();
+  });
+  return node;
+}
+
+/**
+ * A uniform that is read in every frame.
+ *
+ * @param {() => number} current
+ * @param {'uint' | 'int' | 'float'} type
+ */
+function uniformNode(current, type) {
+  const node = /** @type {any} */ (uniform)(current(), type);
+  return node.onRenderUpdate(() => current());
+}
+
+/**
+ * What makes the text of one shape differ from that of another.
+ *
+ * @param {VectorTexture} texture
+ * @param {Pick<Shape, 'instance' | 'wrap' | 'flat' | 'linear' | 'fold'>} options
+ * @param {Range} range
+ * @returns {{ variant: import('./shader-text.js').NodeVariant, isSheets: boolean }}
+ */
+export function nodeVariant(texture, { instance, wrap = 'none', flat = false, linear = false, fold = null }, range) {
+  const isAlone = instance !== null || range.count === 1;
+  const shown = instance ? texture.roots : texture.roots.slice(range.first, range.first + range.count);
+  const maps = mapsAmong(shown, isAlone);
+  const colours = maps !== 'none';
+  const variant = {
+    colours,
+    gradients: colours && shown.some(({ hasGradients }) => hasGradients),
+    linear: colours && isAlone && linear, // layers are composited in sRGB, as in browsers
+    wrap,
+    flat: flat && !fold,
+    fold: fold !== null,
+  };
+  return { variant, isSheets: maps !== 'all' };
+}
+
+/**
+ * @param {'coverage' | 'colour'} what
+ * @param {VectorTexture} texture
+ * @param {Shape} shape
+ * @returns {any}
+ */
+export function shapeNode(what, texture, shape) {
+  const { uv, dx, dy, instance, range, fold = null, time } = shape;
+  const { variant, isSheets } = nodeVariant(texture, shape, range());
+  const inputs = {
+    texels: wordsNode(() => texture.textures.texels),
+    paints: wordsNode(() => texture.textures.layers),
+    instance,
+    quad: uniformNode(() => texture.roots[range().first].quad, 'uint'),
+    first: uniformNode(() => range().first, 'int'),
+    count: uniformNode(() => range().count, 'int'),
+    uv: /** @type {any} */ (vec2(/** @type {any} */ (uv))).toVar(),
+    dx,
+    dy,
+    fold: fold && {
+      texels: wordsNode(() => fold.texture),
+      time: uniformNode(() => fold.clock(time()), 'float'),
+      cycle: uniformNode(() => fold.cycle, 'float'),
+    },
+  };
+  const node = nodeObject(new ShapeNode(what, variant, isSheets, /** @type {any} */ (inputs)));
+  return /** @type {any} */ (node).toVar();
+}
