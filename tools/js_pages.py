@@ -8,7 +8,7 @@ from typing import Any, Final
 from js_model import MAIN
 from js_types import Model, Writer, plain
 
-__all__ = ["Book", "names", "unlinked", "words"]
+__all__ = ["Book", "described", "is_overridden", "members", "names", "unlinked"]
 
 CONSTRUCTOR, METHOD, ACCESSOR, REFERENCE = 512, 2048, 262144, 4194304
 VARIABLE, FUNCTION, CLASS = 32, 64, 128
@@ -36,9 +36,17 @@ def words(commented: Model, tag: str | None = None) -> str:
 
 def signatures(one: Model) -> list[Model]:
     """Return the ways in which a function is called; none of what is no function."""
-    declared = one.get("type", {}).get("declaration", {})
+    what = one.get("type", {})
+    declared = (what["types"][-1] if is_overridden(one) else what).get("declaration", {})
     found: list[Model] = one.get("signatures") or declared.get("signatures", [])
     return found
+
+
+def is_overridden(one: Model) -> bool:
+    """Whether a member is a function that a mixin puts over one of its base class; its words are lost to TypeDoc."""
+    what = one.get("type", {})
+    parts = what.get("types", []) if what.get("type") == "intersection" else []
+    return bool(parts) and all("signatures" in part.get("declaration", {}) for part in parts)
 
 
 def described(one: Model) -> str:
@@ -73,6 +81,13 @@ def symbol(one: Model) -> str:
     return KINDS.get(one["kind"], "type_alias")
 
 
+def is_ours(what: Model) -> bool:
+    """Whether a type is one of the package, and no parameter of a type."""
+    target = what.get("target")
+    is_own = target.get("packageName") == MAIN if isinstance(target, dict) else target == -1
+    return is_own and what.get("package") == MAIN and not what.get("refersToTypeParameter")
+
+
 def unlinked(model: dict[str, Model]) -> set[str]:
     """Names of the package's own types that something exported mentions, and no entry exports."""
     found: set[str] = set()
@@ -82,15 +97,14 @@ def unlinked(model: dict[str, Model]) -> set[str]:
             for one in what:
                 look(one)
         elif isinstance(what, dict):
-            own = what.get("package") == MAIN and what.get("target") == -1
-            if what.get("type") == "reference" and own and not what.get("refersToTypeParameter"):
+            if what.get("type") == "reference" and is_ours(what):
                 found.add(what["name"])
             for name, one in what.items():
                 if name not in ("inheritedFrom", "overwrites", "extendedTypes"):
                     look(one)
 
     look(list(model.values()))
-    return found
+    return found - {one["name"] for module in model.values() for one in module["children"]}
 
 
 @dataclass(frozen=True)
@@ -160,11 +174,21 @@ class Book:
         return f"#{anchor}" if home == entry else f"{_slug(home)}{ending}#{anchor}"
 
     def _writer(self, entry: str) -> Writer:
-        def link(number: int) -> str | None:
-            home, anchor = self._homes.get(number, ("", ""))
+        def link(what: Model) -> str | None:
+            home, anchor = self._home(what, entry)
             return None if not home else f"#{anchor}" if home == entry else f"{_slug(home)}.html#{anchor}"
 
         return Writer(link)
+
+    def _home(self, what: Model, entry: str) -> tuple[str, str]:
+        """Return where a type is described; one that a module names again is found by its name."""
+        target = what.get("target")
+        if isinstance(target, int) and target in self._homes:
+            return self._homes[target]
+        if not is_ours(what):
+            return "", ""
+        places = [home for home in self._homes.values() if home[1] == what["name"]]
+        return next((home for home in places if home[0] == entry), places[0] if places else ("", ""))
 
     def _linked(self, text: str, entry: str, within: str) -> str:
         """Return a text with links at the names of what is described elsewhere, of this entry first."""
@@ -218,7 +242,7 @@ class Book:
             yield self._signature(f"new {name}", way, entry)
             yield said(words(way))
             yield from self._call({**way, "type": {"type": "intrinsic", "name": "void"}}, entry, said)
-        yield from self._properties([child for child in own if not _is_method(child)], name, entry, said)
+        yield from self._properties([child for child in own if not _is_method(child) and child != built], name, entry, said)
         inherited = [child for child in one["children"] if self._base(child) and child["kind"] != CONSTRUCTOR]
         if inherited:
             yield "**Inherited:** " + self._links(inherited, entry) + "\n{ .js-contents }"
@@ -329,7 +353,7 @@ def _is_code(one: Model) -> bool:
 
 
 def _is_method(one: Model) -> bool:
-    return one["kind"] == METHOD
+    return one["kind"] == METHOD or is_overridden(one)
 
 
 def _is_known(base: Model) -> bool:

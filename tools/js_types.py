@@ -21,6 +21,11 @@ def plain(text: str) -> str:
     return "".join(f"&#{ord(one)};" if one in "*_[]`\\|" else one for one in escaped)
 
 
+def _has_default(one: Model) -> bool:
+    """Whether a parameter may be left out; TypeDoc names the value of a property, too."""
+    return one["variant"] == "param" and "defaultValue" in one
+
+
 @dataclass(frozen=True, slots=True)
 class Writer:
     """Writes types.
@@ -28,10 +33,10 @@ class Writer:
     Parameters
     ----------
     link : callable
-        Address of the description of a name by its number, None if there is none.
+        Address of the description of a type that is named, None if there is none.
     """
 
-    link: Callable[[int], str | None]
+    link: Callable[[Model], str | None]
 
     def type(self, what: Model | None) -> str:
         """Return a type as HTML."""
@@ -55,7 +60,7 @@ class Writer:
 
     def _parameter(self, one: Model) -> str:
         rest = "..." if one["flags"].get("isRest") else ""
-        optional = "?" if one["flags"].get("isOptional") or "defaultValue" in one else ""
+        optional = "?" if one["flags"].get("isOptional") or _has_default(one) else ""
         return f"{rest}{plain(one['name'])}{optional}: {self.type(one['type'])}"
 
     def _other(self, what: Model) -> str:
@@ -66,8 +71,7 @@ class Writer:
         return plain("null" if value is None else f"'{value}'" if isinstance(value, str) else str(value).lower())
 
     def _reference(self, what: Model) -> str:
-        name, target = plain(what["name"]), what.get("target")
-        address = self.link(target) if isinstance(target, int) else None
+        name, address = plain(what["name"]), self.link(what)
         shown = f'<a href="{address}">{name}</a>' if address else name
         given = [one for one in what.get("typeArguments", []) if one.get("name") not in TRIVIAL]
         if what["name"] == "VectorTexture":

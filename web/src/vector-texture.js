@@ -28,7 +28,7 @@ import { colorAt, contains } from './walk.js';
  */
 
 /**
- * @typedef {object} VectorTextureEvents
+ * @typedef {object} VectorTextureEvents The events of a texture.
  * @property {{}} change other data are in place
  * @property {{ message: string }} note a live texture's update was not shown, or a mask's root is missing in new data
  * @property {{ message: string }} offline a live texture's server cannot be reached; the last data stay in place
@@ -56,6 +56,7 @@ export class VectorTexture extends EventDispatcher {
     this.#textures = this.upload(data);
   }
 
+  /** True: it is a vector texture. */
   get isVectorTexture() {
     return true;
   }
@@ -70,11 +71,12 @@ export class VectorTexture extends EventDispatcher {
     return this.#textures;
   }
 
-  /** @returns {Data['encoding']} */
+  /** Which encoding it has: `packed`, or `thesis`. @returns {Data['encoding']} */
   get encoding() {
     return this.#data.encoding;
   }
 
+  /** Its name, that of its file. */
   get name() {
     return this.#data.name;
   }
@@ -222,6 +224,7 @@ export class VectorTexture extends EventDispatcher {
   /**
    * What a mask needs to read another encoding; null for the packed one. Other encodings override it.
    *
+   * @internal
    * @returns {MaskReader | null}
    */
   maskReader() {
