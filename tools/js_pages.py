@@ -156,6 +156,22 @@ class Book:
             rows.append(f"| [`{entry}`]({_slug(entry)}.md) | {text} | {' '.join(found)} |")
         return "\n".join(["| entry | what it is for | classes and functions |", "|---|---|---|", *rows])
 
+    def undescribed(self) -> Iterator[str]:
+        """Find what has no sentence: entries, exports, members of classes and of types of options."""
+        options = {anchor for _, anchor in self._homes.values() if anchor.startswith(f"{OPTIONS}.")}
+        for entry, module in self.model.items():
+            if not described(module):
+                yield entry
+            for one in module["children"]:
+                if one["kind"] != REFERENCE and not described(one):
+                    yield f"{entry} {one['name']}"
+                # the sentence of a type that is made of others is of its members, too
+                for child in members(one) if "children" in one else []:
+                    as_option = one["kind"] == CLASS and f"{OPTIONS}.{child['name']}" in options
+                    told = described(child) or as_option or is_overridden(child) or self._base(child)
+                    if child["kind"] != CONSTRUCTOR and not told:
+                        yield f"{entry} {one['name']}.{child['name']}"
+
     def _contents(self, own: list[Model]) -> Iterator[str]:
         for kind, title in GROUPS.items():
             found = [f"[`{names(one)}`](#{one['name']})" for one in own if symbol(one) == kind]

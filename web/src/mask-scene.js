@@ -2,9 +2,9 @@
 import { VextureError, line } from './errors.js';
 import { applyVectorMask, vectorMaskOf } from './vector-mask.js';
 
+/** @import { Material, Object3D } from 'three' */
+
 /**
- * @typedef {import('three').Material} Material
- * @typedef {import('three').Object3D} Object3D
  * @typedef {import('./ray-mesh.js').Masked} Masked
  * @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture
  * @typedef {import('./vector-mask.js').VectorMask} VectorMask

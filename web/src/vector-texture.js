@@ -7,7 +7,7 @@ import { shapeIndex } from './select-root.js';
 import { wordTexture } from './upload.js';
 import { colorAt, contains } from './walk.js';
 
-/** @typedef {import('three').DataTexture} DataTexture */
+/** @import { DataTexture } from 'three' */
 /** @typedef {import('./data.js').TextureData} TextureData */
 /** @typedef {import('./data.js').PackedData} PackedData */
 /** @typedef {import('./select-root.js').RootChoice} RootChoice */

@@ -56,9 +56,9 @@ function raised({ matrixWorld: { elements }, mirrorHeight }, act) {
  */
 export function watered(base) {
   return class extends base {
-    /** Made by the subclass. @internal @type {WaterShape} */
+    /** @internal @type {WaterShape} made by the subclass */
     shape = /** @type {any} */ (null);
-    /** Normals that this water owns. @internal @type {import('three').Texture | null} */
+    /** @internal @type {import('three').Texture | null} normals that this water owns */
     ownNormals = null;
     /** @internal @type {FoldTexture | null} */
     ownFold = null;
