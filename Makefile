@@ -224,5 +224,5 @@ dist-check: dist .venv/for-test
 
 clean:
 	rm -rf .venv demo build dist src/vexture/compiled src/*.egg-info evidence/src/*.egg-info evidence/benchmarks/results \
-		.hypothesis .mypy_cache .pytest_cache .ruff_cache fuzz-findings \
+		.cache .hypothesis .mypy_cache .pytest_cache .ruff_cache fuzz-findings \
 		web/node_modules examples/counties/node_modules web/types src/vexture/live/built tests/web/screenshots site

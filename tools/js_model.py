@@ -1,6 +1,8 @@
 """What the npm package exports, as TypeDoc reads it from the sources' types."""
 
+import hashlib
 import json
+import os
 import posixpath
 import shutil
 import subprocess
@@ -12,6 +14,9 @@ from typing import Any, Final
 __all__ = ["MAIN", "Entry", "entries", "missing", "model"]
 
 TYPEDOC: Final = Path("node_modules", "typedoc", "bin", "typedoc")
+KEPT: Final = Path(".cache", "javascript")
+"""Where descriptions are kept, in the repository."""
+
 MAIN: Final = "vexture"
 """The package, and its main entry."""
 
@@ -58,7 +63,7 @@ def missing(web: Path) -> str | None:
 
 
 def model(web: Path) -> dict[str, Any]:
-    """Entries' names, and TypeDoc's description of each.
+    """Entries' names, and TypeDoc's description of each. It is kept until a source changes.
 
     Raises
     ------
@@ -66,7 +71,31 @@ def model(web: Path) -> dict[str, Any]:
         If TypeDoc fails.
     """
     found = entries(web)
-    with tempfile.TemporaryDirectory() as scratch:
+    kept = web.parent / KEPT / f"{_digest(web)}.json"
+    if not kept.is_file():
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        for old in kept.parent.glob("*.json"):
+            old.unlink(missing_ok=True)
+        _describe(web, found, kept)
+    named = {module["name"]: module for module in json.loads(kept.read_text(encoding="utf-8"))["children"]}
+    # a module is named by its place below the folder that all have in common
+    return {
+        entry.name: named[posixpath.relpath(entry.source, "src").removesuffix(".js").removesuffix("/index")]
+        for entry in found
+    }
+
+
+def _digest(web: Path) -> str:
+    """Digest of all that the description depends on."""
+    digest = hashlib.sha256()
+    for path in [*sorted(web.glob("*.json")), *sorted((web / "src").rglob("*.*")), *sorted(web.glob("generated/*.js"))]:
+        digest.update(f"{path.relative_to(web)}\0".encode() + path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _describe(web: Path, found: list[Entry], kept: Path) -> None:
+    """Let TypeDoc write its description to a file."""
+    with tempfile.TemporaryDirectory(dir=kept.parent) as scratch:
         written = Path(scratch, "model.json")
         command = ["node", str(TYPEDOC), "--json", str(written)]
         for entry in found:
@@ -74,10 +103,4 @@ def model(web: Path) -> dict[str, Any]:
         outcome = subprocess.run(command, cwd=web, capture_output=True, text=True, check=False)
         if outcome.returncode or not written.is_file():
             raise RuntimeError(f"TypeDoc cannot read web/src: {(outcome.stderr + outcome.stdout).strip()}")
-        modules = json.loads(written.read_text(encoding="utf-8"))["children"]
-    named = {module["name"]: module for module in modules}
-    # a module is named by its place below the folder that all have in common
-    return {
-        entry.name: named[posixpath.relpath(entry.source, "src").removesuffix(".js").removesuffix("/index")]
-        for entry in found
-    }
+        os.replace(written, kept)

@@ -62,10 +62,7 @@ def members(one: Model) -> list[Model]:
     what = one.get("type", {})
     parts = what.get("types", []) if what.get("type") == "intersection" else [what]
     return [
-        child
-        for part in parts
-        if part.get("type") == "reflection"
-        for child in part["declaration"].get("children", [])
+        child for part in parts if part.get("type") == "reflection" for child in part["declaration"].get("children", [])
     ]
 
 
@@ -151,7 +148,9 @@ class Book:
         """Return a table of the entries, and what each exports."""
         rows = []
         for entry, module in self.model.items():
-            found = [f"[`{names(one)}`]({self._address(one, '', '.md')})" for one in module["children"] if _is_code(one)]
+            found = [
+                f"[`{names(one)}`]({self._address(one, '', '.md')})" for one in module["children"] if _is_code(one)
+            ]
             text = self._linked(described(module), "", "").replace("\n", " ")
             rows.append(f"| [`{entry}`]({_slug(entry)}.md) | {text} | {' '.join(found)} |")
         return "\n".join(["| entry | what it is for | classes and functions |", "|---|---|---|", *rows])
@@ -183,7 +182,9 @@ class Book:
         found = [one for one in module["children"] if one["kind"] == REFERENCE]
         if found:
             yield "## Exported here, too { .doc .doc-heading }"
-            yield "\n".join(f"- [`{one['name']}`]({self._address(one, entry, '.md')}){{ #{one['name']} }}" for one in found)
+            yield "\n".join(
+                f"- [`{one['name']}`]({self._address(one, entry, '.md')}){{ #{one['name']} }}" for one in found
+            )
 
     def _address(self, one: Model, entry: str, ending: str) -> str:
         home, anchor = self._homes[one["target"] if one["kind"] == REFERENCE else one["id"]]
@@ -258,7 +259,9 @@ class Book:
             yield self._signature(f"new {name}", way, entry)
             yield said(words(way))
             yield from self._call({**way, "type": {"type": "intrinsic", "name": "void"}}, entry, said)
-        yield from self._properties([child for child in own if not _is_method(child) and child != built], name, entry, said)
+        yield from self._properties(
+            [child for child in own if not _is_method(child) and child != built], name, entry, said
+        )
         inherited = [child for child in one["children"] if self._base(child) and child["kind"] != CONSTRUCTOR]
         if inherited:
             yield "**Inherited:** " + self._links(inherited, entry) + "\n{ .js-contents }"
@@ -309,7 +312,9 @@ class Book:
             yield f"**Returns:** <code>{self._writer(entry).type(way['type'])}</code> – {said(returned)}"
         thrown = words(way, "@throws")
         if thrown:
-            error = "[`VextureError`](vexture.md#VextureError) " if entry != MAIN else "[`VextureError`](#VextureError) "
+            error = (
+                "[`VextureError`](vexture.md#VextureError) " if entry != MAIN else "[`VextureError`](#VextureError) "
+            )
             yield f"**Throws:** {error}{said(thrown)}"
 
     def _properties(self, found: list[Model], owner: str, entry: str, said: Callable[[str], str]) -> Iterator[str]:

@@ -69,7 +69,9 @@ def test_every_export_of_every_entry_has_its_place(pages: dict[str, Read]) -> No
     for entry, names in exported.items():
         assert names
         assert set(names) - pages[entry].ids == set(), entry
-    typed = re.findall(r"@typedef \{import\([^)]*\)[^}]*\} (\w+)", (WEB / "src" / "index.js").read_text(encoding="utf-8"))
+    typed = re.findall(
+        r"@typedef \{import\([^)]*\)[^}]*\} (\w+)", (WEB / "src" / "index.js").read_text(encoding="utf-8")
+    )
     assert len(typed) > 20
     assert set(typed) - pages["vexture"].ids == set()
 

@@ -56,10 +56,10 @@ function raised({ matrixWorld: { elements }, mirrorHeight }, act) {
  */
 export function watered(base) {
   return class extends base {
-    /** @internal @type {WaterShape} made by the subclass */
-    shape = /** @type {any} */ (null);
-    /** @internal @type {import('three').Texture | null} normals that this water owns */
-    ownNormals = null;
+    /** @internal @type {WaterShape} */
+    shape = /** @type {any} */ (null); // made by the subclass
+    /** @internal @type {import('three').Texture | null} */
+    ownNormals = null; // those that this water made
     /** @internal @type {FoldTexture | null} */
     ownFold = null;
     /** @internal @type {WaterFields} */
