@@ -48,7 +48,9 @@ export class SimpleWater extends watered(
       fog,
     });
     super(geometry, material);
+    /** @internal */
     this.ownNormals = options.waterNormals ? null : normals;
+    /** @internal */
     this.shape = new WaterShape(texture, options, (shown) => (material.visible = shown));
     Object.assign(material, SIMPLE_SHADER);
     Object.assign(material.uniforms, this.shape.uniforms, {

@@ -27,8 +27,10 @@ export class VectorWater extends watered(Water) {
     const { size = 1, waterNormals: given, ...others } = { ...SEA, ...options };
     const normals = given ?? waterNormals();
     super(geometry, { ...others, waterNormals: normals });
+    /** @internal */
     this.ownNormals = given ? null : normals;
     const { material } = this;
+    /** @internal */
     this.shape = new WaterShape(texture, options, (shown) => (material.visible = shown));
     insert(material, 'Water', WATER_TEXTS);
     Object.assign(material.uniforms, this.shape.uniforms);
