@@ -54,6 +54,8 @@ ENTRIES: Final = "<!-- entries -->"
 LEFT_OUT: Final = "This part of the reference is made where Node.js and npm are: `make docs`."
 TO_ENTRY: Final = re.compile(r"(\]\((?:[./\w-]*/)?javascript/[\w-]+\.md)#[\w.]+(?=\))")
 """Link to a place of a page of an entry."""
+TO_ENTRY_BESIDE: Final = re.compile(r"(\]\([\w-]+\.md)#[\w.]+(?=\))")
+"""The same from the page of all entries."""
 
 LOG: Final = logging.getLogger("mkdocs.hooks.javascript")
 
@@ -109,7 +111,10 @@ def on_page_markdown(markdown: str, *, page: Any, config: Any, **_: Any) -> str:
         return markdown.replace(
             "## What is named", f"[The pictures]({posixpath.basename(PICTURES)})\n\n## What is named", 1
         )
-    return TO_ENTRY.sub(r"\1", markdown) if js_model.missing(WEB) else markdown
+    if js_model.missing(WEB) is None:
+        return markdown
+    beside = page.file.src_uri == OVERVIEW
+    return (TO_ENTRY_BESIDE if beside else TO_ENTRY).sub(r"\1", markdown)
 
 
 def javascript() -> dict[str, str]:
