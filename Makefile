@@ -132,6 +132,11 @@ report: .venv/for-report
 
 # not --quiet: it keeps --strict from seeing the warnings that it is to fail for
 docs: .venv/for-docs
+	@if ! command -v node >/dev/null || ! command -v npm >/dev/null; then \
+		echo 'node or npm is missing, so the reference of the JavaScript API is left out'; \
+	elif ! $(MAKE) --no-print-directory web/node_modules/made; then \
+		echo 'so the reference of the JavaScript API is left out'; \
+	fi
 	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 	@echo 'Open site/index.html in a browser.'
 
@@ -219,5 +224,5 @@ dist-check: dist .venv/for-test
 
 clean:
 	rm -rf .venv demo build dist src/vexture/compiled src/*.egg-info evidence/src/*.egg-info evidence/benchmarks/results \
-		.hypothesis .mypy_cache .pytest_cache .ruff_cache fuzz-findings \
+		.cache .hypothesis .mypy_cache .pytest_cache .ruff_cache fuzz-findings \
 		web/node_modules examples/counties/node_modules web/types src/vexture/live/built tests/web/screenshots site

@@ -1,12 +1,13 @@
 """Pages of the documentation whose text has its home elsewhere in the repository; MkDocs calls this as a hook.
 
 FORMAT.md and its like stay where readers of the repository look for them. The command line is described by its own
-help, and each module by the first paragraph of its docstring. All become pages when the site is built, so nothing is
-written twice.
+help, each module by the first paragraph of its docstring, and the npm package by the types of its sources. All become
+pages when the site is built, so nothing is written twice.
 """
 
 import ast
 import inspect
+import logging
 import posixpath
 import re
 from collections.abc import Iterator
@@ -17,7 +18,11 @@ import click
 from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
 
-__all__ = ["HOMES", "command_line", "figures", "modules", "on_config", "on_files", "on_page_markdown", "relinked"]
+import js_model
+from js_pages import Book
+
+__all__ = ["HOMES", "command_line", "figures", "javascript", "modules", "on_config", "on_files", "on_page_markdown"]
+__all__ += ["relinked"]
 
 ROOT: Final = Path(__file__).parents[1]
 
@@ -40,6 +45,20 @@ PICTURES: Final = "reference/conformance-pictures.html"
 FIGURES: Final = "reference/figures.md"
 MODULES: Final = "project/modules.md"
 
+WEB: Final = ROOT / "web"
+JAVASCRIPT: Final = "reference/javascript/{}.md"
+OVERVIEW: Final = JAVASCRIPT.format("index")
+ENTRIES: Final = "<!-- entries -->"
+"""Where the page of all entries lists them."""
+
+LEFT_OUT: Final = "This part of the reference is made where Node.js and npm are: `make docs`."
+TO_ENTRY: Final = re.compile(r"(\]\((?:[./\w-]*/)?javascript/[\w-]+\.md)#[\w.]+(?=\))")
+"""Link to a place of a page of an entry."""
+TO_ENTRY_BESIDE: Final = re.compile(r"(\]\([\w-]+\.md)#[\w.]+(?=\))")
+"""The same from the page of all entries."""
+
+LOG: Final = logging.getLogger("mkdocs.hooks.javascript")
+
 GALLERY: Final = ROOT / "evidence" / "benchmarks" / "results" / "conformance.html"
 """Page of all pictures, if `make conformance` has made it."""
 
@@ -52,9 +71,11 @@ FENCED: Final = re.compile(r"^(```.*?^```)$", re.M | re.S)
 
 
 def on_config(config: Any) -> Any:
-    """Add the page of figures to those of Python, if there are any."""
+    """Add the page of figures to those of Python, if there are any, and a page for each entry of the npm package."""
+    (reference,) = (entry["Reference"] for entry in config.nav if "Reference" in entry)
+    (package,) = (entry["JavaScript"] for entry in reference if "JavaScript" in entry)
+    package += [{entry.name: JAVASCRIPT.format(entry.slug)} for entry in js_model.entries(WEB)]
     if figures():
-        (reference,) = (entry["Reference"] for entry in config.nav if "Reference" in entry)
         (python,) = (entry["Python"] for entry in reference if "Python" in entry)
         python.append({"Figures": FIGURES})
     return config
@@ -71,6 +92,10 @@ def on_files(files: Files, *, config: Any) -> Files:
         files.append(File.generated(config, f"files/{path}", abs_src_path=str(ROOT / path)))
     files.append(File.generated(config, COMMAND_LINE, content=command_line()))
     files.append(File.generated(config, MODULES, content=modules()))
+    made = javascript()
+    config.extra["entries"] = made.pop(OVERVIEW)
+    for page, text in made.items():
+        files.append(File.generated(config, page, content=text))
     if GALLERY.is_file():
         files.append(File.generated(config, PICTURES, abs_src_path=str(GALLERY)))
     if figures():
@@ -78,13 +103,42 @@ def on_files(files: Files, *, config: Any) -> Files:
     return files
 
 
-def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
-    """Link the page of all pictures, if it is there."""
-    if page.file.src_uri != CONFORMANCE or not GALLERY.is_file():
+def on_page_markdown(markdown: str, *, page: Any, config: Any, **_: Any) -> str:
+    """Link the page of all pictures, if it is there; list all entries; link no place of a page that is left out."""
+    if page.file.src_uri == OVERVIEW:
+        markdown = markdown.replace(ENTRIES, config.extra["entries"])
+    if page.file.src_uri == CONFORMANCE and GALLERY.is_file():
+        return markdown.replace(
+            "## What is named", f"[The pictures]({posixpath.basename(PICTURES)})\n\n## What is named", 1
+        )
+    if js_model.missing(WEB) is None:
         return markdown
-    return markdown.replace(
-        "## What is named", f"[The pictures]({posixpath.basename(PICTURES)})\n\n## What is named", 1
-    )
+    beside = page.file.src_uri == OVERVIEW
+    return (TO_ENTRY_BESIDE if beside else TO_ENTRY).sub(r"\1", markdown)
+
+
+def javascript() -> dict[str, str]:
+    """Pages of the entries of the npm package, and, by the name of the page of all entries, the list of them.
+
+    Raises
+    ------
+    PluginError
+        If TypeDoc cannot read the sources.
+    """
+    lacking = js_model.missing(WEB)
+    if lacking:
+        LOG.info("the reference of the JavaScript API is left out: %s", lacking)
+        pages = {entry: f"# {entry.name}\n\n{LEFT_OUT}\n" for entry in js_model.entries(WEB)}
+        listed = LEFT_OUT
+    else:
+        try:
+            book = Book(js_model.model(WEB))
+        except RuntimeError as error:
+            raise PluginError(str(error)) from error
+        pages = {entry: book.page(entry.name) for entry in js_model.entries(WEB)}
+        listed = book.overview()
+    written = {JAVASCRIPT.format(entry.slug): text for entry, text in pages.items()}
+    return {OVERVIEW: listed, **written}
 
 
 def relinked(home: str) -> tuple[str, set[str]]:

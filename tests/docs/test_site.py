@@ -137,7 +137,7 @@ FATAL = ("object", "home")  # of which the build does not even come to its end
 def built_broken(folder: Path, *cases: str) -> list[str]:
     """Warnings and errors of the build of a copy in which something is broken; it fails."""
     copied = folder / "copied"
-    pages = ("web/README.md", "examples/shapes", "examples/counties/README.md")
+    pages = ("web/README.md", "web/package.json", "examples/shapes", "examples/counties/README.md")
     for name in ("src", "docs", "tools", "evidence", *pages, "mkdocs.yml"):
         target = copied / name
         target.parent.mkdir(parents=True, exist_ok=True)

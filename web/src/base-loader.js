@@ -3,8 +3,8 @@ import { VextureError, line } from './errors.js';
 import { fetchBytes, progressEvent } from './fetching.js';
 
 /**
- * @typedef {ArrayBuffer | Uint8Array} Bytes
- * @typedef {(event: ProgressEvent) => void} OnProgress
+ * @typedef {ArrayBuffer | Uint8Array} Bytes contents of a file
+ * @typedef {(event: ProgressEvent) => void} OnProgress called while files are loaded, with the bytes so far and in all
  * @typedef {{ signal: AbortSignal, onProgress?: OnProgress }} Request
  */
 
@@ -62,16 +62,18 @@ export class BaseLoader extends Loader {
   #controller = new AbortController();
 
   /**
+   * Load a file, and hand on what it holds.
+   *
    * @param {Url} url
    * @param {(texture: Texture) => void} onLoad
    * @param {OnProgress} [onProgress]
-   * @param {(error: unknown) => void} [onError]
+   * @param {(error: unknown) => void} [onError] by default the console's
    */
   load(url, onLoad, onProgress, onError = console.error) {
     this.loadAsync(url, onProgress).then(onLoad, onError);
   }
 
-  /** Stop all requests; each rejects with an `AbortError`. */
+  /** Stop all requests; each rejects with an `AbortError`. @returns {this} */
   abort() {
     this.#controller.abort();
     this.#controller = new AbortController();
@@ -87,7 +89,7 @@ export class BaseLoader extends Loader {
     return this.manager.resolveURL(ABSOLUTE.test(url) ? url : this.path + url);
   }
 
-  /** Headers, credentials, cache mode and priority of requests. */
+  /** Headers, credentials, cache mode and priority of requests. @internal */
   requestOptions() {
     return {
       headers: this.requestHeader,

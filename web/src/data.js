@@ -1,7 +1,7 @@
 /**
  * Contents of a texture's file after reading and validation: plain data, without three.js.
  *
- * @typedef {object} RootPaint
+ * @typedef {object} RootPaint A colour of a shape.
  * @property {[number, number, number]} color sRGB components, 0..1
  * @property {number} opacity 0..1
  *
@@ -17,13 +17,13 @@
  * @property {import('./style.js').Style | null} style what of the map can get other colours; null of others
  *
  * @typedef {object} TextureData Common to all encodings.
- * @property {string} encoding
- * @property {string} name
+ * @property {string} encoding which encoding it is
+ * @property {string} name of the texture, that of its file
  * @property {Root[]} roots the shapes, the layers of a drawing in painting order
  *
  * @typedef {object} PackedData FORMAT.md, parts B and D.
- * @property {'packed'} encoding
- * @property {string} name
+ * @property {'packed'} encoding which encoding it is
+ * @property {string} name of the texture, that of its file
  * @property {number} width texels in a row, a power of two
  * @property {number} height rows
  * @property {Uint32Array} texels four words each, row by row

@@ -3,8 +3,8 @@ import { VextureError } from './errors.js';
 import { mapParts } from './maps.js';
 
 /**
- * @typedef {object} FoundElement
- * @property {string} name
+ * @typedef {object} FoundElement An element of a drawing at a point.
+ * @property {string} name of the element; it may be empty
  * @property {number} element its place in the `style` of its root
  * @property {number} root place of the root
  */

@@ -5,12 +5,13 @@
  */
 export class VextureError extends Error {
   /**
-   * @param {string} message
+   * @param {string} message one line
    * @param {string} field name of the value at fault, such as `vkFormat`, `vexture.roots` or `quad 17`
-   * @param {{ cause?: unknown }} [options]
+   * @param {{ cause?: unknown }} [options] the error that this one is due to
    */
   constructor(message, field, options) {
     super(message, options);
+    /** `VextureError`. */
     this.name = 'VextureError';
     /** Name of the value at fault. */
     this.field = field;

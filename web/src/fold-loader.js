@@ -10,9 +10,12 @@ import { FoldTexture } from './fold-texture.js';
  */
 export class FoldLoader extends BaseLoader {
   /**
+   * Load a fold.
+   *
    * @param {string} url
    * @param {import('./base-loader.js').OnProgress} [onProgress]
    * @returns {Promise<FoldTexture>}
+   * @throws {VextureError} if there is no such file, it is damaged, or the server does not answer
    */
   async loadAsync(url, onProgress) {
     const [bytes] = await this.fetchAll([url], FOLD_FILE_LIMIT, this.startRequest(onProgress));

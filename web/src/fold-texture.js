@@ -46,6 +46,7 @@ export class FoldTexture {
   #texture;
 
   /**
+   * @internal
    * @param {FoldFacts} facts
    * @param {Uint32Array} words four to a texel, validated
    */
@@ -89,11 +90,12 @@ export class FoldTexture {
     }
   }
 
+  /** True: it is a fold. */
   get isFoldTexture() {
     return true;
   }
 
-  /** Value of the uniform `vextureFolding`. */
+  /** Value of the uniform `vextureFolding`. @returns {import('three').DataTexture} */
   get texture() {
     return this.#texture;
   }

@@ -2,9 +2,9 @@ import { Matrix3 } from 'three';
 
 /**
  * @typedef {object} GLTFTransform As in KHR_texture_transform.
- * @property {readonly [number, number]} [offset]
- * @property {number} [rotation] in radians
- * @property {readonly [number, number]} [scale]
+ * @property {readonly [number, number]} [offset] by default 0, 0
+ * @property {number} [rotation] in radians, by default 0
+ * @property {readonly [number, number]} [scale] by default 1, 1
  */
 
 /**

@@ -1,3 +1,9 @@
+/**
+ * Vector textures for three.js's `WebGLRenderer`: loading them, masking materials with them, giving their elements other
+ * colours, asking what is at a point, following a server.
+ *
+ * @module
+ */
 export { VextureError } from './errors.js';
 export { FoldLoader } from './fold-loader.js';
 export { FoldTexture } from './fold-texture.js';
@@ -15,6 +21,18 @@ export { VectorMaterial } from './vector-material.js';
 
 /** @typedef {import('./base-loader.js').Bytes} Bytes */
 /** @typedef {import('./base-loader.js').OnProgress} OnProgress */
+/** @typedef {import('./gltf-transform.js').GLTFTransform} GLTFTransform */
+/** @typedef {import('./live-source.js').Manifest} Manifest */
+/** @typedef {import('./mask-options.js').AllOptions} AllOptions */
+/** @typedef {import('./mask-scene.js').SceneMaskOptions} SceneMaskOptions */
+/** @typedef {import('./shape-material.js').ShapeParameters} ShapeParameters */
+/** @typedef {import('./style.js').Style} Style */
+/** @typedef {import('./style.js').StyleElement} StyleElement */
+/** @typedef {import('./style.js').StyleGroup} StyleGroup */
+/** @typedef {import('./vector-texture.js').TextureMap} TextureMap */
+/** @typedef {import('./walk.js').Cell} Cell */
+/** @typedef {import('./walk.js').CellPaints} CellPaints */
+/** @typedef {import('./walk-map.js').Painted} Painted */
 /** @typedef {import('./data.js').PackedData} PackedData */
 /** @typedef {import('./data.js').Root} Root */
 /** @typedef {import('./data.js').RootPaint} RootPaint */

@@ -5,10 +5,10 @@ import { VectorTextureLoader } from './vector-texture-loader.js';
 import { VectorTexture } from './vector-texture.js';
 
 /**
- * @typedef {object} LiveOptions
- * @property {VectorTextureLoader} [loader] for headers and credentials
- * @property {boolean} [events] whether to use the server's event stream; otherwise the server is polled
- * @property {number} [interval] milliseconds between two polls
+ * @typedef {object} LiveOptions How a texture follows a server.
+ * @property {VectorTextureLoader} [loader] a loader of one's own, for headers and credentials
+ * @property {boolean} [events] whether to use the server's event stream, by default `true`; without it the server is polled
+ * @property {number} [interval] milliseconds between two polls, by default 2000
  */
 
 const INTERVAL = 2000;
@@ -54,6 +54,7 @@ export class LiveVectorTexture extends VectorTexture {
   /**
    * Use `LiveVectorTexture.connect`.
    *
+   * @internal
    * @param {import('./data.js').PackedData} data
    * @param {Source} source
    */
@@ -79,6 +80,7 @@ export class LiveVectorTexture extends VectorTexture {
     return this.#online;
   }
 
+  /** Whether it was closed. */
   get closed() {
     return this.#closing.signal.aborted;
   }
@@ -88,6 +90,7 @@ export class LiveVectorTexture extends VectorTexture {
     this.#closing.abort();
   }
 
+  /** Stop following the server, and free the GPU memory. */
   dispose() {
     this.close();
     super.dispose();

@@ -4,29 +4,36 @@ import { WRAPS } from '../generated/wraps.js';
 import { VextureError, line } from './errors.js';
 
 /**
- * @typedef {object} MaskOptions
+ * @typedef {object} MaskOptions How a mask shows its shape. Of a `VectorMaterial` `mode` is never `mix`, and `background` is
+ *   `none` by default.
  * @property {string | number | null} [root] name or place of the shape; in mode `paint` `NAME` also selects the layers
  *   `NAME/...`. Needed if the texture holds several shapes, in mode `paint` if it holds several drawings, unless
  *   `instanced` is set.
- * @property {Matrix3} [transform] from the mesh's uv to the unit square; its elements may be changed at any time
- * @property {0 | 1} [channel] set of texture coordinates: the mesh's `uv`, or its `uv1`
- * @property {'alpha' | 'mix' | 'cut' | 'paint'} [mode] `alpha`: opacity is 0 outside the shape. `mix`: another colour or
+ * @property {Matrix3} [transform] from the mesh's uv to the unit square; its elements may be changed at any time. By
+ *   default the identity
+ * @property {0 | 1} [channel] set of texture coordinates: the mesh's `uv`, by default, or its `uv1`
+ * @property {'alpha' | 'mix' | 'cut' | 'paint'} [mode] `alpha`, the default: opacity is 0 outside the shape. `mix`: another colour or
  *   map inside the shape. `cut`: nothing is drawn outside the shape, not even depth. `paint`: the drawing's own colours.
- * @property {'none' | 'clamp' | 'repeat'} [wrap] beyond the unit square: nothing, the value at its border, or the shape
- *   again
+ * @property {'none' | 'clamp' | 'repeat'} [wrap] beyond the unit square: nothing, by default, the value at its border, or
+ *   the shape again
  * @property {boolean} [flat] for views straight at a plane, as of an orthographic camera, in which pixels are upright in
- *   the drawing and all alike: they cost less. In any other view the picture is wrong. Without effect on a fold
- * @property {boolean} [invert] exchange inside and outside; not in mode `paint`
- * @property {import('three').ColorRepresentation} [color] mode `mix`: colour inside; a `Color` may be changed at any time
- * @property {import('three').Texture | null} [map] mode `mix`: map inside, with the mesh's uv and its own transform
- * @property {number} [threshold] mode `cut`: pixels with at least this coverage are drawn
+ *   the drawing and all alike: they cost less. In any other view the picture is wrong. Without effect on a fold.
+ *   `false` by default
+ * @property {boolean} [invert] exchange inside and outside, by default `false`; not in mode `paint`
+ * @property {import('three').ColorRepresentation} [color] mode `mix`: colour inside, by default white; a `Color` may be
+ *   changed at any time
+ * @property {import('three').Texture | null} [map] mode `mix`: map inside, with the mesh's uv and its own transform. By
+ *   default none
+ * @property {number} [threshold] mode `cut`: pixels with at least this coverage are drawn, by default 0.5
  * @property {boolean} [linear] mode `paint`, of a planar map: average the colours of a pixel in linear light, as light
  *   mixes, or in sRGB, as browsers do. By default `true` on lit materials; without effect on a drawing of several layers
- * @property {'own' | 'none'} [background] mode `paint`: around the drawing, the material's own colour or nothing
+ * @property {'own' | 'none'} [background] mode `paint`: around the drawing, the material's own colour, by default, or
+ *   nothing
  * @property {boolean} [instanced] each instance shows the root in its attribute `vextureRoot` (see `rootAttribute`), in
- *   mode `paint` one layer
- * @property {import('./fold-texture.js').FoldTexture | null} [fold] moves the shape with time; packed textures only
- * @property {number} [time] seconds of the fold
+ *   mode `paint` one layer. `false` by default
+ * @property {import('./fold-texture.js').FoldTexture | null} [fold] moves the shape with time; packed textures only. By default
+ *   none
+ * @property {number} [time] seconds of the fold, by default 0
  */
 
 export const MODES = Object.freeze(['alpha', 'mix', 'cut', 'paint']);
@@ -58,7 +65,10 @@ function choose(name, value, allowed) {
   throw new VextureError(`${name} is ${line(value)}; it must be one of ${allowed.join(', ')}`, name);
 }
 
-/** @typedef {Required<Omit<MaskOptions, 'root'>> & Pick<MaskOptions, 'root'>} AllOptions */
+/**
+ * @typedef {Required<Omit<MaskOptions, 'root'>> & Pick<MaskOptions, 'root'>} AllOptions the options of a mask, those that
+ *   were not given as well
+ */
 
 /**
  * Each option and its value where it is not given; the one list of the options.

@@ -2,19 +2,17 @@
 import { VextureError, line } from './errors.js';
 import { applyVectorMask, vectorMaskOf } from './vector-mask.js';
 
+/** @import { Material, Object3D } from 'three' */
+
 /**
- * @typedef {import('three').Material} Material
- * @typedef {import('three').Object3D} Object3D
  * @typedef {import('./ray-mesh.js').Masked} Masked
  * @typedef {import('./vector-texture.js').AnyVectorTexture} VectorTexture
  * @typedef {import('./vector-mask.js').VectorMask} VectorMask
  * @typedef {import('./mask-options.js').MaskOptions} MaskOptions
  *
- * @typedef {object} OfMaterials
- * @property {string | readonly string[] | ((material: Material, mesh: Masked) => boolean)} [materials] which materials:
- *   a name or names, or a function that chooses them; by default all
- *
- * @typedef {MaskOptions & OfMaterials} SceneMaskOptions
+ * @typedef {MaskOptions & { materials?: string | readonly string[] | ((material: Material, mesh: Masked) => boolean) }
+ *   } SceneMaskOptions the options of a mask; and `materials`: which materials, by a name or names, or by a function that
+ *   chooses them; by default all
  */
 
 /** Names that a message lists. */
@@ -55,7 +53,10 @@ export function attachAll(meshes, masks) {
 export class SceneMask {
   #masks;
 
-  /** @param {readonly VectorMask[]} masks */
+  /**
+   * @internal
+   * @param {readonly VectorMask[]} masks
+   */
   constructor(masks) {
     this.#masks = Object.freeze([...masks]);
   }
@@ -116,7 +117,7 @@ export function applyVectorMaskToScene(scene, texture, { materials, ...options }
 
 /**
  * @param {readonly Masked[]} meshes
- * @param {OfMaterials['materials']} wanted
+ * @param {SceneMaskOptions['materials']} wanted
  * @returns {Set<Material>}
  */
 function choose(meshes, wanted) {

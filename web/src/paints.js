@@ -7,7 +7,7 @@ import { nearest } from './map-means.js';
  *   reads it, with `#rrggbbaa` and `rgba()`; or sRGB components and opacity, 0..1; null or `none` hides; `own` is what the
  *   element had at first
  *
- * @typedef {Readonly<Record<string, Paint>> | ReadonlyMap<string, Paint>} PaintList by element
+ * @typedef {Readonly<Record<string, Paint>> | ReadonlyMap<string, Paint>} PaintList colours by the names of elements
  *
  * @typedef {Pick<typeof import('three'), 'Color' | 'LinearSRGBColorSpace' | 'SRGBColorSpace'>} Colors of three.js
  *

@@ -11,7 +11,7 @@
  * @typedef {import('three').Object3D & {
  *   material: import('three').Material | import('three').Material[],
  *   geometry: import('three').BufferGeometry
- * }} Masked
+ * }} Masked a mesh, or whatever else has a geometry and a material
  *
  * @typedef {import('three').Intersection & { element?: import('./element-at.js').FoundElement | null }} MaskedIntersection
  *   what a ray finds on an attached mesh: `element` is the element of the drawing there, null without any

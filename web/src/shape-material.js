@@ -6,13 +6,14 @@ import { NAMES, checkOptions, complete, withOptions } from './mask-options.js';
 /** @typedef {import('./mask-options.js').AllOptions} AllOptions */
 
 /**
- * @typedef {object} ShapeParameters
+ * @typedef {object} ShapeParameters What an unlit material shows.
  * @property {VectorTexture | null} [texture] null or omitted: none yet
  * @property {'alpha' | 'paint' | 'cut'} [mode] the shape in `color`, the drawing in its own colours, or the shape in
  *   `color` without blending
  *
  * @typedef {import('three').MeshBasicMaterialParameters & Omit<import('./mask-options.js').MaskOptions,
  *   'mode' | 'color' | 'map'> & ShapeParameters} VectorMaterialParameters
+ *   the options of an unlit material with a shape: those of `MeshBasicMaterial`, and those of a mask
  *
  * @typedef {Omit<AllOptions, 'mode' | 'color' | 'map'> & { mode: 'alpha' | 'paint' | 'cut' }} ShapeOptions
  */
@@ -23,7 +24,7 @@ import { NAMES, checkOptions, complete, withOptions } from './mask-options.js';
  * @property {Mask | null} mask null without a texture; `mask.attach(mesh)` applies it to shadows and raycasting
  * @property {AllOptions} options as the constructor takes them
  * @property {VectorTexture | null} texture with null the material is a plain one
- * @property {true} isVectorMaterial
+ * @property {true} isVectorMaterial true: it is a material with a shape
  * @property {(values?: VectorMaterialParameters) => void} setValues changes several values at once, such as a texture and its
  *   root, as the constructor takes them; undefined is the default. After an error the options are as they were
  */

@@ -6,22 +6,22 @@ import { paintAt } from './walk-map.js';
 /**
  * @typedef {import('./planar-map.js').Color} Color
  *
- * @typedef {object} Element Part of a drawing that gets a new colour as a whole.
+ * @typedef {object} StyleElement Part of a drawing that gets a new colour as a whole.
  * @property {string} name may be empty, and need not be the only one of its kind
  * @property {[number, number, number]} color sRGB components, 0..1
  * @property {number} opacity 0..1
  * @property {number} group the innermost group around it, as a place in `groups`; -1 if there is none
  * @property {boolean} hides whether something below it is not in the map, so that it must stay opaque
  *
- * @typedef {object} Group Elements that are composited by themselves.
+ * @typedef {object} StyleGroup Elements that are composited by themselves.
  * @property {number} outer the group around it, or -1
- * @property {number} opacity
+ * @property {number} opacity 0..1
  * @property {number} blend number of the blend mode
  * @property {'none' | 'opacity' | 'luminance'} mask whether it masks the group around it
  *
- * @typedef {object} Style
- * @property {Element[]} elements in painting order
- * @property {Group[]} groups each after the group around it
+ * @typedef {object} Style What of a planar map can get other colours.
+ * @property {StyleElement[]} elements in painting order
+ * @property {StyleGroup[]} groups each after the group around it
  * @property {number[][]} stacks of each paint, the elements seen in it, from below
  */
 
@@ -60,7 +60,7 @@ export function readStyle(value, what) {
  * @param {any} value
  * @param {number} groups
  * @param {string} what
- * @returns {Element}
+ * @returns {StyleElement}
  */
 function readElement(value, groups, what) {
   need(isObject(value), `${what}: an element`, value);
@@ -75,7 +75,7 @@ function readElement(value, groups, what) {
  * @param {any} value
  * @param {number} place
  * @param {string} what
- * @returns {Group}
+ * @returns {StyleGroup}
  */
 function readGroup(value, place, what) {
   need(isObject(value), `${what}: a group`, value);
@@ -87,7 +87,7 @@ function readGroup(value, place, what) {
 }
 
 /**
- * @param {Group[]} groups
+ * @param {StyleGroup[]} groups
  * @param {string} what
  */
 function checkNesting(groups, what) {
@@ -136,7 +136,7 @@ const isPlace = (value, length) => Number.isInteger(value) && /** @type {number}
 /**
  * The groups from the outermost to a given one.
  *
- * @param {Group[]} groups
+ * @param {StyleGroup[]} groups
  * @param {number} inner may be -1
  */
 export function groupsAround(groups, inner) {
@@ -184,7 +184,7 @@ export function composited({ elements, groups }, stack) {
 /**
  * How many masks a group has.
  *
- * @param {Group[]} groups
+ * @param {StyleGroup[]} groups
  * @param {number} group
  */
 function masksOf(groups, group) {

@@ -176,10 +176,12 @@ export class VectorMask extends WithOptions {
     copy.transparent = this.#transparent;
   }
 
+  /** The material that it masks. */
   get material() {
     return this.#material;
   }
 
+  /** The texture with its shape; setting it shows another one. */
   get texture() {
     return this.#shown.texture;
   }

@@ -11,9 +11,12 @@ import { VectorTexture } from './vector-texture.js';
  */
 export class VectorTextureLoader extends BaseLoader {
   /**
+   * Load a texture.
+   *
    * @param {string} url
    * @param {import('./base-loader.js').OnProgress} [onProgress]
    * @returns {Promise<VectorTexture>}
+   * @throws {VextureError} if there is no such file, it is damaged, or the server does not answer
    */
   async loadAsync(url, onProgress) {
     return new VectorTexture(await this.loadData(url, onProgress));
@@ -26,6 +29,7 @@ export class VectorTextureLoader extends BaseLoader {
    * @param {import('./base-loader.js').OnProgress} [onProgress]
    * @param {AbortSignal} [signal] stops this request only; `abort` stops all
    * @returns {Promise<import('./data.js').PackedData>}
+   * @throws {VextureError} if there is no such file, it is damaged, or the server does not answer
    */
   async loadData(url, onProgress, signal) {
     const request = this.startRequest(onProgress, signal);
@@ -39,8 +43,9 @@ export class VectorTextureLoader extends BaseLoader {
    * A texture from a file's contents.
    *
    * @param {import('./base-loader.js').Bytes} contents
-   * @param {string} [name]
+   * @param {string} [name] name for messages, and for the texture if the file has none
    * @returns {Promise<VectorTexture>}
+   * @throws {VextureError} if the file is damaged
    */
   async parse(contents, name) {
     return new VectorTexture(await readPacked(contents, name));

@@ -6,7 +6,7 @@ import { shapeIndex } from './select-root.js';
 import { wordTexture } from './upload.js';
 import { colorAt, contains } from './walk.js';
 
-/** @typedef {import('three').DataTexture} DataTexture */
+/** @import { DataTexture } from 'three' */
 /** @typedef {import('./data.js').TextureData} TextureData */
 /** @typedef {import('./data.js').PackedData} PackedData */
 /** @typedef {import('./select-root.js').RootChoice} RootChoice */
@@ -27,7 +27,7 @@ import { colorAt, contains } from './walk.js';
  */
 
 /**
- * @typedef {object} VectorTextureEvents
+ * @typedef {object} VectorTextureEvents The events of a texture.
  * @property {{}} change other data are in place
  * @property {{ message: string }} note a live texture's update was not shown, or a mask's root is missing in new data
  * @property {{ message: string }} offline a live texture's server cannot be reached; the last data stay in place
@@ -58,6 +58,7 @@ export class VectorTexture extends EventDispatcher {
     this.#textures = this.upload(data);
   }
 
+  /** True: it is a vector texture. */
   get isVectorTexture() {
     return true;
   }
@@ -72,11 +73,12 @@ export class VectorTexture extends EventDispatcher {
     return this.#textures;
   }
 
-  /** @returns {Data['encoding']} */
+  /** Which encoding it has: `packed`, or `thesis`. @returns {Data['encoding']} */
   get encoding() {
     return this.#data.encoding;
   }
 
+  /** Its name, that of its file. */
   get name() {
     return this.#data.name;
   }
@@ -231,6 +233,7 @@ export class VectorTexture extends EventDispatcher {
   /**
    * What a mask needs to read another encoding; null for the packed one. Other encodings override it.
    *
+   * @internal
    * @returns {MaskReader | null}
    */
   maskReader() {

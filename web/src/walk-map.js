@@ -13,7 +13,7 @@ import { WHOLE, filledBox, isAtOrLeft } from './winding.js';
  * @typedef {object} Painted What is at a point of a planar map.
  * @property {number | null} paint its number in the map's table; null where only a mean colour is known, in slivers as
  *   narrow as the rounding, and outside of the unit square
- * @property {Color} color premultiplied sRGB and opacity, 0..1
+ * @property {[number, number, number, number]} color premultiplied sRGB and opacity, 0..1
  *
  * @typedef {object} MapLeaf A leaf of a map, with its paints.
  * @property {number[][]} curves in its lattice units

@@ -30,8 +30,8 @@ export const BLACK = Object.freeze({ color: Object.freeze([0, 0, 0]), opacity: 1
  * @property {number} cell 0 to 3, its place there: (right half) + 2 (upper half); -1 for the unit square itself
  * @property {CellPaints | null} paints of a cell of a planar map; null elsewhere
  *
- * @typedef {object} CellPaints
- * @property {import('./planar-map.js').Color} mean mean colour: premultiplied sRGB and opacity, 0..1
+ * @typedef {object} CellPaints The paints of a cell of a planar map.
+ * @property {[number, number, number, number]} mean mean colour: premultiplied sRGB and opacity, 0..1
  * @property {number | null} base number of its base paint; null of a quad, and where only the mean is known
  * @property {[number, number][]} sides numbers of the paints on the left and on the right of each curve
  */

@@ -1,3 +1,7 @@
-// The package's entry `vexture/gltf`: vector textures in models of glTF.
+/**
+ * Vector textures in models of glTF: a plugin of three.js's `GLTFLoader`.
+ *
+ * @module
+ */
 export { VectorTexturePlugin } from './plugin.js';
 export { gltfTransform } from '../gltf-transform.js';

@@ -33,11 +33,12 @@ export class VectorTexturePlugin {
   /** @type {Map<number, Promise<VectorTexture>>} */
   #textures = new Map();
 
-  /** @param {GLTFParser} parser */
+  /** @param {GLTFParser} parser as `GLTFLoader.register` hands it on */
   constructor(parser) {
     this.#parser = parser;
   }
 
+  /** The extension's name, `VEXTURE_vector_texture`. */
   get name() {
     return EXTENSION;
   }

@@ -1,4 +1,10 @@
-// Shapes as components of React Three Fiber. Nothing here is JSX, so that it needs no compiler.
+/**
+ * Components and hooks for React Three Fiber.
+ *
+ * @module
+ */
+
+// Nothing here is JSX, so that it needs no compiler.
 import { extend, useLoader } from '@react-three/fiber';
 import { createElement, forwardRef, useImperativeHandle, useLayoutEffect, useMemo, useRef } from 'react';
 import { VextureError } from '../errors.js';
@@ -9,28 +15,33 @@ import { VectorMaterial as Material } from '../vector-material.js';
 import { VectorTextureLoader } from '../vector-texture-loader.js';
 import { meshOf, useChanges, useColors, useMesh, useTime } from './hooks.js';
 
+/** @import { VectorMask as Mask } from '../vector-mask.js' */
+/** @import { AnyVectorTexture, VectorTexture } from '../vector-texture.js' */
+
 /**
- * @typedef {import('../vector-texture.js').VectorTexture} VectorTexture
- * @typedef {import('../vector-texture.js').AnyVectorTexture} AnyVectorTexture
- * @typedef {import('../vector-mask.js').VectorMask} Mask
- *
- * @typedef {object} Source
+ * @typedef {object} SourceProps What both components take besides their options.
  * @property {string} [src] address of a texture, which is loaded while the nearest `Suspense` shows its fallback
  * @property {import('../paints.js').PaintList | null} [colors] other colours of elements (`vexture convert --restyle`), on
  *   a copy of the texture: what else shows the texture keeps its colours. An element that is not named has its own
  *
- * @typedef {object} ElementProps
- * @property {import('react').Key | null} [key]
- * @property {import('react').ReactNode} [children]
- * @property {string | ((parent: any, material: Material) => () => void)} [attach] `material` by default
+ * @typedef {object} MaterialElementProps What React takes of a material.
+ * @property {import('react').Key | null} [key] as React takes it
+ * @property {import('react').ReactNode} [children] what is in the material
+ * @property {string | ((parent: any, material: Material) => () => void)} [attach] where in its parent it goes, by default
+ *   `material`
  * @property {null} [dispose] null: the material is kept when it is unmounted
- * @property {import('react').Ref<Material>} [ref]
+ * @property {import('react').Ref<Material>} [ref] the material
  *
- * @typedef {import('../vector-material.js').VectorMaterialParameters & Source & ElementProps} VectorMaterialProps
- *   `toneMapped` is false by default, so that colours are the drawing's
+ * @typedef {import('../vector-material.js').VectorMaterialParameters & SourceProps & MaterialElementProps}
+ *   VectorMaterialProps the options of the class of that name, and the props of the component; `toneMapped` is false by default, so that colours are the drawing's
  *
- * @typedef {import('../mask-options.js').MaskOptions & Source & { texture?: AnyVectorTexture | null,
- *   key?: import('react').Key | null, ref?: import('react').Ref<Mask> }} VectorMaskProps
+ * @typedef {object} MaskElementProps What a mask in React's tree takes besides its options.
+ * @property {AnyVectorTexture | null} [texture] the texture with the shape; null: no mask
+ * @property {import('react').Key | null} [key] as React takes it
+ * @property {import('react').Ref<Mask>} [ref] the mask
+ *
+ * @typedef {import('../mask-options.js').MaskOptions & SourceProps & MaskElementProps} VectorMaskProps the options of
+ *   `applyVectorMask`, and the props of the component
  */
 
 extend({ VextureMaterial: Material });

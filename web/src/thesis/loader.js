@@ -32,9 +32,12 @@ function pairOf(url) {
  */
 export class ThesisLoader extends BaseLoader {
   /**
+   * Load a texture.
+   *
    * @param {PairUrl} url
    * @param {OnProgress} [onProgress]
    * @returns {Promise<ThesisTexture>}
+   * @throws {VextureError} if there is no such pair, one is damaged, or the server does not answer
    */
   async loadAsync(url, onProgress) {
     return new ThesisTexture(await this.loadData(url, onProgress));
@@ -61,7 +64,7 @@ export class ThesisLoader extends BaseLoader {
    * A texture from the contents of both files.
    *
    * @param {[Bytes, Bytes]} contents
-   * @param {string} [name]
+   * @param {string} [name] name for messages, and of the texture
    * @returns {Promise<ThesisTexture>}
    */
   async parse([quads, curves], name) {

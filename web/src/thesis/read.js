@@ -17,8 +17,8 @@ const NUMBER = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
 
 /**
  * @typedef {object} ThesisData FORMAT.md, part A.
- * @property {'thesis'} encoding
- * @property {string} name
+ * @property {'thesis'} encoding which encoding it is
+ * @property {string} name of the texture
  * @property {8 | 16} bits of each channel
  * @property {number} quadCount rows of the list of quads
  * @property {number} curveCount rows of the list of curves

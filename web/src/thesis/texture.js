@@ -38,6 +38,8 @@ export function listTexture(pixels, width, most) {
  */
 export class ThesisTexture extends VectorTexture {
   /**
+   * Whether a point of the unit square is inside the shape.
+   *
    * @override
    * @param {number} u
    * @param {number} v upwards
@@ -50,7 +52,10 @@ export class ThesisTexture extends VectorTexture {
   }
 
   /**
+   * A thesis texture has one shape, and no layers.
+   *
    * @override
+   * @throws {VextureError} always
    * @returns {never}
    */
   layersOf() {
@@ -71,6 +76,7 @@ export class ThesisTexture extends VectorTexture {
   }
 
   /**
+   * @internal
    * @override
    * @returns {import('../vector-texture.js').MaskReader}
    */

@@ -1,4 +1,8 @@
-// The Vite plugin: `import logo from './logo.svg?vexture'` is the address of the drawing's texture.
+/**
+ * A plugin of Vite: `import logo from './logo.svg?vexture'` is the address of the drawing's texture.
+ *
+ * @module
+ */
 import { createHash } from 'node:crypto';
 import { access, mkdir, readFile, rename, rm } from 'node:fs/promises';
 import { availableParallelism } from 'node:os';
@@ -8,10 +12,15 @@ import { optionsOf, parametersOf } from './options.js';
 
 /**
  * @typedef {import('./options.js').ConvertOptions} ConvertOptions
- * @typedef {import('./converter.js').Converter} Converter
- * @typedef {ConvertOptions & { converter?: string | readonly string[] }} VextureOptions `converter`: the program, and what
- *   comes before its parameters, if it is not to be looked for; the other options are for all drawings
+ *
+ * @typedef {object} ConverterOption Where the converter is.
+ * @property {string | readonly string[]} [converter] the program, and what comes before its parameters, if it is not to be
+ *   looked for, such as `['uvx', 'vexture']`
+ *
+ * @typedef {ConvertOptions & ConverterOption} VextureOptions the options of a conversion, for all drawings, and the converter
  */
+
+/** @import { Converter } from './converter.js' */
 
 const OURS = /\?(?:.*&)?vexture(?:[&=]|$)/;
 

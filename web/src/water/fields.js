@@ -6,17 +6,18 @@ import { VextureError, line } from '../errors.js';
 /** @typedef {import('three').ColorRepresentation} ColorRepresentation */
 
 /**
- * @typedef {object} Calm
- * @property {ColorRepresentation} [shoal] colour of calm water where it is shallow
- * @property {ColorRepresentation} [deep] and where it is deep
- * @property {number} [clear] metres of water in which the ground below fades to a third
- * @property {number} [turn] metres in which the one colour turns into the other
- * @property {number} [least] how much of the ground the shallowest water hides, 0..1, so that its edge is seen
+ * @typedef {object} Calm The look of calm water.
+ * @property {ColorRepresentation} [shoal] colour of calm water where it is shallow, by default `0x6b9fb0`
+ * @property {ColorRepresentation} [deep] and where it is deep, by default `0x1a5169`
+ * @property {number} [clear] metres of water in which the ground below fades to a third, by default 0.6
+ * @property {number} [turn] metres in which the one colour turns into the other, by default 2
+ * @property {number} [least] how much of the ground the shallowest water hides, 0..1, so that its edge is
+ *   seen; by default 0.4
  *
- * @typedef {object} DepthColors
+ * @typedef {object} DepthColors Colours of depths.
  * @property {{from: number, color: ColorRepresentation, opacity?: number}[]} classes in ascending order, at most 8: the
  *   colour of depths from so many metres
- * @property {boolean} [smooth] each colour turns into the next, instead of at a line
+ * @property {boolean} [smooth] each colour turns into the next, instead of at a line; by default `false`
  */
 
 /** Macro of programs with fields. */

@@ -1,4 +1,8 @@
-// The package's entry `vexture/water`, separate because it needs an addon of three.js.
+/**
+ * Water within a shape, with foam and shallows along its shore. An entry of its own, because it needs an addon of three.js.
+ *
+ * @module
+ */
 import { SimpleWater } from './simple-water.js';
 import { VectorWater } from './vector-water.js';
 
@@ -22,6 +26,9 @@ export function chooseWater() {
 
 /** @typedef {import('./fields.js').Calm} Calm */
 /** @typedef {import('./fields.js').DepthColors} DepthColors */
+/** @typedef {import('./mesh.js').WaterOptions} WaterOptions */
 /** @typedef {import('./shape.js').Foam} Foam */
+/** @typedef {import('./shape.js').WaterShapeOptions} WaterShapeOptions */
+/** @typedef {import('./simple-water.js').SimpleWaterLook} SimpleWaterLook */
 /** @typedef {import('./simple-water.js').SimpleWaterOptions} SimpleWaterOptions */
 /** @typedef {import('./vector-water.js').VectorWaterOptions} VectorWaterOptions */

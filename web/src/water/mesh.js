@@ -10,11 +10,12 @@ import { FOLD } from './shader.js';
 /** @typedef {import('three').Mesh<import('three').BufferGeometry, import('three').ShaderMaterial>} WaterMesh */
 
 /**
- * @typedef {object} WaterOptions what all kinds of water take
- * @property {FoldTexture | null} [fold]
+ * @typedef {object} WaterOptions What all kinds of water take.
+ * @property {FoldTexture | null} [fold] moves the shore; by default none
  * @property {import('three').Texture | null} [fields] over the mesh's uv; red: metres of depth, green: how open it is
  * @property {import('./fields.js').Calm} [calm] colours and clearness of calm water
- * @property {import('./fields.js').DepthColors | null} [depthColors]
+ * @property {import('./fields.js').DepthColors | null} [depthColors] colours of depths instead of the look of water, where fields
+ *   give depths; by default none
  */
 
 /** Colours of the sea by day; three.js's defaults are grey. */
@@ -55,13 +56,13 @@ function raised({ matrixWorld: { elements }, mirrorHeight }, act) {
  */
 export function watered(base) {
   return class extends base {
-    /** @type {WaterShape} made by the subclass */
-    shape = /** @type {any} */ (null);
-    /** @type {import('three').Texture | null} normals that this water owns */
-    ownNormals = null;
-    /** @type {FoldTexture | null} */
+    /** @internal @type {WaterShape} */
+    shape = /** @type {any} */ (null); // made by the subclass
+    /** @internal @type {import('three').Texture | null} */
+    ownNormals = null; // those that this water made
+    /** @internal @type {FoldTexture | null} */
     ownFold = null;
-    /** @type {WaterFields} */
+    /** @internal @type {WaterFields} */
     ownFields = new WaterFields();
     /** Distance from the mesh's plane of the plane that it mirrors, in world units along its normal. */
     mirrorHeight = 0;
@@ -193,6 +194,7 @@ export function watered(base) {
      * Take the options that all kinds of water have, and update the shape's rasters before each frame. The subclass calls
      * this once `shape` is set.
      *
+     * @internal
      * @param {import('./mesh.js').WaterOptions} options
      */
     follow({ fold = null, fields = null, calm = {}, depthColors = null }) {

@@ -7,20 +7,21 @@ import { Shores } from './shore.js';
 /** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
 
 /**
- * @typedef {object} Foam
- * @property {number} [width] of the foam and shallows along the shore, in unit-square units; 0: none
- * @property {number} [period] seconds from one line of foam to the next
- * @property {import('three').ColorRepresentation} [color]
- * @property {number} [amount] 0 (none) to 1
+ * @typedef {object} Foam The foam along a shore.
+ * @property {number} [width] of the foam and shallows along the shore, in unit-square units; by default 0: none
+ * @property {number} [period] seconds from one line of foam to the next, by default 7
+ * @property {import('three').ColorRepresentation} [color] by default `0xf2f6f7`
+ * @property {number} [amount] 0 (none) to 1, by default 0.9
  *
- * @typedef {object} WaterShapeOptions
+ * @typedef {object} WaterShapeOptions The shape of water, and its look along the shore.
  * @property {string | number | null} [root] name or place of the shape in each texture; needed if a texture holds
  *   several shapes
  * @property {Matrix3} [transform] from the mesh's uv to the unit square; its elements may be changed at any time
- * @property {Foam} [foam]
- * @property {import('three').ColorRepresentation | null} [shallow] colour of the water at the shore; null: as elsewhere
+ * @property {Foam} [foam] along the shore; by default none
+ * @property {import('three').ColorRepresentation | null} [shallow] colour of the water at the shore; null, the default: as
+ *   elsewhere
  * @property {import('three').ColorRepresentation | null} [flat] uniform colour of the water, without lighting and tone
- *   mapping, for measurements; null: none
+ *   mapping, for measurements; null, the default: none
  */
 
 const FOAM = Object.freeze({ width: 0, period: 7, color: 0xf2f6f7, amount: 0.9 });

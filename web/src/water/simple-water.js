@@ -5,23 +5,24 @@ import { SIMPLE_SHADER } from './shader.js';
 import { WaterShape } from './shape.js';
 
 /** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
-/** @typedef {import('three').ColorRepresentation} ColorRepresentation */
+/** @import { ColorRepresentation, Side, Texture } from 'three' */
 
 /**
- * @typedef {import('./shape.js').WaterShapeOptions & {
- *   waterNormals?: import('three').Texture,
- *   sunDirection?: Vector3,
- *   sunColor?: ColorRepresentation,
- *   waterColor?: ColorRepresentation,
- *   sky?: ColorRepresentation,
- *   horizon?: ColorRepresentation,
- *   size?: number,
- *   alpha?: number,
- *   time?: number,
- *   side?: import('three').Side,
- *   fog?: boolean,
- * } & import('./mesh.js').WaterOptions} SimpleWaterOptions those of `VectorWater`, except for its mirror; and the colours of the sky at the zenith and at
- *   the horizon, which this water mirrors instead of the scene
+ * @typedef {object} SimpleWaterLook What water looks like that mirrors a sky of two colours.
+ * @property {Texture} [waterNormals] normals of the waves, which repeat; by default those of `waterNormals()`
+ * @property {Vector3} [sunDirection] towards the sun, of length 1
+ * @property {ColorRepresentation} [sunColor] by default `0x9fb0b8`
+ * @property {ColorRepresentation} [waterColor] by default `0x0b5068`
+ * @property {ColorRepresentation} [sky] colour of the sky at the zenith, by default `0x6f9fcf`
+ * @property {ColorRepresentation} [horizon] colour of the sky at the horizon, by default `0xd5e2ea`
+ * @property {number} [size] scale of the waves, by default 1; larger values give smaller waves
+ * @property {number} [alpha] opacity, by default 1
+ * @property {number} [time] seconds, by default 0
+ * @property {Side} [side] by default `FrontSide`
+ * @property {boolean} [fog] whether the scene's fog hides it, by default `false`
+ *
+ * @typedef {import('./shape.js').WaterShapeOptions & SimpleWaterLook & import('./mesh.js').WaterOptions} SimpleWaterOptions
+ *   those of `VectorWater`, except for its mirror; and the colours of the sky, which this water mirrors instead of the scene
  */
 
 /** Water for phones: like `VectorWater`, but it mirrors a sky of two colours instead of the scene. */
@@ -47,7 +48,9 @@ export class SimpleWater extends watered(
       fog,
     });
     super(geometry, material);
+    /** @internal */
     this.ownNormals = options.waterNormals ? null : normals;
+    /** @internal */
     this.shape = new WaterShape(texture, options, (shown) => (material.visible = shown));
     Object.assign(material, SIMPLE_SHADER);
     Object.assign(material.uniforms, this.shape.uniforms, {

@@ -10,7 +10,8 @@ import { WaterShape } from './shape.js';
 /**
  * @typedef {import('./shape.js').WaterShapeOptions & import('three/addons/objects/Water.js').WaterOptions
  *   & import('./mesh.js').WaterOptions & { size?: number }} VectorWaterOptions
- *   `size` is the uniform of three.js's Water: larger values give smaller waves
+ *   those of three.js's Water, and those of a shape; `size`, by default 1, is the scale of the waves: larger values give
+ *   smaller waves
  */
 
 /** three.js's Water within a shape: it mirrors the scene, and has foam and shallows along the shore. */
@@ -26,8 +27,10 @@ export class VectorWater extends watered(Water) {
     const { size = 1, waterNormals: given, ...others } = { ...SEA, ...options };
     const normals = given ?? waterNormals();
     super(geometry, { ...others, waterNormals: normals });
+    /** @internal */
     this.ownNormals = given ? null : normals;
     const { material } = this;
+    /** @internal */
     this.shape = new WaterShape(texture, options, (shown) => (material.visible = shown));
     insert(material, 'Water', WATER_TEXTS);
     Object.assign(material.uniforms, this.shape.uniforms);
