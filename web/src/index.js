@@ -41,7 +41,6 @@ export { VectorMaterial } from './vector-material.js';
 /** @typedef {import('./live-vector-texture.js').LiveOptions} LiveOptions */
 /** @typedef {import('./ray-mesh.js').Masked} Masked */
 /** @typedef {import('./ray-mesh.js').MaskedIntersection} MaskedIntersection */
-/** @typedef {import('./mask-scene.js').SceneMaskOptions} SceneMaskOptions */
 /** @typedef {import('./mask-options.js').MaskOptions} MaskOptions */
 /** @typedef {import('./paints.js').Paint} Paint */
 /** @typedef {import('./paints.js').PaintList} PaintList */

@@ -57,10 +57,19 @@ def show(source: Any, /, *, height: int | None = None, **options: Any) -> Any:
     source : path, Drawing, Texture, FloodPage, Dataset, DataArray or Extent
         A file that `vexture.read` reads or a texture's, a drawing, or a texture; or a flood: its page, or of what
         `vexture.flood_page` makes one.
+    height : int, optional
+        CSS pixels; by default 400, of a flood 600.
+    **options
+        Those of `vexture.convert`, for a path or a drawing: by default the texture is precise enough for the deepest
+        zoom, and a drawing of named elements and flat colours can be restyled (`restyle`). Those of
+        `vexture.flood_page`, for a flood.
+
+    Other Parameters
+    ----------------
     root : str or int, optional
         Which drawing of a texture, as in `vexture.render`.
-    width, height : int, optional
-        CSS pixels. By default it is as wide as its cell and 400 high, a flood 600.
+    width : int, optional
+        CSS pixels; by default it is as wide as its cell.
     mode : str
         ``"paint"``, the drawing in its colours, or ``"silhouette"``, what it covers, in black.
     colors : mapping of str to colour, optional
@@ -69,10 +78,6 @@ def show(source: Any, /, *, height: int | None = None, **options: Any) -> Any:
         A CSS colour, or ``"transparent"``; white in dark notebooks, too, since drawings are made for paper.
     view : (float, float, float, float), optional
         Left, bottom, width and height of what is seen of the unit square; by default all of the drawing.
-    **options
-        Those of `vexture.convert`, for a path or a drawing: by default the texture is precise enough for the deepest
-        zoom, and a drawing of named elements and flat colours can be restyled (`restyle`). Those of
-        `vexture.flood_page`, for a flood.
 
     Returns
     -------

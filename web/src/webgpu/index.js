@@ -1,3 +1,8 @@
+/**
+ * Nodes, masks and a material for three.js's WebGPURenderer, on WebGPU and on its WebGL 2 fallback; three.js 0.187 or newer.
+ *
+ * @module
+ */
 export { VextureError } from '../errors.js';
 export { rootAttribute } from '../attributes.js';
 export { FoldLoader } from '../fold-loader.js';

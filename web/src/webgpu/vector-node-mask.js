@@ -187,10 +187,12 @@ export class VectorNodeMask extends WithOptions {
     return { ...this.#shown.options };
   }
 
+  /** The material that has this mask. */
   get material() {
     return this.#material;
   }
 
+  /** The texture whose shape is shown; another one is shown from the next frame on. */
   get texture() {
     return /** @type {VectorTexture} */ (/** @type {unknown} */ (this.#shown.texture));
   }

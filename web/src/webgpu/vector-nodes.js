@@ -5,14 +5,13 @@ import { shapeIndex } from '../select-root.js';
 import { shapeNode } from './shape-inputs.js';
 
 /** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
-/** @typedef {import('three/webgpu').Node} Node */
 
 /**
- * @typedef {object} ShapeOptions
- * @property {string | number | Node | null} [root] name or place of the shape, or a node of a place, as `instancedRoot`
- * @property {Node} [uv] position in the unit square, by default the mesh's uv
- * @property {Node | null} [dx] step of the position to the next pixel; needed if the position jumps
- * @property {Node | null} [dy]
+ * @typedef {object} ShapeOptions What a node shows of a texture, and where.
+ * @property {string | number | import('three/webgpu').Node | null} [root] name or place of the shape, or a node of a place, as `instancedRoot`
+ * @property {import('three/webgpu').Node} [uv] position in the unit square, by default the mesh's uv
+ * @property {import('three/webgpu').Node | null} [dx] step of the position to the next pixel; needed if the position jumps
+ * @property {import('three/webgpu').Node | null} [dy] step to the next row of pixels
  * @property {'none' | 'clamp' | 'repeat'} [wrap] beyond the unit square: nothing, the value at its border, or the shape
  *   again
  * @property {boolean} [flat] for views straight at a plane, in which pixels are upright in the drawing and all alike: they
@@ -52,7 +51,7 @@ function nodeOf(what, texture, { root = null, uv = meshUv(), time = () => 0, ...
     }
   };
   texture.addEventListener('change', follow);
-  const instance = isNode ? /** @type {Node} */ (root) : null;
+  const instance = isNode ? /** @type {import('three/webgpu').Node} */ (root) : null;
   return shapeNode(what, texture, { dx: null, dy: null, ...options, uv, time, instance, range: () => range });
 }
 
