@@ -34,6 +34,15 @@ def test_convert_and_render(tmp_path):
     assert max(shares) - min(shares) < 0.01
 
 
+def test_pygfx(tmp_path):
+    pytest.importorskip("pygfx")
+    if not pytest.importorskip("wgpu").gpu.request_adapter_sync():
+        pytest.skip("no Vulkan driver (Debian: mesa-vulkan-drivers)")
+    said = run(ROOT / "examples" / "11_pygfx.py", tmp_path, folder=tmp_path)
+    assert float(re.search(r"mean error (\S+) of 255", said)[1]) < 0.1
+    assert 0.7 < dark_share(tmp_path / "pygfx.png") < 0.98
+
+
 def test_views(tmp_path):
     run(ROOT / "examples" / "02_views.py", tmp_path, folder=tmp_path)
     shares = {path.stem.removeprefix("cake-"): dark_share(path) for path in tmp_path.glob("*.png")}
