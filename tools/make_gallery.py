@@ -16,6 +16,7 @@ import sys
 from pathlib import Path
 from typing import Final
 
+import click
 import numpy as np
 from gallery_data import SOURCES
 from gallery_pages import GALLERY, ROOT, Example, Weight, command_line, examples, spoken, write_index, write_page
@@ -66,11 +67,11 @@ def bundle(folder: Path, name: str) -> None:
 def run(line: str, folder: Path) -> None:
     """Run a command of an example in its folder; `vexture` in this process."""
     words = command_line(line, folder)
-    with contextlib.chdir(folder), contextlib.redirect_stdout(io.StringIO()) as said:
+    with contextlib.chdir(folder), contextlib.redirect_stdout(io.StringIO()):
         try:
             command(words[1:], standalone_mode=False)
-        except Exception as error:
-            sys.exit(f"{line}: {error}; {said.getvalue()[-200:]}")
+        except (vexture.VextureError, click.ClickException) as error:
+            sys.exit(f"{line}: {error}")
 
 
 def make_files(folder: Path, example: Example, *, quick: bool) -> None:

@@ -14,6 +14,7 @@ const lamp = new THREE.SpotLight(0xfff0d8, 160, 0, 0.7, 0.5);
 lamp.position.set(2.5, 4.5, 5);
 lamp.castShadow = true;
 lamp.shadow.mapSize.set(2048, 2048);
+lamp.shadow.normalBias = 0.04;
 scene.add(lamp, new THREE.HemisphereLight(0xbfd4ea, 0x4a4038, 1.2));
 
 const plaster = new THREE.MeshStandardMaterial({ color: 0xcfc6b8, roughness: 0.9 });

@@ -17,7 +17,7 @@ scene.add(lamp, new THREE.HemisphereLight(0xffffff, 0xb9a98a, 1.6));
 // With a server this is `await LiveVectorTexture.connect('https://example.org/shapes/logo')`, which replaces its data
 // when somebody types `vexture push logo.svg`. Here a timer does.
 const loader = new VectorTextureLoader();
-const drawings = await Promise.all(['logo', 'duck', 'cake', 'flame'].map((name) => loader.loadData(`${name}.ktx2`)));
+const drawings = await Promise.all(['duck', 'cake', 'flame', 'thumb'].map((name) => loader.loadData(`${name}.ktx2`)));
 const texture = new VectorTexture(drawings[0]);
 let shown = 0;
 const show = () => texture.replace(drawings[shown++ % drawings.length]); // all at once, between two frames

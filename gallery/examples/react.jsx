@@ -24,7 +24,7 @@ function Badge({ children, ...props }) {
 }
 
 function App() {
-  const [wrap, setWrap] = useState('none');
+  const [color, setColor] = useState('#c8553d');
   return (
     <Canvas shadows camera={{ position: [0, 0.4, innerWidth > innerHeight ? 5 : 9], fov: 45 }} style={{ height: '100vh' }}>
       <color attach="background" args={['#efe6d6']} />
@@ -35,10 +35,10 @@ function App() {
         <Badge position={[-1.3, 0, 0]}>
           <VectorMaterial src="logo.ktx2" mode="paint" side={2} />
         </Badge>
-        {/* a lit material that is cut; a click repeats the shape */}
-        <Badge position={[1.3, 0, 0]} onClick={() => setWrap(wrap === 'none' ? 'repeat' : 'none')}>
-          <meshStandardMaterial color="#c8553d" side={2}>
-            <VectorMask src="logo.ktx2" mode="paint" wrap={wrap} />
+        {/* the same over a lit material, which a click colours */}
+        <Badge position={[1.3, 0, 0]} onClick={() => setColor(`hsl(${360 * Math.random()} 50% 50%)`)}>
+          <meshStandardMaterial color={color} side={2}>
+            <VectorMask src="logo.ktx2" mode="paint" />
           </meshStandardMaterial>
         </Badge>
       </Suspense>

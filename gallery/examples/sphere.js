@@ -25,7 +25,8 @@ mask.transform.setUvTransform(0, 0.25, 1, 0.5, 0, 0, 0);
 const air = new THREE.ShaderMaterial({
   side: THREE.BackSide, transparent: true, depthWrite: false,
   vertexShader: `varying vec3 n; varying vec3 p;
-    void main() { n = normalMatrix * normal; p = (modelViewMatrix * vec4(position, 1.0)).xyz; gl_Position = projectionMatrix * vec4(p, 1.0); }`,
+    void main() { n = normalMatrix * normal; p = (modelViewMatrix * vec4(position, 1.0)).xyz;
+      gl_Position = projectionMatrix * vec4(p, 1.0); }`,
   fragmentShader: `varying vec3 n; varying vec3 p;
     void main() { gl_FragColor = vec4(0.4, 0.7, 1.0, 1.1 * pow(max(dot(normalize(n), normalize(p)), 0.0), 3.0)); }`,
 });

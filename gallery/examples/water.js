@@ -10,7 +10,7 @@ const scene = new THREE.Scene();
 scene.background = new THREE.Color(0xd5e2ea);
 const camera = new THREE.PerspectiveCamera(45, 1, 0.1, 1000);
 
-// a sandy island in the shape of the drawing's hole: below the water there is sand everywhere
+// sand, which is seen where there is no water
 const sand = new THREE.MeshBasicMaterial({ color: 0xcdb98a });
 const ground = new THREE.Mesh(new THREE.PlaneGeometry(100, 100).rotateX(-Math.PI / 2), sand);
 scene.add(ground);
@@ -38,7 +38,8 @@ function fit() {
 }
 addEventListener('resize', fit);
 fit();
-camera.position.set(10, 45, camera.aspect > 1 ? 85 : 125);
+camera.position.set(22, 9, 34);
+controls.target.set(-8, 0, 2);
 renderer.setAnimationLoop((now) => {
   water.time = isStill ? 1 : now / 1000;
   controls.update();

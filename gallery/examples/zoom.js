@@ -19,14 +19,13 @@ scene.add(plane);
 
 // The stamp's stamp's stamp ... is here; near a corner of the unit square floats are finest, 4e-9 of it.
 const [NEST, DEEPEST, SECONDS] = [0.03 / 0.9, 10000, 24];
-const start = { x: 0.5, y: 0.5 };
-let [zoom, target] = [1, null];
+let zoom = 1;
 
 function look() {
   const near = 1 - 1 / zoom; // the middle goes to the nest as it comes nearer
-  const at = target ?? { x: start.x + (NEST + 0.5 / zoom - 0.5) * near, y: start.y + (NEST + 0.5 / zoom - 0.5) * near };
+  const at = 0.5 + (NEST + 0.25 / zoom - 0.5) * near;
   const [width, height] = [Math.max(1, innerWidth / innerHeight), Math.max(1, innerHeight / innerWidth)].map((n) => (1.1 * n) / zoom);
-  material.mask.transform.setUvTransform(at.x - width / 2, at.y - height / 2, width, height, 0, 0, 0);
+  material.mask.transform.setUvTransform(at - width / 2, at - height / 2, width, height, 0, 0, 0);
   label.textContent = `${zoom < 10 ? zoom.toFixed(1) : Math.round(zoom).toLocaleString('en')} times`;
 }
 const isStill = matchMedia('(prefers-reduced-motion: reduce)').matches;
