@@ -8,7 +8,10 @@
   /** @param {string} kind @param {string} [message] @param {number} [line] */
   const tell = (kind, message = '', line = 0) => parent.postMessage({ gallery: kind, message: message.split('\n')[0], line }, '*');
   const inLine = ({ stack = '' }) => Number(/gallery-example\.js:(\d+)/.exec(stack)?.[1] ?? 0);
-  addEventListener('error', ({ message, lineno, error }) => tell('error', message.replace(/^Uncaught /, ''), inLine(error ?? {}) || (error ? 0 : lineno)));
+  addEventListener('error', ({ message, filename, lineno, error }) => {
+    const own = filename.endsWith('gallery-example.js') || error instanceof SyntaxError ? lineno : 0;
+    tell('error', message.replace(/^Uncaught /, '').replace(/Failed to execute 'append' on 'Element': /, ''), own || inLine(error ?? {}));
+  });
   addEventListener('unhandledrejection', ({ reason }) => tell('error', String(reason), inLine(reason ?? {})));
   const { error } = console;
   console.error = (...parts) => {
