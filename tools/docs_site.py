@@ -9,6 +9,7 @@ import ast
 import inspect
 import posixpath
 import re
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Final
@@ -76,6 +77,13 @@ def on_files(files: Files, *, config: Any) -> Files:
     if figures():
         files.append(File.generated(config, FIGURES, content=figures_page()))
     return files
+
+
+def on_post_build(*, config: Any) -> None:
+    """Bring the gallery, if it is built."""
+    built = ROOT / "gallery" / "built"
+    if (built / "index.html").is_file():
+        shutil.copytree(built, Path(config.site_dir) / "gallery", dirs_exist_ok=True)
 
 
 def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:

@@ -160,7 +160,9 @@ def write_index(folder: Path, shown: list[Example], thumbnails: dict[str, str], 
     cards = []
     for example in shown:
         title, text = html.escape(example.title), html.escape(example.text)
-        picture = f'<img src="{example.name}/{thumbnails[example.name]}" alt="" width="640" height="400" loading="lazy">'
+        picture = (
+            f'<img src="{example.name}/{thumbnails[example.name]}" alt="" width="640" height="400" loading="lazy">'
+        )
         card = f'<a class="card" href="{example.name}/index.html">{picture}<h2>{title}</h2><p>{text}</p>'
         cards.append(f'{card}<p class="tags">{html.escape(example.tags)}</p></a>')
     text = filled("index.html", cards="\n".join(cards), count=len(shown), credits=credits)
