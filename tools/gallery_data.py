@@ -49,7 +49,7 @@ def rings_of(topology: dict[str, Any], geometry: dict[str, Any]) -> Iterable[lis
 
 
 def counties(folder: Path, *, quick: bool) -> None:
-    """Write the counties of the United States as GeoJSON, named, each with its middle; a quick build takes one state."""
+    """Write the counties of the United States as GeoJSON; a quick build takes one state."""
     topology = json.loads((COUNTIES.installed() / "counties-albers-10m.json").read_text(encoding="utf-8"))
     states = {one["id"]: one["properties"]["name"] for one in topology["objects"]["states"]["geometries"]}
     features = []
@@ -100,7 +100,7 @@ def drawing(name: str) -> Callable[..., None]:
 
 
 def postcard(folder: Path, *, quick: bool) -> None:
-    """Write a postcard whose stamp is the same postcard, and so on: what is in the stamp is a group, ten times as small."""
+    """Write a postcard whose stamp is the same postcard, and so on, each a group ten times as small."""
     card = (ROOT / "gallery" / "drawings" / "postcard.svg").read_text(encoding="utf-8")
     inner = card[card.index(">") + 1 : card.rindex("</svg>")]
     start = card[: card.index(">") + 1]
@@ -203,4 +203,4 @@ SOURCES: Final[dict[str, Callable[..., None]]] = {
     "van.gltf": van,
     **{name: drawing(name) for name in ("logo.svg", "duck.svg", "cake.svg", "flame.svg", "ocean.svg", "thumb.svg")},
 }
-"""What writes each file that a command of gallery.toml reads: given the folder, and whether the build is a quick one."""
+"""What writes each file that a command of gallery.toml reads: given the folder, and whether it is a quick build."""

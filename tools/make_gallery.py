@@ -1,7 +1,7 @@
 """Build the gallery: `python tools/make_gallery.py [FOLDER]` writes a static site, by default into gallery/built/.
 
 Needs the packages of web/ (npm ci --prefix web), and npm for the icons and maps. The pictures of the index are
-screenshots where there is Chromium with Playwright, and else textures drawn on the processor. `--quick` takes a few icons
+screenshots where there is Chromium with Playwright, and else textures drawn on the processor. `--quick` takes few icons
 and one state of the map, `--only NAME` some of the examples.
 """
 
@@ -18,11 +18,11 @@ from typing import Final
 
 import click
 import numpy as np
-from gallery_data import SOURCES
-from gallery_pages import GALLERY, ROOT, Example, Weight, command_line, examples, spoken, write_index, write_page
 from PIL import Image
 
 import vexture
+from gallery_data import SOURCES
+from gallery_pages import GALLERY, ROOT, Example, Weight, command_line, examples, spoken, write_index, write_page
 from vexture.cli.main import main as command
 
 __all__ = ["main"]
@@ -103,9 +103,9 @@ def measured(folder: Path, example: Example) -> str:
     theirs, size, sent = LUCIDE_OF_GLYPH
     return (
         f"{count:,} icons of Lucide in one texture of {spoken(weight.plain)}, {spoken(weight.sent)} by gzip: "
-        f"{weight.plain / count:.0f} and {weight.sent / count:.0f} bytes an icon. pmndrs/glyph says of its baked Lucide "
-        f"icons: {theirs:,} in 3 MiB, {sent // 1000} kB compressed, which is {size / theirs:,.0f} and {sent / theirs:.0f} "
-        "bytes an icon (their figures; other versions of Lucide)."
+        f"{weight.plain / count:.0f} and {weight.sent / count:.0f} bytes an icon. pmndrs/glyph says of its baked "
+        f"Lucide icons: {theirs:,} in 3 MiB, {sent // 1000} kB compressed, which is {size / theirs:,.0f} and "
+        f"{sent / theirs:.0f} bytes an icon (their figures; other versions of Lucide)."
     )
 
 
@@ -136,7 +136,7 @@ def photographed(folder: Path, shown: list[Example]) -> bool:
             for example in shown:
                 page = browser.new_page(viewport={"width": 1280, "height": 800}, device_scale_factor=1)
                 page.goto((folder / example.name / "index.html").as_uri())
-                page.add_style_tag(content="#stage { position: fixed !important; inset: 0 }")
+                page.add_style_tag(content="#stage { position: fixed !important; inset: 0; z-index: 9 }")
                 if example.libraries:
                     page.wait_for_function("document.documentElement.dataset.state === 'ran'", timeout=60_000)
                 page.wait_for_timeout(6_000 if example.page else 2_500)

@@ -32,14 +32,15 @@ const strip = (from, to, lift) => {
 const material = (color) => new THREE.MeshStandardMaterial({ color, roughness: 0.95, side: THREE.DoubleSide });
 const asphalt = material(0x3b3f44);
 scene.add(new THREE.Mesh(strip(-30, 30, -0.03), material(0x7f9a5b)));
-scene.add(new THREE.Mesh(strip(-WIDTH / 2, WIDTH / 2, 0), asphalt));
+scene.add(new THREE.Mesh(strip(-WIDTH / 2, WIDTH / 2, -0.005), material(0x3b3f44)));
+scene.add(new THREE.Mesh(strip(-1.5, 1.5, 0), asphalt));
 for (const edge of [-1.85, 1.75]) scene.add(new THREE.Mesh(strip(edge, edge + 0.1, 0.005), material(0xf3f0e6)));
 
 // the word lies in the middle of the texture's square, and comes again and again along the road
 const words = await new VectorTextureLoader().loadAsync('words.ktx2');
 const paint = applyVectorMask(asphalt, words, { mode: 'mix', color: 0xf7f5ee, wrap: 'repeat' });
 const times = 5; // stretched along the road, as painted words are
-paint.transform.setUvTransform(-0.15, 0, 1.3, times, 0, 0, 0);
+paint.transform.setUvTransform(0, 0, 1, times, 0, 0, 0);
 
 const controls = new OrbitControls(camera, renderer.domElement);
 Object.assign(controls, { enableDamping: true, maxPolarAngle: 1.5, maxDistance: 30 });
