@@ -29,11 +29,12 @@ unexport PYTHONDONTWRITEBYTECODE
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help demo counties docs report viewer test sweep checks checks-web lint kernels test-web bench conformance fuzz dist dist-check clean
+.PHONY: help demo counties docs gallery report viewer test sweep checks checks-web lint kernels test-web bench conformance fuzz dist dist-check clean
 
 help:
 	@echo 'make demo    convert and draw the example drawings; the pictures come into demo/'
 	@echo 'make viewer  build the pages of `vexture view` and `export`, of floods and of notebooks, with node and npm'
+	@echo 'make gallery  build a site of live, editable examples, with node and npm; it opens from the disk, too'
 	@echo 'make counties  build a page with a map of all counties of the United States, with node and npm'
 	@echo 'make test    lint, types and tests, with all that they need'
 	@echo 'make sweep   the tests that take long and find little that those do not, and 24,000 drawings of others'
@@ -126,6 +127,10 @@ examples/counties/node_modules/made: examples/counties/package.json examples/cou
 
 counties: .venv/for-demo examples/counties/node_modules/made
 	@PATH="$(CURDIR)/$(BIN):$$PATH" npm run --silent build --prefix examples/counties
+
+# the icons and maps come from npm; the index has screenshots where Chromium and Playwright are, else drawn pictures
+gallery: .venv/for-demo $(VIEWER)
+	$(BIN)/python tools/make_gallery.py
 
 report: .venv/for-report
 	$(BIN)/vexture report -o demo/report
@@ -225,4 +230,4 @@ dist-check: dist .venv/for-test
 clean:
 	rm -rf .venv demo build dist src/vexture/compiled src/*.egg-info evidence/src/*.egg-info evidence/benchmarks/results \
 		.cache .hypothesis .mypy_cache .pytest_cache .ruff_cache fuzz-findings \
-		web/node_modules examples/counties/node_modules web/types src/vexture/live/built tests/web/screenshots site
+		web/node_modules examples/counties/node_modules web/types src/vexture/live/built tests/web/screenshots site gallery/built

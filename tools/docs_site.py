@@ -10,6 +10,7 @@ import inspect
 import logging
 import posixpath
 import re
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Final
@@ -101,6 +102,13 @@ def on_files(files: Files, *, config: Any) -> Files:
     if figures():
         files.append(File.generated(config, FIGURES, content=figures_page()))
     return files
+
+
+def on_post_build(*, config: Any) -> None:
+    """Bring the gallery, if it is built."""
+    built = ROOT / "gallery" / "built"
+    if (built / "index.html").is_file():
+        shutil.copytree(built, Path(config.site_dir) / "gallery", dirs_exist_ok=True)
 
 
 def on_page_markdown(markdown: str, *, page: Any, config: Any, **_: Any) -> str:

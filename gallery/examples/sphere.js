@@ -1,0 +1,51 @@
+import * as THREE from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { VectorTextureLoader, applyVectorMask } from 'vexture';
+
+const renderer = new THREE.WebGLRenderer({ antialias: true });
+renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+document.body.append(renderer.domElement);
+const scene = new THREE.Scene();
+scene.background = new THREE.Color(0x070b12);
+const camera = new THREE.PerspectiveCamera(35, 1, 0.001, 100);
+const sun = new THREE.DirectionalLight(0xfff4e2, 3);
+scene.add(sun, new THREE.AmbientLight(0x8fb4dd, 0.35));
+
+// the sea is the material, and inside the shape it has the colour of land
+const sea = new THREE.MeshStandardMaterial({ color: 0x1d5c86, roughness: 0.55 });
+const globe = new THREE.Mesh(new THREE.SphereGeometry(1, 256, 128), sea);
+scene.add(globe);
+const land = await new VectorTextureLoader().loadAsync('land.ktx2');
+const mask = applyVectorMask(sea, land, { mode: 'mix', color: 0x8aa05a });
+
+// the drawing is 360 degrees wide and 180 high: it lies in the middle of its square
+mask.transform.setUvTransform(0, 0.25, 1, 0.5, 0, 0, 0);
+
+// the air: the inner side of a larger ball, brightest where it is seen edge-on
+const air = new THREE.ShaderMaterial({
+  side: THREE.BackSide, transparent: true, depthWrite: false,
+  vertexShader: `varying vec3 n; varying vec3 p;
+    void main() { n = normalMatrix * normal; p = (modelViewMatrix * vec4(position, 1.0)).xyz;
+      gl_Position = projectionMatrix * vec4(p, 1.0); }`,
+  fragmentShader: `varying vec3 n; varying vec3 p;
+    void main() { gl_FragColor = vec4(0.4, 0.7, 1.0, 1.1 * pow(max(dot(normalize(n), normalize(p)), 0.0), 3.0)); }`,
+});
+scene.add(new THREE.Mesh(new THREE.SphereGeometry(1.08, 96, 48), air));
+
+const controls = new OrbitControls(camera, renderer.domElement);
+controls.autoRotate = !matchMedia('(prefers-reduced-motion: reduce)').matches;
+Object.assign(controls, { enableDamping: true, enablePan: false, minDistance: 1.02, maxDistance: 6, autoRotateSpeed: 0.5 });
+function fit() {
+  renderer.setSize(innerWidth, innerHeight);
+  camera.aspect = innerWidth / innerHeight;
+  camera.updateProjectionMatrix();
+}
+addEventListener('resize', fit);
+fit();
+camera.position.set(1, 0.85, 0.25).setLength(camera.aspect > 1 ? 4 : 5.8);
+renderer.setAnimationLoop(() => {
+  controls.rotateSpeed = controls.zoomSpeed = Math.min(1, controls.getDistance() - 1);
+  controls.update();
+  sun.position.copy(camera.position).add(new THREE.Vector3(-2, 1.5, 1)); // always day
+  renderer.render(scene, camera);
+});

@@ -1,0 +1,3 @@
+import * as vexture from 'vexture';
+
+Object.assign(globalThis.galleryModules, { vexture });

@@ -1,0 +1,44 @@
+// Runs in the frame of an example: gives its source the libraries of the page by an import map, and tells the page what
+// goes wrong. A page from the disk may not load modules, nor fetch files: the libraries are classic scripts, and the
+// files are given by `files.js`.
+(() => {
+  const { source, jsx } = JSON.parse(document.getElementById('source').textContent);
+  const modules = globalThis.galleryModules;
+
+  /** @param {string} kind @param {string} [message] @param {number} [line] */
+  const tell = (kind, message = '', line = 0) => parent.postMessage({ gallery: kind, message: message.split('\n')[0], line }, '*');
+  const inLine = ({ stack = '' }) => Number(/gallery-example\.js:(\d+)/.exec(stack)?.[1] ?? 0);
+  addEventListener('error', ({ message, filename, lineno, error }) => {
+    const own = filename.endsWith('gallery-example.js') || error instanceof SyntaxError ? lineno : 0;
+    tell('error', message.replace(/^Uncaught /, '').replace(/Failed to execute 'append' on 'Element': /, ''), own || inLine(error ?? {}));
+  });
+  addEventListener('unhandledrejection', ({ reason }) => tell('error', String(reason), inLine(reason ?? {})));
+  const { error } = console;
+  console.error = (...parts) => {
+    error.apply(console, parts);
+    tell('error', parts.map(String).join(' '));
+  };
+
+  // a module that hands on what a script has brought
+  function forwarded(name) {
+    const names = Object.keys(modules[name]).filter((one) => one !== 'default');
+    const all = `globalThis.galleryModules[${JSON.stringify(name)}]`;
+    const main = 'default' in modules[name] ? `export default ${all}.default;` : '';
+    return `data:text/javascript,${encodeURIComponent(`export const { ${names} } = ${all};${main}`)}`;
+  }
+
+  const { DefaultLoadingManager } = modules.three ?? modules['three/webgpu'];
+  const files = globalThis.galleryFiles ?? {};
+  DefaultLoadingManager.setURLModifier((url) => files[url] ?? url);
+
+  const append = (type, text) => document.body.append(Object.assign(document.createElement('script'), { type, textContent: text }));
+  const imports = Object.fromEntries(Object.keys(modules).map((name) => [name, forwarded(name)]));
+  append('importmap', JSON.stringify({ imports }));
+  globalThis.galleryRan = () => tell('ran');
+  try {
+    const compiled = jsx ? globalThis.galleryJsx(source) : source;
+    append('module', `${compiled}\nglobalThis.galleryRan();\n//# sourceURL=gallery-example.js`);
+  } catch (wrong) {
+    tell('error', String(wrong), wrong.line);
+  }
+})();

@@ -1,0 +1,208 @@
+"""The gallery, opened from the disk: each example runs, shows what it should, and can be changed."""
+
+import io
+import runpy
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from browser import ROOT, WEB
+from numpy.typing import NDArray
+from PIL import Image
+
+import vexture
+from vexture.errors import VextureError
+
+sys.path.append(str(ROOT / "tools"))
+
+import gallery_pages
+
+EXAMPLES = {one.name: one for one in gallery_pages.examples()}
+RUNNING = [name for name, one in EXAMPLES.items() if one.libraries]
+MOST_LINES = 60
+LONGEST_LINE = 140  # characters
+SIZE = (640, 400)
+RAN = "document.documentElement.dataset.state !== 'starting'"
+
+FLAT = """
+import * as THREE from 'three';
+import { VectorMaterial, VectorTextureLoader } from 'vexture';
+const renderer = new THREE.WebGLRenderer({ antialias: false });
+renderer.setSize(200, 200);
+document.body.append(renderer.domElement);
+const scene = new THREE.Scene();
+scene.background = new THREE.Color('white');
+const texture = await new VectorTextureLoader().loadAsync('logo.ktx2');
+const material = new VectorMaterial({ texture, mode: 'paint' });
+scene.add(new THREE.Mesh(new THREE.PlaneGeometry(2, 2), material));
+renderer.render(scene, new THREE.OrthographicCamera(-1, 1, 1, -1, -1, 1));
+"""
+
+
+@pytest.fixture(scope="session")
+def gallery(made_once: Callable[..., Path]) -> Path:
+    """The site, quickly built: few icons, one state, no pictures; the flood's page has tests of its own."""
+    if not (WEB / "node_modules" / "three").is_dir():
+        pytest.skip("the packages of web/ are not installed (npm ci --prefix web)")
+    tool = runpy.run_path(str(ROOT / "tools" / "make_gallery.py"))
+
+    def fill(folder: Path) -> None:
+        try:
+            tool["build"](folder, quick=True, only=tuple(RUNNING), pictures=False)
+        except VextureError as error:
+            pytest.skip(str(error))
+
+    return made_once("gallery", fill)
+
+
+@pytest.fixture
+def run(gallery: Path, open_page: Callable[..., Any]) -> Callable[..., Any]:
+    """Open the page of an example, and wait until it has run."""
+
+    def opened(name: str, size: tuple[int, int] = SIZE, **options: Any) -> Any:
+        options = {"reduced_motion": "reduce"} | options
+        page = open_page((gallery / name / "index.html").as_uri(), size, **options)
+        page.wait_for_function(RAN)
+        return page
+
+    return opened
+
+
+def edit(page: Any, source: str) -> None:
+    """Run another source, as a user does."""
+    if page.locator("#code[open]").count() == 0:
+        page.click("summary")
+    page.fill("#editor", source)
+    page.click("#run")
+    page.wait_for_function(RAN)
+
+
+def pixels(page: Any) -> NDArray[np.float64]:
+    """The picture of an example, 0..255."""
+    return np.array(Image.open(io.BytesIO(page.locator("#stage").screenshot())).convert("RGB"), np.float64)
+
+
+def share(picture: NDArray[np.float64], colour: tuple[int, int, int], within: float) -> float:
+    """The part of a picture that has a colour, or nearly."""
+    return float((np.abs(picture - colour).max(axis=2) <= within).mean())
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_sources_are_short(name: str) -> None:
+    assert 5 < len(EXAMPLES[name].source.splitlines()) < MOST_LINES
+    assert max(map(len, EXAMPLES[name].source.splitlines())) <= LONGEST_LINE
+
+
+def test_there_are_enough() -> None:
+    assert len(EXAMPLES) >= 12
+
+
+# each part of a picture that an example must show: colour, how near, least share
+SEEN: dict[str, tuple[tuple[int, int, int], float, float]] = {
+    "logo": ((0x12, 0x3A, 0x5C), 45, 0.01),
+    "icons": ((0x14, 0x1D, 0x27), 10, 0.1),
+    "decals": ((0xE8, 0xB1, 0x00), 70, 0.01),
+    "road": ((250, 250, 240), 20, 0.01),
+    "choropleth": ((0x10, 0x16, 0x1D), 4, 0.2),
+    "water": ((0x20, 0x60, 0x78), 50, 0.1),
+    "sphere": ((0x1D, 0x5C, 0x86), 60, 0.05),
+    "live": ((0xE8, 0xA2, 0x00), 50, 0.01),
+    "zoom": ((0x2B, 0x7F, 0xB8), 4, 0.02),
+    "react": ((0x12, 0x3A, 0x5C), 10, 0.003),
+    "gltf": ((0x12, 0x3A, 0x5C), 45, 0.002),
+}
+
+
+@pytest.mark.parametrize("name", SEEN)
+def test_an_example_runs_from_the_disk(name: str, run: Callable[..., Any]) -> None:
+    page = run(name)
+    assert page.locator("#note").text_content() == ""
+    assert page.evaluate("document.documentElement.dataset.state") == "ran"
+    colour, within, least = SEEN[name]
+    for _ in range(20):  # React draws when it has loaded, WebGPU when its programs are compiled
+        picture = pixels(page)
+        if share(picture, colour, within) >= least:
+            break
+        page.wait_for_timeout(100)
+    assert share(picture, colour, within) >= least
+    assert picture.std(axis=(0, 1)).max() > 5
+    assert page.locator("#note").text_content() == ""
+    wide = page.evaluate("document.documentElement.scrollWidth")
+    assert wide <= SIZE[0]
+
+
+def test_webgpu_says_what_it_runs_on(run: Callable[..., Any]) -> None:
+    page = run("webgpu")
+    assert page.locator("#note").text_content() == ""
+    assert page.evaluate("document.documentElement.dataset.state") == "ran"
+    said = page.frames[1].locator("output").text_content()
+    assert said in ("This is WebGPU.", "There is no WebGPU here: this is WebGL 2.")
+
+
+def test_an_edited_source_is_run_and_is_the_truth(run: Callable[..., Any], gallery: Path) -> None:
+    page = run("logo", (1280, 800))
+    edit(page, FLAT)
+    page.wait_for_timeout(100)
+    seen = pixels(page)[1:201, :200]  # below the border of the header
+    drawing = vexture.read(gallery_pages.GALLERY / "drawings" / "logo.svg")
+    exact = vexture.render(drawing, size=200, renderer="exact")
+    white = 255 * (exact[..., :3] + 1 - exact[..., 3:])
+    assert np.abs(seen - white).mean() < 0.5
+    assert np.abs(seen - white).max() < 12
+    page.click("#reset")
+    page.wait_for_function(RAN)
+    assert page.input_value("#editor") == EXAMPLES["logo"].source
+    assert page.is_disabled("#reset")
+
+
+@pytest.mark.parametrize(
+    ("name", "source", "said"),
+    [
+        ("logo", "const a = 1;\nnothing.here();", "line 2: ReferenceError: nothing is not defined"),
+        ("logo", "const a = 1;\nconst a = 2;", "line 2: SyntaxError: Identifier 'a' has already been declared"),
+        ("logo", "\nawait Promise.reject(new Error('none'));", "line 2: Error: none"),
+        ("react", "const a = (\n  <b><i></b>\n);", "line 2: SyntaxError: <i> ends as </b>"),
+    ],
+)
+def test_an_error_is_shown_in_one_line(run: Callable[..., Any], name: str, source: str, said: str) -> None:
+    page = run(name, errors=True)
+    edit(page, source)
+    page.wait_for_selector("#note:not([hidden])")
+    assert page.locator("#note").text_content() == said
+
+
+def test_a_choropleth_tells_the_county_under_the_pointer(run: Callable[..., Any]) -> None:
+    page = run("choropleth", (1280, 800))
+    box = page.locator("#stage").bounding_box()
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.frames[1].wait_for_function("document.querySelector('output').textContent.endsWith(', California')")
+    page.wait_for_timeout(200)
+    assert share(pixels(page), (0xFF, 0x5C, 0x4C), 8) > 0.001
+
+
+def test_a_phone_shows_the_picture_first(run: Callable[..., Any]) -> None:
+    page = run("logo", (390, 844))
+    assert page.locator("#code[open]").count() == 0
+    box = page.locator("#stage").bounding_box()
+    assert box["width"] == 390
+    assert box["y"] + box["height"] < 844
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def test_the_index_leads_to_all(gallery: Path, open_page: Callable[..., Any]) -> None:
+    page = open_page((gallery / "index.html").as_uri(), (390, 844))
+    links = page.eval_on_selector_all(".card", "cards => cards.map((card) => card.getAttribute('href'))")
+    assert links == [f"{name}/index.html" for name in RUNNING]
+    assert page.evaluate("[...document.images].every((one) => one.loading === 'lazy')")
+    assert all((gallery / name / "thumbnail.jpg").is_file() for name in RUNNING)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def test_icons_are_compared_with_another_projects(gallery: Path) -> None:
+    text = (gallery / "icons" / "index.html").read_text(encoding="utf-8")
+    count = len(vexture.load(gallery / "icons" / "lucide.ktx2").roots)
+    assert f"{count:,} icons of Lucide in one texture" in text
+    assert "1,594 in 3 MiB, 998 kB compressed" in text

@@ -1,0 +1,188 @@
+"""Build the gallery: `python tools/make_gallery.py [FOLDER]` writes a static site, by default into gallery/built/.
+
+Needs the packages of web/ (npm ci --prefix web), and npm for the icons and maps. The pictures of the index are
+screenshots where there is Chromium with Playwright, and else textures drawn on the processor. `--quick` takes few icons
+and one state of the map, `--only NAME` some of the examples.
+"""
+
+import argparse
+import base64
+import contextlib
+import io
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Final
+
+import click
+import numpy as np
+from PIL import Image
+
+import vexture
+from gallery_data import SOURCES
+from gallery_pages import GALLERY, ROOT, Example, Weight, command_line, examples, spoken, write_index, write_page
+from vexture.cli.main import main as command
+
+__all__ = ["main"]
+
+WEB: Final = ROOT / "web"
+ENTRIES: Final = ("gltf", "react", "water", "webgpu")
+"""Entries of the npm package beside the main one that the gallery shows."""
+
+THUMBNAIL: Final = (640, 400)
+LUCIDE_OF_GLYPH: Final = (1_594, 3 * 2**20, 998_000)
+"""What pmndrs/glyph says of its baked Lucide icons: number, bytes, bytes compressed."""
+
+CREDITS: Final = (
+    'Icons: <a href="https://lucide.dev">Lucide</a> (ISC; <a href="icons/LICENSE">licence</a>). Counties: '
+    '<a href="https://github.com/topojson/us-atlas">us-atlas</a>, of the Census Bureau; land: '
+    '<a href="https://github.com/topojson/world-atlas">world-atlas</a>, of Natural Earth (both ISC). Coastline: GSHHG '
+    '(LGPL). Libraries: <a href="lib/LICENSES.txt">licences</a>.'
+)
+
+
+def bundle(folder: Path, name: str) -> None:
+    """Bundle a library of gallery/libraries as a classic script, minified."""
+    modules = WEB / "node_modules"
+    three = modules / "three"
+    options = ["--bundle", "--minify", "--format=iife", "--legal-comments=none", "--log-level=error"]
+    options += [f"--outfile={folder / f'{name}.js'}", '--define:process.env.NODE_ENV="production"']
+    options += [f"--alias:vexture={WEB / 'src' / 'index.js'}"]
+    options += [f"--alias:vexture/{entry}={WEB / 'src' / entry / 'index.js'}" for entry in ENTRIES]
+    options += [f"--alias:three/{entry}={three / 'build' / f'three.{entry}.js'}" for entry in ("webgpu", "tsl")]
+    # WebGPURenderer has a three.js of its own, which is that of the whole page
+    webgpu = three / "build" / "three.webgpu.js"
+    main = {"three": three, "webgpu": webgpu}.get(name, GALLERY / "libraries" / "loaded-three.cjs")
+    options += [f"--alias:three/addons={three / 'examples' / 'jsm'}", f"--alias:three={main}"]
+    source = GALLERY / "libraries" / f"{name}.js"
+    call = [str(modules / ".bin" / "esbuild"), str(source), *options]
+    environment = os.environ | {"NODE_PATH": str(modules)}
+    outcome = subprocess.run(call, cwd=WEB, env=environment, capture_output=True, text=True, check=False)
+    if outcome.returncode:
+        sys.exit(f"{source.name} cannot be bundled: {outcome.stderr.strip().splitlines()[0]}")
+
+
+def run(line: str, folder: Path) -> None:
+    """Run a command of an example in its folder; `vexture` in this process."""
+    words = command_line(line, folder)
+    with contextlib.chdir(folder), contextlib.redirect_stdout(io.StringIO()):
+        try:
+            command(words[1:], standalone_mode=False)
+        except (vexture.VextureError, click.ClickException) as error:
+            sys.exit(f"{line}: {error}")
+
+
+def make_files(folder: Path, example: Example, *, quick: bool) -> None:
+    """Make what an example loads, and the script that gives it to pages from the disk."""
+    own = folder / example.name
+    own.mkdir()
+    made = set(own.iterdir())
+    for name in example.sources:
+        SOURCES[name](own, quick=quick)
+    unwanted = set(own.iterdir()) - made
+    for line in example.commands:
+        run(line, own)
+    for path in unwanted - {own / name for name in example.files}:
+        shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
+    if example.files:
+        contents = [(name, base64.b64encode((own / name).read_bytes()).decode()) for name in example.files]
+        lines = [f'"{name}": "data:application/octet-stream;base64,{text}"' for name, text in contents]
+        (own / "files.js").write_text(f"globalThis.galleryFiles = {{{', '.join(lines)}}};\n", encoding="utf-8")
+    suffix = example.path.suffix
+    shutil.copyfile(example.path, own / f"example{suffix}")
+
+
+def measured(folder: Path, example: Example) -> str:
+    """What the page says of its texture, of the icons beside those of another project."""
+    if example.name != "icons":
+        return ""
+    texture = folder / "icons" / "lucide.ktx2"
+    count, weight = len(vexture.load(texture).roots), Weight.of(texture)
+    theirs, size, sent = LUCIDE_OF_GLYPH
+    return (
+        f"{count:,} icons of Lucide in one texture of {spoken(weight.plain)}, {spoken(weight.sent)} by gzip: "
+        f"{weight.plain / count:.0f} and {weight.sent / count:.0f} bytes an icon. pmndrs/glyph says of its baked "
+        f"Lucide icons: {theirs:,} in 3 MiB, {sent // 1000} kB compressed, which is {size / theirs:,.0f} and "
+        f"{sent / theirs:.0f} bytes an icon (their figures; other versions of Lucide)."
+    )
+
+
+def drawn_thumbnail(folder: Path, example: Example) -> None:
+    """Draw a thumbnail on the processor: of the example's first texture, or the ground of a flood's page."""
+    picture = Image.new("RGB", THUMBNAIL, "#dfe8ec")
+    for file in (name for name in example.files if name.endswith(".ktx2")):
+        texture = vexture.load(folder / example.name / file)
+        with contextlib.suppress(vexture.VextureError):
+            shape = np.uint8(255 * np.clip(texture.render(size=THUMBNAIL[1], root=texture.roots[0].name), 0, 1))
+            own = Image.fromarray(shape) if shape.ndim == 3 else Image.new("RGBA", shape.shape[::-1], "#123a5c")
+            mask = own.getchannel("A") if shape.ndim == 3 else Image.fromarray(shape)
+            picture.paste(own.convert("RGB"), ((THUMBNAIL[0] - THUMBNAIL[1]) // 2, 0), mask)
+            break
+    picture.save(folder / example.name / "thumbnail.jpg", quality=82)
+
+
+def photographed(folder: Path, shown: list[Example]) -> bool:
+    """Take the thumbnails by Chromium; returns whether there is one."""
+    try:
+        from chromium import CHROMIUM, chromium
+    except ImportError:
+        return False
+    if not Path(CHROMIUM).is_file():
+        return False
+    try:
+        with chromium("--enable-unsafe-webgpu") as browser:
+            for example in shown:
+                page = browser.new_page(viewport={"width": 1280, "height": 800}, device_scale_factor=1)
+                page.goto((folder / example.name / "index.html").as_uri())
+                page.add_style_tag(content="#stage { position: fixed !important; inset: 0; z-index: 9 }")
+                if example.libraries:
+                    page.wait_for_function("document.documentElement.dataset.state === 'ran'", timeout=60_000)
+                page.wait_for_timeout(6_000 if example.page else 2_500)
+                content = page.locator("#stage").screenshot(timeout=120_000)
+                picture = Image.open(io.BytesIO(content)).convert("RGB").resize(THUMBNAIL, Image.Resampling.LANCZOS)
+                picture.save(folder / example.name / "thumbnail.jpg", quality=82)
+                page.close()
+    except ImportError:
+        return False
+    return True
+
+
+def build(folder: Path, *, quick: bool = False, only: tuple[str, ...] = (), pictures: bool = True) -> None:
+    """Write the site into a folder, which is emptied first."""
+    if not (WEB / "node_modules" / "three").is_dir():
+        sys.exit("the packages of web/ are not installed; type: npm ci --prefix web")
+    shown = [one for one in examples() if not only or one.name in only]
+    shutil.rmtree(folder, ignore_errors=True)
+    (folder / "lib").mkdir(parents=True)
+    for name in sorted({name for one in shown for name in one.libraries}):
+        bundle(folder / "lib", name)
+    for name in ("gallery.css", "page.js", "frame.js", "jsx.js"):
+        shutil.copyfile(GALLERY / "pages" / name, folder / name)
+    for example in shown:
+        print(f"{example.name} ...", flush=True)
+        make_files(folder, example, quick=quick)
+    for place, example in enumerate(shown):
+        around = shown[place - 1], shown[(place + 1) % len(shown)]
+        write_page(folder, example, around, measured(folder, example))
+    if not (pictures and photographed(folder, shown)):
+        for example in shown:
+            drawn_thumbnail(folder, example)
+    write_index(folder, shown, {one.name: "thumbnail.jpg" for one in shown}, CREDITS)
+
+
+def main() -> None:
+    """Build into the folder that the command line names."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", nargs="?", type=Path, default=GALLERY / "built")
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--only", action="append", default=[])
+    options = parser.parse_args()
+    folder = options.folder.resolve()
+    build(folder, quick=options.quick, only=tuple(options.only))
+    print(f"Open {folder / 'index.html'} in a browser, or copy the folder to any static host.")
+
+
+if __name__ == "__main__":
+    main()
