@@ -17,8 +17,14 @@ HEADING: Final = "The pages of vexture hold code of these packages, each under i
 def bundled() -> list[str]:
     """Names of the packages that the pages hold."""
     locked = json.loads((WEB / "package-lock.json").read_text(encoding="utf-8"))["packages"]
-    peers = json.loads((WEB / "package.json").read_text(encoding="utf-8"))["peerDependencies"]
-    needed = [place.removeprefix("node_modules/") for place, entry in locked.items() if place and not entry.get("dev")]
+    package = json.loads((WEB / "package.json").read_text(encoding="utf-8"))
+    optional = package.get("peerDependenciesMeta", {})  # of entries that no page has
+    peers = [name for name in package["peerDependencies"] if name not in optional]
+    needed = [
+        place.removeprefix("node_modules/")
+        for place, entry in locked.items()
+        if place and not any(entry.get(kind) for kind in ("dev", "devOptional", "optional", "peer"))
+    ]
     return sorted({*needed, *peers})
 
 

@@ -1,9 +1,10 @@
-# From a model's output to the page on the left. The command line does it in one step:
-#
-#   python examples/05_santa_cruz_flood.py .
-#   vexture flood --extent flood.nc --time-dim time --ground ground.jpg -o flood.html
-#
-# and so does Python, from what xarray holds:
+"""From a model's output to the page on the left. The command line does it in one step.
+
+    python examples/05_santa_cruz_flood.py .
+    vexture flood --extent flood.nc --time-dim time --ground ground.jpg -o flood.html
+
+And so does Python, from what xarray holds.
+"""
 
 import xarray
 
