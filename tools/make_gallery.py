@@ -21,7 +21,7 @@ import numpy as np
 from PIL import Image
 
 import vexture
-from gallery_data import SOURCES
+from gallery_data import COUNTIES, ICONS, SOURCES, WORLD
 from gallery_pages import GALLERY, ROOT, Example, Weight, command_line, examples, spoken, write_index, write_page
 from vexture.cli.main import main as command
 
@@ -31,15 +31,28 @@ WEB: Final = ROOT / "web"
 ENTRIES: Final = ("gltf", "react", "water", "webgpu")
 """Entries of the npm package beside the main one that the gallery shows."""
 
+LICENSED: Final = (
+    "three",
+    "fflate",
+    "fast-png",
+    "react",
+    "react-dom",
+    "scheduler",
+    "zustand",
+    "suspend-react",
+    "its-fine",
+)
+"""Packages in the bundles."""
+
 THUMBNAIL: Final = (640, 400)
 LUCIDE_OF_GLYPH: Final = (1_594, 3 * 2**20, 998_000)
 """What pmndrs/glyph says of its baked Lucide icons: number, bytes, bytes compressed."""
 
 CREDITS: Final = (
-    'Icons: <a href="https://lucide.dev">Lucide</a> (ISC; <a href="icons/LICENSE">licence</a>). Counties: '
+    'Icons: <a href="https://lucide.dev">Lucide</a> (ISC). Counties: '
     '<a href="https://github.com/topojson/us-atlas">us-atlas</a>, of the Census Bureau; land: '
     '<a href="https://github.com/topojson/world-atlas">world-atlas</a>, of Natural Earth (both ISC). Coastline: GSHHG '
-    '(LGPL). Libraries: <a href="lib/LICENSES.txt">licences</a>.'
+    '(LGPL). <a href="lib/LICENSES.txt">Licences</a> of these and of the libraries.'
 )
 
 
@@ -149,6 +162,20 @@ def photographed(folder: Path, shown: list[Example]) -> bool:
     return True
 
 
+def write_licences(folder: Path, shown: list[Example]) -> None:
+    """Write the licences of what is bundled and converted."""
+    parts = []
+    for name in LICENSED:
+        text = next((WEB / "node_modules" / name).glob("LICENSE*"))
+        parts.append(f"{name}\n\n{text.read_text(encoding='utf-8').strip()}\n")
+    sources = {source for one in shown for source in one.sources}
+    data = {"lucide": ICONS, "counties.geojson": COUNTIES, "land.svg": WORLD}
+    for source, package in data.items():
+        if source in sources:
+            parts.append(f"{package.name}\n\n{(package.installed() / 'LICENSE').read_text(encoding='utf-8').strip()}\n")
+    (folder / "lib" / "LICENSES.txt").write_text("\n".join(parts), encoding="utf-8")
+
+
 def build(folder: Path, *, quick: bool = False, only: tuple[str, ...] = (), pictures: bool = True) -> None:
     """Write the site into a folder, which is emptied first."""
     if not (WEB / "node_modules" / "three").is_dir():
@@ -160,6 +187,7 @@ def build(folder: Path, *, quick: bool = False, only: tuple[str, ...] = (), pict
         bundle(folder / "lib", name)
     for name in ("gallery.css", "page.js", "frame.js", "jsx.js"):
         shutil.copyfile(GALLERY / "pages" / name, folder / name)
+    write_licences(folder, shown)
     for example in shown:
         print(f"{example.name} ...", flush=True)
         make_files(folder, example, quick=quick)
