@@ -116,7 +116,13 @@ SEEN: dict[str, tuple[tuple[int, int, int], float, float]] = {
 }
 
 
-@pytest.mark.parametrize("name", SEEN)
+QUICK = ("logo", "react", "gltf")
+"""Whose pages show most of what can go wrong; the others draw for seconds without a graphics card."""
+
+
+@pytest.mark.parametrize(
+    "name", [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in SEEN]
+)
 def test_an_example_runs_from_the_disk(name: str, run: Callable[..., Any]) -> None:
     page = run(name)
     assert page.locator("#note").text_content() == ""
@@ -174,6 +180,7 @@ def test_an_error_is_shown_in_one_line(run: Callable[..., Any], name: str, sourc
     assert page.locator("#note").text_content() == said
 
 
+@pytest.mark.slow
 def test_a_choropleth_tells_the_county_under_the_pointer(run: Callable[..., Any]) -> None:
     page = run("choropleth", (1280, 800))
     box = page.locator("#stage").bounding_box()
