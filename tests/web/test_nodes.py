@@ -222,6 +222,12 @@ def test_a_fold_moves_and_elements_get_other_colours(page: Any, backend: str) ->
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
+def test_new_data_are_shown_without_a_new_program(page: Any, backend: str) -> None:
+    picture = drawn(page, "live", backend=backend)[..., 0]
+    assert np.abs(picture - (1.0 - mirror("cake"))).max() < CLOSE
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
 def test_each_instance_has_its_shape(page: Any, backend: str) -> None:
     mask = {"instanced": True, "root": None}
     options = {"backend": backend, "texture": "atlas", "type": "MeshBasicNodeMaterial", "parameters": {"color": 0}}

@@ -147,6 +147,23 @@ async function shadow({ backend, texture, mask = {}, size = [200, 200] }) {
   return { pixels, complaints: complaints.splice(0) };
 }
 
+// A material whose texture gets other data, and whether it was compiled again.
+async function live({ backend, size }) {
+  const renderer = await rendererOf(backend);
+  const shape = (await textureOf('duck')).clone();
+  const made = new vexture.VectorNodeMaterial({ texture: shape, color: 0 });
+  const scene = new THREE.Scene();
+  scene.background = new THREE.Color(0xffffff);
+  scene.add(new THREE.Mesh(new THREE.PlaneGeometry(2, 2), made));
+  const eye = new THREE.OrthographicCamera(-1, 1, 1, -1, -5, 5);
+  await pixelsOf(renderer, scene, eye, size);
+  const { version } = made;
+  shape.replace((await textureOf('cake')).data);
+  const pixels = await pixelsOf(renderer, scene, eye, size);
+  const said = complaints.splice(0);
+  return { pixels, complaints: made.version === version ? said : [...said, 'compiled again'] };
+}
+
 // The same tilted plane by WebGLRenderer and its own material.
 async function webglTilted({ texture, size }) {
   const renderer = new WebGLRenderer({ alpha: true });
@@ -192,4 +209,4 @@ async function wrong({ backend, texture }) {
   return { said, complaints: complaints.splice(0) };
 }
 
-globalThis.drawn = { node, material, shadow, webglTilted, wrong };
+globalThis.drawn = { node, material, shadow, live, webglTilted, wrong };

@@ -43,6 +43,8 @@ export class VectorNodeMask extends WithOptions {
   #before;
   #meshes = new MaskedMeshes();
   #drawn = '';
+  /** What the nodes read, and follow by themselves. @type {unknown[]} */
+  #read = [];
   #transform;
   #inside = new Color();
   #uniforms;
@@ -114,11 +116,11 @@ export class VectorNodeMask extends WithOptions {
     const { mode, invert, background, map, channel, fold } = options;
     const instance = /** @type {any} */ (options.instanced ? true : null);
     const { variant, isSheets } = nodeVariant(/** @type {any} */ (texture), { ...options, instance }, range);
-    const ids = [texture.textures.texels, fold?.texture, map].map((one) => one?.id);
-    const key = JSON.stringify([variant, isSheets, mode, invert, background, channel, options.instanced, ids]);
+    const key = JSON.stringify([variant, isSheets, mode, invert, background, channel, options.instanced]);
+    const read = [texture, fold, map];
     this.#material.transparent = isTranslucent(options) || this.#before.transparent;
-    if (key === this.#drawn) return;
-    this.#drawn = key;
+    if (key === this.#drawn && read.every((one, place) => one === this.#read[place])) return;
+    [this.#drawn, this.#read] = [key, read];
     this.#setNodes();
     this.#material.needsUpdate = true;
   }
@@ -175,6 +177,11 @@ export class VectorNodeMask extends WithOptions {
    *   ambiguous
    */
   set(changes) {
+    const { time, ...others } = changes;
+    if (Number.isFinite(time) && Object.keys(others).length === 0) { // cheap, as each frame of a fold has its time
+      this.#shown.options.time = /** @type {number} */ (time);
+      return;
+    }
     const shown = this.#shown.with(changes);
     this.#shown.texture.removeEventListener('change', this.#onChange);
     this.#shown = shown;
