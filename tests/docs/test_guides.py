@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 from PIL import Image
 
 import vexture
-from guides import GUIDES, Block, Reader, alike, blocks_of, free_port
+from guides import GUIDES, ROOT, Block, Reader, alike, blocks_of, free_port
 
 ELSEWHERE = {
     "from-svg-to-three": "web/test_guide_three.py",
@@ -101,6 +102,14 @@ def test_every_guide_is_read_by_a_test() -> None:
     for path in GUIDES.glob("*.md"):
         test = TESTS / ELSEWHERE.get(path.stem, "docs/test_guides.py")
         assert f'blocks_of("{path.stem}")' in test.read_text(encoding="utf-8")
+
+
+def test_the_guide_of_the_gallery_names_every_example() -> None:
+    [block] = blocks_of("gallery")
+    assert block.text.startswith("make gallery ")
+    examples = tomllib.loads((ROOT / "gallery" / "gallery.toml").read_text(encoding="utf-8"))["example"]
+    text = (GUIDES / "gallery.md").read_text(encoding="utf-8")
+    assert [one["title"] for one in examples if f"| {one['title']} |" not in text] == []
 
 
 def test_a_guide_that_says_what_is_not_so_is_noticed(tmp_path: Path) -> None:

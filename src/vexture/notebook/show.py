@@ -97,8 +97,8 @@ def show(source: Any, /, *, height: int | None = None, **options: Any) -> Any:
     --------
     >>> from vexture.drawing import Drawing
     >>> kite = Drawing.polygon([(0.5, 0.1), (0.8, 0.6), (0.5, 0.9), (0.2, 0.6)])
-    >>> show(kite, colors={"drawing": "gold"}, height=300)
-    <VectorWidget 'drawing': view 0.166719, 0.0653125, 0.666562, 0.869375>
+    >>> show(kite, colors={"drawing": "gold"}, height=300).colors
+    {'drawing': 'gold'}
     """
     from vexture.geo.datasets import is_dataset
     from vexture.geo.extent import Extent
