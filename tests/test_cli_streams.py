@@ -66,9 +66,8 @@ def test_a_texture_goes_through_a_pipe_into_a_picture(logo):
     assert "standard input: --select g needs" in run("render", "-", "-o", "x.png", "--select", "g", given=data).stderr
 
 
-@pytest.mark.parametrize(
-    ("how", "said"), [pytest.param((), "compiling kernels", marks=pytest.mark.slow), (("-q",), "")]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize(("how", "said"), [((), "compiling kernels"), (("-q",), "")])
 def test_quiet_is_quiet_while_kernels_are_compiled(logo, tmp_path, how, said):
     whole = kernel_cache()  # without one kernel, since all of them take a minute
     shutil.copytree(whole, tmp_path / whole.name, ignore=shutil.ignore_patterns("build.grow-*", "*.tmp.*"))

@@ -9,6 +9,8 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 
+pytestmark = pytest.mark.slow  # of all that is imported; what is installed is checked as strictly by `make lint`
+
 REVEALED = """import vexture
 reveal_type(vexture.convert("a.svg"))
 reveal_type(vexture.convert("a.svg", encoding="thesis"))

@@ -86,6 +86,7 @@ def test_santa_cruz_flood(tmp_path):
     assert (tmp_path / "ground.jpg").stat().st_size < 500_000
 
 
+@pytest.mark.slow
 def test_zeeland_flood(tmp_path):
     netcdf = pytest.importorskip("netCDF4")
     lines = run(ROOT / "examples" / "09_zeeland_flood.py", tmp_path, "100", folder=tmp_path).splitlines()
@@ -105,6 +106,7 @@ def test_zeeland_flood(tmp_path):
     assert (tmp_path / "ground.jpg").stat().st_size < 500_000
 
 
+@pytest.mark.slow
 def test_clinch_flood(tmp_path):
     netcdf = pytest.importorskip("netCDF4")
     pytest.importorskip("matplotlib")

@@ -150,7 +150,7 @@ def test_what_cannot_be_followed_is_one_line(tmp_path, monkeypatch, options, sai
     assert said in outcome.stderr
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_what_was_pushed_and_followed_survives_a_kill(tmp_path):
     path, keep = series(tmp_path / "run.nc", [0.3, 0.4]), tmp_path / "water"
     (tmp_path / "token").write_text("a-token-of-more-than-16\n")

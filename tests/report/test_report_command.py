@@ -53,7 +53,7 @@ def test_missing_matplotlib_is_one_line(tmp_path):
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_report_is_whole(tmp_path):
     outcome = report(SHAPES / "duck.svg", "-o", tmp_path)
     assert outcome.returncode == 0, outcome.stderr

@@ -33,6 +33,7 @@ def test_every_icon_is_read_without_a_warning(corpus: Corpus, count: int) -> Non
         assert read_svg(file).segments > 0, file
 
 
+@pytest.mark.slow
 def test_every_flag_is_read() -> None:
     for file in sample(flags, 100):
         with warnings.catch_warnings():

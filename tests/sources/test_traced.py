@@ -84,6 +84,7 @@ def test_traced_outline_is_the_true_one_to_a_fraction_of_a_pixel(name, size):
     assert abs(outward) < 0.15
 
 
+@pytest.mark.slow
 def test_large_pictures_are_traced_finer_than_their_reduction(tmp_path):
     disc = svg_drawing(b'<svg viewBox="0 0 1 1"><circle cx=".5" cy=".5" r=".4"/></svg>', "disc.svg")
     image = gray(disc, 2100)

@@ -60,6 +60,7 @@ def test_contours_of_depth_are_as_sharp_as_the_shore(
     page.wait_for_function("vexture.flood.stage.sea.classes === null && vexture.flood.water.visible")
 
 
+@pytest.mark.slow
 def test_times_of_arrival(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series", WIDE)
     page.get_by_label("Colours").select_option("arrival")
@@ -69,6 +70,7 @@ def test_times_of_arrival(opened_flood: Callable[..., Page]) -> None:
     assert values == [0.0, 1.0]  # of two hours in three colours
 
 
+@pytest.mark.slow
 def test_hazard_is_the_greatest_of_all_steps(
     opened_flood: Callable[..., Page], screenshot: Callable[..., Path]
 ) -> None:
@@ -127,6 +129,7 @@ def test_a_link_opens_the_same_view(opened_flood: Callable[..., Page]) -> None:
     expect(again.get_by_label("Colours")).to_have_value("smooth")
 
 
+@pytest.mark.slow
 def test_a_picture_has_its_size_and_what_is_written_on_it(opened_flood: Callable[..., Page], tmp_path: Path) -> None:
     page = opened_flood("series", WIDE)
     page.get_by_label("Size of pictures").select_option("1920 × 1080")
@@ -146,6 +149,7 @@ def test_a_picture_has_its_size_and_what_is_written_on_it(opened_flood: Callable
     assert page.evaluate("[vexture.flood.stage.size.width, vexture.flood.stage.size.height]") == list(WIDE)
 
 
+@pytest.mark.slow
 def test_no_surf_on_flooded_land(opened_flood: Callable[..., Page], screenshot: Callable[..., Path]) -> None:
     """At the height of the flood, next to no place that it has flooded is white with foam or a dark speck."""
     page = opened_flood("series", (740, 560), "?bare")

@@ -11,7 +11,7 @@ vexture.flood_page(xarray.open_dataset({path!r}), title='A "surge" & more', ampl
 """
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.usefixtures("page_is_built")
 def test_a_cell_shows_the_flood(open_page, screenshot, tmp_path):
     nbclient, nbformat = (pytest.importorskip(name) for name in ("nbclient", "nbformat"))

@@ -208,6 +208,7 @@ def test_nothing_stands_over_the_time_on_a_phone(opened_flood: Callable[..., Pag
     assert lower < higher
 
 
+@pytest.mark.slow
 def test_views_by_key_and_flight(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series")
     page.keyboard.press("5")
@@ -248,6 +249,7 @@ def test_the_camera_stays_above_the_ground(opened_flood: Callable[..., Page]) ->
     assert y > ground
 
 
+@pytest.mark.slow
 def test_less_motion(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series", WIDE, reduced_motion="reduce")
     page.evaluate("vexture.flood.freeze(null)")
@@ -264,6 +266,7 @@ def test_less_motion(opened_flood: Callable[..., Page]) -> None:
     page.wait_for_function("(before) => vexture.flood.stage.seconds > before", arg=stands)
 
 
+@pytest.mark.slow
 def test_the_mirror_is_smooth(opened_flood: Callable[..., Page]) -> None:
     """Hills in calm water would have steps: the mirror's image is smaller than the page, and seen at a slant."""
     page = opened_flood("series", WIDE)
@@ -286,6 +289,7 @@ def test_the_mirror_is_smooth(opened_flood: Callable[..., Page]) -> None:
     assert ((seen[1:-1] > 1e-3) & (seen[1:-1] < 0.9 * seen[2:]))[edges].mean() > 0.3
 
 
+@pytest.mark.slow
 def test_relief_is_raised(opened_flood: Callable[..., Page]) -> None:
     page = opened_flood("series", WIDE)
     slider = page.get_by_role("slider", name="Relief")
@@ -359,6 +363,7 @@ def test_new_steps_of_a_server_become_steps(open_page: Callable[..., Any], tmp_p
         assert flat(page)[..., 0].mean() > 1.02 * before
 
 
+@pytest.mark.slow
 def test_ground_has_a_grain_where_its_picture_has_no_more_to_show(
     opened_flood: Callable[..., Page], screenshot: Callable[..., Path]
 ) -> None:

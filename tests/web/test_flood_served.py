@@ -57,7 +57,7 @@ def test_what_is_pushed_is_seen(open_page, screenshot, tmp_path):
         assert 1.8 * before < after < 2.3 * before
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_slider_grows_with_a_run(open_page, screenshot, tmp_path):
     path = tmp_path / "run_map.nc"
     with writing(path) as writer:
