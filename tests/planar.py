@@ -1,5 +1,7 @@
 """Reading a planar map point by point, and a brute-force answer to what colour is there."""
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -7,8 +9,11 @@ import degenerate
 from degenerate import path_windings
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.group import Blend, Group, Mask
-from vexture.layout import LATTICE
+from vexture.layout import LATTICE, MOST_HALF_PAINTS
 from vexture.paint import Gradient, Paint, Spread
+from vexture.texture.encode import encode
+from vexture.texture.planar import decode_map
+from vexture.texture.texture import Texture
 from vexture.tree.crossings import x_at
 from vexture.tree.planar.map import PlanarMap
 
@@ -23,6 +28,17 @@ def cell_at(planar: PlanarMap, point) -> tuple[int, int, NDArray[np.float64]]:
         if not planar.is_quad[quad, k]:
             return quad, k, np.array([x, y]) * LATTICE
         quad = int(planar.first_quad[quad] + planar.is_quad[quad, :k].sum())
+
+
+def widened(texture: Texture) -> Texture:
+    """A texture of maps without gradients, with so many more paints that their numbers take 32 bits."""
+    maps = []
+    for root in texture.roots:
+        planar, shift = decode_map(texture.flat, root.quad), MOST_HALF_PAINTS
+        base, sides = (np.where(of > 0, of + shift, 0).astype(np.int32) for of in (planar.base, planar.sides))
+        table = np.insert(planar.paints, np.full(shift, 1), 0, axis=0)
+        maps.append(replace(planar, base=base, sides=sides, paints=table))
+    return encode(maps, [replace(root, style=None) for root in texture.roots], name=texture.name, source=None)
 
 
 def paints_at(planar: PlanarMap, point) -> dict[int, int]:

@@ -33,6 +33,7 @@ __all__ = [
     "MOST_BYTE_PAINTS",
     "MOST_CURVES",
     "MOST_DEPTH",
+    "MOST_HALF_PAINTS",
     "MOST_KEPT",
     "MOST_PAINTS",
     "MOST_PROGRAM",
@@ -127,10 +128,13 @@ COORDINATE_BITS: Final = 16
 """A point is one word: x in its low bits, y above."""
 
 MOST_BYTE_PAINTS: Final = 1 << CELL_BITS
-"""Most paints of a map in which those beside a curve are two bytes; in others they are two halves of a word."""
+"""Most paints of a map in which those beside a curve are two bytes."""
 
-MOST_PAINTS: Final = 1 << COORDINATE_BITS
-"""Paints of a planar map: a piece names those beside it by 16 bits each."""
+MOST_HALF_PAINTS: Final = 1 << COORDINATE_BITS
+"""Most paints of one in which they are two halves of a word; in others they are words."""
+
+MOST_PAINTS: Final = 1 << 24
+"""Paints of a planar map: more would not fit into a texture with the curves between them."""
 
 PAINT_ONE: Final = 65535
 """A channel of a paint that is full; a mean has `COVERAGE_ONE`."""

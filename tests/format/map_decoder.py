@@ -199,7 +199,7 @@ def read_map(words: np.ndarray, root: int) -> tuple[Map, np.ndarray]:
     p, cells, sides, paints = words[root - 1].tolist()
     first_program, operations, stops, rest = words[root - 2].tolist()
     need(rest == 0 and (operations > 0 or first_program == stops == 0), "head")
-    need(1 <= p <= 65536, "number of paints")
+    need(1 <= p <= 1 << 24, "number of paints")
     quads, curves = trace(words, [root], KINDS, read_map_cells)
     c, n, t = min(curves, default=0), len(quads), len(curves)
     need((np.sort(quads) == np.arange(root, root + n)).all(), "quads are not consecutive")
@@ -207,7 +207,7 @@ def read_map(words: np.ndarray, root: int) -> tuple[Map, np.ndarray]:
     points = read_curves(words, quads)
     m = len(points)
 
-    bits, s = (8, 4) if p <= 256 else (16, 2)
+    bits, s = (8, 4) if p <= 256 else (16, 2) if p <= 65536 else (32, 1)
 
     def numbers(texels: np.ndarray) -> np.ndarray:
         return words[texels].reshape(-1, 1) >> np.arange(0, 32, bits) & (1 << bits) - 1

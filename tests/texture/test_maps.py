@@ -5,7 +5,7 @@ import pytest
 
 import vexture
 from degenerate import circle, drawing, polygon
-from planar import coloured, colours_at
+from planar import coloured, colours_at, widened
 from shaded import DRAWINGS, shaded
 from vexture import layout
 from vexture.drawing import Drawing, Path
@@ -126,6 +126,20 @@ def test_a_cell_of_which_the_mean_is_known_contains_what_it_paints() -> None:
     np.testing.assert_array_equal(texture.contains([(0.2, 0.2), (0.7, 0.7)]), [True, False])
 
 
+def test_numbers_of_paints_take_four_bytes() -> None:
+    """Those of more paints than 16 bits can tell apart: all pictures are as those of few."""
+    of = sample(5)
+    few = faces(of)
+    many = widened(few)
+    for renderer in ("cpu", "gpu"):
+        assert (few.render(61, turned(61), renderer=renderer) == many.render(61, turned(61), renderer=renderer)).all()
+    points = np.random.default_rng(0).random((500, 2))
+    assert (few.contains(points) == many.contains(points)).all()
+    one, other = (decode_map(texture.flat, texture.roots[0].quad) for texture in (few, many))
+    assert len(other.paints) == len(one.paints) + layout.MOST_HALF_PAINTS
+    assert ((other.sides > 0) == (one.sides > 0)).all()
+
+
 @pytest.mark.parametrize("ask", [lambda t: t.to_svg(), lambda t: t.plot()])
 def test_a_map_has_no_outlines(ask) -> None:
     with pytest.raises(ParameterError, match="is a planar map, without outlines; convert it with `split` None"):
@@ -142,8 +156,8 @@ def test_a_drawing_without_paths_is_empty() -> None:
     [
         ("programs", 3, 1, "a head that is not 0"),
         ("programs", 0, 1, "a head that is not 0"),
-        ("head", 0, 0, "has 0 paints; the limit is 65536"),
-        ("head", 0, 1 << 17, "has 131072 paints; the limit is 65536"),
+        ("head", 0, 0, "has 0 paints; the limit is 16777216"),
+        ("head", 0, 1 << 25, "has 33554432 paints; the limit is 16777216"),
         ("head", 0, 1 << 16, "end at texel"),
         ("head", 0, 2, "has paint . of 2"),
         ("head", 1, 1 << 31, "end at texel"),

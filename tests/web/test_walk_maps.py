@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from browser import ROOT
 from walk_node import by_node, found_at, points
 
 import vexture
 from degenerate import drawing
-from planar import coloured
+from planar import coloured, widened
 from vexture.drawing import Drawing
 from vexture.errors import FormatError
 from vexture.texture.texture import Texture
@@ -34,8 +35,11 @@ def named(part: int, of: Drawing) -> Drawing:
     return replace(of, name=f"sample {part}")
 
 
-def test_the_same_paints_are_found(tmp_path: Path) -> None:
-    texture = vexture.atlas([named(*one) for one in enumerate(samples())], split="faces")
+@pytest.mark.parametrize("is_wide", [False, True])
+def test_the_same_paints_are_found(tmp_path: Path, is_wide: bool) -> None:
+    """Of three drawings; or of the last one, with numbers of 32 bits."""
+    texture = vexture.atlas([named(*one) for one in enumerate(samples())][2 * is_wide :], split="faces")
+    texture = widened(texture) if is_wide else texture
     path, at = texture.save(tmp_path / "maps.ktx2"), points()
     _, _, maps = map_decoder.read_maps(path.read_bytes())
     for planar, found in zip(maps, found_at(path, at, tmp_path), strict=True):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from either_language import Given, Numbers, by_glsl, by_parameters, by_wgsl, device
+from planar import widened
 from vexture import atlas, convert
 from vexture.drawing import Drawing
 from vexture.errors import DeviceError
@@ -25,6 +26,7 @@ from vexture.texture.texture import Texture
 ROOT = Path(__file__).parents[2]
 SHAPES = ROOT / "examples" / "shapes"
 FIXTURES = ROOT / "tests" / "sources" / "fixtures"
+WIDENED = ", widened"
 SIZE = (100, 100)
 STEP = 1 / 255
 CLOSE = 0.1 * STEP  # float32 in another order of operations; the aim of the shader against its mirror
@@ -61,6 +63,8 @@ def ring() -> Texture:
 def texture(name: str) -> Texture:
     if name == "ring":
         return ring()
+    if name.endswith(WIDENED):
+        return widened(texture(name.removesuffix(WIDENED)))
     path = SHAPES / f"{name}.svg"
     return convert(str(path if path.is_file() else FIXTURES / f"{name}.svg"))
 
@@ -116,7 +120,7 @@ def test_coverage_is_the_mirrors(name: str, view: str) -> None:
 
 @pytest.mark.parametrize("view", [name for name in VIEWS if name != "near"])
 @pytest.mark.parametrize("is_linear", [0, 1])
-@pytest.mark.parametrize("name", ["gradients/blended", "groups/nested"])
+@pytest.mark.parametrize("name", ["gradients/blended", "groups/nested", "groups/nested, widened"])
 def test_colours_are_the_mirrors(name: str, is_linear: int, view: str) -> None:
     given, is_flat = given_of(texture(name), VIEWS[view])
     mirror = render_cpu_colours(texture(name), SIZE, VIEWS[view], is_linear=bool(is_linear))

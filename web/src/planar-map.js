@@ -1,5 +1,13 @@
 // Where the parts of a planar map lie, and what they say (FORMAT.md, part D). Plain data, without three.js.
-import { CELL_BITS, COORDINATE_BITS, COVERAGE_ONE, MAP_HEAD, MOST_BYTE_PAINTS, PAINT_ONE } from '../generated/layout.js';
+import {
+  CELL_BITS,
+  COORDINATE_BITS,
+  COVERAGE_ONE,
+  MAP_HEAD,
+  MOST_BYTE_PAINTS,
+  MOST_HALF_PAINTS,
+  PAINT_ONE,
+} from '../generated/layout.js';
 
 const COMPONENTS = [0, 1, 2, 3];
 
@@ -30,6 +38,15 @@ export function headOf(texels, quad) {
 }
 
 /**
+ * Logarithm of how many numbers of paints are in a word.
+ *
+ * @param {number} used number of paints
+ */
+function packingOf(used) {
+  return used > MOST_HALF_PAINTS ? 0 : used > MOST_BYTE_PAINTS ? 1 : 2;
+}
+
+/**
  * One of the numbers of paints that fill words.
  *
  * @param {Uint32Array} texels
@@ -38,9 +55,10 @@ export function headOf(texels, quad) {
  * @param {number} place
  */
 function numberIn(texels, head, word, place) {
-  const narrow = head.used > MOST_BYTE_PAINTS ? 0 : 1;
-  const bits = COORDINATE_BITS >> narrow;
-  return (texels[word + (place >> (1 + narrow))] >>> (bits * (place & (1 + 2 * narrow)))) & ((1 << bits) - 1);
+  const packing = packingOf(head.used);
+  const bits = 32 >> packing;
+  const shifted = texels[word + (place >> packing)] >>> (bits * (place & ((1 << packing) - 1)));
+  return (shifted & (0xffffffff >>> (32 - bits))) >>> 0;
 }
 
 /**
@@ -98,7 +116,7 @@ export function basePaint(texels, head, quad, cell) {
  * @param {number} used number of paints
  */
 export function sidesInTexel(used) {
-  return used > MOST_BYTE_PAINTS ? 4 : 8;
+  return 2 << packingOf(used);
 }
 
 /**

@@ -46,13 +46,13 @@ uvec4 vexture_leaf_piece(inout VextureLeaf leaf, int i) {
 
 // The paints on the left and on the right of piece i of a leaf.
 uvec2 vexture_leaf_sides(inout VextureLeaf leaf, VexturePlanar planar, int i) {
-    uint number = leaf.number + uint(i);
-    uint at = planar.sides + (number >> (2u + planar.narrow));
+    uint place = 2u * (leaf.number + uint(i));
+    uint at = planar.sides + (place >> (2u + planar.packing));
     if (at != leaf.sides_at) {
         leaf.sides_at = at;
         leaf.sides = vexture_texel(at);
     }
-    uint word = leaf.sides[(number >> planar.narrow) & 3u] >> ((number & planar.narrow) << 4);
-    int bits = VEXTURE_COORDINATE_BITS >> planar.narrow;
-    return (uvec2(word, word >> bits)) & ((1u << bits) - 1u);
+    uint left = leaf.sides[(place >> planar.packing) & 3u];
+    uint right = leaf.sides[((place + 1u) >> planar.packing) & 3u];
+    return uvec2(vexture_numbered(planar, left, place), vexture_numbered(planar, right, place + 1u));
 }

@@ -16,30 +16,35 @@ struct VexturePlanar {
     uint cells;
     uint sides;
     uint paints;
-    uint narrow;  // 1 where paints are numbered by bytes
+    uint packing;  // logarithm of how many numbers of paints are in a word
 };
 
 // The map with a root quad; its head comes before that.
 VexturePlanar vexture_planar(uint root) {
     uvec4 head = vexture_texel(root - 1u);
-    return VexturePlanar(root, head.y, head.z, head.w, head.x > uint(VEXTURE_MOST_BYTE_PAINTS) ? 0u : 1u);
+    uint packing = head.x > uint(VEXTURE_MOST_HALF_PAINTS) ? 0u : head.x > uint(VEXTURE_MOST_BYTE_PAINTS) ? 1u : 2u;
+    return VexturePlanar(root, head.y, head.z, head.w, packing);
 }
 
-// The texel of the means of a quad's cells. Before those of each two quads, or four, is one of base paints.
+// The texel of the means of a quad's cells. Before those of each quad, or two, or four, is one of base paints.
 uint vexture_means_at(VexturePlanar planar, uint quad) {
     uint place = quad - planar.root;
-    return planar.cells + 1u + place + (place >> (1u + planar.narrow));
+    return planar.cells + 1u + place + (place >> planar.packing);
+}
+
+// The number at a place among others that fill words, of which `word` is that of the place.
+uint vexture_numbered(VexturePlanar planar, uint word, uint place) {
+    uint bits = 32u >> planar.packing;
+    return (word >> (bits * (place & ((1u << planar.packing) - 1u)))) & (0xffffffffu >> (32u - bits));
 }
 
 // Number of the base paint of a leaf.
 uint vexture_base_paint(VexturePlanar planar, VextureCell cell) {
     uint place = cell.quad - planar.root;
-    uint block = place >> (1u + planar.narrow);
-    uvec4 numbers = vexture_texel(planar.cells + place - (place & (1u + 2u * planar.narrow)) + block);
+    uint block = place >> planar.packing;
+    uvec4 numbers = vexture_texel(planar.cells + (block << planar.packing) + block);
     uint k = 4u * place + (cell.shift >> 3);
-    int bits = VEXTURE_COORDINATE_BITS >> planar.narrow;
-    uint word = numbers[(k >> (1u + planar.narrow)) & 3u] >> (uint(bits) * (k & (1u + 2u * planar.narrow)));
-    return word & ((1u << bits) - 1u);
+    return vexture_numbered(planar, numbers[(k >> planar.packing) & 3u], k);
 }
 
 // A stored colour as what is averaged, premultiplied. In whole steps, sums of differences are exact.

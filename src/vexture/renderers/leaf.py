@@ -5,7 +5,7 @@ from typing import NamedTuple
 from vexture.kernels import kernel
 from vexture.layout import CONTROL_OFFSET, COORDINATE_BITS, COUNT_SHIFT, MOST_CURVES, STRAIGHT
 from vexture.renderers.cells import Cell, Texel, Texels, Whole2, texel
-from vexture.renderers.paints import Planar
+from vexture.renderers.paints import Planar, numbered
 
 __all__ = ["Leaf", "leaf", "leaf_piece", "leaf_sides"]
 
@@ -59,9 +59,9 @@ def leaf_piece(texels: Texels, leaf: Leaf, i: int) -> tuple[Texel, Leaf]:
 @kernel(allocates=False)
 def leaf_sides(texels: Texels, leaf: Leaf, planar: Planar, i: int) -> tuple[Whole2, Leaf]:
     """As `leaf_piece`, of the paints on the left and on the right of a piece."""
-    number, narrow = leaf.number + i, planar.narrow
-    at = planar.sides + (number >> (2 + narrow))
+    place, packing = 2 * (leaf.number + i), planar.packing
+    at = planar.sides + (place >> (2 + packing))
     if at != leaf.sides_at:
         leaf = Leaf(leaf.first, leaf.number, leaf.is_straight, leaf.at, leaf.texel, at, texel(texels, at))
-    word, bits = leaf.sides[(number >> narrow) & 3] >> ((number & narrow) << 4), COORDINATE_BITS >> narrow
-    return (word & ((1 << bits) - 1), (word >> bits) & ((1 << bits) - 1)), leaf
+    left, right = leaf.sides[(place >> packing) & 3], leaf.sides[((place + 1) >> packing) & 3]
+    return (numbered(planar, left, place), numbered(planar, right, place + 1)), leaf

@@ -6,7 +6,7 @@ See `vexture.renderers.cpu`. `is_linear` is what ``VEXTURE_LINEAR`` is in the sh
 from typing import NamedTuple
 
 from vexture.kernels import kernel
-from vexture.layout import COORDINATE_BITS, COVERAGE_ONE, MOST_BYTE_PAINTS
+from vexture.layout import COVERAGE_ONE, MOST_BYTE_PAINTS, MOST_HALF_PAINTS
 from vexture.renderers.cells import Cell, Texel, Texels, Vec2, Whole2, clamp, texel
 from vexture.renderers.gradient import Region, Vec3, Vec4, halves, plus, program, times
 from vexture.renderers.method import LEAST_SHARE
@@ -21,6 +21,7 @@ __all__ = [
     "mean_color",
     "means_at",
     "nothing",
+    "numbered",
     "planar",
     "settle",
     "unpacked",
@@ -34,7 +35,7 @@ class Planar(NamedTuple):
     cells: int
     sides: int
     paints: int
-    narrow: int
+    packing: int
 
 
 @kernel(allocates=False)
@@ -53,24 +54,32 @@ def linear_component(encoded: float) -> float:
 def planar(texels: Texels, root: int) -> Planar:
     """Where the parts of the map with a root quad begin."""
     head = texel(texels, root - 1)
-    return Planar(root, 0 + head[1], 0 + head[2], 0 + head[3], 0 if head[0] > MOST_BYTE_PAINTS else 1)  # of 64 bits
+    packing = 0 if head[0] > MOST_HALF_PAINTS else 1 if head[0] > MOST_BYTE_PAINTS else 2
+    return Planar(root, 0 + head[1], 0 + head[2], 0 + head[3], packing)  # of 64 bits
 
 
 @kernel(allocates=False)
 def means_at(planar: Planar, quad: int) -> int:
     """The texel of the means of a quad's cells."""
     place = quad - planar.root
-    return planar.cells + 1 + place + (place >> (1 + planar.narrow))
+    return planar.cells + 1 + place + (place >> planar.packing)
+
+
+@kernel(allocates=False)
+def numbered(planar: Planar, word: int, place: int) -> int:
+    """The number at a place among others that fill words, of which `word` is that of the place."""
+    bits = 32 >> planar.packing
+    return 0 + (word >> (bits * (place & ((1 << planar.packing) - 1)))) & (0xFFFFFFFF >> (32 - bits))  # of 64 bits
 
 
 @kernel(allocates=False)
 def base_paint(texels: Texels, planar: Planar, cell: Cell) -> int:
     """Number of the base paint of a leaf."""
-    place, narrow = cell.quad - planar.root, planar.narrow
-    numbers = texel(texels, planar.cells + place - (place & (1 + 2 * narrow)) + (place >> (1 + narrow)))
-    k, bits = 4 * place + (cell.shift >> 3), COORDINATE_BITS >> narrow
-    word = numbers[(k >> (1 + narrow)) & 3] >> (bits * (k & (1 + 2 * narrow)))
-    return 0 + word & ((1 << bits) - 1)  # of 64 bits
+    place, packing = cell.quad - planar.root, planar.packing
+    block = place >> packing
+    numbers = texel(texels, planar.cells + (block << packing) + block)
+    k = 4 * place + (cell.shift >> 3)
+    return numbered(planar, numbers[(k >> packing) & 3], k)
 
 
 @kernel(allocates=False)

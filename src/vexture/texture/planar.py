@@ -104,6 +104,8 @@ def cell_texels(planar: PlanarMap) -> NDArray[np.uint32]:
 
 def _number(paints: int) -> np.dtype[np.unsignedinteger]:
     """What the number of a paint beside a curve is, in a map with so many paints."""
+    if paints > layout.MOST_HALF_PAINTS:
+        return np.dtype("<u4")
     return np.dtype("<u1" if paints <= layout.MOST_BYTE_PAINTS else "<u2")
 
 
