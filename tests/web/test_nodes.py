@@ -266,6 +266,6 @@ def test_a_material_says_when_it_meets_the_wrong_renderer(page: Any) -> None:
         assert "MeshStandardNodeMaterial is a material of WebGPURenderer" in every
         assert 'wrap is "mirror"; it must be one of none, clamp, repeat' in every
         assert "fold is {}; load one by FoldTexture.parse" in every
-        assert 'an option is "linear"; it must be one of root, uv' in every
+        assert 'an option is "colour"; it must be one of root, uv' in every
     found = page.evaluate("(options) => drawn.wrong(options)", {"backend": "webgl only", "texture": "duck"})
     assert "is drawn by WebGLRenderer" in " | ".join(found["said"] + found["complaints"])

@@ -224,7 +224,7 @@ async function wrong({ backend, texture }) {
     trying(() => vexture.applyVectorMask(new THREE.MeshStandardMaterial(), shape));
     trying(() => vexture.vectorColor(shape, { wrap: 'mirror' }));
     trying(() => vexture.vectorColor(shape, { fold: {} }));
-    trying(() => vexture.vectorCoverage(shape, { linear: true }));
+    trying(() => vexture.vectorCoverage(shape, { colour: 1 }));
   }
   return { said, complaints: complaints.splice(0) };
 }

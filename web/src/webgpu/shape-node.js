@@ -68,7 +68,7 @@ export class ShapeNode extends /** @type {new (type: string) => Node} */ (Node) 
 
   /** Programs of another variant are others; three.js asks for this of materials that need an update. */
   customCacheKey() {
-    return NodeUtils.hashString(`${this.id} ${this.what} ${endingOf(this.variant)} ${this.isSheets}`);
+    return NodeUtils.hashString(this.id + endingOf(this.variant) + this.isSheets);
   }
 
   /**
@@ -78,9 +78,9 @@ export class ShapeNode extends /** @type {new (type: string) => Node} */ (Node) 
    * @param {boolean} isSheets
    */
   become(variant, isSheets) {
-    if (endingOf(variant) === endingOf(this.variant) && isSheets === this.isSheets) return;
-    this.variant = variant;
-    this.isSheets = isSheets;
+    const before = this.customCacheKey();
+    [this.variant, this.isSheets] = [variant, isSheets];
+    if (this.customCacheKey() === before) return;
     for (const held of this.#materials) {
       const material = held.deref();
       if (material) material.needsUpdate = true;

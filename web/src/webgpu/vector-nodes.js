@@ -24,8 +24,8 @@ import { livingShapeNode } from './shape-inputs.js';
  *   light mixes, and not in sRGB, as browsers do
  */
 
-/** Options of a coverage. @type {readonly string[]} */
-const OPTIONS = Object.freeze(['root', 'uv', 'dx', 'dy', 'wrap', 'flat', 'fold', 'time']);
+/** @type {readonly string[]} */
+const OPTIONS = Object.freeze(['root', 'uv', 'dx', 'dy', 'wrap', 'flat', 'fold', 'time', 'linear']);
 
 /** The shape of each instance, from its attribute `vextureRoot` (see `rootAttribute`), as a node. */
 export const instancedRoot = () => varying(/** @type {any} */ (attribute(ROOT_ATTRIBUTE, 'uint')));
@@ -36,7 +36,7 @@ export const instancedRoot = () => varying(/** @type {any} */ (attribute(ROOT_AT
  * @param {ColorOptions} given
  */
 function nodeOf(what, texture, given) {
-  checkNodeOptions(given, what === 'colour' ? [...OPTIONS, 'linear'] : OPTIONS);
+  checkNodeOptions(given, OPTIONS);
   const { root = null, uv = meshUv(), time = () => 0, ...options } = given;
   if (!texture?.isVectorTexture || texture.encoding !== 'packed') {
     throw new VextureError('the texture must be a VectorTexture; load one by VectorTextureLoader', 'texture');
