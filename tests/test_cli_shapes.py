@@ -85,7 +85,7 @@ def test_elements_are_named_and_get_other_colours(tmp_path):
     assert (blue.read_bytes(), result.exit_code) == (before, 1)
     result = run("convert", logo, "-o", plain, "--restyle", "--silhouette")
     assert "`restyle`" not in result.stderr
-    assert "--restyle is for a whole drawing in its colours" in result.stderr
+    assert "--restyle is for a drawing in its colours, and a silhouette has none; leave it out" in result.stderr
 
 
 def test_polygons_are_named_by_a_property_and_snapped(tmp_path):

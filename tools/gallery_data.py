@@ -29,6 +29,9 @@ STAMPS: Final = 6
 SMALLER: Final = 0.1
 """Side of a stamp, in sides of its postcard."""
 
+TURN: Final = 360.0
+"""Degrees around the earth."""
+
 
 def lines_of(topology: dict[str, Any]) -> list[Any]:
     """Arcs of a TopoJSON in its own coordinates."""
@@ -69,13 +72,30 @@ def counties(folder: Path, *, quick: bool) -> None:
     (folder / "counties.geojson").write_text(text, encoding="utf-8")
 
 
+def unrolled(ring: Any) -> list[Any]:
+    """A ring of the sphere, in degrees, as rings of the plane whose part from -180 to 180 is what the map shows.
+
+    A ring that crosses the 180th meridian goes on beyond it, and comes again from the other side; one around a pole
+    contains it.
+    """
+    ring = np.array(ring, np.float64)
+    steps = np.diff(ring[:, 0])
+    ring[1:, 0] = ring[0, 0] + np.cumsum(steps - TURN * np.rint(steps / TURN))
+    if abs(ring[-1, 0] - ring[0, 0]) > TURN / 2:
+        pole = np.copysign(TURN / 4, ring[:, 1].mean())
+        ring = np.concatenate([ring, [[ring[-1, 0], pole], [ring[0, 0], pole]]])
+    copies = [ring + np.array([turns * TURN, 0.0]) for turns in (-1, 0, 1)]
+    return [one for one in copies if one[:, 0].min() < TURN / 2 and one[:, 0].max() > -TURN / 2]
+
+
 def land(folder: Path, *, quick: bool) -> None:
     """Write the land of the earth as SVG: degrees, in a frame of all of them."""
     file = "land-110m.json" if quick else "land-50m.json"
     topology = json.loads((WORLD.installed() / file).read_text(encoding="utf-8"))
     path = []
     for geometry in topology["objects"]["land"]["geometries"]:
-        for ring in (ring for rings in rings_of(topology, geometry) for ring in rings):
+        rings = [ring for polygon in rings_of(topology, geometry) for ring in polygon]
+        for ring in (one for whole in rings for one in unrolled(whole)):
             path.append("M" + "L".join(f"{x:.3f} {-y:.3f}" for x, y in ring) + "Z")
     svg = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-180 -90 360 180"><path d="{"".join(path)}"/></svg>'
     (folder / "land.svg").write_text(svg, encoding="utf-8")

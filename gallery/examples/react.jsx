@@ -26,7 +26,7 @@ function Badge({ children, ...props }) {
 function App() {
   const [color, setColor] = useState('#c8553d');
   return (
-    <Canvas shadows camera={{ position: [0, 0.4, innerWidth > innerHeight ? 5 : 9], fov: 45 }} style={{ height: '100vh' }}>
+    <Canvas shadows="percentage" camera={{ position: [0, 0.4, innerWidth > innerHeight ? 5 : 9], fov: 45 }} style={{ height: '100vh' }}>
       <color attach="background" args={['#efe6d6']} />
       <hemisphereLight args={['white', '#a09070', 1.6]} />
       <directionalLight castShadow position={[2, 3, 4]} intensity={2} />

@@ -10,6 +10,7 @@ document.body.append(renderer.domElement, label);
 // One square fills the view. Where in the drawing it lies is the business of its transform: so no camera, and no
 // corner of a mesh, comes near the limits of 32-bit floats.
 const scene = new THREE.Scene();
+scene.background = new THREE.Color(0xcfd8dc); // beside the postcard
 const camera = new THREE.OrthographicCamera(0, 1, 1, 0, -1, 1);
 const texture = await new VectorTextureLoader().loadAsync('postcard.ktx2');
 const material = new VectorMaterial({ texture, mode: 'paint', flat: true });

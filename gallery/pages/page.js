@@ -37,6 +37,8 @@ ${scripts.map(script).join('\n')}</head><body>${script('../frame.js')}</body></h
     note.hidden = false;
   });
 
+  // on a phone the source is folded, so that the picture comes first
+  byId('code').open = !matchMedia('(max-width: 60rem)').matches;
   if (!about.libraries) return; // a page that stands by itself
   editor.value = about.source; // browsers keep what was typed before a reload
   editor.addEventListener('input', () => (reset.disabled = editor.value === about.source));
@@ -60,7 +62,5 @@ ${scripts.map(script).join('\n')}</head><body>${script('../frame.js')}</body></h
     copy.textContent = 'Copied';
     setTimeout(() => (copy.textContent = 'Copy'), 1500);
   });
-  // on a phone the source is folded, so that the picture comes first
-  byId('code').open = !matchMedia('(max-width: 60rem)').matches;
   show();
 })();

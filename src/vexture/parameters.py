@@ -52,6 +52,8 @@ class Parameters:
     def __post_init__(self) -> None:
         if self.split is not None and self.split not in SPLITS:
             raise ParameterError(f"`split` is {self.split!r}; it must be {', '.join(map(repr, SPLITS))} or None")
+        if self.restyle and self.split is None:
+            raise ParameterError("`restyle` is for a drawing in its colours, and a silhouette has none; leave it out")
         if self.restyle and self.split not in ("auto", "faces"):
             raise ParameterError(
                 f"`split` is {self.split!r}, but `restyle` is for a whole drawing in its colours: 'faces'"

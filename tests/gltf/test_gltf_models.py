@@ -220,6 +220,7 @@ def test_a_material_is_found_by_its_name_or_its_place():
         ({"mode": "cut", "threshold": 2}, "`threshold` is 2; it must be a coverage, 0 to 1"),
         ({"mode": "mix", "color": "rgb(0 0 0 / 0.5)"}, "`color` is 'rgb(0 0 0 / 0.5)'; give an opaque CSS colour"),
         ({"scale": (1,)}, "`scale` is (1,); it must be two finite numbers"),
+        ({"scale": (2, 0)}, "`scale` is (2, 0); by 0 the drawing is a line; give other numbers"),
         ({"rotation": float("nan")}, "`rotation` is nan; it must be a finite number"),
         ({"root": "nobody"}, "drawing: no shape 'nobody'; there is 'drawing'"),
         ({"mode": "cut", "root": 1}, "drawing: no shape 1; they are numbered 0 to 0"),

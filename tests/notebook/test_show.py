@@ -113,6 +113,15 @@ def test_what_cannot_be_shown_is_refused_and_nothing_changes(flag, trait, value,
     assert getattr(flag, trait) == before
 
 
+def test_what_is_not_chosen_is_as_it_is_by_default(flag):
+    same = vexture.show(flag.texture, root=None, width=None, height=None, colors=None, view=None)
+    assert (same.root, same.width, same.colors, same.view) == (None, None, {}, flag.view)
+    with pytest.raises(traitlets.TraitError, match="mode"):
+        vexture.show(flag.texture, mode=None)
+    with pytest.raises(AttributeError):
+        flag.texture = same.texture
+
+
 def test_sources_are_refused_in_a_line(pair):
     with pytest.raises(ParameterError, match=r"holds 2 drawings \(a, b\); choose one by `root`"):
         vexture.show(pair)
@@ -167,12 +176,16 @@ def test_a_picture_stands_in_where_there_are_no_widgets(tmp_path, flag):
         flag.save(tmp_path / "flag.txt")
 
 
-def test_a_flood_is_its_page_in_a_frame():
+def test_a_flood_is_its_page_in_a_frame(tmp_path):
     pond = b'{"type": "Polygon", "coordinates": [[[4, 52], [4.01, 52], [4.01, 52.01], [4, 52.01]]]}'
     extent = vexture.read_extent(pond, "pond.geojson")
     widget = vexture.show(extent, height=300, title="A pond")
     assert (widget.height, widget.step, widget._name) == (300, 0, "A pond")
     assert widget._page.startswith(b"<!doctype html>")
+    widget.save(tmp_path / "pond.html")
+    assert (tmp_path / "pond.html").read_bytes() == widget._page
+    with pytest.raises(TypeError, match=r"`colors` is \{\}, but a flood has no such parameter; leave it out"):
+        vexture.show(extent, colors={})
     again = vexture.show(widget.page)
     assert again.height == widget.page.height
     with pytest.raises(ParameterError, match="`amplitude` is 1, but A pond is converted already; leave it out"):

@@ -18,6 +18,7 @@ from vexture.errors import VextureError
 
 sys.path.append(str(ROOT / "tools"))
 
+import gallery_data
 import gallery_pages
 
 EXAMPLES = {one.name: one for one in gallery_pages.examples()}
@@ -197,6 +198,20 @@ def test_a_phone_shows_the_picture_first(run: Callable[..., Any]) -> None:
     assert box["width"] == 390
     assert box["y"] + box["height"] < 844
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def test_land_goes_on_beyond_the_180th_meridian_and_around_a_pole() -> None:
+    east, west = gallery_data.unrolled([(170, 60), (-170, 60), (-175, 70), (170, 60)])[::-1]
+    assert east.tolist() == [[170, 60], [190, 60], [185, 70], [170, 60]]
+    assert np.array_equal(west, east - (360, 0))
+    (plain,) = gallery_data.unrolled([(0, 0), (20, 0), (0, 20), (0, 0)])
+    assert plain.tolist() == [[0, 0], [20, 0], [0, 20], [0, 0]]
+    corners = [(-180, -70), (-60, -75), (60, -70), (-180, -70)]
+    for ring in (corners, corners[::-1]):
+        around = gallery_data.unrolled(ring)
+        whole = [one for one in around if one[:, 0].min() <= -180 and one[:, 0].max() >= 180]
+        assert len(whole) == 1
+        assert sorted(whole[0][-2:].tolist()) == [[-180, -90], [180, -90]]
 
 
 def test_the_index_leads_to_all(gallery: Path, open_page: Callable[..., Any]) -> None:

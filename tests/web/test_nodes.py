@@ -228,6 +228,14 @@ def test_new_data_are_shown_without_a_new_program(page: Any, backend: str) -> No
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
+def test_a_node_shows_new_data_of_another_kind(page: Any, backend: str) -> None:
+    for first, then in (("duck", "blended"), ("blended", "duck")):
+        expected = drawn(page, "node", backend=backend, texture=then, what="vectorColor")
+        picture = drawn(page, "liveNode", backend=backend, first=first, then=then, what="vectorColor")
+        assert np.abs(picture - expected).max() < CLOSE
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
 def test_each_instance_has_its_shape(page: Any, backend: str) -> None:
     mask = {"instanced": True, "root": None}
     options = {"backend": backend, "texture": "atlas", "type": "MeshBasicNodeMaterial", "parameters": {"color": 0}}
@@ -256,5 +264,8 @@ def test_a_material_says_when_it_meets_the_wrong_renderer(page: Any) -> None:
         assert "WebGPURenderer" in every
         assert "MeshStandardMaterial is no node material" in every
         assert "MeshStandardNodeMaterial is a material of WebGPURenderer" in every
+        assert 'wrap is "mirror"; it must be one of none, clamp, repeat' in every
+        assert "fold is {}; load one by FoldTexture.parse" in every
+        assert 'an option is "colour"; it must be one of root, uv' in every
     found = page.evaluate("(options) => drawn.wrong(options)", {"backend": "webgl only", "texture": "duck"})
     assert "is drawn by WebGLRenderer" in " | ".join(found["said"] + found["complaints"])

@@ -25,7 +25,7 @@ MAP_MARKS = ("vextureSheets(int", "convert the drawing with that colour", "plus-
 OTHERS = [f"--external:{name}" for name in ("three", "react", "@react-three/fiber")]
 """What a page has anyhow."""
 
-WEBGPU_LIMIT = 25_500
+WEBGPU_LIMIT = 25_600
 """And what a page with nodes loads: both languages are in it, as the backend is known later."""
 
 REACT_LIMIT = 2_000

@@ -150,6 +150,18 @@ def test_the_server_shows_the_texture_and_every_save_of_the_drawing(project: Pro
         assert project.conversions() == 2
 
 
+def test_each_build_tells_what_a_drawing_loses(project: Project) -> None:
+    blurred = '<rect width="4" height="4" filter="blur(1px)"/><path d="M5 5h2v2z" fill="red"/>'
+    svg = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8 8">{blurred}</svg>'
+    (project.folder / "logo.svg").write_text(svg, encoding="utf-8")
+    project.imports("logo.svg?vexture")
+    for conversions in (1, 0):
+        outcome = project.build()
+        assert "logo.svg: left out: filter of blur" in outcome.stderr
+        assert "compiling" not in outcome.stderr
+        assert project.conversions() == conversions
+
+
 @pytest.mark.parametrize(
     ("query", "message"),
     [

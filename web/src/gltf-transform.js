@@ -1,4 +1,5 @@
 import { Matrix3 } from 'three';
+import { VextureError, line } from './errors.js';
 
 /**
  * @typedef {object} GLTFTransform As in KHR_texture_transform.
@@ -14,12 +15,16 @@ import { Matrix3 } from 'three';
  *
  * @param {GLTFTransform} [transform]
  * @returns {Matrix3} from the mesh's uv to the unit square
+ * @throws {VextureError} if its parts are no numbers
  */
 export function gltfTransform({ offset = [0, 0], rotation = 0, scale = [1, 1] } = {}) {
   const [c, s] = [Math.cos(rotation), Math.sin(rotation)];
-  return new Matrix3().set(
+  const matrix = new Matrix3().set(
     c * scale[0], s * scale[1], offset[0],
     s * scale[0], -c * scale[1], 1 - offset[1],
     0, 0, 1,
   );
+  if (matrix.elements.every(Number.isFinite)) return matrix;
+  const given = line({ offset, rotation, scale });
+  throw new VextureError(`the transform is ${given}; offset and scale must be two numbers each, rotation one`, 'transform');
 }

@@ -143,6 +143,27 @@ export function isTranslucent({ mode, background }) {
 }
 
 /**
+ * @param {Pick<AllOptions, 'wrap' | 'fold'>} options where a shape is
+ * @throws {VextureError} if one is out of range
+ */
+function checkPlace({ wrap, fold }) {
+  choose('wrap', wrap, Object.keys(WRAPS));
+  if (fold && !fold.isFoldTexture) {
+    throw new VextureError(`fold is ${line(fold)}; load one by FoldTexture.parse`, 'fold');
+  }
+}
+
+/**
+ * @param {Record<string, any>} options of a node
+ * @param {readonly string[]} names of all that it has
+ * @throws {VextureError} if one is out of range, or there is no such option
+ */
+export function checkNodeOptions({ wrap = 'none', fold = null, ...others }, names) {
+  for (const name of Object.keys(others)) choose('an option', name, names);
+  checkPlace({ wrap, fold });
+}
+
+/**
  * @param {AllOptions} options
  * @param {string} type of the material
  * @throws {VextureError} if an option is out of range, or options exclude each other
@@ -150,7 +171,7 @@ export function isTranslucent({ mode, background }) {
 export function checkOptions(options, type) {
   const { mode, wrap, background, invert, threshold, transform, fold, time, channel } = options;
   choose('mode', mode, MODES);
-  choose('wrap', wrap, Object.keys(WRAPS));
+  checkPlace({ wrap, fold });
   choose('background', background, BACKGROUNDS);
   choose('channel', channel, CHANNELS);
   if (!(threshold >= 0 && threshold <= 1)) {
@@ -158,9 +179,6 @@ export function checkOptions(options, type) {
   }
   if (transform?.elements?.length !== 9) {
     throw new VextureError(`transform is ${line(transform)}; it must be a Matrix3`, 'transform');
-  }
-  if (fold && !fold.isFoldTexture) {
-    throw new VextureError(`fold is ${line(fold)}; load one by FoldTexture.parse`, 'fold');
   }
   if (!Number.isFinite(time)) throw new VextureError(`time is ${line(time)}; it must be a number of seconds`, 'time');
   const possible = COLORLESS[/** @type {keyof typeof COLORLESS} */ (type)];

@@ -172,4 +172,5 @@ test('texture coordinates of glTF are scaled, turned, moved and turned over', ()
   const corner = { offset: [0, 1], rotation: Math.PI / 2, scale: [0.5, 0.5] }; // that of Khronos: the lower left quarter
   expect([at(corner, 0, 0), at(corner, 1, 0), at(corner, 0, 1)]).toEqual([[0, 0], [0, 0.5], [0.5, 0]]);
   expect(at({ scale: [2, 3], offset: [0.1, 0.2] }, 0.5, 0.25)).toEqual([1.1, 0.05]);
+  expect(() => at({ scale: 5 }, 0, 0)).toThrow('"scale":5}; offset and scale must be two numbers each, rotation one');
 });

@@ -125,6 +125,8 @@ class Appearance:
             if not good or len(pair) != length or not all(map(math.isfinite, pair)):
                 what = "a finite number" if length == 1 else "two finite numbers"
                 raise ParameterError(f"`{name}` is {getattr(self, name)!r:.80}; it must be {what}")
+        if 0 in self.scale:
+            raise ParameterError(f"`scale` is {self.scale!r:.80}; by 0 the drawing is a line; give other numbers")
         turned = -math.radians(self.rotation)
         values = {"offset": [*map(float, self.offset)], "rotation": turned, "scale": [*map(float, self.scale)]}
         without = {"offset": [0.0, 0.0], "rotation": 0.0, "scale": [1.0, 1.0]}

@@ -3,7 +3,7 @@
 import html
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -26,6 +26,9 @@ UNNAMED: Final = "flood"
 
 READING: Final = ("bounds", "time_dim", "variable", "layer")
 """Parameters of the reader: an extent has been read."""
+
+KNOWN: Final = frozenset(one.name for one in fields(FloodOptions)) - {"extent"}
+"""Parameters of a flood."""
 
 FRAME: Final = (
     '<iframe srcdoc="{page}" title="{title}" allow="fullscreen; clipboard-write" '
@@ -146,6 +149,9 @@ def flood_page(
 
     if not height > 0:
         raise ParameterError(f"`height` is {height}; it is a number of pixels above 0")
+    for name, value in options.items():
+        if name not in KNOWN:
+            raise TypeError(f"`{name}` is {value!r:.80}, but a flood has no such parameter; leave it out")
     named = Path(UNNAMED) if isinstance(source, Extent) or is_dataset(source) else Path(source)
     picture, heights = (None if path is None else Path(path) for path in (ground, relief))
     asked = FloodOptions(extent=named, ground=picture, relief=heights, depths=classes_of(depths), **options)

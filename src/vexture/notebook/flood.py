@@ -1,5 +1,6 @@
 """The widget of a flood: its page in a frame, whose step is a trait."""
 
+import os
 from typing import Any, Final
 
 import anywidget
@@ -32,13 +33,22 @@ class FloodWidget(anywidget.AnyWidget):
     height = traitlets.Int(min=1).tag(sync=True)
 
     def __init__(self, page: FloodPage, **traits: Any) -> None:
-        self.page = page
+        self._flood = page
         traits.setdefault("height", page.height)
         super().__init__(_page=page.html.encode(), _name=page.title, **traits)
 
     def __repr__(self) -> str:
         """Title and step."""
         return f"<FloodWidget {self.page.title!r}: step {self.step}>"
+
+    @property
+    def page(self) -> FloodPage:
+        """The page in the frame."""
+        return self._flood
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the page as one HTML file, as `FloodPage.save` does."""
+        self.page.save(path)
 
     @traitlets.default("_esm")
     def _script(self) -> str:

@@ -23,6 +23,11 @@ __all__ = ["show"]
 READING: Final = ("select", "names", "snap", "fonts", "trace_images")
 """Options of a conversion that are its reader's."""
 
+OPTIONAL: Final = ("root", "width", "colors", "view")
+"""Traits that None leaves as they are."""
+
+TRAITS: Final = (*OPTIONAL, "mode", "background")
+
 
 @overload
 def show(
@@ -83,7 +88,8 @@ def show(source: Any, /, *, height: int | None = None, **options: Any) -> Any:
     -------
     VectorWidget or FloodWidget
         A notebook shows it as the value of a cell, and where there are no widgets, a picture. Its traits are those of
-        the parameters, besides `picked` and `hovered`, or of a flood its `step`; `save` writes a page or a picture.
+        the parameters, besides `picked` and `hovered`, or of a flood its `step`; `save` writes a page, or of a drawing
+        a picture.
 
     Raises
     ------
@@ -115,8 +121,8 @@ def show(source: Any, /, *, height: int | None = None, **options: Any) -> Any:
     if isinstance(source, FloodPage):
         _refuse(options, source.title)
         return FloodWidget(source, **asked)
-    names = ("root", "width", "mode", "colors", "background", "view")
-    traits = {name: options.pop(name) for name in names if options.get(name) is not None}
+    given = {name: options.pop(name) for name in TRAITS if name in options}
+    traits: dict[str, Any] = {name: value for name, value in given.items() if value is not None or name not in OPTIONAL}
     return VectorWidget(_texture_of(source, options), **{"height": HEIGHT, **asked, **traits})
 
 

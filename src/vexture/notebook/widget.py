@@ -91,7 +91,7 @@ class VectorWidget(anywidget.AnyWidget):
     hovered = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
 
     def __init__(self, texture: Texture, **traits: Any) -> None:
-        self.texture = texture
+        self._texture = texture
         home = home_of(texture, traits.get("root"))
         traits.setdefault("view", home)
         engine, source = shared(built(PAGE.script)), shared(texture.to_ktx2())
@@ -100,6 +100,11 @@ class VectorWidget(anywidget.AnyWidget):
     def __repr__(self) -> str:
         """Name and view."""
         return f"<VectorWidget {self.texture.name!r}: view {', '.join(f'{number:g}' for number in self.view)}>"
+
+    @property
+    def texture(self) -> Texture:
+        """What is shown; for another one make another widget."""
+        return self._texture
 
     def close(self) -> None:
         """End the widget; the last one of a texture frees its bytes."""

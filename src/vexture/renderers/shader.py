@@ -159,12 +159,13 @@ def shader_source(
     """
     for name, value, allowed in (
         ("version", version, (*VERSIONS, WGSL)),
-        ("part", part, PARTS),
-        ("wrap", wrap, WRAPS),
+        ("part", part, (*PARTS,)),
+        ("wrap", wrap, (*WRAPS,)),
     ):
         if value not in allowed:
             raise ParameterError(f"`{name}` is {value!r}; there are {', '.join(map(repr, allowed))}")
-    numbers = {"FLAT": int(flat), "GRADIENTS": int(gradients), "LINEAR": int(linear), "WRAP": WRAPS[wrap]}
+    numbers = {"FLAT": int(bool(flat)), "GRADIENTS": int(bool(gradients)), "LINEAR": int(bool(linear))}
+    numbers["WRAP"] = WRAPS[wrap]
     text = shader_text(PARTS[part])
     asked = {f"VEXTURE_{name}": value for name, value in numbers.items() if f"VEXTURE_{name}" in text}
     if version != WGSL:

@@ -164,6 +164,23 @@ async function live({ backend, size }) {
   return { pixels, complaints: made.version === version ? said : [...said, 'compiled again'] };
 }
 
+// A node over the whole picture, whose texture gets other data after a first frame.
+async function liveNode({ backend, what, first, then, size }) {
+  const renderer = await rendererOf(backend);
+  const shape = (await textureOf(first)).clone();
+  const made = new THREE.MeshBasicNodeMaterial();
+  made.fragmentNode = vexture[what](shape);
+  made.blending = THREE.NoBlending;
+  const scene = new THREE.Scene();
+  scene.add(new THREE.Mesh(new THREE.PlaneGeometry(2, 2), made));
+  const eye = new THREE.OrthographicCamera(-1, 1, 1, -1, -1, 1);
+  await pixelsOf(renderer, scene, eye, size);
+  shape.replace((await textureOf(then)).data);
+  const pixels = await pixelsOf(renderer, scene, eye, size);
+  made.dispose();
+  return { pixels, complaints: complaints.splice(0) };
+}
+
 // The same tilted plane by WebGLRenderer and its own material.
 async function webglTilted({ texture, size }) {
   const renderer = new WebGLRenderer({ alpha: true });
@@ -205,8 +222,11 @@ async function wrong({ backend, texture }) {
     trying(() => renderer.render(scene, camera));
     trying(() => applyVectorMask(new THREE.MeshStandardNodeMaterial(), shape));
     trying(() => vexture.applyVectorMask(new THREE.MeshStandardMaterial(), shape));
+    trying(() => vexture.vectorColor(shape, { wrap: 'mirror' }));
+    trying(() => vexture.vectorColor(shape, { fold: {} }));
+    trying(() => vexture.vectorCoverage(shape, { colour: 1 }));
   }
   return { said, complaints: complaints.splice(0) };
 }
 
-globalThis.drawn = { node, material, shadow, live, webglTilted, wrong };
+globalThis.drawn = { node, material, shadow, live, liveNode, webglTilted, wrong };

@@ -4,7 +4,7 @@
  * @module
  */
 import { createHash } from 'node:crypto';
-import { access, mkdir, readFile, rename, rm } from 'node:fs/promises';
+import { access, mkdir, readFile, rename, rm, writeFile } from 'node:fs/promises';
 import { availableParallelism } from 'node:os';
 import path from 'node:path';
 import { findConverter, run } from './converter.js';
@@ -26,6 +26,15 @@ const OURS = /\?(?:.*&)?vexture(?:[&=]|$)/;
 
 /** Within Vite's root. */
 const CACHE = 'node_modules/.cache/vexture';
+
+/** Ending of a file beside a texture, with the warnings of its conversion: each build tells them. */
+const NOTES = '.txt';
+
+/** How the converter begins the line of one. */
+const WARNING = 'vexture: warning: ';
+
+/** @param {string} text */
+const linesOf = (text) => text.split('\n').filter(Boolean);
 
 /** As Vite writes paths. @param {string} file */
 const slashed = (file) => file.replaceAll('\\', '/');
@@ -113,17 +122,19 @@ class Conversions {
    * @param {string} target
    */
   async #convert(command, file, parameters, target) {
-    if (await access(target).then(() => true, () => false)) return { target, notes: [] };
+    const kept = await readFile(`${target}${NOTES}`, 'utf8').catch(() => null); // written last
+    if (kept !== null && (await access(target).then(() => true, () => false))) return { target, notes: linesOf(kept) };
     if (this.#free === 0) await new Promise((/** @type {(value?: unknown) => void} */ go) => this.#waiting.push(go));
     else this.#free--;
     const unfinished = path.join(path.dirname(target), `${process.pid}.ktx2`);
     try {
       await mkdir(path.dirname(target), { recursive: true });
-      const { code, said } = await run([...command, 'convert', file, ...parameters, '--quiet', `--output=${unfinished}`]);
-      const lines = said.split('\n').filter(Boolean);
-      const notes = lines.map((line) => line.replace(/^(vexture|Error): (warning: )?/, '').replace(`${file}: `, ''));
-      if (code !== 0) throw new Error(notes.at(-1) ?? `the converter ended with ${code}`);
+      const { code, said } = await run([...command, 'convert', file, ...parameters, `--output=${unfinished}`]);
+      const plain = linesOf(said).map((line) => line.replace(`${file}: `, ''));
+      if (code !== 0) throw new Error(plain.at(-1)?.replace(/^(vexture|Error): /, '') ?? `the converter ended with ${code}`);
+      const notes = plain.filter((line) => line.startsWith(WARNING)).map((line) => line.slice(WARNING.length));
       await rename(unfinished, target);
+      await writeFile(`${target}${NOTES}`, notes.join('\n'));
       return { target, notes };
     } finally {
       await rm(unfinished, { force: true });

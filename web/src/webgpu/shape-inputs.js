@@ -76,12 +76,14 @@ export function nodeVariant(texture, { instance, wrap = 'none', flat = false, li
 }
 
 /**
+ * A node of a shape, and what lets it follow other data of its texture.
+ *
  * @param {'coverage' | 'colour'} what
  * @param {VectorTexture} texture
  * @param {Shape} shape
- * @returns {any}
+ * @returns {{ node: any, follow: () => void }}
  */
-export function shapeNode(what, texture, shape) {
+export function livingShapeNode(what, texture, shape) {
   const { uv, dx, dy, instance, range, fold = null, time } = shape;
   const { variant, isSheets } = nodeVariant(texture, shape, range());
   const inputs = {
@@ -100,6 +102,20 @@ export function shapeNode(what, texture, shape) {
       cycle: uniformNode(() => fold.cycle, 'float'),
     },
   };
-  const node = nodeObject(new ShapeNode(what, variant, isSheets, /** @type {any} */ (inputs)));
-  return /** @type {any} */ (node).toVar();
+  const made = new ShapeNode(what, variant, isSheets, /** @type {any} */ (inputs));
+  const follow = () => {
+    const now = nodeVariant(texture, shape, range());
+    made.become(now.variant, now.isSheets);
+  };
+  return { node: /** @type {any} */ (nodeObject(made)).toVar(), follow };
+}
+
+/**
+ * @param {'coverage' | 'colour'} what
+ * @param {VectorTexture} texture
+ * @param {Shape} shape
+ * @returns {any}
+ */
+export function shapeNode(what, texture, shape) {
+  return livingShapeNode(what, texture, shape).node;
 }

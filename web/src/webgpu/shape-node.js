@@ -1,4 +1,4 @@
-import { Node } from 'three/webgpu';
+import { Node, NodeUtils } from 'three/webgpu';
 import { glsl, wgsl } from 'three/tsl';
 import { endingOf, shaderText } from './shader-text.js';
 
@@ -41,6 +41,9 @@ function codeOf(variant, language) {
  * `wgslFn` and `glslFn`: these cannot hand on a texture of integers, and know the first function of a text only.
  */
 export class ShapeNode extends /** @type {new (type: string) => Node} */ (Node) {
+  /** What was compiled with this node. @type {Set<WeakRef<import('three').Material>>} */
+  #materials = new Set();
+
   static get type() {
     return 'VextureShapeNode';
   }
@@ -63,11 +66,34 @@ export class ShapeNode extends /** @type {new (type: string) => Node} */ (Node) 
     });
   }
 
+  /** Programs of another variant are others; three.js asks for this of materials that need an update. */
+  customCacheKey() {
+    return NodeUtils.hashString(this.id + endingOf(this.variant) + this.isSheets);
+  }
+
+  /**
+   * Be the node of another variant, as data of another kind need it: what shows the node is compiled again.
+   *
+   * @param {NodeVariant} variant
+   * @param {boolean} isSheets
+   */
+  become(variant, isSheets) {
+    const before = this.customCacheKey();
+    [this.variant, this.isSheets] = [variant, isSheets];
+    if (this.customCacheKey() === before) return;
+    for (const held of this.#materials) {
+      const material = held.deref();
+      if (material) material.needsUpdate = true;
+    }
+    this.#materials.clear();
+  }
+
   /**
    * @param {Builder} builder
    * @param {string} output
    */
   generate(builder, output) {
+    if (builder.material) this.#materials.add(new WeakRef(builder.material)); // the texture, which outlives them, holds this
     const isWgsl = /** @type {any} */ (builder.renderer.backend).isWebGPUBackend === true;
     codeOf(this.variant, isWgsl ? 'wgsl' : 'glsl').build(builder, 'void');
     return builder.format(this.#call(builder, isWgsl), this.nodeType, output);

@@ -1,8 +1,9 @@
 import { attribute, uv as meshUv, varying } from 'three/tsl';
 import { ROOT_ATTRIBUTE } from '../attributes.js';
 import { VextureError } from '../errors.js';
+import { checkNodeOptions } from '../mask-options.js';
 import { shapeIndex } from '../select-root.js';
-import { shapeNode } from './shape-inputs.js';
+import { livingShapeNode } from './shape-inputs.js';
 
 /** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
 
@@ -23,15 +24,20 @@ import { shapeNode } from './shape-inputs.js';
  *   light mixes, and not in sRGB, as browsers do
  */
 
+/** @type {readonly string[]} */
+const OPTIONS = Object.freeze(['root', 'uv', 'dx', 'dy', 'wrap', 'flat', 'fold', 'time', 'linear']);
+
 /** The shape of each instance, from its attribute `vextureRoot` (see `rootAttribute`), as a node. */
 export const instancedRoot = () => varying(/** @type {any} */ (attribute(ROOT_ATTRIBUTE, 'uint')));
 
 /**
  * @param {'coverage' | 'colour'} what
  * @param {VectorTexture} texture
- * @param {ColorOptions} options
+ * @param {ColorOptions} given
  */
-function nodeOf(what, texture, { root = null, uv = meshUv(), time = () => 0, ...options }) {
+function nodeOf(what, texture, given) {
+  checkNodeOptions(given, OPTIONS);
+  const { root = null, uv = meshUv(), time = () => 0, ...options } = given;
   if (!texture?.isVectorTexture || texture.encoding !== 'packed') {
     throw new VextureError('the texture must be a VectorTexture; load one by VectorTextureLoader', 'texture');
   }
@@ -49,10 +55,12 @@ function nodeOf(what, texture, { root = null, uv = meshUv(), time = () => 0, ...
       texture.dispatchEvent({ type: 'note', message: String(/** @type {Error} */ (error).message) });
       range = { first: 0, count: 1 };
     }
+    made.follow();
   };
-  texture.addEventListener('change', follow);
   const instance = isNode ? /** @type {import('three/webgpu').Node} */ (root) : null;
-  return shapeNode(what, texture, { dx: null, dy: null, ...options, uv, time, instance, range: () => range });
+  const made = livingShapeNode(what, texture, { dx: null, dy: null, ...options, uv, time, instance, range: () => range });
+  texture.addEventListener('change', follow);
+  return made.node;
 }
 
 /**
@@ -62,7 +70,7 @@ function nodeOf(what, texture, { root = null, uv = meshUv(), time = () => 0, ...
  * @param {VectorTexture} texture
  * @param {ShapeOptions} [options]
  * @returns {any} a node, of whose methods three.js's types know few
- * @throws {VextureError} if the root is unknown or ambiguous
+ * @throws {VextureError} if an option is out of range, or the root is unknown or ambiguous
  */
 export function vectorCoverage(texture, options = {}) {
   return nodeOf('coverage', texture, options);
@@ -74,7 +82,7 @@ export function vectorCoverage(texture, options = {}) {
  * @param {VectorTexture} texture
  * @param {ColorOptions} [options]
  * @returns {any} a node, of whose methods three.js's types know few
- * @throws {VextureError} if the root is unknown or ambiguous
+ * @throws {VextureError} if an option is out of range, or the root is unknown or ambiguous
  */
 export function vectorColor(texture, options = {}) {
   return nodeOf('colour', texture, options);
