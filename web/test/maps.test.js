@@ -97,8 +97,8 @@ describe('queries', () => {
 const BROKEN = [
   ['a head that goes on', /the map with root 2 has a head that is not 0 where it must be/, (words) => (words[3] = 1)],
   ['programs without a number', /has a head that is not 0 where it must be/, (words) => (words[0] = 20)],
-  ['no paints', /has 0 paints; the limit is 65536/, (words) => (words[4] = 0)],
-  ['too many paints', /has 65537 paints/, (words) => (words[4] = 65537)],
+  ['no paints', /has 0 paints; the limit is 16777216/, (words) => (words[4] = 0)],
+  ['too many paints', /has 16777217 paints/, (words) => (words[4] = 16777217)],
   ['cells beyond the end', /the cells of the map with root 2 end at texel 17 of 16/, (words) => (words[5] = 15)],
   ['cells far beyond the end', /the cells of the map/, (words) => (words[5] = 0xffffffff)],
   ['sides beyond the end', /the sides of the map with root 2 end at texel 17 of 16/, (words) => (words[6] = 16)],
