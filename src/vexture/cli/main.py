@@ -19,6 +19,7 @@ COMMANDS: Final = {
     for name in (
         *("convert", "text", "font", "render", "info", "restyle", "view", "export", "serve", "push", "flood", "fold"),
         "gltf",
+        "map",
     )
 }
 """Module of each command; it is imported when the command is used or listed."""
