@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from vexture.glyph_atlas import FontAtlas, font_atlas
     from vexture.images import coverage, render
     from vexture.live.flood_page import FloodPage, flood_page
+    from vexture.notebook.map import map
     from vexture.notebook.show import show
     from vexture.notes import Note
     from vexture.paint import Paint
@@ -69,6 +70,7 @@ __all__ = [
     "fold_picture",
     "font_atlas",
     "load",
+    "map",
     "read",
     "read_extent",
     "read_geojson",
@@ -97,6 +99,7 @@ _HOMES = {
     "vexture.gltf.model": ("Model", "read_model"),
     "vexture.images": ("coverage", "render"),
     "vexture.live.flood_page": ("FloodPage", "flood_page"),
+    "vexture.notebook.map": ("map",),
     "vexture.notebook.show": ("show",),
     "vexture.notes": ("Note",),
     "vexture.pipeline": ("atlas", "convert"),

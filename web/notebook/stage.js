@@ -4,6 +4,7 @@ import { panned, toUnit, zoomed } from '../viewer/view.js';
 import { Colored, open, release } from './contents.js';
 import { drawnOf, foundAt } from './drawn.js';
 import { listenTo } from './input.js';
+import { Tip, legendOf } from './legend.js';
 import { followPixels } from './pixels.js';
 import { rectOf, viewOf } from './rect.js';
 import { screenOfPage } from './screen.js';
@@ -23,6 +24,10 @@ export class Stage {
   /** What is drawn; null before it is there. @type {import('../viewer/drawing.js').ShownDrawing | null} */
   shown = null;
   #message = element('p', { role: 'alert', hidden: true });
+  #legend = legendOf(null);
+  #tip = new Tip();
+  /** Of the pointer, in pixels. @type {[number, number] | null} */
+  #pointer = null;
   /** @type {import('./screen.js').Screen | null} */
   #screen = null;
   /** @type {import('./contents.js').Content | null} */
@@ -46,7 +51,8 @@ export class Stage {
     this.element = element('div', {
       class: 'vexture-stage', tabindex: 0, role: 'application', 'aria-label': `${model.get('_name')}. ${HINT}`,
       'data-lm-suppress-shortcuts': 'true', // else JupyterLab acts on the keys, too
-    }, style, this.canvas, this.#message);
+    }, style, this.canvas, this.#legend, this.#tip.element, this.#message);
+    this.#explain();
     this.#sized();
     this.#watchSight();
     followPixels(this.canvas, () => this.#redraw(), this.#ended.signal);
@@ -97,7 +103,9 @@ export class Stage {
       },
     };
     for (const name of ['width', 'height', 'background']) acts[`change:${name}`] = () => this.#sized();
-    for (const name of ['colors', 'root', 'mode']) {
+    acts['change:legend'] = () => this.#explain();
+    acts['change:tip'] = () => this.#tell();
+    for (const name of ['colors', '_marked', 'root', 'mode']) {
       acts[`change:${name}`] = () => void this.#color().catch((error) => this.#say(error.message));
     }
     for (const [event, act] of Object.entries(acts)) {
@@ -119,7 +127,7 @@ export class Stage {
     if (!this.#content || !this.#screen) return;
     const { data, texture } = this.#content;
     const root = this.model.get('root');
-    const colors = this.model.get('colors');
+    const colors = { ...this.model.get('colors'), ...this.model.get('_marked') };
     const range = texture.layersOf(root);
     if (!this.#own?.recolor(colors, root)) {
       this.#own?.texture.dispose();
@@ -219,8 +227,21 @@ export class Stage {
     this.model.save_changes();
   }
 
+  #explain() {
+    const legend = legendOf(this.model.get('legend'));
+    this.#legend.replaceWith(legend);
+    this.#legend = legend;
+  }
+
+  #tell() {
+    const shown = this.model.get('hovered') ? this.model.get('tip') : null;
+    this.#tip.show(shown, this.#pointer, this.element);
+  }
+
   /** @param {[number, number] | null} place under the pointer */
   hover(place) {
+    this.#pointer = place;
+    this.#tell();
     const found = place && (this.#at(...place)?.found ?? null);
     const { root, element: named } = this.model.get('hovered') ?? {};
     if (root === found?.root && named === found?.element) return;

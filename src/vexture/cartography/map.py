@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vexture.bezier.convert import line_cubics
 from vexture.cartography.marks import Length, strokes, symbols
 from vexture.cartography.placing import MERCATOR, placed
-from vexture.cartography.scales import MARK, PLAIN, Legend, Scale, colours_of
+from vexture.cartography.scales import MARK, PLAIN, Legend, Scale, colours_of, values_of
 from vexture.drawing import Drawing, Path
 from vexture.errors import ParameterError, SourceError
 from vexture.geo.features import Features, joined
@@ -120,7 +120,7 @@ def _colours(features: Features, layout: Layout) -> tuple[NDArray[np.float64], L
     marks[features.feature[areal]] = False
     if layout.color is None:
         return np.where(marks[:, None], np.array(MARK), np.array(PLAIN)), None
-    values = features.column(layout.color)
+    values = values_of(features.table, layout.color)
     known = np.isfinite(values) if values.dtype.kind == "f" else np.array([value is not None for value in values])
     shown = known | ~marks
     rgba = np.tile(np.array(MARK), (len(values), 1))
@@ -239,7 +239,7 @@ def _key(features: Features, layout: Layout) -> Any:
     if layout.order == AREA and AREA not in features.table.column_names:
         values = -np.bincount(features.feature, shapely.area(features.parts), len(features.ids))
     else:
-        values = features.column(layout.order)
+        values = values_of(features.table, layout.order)
         if values.dtype.kind != "f":
             raise ParameterError(f"`order` {layout.order!r}: the column holds texts; choose one of numbers, or area")
         values = np.nan_to_num(values, nan=-np.inf)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vexture.errors import DeviceError, ParameterError
 
-__all__ = ["KINDS", "MARK", "PLAIN", "Kind", "Legend", "Scale", "colours_of"]
+__all__ = ["KINDS", "MARK", "PLAIN", "Kind", "Legend", "Scale", "colours_of", "values_of"]
 
 Kind = Literal["auto", "quantiles", "equal", "continuous", "categories"]
 KINDS: Final = get_args(Kind)
@@ -31,6 +31,11 @@ STEPS: Final = 9
 OTHER: Final = "other"
 NOTHING: Final = "no data"
 MOST_CLASSES: Final = 64
+EVEN: Final = "averaged_inverted_cdf"
+"""Quantiles between values, or at them: none lies where no feature is on one side (Hyndman and Fan, 1996)."""
+
+MOST_NAMED: Final = 8
+"""Columns that a message lists."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +83,20 @@ class Legend:
         """For JSON."""
         listed = [{"label": label, "color": color} for label, color in self.entries]
         return {"title": self.title, "kind": self.kind, "entries": listed}
+
+
+def values_of(table: Any, name: str) -> NDArray[Any]:
+    """Values of a column of a table of Arrow, (f,): float64 with NaN for none, or texts with None for none."""
+    import pyarrow as pa
+
+    if name not in table.column_names:
+        known = ", ".join(map(repr, table.column_names[:MOST_NAMED]))
+        raise ParameterError(f"there is no column {name!r}; the columns are {known}")
+    values = table.column(name)
+    kind = values.type
+    if pa.types.is_integer(kind) or pa.types.is_floating(kind) or pa.types.is_decimal(kind):
+        return np.asarray(values.cast(pa.float64()).to_numpy(zero_copy_only=False), np.float64)
+    return np.array([None if value is None else str(value) for value in values.to_pylist()], object)
 
 
 def colours_of(values: NDArray[Any], name: str, scale: Scale) -> tuple[NDArray[np.float64], Legend]:
@@ -153,7 +172,7 @@ def _classes(values: NDArray[np.float64], name: str, kind: str, scale: Scale) ->
     elif kind == "equal":
         inner = np.linspace(low, high, scale.classes + 1)[1:-1]
     else:
-        inner = np.unique(np.quantile(values, np.linspace(0.0, 1.0, scale.classes + 1)[1:-1]))
+        inner = np.unique(np.quantile(values, np.linspace(0.0, 1.0, scale.classes + 1)[1:-1], method=EVEN))
     inner = inner[(inner > low) & (inner <= high)] if not scale.breaks else inner
     number = np.searchsorted(inner, values, side="right")
     colours = np.asarray(_palette(scale.palette or RAMP)(np.linspace(0.0, 1.0, max(len(inner) + 1, 2))), np.float64)

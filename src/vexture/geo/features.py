@@ -64,20 +64,6 @@ class Features:
     table: "Table"
     crs: str
 
-    def column(self, name: str) -> NDArray[Any]:
-        """Values of an attribute, (f,): float64 with NaN for none, or texts with None for none."""
-        if name not in self.table.column_names:
-            raise ParameterError(f"there is no column {name!r}; the columns are {listed(self.table.column_names)}")
-        values = self.table.column(name)
-        import pyarrow as pa
-
-        kind = values.type
-        if pa.types.is_boolean(kind) or pa.types.is_string(kind) or pa.types.is_large_string(kind):
-            return np.array([None if value is None else str(value) for value in values.to_pylist()], object)
-        if pa.types.is_integer(kind) or pa.types.is_floating(kind) or pa.types.is_decimal(kind):
-            return np.asarray(values.cast(pa.float64()).to_numpy(zero_copy_only=False), np.float64)
-        return np.array([None if value is None else str(value) for value in values.to_pylist()], object)
-
 
 def listed(names: Sequence[str]) -> str:
     """Some of the names, for a message."""

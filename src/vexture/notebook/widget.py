@@ -75,6 +75,9 @@ class VectorWidget(anywidget.AnyWidget):
         ``root`` and ``element`` under the pointer.
     """
 
+    saved_traits: tuple[str, ...] = ()
+    """Traits of a subclass that a saved page has, too."""
+
     _esm = traitlets.Unicode().tag(sync=True)
     _engine = traitlets.Instance(Shared).tag(sync=True, **widget_serialization)
     _source = traitlets.Instance(Shared).tag(sync=True, **widget_serialization)
@@ -144,7 +147,11 @@ class VectorWidget(anywidget.AnyWidget):
         if target.suffix.lower() == PNG:
             return write_together({target: png_of(self.render(), self.background)})
         check_output(target, PAGE)
-        state = {**{name: self.get_state(name)[name] for name in SAVED}, "width": None, "height": None}
+        state = {
+            **{name: self.get_state(name)[name] for name in (*SAVED, *self.saved_traits)},
+            "width": None,
+            "height": None,
+        }
         texture = data_address(File(self._source.content, TEXTURE_TYPE, ".ktx2"))
         return write_together({target: whole_page(PAGE, {"state": state, "texture": texture}, self.texture.name)})
 

@@ -1,0 +1,49 @@
+/** What a map has beside its picture: a legend of its colours, and what is known of the feature under the pointer. */
+import { element } from '../viewer/dom.js';
+
+/**
+ * @typedef {import('./widget.js').Model} Model
+ * @typedef {{ title: string, kind: 'classes' | 'continuous' | 'categories', entries: { label: string, color: string }[] }} Legend
+ */
+
+/** Pixels between the pointer and what is told of the feature under it. */
+const APART = 14;
+
+/** @param {Legend | null | undefined} legend @returns {HTMLElement} empty without a legend */
+export function legendOf(legend) {
+  const box = element('figure', { class: 'vexture-legend', hidden: !legend });
+  if (!legend) return box;
+  box.append(element('figcaption', {}, legend.title));
+  if (legend.kind === 'continuous') {
+    const steps = legend.entries.filter(({ label }) => label !== 'no data');
+    const ramp = element('div', { class: 'ramp' });
+    ramp.style.background = `linear-gradient(to right, ${steps.map(({ color }) => color).join(', ')})`;
+    const ends = element('div', { class: 'ends' }, ...[steps[0], steps[steps.length - 1]].map(({ label }) => element('span', {}, label)));
+    box.append(ramp, ends);
+    legend = { ...legend, entries: legend.entries.filter((entry) => !steps.includes(entry)) };
+  }
+  for (const { label, color } of legend.entries) {
+    const patch = element('i', {});
+    patch.style.background = color;
+    box.append(element('div', { class: 'entry' }, patch, label));
+  }
+  return box;
+}
+
+/** Facts about a feature beside the pointer. */
+export class Tip {
+  element = element('dl', { class: 'vexture-tip', hidden: true });
+
+  /** @param {[string, string][] | null | undefined} facts @param {[number, number] | null} place in pixels @param {HTMLElement} stage */
+  show(facts, place, stage) {
+    const shown = Boolean(facts?.length && place);
+    this.element.hidden = !shown;
+    if (!shown || !place) return;
+    this.element.replaceChildren(...(facts ?? []).flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
+    const { clientWidth: width, clientHeight: height } = stage;
+    const [x, y] = place;
+    const left = x + APART + this.element.offsetWidth > width ? x - APART - this.element.offsetWidth : x + APART;
+    const top = y + APART + this.element.offsetHeight > height ? y - APART - this.element.offsetHeight : y + APART;
+    this.element.style.translate = `${Math.max(0, left)}px ${Math.max(0, top)}px`;
+  }
+}
