@@ -2,6 +2,7 @@
 
 import base64
 import io
+import json
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,19 @@ MAP = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 100">
 <circle id="west" cx="50" cy="50" r="40" fill="#fc0"/></svg>"""
 LEAF = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><path d="M1 1Q9 1 8 8Q1 8 1 1Z"/></svg>'
 
+FIELDS = {
+    "type": "FeatureCollection",
+    "features": [
+        {
+            "type": "Feature",
+            "properties": {"id": name, "yield": value, "crop": crop},
+            "geometry": {"type": "Polygon", "coordinates": [[(x, 0), (x + 1, 0), (x + 1, 1), (x, 1), (x, 0)]]},
+        }
+        for name, value, crop, x in (("west", 4.0, "oats", 0), ("east", 9.0, "rye", 1))
+    ],
+}
+"""Two squares, side by side."""
+
 CELLS = (
     """import traitlets, vexture
 chart = vexture.show('map.svg', width=400, height=240)
@@ -39,6 +53,8 @@ for _ in range(20):
     """import vexture, xarray
 flood = vexture.show(xarray.open_dataset('depth.nc'), amplitude=0, height=300)
 flood""",
+    """fields = vexture.map('fields.geojson', 'yield', width=400, height=240, crs='EPSG:4326', classes=2)
+fields""",
 )
 
 CONTEXTS = """
@@ -83,6 +99,7 @@ def notebook(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Any:
     folder = tmp_path_factory.mktemp("notebook")
     (folder / "map.svg").write_text(MAP)
     (folder / "leaf.svg").write_text(LEAF)
+    (folder / "fields.geojson").write_text(json.dumps(FIELDS))
     write_notebook(folder / "maps.ipynb", CELLS)
     with jupyter_lab(folder, "maps.ipynb") as address:
         page = chromium.new_context(device_scale_factor=1, viewport={"width": 900, "height": 1500}).new_page()
@@ -244,6 +261,29 @@ def test_twenty_views_share_one_context_and_leave_nothing_behind(notebook: Any, 
     assert notebook.page.evaluate("window.contexts.size") == 1
     keys = notebook.value("[each.key for each in type(chart).widgets.values() if hasattr(each, 'content')]")
     assert len(keys) == len(set(keys)), "bytes that widgets share are sent once"
+
+
+def test_a_map_tells_of_what_is_hovered_and_selects_what_is_clicked(notebook: Any, chart: Any) -> None:
+    pytest.importorskip("pyarrow", reason="pyarrow is not installed (pip install 'vexture[map]')")
+    stage = notebook.run(7).locator(".vexture-stage")
+    purple, yellow = [68, 1, 84], [253, 231, 37]
+    drawn(notebook, stage, (100, 120), purple)
+    drawn(notebook, stage, (300, 120), yellow)
+    assert stage.locator(".vexture-legend").inner_text().split("\n") == ["yield", "4 – 9", "9 – 9"]
+    assert not stage.locator(".vexture-tip").is_visible()
+    stage.hover(position={"x": 100, "y": 120})
+    tip = stage.locator(".vexture-tip")
+    tip.wait_for()
+    assert tip.inner_text().split("\n") == ["id", "west", "yield", "4", "crop", "oats"]
+    stage.click(position={"x": 100, "y": 120})
+    notebook.until("fields.selected == 'west'")
+    drawn(notebook, stage, (100, 120), [0, 230, 255])
+    notebook.value("setattr(fields, 'selected', 'east')")
+    drawn(notebook, stage, (300, 120), [0, 230, 255])
+    drawn(notebook, stage, (100, 120), purple)
+    notebook.value("[setattr(fields, 'selected', None), setattr(fields, 'column', 'crop')]")
+    drawn(notebook, stage, (300, 120), [86, 180, 233])
+    assert stage.locator(".vexture-legend").inner_text().split("\n") == ["crop", "oats", "rye"]
 
 
 @pytest.mark.slow

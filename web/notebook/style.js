@@ -12,13 +12,12 @@ export const STYLE = `
   box-shadow: 0 1px 4px rgba(0, 0, 0, 0.3); font: 12px/1.4 system-ui, sans-serif; pointer-events: none;
 }
 .vexture-stage .vexture-legend { right: 10px; bottom: 10px; max-height: calc(100% - 40px); overflow: hidden; }
-.vexture-stage [hidden] { display: none; }
 .vexture-legend figcaption { font-weight: 600; margin-bottom: 4px; }
 .vexture-legend .ramp { width: 160px; height: 12px; }
 .vexture-legend .ends { display: flex; justify-content: space-between; }
 .vexture-legend .entry { display: flex; align-items: center; gap: 6px; white-space: nowrap; }
 .vexture-legend i { width: 14px; height: 12px; border: 1px solid rgba(0, 0, 0, 0.2); }
-.vexture-stage .vexture-tip { left: 0; top: 0; max-width: 60%; display: grid; grid-template-columns: auto 1fr; gap: 0 10px; }
+.vexture-stage .vexture-tip:not([hidden]) { left: 0; top: 0; max-width: 60%; display: grid; grid-template-columns: auto 1fr; gap: 0 10px; }
 .vexture-tip dt { color: #666; }
 .vexture-tip dd { margin: 0; overflow-wrap: anywhere; }
 .vexture-stage p:not([hidden]) { position: absolute; inset: auto 0 0; margin: 0; padding: 0.5em 1em; background: #fff; color: #b00020; }

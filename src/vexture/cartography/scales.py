@@ -5,6 +5,7 @@ Design, 2008), can be told apart by people who are colour-blind.
 """
 
 from dataclasses import dataclass
+from math import floor, log10
 from typing import Any, Final, Literal, get_args
 
 import numpy as np
@@ -161,7 +162,7 @@ def _ramp(values: NDArray[np.float64], name: str, scale: Scale) -> tuple[NDArray
     palette = _palette(scale.palette or RAMP)
     rgba = np.asarray(palette((values - low) / ((high - low) or 1.0)), np.float64)
     places = np.linspace(0.0, 1.0, STEPS)
-    entries = tuple((f"{low + t * (high - low):.6g}", css(palette(t))) for t in places)
+    entries = tuple((written(low + t * (high - low), high - low), css(palette(t))) for t in places)
     return rgba, Legend(name, "continuous", entries)
 
 
@@ -177,9 +178,10 @@ def _classes(values: NDArray[np.float64], name: str, kind: str, scale: Scale) ->
     number = np.searchsorted(inner, values, side="right")
     colours = np.asarray(_palette(scale.palette or RAMP)(np.linspace(0.0, 1.0, max(len(inner) + 1, 2))), np.float64)
     edges = [min(low, inner[0]) if len(inner) else low, *inner, max(high, inner[-1]) if len(inner) else high]
+    labels = [written(edge, edges[-1] - edges[0]) for edge in edges]
     entries = tuple(
-        (f"{edges[k]:.6g} – {edges[k + 1]:.6g}", css(colours[k])) for k in range(len(inner) + 1)
-    )  # fmt: skip
+        (f"{low} – {high}", css(color)) for low, high, color in zip(labels, labels[1:], colours, strict=False)
+    )
     return colours[number], Legend(name, "classes", entries)
 
 
@@ -194,6 +196,19 @@ def _palette(name: str) -> Any:
         raise ParameterError(
             f"`palette` {name[:60]!r} is none that cmap knows; give one such as viridis, cividis or okabeito"
         ) from None
+
+
+def written(value: float, span: float) -> str:
+    """A number with as many decimals as tell apart hundredths of a span.
+
+    Examples
+    --------
+    >>> written(2.077413, 2.05), written(1234567.8, 2e6), written(0.00123, 0.01)
+    ('2.08', '1,234,568', '0.0012')
+    """
+    decimals = 0 if span <= 0.0 else max(0, 2 - floor(log10(span)))
+    text = f"{value:,.{decimals}f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
 
 
 def css(rgba: Any) -> str:

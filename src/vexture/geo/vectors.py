@@ -160,7 +160,8 @@ def read_by_gdal(content: bytes, layer: str | None, where: str | None) -> tuple[
 
     with _by_gdal(where):
         name = _layer_of(content, layer, of_all=True)
-        meta, table = raw.read_arrow(content, layer=name, where=where, return_fids=True)
+        single = layer is None and content[:1] == b"{"  # whose name is that of a file in memory, new each time
+        meta, table = raw.read_arrow(content, layer=0 if single else name, where=where, return_fids=True)
     shapes = meta["geometry_name"] or "wkb_geometry"
     if shapes not in table.column_names:
         raise SourceError(f"its layer {name!r} has no geometries; choose another by `layer`")

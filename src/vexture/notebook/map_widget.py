@@ -1,6 +1,7 @@
 """The widget of a map: its column, its selection, and what is told of a feature, as traits."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -70,6 +71,7 @@ class MapWidget(VectorWidget):
         style = root.style
         assert style is not None
         self._rgba: NDArray[np.float64] = np.zeros((len(self._ids), 4))
+        self._seen = frozenset(style.names)  # others lie wholly below them
         for name, rgba in zip(style.names, style.rgba, strict=True):
             self._rgba[self._row[name]] = rgba
         legend = made.legend.facts() if made.legend is not None and has_legend else None
@@ -97,17 +99,21 @@ class MapWidget(VectorWidget):
     def _recolour(self, change: Any) -> None:
         if change["new"] is None:
             return
-        rgba, legend = colours_of(values_of(self.table, change["new"]), change["new"], self._scale)
+        values, scale = values_of(self.table, change["new"]), self._scale
+        if values.dtype.kind != "f":  # which have no order: the scale was chosen for another column
+            scale = replace(scale, kind="categories", breaks=(), palette=None)
+        rgba, legend = colours_of(values, change["new"], scale)
         self._rgba = np.round(rgba, 4)
         with self.hold_sync():
-            self.colors = dict(zip(self._ids, map(tuple, self._rgba.tolist()), strict=True))
-            self._marked = {} if self.selected is None else {self.selected: SELECTED}
+            pairs = zip(self._ids, self._rgba.tolist(), strict=True)
+            self.colors = {name: colour for name, colour in pairs if name in self._seen}
+            self._marked = {self.selected: SELECTED} if self.selected in self._seen else {}
             self.legend = legend.facts() if self._has_legend else None
 
     def _mark(self, change: Any) -> None:
         """Colour what is selected, and give what was selected its own colour again."""
         marked = {name: self._rgba[self._row[name]].tolist() for name in self._marked}
-        if change["new"] is not None:
+        if change["new"] in self._seen:
             marked[change["new"]] = SELECTED
         self._marked = marked
 
