@@ -87,14 +87,6 @@ class Path:
             raise SourceError("a contour is open; every cubic must start exactly where the one before it ends")
 
     @classmethod
-    def closed(cls, contours: tuple[NDArray[np.float64], ...], paint: Paint, element: str = "") -> "Path":
-        """Path of contours that are known to be finite and closed, without a check, filled by the rule even-odd."""
-        path = object.__new__(cls)
-        for name, value in zip(cls.__slots__, (contours, FillRule.EVENODD, paint, -1, element), strict=True):
-            object.__setattr__(path, name, value)
-        return path
-
-    @classmethod
     def _sound(cls, contours: tuple[NDArray[np.float64], ...], like: "Path", to_source: Affine) -> "Path":
         """Path of contours that are known to be finite and closed, without a check; the rest is another's, moved."""
         path = object.__new__(cls)

@@ -8,18 +8,15 @@ import os
 import warnings
 import zipfile
 import zlib
-from collections.abc import Iterator
-from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
 from threading import Lock
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.content import (
-    BYTE_ORDER_MARK,
     FLATGEOBUF,
     LARGEST_FILE,
     SHAPEFILE,
@@ -36,10 +33,7 @@ from vexture.geo.geojson import UNLOCATED, areas_of
 from vexture.geo.rings import Rings, rings_of
 from vexture.notes import Notes
 
-if TYPE_CHECKING:
-    from pyarrow import Table
-
-__all__ = ["content_for_gdal", "parted", "read_areas", "read_by_gdal", "whole_shapefile"]
+__all__ = ["read_areas", "whole_shapefile"]
 
 APPLICATION: Final = slice(68, 72)
 GEOPACKAGES: Final = (b"GPKG", b"GP10", b"GP11")
@@ -73,23 +67,18 @@ def read_areas(
         if layer is not None:
             raise ParameterError(f"GeoJSON has no layers, so none {layer!r}; leave `layer` out")
         return _geojson(content, notes)
-    return _gdal(content_for_gdal(source, content), layer, notes)
-
-
-def content_for_gdal(source: str | os.PathLike[str] | bytes, content: bytes) -> bytes:
-    """Content of a file as GDAL gets it: of a supported format, and of a shapefile with all its files, in a zip."""
     if content.startswith(SHAPEFILE):
         if isinstance(source, bytes):
             raise SourceError("a shapefile is several files; give them together as a .zip")
-        return whole_shapefile(Path(source))
-    if content.startswith(ZIP):
-        return _zipped(_members(content))
-    if content.startswith(SQLITE):
+        content = whole_shapefile(Path(source))
+    elif content.startswith(ZIP):
+        content = _zipped(_members(content))
+    elif content.startswith(SQLITE):
         if content[APPLICATION] not in GEOPACKAGES:
             raise SourceError("an SQLite database, but no GeoPackage; save it as GeoPackage")
-    elif not (content.startswith(FLATGEOBUF) or content.removeprefix(BYTE_ORDER_MARK).lstrip()[:1] == b"{"):
+    elif not content.startswith(FLATGEOBUF):
         raise SourceError("none of GeoJSON, GeoPackage, FlatGeobuf and shapefile; convert it to one of them")
-    return content
+    return _gdal(content, layer, notes)
 
 
 def _geojson(content: bytes, notes: Notes) -> tuple[Rings, str | None]:
@@ -141,55 +130,20 @@ def _zipped(files: dict[str, bytes]) -> bytes:
 
 def _gdal(content: bytes, layer: str | None, notes: Notes) -> tuple[Rings, str | None]:
     """Polygons that GDAL reads."""
-    from pyogrio import raw
+    from pyogrio import list_layers, raw
 
-    with _by_gdal():
-        name = _layer_of(content, layer)
-        meta, _, shapes, _ = raw.read(content, layer=name, columns=[], force_2d=True)
+    with QUIET, warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # warnings of GDAL; invalid geometries are found below
+        try:
+            name = _layer([(str(each), str(kind)) for each, kind in list_layers(content)], layer)
+            meta, _, shapes, _ = raw.read(content, layer=name, columns=[], force_2d=True)
+        except ParameterError:  # of `layer`; it is a ValueError too
+            raise
+        except (RuntimeError, ValueError, OverflowError, NameError) as error:  # the last is pyogrio's for a bad .prj
+            raise SourceError(f"GDAL cannot read it ({_reason(error)}); save it again") from None
     if shapes is None:
         raise SourceError(f"its layer {name!r} has no geometries; choose another by `layer`")
     return _parsed(shapes, notes), meta["crs"]
-
-
-def read_by_gdal(content: bytes, layer: str | None, where: str | None) -> tuple[NDArray[Any], "Table", str | None]:
-    """WKB of each feature, or None; all attributes, with GDAL's own number of each; and the reference system.
-
-    `where` is a condition in SQL.
-    """
-    from pyogrio import raw
-
-    with _by_gdal(where):
-        name = _layer_of(content, layer, of_all=True)
-        single = layer is None and content[:1] == b"{"  # whose name is that of a file in memory, new each time
-        meta, table = raw.read_arrow(content, layer=0 if single else name, where=where, return_fids=True)
-    shapes = meta["geometry_name"] or "wkb_geometry"
-    if shapes not in table.column_names:
-        raise SourceError(f"its layer {name!r} has no geometries; choose another by `layer`")
-    number = table.column_names.index(meta["fid_column"] or "OGC_FID")
-    wkb = np.array(table.column(shapes).to_pylist(), object)
-    table = table.rename_columns(["fid" if k == number else each for k, each in enumerate(table.column_names)])
-    return wkb, table.drop_columns([shapes]), meta["crs"]
-
-
-@contextmanager
-def _by_gdal(where: str | None = None) -> Iterator[None]:
-    """Turn what GDAL says into an error of one line."""
-    with QUIET, warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # warnings of GDAL; invalid geometries are found later
-        try:
-            yield
-        except (ParameterError, LimitError, SourceError):  # of `layer`; some are ValueErrors too
-            raise
-        except (RuntimeError, ValueError, OverflowError, NameError) as error:  # the last is pyogrio's for a bad .prj
-            if where is not None and isinstance(error, ValueError):
-                raise ParameterError(f"`where` {where!r} is not understood ({_reason(error)}); correct it") from None
-            raise SourceError(f"GDAL cannot read it ({_reason(error)}); save it again") from None
-
-
-def _layer_of(content: bytes, layer: str | None, *, of_all: bool = False) -> str:
-    from pyogrio import list_layers
-
-    return _layer([(str(each), str(kind)) for each, kind in list_layers(content)], layer, of_all=of_all)
 
 
 def _reason(error: Exception) -> str:
@@ -205,10 +159,10 @@ def _reason(error: Exception) -> str:
     return text[:160]
 
 
-def _layer(layers: list[tuple[str, str]], wanted: str | None, *, of_all: bool = False) -> str:
-    """Name of the layer to read: of one that may hold polygons, or `of_all` that have geometries."""
+def _layer(layers: list[tuple[str, str]], wanted: str | None) -> str:
+    """Name of the layer to read."""
     names = [name for name, _ in layers]
-    areal = [name for name, kind in layers if (of_all and kind != "None") or any(word in kind for word in AREAL)]
+    areal = [name for name, kind in layers if any(word in kind for word in AREAL)]
     if wanted is None:
         if len(areal) == 1 or len(names) == 1:
             return (areal or names)[0]
@@ -224,8 +178,8 @@ def _named(layers: list[str]) -> str:
     return ", ".join(layers[:MOST_NAMED]) + (", ..." if len(layers) > MOST_NAMED else "")
 
 
-def parted(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArray[np.intp]]:
-    """Polygons, lines and points of geometries in WKB, and the number of the geometry that each is part of."""
+def _parsed(shapes: NDArray[Any], notes: Notes) -> Rings:
+    """Polygons of geometries in WKB."""
     import shapely
 
     given = np.array([shape is not None for shape in shapes], np.bool_)
@@ -233,7 +187,7 @@ def parted(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArray[np
         notes.left_out(UNLOCATED)
     feature = np.flatnonzero(given)
     with np.errstate(invalid="ignore"):  # NaN is refused later, with the name of its ring
-        whole = shapely.force_2d(shapely.from_wkb(shapes[given], on_invalid="fix"))
+        whole = shapely.from_wkb(shapes[given], on_invalid="fix")
     broken = shapely.is_missing(whole)
     if broken.any():
         raise SourceError(f"feature {feature[int(broken.argmax())] + 1} is damaged; save the file again")
@@ -242,18 +196,10 @@ def parted(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArray[np
     while (kinds > shapely.GeometryType.POLYGON).any():  # collections in collections
         parts, inner = shapely.get_parts(parts, return_index=True)
         owner, kinds = owner[inner], shapely.get_type_id(parts)
-    return parts, feature[owner]
-
-
-def _parsed(shapes: NDArray[Any], notes: Notes) -> Rings:
-    """Polygons of geometries in WKB."""
-    import shapely
-
-    parts, owner = parted(shapes, notes)
-    areal = shapely.get_type_id(parts) == shapely.GeometryType.POLYGON
+    areal = kinds == shapely.GeometryType.POLYGON
     for part in parts[~areal]:
         notes.left_out(part.geom_type)
-    polygons, feature = parts[areal], owner[areal]
+    polygons, feature = parts[areal], feature[owner[areal]]
 
     def place(index: int) -> str:
         number = index - int(np.searchsorted(feature, feature[index])) + 1

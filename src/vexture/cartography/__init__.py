@@ -1,1 +1,0 @@
-"""Maps of geographic features: their place on a plane, their colours, and the texture of all of them."""
