@@ -3,7 +3,7 @@ import { element } from '../viewer/dom.js';
 
 /**
  * @typedef {import('./widget.js').Model} Model
- * @typedef {{ title: string, kind: 'classes' | 'continuous' | 'categories', entries: { label: string, color: string }[] }} Legend
+ * @typedef {{ title: string, kind: string, entries: { label: string, color: string }[] }} Legend
  */
 
 /** Pixels between the pointer and what is told of the feature under it. */

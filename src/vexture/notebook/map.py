@@ -2,14 +2,20 @@
 
 import os
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
-from vexture.errors import DeviceError
+from vexture.errors import DeviceError, ParameterError
 
 if TYPE_CHECKING:
     from vexture.notebook.map_widget import MapWidget
 
 __all__ = ["map"]
+
+OF_SCALE: Final = ("scale", "palette", "classes", "no_data")
+OF_LAYER: Final = ("layer", "where", "source_crs", "id", "columns", "fill", "order", "stroke", "symbol", "symbol_size")
+OF_MAP: Final = ("crs", "snap", "size", "tolerance", "max_seconds")
+NAMES: Final = {"source_crs": "crs"}
+"""Options whose layers have another name for them."""
 
 
 def map(
@@ -29,7 +35,7 @@ def map(
     Parameters
     ----------
     source : GeoDataFrame or path
-        Or several, of which the later ones lie over the earlier ones.
+        A file that ``vexture map`` reads.
     column : str, optional
         Attribute that colours show.
     tooltip : bool or sequence of str
@@ -38,8 +44,9 @@ def map(
     width, height, background, view
         As of `vexture.show`.
     **options
-        As of `vexture.cartography.convert.convert_map`: ``scale``, ``classes``, ``breaks``, ``palette``, ``crs``,
-        ``where``, ``id`` and others.
+        Of the colours (`vexture.cartography.Scale`): ``scale``, ``palette``, ``classes``, ``no_data``. Of what is drawn
+        (`MapLayer`): ``layer``, ``where``, ``id``, ``columns``, ``fill``, ``order``, ``stroke``, ``symbol``,
+        ``symbol_size``, ``source_crs``. Of the map (`convert_map`): ``crs``, ``snap``, ``size``, ``tolerance``.
 
     Returns
     -------
@@ -70,13 +77,16 @@ def map(
         from vexture.notebook.map_widget import MapWidget
     except ModuleNotFoundError as error:
         raise DeviceError(f"map needs the package {error.name}: pip install 'vexture[notebook,map]'") from None
-    from vexture.cartography.convert import convert_map
+    from vexture.cartography import MapLayer, Scale, convert_map
 
-    named = None if isinstance(source, str | os.PathLike) else "map"
-    made = convert_map(source, named, color=column, **options)
+    fields = {name: options.pop(name) for name in OF_SCALE if name in options}
+    scale = Scale(column or "", **{("kind" if name == "scale" else name): value for name, value in fields.items()})
+    of_layer = {NAMES.get(name, name): options.pop(name) for name in OF_LAYER if name in options}
+    for name in options:
+        if name not in OF_MAP:
+            raise ParameterError(f"map has no option {name!r}; leave it out")
+    layer = MapLayer(source, color=None if column is None else scale, **of_layer)
+    made = convert_map([layer], name=None if isinstance(source, str | os.PathLike) else "map", **options)
     given = {"width": width, "height": height, "background": background, "view": view}
     traits = {name: value for name, value in given.items() if value is not None}
-    scale: dict[str, Any] = {
-        name: options[name] for name in ("scale", "classes", "breaks", "palette", "no_data") if name in options
-    }
-    return MapWidget(made, column, tooltip=tooltip, has_legend=legend, scale=scale, **traits)
+    return MapWidget(made, scale, tooltip=tooltip, has_legend=legend, **traits)

@@ -8,11 +8,11 @@ import numpy as np
 import traitlets
 from numpy.typing import NDArray
 
-from vexture.cartography.convert import Map
-from vexture.cartography.scales import Scale, colours_of, values_of
+from vexture.cartography import Map, Scale
+from vexture.cartography.colours import colours_of
 from vexture.errors import ParameterError
-from vexture.geo.features import ID
 from vexture.notebook.widget import HEIGHT, VectorWidget
+from vexture.notes import Notes
 
 __all__ = ["MapWidget"]
 
@@ -55,27 +55,26 @@ class MapWidget(VectorWidget):
     def __init__(
         self,
         made: Map,
-        column: str | None,
+        scale: Scale,
         *,
         tooltip: bool | Sequence[str] = True,
         has_legend: bool = True,
-        scale: dict[str, Any] | None = None,
         **traits: Any,
     ) -> None:
         self.table = made.table
-        self._ids = [str(name) for name in made.table.column(ID).to_pylist()]
+        self._ids = [str(name) for name in made.table.column("id").to_pylist()]
         self._row = {name: row for row, name in enumerate(self._ids)}
         self._told = _told(made, tooltip)
-        self._scale, self._has_legend = _scale_of(scale or {}), has_legend
-        root = made.texture.roots[0]
-        style = root.style
+        self._scale, self._has_legend = scale, has_legend
+        texture = made.conversion.texture
+        style = texture.roots[0].style
         assert style is not None
         self._rgba: NDArray[np.float64] = np.zeros((len(self._ids), 4))
         self._seen = frozenset(style.names)  # others lie wholly below them
         for name, rgba in zip(style.names, style.rgba, strict=True):
             self._rgba[self._row[name]] = rgba
-        legend = made.legend.facts() if made.legend is not None and has_legend else None
-        super().__init__(made.texture, **{"height": HEIGHT, **traits}, column=column, legend=legend)
+        legend = _legend(made.legends[0]) if made.legends and has_legend else None
+        super().__init__(texture, **{"height": HEIGHT, **traits}, column=scale.column or None, legend=legend)
         self.observe(self._recolour, "column")
         self.observe(self._mark, "selected")
         self.observe(self._tell, "hovered")
@@ -99,16 +98,17 @@ class MapWidget(VectorWidget):
     def _recolour(self, change: Any) -> None:
         if change["new"] is None:
             return
-        values, scale = values_of(self.table, change["new"]), self._scale
-        if values.dtype.kind != "f":  # which have no order: the scale was chosen for another column
-            scale = replace(scale, kind="categories", breaks=(), palette=None)
-        rgba, legend = colours_of(values, change["new"], scale)
+        scale = replace(self._scale, column=change["new"])
+        try:
+            rgba, legend = colours_of(self.table, scale, Notes())
+        except ParameterError:  # a column of texts: the scale was chosen for another one
+            rgba, legend = colours_of(self.table, replace(scale, kind="categories", palette=None), Notes())
         self._rgba = np.round(rgba, 4)
         with self.hold_sync():
             pairs = zip(self._ids, self._rgba.tolist(), strict=True)
             self.colors = {name: colour for name, colour in pairs if name in self._seen}
             self._marked = {self.selected: SELECTED} if self.selected in self._seen else {}
-            self.legend = legend.facts() if self._has_legend else None
+            self.legend = _legend(legend) if self._has_legend else None
 
     def _mark(self, change: Any) -> None:
         """Colour what is selected, and give what was selected its own colour again."""
@@ -127,9 +127,12 @@ class MapWidget(VectorWidget):
         self.selected = found if found in self._row else None
 
 
-def _scale_of(given: dict[str, Any]) -> Scale:
-    named = {("kind" if name == "scale" else name): value for name, value in given.items()}
-    return Scale(**named)
+def _legend(found: dict[str, Any]) -> dict[str, Any]:
+    """A legend as pages draw it."""
+    entries = [{"label": each["label"], "color": each["color"]} for each in found["entries"]]
+    if "no_data" in found:
+        entries.append({"label": "no data", "color": found["no_data"]["color"]})
+    return {"title": found["column"], "kind": found["scale"], "entries": entries}
 
 
 def _told(made: Map, tooltip: bool | Sequence[str]) -> list[str]:

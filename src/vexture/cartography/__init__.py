@@ -1,0 +1,11 @@
+"""Maps: features of geographic data as one texture, coloured by their attributes, with a table beside it.
+
+`convert.py` begins; `place.py` brings features into the map's reference system; `coverage.py` closes gaps between
+polygons and orders overlaps; `colours.py` chooses colours and makes the legend; `marks.py` makes areas of lines and
+points; `paths.py` makes the drawing.
+"""
+
+from vexture.cartography.colours import Scale
+from vexture.cartography.convert import Map, MapLayer, convert_map
+
+__all__ = ["Map", "MapLayer", "Scale", "convert_map"]

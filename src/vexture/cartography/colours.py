@@ -1,0 +1,196 @@
+"""Colours of features by an attribute: classes, a continuous scale or categories; and their legend."""
+
+from collections import Counter
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.errors import DeviceError, ParameterError
+from vexture.notes import Notes
+
+if TYPE_CHECKING:
+    import pyarrow
+
+__all__ = ["DEFAULT_CLASSES", "NO_DATA", "Scale", "colours_of", "rgba_of"]
+
+DEFAULT_CLASSES: Final = 5
+MOST_CLASSES: Final = 64
+
+NO_DATA: Final = "#d9d9d9"
+SEQUENTIAL: Final = "viridis"
+QUALITATIVE: Final = "okabeito:okabeito"
+"""Palettes that are told apart with any kind of colour blindness."""
+
+OTHER: Final = "other"
+STOPS: Final = 9
+"""Colours in the legend of a continuous scale."""
+
+Rgba = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Scale:
+    """How a column becomes colours.
+
+    Parameters
+    ----------
+    column : str
+    kind : str
+        ``quantiles`` or ``equal`` (classes), ``continuous``, ``categories``, or the inner breaks of classes such as
+        ``10,20,50``; ``auto`` is ``categories`` of text and truth values, ``quantiles`` of numbers.
+    palette : str, optional
+        Name of a palette of cmap; colour-blind-safe by default.
+    classes : int
+    no_data : str
+        CSS colour of features without a value.
+    """
+
+    column: str
+    kind: str = "auto"
+    palette: str | None = None
+    classes: int = DEFAULT_CLASSES
+    no_data: str = NO_DATA
+
+
+def colours_of(table: "pyarrow.Table", scale: Scale, notes: Notes) -> tuple[Rgba, dict[str, Any]]:
+    """Colour of each row, (f, 4), not premultiplied, and the legend, ready for JSON."""
+    import pyarrow as pa
+
+    if scale.column not in table.column_names:
+        raise ParameterError(
+            f"it has no column {scale.column!r} for `color`; there are: {', '.join(table.column_names)}"
+        )
+    column = table.column(scale.column)
+    kind_of = column.type.value_type if pa.types.is_dictionary(column.type) else column.type
+    is_number = any(test(kind_of) for test in (pa.types.is_integer, pa.types.is_floating, pa.types.is_decimal))
+    kind = scale.kind if scale.kind != "auto" else "quantiles" if is_number else "categories"
+    if kind == "categories":
+        rgba, entries = _categories([None if v is None else str(v) for v in column.to_pylist()], scale, notes)
+    else:
+        breaks = None if kind in ("quantiles", "equal", "continuous") else _breaks(kind)
+        if not is_number:
+            raise ParameterError(f"`color` {scale.column!r} holds {column.type}, not numbers; give `scale` categories")
+        values = np.array([np.nan if v is None else float(v) for v in column.to_pylist()])
+        if not np.isfinite(values).any():
+            raise ParameterError(f"`color` {scale.column!r} holds no number; choose another column")
+        rgba, entries = _continuous(values, scale) if kind == "continuous" else _classes(values, kind, breaks, scale)
+    missing = np.isnan(rgba[:, 0])
+    rgba[missing] = rgba_of(scale.no_data, "no_data")
+    legend: dict[str, Any] = {"column": scale.column, "scale": "breaks" if kind[:1] in "-+.0123456789" else kind}
+    legend["entries"] = entries
+    if missing.any():
+        legend["no_data"] = {"color": _hex(rgba_of(scale.no_data, "no_data")), "count": int(missing.sum())}
+    return rgba, legend
+
+
+def rgba_of(text: str, parameter: str) -> Rgba:
+    """A CSS colour."""
+    from vexture.svg.colors import parse_color
+
+    found = parse_color(text)
+    if found is None or isinstance(found, str):
+        raise ParameterError(f"`{parameter}` is {text!r}; give a CSS colour, such as white or #f4f1e8")
+    return np.array([*found.rgb, found.alpha])
+
+
+def _hex(rgba: Rgba) -> str:
+    from vexture.paint import Paint
+
+    red, green, blue, opacity = (float(part) for part in rgba)
+    return Paint((red, green, blue), opacity).hex
+
+
+def _palette(name: str | None, default: str) -> Any:
+    try:
+        import cmap
+    except ModuleNotFoundError:
+        raise DeviceError("palettes need the package cmap: pip install 'vexture[map]'") from None
+    try:
+        return cmap.Colormap(name or default)
+    except (ValueError, TypeError):
+        raise ParameterError(
+            f"the `palette` {name!r} is unknown; choose one of cmap, such as viridis or tab10"
+        ) from None
+
+
+def _sampled(palette: Any, at: NDArray[np.float64]) -> Rgba:
+    return np.clip(np.asarray(palette(at), np.float64).reshape(-1, 4), 0.0, 1.0)
+
+
+def _breaks(text: str) -> NDArray[np.float64]:
+    """Inner breaks of classes."""
+    try:
+        breaks = np.array([float(part) for part in text.split(",")])
+    except ValueError:
+        breaks = np.empty(0)
+    if not len(breaks) or not np.isfinite(breaks).all() or (np.diff(breaks) <= 0).any():
+        raise ParameterError(
+            f"`scale` is {text!r}; give quantiles, equal, continuous, categories or rising breaks such as 10,20,50"
+        )
+    return breaks
+
+
+def _classes(
+    values: NDArray[np.float64], kind: str, breaks: NDArray[np.float64] | None, scale: Scale
+) -> tuple[Rgba, list[dict[str, Any]]]:
+    """Colours of classes, each from a break up to, but without, the next."""
+    known = values[np.isfinite(values)]
+    if not 2 <= scale.classes <= MOST_CLASSES:
+        raise ParameterError(f"`classes` is {scale.classes}; it must be in 2..{MOST_CLASSES}")
+    if breaks is None:
+        parts = np.linspace(0.0, 1.0, scale.classes + 1)[1:-1]
+        low, high = known.min(), known.max()
+        breaks = np.unique(np.quantile(known, parts) if kind == "quantiles" else low + (high - low) * parts)
+        breaks = breaks[breaks > low]
+    colours = _sampled(_palette(scale.palette, SEQUENTIAL), np.linspace(0.0, 1.0, len(breaks) + 1))
+    number = np.searchsorted(breaks, values, side="right")
+    rgba = colours[number]
+    rgba[~np.isfinite(values)] = np.nan
+    edges = [float(min(known.min(), breaks[0])) if len(breaks) else float(known.min()), *breaks.tolist()]
+    edges.append(float(max(known.max(), edges[-1])))
+    counts = np.bincount(number[np.isfinite(values)], minlength=len(colours))
+    entries = [
+        {"color": _hex(colour), "label": f"{low:g} - {high:g}", "from": low, "to": high, "count": int(count)}
+        for colour, (low, high), count in zip(colours, pairwise(edges), counts, strict=True)
+    ]
+    return rgba, entries
+
+
+def _continuous(values: NDArray[np.float64], scale: Scale) -> tuple[Rgba, list[dict[str, Any]]]:
+    known = values[np.isfinite(values)]
+    low, high = float(known.min()), float(known.max())
+    palette = _palette(scale.palette, SEQUENTIAL)
+    part = np.where(np.isfinite(values), (values - low) / ((high - low) or 1.0), 0.0)
+    rgba = _sampled(palette, part)
+    rgba[~np.isfinite(values)] = np.nan
+    stops = np.linspace(0.0, 1.0, STOPS)
+    shown = zip(_sampled(palette, stops), (low + (high - low) * stops).tolist(), strict=True)
+    return rgba, [{"color": _hex(colour), "label": f"{value:g}", "value": value} for colour, value in shown]
+
+
+def _categories(values: list[str | None], scale: Scale, notes: Notes) -> tuple[Rgba, list[dict[str, Any]]]:
+    """Colours of the most common values; those that are left share one."""
+    palette = _palette(scale.palette, QUALITATIVE)
+    stops = np.array([tuple(color.rgba) for color in palette.iter_colors()], np.float64)
+    if scale.palette is None:
+        stops = stops[1:]  # black is for lines and words
+    counts = Counter(value for value in values if value is not None)
+    ordered = [value for value, _ in sorted(counts.items(), key=lambda item: (-item[1], item[0]))]
+    if palette.interpolation == "linear":
+        stops = _sampled(palette, np.linspace(0.0, 1.0, max(len(ordered), 1)))
+    own = ordered if len(ordered) <= len(stops) else ordered[: len(stops) - 1]
+    if len(own) < len(ordered):
+        notes.remark(
+            f"{len(ordered)} categories of {scale.column!r}, but {len(stops)} colours: the {len(ordered) - len(own)} "
+            "least common ones share the last; give a larger `palette`"
+        )
+    place = {value: min(number, len(stops) - 1) for number, value in enumerate(ordered)}
+    rgba = np.array([stops[place[v]] if v is not None else np.full(4, np.nan) for v in values]).reshape(-1, 4)
+    entries = [{"color": _hex(stops[k]), "label": value, "count": counts[value]} for k, value in enumerate(own)]
+    if len(own) < len(ordered):
+        rest = sum(counts[value] for value in ordered[len(own) :])
+        entries.append({"color": _hex(stops[-1]), "label": OTHER, "count": rest})
+    return rgba, entries

@@ -1,0 +1,108 @@
+"""Polygons that should cover an area each place once: borders snapped, gaps closed, overlaps in an order."""
+
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.errors import ParameterError
+from vexture.geo.features import Features
+from vexture.geo.rings import Rings, rings_of, shared
+from vexture.geo.snap import DEFAULT_SNAP
+from vexture.notes import Notes
+
+__all__ = ["covering", "ranks"]
+
+NOISE: Final = 1e-9
+"""Parts of the map's larger side: overlaps of less area than this times that side squared are not counted."""
+
+
+def covering(rings: Rings, rank: NDArray[np.int64], size: float, snap: float | None, notes: Notes) -> Rings:
+    """Polygons with shared borders; gaps no wider than `snap` are closed, overlaps go to the feature of higher rank.
+
+    Parameters
+    ----------
+    rings : Rings
+        Of features.
+    rank : (f,) array
+        The order of the features; where they overlap, the higher one is seen.
+    size : float
+        The larger side of the map; `snap` is in parts of it.
+    snap : float or None
+        0 leaves all as it is.
+    notes : Notes
+        Gets what was snapped and closed, and how many polygons overlap.
+    """
+    if not len(rings.ends):
+        return rings
+    rings = shared(rings, size, snap, notes)
+    if snap == 0.0 or len(rings.outer) < 2:
+        return rings
+    return _cleaned(rings, rank, size, (DEFAULT_SNAP if snap is None else snap) * size, notes)
+
+
+def _cleaned(rings: Rings, rank: NDArray[np.int64], size: float, width: float, notes: Notes) -> Rings:
+    """Polygons without gaps, and without overlaps."""
+    import shapely
+
+    assert rings.feature is not None
+    shapes = rings.shapes
+    wrong = ~shapely.is_valid(shapes)
+    shapes[wrong] = shapely.make_valid(shapes[wrong], method="structure", keep_collapsed=False)
+    try:
+        found = shapely.coverage_invalid_edges(shapes, gap_width=width)
+        amiss = ~shapely.is_empty(found)
+        if not amiss.any():
+            return rings
+        order = np.argsort(-rank[rings.feature], kind="stable")  # the first of an overlap keeps it
+        clean = np.empty(len(shapes), object)
+        clean[order] = shapely.coverage_clean(shapes[order], gap_width=width, merge_strategy="min_index")
+    except (shapely.errors.GEOSException, ValueError):
+        notes.remark("gaps between its polygons are as they were: they could not be closed")
+        return rings
+    _say(shapes, clean, size, notes)
+    parts, owner = shapely.get_parts(clean, return_index=True)
+    keep = (shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(parts)
+    origin = owner[keep]
+    return rings_of(parts[keep], lambda index: rings.place(int(origin[index])), rings.feature[origin])
+
+
+def _say(before: NDArray[Any], after: NDArray[Any], size: float, notes: Notes) -> None:
+    """Note how many polygons lost or won an area."""
+    import shapely
+
+    change = shapely.area(after) - shapely.area(before)
+    least = NOISE * size * size
+    lost, won = int((change < -least).sum()), int((change > least).sum())
+    if lost:
+        notes.remark(f"{lost} of its polygons lie below others that overlap them: `order` says which is above")
+    if won:
+        notes.remark(f"{won} of its polygons have grown into narrow gaps beside them")
+
+
+def ranks(features: Features, order: str | None) -> NDArray[np.int64]:
+    """Order in which features are painted: by a column, else the smaller above the larger, and then as in the source.
+
+    Raises
+    ------
+    ParameterError
+        If there is no such column, or it cannot be sorted.
+    """
+    import pyarrow as pa
+    import shapely
+
+    if order is None:
+        area = np.bincount(features.feature, shapely.area(features.rings.shapes), minlength=len(features))
+        sequence = np.argsort(-area, kind="stable")
+    else:
+        if order not in features.table.column_names:
+            known = ", ".join(features.table.column_names)
+            raise ParameterError(f"it has no column {order!r} for `order`; there are: {known}")
+        try:
+            found = pa.compute.sort_indices(features.table, [(order, "ascending")], null_placement="at_start")
+        except (pa.ArrowInvalid, pa.ArrowNotImplementedError, pa.ArrowTypeError):
+            raise ParameterError(f"`order` {order!r} cannot be sorted; name a column of numbers or text") from None
+        sequence = np.asarray(found, np.int64)
+    rank = np.empty(len(features), np.int64)
+    rank[sequence] = np.arange(len(features))
+    return rank

@@ -1,0 +1,78 @@
+"""Paths of a map: the polygons of each feature as one path in the unit square, without an object for each vertex."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.bezier.convert import line_cubics
+from vexture.drawing import Drawing, FillRule, Path
+from vexture.geo.extent import Bounds
+from vexture.geo.rings import Rings, oriented
+from vexture.paint import Paint
+
+__all__ = ["Fit", "area_paths", "symbol_paths"]
+
+
+class Fit:
+    """The box of a map in the middle of the unit square, at its own aspect ratio."""
+
+    def __init__(self, box: Bounds) -> None:
+        west, south, east, north = box
+        self.scale = max(east - west, north - south)
+        self.low = np.array([(west + east) / 2, (south + north) / 2]) - self.scale / 2
+        self.sides = ((east - west) / self.scale, (north - south) / self.scale)
+
+    @property
+    def to_source(self) -> NDArray[np.float64]:
+        """Map from the unit square to the units of the map."""
+        return np.array([[self.scale, 0.0, self.low[0]], [0.0, self.scale, self.low[1]]])
+
+    def inward(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Points in the unit square."""
+        return np.clip((points - self.low) / self.scale, 0.0, 1.0)
+
+
+def area_paths(
+    rings: Rings, names: NDArray[Any], rgba: NDArray[np.float64], rank: NDArray[np.int64], fit: Fit
+) -> Iterator[Path]:
+    """A path of each feature's polygons, in the order of their ranks."""
+    if not len(rings.ends):
+        return
+    rings = oriented(rings)
+    assert rings.feature is not None
+    start = fit.inward(rings.points)
+    end = start[rings.following]
+    contours = np.split(line_cubics(start, end), rings.ends[:-1])
+    owner = rings.feature[rings.polygon]
+    order = np.argsort(rank[owner], kind="stable")
+    features, first = np.unique(rank[owner][order], return_index=True)
+    paints: dict[tuple[float, ...], Paint] = {}
+    for places in np.split(order, first[1:]) if len(features) else ():
+        feature = int(owner[places[0]])
+        colour = tuple(rgba[feature].tolist())
+        paint = paints.setdefault(colour, Paint(colour[:3], colour[3]))
+        own = tuple(contours[place] for place in places.tolist())
+        yield Path(own, FillRule.NONZERO, paint, element=str(names[feature]))
+
+
+def symbol_paths(
+    symbol: Drawing,
+    points: NDArray[np.float64],
+    sizes: NDArray[np.float64],
+    names: list[str],
+    paints: list[Paint | None],
+) -> Iterator[Path]:
+    """The paths of a drawing about each of some points, of sizes in the units of the map; paints replace its own."""
+    for (x, y), size, name, paint in zip(points.tolist(), sizes.tolist(), names, paints, strict=True):
+        for path in symbol.paths:
+            moved = tuple((contour - 0.5) * size + (x, y) for contour in path.contours)
+            yield Path(moved, path.fill_rule, paint or Paint(path.paint.color, path.paint.opacity), element=name)
+
+
+def fitted(paths: Iterator[Path], fit: Fit) -> Iterator[Path]:
+    """Paths in the units of the map, in the unit square."""
+    for path in paths:
+        contours = tuple(fit.inward(contour) for contour in path.contours)
+        yield Path(contours, path.fill_rule, path.paint, element=path.element)
