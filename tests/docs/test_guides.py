@@ -97,7 +97,7 @@ def test_the_guide_for_maps_does_what_it_says(tmp_path: Path) -> None:
         assert len(image.convert("RGBA").getcolors(160_000)) >= 3
     legend = json.loads((folder / "kinds.json").read_text())["legend"]
     assert [entry["label"] for entry in legend[0]["entries"]] == ["farm", "lake", "town"]
-    assert vexture.load(folder / "both.ktx2").roots[0].style.names == ("D", "N", "W", "A4")
+    assert sorted(vexture.load(folder / "both.ktx2").roots[0].style.names) == ["A4", "D", "N", "W"]
     assert (folder / "land.parquet").is_file()
 
 
