@@ -67,6 +67,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "thesis": BASE | {"bezier", "drawing", "encodings", "group", "layout", "paint", "renderers", "texture", "tree"},
     "fold": BASE | {"drawing", "layout", "notes", "renderers", "texture"},
     "gltf": BASE | {"content", "drawing", "layout", "parameters", "pipeline", "svg", "texture"},
+    "cartography": SOURCES | {"geo", "layout", "pipeline", "reading", "svg"},
     "flood": BASE | {"content", "drawing", "geo", "notes", "paint", "renderers", "workers"},
     "live": SOURCES
     | {"encodings", "flood", "fold", "geo", "layout", "parameters", "pipeline", "reading"}
@@ -92,6 +93,7 @@ HEAVY = {
     "PIL",
     "anywidget",
     "bidi",
+    "cmap",
     "coloraide",
     "cssselect2",
     "fontTools",
@@ -107,10 +109,12 @@ HEAVY = {
 } | {
     "av",
     "contourpy",
+    "duckdb",
     "matplotlib",
     "netCDF4",
     "pandas",
     "playwright",
+    "pyarrow",
     "pyogrio",
     "pyproj",
     "rasterio",

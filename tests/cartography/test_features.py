@@ -85,6 +85,11 @@ def test_topojson_has_ids_and_degrees():
     assert (found.ids.tolist(), found.crs) == (["07"], "OGC:CRS84")
 
 
+def test_geojson_without_a_name_is_read():
+    text = json.loads(squares().to_crs("EPSG:4326").to_json())
+    assert len(read_features(json.dumps(text).encode(), notes=Notes())) == len(NAMES)
+
+
 def test_lines_points_empty_and_broken_geometries():
     bow = shapely.Polygon([(0, 0), (2, 2), (2, 0), (0, 2)])
     shapes = [shapely.LineString([(0, 0), (1, 1)]), shapely.MultiPoint([(1, 1), (2, 2)]), bow, shapely.Polygon(), None]

@@ -87,6 +87,20 @@ def test_the_guide_for_notebooks_does_what_it_says(tmp_path: Path) -> None:
     assert (folder / "harbour.html").read_bytes().startswith(b"<!doctype html>")
 
 
+def test_the_guide_for_maps_does_what_it_says(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    folder.mkdir()
+    with Reader(folder) as reader:
+        for block in blocks_of("maps"):
+            reader.take(block)
+    with Image.open(folder / "land.png") as image:
+        assert len(image.convert("RGBA").getcolors(160_000)) >= 3
+    legend = json.loads((folder / "kinds.json").read_text())["legend"]
+    assert [entry["label"] for entry in legend[0]["entries"]] == ["farm", "lake", "town"]
+    assert sorted(vexture.load(folder / "both.ktx2").roots[0].style.names) == ["A4", "D", "N", "W"]
+    assert (folder / "land.parquet").is_file()
+
+
 @pytest.mark.usefixtures("page_is_built")
 def test_the_guide_for_servers_does_what_it_says(tmp_path: Path) -> None:
     folder = tmp_path / "run"

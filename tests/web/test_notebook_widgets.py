@@ -53,7 +53,7 @@ for _ in range(20):
     """import vexture, xarray
 flood = vexture.show(xarray.open_dataset('depth.nc'), amplitude=0, height=300)
 flood""",
-    """fields = vexture.map('fields.geojson', 'yield', width=400, height=240, crs='EPSG:4326', classes=2)
+    """fields = vexture.map('fields.geojson', 'yield', width=400, height=240, crs='EPSG:4326', classes=2, id='id')
 fields""",
 )
 
@@ -269,7 +269,7 @@ def test_a_map_tells_of_what_is_hovered_and_selects_what_is_clicked(notebook: An
     purple, yellow = [68, 1, 84], [253, 231, 37]
     drawn(notebook, stage, (100, 120), purple)
     drawn(notebook, stage, (300, 120), yellow)
-    assert stage.locator(".vexture-legend").inner_text().split("\n") == ["yield", "4 – 6.5", "6.5 – 9"]
+    assert stage.locator(".vexture-legend").inner_text().split("\n") == ["yield", "4 - 6.5", "6.5 - 9"]
     assert not stage.locator(".vexture-tip").is_visible()
     stage.hover(position={"x": 100, "y": 120})
     tip = stage.locator(".vexture-tip")

@@ -208,7 +208,7 @@ def _drawing(painted: list[_Painted], crs: str, snap: float | None, size: int, n
     if not len(every):
         raise SourceError("nothing of it lies on the map; choose another `crs`")
     side = float(np.ptp(every, axis=0).max())
-    parts: list[tuple[_Painted, Rings | None, list[Path]]] = []
+    parts: list[tuple[_Painted, Rings, list[Path]]] = []
     reach = [every.min(axis=0), every.max(axis=0)]
     for one in painted:
         pixel = (side or 1.0) / size
@@ -227,8 +227,7 @@ def _drawing(painted: list[_Painted], crs: str, snap: float | None, size: int, n
         rank = ranks(one.features, one.layer.order)
         rings = covering(one.features.rings, rank, fit.scale, snap, notes)
         paths += area_paths(rings, one.names, one.colours(FILL), rank, fit)
-        if lines is not None:
-            paths += area_paths(lines, one.names, one.colours(INK), np.arange(len(one.features)), fit)
+        paths += area_paths(lines, one.names, one.colours(INK), np.arange(len(one.features)), fit)
         paths += fitted(iter(symbols), fit)
     if not paths:
         raise SourceError("its features enclose no area; correct them")

@@ -89,6 +89,7 @@ def ranks(features: Features, order: str | None) -> NDArray[np.int64]:
         If there is no such column, or it cannot be sorted.
     """
     import pyarrow as pa
+    import pyarrow.compute as pc
     import shapely
 
     if order is None:
@@ -99,10 +100,12 @@ def ranks(features: Features, order: str | None) -> NDArray[np.int64]:
             known = ", ".join(features.table.column_names)
             raise ParameterError(f"it has no column {order!r} for `order`; there are: {known}")
         try:
-            found = pa.compute.sort_indices(features.table, [(order, "ascending")], null_placement="at_start")
+            found = pc.sort_indices(features.table, [(order, "ascending")])
         except (pa.ArrowInvalid, pa.ArrowNotImplementedError, pa.ArrowTypeError):
             raise ParameterError(f"`order` {order!r} cannot be sorted; name a column of numbers or text") from None
         sequence = np.asarray(found, np.int64)
+        nulls = np.asarray(features.table.column(order).is_null())[sequence]
+        sequence = np.append(sequence[nulls], sequence[~nulls])  # what has no value is below
     rank = np.empty(len(features), np.int64)
     rank[sequence] = np.arange(len(features))
     return rank

@@ -12,7 +12,7 @@ from vexture.errors import ParameterError
 from vexture.geo.features import Lines
 from vexture.geo.rings import Rings, rings_of
 
-__all__ = ["Width", "strokes", "width_of"]
+__all__ = ["Width", "strokes", "width_of", "widths_at"]
 
 TEXT: Final = re.compile(r"\s*(\d+(?:\.\d*)?|\.\d+)\s*(px|km|m)\s*")
 

@@ -12,7 +12,7 @@ from vexture.geo.extent import Bounds
 from vexture.geo.rings import Rings, oriented
 from vexture.paint import Paint
 
-__all__ = ["Fit", "area_paths", "symbol_paths"]
+__all__ = ["Fit", "area_paths", "fitted", "symbol_paths"]
 
 
 class Fit:

@@ -44,7 +44,8 @@ def placed(features: Features, crs: str, notes: Notes) -> Features:
     move = _mover(features.crs, crs)
     if len(rings.ends):
         rings = _usable(rings, features.crs, crs, move, notes)
-    return replace(features, rings=rings, crs=crs, **_marks(features, move, notes))
+    lines, points = _marks(features, move, notes)
+    return replace(features, rings=rings, crs=crs, lines=lines, points=points)
 
 
 def _mover(start: str, end: str) -> Move:
@@ -76,7 +77,8 @@ def _on_mercator(features: Features, notes: Notes) -> Features:
         far = np.abs(moved[:, 1]) > MOST_LATITUDE
         return _mercator(np.where(far[:, None], np.inf, moved))
 
-    return replace(features, rings=rings, crs=MERCATOR, **_marks(features, move, notes))
+    lines, points = _marks(features, move, notes)
+    return replace(features, rings=rings, crs=MERCATOR, lines=lines, points=points)
 
 
 def _world(rings: Rings, whole: bool) -> Rings:
@@ -128,7 +130,7 @@ def _mapped(rings: Rings, move: Move, size: NDArray[np.float64] | None) -> Rings
     return moved(rings, move, (*map(float, low), *map(float, high)), sides)  # type: ignore[arg-type]
 
 
-def _marks(features: Features, move: Move, notes: Notes) -> dict[str, Lines | Points]:
+def _marks(features: Features, move: Move, notes: Notes) -> tuple[Lines, Points]:
     """Lines and points, moved; those without an image are left out."""
     lines, spots = features.lines, features.points
     points = move(lines.points)
@@ -142,7 +144,7 @@ def _marks(features: Features, move: Move, notes: Notes) -> dict[str, Lines | Po
     for what, count in (("line beyond the map", int(lost.sum())), ("point beyond the map", int((~there).sum()))):
         for _ in range(count):
             notes.left_out(what)
-    return {"lines": moved_lines, "points": Points(places[there], spots.feature[there])}
+    return moved_lines, Points(places[there], spots.feature[there])
 
 
 def units_per_metre(points: NDArray[np.float64], crs: str) -> NDArray[np.float64]:

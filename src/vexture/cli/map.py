@@ -85,7 +85,11 @@ def map(
         if as_json:
             import json
 
-            facts = {"name": output.stem, "crs": done.conversion.drawing.crs, "features": len(done.table)}
+            facts: dict[str, Any] = {
+                "name": output.stem,
+                "crs": done.conversion.drawing.crs,
+                "features": len(done.table),
+            }
             facts |= {"files": [str(place) for place in files], "legend": list(done.legends)}
             click.echo(json.dumps(facts | {"notes": [note.facts() for note in notes]}, indent=2))
             return

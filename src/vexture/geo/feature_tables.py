@@ -139,7 +139,9 @@ def _gdal(content: bytes | str, is_json: bool, choice: Choice, batch: int | None
 
     with gdal_errors():
         layers = [(str(name), str(kind)) for name, kind in list_layers(content) if kind is not None]
-        name = chosen_layer(layers, choice.layer, any_kind=True)
+        name: str | None = chosen_layer(layers, choice.layer, any_kind=True)
+        if len(layers) == 1 and choice.layer is None:
+            name = None  # GeoJSON without a name has that of the file in memory, which is another each time
         info = read_info(content, layer=name)
     names = [str(each) for each in info["fields"]]
     columns = choice.kept(names)

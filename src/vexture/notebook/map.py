@@ -68,10 +68,10 @@ def map(
     ...     geometry=[shapely.box(0, 0, 1, 1), shapely.box(1, 0, 2, 1)],
     ...     crs="EPSG:28992",
     ... )
-    >>> shown = map(fields, "yield", crs="EPSG:28992")
+    >>> shown = map(fields, "yield", id="id", crs="EPSG:28992", classes=2)
     >>> shown.selected = "b"
     >>> [entry["label"] for entry in shown.legend["entries"]]
-    ['4 – 9', '9 – 9']
+    ['4 - 6.5', '6.5 - 9']
     """
     try:
         from vexture.notebook.map_widget import MapWidget

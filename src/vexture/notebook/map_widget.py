@@ -107,7 +107,8 @@ class MapWidget(VectorWidget):
         with self.hold_sync():
             pairs = zip(self._ids, self._rgba.tolist(), strict=True)
             self.colors = {name: colour for name, colour in pairs if name in self._seen}
-            self._marked = {self.selected: SELECTED} if self.selected in self._seen else {}
+            selected = self.selected
+            self._marked = {selected: SELECTED} if selected is not None and selected in self._seen else {}
             self.legend = _legend(legend) if self._has_legend else None
 
     def _mark(self, change: Any) -> None:

@@ -1,0 +1,204 @@
+"""Maps: the feature at any point is shapely's answer; strokes, symbols, colours; and bad input in one line."""
+
+import geopandas
+import numpy as np
+import pytest
+import shapely
+from click.testing import CliRunner
+
+import vexture
+from vexture.cartography import MapLayer, Scale, convert_map
+from vexture.cartography.colours import colours_of
+from vexture.cartography.place import MOST_LATITUDE, RADIUS
+from vexture.cli.main import main
+from vexture.errors import LimitError, ParameterError, SourceError
+from vexture.geo.features import read_features
+from vexture.notes import Notes
+
+METRES = "EPSG:28992"
+
+
+def cells(count=200, seed=3):
+    """Voronoi cells in a square of a kilometre: a coverage without gaps."""
+    points = shapely.multipoints(np.random.default_rng(seed).uniform(0, 1000, (count, 2)))
+    parts = shapely.get_parts(shapely.voronoi_polygons(points, extend_to=shapely.box(0, 0, 1000, 1000)))
+    shapes = shapely.intersection(parts, shapely.box(0, 0, 1000, 1000))
+    values = np.arange(count, dtype=float)
+    return geopandas.GeoDataFrame(
+        {"code": [f"c{k}" for k in range(count)], "value": values}, geometry=shapes, crs=METRES
+    )
+
+
+def frame(shapes, crs="EPSG:4326", **columns):
+    return geopandas.GeoDataFrame(columns, geometry=shapes, crs=crs)
+
+
+def mapped(source, crs=METRES, **options):
+    """A map of one layer."""
+    chosen = {name: options.pop(name) for name in ("snap", "size", "restyle") if name in options}
+    return convert_map([MapLayer(source, **options)], crs=crs, **chosen)
+
+
+def names_at(done, points):
+    """Ids of the features at points in the units of the map."""
+    (root,) = done.conversion.texture.roots
+    return done.conversion.texture.element_at((points - root.to_source[:, 2]) / root.to_source[0, 0]).name
+
+
+def messages(done):
+    return [str(note) for note in done.conversion.notes]
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_the_feature_at_a_point_is_that_of_shapely(seed):
+    source = cells(seed=seed)
+    points = np.random.default_rng(seed).uniform(0, 1000, (4000, 2))
+    inside = shapely.STRtree(source.geometry.values)
+    at, cell = inside.query(shapely.points(points), predicate="within")
+    far = shapely.distance(shapely.points(points[at]), shapely.boundary(source.geometry.values[cell])) > 0.1
+    done = mapped(source, id="code", color=Scale("value", "continuous"))
+    found = names_at(done, points[at[far]])
+    assert far.sum() > 3500
+    assert (found == source.code.values[cell[far]]).all()
+
+
+def test_small_polygons_lie_above_larger_ones_or_those_of_a_greater_value():
+    source = frame([shapely.box(4, 4, 6, 6), shapely.box(0, 0, 10, 10)], METRES, code=["small", "large"], level=[1, 2])
+    middle = np.array([[5.0, 5.0]])
+    assert names_at(mapped(source, id="code"), middle) == ["small"]
+    above = mapped(source, id="code", order="level")
+    assert names_at(above, middle) == ["large"]
+    assert any("overlap" in message and "order" in message for message in messages(above))
+
+
+def test_a_narrow_gap_is_closed_and_a_wide_one_stays():
+    source = frame([shapely.box(0, 0, 10, 10), shapely.box(10.005, 0, 20, 10), shapely.box(22, 0, 30, 10)], METRES)
+    done = mapped(source, snap=5e-4)
+    assert "" not in names_at(done, np.array([[10.0025, 5.0]]))
+    assert names_at(done, np.array([[21.0, 5.0]])) == [""]
+    assert names_at(mapped(source, snap=0.0), np.array([[10.0025, 5.0]])) == [""]
+
+
+def test_colours_of_features_change_by_their_ids_and_the_table_knows_them():
+    done = mapped(cells(20), id="code", columns=("value",))
+    texture = done.conversion.texture.with_paints({"c3": "red"})
+    assert texture.roots[0].style.names.count("c3") == 1
+    assert done.table.column_names == ["id", "code", "value"]
+    assert set(done.table["id"].to_pylist()) == set(texture.roots[0].style.names)
+
+
+def test_strokes_in_metres_have_their_width_on_the_ground_at_every_latitude():
+    lines = [shapely.LineString([(0, 0), (2, 0)]), shapely.LineString([(0, 60), (2, 60)])]
+    done = mapped(frame(lines, code=["low", "high"]), "EPSG:3857", id="code", stroke="20km")
+    north = RADIUS * np.arcsinh(np.tan(np.radians(60)))
+    rows = np.array([[100e3, 9.7e3], [100e3, 10.3e3], [100e3, north + 19.5e3], [100e3, north + 20.5e3]])
+    assert names_at(done, rows).tolist() == ["low", "", "high", ""]
+
+
+def test_strokes_and_symbols_in_pixels():
+    shapes = [shapely.LineString([(0, 0), (100, 0)]), shapely.Point(50, 50), shapely.Point(100, 100)]
+    source = frame(shapes, METRES, code=["line", "one", "two"])
+    done = mapped(source, id="code", stroke="2px", symbol_size="6px", size=100)
+    at = np.array([[30.0, 0.9], [30.0, 1.1], [52.8, 50.0], [53.2, 50.0], [97.2, 100.0]])
+    assert names_at(done, at).tolist() == ["line", "", "one", "", "two"]
+
+
+def test_a_symbol_is_drawn_from_an_svg():
+    square = vexture.read(b'<svg viewBox="0 0 1 1"><path fill="red" d="M0 0h1v1h-1z"/></svg>')
+    source = frame([shapely.Point(0, 0), shapely.Point(100, 100)], METRES, code=["a", "b"])
+    done = mapped(source, id="code", symbol=square, symbol_size="10m")
+    assert names_at(done, np.array([[4.9, 4.9], [5.1, 0.0]])).tolist() == ["a", ""]
+    assert done.conversion.drawing.paths[0].paint.hex == "#ff0000"
+
+
+def classes(values, *scale):
+    source = frame([shapely.Point(k, 0) for k in range(len(values))], METRES, v=values)
+    return colours_of(read_features(source, notes=Notes()).table, Scale("v", *scale), Notes())
+
+
+def test_classes_by_breaks_quantiles_and_equal_steps():
+    rgba, legend = classes([1.0, 10.0, 11.0, None, 99.0], "10,50")
+    assert [entry["count"] for entry in legend["entries"]] == [1, 2, 1]
+    assert legend["no_data"]["count"] == 1
+    assert (rgba[1] == rgba[2]).all()
+    assert [e["count"] for e in classes(list(range(100)), "quantiles")[1]["entries"]] == [20] * 5
+    assert [e["from"] for e in classes([0.0, 1.0, 100.0], "equal")[1]["entries"]] == pytest.approx([0, 20, 40, 60, 80])
+    assert classes(["x", "y", "x"])[1]["entries"][0] == {"color": "#e69f00", "label": "x", "count": 2}
+
+
+def test_web_mercator_ends_at_its_latitude():
+    south = frame([shapely.box(-180, -90, 180, -60), shapely.box(0, 0, 10, 10)], code=["antarctica", "land"])
+    done = mapped(south, "EPSG:3857", id="code")
+    edge = RADIUS * np.pi
+    drawing = done.conversion.drawing
+    assert drawing.to_source @ (0, 0.5 - drawing.sides[1] / 2, 1) == pytest.approx((-edge, -edge))
+    assert names_at(done, np.array([[edge - 1e5, 1e5 - edge], [5e5, 5e5]])).tolist() == ["antarctica", "land"]
+    assert any(f"{MOST_LATITUDE:.2f}" in message for message in messages(done))
+
+
+def test_a_polygon_across_the_antimeridian_stays_whole_or_is_on_both_sides():
+    fiji = shapely.Polygon([(177, -18), (-178, -18), (-178, -16), (177, -16)])
+    alone = mapped(frame([fiji]), "EPSG:3857")
+    assert alone.conversion.drawing.sides[0] == 1.0
+    assert alone.conversion.drawing.to_source[0, 0] == pytest.approx(RADIUS * np.radians(5))
+    band = shapely.segmentize(shapely.box(-179.9, 20, 179, 30), 10)
+    both = mapped(frame([fiji, band], code=["fiji", "band"]), "EPSG:3857", id="code")
+    y = -RADIUS * np.arcsinh(np.tan(np.radians(17)))
+    x = RADIUS * np.radians([-179.0, 178.5, 0.0])
+    assert names_at(both, np.stack([x, np.full(3, y)], axis=1)).tolist() == ["fiji", "fiji", ""]
+
+
+def test_a_large_polygon_and_one_in_many_parts():
+    angle = np.linspace(0, 2 * np.pi, 100_000, endpoint=False)
+    ring = np.stack([np.cos(angle), np.sin(angle)], axis=1) * (500 + 20 * np.sin(40 * angle))[:, None]
+    parts = shapely.MultiPolygon([shapely.box(k, 600, k + 1, 601) for k in range(0, 600, 3)])
+    done = mapped(frame([shapely.Polygon(ring), parts], METRES, code=["large", "parts"]), id="code")
+    assert names_at(done, np.array([[0.0, 0.0], [300.5, 600.5], [302.0, 600.5]])).tolist() == ["large", "parts", ""]
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "words"),
+    [
+        ({"where": "value > 1e9"}, SourceError, "no feature meets"),
+        ({"color": Scale("size")}, ParameterError, "no column 'size' for `color`; there are: id, code, value"),
+        ({"color": Scale("code", "continuous")}, ParameterError, "give `scale` categories"),
+        ({"color": Scale("value", "5,1")}, ParameterError, "rising breaks"),
+        ({"color": Scale("value", palette="nix")}, ParameterError, "`palette` 'nix' is unknown"),
+        ({"order": "size"}, ParameterError, "no column 'size' for `order`"),
+        ({"id": "size"}, ParameterError, "no column 'size' for `id`"),
+        ({"stroke": "wide"}, ParameterError, "500m, 2km or 1.5px"),
+        ({"fill": "reddish"}, ParameterError, "`fill` is 'reddish'"),
+        ({"layer": "roads"}, ParameterError, "no layers, so none 'roads'"),
+    ],
+)
+def test_wrong_choices_say_what_to_do(options, error, words):
+    with pytest.raises(error) as caught:
+        mapped(cells(5), **options)
+    assert words in str(caught.value)
+
+
+def test_sources_that_hold_nothing_or_too_much_say_so(monkeypatch):
+    with pytest.raises(SourceError, match="none of its features has a geometry"):
+        mapped(frame([shapely.Polygon(), None], METRES))
+    with pytest.raises(SourceError, match="give `source_crs`"):
+        mapped(cells(5).set_crs(None, allow_override=True))
+    monkeypatch.setattr("vexture.cartography.convert.MOST_PAINTS", 5)
+    with pytest.raises(LimitError, match=r"`restyle` off.*vexture tiles"):
+        mapped(cells(5))
+    assert len(mapped(cells(5), restyle=False).table) == 5
+
+
+def test_the_command_writes_texture_and_table(tmp_path):
+    cells(12).to_file(tmp_path / "cells.gpkg")
+    lines = frame([shapely.LineString([(0, 0), (900, 900)])], METRES, code=["road"])
+    lines.to_file(tmp_path / "roads.fgb")
+    arguments = ["map", str(tmp_path / "cells.gpkg"), str(tmp_path / "roads.fgb"), "-o", str(tmp_path / "m.ktx2")]
+    arguments += ["--id", "code", "--color", "value", "--color", "", "--crs", METRES, "--stroke", "20m", "--json"]
+    result = CliRunner().invoke(main, arguments)
+    assert result.exit_code == 0, result.output
+    assert '"label"' in result.output
+    assert vexture.load(tmp_path / "m.ktx2").roots[0].style.names[-1] == "road"
+    assert (tmp_path / "m.parquet").exists()
+    wrong = CliRunner().invoke(main, [*arguments, "--order", "a", "--order", "b", "--order", "c"])
+    assert wrong.exit_code == 1
+    assert "--order is given 3 times for 2 sources" in wrong.output
