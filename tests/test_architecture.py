@@ -68,6 +68,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "fold": BASE | {"drawing", "layout", "notes", "renderers", "texture"},
     "gltf": BASE | {"content", "drawing", "layout", "parameters", "pipeline", "svg", "texture"},
     "flood": BASE | {"content", "drawing", "geo", "notes", "paint", "renderers", "workers"},
+    "tiles": SOURCES | {"geo", "layout", "texture", "tree", "workers"},
     "live": SOURCES
     | {"encodings", "flood", "fold", "geo", "layout", "parameters", "pipeline", "reading"}
     | {"svg", "texture", "tree", "workers"},

@@ -50,7 +50,7 @@ def make_tiles(
     Parameters
     ----------
     source : path
-        What `vexture.geo.features.feature_batches` reads.
+        What `vexture.tiles.source.feature_batches` reads.
     output : Path
         A file ``.pmtiles``, or a folder.
     options : TileOptions
@@ -89,7 +89,7 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
     import shapely
 
     if batches is None:
-        from vexture.geo.features import feature_batches as batches
+        from vexture.tiles.source import feature_batches as batches
     notes = Notes()
     count, boxes = 0, []
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-
 from vexture.tiles.grid import MARGIN, Tile, widened
 from vexture.tiles.pieces import Pieces, joined, schema
 
@@ -138,5 +137,3 @@ def _batches(path: Path) -> Iterator[Pieces]:
     with pq.ParquetFile(path) as file:
         for number in range(file.num_row_groups):
             yield Pieces.of_table(file.read_row_group(number, use_threads=False))
-
-

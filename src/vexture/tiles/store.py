@@ -166,5 +166,7 @@ def _locked(folder: Path) -> BinaryIO | None:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
         file.close()
-        raise DeviceError(f"{folder}: another process makes this pyramid now; wait for it, or write elsewhere") from None
+        raise DeviceError(
+            f"{folder}: another process makes this pyramid now; wait for it, or write elsewhere"
+        ) from None
     return file

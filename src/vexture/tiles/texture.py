@@ -96,7 +96,9 @@ def _paths(pieces: Pieces, box: tuple[float, float, float, float], size: float) 
     return _grouped(contours, number[by_feature][owner], names)
 
 
-def _grouped(contours: list[NDArray[np.float64]], feature: NDArray[np.intp], names: NDArray[np.object_]) -> tuple[Path, ...]:
+def _grouped(
+    contours: list[NDArray[np.float64]], feature: NDArray[np.intp], names: NDArray[np.object_]
+) -> tuple[Path, ...]:
     ends = np.searchsorted(feature, np.arange(len(names)), side="right").tolist()
     starts = [0, *ends[:-1]]
     return tuple(

@@ -105,5 +105,3 @@ def _world() -> tuple[float, float, float, float]:
 
 def _cut_to_world(rings: Rings) -> Rings:
     return cut(rings, _world()) if len(rings.ends) else rings
-
-
