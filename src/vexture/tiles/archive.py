@@ -57,7 +57,7 @@ def write_archive(
             places[digest] = length
             length += contents[digest].length
         entries.append(Entry(first, places[digest], contents[digest].length, count))
-    root, leaves, _ = optimize_directories(entries, ROOT_BYTES)
+    root, leaves, _ = optimize_directories(entries, ROOT_BYTES)  # type: ignore[no-untyped-call]
     metadata = gzip.compress(json.dumps(about, separators=(",", ":")).encode(), mtime=0)
     west, south, east, north = (round(value * 1e7) for value in bounds)
     at = 127
@@ -111,7 +111,11 @@ def write_folder(
             first_of[digest] = path
             size += contents[digest].length
     version = hashlib.sha256(json.dumps(runs).encode()).hexdigest()[:16]
-    listed = {"tilejson": "3.0.0", "tiles": [f"{{z}}/{{x}}/{{y}}{PACKED_SUFFIX}?v={version}"], "vector_layers": []}
+    listed: dict[str, Any] = {
+        "tilejson": "3.0.0",
+        "tiles": [f"{{z}}/{{x}}/{{y}}{PACKED_SUFFIX}?v={version}"],
+        "vector_layers": [],
+    }
     listed |= {"minzoom": zooms[0], "maxzoom": zooms[-1], "bounds": list(bounds), **about}
     (partial / LISTED).write_text(json.dumps(listed, indent=1) + "\n")
     old = output.with_name(f".{output.name}.old{TEMPORARY}")

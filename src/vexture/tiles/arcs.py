@@ -39,7 +39,7 @@ def _nodes(corners: Corners, box: Bounds) -> NDArray[np.bool_]:
     first, last = np.divmod(np.unique(corners.sides), count)
     degree = np.bincount(first, minlength=count) + np.bincount(last, minlength=count)
     x, y = corners.points.T
-    is_node = (degree != 2) | (x <= box[0]) | (y <= box[1]) | (x >= box[2]) | (y >= box[3])
+    is_node: NDArray[np.bool_] = (degree != 2) | (x <= box[0]) | (y <= box[1]) | (x >= box[2]) | (y >= box[3])
     bare = ~np.logical_or.reduceat(is_node[corners.ids], corners.starts)
     is_node[np.minimum.reduceat(corners.ids, corners.starts)[bare]] = True
     nodes = np.add.reduceat(is_node[corners.ids].astype(np.int64), corners.starts)

@@ -174,7 +174,7 @@ def _written(store: Store, output: Path, options: TileOptions, facts: Any) -> Ma
     """Write the output."""
     runs, contents = store.tiles()
     zooms = options.pyramid.zooms
-    about = {"name": options.name or output.stem, "attribution": options.attribution}
+    about: dict[str, Any] = {"name": options.name or output.stem, "attribution": options.attribution}
     about["vexture"] = {"margin": MARGIN, "zooms": list(zooms), "tolerance": MOVES / TILE_PIXELS}
     write = write_archive if output.suffix.lower() == ARCHIVE else write_folder
     size = write(output, runs, contents, zooms, _degrees(facts["bounds"]), about)

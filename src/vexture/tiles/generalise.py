@@ -33,12 +33,18 @@ def generalised(pieces: Pieces, box: Bounds, tolerance: float, least: float) -> 
         Metres by which a border may move.
     least : float
         Square metres. A smaller polygon becomes part of the neighbour with which it shares most of its border; without
-        one it goes. Smaller holes are filled.
+        one it goes. Smaller holes are filled. With 0, all features stay.
     """
+    import shapely
+
     kept = _merged(dissolved(pieces), box, least)
     if not len(kept):
         return kept
-    return kept.with_shapes(_repaired(simplified(kept.shapes, box, tolerance, least)))
+    shapes = _repaired(simplified(kept.shapes, box, tolerance, least))
+    if least == 0.0:
+        gone = shapely.is_empty(shapes)
+        shapes[gone] = kept.shapes[gone]
+    return kept.with_shapes(shapes)
 
 
 def _repaired(shapes: NDArray[Any]) -> NDArray[Any]:

@@ -62,7 +62,7 @@ def feature_batches(
     """
     from pyogrio import raw
 
-    asked = {"layer": layer, "where": where, "columns": [] if id is None else [id], "force_2d": True}
+    asked = {"layer": layer, "where": where, "columns": [] if id is None else [id]}
     try:
         if id is not None and id not in (fields := raw_fields(source, layer)):
             raise ParameterError(f"{source}: it has no column `id` {id!r}; its columns are: {', '.join(fields)}")
@@ -89,7 +89,8 @@ def _features(batch: Any, column: str, id: str | None, own: str, first: int, not
     """Features of a batch of Arrow."""
     import shapely
 
-    shapes = shapely.from_wkb(batch.column(column).to_numpy(zero_copy_only=False), on_invalid="fix")
+    found = batch.column(column).to_numpy(zero_copy_only=False)
+    shapes = shapely.force_2d(shapely.from_wkb(found, on_invalid="fix"))
     parts, owner = shapely.get_parts(shapes, return_index=True)
     kinds = shapely.get_type_id(parts)
     while (kinds > shapely.GeometryType.POLYGON).any():

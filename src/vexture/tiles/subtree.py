@@ -7,6 +7,8 @@ import hashlib
 from dataclasses import dataclass, field
 from typing import Final
 
+import numpy as np
+
 from vexture.tiles.generalise import dissolved, generalised
 from vexture.tiles.grid import MARGIN, Tile, pixel, span, widened
 from vexture.tiles.pieces import Pieces, joined
@@ -14,13 +16,13 @@ from vexture.tiles.texture import covering, tile_texture, uniform_texture
 
 __all__ = ["Job", "Made", "Pyramid", "done"]
 
-MOVED: Final = 0.14
+MOVED: Final = 0.2
 """Pixels by which generalising may move a border at a zoom, with all that was done for higher zooms before."""
 
-LEAST: Final = 0.5
-"""Pixels across a square whose area the smallest feature has: its middle is a quarter of a pixel from its border."""
+LEAST: Final = 1.0
+"""Pixels across a square whose area the smallest feature has."""
 
-CROWDED: Final = 60_000
+CROWDED: Final = 16_000
 """Features of a tile, above which smaller ones are merged until there are fewer."""
 
 
@@ -34,7 +36,7 @@ class Pyramid:
 
     @property
     def most(self) -> int:
-        """The largest zoom, whose tiles are not generalised."""
+        """The largest zoom, whose tiles have all features."""
         return self.zooms[-1]
 
 
@@ -93,9 +95,8 @@ def _leaf(pyramid: Pyramid, tile: Tile, pieces: Pieces, made: Made) -> None:
     around = widened(tile.box, MARGIN * tile.side)
     for zoom in pyramid.zooms:
         if zoom >= tile.z:
-            detail = pieces
-            if zoom < pyramid.most:
-                detail = generalised(pieces, around, MOVED * pixel(zoom), (LEAST * pixel(zoom)) ** 2)
+            least = (LEAST * pixel(zoom)) ** 2 if zoom < pyramid.most else 0.0
+            detail = generalised(pieces, around, MOVED * pixel(zoom), least)
             _descend(detail, tile, zoom, made)
     if tile.z > 0:
         made.geometry = _at_zoom(pyramid, pieces.within(tile.box), tile, tile.box).to_bytes()
@@ -140,4 +141,4 @@ def _shifted(pieces: Pieces, by: float) -> Pieces:
 
     if by == 0.0:
         return pieces
-    return pieces.with_shapes(shapely.transform(pieces.shapes, lambda points: points + (by, 0.0)))
+    return pieces.with_shapes(shapely.transform(pieces.shapes, lambda points: points + np.array([by, 0.0])))

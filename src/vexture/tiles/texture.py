@@ -25,7 +25,7 @@ ROOT: Final = "map"
 
 GREY: Final = Paint((0.8, 0.8, 0.8))
 
-FITTED: Final = 0.1
+FITTED: Final = 0.04
 """Pixels by which the texture's curves may be off the generalised border: of the quarter that is allowed in all."""
 
 FULL: Final = 1.0 - 1e-9

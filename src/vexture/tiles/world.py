@@ -27,8 +27,8 @@ DEGREES: Final = "EPSG:4326"
 class _Place(str):
     """Name of a polygon for messages, which knows where the polygon was."""
 
-    __slots__ = ("index",)
-    index: int
+    __slots__ = ("origin",)
+    origin: int
 
 
 def in_world(features: Any, first: int, most: int, notes: Notes) -> Pieces:
@@ -38,11 +38,8 @@ def in_world(features: Any, first: int, most: int, notes: Notes) -> Pieces:
         return Pieces(np.empty(0, np.int64), np.empty(0, object), np.empty(0, object))
     refuse_far(rings, "correct it")
     rings = repaired(replace(rings, place=_placed(rings)), notes)
-    if not system(own).is_geographic:
-        rings = _in_metres(rings, own)
-    else:
-        rings = _in_degrees(rings, own, most)
-    origin = np.array([rings.place(k).index for k in range(len(rings.outer))], np.int64)  # type: ignore[attr-defined]
+    rings = _in_degrees(rings, own, most) if system(own).is_geographic else _in_metres(rings, own)
+    origin = np.array([rings.place(k).origin for k in range(len(rings.outer))], np.int64)  # type: ignore[attr-defined]
     feature = np.asarray(features.feature, np.int64)[origin]
     ids = np.asarray(features.ids, object)[feature]
     return Pieces(feature + first, ids, rings.shapes)
@@ -51,7 +48,7 @@ def in_world(features: Any, first: int, most: int, notes: Notes) -> Pieces:
 def _placed(rings: Rings) -> Any:
     def place(index: int) -> _Place:
         name = _Place(rings.place(index))
-        name.index = index
+        name.origin = index
         return name
 
     return place
