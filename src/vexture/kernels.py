@@ -24,7 +24,7 @@ __all__ = ["Kernel", "kernel", "text_digest"]
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-ABOVE = {"cli", "flood", "fold", "geo", "gltf", "live", "notebook", "svg", "tracing", "wgsl"}
+ABOVE = {"cli", "flood", "fold", "geo", "gltf", "live", "notebook", "svg", "tiles", "tracing", "wgsl"}
 """Parts of the package without kernels or constants of kernels: a change there compiles nothing again."""
 
 ONE_AT_A_TIME = threading.Lock()
