@@ -2,21 +2,15 @@
 
 import hashlib
 import json
-import os
-import signal
-import subprocess
-import sys
-import time
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 import pytest
 import shapely
 from pmtiles.reader import MmapSource, Reader, all_tiles
 from pmtiles.tile import tileid_to_zxy
+from tile_sources import batches_of, cells, write_source
 
-from tile_sources import batches_of, cells
 from vexture import ParameterError, SourceError
 from vexture.geo.crs import transformed
 from vexture.tiles.build import make_tiles
@@ -24,7 +18,6 @@ from vexture.tiles.generalise import generalised
 from vexture.tiles.grid import CRS, HALF, MARGIN, Tile, pixel, span, zooms_of
 from vexture.tiles.options import TileOptions
 from vexture.tiles.pieces import Pieces
-from vexture.tiles.store import SUFFIX
 
 BOX = (4.0, 51.0, 6.0, 53.0)
 ZOOM = 8
@@ -32,15 +25,6 @@ ZOOM = 8
 
 def pieces_of(shapes):
     return Pieces(np.arange(len(shapes)), np.array([str(k) for k in range(len(shapes))], object), np.array(shapes))
-
-
-def write_source(path, shapes, ids):
-    features = [
-        {"type": "Feature", "properties": {"parcel": name}, "geometry": shapely.geometry.mapping(shape)}
-        for name, shape in zip(ids, shapes, strict=True)
-    ]
-    path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
-    return path
 
 
 def tiles_of(path):
@@ -149,10 +133,10 @@ def test_neighbours_fit(archive):
 
 
 def test_equal_tiles_are_stored_once_and_not_one_by_one(tmp_path):
-    land = shapely.box(-170.0, -60.0, 170.0, 70.0)
+    land = shapely.segmentize(shapely.box(-170.0, -60.0, 170.0, 70.0), 30.0)
     source = write_source(tmp_path / "land.geojson", [land], ["land"])
     made = make_tiles(source, tmp_path / "land.pmtiles", TileOptions(max_zoom=6, id="parcel"))
-    assert made.tiles > 3000
+    assert made.tiles > 2000
     assert made.contents < 400
     with (tmp_path / "land.pmtiles").open("rb") as file:
         reader = Reader(MmapSource(file))
@@ -213,29 +197,6 @@ def test_borders_move_no_farther_than_the_tolerance():
         assert shapely.distance(shape.exterior, corners).max() <= 0.5 + 1e-9
 
 
-def run(*words, **more):
-    return subprocess.Popen(
-        [sys.executable, "-m", "vexture", "tiles", *map(str, words)], stderr=subprocess.PIPE, text=True, **more
-    )
-
-
-def test_a_killed_run_goes_on_and_ends_with_the_same_bytes(source, archive, tmp_path):
-    output = tmp_path / "parcels.pmtiles"
-    words = (source, "-o", output, "--max-zoom", ZOOM, "--id", "parcel", "--name", "Parcels", "--processes", "1")
-    parts = Path(f"{output}{SUFFIX}")
-    with run(*words) as process:
-        while process.poll() is None and not (parts / "journal").exists():
-            time.sleep(0.005)
-        process.send_signal(signal.SIGKILL)
-    assert not output.exists()
-    assert (parts / "parts.json").exists()
-    with run(*words) as process:
-        errors = process.stderr.read()
-    assert process.returncode == 0, errors
-    assert digest(output) == digest(archive)
-    assert not parts.exists()
-
-
 def test_what_another_source_left_is_not_used(parcels, archive, tmp_path):
     shapes, ids = parcels
     source = write_source(tmp_path / "parcels.geojson", shapes[:10], ids[:10])
@@ -249,7 +210,7 @@ def test_what_another_source_left_is_not_used(parcels, archive, tmp_path):
         make_tiles(source, output, options, stops)
     write_source(source, shapes[10:20], ids[10:20])
     make_tiles(source, output, options)
-    texture = loaded(tiles_of(output)[0, 0, 0])
+    texture = loaded(tiles_of(output)[2, 2, 1])
     assert set(texture.roots[0].style.names) <= set(ids[10:20])
 
 
@@ -296,5 +257,3 @@ def test_features_in_batches_are_numbered_through(parcels, tmp_path):
     assert {key: hashlib.sha256(data).digest() for key, data in one.items()} == {
         key: hashlib.sha256(data).digest() for key, data in other.items()
     }
-
-

@@ -1,5 +1,6 @@
 """Sources of tiles for tests: features in memory, in batches, and a file whose content stands for them."""
 
+import json
 from dataclasses import dataclass
 from typing import Any
 
@@ -42,3 +43,18 @@ def cells(count, box, seed=1):
     points = np.random.default_rng(seed).uniform(box[:2], box[2:], (count, 2))
     found = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points), extend_to=shapely.box(*box)))
     return shapely.clip_by_rect(found, *box)
+
+
+def write_source(path, shapes, ids):
+    features = [
+        {"type": "Feature", "properties": {"parcel": name}, "geometry": shapely.geometry.mapping(shape)}
+        for name, shape in zip(ids, shapes, strict=True)
+    ]
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    return path
+
+
+def write_many(path):
+    """Parcels with many points, of several parts."""
+    shapes = shapely.segmentize(cells(3000, (4.0, 51.0, 16.0, 59.0)), 0.006)
+    return write_source(path, shapes, range(len(shapes)))
