@@ -41,12 +41,14 @@ class Rings:
     `points`, (n, 2), are those of all rings, one after another, none with its first point repeated; `ends` are the
     indices after the last point of each ring. `polygon` is the index of each ring's polygon, ascending; the first ring
     of a polygon is its outer one. `place` names a polygon for messages; the name is empty if there is only one.
+    `feature`, (p,), is the feature of each polygon, which stays with it whatever is done to it; None if nobody asks.
     """
 
     points: NDArray[np.float64]
     ends: NDArray[np.intp]
     polygon: NDArray[np.intp]
     place: Callable[[int], str]
+    feature: NDArray[np.intp] | None = None
 
     @property
     def starts(self) -> NDArray[np.intp]:
@@ -94,7 +96,8 @@ class Rings:
         lengths = (self.ends - self.starts)[rings]
         points = self.points[_runs(self.starts[rings], lengths)]
         owner = np.repeat(np.arange(len(polygons)), counts)
-        return Rings(points, np.cumsum(lengths), owner, lambda index: self.place(int(polygons[index])))
+        feature = None if self.feature is None else self.feature[polygons]
+        return Rings(points, np.cumsum(lengths), owner, lambda index: self.place(int(polygons[index])), feature)
 
     def joined(self, other: "Rings") -> "Rings":
         """These polygons and then the others."""
@@ -104,6 +107,7 @@ class Rings:
             np.concatenate([self.ends, other.ends + len(self.points)]),
             np.concatenate([self.polygon, other.polygon + own]),
             lambda index: self.place(index) if index < own else other.place(index - own),
+            None if self.feature is None or other.feature is None else np.append(self.feature, other.feature),
         )
 
     @property
@@ -121,8 +125,8 @@ def _runs(starts: NDArray[np.intp], lengths: NDArray[np.intp]) -> NDArray[np.int
     return np.repeat(starts - before, lengths) + np.arange(int(lengths.sum()))
 
 
-def rings_of(polygons: NDArray[Any], place: Callable[[int], str]) -> Rings:
-    """Rings of shapely's polygons; empty polygons have none."""
+def rings_of(polygons: NDArray[Any], place: Callable[[int], str], feature: NDArray[np.intp] | None = None) -> Rings:
+    """Rings of shapely's polygons, each of a feature; empty polygons have none."""
     import shapely
 
     rings, owner = shapely.get_rings(polygons, return_index=True)
@@ -136,6 +140,7 @@ def rings_of(polygons: NDArray[Any], place: Callable[[int], str]) -> Rings:
         (ends - np.arange(1, len(rings) + 1)).astype(np.intp),
         polygon.astype(np.intp),
         lambda index: place(int(full[index])),
+        None if feature is None else feature[full],
     )
 
 
@@ -227,7 +232,8 @@ def repaired(rings: Rings, notes: Notes) -> Rings:
     pieces, owner = _polygons(np.array(made))
     for _ in range(len(broken) - len(np.unique(owner))):
         notes.left_out("polygon that encloses nothing")
-    mended = rings_of(pieces, lambda index: rings.place(int(broken[owner[index]])))
+    feature = None if rings.feature is None else rings.feature[broken[owner]]
+    mended = rings_of(pieces, lambda index: rings.place(int(broken[owner[index]])), feature)
     return rings.taken(np.flatnonzero(valid)).joined(mended)
 
 
@@ -285,8 +291,9 @@ def cut(rings: Rings, box: Bounds) -> Rings:
         return rings
     leaving = np.flatnonzero(beyond)
     pieces, owner = _polygons(shapely.clip_by_rect(rings.taken(leaving).shapes, *box))
+    feature = None if rings.feature is None else rings.feature[leaving[owner]]
     return rings.taken(np.flatnonzero(~beyond)).joined(
-        rings_of(pieces, lambda index: rings.place(int(leaving[owner[index]])))
+        rings_of(pieces, lambda index: rings.place(int(leaving[owner[index]])), feature)
     )
 
 
@@ -350,4 +357,5 @@ def shared(rings: Rings, size: float, snap: float | None, notes: Notes) -> Rings
         np.cumsum(np.diff(ends, prepend=0)[keep]).astype(np.intp),
         polygon.astype(np.intp),
         lambda index: rings.place(int(old[index])),
+        None if rings.feature is None else rings.feature[old],
     )

@@ -8,6 +8,8 @@ import os
 import warnings
 import zipfile
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
 from threading import Lock
@@ -33,7 +35,16 @@ from vexture.geo.geojson import UNLOCATED, areas_of
 from vexture.geo.rings import Rings, rings_of
 from vexture.notes import Notes
 
-__all__ = ["read_areas", "whole_shapefile"]
+__all__ = [
+    "chosen_layer",
+    "gdal_errors",
+    "gdal_reason",
+    "parsed_wkb",
+    "parts_of",
+    "read_areas",
+    "whole_shapefile",
+    "zipped_shapefiles",
+]
 
 APPLICATION: Final = slice(68, 72)
 GEOPACKAGES: Final = (b"GPKG", b"GP10", b"GP11")
@@ -72,7 +83,7 @@ def read_areas(
             raise SourceError("a shapefile is several files; give them together as a .zip")
         content = whole_shapefile(Path(source))
     elif content.startswith(ZIP):
-        content = _zipped(_members(content))
+        content = zipped_shapefiles(content)
     elif content.startswith(SQLITE):
         if content[APPLICATION] not in GEOPACKAGES:
             raise SourceError("an SQLite database, but no GeoPackage; save it as GeoPackage")
@@ -98,6 +109,11 @@ def whole_shapefile(path: Path) -> bytes:
         raise SourceError(f"its folder cannot be read: {error.strerror}; the files beside it are needed") from None
     found = {part: beside.get(path.stem.lower() + part) for part in PARTS} | {".shp": path}
     return _zipped({f"{path.stem}{part}": read_bytes(each) for part, each in found.items() if each is not None})
+
+
+def zipped_shapefiles(content: bytes) -> bytes:
+    """The shapefiles of a zip as one zip of their files only."""
+    return _zipped(_members(content))
 
 
 def _members(content: bytes) -> dict[str, bytes]:
@@ -132,21 +148,34 @@ def _gdal(content: bytes, layer: str | None, notes: Notes) -> tuple[Rings, str |
     """Polygons that GDAL reads."""
     from pyogrio import list_layers, raw
 
-    with QUIET, warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # warnings of GDAL; invalid geometries are found below
-        try:
-            name = _layer([(str(each), str(kind)) for each, kind in list_layers(content)], layer)
-            meta, _, shapes, _ = raw.read(content, layer=name, columns=[], force_2d=True)
-        except ParameterError:  # of `layer`; it is a ValueError too
-            raise
-        except (RuntimeError, ValueError, OverflowError, NameError) as error:  # the last is pyogrio's for a bad .prj
-            raise SourceError(f"GDAL cannot read it ({_reason(error)}); save it again") from None
+    with gdal_errors():
+        name = chosen_layer([(str(each), str(kind)) for each, kind in list_layers(content)], layer)
+        meta, _, shapes, _ = raw.read(content, layer=name, columns=[], force_2d=True)
     if shapes is None:
         raise SourceError(f"its layer {name!r} has no geometries; choose another by `layer`")
     return _parsed(shapes, notes), meta["crs"]
 
 
-def _reason(error: Exception) -> str:
+@contextmanager
+def gdal_errors() -> Iterator[None]:
+    """Turn what GDAL raises into a `SourceError`, and silence its warnings."""
+    with QUIET, warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # warnings of GDAL; invalid geometries are found later
+        try:
+            yield
+        except ParameterError:  # of `layer`; it is a ValueError too
+            raise
+        except (
+            RuntimeError,
+            ValueError,
+            OverflowError,
+            OSError,
+            NameError,
+        ) as error:  # the last is pyogrio's for a bad .prj
+            raise SourceError(f"GDAL cannot read it ({gdal_reason(error)}); save it again") from None
+
+
+def gdal_reason(error: Exception) -> str:
     """What GDAL says, without its internals."""
     text = " ".join(str(error).split()).rpartition("Raw error: ")[2]
     if isinstance(error, NameError):
@@ -159,10 +188,10 @@ def _reason(error: Exception) -> str:
     return text[:160]
 
 
-def _layer(layers: list[tuple[str, str]], wanted: str | None) -> str:
-    """Name of the layer to read."""
+def chosen_layer(layers: list[tuple[str, str]], wanted: str | None, *, any_kind: bool = False) -> str:
+    """Name of the layer to read: one that may hold polygons, unless `any_kind`."""
     names = [name for name, _ in layers]
-    areal = [name for name, kind in layers if any(word in kind for word in AREAL)]
+    areal = [name for name, kind in layers if any_kind or any(word in kind for word in AREAL)]
     if wanted is None:
         if len(areal) == 1 or len(names) == 1:
             return (areal or names)[0]
@@ -178,8 +207,8 @@ def _named(layers: list[str]) -> str:
     return ", ".join(layers[:MOST_NAMED]) + (", ..." if len(layers) > MOST_NAMED else "")
 
 
-def _parsed(shapes: NDArray[Any], notes: Notes) -> Rings:
-    """Polygons of geometries in WKB."""
+def parsed_wkb(shapes: NDArray[Any], notes: Notes) -> tuple[NDArray[Any], NDArray[np.intp]]:
+    """Geometries of WKB as shapely's, and the place of each; those without one are noted and left out."""
     import shapely
 
     given = np.array([shape is not None for shape in shapes], np.bool_)
@@ -191,11 +220,27 @@ def _parsed(shapes: NDArray[Any], notes: Notes) -> Rings:
     broken = shapely.is_missing(whole)
     if broken.any():
         raise SourceError(f"feature {feature[int(broken.argmax())] + 1} is damaged; save the file again")
+    return whole, feature
+
+
+def parts_of(whole: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
+    """Points, lines and polygons of geometries, and the place of the geometry of each."""
+    import shapely
+
     parts, owner = shapely.get_parts(whole, return_index=True)
-    kinds = shapely.get_type_id(parts)
-    while (kinds > shapely.GeometryType.POLYGON).any():  # collections in collections
+    while (shapely.get_type_id(parts) > shapely.GeometryType.POLYGON).any():  # collections in collections
         parts, inner = shapely.get_parts(parts, return_index=True)
-        owner, kinds = owner[inner], shapely.get_type_id(parts)
+        owner = owner[inner]
+    return parts, owner
+
+
+def _parsed(shapes: NDArray[Any], notes: Notes) -> Rings:
+    """Polygons of geometries in WKB."""
+    import shapely
+
+    whole, feature = parsed_wkb(shapes, notes)
+    parts, owner = parts_of(whole)
+    kinds = shapely.get_type_id(parts)
     areal = kinds == shapely.GeometryType.POLYGON
     for part in parts[~areal]:
         notes.left_out(part.geom_type)

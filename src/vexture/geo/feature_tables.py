@@ -1,0 +1,284 @@
+"""Tables of features as their formats have them: attributes in Arrow beside geometries in WKB, in chunks."""
+
+import json
+import os
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field, replace
+from io import BytesIO
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.content import FLATGEOBUF, LARGEST_FILE, SHAPEFILE, SQLITE, ZIP, read_bytes, start_of
+from vexture.errors import ParameterError, SourceError, shortened
+from vexture.geo.extent import Bounds
+from vexture.geo.vectors import (
+    APPLICATION,
+    GEOPACKAGES,
+    chosen_layer,
+    gdal_errors,
+    whole_shapefile,
+    zipped_shapefiles,
+)
+
+if TYPE_CHECKING:
+    import pyarrow
+
+__all__ = ["PARQUET", "Choice", "Chunk", "chunks_of"]
+
+PARQUET: Final = b"PAR1"
+WORLD: Final = "OGC:CRS84"
+"""Reference system of GeoParquet and TopoJSON that name none."""
+
+GEOMETRY: Final = ("geometry", "geom", "wkb_geometry", "wkb")
+"""Columns of Parquet without metadata that may hold geometries."""
+
+MOST_NAMED: Final = 12
+"""Columns that a message names."""
+
+REFUSALS: Final = ("Invalid SQL", "no such column", "syntax error")
+"""What GDAL says of a condition, at once or, where it is a database's, when it reads."""
+
+READ: Final = "give GeoPackage, GeoParquet, FlatGeobuf, a shapefile, GeoJSON or TopoJSON"
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What of a source is read."""
+
+    layer: str | None = None
+    where: str | None = None
+    id: str | None = None
+    columns: tuple[str, ...] | None = None
+    bounds: Bounds | None = None
+
+    def kept(self, names: list[str]) -> list[str]:
+        """The columns to read of those that there are; `ParameterError` if one is missing."""
+        for parameter, wanted in (("id", () if self.id is None else (self.id,)), ("columns", self.columns or ())):
+            for name in wanted:
+                if name not in names:
+                    shown = ", ".join(names[:MOST_NAMED]) + (", ..." if len(names) > MOST_NAMED else "")
+                    raise ParameterError(f"it has no column {name!r} for `{parameter}`; there are: {shown or 'none'}")
+        return [name for name in names if self.columns is None or name in self.columns or name == self.id]
+
+
+@dataclass(frozen=True, eq=False)
+class Chunk:
+    """Some features: attributes, geometries (WKB, or shapely's if `parsed`) and their numbers in the source."""
+
+    table: "pyarrow.Table"
+    shapes: NDArray[Any]
+    numbers: NDArray[np.int64]
+    system: str | None
+    id_column: str | None = None
+    parsed: bool = False
+    bounded: bool = False
+    """Whether bounds are applied already."""
+
+    fallback: str | None = field(default=None)
+    """Reference system of coordinates that can be degrees, where the source names none."""
+
+    def taken(self, rows: NDArray[np.intp]) -> "Chunk":
+        """Some of the rows, all of which are in bounds."""
+        part = replace(self, table=self.table.take(rows), shapes=self.shapes[rows], numbers=self.numbers[rows])
+        return replace(part, bounded=True)
+
+    def crs(self, points: NDArray[np.float64]) -> str | None:
+        """What the source says, or what its coordinates allow."""
+        if self.system or self.fallback is None:
+            return self.system
+        degrees = not len(points) or bool((np.abs(points).max(axis=0) <= (360.0, 90.0)).all())
+        return self.fallback if degrees else None
+
+
+def chunks_of(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
+    """The features of a source, at most `batch` at once, or all in one chunk."""
+    if hasattr(source, "geometry") and hasattr(source, "crs"):
+        yield from _split(_frame(source, choice), batch)
+        return
+    if not isinstance(source, str | bytes | os.PathLike):
+        raise ParameterError(f"`source` is a {type(source).__name__}; {READ}, or a GeoDataFrame")
+    if start_of(source).startswith(PARQUET):
+        yield from _parquet(source, choice, batch)
+        return
+    content, is_json = _content(source)
+    yield from _gdal(content, is_json, choice, batch)
+
+
+def _content(source: str | os.PathLike[str] | bytes) -> tuple[bytes | str, bool]:
+    """What GDAL reads: a file in memory or, of one that is too large, its place; and whether it is JSON."""
+    start = start_of(source)
+    if start.startswith((FLATGEOBUF, SQLITE)) and not isinstance(source, bytes):
+        if start.startswith(SQLITE) and start[APPLICATION] not in GEOPACKAGES:
+            raise SourceError("an SQLite database, but no GeoPackage; save it as GeoPackage")
+        if Path(source).stat().st_size > LARGEST_FILE:
+            return os.fspath(source), False
+    if start.startswith(SHAPEFILE):
+        if isinstance(source, bytes):
+            raise SourceError("a shapefile is several files; give them together as a .zip")
+        large = Path(source).stat().st_size > LARGEST_FILE
+        return (os.fspath(source) if large else whole_shapefile(Path(source))), False
+    content = read_bytes(source)
+    if content.startswith(ZIP):
+        return zipped_shapefiles(content), False
+    if content.startswith(SQLITE) and content[APPLICATION] not in GEOPACKAGES:
+        raise SourceError("an SQLite database, but no GeoPackage; save it as GeoPackage")
+    is_json = content.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{"
+    if not is_json and not content.startswith((SQLITE, FLATGEOBUF)):
+        raise SourceError(f"holds no features that can be read; {READ}")
+    return content, is_json
+
+
+def _gdal(content: bytes | str, is_json: bool, choice: Choice, batch: int | None) -> Iterator[Chunk]:
+    import pyarrow as pa
+    from pyogrio import list_layers, raw, read_info
+
+    with gdal_errors():
+        layers = [(str(name), str(kind)) for name, kind in list_layers(content) if kind is not None]
+        name = chosen_layer(layers, choice.layer, any_kind=True)
+        info = read_info(content, layer=name)
+    names = [str(each) for each in info["fields"]]
+    columns = choice.kept(names)
+    own = "id" if is_json and choice.id is None and "id" in names else choice.id
+    if own is not None and own not in columns:
+        columns.append(own)
+    options: dict[str, Any] = {"layer": name, "columns": columns, "where": choice.where, "bbox": choice.bounds}
+    options |= {"return_fids": True, "batch_size": batch or 65_536, "use_pyarrow": True}
+    topology = is_json and not info["crs"]
+    with ExitStack() as stack:
+        with _condition(choice.where, names), gdal_errors():
+            meta, reader = stack.enter_context(raw.open_arrow(content, **options))
+        of = (meta["fid_column"] or "OGC_FID", meta["geometry_name"] or "wkb_geometry", own, topology, meta["crs"])
+        while True:  # nothing of GDAL's is held while who asked works with what it got
+            with _condition(choice.where, names), gdal_errors():
+                table = (
+                    reader.read_all() if batch is None else pa.Table.from_batches([*islice(reader, 1)], reader.schema)
+                )
+            if batch is None or len(table):
+                yield _arrow_chunk(table, *of)
+            if batch is None or not len(table):
+                return
+
+
+def _arrow_chunk(
+    table: "pyarrow.Table", number: str, geometry: str, own: str | None, topology: bool, crs: str | None
+) -> Chunk:
+    """A table of GDAL."""
+    numbers = np.asarray(table.column(number).to_numpy(), np.int64)
+    shapes = _objects(table.column(geometry))
+    kept = table.drop_columns([number, geometry])
+    return Chunk(kept, shapes, numbers, crs, own, bounded=True, fallback=WORLD if topology else None)
+
+
+@contextmanager
+def _condition(where: str | None, names: list[str]) -> Iterator[None]:
+    """Say of a condition that GDAL refuses which columns there are."""
+    try:
+        yield
+    except SourceError as error:
+        if where is None or not any(sign in str(error) for sign in REFUSALS):
+            raise
+        raise ParameterError(_refused(where, names)) from None
+
+
+def _refused(where: str, names: list[str]) -> str:
+    shown = ", ".join(names[:MOST_NAMED]) + (", ..." if len(names) > MOST_NAMED else "")
+    return f"`where` {where!r} is no condition on its columns; there are: {shown or 'none'}"
+
+
+def _objects(column: Any) -> NDArray[Any]:
+    """WKB as objects, None where there is none."""
+    return np.asarray(column.to_numpy(zero_copy_only=False), object)
+
+
+def _parquet(source: Any, choice: Choice, batch: int | None) -> Iterator[Chunk]:
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    if choice.layer is not None:
+        raise ParameterError(f"GeoParquet has no layers, so none {choice.layer!r}; leave `layer` out")
+    try:
+        file = pq.ParquetFile(BytesIO(source) if isinstance(source, bytes) else os.fspath(source))
+        geometry, crs = _geometry_of(file.schema_arrow)
+        names = [name for name in file.schema_arrow.names if name != geometry]
+        columns = choice.kept(names)
+        used = names if choice.where is not None else columns  # a condition may need any of them
+        first = 0
+        wanted = [*used, geometry]
+        parts = [file.read(wanted)] if batch is None else file.iter_batches(batch_size=batch, columns=wanted)
+        for part in parts:
+            table = part if batch is None else pa.Table.from_batches([part])
+            numbers = np.arange(first, first + len(table))
+            first += len(table)
+            if choice.where is not None:
+                rows = _rows_where(table.drop_columns([geometry]), choice.where)
+                table, numbers = table.take(rows), numbers[rows]
+            yield Chunk(table.select(columns), _objects(table.column(geometry)), numbers, crs, choice.id)
+    except (pa.ArrowInvalid, OSError) as error:
+        raise SourceError(f"the Parquet file cannot be read ({shortened(str(error), 120)}); save it again") from None
+
+
+def _geometry_of(schema: Any) -> tuple[str, str | None]:
+    """The column of geometries, and their reference system; None if it is said to be unknown."""
+    metadata = (schema.metadata or {}).get(b"geo")
+    if metadata is None:
+        found = [name for name in schema.names if name.lower() in GEOMETRY]
+        if not found:
+            raise SourceError("the Parquet file has no geometries (no metadata `geo`); save it as GeoParquet")
+        return found[0], None
+    try:
+        geo = json.loads(metadata)
+        name = geo["primary_column"]
+        column = geo["columns"][name]
+        encoding, crs = column["encoding"], column.get("crs", WORLD)
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise SourceError("the metadata `geo` of the Parquet file is damaged; save it again") from None
+    if encoding != "WKB" or name not in schema.names:
+        raise SourceError(f"its geometries are {encoding!r}; save it as GeoParquet with geometries in WKB")
+    return str(name), crs if crs is None or isinstance(crs, str) else json.dumps(crs)
+
+
+def _rows_where(table: "pyarrow.Table", where: str) -> NDArray[np.intp]:
+    """Rows for which a condition in SQL holds."""
+    import duckdb
+    import pyarrow as pa
+
+    number = "__row"
+    numbered = table.append_column(number, pa.array(np.arange(len(table))))
+    with duckdb.connect(config={"enable_external_access": False}) as connection:
+        connection.register("features", numbered)
+        try:
+            found = connection.execute(f"SELECT {number} FROM features WHERE ({where})").fetchnumpy()[number]
+        except duckdb.Error:
+            raise ParameterError(_refused(where, table.column_names)) from None
+    return np.sort(np.asarray(found, np.intp))
+
+
+def _frame(frame: Any, choice: Choice) -> Chunk:
+    """A GeoDataFrame."""
+    import pyarrow as pa
+
+    if choice.layer is not None:
+        raise ParameterError(f"a GeoDataFrame has no layers, so none {choice.layer!r}; leave `layer` out")
+    geometry = frame.geometry
+    shapes = np.asarray(geometry.values, object)
+    others = frame.drop(columns=[name for name in frame.columns if str(frame[name].dtype) == "geometry"])
+    names = [str(name) for name in others.columns]
+    columns = choice.kept(names)
+    table = pa.Table.from_pandas(others, preserve_index=False)
+    rows = np.arange(len(shapes)) if choice.where is None else _rows_where(table, choice.where)
+    crs = None if frame.crs is None else str(frame.crs.to_wkt())
+    return Chunk(table.take(rows).select(columns), shapes[rows], rows.astype(np.int64), crs, choice.id, parsed=True)
+
+
+def _split(chunk: Chunk, batch: int | None) -> Iterator[Chunk]:
+    """Runs of a chunk's rows."""
+    step = batch or max(len(chunk.numbers), 1)
+    for first in range(0, max(len(chunk.numbers), 1), step):
+        rows = slice(first, first + step)
+        part = chunk.table.slice(first, step)
+        yield replace(chunk, table=part, shapes=chunk.shapes[rows], numbers=chunk.numbers[rows])

@@ -1,0 +1,245 @@
+"""Features of geographic data: polygons, lines and points with an id and attributes, whole or in batches."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.errors import ParameterError
+from vexture.geo.crs import chosen_crs, gis_packages
+from vexture.geo.extent import Bounds
+from vexture.geo.feature_tables import Choice, Chunk, chunks_of
+from vexture.geo.geojson import UNLOCATED
+from vexture.geo.rings import Rings, refuse_far, repaired, rings_of
+from vexture.geo.vectors import parsed_wkb, parts_of
+from vexture.notes import Notes
+
+if TYPE_CHECKING:
+    import pyarrow
+
+__all__ = ["BATCH", "Features", "Lines", "Points", "feature_batches", "read_features"]
+
+BATCH: Final = 65_536
+"""Features that are in memory at once when they are streamed."""
+
+Source = Any
+"""A path, the content of a file, or a GeoDataFrame."""
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """Lines: `points`, (n, 2), of all of them, the index after the last point of each, and the feature of each."""
+
+    points: NDArray[np.float64]
+    ends: NDArray[np.intp]
+    feature: NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """Places, (n, 2), and the feature of each."""
+
+    points: NDArray[np.float64]
+    feature: NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Features:
+    """Features of one layer.
+
+    Parameters
+    ----------
+    rings : Rings
+        The polygons, x, y in the units of `crs`: valid ones, each of a feature (`feature`).
+    ids : (f,) array of str
+        Each once.
+    table : pyarrow.Table
+        f rows of attributes, the column ``id`` first, without geometries.
+    crs : str
+    lines, points : Lines, Points
+        What features have of these.
+    """
+
+    rings: Rings
+    ids: NDArray[Any]
+    table: "pyarrow.Table"
+    crs: str
+    lines: Lines
+    points: Points
+
+    @property
+    def feature(self) -> NDArray[np.intp]:
+        """The feature of each polygon, (p,)."""
+        assert self.rings.feature is not None
+        return self.rings.feature
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+
+@gis_packages()
+def read_features(
+    source: Source,
+    *,
+    layer: str | None = None,
+    where: str | None = None,
+    crs: str | None = None,
+    id: str | None = None,
+    columns: Sequence[str] | None = None,
+    bounds: Bounds | None = None,
+    notes: Notes,
+) -> Features:
+    """Read the features of GeoPackage, GeoParquet, FlatGeobuf, shapefile, GeoJSON, TopoJSON or a GeoDataFrame.
+
+    Parameters
+    ----------
+    source : path, bytes or GeoDataFrame
+    layer : str, optional
+        Which one, of a file that has several.
+    where : str, optional
+        Condition in SQL on the attributes, such as ``population > 1000 AND kind = 'town'``.
+    crs : str, optional
+        Reference system of the source, if it does not say it itself.
+    id : str, optional
+        Column that identifies features; by default the format's own id, or else the feature's number, from 0.
+    columns : sequence of str, optional
+        Attributes to keep; all by default.
+    bounds : tuple of float, optional
+        West, south, east, north in units of the source: features whose boxes touch it.
+    notes : Notes
+        Gets what is left out or repaired.
+
+    Raises
+    ------
+    SourceError
+        If it cannot be read, or names no reference system.
+    ParameterError
+        If a layer, a column or the condition is unknown to it.
+    """
+    choice = Choice(layer, where, id, None if columns is None else tuple(columns), bounds)
+    (chunk,) = chunks_of(source, choice, None)
+    return _features(chunk, choice, crs, {}, notes)
+
+
+@gis_packages()
+def feature_batches(
+    source: Source,
+    *,
+    layer: str | None = None,
+    where: str | None = None,
+    crs: str | None = None,
+    id: str | None = None,
+    columns: Sequence[str] | None = None,
+    bounds: Bounds | None = None,
+    notes: Notes,
+    batch: int = BATCH,
+) -> Iterator[Features]:
+    """Read features as `read_features` does, at most `batch` at once; files in GeoJSON, TopoJSON and zips are small."""
+    if batch < 1:
+        raise ParameterError(f"`batch` is {batch}; it must be 1 or more features")
+    choice = Choice(layer, where, id, None if columns is None else tuple(columns), bounds)
+    seen: dict[str, int] = {}
+    for chunk in chunks_of(source, choice, batch):
+        yield _features(chunk, choice, crs, seen, notes)
+
+
+def _features(chunk: Chunk, choice: Choice, crs: str | None, seen: dict[str, int], notes: Notes) -> Features:
+    """Features of a chunk; `seen` counts the ids of those before it."""
+    import shapely
+
+    if chunk.parsed:
+        given = ~(shapely.is_missing(chunk.shapes) | shapely.is_empty(chunk.shapes))
+        whole, owner = chunk.shapes[given], np.flatnonzero(given)
+        for _ in range(int((~given).sum())):
+            notes.left_out(UNLOCATED)
+    else:
+        whole, owner = parsed_wkb(chunk.shapes, notes)
+    if choice.bounds is not None and not chunk.bounded:
+        west, south, east, north = choice.bounds
+        boxes = shapely.bounds(whole)
+        near = (boxes[:, 0] <= east) & (boxes[:, 2] >= west) & (boxes[:, 1] <= north) & (boxes[:, 3] >= south)
+        whole, owner = whole[near], owner[near]
+        kept, owner = np.unique(owner, return_inverse=True)
+        chunk = chunk.taken(kept)
+    parts, of = parts_of(whole)
+    kinds, feature = shapely.get_type_id(parts), owner[of].astype(np.intp)
+    ids = _ids(chunk, choice, seen, notes)
+    rings = _polygons(parts[kinds == 3], feature[kinds == 3], ids, notes)
+    lines = (kinds == shapely.GeometryType.LINESTRING) | (kinds == shapely.GeometryType.LINEARRING)
+    spots = (kinds == shapely.GeometryType.POINT) & ~shapely.is_empty(parts)
+    system = chosen_crs(crs, chunk.crs(rings.points))
+    points = Points(shapely.get_coordinates(parts[spots]), feature[spots])
+    return Features(rings, ids, _table(chunk, ids), system, _lines(parts[lines], feature[lines]), points)
+
+
+def _polygons(polygons: NDArray[Any], feature: NDArray[np.intp], ids: NDArray[Any], notes: Notes) -> Rings:
+    """Valid polygons; what was repaired is counted."""
+    import shapely
+
+    rings = rings_of(polygons, lambda index: f"feature {ids[feature[index]]}", feature)
+    refuse_far(rings, "correct it")
+    wrong = int((~shapely.is_valid(polygons)).sum())
+    if not wrong:
+        return rings
+    notes.remark(f"{wrong} of its polygons crossed or overlapped themselves and were repaired")
+    return repaired(rings, notes)
+
+
+def _lines(lines: NDArray[Any], feature: NDArray[np.intp]) -> Lines:
+    import shapely
+
+    points, owner = shapely.get_coordinates(lines, return_index=True)
+    return Lines(points, np.searchsorted(owner, np.arange(len(lines)), side="right"), feature)
+
+
+def _ids(chunk: Chunk, choice: Choice, seen: dict[str, int], notes: Notes) -> NDArray[Any]:
+    """The id of each feature as a text; one that was there before gets a number."""
+    import pyarrow as pa
+
+    if chunk.id_column is None:
+        return np.array([str(number) for number in chunk.numbers.tolist()], object)
+    column = chunk.table.column(chunk.id_column)
+    if pa.types.is_floating(column.type):
+        values = [None if v is None else str(int(v)) if v == int(v) else str(v) for v in column.to_pylist()]
+    else:
+        values = [None if value is None else str(value) for value in column.to_pylist()]
+    texts, again, none = [], 0, 0
+    for value, number in zip(values, chunk.numbers.tolist(), strict=True):
+        name = f"#{number}" if value is None or value == "" else value
+        none += name != value
+        before = seen.get(name, 0)
+        seen[name] = before + 1
+        again += before > 0
+        while before and (name := f"{value}#{before + 1}") in seen:
+            before += 1
+        if before:
+            seen[name] = 1
+        texts.append(name)
+    if none:
+        notes.remark(f"{none} features have no {chunk.id_column!r}; their ids are # and their number")
+    if again:
+        notes.remark(f"{again} features have an id that another had before; theirs end in #2, #3, ...")
+    return np.array(texts, object)
+
+
+def _table(chunk: Chunk, ids: NDArray[Any]) -> "pyarrow.Table":
+    """Attributes with the column `id` first."""
+    import pyarrow as pa
+
+    table = chunk.table
+    if "id" in table.column_names:
+        at = table.column_names.index("id")
+        same = chunk.id_column == "id"
+        table = table.remove_column(at) if same else table.rename_columns(_renamed(table.column_names))
+    others = dict(zip(table.column_names, table.columns, strict=True))
+    return pa.table({"id": pa.array(ids.tolist(), pa.string()), **others})
+
+
+def _renamed(names: list[str]) -> list[str]:
+    """Names of columns without `id`, which the features' own has."""
+    new = "id_"
+    while new in names:
+        new += "_"
+    return [new if name == "id" else name for name in names]

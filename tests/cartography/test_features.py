@@ -1,0 +1,111 @@
+"""Features of every format: the same polygons, ids and attributes; conditions, columns, bounds and batches."""
+
+import json
+
+import geopandas
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+import shapely
+
+from vexture.errors import ParameterError, SourceError
+from vexture.geo.features import feature_batches, read_features
+from vexture.notes import Notes
+
+NAMES = ["a", "b", "c", "d"]
+
+
+def squares() -> geopandas.GeoDataFrame:
+    """Four squares side by side in metres, the last with a hole."""
+    shapes = [shapely.box(k, 0, k + 1, 1) for k in range(3)]
+    shapes.append(shapely.Polygon(shapely.box(3, 0, 4, 1).exterior, [shapely.box(3.2, 0.2, 3.8, 0.8).exterior.coords]))
+    return geopandas.GeoDataFrame({"name": NAMES, "size": [1, 2, 3, 4]}, geometry=shapes, crs="EPSG:28992")
+
+
+def saved(frame, folder, kind):
+    place = folder / f"map.{kind}"
+    if kind == "parquet":
+        frame.to_parquet(place)
+    else:
+        frame.to_file(place)
+    return place
+
+
+@pytest.mark.parametrize("kind", ["gpkg", "fgb", "shp", "geojson", "parquet", "frame"])
+def test_every_format_gives_the_same_features(kind, tmp_path):
+    source = squares() if kind == "frame" else saved(squares(), tmp_path, kind)
+    found = read_features(source, id="name", notes=Notes())
+    order = np.argsort(found.ids)  # FlatGeobuf sorts by place
+    assert found.ids[order].tolist() == NAMES
+    assert found.table.column_names[0] == "id"
+    assert found.table["id"].to_pylist() == found.ids.tolist()
+    assert np.array(found.table["size"].to_pylist())[order].tolist() == [1, 2, 3, 4]
+    assert found.crs == "EPSG:28992"
+    areas = np.bincount(found.feature, shapely.area(found.rings.shapes))
+    assert np.allclose(areas[order], [1, 1, 1, 0.64])
+
+
+@pytest.mark.parametrize("kind", ["gpkg", "fgb", "shp", "geojson", "parquet", "frame"])
+def test_conditions_columns_and_bounds(kind, tmp_path):
+    source = squares() if kind == "frame" else saved(squares(), tmp_path, kind)
+    found = read_features(source, id="name", where="size >= 2 AND name <> 'd'", columns=["size"], notes=Notes())
+    assert sorted(found.ids) == ["b", "c"]
+    near = read_features(source, id="name", bounds=(2.5, 0.2, 2.7, 0.4), notes=Notes())
+    assert near.ids.tolist() == ["c"]
+    assert near.feature.tolist() == [0]
+    assert len(read_features(source, where="size > 9", notes=Notes())) == 0
+    with pytest.raises(ParameterError, match=r"`where`.*there are: name, size"):
+        read_features(source, where="width > 2", notes=Notes())
+    with pytest.raises(ParameterError, match=r"no column 'width' for `columns`"):
+        read_features(source, columns=["width"], notes=Notes())
+
+
+@pytest.mark.parametrize("kind", ["gpkg", "fgb", "geojson", "parquet", "frame"])
+def test_batches_together_are_the_whole(kind, tmp_path):
+    source = squares() if kind == "frame" else saved(squares(), tmp_path, kind)
+    parts = list(feature_batches(source, id="name", where="size > 1", batch=2, notes=Notes()))
+    assert max(map(len, parts)) <= 2
+    assert sorted(name for part in parts for name in part.ids) == ["b", "c", "d"]
+
+
+def test_ids_are_unique_and_say_what_they_were():
+    frame = squares().assign(code=["x", "x", None, "x"])
+    notes = Notes()
+    assert read_features(frame, id="code", notes=notes).ids.tolist() == ["x", "x#2", "#2", "x#3"]
+    assert [note.message for note in notes.listed] == [
+        "1 features have no 'code'; their ids are # and their number",
+        "2 features have an id that another had before; theirs end in #2, #3, ...",
+    ]
+
+
+def test_topojson_has_ids_and_degrees():
+    arcs = [[[4, 52], [4, 53], [5, 53], [4, 52]]]
+    objects = {"land": {"type": "GeometryCollection", "geometries": [{"type": "Polygon", "id": "07", "arcs": [[0]]}]}}
+    found = read_features(json.dumps({"type": "Topology", "arcs": arcs, "objects": objects}).encode(), notes=Notes())
+    assert (found.ids.tolist(), found.crs) == (["07"], "OGC:CRS84")
+
+
+def test_lines_points_empty_and_broken_geometries():
+    bow = shapely.Polygon([(0, 0), (2, 2), (2, 0), (0, 2)])
+    shapes = [shapely.LineString([(0, 0), (1, 1)]), shapely.MultiPoint([(1, 1), (2, 2)]), bow, shapely.Polygon(), None]
+    notes = Notes()
+    found = read_features(geopandas.GeoDataFrame(geometry=shapes, crs="EPSG:28992"), notes=notes)
+    assert (found.lines.feature.tolist(), found.points.feature.tolist()) == ([0], [1, 1])
+    assert shapely.area(found.rings.shapes).sum() == pytest.approx(2)
+    assert {str(note) for note in notes.listed} == {
+        "feature without geometry (2)",
+        "1 of its polygons crossed or overlapped themselves and were repaired",
+    }
+
+
+def test_a_source_without_a_reference_system_says_so(tmp_path):
+    place = saved(squares().set_crs(None, allow_override=True), tmp_path, "parquet")
+    with pytest.raises(SourceError, match=r"names no reference system.*`crs`"):
+        read_features(place, notes=Notes())
+    assert read_features(place, crs="EPSG:28992", notes=Notes()).crs == "EPSG:28992"
+
+
+def test_parquet_without_geometries_says_so(tmp_path):
+    pq.write_table(read_features(squares(), notes=Notes()).table, tmp_path / "a.parquet")
+    with pytest.raises(SourceError, match="no geometries"):
+        read_features(tmp_path / "a.parquet", notes=Notes())
