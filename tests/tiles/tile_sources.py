@@ -15,17 +15,15 @@ class Batch:
     """As much of `vexture.geo.features.Features` as tiles need."""
 
     rings: Any
-    feature: Any
     ids: Any
     crs: str = "EPSG:4326"
-    table: Any = None
 
 
 def batch_of(shapes, ids, crs="EPSG:4326"):
     """Features of shapely's polygons and multipolygons."""
     parts, owner = shapely.get_parts(np.asarray(shapes, object), return_index=True)
-    rings = rings_of(parts, lambda index: f"feature {owner[index] + 1}")
-    return Batch(rings, owner.astype(np.intp), np.asarray(ids, object), crs)
+    rings = rings_of(parts, lambda index: f"feature {owner[index] + 1}", owner.astype(np.intp))
+    return Batch(rings, np.asarray(ids, object), crs)
 
 
 def batches_of(shapes, ids, crs="EPSG:4326", size=1000):
@@ -50,7 +48,7 @@ def write_source(path, shapes, ids):
         {"type": "Feature", "properties": {"parcel": name}, "geometry": shapely.geometry.mapping(shape)}
         for name, shape in zip(ids, shapes, strict=True)
     ]
-    path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    path.write_text(json.dumps({"type": "FeatureCollection", "name": "parcels", "features": features}))
     return path
 
 

@@ -23,7 +23,9 @@ def simplified(shapes: NDArray[Any], box: Bounds, tolerance: float, least: float
     rolled = _rolled(corners, is_node)
     index, arc, backwards, ring = _arcs(corners, rolled, is_node)
     lines = shapely.linestrings(corners.points[corners.ids[index]], indices=arc)
-    points, line = shapely.get_coordinates(shapely.simplify(lines, tolerance, preserve_topology=False), return_index=True)
+    points, line = shapely.get_coordinates(
+        shapely.simplify(lines, tolerance, preserve_topology=False), return_index=True
+    )
     counts = np.bincount(line, minlength=len(lines))
     starts = np.cumsum(counts) - counts
     step = np.arange(len(points)) - starts[line]

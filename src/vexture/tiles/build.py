@@ -50,7 +50,7 @@ def make_tiles(
     Parameters
     ----------
     source : path
-        What `vexture.tiles.source.feature_batches` reads.
+        What `vexture.geo.features.feature_batches` reads.
     output : Path
         A file ``.pmtiles``, or a folder.
     options : TileOptions
@@ -89,13 +89,13 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
     import shapely
 
     if batches is None:
-        from vexture.tiles.source import feature_batches as batches
+        from vexture.geo.features import feature_batches as batches
     notes = Notes()
     count, boxes = 0, []
 
     def pieces() -> Iterator[Pieces]:
         nonlocal count
-        for features in batches(source, **options.reading, notes=notes):
+        for features in batches(source, **options.reading, columns=[], notes=notes):
             found = in_world(features, count, options.max_zoom, notes)
             count += len(features.ids)
             told("reading features", count, 0)

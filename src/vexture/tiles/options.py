@@ -24,7 +24,7 @@ class TileOptions:
     step : int
         2 or 3: zooms from one level to the next.
     layer, where, id, crs : str or None
-        Of the source, as `vexture.tiles.source.feature_batches` has them.
+        Of the source, as `vexture.geo.features.feature_batches` has them.
     name, attribution : str
         Told in the metadata.
     processes : int

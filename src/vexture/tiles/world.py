@@ -1,6 +1,5 @@
 """Polygons of features in the world's square: projected, cut at its borders, repeated where it begins again."""
 
-from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -24,34 +23,17 @@ BEYOND: Final = 2.0 * MARGIN
 DEGREES: Final = "EPSG:4326"
 
 
-class _Place(str):
-    """Name of a polygon for messages, which knows where the polygon was."""
-
-    __slots__ = ("origin",)
-    origin: int
-
-
 def in_world(features: Any, first: int, most: int, notes: Notes) -> Pieces:
     """Pieces of a batch of features, which are numbered from `first`, for tiles up to a zoom."""
     rings, own = features.rings, features.crs
     if not len(rings.ends):
         return Pieces(np.empty(0, np.int64), np.empty(0, object), np.empty(0, object))
     refuse_far(rings, "correct it")
-    rings = repaired(replace(rings, place=_placed(rings)), notes)
+    rings = repaired(rings, notes)
     rings = _in_degrees(rings, own, most) if system(own).is_geographic else _in_metres(rings, own)
-    origin = np.array([rings.place(k).origin for k in range(len(rings.outer))], np.int64)  # type: ignore[attr-defined]
-    feature = np.asarray(features.feature, np.int64)[origin]
+    feature = np.asarray(rings.feature, np.int64)
     ids = np.asarray(features.ids, object)[feature]
     return Pieces(feature + first, ids, rings.shapes)
-
-
-def _placed(rings: Rings) -> Any:
-    def place(index: int) -> _Place:
-        name = _Place(rings.place(index))
-        name.origin = index
-        return name
-
-    return place
 
 
 def _in_degrees(rings: Rings, own: str, most: int) -> Rings:
