@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 from PIL import Image
 
 import vexture
@@ -85,6 +86,20 @@ def test_the_guide_for_notebooks_does_what_it_says(tmp_path: Path) -> None:
     with Image.open(folder / "harbour.png") as image:
         assert image.size == (640, 260)
     assert (folder / "harbour.html").read_bytes().startswith(b"<!doctype html>")
+
+
+def test_the_guide_for_tiles_does_what_it_says(tmp_path: Path) -> None:
+    """But for installing, and for the cluster, which `tests/tiles` has."""
+    pytest.importorskip("pmtiles", reason="pmtiles is not installed (pip install 'vexture[map]')")
+    folder = tmp_path / "run"
+    folder.mkdir()
+    with Reader(folder) as reader:
+        for block in blocks_of("tiles"):
+            reader.take(block)
+    assert (folder / "parcels.pmtiles").read_bytes().startswith(b"PMTiles\3")
+    assert not (folder / "parcels.pmtiles.parts").exists()
+    composed = yaml.safe_load((ROOT / "examples" / "cluster" / "compose.yaml").read_text(encoding="utf-8"))
+    assert set(composed["services"]) == {"scheduler", "worker"}
 
 
 @pytest.mark.usefixtures("page_is_built")
