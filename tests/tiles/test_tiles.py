@@ -184,6 +184,16 @@ def test_small_features_become_part_of_neighbours():
     assert shapely.area(found.shapes).sum() == pytest.approx(whole.area, rel=1e-6)
 
 
+def test_a_ring_that_touches_itself_may_vanish():
+    """A long loop and a tiny one that share a corner, in one ring: nothing but a side back and forth is left."""
+    tiny, large = [(0.0, 0.0), (0.1, 0.1), (0.0, 0.1)], [(0.0, 0.0), (-3.0, 0.3), (-3.0, -0.3)]
+    shape = shapely.Polygon([*tiny, *large, (0.0, 0.0)])
+    far = shapely.box(10.0, 10.0, 20.0, 20.0)
+    found = generalised(pieces_of([shape, far]), (-50.0, -50.0, 50.0, 50.0), 1.0, 0.001)
+    assert shapely.area(found.shapes).max() == pytest.approx(100.0)
+    assert len(Pieces.of_bytes(found.to_bytes())) == len(found)
+
+
 def test_borders_move_no_farther_than_the_tolerance():
     angle = np.linspace(0.0, 2.0 * np.pi, 4000, endpoint=False)
     radius = 100.0 + np.cumsum(np.random.default_rng(5).normal(0.0, 0.05, len(angle)))
@@ -203,8 +213,9 @@ def test_what_another_source_left_is_not_used(parcels, archive, tmp_path):
     output = tmp_path / "parcels.pmtiles"
     options = TileOptions(max_zoom=2, id="parcel")
 
-    def stops(*_):
-        raise KeyboardInterrupt
+    def stops(what, *_):
+        if what == "parts":
+            raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         make_tiles(source, output, options, stops)

@@ -96,6 +96,8 @@ def _polygons(
     """Polygons of rings: without rings that enclose nothing, and small holes; `ring` is that of each point."""
     import shapely
 
+    fresh = _fresh(points, ring)
+    points, ring = points[fresh], ring[fresh]
     lengths = np.bincount(ring, minlength=len(polygon))
     outer = np.diff(polygon, prepend=-1) != 0
     sound = lengths >= 3
@@ -118,3 +120,12 @@ def _polygons(
         rings, indices=np.unique(polygon[sound], return_inverse=True)[1]
     )
     return shapes
+
+
+def _fresh(points: NDArray[np.float64], ring: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Points that are elsewhere than the one after them in their ring: a ring that touched itself may repeat some."""
+    starts = np.flatnonzero(np.diff(ring, prepend=-1))
+    following = np.arange(1, len(points) + 1)
+    following[np.append(starts[1:], len(points)) - 1] = starts
+    fresh: NDArray[np.bool_] = (points != points[following]).any(axis=1)
+    return fresh
