@@ -16,7 +16,7 @@ from vexture.tiles.texture import covering, tile_texture, uniform_texture
 
 __all__ = ["Job", "Made", "Pyramid", "done"]
 
-MOVED: Final = 0.2
+MOVED: Final = 0.24
 """Pixels by which generalising may move a border at a zoom, with all that was done for higher zooms before."""
 
 LEAST: Final = 1.0

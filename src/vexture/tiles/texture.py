@@ -13,20 +13,17 @@ from vexture.layout import MOST_PAINTS
 from vexture.paint import Paint
 from vexture.texture.encode import encode
 from vexture.texture.root import Root
-from vexture.tiles.grid import CRS, MARGIN, TILE_PIXELS, Tile, widened
+from vexture.tiles.grid import CRS, MARGIN, Tile, widened
 from vexture.tiles.pieces import Pieces
 from vexture.tree.planar.build import build_map
 from vexture.tree.planar.style import style_of
 
-__all__ = ["FITTED", "GREY", "ROOT", "covering", "tile_texture", "uniform_texture"]
+__all__ = ["GREY", "ROOT", "covering", "tile_texture", "uniform_texture"]
 
 ROOT: Final = "map"
 """Name of the map of polygons in each tile."""
 
 GREY: Final = Paint((0.8, 0.8, 0.8))
-
-FITTED: Final = 0.04
-"""Pixels by which the texture's curves may be off the generalised border: of the quarter that is allowed in all."""
 
 FULL: Final = 1.0 - 1e-9
 """Part of a tile's square that a polygon covers which covers all of it, but for rounding."""
@@ -58,22 +55,22 @@ def tile_texture(pieces: Pieces, tile: Tile) -> bytes:
     box = square_of(tile)
     size = box[2] - box[0]
     to_source = np.array([[size, 0.0, box[0]], [0.0, size, box[1]]])
-    tolerance = FITTED / (TILE_PIXELS * (1.0 + 2.0 * MARGIN))
-    return _written(Drawing(_paths(pieces, box, size), to_source, ROOT, CRS), tolerance)
+    return _written(Drawing(_paths(pieces, box, size), to_source, ROOT, CRS))
 
 
 def uniform_texture(feature: str) -> bytes:
     """File of the texture of a tile in which one feature is everywhere: it names no place, so that all are equal."""
     corners = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
     square = line_cubics(corners, np.roll(corners, -1, axis=0))
-    return _written(Drawing((Path((square,), paint=GREY, element=feature),), IDENTITY.copy(), ROOT), 0.0)
+    return _written(Drawing((Path((square,), paint=GREY, element=feature),), IDENTITY.copy(), ROOT))
 
 
-def _written(drawing: Drawing, tolerance: float) -> bytes:
-    planar = build_map(drawing, tolerance=tolerance, restyle=True)
+def _written(drawing: Drawing) -> bytes:
+    # borders are simplified already, and to merge more of their sides into curves would take twice as long
+    planar = build_map(drawing, restyle=True)
     assert planar is not None
     style = style_of(drawing, planar)
-    root = Root(ROOT, 0, drawing.to_source, tolerance, drawing.crs, style=style)
+    root = Root(ROOT, 0, drawing.to_source, crs=drawing.crs, style=style)
     return encode([planar], [root], name=ROOT).to_ktx2()
 
 
