@@ -12,7 +12,12 @@ from hypothesis import HealthCheck, settings
 TESTS = Path(__file__).parent
 
 # the benchmarks are scripts beside the package; they find each other in their own folder; so do helpers of tests
-sys.path[:0] = [str(TESTS.parent / "evidence" / "benchmarks"), str(TESTS / "live"), str(TESTS / "flood")]
+sys.path[:0] = [
+    str(TESTS.parent / "evidence" / "benchmarks"),
+    str(TESTS / "live"),
+    str(TESTS / "flood"),
+    str(TESTS / "tiles"),
+]
 
 WEB = Path(__file__).parent / "web"
 

@@ -69,10 +69,11 @@ MAY_IMPORT: dict[str, set[str]] = {
     "gltf": BASE | {"content", "drawing", "layout", "parameters", "pipeline", "svg", "texture"},
     "cartography": SOURCES | {"geo", "layout", "pipeline", "reading", "svg"},
     "flood": BASE | {"content", "drawing", "geo", "notes", "paint", "renderers", "workers"},
+    "tiles": SOURCES | {"geo", "layout", "texture", "tree", "workers"},
     "live": SOURCES
     | {"encodings", "flood", "fold", "geo", "layout", "parameters", "pipeline", "reading"}
     | {"svg", "texture", "tree", "workers"},
-    "notebook": SOURCES | {"geo", "live", "pipeline", "reading", "renderers", "svg", "texture", "tree"},
+    "notebook": SOURCES | {"cartography", "geo", "live", "pipeline", "reading", "renderers", "svg", "texture", "tree"},
 }
 """What each part may import besides itself, wherever in a module; `cli` and the public face stand above all."""
 

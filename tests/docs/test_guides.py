@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 from PIL import Image
 
 import vexture
@@ -99,6 +100,20 @@ def test_the_guide_for_maps_does_what_it_says(tmp_path: Path) -> None:
     assert [entry["label"] for entry in legend[0]["entries"]] == ["farm", "lake", "town"]
     assert sorted(vexture.load(folder / "both.ktx2").roots[0].style.names) == ["A4", "D", "N", "W"]
     assert (folder / "land.parquet").is_file()
+
+
+def test_the_guide_for_tiles_does_what_it_says(tmp_path: Path) -> None:
+    """But for installing, and for the cluster, which `tests/tiles` has."""
+    pytest.importorskip("pmtiles", reason="pmtiles is not installed (pip install 'vexture[map]')")
+    folder = tmp_path / "run"
+    folder.mkdir()
+    with Reader(folder) as reader:
+        for block in blocks_of("tiles"):
+            reader.take(block)
+    assert (folder / "parcels.pmtiles").read_bytes().startswith(b"PMTiles\3")
+    assert not (folder / "parcels.pmtiles.parts").exists()
+    composed = yaml.safe_load((ROOT / "examples" / "cluster" / "compose.yaml").read_text(encoding="utf-8"))
+    assert set(composed["services"]) == {"scheduler", "worker"}
 
 
 @pytest.mark.usefixtures("page_is_built")

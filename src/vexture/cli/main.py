@@ -18,7 +18,7 @@ COMMANDS: Final = {
     name: f"vexture.cli.{name}"
     for name in (
         *("convert", "text", "font", "render", "info", "restyle", "view", "export", "serve", "push", "flood", "fold"),
-        *("gltf", "map"),
+        *("gltf", "map", "tiles"),
     )
 }
 """Module of each command; it is imported when the command is used or listed."""

@@ -1,0 +1,75 @@
+"""The command `tiles`."""
+
+import os
+import sys
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vexture.cli.messages import one_line, say_notes
+from vexture.cli.options import PATH
+from vexture.errors import counted
+
+if TYPE_CHECKING:
+    from vexture.tiles.build import Told
+
+__all__ = ["tiles"]
+
+EXAMPLE = """\b
+Examples:
+  vexture tiles land.gpkg -o land.pmtiles
+  vexture tiles parcels.fgb --id parcel --max-zoom 14 -o parcels.pmtiles
+  vexture tiles parcels.fgb -o parcels --scheduler tcp://10.0.0.7:8786
+"""
+
+
+@click.command(epilog=EXAMPLE)
+@click.argument("source", metavar="SOURCE", type=PATH)
+@click.option("-o", "--output", metavar="FILE.pmtiles|DIR", type=PATH, required=True, help="File or folder to write.")
+@click.option("--max-zoom", metavar="Z", type=int, default=12, show_default=True, help="Largest zoom of tiles.")
+@click.option("--min-zoom", metavar="Z", type=int, default=0, show_default=True, help="Smallest zoom of tiles.")
+@click.option("--step", metavar="N", type=int, default=2, show_default=True, help="Zooms between levels: 2 or 3.")
+@click.option("--layer", metavar="NAME", help="Layer of polygons, if there are several.")
+@click.option("--where", metavar="CONDITION", help="Only features for which this holds, such as \"kind = 'forest'\".")
+@click.option("--id", metavar="COLUMN", help="Column with the ids of features.  [default: their numbers]")
+@click.option("--crs", metavar="EPSG:N", help="Reference system of the source, if its file does not say it.")
+@click.option("--name", metavar="TEXT", default="", help="Name of the map.  [default: the output's name]")
+@click.option("--attribution", metavar="TEXT", default="", help="Where the data are from.")
+@click.option("--processes", metavar="N", type=int, help="Processes that share the work.  [default: one a core]")
+@click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler whose workers do the work.")
+@click.option("-q", "--quiet", is_flag=True, help="Print errors only.")
+def tiles(source: Path, output: Path, processes: int | None, quiet: bool, **options: Any) -> None:
+    """Make a pyramid of tiles of a map's polygons: one file (PMTiles), or a folder with a TileJSON.
+
+    Each tile is a texture that is sharp far beyond its own zoom. Who is interrupted, or killed, goes on where it was
+    when the same command runs again.
+    """
+    with one_line():
+        from vexture.tiles.build import make_tiles
+        from vexture.tiles.options import TileOptions
+
+        asked = TileOptions(processes=processes or os.cpu_count() or 1, **options)
+        with ExitStack() as opened:
+            made = make_tiles(source, output, asked, _progress(opened, quiet))
+        if not quiet:
+            say_notes(source, made.notes)
+            found = f"{counted(made.features, 'feature')}, {counted(made.tiles, 'tile')}"
+            click.echo(f"{output}: {found}, {made.contents} of them different, {made.bytes} bytes")
+
+
+def _progress(opened: ExitStack, quiet: bool) -> "Told":
+    """What hears how far the work is; a terminal shows it."""
+    if quiet or not sys.stderr.isatty():
+        return lambda *_: None
+    from rich.console import Console
+    from rich.progress import Progress
+
+    progress = opened.enter_context(Progress(console=Console(stderr=True), transient=True))
+    task = progress.add_task("tiles", total=None)
+
+    def told(what: str, number: int, count: int) -> None:
+        progress.update(task, description=what, completed=number, total=count or None)
+
+    return told

@@ -1,0 +1,189 @@
+"""A pyramid of tiles: from a source to one file or a folder."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from math import atan, degrees, exp, pi
+from pathlib import Path
+from typing import Any, Final
+
+from vexture.errors import SourceError
+from vexture.geo.extent import Bounds
+from vexture.notes import Note, Notes
+from vexture.texture.files import writable
+from vexture.tiles.archive import ARCHIVE, check_target, write_archive, write_folder
+from vexture.tiles.grid import HALF, MARGIN, TILE_PIXELS, Tile
+from vexture.tiles.options import TileOptions, digest_of
+from vexture.tiles.partitions import Part, partitioned
+from vexture.tiles.pieces import Pieces
+from vexture.tiles.store import SUFFIX, Store
+from vexture.tiles.subtree import Job, done
+from vexture.tiles.world import in_world
+
+__all__ = ["VERSION", "MadeTiles", "make_tiles"]
+
+VERSION: Final = 1
+"""Of what is kept of unfinished pyramids; what another one wrote is not used."""
+
+MOVES: Final = 0.25
+"""Pixels: what a border is off at most, at the zoom of its tile."""
+
+Told = Callable[[str, int, int], None]
+"""Hears what is done, how much of it, and of how much; 0 if nobody knows."""
+
+
+@dataclass(frozen=True)
+class MadeTiles:
+    """What was made."""
+
+    tiles: int
+    contents: int
+    bytes: int
+    features: int
+    notes: tuple[Note, ...]
+
+
+def make_tiles(
+    source: Any, output: Path, options: TileOptions, told: Told = lambda *_: None, batches: Any = None
+) -> MadeTiles:
+    """Make the pyramid of a source, as PMTiles or a folder.
+
+    Parameters
+    ----------
+    source : path
+        What `vexture.geo.features.feature_batches` reads.
+    output : Path
+        A file ``.pmtiles``, or a folder.
+    options : TileOptions
+    told : callable
+        Hears how far the work is.
+    batches : callable or None
+        Makes an iterator of the source's features, in place of that function.
+
+    Raises
+    ------
+    SourceError
+        If the source cannot be read, or has no polygons.
+    DeviceError
+        If the output cannot be written, or who shall do the work is not there.
+    """
+    check_target(output)
+    writable(output.parent)
+    key = {"version": VERSION, "source": digest_of(Path(source)), **options.key}
+    store = Store(output.with_name(output.name + SUFFIX), key)
+    try:
+        facts = store.read_parts() or _read(source, store, options, told, batches)
+        if facts["bounds"] is None:
+            store.remove()
+            raise SourceError(f"{source}: it has no polygon in the tiles' projection; give polygons")
+        parts = [Part(Tile(*tile), weight) for *tile, weight in facts["parts"]]
+        _work(store, parts, options, told)
+        made = _written(store, output, options, facts)
+    finally:
+        store.close()
+    store.remove()
+    return made
+
+
+def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: Any) -> Any:
+    """Part the source, and return what is known of it."""
+    import shapely
+
+    if batches is None:
+        from vexture.geo.features import feature_batches as batches
+    notes = Notes()
+    count, boxes = 0, []
+
+    def pieces() -> Iterator[Pieces]:
+        nonlocal count
+        for features in batches(source, **options.reading, columns=[], notes=notes):
+            found = in_world(features, count, options.max_zoom, notes)
+            count += len(features.ids)
+            told("reading features", count, 0)
+            if len(found):
+                boxes.append(shapely.total_bounds(found.shapes))
+                yield found
+
+    parts = partitioned(pieces(), store.sources, options.max_zoom, options.step)
+    box = shapely.total_bounds(shapely.box(*zip(*boxes, strict=True))).tolist() if boxes else None
+    facts = {"parts": [[*part.tile, part.weight] for part in parts], "bounds": box, "features": count}
+    facts["notes"] = [[note.kind, note.message, note.count] for note in notes.listed]
+    store.write_parts(facts)
+    return facts
+
+
+def _work(store: Store, parts: list[Part], options: TileOptions, told: Told) -> None:
+    """Do all the work that is not done: first the parts, then zoom by zoom the geometry and the tiles."""
+    leaves = {part.tile for part in parts}
+
+    def leaf(tile: Tile) -> Job:
+        return Job("leaf", tile, ((store.sources / f"{tile.name}.parquet").read_bytes(),))
+
+    _all(store, "leaf", [part.tile for part in sorted(parts, key=lambda part: -part.weight)], leaf, options, told)
+    for zoom in sorted((z for z in options.pyramid.coarse if z < max(tile.z for tile in leaves)), reverse=True):
+        inner = sorted({tile.parent(zoom) for tile in leaves if tile.z > zoom})
+
+        def join(tile: Tile) -> Job:
+            names = [_kept(store, part) for part in tile.below(options.step)]
+            return Job("join", tile, tuple(store.geometry(name) for name in names if name))
+
+        _all(store, "join", inner, join, options, told)
+
+        def one(tile: Tile) -> Job:
+            around = [(tile, 0.0), *tile.around()]
+            found = [(data, shift) for each, shift in around if (data := _around(store, leaves, each))]
+            return Job("tile", tile, tuple(data for data, _ in found), tuple(shift for _, shift in found))
+
+        if zoom >= options.min_zoom:
+            _all(store, "tile", inner, one, options, told)
+
+
+def _kept(store: Store, tile: Tile) -> str | None:
+    """Name of the work that made the geometry of a tile; None if nothing is there."""
+    return next((name for kind in ("leaf", "join") if store.has(name := f"{kind}-{tile.name}")), None)
+
+
+def _around(store: Store, leaves: set[Tile], tile: Tile) -> bytes | None:
+    """Geometry that holds a tile: its own, or the source in the part in which it lies."""
+    if name := _kept(store, tile):
+        data = store.geometry(name)
+        if data:
+            return data
+    for zoom in range(tile.z, -1, -1):
+        if (part := tile.parent(zoom)) in leaves:
+            return (store.sources / f"{part.name}.parquet").read_bytes()
+    return None
+
+
+def _all(
+    store: Store, kind: str, tiles: list[Tile], job: Callable[[Tile], Job], options: TileOptions, told: Told
+) -> None:
+    """Do all work of a kind that is not done."""
+    missing = [tile for tile in tiles if not store.has(f"{kind}-{tile.name}")]
+    before = len(tiles) - len(missing)
+    made = options.who().map(done, options.pyramid, (job(tile) for tile in missing), len(missing))
+    for number, (tile, found) in enumerate(zip(missing, made, strict=True), before + 1):
+        store.add(f"{kind}-{tile.name}", found)
+        told(WORDS[kind], number, len(tiles))
+
+
+WORDS: Final = {"leaf": "parts", "join": "generalising", "tile": "tiles"}
+"""Kinds of work, for people."""
+
+
+def _written(store: Store, output: Path, options: TileOptions, facts: Any) -> MadeTiles:
+    """Write the output."""
+    runs, contents = store.tiles()
+    zooms = options.pyramid.zooms
+    about: dict[str, Any] = {"name": options.name or output.stem, "attribution": options.attribution}
+    about["vexture"] = {"margin": MARGIN, "zooms": list(zooms), "tolerance": MOVES / TILE_PIXELS}
+    write = write_archive if output.suffix.lower() == ARCHIVE else write_folder
+    size = write(output, runs, contents, zooms, _degrees(facts["bounds"]), about)
+    notes = tuple(Note(*note) for note in facts["notes"])
+    return MadeTiles(sum(count for _, count, _ in runs), len(contents), size, facts["features"], notes)
+
+
+def _degrees(box: list[float]) -> Bounds:
+    """West, south, east, north in degrees, within the world."""
+    west, south, east, north = (min(max(value, -HALF), HALF) / HALF * pi for value in box)
+    low, high = (degrees(2.0 * atan(exp(y)) - pi / 2.0) for y in (south, north))
+    return (degrees(west), low, degrees(east), high)

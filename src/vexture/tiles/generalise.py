@@ -1,0 +1,128 @@
+"""Generalising: what is smaller than a part of a pixel goes, and what two polygons share stays shared.
+
+Borders are cut where three meet into *arcs*, and each arc is simplified once. What lies on the sides of the box stays
+where it is, so that pieces of one feature in boxes side by side still fit.
+"""
+
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.geo.extent import Bounds
+from vexture.tiles.arcs import simplified
+from vexture.tiles.neighbours import shared_lengths
+from vexture.tiles.pieces import Pieces, joined
+
+__all__ = ["dissolved", "generalised"]
+
+MOST_ROUNDS: Final = 32
+"""In each of them, small polygons become part of larger ones beside them."""
+
+
+def generalised(pieces: Pieces, box: Bounds, tolerance: float, least: float) -> Pieces:
+    """Polygons for pixels of some size.
+
+    Parameters
+    ----------
+    pieces : Pieces
+        Polygons within the box.
+    box : tuple of float
+        What touches its sides goes on beyond.
+    tolerance : float
+        Metres by which a border may move.
+    least : float
+        Square metres. A smaller polygon becomes part of the neighbour with which it shares most of its border; without
+        one it goes. Smaller holes are filled. With 0, all features stay.
+    """
+    import shapely
+
+    kept = _merged(dissolved(pieces), box, least)
+    if not len(kept):
+        return kept
+    shapes = _repaired(simplified(kept.shapes, box, tolerance, least))
+    if least == 0.0:
+        gone = shapely.is_empty(shapes)
+        shapes[gone] = kept.shapes[gone]
+    return kept.with_shapes(shapes)
+
+
+def _repaired(shapes: NDArray[Any]) -> NDArray[Any]:
+    """The polygons; those whose rings cross are valid then."""
+    import shapely
+
+    broken = np.flatnonzero(~shapely.is_valid(shapes))
+    if len(broken):
+        shapes[broken] = shapely.make_valid(shapes[broken], method="structure", keep_collapsed=False)
+    return shapes
+
+
+def dissolved(pieces: Pieces) -> Pieces:
+    """Polygons of which those of one feature do not touch."""
+    return _united(pieces, np.unique(pieces.order, return_inverse=True)[1])
+
+
+def _united(pieces: Pieces, group: NDArray[np.intp]) -> Pieces:
+    """One shape for each group of pieces; it is of the feature of the group's first piece."""
+    import shapely
+
+    if not len(pieces):
+        return pieces
+    order = np.argsort(group, kind="stable")
+    starts = np.flatnonzero(np.diff(group[order], prepend=-1))
+    counts = np.diff(np.append(starts, len(order)))
+    first = order[starts]
+    shapes = pieces.shapes[first].copy()
+    for place in np.flatnonzero(counts > 1).tolist():
+        members = order[starts[place] : starts[place] + counts[place]]
+        shapes[place] = shapely.union_all(pieces.shapes[members])
+    return pieces.taken(first).with_shapes(shapes)
+
+
+def _merged(pieces: Pieces, box: Bounds, least: float) -> Pieces:
+    """Without polygons that are too small: they are part of a neighbour, or gone."""
+    import shapely
+
+    if not len(pieces):
+        return pieces
+    area = shapely.area(pieces.shapes)
+    bounds = shapely.bounds(pieces.shapes).reshape(-1, 4)
+    inside = (bounds[:, :2] > box[:2]).all(axis=1) & (bounds[:, 2:] < box[2:]).all(axis=1)
+    if not (inside & (area < least)).any():
+        return pieces
+    label, whole, goes_on = _labels(pieces.shapes, area, ~inside, least)
+    stays = ((whole >= least) | goes_on)[label]
+    sizes = np.bincount(label, minlength=len(label))[label]
+    several = np.flatnonzero(stays & (sizes > 1))
+    several = several[np.argsort(label[several] != several, kind="stable")]  # whose feature it is comes first
+    groups = np.unique(label[several], return_inverse=True)[1]
+    return joined([pieces.taken(stays & (sizes == 1)), _united(pieces.taken(several), groups)])
+
+
+def _labels(
+    shapes: NDArray[Any], area: NDArray[np.float64], goes_on: NDArray[np.bool_], least: float
+) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.bool_]]:
+    """The polygon that each becomes part of, or itself; their areas then, and which of them touch the box."""
+    one, other, length = shared_lengths(shapes)
+    label, whole, goes_on = np.arange(len(shapes)), area.copy(), goes_on.copy()
+    for _ in range(MOST_ROUNDS):
+        small = (whole < least) & ~goes_on
+        a, b = label[one], label[other]
+        apart = small[a] & (a != b)
+        # to a larger one only, so that nobody goes in a circle
+        apart &= (whole[b] > whole[a]) | ((whole[b] == whole[a]) & (b > a)) | goes_on[b]
+        if not apart.any():
+            break
+        pairs, at = np.unique(a[apart] * len(label) + b[apart], return_inverse=True)
+        best = np.lexsort((pairs, np.bincount(at, length[apart]), pairs // len(label)))
+        pairs = pairs[best]  # of each small one, the longest border last
+        last = np.append(np.flatnonzero(np.diff(pairs // len(label))), len(pairs) - 1)
+        target = np.arange(len(label))
+        target[pairs[last] // len(label)] = pairs[last] % len(label)
+        while (target[target] != target).any():
+            target = target[target]
+        moved = target != np.arange(len(label))
+        np.add.at(whole, target[moved], whole[moved])
+        np.logical_or.at(goes_on, target[moved], goes_on[moved])
+        label = target[label]
+    return label, whole, goes_on

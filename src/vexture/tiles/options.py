@@ -1,0 +1,91 @@
+"""What a user chooses of a pyramid."""
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from vexture.errors import ParameterError, SourceError
+from vexture.tiles.grid import check_zooms, coarse, zooms_of
+from vexture.tiles.subtree import Pyramid
+from vexture.workers import Cluster, Here, Processes, Workers
+
+__all__ = ["TileOptions", "digest_of"]
+
+
+@dataclass(frozen=True)
+class TileOptions:
+    """Options of a pyramid.
+
+    Parameters
+    ----------
+    max_zoom, min_zoom : int
+        The largest and the smallest zoom that have tiles.
+    step : int
+        2 or 3: zooms from one level to the next.
+    layer, where, id, crs : str or None
+        Of the source, as `vexture.geo.features.feature_batches` has them.
+    name, attribution : str
+        Told in the metadata.
+    processes : int
+        Processes that share the work on this machine.
+    scheduler : str or None
+        Address of a Dask scheduler, whose workers do the work.
+    """
+
+    max_zoom: int = 12
+    min_zoom: int = 0
+    step: int = 2
+    layer: str | None = None
+    where: str | None = None
+    id: str | None = None
+    crs: str | None = None
+    name: str = ""
+    attribution: str = ""
+    processes: int = 1
+    scheduler: str | None = None
+
+    def __post_init__(self) -> None:
+        check_zooms(self.min_zoom, self.max_zoom, self.step)
+        if self.processes < 1:
+            raise ParameterError(f"`processes` is {self.processes}; it must be at least 1")
+
+    @property
+    def pyramid(self) -> Pyramid:
+        """Its zooms."""
+        zooms = zooms_of(self.min_zoom, self.max_zoom, self.step)
+        return Pyramid(tuple(coarse(self.max_zoom, self.step)), tuple(zooms), self.step)
+
+    @property
+    def reading(self) -> dict[str, str | None]:
+        """Options of the source's reader."""
+        return {"layer": self.layer, "where": self.where, "crs": self.crs, "id": self.id}
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """All that what is finished depends on, besides the source."""
+        return {"zooms": [self.min_zoom, self.max_zoom, self.step], **self.reading}
+
+    def who(self) -> Workers:
+        """Who does the work."""
+        if self.scheduler is not None:
+            return Cluster(self.scheduler)
+        return Processes(self.processes) if self.processes > 1 else Here()
+
+
+def digest_of(source: Path) -> str:
+    """Digest of a source's content, with that of files beside it that are part of it."""
+    try:
+        if source.is_dir():
+            files = sorted(path for path in source.rglob("*") if path.is_file())
+        elif source.suffix.lower() == ".shp":
+            files = sorted(path for path in source.parent.iterdir() if path.stem == source.stem and path.is_file())
+        else:
+            files = [source]
+        whole = hashlib.sha256()
+        for path in files:
+            with path.open("rb") as file:
+                whole.update(f"{path.name} {hashlib.file_digest(file, 'sha256').hexdigest()}\n".encode())
+    except OSError as error:
+        raise SourceError(f"{source}: cannot be read ({error.strerror}); correct its name") from None
+    return whole.hexdigest()
