@@ -2,7 +2,8 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -20,8 +21,9 @@ def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], ND
     a contour that do not change where its path is filled.
     """
     different: dict[tuple[Any, ...], list[NDArray[np.float64]]] = {}
+    names = _names([contour for path in drawing.paths for contour in path.contours])
     for path in drawing.paths:
-        bits = [contour.tobytes() for contour in path.contours]
+        bits = list(islice(names, len(path.contours)))
         if (path.fill_rule, *bits) not in different:
             different[path.fill_rule, *bits] = [path.contours[k] for k in _needed(path.fill_rule, bits)]
     contours = [contour for kept in different.values() for contour in kept]
@@ -29,6 +31,17 @@ def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], ND
     cubics = np.concatenate(contours) if contours else np.empty((0, 4, 2))
     owner = np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
     return cubics, owner, np.array([int(rule) for rule, *_ in different], dtype=np.int64)
+
+
+def _names(contours: Sequence[NDArray[np.float64]]) -> Iterator[bytes]:
+    """A name of each contour, alike for copies alone: length and first handle, or all its bits if others share those.
+
+    So a coast is not copied once more to find that it has no copies.
+    """
+    short = [b"%d " % len(contour) + contour[0, :2].tobytes() for contour in contours]
+    shared = Counter(short)
+    for contour, name in zip(contours, short, strict=True):
+        yield name if shared[name] == 1 else contour.tobytes()
 
 
 def _needed(rule: FillRule, contours: list[bytes]) -> Iterable[int]:
