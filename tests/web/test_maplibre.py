@@ -15,8 +15,11 @@ from vexture.renderers.exact import render_exact_colours
 
 PAGE = Path(__file__).parent / "pages" / "maplibre.js"
 SIZE = (256, 256)
-CENTRE = (0.47, 0.44)
+CENTRE = tile_pyramid.meeting()
 """Of most views, in Web Mercator of 0..1."""
+
+MIDDLE = (CENTRE[0] + 0.01, CENTRE[1] + 0.02)
+"""A place in a cell."""
 
 HTML = """<!doctype html><link rel="icon" href="data:,"><link rel="stylesheet" href="maplibre-gl.css">
 <style>html, body, #map { margin: 0; width: 100%; height: 100% }</style><div id="map"></div>
@@ -72,23 +75,23 @@ def _edges(one: NDArray[np.float64], truth: NDArray[np.float64]) -> float:
     return float(255 * np.abs(one - truth)[~flat].mean())
 
 
-@pytest.mark.parametrize("zoom", [2.0, 6.3, 8.0])
+@pytest.mark.parametrize("zoom", [1.0, 3.0, 5.3, 7.0])
 def test_a_flat_map_is_the_exact_one(zoom: float, opened: Callable[..., Any]) -> None:
     page = opened({"zoom": zoom})
     truth = _exact(zoom)
     assert _edges(_pixels(page), truth) < 0.5
-    assert {one["tile"]["z"] for one in page.evaluate("tiles.stats.shown")} == {min(4, int(zoom) // 2 * 2)}
+    assert {one["tile"]["z"] for one in page.evaluate("tiles.stats.shown")} == {1 if zoom < 2 else 3}
 
 
 def test_features_are_found_coloured_and_hidden_without_loading(opened: Callable[..., Any]) -> None:
-    page = opened({"zoom": 2})
+    page = opened({"zoom": 2, "center": tile_pyramid.lng_lat(*MIDDLE)})
     places = tile_pyramid.points(500)
     given = [tile_pyramid.lng_lat(*one) for one in places]
     found = page.evaluate("some => some.map((one) => tiles.featureAt(one)?.id ?? null)", given)
     assert found == [tile_pyramid.name_at(*one) for one in places]
     page.mouse.move(128, 128)
     page.mouse.click(128, 128)
-    name = tile_pyramid.name_at(*CENTRE)
+    name = tile_pyramid.name_at(*MIDDLE)
     assert page.evaluate("events") == [["hover", name], ["click", name]]
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
@@ -130,13 +133,13 @@ def test_no_frame_is_blank_once_the_parent_is_there(opened: Callable[..., Any]) 
 
 def test_what_is_not_wanted_is_aborted_and_all_is_freed(opened: Callable[..., Any]) -> None:
     page = opened({"zoom": 5}, {"budget": 1, "source": "tiles.json"})
-    assert {one["tile"]["z"] for one in page.evaluate("tiles.stats.shown")} == {4}
+    assert {one["tile"]["z"] for one in page.evaluate("tiles.stats.shown")} == {3}
     page.evaluate("async (place) => { map.jumpTo({ center: place, zoom: 0 }); await settled(); }", [0, 0])
     assert page.evaluate("[tiles.stats.tiles, tiles.stats.held]") == [1, 1]
-    page.route("**/4/**", lambda route: None)
+    page.route("**/3/**", lambda route: None)
     page.evaluate("async (place) => { map.jumpTo({ center: place, zoom: 5 }); }", tile_pyramid.lng_lat(*CENTRE))
     page.wait_for_function("frame().then(() => tiles.stats.tiles >= 2 && tiles.stats.running > 0)")
-    assert {one["tile"]["z"] for one in page.evaluate("tiles.stats.shown")} <= {0, 2}
+    assert {one["tile"]["z"] for one in page.evaluate("tiles.stats.shown")} <= {0, 1}
     page.evaluate("async () => { map.jumpTo({ zoom: 0 }); await frame(); }")
     assert page.evaluate("tiles.stats.running") == 0
     page.evaluate("map.removeLayer('tiles')")
@@ -149,7 +152,7 @@ def test_what_is_not_wanted_is_aborted_and_all_is_freed(opened: Callable[..., An
         ("tilted", {"zoom": 4, "pitch": 60, "bearing": 30}, (512, 384)),
         ("globe", {"zoom": 1, "projection": "globe"}, (512, 512)),
         ("phone", {"zoom": 2}, (390, 844)),
-        ("deep", {"zoom": 14, "center": (-10.5, 21.5)}, (512, 384)),
+        ("deep", {"zoom": 13}, (512, 384)),
         ("pole", {"zoom": 1, "projection": "globe", "center": (0, 85)}, (512, 512)),
         ("antimeridian", {"zoom": 1, "center": (180, 20)}, (512, 512)),
     ],

@@ -20,9 +20,12 @@ from vexture.drawing import Drawing
 from vexture.paint import Paint
 
 MARGIN: Final = 1 / 32
-ZOOMS: Final = (0, 2, 4)
+ZOOMS: Final = (0, 1, 3)
 HALF: Final = 20037508.342789244
 """Half the world's side in EPSG:3857, metres."""
+
+PRECISION: Final = 1e-8
+"""Of the tiles: views come as near as metres."""
 
 COLOURS: Final = ((0.9, 0.3, 0.2), (0.2, 0.5, 0.9), (0.3, 0.7, 0.3), (0.95, 0.8, 0.2), (0.5, 0.3, 0.7))
 
@@ -30,13 +33,20 @@ METADATA: Final = {"name": "cells", "attribution": "tests", "vexture": {"margin"
 
 
 @functools.cache
-def cells(count: int = 40) -> dict[str, Any]:
-    """Cells of a map by their names, in Web Mercator of 0..1, y downwards, in a part of the world."""
-    sites = np.random.default_rng(20).uniform((0.3, 0.3), (0.7, 0.6), (count, 2))
-    box = shapely.box(0.3, 0.3, 0.7, 0.6)
-    found = shapely.voronoi_polygons(shapely.MultiPoint(sites), extend_to=box)
-    clipped = [shapely.intersection(cell, box) for cell in found.geoms]
-    return {f"cell {k}": cell for k, cell in enumerate(clipped)}
+def cells(count: int = 60) -> dict[str, Any]:
+    """Cells of a map by their names, in Web Mercator of 0..1, y downwards: all of the world but one of them."""
+    sites = np.random.default_rng(20).uniform(0, 1, (count, 2))
+    world = shapely.box(0, 0, 1, 1)
+    found = shapely.voronoi_polygons(shapely.MultiPoint(sites), extend_to=world)
+    clipped = [shapely.intersection(cell, world) for cell in found.geoms]
+    return {f"cell {k}": cell for k, cell in enumerate(clipped) if k != count // 2}
+
+
+@functools.cache
+def meeting() -> tuple[float, float]:
+    """Where three cells meet, near the middle of the world: what views look at."""
+    corners = shapely.get_coordinates(list(cells().values()))
+    return tuple(corners[np.abs(corners - (0.47, 0.44)).max(axis=1).argmin()].tolist())
 
 
 def colour(name: str) -> tuple[float, float, float]:
@@ -76,7 +86,7 @@ def write(folder: Path) -> None:
             if wide.paths:
                 place = folder / str(z) / str(x) / f"{y}.ktx2"
                 place.parent.mkdir(parents=True, exist_ok=True)
-                vexture.convert(wide, split="faces", restyle=True).save(place)
+                vexture.convert(wide, split="faces", restyle=True, precision=PRECISION).save(place)
                 tiles[zxy_to_tileid(z, x, y)] = place.read_bytes()
     told = {"tilejson": "3.0.0", "tiles": ["{z}/{x}/{y}.ktx2?v=1"], **METADATA}
     (folder / "tiles.json").write_text(json.dumps(told), encoding="utf-8")
@@ -98,8 +108,8 @@ def lng_lat(x: float, y: float) -> tuple[float, float]:
 
 
 def points(count: int, seed: int = 1) -> NDArray[np.float64]:
-    """Random places, some of them beside the map."""
-    return np.random.default_rng(seed).uniform((0.25, 0.25), (0.75, 0.65), (count, 2))
+    """Random places."""
+    return np.random.default_rng(seed).uniform(0.02, 0.98, (count, 2))
 
 
 def name_at(x: float, y: float) -> str | None:
