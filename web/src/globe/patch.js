@@ -1,6 +1,7 @@
 // The mesh of a part of a sphere: its vertices lie around its own middle, so that float32 serves at every zoom.
 import { BufferGeometry, Float32BufferAttribute } from 'three';
 import { lngLat } from '../tiles/grid.js';
+import { CAP } from '../tiles/tile-shader.js';
 import { onSphere } from './cover.js';
 
 /** Cells along a side at zoom 0, and the fewest. */
@@ -31,7 +32,7 @@ export function patch({ z, x, y }, radius) {
   const rows = [...(y === 0 ? [-1] : []), ...steps, ...(y === 2 ** z - 1 ? [2] : [])];
   for (const b of rows) {
     for (const a of steps) {
-      if (b < 0 || b > 1) add([0, b < 0 ? radius : -radius, 0], a, b < 0 ? 0 : 1); // the grid ends before the poles
+      if (b < 0 || b > 1) add([0, b < 0 ? radius : -radius, 0], a, b < 0 ? CAP : 1 - CAP); // the grid ends before the poles
       else add(at(a, b), a, b);
     }
   }

@@ -1,6 +1,6 @@
 // Draws tiles by WebGL 2 itself: programs, meshes, and textures of texels.
 import { VextureError, line } from '../errors.js';
-import { lookup, paintOf, tileShader } from '../tiles/tile-shader.js';
+import { CAP, lookup, paintOf, tileShader } from '../tiles/tile-shader.js';
 import { EXTENT, meshOf, quadMesh } from './quad-mesh.js';
 
 /**
@@ -21,7 +21,10 @@ uniform vec2 tileRest;
 uniform float tileScale;
 out vec2 tileOffset;
 void main() {
-    float south = clamp(tilePosition.y, 0.0, ${EXTENT}.0);
+    float south = tilePosition.y;
+    if (south < 0.0 || south > ${EXTENT}.0) { // a pole's cap shows what is just within the grid
+        south = south < 0.0 ? ${(EXTENT * CAP).toFixed(1)} : ${(EXTENT * (1 - CAP)).toFixed(1)};
+    }
     tileOffset = tileRest + tileScale * vec2(tilePosition.x, -south);
     gl_Position = projectTile(tilePosition, tilePosition);
 }`;

@@ -4,6 +4,9 @@ import { WRAPS } from '../../generated/wraps.js';
 import { withMaps } from '../maps.js';
 import { fixed, placeIn } from './grid.js';
 
+/** Where in a quad the caps of the poles look up what they show, from its edge: at the edge itself half a footprint is outside. */
+export const CAP = 1 / 64;
+
 const planar = withMaps(async () => (await import('../../generated/planar-shader.js')).planar);
 
 /**
