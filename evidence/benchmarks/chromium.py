@@ -31,7 +31,7 @@ FLAGS: Final = [
     "--hide-scrollbars",
 ]
 
-ENTRIES: Final = ("gltf", "react", "thesis", "water", "webgpu")
+ENTRIES: Final = ("globe", "gltf", "maplibre", "react", "thesis", "water", "webgpu")
 """Entries of the npm package beside the main one."""
 
 

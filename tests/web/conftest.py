@@ -114,6 +114,14 @@ def mask_folder(made_once: Callable[..., Path]) -> Path:
 
 
 @pytest.fixture(scope="session")
+def tile_folder(made_once: Callable[..., Path]) -> Path:
+    """A small pyramid of tiles."""
+    from tile_pyramid import write
+
+    return made_once("tiles", write)
+
+
+@pytest.fixture(scope="session")
 def flood_pages(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     """Addresses of pages of floods on disk: in three steps, in one, and with a step at which all is dry."""
     import flood_page

@@ -48,6 +48,20 @@ export function setPaints(data, first, count, paints, texture, colors) {
 }
 
 /**
+ * As `setPaints`, of one map, for who has a texture of their own.
+ *
+ * @param {PackedData} data
+ * @param {number} root
+ * @param {import('./paints.js').PaintList} paints
+ * @param {import('./paints.js').Colors} colors
+ * @returns {[number, number][]} first and end of each run of rows that may have changed
+ */
+export function recolored(data, root, paints, colors) {
+  const { runs } = restyle(data, [root], readPaints(paints, colors));
+  return runs.map(([from, end]) => [Math.floor(from / data.width), Math.ceil(end / data.width)]);
+}
+
+/**
  * Give elements other colours: texels and the style are changed in place.
  *
  * @param {PackedData} data

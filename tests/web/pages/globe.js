@@ -1,0 +1,45 @@
+// A globe with the tiles of the tests.
+import { PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import { VectorGlobe } from 'vexture/globe';
+
+const renderer = new WebGLRenderer({ preserveDrawingBuffer: true });
+renderer.setSize(innerWidth, innerHeight);
+renderer.setClearColor(0xffffff);
+document.body.append(renderer.domElement);
+const scene = new Scene();
+const camera = new PerspectiveCamera(40, innerWidth / innerHeight, 1e-8, 100);
+const globe = new VectorGlobe({ source: 'map.pmtiles', pause: 10 });
+scene.add(globe);
+
+const draw = () => {
+  globe.update(camera, innerHeight);
+  renderer.render(scene, camera);
+};
+
+// Look at a place from a height, in radii; pixels RGBA, bottom row first.
+const look = async (lng, lat, height) => {
+  const [a, b] = [lng, lat].map((degrees) => (degrees * Math.PI) / 180);
+  camera.position.set(Math.cos(b) * Math.sin(a), Math.sin(b), Math.cos(b) * Math.cos(a)).multiplyScalar(1 + height);
+  camera.near = height / 4;
+  camera.far = height * 4 + 3;
+  camera.updateProjectionMatrix();
+  camera.lookAt(0, 0, 0);
+  await globe.ready();
+  do {
+    draw();
+    await new Promise((resolve) => setTimeout(resolve, 5));
+  } while (globe.stats.running);
+  return pixels();
+};
+
+const pixels = () => {
+  draw();
+  const gl = renderer.getContext();
+  const data = new Uint8Array(4 * innerWidth * innerHeight);
+  gl.readPixels(0, 0, innerWidth, innerHeight, gl.RGBA, gl.UNSIGNED_BYTE, data);
+  let text = '';
+  for (let at = 0; at < data.length; at += 4096) text += String.fromCharCode(...data.subarray(at, at + 4096));
+  return btoa(text);
+};
+
+Object.assign(window, { globe, look, pixels, camera, renderer });

@@ -1,0 +1,101 @@
+"""The globe of three.js: what it shows, loads, colours and finds."""
+
+import base64
+import os
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import tile_pyramid
+from browser import bundle
+from numpy.typing import NDArray
+
+PAGE = Path(__file__).parent / "pages" / "globe.js"
+SIZE = 256
+HTML = """<!doctype html><link rel="icon" href="data:,"><body style="margin:0">
+<script type="module" src="page.js"></script>"""
+CENTRE = tile_pyramid.meeting()
+MIDDLE = (CENTRE[0] + 0.01, CENTRE[1] + 0.02)
+
+
+@pytest.fixture(scope="module")
+def address(tile_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    folder = tmp_path_factory.mktemp("globe")
+    bundle(PAGE, folder / "page.js")
+    os.symlink(tile_folder / "map.pmtiles", folder / "map.pmtiles")
+    (folder / "page.html").write_text(HTML, encoding="utf-8")
+    with tile_pyramid.served(folder) as url:
+        yield url
+
+
+@pytest.fixture
+def page(address: str, open_page: Callable[..., Any]) -> Any:
+    opened = open_page(f"{address}/page.html", (SIZE, SIZE))
+    opened.wait_for_function("window.globe")
+    return opened
+
+
+def _look(page: Any, lng: float, lat: float, height: float) -> NDArray[np.float64]:
+    data = np.frombuffer(base64.b64decode(page.evaluate("given => look(...given)", [lng, lat, height])), np.uint8)
+    return data.reshape(SIZE, SIZE, 4)[::-1, :, :3] / 255.0
+
+
+def _truth(page: Any, pixel: tuple[float, float]) -> tuple[float, float] | None:
+    """Where the ray of a pixel meets the sphere, in Web Mercator of 0..1."""
+    found = page.evaluate(
+        """([x, y]) => { const from = camera.position.clone(); const to = from.clone().set(x, y, 0.5).unproject(camera)
+        .sub(from).normalize(); const b = from.dot(to); const d = b * b - from.dot(from) + 1; if (d < 0) return null;
+        return globe.lngLatOf(from.addScaledVector(to, -b - Math.sqrt(d))) }""",
+        [2 * pixel[0] / SIZE - 1, 1 - 2 * pixel[1] / SIZE],
+    )
+    if not found:
+        return None
+    y = 0.5 - np.arcsinh(np.tan(np.radians(found[1]))) / (2 * np.pi)
+    return found[0] / 360 + 0.5, float(np.clip(y, 1e-9, 1 - 1e-9))  # caps have what is at the grid's ends
+
+
+@pytest.mark.parametrize(("place", "height"), [(CENTRE, 2.0), (CENTRE, 1e-5), ((0.3, 0.1), 1.0), ((0.0, 0.4), 1.0)])
+def test_each_pixel_has_the_colour_of_its_place(
+    place: tuple[float, float], height: float, page: Any, screenshot: Callable[..., Path]
+) -> None:
+    picture = _look(page, *tile_pyramid.lng_lat(*place), height)
+    screenshot(page)
+    rng = np.random.default_rng(5)
+    wrong, checked = 0, 0
+    for x, y in rng.integers(0, SIZE, (150, 2)):
+        corners = [_truth(page, (x + a, y + b)) for a in (0, 1) for b in (0, 1)]
+        names = {None if corner is None else tile_pyramid.name_at(*corner) for corner in corners}
+        if len(names) > 1:
+            continue  # a border crosses it
+        name = names.pop()
+        checked += 1
+        wrong += np.abs(picture[y, x] - (tile_pyramid.colour(name) if name else (1, 1, 1))).max() > 0.01
+    assert wrong == 0
+    assert checked > 50
+
+
+def test_features_are_found_and_coloured_without_loading(page: Any) -> None:
+    before = _look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)
+    places = tile_pyramid.points(300)
+    found = page.evaluate("some => some.map((one) => globe.featureAt(one)?.id ?? null)", [tile_pyramid.lng_lat(*one) for one in places])
+    assert found == [tile_pyramid.name_at(*one) for one in places]
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    name = tile_pyramid.name_at(*MIDDLE)
+    page.evaluate("name => { globe.setPaint({ [name]: '#00ffff' }); }", name)
+    after = _look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)
+    assert np.allclose(after[SIZE // 2, SIZE // 2], (0, 1, 1))
+    assert not np.allclose(before[SIZE // 2, SIZE // 2], (0, 1, 1))
+    page.evaluate("name => { globe.setFilter([name]); }", name)
+    assert np.allclose(_look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)[SIZE // 2, SIZE // 2], 1)
+    assert page.evaluate("place => globe.featureAt(place)", tile_pyramid.lng_lat(*MIDDLE)) is None
+    assert asked == []
+
+
+def test_all_is_freed(page: Any) -> None:
+    _look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)
+    assert page.evaluate("renderer.info.memory.textures") > 0
+    page.evaluate("globe.dispose()")
+    assert page.evaluate("[renderer.info.memory.textures, renderer.info.memory.geometries, globe.children.length]") == [0, 0, 0]

@@ -1,0 +1,165 @@
+"""The layer for MapLibre: its pixels, what it loads and keeps, colours, picking."""
+
+import base64
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import tile_pyramid
+from browser import WEB, bundle
+from numpy.typing import NDArray
+
+from vexture.renderers.exact import render_exact_colours
+
+PAGE = Path(__file__).parent / "pages" / "maplibre.js"
+SIZE = (256, 256)
+CENTRE = tile_pyramid.meeting()
+"""Of most views, in Web Mercator of 0..1."""
+
+MIDDLE = (CENTRE[0] + 0.01, CENTRE[1] + 0.02)
+"""A place in a cell."""
+
+HTML = """<!doctype html><link rel="icon" href="data:,"><link rel="stylesheet" href="maplibre-gl.css">
+<style>html, body, #map { margin: 0; width: 100%; height: 100% }</style><div id="map"></div>
+<script type="module">import * as maplibregl from './maplibre-gl.mjs'; import './page.js';
+window.start = (...given) => open_(maplibregl, ...given); window.loaded = true;</script>"""
+
+
+@pytest.fixture(scope="module")
+def address(tile_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    library = WEB / "node_modules" / "maplibre-gl" / "dist"
+    if not library.is_dir():
+        pytest.skip("the packages of web/ are not installed (npm ci --prefix web)")
+    folder = tmp_path_factory.mktemp("maplibre")
+    for name in ("tiles.json", "map.pmtiles", *map(str, tile_pyramid.ZOOMS)):
+        (folder / name).symlink_to(tile_folder / name)
+    bundle(PAGE, folder / "page.js")
+    for file in library.iterdir():
+        (folder / file.name).symlink_to(file)
+    (folder / "page.html").write_text(HTML, encoding="utf-8")
+    with tile_pyramid.served(folder) as url:
+        yield url
+
+
+@pytest.fixture
+def opened(address: str, open_page: Callable[..., Any]) -> Callable[..., Any]:
+    def opener(view: dict[str, Any], layer: dict[str, Any] | None = None, size: Any = SIZE, **options: Any) -> Any:
+        page = open_page(f"{address}/page.html", size, **options)
+        page.wait_for_function("window.loaded")
+        view = {"center": tile_pyramid.lng_lat(*CENTRE), **view}
+        page.evaluate("async ([view, layer]) => { await start(view, layer) }", [view, layer or {}])
+        return page
+
+    return opener
+
+
+def _pixels(page: Any) -> NDArray[np.float64]:
+    shot = page.evaluate("pixels()")
+    data = np.frombuffer(base64.b64decode(shot["data"]), np.uint8).reshape(shot["height"], shot["width"], 4)
+    return data[::-1, :, :3] / 255.0
+
+
+def _exact(zoom: float, colours: Any = tile_pyramid.colour) -> NDArray[np.float64]:
+    """The exact picture of a view from above, on white."""
+    side = SIZE[0] / (512 * 2**zoom)
+    seen = tile_pyramid.drawing((CENTRE[0] - side / 2, CENTRE[1] - side / 2), side, colours)
+    picture = render_exact_colours(seen, size=SIZE[0])
+    return np.asarray(picture[..., :3] + 1 - picture[..., 3:])
+
+
+def _edges(one: NDArray[np.float64], truth: NDArray[np.float64]) -> float:
+    """Mean difference along edges, in steps of a byte."""
+    flat = (np.abs(truth[..., None, :] - np.array([*tile_pyramid.COLOURS, (1, 1, 1)])).max(axis=-1) < 1e-6).any(axis=-1)
+    return float(255 * np.abs(one - truth)[~flat].mean())
+
+
+@pytest.mark.parametrize("zoom", [1.0, 3.0, 5.3, 7.0])
+def test_a_flat_map_is_the_exact_one(zoom: float, opened: Callable[..., Any]) -> None:
+    page = opened({"zoom": zoom})
+    truth = _exact(zoom)
+    assert _edges(_pixels(page), truth) < 0.5
+    assert {one["tile"]["z"] for one in page.evaluate("tiles.stats.shown")} == {1 if zoom < 2 else 3}
+
+
+def test_features_are_found_coloured_and_hidden_without_loading(opened: Callable[..., Any]) -> None:
+    page = opened({"zoom": 2, "center": tile_pyramid.lng_lat(*MIDDLE)})
+    places = tile_pyramid.points(500)
+    given = [tile_pyramid.lng_lat(*one) for one in places]
+    found = page.evaluate("some => some.map((one) => tiles.featureAt(one)?.id ?? null)", given)
+    assert found == [tile_pyramid.name_at(*one) for one in places]
+    page.mouse.move(128, 128)
+    page.mouse.click(128, 128)
+    name = tile_pyramid.name_at(*MIDDLE)
+    assert page.evaluate("events") == [["hover", name], ["click", name]]
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    sent = page.evaluate("tiles.stats.rowsSent")
+
+    def middle(script: str) -> list[float]:
+        page.evaluate(f"name => {{ {script} }}", name)
+        return _pixels(page)[128, 128].tolist()
+
+    assert middle("tiles.setPaint({ [name]: 'rgb(0, 255, 255)' })") == [0, 1, 1]
+    assert middle("tiles.setPaint((id) => id === name ? '#f0f' : undefined)") == [0, 1, 1]  # a table comes first
+    assert middle("tiles.setPaint(null); tiles.setFilter([name])") == [1, 1, 1]
+    assert page.evaluate("tiles.featureAt(map.getCenter())") is None
+    times = "{ ids: [name], colors: [['#000000'], ['#ff0000']] }"
+    assert middle(f"tiles.setFilter(null); tiles.setTimes({times}); tiles.setTime(1)") == [1, 0, 0]
+    assert middle("tiles.setTime(0.5)")[0] == pytest.approx(0.5, abs=0.01)
+    assert asked == []
+    texels = page.evaluate("tiles.stats.bytes") / (2048 * 16)
+    assert page.evaluate("tiles.stats.rowsSent") - sent <= 6 * 4 * (texels + 16)
+
+
+def test_no_frame_is_blank_once_the_parent_is_there(opened: Callable[..., Any]) -> None:
+    page = opened({"zoom": 0})
+    seen = page.evaluate(
+        """async (places) => {
+            const blank = [];
+            for (const [lng, lat, zoom] of places) {
+                map.jumpTo({ center: [lng, lat], zoom });
+                await frame();
+                const { quads } = { quads: map.coveringTiles({ tileSize: 512 * 2 ** -0.25 }) };
+                if (tiles.stats.shown.length !== quads.length) blank.push([zoom, tiles.stats.shown.length, quads.length]);
+            }
+            return blank;
+        }""",
+        [[*tile_pyramid.lng_lat(*(np.array(CENTRE) + 0.003 * k)), 2 + 0.4 * (k % 8)] for k in range(24)],
+    )
+    assert seen == []
+
+
+def test_what_is_not_wanted_is_aborted_and_all_is_freed(opened: Callable[..., Any]) -> None:
+    page = opened({"zoom": 5}, {"budget": 1, "source": "tiles.json"})
+    assert {one["tile"]["z"] for one in page.evaluate("tiles.stats.shown")} == {3}
+    page.evaluate("async (place) => { map.jumpTo({ center: place, zoom: 0 }); await settled(); }", [0, 0])
+    assert page.evaluate("[tiles.stats.tiles, tiles.stats.held]") == [1, 1]
+    page.route("**/3/**", lambda route: None)
+    page.evaluate("async (place) => { map.jumpTo({ center: place, zoom: 5 }); }", tile_pyramid.lng_lat(*CENTRE))
+    page.wait_for_function("frame().then(() => tiles.stats.tiles >= 2 && tiles.stats.running > 0)")
+    assert {one["tile"]["z"] for one in page.evaluate("tiles.stats.shown")} <= {0, 1}
+    page.evaluate("async () => { map.jumpTo({ zoom: 0 }); await frame(); }")
+    assert page.evaluate("tiles.stats.running") == 0
+    page.evaluate("map.removeLayer('tiles')")
+    assert page.evaluate("[tiles.stats.tiles, tiles.stats.held]") == [0, 0]
+
+
+@pytest.mark.parametrize(
+    ("label", "view", "size"),
+    [
+        ("tilted", {"zoom": 4, "pitch": 60, "bearing": 30}, (512, 384)),
+        ("globe", {"zoom": 1, "projection": "globe"}, (512, 512)),
+        ("phone", {"zoom": 2}, (390, 844)),
+        ("deep", {"zoom": 13}, (512, 384)),
+        ("pole", {"zoom": 1, "projection": "globe", "center": (0, 85)}, (512, 512)),
+        ("antimeridian", {"zoom": 1, "center": (180, 20)}, (512, 512)),
+    ],
+)
+def test_views_have_no_errors(
+    label: str, view: dict[str, Any], size: Any, opened: Callable[..., Any], screenshot: Callable[..., Path]
+) -> None:
+    page = opened(view, size=size)
+    screenshot(page, label)
+    assert page.evaluate("events.filter(([type]) => type === 'error')") == []

@@ -1,0 +1,12 @@
+// One texture as a pyramid of a single tile.
+
+/**
+ * A source of one texture that shows the whole world in Web Mercator.
+ *
+ * @param {ArrayBuffer | Uint8Array} file its contents
+ * @param {{ margin?: number, name?: string }} [options] margin: by which it is wider than the world, as a part of the world
+ * @returns {import('../tiles/source.js').TileSource}
+ */
+export function textureSource(file, { margin = 0, name = 'globe' } = {}) {
+  return { name, attribution: '', zooms: [0], margin, load: async () => new Uint8Array(file) };
+}

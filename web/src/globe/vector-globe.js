@@ -1,0 +1,233 @@
+import { CustomBlending, GLSL3, Group, Matrix4, Mesh, OneFactor, OneMinusSrcAlphaFactor, RawShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
+import { VextureError } from '../errors.js';
+import { prepareRows, sendRows } from '../rows.js';
+import { keyOf, mercator } from '../tiles/grid.js';
+import { Pyramid } from '../tiles/pyramid.js';
+import { lookup, paintOf, tileShader } from '../tiles/tile-shader.js';
+import { wordTexture } from '../upload.js';
+import { cover } from './cover.js';
+import { patch } from './patch.js';
+
+/**
+ * @typedef {import('../tiles/client.js').LoadedTile} LoadedTile
+ * @typedef {import('../tiles/pyramid.js').Feature} Feature
+ *
+ * @typedef {object} VectorGlobeOptions
+ * @property {string | import('../tiles/source.js').TileSource} source address of a `.pmtiles` or a TileJSON, `textureSource`
+ *   of one texture, or a source of your own
+ * @property {number} [radius] 1 by default
+ * @property {() => void} [onChange] something has been loaded: draw another frame
+ * @property {(error: unknown) => void} [onError] something cannot be had; by default the console's
+ * @property {number} [budget] bytes of tiles that are kept
+ * @property {number} [most] requests at once
+ * @property {number} [retries] of a request that has failed
+ * @property {number} [pause] milliseconds before the first retry
+ */
+
+const VERTEX = `precision highp float;
+in vec3 position;
+in vec2 tilePlace;
+uniform mat4 modelViewMatrix;
+uniform mat4 projectionMatrix;
+uniform vec2 tileRest;
+uniform float tileScale;
+out vec2 tileOffset;
+void main() {
+    tileOffset = tileRest + tileScale * vec2(tilePlace.x, -tilePlace.y);
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
+
+/** A map of `vexture tiles` on a sphere. Call `update(camera, height)` before each frame. */
+export class VectorGlobe extends Group {
+  #pyramid;
+  #radius;
+  /** @type {Map<LoadedTile, import('three').DataTexture>} */
+  #textures = new Map();
+  /** @type {Map<string, { group: Group, loaded: LoadedTile, geometry: import('three').BufferGeometry }>} */
+  #patches = new Map();
+
+  /** @param {VectorGlobeOptions} options */
+  constructor(options) {
+    super();
+    const onError = options.onError ?? console.error;
+    this.#radius = options.radius ?? 1;
+    this.#pyramid = new Pyramid(options.source, {
+      ...options,
+      onError,
+      onDrop: (loaded) => this.#drop(loaded),
+    });
+    this.#pyramid.ready.catch(onError);
+  }
+
+  /** When the pyramid's metadata are there. @returns {Promise<void>} */
+  async ready() {
+    await this.#pyramid.ready;
+  }
+
+  /** What it holds and shows. */
+  get stats() {
+    const { client, shown } = this.#pyramid;
+    const quads = shown.map(({ quad, loaded }) => ({ quad, tile: loaded.tile }));
+    return { tiles: [...(client?.tiles ?? [])].length, bytes: client?.bytes ?? 0, running: client?.running ?? 0, held: this.#textures.size, shown: quads };
+  }
+
+  /**
+   * Show what a camera sees; what it lacks is asked for.
+   *
+   * @param {import('three').PerspectiveCamera} camera
+   * @param {number} height of the picture in CSS pixels
+   */
+  update(camera, height) {
+    if (!camera.isPerspectiveCamera) throw new VextureError('the camera is no PerspectiveCamera; give one', 'camera');
+    this.updateWorldMatrix(true, false);
+    camera.updateWorldMatrix(true, false);
+    const scale = new Matrix4().makeScale(this.#radius, this.#radius, this.#radius);
+    const model = this.matrixWorld.clone().multiply(scale);
+    const inverse = model.clone().invert();
+    const view = camera.projectionMatrix.clone().multiply(camera.matrixWorld.clone().invert()).multiply(model);
+    const position = new Vector3().setFromMatrixPosition(camera.matrixWorld).applyMatrix4(inverse).toArray();
+    const pixels = (height * camera.projectionMatrix.elements[5]) / 2;
+    const quads = cover({ position: /** @type {import('./cover.js').Vec3} */ (position), planes: planesOf(view), pixels });
+    this.#arrange(this.#pyramid.update(quads, (loaded, rows) => {
+      const texture = this.#textures.get(loaded);
+      if (texture) for (const [first, end] of rows) sendRows(texture, first, Math.min(end, texture.image.height));
+    }));
+  }
+
+  /**
+   * Colours by the features' ids: a table, whose paints join those before, or a function; null: as in the tiles.
+   *
+   * @param {import('../tiles/feature-colors.js').FeaturePaints | import('../tiles/feature-colors.js').PaintFunction | null} paints
+   */
+  setPaint(paints) {
+    this.#pyramid.colors.setPaint(paints);
+  }
+
+  /** @param {Iterable<string> | ((id: string) => boolean) | null} hidden ids, or whether one is hidden; null: none */
+  setFilter(hidden) {
+    this.#pyramid.colors.setFilter(hidden);
+  }
+
+  /** @param {import('../tiles/feature-colors.js').TimeTable | null} table colours at each step of time */
+  setTimes(table) {
+    this.#pyramid.colors.setTimes(table);
+  }
+
+  /** @param {number} time in steps; between two of them colours are mixed */
+  setTime(time) {
+    this.#pyramid.colors.setTime(time);
+  }
+
+  /**
+   * The feature at a place; null where nothing is.
+   *
+   * @param {[number, number]} place longitude and latitude in degrees
+   * @returns {Feature | null}
+   */
+  featureAt([lng, lat]) {
+    return this.#pyramid.featureAt(...mercator(lng, lat));
+  }
+
+  /**
+   * Longitude and latitude of a point of the sphere, such as that of an intersection of a raycaster.
+   *
+   * @param {Vector3} point in the world
+   * @returns {[number, number]} degrees
+   */
+  lngLatOf(point) {
+    const { x, y, z } = this.worldToLocal(point.clone()).normalize();
+    return [(180 / Math.PI) * Math.atan2(x, z), (180 / Math.PI) * Math.asin(y)];
+  }
+
+  /** Abort what is being loaded, and free the GPU memory. */
+  dispose() {
+    for (const key of [...this.#patches.keys()]) this.#remove(key);
+    this.#pyramid.dispose();
+  }
+
+  /** @param {import('../tiles/pyramid.js').View} shown */
+  #arrange(shown) {
+    const kept = new Set();
+    for (const { quad, loaded } of shown) {
+      const key = keyOf(quad);
+      kept.add(key);
+      if (this.#patches.get(key)?.loaded === loaded) continue;
+      this.#remove(key);
+      this.#add(key, quad, loaded);
+    }
+    for (const key of [...this.#patches.keys()]) if (!kept.has(key)) this.#remove(key);
+  }
+
+  /**
+   * @param {string} key
+   * @param {import('../tiles/grid.js').TileId} quad
+   * @param {LoadedTile} loaded
+   */
+  #add(key, quad, loaded) {
+    const { geometry, middle } = patch(quad, this.#radius);
+    const data = /** @type {import('../data.js').PackedData} */ (loaded.data);
+    const group = new Group();
+    const { base, rest, side } = lookup(quad, loaded.tile, this.#pyramid.client?.source.margin ?? 0);
+    const fragmentShader = tileShader(data.roots.some(({ hasGradients }) => hasGradients));
+    data.roots.forEach((root, order) => {
+      const uniforms = {
+        vextureTexels: { value: this.#texture(loaded) },
+        tileRoot: { value: root.quad },
+        tileBase: { value: Uint32Array.from(base) },
+        tileRest: { value: new Vector2(...rest) },
+        tileScale: { value: side },
+        tilePaint: { value: new Vector4(...paintOf(root)) },
+        tileOpacity: { value: 1 },
+      };
+      const material = new RawShaderMaterial({ glslVersion: GLSL3, vertexShader: VERTEX, fragmentShader, uniforms, transparent: true, premultipliedAlpha: true,
+        blending: CustomBlending, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor });
+      const mesh = new Mesh(geometry, material);
+      mesh.renderOrder = this.renderOrder + order;
+      group.add(mesh);
+    });
+    group.position.set(...middle);
+    this.add(group);
+    this.#patches.set(key, { group, loaded, geometry });
+  }
+
+  /** @param {string} key */
+  #remove(key) {
+    const known = this.#patches.get(key);
+    if (!known) return;
+    this.remove(known.group);
+    known.geometry.dispose();
+    for (const mesh of known.group.children) /** @type {any} */ (mesh).material.dispose();
+    this.#patches.delete(key);
+  }
+
+  /** @param {LoadedTile} loaded */
+  #texture(loaded) {
+    const known = this.#textures.get(loaded);
+    if (known) return known;
+    const { texels, width, height } = /** @type {import('../data.js').PackedData} */ (loaded.data);
+    const texture = wordTexture(texels, width, height);
+    prepareRows(texture);
+    this.#textures.set(loaded, texture);
+    return texture;
+  }
+
+  /** @param {LoadedTile} loaded */
+  #drop(loaded) {
+    this.#textures.get(loaded)?.dispose();
+    this.#textures.delete(loaded);
+  }
+}
+
+/**
+ * Planes of a frustum, inwards and of length 1, without those near and far.
+ *
+ * @param {Matrix4} matrix to clip space
+ */
+function planesOf({ elements: m }) {
+  const row = (/** @type {number} */ k) => [m[k], m[k + 4], m[k + 8], m[k + 12]];
+  return [0, 1].flatMap((k) => [1, -1].map((sign) => {
+    const plane = row(3).map((part, c) => part + sign * row(k)[c]);
+    const length = Math.hypot(plane[0], plane[1], plane[2]);
+    return plane.map((part) => part / length);
+  }));
+}

@@ -1,0 +1,258 @@
+import { VextureError, line } from '../errors.js';
+import { LEAD, TILE_SIZE, mercator } from '../tiles/grid.js';
+import { Pyramid } from '../tiles/pyramid.js';
+import { TilePainter } from './painter.js';
+
+/**
+ * @typedef {import('maplibre-gl').Map} MapLibreMap
+ * @typedef {import('../tiles/feature-colors.js').FeaturePaints} FeaturePaints
+ * @typedef {import('../tiles/feature-colors.js').PaintFunction} PaintFunction
+ * @typedef {import('../tiles/feature-colors.js').TimeTable} TimeTable
+ * @typedef {import('../tiles/pyramid.js').Feature} Feature
+ *
+ * @typedef {object} VectorTileLayerOptions
+ * @property {string} id of the layer
+ * @property {string | import('../tiles/source.js').TileSource} source address of a `.pmtiles` or a TileJSON, or a source of
+ *   your own
+ * @property {number} [opacity] of all of it, 0..1
+ * @property {number} [budget] bytes of tiles that are kept
+ * @property {number} [most] requests at once
+ * @property {number} [retries] of a request that has failed
+ * @property {number} [pause] milliseconds before the first retry
+ *
+ * @typedef {object} FeatureEvent What listeners get.
+ * @property {Feature | null} feature
+ * @property {{ lng: number, lat: number }} lngLat
+ * @property {{ x: number, y: number }} point in CSS pixels
+ *
+ * @typedef {{ hover: FeatureEvent, click: FeatureEvent, error: { error: unknown, tile?: import('../tiles/grid.js').TileId } }} LayerEvents
+ */
+
+/**
+ * A map of `vexture tiles` as a layer of MapLibre, flat and on the globe: `map.addLayer(layer, beforeId)`.
+ */
+export class VectorTileLayer {
+  /** @type {'custom'} */
+  type = 'custom';
+  /** @type {'2d'} */
+  renderingMode = '2d';
+  /** @type {MapLibreMap | null} */
+  #map = null;
+  /** @type {TilePainter | null} */
+  #painter = null;
+  /** @type {Pyramid} */
+  #pyramid;
+  #options;
+  #opacity = 1;
+  /** @type {Map<string, Set<(event: any) => void>>} */
+  #listeners = new Map();
+  /** @type {string | null} */
+  #hovered = null;
+
+  /** @param {VectorTileLayerOptions} options */
+  constructor(options) {
+    this.id = options.id;
+    this.#options = options;
+    this.#pyramid = this.#open();
+    this.setOpacity(options.opacity ?? 1);
+  }
+
+  #open() {
+    const pyramid = new Pyramid(this.#options.source, {
+      ...this.#options,
+      onChange: () => this.#map?.triggerRepaint(),
+      onDrop: (loaded) => this.#painter?.drop(loaded),
+      onError: (error, tile) => this.#emit('error', { error, tile }),
+    });
+    pyramid.ready.catch((error) => this.#emit('error', { error }));
+    return pyramid;
+  }
+
+  /** When the pyramid's metadata are there. @returns {Promise<void>} */
+  async ready() {
+    await this.#pyramid.ready;
+  }
+
+  /** What the layer holds and shows. */
+  get stats() {
+    const { client, shown } = this.#pyramid;
+    const tiles = [...(client?.tiles ?? [])];
+    return {
+      tiles: tiles.length,
+      bytes: client?.bytes ?? 0,
+      running: client?.running ?? 0,
+      held: this.#painter?.held ?? 0,
+      rowsSent: this.#painter?.sent ?? 0,
+      shown: shown.map(({ quad, loaded }) => ({ quad, tile: loaded.tile })),
+    };
+  }
+
+  /**
+   * Colours by the features' ids: a table, whose paints join those before, or a function; null: as in the tiles.
+   *
+   * @param {FeaturePaints | PaintFunction | null} paints
+   * @throws {VextureError} if one is no colour
+   */
+  setPaint(paints) {
+    this.#pyramid.colors.setPaint(paints);
+    this.#map?.triggerRepaint();
+  }
+
+  /**
+   * Hide features.
+   *
+   * @param {Iterable<string> | ((id: string) => boolean) | null} hidden their ids, or whether one is hidden; null: none
+   */
+  setFilter(hidden) {
+    this.#pyramid.colors.setFilter(hidden);
+    this.#map?.triggerRepaint();
+  }
+
+  /**
+   * The colours of features at each step of time, which those of `setPaint` give way to.
+   *
+   * @param {TimeTable | null} table
+   * @throws {VextureError} if a step has another number of colours than there are ids
+   */
+  setTimes(table) {
+    this.#pyramid.colors.setTimes(table);
+    this.#map?.triggerRepaint();
+  }
+
+  /** @param {number} time in steps; between two of them colours are mixed */
+  setTime(time) {
+    this.#pyramid.colors.setTime(time);
+    this.#map?.triggerRepaint();
+  }
+
+  /** @param {number} opacity of all of it, 0..1 */
+  setOpacity(opacity) {
+    if (!(opacity >= 0 && opacity <= 1)) throw new VextureError(`the opacity is ${line(opacity)}; give 0 to 1`, 'opacity');
+    this.#opacity = opacity;
+    this.#map?.triggerRepaint();
+  }
+
+  /**
+   * The feature at a place; null where nothing is.
+   *
+   * @param {{ lng: number, lat: number } | [number, number]} place
+   * @returns {Feature | null}
+   */
+  featureAt(place) {
+    const [lng, lat] = Array.isArray(place) ? place : [place.lng, place.lat];
+    return this.#pyramid.featureAt(...mercator(lng, lat));
+  }
+
+  /** Ask again for tiles that could not be had. */
+  retry() {
+    this.#pyramid.client?.retry();
+  }
+
+  /**
+   * @template {keyof LayerEvents} Type
+   * @param {Type} type `hover`: another feature is pointed at, or none; `click`; `error`: something cannot be had
+   * @param {(event: LayerEvents[Type]) => void} listener
+   */
+  on(type, listener) {
+    const known = this.#listeners.get(type) ?? new Set();
+    this.#listeners.set(type, known.add(listener));
+    return this;
+  }
+
+  /**
+   * @param {keyof LayerEvents} type
+   * @param {(event: any) => void} listener
+   */
+  off(type, listener) {
+    this.#listeners.get(type)?.delete(listener);
+    return this;
+  }
+
+  /**
+   * @template {keyof LayerEvents} Type
+   * @param {Type} type
+   * @param {LayerEvents[Type]} event
+   */
+  #emit(type, event) {
+    const listeners = this.#listeners.get(type);
+    if (type === 'error' && !listeners?.size) console.error(/** @type {any} */ (event).error);
+    for (const listener of listeners ?? []) listener(event);
+  }
+
+  #pointed = (/** @type {import('maplibre-gl').MapMouseEvent} */ { lngLat, point }) => {
+    if (!this.#listeners.get('hover')?.size) return;
+    const feature = this.featureAt(lngLat);
+    if ((feature?.id ?? null) === this.#hovered) return;
+    this.#hovered = feature?.id ?? null;
+    this.#emit('hover', { feature, lngLat, point });
+  };
+
+  #clicked = (/** @type {import('maplibre-gl').MapMouseEvent} */ { lngLat, point }) => {
+    if (this.#listeners.get('click')?.size) this.#emit('click', { feature: this.featureAt(lngLat), lngLat, point });
+  };
+
+  #lost = () => {
+    this.#painter = null; // its objects are gone with the context
+  };
+
+  #restored = () => {
+    const gl = this.#map?.painter?.context?.gl;
+    if (gl) this.#painter = new TilePainter(gl);
+  };
+
+  /**
+   * Called by MapLibre.
+   *
+   * @param {MapLibreMap} map
+   * @param {WebGL2RenderingContext} gl
+   */
+  onAdd(map, gl) {
+    if (typeof map.coveringTiles !== 'function' || !(gl instanceof WebGL2RenderingContext)) {
+      throw new VextureError(`maplibre-gl ${map.version} is too old; use version 5 or newer`, 'map');
+    }
+    this.#map = map;
+    this.#painter = new TilePainter(gl);
+    map.on('mousemove', this.#pointed);
+    map.on('click', this.#clicked);
+    map.on('webglcontextlost', this.#lost);
+    map.on('webglcontextrestored', this.#restored);
+  }
+
+  /** Called by MapLibre. */
+  onRemove() {
+    const map = this.#map;
+    map?.off('mousemove', this.#pointed);
+    map?.off('click', this.#clicked);
+    map?.off('webglcontextlost', this.#lost);
+    map?.off('webglcontextrestored', this.#restored);
+    this.#pyramid.dispose();
+    this.#painter?.dispose();
+    this.#painter = null;
+    this.#map = null;
+  }
+
+  /**
+   * Called by MapLibre for each frame.
+   *
+   * @param {WebGL2RenderingContext} gl
+   * @param {import('maplibre-gl').CustomRenderMethodInput} render
+   */
+  render(gl, render) {
+    const { client } = this.#pyramid;
+    const painter = this.#painter;
+    if (!client || !painter || !this.#map) return;
+    const shown = this.#pyramid.update(this.#quads(this.#map), (loaded, rows) => painter.send(loaded, rows));
+    painter.draw(shown, render, client.source.margin, this.#opacity);
+  }
+
+  /** @param {MapLibreMap} map @returns {import('../tiles/choose.js').Quad[]} */
+  #quads(map) {
+    const { lng, lat } = map.getCenter();
+    const [x, y] = mercator(lng, lat);
+    return map.coveringTiles({ tileSize: TILE_SIZE * 2 ** -LEAD }).map(({ wrap, canonical }) => {
+      const side = 2 ** -canonical.z;
+      const distance = Math.hypot((canonical.x + 0.5) * side - x, (canonical.y + 0.5) * side - y);
+      return { z: canonical.z, x: canonical.x, y: canonical.y, wrap, distance };
+    });
+  }
+}

@@ -1,0 +1,101 @@
+// A pyramid as a page uses it: opened, its features coloured and asked for. The renderers are built upon it.
+import { elementAt } from '../element-at.js';
+import { loadMaps } from '../maps.js';
+import { TileClient } from './client.js';
+import { FeatureColors } from './feature-colors.js';
+import { ancestor, squareOf } from './grid.js';
+import { openTiles } from './source.js';
+
+/**
+ * @typedef {import('./client.js').LoadedTile} LoadedTile
+ *
+ * @typedef {object} Feature A feature at a place.
+ * @property {string} id
+ *
+ * @typedef {{ quad: import('./choose.js').Quad, loaded: LoadedTile }[]} View what is shown
+ */
+
+export class Pyramid {
+  colors = new FeatureColors();
+  /** @type {TileClient | null} */
+  client = null;
+  /** @type {View} */
+  shown = [];
+  #controller = new AbortController();
+
+  /**
+   * @param {string | import('./source.js').TileSource} source an address, or what `openTiles` has made of it
+   * @param {import('./client.js').AllTileOptions} options
+   */
+  constructor(source, options) {
+    /** When its metadata are there. @type {Promise<TileClient | null>} */
+    this.ready = this.#open(source, options);
+    this.ready.catch(() => {}); // who waits for it gets the error, too
+  }
+
+  /**
+   * @param {string | import('./source.js').TileSource} given
+   * @param {import('./client.js').AllTileOptions} options
+   */
+  async #open(given, options) {
+    const { signal } = this.#controller;
+    const [source] = await Promise.all([typeof given === 'string' ? openTiles(given, signal) : given, loadMaps()]);
+    if (signal.aborted) return null;
+    this.client = new TileClient(source, options);
+    options.onChange?.();
+    return this.client;
+  }
+
+  /**
+   * What a view shows now, each tile in the features' colours.
+   *
+   * @param {import('./choose.js').Quad[]} quads
+   * @param {(loaded: LoadedTile, rows: [number, number][]) => void} send rows of texels that have changed
+   */
+  update(quads, send) {
+    this.shown = this.client?.update(quads) ?? [];
+    for (const loaded of new Set(this.shown.map((one) => one.loaded))) {
+      const rows = this.colors.apply(loaded);
+      if (rows.length) send(loaded, rows);
+    }
+    return this.shown;
+  }
+
+  /**
+   * The feature that is seen at a place of Web Mercator; null where nothing is, or nothing is loaded.
+   *
+   * @param {number} x
+   * @param {number} y
+   * @returns {Feature | null}
+   */
+  featureAt(x, y) {
+    const loaded = this.#tileAt(x, y);
+    if (!loaded?.data || !this.client) return null;
+    const { data, tile } = loaded;
+    const [u, v] = squareOf(x, y, tile, this.client.source.margin);
+    const found = elementAt(data, 0, data.roots.length, u, v);
+    return found?.name && !this.colors.isHidden(found.name) ? { id: found.name } : null;
+  }
+
+  /**
+   * @param {number} x
+   * @param {number} y
+   */
+  #tileAt(x, y) {
+    const at = (/** @type {number} */ z) => ({ z, x: Math.floor(x * 2 ** z), y: Math.floor(y * 2 ** z) });
+    const seen = this.shown.find(({ quad }) => {
+      const here = at(quad.z);
+      return here.x === quad.x && here.y === quad.y;
+    });
+    if (seen) return seen.loaded;
+    const zooms = [...(this.client?.source.zooms ?? [])].reverse();
+    const deepest = at(zooms[0] ?? 0);
+    return zooms.map((z) => this.client?.get(ancestor(deepest, z))).find((one) => one?.state === 'ready');
+  }
+
+  dispose() {
+    this.#controller.abort();
+    this.client?.dispose();
+    this.shown = [];
+  }
+}

@@ -1,0 +1,101 @@
+// Where the tiles of a pyramid come from: a PMTiles archive, or a folder with a TileJSON.
+import { PMTiles } from 'pmtiles';
+import { PACKED_FILE_LIMIT } from '../../generated/layout.js';
+import { VextureError, line } from '../errors.js';
+import { fetchBytes } from '../fetching.js';
+
+/**
+ * @typedef {object} TileSource A pyramid of tiles.
+ * @property {string} name for messages
+ * @property {string} attribution to be shown beside the map
+ * @property {readonly number[]} zooms that it has, rising
+ * @property {number} margin by which a tile's texture is wider than the tile, as a part of the tile's side
+ * @property {(tile: import('./grid.js').TileId, signal: AbortSignal) => Promise<Uint8Array | null>} load the file of a tile;
+ *   null: nothing is there
+ */
+
+/** A tile in which nothing is may have no file. */
+const NOTHING = ['status 404', 'status 204', 'status 410'];
+
+/** Longest TileJSON, in bytes. */
+const LONGEST = 2 ** 22;
+
+/**
+ * A pyramid by its address: `map.pmtiles`, or a TileJSON.
+ *
+ * @param {string} url
+ * @param {AbortSignal} [signal]
+ * @returns {Promise<TileSource>}
+ * @throws {VextureError} if it cannot be fetched, or is no pyramid of vexture
+ */
+export async function openTiles(url, signal = new AbortController().signal) {
+  const path = new URL(url, globalThis.location?.href).href;
+  return /\.pmtiles(?:$|[?#])/.test(path) ? archive(path) : folder(path, signal);
+}
+
+/**
+ * @param {string} url
+ * @returns {Promise<TileSource>}
+ */
+async function archive(url) {
+  const tiles = new PMTiles(url);
+  let metadata;
+  try {
+    metadata = await tiles.getMetadata();
+  } catch (error) {
+    throw new VextureError(`${url}: cannot be read (${line(error)}); check the address, and that its server answers range requests`,
+      'url', { cause: error });
+  }
+  const load = async (/** @type {import('./grid.js').TileId} */ { z, x, y }, /** @type {AbortSignal} */ signal) => {
+    const found = await tiles.getZxy(z, x, y, signal);
+    return found ? new Uint8Array(found.data) : null;
+  };
+  return { ...described(metadata, url), load };
+}
+
+/**
+ * @param {string} url of a TileJSON
+ * @param {AbortSignal} signal
+ * @returns {Promise<TileSource>}
+ */
+async function folder(url, signal) {
+  const text = new TextDecoder().decode(await fetchBytes(url, { signal }, LONGEST));
+  let metadata;
+  try {
+    metadata = JSON.parse(text);
+  } catch (error) {
+    throw new VextureError(`${url}: is no TileJSON (${line(error)}); give its address, or that of a .pmtiles`, 'tiles');
+  }
+  const described_ = described(metadata, url);
+  const template = metadata.tiles?.[0];
+  if (typeof template !== 'string') {
+    throw new VextureError(`${url}: tiles is ${line(metadata.tiles)}; it must hold an address with {z}, {x} and {y}`, 'tiles');
+  }
+  const load = async (/** @type {import('./grid.js').TileId} */ { z, x, y }, /** @type {AbortSignal} */ given) => {
+    const place = template.replace('{z}', String(z)).replace('{x}', String(x)).replace('{y}', String(y));
+    try {
+      const file = await fetchBytes(new URL(place, url).href, { signal: given }, PACKED_FILE_LIMIT);
+      return file.length ? file : null;
+    } catch (error) {
+      if (error instanceof VextureError && NOTHING.includes(error.field)) return null;
+      throw error;
+    }
+  };
+  return { ...described_, load };
+}
+
+/**
+ * What the metadata of a pyramid say.
+ *
+ * @param {any} metadata
+ * @param {string} url
+ * @returns {Omit<TileSource, 'load'>}
+ */
+function described(metadata, url) {
+  const { margin, zooms } = metadata?.vexture ?? {};
+  const rises = Array.isArray(zooms) && zooms.every((z, k) => Number.isInteger(z) && z > (k ? zooms[k - 1] : -1) && z <= 30);
+  if (!rises || !zooms.length || !(margin >= 0 && margin < 1)) {
+    throw new VextureError(`${url}: its metadata have no pyramid of vexture; make one with vexture tiles`, 'vexture');
+  }
+  return { name: String(metadata.name ?? url), attribution: String(metadata.attribution ?? ''), zooms, margin };
+}

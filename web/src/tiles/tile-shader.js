@@ -1,0 +1,66 @@
+// The fragment shader of a tile, for WebGL 2 with and without three.js: the project's functions, called for one root.
+import { packed, steps } from '../../generated/shaders.js';
+import { WRAPS } from '../../generated/wraps.js';
+import { withMaps } from '../maps.js';
+import { fixed, placeIn } from './grid.js';
+
+/** Where in a quad the caps of the poles look up what they show, from its edge: at the edge itself half a footprint is outside. */
+export const CAP = 1 / 64;
+
+const planar = withMaps(async () => (await import('../../generated/planar-shader.js')).planar);
+
+/**
+ * The text without its first line, the version.
+ *
+ * @param {boolean} gradients whether a map holds gradients
+ */
+export const tileShader = (gradients) => `precision highp float;
+precision highp int;
+precision highp usampler2D;
+#define VEXTURE_FLAT 0
+#define VEXTURE_LINEAR 0
+#define VEXTURE_WRAP ${WRAPS.none}
+#define VEXTURE_GRADIENTS ${Number(gradients)}
+${steps}${packed}${planar()}
+uniform uint tileRoot;
+uniform uvec2 tileBase;
+uniform vec4 tilePaint;
+uniform float tileOpacity;
+in vec2 tileOffset;
+out vec4 tileColor;
+void main() {
+    vec2 dx = vextureStepX(tileOffset);
+    vec2 dy = vextureStepY(tileOffset);
+    vec4 color;
+    if (tilePaint.a < 0.0) {
+        color = vextureWrappedColor(tileRoot, tileBase, tileOffset, dx, dy);
+    } else {
+        color = tilePaint.a * vextureWrapped(tileRoot, tileBase, tileOffset, dx, dy) * vec4(tilePaint.rgb, 1.0);
+    }
+    tileColor = tileOpacity * color;
+}`;
+
+/** What the shader takes for a planar map, which has its own paints. */
+const OWN = Object.freeze([0, 0, 0, -1]);
+
+/**
+ * What the shader takes as tilePaint for a root.
+ *
+ * @param {import('../data.js').Root} root
+ */
+export const paintOf = ({ isMap, paint }) => (isMap || !paint ? (isMap ? OWN : [0, 0, 0, 1]) : [...paint.color, paint.opacity]);
+
+/**
+ * Where a quad begins in a tile's square, and how large it is there: with the exactness of fixed point, whatever the zoom.
+ *
+ * @param {import('./grid.js').TileId} quad
+ * @param {import('./grid.js').TileId} tile
+ * @param {number} margin
+ * @returns {{ base: [number, number], rest: [number, number], side: number }} base in 2^-32, and the rest
+ */
+export function lookup(quad, tile, margin) {
+  const { u, v, side } = placeIn(quad, tile, margin);
+  const [x, right] = fixed(u);
+  const [y, above] = fixed(v);
+  return { base: [x, y], rest: [right, above], side };
+}

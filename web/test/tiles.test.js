@@ -1,0 +1,119 @@
+import { describe, expect, test } from 'vitest';
+import { cover } from '../src/globe/cover.js';
+import { TileClient } from '../src/tiles/client.js';
+import { choose } from '../src/tiles/choose.js';
+import { FeatureColors } from '../src/tiles/feature-colors.js';
+import { parts } from '../src/tiles/css-color.js';
+import { ancestor, fixed, keyOf, lngLat, mercator, placeIn, squareOf } from '../src/tiles/grid.js';
+import { RequestQueue } from '../src/tiles/queue.js';
+
+const ZOOMS = [0, 2, 4];
+const later = () => new Promise((resolve) => setTimeout(resolve, 5));
+const quads = [0, 1].flatMap((x) => [0, 1].map((y) => ({ z: 2, x, y, distance: x + y })));
+
+/** What is shown while some tiles are there. */
+const seen = (states, some = quads) =>
+  choose(some, ZOOMS, (key) => states[key]).shown.map(({ quad, tile }) => `${keyOf(quad)} by ${keyOf(tile)}`).sort();
+
+test('a place is the same in all tiles that hold it', () => {
+  const [x, y] = mercator(4.36, 52.01);
+  lngLat(x, y).forEach((part, k) => expect(part).toBeCloseTo([4.36, 52.01][k], 10));
+  const tile = ancestor({ z: 30, x: Math.floor(x * 2 ** 30), y: Math.floor(y * 2 ** 30) }, 4);
+  const quad = { z: 20, x: Math.floor(x * 2 ** 20), y: Math.floor(y * 2 ** 20) };
+  const [u, v] = squareOf(x, y, tile, 1 / 32);
+  const place = placeIn(quad, tile, 1 / 32);
+  expect(u).toBeCloseTo(place.u + place.side * (x * 2 ** 20 - quad.x), 12);
+  expect(v).toBeCloseTo(place.v - place.side * (y * 2 ** 20 - quad.y), 12);
+  const [whole, rest] = fixed(u);
+  expect(whole / 2 ** 32 + rest).toBe(u);
+});
+
+describe('a view', () => {
+  test('shows a tile until all of its children are there', () => {
+    expect(seen({})).toEqual([]);
+    const all = { '0/0/0': 'ready', '2/0/0': 'ready', '2/0/1': 'ready', '2/1/0': 'ready' };
+    expect(seen(all).map((one) => one.split(' by ')[1])).toEqual(Array(4).fill('0/0/0'));
+    expect(seen({ ...all, '2/1/1': 'ready' })).toContain('2/1/1 by 2/1/1');
+    expect(seen({ ...all, '2/1/1': 'failed' })).toContain('2/1/1 by 0/0/0');
+    expect(seen({ ...all, '2/1/1': 'empty' })).toHaveLength(3);
+  });
+
+  test('shows what there is without a parent', () => {
+    expect(seen({ '2/0/0': 'ready' })).toEqual(['2/0/0 by 2/0/0']);
+  });
+
+  test('asks for parents first, then for what is nearest', () => {
+    const { wanted } = choose(quads, ZOOMS, () => undefined);
+    expect(wanted.map(({ key }) => key)).toEqual(['0/0/0', '2/0/0', '2/0/1', '2/1/0', '2/1/1']);
+  });
+});
+
+describe('requests', () => {
+  test('are few at once, and aborted when nobody wants them', async () => {
+    const started = [];
+    const aborted = [];
+    const load = (item, signal) => {
+      started.push(item);
+      return new Promise((_, reject) => signal.addEventListener('abort', () => reject(aborted.push(item))));
+    };
+    const queue = new RequestQueue(load, () => {}, () => expect.unreachable(), { most: 2 });
+    const want = (...keys) => queue.want(keys.map((key) => ({ key, item: key })));
+    want('a', 'b', 'c');
+    expect(started).toEqual(['a', 'b']);
+    want('d', 'b');
+    expect([started, aborted, queue.running]).toEqual([['a', 'b', 'd'], ['a'], 2]);
+    want();
+    await later();
+    expect([aborted, queue.running]).toEqual([['a', 'b', 'd'], 0]);
+  });
+
+  test('are tried again, and told when they fail for good', async () => {
+    let tried = 0;
+    const failed = [];
+    const load = async () => {
+      throw new Error(`attempt ${++tried}`);
+    };
+    const queue = new RequestQueue(load, () => {}, (item, error) => failed.push([item, error.message]), { retries: 2, pause: 0 });
+    queue.want([{ key: 'a', item: 'a' }]);
+    await expect.poll(() => failed).toEqual([['a', 'attempt 3']]);
+  });
+});
+
+test('an empty tile is known, a failed one is asked for again', async () => {
+  const errors = [];
+  let fails = true;
+  const load = async ({ z }) => {
+    if (z && fails) throw new Error('no');
+    return null;
+  };
+  const source = { name: 'map', attribution: '', zooms: ZOOMS, margin: 0, load };
+  const client = new TileClient(source, { retries: 0, onError: (_, tile) => errors.push(keyOf(tile)) });
+  client.update(quads);
+  await expect.poll(() => errors).toHaveLength(4);
+  expect(client.get({ z: 0, x: 0, y: 0 }).state).toBe('empty');
+  fails = false;
+  client.retry();
+  client.update(quads);
+  await expect.poll(() => client.get(quads[3])?.state).toBe('empty');
+  client.dispose();
+  expect([...client.tiles]).toEqual([]);
+});
+
+test('colours are read, or refused in a line', () => {
+  expect(parts('#f00')).toEqual([1, 0, 0, 1]);
+  expect(parts('#00ff0033')).toEqual([0, 1, 0, 0.2]);
+  expect(parts(0x0000ff)).toEqual([0, 0, 1, 1]);
+  expect(parts(null)).toEqual([0, 0, 0, 0]);
+  expect(() => parts('#ggg')).toThrow('a paint is "#ggg"; give a colour of CSS, four numbers in 0..1, or null');
+  const colors = new FeatureColors();
+  expect(() => colors.setTimes({ ids: ['a', 'b'], colors: [['#000']] })).toThrow('step 0 has 1 colours; give 2, one for each id');
+  expect(() => colors.setTime(NaN)).toThrow('the time is null; give the number of a step');
+});
+
+test('a camera above a globe sees few quads, the deepest below it', () => {
+  const eye = { position: [0, 0, 1.001], planes: [[1, 0, -1, 1.001], [-1, 0, -1, 1.001], [0, 1, -1, 1.001], [0, -1, -1, 1.001]], pixels: 500 };
+  const found = cover(/** @type {any} */ (eye));
+  expect(found.length).toBeLessThan(60);
+  const [x, y] = mercator(0.001, 0.001);
+  expect(found.some((quad) => keyOf(quad) === keyOf(ancestor({ z: 30, x: Math.floor(x * 2 ** 30), y: Math.floor(y * 2 ** 30) }, quad.z)))).toBe(true);
+});
