@@ -79,7 +79,9 @@ def test_each_pixel_has_the_colour_of_its_place(
 def test_features_are_found_and_coloured_without_loading(page: Any) -> None:
     before = _look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)
     places = tile_pyramid.points(300)
-    found = page.evaluate("some => some.map((one) => globe.featureAt(one)?.id ?? null)", [tile_pyramid.lng_lat(*one) for one in places])
+    found = page.evaluate(
+        "some => some.map((one) => globe.featureAt(one)?.id ?? null)", [tile_pyramid.lng_lat(*one) for one in places]
+    )
     assert found == [tile_pyramid.name_at(*one) for one in places]
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
@@ -98,4 +100,8 @@ def test_all_is_freed(page: Any) -> None:
     _look(page, *tile_pyramid.lng_lat(*MIDDLE), 0.5)
     assert page.evaluate("renderer.info.memory.textures") > 0
     page.evaluate("globe.dispose()")
-    assert page.evaluate("[renderer.info.memory.textures, renderer.info.memory.geometries, globe.children.length]") == [0, 0, 0]
+    assert page.evaluate("[renderer.info.memory.textures, renderer.info.memory.geometries, globe.children.length]") == [
+        0,
+        0,
+        0,
+    ]

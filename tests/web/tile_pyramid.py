@@ -66,9 +66,7 @@ def drawing(low: tuple[float, float], side: float, colours: Any = colour) -> Dra
         ring = shapely.get_coordinates(shapely.orient_polygons(part).exterior)[:-1]
         ring = np.clip((ring - low) / side, 0.0, 1.0)
         points = [(float(x), float(1.0 - y)) for x, y in ring]
-        paths += [
-            replace(path, paint=Paint(colours(name)), element=name) for path in Drawing.polygon(points).paths
-        ]
+        paths += [replace(path, paint=Paint(colours(name)), element=name) for path in Drawing.polygon(points).paths]
     size = 2 * HALF * side
     to_source = np.array([[size, 0.0, 2 * HALF * low[0] - HALF], [0.0, size, HALF - 2 * HALF * (low[1] + side)]])
     return Drawing(tuple(paths), to_source=to_source, name="map", crs="EPSG:3857")

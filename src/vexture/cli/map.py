@@ -72,6 +72,10 @@ def map(
 
         if output.suffix.lower() != PACKED_SUFFIX:
             raise ParameterError(f"`output` {output}: textures are KTX2 files; name one that ends in {PACKED_SUFFIX}")
+        targets = [output, *([] if table == "none" else [output.with_suffix(f".{table}")])]
+        for target in targets:
+            if any(target.exists() and source.exists() and target.samefile(source) for source in sources):
+                raise ParameterError(f"{target} is a source itself; give another `output`, or `table` none")
         layers = _layers(sources, symbol, options)
         kept = {name: options[name] for name in ("crs", "snap", "size", "restyle", "max_seconds")}
         if options["tolerance"] is not None:
