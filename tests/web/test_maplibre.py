@@ -122,7 +122,8 @@ def test_no_frame_is_blank_once_the_parent_is_there(opened: Callable[..., Any]) 
                 map.jumpTo({ center: [lng, lat], zoom });
                 await frame();
                 const { quads } = { quads: map.coveringTiles({ tileSize: 512 * 2 ** -0.25 }) };
-                if (tiles.stats.shown.length !== quads.length) blank.push([zoom, tiles.stats.shown.length, quads.length]);
+                const shown = tiles.stats.shown.length;
+                if (shown !== quads.length) blank.push([zoom, shown, quads.length]);
             }
             return blank;
         }""",

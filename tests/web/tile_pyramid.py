@@ -60,7 +60,7 @@ def drawing(low: tuple[float, float], side: float, colours: Any = colour) -> Dra
     paths = []
     around = [(name, cell, turn) for name, cell in cells().items() for turn in (-1.0, 0.0, 1.0)]
     for name, cell, turn in around:
-        part = shapely.intersection(shapely.transform(cell, lambda at, turn=turn: at + (turn, 0)), box)
+        part = shapely.intersection(shapely.transform(cell, lambda at, turn=turn: at + np.array([turn, 0])), box)
         if not isinstance(part, shapely.Polygon) or part.area < 1e-12 * side * side:
             continue
         ring = shapely.get_coordinates(shapely.orient_polygons(part).exterior)[:-1]

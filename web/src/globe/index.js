@@ -16,3 +16,4 @@ export { VectorGlobe } from './vector-globe.js';
 /** @typedef {import('../tiles/grid.js').TileId} TileId */
 /** @typedef {import('../tiles/pyramid.js').Feature} Feature */
 /** @typedef {import('../tiles/source.js').TileSource} TileSource */
+/** @typedef {import('../tiles/choose.js').Quad} Quad */

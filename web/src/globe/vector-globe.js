@@ -12,7 +12,7 @@ import { patch } from './patch.js';
  * @typedef {import('../tiles/client.js').LoadedTile} LoadedTile
  * @typedef {import('../tiles/pyramid.js').Feature} Feature
  *
- * @typedef {object} VectorGlobeOptions
+ * @typedef {object} VectorGlobeOptions What a globe shows, and how much it may keep and ask for.
  * @property {string | import('../tiles/source.js').TileSource} source address of a `.pmtiles` or a TileJSON, `textureSource`
  *   of one texture, or a source of your own
  * @property {number} [radius] 1 by default
@@ -103,17 +103,29 @@ export class VectorGlobe extends Group {
     this.#pyramid.colors.setPaint(paints);
   }
 
-  /** @param {Iterable<string> | ((id: string) => boolean) | null} hidden ids, or whether one is hidden; null: none */
+  /**
+   * Hide features.
+   *
+   * @param {Iterable<string> | ((id: string) => boolean) | null} hidden ids, or whether one is hidden; null: none
+   */
   setFilter(hidden) {
     this.#pyramid.colors.setFilter(hidden);
   }
 
-  /** @param {import('../tiles/feature-colors.js').TimeTable | null} table colours at each step of time */
+  /**
+   * The colours of features at each step of time, which those of `setPaint` give way to.
+   *
+   * @param {import('../tiles/feature-colors.js').TimeTable | null} table
+   */
   setTimes(table) {
     this.#pyramid.colors.setTimes(table);
   }
 
-  /** @param {number} time in steps; between two of them colours are mixed */
+  /**
+   * Show the colours of `setTimes` at a time.
+   *
+   * @param {number} time in steps; between two of them colours are mixed
+   */
   setTime(time) {
     this.#pyramid.colors.setTime(time);
   }

@@ -10,7 +10,7 @@ import { TilePainter } from './painter.js';
  * @typedef {import('../tiles/feature-colors.js').TimeTable} TimeTable
  * @typedef {import('../tiles/pyramid.js').Feature} Feature
  *
- * @typedef {object} VectorTileLayerOptions
+ * @typedef {object} VectorTileLayerOptions What a layer shows, and how much it may keep and ask for.
  * @property {string} id of the layer
  * @property {string | import('../tiles/source.js').TileSource} source address of a `.pmtiles` or a TileJSON, or a source of
  *   your own
@@ -21,20 +21,21 @@ import { TilePainter } from './painter.js';
  * @property {number} [pause] milliseconds before the first retry
  *
  * @typedef {object} FeatureEvent What listeners get.
- * @property {Feature | null} feature
- * @property {{ lng: number, lat: number }} lngLat
+ * @property {Feature | null} feature the one at the pointer
+ * @property {{ lng: number, lat: number }} lngLat the place, in degrees
  * @property {{ x: number, y: number }} point in CSS pixels
  *
  * @typedef {{ hover: FeatureEvent, click: FeatureEvent, error: { error: unknown, tile?: import('../tiles/grid.js').TileId } }} LayerEvents
+ *   What listeners of each event get.
  */
 
 /**
  * A map of `vexture tiles` as a layer of MapLibre, flat and on the globe: `map.addLayer(layer, beforeId)`.
  */
 export class VectorTileLayer {
-  /** @type {'custom'} */
+  /** A custom layer, to MapLibre. @type {'custom'} */
   type = 'custom';
-  /** @type {'2d'} */
+  /** It lies on the ground. @type {'2d'} */
   renderingMode = '2d';
   /** @type {MapLibreMap | null} */
   #map = null;
@@ -51,6 +52,7 @@ export class VectorTileLayer {
 
   /** @param {VectorTileLayerOptions} options */
   constructor(options) {
+    /** Its name in MapLibre. @type {string} */
     this.id = options.id;
     this.#options = options;
     this.#pyramid = this.#open();
@@ -119,13 +121,21 @@ export class VectorTileLayer {
     this.#map?.triggerRepaint();
   }
 
-  /** @param {number} time in steps; between two of them colours are mixed */
+  /**
+   * Show the colours of `setTimes` at a time.
+   *
+   * @param {number} time in steps; between two of them colours are mixed
+   */
   setTime(time) {
     this.#pyramid.colors.setTime(time);
     this.#map?.triggerRepaint();
   }
 
-  /** @param {number} opacity of all of it, 0..1 */
+  /**
+   * Let the map below shine through.
+   *
+   * @param {number} opacity of all of it, 0..1
+   */
   setOpacity(opacity) {
     if (!(opacity >= 0 && opacity <= 1)) throw new VextureError(`the opacity is ${line(opacity)}; give 0 to 1`, 'opacity');
     this.#opacity = opacity;
@@ -149,6 +159,8 @@ export class VectorTileLayer {
   }
 
   /**
+   * Listen to an event.
+   *
    * @template {keyof LayerEvents} Type
    * @param {Type} type `hover`: another feature is pointed at, or none; `click`; `error`: something cannot be had
    * @param {(event: LayerEvents[Type]) => void} listener
@@ -160,6 +172,8 @@ export class VectorTileLayer {
   }
 
   /**
+   * Listen no longer.
+   *
    * @param {keyof LayerEvents} type
    * @param {(event: any) => void} listener
    */

@@ -10,7 +10,7 @@ import { openTiles } from './source.js';
  * @typedef {import('./client.js').LoadedTile} LoadedTile
  *
  * @typedef {object} Feature A feature at a place.
- * @property {string} id
+ * @property {string} id its name
  *
  * @typedef {{ quad: import('./choose.js').Quad, loaded: LoadedTile }[]} View what is shown
  */
