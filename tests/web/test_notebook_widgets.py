@@ -270,7 +270,8 @@ def test_a_map_tells_of_what_is_hovered_and_selects_what_is_clicked(notebook: An
     drawn(notebook, stage, (100, 120), purple)
     drawn(notebook, stage, (300, 120), yellow)
     assert stage.locator(".vexture-legend").inner_text().split("\n") == ["yield", "4 - 6.5", "6.5 - 9"]
-    assert not stage.locator(".vexture-tip").is_visible()
+    notebook.page.mouse.move(1, 1)
+    stage.locator(".vexture-tip").wait_for(state="hidden")
     stage.hover(position={"x": 100, "y": 120})
     tip = stage.locator(".vexture-tip")
     tip.wait_for()

@@ -12,6 +12,7 @@ export const STYLE = `
   box-shadow: 0 1px 4px rgba(0, 0, 0, 0.3); font: 12px/1.4 system-ui, sans-serif; pointer-events: none;
 }
 .vexture-stage .vexture-legend { right: 10px; bottom: 10px; max-height: calc(100% - 40px); overflow: hidden; }
+.vexture-stage [hidden] { display: none !important; }
 .vexture-legend figcaption { font-weight: 600; margin-bottom: 4px; }
 .vexture-legend .ramp { width: 160px; height: 12px; }
 .vexture-legend .ends { display: flex; justify-content: space-between; }
