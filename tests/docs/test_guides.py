@@ -88,6 +88,7 @@ def test_the_guide_for_notebooks_does_what_it_says(tmp_path: Path) -> None:
     assert (folder / "harbour.html").read_bytes().startswith(b"<!doctype html>")
 
 
+@pytest.mark.usefixtures("page_is_built")
 def test_the_guide_for_maps_does_what_it_says(tmp_path: Path) -> None:
     folder = tmp_path / "run"
     folder.mkdir()
