@@ -195,7 +195,7 @@ def test_a_ring_that_touches_itself_may_vanish():
 
 
 def test_a_corner_beside_the_side_of_a_box_is_cut():
-    """A part of a real coast, whose corner is off the box's eastern side by a rounding: GEOS cuts it the slow way only."""
+    """A part of a real coast, whose corner is beside the box by a rounding: GEOS cuts it the slow way only."""
     box = (1242560.3318038252, 5312679.21393289, 1575214.2789009123, 5645333.161029977)
     coast = [
         *((1582731.435982602, 5642401.414837995), (1575214.278900912, 5632022.741133708)),
