@@ -50,7 +50,7 @@ class Tile(NamedTuple):
     Examples
     --------
     >>> Tile(2, 3, 1).parent(1), Tile(1, 1, 0).number, [tile.number for tile in Tile(0, 0, 0).below(1)]
-    (Tile(z=1, x=1, y=0), 4, [1, 2, 4, 3])
+    (Tile(z=1, x=1, y=0), 4, [1, 4, 2, 3])
     """
 
     z: int
