@@ -33,7 +33,7 @@ LONGEST_EXAMPLE = 40
 DUMPING_GROUNDS = {"common", "helper", "helpers", "misc", "tools", "util", "utils"}
 
 BASE = {"deadline", "errors", "kernels", "machine_code", "tolerance"}
-SOURCES = BASE | {"bezier", "content", "drawing", "group", "notes", "paint", "unit_square"}
+SOURCES = BASE | {"bezier", "content", "contours", "drawing", "group", "notes", "paint", "unit_square"}
 MAY_IMPORT: dict[str, set[str]] = {
     "deadline": {"errors"},
     "errors": set(),
@@ -48,13 +48,14 @@ MAY_IMPORT: dict[str, set[str]] = {
     "paint": {"errors"},
     "bezier": {"kernels", "tolerance"},
     "unit_square": {"bezier", "errors", "tolerance"},
-    "drawing": BASE | {"bezier", "group", "notes", "paint", "unit_square"},
+    "contours": {"bezier", "errors"},
+    "drawing": BASE | {"bezier", "contours", "group", "notes", "paint", "unit_square"},
     "fonts": {"bezier", "content", "deadline", "drawing", "errors", "group", "notes", "paint"},
     "svg": SOURCES | {"fonts"},
     "geo": SOURCES | {"workers"},
     "tracing": SOURCES | {"svg"},
     "reading": SOURCES | {"fonts", "geo", "svg", "tracing", "workers"},
-    "tree": BASE | {"bezier", "drawing", "group", "layout", "notes", "paint"},
+    "tree": BASE | {"bezier", "contours", "drawing", "group", "layout", "notes", "paint"},
     "wgsl": {"errors"},
     "renderers": BASE | {"drawing", "group", "layout", "paint", "wgsl"},
     "encodings": {"drawing", "errors", "renderers"},

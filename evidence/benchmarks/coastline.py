@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from packed_conversion import peak_memory
 from report import table, write_json
 from targets import Target, judged, judgement
-from vexture.bezier.convert import line_cubics
+from vexture.contours import ring_contours
 from vexture.drawing import Drawing, FillRule
 from vexture.drawing import Path as Shape
 from vexture.texture.encode import encode
@@ -53,11 +53,12 @@ def rings_of(folder: Path) -> list[NDArray[np.float32]]:
 def shoreline(rings: list[NDArray[np.float32]]) -> Drawing:
     """One path of all rings; lakes and islands in lakes alternate."""
     least, side = WORLD
-    contours = []
-    for ring in rings:
-        start = ((ring - least) / side).clip(0.0, 1.0)
-        contours.append(line_cubics(start, np.roll(start, -1, axis=0)))
-    return Drawing((Shape(tuple(contours), FillRule.EVENODD),), name="shoreline")
+    corners = np.concatenate(rings, dtype=np.float64)
+    corners -= least
+    corners /= side
+    np.clip(corners, 0.0, 1.0, out=corners)
+    contours = ring_contours(corners, np.cumsum([len(ring) for ring in rings]))
+    return Drawing((Shape(contours, FillRule.EVENODD),), name="shoreline")
 
 
 def conversion(folder: Path, tolerance: float) -> dict[str, Any]:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
+from vexture.contours import check_contours, joined
 from vexture.deadline import check_time
 from vexture.errors import SourceError
 from vexture.group import Blend, Group, Mask, groups_around
@@ -71,20 +72,7 @@ class Path:
     element: str = ""
 
     def __post_init__(self) -> None:
-        for contour in self.contours:
-            if contour.dtype != np.float64 or contour.ndim != 3 or contour.shape[1:] != (4, 2) or not len(contour):
-                raise SourceError(f"a contour is {contour.dtype}{contour.shape}; it must be float64 (n, 4, 2), n >= 1")
-        if not self.contours:
-            return
-        joined = np.concatenate(self.contours) if len(self.contours) > 1 else self.contours[0]
-        if not np.isfinite(joined).all():
-            raise SourceError("a contour holds a coordinate that is not finite; correct the drawing")
-        begins = np.roll(joined[:, 0], -1, axis=0)
-        if len(self.contours) > 1:
-            ends = np.cumsum([len(contour) for contour in self.contours])
-            begins[ends - 1] = joined[np.append(0, ends[:-1]), 0]
-        if (joined[:, 3] != begins).any():
-            raise SourceError("a contour is open; every cubic must start exactly where the one before it ends")
+        check_contours(self.contours)
 
     @classmethod
     def _sound(cls, contours: tuple[NDArray[np.float64], ...], like: "Path", to_source: Affine) -> "Path":
@@ -100,7 +88,7 @@ class Path:
         """Least and greatest coordinates of all control points, (2, 2): no part of the path is outside."""
         if not self.contours:
             return np.array([[np.inf, np.inf], [-np.inf, -np.inf]])
-        points = np.concatenate(self.contours)
+        points = joined(self.contours)
         return np.stack([points.min(axis=(0, 1)), points.max(axis=(0, 1))])
 
 
@@ -146,11 +134,9 @@ class Drawing:
         self._check_groups()
         if np.shape(self.to_source) != (2, 3) or not np.isfinite(self.to_source).all():
             raise SourceError(f"{self.name}: to_source must be a finite (2, 3) array")
-        ends = [contour[:, 0] for path in self.paths for contour in path.contours]
-        if ends:
-            joined = np.concatenate(ends)
-            if joined.min() < 0.0 or joined.max() > 1.0:
-                raise SourceError(f"{self.name}: a contour leaves the unit square; clip or scale it first")
+        cubics = joined([contour for path in self.paths for contour in path.contours])
+        if len(cubics) and not (cubics[:, 0].min() >= 0.0 and cubics[:, 0].max() <= 1.0):
+            raise SourceError(f"{self.name}: a contour leaves the unit square; clip or scale it first")
 
     def _check_groups(self) -> None:
         """Raise a `SourceError` unless groups are nested, and each path names one of them that is still open."""
@@ -347,10 +333,10 @@ class Drawing:
         contours = [contour for path in listed for contour in path.contours]
         if not contours:
             return cls((), to_source, name, groups=groups, sides=sides)
-        joined = (np.concatenate(contours) - (x, y)) / size + low
-        joined[..., 1] = 1.0 - joined[..., 1]
+        cubics = (joined(contours) - (x, y)) / size + low
+        cubics[..., 1] = 1.0 - cubics[..., 1]
         ends = np.cumsum([len(contour) for contour in contours])
-        kept = tidied(*clipped(joined, ends, low, 1.0 - low))
+        kept = tidied(*clipped(cubics, ends, low, 1.0 - low))
         normal = []
         a, b, c, d, e, f = to_source.ravel().tolist()
         rows = ((a, b, c), (d, e, f))

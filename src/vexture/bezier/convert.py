@@ -31,7 +31,11 @@ Step = tuple[float, float, float, float, float, float]
 def line_cubics(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
     """Straight lines as cubics, (..., 2) -> (..., 4, 2), with inner control points at one and two thirds."""
     chord = end - start
-    return np.stack([start, start + chord / 3.0, start + chord * (2.0 / 3.0), end], axis=-2)
+    cubics = np.empty((*chord.shape[:-1], 4, 2))
+    cubics[..., 0, :], cubics[..., 3, :] = start, end
+    np.add(start, chord / 3.0, out=cubics[..., 1, :])
+    np.add(start, chord * (2.0 / 3.0), out=cubics[..., 2, :])
+    return cubics
 
 
 def straight(cubics: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.convert import line_cubics
+from vexture.contours import ring_contours
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.geo.extent import Bounds
 from vexture.geo.rings import Rings, oriented
@@ -42,9 +42,7 @@ def area_paths(
         return
     rings = oriented(rings)
     assert rings.feature is not None
-    start = fit.inward(rings.points)
-    end = start[rings.following]
-    contours = np.split(line_cubics(start, end), rings.ends[:-1])
+    contours = ring_contours(fit.inward(rings.points), rings.ends)
     owner = rings.feature[rings.polygon]
     order = np.argsort(rank[owner], kind="stable")
     features, first = np.unique(rank[owner][order], return_index=True)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.convert import line_cubics
+from vexture.contours import ring_contours
 from vexture.drawing import Drawing, FillRule, Path
 from vexture.errors import SourceError
 from vexture.geo.crs import (
@@ -123,10 +124,10 @@ def _drawn(rings: Rings, frame: Frame, name: str) -> Drawing:
     turned = oriented(rings)
     start: NDArray[np.float64] = (turned.points - frame.to_source[:, 2]) / frame.to_source.diagonal()
     end = start[turned.following]
-    sides = line_cubics(start, end)
     if start.min() >= 0.0 and start.max() <= 1.0 and (np.abs(end - start) > CLOSED).any(axis=1).all():
-        contours = np.split(sides, turned.ends[:-1])  # already clipped and without tiny sides
+        contours = ring_contours(start, turned.ends)  # already clipped and without tiny sides
     else:
-        contours = list(tidied(*clipped(sides, turned.ends, np.zeros(2), np.ones(2))).values())
-    paths = (Path(tuple(contours), FillRule.NONZERO),) if contours else ()
+        sides = line_cubics(start, end)
+        contours = tuple(tidied(*clipped(sides, turned.ends, np.zeros(2), np.ones(2))).values())
+    paths = (Path(contours, FillRule.NONZERO),) if contours else ()
     return Drawing(paths, frame.to_source, name, crs)

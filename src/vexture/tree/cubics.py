@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.contours import joined
 from vexture.drawing import Drawing, FillRule
 
 __all__ = ["gather"]
@@ -28,7 +29,7 @@ def gather(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int64], ND
             different[path.fill_rule, *bits] = [path.contours[k] for k in _needed(path.fill_rule, bits)]
     contours = [contour for kept in different.values() for contour in kept]
     lengths = [sum(map(len, kept)) for kept in different.values()]
-    cubics = np.concatenate(contours) if contours else np.empty((0, 4, 2))
+    cubics = joined(contours)
     owner = np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
     return cubics, owner, np.array([int(rule) for rule, *_ in different], dtype=np.int64)
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.monotone import monotone_pieces
+from vexture.contours import joined
 from vexture.deadline import check_time
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, SourceError
@@ -287,7 +288,7 @@ def drawing_cubics(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.in
     contours = [contour for path in drawing.paths for contour in path.contours]
     lengths = [sum(map(len, path.contours)) for path in drawing.paths]
     owner = np.repeat(np.arange(len(lengths), dtype=np.int64), lengths)
-    return np.concatenate(contours) if contours else np.empty((0, 4, 2)), owner
+    return joined(contours), owner
 
 
 def planted(tree: tuple[Any, ...], *others: Any) -> PlanarGrowth:

@@ -1,0 +1,104 @@
+"""Contours of cubics: many of them as parts of one array, which is never copied to be looked at whole."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vexture.bezier.convert import line_cubics
+from vexture.errors import SourceError
+
+__all__ = ["check_contours", "joined", "ring_contours"]
+
+BLOCK = 1 << 18
+"""Cubics of short contours that are checked together, 17 MB."""
+
+
+def ring_contours(points: NDArray[np.float64], ends: NDArray[np.intp]) -> tuple[NDArray[np.float64], ...]:
+    """Contours with straight sides through points (n, 2), as parts of one array.
+
+    `ends` are the places after the last point of each ring; its first point is not repeated.
+
+    Examples
+    --------
+    >>> corners = np.array([(0, 0), (1, 0), (0, 1), (0.5, 0.5), (1, 0.5), (0.5, 1)], float)
+    >>> left, right = ring_contours(corners, np.array([3, 6]))
+    >>> right[:, 3].tolist(), left.base is right.base
+    ([[1.0, 0.5], [0.5, 1.0], [0.5, 0.5]], True)
+    """
+    if not len(ends):
+        return ()
+    following = np.roll(points, -1, axis=0)
+    following[ends - 1] = points[np.append(0, ends[:-1])]
+    return tuple(_parts(line_cubics(points, following), ends))
+
+
+def _parts(cubics: NDArray[np.float64], ends: NDArray[np.intp]) -> list[NDArray[np.float64]]:
+    """Parts of an array; `numpy.split` takes four times as long."""
+    places = [0, *ends.tolist()]
+    return [cubics[start:end] for start, end in pairwise(places)]
+
+
+def joined(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """All cubics of contours, (n, 4, 2): a part of the array whose parts they are, or else a copy; only to be read.
+
+    Examples
+    --------
+    >>> whole = np.zeros((5, 4, 2))
+    >>> [np.shares_memory(whole, joined(parts)) for parts in ([whole[1:3], whole[3:]], [whole[3:], whole[:3]])]
+    [True, False]
+    """
+    if not contours:
+        return np.empty((0, 4, 2))
+    base: NDArray[np.float64] | None = contours[0] if len(contours) == 1 else contours[0].base
+    if base is None or base.dtype != np.float64 or not (base.flags.c_contiguous and base.flags.writeable):
+        return _copied(contours)
+    first = at = _address(contours[0])
+    for contour in contours:
+        if (contour.base is not base and contour is not base) or _address(contour) != at or not _is_plain(contour):
+            return _copied(contours)
+        at += contour.nbytes
+    start, end = ((place - _address(base)) // base.itemsize for place in (first, at))
+    return base.reshape(-1)[start:end].reshape(-1, 4, 2)
+
+
+def _copied(contours: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    return np.ascontiguousarray(np.concatenate(contours))  # concatenate keeps the order of the axes
+
+
+def _is_plain(contour: NDArray[np.float64]) -> bool:
+    """Whether kernels read it without a copy."""
+    return contour.flags.c_contiguous and contour.dtype == np.float64
+
+
+def _address(array: NDArray[np.float64]) -> int:
+    return int(array.__array_interface__["data"][0])
+
+
+def check_contours(contours: Sequence[NDArray[np.float64]]) -> None:
+    """Raise a `SourceError` unless each is a float64 array (n, 4, 2), finite and closed bit for bit."""
+    held: list[NDArray[np.float64]] = []
+    cubics = 0
+    for contour in contours:
+        if contour.dtype != np.float64 or contour.ndim != 3 or contour.shape[1:] != (4, 2) or not len(contour):
+            raise SourceError(f"a contour is {contour.dtype}{contour.shape}; it must be float64 (n, 4, 2), n >= 1")
+        held.append(contour)
+        cubics += len(contour)
+        if cubics >= BLOCK:
+            _check_values(held)
+            held, cubics = [], 0
+    if held:
+        _check_values(held)
+
+
+def _check_values(contours: Sequence[NDArray[np.float64]]) -> None:
+    cubics = joined(contours)
+    if not np.isfinite(cubics).all():
+        raise SourceError("a contour holds a coordinate that is not finite; correct the drawing")
+    begins = np.roll(cubics[:, 0], -1, axis=0)
+    if len(contours) > 1:
+        ends = np.cumsum([len(contour) for contour in contours])
+        begins[ends - 1] = cubics[np.append(0, ends[:-1]), 0]
+    if (cubics[:, 3] != begins).any():
+        raise SourceError("a contour is open; every cubic must start exactly where the one before it ends")
