@@ -7,9 +7,10 @@ rounded to a lattice, so that a line through a cell's corner leaves no sliver be
 hold the point exactly; so is that of an end that lies on the line already. A piece goes to the upper (right) child iff
 **both** its ends are at or beyond the line: a decision by their midpoint fails where it rounds up.
 
-Most pieces of a map lie, with many neighbours along their contour, far inside one of a cell's children. So the lists of
-crowded cells hold *runs*: a fixed number of pieces that follow one another in the pool, under one negative number. A run
-whose box meets no middle line moves as one; any other becomes its pieces. Lists that leaves may be made of hold none.
+Most pieces of a coast lie, with many neighbours along their contour, far inside one of a cell's children. So the lists
+of crowded cells hold *runs*: a fixed number of pieces that follow one another in the pool, under one negative number. A
+run whose box meets no middle line moves as one; any other becomes its pieces. Lists that leaves may be made of hold
+none.
 
 Cells are divided depth first. What a cell appended to the pool and to the lists is discarded when all cells below it
 are done, so both stay small and in the processor's cache.
