@@ -3,12 +3,13 @@
 import numpy as np
 
 from vexture.bezier.convert import line_cubics
-from vexture.tree.merge import MONOTONE_PARTS, merge_chains
+from vexture.bezier.monotone import MOST_PARTS
+from vexture.tree.merge import merge_chains
 
 
 def merged(points, most):
     curves = line_cubics(points[:-1], points[1:])
-    room = len(curves) + MONOTONE_PARTS
+    room = len(curves) + MOST_PARTS
     out = np.empty((room, 4, 2))
     count, _ = merge_chains(curves, np.zeros(len(curves), np.int64), 1.0, most, out, np.empty(room, np.int64))
     return out[:count]

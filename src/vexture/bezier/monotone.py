@@ -1,6 +1,6 @@
 """Cutting cubics into pieces that are monotone in x and in y."""
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,10 @@ from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 from vexture.tolerance import PARAMETER
 
-__all__ = ["Pieces", "empty_pieces", "monotone_pieces", "turns"]
+__all__ = ["MOST_PARTS", "Pieces", "empty_pieces", "monotone_pieces", "turns", "write_monotone"]
+
+MOST_PARTS: Final = 5
+"""Most pieces of a cubic, which turns at most twice in x and twice in y."""
 
 
 class Pieces(NamedTuple):
@@ -48,15 +51,11 @@ def turns(curve: NDArray[np.float64], out: NDArray[np.float64]) -> int:
 
 
 @kernel
-def monotone_pieces(cubics: NDArray[np.float64], path: NDArray[np.int64]) -> Pieces:
-    """Split the cubics (m, 4, 2) of contours where x or y turns; `path` (m,) is the path of each.
-
-    The order stays. Pieces whose ends coincide are dropped, and common end points are equal bit for bit.
-    """
-    out = empty_pieces(5 * len(cubics))
+def write_monotone(cubics: NDArray[np.float64], path: NDArray[np.int64], out: Pieces) -> int:
+    """Write the pieces of `monotone_pieces` to arrays with room; return how many. `segment` and `span` may be empty."""
     at = np.empty(4)
     rest = np.empty((4, 2))
-    count = 0
+    count, with_spans = 0, len(out.segment) > 0
     for i in range(len(cubics)):
         copy_curve(cubics[i], rest)
         turn_count = turns(cubics[i], at)
@@ -70,9 +69,22 @@ def monotone_pieces(cubics: NDArray[np.float64], path: NDArray[np.int64]) -> Pie
                 split(rest, (t1 - t0) / (1.0 - t0), piece, rest)
             else:
                 copy_curve(rest, piece)
-            out.path[count], out.segment[count] = path[i], i
-            out.span[count, 0], out.span[count, 1] = t0, t1
+            out.path[count] = path[i]
+            if with_spans:
+                out.segment[count] = i
+                out.span[count, 0], out.span[count, 1] = t0, t1
             t0 = t1
             if piece[0, 0] != piece[3, 0] or piece[0, 1] != piece[3, 1]:
                 count += 1
+    return count
+
+
+@kernel
+def monotone_pieces(cubics: NDArray[np.float64], path: NDArray[np.int64]) -> Pieces:
+    """Split the cubics (m, 4, 2) of contours where x or y turns; `path` (m,) is the path of each.
+
+    The order stays. Pieces whose ends coincide are dropped, and common end points are equal bit for bit.
+    """
+    out = empty_pieces(MOST_PARTS * len(cubics))
+    count = write_monotone(cubics, path, out)
     return Pieces(out.points[:count], out.path[:count], out.segment[:count], out.span[:count])

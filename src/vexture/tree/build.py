@@ -6,8 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.monotone import Pieces, monotone_pieces
-from vexture.bezier.split import copy_curve
+from vexture.bezier.monotone import Pieces, write_monotone
 from vexture.deadline import check_time
 from vexture.drawing import Drawing
 from vexture.errors import LimitError, ParameterError, SourceError
@@ -15,7 +14,7 @@ from vexture.kernels import kernel
 from vexture.layout import LATTICE, MOST_CURVES, MOST_DEPTH
 from vexture.tolerance import CLOSED
 from vexture.tree.cubics import gather
-from vexture.tree.divide import PARTS, PiecePool, divide
+from vexture.tree.divide import CROWDED, PARTS, RUN, PiecePool, divide, holds_runs, list_all
 from vexture.tree.growth import (
     COUNT,
     COVERAGE,
@@ -91,7 +90,7 @@ class Bounds(NamedTuple):
 class Work(NamedTuple):
     """Arrays that are reused from cell to cell."""
 
-    child_at: NDArray[np.int64]  # (5,): start of each child's list of pieces
+    child_at: NDArray[np.int64]  # (9,): start of each child's list of pieces; see `divide`
     windings: NDArray[np.int64]  # (paths, 8): what `child_windings` writes
     leaf: Workspace
 
@@ -142,7 +141,8 @@ def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Wor
     x0, y0, half = corner[top, 0], corner[top, 1], 0.5 ** (depth + 1)
     xm, ym = x0 + half, y0 + half
     grain = 0.5 ** max(depth + 1, bounds.least_depth) / LATTICE
-    pieces = divide(pool, first, last, xm, ym, grain, stack[top, PIECES], child_at)
+    at_limit = depth + 1 == bounds.max_depth
+    pieces = divide(pool, first, last, xm, ym, grain, stack[top, PIECES], at_limit, child_at)
     child_windings(
         pool.points, pool.path, pool.numbers, child_at, present[first_path:last_path], x0, y0, xm, ym, windings
     )
@@ -158,9 +158,8 @@ def _grow_quad(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, work: Wor
             continue
         x, y, end = x0 + half * (child & 1), y0 + half * (child >> 1), child_at[child + 1]
         leaf = Leaf(DIVIDE, 0, 0.0, 0.0, True)
-        if depth + 1 >= bounds.least_depth:
+        if depth + 1 >= bounds.least_depth and not holds_runs(pool, child_at[child], end):
             paths, target = present[end_path:here], tree.curves[counts[CURVES] :]
-            at_limit = depth + 1 == bounds.max_depth
             leaf = leaf_of(
                 pool,
                 child_at[child],
@@ -218,7 +217,7 @@ def root_paths(points: NDArray[np.float64], path: NDArray[np.int64]) -> tuple[ND
 @kernel(ahead=True)
 def grow_on(tree: Growth, rules: NDArray[np.int64], bounds: Bounds, most_work: int) -> None:
     """Divide cells, depth first, until none waits, quads are too many, an array lacks room or `most_work` is done."""
-    work = Work(np.empty(5, np.int64), np.empty((len(rules), 8), np.int64), new_workspace(len(rules)))
+    work = Work(np.empty(9, np.int64), np.empty((len(rules), 8), np.int64), new_workspace(len(rules)))
     stack, counts = tree.stack, tree.counts
     while counts[WAITING] > 0 and counts[QUADS] <= bounds.most_quads and most_work > 0 and has_room(tree):
         top = counts[WAITING] - 1
@@ -233,30 +232,27 @@ def grow(
     cubics: NDArray[np.float64], owner: NDArray[np.int64], rules: NDArray[np.int64], bounds: Bounds, most_work: int
 ) -> tuple[Growth, float]:
     """Divide the unit square as `grow_on` does; also returns how far the outline lies outside the unit square."""
-    pieces = monotone_pieces(cubics, owner)
-    present, paths, outside = root_paths(pieces.points, pieces.path)
-    tree = new_growth(pieces, present, paths, bounds.max_depth)
+    tree, outside = new_growth(cubics, owner, bounds.max_depth, True)
     grow_on(tree, rules, bounds, most_work)
     return tree, outside
 
 
 @kernel
-def new_growth(pieces: Pieces, present: NDArray[np.int64], paths: int, max_depth: int) -> Growth:
-    """The unit square, to be divided."""
-    n, cells = len(pieces.path), 4 * max_depth + 4
-    room = (PARTS + 4) * n
+def new_growth(
+    cubics: NDArray[np.float64], owner: NDArray[np.int64], max_depth: int, in_runs: bool
+) -> tuple[Growth, float]:
+    """The unit square with the pieces of cubics, to be divided, and how far the outline lies outside it."""
+    room = (PARTS + 2) * len(cubics) + 64
+    points, path = np.empty((room, 4, 2)), np.empty(room, np.int64)
+    n = write_monotone(cubics, owner, Pieces(points, path, path[:0], points[:0, 0]))
+    present, paths, outside = root_paths(points[:n], path[:n])
+    runs = n // RUN if in_runs and n > CROWDED else 0
     pool = PiecePool(
-        np.empty((room, 4, 2)),
-        np.empty(room, np.int64),
-        np.empty(room, np.int64),
-        np.empty(room, np.int64),
-        np.empty(room, np.int64),
+        points, path, np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.int64), np.empty((runs, 4))
     )
-    for i in range(n):
-        copy_curve(pieces.points[i], pool.points[i])
-        pool.path[i], pool.numbers[i] = pieces.path[i], i
+    cells = 4 * max_depth + 4
     stack = np.zeros((cells, 7), np.int64)
-    stack[0, LAST], stack[0, LAST_PATH], stack[0, PIECES] = n, paths, n
+    stack[0, LAST], stack[0, LAST_PATH], stack[0, PIECES] = list_all(pool, n), paths, n
     return Growth(
         pool,
         present,
@@ -268,7 +264,7 @@ def new_growth(pieces: Pieces, present: NDArray[np.int64], paths: int, max_depth
         np.array([1, 0, 0, 1]),
         np.zeros(1),
         np.empty(5, np.int64),
-    )
+    ), outside
 
 
 def largest_shift(precision: float | None) -> float:

@@ -7,6 +7,11 @@ rounded to a lattice, so that a line through a cell's corner leaves no sliver be
 hold the point exactly; so is that of an end that lies on the line already. A piece goes to the upper (right) child iff
 **both** its ends are at or beyond the line: a decision by their midpoint fails where it rounds up.
 
+Most pieces of a coast lie, with many neighbours along their contour, far inside one of a cell's children. So the lists
+of crowded cells hold *runs*: a fixed number of pieces that follow one another in the pool, under one negative number. A
+run whose box meets no middle line moves as one; any other becomes its pieces. Lists that leaves may be made of hold
+none.
+
 Cells are divided depth first. What a cell appended to the pool and to the lists is discarded when all cells below it
 are done, so both stay small and in the processor's cache.
 """
@@ -20,10 +25,17 @@ from vexture.bezier.roots import solve_monotone
 from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 
-__all__ = ["PARTS", "PiecePool", "child_of", "divide", "snap"]
+__all__ = ["CROWDED", "PARTS", "RUN", "PiecePool", "child_of", "divide", "holds_runs", "list_all", "snap"]
 
 PARTS = 4
 """Most parts of one piece: each of the two middle lines cuts it at most once."""
+
+
+RUN = 16
+"""Pieces in a run."""
+
+CROWDED = 512
+"""Pieces. A shorter list holds no runs."""
 
 
 class PiecePool(NamedTuple):
@@ -31,9 +43,10 @@ class PiecePool(NamedTuple):
 
     points: NDArray[np.float64]  # (room, 4, 2): pieces
     path: NDArray[np.int64]  # (room,): the path of each
-    numbers: NDArray[np.int64]  # (room,): lists of pieces, one after another
+    numbers: NDArray[np.int64]  # (room,): lists of pieces, one after another; -1 - k is run k
     child: NDArray[np.int64]  # (room,), scratch: the child that each part belongs to
     part: NDArray[np.int64]  # (room,), scratch: the number of each part
+    boxes: NDArray[np.float64]  # (runs, 4): least x and y, greatest x and y of each run; no rows if there are none
 
 
 @kernel(allocates=False)
@@ -58,49 +71,133 @@ def _cut(
 
 
 @kernel(allocates=False)
+def list_all(pool: PiecePool, count: int) -> int:
+    """Write the list of the first `count` pieces, in runs as far as the pool has rows for boxes; return its length.
+
+    A run is of one path and does not touch the left or the lower side of the unit square, where windings are counted.
+    """
+    points, path, numbers, boxes = pool.points, pool.path, pool.numbers, pool.boxes
+    end = 0
+    for k in range(len(boxes)):
+        box, first = boxes[k], RUN * k
+        box[0] = box[1] = np.inf
+        box[2] = box[3] = -np.inf
+        for i in range(first, first + RUN):
+            for axis in range(2):
+                a, d = points[i, 0, axis], points[i, 3, axis]
+                box[axis], box[2 + axis] = min(box[axis], a, d), max(box[2 + axis], a, d)
+        if box[0] > 0.0 and box[1] > 0.0 and path[first] == path[first + RUN - 1]:
+            numbers[end] = -1 - k
+            end += 1
+        else:
+            for i in range(first, first + RUN):
+                numbers[end] = i
+                end += 1
+    for i in range(RUN * len(boxes), count):
+        numbers[end] = i
+        end += 1
+    return end
+
+
+@kernel(allocates=False)
+def holds_runs(pool: PiecePool, first: int, last: int) -> bool:
+    """Whether a list holds runs."""
+    if len(pool.boxes) > 0:
+        for place in range(first, last):
+            if pool.numbers[place] < 0:
+                return True
+    return False
+
+
+@kernel(allocates=False)
+def _divide_piece(
+    pool: PiecePool, i: int, xm: float, ym: float, grain: float, pieces: int, parts: int
+) -> tuple[int, int]:
+    """Write the parts of a piece and the child of each behind `parts` others; return both new counts."""
+    points, path, owner, part = pool.points, pool.path, pool.child, pool.part
+    x, y = points[i, 0, 0], points[i, 0, 1]
+    if (x - xm) * (points[i, 3, 0] - xm) > 0.0 and (y - ym) * (points[i, 3, 1] - ym) > 0.0:
+        owner[parts], part[parts] = (1 if x > xm else 0) + (2 if y > ym else 0), i
+        return pieces, parts + 1
+    whole = pieces
+    copy_curve(points[i], points[whole])
+    path[whole] = path[i]
+    right = _cut(points, path, whole, 0, xm, grain, whole + 1)
+    pieces = _cut(points, path, whole, 1, ym, grain, right)
+    if right > whole + 1:
+        pieces = _cut(points, path, whole + 1, 1, ym, grain, pieces)
+    for k in range(whole, pieces):
+        if points[k, 0, 0] != points[k, 3, 0] or points[k, 0, 1] != points[k, 3, 1]:
+            owner[parts], part[parts] = child_of(points[k], xm, ym), k
+            parts += 1
+    return pieces, parts
+
+
+@kernel(allocates=False)
 def divide(
-    pool: PiecePool, first: int, last: int, xm: float, ym: float, grain: float, pieces: int, child_at: NDArray[np.int64]
+    pool: PiecePool,
+    first: int,
+    last: int,
+    xm: float,
+    ym: float,
+    grain: float,
+    pieces: int,
+    at_limit: bool,
+    child_at: NDArray[np.int64],
 ) -> int:
     """Append the lists of a cell's four children behind its own list, first..last-1; return the new number of pieces.
 
     `xm` and `ym` are the cell's middle, `grain` the spacing of the lattice to which points on the middle lines are
-    rounded, and `pieces` the number of pieces in the pool, which must have room. The start of each child's list is
-    written to `child_at` (5,).
+    rounded, and `pieces` the number of pieces in the pool, which must have room. The children's lists hold no runs if
+    they are `at_limit`, the depth limit. The start of each child's list, and the end of the last, are written to
+    `child_at` (9,), which has four more rows to count in.
     """
-    points, path, numbers, owner, part = pool.points, pool.path, pool.numbers, pool.child, pool.part
+    numbers, owner, part, boxes = pool.numbers, pool.child, pool.part, pool.boxes
     parts = 0
     for place in range(first, last):
         i = numbers[place]
-        x, y = points[i, 0, 0], points[i, 0, 1]
-        if (x - xm) * (points[i, 3, 0] - xm) > 0.0 and (y - ym) * (points[i, 3, 1] - ym) > 0.0:
-            owner[parts], part[parts] = (1 if x > xm else 0) + (2 if y > ym else 0), i
+        if i >= 0:
+            pieces, parts = _divide_piece(pool, i, xm, ym, grain, pieces, parts)
+            continue
+        box = boxes[-1 - i]
+        if (box[0] - xm) * (box[2] - xm) > 0.0 and (box[1] - ym) * (box[3] - ym) > 0.0:
+            owner[parts], part[parts] = (1 if box[0] > xm else 0) + (2 if box[1] > ym else 0), i
             parts += 1
             continue
-        whole = pieces
-        copy_curve(points[i], points[whole])
-        path[whole] = path[i]
-        right = _cut(points, path, whole, 0, xm, grain, whole + 1)
-        pieces = _cut(points, path, whole, 1, ym, grain, right)
-        if right > whole + 1:
-            pieces = _cut(points, path, whole + 1, 1, ym, grain, pieces)
-        for k in range(whole, pieces):
-            if points[k, 0, 0] != points[k, 3, 0] or points[k, 0, 1] != points[k, 3, 1]:
-                owner[parts], part[parts] = child_of(points[k], xm, ym), k
-                parts += 1
-    for child in range(4):
-        child_at[child] = 0
+        for k in range(RUN * (-1 - i), RUN * -i):
+            pieces, parts = _divide_piece(pool, k, xm, ym, grain, pieces, parts)
+    _write_lists(pool, last, parts, at_limit, child_at)
+    return pieces
+
+
+@kernel(allocates=False)
+def _write_lists(pool: PiecePool, start: int, parts: int, at_limit: bool, child_at: NDArray[np.int64]) -> None:
+    """Write the list of each child, in the order of the parts: those of crowded children keep their runs."""
+    numbers, owner, part = pool.numbers, pool.child, pool.part
+    for column in range(9):
+        child_at[column] = 0
     for k in range(parts):
         child_at[owner[k]] += 1
-    start = last
+        child_at[5 + owner[k]] += 1 if part[k] >= 0 else RUN
     for child in range(4):
+        if at_limit or child_at[5 + child] <= CROWDED:
+            child_at[child] = child_at[5 + child]
+        else:
+            child_at[5 + child] = 0  # its runs stay
         start, child_at[child] = start + child_at[child], start
+    first = child_at[0]
     for k in range(parts):
-        numbers[child_at[owner[k]]] = part[k]
-        child_at[owner[k]] += 1
+        i, child = part[k], owner[k]
+        if i >= 0 or child_at[5 + child] == 0:
+            numbers[child_at[child]] = i
+            child_at[child] += 1
+            continue
+        for piece in range(RUN * (-1 - i), RUN * -i):
+            numbers[child_at[child]] = piece
+            child_at[child] += 1
     for child in range(4, 0, -1):  # each start has become the next one's
         child_at[child] = child_at[child - 1]
-    child_at[0] = last
-    return pieces
+    child_at[0] = first
 
 
 @kernel(allocates=False)

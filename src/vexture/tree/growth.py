@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vexture.kernels import kernel
 from vexture.layout import MOST_CURVES
-from vexture.tree.divide import PARTS, PiecePool
+from vexture.tree.divide import PARTS, RUN, PiecePool
 from vexture.tree.tree import Tree, levels, runs
 
 __all__ = [
@@ -67,7 +67,10 @@ def has_room(tree: Growth) -> bool:
     """Write the rows that the next cell needs; whether the arrays have them."""
     top, needed = tree.counts[WAITING] - 1, tree.needed
     last, last_path = tree.stack[top, LAST], tree.stack[top, LAST_PATH]
-    parts = PARTS * (last - tree.stack[top, FIRST])
+    listed = last - tree.stack[top, FIRST]
+    if len(tree.pool.boxes) > 0:
+        listed = min(RUN * listed, tree.stack[top, PIECES])
+    parts = PARTS * listed
     needed[0], needed[1] = tree.stack[top, PIECES] + parts, last + parts
     needed[2] = last_path + 4 * (last_path - tree.stack[top, FIRST_PATH])
     needed[3], needed[4] = tree.counts[QUADS] + 4, tree.counts[CURVES] + 4 * MOST_CURVES
@@ -109,9 +112,10 @@ def first_of(lengths: NDArray[np.int64], start: int) -> NDArray[np.int32]:
 def with_needed_room(tree: Growth) -> Growth:
     """The tree, with at least twice the room where the next cell has none."""
     pieces, numbers, paths, quads, curves = tree.needed.tolist()
-    points, path, *lists = tree.pool
+    points, path, listed, child, part, boxes = tree.pool
+    listed, child, part = (roomy(rows, numbers) for rows in (listed, child, part))
     return Growth(
-        PiecePool(roomy(points, pieces), roomy(path, pieces), *(roomy(rows, numbers) for rows in lists)),
+        PiecePool(roomy(points, pieces), roomy(path, pieces), listed, child, part, boxes),
         roomy(tree.present, paths),
         tree.stack,
         tree.corner,

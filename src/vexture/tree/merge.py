@@ -8,18 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.bezier.fit import fit_run
-from vexture.bezier.monotone import turns
+from vexture.bezier.monotone import MOST_PARTS, turns
 from vexture.bezier.split import copy_curve, split
 from vexture.kernels import kernel
 from vexture.layout import LATTICE
 
-__all__ = ["MONOTONE_PARTS", "MOST_MERGED", "merge_chains"]
+__all__ = ["MOST_MERGED", "merge_chains"]
 
 MOST_MERGED = 64
 """Pieces. In a cell with more nothing is merged, because it will be divided."""
-
-MONOTONE_PARTS = 5
-"""A cubic turns at most twice in x and twice in y."""
 
 
 @kernel
@@ -86,11 +83,11 @@ def merge_chains(
     Each chain is read once: the longest start that one cubic describes, then the longest start of the rest, and so on.
     `curves` are in the order of their contours. `tolerance` is the largest distance of a cubic from the pieces that it
     replaces, in lattice units. The rest is left out once more than `most` written pieces are not horizontal: the cell
-    will be divided. `merged` (room, 4, 2) and `merged_path` (room,) are written and need room for `MONOTONE_PARTS`
+    will be divided. `merged` (room, 4, 2) and `merged_path` (room,) are written and need room for `MOST_PARTS`
     pieces more than there were.
     """
-    trial = np.empty((MONOTONE_PARTS, 4, 2))
-    best = np.empty((MONOTONE_PARTS, 4, 2))
+    trial = np.empty((MOST_PARTS, 4, 2))
+    best = np.empty((MOST_PARTS, 4, 2))
     count, upright, deviation, first, chain_end = 0, 0, 0.0, 0, 0
     while first < len(path) and upright <= most:
         if first == chain_end:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from vexture.bezier.area import integral_x_dy
 from vexture.kernels import kernel
+from vexture.tree.divide import RUN
 
 __all__ = ["child_windings", "inside", "winding_area"]
 
@@ -49,8 +50,8 @@ def child_windings(
     """Write the corner windings of a cell's four children to `out` (m or more, 8).
 
     Each row is of one path in `present`: four corner windings, then whether the path has a piece in each child.
-    `numbers` holds one list of pieces for each child, in the order of `present`; `child_at` (5,) is the start of each
-    list and the end of the last. The cell's middle is (xm, ym).
+    `numbers` holds one list of pieces for each child, in the order of `present`; `child_at` (5 or more,) is the start
+    of each list and the end of the last. Runs of pieces end on no edge. The cell's middle is (xm, ym).
     """
     for k in range(len(present)):
         for column in range(8):
@@ -61,9 +62,12 @@ def child_windings(
         k = 0
         for place in range(child_at[child], child_at[child + 1]):
             i = numbers[place]
-            while present[k, 0] != path[i]:
+            owner = path[i if i >= 0 else RUN * (-1 - i)]
+            while present[k, 0] != owner:
                 k += 1
             out[k, 4 + child] = 1
+            if i < 0:
+                continue
             for end, event in ((0, 1), (3, -1)):
                 if points[i, end, 0] == cx:
                     at_bottom = points[i, end, 1] == cy

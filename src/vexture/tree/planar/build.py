@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.bezier.monotone import monotone_pieces
 from vexture.contours import joined
 from vexture.deadline import check_time
 from vexture.drawing import Drawing
@@ -26,7 +25,6 @@ from vexture.tree.build import (
     bounds_of,
     check_growth,
     new_growth,
-    root_paths,
 )
 from vexture.tree.divide import divide
 from vexture.tree.growth import (
@@ -146,11 +144,11 @@ def _grow_quad(
     pool, present, stack, corner, counts = tree.pool, tree.present, tree.stack, tree.corner, tree.counts
     top = counts[WAITING] - 1
     before, row, x0, y0 = counts.copy(), stack[top].copy(), corner[top, 0], corner[top, 1]
-    quad, depth, under, child_at = row[QUAD], row[DEPTH], growth.ground[top], np.empty(5, np.int64)
+    quad, depth, under, child_at = row[QUAD], row[DEPTH], growth.ground[top], np.empty(9, np.int64)
     rows, half = (row[FIRST_PATH], row[LAST_PATH]), 0.5 ** (row[DEPTH] + 1)
     xm, ym = x0 + half, y0 + half
     grain = 0.5 ** max(depth + 1, bounds.least_depth) / LATTICE
-    pieces = divide(pool, row[FIRST], row[LAST], xm, ym, grain, row[PIECES], child_at)
+    pieces = divide(pool, row[FIRST], row[LAST], xm, ym, grain, row[PIECES], False, child_at)
     child_windings(pool.points, pool.path, pool.numbers, child_at, present[rows[0] : rows[1]], x0, y0, xm, ym, windings)
     tree.first[quad, 0], tree.first[quad, 1] = counts[QUADS], counts[CURVES]
     end_path = rows[1]
@@ -271,9 +269,7 @@ def grow_map(growth: PlanarGrowth, layers: Layers, faces: Faces, bounds: Bounds,
 @kernel(ahead=True)
 def plant_map(cubics: NDArray[np.float64], owner: NDArray[np.int64], max_depth: int) -> tuple[PlanarGrowth, float]:
     """The unit square, to be divided, and how far the outline lies outside it."""
-    pieces = monotone_pieces(cubics, owner)
-    present, paths, outside = root_paths(pieces.points, pieces.path)
-    tree = new_growth(pieces, present, paths, max_depth)
+    tree, outside = new_growth(cubics, owner, max_depth, False)
     has_room(tree)  # says what the first cell needs
     return PlanarGrowth(
         tree,
