@@ -15,12 +15,13 @@ from vexture import ParameterError, SourceError
 from vexture.geo.crs import transformed
 from vexture.tiles.build import make_tiles
 from vexture.tiles.generalise import generalised
-from vexture.tiles.grid import CRS, HALF, MARGIN, Tile, pixel, span, zooms_of
+from vexture.tiles.grid import CRS, HALF, MARGIN, Tile, last_zoom, pixel, span, zooms_of
 from vexture.tiles.options import TileOptions
 from vexture.tiles.pieces import Pieces
 
 BOX = (4.0, 51.0, 6.0, 53.0)
 ZOOM = 8
+LAST = last_zoom(ZOOM, 2)
 
 
 def pieces_of(shapes):
@@ -63,9 +64,10 @@ def test_numbers_are_those_of_pmtiles():
     assert sorted(tile.number for tile in Tile(3, 5, 2).below(2)) == list(range(first, first + count))
 
 
-def test_zooms_end_with_the_largest():
-    assert zooms_of(0, 7, 2) == [0, 2, 4, 6, 7]
-    assert zooms_of(2, 9, 3) == [3, 6, 9]
+def test_zooms_end_a_step_before_the_sharpest_views():
+    assert zooms_of(0, 7, 2) == zooms_of(0, 8, 2) == [0, 2, 4, 6]
+    assert zooms_of(2, 9, 3) == [3, 6]
+    assert zooms_of(0, 2, 2) == zooms_of(0, 0, 3) == [0]
 
 
 def test_a_reader_of_pmtiles_reads_it(archive):
@@ -73,22 +75,23 @@ def test_a_reader_of_pmtiles_reads_it(archive):
         reader = Reader(MmapSource(file))
         header, about = reader.header(), reader.metadata()
     assert about["name"] == "Parcels"
-    assert about["vexture"]["zooms"] == [0, 2, 4, 6, 8]
+    assert about["vexture"]["zooms"] == [0, 2, 4, 6]
+    assert about["vexture"]["sharp"] == ZOOM
     assert about["vexture"]["margin"] == MARGIN
-    assert (header["min_zoom"], header["max_zoom"], header["clustered"]) == (0, ZOOM, True)
+    assert (header["min_zoom"], header["max_zoom"], header["clustered"]) == (0, LAST, True)
     west, south, east, north = (header[name] / 1e7 for name in ("min_lon_e7", "min_lat_e7", "max_lon_e7", "max_lat_e7"))
     assert np.allclose((west, south, east, north), BOX, atol=1e-5)
 
 
 def test_each_tile_names_the_features_that_are_there(archive, parcels):
-    """At random points that are not within the tolerance of a border, at the largest zoom."""
+    """At random points that are not within the tolerance of a border, for the sharpest views."""
     shapes, ids = parcels
     projected = shapely.transform(shapes, lambda points: transformed(points, "EPSG:4326", CRS))
     tree, borders = shapely.STRtree(projected), shapely.STRtree(shapely.boundary(projected))
     rng = np.random.default_rng(3)
     checked = 0
     for (z, x, y), data in tiles_of(archive).items():
-        if z < ZOOM:
+        if z < LAST:
             continue
         (root,) = (texture := loaded(data)).roots
         assert root.name == "map"
@@ -100,7 +103,7 @@ def test_each_tile_names_the_features_that_are_there(archive, parcels):
         assert (metres < (east, north)).all()
         where = shapely.points(metres)
         far = np.ones(len(where), bool)
-        far[np.unique(borders.query(where, predicate="dwithin", distance=0.25 * pixel(z))[0])] = False
+        far[np.unique(borders.query(where, predicate="dwithin", distance=0.25 * pixel(ZOOM))[0])] = False
         found = np.full(len(where), "", object)
         inside = tree.query(where, predicate="within")
         found[inside[0]] = np.array(ids, object)[inside[1]]
@@ -117,7 +120,7 @@ def loaded(data):
 
 def test_neighbours_fit(archive):
     """The same points near a common side, by the tile and by its neighbour's margin, off borders."""
-    tiles = {key: loaded(data) for key, data in tiles_of(archive).items() if key[0] == ZOOM}
+    tiles = {key: loaded(data) for key, data in tiles_of(archive).items() if key[0] == LAST}
     pairs = [(key, other) for key in tiles if (other := (key[0], key[1] + 1, key[2])) in tiles]
     assert pairs
     rng = np.random.default_rng(4)
@@ -135,7 +138,7 @@ def test_neighbours_fit(archive):
 def test_equal_tiles_are_stored_once_and_not_one_by_one(tmp_path):
     land = shapely.segmentize(shapely.box(-170.0, -60.0, 170.0, 70.0), 30.0)
     source = write_source(tmp_path / "land.geojson", [land], ["land"])
-    made = make_tiles(source, tmp_path / "land.pmtiles", TileOptions(max_zoom=6, id="parcel"))
+    made = make_tiles(source, tmp_path / "land.pmtiles", TileOptions(max_zoom=8, id="parcel"))
     assert made.tiles > 2000
     assert made.contents < 400
     with (tmp_path / "land.pmtiles").open("rb") as file:
@@ -156,7 +159,7 @@ def test_bytes_do_not_depend_on_who_did_the_work(source, archive, tmp_path):
 @pytest.mark.parametrize("box", [(179.0, -5.0, 181.0, 5.0), (-181.0, -5.0, -179.0, 5.0)])
 def test_the_antimeridian_is_no_border(tmp_path, box):
     source = write_source(tmp_path / "far.geojson", [shapely.box(*box)], ["far"])
-    make_tiles(source, tmp_path / "far.pmtiles", TileOptions(max_zoom=4, id="parcel"))
+    make_tiles(source, tmp_path / "far.pmtiles", TileOptions(max_zoom=6, id="parcel"))
     tiles = tiles_of(tmp_path / "far.pmtiles")
     for z, x in product((4,), (0, 15)):
         texture = loaded(tiles[z, x, 8])
@@ -170,7 +173,7 @@ def test_the_antimeridian_is_no_border(tmp_path, box):
 
 def test_beyond_the_worlds_border_there_is_nothing(tmp_path):
     source = write_source(tmp_path / "pole.geojson", [shapely.box(0.0, 80.0, 40.0, 90.0)], ["ice"])
-    make_tiles(source, tmp_path / "pole.pmtiles", TileOptions(max_zoom=2, id="parcel"))
+    make_tiles(source, tmp_path / "pole.pmtiles", TileOptions(max_zoom=4, id="parcel"))
     assert set(tiles_of(tmp_path / "pole.pmtiles")) >= {(0, 0, 0), (2, 2, 0)}
 
 
@@ -227,7 +230,7 @@ def test_what_another_source_left_is_not_used(parcels, archive, tmp_path):
     shapes, ids = parcels
     source = write_source(tmp_path / "parcels.geojson", shapes[:10], ids[:10])
     output = tmp_path / "parcels.pmtiles"
-    options = TileOptions(max_zoom=2, id="parcel")
+    options = TileOptions(max_zoom=4, id="parcel")
 
     def stops(what, *_):
         if what == "parts":
@@ -242,13 +245,13 @@ def test_what_another_source_left_is_not_used(parcels, archive, tmp_path):
 
 
 def test_a_folder_has_a_description(source, tmp_path):
-    made = make_tiles(source, tmp_path / "out", TileOptions(max_zoom=4, id="parcel"))
+    made = make_tiles(source, tmp_path / "out", TileOptions(max_zoom=6, id="parcel"))
     about = json.loads((tmp_path / "out" / "tiles.json").read_text())
     assert about["tilejson"] == "3.0.0"
     assert about["vexture"]["zooms"] == [0, 2, 4]
     assert about["tiles"][0].startswith("{z}/{x}/{y}.ktx2?v=")
     assert len(list((tmp_path / "out").rglob("*.ktx2"))) == made.tiles
-    make_tiles(source, tmp_path / "out", TileOptions(max_zoom=2, id="parcel"))
+    make_tiles(source, tmp_path / "out", TileOptions(max_zoom=4, id="parcel"))
     assert not (tmp_path / "out" / "4").exists()
 
 
@@ -263,7 +266,7 @@ def test_a_source_without_polygons_is_refused(tmp_path):
     ("given", "says"),
     [
         ({"max_zoom": 21}, "`max_zoom` is 21; it must be in 0..20"),
-        ({"min_zoom": 13}, "`min_zoom` is 13; it must be in 0..12"),
+        ({"min_zoom": 13}, "`min_zoom` is 13; it must be in 0..10"),
         ({"step": 4}, "`step` is 4; it must be 2 or 3"),
         ({"processes": 0}, "`processes` is 0"),
     ],
@@ -277,7 +280,7 @@ def test_features_in_batches_are_numbered_through(parcels, tmp_path):
     shapes, ids = parcels
     marks = tmp_path / "marks"
     marks.write_text("in memory")
-    options = TileOptions(max_zoom=4)
+    options = TileOptions(max_zoom=6)
     for size in (7, 1000):
         make_tiles(marks, tmp_path / f"{size}.pmtiles", options, batches=batches_of(shapes, ids, size=size))
     one, other = (tiles_of(tmp_path / f"{size}.pmtiles") for size in (7, 1000))

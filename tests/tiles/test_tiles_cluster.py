@@ -17,7 +17,7 @@ from vexture.tiles.options import TileOptions
 from vexture.tiles.store import SUFFIX
 
 SECONDS = 60
-ZOOM = 6
+ZOOM = 8
 
 
 @contextmanager

@@ -28,7 +28,7 @@ Examples:
 @click.command(epilog=EXAMPLE)
 @click.argument("source", metavar="SOURCE", type=PATH)
 @click.option("-o", "--output", metavar="FILE.pmtiles|DIR", type=PATH, required=True, help="File or folder to write.")
-@click.option("--max-zoom", metavar="Z", type=int, default=12, show_default=True, help="Largest zoom of tiles.")
+@click.option("--max-zoom", metavar="Z", type=int, default=12, show_default=True, help="Largest zoom of exact views.")
 @click.option("--min-zoom", metavar="Z", type=int, default=0, show_default=True, help="Smallest zoom of tiles.")
 @click.option("--step", metavar="N", type=int, default=2, show_default=True, help="Zooms between levels: 2 or 3.")
 @click.option("--layer", metavar="NAME", help="Layer of polygons, if there are several.")

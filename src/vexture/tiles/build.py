@@ -11,7 +11,7 @@ from vexture.geo.extent import Bounds
 from vexture.notes import Note, Notes
 from vexture.texture.files import writable
 from vexture.tiles.archive import ARCHIVE, check_target, write_archive, write_folder
-from vexture.tiles.grid import HALF, MARGIN, TILE_PIXELS, Tile
+from vexture.tiles.grid import HALF, MARGIN, TILE_PIXELS, Tile, last_zoom
 from vexture.tiles.options import TileOptions, digest_of
 from vexture.tiles.partitions import Part, partitioned
 from vexture.tiles.pieces import Pieces
@@ -21,7 +21,7 @@ from vexture.tiles.world import in_world
 
 __all__ = ["VERSION", "MadeTiles", "make_tiles"]
 
-VERSION: Final = 1
+VERSION: Final = 2
 """Of what is kept of unfinished pyramids; what another one wrote is not used."""
 
 MOVES: Final = 0.25
@@ -103,7 +103,7 @@ def _read(source: Any, store: Store, options: TileOptions, told: Told, batches: 
                 boxes.append(shapely.total_bounds(found.shapes))
                 yield found
 
-    parts = partitioned(pieces(), store.sources, options.max_zoom, options.step)
+    parts = partitioned(pieces(), store.sources, last_zoom(options.max_zoom, options.step), options.step)
     box = shapely.total_bounds(shapely.box(*zip(*boxes, strict=True))).tolist() if boxes else None
     facts = {"parts": [[*part.tile, part.weight] for part in parts], "bounds": box, "features": count}
     facts["notes"] = [[note.kind, note.message, note.count] for note in notes.listed]
@@ -175,7 +175,8 @@ def _written(store: Store, output: Path, options: TileOptions, facts: Any) -> Ma
     runs, contents = store.tiles()
     zooms = options.pyramid.zooms
     about: dict[str, Any] = {"name": options.name or output.stem, "attribution": options.attribution}
-    about["vexture"] = {"margin": MARGIN, "zooms": list(zooms), "tolerance": MOVES / TILE_PIXELS}
+    about["vexture"] = {"margin": MARGIN, "zooms": list(zooms), "sharp": options.max_zoom}
+    about["vexture"]["tolerance"] = MOVES / TILE_PIXELS
     write = write_archive if output.suffix.lower() == ARCHIVE else write_folder
     size = write(output, runs, contents, zooms, _degrees(facts["bounds"]), about)
     notes = tuple(Note(*note) for note in facts["notes"])

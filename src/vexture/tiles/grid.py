@@ -17,6 +17,7 @@ __all__ = [
     "Tile",
     "check_zooms",
     "coarse",
+    "last_zoom",
     "pixel",
     "span",
     "widened",
@@ -147,21 +148,35 @@ def check_zooms(least: int, most: int, step: int) -> None:
         raise ParameterError(f"`step` is {step}; it must be {' or '.join(map(str, STEPS))}")
     if not 0 <= most <= MOST_ZOOM:
         raise ParameterError(f"`max_zoom` is {most}; it must be in 0..{MOST_ZOOM}")
-    if not 0 <= least <= most:
-        raise ParameterError(f"`min_zoom` is {least}; it must be in 0..{most}, `max_zoom`")
+    if not 0 <= least <= last_zoom(most, step):
+        raise ParameterError(
+            f"`min_zoom` is {least}; it must be in 0..{last_zoom(most, step)}, the zoom of the largest tiles for views "
+            f"to {most}, `max_zoom`"
+        )
 
 
-def coarse(most: int, step: int) -> list[int]:
-    """Zooms that are generalised, from 0: those below the largest.
+def last_zoom(most: int, step: int) -> int:
+    """Zoom of the last tiles of a pyramid, which are right for views to zoom `most`: up to `step` zooms above.
 
     Examples
     --------
-    >>> coarse(6, 2), coarse(7, 3), coarse(0, 2)
-    ([0, 2, 4], [0, 3, 6], [])
+    >>> last_zoom(12, 2), last_zoom(12, 3), last_zoom(7, 2), last_zoom(1, 2), last_zoom(0, 2)
+    (10, 9, 6, 0, 0)
     """
-    return list(range(0, most, step))
+    return max(most - 1, 0) // step * step
+
+
+def coarse(most: int, step: int) -> list[int]:
+    """Zooms that are generalised, from 0: those before the last.
+
+    Examples
+    --------
+    >>> coarse(6, 2), coarse(7, 3), coarse(2, 2)
+    ([0, 2], [0, 3], [])
+    """
+    return list(range(0, last_zoom(most, step), step))
 
 
 def zooms_of(least: int, most: int, step: int) -> list[int]:
     """Zooms of a pyramid that have tiles."""
-    return [z for z in (*coarse(most, step), most) if z >= least]
+    return [z for z in (*coarse(most, step), last_zoom(most, step)) if z >= least]

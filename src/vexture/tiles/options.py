@@ -19,8 +19,11 @@ class TileOptions:
 
     Parameters
     ----------
-    max_zoom, min_zoom : int
-        The largest and the smallest zoom that have tiles.
+    max_zoom : int
+        The largest zoom of views in which no border is off by more than a quarter of a pixel. As tiles are sharp far
+        beyond their own zoom, the last ones are of a zoom up to `step` lower (`vexture.tiles.grid.last_zoom`).
+    min_zoom : int
+        The smallest zoom that has tiles.
     step : int
         2 or 3: zooms from one level to the next.
     layer, where, id, crs : str or None
@@ -54,7 +57,7 @@ class TileOptions:
     def pyramid(self) -> Pyramid:
         """Its zooms."""
         zooms = zooms_of(self.min_zoom, self.max_zoom, self.step)
-        return Pyramid(tuple(coarse(self.max_zoom, self.step)), tuple(zooms), self.step)
+        return Pyramid(tuple(coarse(self.max_zoom, self.step)), tuple(zooms), self.step, self.max_zoom)
 
     @property
     def reading(self) -> dict[str, str | None]:

@@ -23,21 +23,26 @@ LEAST: Final = 1.0
 """Pixels across a square whose area the smallest feature has."""
 
 CROWDED: Final = 16_000
-"""Features of a tile, above which smaller ones are merged until there are fewer."""
+"""Features of a tile before the last zoom, above which smaller ones are merged until there are fewer."""
 
 
 @dataclass(frozen=True)
 class Pyramid:
-    """What all the work shares: the zooms that are generalised, those of tiles, and the step between."""
+    """What all the work shares: the zooms that are generalised, those of tiles, the step, and that of sharp views."""
 
     coarse: tuple[int, ...]
     zooms: tuple[int, ...]
     step: int
+    sharp: int
 
     @property
     def most(self) -> int:
-        """The largest zoom, whose tiles have all features."""
+        """The last zoom, whose tiles have all features."""
         return self.zooms[-1]
+
+    def pixel(self, zoom: int) -> float:
+        """Metres across the pixels for which tiles of a zoom are made: the last ones are for the sharpest views."""
+        return pixel(self.sharp if zoom == self.most else zoom)
 
 
 @dataclass(frozen=True)
@@ -86,7 +91,7 @@ def done(pyramid: Pyramid, job: Job) -> Made:
     else:
         moved = [_shifted(part, shift) for part, shift in zip(given, job.shifts, strict=True)]
         box = widened(job.tile.box, MARGIN * job.tile.side)
-        _tile(dissolved(joined([part.within(box) for part in moved])), job.tile, made)
+        _tile(pyramid, dissolved(joined([part.within(box) for part in moved])), job.tile, made)
     return made
 
 
@@ -96,8 +101,8 @@ def _leaf(pyramid: Pyramid, tile: Tile, pieces: Pieces, made: Made) -> None:
     for zoom in pyramid.zooms:
         if zoom >= tile.z:
             least = (LEAST * pixel(zoom)) ** 2 if zoom < pyramid.most else 0.0
-            detail = generalised(pieces, around, MOVED * pixel(zoom), least)
-            _descend(detail, tile, zoom, made)
+            detail = generalised(pieces, around, MOVED * pyramid.pixel(zoom), least)
+            _descend(pyramid, detail, tile, zoom, made)
     if tile.z > 0:
         made.geometry = _at_zoom(pyramid, pieces.within(tile.box), tile, tile.box).to_bytes()
 
@@ -108,7 +113,7 @@ def _at_zoom(pyramid: Pyramid, pieces: Pieces, tile: Tile, box: tuple[float, flo
     return generalised(pieces, box, tolerance, (LEAST * pixel(tile.z)) ** 2)
 
 
-def _descend(pieces: Pieces, tile: Tile, zoom: int, made: Made) -> None:
+def _descend(pyramid: Pyramid, pieces: Pieces, tile: Tile, zoom: int, made: Made) -> None:
     """Tiles of a zoom in a tile, and for each run of those that one feature covers only one."""
     here = pieces.within(widened(tile.box, MARGIN * tile.side))
     if not len(here):
@@ -116,17 +121,17 @@ def _descend(pieces: Pieces, tile: Tile, zoom: int, made: Made) -> None:
     if (place := covering(here, tile)) >= 0:
         made.add(*span(tile, zoom), uniform_texture(str(here.ids[place])))
     elif tile.z == zoom:
-        _tile(here, tile, made)
+        _tile(pyramid, here, tile, made)
     else:
         for part in tile.below(1):
-            _descend(here, part, zoom, made)
+            _descend(pyramid, here, part, zoom, made)
 
 
-def _tile(pieces: Pieces, tile: Tile, made: Made) -> None:
+def _tile(pyramid: Pyramid, pieces: Pieces, tile: Tile, made: Made) -> None:
     """One tile of what is in its square."""
     least = (LEAST * pixel(tile.z)) ** 2
     box = widened(tile.box, MARGIN * tile.side)
-    while len(set(pieces.order.tolist())) > CROWDED:
+    while tile.z < pyramid.most and len(np.unique(pieces.order)) > CROWDED:
         least *= 2.0
         pieces = generalised(pieces, box, 0.0, least)
     if (place := covering(pieces, tile)) >= 0:
