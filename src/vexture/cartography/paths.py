@@ -47,11 +47,11 @@ def area_paths(
     contours = [cubics[first:end] for first, end in zip(rings.starts.tolist(), rings.ends.tolist(), strict=True)]
     owner = rings.feature[rings.polygon]
     order = np.argsort(rank[owner], kind="stable")
-    ends = np.append(np.flatnonzero(np.diff(rank[owner][order])) + 1, len(order)).tolist()
+    ends = np.append(np.flatnonzero(np.diff(rank[owner][order])) + 1, len(order))
     first, places = 0, order.tolist()
-    features = owner[order[np.append(0, ends[:-1])]]
+    features = owner[order[np.append(0, ends[:-1]).astype(np.intp)]]
     paints: dict[tuple[float, ...], Paint] = {}
-    named = zip(ends, names[features].tolist(), map(tuple, rgba[features].tolist()), strict=True)
+    named = zip(ends.tolist(), names[features].tolist(), map(tuple, rgba[features].tolist()), strict=True)
     for end, name, colour in named:
         paint = paints.get(colour) or paints.setdefault(colour, Paint(colour[:3], colour[3]))
         own = tuple(contours[place] for place in places[first:end])

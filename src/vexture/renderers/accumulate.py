@@ -51,7 +51,7 @@ def accumulated(sides: Sides, rgba: NDArray[np.float64], size: Size, view: ViewL
     [1.0, 0.5, 0.0]
     """
     width, height = size_of(size)
-    to_pixels = np.linalg.inv(view_matrix(view, (width, height)))
+    to_pixels = np.linalg.inv(view_matrix(view, (width, height))).astype(np.float64)
     colours = np.concatenate([rgba[:, :3] * rgba[:, 3:], rgba[:, 3:]], axis=1)
     picture = np.zeros((height, width + 2, PARTS))
     add_sides(sides.start, sides.end, sides.owner, np.ascontiguousarray(colours), to_pixels, picture)
@@ -102,7 +102,7 @@ def _add_run(
     colours: NDArray[np.float64],
     colour: int,
 ) -> None:
-    """Add a part of a side in a row, from `left` to `right`, of a signed height; parts beyond the picture count there."""
+    """Add a part of a side in a row, from `left` to `right`, of a signed height `area`."""
     width = picture.shape[1] - 2
     if left >= width:
         return
