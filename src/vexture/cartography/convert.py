@@ -79,12 +79,14 @@ def converted(
     restyle: bool = True,
     tolerance: float | Literal["auto"] = "auto",
     max_seconds: float = DEFAULT_SECONDS,
+    capacity: int | None = None,
 ) -> Map:
-    """Convert layers that are read; parameters and errors are those of `convert_map`."""
+    """Convert layers that are read; parameters and errors are those of `convert_map` and `vexture.convert`."""
     with within(max_seconds):
         drawing = _drawing(ready, snap)
         _check_count(drawing, restyle)
-    done = run(replace(drawing, notes=ready.notes.listed), split="faces", restyle=restyle, tolerance=tolerance)
+    given: dict[str, Any] = {"restyle": restyle, "tolerance": tolerance, "capacity": capacity}
+    done = run(replace(drawing, notes=ready.notes.listed), split="faces", **given)
     return Map(done, ready.table, ready.legends)
 
 

@@ -10,6 +10,7 @@ from vexture.cartography.prepare import FILL, INK, Painted, Prepared
 from vexture.geo.rings import Rings, oriented
 from vexture.renderers.accumulate import Sides, accumulated
 from vexture.renderers.view import Size, ViewLike
+from vexture.tree.planar.style import rounded
 
 __all__ = ["MapPicture", "map_picture"]
 
@@ -42,6 +43,13 @@ class MapPicture:
             above = accumulated(sheet.sides, sheet.rgba if rgba is None else rgba[sheet.rows], size, view)
             picture = above + (1.0 - above[..., 3:]) * picture
         return picture
+
+    def colours(self, count: int) -> NDArray[np.float64]:
+        """Colours of the rows of the table, (count, 4)."""
+        rgba = np.zeros((count, 4))
+        for sheet in self.sheets:
+            rgba[sheet.rows] = sheet.rgba
+        return rounded(rgba)
 
 
 def map_picture(ready: Prepared) -> MapPicture:
