@@ -94,12 +94,12 @@ def map(
         if name not in OF_MAP:
             raise ParameterError(f"map has no option {name!r}; leave it out")
     layer = MapLayer(source, color=None if column is None else scale, **of_layer)
-    name = None if isinstance(source, str | os.PathLike) else "map"
-    first = {"crs": MERCATOR, "size": DEFAULT_SIZE, "max_seconds": DEFAULT_SECONDS}
+    title = None if isinstance(source, str | os.PathLike) else "map"
+    first: dict[str, Any] = {"crs": MERCATOR, "size": DEFAULT_SIZE, "max_seconds": DEFAULT_SECONDS}
     first |= {given: value for given, value in options.items() if given in first}
-    ready = prepared([layer], name=name, **first)
+    ready = prepared([layer], name=title, **first)
     later = {given: value for given, value in options.items() if given not in ("crs", "size")}
-    given = {"width": width, "height": height, "background": background, "view": view}
-    traits = {name: value for name, value in given.items() if value is not None}
+    shown = {"width": width, "height": height, "background": background, "view": view}
+    traits = {name: value for name, value in shown.items() if value is not None}
     conversion = partial(converted, ready, **later, capacity=CAPACITY)
     return MapWidget(ready, scale, conversion, tooltip=tooltip, has_legend=legend, **traits)

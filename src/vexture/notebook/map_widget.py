@@ -73,9 +73,9 @@ class MapWidget(VectorWidget):
     legend: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
     tip: Any = traitlets.List().tag(sync=True)
     _marked = traitlets.Dict().tag(sync=True)
-    _coloring = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
-    _picture = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
-    _wanted = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
+    _coloring: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
+    _picture: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
+    _wanted: Any = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
     _failure = traitlets.Unicode().tag(sync=True)
     saved_traits = ("legend", "selected", "_marked", "_coloring")
 

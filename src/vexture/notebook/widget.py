@@ -170,6 +170,7 @@ class VectorWidget(anywidget.AnyWidget):
             "width": None,
             "height": None,
         }
+        assert self._source is not None
         texture = data_address(File(self._source.content, TEXTURE_TYPE, ".ktx2"))
         return write_together({target: whole_page(PAGE, {"state": state, "texture": texture}, self.texture.name)})
 
