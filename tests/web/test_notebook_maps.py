@@ -20,8 +20,8 @@ random = numpy.random.default_rng(1)
 cells = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(random.random(({count}, 2)))))
 cells = shapely.clip_by_rect(cells, 0, 0, 1, 1)
 cells = shapely.transform(cells, lambda places: 1e5 * places)
-frame = geopandas.GeoDataFrame({{"value": random.random({count}), "half": cells.astype(object)}}, geometry=cells, crs=28992)
-frame["half"] = numpy.where(shapely.get_x(shapely.centroid(cells)) < 5e4, "west", "east")
+halves = numpy.where(shapely.get_x(shapely.centroid(cells)) < 5e4, "west", "east")
+frame = geopandas.GeoDataFrame({{"value": random.random({count}), "half": halves}}, geometry=cells, crs=28992)
 """
 SHOWN = """import time
 start = time.perf_counter()

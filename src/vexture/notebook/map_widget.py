@@ -97,6 +97,7 @@ class MapWidget(VectorWidget):
         self._drawn = map_picture(ready)
         self._rgba = self._drawn.colours(len(self._ids))
         self._style_rows: NDArray[np.intp] | None = None
+        self._last: tuple[Size, tuple[float, ...], NDArray[np.float32]] | None = None
         legend = _legend(ready.legends[0]) if ready.legends and has_legend else None
         own = {"_home": _home(ready.fit.sides), "_name": ready.name, "height": HEIGHT}
         super().__init__(None, **{**own, **traits}, column=scale.column or None, legend=legend)
@@ -166,10 +167,14 @@ class MapWidget(VectorWidget):
         """A picture of the map as it was read."""
         changed = {**self.components(self.colors), **self._marked}
         rgba = self._rgba.copy() if changed or self._is_recolored else None
+        if rgba is None and self._last is not None and self._last[:2] == (size, tuple(view)):
+            return self._last[2]
         for name, colour in changed.items():
             assert rgba is not None
             rgba[self._row[name]] = colour
-        return self._drawn.draw(rgba, size, window(*view))
+        picture = self._drawn.draw(rgba, size, window(*view))
+        self._last = (size, tuple(view), picture) if rgba is None else None
+        return picture
 
     def render(self, size: Size | None = None) -> NDArray[np.float32]:
         """What the widget shows; see `VectorWidget.render`. Before the map is converted it is drawn as it was read."""
