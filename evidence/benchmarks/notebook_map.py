@@ -8,6 +8,7 @@ holds; what a page adds to it is not measured here. Kernels are compiled before.
 
 import argparse
 import time
+from typing import Any
 
 import geopandas
 import numpy as np
@@ -44,7 +45,7 @@ def measured(frame: geopandas.GeoDataFrame, crs: str) -> dict[str, float]:
     moved = time.perf_counter() - begun
     chart.texture  # noqa: B018  # is waited for
     whole = time.perf_counter() - start
-    source = chart._source
+    source: Any = chart._source
     begun = time.perf_counter()
     chart.column = "half"
     recolored = time.perf_counter() - begun

@@ -86,7 +86,7 @@ def converted(
         drawing = _drawing(ready, snap)
         _check_count(drawing, restyle)
     given: dict[str, Any] = {"restyle": restyle, "tolerance": tolerance, "capacity": capacity}
-    done = run(replace(drawing, notes=ready.notes.listed), split="faces", **given)
+    done = run(replace(drawing, notes=ready.notes.listed), split="faces", max_seconds=max_seconds, **given)
     return Map(done, ready.table, ready.legends)
 
 

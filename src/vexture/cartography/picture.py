@@ -14,7 +14,7 @@ from vexture.tree.planar.style import rounded
 
 __all__ = ["MapPicture", "map_picture"]
 
-CHORDS = 4
+CHORDS = 8
 """Sides in place of a cubic of a symbol."""
 
 
