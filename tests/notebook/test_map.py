@@ -79,6 +79,9 @@ def test_another_view_column_or_selection_is_drawn_before_the_texture_is_there(h
     before = picture_of(chart)
     chart._wanted = {"view": [0.2, 0.2, 0.3, 0.3], "size": [150, 120]}
     assert picture_of(chart).shape == (120, 150, 4)
+    chart.view = (0.2, 0.2, 0.3, 0.3)
+    assert difference(picture_of(chart), 255 * chart.render((150, 120))) <= 1
+    chart.view = chart._home
     chart._wanted = {"view": list(chart.view), "size": [300, 200]}
     assert difference(picture_of(chart), before) == 0
     chart.column = "kind"
@@ -119,15 +122,18 @@ def test_the_bytes_of_the_texture_are_deflated_as_a_whole():
 
 
 def test_the_texture_comes_between_the_messages_of_a_kernel(held):
+    threads = []
+
     async def cell():
         chart = shown()
+        chart.observe(lambda change: threads.append(threading.current_thread()), "_source")
         held.set()
         while chart._source is None:
             await asyncio.sleep(0.01)
-        return chart, threading.current_thread()
+        return chart
 
-    chart, thread = asyncio.run(cell())
-    assert thread is threading.main_thread()
+    chart = asyncio.run(cell())
+    assert threads == [threading.main_thread()]
     assert chart.texture.roots[0].style is not None
 
 
